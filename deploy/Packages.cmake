@@ -5,7 +5,7 @@ set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
 set(revision 0naiad1)
 file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
 if(NOT first MATCHES "^naiad \\(${PROJECT_VERSION}-${revision}\\)")
-  message(FATAL_ERROR "deploy/debian/changelog begins with \"${first}\", and the version is ${PROJECT_VERSION}-${revision}")
+  message(FATAL_ERROR "deploy/debian/changelog begins with \"${first}\", but the version is ${PROJECT_VERSION}-${revision}")
 endif()
 cmake_host_system_information(RESULT debian_version QUERY DISTRIB_VERSION_ID)
 string(APPEND revision "+deb${debian_version}")
@@ -69,7 +69,7 @@ Naiad makes text games for the Dragonfly engine playable over a network.
 The server runs the game and shows it to players in terminals and browsers.
 
 This package has the server (dfserver), the gateway and page for browsers
-(dfweb), what an ssh door runs (dfdoor), a player of recorded rounds
+(dfweb), the program of an ssh door (dfdoor), replay of recorded rounds
 (dfreplay), the directory of a fleet (dfdir), ten games, and units for
 systemd.")
 set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA ${debian}/naiad-server/postinst ${debian}/naiad-server/prerm
@@ -107,7 +107,7 @@ A text-character game engine with the interface of Dragonfly, with bodies
 and joints, whose games are servers: players join them over a network.
 
 This package has headers, files for CMake and pkg-config, the sources of
-ten games, dragonfly-new, which makes a game to begin with, dragonfly-adopt,
-which tries games that were written for the published engine, and
-dragonfly-mark, which does so with a folder of them.")
+ten games, dragonfly-new, which makes a small game to start from,
+dragonfly-adopt, which builds and runs games written for the published
+engine, and dragonfly-mark, which does this for a folder of games.")
 include(CPack)

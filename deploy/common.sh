@@ -17,7 +17,7 @@ wrong_option() {
     for ((same = 0; same < ${#typed}; ++same)); do [ "${typed:same:1}" = "${known:same:1}" ] || break; done
     if [ $same -gt $length ]; then near=$known length=$same; fi
   done
-  fail "there is no option $typed${near:+; did you mean $near?}
+  fail "unknown option $typed${near:+; did you mean $near?}
 Run deploy/$(basename "$0") --help for more information." 2
 }
 
@@ -65,7 +65,7 @@ need_packages() {
   local apt="apt-get install -y --no-install-recommends$missing" sudo=""
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null || ! { sudo -n true 2>/dev/null || { [ -t 0 ] && sudo true; }; }; then
-      echo "Some packages are missing and this user may not install them. Please run:" >&2
+      echo "Required packages are missing, and this user cannot install them. As root, run:" >&2
       echo "  $apt" >&2
       exit 2
     fi
@@ -80,7 +80,7 @@ need_packages() {
   if ! $sudo env DEBIAN_FRONTEND=noninteractive $apt >>"$log" 2>&1; then
     tail -n 20 "$log" >&2
     rm -f "$log"
-    fail "the packages could not be installed; the command was: $apt" 2
+    fail "cannot install packages; this command failed: $apt" 2
   fi
   rm -f "$log"
 }

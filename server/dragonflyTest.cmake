@@ -6,7 +6,7 @@
 function(dragonfly_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "GAME")
   if(NOT arg_GAME)
-    message(FATAL_ERROR "dragonfly_test(${name}): behind GAME the game's sources are wanted")
+    message(FATAL_ERROR "dragonfly_test(${name}): GAME requires the game's sources")
   endif()
   dragonfly_game(${name}_game MODULE ${arg_GAME})
   dragonfly_game(${name} ${arg_UNPARSED_ARGUMENTS})

@@ -162,7 +162,7 @@ class BotScriptParser {
   std::variant<BotScript, ScriptError> run() {
     while (!m_error && skipToStatement()) statement();
     if (!m_error && !m_loops.empty()) fail("'}' is missing at the end of a repeat");
-    if (!m_error && m_script.m_steps.empty()) fail("the script does nothing");
+    if (!m_error && m_script.m_steps.empty()) fail("the script has no statements");
     if (m_error) return *m_error;
     return std::move(m_script);
   }
@@ -257,12 +257,12 @@ class BotScriptParser {
     } else if (verb == "chat") {
       step.kind = Kind::kChat;
       step.text = restOfStatement();
-      if (step.text.empty()) fail("chat needs a text");
+      if (step.text.empty()) fail("chat requires a text");
     } else if (verb == "repeat") {
       return repeat();
     } else {
       return fail(quoted(verb.empty() ? std::string(1, here()) : verb) +
-                  " is no statement: press, hold, wait, click, move, chat or repeat is wanted");
+                  " is not a statement: expected press, hold, wait, click, move, chat or repeat");
     }
     finish(std::move(step));
   }
@@ -271,7 +271,7 @@ class BotScriptParser {
     const std::string name = word();
     if (name == "right") return df::Mouse::RIGHT;
     if (name == "middle") return df::Mouse::MIDDLE;
-    if (!name.empty() && name != "left") fail("a button is left, right or middle");
+    if (!name.empty() && name != "left") fail("invalid button: expected left, right or middle");
     return df::Mouse::LEFT;
   }
 
@@ -296,7 +296,8 @@ class BotScriptParser {
       const bool something =
           std::any_of(m_script.m_steps.begin(), m_script.m_steps.end(),
                       [](const BotStep& step) { return step.kind != BotStep::Kind::kLoop; });
-      if (!m_loops.empty() || !something) return fail("repeat without a number repeats the whole script");
+      if (!m_loops.empty() || !something)
+        return fail("repeat without a number must follow a statement, outside other repeats");
       finish(stepOf(BotStep::Kind::kRestart));
       if (!m_error && skipToStatement()) fail("nothing can follow a repeat without a number");
       return;
@@ -317,7 +318,7 @@ class BotScriptParser {
 
   void endLoop() {
     advance();
-    if (m_loops.empty()) return fail("there is no repeat that '}' could end");
+    if (m_loops.empty()) return fail("'}' without a repeat");
     // An empty loop would spin without a tick.
     if (m_loops.back() + 1 == m_script.m_steps.size()) return fail("a repeat needs a statement");
     BotStep end = stepOf(BotStep::Kind::kEndLoop);
@@ -328,7 +329,7 @@ class BotScriptParser {
 
   void finish(BotStep step) {
     const std::string rest = word();
-    if (!rest.empty() || (!atEnd() && here() == '{')) fail(quoted(rest) + " is too much here");
+    if (!rest.empty() || (!atEnd() && here() == '{')) fail(quoted(rest) + " is unexpected here");
     if (m_script.m_steps.size() >= kMaxSteps) fail("the script is too long");
     m_script.m_steps.push_back(std::move(step));
   }

@@ -36,8 +36,8 @@ constexpr int kKeepAliveTicks = 5;
 constexpr const char* kScriptHelp =
     "Scripts (--script FILE or --script TEXT), durations in ticks:\n"
     "  press SPACE; hold LEFTARROW 10; wait 5; click 40 12 [right]; move 3 4; chat hello all\n"
-    "  repeat 3 { press UPARROW; wait 2 }    repeat    (alone, at the end: the script again, for ever)\n"
-    "  Statements end with ';' or the line; '#' begins a comment. Keys are the names of "
+    "  repeat 3 { press UPARROW; wait 2 }    repeat    (at the end: repeats the whole script forever)\n"
+    "  Statements end with ';' or a new line; '#' starts a comment. Keys are the names of "
     "df::Keyboard::Key.\n\n";
 
 struct BotOptions {
@@ -282,7 +282,7 @@ int run(const BotOptions& options) {
     if (std::all_of(bots.begin(), bots.end(), isAlive)) break;
     const auto isSilent = [now](const auto& bot) { return bot->isSilent(now); };
     if (!options.rejoin && std::any_of(bots.begin(), bots.end(), isSilent)) {
-      return complain(naiad::kExitEnded, "The server was there, but sends nothing any more.");
+      return complain(naiad::kExitEnded, "The server stopped sending snapshots.");
     }
   }
   const Clock::time_point end = Clock::now();
@@ -298,32 +298,33 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
                                      bool& web) {
   std::vector<naiad::Option> options = {
       naiad::serverOption(server),
-      {"--web", &web, "SERVER is the address of a page, https://HOST[:PORT]/: join as a browser does"},
+      {"--web", &web, "SERVER is the address of a page, https://HOST[:PORT]/: join like a browser"},
       {.name = "--clients",
        .target = &bot.clients,
-       .help = "How many players join (default 1)",
+       .help = "Number of players (default 1)",
        .range = naiad::OptionRange{1, 1000}},
       {.name = "--seconds",
        .target = &bot.seconds,
-       .help = "How long to play once all have joined (default 5)",
+       .help = "Seconds to play after all players have joined (default 5)",
        .range = naiad::OptionRange{0, 86400.0 * 365}},
       {.name = "--ticks",
        .target = &bot.ticks,
-       .help = "… or how many ticks of the server",
+       .help = "Instead of --seconds: number of server ticks to play",
        .excludes = "--seconds"},
-      {"--script", &script, "What to do: a file, or the script itself (see below)"},
+      {"--script", &script, "Script file, or the script itself (see below)"},
       {.name = "--random",
        .target = &bot.random_seed,
-       .help = "Random input instead, from this seed",
+       .help = "Random input from this seed, instead of a script",
        .excludes = "--script"},
       {"--name", &bot.name, "Name in the game (with several clients: numbered)", "NAIAD_NAME"}};
   for (naiad::Option& option : naiad::trustOptions(server, bot.trust, bot.session)) options.push_back(option);
-  options.push_back({"--game", &bot.game, "The game wanted; refused if another one runs", "NAIAD_GAME"});
+  options.push_back(
+      {"--game", &bot.game, "Game to play; refused if the server does not run it", "NAIAD_GAME"});
   options.push_back(
       naiad::typedOption("--truth", "FILE", &bot.truth_file,
-                         "Compare every tick seen with this file, as dfserver --truth FILE writes it"));
+                         "Compare each received picture with this file, written by dfserver --truth FILE"));
   options.push_back(
-      {"--rejoin", &bot.rejoin, "Look for a server that was lost, as dfclient does, instead of ending"});
+      {"--rejoin", &bot.rejoin, "Reconnect when the connection is lost, like dfclient, instead of exiting"});
   options.push_back({"--quiet", &bot.quiet, "Do not print the last screen"});
   return options;
 }
@@ -342,10 +343,10 @@ int start(int argc, char** argv) {
   const std::string wrong = naiad::resolveServer(server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (web && !options.trust.gateway)
-    return complain(naiad::kExitUsage, "--web wants the address of a page: https://HOST[:PORT]/.");
+    return complain(naiad::kExitUsage, "--web requires the address of a page: https://HOST[:PORT]/.");
   if (std::error_code none; std::filesystem::is_directory(script, none))
     return complain(naiad::kExitUsage,
-                    "--script: " + script + " is a folder; a file, or the script itself, is wanted.");
+                    "--script: " + script + " is a folder; expected a file or the script itself.");
   if (!script.empty()) {
     auto read = naiad::BotScript::parse(scriptText(script));
     if (const auto* error = std::get_if<naiad::ScriptError>(&read)) {

@@ -38,15 +38,15 @@ int connectTo(const std::filesystem::path& path) {
 }
 
 std::string whyNot(int error) {
-  if (error == ENOENT || error == ECONNREFUSED) return "no server listens there";
-  if (error == EACCES) return "you may not write to it";
+  if (error == ENOENT || error == ECONNREFUSED) return "no server is listening";
+  if (error == EACCES) return "permission denied";
   return std::strerror(error);
 }
 
 }  // namespace
 
 ControlClient::ControlClient(const std::filesystem::path& path) : m_socket(connectTo(path)) {
-  if (m_socket < 0) throw NoServer("Cannot reach a server by " + path.string() + ": " + whyNot(errno) + ".");
+  if (m_socket < 0) throw NoServer("Cannot connect to " + path.string() + ": " + whyNot(errno) + ".");
 }
 
 ControlClient::~ControlClient() {
@@ -65,9 +65,9 @@ AdminAnswer ControlClient::ask(const AdminRequest& request) {
   for (std::string text; readLine(text, takes_long ? kLongPatience : kPatience);) {
     const AnswerReader::Got got = reader.readLine(text);
     if (got == AnswerReader::Got::kAnswer) return reader.answer();
-    if (got == AnswerReader::Got::kNonsense) throw NoServer("What answers there is no server of Naiad.");
+    if (got == AnswerReader::Got::kNonsense) throw NoServer("This is not a Naiad server's control socket.");
   }
-  throw NoServer("The server has hung up.");
+  throw NoServer("The server closed the connection.");
 }
 
 void ControlClient::follow(const std::function<void(const std::string&)>& show) {
@@ -76,7 +76,7 @@ void ControlClient::follow(const std::function<void(const std::string&)>& show) 
     const AnswerReader::Got got = reader.readLine(text);
     if (got == AnswerReader::Got::kEvent) show(reader.event());
     if (got == AnswerReader::Got::kDropped)
-      show("(" + std::to_string(reader.dropped()) + " lines were left out)");
+      show("(" + std::to_string(reader.dropped()) + " lines were dropped)");
   }
 }
 

@@ -149,15 +149,14 @@ std::optional<std::string> ctlCompletion(const std::string& shell) {
 
 std::string ctlManSections() {
   return ".SH OPTIONS\n"
-         ".TP\n\\fB\\-\\-control\\fR \\fIPATH\\fR\nThe socket; default: that of the one server of this user, "
-         "or the "
-         "one in /run/naiad/admin.\n"
+         ".TP\n\\fB\\-\\-control\\fR \\fIPATH\\fR\nThe control socket; default: that of the only running "
+         "server of this user or in /run/naiad/admin.\n"
          ".TP\n\\fB\\-\\-json\\fR\nPrint the answer as JSON.\n"
-         ".TP\n\\fB\\-\\-help\\fR, \\fB\\-\\-version\\fR\nPrint what they say, and exit.\n" +
+         ".TP\n\\fB\\-\\-help\\fR, \\fB\\-\\-version\\fR\nPrint the help or the version, and exit.\n" +
          adminManSection() +
-         ".SH ENVIRONMENT\n.TP\n.B NAIAD_CONTROL\nAs \\-\\-control.\n"
-         ".SH EXIT STATUS\n.TP\n.B 0\nThe server has done it.\n.TP\n.B 1\nThe server refuses.\n"
-         ".TP\n.B 2\nWrong usage.\n.TP\n.B 3\nNo server answers.\n";
+         ".SH ENVIRONMENT\n.TP\n.B NAIAD_CONTROL\nLike \\-\\-control.\n"
+         ".SH EXIT STATUS\n.TP\n.B 0\nDone.\n.TP\n.B 1\nThe server refused the command.\n"
+         ".TP\n.B 2\nWrong usage.\n.TP\n.B 3\nNo server answered.\n";
 }
 
 std::optional<std::string> ctlPage(const std::string& kind) {
@@ -175,7 +174,7 @@ CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words) {
     } else if (word.starts_with(kControlOption)) {
       line.control = word.substr(kControlOption.size());
     } else if (word == "--control") {
-      if (++next == words.size()) throw AdminUsageError("--control wants a path.");
+      if (++next == words.size()) throw AdminUsageError("--control requires a path.");
       line.control = words[next];
     } else {
       failUnknown(word);
@@ -191,12 +190,11 @@ CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words) {
 
 std::string ctlHelp() {
   std::string text =
-      "Look after a running dfserver\n"
+      "Administer a running dfserver\n"
       "Usage: dfctl [--control PATH] [--json] COMMAND [ARGUMENT...]\n"
       "       dfctl completion bash|zsh|fish\n\n"
       "Options:\n"
-      "  --control PATH  The server's control socket (or NAIAD_CONTROL); default: that of the one server "
-      "there is\n"
+      "  --control PATH  The server's control socket (or NAIAD_CONTROL); default: the only running server's\n"
       "  --json          Print the answer as JSON\n"
       "  --help          Print this and exit\n"
       "  --version       Print the version and exit\n\n"
@@ -204,12 +202,13 @@ std::string ctlHelp() {
   for (const std::string& one : adminHelp(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket))
     text += "  " + one + "\n";
   return text +
-         "\nPLAYER is a name, its beginning, or #ID as who lists it. SPAN is like 90s, 30m, 2h or 7d.\n\n"
+         "\nPLAYER is a name, the beginning of a name, or #ID as listed by who. SPAN is like 90s, 30m, 2h or "
+         "7d.\n\n"
          "Exit codes:\n"
          "  0  done\n"
-         "  1  the server refuses\n"
+         "  1  the server refused the command\n"
          "  2  wrong usage\n"
-         "  3  no server answers\n";
+         "  3  no server answered\n";
 }
 
 }  // namespace naiad

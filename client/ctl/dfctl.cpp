@@ -56,9 +56,9 @@ std::string findControl(const std::string& given) {
   if (!given.empty()) return given;
   const auto live = naiad::liveControls();
   if (live.empty())
-    throw naiad::NoServer("No server of yours runs on this machine; --control names its socket.");
+    throw naiad::NoServer("No server of yours is running; specify another one with --control PATH.");
   if (live.size() == 1) return live.front().string();
-  std::string sentence = "Several servers run; --control says which one is meant:";
+  std::string sentence = "Several servers are running; choose one:";
   for (const auto& path : live) sentence += "\n  --control " + path.string();
   throw naiad::AdminUsageError(sentence);
 }
@@ -68,7 +68,7 @@ int give(const naiad::CtlCommandLine& line) {
   if (words == std::vector<std::string>{"password"}) words.push_back(readSecret());
   const naiad::AdminRequest request = naiad::readAdminRequest(words);
   if (!request.command->isFor(naiad::AdminCommand::Level::kAdmin, naiad::AdminCommand::Place::kSocket))
-    throw naiad::AdminUsageError("\"" + request.command->name + "\" is a command of the chat.");
+    throw naiad::AdminUsageError("\"" + request.command->name + "\" is only available in the chat.");
   naiad::ControlClient client(findControl(line.control));
   const naiad::AdminAnswer answer = client.ask(request);
   if (request.command->name == "watch" && answer.ok) {
@@ -83,7 +83,7 @@ int give(const naiad::CtlCommandLine& line) {
 }
 
 int printPage(const std::optional<std::string>& page) {
-  if (!page) return failUsage("bash, zsh or fish is wanted.");
+  if (!page) return failUsage("Expected bash, zsh or fish.");
   std::cout << *page;
   return kDone;
 }

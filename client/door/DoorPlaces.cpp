@@ -76,7 +76,8 @@ class Open {
   void write(const std::string& text) const {
     const bool written = ::ftruncate(m_file, 0) == 0 &&
                          ::pwrite(m_file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-    if (!written) throw std::system_error(errno, std::generic_category(), "a place of the door");
+    if (!written)
+      throw std::system_error(errno, std::generic_category(), "cannot write to the places folder");
   }
 
  private:

@@ -12,13 +12,12 @@ constexpr std::size_t kMaxName = 32;
 
 /// Parses the words of a line into `game`. Returns what is wrong with them; empty if nothing is.
 std::string readWords(const std::vector<std::string>& words, std::optional<OfferedGame>& game) {
-  if (words.size() < 3 || words.size() > 4)
-    return "a name, a link and the path of a visitors' socket are wanted";
+  if (words.size() < 3 || words.size() > 4) return "expected NAME LINK SOCKET [password]";
   if (words[0].size() > kMaxName || !isPlainName(words[0]))
-    return "the name may have 32 letters, digits, '-', '_' and '.'";
+    return "invalid name: expected at most 32 letters, digits, '-', '_' and '.'";
   const auto parsed = JoinLink::parse(words[1]);
   if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
-    return "the link is none: " + p_problem->sentence;
+    return "invalid link: " + p_problem->sentence;
   if (!words[2].starts_with('/')) return "the path of the visitors' socket does not begin with /";
   if (words.size() == 4 && words[3] != "password") return "the only option is \"password\"";
   game = OfferedGame{words[0], std::get<JoinLink>(parsed), words[2], words.size() == 4};

@@ -86,7 +86,7 @@ std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std:
     const auto answer = askLine("Which game? ", patience);
     if (!answer) return std::nullopt;
     if (const auto choice = choiceOf(*answer, names)) return choice;
-    std::printf("Its number is wanted, 1 to %zu.\n", names.size());
+    std::printf("Type a number from 1 to %zu.\n", names.size());
   }
   return std::nullopt;
 }
@@ -118,13 +118,12 @@ using namespace std::chrono_literals;
 enum ExitCode { kUsage = 2, kRefused = 3, kNoTerminal = 5 };
 
 constexpr const char* kHelp =
-    "sshd runs it for each visitor of a door; deploy/door sets one up. It reads SSH_CONNECTION, "
-    "SSH_USER_AUTH, TERM\n"
-    "and the terminal, and refuses to run anything that was asked for (SSH_ORIGINAL_COMMAND).\n\n"
-    "Lines of games.list: NAME LINK SOCKET [password], of dfserver --visitors SOCKET.\n\n"
-    "Exit codes: 2 wrong usage, a command was asked for, or games.list is wrong; 3 no place is free; 5 no "
-    "terminal;\n"
-    "else those of dfclient.\n";
+    "sshd runs this program for each visitor of a door; deploy/door sets up a door. It reads "
+    "SSH_CONNECTION,\n"
+    "SSH_USER_AUTH and TERM, and refuses to run a command (SSH_ORIGINAL_COMMAND).\n\n"
+    "Lines of games.list: NAME LINK SOCKET [password]. SOCKET is the --visitors of the game's dfserver.\n\n"
+    "Exit codes: 2 wrong usage, a command was requested, or games.list is invalid; 3 no free place;\n"
+    "5 no terminal; else those of dfclient.\n";
 
 constexpr std::chrono::seconds kPatience{60};   // limit for an answer of the visitor
 constexpr std::chrono::seconds kTakeOver{10};   // limit for the end of the visitor's other client
@@ -185,7 +184,7 @@ asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   const std::string port = rest.substr(0, rest.find(' '));
   const auto visitor = naiad::visitorFromText(
       (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + port);
-  if (!visitor) throw Refusal{kUsage, "This program is for sshd to run."};
+  if (!visitor) throw Refusal{kUsage, "This program must be started by sshd."};
   return *visitor;
 }
 
@@ -202,8 +201,8 @@ std::string terminalType(const std::string& asked) {
 naiad::GamesList readGames(const fs::path& path) {
   auto list = naiad::GamesList::parse(naiad::readSmallFile(path, kMaxList).value_or(""));
   if (!list.problem.empty())
-    throw Refusal{kUsage, "The list of games is wrong, " + list.problem + ". Tell its host."};
-  if (list.games.empty()) throw Refusal{kUsage, "This door offers no game yet."};
+    throw Refusal{kUsage, "The list of games is invalid, " + list.problem + ". Please tell the host."};
+  if (list.games.empty()) throw Refusal{kUsage, "This door has no games yet."};
   return list;
 }
 
@@ -213,13 +212,13 @@ std::unique_ptr<naiad::DoorPlace> takePlace(const DoorOptions& options,
   if (taken.place) return std::move(taken.place);
   throw Refusal{kRefused, taken.refusal == naiad::DoorPlace::Refusal::kFull
                               ? "All places are taken. Try again later."
-                              : "There are too many players from your address already."};
+                              : "Too many players from your address. Try again later."};
 }
 
 /// Asks a visitor already playing, perhaps on a dead connection, whether to continue here; ends that client.
 bool takeOver(naiad::VisitorFolder& folder) {
   const auto yes =
-      naiad::askYes("You are playing here already. Go on with that game in this terminal?", kPatience);
+      naiad::askYes("You are already playing here. Continue that game in this terminal?", kPatience);
   if (!yes) throw Refusal{kRefused, ""};
   const pid_t holder = folder.holder();
   if (!*yes || holder == 0) return false;
@@ -298,15 +297,15 @@ int runClient(ClientStart start) {
   }
   g_client = 0;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw Refusal{kUsage, "This door has no dfclient. Tell its host."};
+    throw Refusal{kUsage, "The door cannot run dfclient. Please tell the host."};
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 int serveVisitor(const DoorOptions& options) {
   if (std::getenv("SSH_ORIGINAL_COMMAND") != nullptr)
-    throw Refusal{kUsage, "This door runs no commands. Connect without one."};
+    throw Refusal{kUsage, "This door does not run commands. Connect without a command."};
   if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
-    throw Refusal{kNoTerminal, "A terminal is wanted: ssh -t."};
+    throw Refusal{kNoTerminal, "A terminal is required: use ssh -t."};
   ignoreStops();
   const auto visitor = visitorOf(variable("SSH_CONNECTION"));
   const naiad::GamesList list = readGames(options.games);
@@ -334,23 +333,23 @@ std::string besideThisProgram() {
 
 std::vector<naiad::Option> optionsOf(DoorOptions& door) {
   std::vector<naiad::Option> options{
-      naiad::typedOption("--games", "FILE", &door.games, "The list of games that are offered"),
-      naiad::typedOption("--state", "DIR", &door.state, "Folder for what belongs to visitors"),
+      naiad::typedOption("--games", "FILE", &door.games, "File with the games to offer, one per line"),
+      naiad::typedOption("--state", "DIR", &door.state, "Folder for the visitors' data"),
       naiad::typedOption("--client", "FILE", &door.client,
-                         "The dfclient to run (default: the one beside this program)"),
+                         "The dfclient to run (default: the one in this program's folder)"),
       {.name = "--max-visitors",
        .target = &door.limits.in_all,
-       .help = "Visitors at a time",
+       .help = "Maximum number of visitors at a time",
        .range = naiad::OptionRange{1, 1000},
        .shows_default = true},
       {.name = "--max-per-address",
        .target = &door.limits.per_prefix,
-       .help = "Of these, from one IPv4 address or IPv6 network (/64)",
+       .help = "Maximum number of them from one IPv4 address or IPv6 network (/64)",
        .range = naiad::OptionRange{1, 1000},
        .shows_default = true},
       {.name = "--idle-limit",
        .target = &door.idle_limit,
-       .help = "Seconds without a key or a move of the mouse after which a visitor leaves; 0: never",
+       .help = "Seconds without a key or mouse movement after which a visitor is disconnected; 0: never",
        .range = naiad::OptionRange{0, 86'400},
        .shows_default = true}};
   return options;
@@ -359,11 +358,11 @@ std::vector<naiad::Option> optionsOf(DoorOptions& door) {
 int start(int argc, char** argv) {
   DoorOptions options;
   options.client = besideThisProgram();
-  const naiad::Program program{"dfdoor", "Lets a visitor of an ssh door play.", kHelp};
+  const naiad::Program program{"dfdoor", "Lets the visitor of an ssh door play a game.", kHelp};
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(options), argc, argv)))
     return *code;
   if (options.games.empty() || options.state.empty())
-    throw Refusal{kUsage, "--games and --state are wanted."};
+    throw Refusal{kUsage, "--games and --state are required."};
   ::umask(077);
   return serveVisitor(options);
 }
@@ -377,7 +376,7 @@ int main(int argc, char** argv) {
     if (!refusal.sentence.empty()) std::fprintf(stderr, "%s\n", refusal.sentence.c_str());
     return refusal.code;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "The door does not work: %s\n", error.what());
+    std::fprintf(stderr, "Cannot start the game: %s. Please tell the host.\n", error.what());
     return kUsage;
   }
 }

@@ -29,24 +29,24 @@ std::string inWords(const HttpExchange::Result& result) {
   const std::string reason = result.detail.empty() ? "" : " (" + result.detail + ")";
   switch (result.end) {
     case End::kNotFound:
-      return "its host was not found" + reason;
+      return "host not found" + reason;
     case End::kUntrusted:
-      return "it is not trusted" + reason;
+      return "no secure connection" + reason;
     case End::kHungUp:
-      return "it hung up" + reason;
+      return "the server closed the connection" + reason;
     case End::kTooLong:
       return "it is longer than 1 MiB";
     case End::kBadAnswer:
-      return "its answer is cut off, or none of HTTP" + reason;
+      return "invalid HTTP answer" + reason;
     case End::kTimedOut:
-      return "it takes longer than 5 s";
+      return "no complete answer within 5 s";
     default:
-      return "it cannot be reached" + reason;
+      return "cannot connect" + reason;
   }
 }
 
 DownloadProblem problemOf(const std::string& what) {
-  return {"The list cannot be had: " + what + "."};
+  return {"Cannot load the server list: " + what + "."};
 }
 
 bool isRedirect(unsigned status) {
@@ -115,13 +115,12 @@ std::variant<std::string, DownloadProblem> downloadList(const ListUrl& url) {
     if (result.end == End::kTimedOut) dropLater(std::move(download));
     if (result.end != End::kAnswered) return problemOf(inWords(result));
     if (answer.status() == 200) return answer.body();
-    if (!isRedirect(answer.status()))
-      return problemOf("its host answers with status " + std::to_string(answer.status()));
+    if (!isRedirect(answer.status())) return problemOf("HTTP status " + std::to_string(answer.status()));
     const auto target = next.redirected(answer.head().value("location"));
-    if (!target) return problemOf("it leads to an address that is not https");
+    if (!target) return problemOf("redirect to an address that is not https");
     next = *target;
   }
-  return problemOf("it leads from one address to the next");
+  return problemOf("too many redirects");
 }
 
 }  // namespace naiad

@@ -26,15 +26,15 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
   if (message.room.empty() && !m_link.options().room.empty()) {
     sendLeave();
     return finish(State::kRefused,
-                  "This server has no rooms, so none is called \"" + m_link.options().room + "\".");
+                  "This server has no rooms; cannot enter room \"" + m_link.options().room + "\".");
   }
   m_welcome = std::move(message);
   const bool fresh = m_link.options().fresh;
   if (!fresh) m_welcome.continuation.reset();
   const Continuation from = m_welcome.continuation.value_or(Continuation{});
   if (fresh && m_welcome.resumed) {
-    if (!m_welcome.continuation) return reject("no continuation of the session");
-    m_inbox.addNotice("You are back in your old session.", now);
+    if (!m_welcome.continuation) return reject("a resumed session without its state");
+    m_inbox.addNotice("Session resumed.", now);
   }
   m_world.start(m_welcome, from);
   m_inputs.start(from.input, m_welcome.tick);
@@ -49,7 +49,7 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
 }
 
 void ClientSession::handle(RefusedMessage&& message, Time) {
-  if (m_state != State::kGreeting) return reject("a refusal in the middle of the game");
+  if (m_state != State::kGreeting) return reject("a refusal after the welcome");
   m_refusal = std::move(message);
   finish(State::kRefused, m_refusal.sentence.empty() ? "The server refused." : m_refusal.sentence);
 }
@@ -90,7 +90,7 @@ void ClientSession::handle(const PongMessage& message, Time now) {
 
 void ClientSession::handle(EnteredMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("another room before the welcome");
-  m_inbox.addNotice("You are in the room " + message.room + ", which plays " + message.game + ".", now);
+  m_inbox.addNotice("You are now in room " + message.room + ", playing " + message.game + ".", now);
   m_welcome.player = message.player;
   m_welcome.room = std::move(message.room);
   m_welcome.game = std::move(message.game);
@@ -210,7 +210,7 @@ void ClientSession::takeRoom(const WelcomeMessage& welcome) {
 
 void ClientSession::closed(CloseReason reason) {
   if (isOver()) return;
-  if (reason == CloseReason::kProtocol) return reject("bytes that are no frame");
+  if (reason == CloseReason::kProtocol) return reject("an invalid frame");
   if (reason == CloseReason::kOverflow) {
     return finish(State::kLost, "The connection to the server is too slow.");
   }
@@ -219,7 +219,7 @@ void ClientSession::closed(CloseReason reason) {
     ++m_revision;
     return;
   }
-  finish(State::kLost, m_state == State::kGreeting ? "The server hung up before it answered."
+  finish(State::kLost, m_state == State::kGreeting ? "The server closed the connection before answering."
                                                    : "The connection to the server was lost.");
 }
 
@@ -254,7 +254,7 @@ void ClientSession::updateStream(Time now) {
   // Keys are derived from a stream, so new keys need another stream. Datagrams continue until then.
   if (!m_welcome.resume_token.empty() && m_link.takeNewEpochDue()) return closed(CloseReason::kError);
   if (m_liveness.silence(now) >= kIdleTimeout) {
-    if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server fell silent.");
+    if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server stopped responding.");
     return closed(CloseReason::kError);  // the session waits for a new stream
   }
   if (m_liveness.isPingDue(now, hasDatagrams(now))) sendPing(now);
@@ -268,13 +268,13 @@ IdleTimer::Duration ClientSession::pictureWait(Time now) const {
 // Leaves, so that the server does not keep a place for a client that will not return.
 void ClientSession::giveUpPicture() {
   sendLeave();
-  finish(State::kLost, "The server let you in, but sent no picture of the game in " +
-                           std::to_string(kPictureTimeout.count()) + " s.");
+  finish(State::kLost,
+         "Joined, but the server sent no picture within " + std::to_string(kPictureTimeout.count()) + " s.");
 }
 
 void ClientSession::reject(const std::string& what) {
   ++m_counters.bad_messages;
-  finish(State::kEnded, std::string("The server sent ") + what + "; the session was ended for safety.");
+  finish(State::kEnded, std::string("Protocol error: the server sent ") + what + ". Disconnected.");
 }
 
 void ClientSession::finish(State state, std::string sentence) {

@@ -28,15 +28,15 @@ std::string sentence(const HttpExchange::Result& result) {
     case End::kNotFound:
       return "The host of the gateway was not found" + reason;
     case End::kOtherMachine:
-      return "Without encryption (https) only gateways on this machine are connected to.";
+      return "Without encryption (https) only gateways on this machine are allowed.";
     case End::kUnreachable:
       return "The gateway cannot be reached" + reason;
     case End::kUntrusted:
-      return "The gateway is not trusted" + reason;
+      return "No secure connection to the gateway" + reason;
     case End::kTimedOut:
       return "The gateway does not answer.";
     default:
-      return "The gateway refused" + reason;
+      return "Cannot join through the gateway" + reason;
   }
 }
 

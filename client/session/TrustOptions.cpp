@@ -22,9 +22,9 @@ bool namesAnotherKey(const ServerTrust& trust, const ShortKey& key) {
 
 std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust& trust,
                        SessionOptions& session) {
-  if (trust.insecure) return "A link has a key, so --insecure does not go with one.";
+  if (trust.insecure) return "--insecure cannot be used with a link, which contains the server's key.";
   if (namesAnotherKey(trust, link.key))
-    return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the link.";
+    return "--fingerprint (or NAIAD_FINGERPRINT) differs from the key in the link.";
   session.room = link.room;
   address = {link.where.host, link.where.port};
   trust.link_key = link.key;
@@ -33,19 +33,20 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
 
 /// Takes the key of a listed server with an IPv6 zone in its address, which links cannot express.
 std::string followList(const ShortKey& key, ServerTrust& trust) {
-  if (trust.insecure) return "Servers of a list have keys, so --insecure does not go with one.";
+  if (trust.insecure) return "--insecure cannot be used with a list, which contains the servers' keys.";
   if (namesAnotherKey(trust, key))
-    return "--fingerprint (or NAIAD_FINGERPRINT) names another key than the list.";
+    return "--fingerprint (or NAIAD_FINGERPRINT) differs from the key in the list.";
   trust.link_key = key;
   return {};
 }
 
 std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, SessionOptions& session) {
   if (server.visitors.empty() && server.visitor.empty()) return {};
-  if (server.visitors.empty() || server.visitor.empty()) return "--visitors and --visitor come together.";
-  if (trust.insecure) return "--visitors needs encryption, so not --insecure.";
+  if (server.visitors.empty() || server.visitor.empty())
+    return "--visitors and --visitor must be used together.";
+  if (trust.insecure) return "--visitors cannot be used with --insecure.";
   const auto visitor = visitorFromText(server.visitor);
-  if (!visitor) return quoted(server.visitor) + " is no ADDRESS:PORT of a visitor.";
+  if (!visitor) return quoted(server.visitor) + " is not a valid --visitor: expected ADDRESS:PORT.";
   session.visit = Visit{server.visitors, *visitor};
   return {};
 }
@@ -57,11 +58,10 @@ bool ServerChoice::dropsPassword() const {
 }
 
 Option serverOption(ServerChoice& server) {
-  Option option{
-      "server", &server.text,
-      "Where the server is: a link (naiad://…), HOST[:PORT][/ROOM] or [::1]:PORT (port 9876 by default), or "
-      "the address of its page for browsers (https://…)",
-      "NAIAD_SERVER"};
+  Option option{"server", &server.text,
+                "Server to join: a link (naiad://…), HOST[:PORT][/ROOM] or [IPV6]:PORT (default port 9876), "
+                "or the address of its page for browsers (https://…)",
+                "NAIAD_SERVER"};
   option.type = "SERVER";
   return option;
 }
@@ -69,28 +69,26 @@ Option serverOption(ServerChoice& server) {
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session) {
   const StoreText store_fingerprint = [&trust](const std::string& text) -> std::string {
     trust.fingerprint = Fingerprint::parse(text);
-    return trust.fingerprint ? "" : "64 hexadecimal digits are wanted, as dfserver prints them";
+    return trust.fingerprint ? "" : "expected 64 hexadecimal digits, as dfserver prints them";
   };
   std::vector<Option> options = {
-      {"--fingerprint", store_fingerprint, "The server's key, as dfserver prints it: no other is trusted",
+      {"--fingerprint", store_fingerprint, "The server's key, as dfserver prints it; no other key is trusted",
        "NAIAD_FINGERPRINT"},
       {"--known-servers", &trust.known_servers,
-       "File of the keys of servers seen before (default: naiad/known_servers in your data directory)",
+       "File with the keys of known servers (default: naiad/known_servers in your data directory)",
        "NAIAD_KNOWN_SERVERS"},
       {"--password", &session.password,
-       "The server's password (other users see the command line: rather set NAIAD_PASSWORD, which is not "
-       "sent where a "
-       "link leads)",
+       "The server's password (other users can see the command line; NAIAD_PASSWORD is safer, but is not "
+       "sent to servers from links, pages and lists)",
        "NAIAD_PASSWORD"},
-      {"--no-redirect", &trust.stays,
-       "Do not go to another server, where this one sends you: a directory does, and a server that is full",
+      {"--no-redirect", &trust.stays, "Do not follow redirects (from a lobby or a full server)",
        "NAIAD_NO_REDIRECT"},
-      {"--insecure", &trust.insecure, "Without encryption, to a server on this machine (for tests)",
-       "NAIAD_INSECURE"}};
+      {"--insecure", &trust.insecure,
+       "Connect without encryption, only to a server on this machine (for tests)", "NAIAD_INSECURE"}};
   const std::vector<Option> doors = {
       {"--visitors", &server.visitors,
        "For doors: join through this visitors' socket of a server on this machine (dfserver --visitors)"},
-      {"--visitor", &server.visitor, "With it: the address of the player, ADDRESS:PORT"}};
+      {"--visitor", &server.visitor, "With --visitors: the player's address, ADDRESS:PORT"}};
   options[0].type = "HEX";
   options[1].type = "FILE";
   options[2].p_from_environment = &server.is_password_ambient;
@@ -104,10 +102,10 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
   if (std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
   if (GatewayAddress::isMeant(server.text)) {
     if (trust.insecure || trust.fingerprint || session.visit)
-      return "Through a gateway (https://…) --insecure, --fingerprint and --visitors have no meaning.";
+      return "--insecure, --fingerprint and --visitors cannot be used with a gateway (https://…).";
     trust.gateway = GatewayAddress::parse(server.text);
     if (!trust.gateway)
-      return quoted(server.text) + " is no address of a gateway: https://HOST[:PORT]/ is wanted.";
+      return quoted(server.text) + " is not a valid gateway address: expected https://HOST[:PORT]/.";
     address = {trust.gateway->host, trust.gateway->port};
     return {};
   }
@@ -115,17 +113,18 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     const std::size_t slash = std::min(server.text.find('/'), server.text.size());
     const auto parsed = ServerAddress::parse(server.text.substr(0, slash));
     if (!parsed)
-      return quoted(server.text) + " is no server: a link (naiad://…) or HOST[:PORT][/ROOM] is wanted.";
+      return quoted(server.text) +
+             " is not a valid server: expected a link (naiad://…) or HOST[:PORT][/ROOM].";
     address = *parsed;
     const std::string room = server.text.substr(std::min(slash + 1, server.text.size()));
     if (slash < server.text.size() && !isRoomName(room))
-      return quoted(room) + " is no name of a room: " + kRoomNameRule + ".";
+      return quoted(room) + " is not a valid room name: expected " + kRoomNameRule + ".";
     session.room = room;
     return server.list_key ? followList(*server.list_key, trust) : "";
   }
   const auto parsed = JoinLink::parse(server.text);
   if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
-    return quoted(server.text) + " is no link to a game: " + p_problem->sentence + ".";
+    return quoted(server.text) + " is not a valid link: " + p_problem->sentence + ".";
   return followLink(std::get<JoinLink>(parsed), address, trust, session);
 }
 

@@ -25,7 +25,7 @@ enum ExitCode {
 /// The part of --help that both programs share.
 inline constexpr const char* kExitCodeHelp =
     "Exit codes:\n"
-    "  0  left                      3  refused by the server (its sentence is on stderr)\n"
+    "  0  left                      3  refused by the server (the reason is on stderr)\n"
     "  1  cannot connect            4  the server ended the game, or was lost for good\n"
     "  2  wrong usage               5  no terminal (dfclient)\n"
     "  6  wrong cells, or nothing to compare (dfbot --truth)\n";

@@ -67,7 +67,7 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
   setenv("COLUMNS", std::to_string(size.columns).c_str(), 1);
   setenv("LINES", std::to_string(size.rows).c_str(), 1);
   if (newterm(const_cast<char*>(options.type.c_str()), stdout, stdin) == nullptr) {
-    throw std::runtime_error("TERM=" + options.type + " is no terminal that dfclient can draw on.");
+    throw std::runtime_error("TERM=" + options.type + " is not a terminal that dfclient can draw on.");
   }
   curs_set(0);
   leaveok(stdscr, FALSE);

@@ -146,8 +146,8 @@ bool TerminalGuard::isTerminal() {
 }
 
 TerminalGuard::TerminalGuard(Options options) : m_options(options) {
-  if (tcgetattr(STDIN_FILENO, &g_original) != 0) throw std::runtime_error("standard input is no terminal");
-  if (pipe2(g_pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw std::runtime_error("no pipe for signals");
+  if (tcgetattr(STDIN_FILENO, &g_original) != 0) throw std::runtime_error("standard input is not a terminal");
+  if (pipe2(g_pipe, O_CLOEXEC | O_NONBLOCK) != 0) throw std::runtime_error("cannot create a pipe");
   g_end_asked = 0;
   g_thread = pthread_self();
   static const bool at_exit = std::atexit(restoreNow) == 0;

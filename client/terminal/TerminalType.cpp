@@ -59,23 +59,23 @@ std::string shown(const std::string& name) {
 
 TerminalType chooseTerminalType(const char* p_term) {
   const std::string term = p_term != nullptr ? p_term : "";
-  if (term.empty()) throw std::runtime_error("TERM is not set: what kind of terminal is this?");
+  if (term.empty())
+    throw std::runtime_error(
+        "TERM is not set. Set it to the type of this terminal, for example TERM=xterm-256color.");
   // Terminals of these types have no description, or a poor one, on purpose.
   const bool refuses = term == "dumb" || term == "unknown";
   const Kind kind = refuses ? Kind::kCannotDraw : kindWithBuiltIn(term);
   if (kind == Kind::kDraws) return {term, ""};
   if (kind == Kind::kCannotDraw) {
-    throw std::runtime_error(
-        shown(term) + " is a terminal without a cursor that can be moved: nothing can be drawn on it.");
+    throw std::runtime_error(shown(term) + " has no movable cursor: dfclient cannot draw on it.");
   }
   for (const char* p_name : {"xterm-256color", "xterm"}) {
     if (kindWithBuiltIn(p_name) == Kind::kDraws)
-      return {p_name, shown(term) + " is not known on this system; drawn as " + p_name + "."};
+      return {p_name, shown(term) + " is not known on this system; using " + p_name + "."};
   }
   throw std::runtime_error(
       shown(term) +
-      " is not known on this system, and neither is xterm: are descriptions of terminals "
-      "installed (ncurses-base)?");
+      " is not known on this system, and neither is xterm. Install terminal descriptions (ncurses-base).");
 }
 
 }  // namespace naiad

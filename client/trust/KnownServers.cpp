@@ -112,34 +112,34 @@ PinLines readLines(const fs::path& path) {
 std::string warning(const std::string& server, const Fingerprint& expected, const Fingerprint& seen,
                     const fs::path& path) {
   return "THE KEY OF " + server +
-         " HAS CHANGED. Somebody may be listening in, or its host made a new key. "
-         "Not connected. Ask the host: if the key is " +
-         seen.text() + " now, join with --fingerprint " + seen.text() + " once. (" + path.string() +
-         " says " + expected.text() + ".)";
+         " HAS CHANGED. The connection may be intercepted, or the host made a new key. Not connected. Ask "
+         "the host: if the new key is " +
+         seen.text() + ", join once with --fingerprint " + seen.text() + ". (" + path.string() +
+         " has the old key " + expected.text() + ".)";
 }
 
 Verdict judgeBy(const PinLines& lines, const std::string& server, const PeerFacts& facts,
                 const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link,
                 const fs::path& path) {
   if (link && *link != ShortKey::of(facts.key)) {
-    return {Trust::kLinkUnequal,
-            server + " does not have the key of the link: it shows " + ShortKey::of(facts.key).text() +
-                ". Not connected, and nothing was sent. Compare the end of the link with the one "
-                "the host gave you."};
+    return {Trust::kLinkUnequal, server + " does not have the key in the link: its key is " +
+                                     ShortKey::of(facts.key).text() +
+                                     ". Not connected, and nothing was sent. Compare the end of the link "
+                                     "(after #) with the host's link."};
   }
-  if (given && *given == facts.key) return {Trust::kGivenEqual, server + " has the key that was given."};
+  if (given && *given == facts.key) return {Trust::kGivenEqual, server + " has the given key."};
   if (given) {
     return {Trust::kGivenUnequal,
-            server + " does not have the key that was given: it shows " + facts.key.text() +
-                ". Not connected. Compare the fingerprint with the line the host gave you."};
+            server + " does not have the given key: its key is " + facts.key.text() +
+                ". Not connected. Compare the fingerprint with the one the host gave you."};
   }
-  if (facts.chain_verifies) return {Trust::kChain, server + " has a certificate that verifies."};
+  if (facts.chain_verifies) return {Trust::kChain, server + " has a valid certificate."};
   const auto pinned = lines.find(server);
-  if (!pinned && link) return {Trust::kLinkEqual, server + " has the key of the link."};
+  if (!pinned && link) return {Trust::kLinkEqual, server + " has the key in the link."};
   if (!pinned) {
-    return {Trust::kFirstUse,
-            "First visit to " + server + ": its key " + facts.key.text() +
-                " is trusted from now on. (No certificate that verifies: " + facts.chain_problem + ".)"};
+    return {Trust::kFirstUse, "First visit to " + server + ": its key " + facts.key.text() +
+                                  " is trusted from now on. (No valid certificate: " + facts.chain_problem +
+                                  ".)"};
   }
   if (*pinned == facts.key) return {Trust::kPinned, server + " has the key it had before."};
   return {Trust::kChanged, warning(server, *pinned, facts.key, path)};
@@ -159,7 +159,7 @@ auto inWords(Action action) {
 fs::path KnownServers::defaultPath() {
   if (const auto directory = userDirectory("XDG_DATA_HOME", ".local/share"))
     return *directory / "known_servers";
-  throw KnownServersError("No place for the file of known servers: neither HOME nor XDG_DATA_HOME is set.");
+  throw KnownServersError("Neither HOME nor XDG_DATA_HOME is set: specify --known-servers FILE.");
 }
 
 Verdict KnownServers::judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
@@ -194,7 +194,7 @@ std::vector<std::string> KnownServers::problems() const {
     std::vector<std::string> sentences;
     for (const std::size_t number : readLines(path_).malformed()) {
       sentences.push_back("Line " + std::to_string(number) + " of " + path_.string() +
-                          " is not \"host:port fingerprint\"; it is kept, and not used.");
+                          " is not \"host:port fingerprint\"; the line is ignored.");
     }
     return sentences;
   });

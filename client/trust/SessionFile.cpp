@@ -66,7 +66,7 @@ void SessionFile::findSession(const std::optional<std::string>& name, Time now) 
 void SessionFile::consider(const fs::path& path, const std::optional<std::string>& name, Time now) {
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) {
-    if (errno != ENOENT) complain(path, "is not used: " + describe(errno));
+    if (errno != ENOENT) complain(path, "is ignored: " + describe(errno));
     return;
   }
   const bool running = ::flock(file, LOCK_EX | LOCK_NB) != 0;
@@ -89,7 +89,7 @@ std::optional<SavedSession> SessionFile::readOpen(int file, const fs::path& path
   struct stat facts {};
   if (::fstat(file, &facts) != 0 || facts.st_nlink == 0) return std::nullopt;
   if (!S_ISREG(facts.st_mode) || isOthersToo(facts)) {
-    complain(path, "is not used: it is not a file of yours alone");
+    complain(path, "is ignored: expected a regular file of yours with mode 0600");
     return std::nullopt;
   }
   std::array<char, kSavedSessionSize + 1> bytes{};
@@ -97,7 +97,7 @@ std::optional<SavedSession> SessionFile::readOpen(int file, const fs::path& path
   auto saved = size < 0 ? std::nullopt : readSavedSession({bytes.data(), static_cast<std::size_t>(size)});
   if (!saved) {
     ::unlink(path.c_str());
-    complain(path, "was damaged, and is removed");
+    complain(path, "was damaged and has been removed");
   }
   return saved;
 }
@@ -107,7 +107,7 @@ bool SessionFile::isDirectoryOurs() {
   if (::lstat(m_directory.c_str(), &facts) != 0) {
     complain(m_directory, "cannot be used: " + describe(errno));
   } else if (!S_ISDIR(facts.st_mode) || isOthersToo(facts)) {
-    complain(m_directory, "is not a directory of yours alone");
+    complain(m_directory, "cannot be used: expected a directory of yours with mode 0700");
   } else {
     return true;
   }

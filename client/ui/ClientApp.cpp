@@ -80,13 +80,13 @@ void ClientApp::join() {
     const Time now = Clock::now();
     m_connection.update(now);
     if (m_connection.isRedirected() && !std::exchange(said_redirect, true))
-      std::fprintf(stderr, "dfclient: You are sent on to %s.\n", m_connection.address().text().c_str());
+      std::fprintf(stderr, "dfclient: Redirected to %s.\n", m_connection.address().text().c_str());
     if (m_connection.isPutOff() && m_connection.sentence() != refusal) {
       refusal = m_connection.sentence();
-      std::fprintf(stderr, "dfclient: %s (Trying again; Ctrl-C ends.)\n", refusal.c_str());
+      std::fprintf(stderr, "dfclient: %s (Retrying; Ctrl-C quits.)\n", refusal.c_str());
     }
     if (m_connection.pictureWait(now) < kPictureNotice || std::exchange(said, true)) continue;
-    std::fprintf(stderr, "dfclient: The server let you in; its first picture is awaited. Ctrl-C leaves.\n");
+    std::fprintf(stderr, "dfclient: Joined; waiting for the first picture. Ctrl-C quits.\n");
   }
 }
 
@@ -134,7 +134,7 @@ ClientApp::Outcome ClientApp::outcome() const {
     case S::kLost:
       return {kExitEnded, sentence, 0, {}};
     default:
-      return {kExitLeft, m_was_idle ? "You left, for you were away for too long." : "", m_signal, {}};
+      return {kExitLeft, m_was_idle ? "You left: no input for too long (--idle-limit)." : "", m_signal, {}};
   }
 }
 

@@ -19,14 +19,14 @@ enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
 
 /// Lines of the help panel about the client itself.
 inline constexpr const char* kClientKeyHelp[] = {
-    "Ctrl-] t   say something to all players (c does the same)",
-    "Up, PgUp   in the open chat line: what was said before",
+    "Ctrl-] t   say something to all players (or Ctrl-] c)",
+    "Up, PgUp   in the open chat line: scroll the chat back",
     "Ctrl-] p   list of players",
-    "Ctrl-] r   list of rooms, where the server has some; Return goes to one",
-    "Ctrl-] h   this help (? does the same)",
+    "Ctrl-] r   list of rooms, if the server has any; Return enters one",
+    "Ctrl-] h   this help (or Ctrl-] ?)",
     "Ctrl-] s   status line on or off",
-    "Ctrl-] q   leave the game (Ctrl-C does the same)",
-    "Ctrl-Z     suspend; fg comes back",
+    "Ctrl-] q   leave the game (or Ctrl-C)",
+    "Ctrl-Z     suspend; fg resumes",
     "Esc        close the help or the list",
 };
 
@@ -34,7 +34,7 @@ inline constexpr const char* kClientKeyHelp[] = {
 inline constexpr const char* kBrowserKeyHelp[] = {
     "Ctrl-] t   say something to all players",
     "Ctrl-] p   list of players",
-    "Ctrl-] r   list of rooms, where the server has some; Enter goes to one",
+    "Ctrl-] r   list of rooms, if the server has any; Enter enters one",
     "Ctrl-] h   this help",
     "Ctrl-] s   status line on or off",
     "Ctrl-] q   leave the game",
@@ -42,9 +42,9 @@ inline constexpr const char* kBrowserKeyHelp[] = {
 };
 
 /// Last line in a terminal, depending on how exact held keys are in it (docs/terminals.md).
-inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports when a key goes up";
+inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports key releases";
 inline constexpr const char* kGuessedReleasesHelp =
-    "Held keys  guessed: this terminal reports no key that goes up";
+    "Held keys  guessed: this terminal reports no key releases";
 
 /// State of the controls in the last picture.
 struct ShownControls {

@@ -78,9 +78,9 @@ std::string FrameComposer::banner(Time now) const {
   const std::int64_t tenths = tenthsOfSilence(*session, now);
   char text[96];
   std::snprintf(text, sizeof text,
-                m_connection.isPutOff() ? "The server asks to wait, trying again: %lld.%lld s"
-                : searching             ? "Server lost, looking for it again: %lld.%lld s"
-                                        : "No news from the server for %lld.%lld s",
+                m_connection.isPutOff() ? "The server asks to wait, retrying: %lld.%lld s"
+                : searching             ? "Connection lost, reconnecting: %lld.%lld s"
+                                        : "No data from the server for %lld.%lld s",
                 static_cast<long long>(tenths / 10), static_cast<long long>(tenths % 10));
   return text;
 }

@@ -219,7 +219,7 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
                                std::to_string(model.score) + " pts",
                                "",
                                model.browser ? "" : "Ctrl-] h",
-                               model.browser ? "" : "helps",
+                               model.browser ? "" : "help",
                                "",
                                model.note};
   int y = model.self_name.empty() ? 0 : 1;

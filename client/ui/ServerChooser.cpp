@@ -25,7 +25,7 @@ int millisUntil(std::chrono::steady_clock::time_point time) {
 
 ServerChooser::ServerChooser(Options options)
     : m_options(std::move(options)),
-      m_menu(m_options.fetch ? "Servers of the list" : "Servers of this network") {
+      m_menu(m_options.fetch ? "Servers in the list" : "Servers in this network") {
   if (m_options.fetch) return;
   m_browser.emplace();
   m_menu.setEmpty({std::begin(kNoServersFound), std::end(kNoServersFound)});
@@ -150,7 +150,7 @@ void ServerChooser::fetch() {
   if (const auto* p_problem = std::get_if<DownloadProblem>(&fetched)) {
     m_menu.setEmpty({p_problem->sentence});
   } else {
-    m_menu.setEmpty({"No server is in the list."});
+    m_menu.setEmpty({"The list has no servers."});
     m_menu.setServers(std::get<FoundServers>(fetched).sorted());
   }
   m_menu.setLooking(false);

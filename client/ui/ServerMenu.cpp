@@ -84,8 +84,8 @@ ServerMenu::Result ServerMenu::joinChosen() {
   const FoundServer* p_server = chosen();
   if (p_server == nullptr) return Result::kNone;
   if (p_server->isPlayable()) return Result::kJoin;
-  m_message = "It speaks version " + std::to_string(p_server->protocol) + " of the protocol, this program " +
-              std::to_string(kProtocolVersion) + ".";
+  m_message = "Incompatible: server protocol version " + std::to_string(p_server->protocol) +
+              ", client version " + std::to_string(kProtocolVersion) + ".";
   return Result::kRedraw;
 }
 

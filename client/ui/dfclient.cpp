@@ -120,7 +120,7 @@ struct CommandLine {
 };
 
 std::string footer() {
-  std::string text = "Keys of the client (every other key is the game's):\n";
+  std::string text = "Keys of the client (all other keys go to the game):\n";
   for (const char* line : naiad::kClientKeyHelp) text += std::string("  ") + line + "\n";
   text += "\n";
   text += naiad::kExitCodeHelp;
@@ -184,7 +184,7 @@ std::variant<naiad::FoundServers, naiad::DownloadProblem> fetchServers(const nai
   auto fetched = naiad::downloadList(url);
   if (auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched)) return *p_problem;
   auto servers = naiad::readServerList(std::get<std::string>(fetched));
-  if (!servers) return naiad::DownloadProblem{"What is there is no list of servers."};
+  if (!servers) return naiad::DownloadProblem{"The document is not a server list."};
   return *std::move(servers);
 }
 
@@ -200,7 +200,7 @@ int printServers(const CommandLine& line) {
     found = findServers();
   }
   const auto servers = found.sorted();
-  const std::string none = line.list_url ? "No server is in the list.\n" : naiad::serversAsText({});
+  const std::string none = line.list_url ? "The list has no servers.\n" : naiad::serversAsText({});
   const std::string text = line.json         ? naiad::serversAsJson(servers)
                            : servers.empty() ? none
                                              : naiad::serversAsText(servers);
@@ -216,9 +216,9 @@ std::optional<int> chooseServer(CommandLine& line) {
     return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
   // Any chosen server would get the password.
   if (!line.play.session.password.empty() && !line.server.is_password_ambient)
-    return complain(naiad::kExitUsage, "--password is for one server: name it, too. (--ask-password asks.)");
-  if (line.play.trust.insecure)
-    return complain(naiad::kExitUsage, "--insecure is for one server: name it, too.");
+    return complain(naiad::kExitUsage,
+                    "--password requires SERVER; to choose from a list use --ask-password.");
+  if (line.play.trust.insecure) return complain(naiad::kExitUsage, "--insecure requires SERVER.");
   naiad::ServerChooser::Outcome outcome;
   try {
     naiad::ServerChooser::Options options{naiad::chooseTerminalType(std::getenv("TERM")), line.play.ascii,
@@ -242,8 +242,8 @@ std::optional<int> chooseServer(CommandLine& line) {
 std::string listComplaint(const CommandLine& line) {
   const char* p_ambient = std::getenv("NAIAD_SERVER");
   const bool is_named = !line.server.text.empty() && (p_ambient == nullptr || line.server.text != p_ambient);
-  if (line.json && !line.list) return "--json goes with --list.";
-  if ((line.list || line.list_url) && is_named) return "A list and a server do not go together.";
+  if (line.json && !line.list) return "--json requires --list.";
+  if ((line.list || line.list_url) && is_named) return "--list and --list-url cannot be used with SERVER.";
   return {};
 }
 
@@ -291,45 +291,44 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
   const naiad::StoreText store_sound = [&play](const std::string& name) -> std::string {
     const auto mode = naiad::soundModeFrom(name);
     if (mode) play.sound = *mode;
-    return mode ? "" : "bell, note or off is wanted";
+    return mode ? "" : "expected bell, note or off";
   };
   const naiad::StoreText store_url = [&line](const std::string& text) -> std::string {
     line.list_url = naiad::ListUrl::parse(text);
-    return line.list_url ? "" : "an address that begins with https:// is wanted";
+    return line.list_url ? "" : "expected an address that begins with https://";
   };
   naiad::Option server = naiad::serverOption(line.server);
   server.is_optional = true;
-  server.help += ". Without it, in a terminal: a list of the servers of this network";
+  server.help += ". Without it, in a terminal: choose from the servers in this network";
   std::vector<naiad::Option> options = {
       server,
-      {"--list", &line.list, "Print the servers of this network, or of --list-url"},
-      {"--json", &line.json, "With --list: as JSON"},
+      {"--list", &line.list, "Print the servers in this network, or in the list of --list-url"},
+      {"--json", &line.json, "With --list: print JSON"},
       naiad::typedOption("--list-url", "URL", store_url,
-                         "List the servers that are in this list on the web (https://…)"),
+                         "Use the server list at this address (https://…) instead of this network"),
       {.name = "--name",
        .target = &play.session.name,
        .help = "Your name in the game, 1 to 16 characters (default: $USER)",
        .environment = "NAIAD_NAME",
        .p_given = &line.named},
-      {"--game", &play.session.game, "The game you want; refused if another one runs", "NAIAD_GAME"}};
+      {"--game", &play.session.game, "Game to play; refused if the server does not run it", "NAIAD_GAME"}};
   for (naiad::Option& option : naiad::trustOptions(line.server, play.trust, play.session))
     options.push_back(option);
   const std::vector<naiad::Option> own = {
       {"--ask-password", &line.ask_password, "Ask for the server's password before joining"},
       {"--no-resume", &line.no_resume,
-       "Do not go on with the session of a client that was killed, nor leave yours to the next",
-       "NAIAD_NO_RESUME"},
+       "Do not resume the session of a killed client, and do not save this one", "NAIAD_NO_RESUME"},
       {"--ascii", &play.ascii, "Draw with ASCII characters only", "NAIAD_ASCII"},
       {"--no-mouse", &line.no_mouse, "Leave the mouse to the terminal", "NAIAD_NO_MOUSE"},
       {.name = "--sound",
        .target = store_sound,
-       .help = "What a sound of the game does: bell (and note), note (its name in the status line), off",
+       .help = "How to signal sounds of the game: bell (and note), note (name in the status line), off",
        .environment = "NAIAD_SOUND",
        .type = "bell|note|off",
        .default_text = "note"},
       {.name = "--idle-limit",
        .target = &line.idle_limit,
-       .help = "Leave after so many seconds without a key or the mouse; 0: never",
+       .help = "Leave after this many seconds without key or mouse input; 0: never",
        .environment = "NAIAD_IDLE_LIMIT",
        .range = naiad::OptionRange{0, 86'400}},
       {.name = "--attached",
@@ -363,7 +362,7 @@ int join(CommandLine& line) {
   try {
     const int code = play(std::move(options), file ? &*file : nullptr, line.attached);
     if (code == naiad::kExitRefused && line.server.dropsPassword() && !line.ask_password)
-      std::fputs("dfclient: NAIAD_PASSWORD is not sent where a link leads. --ask-password asks for one.\n",
+      std::fputs("dfclient: NAIAD_PASSWORD is not sent to servers given by a link; use --ask-password.\n",
                  stderr);
     return code;
   } catch (const std::runtime_error& error) {

@@ -1,11 +1,11 @@
 #compdef dragonfly-mark
 _arguments \
   '(-h --help)'{-h,--help}'[print help, and exit]' \
-  '--seconds=[how long to play each]:seconds: ' \
-  '--players=[how many join]:number: ' \
-  '--seed=[of the random keys]:seed: ' \
-  '--keys=[what to press instead]:script:_files' \
-  '--jobs=[games at a time]:number: ' \
+  '--seconds=[how long to play each game]:seconds: ' \
+  '--players=[number of players in each game]:number: ' \
+  '--seed=[seed of the random keys]:seed: ' \
+  '--keys=[press these keys instead]:script:_files' \
+  '--jobs=[number of games to play in parallel]:number: ' \
   '--report=[also write a Markdown table]:file:_files' \
   '--csv=[also write a table for a spreadsheet]:file:_files' \
   '--cxx=[the compiler]:compiler:_command_names -e' \

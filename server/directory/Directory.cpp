@@ -116,7 +116,7 @@ class Directory::ListFile {
     const bool failing = !problem.empty();
     if (std::exchange(m_failing, failing) == failing) return;
     m_news = failing ? "warning: the list " + m_path + " cannot be written: " + problem
-                     : "the list " + m_path + " is written again";
+                     : "the list " + m_path + " can be written again";
   }
 
   const std::string m_path;
@@ -154,12 +154,12 @@ void Directory::reload() {
   try {
     ServerIdentity read = identityOf(m_settings);
     if (read.fingerprint() != m_identity->fingerprint())
-      m_log("the lobby has another key now: links to it lead nowhere");
+      m_log("the lobby's key has changed: existing links to the lobby no longer work");
     m_identity = std::move(read);
     m_lobby->setTls(m_identity->tls());
   } catch (const TlsError& error) {
     m_log({LogEvent::Level::kWarning,
-           std::string("warning: the lobby keeps its certificate: ") + error.what()});
+           std::string("warning: the lobby keeps its old certificate: ") + error.what()});
   }
 }
 

@@ -59,13 +59,13 @@ void FleetWatch::update(Time now) {
   if (const std::string line = m_bus->takeNews(); !line.empty()) m_log(line);
   for (const BusMessage& message : m_bus->takeMessages()) {
     if (m_servers.put(message.subject, message.payload, now))
-      logNews(message.subject.substr(presenceSubject("").size()) + " is there", now);
+      logNews(message.subject.substr(presenceSubject("").size()) + " joined the fleet", now);
   }
   if (m_bus->isConnected()) m_connected_at = now;
   // No heartbeats arrive without the bus, so no server expires unless the bus is down longer than kBlind.
   const bool is_blind = m_connected_at != now;
   if (is_blind && now - m_connected_at < kBlind) return m_servers.forgiveSilence(now);
-  for (const std::string& id : m_servers.removeSilent(now)) logNews(id + " is gone", now);
+  for (const std::string& id : m_servers.removeSilent(now)) logNews(id + " left the fleet", now);
 }
 
 void FleetWatch::logNews(const std::string& line, Time now) {
@@ -74,7 +74,7 @@ void FleetWatch::logNews(const std::string& line, Time now) {
     return;
   }
   if (const auto count = std::exchange(m_news_left_out, 0); count > 0)
-    m_log(std::to_string(count) + " more servers came or went");
+    m_log(std::to_string(count) + " more servers joined or left");
   m_log(line);
 }
 

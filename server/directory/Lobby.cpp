@@ -47,18 +47,17 @@ std::optional<LobbyAnswer> answerHello(std::string_view frame, FleetList& server
   const FleetList::Wish wish{safeText(hello.game(), Presence::kMaxName), hello.protocol(), "",
                              safeText(hello.room(), kMaxRoomName)};
   if (const FleetList::Place place = servers.choose(wish)) {
-    return answerOf(
-        LobbyAnswer::Kind::kSentOn, wire::Refused::REDIRECT,
-        "Nothing is played here. There is a place for you at " + linkOf(*place.p_server, place.room),
-        linkOf(*place.p_server), place.room);
+    return answerOf(LobbyAnswer::Kind::kSentOn, wire::Refused::REDIRECT,
+                    "This lobby runs no game. Free places: " + linkOf(*place.p_server, place.room),
+                    linkOf(*place.p_server), place.room);
   }
   if (!servers.plays(wish)) {
     return answerOf(LobbyAnswer::Kind::kNoGame, wire::Refused::GAME,
-                    "No server of this fleet" + wished(wish) + " speaks version " +
+                    "No server of this fleet" + wished(wish) + " supports version " +
                         std::to_string(wish.protocol) + " of the protocol, as your client does.");
   }
   return answerOf(LobbyAnswer::Kind::kNoPlace, wire::Refused::BUSY,
-                  "No server" + wished(wish) + " has a free place now.");
+                  "No server" + wished(wish) + " has a free place now. Try again later.");
 }
 
 struct Lobby::State : std::enable_shared_from_this<State> {

@@ -21,15 +21,11 @@ namespace {
 enum ExitCode { kUsage = 2, kCannotListen = 4, kFile = 5 };
 
 constexpr const char* kHelp =
-    "Servers say on the bus that they are there (dfserver --bus). One that says nothing for three intervals "
-    "is left out;\n"
-    "while the bus itself is gone the list stays as it is, for 10 minutes. SIGHUP opens the log again; "
-    "SIGTERM and "
-    "SIGINT end it,\n"
-    "and remove the list.\n\n"
-    "With --listen it is a lobby: dfclient joins it as any server, and is sent to one that has a place "
-    "(--game NAME: for\n"
-    "that game). It has a key as servers have.\n\n"
+    "Servers announce themselves on the bus (dfserver --bus). The list drops a server that is silent for\n"
+    "three intervals; while the bus is down, it stays unchanged for 10 minutes. SIGHUP reopens the log and\n"
+    "reloads the lobby's key; SIGTERM and SIGINT remove the list and exit.\n\n"
+    "With --listen this is a lobby: dfclient joins it like a server and is redirected to one with a free\n"
+    "place (with --game NAME: to one that runs that game). Like a server, a lobby has a key.\n\n"
     "Exit codes: 2 wrong usage; 4 it cannot listen; 5 a file cannot be read or written.\n";
 
 /// Limit of open files: half-open connections, guests and the program's own.
@@ -47,14 +43,14 @@ struct CommandLine {
 /// Stores ADDRESS:PORT in the settings of the lobby.
 std::string storeListen(const std::string& text, naiad::DirectorySettings& settings) {
   const auto where = naiad::NumericEndpoint::parse(text);
-  if (!where) return "ADDRESS:PORT is wanted, like 0.0.0.0:9875 or [::]:9875; port 0 is any free one";
+  if (!where) return "expected ADDRESS:PORT, like 0.0.0.0:9875 or [::]:9875; port 0: any free port";
   settings.lobby = naiad::LobbySettings{.address = where->address.to_string(), .port = where->port};
   return "";
 }
 
 std::string storeLinkHost(const std::string& text, std::string& host) {
   host = text;
-  return naiad::LinkHost::parse(text) ? "" : "HOST or HOST:PORT is wanted";
+  return naiad::LinkHost::parse(text) ? "" : "expected HOST or HOST:PORT";
 }
 
 std::vector<naiad::Option> optionsOf(CommandLine& line) {
@@ -62,24 +58,24 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
   return {
       {.name = "--bus",
        .target = &settings.bus.url,
-       .help = "The NATS server on which servers say what plays on them: nats://HOST:PORT or tls://HOST:PORT "
-               "(other users see the command line: a password rather in --bus-credentials)",
+       .help = "NATS server of the fleet: nats://HOST:PORT or tls://HOST:PORT (other users can see the "
+               "command line: put passwords into --bus-credentials)",
        .environment = "NAIAD_BUS",
        .type = "URL",
        .is_secret = true},
       {.name = "--bus-credentials",
        .target = &settings.bus.credentials,
-       .help = "File of credentials for the bus, as nsc writes it",
+       .help = "Credentials file for the bus, as written by nsc",
        .environment = "NAIAD_BUS_CREDENTIALS",
        .type = "FILE"},
       {.name = "--bus-ca",
        .target = &settings.bus.authorities,
-       .help = "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's",
+       .help = "CA certificates (PEM) for a tls:// bus; default: the system's",
        .environment = "NAIAD_BUS_CA",
        .type = "FILE"},
       {.name = "--bus-interval",
        .target = &line.interval_ms,
-       .help = "Milliseconds between two times that a server says it is there, as the servers'",
+       .help = "Heartbeat interval, ms; must equal the servers'",
        .environment = "NAIAD_BUS_INTERVAL",
        .range =
            naiad::OptionRange{naiad::Presence::kLeastInterval.count(), naiad::Presence::kMaxInterval.count()},
@@ -89,20 +85,20 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
       naiad::typedOption("--listen", "ADDRESS:PORT", naiad::StoreText([&settings](const std::string& text) {
                            return storeListen(text, settings);
                          }),
-                         "Where players connect to be sent to a server; without it, nowhere"),
+                         "Address of the lobby, which redirects players to servers; without it, no lobby"),
       naiad::typedOption("--link-host", "HOST[:PORT]", naiad::StoreText([&line](const std::string& text) {
                            return storeLinkHost(text, line.link_host);
                          }),
-                         "Host, and port if another one leads here, of the link that is printed for players"),
+                         "Host, and port if it differs from --listen, for the printed link"),
       naiad::typedOption(
           "--identity", "DIR", &settings.identity,
-          "Folder of the lobby's key, made there if there is none (default: naiad in your configuration)"),
+          "Folder of the lobby's key, created if missing (default: naiad in your configuration folder)"),
       naiad::typedOption("--certificate", "FILE", &settings.certificate,
-                         "Certificate of the lobby (PEM), in place of that folder"),
-      naiad::typedOption("--key", "FILE", &settings.key, "Its private key (PEM)"),
+                         "Certificate of the lobby (PEM), instead of --identity"),
+      naiad::typedOption("--key", "FILE", &settings.key, "Private key of --certificate (PEM)"),
       {.name = "--max-per-address",
        .target = &line.max_per_address,
-       .help = "Players who may come at once from one IPv4 address or IPv6 network (/64)",
+       .help = "Players that may connect at once from one IPv4 address or IPv6 network (/64)",
        .range = naiad::OptionRange{1, 20'000},
        .shows_default = true},
       naiad::typedOption("--port-file", "FILE", &line.port_file,
@@ -113,11 +109,10 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
 
 /// Returns a message about missing or conflicting options; empty if they are valid.
 std::string problemOf(const naiad::DirectorySettings& settings) {
-  if (settings.bus.url.empty()) return "--bus is wanted: the NATS server of the fleet";
-  if (settings.list.empty() && !settings.lobby)
-    return "--list or --listen is wanted: a file for the list, or where players come to be sent on";
+  if (settings.bus.url.empty()) return "--bus is required: the NATS server of the fleet";
+  if (settings.list.empty() && !settings.lobby) return "specify --list FILE, --listen ADDRESS:PORT or both";
   if (settings.certificate.empty() != settings.key.empty())
-    return "--certificate and --key are wanted together";
+    return "--certificate and --key must be used together";
   return naiad::busComplaint(settings.bus);
 }
 
@@ -131,13 +126,13 @@ std::string lobbyLink(const CommandLine& line, const naiad::Directory& directory
 }
 
 void announce(const CommandLine& line, const naiad::Directory& directory, const naiad::LogLine& log) {
-  if (!line.settings.list.empty()) log("the list of servers is " + line.settings.list);
+  if (!line.settings.list.empty()) log("writing the list of servers to " + line.settings.list);
   if (!directory.port()) return;
   if (!line.port_file.empty()) naiad::publishFile(line.port_file, std::to_string(*directory.port()) + "\n");
   const std::string link = lobbyLink(line, directory);
   std::printf("Players join:  dfclient '%s'\n", link.c_str());
   std::fflush(stdout);
-  log("players are sent on from " + link);
+  log("redirecting players from " + link);
 }
 
 void serve(CommandLine& line) {

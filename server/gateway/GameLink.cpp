@@ -55,7 +55,7 @@ void GameLink::onConnected(error_code error) {
   if (error) return finish(End::kUnreachable, error.message());
   m_stream.emplace(std::move(m_socket));
   if (!m_stream->startTls(m_server.tls->get(), SecureSocket::Role::kClient))
-    return finish(End::kUnreachable, "no memory for TLS");
+    return finish(End::kUnreachable, "out of memory for TLS");
   m_stream->asyncHandshake([self = shared_from_this()](error_code failed) {
     if (self->m_done) self->onHandshake(failed);
   });
@@ -63,11 +63,11 @@ void GameLink::onConnected(error_code error) {
 
 void GameLink::onHandshake(error_code error) {
   if (error && m_stream->hasEnded() && connectAgain()) return;
-  if (error) return finish(End::kUnreachable, "it hung up in the handshake, or is no Naiad server");
+  if (error) return finish(End::kUnreachable, "the TLS handshake failed, or it is not a Naiad server");
   const auto key = m_stream->provenKey(kAlpn);
   if (!key) return finish(End::kUnreachable, "it does not speak " + std::string(kAlpn));
   if (ShortKey::of(*key) != m_server.key)
-    return finish(End::kWrongKey, "its key is " + ShortKey::of(*key).text());
+    return finish(End::kWrongKey, "the server's key is " + ShortKey::of(*key).text());
   finish(End::kOpen, "");
 }
 

@@ -63,7 +63,7 @@ std::string readPem(const std::string& path) {
   } catch (const std::system_error& error) {
     throw TlsError(path + " cannot be read: " + error.what());
   }
-  throw TlsError("There is no file " + path + ".");
+  throw TlsError("No such file: " + path + ".");
 }
 
 std::shared_ptr<const TlsContext> webTls(const GatewaySettings& settings) {
@@ -117,7 +117,7 @@ Gateway::Loop::Loop(GatewaySettings settings, LogLine line) : log(std::move(line
   for (const WebOrigin& origin : settings.origins) names.add(origin);
   for (const WebOrigin& origin : ownOrigins(endpoint, has_tls)) names.add(origin);
   if (names.isEmpty())
-    throw GatewayError("--origin is wanted: https://NAME, by which players reach " + settings.address + ".");
+    throw GatewayError("--origin is required: https://NAME, where players reach " + settings.address + ".");
   state = std::make_shared<GatewayState>(std::move(settings), names, log);
   state->tls = std::move(tls);
   accept();
@@ -211,9 +211,9 @@ void Gateway::Loop::reloadCertificate() {
   if (!state->tls) return;
   try {
     state->tls = webTls(state->settings);
-    log("the certificate was read again");
+    log("certificate reloaded");
   } catch (const TlsError& error) {
-    log(std::string("the old certificate stays: ") + error.what());
+    log(std::string("cannot reload the certificate, keeping the old one: ") + error.what());
   }
 }
 

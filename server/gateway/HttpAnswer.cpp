@@ -96,14 +96,14 @@ HttpAnswer HttpAnswers::answer(const WebRequest& request) const {
   if (const Refusal* const why = judgeHost(request)) return refusal(why->status, why->sentence);
   if (request.method() != http::verb::get && request.method() != http::verb::head)
     return make(request, kOtherMethod, "Allow: GET, HEAD\r\n" + std::string(kTextType),
-                "GET and HEAD only.\n");
+                "Only GET and HEAD are allowed.\n");
   const std::string_view path = pathOf(request);
   if (path == "/server") return make(request, 200, "Content-Type: application/json\r\n", m_server_json);
   if (path == kPlayPath)
     return make(request, 426, "Upgrade: websocket\r\nConnection: Upgrade\r\n" + std::string(kTextType),
-                "A WebSocket is wanted here.\n");
+                "This address requires a WebSocket.\n");
   if (const PageFile* const file = m_page.find(path)) return fileAnswer(request, *file);
-  return make(request, 404, kTextType, "There is no such file here.\n");
+  return make(request, 404, kTextType, "No such file.\n");
 }
 
 HttpAnswer HttpAnswers::fileAnswer(const WebRequest& request, const PageFile& file) const {
@@ -151,8 +151,8 @@ HttpAnswer HttpAnswers::refusal(int status, std::string_view sentence) const {
 }
 
 const HttpAnswers::Refusal* HttpAnswers::judgeHost(const WebRequest& request) const {
-  static constexpr Refusal kVersion{505, "HTTP/1.1 is spoken here.\n"};
-  static constexpr Refusal kHost{421, "This server does not go by that name.\n"};
+  static constexpr Refusal kVersion{505, "Only HTTP/1.1 is supported.\n"};
+  static constexpr Refusal kHost{421, "Unknown host name. The host can add it with dfweb --origin.\n"};
   if (request.version() != 11) return &kVersion;
   const bool is_ours =
       request.count(http::field::host) == 1 && m_names.allowsHost(headerOf(request, http::field::host));
@@ -160,9 +160,9 @@ const HttpAnswers::Refusal* HttpAnswers::judgeHost(const WebRequest& request) co
 }
 
 const HttpAnswers::Refusal* HttpAnswers::judgeUpgrade(const WebRequest& request) const {
-  static constexpr Refusal kPath{404, "There is no WebSocket here.\n"};
-  static constexpr Refusal kOrigin{403, "Only this server's own page may play.\n"};
-  static constexpr Refusal kProtocol{400, "The subprotocol naiad.1 is wanted.\n"};
+  static constexpr Refusal kPath{404, "This path has no WebSocket.\n"};
+  static constexpr Refusal kOrigin{403, "Only this server's own page may connect.\n"};
+  static constexpr Refusal kProtocol{400, "The subprotocol naiad.1 is required.\n"};
   if (const Refusal* const why = judgeHost(request)) return why;
   if (viewOf(request.target()) != kPlayPath) return &kPath;
   if (request.count(http::field::origin) != 1 ||

@@ -86,8 +86,7 @@ PageFiles::PageFiles(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
       if (!entry.is_regular_file() || name.starts_with('.') || !isPlainName(name)) continue;
-      if (m_files.size() == kMaxFiles)
-        throw PageError(folder.string() + " has more files than a page has (64).");
+      if (m_files.size() == kMaxFiles) throw PageError(folder.string() + " has more than 64 files.");
       std::string content = readSmallFile(entry.path(), left).value_or("");
       left -= content.size();
       m_files.emplace("/" + name, pageFile(name, std::move(content)));

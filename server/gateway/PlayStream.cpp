@@ -147,8 +147,8 @@ void PlayStream::onUp(error_code error, std::size_t size) {
   }
   if (!m_socket.got_binary() || size == 0) {
     ++m_gateway.counters.bad_messages;
-    return m_socket.got_binary() ? close(PlayClose::kPolicy, "An empty message is no frame.")
-                                 : close(PlayClose::kNotBinary, "Only binary messages are frames.");
+    return m_socket.got_binary() ? close(PlayClose::kPolicy, "Empty messages are not allowed.")
+                                 : close(PlayClose::kNotBinary, "Only binary messages are allowed.");
   }
   ++m_gateway.counters.messages_up;
   if (m_phase == Phase::kHello) return openLink();
@@ -160,7 +160,7 @@ void PlayStream::openLink() {
   m_place = m_gateway.places.take(m_visitor.prefix);
   if (!m_place) {
     ++m_gateway.counters.full;
-    return close(PlayClose::kFull, "All places are taken, or those of your address. Try again later.");
+    return close(PlayClose::kFull, "All places, or those for your address, are taken. Try again later.");
   }
   m_newcomer = {};
   m_phase = Phase::kOpening;
@@ -182,10 +182,10 @@ void PlayStream::onLink(GameLink::End end, const std::string& problem) {
     if (flushUp()) readUp();
     return readDown();
   }
-  m_gateway.log.logNews(m_visitor.name, "cannot play: " + problem, std::chrono::steady_clock::now());
+  m_gateway.log.logNews(m_visitor.name, "cannot join: " + problem, std::chrono::steady_clock::now());
   if (end == GameLink::End::kUnreachable) return closeWithoutServer();
   ++m_gateway.counters.wrong_keys;
-  close(PlayClose::kWrongKey, "The game's server is not the one that this page leads to.");
+  close(PlayClose::kWrongKey, "Wrong server key: this page belongs to another server.");
 }
 
 /// Queues the browser's message for the server as a frame.
@@ -246,7 +246,7 @@ void PlayStream::onDown(error_code error, std::size_t size) {
     return writeDown();
   }
   if (error != boost::asio::error::eof || m_frames.midFrame()) return closeWithoutServer();
-  close(PlayClose::kEnded, "The game's server has ended this stream.");
+  close(PlayClose::kEnded, "The game's server closed the connection.");
 }
 
 void PlayStream::writeDown() {
@@ -279,12 +279,12 @@ void PlayStream::onDeadline() {
   switch (m_phase) {
     case Phase::kHello:
       ++m_gateway.counters.late;
-      return close(PlayClose::kPolicy, "No hello came.");
+      return close(PlayClose::kPolicy, "No hello message arrived in time.");
     case Phase::kOpening:
       return closeWithoutServer();
     case Phase::kPlaying:
       ++m_gateway.counters.too_slow;
-      return close(PlayClose::kTooSlow, "Your browser did not take what the game sent.");
+      return close(PlayClose::kTooSlow, "Disconnected: your connection is too slow.");
     case Phase::kClosing:
     case Phase::kOver:
       return hangUp();
@@ -297,7 +297,7 @@ void PlayStream::closeWithoutServer() {
 }
 
 void PlayStream::endService() {
-  close(PlayClose::kGoingAway, "The gateway ends.");
+  close(PlayClose::kGoingAway, "The gateway is shutting down.");
 }
 
 void PlayStream::close(PlayClose code, std::string_view reason) {

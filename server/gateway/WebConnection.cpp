@@ -69,7 +69,7 @@ void WebConnection::onRequest(error_code error) {
     ++m_gateway.counters.no_place;
     return hangUp();
   }
-  if (!m_parser->is_done()) return refuse(400, "A request has no body here.\n");
+  if (!m_parser->is_done()) return refuse(400, "Request bodies are not allowed.\n");
   const WebRequest& request = m_parser->get();
   if (boost::beast::websocket::is_upgrade(request)) return onUpgrade();
   if (++m_requests == kMaxRequests) m_parser->get().keep_alive(false);
@@ -82,9 +82,9 @@ void WebConnection::onBadRequest(error_code error) {
   ++m_gateway.counters.bad_requests;
   if (!m_place.setBusy()) return hangUp();
   if (error == http::error::header_limit || error == http::error::buffer_overflow)
-    return refuse(431, "The head of a request has at most 8 KiB.\n");
-  if (error == http::error::body_limit) return refuse(413, "A request has no body here.\n");
-  refuse(400, "This is no HTTP.\n");
+    return refuse(431, "The request header is longer than 8 KiB.\n");
+  if (error == http::error::body_limit) return refuse(413, "Request bodies are not allowed.\n");
+  refuse(400, "This is not HTTP.\n");
 }
 
 void WebConnection::onUpgrade() {
@@ -93,13 +93,13 @@ void WebConnection::onUpgrade() {
   if (refusal) {
     ++m_gateway.counters.refused_upgrades;
     m_gateway.log.logRefusal(m_visitor.name,
-                             "a WebSocket for the page of " + headerText(request, http::field::origin) +
-                                 " at " + headerText(request, http::field::host),
+                             "WebSocket from the page " + headerText(request, http::field::origin) +
+                                 " to host " + headerText(request, http::field::host),
                              std::chrono::steady_clock::now());
     return refuse(refusal->status, refusal->sentence);
   }
   // A client must not send frames before the answer to its upgrade.
-  if (m_buffer.size() > 0) return refuse(400, "A WebSocket says nothing before it is open.\n");
+  if (m_buffer.size() > 0) return refuse(400, "Data arrived before the WebSocket was open.\n");
   m_is_over = true;
   m_place.setSilent();
   const auto stream =

@@ -20,11 +20,10 @@ namespace fs = std::filesystem;
 enum ExitCode { kUsage = 2, kNoPage = 3, kCannotListen = 4, kFile = 5 };
 
 constexpr const char* kHelp =
-    "LINK is what dfserver prints, SOCKET its --visitors. No browser is led anywhere else.\n"
-    "Without a certificate it listens on loopback addresses only. SIGHUP reads the certificate again; "
-    "SIGTERM and\n"
-    "SIGINT end it, and players read so. It sees what players type, passwords and chat among it.\n\n"
-    "Exit codes: 2 wrong usage; 3 there is no page; 4 it cannot listen; 5 a file cannot be written.\n";
+    "LINK is the link that dfserver prints, SOCKET its --visitors. Browsers can reach no other server.\n"
+    "Without a certificate dfweb listens on loopback addresses only. SIGHUP reopens the log and reloads the\n"
+    "certificate; SIGTERM and SIGINT tell players and exit. dfweb can read players' passwords and chat.\n\n"
+    "Exit codes: 2 wrong usage; 3 no page found; 4 cannot listen; 5 a file cannot be written.\n";
 
 /// Descriptors that are not connections.
 constexpr std::size_t kOwnFiles = 64;
@@ -42,12 +41,12 @@ struct WebOptions {
 std::string storeListen(const std::string& text, naiad::GatewaySettings& settings) {
   return naiad::Gateway::parseListen(text, settings)
              ? ""
-             : "ADDRESS:PORT is wanted, like 127.0.0.1:8080 or [::]:443";
+             : "expected ADDRESS:PORT, like 127.0.0.1:8080 or [::]:443";
 }
 
 std::string storeOrigin(const std::string& text, naiad::GatewaySettings& settings) {
   const auto origin = naiad::WebOrigin::parse(text);
-  if (!origin) return "https://NAME[:PORT] is wanted, without a path";
+  if (!origin) return "expected https://NAME[:PORT], without a path";
   settings.origins.push_back(*origin);
   return "";
 }
@@ -56,7 +55,7 @@ std::string storeLink(const std::string& text, naiad::GatewaySettings& settings)
   const auto parsed = naiad::JoinLink::parse(text);
   if (const auto* const problem = std::get_if<naiad::LinkProblem>(&parsed)) return problem->sentence;
   settings.link = std::get<naiad::JoinLink>(parsed);
-  return settings.link->room.empty() ? "" : "no server has rooms yet: leave out what is behind the /";
+  return settings.link->room.empty() ? "" : "dfweb requires a link without a room: remove what follows the /";
 }
 
 /// Returns the folder of the installed page, else that of the build tree.
@@ -69,54 +68,53 @@ fs::path ownPage() {
 
 std::vector<naiad::Option> optionsOf(WebOptions& web) {
   naiad::GatewaySettings& settings = web.settings;
-  return {
-      naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
-                           return storeLink(text, settings);
-                         }),
-                         "The link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
-      naiad::typedOption("--visitors", "SOCKET", &settings.visitors,
-                         "The visitors' socket of that server, as in its own --visitors"),
-      {.name = "--listen",
-       .target =
-           naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
-       .help = "Where browsers connect; port 0: any free one",
-       .type = "ADDRESS:PORT",
-       .default_text = web.listen},
-      naiad::typedOption("--certificate", "FILE", &settings.certificate,
-                         "Certificate for HTTPS, with those above it, in PEM form"),
-      naiad::typedOption("--key", "FILE", &settings.key, "Its private key, in PEM form"),
-      naiad::typedOption(
-          "--origin", "URL",
-          naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
-          "Address by which players reach it, beside its own, like https://play.example; may be repeated"),
-      naiad::typedOption("--page", "DIR", &settings.page,
-                         "Folder of the page's files (default: the one that belongs to this program)"),
-      {.name = "--name",
-       .target = &settings.name,
-       .help = "What the page calls the server (default: its host)"},
-      {.name = "--max-visitors",
-       .target = &web.max_visitors,
-       .help = "Players at a time, each with two WebSockets at most",
-       .range = naiad::OptionRange{1, 20'000},
-       .shows_default = true},
-      {.name = "--max-per-address",
-       .target = &web.max_per_address,
-       .help = "Of these, from one IPv4 address or IPv6 network (/64)",
-       .range = naiad::OptionRange{1, 20'000},
-       .shows_default = true},
-      naiad::typedOption("--port-file", "FILE", &web.port_file,
-                         "Write the port number to this file once listening"),
-      naiad::typedOption("--log-file", "FILE", &web.log_file,
-                         "Append log lines to this file instead of stderr")};
+  return {naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
+                               return storeLink(text, settings);
+                             }),
+                             "Link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
+          naiad::typedOption("--visitors", "SOCKET", &settings.visitors,
+                             "Visitors' socket of that server: the value of its --visitors"),
+          {.name = "--listen",
+           .target =
+               naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
+           .help = "Address where browsers connect; port 0: any free port",
+           .type = "ADDRESS:PORT",
+           .default_text = web.listen},
+          naiad::typedOption("--certificate", "FILE", &settings.certificate,
+                             "Certificate for HTTPS with its chain, in PEM form"),
+          naiad::typedOption("--key", "FILE", &settings.key, "Private key of --certificate (PEM)"),
+          naiad::typedOption(
+              "--origin", "URL",
+              naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
+              "Additional address by which players reach dfweb, like https://play.example; may be repeated"),
+          naiad::typedOption("--page", "DIR", &settings.page,
+                             "Folder with the page's files (default: the one installed with this program)"),
+          {.name = "--name",
+           .target = &settings.name,
+           .help = "Name of the server on the page (default: its host)"},
+          {.name = "--max-visitors",
+           .target = &web.max_visitors,
+           .help = "Maximum number of players at a time, each with up to two WebSockets",
+           .range = naiad::OptionRange{1, 20'000},
+           .shows_default = true},
+          {.name = "--max-per-address",
+           .target = &web.max_per_address,
+           .help = "Maximum number of them from one IPv4 address or IPv6 network (/64)",
+           .range = naiad::OptionRange{1, 20'000},
+           .shows_default = true},
+          naiad::typedOption("--port-file", "FILE", &web.port_file,
+                             "Write the port number to this file once listening"),
+          naiad::typedOption("--log-file", "FILE", &web.log_file,
+                             "Append log lines to this file instead of stderr")};
 }
 
 /// Returns a message about missing or conflicting options; empty if they are valid.
 std::string problemOf(const naiad::GatewaySettings& settings) {
-  if (settings.visitors.empty()) return "--visitors is wanted: the visitors' socket of the server.";
+  if (settings.visitors.empty()) return "--visitors is required: the visitors' socket of the server.";
   if (settings.visitors.size() >= sizeof(sockaddr_un::sun_path))
-    return "--visitors: that is too long for the path of a socket.";
+    return "--visitors: the path is too long for a socket.";
   if (settings.certificate.empty() != settings.key.empty())
-    return "--certificate and --key are wanted together.";
+    return "--certificate and --key must be used together.";
   return "";
 }
 
@@ -125,8 +123,8 @@ void allowFiles(const naiad::GatewaySettings& settings, const naiad::LogLine& lo
   const std::size_t wanted = 4 * settings.max_visitors + settings.max_newcomers + kOwnFiles;
   const std::size_t allowed = naiad::allowOpenFiles(wanted);
   if (allowed < wanted)
-    log("only " + std::to_string(allowed) + " open files are allowed, of " + std::to_string(wanted) +
-        " that --max-visitors may take");
+    log("only " + std::to_string(allowed) + " of the " + std::to_string(wanted) +
+        " open files that --max-visitors may require are allowed (ulimit -n)");
 }
 
 void serve(WebOptions& web) {
@@ -138,15 +136,15 @@ void serve(WebOptions& web) {
   if (!web.port_file.empty()) naiad::publishFile(web.port_file, std::to_string(gateway.port()) + "\n");
   for (const std::string& address : gateway.addresses()) std::printf("Players open %s\n", address.c_str());
   std::fflush(stdout);
-  log(std::string("dfweb ") + naiad::kVersion + " leads browsers on port " + std::to_string(gateway.port()) +
-      " to " + web.settings.link->text());
+  log(std::string("dfweb ") + naiad::kVersion + " connects browsers on port " +
+      std::to_string(gateway.port()) + " to " + web.settings.link->text());
   gateway.run();
 }
 
 int start(int argc, char** argv) {
   WebOptions web;
   web.settings.page = ownPage();
-  const naiad::Program program{"dfweb", "Lets players come with a browser.", kHelp};
+  const naiad::Program program{"dfweb", "Lets players join with a browser.", kHelp};
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(web), argc, argv)))
     return *code;
   web.settings.max_visitors = static_cast<std::size_t>(web.max_visitors);

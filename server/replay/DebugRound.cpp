@@ -39,10 +39,10 @@ char stateOf(pid_t process) {
 }
 
 void stopWorld(pid_t world) {
-  if (world <= 0 || kill(world, SIGSTOP) != 0) throw RoundError("The world cannot be stopped.");
+  if (world <= 0 || kill(world, SIGSTOP) != 0) throw RoundError("Cannot stop the game's process.");
   const auto end = std::chrono::steady_clock::now() + kStopPatience;
   while (stateOf(world) != 'T') {
-    if (std::chrono::steady_clock::now() >= end) throw RoundError("The world does not stop.");
+    if (std::chrono::steady_clock::now() >= end) throw RoundError("The game's process does not stop.");
     poll(nullptr, 0, 1);
   }
 }
@@ -90,7 +90,7 @@ void waitForDebugger(pid_t debugger) {
   int status = 0;
   while (waitpid(debugger, &status, 0) < 0 && errno == EINTR) continue;
   if (!WIFEXITED(status) || WEXITSTATUS(status) == 0) return;
-  throw RoundError(std::string(kDebugger) + " ended with code " + std::to_string(WEXITSTATUS(status)) + ".");
+  throw RoundError(std::string(kDebugger) + " exited with code " + std::to_string(WEXITSTATUS(status)) + ".");
 }
 
 /// Returns a descriptor that is readable when the user asks for the end.
@@ -133,7 +133,7 @@ void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32
   replay.keepDroppedKeys(until);
   executeTo(replay, until);
   if (replay.firstDifference() != 0)
-    out << "note: from tick " << replay.firstDifference() << " on the round is not as it was recorded\n";
+    out << "note: the replay differs from the recording since tick " << replay.firstDifference() << "\n";
   const pid_t world = replay.world().process();
   stopWorld(world);
   const std::string which = "The world is process " + std::to_string(world) + ", before tick " +
@@ -144,8 +144,8 @@ void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32
     goOn(replay, ended.get(), out);
     return waitForDebugger(debugger);
   }
-  out << kDebugger << " is not there. In another terminal: " << kDebugger << " -p " << world << " -ex '"
-      << kNoStop << "' (or attach another debugger to it), then continue. Ctrl-C ends it here.\n"
+  out << kDebugger << " is not installed. In another terminal: " << kDebugger << " -p " << world << " -ex '"
+      << kNoStop << "' (or attach another debugger), then continue. Ctrl-C here ends the game.\n"
       << std::flush;
   const WaitedFor ended(watchSignals());
   goOn(replay, ended.get(), out);

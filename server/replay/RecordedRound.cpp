@@ -57,12 +57,12 @@ std::vector<std::string> variablesOf(const DfrFacts& facts) {
 
 RecordedRound::RecordedRound(const fs::path& path) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw RoundError(path.string() + ": there is no such file.");
+  if (!fs::is_regular_file(path, error)) throw RoundError(path.string() + ": no such file.");
   if (fs::file_size(path, error) > kMaxRound)
-    throw RoundError(path.string() + ": it is too long for a round.");
+    throw RoundError(path.string() + ": too large for a round (limit 1 GiB).");
   std::ifstream file(path, std::ios::binary);
   m_bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file.good() && !file.eof()) throw RoundError(path.string() + ": it cannot be read.");
+  if (!file.good() && !file.eof()) throw RoundError(path.string() + ": cannot be read.");
   const DfrReader reader(m_bytes);
   if (!reader.problem().empty()) throw RoundError(path.string() + ": " + reader.problem() + ".");
   m_header = reader.header();
@@ -82,12 +82,12 @@ std::vector<std::string> RecordedRound::doubts() const {
   std::vector<std::string> doubts;
   if ((m_header.flags & kDfrInProcess) != 0)
     doubts.emplace_back(
-        "the game ran in the server's own process: its clocks, entropy and addresses were real");
+        "the game ran in the server's process: its clocks, entropy and addresses are not repeatable");
   else if (fact(kFactClocks) != "repeatable")
-    doubts.emplace_back("the game's clocks and entropy were real");
+    doubts.emplace_back("the game's clocks and entropy are not repeatable");
   if ((m_header.flags & kDfrInProcess) == 0 && fact(kFactAddresses) != "fixed")
-    doubts.emplace_back("the game's addresses were random");
-  if ((m_header.flags & kDfrStopped) != 0) doubts.emplace_back("the file ends before the round did");
+    doubts.emplace_back("the game's memory addresses were random");
+  if ((m_header.flags & kDfrStopped) != 0) doubts.emplace_back("the recording ended before the round");
   return doubts;
 }
 
@@ -117,10 +117,10 @@ RoundStage::~RoundStage() {
 std::string RoundStage::findModule(const std::string& game) {
   const std::string recorded = m_round.fact(kFactModule);
   const std::string name = m_round.fact(kFactGame);
-  if (game.empty() && !isGameName(name)) throw RoundError("The file does not say which game it was.");
+  if (game.empty() && !isGameName(name)) throw RoundError("The file names no valid game; use --game.");
   if (game.empty() && recorded.empty())
     throw RoundError("The game " + quoted(name) +
-                     " was a program of its own, which cannot be executed again here.");
+                     " was a separate program, not a module; it cannot be replayed.");
   std::string module;
   try {
     module = GameModule::find(game.empty() ? name : game).string();
@@ -130,8 +130,8 @@ std::string RoundStage::findModule(const std::string& game) {
   if (hashOfModule(module) == recorded) return module;
   if (game.empty())
     throw RoundError("The installed game " + quoted(name) +
-                     " is another version than the recorded one; --game executes it nevertheless.");
-  m_doubts.push_back(module + " is another version than the recorded game");
+                     " differs from the recorded version; use --game to replay it anyway.");
+  m_doubts.push_back(module + " differs from the recorded game");
   return module;
 }
 
@@ -140,7 +140,7 @@ void RoundStage::findDifferences() {
   for (const char* p_name : {"build libdragonfly.so", "build libc.so", "build libstdc++.so", "kernel"}) {
     const auto found = here.find(p_name);
     const std::string now = found != here.end() ? found->second : std::string();
-    if (now != m_round.fact(p_name)) m_doubts.push_back(std::string(p_name) + " is another one than it was");
+    if (now != m_round.fact(p_name)) m_doubts.push_back(std::string(p_name) + " is not the recorded one");
   }
 }
 

@@ -33,7 +33,7 @@ ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
   KeeperStart begun;
   if (m_ready && recv(m_started.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
     m_process = begun.process;
-  if (!m_ready && m_failure.empty()) m_failure = "sent what no world sends";
+  if (!m_ready && m_failure.empty()) m_failure = "sent a malformed answer";
 }
 
 ReplayWorld::~ReplayWorld() {
@@ -62,7 +62,7 @@ bool ReplayWorld::wait(short events) {
     if (any[0].revents != 0) return true;
     if (any[2].revents != 0) break;
   }
-  m_failure = "did not answer any more";
+  m_failure = "stopped answering";
   return false;
 }
 
@@ -124,7 +124,7 @@ bool ReplayWorld::receiveFrame() {
   if (!receive(head, sizeof head)) return false;
   const auto size = loadLittleEndian<std::uint32_t>(head);
   if (size > kMaxWorldFrame) {
-    m_failure = "sent too long a frame";
+    m_failure = "sent an oversized frame";
     return false;
   }
   m_answer.resize(size);
@@ -134,7 +134,7 @@ bool ReplayWorld::receiveFrame() {
 Replay::Replay(const RecordedRound& round, const RoundStage& stage)
     : m_reader(round.read()), m_world(stage.launcher(), stage.order()) {
   if (!m_world.ready())
-    throw RoundError("The game " + m_world.failure() + " before it began. " +
+    throw RoundError("The game " + m_world.failure() + " before it was ready. " +
                      safeText(m_world.printed(), 500));
   compareFiles(round);
   readAhead();
@@ -209,7 +209,7 @@ void Replay::takeRest(std::string_view answer, bool exact) {
 
 void Replay::compare(const TickResult& result, std::string_view answer, bool exact) {
   if (exact && result.has_check && checkOf(hashAnswer(answer)) != result.check)
-    noteDifference("what the world answers");
+    noteDifference("the world's answer");
   if (!result.state_hash) return;
   const auto head = readAnswerHead(answer);
   if (!head || head->state_hash != result.state_hash) noteDifference("the state");

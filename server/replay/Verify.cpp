@@ -45,9 +45,9 @@ void printRows(const df::Canvas& recorded, const df::Canvas& again, std::ostream
       continue;
     }
     out << "  row " << std::setw(3) << y + 1 << " recorded |" << trimmed(recorded.rowText(y)) << "\n"
-        << "          again    |" << trimmed(again.rowText(y)) << "\n";
+        << "          replayed |" << trimmed(again.rowText(y)) << "\n";
   }
-  out << "  " << same << " of " << height << " rows are the same\n";
+  out << "  " << same << " of " << height << " rows are equal\n";
 }
 
 /// Prints the differences between the next picture of the file and the world's picture then.
@@ -56,10 +56,10 @@ void showDifference(Replay& replay, std::ostream& out) {
     if (!replay.recordedPicture()) continue;
     const RecordedPicture& recorded = *replay.recordedPicture();
     const df::Canvas* p_again = findPicture(replay, recorded.player);
-    out << "What player " << recorded.player << " saw at tick " << replay.tick() << ":\n";
+    out << "Picture of player " << recorded.player << " at tick " << replay.tick() << ":\n";
     return printRows(recorded.canvas, p_again != nullptr ? *p_again : df::Canvas(), out);
   } while (replay.step());
-  out << "The file has no picture after that tick.\n";
+  out << "The file has no picture after this tick.\n";
 }
 
 void printDoubts(const std::vector<std::string>& doubts, std::ostream& out) {
@@ -71,11 +71,11 @@ const char* endText(DfrEnd end) {
     case DfrEnd::kDone:
       return "to its end";
     case DfrEnd::kTorn:
-      return "to the last whole record of a file that has no end";
+      return "to the last complete record of a truncated file";
     case DfrEnd::kDamaged:
       break;
   }
-  return "to the record before one that is damaged";
+  return "to the last record before a damaged one";
 }
 
 std::string keyName(df::Keyboard::Key key) {
@@ -136,14 +136,14 @@ bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostre
   printDoubts(stage.doubts(), out);
   Replay replay(round, stage);
   for (const std::string& file : replay.otherFiles())
-    out << "note: the file " << safeText(file, 300) << " is another one than it was\n";
-  if (!replay.hasFixedAddresses()) out << "note: addresses cannot be fixed here\n";
+    out << "note: the file " << safeText(file, 300) << " is not the recorded one\n";
+  if (!replay.hasFixedAddresses()) out << "note: memory addresses cannot be fixed on this machine\n";
   const auto begin = std::chrono::steady_clock::now();
   while (replay.firstDifference() == 0 && replay.step()) continue;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (replay.firstDifference() != 0) {
     out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
-        << " is not as it was recorded\n";
+        << " differs from the recording\n";
     if (!replay.failure().empty()) out << "the world " << replay.failure() << "\n";
     showDifference(replay, out);
     return false;
@@ -187,7 +187,7 @@ bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostre
   }
   if (replay.firstDifference() != 0) {
     out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
-        << " is not as it was recorded\n";
+        << " differs from the recording\n";
     return false;
   }
   out << "ticks=" << replay.tick() << " scores=" << count << " read " << endText(replay.end()) << "\n";

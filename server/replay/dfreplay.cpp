@@ -22,13 +22,10 @@ enum ExitCode { kOk = 0, kDiffers = 1, kUsage = 2, kNoRound = 3, kNoTerminal = 4
 constexpr int kNice = 10;
 
 constexpr const char* kHelp =
-    "In the terminal: space pauses, left and right go 5 s, . goes one tick, + and - change the speed (1/4 to "
-    "64\n"
-    "times), Tab changes whose eyes, q ends it.\n\n"
-    "Exit codes: 0 in order; 1 --verify, --scores: it is not the same; 2 wrong usage; 3 the file or its game "
-    "cannot "
-    "be\n"
-    "used; 4 there is no terminal to play in.\n";
+    "In the terminal: space pauses, left and right skip 5 s, . steps one tick, + and - change the speed\n"
+    "(1/4 to 64 times), Tab follows the next player, q quits.\n\n"
+    "Exit codes: 0 success; 1 --verify, --scores: the replay differs from the recording; 2 wrong usage;\n"
+    "3 the file or its game cannot be used; 4 no terminal to play in.\n";
 
 struct ReplayOptions {
   std::string file;
@@ -46,22 +43,22 @@ struct ReplayOptions {
 
 std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
   return {
-      naiad::typedOption("file", "FILE", &replay.file, "A round's file, as dfserver --journal writes it"),
+      naiad::typedOption("file", "FILE", &replay.file, "Recording of a round, written by dfserver --journal"),
       {.name = "--verify",
        .target = &replay.verify,
-       .help = "Execute it again and compare: the ticks and the speed, or the first tick that differs"},
-      {.name = "--inputs", .target = &replay.inputs, .help = "Print what players pressed, tick by tick"},
+       .help = "Replay and compare with the recording: print ticks and speed, or the first difference"},
+      {.name = "--inputs", .target = &replay.inputs, .help = "Print the input of players, tick by tick"},
       {.name = "--scores",
        .target = &replay.scores,
-       .help = "Execute it again, and print the scores that the game adds, as dfctl scores names them"},
+       .help = "Replay and print the scores that the game adds, with the ticks and numbers of dfctl scores"},
       {.name = "--text",
        .target = &replay.text,
-       .help = "Print what is on the screen after this tick",
+       .help = "Print the picture after this tick",
        .range = naiad::OptionRange{1, 2e9},
        .type = "TICK"},
       {.name = "--from",
        .target = &replay.from,
-       .help = "In the terminal: begin with this tick",
+       .help = "In the terminal: start at this tick",
        .range = naiad::OptionRange{1, 2e9},
        .type = "TICK"},
       {.name = "--until",
@@ -71,18 +68,18 @@ std::vector<naiad::Option> optionsOf(ReplayOptions& replay) {
        .type = "TICK"},
       {.name = "--debug",
        .target = &replay.debug,
-       .help = "Attach gdb to the game before the tick of --until, with the addresses and clock that it had"},
+       .help = "Attach gdb to the game before the tick of --until, with its recorded clock and addresses"},
       {.name = "--player",
        .target = &replay.player,
-       .help = "With whose eyes: a number, as --inputs has them (default: the first there is)",
+       .help = "Player to follow, numbered as in --inputs (default: the first one)",
        .range = naiad::OptionRange{1, 4e9}},
       {.name = "--game",
        .target = &replay.game,
-       .help = "Execute this game: a name or the path of a module (default: the installed game that the file "
-               "names, if it is the same)"},
+       .help = "Replay this game: a name or the path of a module (default: the installed game that the file "
+               "names, if it is unchanged)"},
       {.name = "--for-server",
        .target = &replay.for_server,
-       .help = "Stand back behind the server that has started this, and end with it",
+       .help = "Run at a lower priority than the server that started this, and end with it",
        .hidden = true}};
 }
 
@@ -100,7 +97,7 @@ void serveParent() {
 int run(const ReplayOptions& replay) {
   if (replay.for_server) serveParent();
   if (replay.debug != (replay.until > 0))
-    return fail(kUsage, "--debug and --until TICK go together: --until says where the game stops.");
+    return fail(kUsage, "--debug and --until TICK require each other: --until is the tick to stop at.");
   const naiad::RecordedRound round(replay.file);
   if (replay.inputs) {
     naiad::printInputs(round, std::cout);
@@ -117,9 +114,9 @@ int run(const ReplayOptions& replay) {
   if (replay.text > 0) {
     const bool there =
         naiad::printPicture(round, stage, static_cast<std::uint32_t>(replay.text), player, std::cout);
-    return there ? kOk : fail(kNoRound, "there is no picture of that tick and player.");
+    return there ? kOk : fail(kNoRound, "no picture of this player after this tick.");
   }
-  if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round takes a terminal.");
+  if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round requires a terminal.");
   naiad::RoundPlayer(round, stage, player, static_cast<std::uint32_t>(replay.from)).run();
   return kOk;
 }
@@ -129,7 +126,7 @@ int run(const ReplayOptions& replay) {
 int main(int argc, char** argv) {
   naiad::surviveBrokenPipes();
   ReplayOptions replay;
-  const naiad::Program program{"dfreplay", "Plays rounds that dfserver has written down.", kHelp, false};
+  const naiad::Program program{"dfreplay", "Replays rounds that dfserver has recorded.", kHelp, false};
   const auto parsed = naiad::parseOptions(program, optionsOf(replay), argc, argv);
   if (const auto code = naiad::exitCodeOf(parsed)) return *code;
   try {

@@ -24,7 +24,7 @@ std::string lineOf(const Json& json) {
 std::string argumentText(const std::string& name, const Json& value) {
   if (const auto* p_text = value.text()) return *p_text;
   if (value.isInteger()) return value.toString();
-  throw AdminUsageError("The argument \"" + name + "\" is no text.");
+  throw AdminUsageError("The argument \"" + name + "\" must be a text or an integer.");
 }
 
 // Shortens the text to at most `most` bytes and appends "…". Never splits a character.
@@ -72,12 +72,12 @@ AdminRow rowOf(const Json& json) {
 AdminRequest readRequestLine(std::string_view line) {
   const auto json = Json::parse(line, kMaxDepth);
   if (!json || json->object() == nullptr)
-    throw AdminUsageError("One JSON object is wanted, like {\"command\":\"who\"}.");
+    throw AdminUsageError("Expected one JSON object, like {\"command\":\"who\"}.");
   std::map<std::string, std::string> arguments;
   for (const auto& [key, value] : *json->object()) {
     if (key == "command" && value.text() != nullptr) continue;
     if (key != "arguments" || value.object() == nullptr)
-      throw AdminUsageError("\"command\" with a text and \"arguments\" with an object are wanted.");
+      throw AdminUsageError("Expected only \"command\" with a text and \"arguments\" with an object.");
     for (const auto& [name, argument] : *value.object()) arguments[name] = argumentText(name, argument);
   }
   const auto* p_command = (*json)["command"].text();

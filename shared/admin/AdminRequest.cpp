@@ -44,11 +44,11 @@ void checkArgument(const AdminCommand& command, const AdminArgument& argument, c
   if (value.size() > kMaxAdminArgument)
     throw AdminUsageError(command.name + ": " + argument.name + " is too long.");
   if (argument.kind == Kind::kSpan && !readTimeSpan(value))
-    throw AdminUsageError(where + " is no span of time like 30m, 2h or 7d.");
+    throw AdminUsageError(where + " is not a time span like 30m, 2h or 7d.");
   if (argument.kind == Kind::kChoice && !isOneOf(argument, value)) {
     std::string all;
     for (const std::string& one : argument.one_of) all += (all.empty() ? "" : ", ") + one;
-    throw AdminUsageError(where + " is none of: " + all + ".");
+    throw AdminUsageError(where + " is not one of: " + all + ".");
   }
   if (value.empty() && (argument.required || argument.named) && argument.kind != Kind::kSecret)
     throw AdminUsageError(command.name + ": " + argument.name + " is empty.");
@@ -85,7 +85,7 @@ std::vector<std::string> takeNamed(AdminRequest& request, const std::vector<std:
     } else if (i + 1 < words.size()) {
       request.arguments[p_argument->name] = words[++i];
     } else {
-      throw AdminUsageError(word + " wants a value.");
+      throw AdminUsageError(word + " requires a value.");
     }
   }
   return others;
@@ -149,7 +149,7 @@ AdminRequest readAdminRequest(const std::string& command, std::map<std::string, 
                             [&given](const auto& one) { return one.name == given.first; });
       });
   if (unknown != request.arguments.end())
-    throw AdminUsageError("No argument of \"" + command + "\" is called \"" + unknown->first + "\".");
+    throw AdminUsageError("Command \"" + command + "\" has no argument \"" + unknown->first + "\".");
   return check(std::move(request));
 }
 

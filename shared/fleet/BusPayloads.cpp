@@ -79,9 +79,8 @@ std::string busComplaint(const BusSettings& settings) {
   const std::string& url = settings.url;
   const std::string scheme = settings.isEncrypted() ? "tls://" : "nats://";
   if (!url.starts_with(scheme) || url.size() == scheme.size())
-    return "--bus: nats://HOST:PORT or tls://HOST:PORT is wanted";
-  if (!settings.isEncrypted() && !settings.authorities.empty())
-    return "--bus-ca is for tls://, not for nats://";
+    return "--bus: expected nats://HOST:PORT or tls://HOST:PORT";
+  if (!settings.isEncrypted() && !settings.authorities.empty()) return "--bus-ca requires a tls:// bus";
   return "";
 }
 

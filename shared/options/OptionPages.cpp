@@ -271,10 +271,10 @@ void writeComment(std::ostream& page, const std::string& text) {
 
 std::string exampleConfig(const Program& program, const std::vector<Option>& options) {
   std::ostringstream page;
-  writeComment(
-      page, "Settings of " + program.name +
-                " (--config FILE). Each line below is what holds without it: take its # away to change it. " +
-                program.name + " --config FILE --check-config says whether the file is in order.");
+  writeComment(page,
+               "Settings of " + program.name +
+                   " (--config FILE). Each line below shows a default value: remove its # to change it. " +
+                   program.name + " --config FILE --check-config checks the file.");
   for (const Option& option : options) {
     if (!isSetting(option)) continue;
     page << "\n";
@@ -304,7 +304,7 @@ bool isSetting(const Option& option) {
 std::string configLine(const Option& option) {
   const std::string name = option.name.substr(2);
   const std::string value = currentValue(option);
-  if (option.is_secret && !value.empty()) return "# " + name + " is given, and not printed";
+  if (option.is_secret && !value.empty()) return "# " + name + " is set, but not printed";
   const bool is_quoted = value.find_first_of("#\"' \t") != std::string::npos;
   const char quote = value.find('"') == std::string::npos ? '"' : '\'';
   if (is_quoted && value.find(quote) == std::string::npos) return name + " = " + quote + value + quote;

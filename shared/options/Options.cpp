@@ -166,9 +166,9 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
                       (near.empty() ? "" : "; did you mean " + near + "?"));
   }
   const bool is_flag = std::holds_alternative<bool*>(found->target);
-  if (equals == std::string::npos && !is_flag) throw OptionError(place + ": \"" + key + " = …\" is wanted");
+  if (equals == std::string::npos && !is_flag) throw OptionError(place + ": expected \"" + key + " = …\"");
   const auto value = equals == std::string::npos ? "true" : configValue(trimmed(line.substr(equals + 1)));
-  if (!value) throw OptionError(place + ": the quotes do not end, or something stands behind them");
+  if (!value) throw OptionError(place + ": missing closing quote, or text after it");
   if (is_given[static_cast<std::size_t>(found - options.begin())]) return;
   const std::string before = found->joins ? currentValue(*found) : "";
   storeValue(*found, before.empty() ? *value : before + " " + *value, place + ": " + key);

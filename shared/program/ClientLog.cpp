@@ -15,7 +15,7 @@ constexpr std::size_t kPrefixes = 1024;  ///< number of remembered address prefi
 
 ClientLog::ClientLog(LogLine log)
     : m_log(std::move(log)),
-      m_news{"lines on players", kNewsOfAPrefix, kNewsInAll, PerAddress<TokenBucket>(kPrefixes)},
+      m_news{"lines about players", kNewsOfAPrefix, kNewsInAll, PerAddress<TokenBucket>(kPrefixes)},
       m_refusals{"refusals", kRefusalsOfAPrefix, kRefusalsInAll, PerAddress<TokenBucket>(kPrefixes)} {}
 
 void ClientLog::logNews(const std::string& address, LogEvent event, Time now) {

@@ -78,7 +78,7 @@ constinit std::atomic<unsigned> g_openings = 0;       ///< number of reopenAll()
 constinit std::atomic<std::int64_t> g_unwritten = 0;  ///< unwritten bytes of all logs
 
 LogEvent lossEvent(std::uint64_t lost, int error) {
-  const std::string why = error == 0 ? "its reader did not read" : std::generic_category().message(error);
+  const std::string why = error == 0 ? "its reader is too slow" : std::generic_category().message(error);
   return {LogEvent::Level::kError, std::to_string(lost) + (lost == 1 ? " log line was" : " log lines were") +
                                        " lost: the log could not be written (" + why + ")"};
 }
@@ -273,9 +273,9 @@ void LineLog::Shared::run() {
 LineLog::LineLog(const std::string& path, Writer writer) {
   const int file = path.empty() ? STDERR_FILENO : openLog(path);
   if (file < 0) {
-    throw std::runtime_error("The log file " + path + " cannot be written: " +
-                             (errno == ENXIO ? "it is a pipe or the like, not a regular file."
-                                             : std::generic_category().message(errno) + "."));
+    throw std::runtime_error(
+        "The log file " + path + " cannot be written: " +
+        (errno == ENXIO ? "it is not a regular file." : std::generic_category().message(errno) + "."));
   }
   m_shared = std::make_shared<Shared>(path, file, writer == Writer::kThread);
 }

@@ -133,7 +133,7 @@ class EngineTest(unittest.TestCase):
         one = game.Game(place + "/game", place, ours, said, folder.Limits())
         one.take_in()
         self.assertEqual((one.engine.files, one.files), (["Event.h", "dragonfly/Object.h"], ["Base.h"]))
-        self.assertIn(("Thing.h", "a link to what was left out"), [(row.where, row.text) for row in said.rows])
+        self.assertIn(("Thing.h", "a link to a file that was left out"), [(row.where, row.text) for row in said.rows])
         verdicts.Verdicts(one, None)  # reads what an earlier run skipped
 
     def test_BesideAnEngineOfOnesOwnTheGameKeepsItsSources(self):
@@ -299,7 +299,7 @@ class FilesTest(unittest.TestCase):
         self.assertEqual(missing[0][3], "sprites/Hero-spr.txt")
 
     def test_OnlySpritesThatWereRefusedAreTheGamesFault(self):
-        log = "10 Sprite hero: /game/sprites/hero.txt:4: slowdown has no number, taken as 0 (compat)\n" \
+        log = "10 Sprite hero: /game/sprites/hero.txt:4: slowdown has no number, 0 is used (compat)\n" \
               "11 Sprite wall: sprites/wall.txt:7: the row has 2 characters instead of 3\n"
         self.assertEqual(filenames.refused_sprites(log, "run"), [("run/sprites/wall.txt", "7", "the row has 2 characters instead of 3")])
 
@@ -321,4 +321,4 @@ class BoundedTest(unittest.TestCase):
         fixtures.write(place, {f"{number}.txt": "x" * 600 for number in range(20)})
         copy = folder.copy_folder(place, place + ".copy", folder.Limits(entries=10, total_bytes=3000))
         self.assertEqual(len(copy.files), 5)
-        self.assertEqual([reason for _, reason in copy.left_out][-1], "and all after it: more than 10 files")
+        self.assertEqual([reason for _, reason in copy.left_out][-1], "this and all files after it: more than 10 files")

@@ -14,9 +14,9 @@ constexpr const char* kUsage =
     "usage: naiad_bench [--quick] [SUITE...]\n"
     "       naiad_bench --list\n"
     "\n"
-    "  SUITE    what to measure (default: everything)\n"
-    "  --quick  small worlds only, to see that it works\n"
-    "  --list   the suites there are\n"
+    "  SUITE    suite to run (default: all)\n"
+    "  --quick  run only small worlds, to check that the suites work\n"
+    "  --list   list the suites\n"
     "\n"
     "Exit codes: 0 measured, 1 engines disagree, are wrong, or a suite failed, 2 wrong usage.\n";
 

@@ -85,7 +85,7 @@ TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
   EXPECT_EQ(shown(*servers[1].player).keys, 3) << servers[1].program->log();
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(servers[i].player->player(), ids[i]);
-    EXPECT_TRUE(serve([&] { return has(servers[i].program->log(), "is back, in the round that goes on"); }));
+    EXPECT_TRUE(serve([&] { return has(servers[i].program->log(), "reconnected to the recovered round"); }));
   }
   clients.clear();
 }
@@ -97,9 +97,9 @@ TEST_F(DefaultJournal, AFolderThatCannotBeWrittenCostsTheJournalAlone) {
   start(one);
   join(one);
   const std::string log = one.program->log();
-  const std::size_t said = log.find("rounds are not written down");
+  const std::size_t said = log.find("not recording rounds");
   EXPECT_NE(said, std::string::npos) << log;
-  EXPECT_EQ(log.find("rounds are not written down", said + 1), std::string::npos) << log;
+  EXPECT_EQ(log.find("not recording rounds", said + 1), std::string::npos) << log;
   type(*one.player, 1);
   clients.clear();
 }

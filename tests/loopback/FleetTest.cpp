@@ -64,7 +64,7 @@ TEST_F(Fleet, AServerThatIsEndedAtOnceSaysSoToo) {
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIME", "1000"}});
   auto ann = join("ann");
   game->signal(SIGTERM);
-  EXPECT_TRUE(logs(*ann, "ending when all have left"));
+  EXPECT_TRUE(logs(*ann, "stopping when all players have left"));
   game->signal(SIGTERM);
   game->wait();
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
@@ -80,7 +80,7 @@ TEST_F(Fleet, AClusterThatShutsTheServerDownEndsItWithDrainTime) {
   auto ann = join("ann");
   sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
                "\n");
-  EXPECT_TRUE(logs(*ann, "the platform shuts the server down"));
+  EXPECT_TRUE(logs(*ann, "the platform requested a shutdown"));
   EXPECT_TRUE(ann->joined()) << "ann plays on";
   ann.reset();
   EXPECT_EQ(game->wait(), 0);
@@ -117,7 +117,7 @@ TEST_F(Fleet, ABusThatIsKilledCostsPlayersNothingAndIsFoundAgain) {
            std::string::npos;
   })) << game->log().substr(before);
   EXPECT_EQ(ann->session().counters().resets, 0u);
-  EXPECT_FALSE(has(game->log(), "is back")) << "ann had to come back";
+  EXPECT_FALSE(has(game->log(), "reconnected")) << "ann had to come back";
   game->signal(SIGTERM);
   game->wait();
   EXPECT_TRUE(has(game->log(), "bus_connections=2"));

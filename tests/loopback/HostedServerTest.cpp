@@ -127,8 +127,9 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   start({{"NAIAD_DRAIN_TIME", "3000"}});
   TestClient& ann = join("ann");
   server->signal(SIGTERM);
-  EXPECT_TRUE(isTold(ann, "The server closes when all have left, and in 3000 seconds at the latest."));
-  EXPECT_EQ(refusal(home.player("bob")), "The server is closing and lets no new players in.");
+  EXPECT_TRUE(
+      isTold(ann, "The server shuts down when all players have left, or in 3000 seconds at the latest."));
+  EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
   EXPECT_TRUE(ticks(ann));
   ann.connection().leave();
   EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
@@ -152,7 +153,8 @@ TEST_F(HostedServer, TwoSignalsEndADrainAtOnce) {
   start({{"NAIAD_DRAIN_TIME", "3000"}});
   TestClient& ann = join("ann");
   server->signal(SIGTERM);
-  ASSERT_TRUE(isTold(ann, "The server closes when all have left, and in 3000 seconds at the latest."));
+  ASSERT_TRUE(
+      isTold(ann, "The server shuts down when all players have left, or in 3000 seconds at the latest."));
   server->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(ann, "The server is shutting down."));
   server->wait();
@@ -173,7 +175,7 @@ TEST_F(HostedServer, ReloadTakesOverWhatMayChange) {
   TestClient& ann = join("ann");
   EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
   ASSERT_TRUE(reload("max-players = 2\nworld-memory = 1000\n"));
-  EXPECT_TRUE(logs("the options were read again: max-players has changed; world-memory needs a restart\n"))
+  EXPECT_TRUE(logs("options reloaded: max-players has changed; world-memory needs a restart\n"))
       << server->log();
   TestClient& bob = join("bob");
   EXPECT_TRUE(ticks(ann) && ticks(bob));
@@ -183,7 +185,7 @@ TEST_F(HostedServer, OptionsThatCannotBeUsedChangeNothing) {
   start({}, "max-players = 1\n");
   TestClient& ann = join("ann");
   ASSERT_TRUE(reload("max-plyers = 2\n"));
-  EXPECT_TRUE(logs("the options stay as they were: " + config().string() +
+  EXPECT_TRUE(logs("the options were not changed: " + config().string() +
                    ":1: there is no option \"max-plyers\"; did you mean max-players?\n"))
       << server->log();
   EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
@@ -196,7 +198,7 @@ TEST_F(HostedServer, ReloadChangesThePasswordForThoseWhoCome) {
   old.options.password = "old";
   TestClient& ann = join(old);
   ASSERT_TRUE(reload("password = " + cheapHash("new") + "\n"));
-  EXPECT_TRUE(logs("the options were read again: password has changed\n")) << server->log();
+  EXPECT_TRUE(logs("options reloaded: password has changed\n")) << server->log();
   EXPECT_EQ(refusal(old), "That is not this server's password.");
   ClientSetup bob = home.player("bob");
   bob.options.password = "new";
@@ -224,7 +226,7 @@ TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
   TestClient& playing = join(ann);
   use("second");
   ASSERT_TRUE(reload(options));
-  EXPECT_TRUE(logs("warning: the key is another one")) << server->log();
+  EXPECT_TRUE(logs("warning: the server's key has changed")) << server->log();
   ClientSetup bob = home.player("bob");
   bob.trust.fingerprint = second.fingerprint();
   bob.trust.known_servers = home.identity("bobs_servers");
@@ -241,7 +243,7 @@ TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
   TestClient& ann = join("ann");
   fs::rename(files / "key", files / "gone");
   ASSERT_TRUE(reload(options));
-  EXPECT_TRUE(logs("the options stay as they were: ")) << server->log();
+  EXPECT_TRUE(logs("the options were not changed: ")) << server->log();
   join("bob");
   EXPECT_TRUE(ticks(ann));
 }
@@ -336,7 +338,7 @@ TEST_F(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   server->end({.begins_again = true, .at = Clock::now()});
   EXPECT_TRUE(
       serveUntil(context, {&ann}, [&] { return ann.connection().state() == Connection::State::kSearching; }));
-  EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
+  EXPECT_EQ(ann.connection().sentence(), "The server is restarting. Your client reconnects automatically.");
   server.reset();
   HostOptions options = home.server();
   options.port = port;
@@ -367,7 +369,7 @@ TEST_F(HostedWorld, AClientThatDoesNotLookAgainEnds) {
   ASSERT_TRUE(joins(ann));
   server.end({.begins_again = true, .at = Clock::now()});
   EXPECT_TRUE(ends(ann));
-  EXPECT_EQ(ann.connection().sentence(), "The server restarts. It is back in a moment.");
+  EXPECT_EQ(ann.connection().sentence(), "The server is restarting. Your client reconnects automatically.");
 }
 
 // ---- restart by dfctl -------------------------------------------------------------------------------------
@@ -407,21 +409,22 @@ INSTANTIATE_TEST_SUITE_P(Worlds, Restarts, testing::Values("exit", "restart"),
 TEST_F(HostedServer, ARestartCanWaitAndBeCalledOff) {
   start({});
   TestClient& ann = join("ann");
-  EXPECT_EQ(ctl("cancel"), std::pair(1, std::string("There is nothing to call off.\n")));
+  EXPECT_EQ(ctl("cancel"), std::pair(1, std::string("No shutdown, restart or drain is scheduled.\n")));
   EXPECT_EQ(ctl("restart in 1h").second, "The server restarts in 3600 s.\n");
-  EXPECT_TRUE(isTold(ann, "The server restarts in 3600 seconds. Your client comes back by itself."));
+  EXPECT_TRUE(isTold(ann, "The server restarts in 3600 seconds. Your client reconnects automatically."));
   join("bob");
-  EXPECT_EQ(ctl("cancel"), std::pair(0, std::string("The server goes on.\n")));
-  EXPECT_TRUE(isTold(ann, "The server goes on after all."));
+  EXPECT_EQ(ctl("cancel"), std::pair(0, std::string("Cancelled: the server stays up.\n")));
+  EXPECT_TRUE(isTold(ann, "The server stays up: its shutdown or restart was cancelled."));
   EXPECT_TRUE(ticks(ann));
 }
 
 TEST_F(HostedServer, DrainEndsWhenAllHaveLeft) {
   start({});
   TestClient& ann = join("ann");
-  EXPECT_EQ(ctl("drain 1h").second,
-            "Nobody is let in any more. The server ends when all have left, and in 3600 s at the latest.\n");
-  EXPECT_EQ(refusal(home.player("bob")), "The server is closing and lets no new players in.");
+  EXPECT_EQ(
+      ctl("drain 1h").second,
+      "Draining: no new players. The server stops when all players have left, or in 3600 s at the latest.\n");
+  EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
   EXPECT_TRUE(ticks(ann));
   ann.connection().leave();
   EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
@@ -432,10 +435,9 @@ TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
   start({}, "max-players = 3\n");
   TestClient& ann = join("ann");
   writeConfig("max-players = 2\nworld-memory = 1000\n");
-  EXPECT_EQ(
-      ctl("reload"),
-      std::pair(0, std::string("the options were read again: max-players has changed; world-memory needs "
-                               "a restart.\n")));
+  EXPECT_EQ(ctl("reload"),
+            std::pair(0, std::string(
+                             "options reloaded: max-players has changed; world-memory needs a restart.\n")));
   EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
   writeConfig("max-plyers = 4\n");
   const auto [code, text] = ctl("reload");

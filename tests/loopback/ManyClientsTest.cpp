@@ -58,7 +58,7 @@ TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
   EXPECT_TRUE(answerTo(second).has_welcome());
   const wire::ServerMessage refusal = answerTo(third);
   EXPECT_EQ(refusal.refused().reason(), wire::Refused::FULL);
-  EXPECT_EQ(refusal.refused().sentence(), "There are 2 players from your address already. Try again later.");
+  EXPECT_EQ(refusal.refused().sentence(), "Too many players from your address (limit 2). Try again later.");
   EXPECT_EQ(server.counters().refused_address, 1u);
   wire::ClientMessage leave;
   leave.mutable_leave();

@@ -36,7 +36,7 @@ TEST_F(NamedRooms, PlayersOfTwoRoomsPlayInTwoWorlds) {
 TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
   start({"arcade", "quiet"});
   EXPECT_EQ(refusal("arcde"), "There is no room \"arcde\"; did you mean \"arcade\"?");
-  EXPECT_EQ(refusal("zzz"), "There is no room \"zzz\". There are: arcade, quiet.");
+  EXPECT_EQ(refusal("zzz"), "There is no room \"zzz\". Rooms: arcade, quiet.");
 }
 
 TEST_F(NamedRooms, FullRoomRefusesWhileOthersHavePlaces) {
@@ -66,7 +66,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   EXPECT_EQ(&ann->session(), p_session);
   EXPECT_EQ(ann->session().welcome().room, "two");
   EXPECT_NE(ann->player(), player) << "an id is used once in a world";
-  EXPECT_TRUE(hasRead(*ann, "You are in the room two"));
+  EXPECT_TRUE(hasRead(*ann, "You are now in room two"));
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return shown(*ann).keys == 1 && shown(*bob).keys == 1; })) << "keys go there, too";
   ann->session().enterRoom("one");

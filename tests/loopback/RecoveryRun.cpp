@@ -44,8 +44,8 @@ pid_t worldOf(pid_t server) {
 }
 
 constexpr std::chrono::seconds kForLog{3};  ///< timeout for a log line that should already be written
-constexpr const char* kIsBack = "\" is back, in the round that goes on";
-constexpr const char* kGoesOn = "the round goes on after ";
+constexpr const char* kIsBack = "\" reconnected to the recovered round";
+constexpr const char* kGoesOn = "round recovered: replayed ";
 
 }  // namespace
 
@@ -329,7 +329,7 @@ KillResult RecoveryRun::keepRound() {
     play(std::chrono::milliseconds(5));
   KillResult result;
   const std::string said = answer.get();
-  if (said.find("The round goes on") == std::string::npos) result.problem = said + m_server->log();
+  if (said.find("The round resumes") == std::string::npos) result.problem = said + m_server->log();
   const bool back = result.problem.empty() && serveUntilJoined() && playUntilPictured();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
   m_seen = 0;
@@ -433,7 +433,7 @@ void RecoveryRun::compare(KillResult& result) {
   result.problem = std::to_string(result.wrong_cells) + " wrong cells; executed again, " +
                    (reel.firstDifference() == 0
                         ? "the round is as it was recorded"
-                        : "tick " + std::to_string(reel.firstDifference()) + " is not as it was recorded");
+                        : "tick " + std::to_string(reel.firstDifference()) + " differs from the recording");
 }
 
 bool RecoveryRun::verify(std::string& said) {

@@ -247,7 +247,7 @@ TEST_F(Resume, AClientThatIsRefusedForNowComesBackByItself) {
     return ann.connection().isPutOff();
   }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kSearching);
-  EXPECT_TRUE(has(ann.connection().sentence(), "back in a moment"));
+  EXPECT_TRUE(has(ann.connection().sentence(), "Too many reconnects"));
   const std::uint64_t resumed = server->counters().resumed;
   EXPECT_GE(resumed, 3u);
   ASSERT_TRUE(resumes(ann, resumed + 1));

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kElsewhere = "You went on playing in another terminal.";
+constexpr const char* kElsewhere = "This session was resumed in another client.";
 
 /// Keys that the game received, counted by action.
 struct Keys {
@@ -100,7 +100,7 @@ TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
     ASSERT_TRUE(comesBack(ann));
     EXPECT_EQ(ann->player(), id);
     EXPECT_EQ(ann->session().welcome().name, "ann");
-    EXPECT_EQ(linesOf(*ann), std::vector<std::string>{"You are back in your old session."});
+    EXPECT_EQ(linesOf(*ann), std::vector<std::string>{"Session resumed."});
     EXPECT_TRUE(scores(*ann, score)) << "the player list came";
     EXPECT_TRUE(press(*ann, 1)) << "its keys are no repetitions";
     EXPECT_TRUE(settles(*ann));
@@ -348,7 +348,7 @@ TEST_F(Return, OldChatIsNotForANewProcess) {
   ASSERT_TRUE(comesBack(ann));
   ann->session().sendChat("new");
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() >= 2; }));
-  EXPECT_EQ(linesOf(*ann), (std::vector<std::string>{"You are back in your old session.", "new"}));
+  EXPECT_EQ(linesOf(*ann), (std::vector<std::string>{"Session resumed.", "new"}));
   EXPECT_TRUE(scores(*ann, 0));
 }
 

@@ -66,7 +66,7 @@ class RoomRecovery : public LobbyFixture {
   }
   /// Returns the number of sessions that the server has resumed.
   std::size_t returned() const {
-    constexpr const char* kIsBack = "is back, in the round that goes on";
+    constexpr const char* kIsBack = "reconnected to the recovered round";
     return static_cast<std::size_t>(countIn(server->log(), kIsBack));
   }
   fs::path rounds() const { return home.identity("rounds"); }
@@ -148,10 +148,10 @@ TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothi
   ASSERT_TRUE(serve([&] {
     EXPECT_GE(shown(*bob).ticks, seen_by_bob);
     seen_by_bob = shown(*bob).ticks;
-    return server->log().find("room one: the game goes on: ") != std::string::npos &&
+    return server->log().find("room one: game recovered: ") != std::string::npos &&
            shown(*ann).ticks > seen_by_ann + 50;
   })) << server->log();
-  EXPECT_TRUE(has(server->log(), "room one: the game goes on: a copy of its world executed "));
+  EXPECT_TRUE(has(server->log(), "room one: game recovered: a copy of its world replayed "));
   EXPECT_EQ(&ann->session(), p_ann);
   EXPECT_EQ(&bob->session(), p_bob);
   EXPECT_EQ(shown(*ann).keys, 2) << "without the one that it died of";

@@ -131,7 +131,7 @@ class RoundEnd : public Rounds {
     EXPECT_EQ(ann->session().counters().resets, 1u);
     EXPECT_EQ(bob->session().counters().resets, 1u);
     EXPECT_EQ(ann->connection().state(), Connection::State::kJoined);
-    EXPECT_FALSE(has(game->log(), "is back"));
+    EXPECT_FALSE(has(game->log(), "reconnected"));
     ASSERT_TRUE(serve([&] { return heard(*ann, line) && heard(*bob, line); })) << game->log();
     EXPECT_TRUE(serve([&] { return beganAgain(theme_of_ann += theme(*ann)); })) << theme_of_ann;
     EXPECT_TRUE(serve([&] { return beganAgain(theme_of_bob += theme(*bob)); })) << theme_of_bob;
@@ -150,7 +150,7 @@ TEST_F(RoundEnd, ByACrash) {
 }
 
 TEST_F(RoundEnd, ByAGameThatHangs) {
-  expectAnotherRound(df::Keyboard::H, "The game did not answer any more; the next round begins.");
+  expectAnotherRound(df::Keyboard::H, "The game did not answer in time; the next round begins.");
 }
 
 TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
@@ -253,7 +253,7 @@ TEST_F(Rounds, APlayerWhoLeavesAPrivateWorldEndsIt) {
   EXPECT_TRUE(serve([&] { return kill(anns, 0) == -1; })) << game->log();
   press(*bob, df::Keyboard::Q);
   ASSERT_TRUE(serve([&] { return bob->connection().state() == Connection::State::kEnded; })) << game->log();
-  EXPECT_EQ(bob->connection().sentence(), "For you, the game is over.");
+  EXPECT_EQ(bob->connection().sentence(), "The game is over for you.");
   EXPECT_TRUE(serve([&] { return kill(bobs, 0) == -1; })) << game->log();
   auto carl = join("carl");
   EXPECT_EQ(shown(*carl).steps, 0) << "the server stays";
@@ -296,7 +296,7 @@ TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
   EXPECT_EQ(Talk(game->control()).ask(R"({"command":"restart","arguments":{"when":"at-round-end"}})"),
             R"({"ok":true,"text":"The server restarts when the round is over."})");
   ASSERT_TRUE(serve([&] {
-    return heard(*ann, "The server restarts when this round is over. Your client comes back by itself.");
+    return heard(*ann, "The server restarts when this round is over. Your client reconnects automatically.");
   }));
   press(*ann, df::Keyboard::RIGHTARROW);
   ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "the round goes on";
@@ -366,8 +366,9 @@ TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
   press(*ann, df::Keyboard::X);
   ASSERT_TRUE(comesBack(*ann)) << game->log();
   EXPECT_NE(shown(*ann).process, process);
-  EXPECT_TRUE(logs("program was upgraded while it runs: a new world is of another build (")) << game->log();
-  EXPECT_FALSE(has(game->log(), "sent what no world sends"));
+  EXPECT_TRUE(logs("program was upgraded while it runs: a new game process has another build ("))
+      << game->log();
+  EXPECT_FALSE(has(game->log(), "sent a malformed answer"));
   // Now everything is of the new build.
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();
@@ -380,9 +381,8 @@ TEST_F(Upgrade, PrivateWorldsGoOnUntilTheirPlayersHaveLeft) {
   TestClient bob(context, game->port(), home.player("bob"));
   clients.push_back(&bob);
   EXPECT_TRUE(serve([&] { return bob.connection().isOver(); })) << game->log();
-  EXPECT_EQ(bob.connection().sentence(),
-            "The server was upgraded. It begins again when those who play have left.");
-  EXPECT_TRUE(logs("; it begins again when all have left")) << game->log();
+  EXPECT_EQ(bob.connection().sentence(), "The server was upgraded. It restarts when all players have left.");
+  EXPECT_TRUE(logs("; the server restarts when all players have left")) << game->log();
   press(*ann, df::Keyboard::RIGHTARROW);
   EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << game->log();
   ann->connection().leave();

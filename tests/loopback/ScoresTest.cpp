@@ -144,13 +144,13 @@ TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {
     EXPECT_TRUE(has(said, sentence)) << words << ": ";
   };
   expectRefusal("", "--game room_module  (rooms one, two)\n  --game lobby  (room doors)\n");
-  expectRefusal("keys 3", "--game or --room says which one is meant");
+  expectRefusal("keys 3", "choose one with --game or --room");
   expectRefusal("--game loby", "did you mean \"lobby\"?");
-  expectRefusal("--game=zzz", "There are: room_module, lobby.");
-  expectRefusal("--room zzz", "There are: one, two, doors.");
+  expectRefusal("--game=zzz", "Games: room_module, lobby.");
+  expectRefusal("--room zzz", "Rooms: one, two, doors.");
   expectRefusal("--room one --game lobby", "not both");
   EXPECT_EQ(scores("--room two"), scores("--game room_module"));
-  EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores are kept.\n")));
+  EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores.\n")));
   EXPECT_EQ(scores("--rom one").first, 2);
 }
 
@@ -158,7 +158,7 @@ TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
   start();
   const std::string ctl = "--control " + game->control().string() + " scores ";
   EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
-  EXPECT_TRUE(has(runCtl(ctl + "--game tron").second, "There are: rounds_game."));
+  EXPECT_TRUE(has(runCtl(ctl + "--game tron").second, "Games: rounds_game."));
   EXPECT_TRUE(has(runCtl(ctl + "--room one").second, "This server has no rooms."));
 }
 

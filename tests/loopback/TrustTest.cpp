@@ -33,7 +33,7 @@ TEST_F(TrustTest, RightWrongAndMissingPasswords) {
   options.password = quick("xyzzy");
   TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("ann");
-  EXPECT_EQ(refusal(server.port(), setup), "This server wants a password.");
+  EXPECT_EQ(refusal(server.port(), setup), "This server requires a password.");
   setup.options.password = "plugh";
   EXPECT_EQ(refusal(server.port(), setup), "That is not this server's password.");
   EXPECT_EQ(server.counters().refused_password, 2u);
@@ -99,7 +99,7 @@ TEST_F(TrustTest, AGivenFingerprintCountsMost) {
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
   ASSERT_TRUE(setup.trust.fingerprint);
   const std::string sentence = refusal(server.port(), setup);
-  EXPECT_TRUE(has(sentence, "does not have the key that was given"));
+  EXPECT_TRUE(has(sentence, "does not have the given key"));
   EXPECT_EQ(pins(), "");
   EXPECT_EQ(server.counters().joined, 0u);
   setup.trust.fingerprint = server.fingerprint();
@@ -121,7 +121,7 @@ TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
   setup.trust.link_key = ShortKey::of(*Fingerprint::parse(std::string(64, 'a')));
   TestClient client(context, impostor.port(), setup);
   const std::string sentence = refusal(client);
-  EXPECT_TRUE(has(sentence, "does not have the key of the link"));
+  EXPECT_TRUE(has(sentence, "does not have the key in the link"));
   ASSERT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   EXPECT_EQ(pins(), "");

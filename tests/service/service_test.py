@@ -228,7 +228,7 @@ class ServiceTest(unittest.TestCase):
         _, sockets = self.give_sockets("tcp", "tcp")
         server = self.start_with(sockets, "--game", "hello")
         self.assertEqual(server.wait(PATIENCE), 4)
-        self.assertIn("The sockets from the service manager (LISTEN_FDS) cannot be used: two are for TCP.", self.text("errors"))
+        self.assertIn("The sockets from the service manager (LISTEN_FDS) cannot be used: both are TCP sockets.", self.text("errors"))
 
     # ---- the unit files -----------------------------------------------------------------------------------------------------
 

@@ -79,7 +79,7 @@ TEST_F(BotExitTest, AServerThatHangsIsNotOk) {
   const auto bot = join({"--seconds", "3"});
   waitForPictures();
   m_server->signal(SIGSTOP);
-  expectEnd(*bot, 4, "sends nothing any more");
+  expectEnd(*bot, 4, "stopped sending snapshots");
   m_server->signal(SIGCONT);
 }
 

@@ -34,7 +34,7 @@ TEST_F(BusyServerTest, IsAskedAgainAndItsSentenceIsShownOnce) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   EXPECT_EQ(*hellos, 4);
-  EXPECT_EQ(count(terminal.output(), "dfclient: Not now, please. (Trying again; Ctrl-C ends.)"), 1)
+  EXPECT_EQ(count(terminal.output(), "dfclient: Not now, please. (Retrying; Ctrl-C quits.)"), 1)
       << terminal.output();
 }
 
@@ -49,7 +49,7 @@ TEST_F(BusyServerTest, OtherRefusalsAreFinal) {
 TEST_F(BusyServerTest, ControlCEndsTheWait) {
   refuse(1'000'000, wire::Refused::BUSY);
   PtyTerminal terminal(options());
-  ASSERT_TRUE(terminal.waitFor("Trying again"));
+  ASSERT_TRUE(terminal.waitFor("Retrying"));
   terminal.type("\x03");
   EXPECT_TRUE(diesOf(terminal, SIGINT));
 }

@@ -49,7 +49,7 @@ class CrowdedWorldTest : public FakeServerFixture {
     const std::uint32_t last = server.sendWorld(objects, p_table, p_control);
     ASSERT_TRUE(server.heardAcknowledged(last));
     // The client now predicts beyond the last snapshot, which is the costly part.
-    ASSERT_TRUE(terminal.waitFor("No news from the server"));
+    ASSERT_TRUE(terminal.waitFor("No data from the server"));
     terminal.type("x");
     ASSERT_TRUE(server.heardKey(df::Keyboard::X, df::KEY_PRESSED));
   }

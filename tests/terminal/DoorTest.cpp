@@ -73,7 +73,7 @@ class DoorTest : public testing::Test {
   void open(const std::vector<std::string>& options = {}) {
     m_server = run({programPath("dfserver"), "--game", "hello", "--address", "127.0.0.1", "--port", "0",
                     "--identity", m_home / "identity", "--visitors", m_home / "hello.visitors"});
-    ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
+    ASSERT_TRUE(m_server->waitFor("Only this machine can join")) << m_server->output();
     m_link = linkIn(m_server->output());
     ASSERT_TRUE(m_link.starts_with("naiad://")) << m_server->output();
     for (int i = 0; i < 5 && !m_door; ++i) openAt(freePort(), options);
@@ -206,7 +206,7 @@ TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
   PtyTerminal* again = visit("ann");
   ASSERT_TRUE(again->waitFor("Your name? [ann]")) << again->output();
   again->type("\r");
-  EXPECT_TRUE(serverSays("\"ann\" is back, with another client")) << m_server->output();
+  EXPECT_TRUE(serverSays("\"ann\" reconnected with a new client")) << m_server->output();
   EXPECT_FALSE(has(m_server->output(), "\"ann\" left"));
 }
 
@@ -217,11 +217,11 @@ TEST_F(DoorTest, AVisitorGoesOnInAnotherTerminal) {
   NAIAD_SKIP_WITHOUT(ann);
   ASSERT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
   PtyTerminal* again = visit("ann");
-  ASSERT_TRUE(again->waitFor("You are playing here already")) << again->output();
+  ASSERT_TRUE(again->waitFor("You are already playing here")) << again->output();
   again->type("\r");
   ASSERT_TRUE(again->waitFor("Your name? [ann]")) << again->output();
   again->type("\r");
-  EXPECT_TRUE(serverSays("\"ann\" is back, with another client")) << m_server->output();
+  EXPECT_TRUE(serverSays("\"ann\" reconnected with a new client")) << m_server->output();
   expectEnd(*ann, "");
 }
 
@@ -238,7 +238,7 @@ TEST_F(DoorTest, NoCommandRuns) {
       visitor->waitForExit();
       if (has(m_door->output(), "Operation not permitted"))
         GTEST_SKIP() << "this sshd gives no terminals here";
-      EXPECT_TRUE(has(visitor->output(), "This door runs no commands"));
+      EXPECT_TRUE(has(visitor->output(), "This door does not run commands"));
       EXPECT_FALSE(has(visitor->output(), "uid=") || has(visitor->output(), "pwned-42"));
       EXPECT_TRUE(exits(*visitor, 2));
     }
@@ -247,7 +247,7 @@ TEST_F(DoorTest, NoCommandRuns) {
   words.push_back("sftp");
   const auto sftp = run(words);
   EXPECT_NE(sftp->waitForExit(), 0);
-  expectEnd(*run(ssh("ann", {"-T"})), "A terminal is wanted");
+  expectEnd(*run(ssh("ann", {"-T"})), "A terminal is required");
   EXPECT_FALSE(has(m_server->output(), "joined"));
 }
 
@@ -312,7 +312,7 @@ TEST_F(DoorTest, AVisitorWhoIsAwayLeaves) {
   open({"--idle-limit", "2"});
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
-  expectEnd(*ann, "You left, for you were away for too long.");
+  expectEnd(*ann, "You left: no input for too long");
   EXPECT_TRUE(serverSays("\"ann\" left")) << m_server->output();
 }
 
@@ -324,7 +324,7 @@ TEST_F(DoorTest, SeveralGamesAreOfferedAndNothingElseIs) {
   for (const char* answer : {"127.0.0.1:22", "3", "../hello"}) {
     ann->forget();
     ann->type(std::string(answer) + "\r");
-    EXPECT_TRUE(ann->waitFor("Its number is wanted")) << ann->output();
+    EXPECT_TRUE(ann->waitFor("Type a number from 1 to")) << ann->output();
   }
   ann->waitForExit();
   PtyTerminal* again = visit("ann");

@@ -33,7 +33,7 @@ class HomeFixture : public testing::Test {
         inHome({programPath("dfserver"), "--game", game, "--address", "127.0.0.1", "--port", "0"}, more);
     options.environment["NAIAD_PASSWORD"] = password;
     m_server = std::make_unique<PtyTerminal>(options);
-    ASSERT_TRUE(m_server->waitFor("From elsewhere")) << m_server->output();
+    ASSERT_TRUE(m_server->waitFor("Only this machine can join")) << m_server->output();
     m_link = linkIn(m_server->output());
   }
   static void expectEnd(PtyTerminal& program, int code, const std::string& sentence) {

@@ -35,7 +35,7 @@ class KilledClientTest : public HomeFixture {
   }
 };
 
-constexpr const char* kBack = "You are back in your old session.";
+constexpr const char* kBack = "Session resumed.";
 
 TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
   auto terminal = join();
@@ -65,7 +65,7 @@ TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
   terminal->type("\x03");
   EXPECT_EQ(WEXITSTATUS(terminal->waitForExit()), 0);
   const std::string said = serverSaid();
-  EXPECT_TRUE(has(said, "\"ann\" is back"));
+  EXPECT_TRUE(has(said, "\"ann\" reconnected"));
   EXPECT_TRUE(has(said, "\"ann\" left"));
   EXPECT_EQ(said.find("joined"), said.rfind("joined")) << said;
 
@@ -92,7 +92,7 @@ TEST_F(KilledClientTest, AFileThatOthersCanReadIsReported) {
     fs::permissions(entry.path(), fs::perms::others_read, fs::perm_options::add);
   }
   terminal = join();
-  EXPECT_TRUE(has(terminal->output(), "is not used: it is not a file of yours alone."));
+  EXPECT_TRUE(has(terminal->output(), "is ignored: expected a regular file of yours with mode 0600."));
   terminal->type("\x03");
   EXPECT_EQ(WEXITSTATUS(terminal->waitForExit()), 0);
 }

@@ -93,7 +93,7 @@ TEST_F(LanListTest, EnterJoinsTheChosenServerAndPinsItsKey) {
 TEST_F(LanListTest, TheListIsLeftWithTheTerminalAsItWas) {
   for (const char* p_key : {"q", "\033", "\003"}) {
     const auto ann = client();
-    ASSERT_TRUE(ann->waitFor("Servers of this network")) << ann->output();
+    ASSERT_TRUE(ann->waitFor("Servers in this network")) << ann->output();
     ann->type("r");
     ann->type(p_key);
     expectEnd(*ann, 0, "");
@@ -147,7 +147,7 @@ TEST_F(LanListTest, WithNaiadServerItJoinsAndListsNothing) {
   serve();
   const auto ann = client({}, {{"NAIAD_SERVER", m_link}});
   expectPlays(*ann);
-  EXPECT_FALSE(has(ann->output(), "Servers of this network"));
+  EXPECT_FALSE(has(ann->output(), "Servers in this network"));
 }
 
 TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
@@ -159,10 +159,10 @@ TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
 }
 
 TEST_F(LanListTest, WhatDoesNotGoTogetherIsAUsageError) {
-  expectEnd(*client({"--json"}), 2, "--json goes with --list");
-  expectEnd(*client({"--list", "127.0.0.1"}), 2, "do not go together");
+  expectEnd(*client({"--json"}), 2, "--json requires --list");
+  expectEnd(*client({"--list", "127.0.0.1"}), 2, "cannot be used with SERVER");
   expectEnd(*client({"--password", "xyzzy"}), 2, "--ask-password");
-  expectEnd(*client({"--insecure"}), 2, "--insecure is for one server");
+  expectEnd(*client({"--insecure"}), 2, "--insecure requires SERVER");
 }
 
 /// Answers queries on loopback with arbitrary bytes, as if servers were there.

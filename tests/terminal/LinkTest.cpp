@@ -40,14 +40,14 @@ TEST_F(LinkTest, AnotherKeyIsRefusedAndTheServerHearsNoName) {
   serve("hello");
   char& first = m_link[m_link.find('#') + 1];
   first = first == 'a' ? 'b' : 'a';
-  expectEnd(*client(m_link), 3, "does not have the key of the link");
+  expectEnd(*client(m_link), 3, "does not have the key in the link");
   m_server->signal(SIGTERM);
   m_server->waitForExit();
   EXPECT_FALSE(has(m_server->output(), "\"ann\""));
 }
 
 TEST_F(LinkTest, AMalformedOneIsAUsageError) {
-  expectEnd(*client("naiad://127.0.0.1#tooshort"), 2, "the key behind its #");
+  expectEnd(*client("naiad://127.0.0.1#tooshort"), 2, "the key after the #");
 }
 
 TEST_F(LinkTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {

@@ -13,7 +13,7 @@ using NoPicture = FakeServerFixture;
 TEST_F(NoPicture, TheClientSaysWhatItWaitsForAndLeavesWhenAsked) {
   server.withholdPictures();
   PtyTerminal terminal(options());
-  ASSERT_TRUE(terminal.waitFor("first picture is awaited")) << terminal.output();
+  ASSERT_TRUE(terminal.waitFor("waiting for the first picture")) << terminal.output();
   terminal.type("\x03");
   EXPECT_TRUE(diesOf(terminal, SIGINT));
   EXPECT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_leave(); }))

@@ -175,7 +175,7 @@ TEST_F(OwnMain, OneKeyDoesNotEndTheGameForAll) {
   auto bob = join("bob");
   bob->type("q");
   EXPECT_EQ(WEXITSTATUS(bob->waitForExit()), 4);
-  EXPECT_TRUE(has(bob->output(), "For you, the game is over."));
+  EXPECT_TRUE(has(bob->output(), "The game is over for you."));
   ann->type("q");  // the server has no local player, so it waits for the next player
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   auto carl = join("carl");
@@ -219,7 +219,7 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
   const std::string log = read("game.log");  // has the lines of the server and of both rounds
   EXPECT_EQ(log.find("\"ann\" joined"), log.rfind("\"ann\" joined")) << log;
   EXPECT_TRUE(has(log, "the round is over"));
-  EXPECT_FALSE(has(ann->newOutput(), "Server lost")) << ann->output();
+  EXPECT_FALSE(has(ann->newOutput(), "Connection lost")) << ann->output();
   game->signal(SIGTERM);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
   expectOrderlyEnd(*game);
@@ -228,7 +228,7 @@ TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
 TEST_F(OwnMain, ModulesHaveRoundsToo) {
   PtyTerminal server(inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"),
                              "--address", "127.0.0.1", "--on-game-over", "restart"}));
-  ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
+  ASSERT_TRUE(server.waitFor("Only this machine can join")) << server.output();
   auto ann = join("ann");
   ann->type(kRight);
   ASSERT_TRUE(ann->waitFor("$")) << ann->output();
@@ -286,7 +286,7 @@ TEST_F(OwnMain, HeadlessItNeedsNoNetwork) {
 
 TEST_F(OwnMain, WithoutAClientItIsAServer) {
   auto game = start({{"NAIAD_CLIENT", "/nonexistent"}});
-  ASSERT_TRUE(game->waitFor("There is no dfclient")) << game->output();
+  ASSERT_TRUE(game->waitFor("dfclient not found")) << game->output();
   auto ann = join("ann");
   ann->type("x");
   expectOrderlyEnd(*game);
@@ -301,7 +301,7 @@ TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
   ann->type("\035t/help\r");
   EXPECT_TRUE(ann->waitFor("no commands")) << ann->output();
   const std::string log = read("log");
-  const std::string warning = "no scores, bans, dfctl, metrics, local network or bus: " +
+  const std::string warning = "scores, bans, dfctl, metrics, local network and bus are not available: " +
                               (m_home / "lib/libdragonfly-ops.so.0").string();
   EXPECT_TRUE(has(log, warning));
   EXPECT_EQ(log.find(warning), log.rfind(warning)) << "once";
@@ -309,7 +309,7 @@ TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
 
 TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
   auto game = start({{"TERM", "unknown"}});
-  ASSERT_TRUE(game->waitFor("the game goes on as a server")) << game->output();
+  ASSERT_TRUE(game->waitFor("the game continues as a server")) << game->output();
   auto ann = join("ann");
   game->signal(SIGINT);
   expectOrderlyEnd(*game);
@@ -335,7 +335,7 @@ TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
 
 TEST_F(OwnMain, ListensOnLoopbackAloneUnlessAskedOtherwise) {
   std::ofstream(m_home / "df-config.txt") << "logfile:" << (m_home / "game.log").string() << ",\n";
-  constexpr const char* kAlone = "From elsewhere nobody can join: it listens on 127.0.0.1:";
+  constexpr const char* kAlone = "Only this machine can join: listening on 127.0.0.1:";
   EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
   const std::string open = startServer({{"NAIAD_ADDRESS", ""}, {"NAIAD_PUBLIC", "1"}})->output();
   EXPECT_FALSE(has(open, kAlone));
@@ -355,7 +355,7 @@ TEST_F(OwnMain, APasswordThatEveryUserCanReadIsWarnedOf) {
   configure("password:sesame,\n");
   fs::permissions(m_home / "df-config.txt", fs::perms::owner_all | fs::perms::others_read);
   startServer();
-  EXPECT_TRUE(has(read("game.log"), "df-config.txt has the password, and every user can read it."))
+  EXPECT_TRUE(has(read("game.log"), "df-config.txt has the password, but every user can read it."))
       << read("game.log");
 }
 
@@ -370,7 +370,7 @@ TEST_F(OwnMain, APortThatIsTakenMattersOnlyIfItWasAskedFor) {
 TEST_F(OwnMain, IsAModuleOfDfserverToo) {
   PtyTerminal server(inHome(
       {programPath("dfserver"), "--game", programPath("../lib/lone_module.so"), "--address", "127.0.0.1"}));
-  ASSERT_TRUE(server.waitFor("From elsewhere")) << server.output();
+  ASSERT_TRUE(server.waitFor("Only this machine can join")) << server.output();
   EXPECT_FALSE(has(server.output(), "compat is on"));
   auto ann = join("ann");
   ann->type("q");

@@ -101,7 +101,7 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   terminal.type("\033[97;1:3u");
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
   terminal.type("\033[93;5u\033[93;5:3u\033[104u");  // Ctrl-] h
-  EXPECT_TRUE(terminal.waitFor("this terminal reports when a key goes up"));
+  EXPECT_TRUE(terminal.waitFor("this terminal reports key releases"));
   terminal.type("\033[27u");
 
   terminal.forget();
@@ -125,7 +125,7 @@ TEST_F(TerminalRestoreTest, KeyRecordsHaveRealReleases) {
   terminal.type("\033[65;30;97;0;0;1_");
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
   terminal.type("\033[221;27;29;1;8;1_\033[221;27;29;0;8;1_\033[72;35;104;1;0;1_");  // Ctrl-] h
-  EXPECT_TRUE(terminal.waitFor("this terminal reports when a key goes up"));
+  EXPECT_TRUE(terminal.waitFor("this terminal reports key releases"));
   terminal.type("\033[27;1;27;1;0;1_");
 
   terminal.type(
@@ -162,7 +162,7 @@ TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
   PtyTerminal terminal(options());
   join(terminal);
   server.drop();
-  EXPECT_TRUE(terminal.waitFor("looking for it"));
+  EXPECT_TRUE(terminal.waitFor("reconnecting"));
   EXPECT_TRUE(server.hasReceived(
       [hellos = 0](const wire::ClientMessage& m) mutable { return m.has_hello() && ++hellos == 2; }));
   terminal.type("\x03");

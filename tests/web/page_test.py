@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """usage: page_test.py BUILD [TEST...]
 
-The page in a real browser (chromium, headless), with a real dfweb and dfserver. Exit code 77 where there is no browser.
-With NAIAD_PICTURES=DIR it leaves pictures of the page there, at three sizes.
+Tests the page in a real browser (chromium, headless), with a real dfweb and dfserver. Exit code 77: there is no browser.
+With NAIAD_PICTURES=DIR it writes pictures of the page to DIR, at three sizes.
 """
 
 import os
@@ -96,7 +96,7 @@ class PageTest(unittest.TestCase):
             wait_for(self.browser, "1 player")
             self.browser.call("POST", "/refresh", {})
             self.browser.wait("return document.body.classList.contains('playing')")
-            wait_for(self.browser, "You are back")
+            wait_for(self.browser, "Session resumed")
             wait_for(self.browser, "1 player")
             first = self.browser.windows()
             self.browser.run("window.open(location.href)")
@@ -114,7 +114,7 @@ class PageTest(unittest.TestCase):
             self.begin()
             before = self.ship_below(0)
             hosting.break_lines()
-            hosting.wait_for_line("server.log", '"Ada" is back')
+            hosting.wait_for_line("server.log", '"Ada" reconnected')
             self.browser.keys(("down", DOWN), ("wait", 500), ("up", DOWN))
             self.ship_below(before)
             wait_for(self.browser, "1 player")
@@ -150,7 +150,7 @@ class PageTest(unittest.TestCase):
     def test_a_link_to_another_game_is_told_apart(self):
         with Hosting(BUILD, page(), "--game", "hello") as hosting:
             self.browser.open(hosting.address + "#" + "a" * 26)
-            self.browser.wait("return document.querySelector('#said').textContent.includes('another game')")
+            self.browser.wait("return document.querySelector('#said').textContent.includes('different server')")
             self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
 
     def test_the_address_names_the_room(self):
@@ -162,7 +162,7 @@ class PageTest(unittest.TestCase):
             self.assertEqual(hosting.players_of("arcade"), 1)
             # After a reload it is still player Ada, in her room.
             self.browser.call("POST", "/refresh", {})
-            wait_for(self.browser, "You are back")
+            wait_for(self.browser, "Session resumed")
             self.assertEqual(hosting.players_of("arcade"), 1)
             self.no_complaints()
 
@@ -170,7 +170,7 @@ class PageTest(unittest.TestCase):
         with Hosting(BUILD, page(), "--room", "hall=lobby", "--room", "arcade=hello") as hosting:
             for name in ("..%2Fetc", "a%20b", "%3Cscript%3E", "a" * 33, "-x"):
                 self.browser.open(hosting.address + "?room=" + name + "#" + hosting.key)
-                self.browser.wait("return document.querySelector('#said').textContent.includes('names no room')")
+                self.browser.wait("return document.querySelector('#said').textContent.includes('invalid room name')")
                 self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"), name)
             self.browser.open(hosting.address + "?room=arcad#" + hosting.key)
             self.browser.wait("return document.querySelector('#play').disabled === false")
@@ -182,7 +182,7 @@ class PageTest(unittest.TestCase):
         with Hosting(BUILD, page(), "--game", "hello") as hosting:
             self.browser.devtools("Page.addScriptToEvaluateOnNewDocument", source="delete globalThis.WebAssembly")
             self.browser.open(hosting.address)
-            self.browser.wait("return document.querySelector('#said').textContent.includes('no WebAssembly')")
+            self.browser.wait("return document.querySelector('#said').textContent.includes('lacks WebAssembly')")
             self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
 
     def test_a_browser_that_cannot_run_the_script_gets_a_sentence(self):

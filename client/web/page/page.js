@@ -185,7 +185,7 @@ async function join() {
 
 async function fetchModule() {
   const response = await fetch("client.wasm");
-  if (!response.ok) throw new Error(`the gateway says ${response.status}`);
+  if (!response.ok) throw new Error(`the gateway answered with HTTP status ${response.status}`);
   return response;
 }
 
@@ -334,20 +334,20 @@ async function begin() {
   element("sound").setAttribute("aria-pressed", String(sounds.on));
   element("name").value = localStorage.getItem("naiad.name") ?? "";
   element("pad").hidden = element("keyboard").hidden = !touch;
-  if (typeof WebAssembly !== "object") return say("This browser has no WebAssembly, which the game needs. A newer one has.");
+  if (typeof WebAssembly !== "object") return say("This browser lacks WebAssembly, which the game needs. Please update it.");
   wasm = fetchModule().catch(() => null);
   try {
     server = await (await fetch("server")).json();
   } catch {
-    return say("The game's gateway does not answer. Load the page again in a moment.");
+    return say("The game's gateway does not answer. Reload the page in a moment.");
   }
   element("title").textContent = server.name || "Naiad";
   document.title = server.name ? `${server.name} – Naiad` : "Naiad";
   if (room !== "" && !isRoomName(room)) {
-    return say("The address of this page names no room: 1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit, are wanted behind room=.");
+    return say("The address of this page has an invalid room name. Expected after room=: 1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit.");
   }
   if (server.link) element("terminal").textContent = `dfclient ${server.link}`;
-  if (isOtherServer()) return say("This address was made for another game than the one that is here now.");
+  if (isOtherServer()) return say("This link belongs to a different server.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
   // A reloaded tab resumes its session.
   if (sessionStorage.getItem("naiad.token") !== null && element("name").value !== "") return join();

@@ -10,7 +10,7 @@ const lacking = WebAssembly.Module.imports(new WebAssembly.Module(readFileSync(w
   .filter(({module, name, kind}) => kind !== "function" || typeof given[module]?.[name] !== "function")
   .map(({module, name}) => `${module}.${name}`);
 if (lacking.length > 0) {
-  console.error(`${wasm} calls what ${script} does not have: ${lacking.join(", ")}`);
-  console.error("A source of the page's client uses something that a browser does not give. Leave it out, or add it to hostFunctions().");
+  console.error(`${wasm} imports functions that ${script} does not provide: ${lacking.join(", ")}`);
+  console.error("A source of the web client uses a function that browsers do not provide. Remove the call, or add the function to hostFunctions().");
   process.exit(1);
 }

@@ -24,9 +24,9 @@ _MAC_HEADERS = re.compile(r"(CoreFoundation|ApplicationServices|Cocoa|mach|mach-
                           r"Carbon|AppKit|Foundation|CoreGraphics)\b")
 _NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket|netinet/in|arpa/inet|netdb)\.h[>"]', re.I)
 _WINDOWS_MAIN = re.compile(r"\b(WINAPI|APIENTRY|w?WinMain)\b")
-NETWORK_SENTENCE = ("it brings a network of its own and needs none here: the whole game runs on the server, and every "
-                    "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() says who pressed. Take out these files and what calls them")
-_MAIN_ADVICE = "programs begin in WinMain() on Windows alone: write int main()"
+NETWORK_SENTENCE = ("it has its own network code, which is not needed here: the whole game runs on the server, and every "
+                    "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() returns the player. Remove these files and the code that uses them")
+_MAIN_ADVICE = "WinMain() exists only on Windows: write int main()"
 
 
 def missing_name(text):
@@ -61,21 +61,21 @@ class Blame:
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
         if name and _WINDOWS_NAMES.match(name):
-            return SYSTEM, f"{name} is Windows' or Microsoft's: {_instead(name)}"
+            return SYSTEM, f"{name} exists only on Windows: {_instead(name)}"
         if _WINDOWS_MAIN.search(line):
             return SYSTEM, _MAIN_ADVICE
         if self._is_gone_with_engine(unit, diagnostic):
             if self._own:
-                return OTHER, (f"the engine in this folder has {name or 'it'}, the published one may not: write it with "
-                               "what Naiad's headers have")
+                return OTHER, (f"the engine in this folder has {name or 'this'}, but the published engine may not: use "
+                               "what Naiad's headers declare")
             lacks = f" (no {name})" if name else ""
-            return OURS, f"the published engine takes this line and Naiad does not{lacks}: please report it"
+            return OURS, f"the published engine accepts this line, but Naiad does not{lacks}: please report it"
         if name and self._is_engines(name, diagnostic.text):
             if "no matching" in diagnostic.text or self._naiad.header_of(name):
-                return UNCLEAR, f"Naiad has {name} and not for these arguments: compare them with the headers, else report it"
-            return OURS, f"the published engine has {name} and Naiad does not: please report it"
+                return UNCLEAR, f"Naiad has {name}, but not with these arguments: compare them with the headers, or report it"
+            return OURS, f"the published engine has {name}, but Naiad does not: please report it"
         if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
-            return OTHER, f"{name} is of the engine that came in this folder: the published engine has no such name"
+            return OTHER, f"{name} belongs to the engine in this folder: the published engine does not have it"
         return THEIRS, _advice(diagnostic.text, name)
 
     def _is_engines(self, name, text):
@@ -91,12 +91,12 @@ class Blame:
 
     def _file(self, base, path):
         if _WINDOWS_HEADERS.match(base) or base.lower() in ("winsock2.h", "ws2tcpip.h", "winsock.h"):
-            return SYSTEM, f"{base} is Windows' own: take out what uses it"
+            return SYSTEM, f"{base} exists only on Windows: remove the code that uses it"
         if _MAC_HEADERS.match(path):
-            return SYSTEM, f"{path} is macOS' own: take out what uses it"
+            return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"
         if self._naiad.was_published(base):
-            return OURS, f"the published engine has {base} and Naiad does not: please report it"
-        return THEIRS, f"{base} is not in the folder: add it, or take out this line and what needs it"
+            return OURS, f"the published engine has {base}, but Naiad does not: please report it"
+        return THEIRS, f"{base} is not in the folder: add it, or remove this line and the code that needs it"
 
     def _is_gone_with_engine(self, unit, diagnostic):
         if unit is None:
@@ -120,39 +120,39 @@ class Blame:
             return THEIRS, "no file of the program has a main()"
         if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
             if self._own:
-                return OTHER, f"{plain} is of the engine that came in this folder"
-            return (OURS, f"the published engine has {plain} and Naiad does not: please report it") \
-                if self._naiad.was_published(name) else (THEIRS, f"{plain} is declared and nowhere defined")
+                return OTHER, f"{plain} belongs to the engine in this folder"
+            return (OURS, f"the published engine has {plain}, but Naiad does not: please report it") \
+                if self._naiad.was_published(name) else (THEIRS, f"{plain} is declared but not defined")
         if symbol.startswith("__imp_") or _WINDOWS_NAMES.match(name):
-            return SYSTEM, f"{plain} is Windows' own"
-        return THEIRS, f"{plain} is declared, and no source in the folder defines it: add its file, or write it"
+            return SYSTEM, f"{plain} exists only on Windows"
+        return THEIRS, f"{plain} is declared, but no source in the folder defines it: add the source, or write the function"
 
 
 def _instead(name):
     if name.endswith("_s"):
-        return f"write {name[:-2]}(), with the arguments that it takes"
+        return f"use {name[:-2]}(), and adapt the arguments"
     if re.match(r"GetAsyncKeyState|_getch|_kbhit|VK_", name):
-        return "keys are events (EventKeyboard)"
+        return "keys arrive as events (EventKeyboard)"
     if re.match(r"SOCKET|WSA|closesocket|ioctlsocket|INVALID_", name):
-        return "no network is needed here, see below"
-    return "take it out"
+        return "no network code is needed here, see below"
+    return "remove it"
 
 
 def _advice(text, name):
     """Returns advice for an error that is the author's own."""
     for pattern, advice in (
-            (r"is ambiguous", f"write ::{name or 'X'} for the game's own, or take out `using namespace`"),
+            (r"is ambiguous", f"write ::{name or 'X'} for the game's own, or remove `using namespace`"),
             (r"marked 'override', but does not override",
              "give it the arguments of the engine's function: int eventHandler(const df::Event *p_e)"),
-            (r"invalid conversion from 'const ", "add the const that is missing"),
-            (r"invalid new-expression of abstract class|abstract", "write the functions that its base leaves open"),
+            (r"invalid conversion from 'const ", "add the missing const"),
+            (r"invalid new-expression of abstract class|abstract", "define the pure virtual functions of its base class"),
             (r"redefinition of|multiple definition", "define it once: #pragma once in headers, functions in a .cpp"),
-            (r"expected ", "the line, or the one before it, is not C++"),
+            (r"expected ", "syntax error in this line or the one before"),
             (r"no matching function|no declaration matches|candidate expects", "compare the arguments with the declaration"),
             (r"was not declared|does not name a type|has not been declared|undeclared|unknown type",
-             f"{name or 'the name'} is nowhere declared: include its header, or correct the name"),
+             f"{name or 'the name'} is not declared: include its header, or correct the name"),
             (r"has no member named", f"the class has no {name}: correct the name"),
-            (r"cannot convert|could not convert", "the types do not fit")):
+            (r"cannot convert|could not convert", "the types do not match")):
         if re.search(pattern, text):
             return advice
     return "correct this line"

@@ -17,7 +17,7 @@ def phase(what, seconds):
     """Begins a phase that must not take longer than `seconds` (0: no limit). A safety net: code that reads untrusted text has
     limits of its own."""
     def stop(*_):
-        raise Stalled(f"{what} takes more than {seconds:g} s")
+        raise Stalled(f"{what} took more than {seconds:g} s")
 
     signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)

@@ -47,7 +47,7 @@ class Building:
             self._leave_out_what_nothing_needs()
         for unit in self.units:
             if unit.name not in self._game.program.sources:
-                self._game.report.add("treated", unit.name, "is taken, too: it defines what the listed sources use")
+                self._game.report.add("treated", unit.name, "added: it defines symbols that the listed sources use")
         self._game.sources.flush()
         return not self.broken and self.said is None
 
@@ -127,7 +127,7 @@ class Building:
             self.units, self.said = all_units, None
             return
         for unit in bad:
-            first = f"{unit.errors[0].file}:{unit.errors[0].line}: {unit.errors[0].text}" if unit.errors else "it takes too long"
+            first = f"{unit.errors[0].file}:{unit.errors[0].line}: {unit.errors[0].text}" if unit.errors else "compiling it takes too long"
             self._game.report.add("left out", unit.name, f"it does not compile, and nothing needs it ({first})")
 
     def build_examined(self, program):

@@ -3,10 +3,10 @@ import re
 
 _WHAT = re.compile(r"ERROR: AddressSanitizer: ([\w-]+)(.*)")
 _FRAME = re.compile(r"^\s*#\d+ 0x[0-9a-f]+ in .*? (\S.*?):(\d+)(?::\d+)?\s*$")
-_WORDS = {"SEGV": "a bad pointer", "heap-use-after-free": "used after it was deleted", "heap-buffer-overflow": "beyond the end of an array",
-          "stack-buffer-overflow": "beyond the end of an array", "global-buffer-overflow": "beyond the end of an array",
-          "stack-overflow": "a function calls itself without end", "FPE": "a division by zero", "ABRT": "abort()",
-          "attempting double-free": "deleted twice"}
+_WORDS = {"SEGV": "a bad pointer", "heap-use-after-free": "use of a deleted object", "heap-buffer-overflow": "access beyond the end of an array",
+          "stack-buffer-overflow": "access beyond the end of an array", "global-buffer-overflow": "access beyond the end of an array",
+          "stack-overflow": "infinite recursion", "FPE": "a division by zero", "ABRT": "abort()",
+          "attempting": "deleted twice, or not made with new"}
 MAX_LINE = 1000  # maximum characters of a line, because a game's output is untrusted
 
 

@@ -68,7 +68,7 @@ def drop_broken_links(copy):
         full, reason = copy.path(path), None
         if os.path.islink(full):
             if not (os.path.isfile(full) and os.path.realpath(full).startswith(inside)):
-                reason = "a link to what was left out"
+                reason = "a link to a file that was left out"
             elif is_source(path):
                 reason = "a link to another source"
         if reason:
@@ -90,7 +90,7 @@ def _copy_level(copy, limits, descriptor, top, prefix, depth):
         copy.entries += 1
         if copy.entries > limits.entries:
             if copy.entries == limits.entries + 1:
-                copy.left_out.append((path, f"and all after it: more than {limits.entries} files"))
+                copy.left_out.append((path, f"this and all files after it: more than {limits.entries} files"))
             return
         reason = _copy_entry(copy, limits, descriptor, top, path, name, depth)
         if reason:
@@ -114,13 +114,13 @@ def _copy_entry(copy, limits, descriptor, top, path, name, depth):
         return {stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFCHR: "a device",
                 stat.S_IFBLK: "a device"}.get(stat.S_IFMT(kind), "not a file")
     if JUNK_FILE.match(name):
-        return "a product of a build or of a system"
+        return "a file made by a build or the system"
     return _copy_file(copy, limits, descriptor, path, name)
 
 
 def _copy_subfolder(copy, limits, descriptor, top, path, name, depth):
     if name.lower() in JUNK_FOLDERS or JUNK_FOLDER.match(name):
-        return "a folder of a system, an editor or a library"
+        return "a folder of the system, an editor or a library"
     if depth >= limits.depth:
         return f"more than {limits.depth} folders deep"
     try:
@@ -145,7 +145,7 @@ def _copy_link(copy, descriptor, top, path, name):
     if os.path.isabs(text) or not (goal + os.sep).startswith(top + os.sep):
         return "a link out of the folder"
     if not os.path.isfile(goal):
-        return "a link to no file"
+        return "a link that does not lead to a file"
     os.symlink(text, copy.path(path))
     copy.files.append(path)
     return None
@@ -163,7 +163,7 @@ def _copy_file(copy, limits, descriptor, path, name):
         if not stat.S_ISREG(status.st_mode):
             return "not a file"
         if status.st_size > most:
-            return f"{status.st_size / MIB:.0f} MiB, more than {most // MIB}"
+            return f"{status.st_size / MIB:.0f} MiB, more than {most // MIB} MiB"
         if copy.bytes + status.st_size > limits.total_bytes:
             return f"the folder has more than {limits.total_bytes // MIB} MiB"
         data = reader.read(status.st_size)

@@ -41,30 +41,30 @@ class Game:
         self.files = copy.files
         self._say_left_out(copy.left_out)
         for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
-            what = "an engine of the author's own" if self.engine.own else "a copy of the engine"
-            self.report.add("left out", folder, f"{count} file{'s' * (count > 1)} of {what}: Naiad's are taken")
+            what = "the author's own engine" if self.engine.own else "a copy of the engine"
+            self.report.add("left out", folder, f"{count} file{'s' * (count > 1)} of {what}: Naiad's are used instead")
         self.sources = Sources(self.tree, [name for name in self.files if is_code(name)])
         for name in self.sources.recoded:
-            self.report.add("treated", name, "was in UTF-16, is in UTF-8 now")
+            self.report.add("treated", name, "converted from UTF-16 to UTF-8")
 
     def _say_left_out(self, left_out):
         """Reports files that were not copied: products of builds and systems in one row, others in a row each."""
         usual, rest = [], []
         for one in left_out:
-            (usual if one[1].startswith(("a product", "a folder of a system")) else rest).append(one)
+            (usual if one[1].startswith(("a file made by", "a folder of the system")) else rest).append(one)
         for path, reason in rest[:MAX_ROWS]:
             self.report.add("left out", path, reason)
         if len(rest) > MAX_ROWS:
-            self.report.add("left out", "", f"and {len(rest) - MAX_ROWS} more of the kind")
+            self.report.add("left out", "", f"and {len(rest) - MAX_ROWS} more files or folders")
         if usual:
-            self.report.add("left out", "", f"{len(usual)} product{'s' * (len(usual) > 1)} of builds, editors and systems, such as {usual[0][0]}")
+            self.report.add("left out", "", f"{len(usual)} product{'s' * (len(usual) > 1)} of builds, editors or the system, such as {usual[0][0]}")
 
     def choose_program(self, main):
         """Chooses the program: that of `main`, or the most likely one. Returns whether there is one."""
         self.all_sources = [name for name in self.sources.files if is_source(name)]
         if not self.all_sources:
             unpack = f": unpack {self._archives[0]} first" if self._archives else ""
-            self.report.fail("is no game", "there is no C++ source in the folder" + " but that of an engine" * self.engine.own + unpack)
+            self.report.fail("not a game", "the folder has no C++ source" + " except an engine's" * self.engine.own + unpack)
             return False
         lists = read_lists(self.tree, self.files, self.all_sources)
         found = programs(self.all_sources, lists, self.sources.code, included_sources(self.sources))
@@ -72,7 +72,7 @@ class Game:
             wanted = (os.path.normpath(main), os.path.relpath(main, self.folder))
             found = [one for one in found if one.main in wanted]
         if not found:
-            self.report.add_left("", faults.THEIRS, f"there is no main() in {main or 'the sources of the folder'}",
+            self.report.add_left("", faults.THEIRS, f"no main() in {main or 'the sources of the folder'}",
                                  "add the file with int main()")
             self.report.fail("does not build", "no main()")
             return False
@@ -82,12 +82,12 @@ class Game:
 
     def _say_program(self, found):
         program = self.program
-        origin = f"as {program.source_list.file} lists them" if program.source_list else "all that are there"
+        origin = f"listed in {program.source_list.file}" if program.source_list else "found in the folder"
         count = len(program.sources) - 1
         self.report.add("program", program.main, f"and {count} more source{'s' * (count != 1)}, {origin}" if count
                         else f"the only source, {origin}")
         for other in found[1:MAX_ROWS]:
-            self.report.add("program", other.main, "another one, not tried: --main takes it")
+            self.report.add("program", other.main, "another program, not built: use --main to choose it")
         if program.source_list:
             self._say_list(program.source_list)
         for name, reason in program.left_out[:MAX_ROWS]:
@@ -95,10 +95,10 @@ class Game:
 
     def _say_list(self, source_list):
         if source_list.definitions:
-            self.report.add("note", source_list.file, "compiled with " + " ".join(source_list.definitions) + ", as it says")
+            self.report.add("note", source_list.file, "compiled with " + " ".join(source_list.definitions) + ", as in this file")
         for call in source_list.unread[:3]:
             self.report.add("note", source_list.file, f"not run: {call}")
         known = {stem(name) for name in self.engine.files + self.files}
         for word in source_list.missing[:MAX_ROWS]:
             if stem(word.replace("\\", "/")) not in known:
-                self.report.add("note", source_list.file, f"lists {word}, which is not there")
+                self.report.add("note", source_list.file, f"lists {word}, which does not exist")

@@ -45,19 +45,19 @@ class Includes:
         goal = self._goal(os.path.dirname(name), path)
         if goal is None:
             if os.path.basename(path).lower() in _DROPPED:
-                return f"//{begin}{mark}{written}{'>' if mark == '<' else mark}{rest}", "Visual Studio's own header"
+                return f"//{begin}{mark}{written}{'>' if mark == '<' else mark}{rest}", "a header that only Visual Studio has"
             return None
         found, is_ours = goal
         if found == written and (mark == '"' or is_ours):
             return None
         if "\\" in written:
-            why = "a backslash parts no folders here"
+            why = "folders are separated by /, not by a backslash"
         elif found == written:
-            why = "a file of the game is named in quotation marks"
+            why = "headers of the game are included with quotation marks"
         elif found.lower() == path.lower():
-            why = "upper and lower case differ here"
+            why = "upper and lower case must match the file name"
         else:
-            why = "the engine's headers are Naiad's" if is_ours else "where the file is"
+            why = "Naiad's header is used" if is_ours else "the path does not lead to the file"
         return f'{begin}"{found}"{rest}', why
 
     def _is_systems(self, here, path):

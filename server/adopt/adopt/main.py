@@ -24,19 +24,19 @@ READ_SECONDS = 120  # time limit; a student's folder takes one or two
 BUILD_SECONDS = 1800  # time limit, of which the compiler gets 900
 
 DESCRIPTION = """\
-Builds and runs a game that was written for the published Dragonfly engine (4.2 to 4.22), or says what is in its way.
+Builds and runs a game written for the published Dragonfly engine (4.2 to 4.22), or reports what prevents it.
 
-The folder is only read. A private copy of it is treated: copies of the engine are left out, names of files get the case that
-they have, lines that only other compilers take are changed. It is compiled with Naiad's headers, linked with its library, and
-started as a server, where a player presses random keys. Makefiles and project files are read and never run; the game runs in a
-sandbox without a network, from which it cannot write anywhere.
+FOLDER is only read. The program changes a private copy: it leaves out copies of the engine, corrects the case of file names and
+lines that only other compilers accept. It compiles the copy with Naiad's headers, links it with Naiad's library, and starts it as
+a server, where a player presses random keys. Makefiles and project files are read, never run. The game runs in a sandbox without
+a network and cannot write outside it.
 """
 EPILOG = """\
-The table says what was done and, for each thing that is left, the file, the line, what to do, and whose fault it is:
-  the game          it does not compile with the published engine either, or lacks a file
-  another engine    it was written for an engine of its author's own, whose copy is in the folder
-  another system    it uses what only Windows or macOS has
-  Naiad             the published engine takes it and Naiad does not: please report it
+The table lists what was done and, for each remaining problem, the file, the line, what to do, and where the fault is:
+  the game          it does not compile with the published engine either, or a file is missing
+  another engine    it was written for its author's own engine, which is in the folder
+  another system    it uses something that only Windows or macOS has
+  Naiad             the published engine accepts it and Naiad does not: please report it
 
 Exit codes:
   0  it runs
@@ -55,22 +55,22 @@ def _parser():
     parser = argparse.ArgumentParser(prog="dragonfly-adopt", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", metavar="FOLDER", help="the folder with the game")
-    parser.add_argument("--keep", metavar="DIR", help="keep the treated copy, with the program in it, as this new folder")
-    parser.add_argument("--main", metavar="FILE", help="the file with main() of the program to build, if there are several")
+    parser.add_argument("--keep", metavar="DIR", help="keep the changed copy, with the built program, in this new folder")
+    parser.add_argument("--main", metavar="FILE", help="source with the main() to build, if the folder has several programs")
     parser.add_argument("--seconds", metavar="N", type=float, default=10.0,
-                        help="how long to run it (default 10; 0: only build it)")
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
+                        help="how long to run the game (default 10; 0: only build it)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the random keys (default 1)")
     parser.add_argument("--keys", metavar="SCRIPT",
-                        help="what to press instead: a script, or a file of one, as dfbot --script takes it")
+                        help="press these keys instead: a script, or a file with one, as for dfbot --script")
     parser.add_argument("--players", metavar="N", type=int, default=1,
-                        help="how many players join and press keys, 1 to 16 (default 1)")
+                        help="number of players that join and press keys, 1 to 16 (default 1)")
     parser.add_argument("--book", action="store_true",
-                        help="with the book's rules, as dragonfly_game() builds, not the published engine's")
+                        help="build with the book's rules, as dragonfly_game() does, not the published engine's")
     parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
     parser.add_argument("--unconfined", action="store_true",
-                        help="run the game without the sandbox, where the kernel has none: only one that you trust")
+                        help="run the game without the sandbox, if the kernel has none; only for a game that you trust")
     parser.add_argument("--json", action="store_true", help="print JSON instead of the table")
-    parser.add_argument("--quiet", action="store_true", help="no progress on stderr")
+    parser.add_argument("--quiet", action="store_true", help="do not show progress on stderr")
     return parser
 
 
@@ -78,24 +78,24 @@ def _compiler(asked):
     for name in [asked] if asked else [os.environ.get("CXX"), "g++", "clang++"]:
         if name and shutil.which(name):
             return shutil.which(name)
-    raise Usage(f"no compiler {asked}" if asked else "no compiler: install g++")
+    raise Usage(f"--cxx {asked}: compiler not found" if asked else "no compiler found: install g++")
 
 
 def _check(options):
     if not os.path.isdir(options.folder):
         raise Usage(f"{options.folder}: no such folder")
     if not 0 <= options.seconds <= 3600:
-        raise Usage(f"--seconds {options.seconds:g}: from 0 to 3600")
+        raise Usage(f"--seconds {options.seconds:g}: expected 0 to 3600")
     if not 1 <= options.players <= 16:
-        raise Usage(f"--players {options.players}: from 1 to 16")
+        raise Usage(f"--players {options.players}: expected 1 to 16")
     if options.keep:
         top, keep = os.path.realpath(options.folder), os.path.realpath(options.keep)
         if os.path.lexists(options.keep):
-            raise Usage(f"--keep {options.keep}: is there already")
+            raise Usage(f"--keep {options.keep}: already exists")
         if (keep + os.sep).startswith(top + os.sep):
-            raise Usage(f"--keep {options.keep}: lies in the game's folder, which stays as it is")
+            raise Usage(f"--keep {options.keep}: must be outside of the game's folder")
         if not os.path.isdir(os.path.dirname(keep)):
-            raise Usage(f"--keep {options.keep}: {os.path.dirname(keep)} is no folder")
+            raise Usage(f"--keep {options.keep}: {os.path.dirname(keep)} is not a folder")
     if options.keys and os.path.isfile(options.keys):
         with open(options.keys, encoding="utf-8", errors="replace") as file:
             options.keys = file.read(1 << 20)
@@ -132,7 +132,7 @@ def adopt(game, compiler, options, say):
         shutil.move(game.tree, options.keep)
         place, command = program or ("", "")
         play = f"; to play it: cd {shlex.quote(os.path.normpath(os.path.join(options.keep, place)))} && {command}" if program else ""
-        game.report.add("kept", options.keep, "the treated copy" + play)
+        game.report.add("kept", options.keep, "the changed copy" + play)
 
 
 def _judge(game, compiler, options, say):
@@ -146,13 +146,13 @@ def _judge(game, compiler, options, say):
     if options.book:
         building.compiler.definitions.append("-DDF_COMPAT=0")
     game.report.result = "does not build"
-    bounded.phase("building it", BUILD_SECONDS)
+    bounded.phase("building the game", BUILD_SECONDS)
     built = building.build()
     Verdicts(game, building).say(built)
     if not built:
         return None
     game.report.result = "builds"
-    bounded.phase("running it", 2 * options.seconds + BUILD_SECONDS)  # after a crash it is built and run again
+    bounded.phase("running the game", 2 * options.seconds + BUILD_SECONDS)  # after a crash it is built and run again
     running = Running(game, building, options, say)
     running.run()
     return running.folder, os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)
@@ -199,7 +199,7 @@ def main(include, lib, bin_folder, names, arguments=None):
         return USAGE
     except (OSError, MemoryError) as error:
         say("")
-        sys.stderr.write(f"dragonfly-adopt: {shown(str(error) or 'there is too little memory')}\n")
+        sys.stderr.write(f"dragonfly-adopt: {shown(str(error) or 'out of memory')}\n")
         return FAILS
     except KeyboardInterrupt:
         say("")
@@ -209,4 +209,4 @@ def main(include, lib, bin_folder, names, arguments=None):
     say("")
     if not _print(report, options.json):
         return FAILS
-    return RUNS if report.result in ("runs", "builds; it was not to run") else FAILS
+    return RUNS if report.result in ("runs", "builds; not run") else FAILS

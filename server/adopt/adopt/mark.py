@@ -17,16 +17,16 @@ MAX_TEXT = 200  # maximum characters of a finding in the list
 _SPARE_SECONDS = 2400  # time limit apart from playing; dragonfly-adopt's own limits are lower
 
 DESCRIPTION = """\
-Builds and plays the games in a folder of folders, one for each student, by dragonfly-adopt: from a private copy, with the book's
-rules, in a sandbox without a network, with players that press keys. Nothing in the folders is run outside of the sandbox or written.
+Builds and plays games with dragonfly-adopt. FOLDER contains a folder for each student. Each game is built from a private copy, with
+the book's rules, and runs in a sandbox without a network, with players that press keys. Nothing in FOLDER is changed.
 """
 EPILOG = """\
-A line for each: the folder's name; "runs", "builds" (but does not run), "does not build" or "is no game"; what was seen.
+Prints a line for each folder: its name; "runs", "builds" (but does not run), "does not build", "not a game" or "not judged"; details.
 Folders whose names begin with a dot are left out.
 
 Exit codes:
-  0  every game was judged, whatever the verdicts
-  1  one could not be judged: there is no sandbox, or dragonfly-adopt failed
+  0  every game was judged, whatever the results
+  1  a game could not be judged (no sandbox, or dragonfly-adopt failed), or a report could not be written
   2  wrong usage
 
 Example: dragonfly-mark handed-in --report marks.md
@@ -68,7 +68,7 @@ def mark(adopt, folder, name, options):
         out, said = process.communicate(timeout=options.seconds * 4 + _SPARE_SECONDS)
         return verdict_of(name, json.loads(out))
     except subprocess.TimeoutExpired:
-        return Verdict(name, "not judged", "it took too long, and was ended")
+        return Verdict(name, "not judged", "it took too long and was stopped")
     except (ValueError, KeyError, TypeError):
         lines = said.decode("utf-8", "replace").strip().splitlines()
         return Verdict(name, "not judged", lines[0].removeprefix("dragonfly-adopt: ") if lines else "dragonfly-adopt failed")
@@ -101,14 +101,14 @@ def _plain(text):
 def _parser():
     parser = argparse.ArgumentParser(prog="dragonfly-mark", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", metavar="FOLDER", help="the folder with a folder for each game")
-    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to play each (default 10)")
-    parser.add_argument("--players", metavar="N", type=int, default=2, help="how many join, 1 to 16 (default 2)")
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="of the random keys (default 1)")
-    parser.add_argument("--keys", metavar="SCRIPT", help="what to press instead: a script, or a file of one, as dfbot --script takes it")
-    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="games at a time, 1 to 64 (default 1)")
-    parser.add_argument("--report", metavar="FILE", help="also write a Markdown table, with what was found in each game")
-    parser.add_argument("--csv", metavar="FILE", help="also write a table for a spreadsheet")
+    parser.add_argument("folder", metavar="FOLDER", help="a folder that contains a folder for each game")
+    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to play each game (default 10)")
+    parser.add_argument("--players", metavar="N", type=int, default=2, help="number of players in each game, 1 to 16 (default 2)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the random keys (default 1)")
+    parser.add_argument("--keys", metavar="SCRIPT", help="press these keys instead: a script, or a file with one, as for dfbot --script")
+    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="number of games to play in parallel, 1 to 64 (default 1)")
+    parser.add_argument("--report", metavar="FILE", help="also write a Markdown table with the findings for each game to FILE")
+    parser.add_argument("--csv", metavar="FILE", help="also write a table for a spreadsheet to FILE")
     parser.add_argument("--cxx", metavar="COMPILER", help="the compiler (default: $CXX, else g++, else clang++)")
     return parser
 
@@ -118,11 +118,11 @@ def _fault(options):
     if not os.path.isdir(options.folder):
         return f"{options.folder}: no such folder"
     if not 0 < options.seconds <= 3600:
-        return f"--seconds {options.seconds:g}: more than 0, at most 3600"
+        return f"--seconds {options.seconds:g}: expected more than 0, at most 3600"
     if not 1 <= options.players <= 16:
-        return f"--players {options.players}: from 1 to 16"
+        return f"--players {options.players}: expected 1 to 16"
     if not 1 <= options.jobs <= 64:
-        return f"--jobs {options.jobs}: from 1 to 64"
+        return f"--jobs {options.jobs}: expected 1 to 64"
     return None
 
 
@@ -133,7 +133,7 @@ def main(adopt, arguments=None):
     names = [] if fault else sorted(entry.name for entry in os.scandir(options.folder)
                                     if entry.is_dir(follow_symlinks=False) and not entry.name.startswith("."))
     if not fault and not names:
-        fault = f"{options.folder}: there is no folder in it"
+        fault = f"{options.folder}: contains no folders"
     if fault:
         sys.stderr.write(f"dragonfly-mark: {fault}\nTry dragonfly-mark --help.\n")
         return USAGE

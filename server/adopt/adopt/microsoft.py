@@ -25,7 +25,7 @@ def treat(sources):
             after = _as_cpp(pattern, before, code)
             if after != before:
                 sources.replace(name, number, after)
-                changes.append(Change(name, number, before, after, "Visual Studio's own names"))
+                changes.append(Change(name, number, before, after, "names that only Visual Studio has"))
     return changes
 
 

@@ -80,7 +80,7 @@ def _around(main, others, sources, included):
         elif is_aside(os.path.dirname(name)) and not is_aside(home):
             left_out.append((name, "in a folder of tests, examples or leftovers"))
         elif base in nearest:
-            left_out.append((name, f"there is {nearest[base]}, too"))
+            left_out.append((name, f"{nearest[base]}, of this name, is used"))
         elif first.lower() in there and name != main:
             left_out.append((name, f"a second copy of {first}"))
         else:

@@ -19,11 +19,11 @@ class Row:
 
 
 class Report:
-    """Rows and a result: "runs", "builds" (but does not run, or cannot be run here), "builds; it was not to run" (--seconds 0),
-    "does not build", "is no game"."""
+    """Rows and a result: "runs", "builds" (but does not run, or cannot be run here), "builds; not run" (--seconds 0),
+    "does not build", "not a game"."""
 
     def __init__(self, folder):
-        self.folder, self.rows, self.result, self.reason = folder, [], "is no game", ""
+        self.folder, self.rows, self.result, self.reason = folder, [], "not a game", ""
 
     def add(self, what, where="", text="", whose="", line="", change=""):
         self.rows.append(Row(what, where, text, whose, line, change))

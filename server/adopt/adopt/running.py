@@ -11,8 +11,8 @@ from .programs import has_run
 from .report import MAX_ROWS
 from .trial import START_SECONDS, Trial
 
-_CRASH_ADVICE = ("look at the pointers of this line: what getSound(), getSprite() or objectWithId() did not find is null, "
-                 "and a deleted Object is no more")
+_CRASH_ADVICE = ("check the pointers in this line: getSound(), getSprite() and objectWithId() return null if they find nothing, "
+                 "and a deleted Object must not be used")
 FAILURES = (sandbox.SandboxError, RuntimeError, OSError)  # failures of the sandbox or of copying into it
 _NOTED_LINES = 4  # lines shown of a game's output, and of its log
 
@@ -30,18 +30,18 @@ class Running:
         """Runs the game. Writes rows and the result into the report."""
         self._say_missing()
         if self._options.seconds == 0:
-            self._report.result = "builds; it was not to run"
+            self._report.result = "builds; not run"
             return
         os.makedirs(self._root, exist_ok=True)
         reason = None if self._options.unconfined else sandbox.why_unavailable(self._root)
         if reason:
-            self._report.fail("builds", f"not run: this kernel gives no sandbox to this user ({reason}); --unconfined runs a "
-                                        "game that you trust")
+            self._report.fail("builds", f"not run: no sandbox for this user on this kernel ({reason}); if you trust the game, "
+                                        "use --unconfined")
             return
         named_keys = keys_of(self._game.sources.code(name) for name in self._game.sources.files)
         trial = Trial(self._game.tree, PROGRAM, self.folder, self._game.naiad, self._options.seconds, self._options.seed,
                       self._options.keys, named_keys, players=self._options.players)
-        self._say(f"running it for {self._options.seconds:g} s")
+        self._say(f"running the game for {self._options.seconds:g} s")
         try:
             outcome = trial.run(self._root, confined=not self._options.unconfined)
         except FAILURES as error:
@@ -54,7 +54,7 @@ class Running:
     def _say_missing(self):
         if not has_run(self._names, self._game.sources.code):
             self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
-                                  "GM.run(); between startUp() and shutDown()")
+                                  "call GM.run() between GM.startUp() and GM.shutDown()")
         missing = missing_files(self._game.files, self._game.sources, self._names, self.folder)
         for file, line, path, instead in missing[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, f"{path} is not in the folder",
@@ -66,37 +66,37 @@ class Running:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, text, "correct this line of the sprite")
         seconds, rounds = self._options.seconds, f", {outcome.rounds} times" if outcome.rounds > 1 else ""
         text = {
-            "played": f"{outcome.ticks} ticks in {seconds:g} s with random keys, {outcome.objects} Objects in view at the end",
-            "over": f"it ended in order after {outcome.seconds:.1f} s{rounds}, as games do when they are over",
-            "unplayed": "main() ended at once, with 0: no game began",
-            "failed": f"main() ended with {outcome.code}",
+            "played": f"{outcome.ticks} ticks in {seconds:g} s with key presses, {outcome.objects} Objects in view at the end",
+            "over": f"it ended normally after {outcome.seconds:.1f} s{rounds}: the game was over",
+            "unplayed": "main() returned 0 before a game started",
+            "failed": f"it ended with exit code {outcome.code}",
             "crashed": f"it crashed after {outcome.seconds:.1f} s{_signal_of(outcome.code)}",
-            "deaf": f"it did not begin to run within {START_SECONDS} s: it computes or waits before GM.run()",
-            "hangs": f"it stood still after {outcome.ticks} ticks and could only be killed" + f": {outcome.text}" * bool(outcome.text),
-            "refused": f"its player could not play: {outcome.text}"}[outcome.state]
+            "deaf": f"it did not start within {START_SECONDS} s: it computes or waits before GM.run()",
+            "hangs": f"it stopped responding after {outcome.ticks} ticks" + f": {outcome.text}" * bool(outcome.text),
+            "refused": f"the player could not play: {outcome.text}"}[outcome.state]
         self._report.add("ran", f"in {self.folder}/" if self.folder else "", text)
         if outcome.runs:
             self._report.result = "runs"
             if not outcome.ended_well:
-                self._report.add("note", "", "it crashes when it ends, behind GM.run()")
+                self._report.add("note", "", "it crashes at its end, after GM.run()")
             return
         self._report.fail("builds", {
             "crashed": "it crashes", "unplayed": "it never calls GM.run()", "failed": "it ends with an error",
-            "deaf": "it never listens", "hangs": "it hangs", "refused": "no player can join it"}.get(
-                outcome.state, "it is over before it can be played"))
+            "deaf": "it does not start", "hangs": "it hangs", "refused": "no player can join it"}.get(
+                outcome.state, "it ends before a player can play"))
 
     def _explain(self, outcome, trial):
         main = self._game.program.main
         if outcome.state == "unplayed":
             if not self._report.has_left(main):
                 self._report.add_left(main, faults.THEIRS, "main() returns before a game has run",
-                                      "GM.startUp() must return 0, and GM.run() be reached; what it printed is below")
+                                      "GM.startUp() must return 0, and GM.run() must be called; the game's output is below")
         elif outcome.state == "crashed":
             self._say_crash(outcome, trial)
         else:
-            text = {"failed": "it ends with an error", "deaf": "it never listens", "over": "it is over at once",
-                    "refused": "its player could not play"}.get(outcome.state, "a handler does not return")
-            self._report.add_left(main, faults.UNCLEAR, text, "what it printed and logged is below")
+            text = {"failed": "it ends with an error", "deaf": "it does not start", "over": "it ends at once",
+                    "refused": "the player could not play"}.get(outcome.state, "a handler does not return")
+            self._report.add_left(main, faults.UNCLEAR, text, "the game's output and log are below")
         for name, said in (("printed", outcome.printed), ("logged", outcome.log)):
             for line in [line for line in said.splitlines() if line.strip()][-_NOTED_LINES:]:
                 self._report.add("note", name, line)
@@ -110,11 +110,11 @@ class Running:
             self._report.add_left(place, faults.THEIRS, what, _CRASH_ADVICE, self._game.sources.line(file, int(line)))
         else:
             self._report.add_left(self._game.program.main, faults.UNCLEAR,
-                                  f"it crashes{_signal_of(outcome.code)}, and where cannot be said",
+                                  f"it crashes{_signal_of(outcome.code)}; the line is unknown",
                                   "compile it with -g -fsanitize=address and run it")
 
     def _crash_place(self, trial):
-        self._say("it crashed: building it again, to see where")
+        self._say("it crashed: building it again to find the line")
         program = self._game.program_path
         plain = program + ".plain"
         os.rename(program, plain)
@@ -122,7 +122,7 @@ class Running:
             if not self._building.build_examined(program):
                 return None
             trial.examined = True
-            self._say("running it again, to see where it crashes")
+            self._say("running it again to find the line of the crash")
             printed = trial.run(self._root, confined=not self._options.unconfined).printed
             return frame_of(printed, self._game.sources.files)
         except FAILURES:

@@ -224,7 +224,7 @@ def _answer(reader, timeout):
     try:
         answer = json.loads(data)
     except ValueError:
-        raise RuntimeError("its answer is torn") from None
+        raise RuntimeError("the answer of the sandbox is incomplete") from None
     if "sandbox" in answer:
         raise SandboxError(answer["sandbox"])
     if "error" in answer:
@@ -235,7 +235,7 @@ def _answer(reader, timeout):
 def why_unavailable(root):
     """Returns why this user cannot have a sandbox, or None if it works."""
     if not sys.platform.startswith("linux"):
-        return "this is not Linux"
+        return "it requires Linux"
     try:
         return None if run(lambda: True, root, (), 20) else "it did not start"
     except (SandboxError, OSError, RuntimeError) as error:

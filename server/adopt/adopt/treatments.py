@@ -109,7 +109,7 @@ class Treatments:
             return False
         line = self._sources.line(diagnostic.file, diagnostic.line)
         after = re.sub(r"\b(?:\w+\s*::\s*)+(?=" + re.escape(match.group("name")) + r"\s*\()", "", line, count=1)
-        return self._edit(diagnostic, after, "a class does not name itself before its own members; only MSVC takes it")
+        return self._edit(diagnostic, after, "extra class name before a member of the class; only MSVC accepts it")
 
     def _return_type(self, _, diagnostic):
         match = _CONFLICT.search(diagnostic.text)
@@ -121,7 +121,7 @@ class Treatments:
             if "-DDF_DRAW=void" not in self._compiler.definitions:
                 self._compiler.definitions.append("-DDF_DRAW=void")
                 self.changes.append(Change(diagnostic.file, diagnostic.line, "void draw()", "-DDF_DRAW=void",
-                                           "as in the earliest engines, draw() returns nothing: one flag for all"))
+                                           "draw() returns nothing, as in the earliest engines: one flag for all"))
             return True
         done = False
         declared = rf"\b{re.escape(old)}(\s+(?:{match.group('class')}\s*::\s*)?{name}\s*\()"
@@ -129,7 +129,7 @@ class Treatments:
             if file == diagnostic.file and number == diagnostic.line or f"{match.group('class')}" in found.group():
                 place = type(diagnostic)(file, number, 1, "error", "", "")
                 line = re.sub(declared, goal + r"\1", self._sources.line(file, number), count=1)
-                done |= self._edit(place, line, f"returns what the engine's {name}() returns")
+                done |= self._edit(place, line, f"must return the type of the engine's {name}()")
         return done
 
     def _clang_return_type(self, diagnostic):
@@ -146,7 +146,7 @@ class Treatments:
             old, goal = self._types[name]
         line = self._sources.line(diagnostic.file, diagnostic.line)
         after = re.sub(rf"\b{re.escape(old)}(\s+(?:\w+\s*::\s*)*{name}\s*\()", goal + r"\1", line, count=1)
-        return self._edit(diagnostic, after, f"returns what the engine's {name}() returns")
+        return self._edit(diagnostic, after, f"must return the type of the engine's {name}()")
 
     def _missing_return(self, _, diagnostic):
         if not ("no return statement in function" in diagnostic.text or "control reaches end of non-void" in diagnostic.text or
@@ -158,20 +158,20 @@ class Treatments:
         value = "0" if _NUMBER.search(diagnostic.within) else "{}"
         place = (diagnostic.file, diagnostic.line)
         self._returns[place] = self._returns.get(place, self._sources.line(*place))
-        return self._edit(diagnostic, before + f"return {value}; " + behind, "a function ends without return")
+        return self._edit(diagnostic, before + f"return {value}; " + behind, "missing return at the end of the function")
 
     def _empty_return(self, _, diagnostic):
         if "return-statement with no value" not in diagnostic.text and "should return a value" not in diagnostic.text:
             return False
         before, behind = self._at(diagnostic)
         after = re.sub(r"^return\s*;", "return 0;" if "'int'" in diagnostic.text else "return {};", behind)
-        return self._edit(diagnostic, before + after, "return without a value")
+        return self._edit(diagnostic, before + after, "missing value after return")
 
     def _void_main(self, _, diagnostic):
         if "'::main' must return 'int'" not in diagnostic.text and "'main' must return 'int'" not in diagnostic.text:
             return False
         line = self._sources.line(diagnostic.file, diagnostic.line)
-        return self._edit(diagnostic, re.sub(r"\bvoid(\s+main\b)", r"int\1", line), "main() returns int")
+        return self._edit(diagnostic, re.sub(r"\bvoid(\s+main\b)", r"int\1", line), "main() must return int")
 
     def _missing_header(self, unit, diagnostic):
         """Includes the header of a name that other compilers or engines include indirectly."""
@@ -192,7 +192,7 @@ class Treatments:
         name = f'"{header.rsplit("/", 1)[-1]}"' if header.startswith("/") else f"<{header}>"
         if not any(one.file == diagnostic.file and name in one.after for one in self.changes):
             self.changes.append(Change(diagnostic.file, diagnostic.line, self._sources.line(diagnostic.file, diagnostic.line),
-                                       f"#include {name}", "a header that came along with another one"))
+                                       f"#include {name}", "missing header, which other compilers or engines include indirectly"))
         return True
 
     def _scope(self, diagnostic, name):
@@ -201,7 +201,7 @@ class Treatments:
             return False
         line = self._sources.line(diagnostic.file, diagnostic.line)
         after = re.sub(rf"\bdf\s*::\s*{name}\b", f"df::{scope}::{name}", line)
-        return self._edit(diagnostic, after, "an enumerator has its type before it")
+        return self._edit(diagnostic, after, "missing type before a scoped enumerator")
 
     def _missing_prefix(self, _, diagnostic):
         if not diagnostic.is_error:
@@ -213,7 +213,7 @@ class Treatments:
             match = pattern.search(diagnostic.text)
             if match and self._is_engines(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
                     and not re.search(r"(::|\.|->)\s*$", before):
-                return self._edit(diagnostic, before + "df::" + behind, "the engine's names stand in df::")
+                return self._edit(diagnostic, before + "df::" + behind, "missing df:: before a name of the engine")
         return False
 
     def _is_engines(self, name):
@@ -229,7 +229,7 @@ class Treatments:
             return False
         _, behind = self._at(diagnostic)
         return self._edit(diagnostic, before[:match.start(1)] + "df::" + before[match.start(1):] + behind,
-                          "the engine's names stand in df::")
+                          "missing df:: before a name of the engine")
 
     def _private_base(self, _, diagnostic):
         match = _NO_BASE.search(diagnostic.text)
@@ -243,7 +243,7 @@ class Treatments:
         for file, number, _ in list(self._sources.find(declared)):
             line = re.sub(f"({declared})", r"\1public ", self._sources.line(file, number), count=1)
             place = type(diagnostic)(file, number, 1, "error", "", "")
-            return self._edit(place, line, "a base without a word before it is private")
+            return self._edit(place, line, "missing public: base classes are private by default")
         return False
 
     def _ambiguous(self, _, diagnostic):
@@ -253,7 +253,7 @@ class Treatments:
         before, behind = self._at(diagnostic)
         if not re.match(rf"{match.group('name')}\b", behind) or before.rstrip().endswith("::"):
             return False
-        return self._edit(diagnostic, before + "::" + behind, "the game's own one of two names that are alike")
+        return self._edit(diagnostic, before + "::" + behind, "ambiguous name: the game's own is used")
 
     def undo_returns(self, units):
         """Undoes added returns that do not compile. Returns whether there was one."""

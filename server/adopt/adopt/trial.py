@@ -27,7 +27,7 @@ class ScriptError(Exception):
 class Trial:
     """A run of the game.
 
-    tree: the treated copy, which contains `program`; folder: folder of the copy to start it in; seconds: duration; players:
+    tree: the changed copy, which contains `program`; folder: folder of the copy to start it in; seconds: duration; players:
     number of players that join.
     """
 
@@ -51,7 +51,7 @@ class Trial:
         timeout = self.seconds + START_SECONDS + END_SECONDS + 30
         shown = (self.tree, self.naiad.lib, self.naiad.bin)
         answer = sandbox.run(self.inside, root, shown, timeout, megabytes)
-        return self._checked(answer) if answer else Outcome("hangs", text="the sandbox itself had to be ended")
+        return self._checked(answer) if answer else Outcome("hangs", text="the sandbox did not end and was killed")
 
     def _checked(self, answer):
         if answer["state"] == "refused" and answer["code"] == 2 and self.keys:  # dfbot's wrong usage
@@ -111,7 +111,7 @@ class Trial:
         if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
             ended = {"state": "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
-                "text": _last_line(said) or f"dfbot ended with {code}" if code else ""}
+                "text": _last_line(said) or f"dfbot exited with code {code}" if code else ""}
 
     def _play(self, game, port, seconds, number):
         """Plays with dfbot. Returns its output and exit code; the code is None if it had to be killed."""

@@ -35,7 +35,7 @@ class Verdicts:
         if built:
             self._report.add("built", "", f"{len(units)} source{'s' * (len(units) != 1)}, linked with Naiad")
             return
-        link = "" if broken else "; they do not link"
+        link = "" if broken else "; linking fails"
         self._report.add("built", "", f"{len(units) - len(broken)} of {len(units)} sources compile{link}")
         self._report.fail("does not build", "")
 
@@ -70,21 +70,21 @@ class Verdicts:
         for unit in self._building.units:
             if unit.object and unit.standard != STANDARDS[0]:
                 standard = unit.standard.replace("gnu", "C")
-                self._report.add("treated", unit.name, f"compiled as {standard}: as C++20 it has other meanings")
+                self._report.add("treated", unit.name, f"compiled as {standard}: it does not compile as C++20")
             if unit.object and unit.permissive:
                 for one in unit.permitted[:MAX_ERRORS]:
-                    self._report.add("treated", f"{one.file}:{one.line}", "compiled with -fpermissive, as only MSVC takes it: " +
+                    self._report.add("treated", f"{one.file}:{one.line}", "compiled with -fpermissive, because only MSVC accepts it: " +
                                      one.text.replace(" [-fpermissive]", ""), line=self._game.sources.line(one.file, one.line))
 
     def _say_errors(self, unit):
         if unit.timed_out:
-            self._report.add_left(unit.name, faults.THEIRS, "compiling it takes too long", "look for endless templates")
+            self._report.add_left(unit.name, faults.THEIRS, "compiling it takes too long", "look for infinite template recursion")
             return
         for seen, one in enumerate(unit.errors):
             place = f"{one.file}:{one.line}" if one.line else one.file
             if not one.line:
                 self._report.add_left(place, faults.THEIRS, one.text,
-                                      "the compiler gave it up: look for what it includes, or for endless templates")
+                                      "the compiler failed: check the includes, and look for infinite template recursion")
                 return
             if self._report.has_left(place):
                 continue
@@ -103,15 +103,15 @@ class Verdicts:
         twice = list(dict.fromkeys(re.findall(r"multiple definition of [`']([^']+)'", said)))
         for symbol in twice[:MAX_ROWS]:
             self._report.add_left("", faults.THEIRS, f"{symbol} is defined twice",
-                                  "write `inline` before it in the header, or leave one of the files out")
+                                  "write `inline` before it in the header, or remove one of the files")
         if not symbols and not twice:
             last = said.strip().splitlines()
             self._report.add_left("", faults.THEIRS, last[-1] if last else "the linker failed", "")
 
     def _say_namespace(self):
         if self._game.engine.without_namespace:
-            self._report.add_left("", faults.OTHER, "nothing here names df:: it was written for an engine without that namespace",
-                                  "write df:: before the engine's names, or `using namespace df;` behind the includes")
+            self._report.add_left("", faults.OTHER, "no df:: in the sources: they were written for an engine without that namespace",
+                                  "write df:: before the engine's names, or `using namespace df;` after the includes")
 
     def _say_network(self):
         headers = [name for name in self._game.sources.files if not is_source(name)]

@@ -58,8 +58,7 @@ class Reader {
 
  private:
   void refuse(const char* key, const std::string& value) {
-    m_world.log().write("Configuration: " + std::string(key) + ":" + value +
-                        " makes no sense, and is left out");
+    m_world.log().write("Configuration: " + std::string(key) + ":" + value + " is invalid and ignored");
   }
 
   const std::string& m_text;
@@ -78,7 +77,7 @@ void Config::applyWindow() {
   const bool chars =
       s.window_horizontal_chars != world.views().width() || s.window_vertical_chars != world.views().height();
   if (chars && world.views().setWindow(s.window_horizontal_chars, s.window_vertical_chars) != 0) {
-    world.log().write("Configuration: no window can be of " + std::to_string(s.window_horizontal_chars) +
+    world.log().write("Configuration: invalid window of " + std::to_string(s.window_horizontal_chars) +
                       " by " + std::to_string(s.window_vertical_chars) + " characters");
   }
   world.extras().background = s.window_background_color;
@@ -95,7 +94,7 @@ std::string Config::readConfig() {
   std::error_code error;
   if (!std::filesystem::is_regular_file(name, error)) {  // opening a pipe would wait for its writer
     if (std::filesystem::is_fifo(name, error))
-      World::current().log().write("Configuration: " + name + " is a pipe, and is not read");
+      World::current().log().write("Configuration: " + name + " is a pipe and is not read");
     return {};
   }
   std::ifstream file(name);

@@ -164,9 +164,9 @@ int sayInstead(const std::string& what) {
 int refuse(const char* what) {
   return sayInstead(
       std::string("NetworkManager::") + what +
-      ": games need no sockets here. The server runs the game, and whoever joins it plays in this world: "
-      "handle EventKeyboard and EventMouse (getPlayer() says whose), EventJoin and EventLeave. A game of two "
-      "programs is run as its server.");
+      ": games need no sockets here. The server runs the game, and all players join this world: handle "
+      "EventKeyboard and EventMouse (getPlayer() returns the player), EventJoin and EventLeave. Of a game of "
+      "two programs, run only the server.");
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ int NetworkManager::setServer(bool server, const std::string& /*port*/) {
     return 0;
   }
   if (!connections().is_server) {
-    world.log().write("NetworkManager::setServer: the players that join are this server's connections");
+    world.log().write("NetworkManager::setServer: players that join are this server's connections");
   }
   NetworkServer::begin(world);
   return 0;
@@ -208,8 +208,8 @@ int NetworkManager::connect(const std::string& /*host*/, const std::string& /*po
 int NetworkManager::send(const void* /*buffer*/, int /*bytes*/, int sock) {
   if (!connections().is_server) return refuse("send");
   sayInstead(
-      "NetworkManager: messages that the game's two programs have made up between them go nowhere: there is "
-      "no client program here, and players send keys and mouse alone");
+      "NetworkManager: the game's own messages are not sent, because there is no client program; players "
+      "send only keys and mouse");
   return sock < 0 || isConnected(sock) ? 0 : -1;
 }
 

@@ -59,7 +59,7 @@ class Lines {
   }
   void expect(const std::string& word) {
     const std::string found = takeWord("\"" + word + "\"");
-    if (found != word) fail("\"" + word + "\" should be here, not \"" + found + "\"");
+    if (found != word) fail("expected \"" + word + "\", not \"" + found + "\"");
   }
   /// Reports an error in the line taken last.
   [[noreturn]] void fail(const std::string& what) const { throw Trouble{m_next, what}; }
@@ -98,7 +98,7 @@ int toNumber(const Lines& lines, const std::string& key, const std::string& text
 
 Color toColor(const Lines& lines, const std::string& text) {
   const Color color = colorOfName(text);
-  if (color == UNDEFINED_COLOR) lines.fail("there is no color \"" + text + "\"");
+  if (color == UNDEFINED_COLOR) lines.fail("unknown color \"" + text + "\"");
   return color;
 }
 
@@ -109,10 +109,10 @@ void takeSlowdown(const Lines& lines, Header& header, const std::string& text) {
     return;
   }
   header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMost);
-  if (text.empty()) header.p_oddities->push_back(lines.describe("slowdown has no number, taken as 0"));
+  if (text.empty()) header.p_oddities->push_back(lines.describe("slowdown has no number, 0 is used"));
   if (header.slowdown < 0) {
     header.p_oddities->push_back(
-        lines.describe("slowdown should be 0 to 1000000, not " + text + ", taken as it is"));
+        lines.describe("slowdown should be 0 to 1000000, not " + text + ", used as it is"));
   }
 }
 
@@ -120,7 +120,7 @@ void takeTransparency(const Lines& lines, Header& header, const std::string& tex
   if (text.size() > 1) {
     const std::string trouble = "transparency should be one character, not \"" + text + "\"";
     if (header.p_oddities == nullptr) lines.fail(trouble);
-    header.p_oddities->push_back(lines.describe(trouble + ", taken as its first one"));
+    header.p_oddities->push_back(lines.describe(trouble + ", its first one is used"));
   }
   header.transparency = text.empty() ? ' ' : text[0];
 }
@@ -142,7 +142,7 @@ void takeField(const Lines& lines, Header& header, const std::string& line) {
   } else if (key == "transparency") {
     takeTransparency(lines, header, value);
   } else {
-    lines.fail("there is no field \"" + key + "\"");
+    lines.fail("unknown field \"" + key + "\"");
   }
 }
 
@@ -254,9 +254,9 @@ std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
   }
   if (const std::string rest = lines.peekWord(); !rest.empty()) {
     lines.takeWord("");
-    const std::string trouble = "the sprite has ended, but there is \"" + rest + "\"";
+    const std::string trouble = "unexpected \"" + rest + "\" after the end of the sprite";
     if (header.p_oddities == nullptr || !has_end_mark) lines.fail(trouble);
-    header.p_oddities->push_back(lines.describe(trouble + ", ignored with all that follows"));
+    header.p_oddities->push_back(lines.describe(trouble + ", ignored together with the rest"));
   }
   return sprite;
 }

@@ -50,7 +50,7 @@ class GameThread : private Runner {
       } catch (const std::exception& error) {
         m_fault = error.what();
       } catch (...) {
-        m_fault = "something that is no std::exception";
+        m_fault = "an exception of unknown type";
       }
       const std::lock_guard lock(m_mutex);
       m_main_ended = true;
@@ -114,7 +114,7 @@ namespace fs = std::filesystem;
 fs::path copyOf(const fs::path& module) {
   std::string name = (fs::temp_directory_path() / (module.stem().string() + "-XXXXXX.so")).string();
   const int file = mkstemps(name.data(), 3);
-  if (file < 0) throw std::runtime_error("There is no room for a copy of the game: " + name);
+  if (file < 0) throw std::runtime_error("Cannot create a copy of the game: " + name);
   close(file);
   fs::copy_file(module, name, fs::copy_options::overwrite_existing);
   return name;
@@ -139,9 +139,9 @@ class TestedModule {
   explicit TestedModule(const std::string& path) {
     const fs::path module = fs::absolute(path).lexically_normal();
     if (!fs::exists(module))
-      throw std::runtime_error("There is no game " + module.string() + ": build it first.");
+      throw std::runtime_error("The game " + module.string() + " does not exist: build it first.");
     void* p_handle = load(module);
-    if (p_handle == nullptr) throw std::runtime_error(std::string("The game cannot be loaded: ") + dlerror());
+    if (p_handle == nullptr) throw std::runtime_error(std::string("Cannot load the game: ") + dlerror());
     m_main = reinterpret_cast<Main>(dlsym(p_handle, "main"));
     if (m_main == nullptr) throw std::runtime_error("The game " + module.string() + " has no main().");
     m_name = module.stem().string();
@@ -176,7 +176,7 @@ int g_alive = 0;
 /// Fails the test if the game calls exit(), which would end it with the game's own exit code, mostly 0.
 void refuseExit() {
   if (g_alive == 0) return;
-  std::fputs("GameTest: the game called exit() in the middle of the test\n", stderr);
+  std::fputs("GameTest: the game called exit() during the test\n", stderr);
   std::fflush(nullptr);
   _exit(1);
 }
@@ -207,7 +207,7 @@ class GameTest::Game {
     const std::string fault = m_thread->fault();
     end();
     throw std::runtime_error(fault.empty() ? "The game's main() ended without having called GM.run()."
-                                           : "The game's main() threw, before GM.run(): " + fault);
+                                           : "The game's main() threw before GM.run(): " + fault);
   }
   ~Game() { end(); }
 
@@ -409,7 +409,7 @@ bool GameTest::expect(bool holds, const std::string& what, const char* p_file, i
     return true;
   }
   ++g_wrong;
-  std::fprintf(stderr, "%s:%d: not so: %s\nThe picture after tick %d:\n%s", p_file, line, what.c_str(),
+  std::fprintf(stderr, "%s:%d: check failed: %s\nThe picture after tick %d:\n%s", p_file, line, what.c_str(),
                getTicks(), picture().c_str());
   const std::vector<std::string>& lines = log();
   for (std::size_t i = lines.size() - std::min(lines.size(), kShownLogLines); i < lines.size(); ++i)
@@ -422,8 +422,8 @@ bool GameTest::expectShows(const std::string& text, std::uint32_t player, const 
 }
 
 int GameTest::report() {
-  if (g_right + g_wrong == 0) std::fputs("GameTest: nothing was expected\n", stderr);
-  std::printf("game test: %d right, %d wrong\n", g_right, g_wrong);
+  if (g_right + g_wrong == 0) std::fputs("GameTest: the test checked nothing\n", stderr);
+  std::printf("game test: %d passed, %d failed\n", g_right, g_wrong);
   return g_wrong == 0 && g_right > 0 ? 0 : 1;
 }
 

@@ -89,7 +89,7 @@ void Pause::count(std::size_t voters, bool announce) {
   World& world = *getWorld();
   const bool enough = 2 * m_votes.size() > voters;
   if (announce || enough) {
-    world.extras().addNote((world.isPaused() ? "go on: " : "pause: ") + std::to_string(m_votes.size()) +
+    world.extras().addNote((world.isPaused() ? "resume: " : "pause: ") + std::to_string(m_votes.size()) +
                            " of " + std::to_string(voters));
   }
   if (!enough) return;

@@ -54,7 +54,7 @@ bool EventDispatch::deliver(ObjectKey key, const Event& event) {
 void EventDispatch::quarantine(ObjectKey key, const std::string& why) {
   Object* p_o = m_store.find(key);
   m_log.write("An object" + (p_o != nullptr ? " of type " + nameOf(*p_o) : std::string()) +
-              " failed and is taken out of the game: " + why);
+              " threw an exception and is removed from the game: " + why);
   if (p_o == nullptr) return;
   p_o->setActive(false);
   m_objects.markForDelete(p_o);
@@ -75,8 +75,8 @@ void EventDispatch::learnType(std::uint32_t slot) {
   m_store.set(slot, WorldStore::kDeaf, deaf);
   if (deaf && !m_store.profile(slot).interests.empty() && typeid(object) != typeid(Object)) {
     m_log.writeOnce(nameOf(object) +
-                    " registers interest in events and has no eventHandler() that gets them: it must be "
-                    "declared \"int eventHandler(const df::Event*) override\"");
+                    " registers interest in events but has no matching eventHandler(): it must be declared "
+                    "\"int eventHandler(const df::Event*) override\"");
   }
 }
 

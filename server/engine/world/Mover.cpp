@@ -170,7 +170,7 @@ void Mover::takeTurn(ObjectKey key) {
     if (WorldStore::isPosition(where)) {
       blocked = move(key, where) != 0;
     } else {
-      m_objects.log().refuse(nameOf(*store.object(s)), "update, at the end of the number range");
+      m_objects.log().refuse(nameOf(*store.object(s)), "the next position");
       blocked = true;
     }
     if (!store.isCurrent(key)) return;

@@ -37,7 +37,7 @@ std::vector<fs::path> matches(const fs::path& folder, const std::string& name) {
   return found;
 }
 
-/// "; loaded are: saucer, ship"
+/// "; loaded: saucer, ship"
 template <class Labels>
 std::string loadedAre(const Labels& labels) {
   constexpr std::size_t kMost = 12;
@@ -45,9 +45,9 @@ std::string loadedAre(const Labels& labels) {
   std::size_t count = 0;
   for (const std::string& label : labels) {
     if (++count > kMost) return text + ", …";
-    text += (text.empty() ? "; loaded are: " : ", ") + label;
+    text += (text.empty() ? "; loaded: " : ", ") + label;
   }
-  return text.empty() ? "; none is loaded" : text;
+  return text.empty() ? "; loaded: none" : text;
 }
 
 std::string nothingLoaded(const char* call, const std::string& label, const std::string& loaded) {

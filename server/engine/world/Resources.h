@@ -57,7 +57,7 @@ class Resources {
   Sprite* spriteOrStandIn(const std::string& label);
   /// Returns the sprite that shows a '?'.
   Sprite& missingSprite();
-  /// Returns text for a log line: "; loaded are: saucer, ship".
+  /// Returns text for a log line: "; loaded: saucer, ship".
   std::string spriteLabels() const;
   SoundBank<Sound>& sounds() { return m_sounds; }
   SoundBank<Music>& musics() { return m_musics; }

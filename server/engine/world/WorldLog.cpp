@@ -24,7 +24,7 @@ const char* rightFor(const char* what) {
       {"setSolidness", "a solidness is HARD, SOFT or SPECTRAL"},
       {"setMass", "a mass is finite and above 0"},
       {"setControls", "a table of controls has known keys and finite speeds"},
-      {"setText", "a text's id is 0 to 15, and it begins inside the window"},
+      {"setText", "a text's id is 0 to 15, and the text begins inside the window"},
       {"setSize", "a window has 20 to 400 by 10 to 150 characters"},
   };
   for (const Rule& rule : kRules) {

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kKinds[] = {"name", "range", "exception"};  ///< index: Ban::Kind
 
 constexpr StateFile::Kind kFileOfBans{
-    "file of bans", 0x4e616942,  // "NaiB"
+    "ban file", 0x4e616942,  // "NaiB"
     1,
     "CREATE TABLE bans(kind TEXT NOT NULL, target TEXT NOT NULL, reason TEXT NOT NULL, made_by TEXT NOT "
     "NULL, "
@@ -62,7 +62,7 @@ std::optional<Ban> banAt(const StateStatement& statement) {
   return ban;
 }
 
-constexpr const char* kNoFile = "This server keeps no file of bans (--state), so they end with it.";
+constexpr const char* kNoFile = "This server has no --state folder, so its bans end when it stops.";
 
 Ban::Time wholeSeconds() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -87,7 +87,7 @@ std::vector<Ban> BanStore::load() {
   std::vector<Ban> bans;
   while (statement.step()) {
     auto ban = banAt(statement);
-    if (!ban) m_file.fail("has a line that is no ban: \"" + statement.text(1) + "\"");
+    if (!ban) m_file.fail("has an invalid entry: \"" + statement.text(1) + "\"");
     bans.push_back(std::move(*ban));
   }
   if (!statement.isDone()) m_file.fail("cannot be read");
@@ -311,7 +311,7 @@ void BanList::save(std::function<void(File&)> change, Saved saved) {
     }
     saved(problem);
   });
-  if (!given) saved("Too many changes wait for the disk; this one is not written.");
+  if (!given) saved("Too many changes are waiting for the disk; this one was dropped.");
 }
 
 }  // namespace naiad

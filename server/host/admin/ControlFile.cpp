@@ -126,9 +126,10 @@ void ControlFile::moveTo(const fs::path& from) {
   std::error_code error;
   const fs::file_status status = fs::symlink_status(m_path, error);
   if (fs::exists(status) && status.type() != fs::file_type::socket)
-    failControl(m_path, "there is something that is no socket", std::make_error_code(std::errc::file_exists));
+    failControl(m_path, "the path exists and is not a socket", std::make_error_code(std::errc::file_exists));
   if (fs::exists(status) && !isDead(m_path))
-    failControl(m_path, "another program listens there", std::make_error_code(std::errc::address_in_use));
+    failControl(m_path, "another program is listening there",
+                std::make_error_code(std::errc::address_in_use));
   m_identity = fileIdentity(from);
   if (::rename(from.c_str(), m_path.c_str()) != 0) failControl(m_path, errno);
 }

@@ -116,7 +116,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
       const std::string line = m_in.substr(0, end);
       m_in.erase(0, end + 1);
       if (std::exchange(m_too_long, false) || line.size() > kMaxControlLine) {
-        answer(AdminAnswer::refused("A line has " + std::to_string(kMaxControlLine) + " bytes at most."));
+        answer(AdminAnswer::refused("Line too long: the limit is " + std::to_string(kMaxControlLine) +
+                                    " bytes."));
       } else {
         serveLine(line);
       }
@@ -139,7 +140,8 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     }
     const bool watches = request.command->name == "watch";
     if (watches && m_short)
-      return answer(AdminAnswer::refused("Too many connections are open: this place is for short commands."));
+      return answer(AdminAnswer::refused(
+          "Too many connections are open; the last one is reserved for short commands."));
     m_busy = true;
     m_events.execute(std::move(request), m_caller,
                      [weak = weak_from_this(), watches](const AdminAnswer& given) {
@@ -277,7 +279,7 @@ void ControlSocket::State::meet(stream_protocol::socket socket) {
   AdminCaller caller = callerOf(peer);
   if (options.is_refused && options.is_refused(peer.pid)) {
     log("admin: " + caller.name +
-        ": refused: a process of the server, or of another namespace, gives no commands");
+        ": refused: commands from game processes or other PID namespaces are not accepted");
     return;
   }
   const bool full = connections.size() >= options.max_connections;

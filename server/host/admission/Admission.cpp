@@ -130,7 +130,7 @@ bool Admission::checkHello(Session& session, const wire::Hello& hello) {
   }
   if (!hello.room().empty() && !m_setup.rooms.isNamed()) {
     ++m_counters.refused_room;
-    session.refuse(wire::Refused::GAME, "This server has no rooms: join it without a name of one.");
+    session.refuse(wire::Refused::GAME, "This server has no rooms. Join without a room name.");
     return false;
   }
   return true;
@@ -157,7 +157,7 @@ void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
     case PasswordCheck::Answer::kWrong:
       ++m_counters.refused_password;
       return session.refuse(wire::Refused::PASSWORD, hello.password().empty()
-                                                         ? "This server wants a password."
+                                                         ? "This server requires a password."
                                                          : "That is not this server's password.");
     case PasswordCheck::Answer::kTooMany:
       ++m_counters.refused_password;
@@ -184,7 +184,7 @@ void Admission::forgetSession(const Session& session) {
 bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   if (m_tokens.isElsewhere(hello.resume_token())) {
     ++m_counters.refused_elsewhere;
-    session.refuse(wire::Refused::ELSEWHERE, "You went on playing in another terminal.");
+    session.refuse(wire::Refused::ELSEWHERE, "This session was resumed in another client.");
     return true;
   }
   const auto id = m_tokens.find(hello.resume_token());
@@ -195,8 +195,7 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   }
   if (isBanned(session, p_before->name())) return true;
   if (!p_before->admitResume()) {  // the token stays valid for the next attempt
-    session.refuse(wire::Refused::BUSY,
-                   "Your connection breaks too often. The server lets you back in a moment.");
+    session.refuse(wire::Refused::BUSY, "Too many reconnects. Try again in a moment.");
     return true;
   }
   m_tokens.redeem(hello.resume_token());
@@ -224,7 +223,7 @@ void Admission::restartSession(Session& before, Session& session, const wire::He
   before.restart(session, welcome, std::move(datagrams));
   m_setup.news.repeat();
   if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
-  log(before, newsOf("restarted", before.name(), "is back, with another client"));
+  log(before, newsOf("restarted", before.name(), "reconnected with a new client"));
 }
 
 void Admission::continueSession(Session& before, Session& session, const wire::Hello& hello,
@@ -235,7 +234,7 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
     if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
   }
   before.adopt(session, welcome, hello.received());
-  log(before, newsOf("resumed", before.name(), "is back"));
+  log(before, newsOf("resumed", before.name(), "reconnected"));
 }
 
 // Adds a second stream to a session that has its first one. Without such a session the client is refused: it
@@ -245,14 +244,14 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
   if (p_first == nullptr || p_first->state() != Session::State::kPlaying || p_first->isDetached()) {
     ++m_counters.unknown_tokens;
-    return session.refuse(wire::Refused::BAD_REQUEST, "There is no stream for this one to go beside.");
+    return session.refuse(wire::Refused::BAD_REQUEST, "The session of this second stream is not connected.");
   }
   if (isBanned(session, p_first->name())) return;
   if (!p_first->admitSecond()) {  // the token and the existing streams stay valid
     return session.refuse(wire::Refused::BUSY,
-                          "Your second stream comes again too often. Try again in a moment.");
+                          "Too many reconnects of the second stream. Try again in a moment.");
   }
-  log(session, newsOf("second_stream", p_first->name(), "has a second stream"));
+  log(session, newsOf("second_stream", p_first->name(), "opened a second stream"));
   p_first->accompany(session);
 }
 
@@ -270,8 +269,7 @@ void Admission::judgeWaiting() {
     } else if (p_session->now() - one.since < patience) {
       m_waiting.push_back(one);
     } else {
-      refuseBusy(*p_session,
-                 "The server was down and restores your game: " + std::to_string(percent) + " %.");
+      refuseBusy(*p_session, "Restoring your game after a restart: " + std::to_string(percent) + " %.");
     }
   }
 }
@@ -317,7 +315,7 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
   }
   m_setup.news.repeat();
   ++m_counters.returned;
-  log(session, newsOf("resumed", session.name(), "is back, in the round that goes on"));
+  log(session, newsOf("resumed", session.name(), "reconnected to the recovered round"));
 }
 
 void Admission::confirmToken(Session& session) {
@@ -346,7 +344,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   const std::string wanted = cleanName(hello.player_name());
   if (wanted.empty()) {
     ++m_counters.refused_name;
-    return session.refuse(wire::Refused::NAME, "A player needs a name of 1 to 16 printable characters.");
+    return session.refuse(wire::Refused::NAME, "Invalid player name: expected 1 to 16 printable characters.");
   }
   Room* p_room = roomFor(session, hello);
   if (p_room == nullptr) return;
@@ -369,7 +367,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
 bool Admission::checkLimits(Session& session) {
   if (!m_setup.context.ending.isOpen()) {
     ++m_counters.refused_closing;
-    refuseFull(session, "The server is closing and lets no new players in.");
+    refuseFull(session, "The server is shutting down and accepts no new players.");
     return false;
   }
   const int max_players = m_options.max_players;
@@ -382,8 +380,8 @@ bool Admission::checkLimits(Session& session) {
   // Players without a connection count too: an address must not collect the places kept for them.
   if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
     ++m_counters.refused_address;
-    session.refuse(wire::Refused::FULL, "There are " + std::to_string(max_per_address) +
-                                            " players from your address already. Try again later.");
+    session.refuse(wire::Refused::FULL, "Too many players from your address (limit " +
+                                            std::to_string(max_per_address) + "). Try again later.");
     return false;
   }
   return true;
@@ -394,7 +392,8 @@ void Admission::refuseFull(Session& session, const std::string& sentence) {
   const auto link = m_find_other ? m_find_other() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);
   ++m_counters.sent_on;
-  const std::string said = safeText(sentence + " There is a place at " + link->text(), kMaxSentenceLength);
+  const std::string said =
+      safeText(sentence + " Another server has free places: " + link->text(), kMaxSentenceLength);
   session.refuse(wire::Refused::FULL, said, JoinLink{link->where, "", link->key}.text(), link->room);
 }
 
@@ -408,14 +407,14 @@ Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   }
   if (m_setup.rooms.isNamed()) return namedRoomFor(session, hello);
   if (m_setup.rooms.isPrivate() && !m_new_worlds.take(prefix, now)) {
-    refuseBusy(session, "Too many worlds have begun lately. Try again in a moment.");
+    refuseBusy(session, "Too many games started recently. Try again in a moment.");
     return nullptr;
   }
   std::string problem;
   Room* p_room = m_setup.rooms.roomForNewPlayer(problem);
   if (p_room != nullptr) return p_room;
-  if (!problem.empty()) log(session, {LogEvent::Level::kError, "gets no world: " + problem});
-  refuseBusy(session, "The server cannot begin another world. Try again later.");
+  if (!problem.empty()) log(session, {LogEvent::Level::kError, "cannot join: " + problem});
+  refuseBusy(session, "The server cannot start another game. Try again later.");
   return nullptr;
 }
 
@@ -432,7 +431,7 @@ Room* Admission::namedRoomFor(Session& session, const wire::Hello& hello) {
 }
 
 void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
-  if (!refusal.log.empty()) log(session, {LogEvent::Level::kError, "gets no world: " + refusal.log});
+  if (!refusal.log.empty()) log(session, {LogEvent::Level::kError, "cannot join: " + refusal.log});
   switch (refusal.why) {
     case RoomDoor::Why::kUnknown:
       ++m_counters.refused_room;
@@ -451,16 +450,14 @@ void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
 // The player gets a new id, because a world uses an id only once.
 std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
-  if (room.empty()) return "A room has a name.";
+  if (room.empty()) return "Room name missing.";
   if (session.isDetached() && !led) return "Your connection is broken.";
-  if (!session.knowsRooms())
-    return "Your client is too old to go to another room: join it by HOST/" + room + ".";
+  if (!session.knowsRooms()) return "Your client is too old to change rooms: join with HOST/" + room + ".";
   RoomDoor::Refusal refusal;
   Room* const p_to = m_door.findRoom(room, "", refusal);
   if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
   const AddressPrefix prefix = prefixOf(session);
-  if (!led && !m_door.takeMove(prefix, session.now()))
-    return "Too many have changed rooms. Try again in a moment.";
+  if (!led && !m_door.takeMove(prefix, session.now())) return "Too many room changes. Try again in a moment.";
   if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
   if (Room* const p_from = m_setup.rooms.roomOf(session))
     p_from->round().noteSession({.player = session.player(), .over = true});

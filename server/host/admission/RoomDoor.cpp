@@ -55,17 +55,17 @@ std::optional<RoomDoor::Refusal> RoomDoor::open(Room& room, const AddressPrefix&
   if (const auto percent = room.round().recovering()) {
     return Refusal{
         Why::kForNow,
-        "The server was down; " + named(room) + " is being restored: " + std::to_string(*percent) + " %.",
+        "The server restarted. " + named(room) + " is being restored: " + std::to_string(*percent) + " %.",
         ""};
   }
   if (!room.isAsleep()) return std::nullopt;
   if (now < room.sleep().closed_until)
     return Refusal{Why::kForNow, named(room) + " is closed for a moment: its game failed.", ""};
   if (!m_wakes.take(prefix, now))
-    return Refusal{Why::kForNow, "Too many rooms were woken lately. Try again in a moment.", ""};
+    return Refusal{Why::kForNow, "Too many rooms started recently. Try again in a moment.", ""};
   std::string problem;
   if (m_rooms.wake(room, problem)) return std::nullopt;
-  return Refusal{Why::kForNow, named(room) + " cannot begin now. Try again later.", problem};
+  return Refusal{Why::kForNow, named(room) + " cannot start now. Try again later.", problem};
 }
 
 }  // namespace naiad

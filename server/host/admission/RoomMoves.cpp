@@ -44,7 +44,7 @@ void RoomMoves::grant(const Wish& wish) {
   ++m_context.counters.room_moves;
   m_context.client_log.logNews(p_session->address(),
                                {"moved",
-                                inQuotes(p_session->name()) + " goes to the room " + wish.room,
+                                inQuotes(p_session->name()) + " moved to the room " + wish.room,
                                 {{"player", p_session->name()}, {"room", wish.room}}},
                                p_session->now());
 }

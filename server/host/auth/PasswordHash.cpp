@@ -26,7 +26,7 @@ PasswordHash PasswordHash::of(std::string_view password, Cost cost) {
   }
   std::array<unsigned char, kSaltSize> salt{};
   if (RAND_bytes(salt.data(), salt.size()) != 1)
-    throw PasswordError("This machine has no randomness to give.");
+    throw PasswordError("Cannot get random numbers from the system.");
   std::array<char, kMaxText> text{};
   const int code = argon2id_hash_encoded(cost.passes, cost.memory_kib, 1, password.data(), password.size(),
                                          salt.data(), salt.size(), kHashSize, text.data(), text.size());

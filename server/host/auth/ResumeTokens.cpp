@@ -11,7 +11,7 @@ namespace {
 
 void fillRandom(void* out, int size) {
   if (RAND_bytes(static_cast<unsigned char*>(out), size) != 1) {
-    throw std::runtime_error("The system gives no random numbers.");
+    throw std::runtime_error("Cannot get random numbers from the system.");
   }
 }
 

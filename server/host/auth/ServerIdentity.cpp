@@ -90,13 +90,13 @@ std::string checkDirectory(const fs::path& directory) {
   const std::string cure = " Run: chmod go-w " + directory.string();
   if ((facts.st_mode & S_IWOTH) != 0) {
     throw TlsError("The folder " + directory.string() +
-                   " has the server's key, and every user can write in it." + cure);
+                   " has the server's key, but every user can write to it." + cure);
   }
   if ((facts.st_mode & S_IWGRP) != 0)
-    return "the folder " + directory.string() + " has the server's key, and its group can write in it." +
+    return "the folder " + directory.string() + " has the server's key, but its group can write to it." +
            cure;
   if (facts.st_uid != ::geteuid() && facts.st_uid != 0)
-    return "the folder " + directory.string() + " has the server's key, and belongs to another user.";
+    return "the folder " + directory.string() + " has the server's key, but belongs to another user.";
   return {};
 }
 
@@ -113,7 +113,7 @@ std::string makeKeyPem() {
   const Bio bio(BIO_new(BIO_s_mem()));
   if (!key || !bio ||
       PEM_write_bio_PKCS8PrivateKey(bio.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) != 1) {
-    throw TlsError("A new key for the server could not be made.");
+    throw TlsError("Cannot create a key for the server.");
   }
   return contentOf(bio);
 }
@@ -130,13 +130,13 @@ std::string makeCertificatePem(const std::string& key_pem, std::chrono::system_c
                     setNames(certificate.get()) && X509_set_pubkey(certificate.get(), key.get()) == 1 &&
                     X509_sign(certificate.get(), key.get(), EVP_sha256()) > 0 &&
                     PEM_write_bio_X509(out.get(), certificate.get()) == 1;
-  if (!good) throw TlsError("A certificate for the server could not be made.");
+  if (!good) throw TlsError("Cannot create a certificate for the server.");
   return contentOf(out);
 }
 
 fs::path ServerIdentity::defaultDirectory() {
   if (const auto directory = userDirectory("XDG_CONFIG_HOME", ".config")) return *directory;
-  throw TlsError("No place for the server's key: neither HOME nor XDG_CONFIG_HOME is set.");
+  throw TlsError("No folder for the server's key: set HOME or XDG_CONFIG_HOME, or --identity.");
 }
 
 ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
@@ -151,9 +151,8 @@ ServerIdentity ServerIdentity::loadOrMake(const fs::path& directory,
     if (!fs::exists(key)) {
       if (had_certificate) {
         throw TlsError("The key " + key.string() +
-                       " is missing, though its certificate is there. Bring it back, or "
-                       "remove " +
-                       certificate.string() + " to begin with a new key that players have to trust again.");
+                       " is missing, but its certificate exists. Restore the key, or remove " +
+                       certificate.string() + " to create a new key, which players must then trust again.");
       }
       makeFile(key, makeKeyPem());  // if another process was faster, its key is loaded
     }

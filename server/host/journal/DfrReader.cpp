@@ -32,22 +32,22 @@ DfrReader::DfrReader(std::string_view bytes) : m_bytes(bytes) {
 
 void DfrReader::readHeader() {
   if (m_bytes.substr(0, kDfrMagic.size()) != kDfrMagic) {
-    m_problem = "it is no recording of a round";
+    m_problem = "not a round recording";
     return;
   }
   if (m_bytes.size() < kDfrHeaderSize) {
-    m_problem = "it is cut off before the first chunk";
+    m_problem = "truncated before the first chunk";
     return;
   }
   const char* p = m_bytes.data();
   if (const auto version = loadLittleEndian<std::uint16_t>(p + 8); version != kDfrVersion) {
-    m_problem = "its format is version " + std::to_string(version) + ", and this program reads version " +
+    m_problem = "format version " + std::to_string(version) + ", but this program reads version " +
                 std::to_string(kDfrVersion);
     return;
   }
   m_header.flags = loadLittleEndian<std::uint16_t>(p + kDfrFlagsAt);
   if (loadLittleEndian<std::uint32_t>(p + 12) != crc32c(m_bytes.substr(16, kDfrHeaderSize - 16))) {
-    m_problem = "its header is damaged";
+    m_problem = "damaged header";
     return;
   }
   std::copy_n(p + 16, m_header.uuid.size(), m_header.uuid.begin());

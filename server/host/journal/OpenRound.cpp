@@ -15,12 +15,12 @@ using Input = df::InputQueue::Input;
 
 std::string bytesOf(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw OpenRoundError("there is no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw OpenRoundError("no such file");
   if (std::filesystem::file_size(path, error) > kMaxRoundFile || error)
-    throw OpenRoundError("it is too long");
+    throw OpenRoundError("the file is too large");
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw OpenRoundError("it cannot be read");
+  if (file.bad()) throw OpenRoundError("the file cannot be read");
   return bytes;
 }
 

@@ -38,17 +38,17 @@ std::string describeDifference(const df::WorldView& first, const df::WorldView& 
   for (std::size_t i = 0; i < common; ++i) {
     if (first.changed[i].order != again.changed[i].order)
       return "Object " + std::to_string(std::min(first.changed[i].order, again.changed[i].order)) +
-             " changes in one of the two alone";
+             " changes in only one of the two runs";
     if (std::string text = describe(first.changed[i], again.changed[i]); !text.empty()) return text;
   }
-  if (first.changed.size() != again.changed.size()) return "other Objects change";
+  if (first.changed.size() != again.changed.size()) return "different Objects change";
   for (std::size_t i = 0; i < std::min(first.players.size(), again.players.size()); ++i) {
     if (first.players[i].score != again.players[i].score)
-      return "the score of player " + std::to_string(first.players[i].id);
+      return "different score of player " + std::to_string(first.players[i].id);
   }
   const bool drawn_same = std::equal(first.commands.begin(), first.commands.end(), again.commands.begin(),
                                      again.commands.end(), isSame);
-  return drawn_same ? std::string() : "other characters are drawn";
+  return drawn_same ? std::string() : "different characters are drawn";
 }
 
 RepeatCheck::RepeatCheck(NewWorld new_world, std::function<void(const std::string&)> on_difference)
@@ -102,8 +102,8 @@ void RepeatCheck::compare() {
   if (m_world->answer().hash == tick.answer_hash) return;
   m_over = true;
   std::string what = tick.sent.turn.watched ? describeDifference(tick.view, m_world->view()) : std::string();
-  if (what.empty()) what = "it answers otherwise";
-  m_on_difference("the game is not repeatable: executed again, in tick " + std::to_string(m_compared) + " " +
+  if (what.empty()) what = "the result is different";
+  m_on_difference("the game is not repeatable: when replayed, in tick " + std::to_string(m_compared) + " " +
                   what);
 }
 

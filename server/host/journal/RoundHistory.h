@@ -116,6 +116,6 @@ class RoundHistory {
   std::chrono::nanoseconds m_cpu_time{0};  ///< at that order
 };
 
-static_assert(RoundHistory::kTicks % RoundHistory::kFewestTicks == 0, "that is when it is looked");
+static_assert(RoundHistory::kTicks % RoundHistory::kFewestTicks == 0, "isCopyDue() looks every kFewestTicks");
 
 }  // namespace naiad

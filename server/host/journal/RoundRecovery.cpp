@@ -57,11 +57,10 @@ std::string RoundRecovery::compareResult(const WorldAnswer& answer) {
 
 std::string RoundRecovery::findDifference(const TickResult& result, const WorldAnswer& answer) {
   if (result.game_over != answer.game_over)
-    return answer.game_over ? "the game is over, and was not" : "the game goes on, and was over";
-  if (result.state_hash && result.state_hash != answer.state_hash)
-    return "the state of the world is another one";
-  if (result.has_check && result.check != checkOf(answer.hash))
-    return "what the world answers is other than it was";
+    return answer.game_over ? "the game is over, but was not before"
+                            : "the game continues, but was over before";
+  if (result.state_hash && result.state_hash != answer.state_hash) return "the world's state is different";
+  if (result.has_check && result.check != checkOf(answer.hash)) return "the world's output is different";
   return {};
 }
 

@@ -111,8 +111,8 @@ std::vector<std::string> salvageRounds(const std::string& folder, const std::set
     if (!added) continue;  // retried at the next start
     ring->remove();
     if (left.contains(uuidText(header->uuid))) continue;
-    said.push_back("the server was killed in the round " + path.string() +
-                   ", which has all of its turns now");
+    said.push_back("the previous server was killed in the round " + path.string() +
+                   "; its last turns were added from memory");
   }
   removeStrayRings(ringFolder(folder), rounds);
   return said;

@@ -55,7 +55,7 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
   if (!shared || !mapShared(uuid)) {
     void* p_memory = mmap(nullptr, size(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (p_memory == MAP_FAILED)
-      throw std::system_error(errno, std::generic_category(), "the journal's memory");
+      throw std::system_error(errno, std::generic_category(), "cannot allocate the journal's memory");
     m_p_head = new (p_memory) Head{};
   }
   std::copy(uuid.begin(), uuid.end(), m_p_head->uuid);

@@ -95,9 +95,9 @@ void Host::run(df::World& world) {
 // Runs on the watchdog's thread. The game may hold any lock of the process, including the log's. So nothing
 // is destroyed, and waiting for the log has a time limit.
 void Host::endProcess(const ForcedEnd& end, SideLog& log) {
-  log(end.hung ? "ended without the game, which does not finish tick " + std::to_string(end.tick) +
+  log(end.hung ? "forced to exit: the game does not finish tick " + std::to_string(end.tick) +
                      crash::activity("handles")
-               : std::string("ended at once by a second signal"));
+               : std::string("stopped immediately by a second signal"));
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence(kShuttingDown);
   m_endpoint->network().sendLast(message.SerializeAsString(), kDrainTime);
@@ -135,7 +135,7 @@ void Host::adoptSettings(df::World& world) {
   }
   world.input().setGameOverLeaves(options.on_game_over != "exit");
   if (world.compat())
-    m_context->log("compat is on: the published engine's rules where they differ from the book's");
+    m_context->log("compat is on: using the published engine's rules where they differ from the book's");
 }
 
 // A minimum number of handlers runs even after the deadline, because an overloaded server must still receive.

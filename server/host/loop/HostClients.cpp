@@ -80,8 +80,8 @@ void HostClients::makePlaces() {
   m_sessions.setMost(maxConnections(m_context.options));
   const std::size_t wanted = wantedFiles(m_context.options);
   if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
-    m_context.log("only " + std::to_string(files) + " files may be open (ulimit -Hn): too few for " +
-                  std::to_string(m_context.options.max_players) + " players and those who come back");
+    m_context.log("the limit of open files is " + std::to_string(files) + " (ulimit -Hn): too few for " +
+                  std::to_string(m_context.options.max_players) + " players and their reconnects");
   }
 }
 
@@ -137,7 +137,7 @@ void HostClients::takeChat(Session& session, const std::string& text) {
                     : sendServerLine(session, "This server has no commands.");
   } else if (session.standing().isMuted()) {
     ++m_context.counters.chat_muted;
-    sendServerLine(session, "You are muted: nobody reads your lines.");
+    sendServerLine(session, "You are muted: other players do not see your lines.");
   } else {
     sendChat(session, text);
   }

@@ -44,9 +44,9 @@ class InactivityCheck {
     } else if (idle >= limit) {
       m_warned.erase(session.id());
       ++counters.inactive;
-      session.goodbye("You did nothing for " + timeSpanText(limit) + ".");
+      session.goodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
     } else if (m_warned.insert(session.id()).second) {
-      tell(session, "Press a key, or you leave the game in a moment.");
+      tell(session, "Press a key, or you will be disconnected.");
     }
   }
   /// Call when the session is over.

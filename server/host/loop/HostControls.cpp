@@ -31,7 +31,7 @@ Reloaded readAgain(const Reload::ReadOptions& read, const HostOptions& now) {
   return reloaded;
 }
 
-const std::string kCannotBeKept = "The round cannot be kept: ";
+const std::string kCannotBeKept = "Cannot keep the round: ";
 
 }  // namespace
 
@@ -80,8 +80,8 @@ void HostControls::heedUpgrade(Clock::time_point now) {
   const auto news = m_clients.rooms().takeUpgrade();
   if (!news) return;
   const bool waits = m_clients.rooms().isPrivate();
-  m_context.log(
-      LogEvent::warning(*news + (waits ? "; it begins again when all have left" : "; it begins again")));
+  m_context.log(LogEvent::warning(
+      *news + (waits ? "; the server restarts when all players have left" : "; the server restarts now")));
   Ending::Plan plan = m_context.ending.plan().value_or(Ending::Plan{.begins_again = true});
   if (waits) {
     plan.when_empty = true;
@@ -95,11 +95,11 @@ void HostControls::heedSignals(StopSignals& signals) {
   if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
     const double drain_time = signals.signal() == SIGTERM ? m_context.options.drain_time : 0;
     endWhenEmpty(drain_time);
-    if (drain_time > 0) m_context.log("SIGTERM: no new players; ending when all have left");
+    if (drain_time > 0) m_context.log("SIGTERM: no new players; stopping when all players have left");
   }
   if (!signals.takeHangUp()) return;
   LineLog::reopenAll();
-  m_context.log("SIGHUP: the log goes on in this file (there is no terminal, so the server does too)");
+  m_context.log("SIGHUP: log reopened (the server has no terminal, so it keeps running)");
   if (!m_reload) return;
   if (m_on_reload) m_on_reload(false, Clock::now());
   reload([this](bool, const std::string& sentence) {
@@ -111,22 +111,22 @@ void HostControls::heedSignals(StopSignals& signals) {
 // ---- options ----------------------------------------------------------------------------------------------
 
 void HostControls::reload(Done done) {
-  if (!m_reload) return done(false, "this server cannot read its options again");
+  if (!m_reload) return done(false, "this server cannot reload its options");
   const bool began = m_reload->begin(m_context.options, [this, done](Reloaded reloaded) {
     asio::post(m_context.home, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
       adoptReloaded(std::move(*reloaded), done);
     });
   });
-  if (!began) done(false, "the options are being read already");
+  if (!began) done(false, "a reload is already in progress");
 }
 
 void HostControls::adoptReloaded(Reloaded reloaded, const Done& done) {
-  if (!reloaded.problem.empty()) return done(false, "the options stay as they were: " + reloaded.problem);
+  if (!reloaded.problem.empty()) return done(false, "the options were not changed: " + reloaded.problem);
   if (reloaded.options.password != m_context.options.password)
     m_clients.admission().changePassword(std::move(reloaded.password));
   const OptionChanges changes = adopt(reloaded.options);
   if (reloaded.identity) m_endpoint.setIdentity(*std::move(reloaded.identity));
-  done(true, "the options were read again: " + changes.text());
+  done(true, "options reloaded: " + changes.text());
 }
 
 OptionChanges HostControls::adopt(const HostOptions& options) {
@@ -139,16 +139,16 @@ OptionChanges HostControls::adopt(const HostOptions& options) {
 
 // A round in recovery cannot be kept: its file counts servers that ended in a recovery (Journals.h).
 std::string HostControls::whyNotKept() const {
-  return m_clients.rooms().recovering() ? "it is being executed again already" : "";
+  return m_clients.rooms().recovering() ? "it is still being recovered" : "";
 }
 
 void HostControls::keepRound(Done done) {
   if (m_p_handover == nullptr)
-    return done(false, "No round can be kept here: that takes dfserver with --journal");
+    return done(false, "Cannot keep the round: this requires dfserver with --journal");
   std::string why_not = m_p_handover->refusal();
   if (why_not.empty()) why_not = whyNotKept();
   if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
-  m_context.log("the round is executed again by the program that is installed, beside the game");
+  m_context.log("replaying the round in the installed program while the game continues");
   m_p_handover->prove([this, done = std::move(done)](const RoundHandover::Result& result) {
     asio::post(m_context.home, [this, done, result] {
       if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it start later
@@ -158,12 +158,12 @@ void HostControls::keepRound(Done done) {
 }
 
 void HostControls::finishProof(const std::string& problem, const Done& done) {
-  if (m_is_draining) return done(false, "The server ends");
+  if (m_is_draining) return done(false, "The server is shutting down");
   if (!problem.empty()) return endWithoutRound(problem, done);
   std::string why_not = m_p_handover->changeSinceProof();
   if (why_not.empty()) why_not = whyNotKept();
   if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
-  const std::string text = "The round goes on in the program that is installed";
+  const std::string text = "The round resumes in the installed program";
   m_context.log("restart: " + text);
   end({.begins_again = true, .at = Clock::time_point()});
   m_keeps_round = true;
@@ -172,10 +172,10 @@ void HostControls::finishProof(const std::string& problem, const Done& done) {
 
 // Like a restart that lets players finish.
 void HostControls::endWithoutRound(const std::string& problem, const Done& done) {
-  const std::string text = "The round cannot go on in the program that is installed: " + problem;
-  m_context.log(LogEvent::warning("restart: " + text + "; the server begins again when all have left"));
+  const std::string text = "Cannot move the round to the installed program: " + problem;
+  m_context.log(LogEvent::warning("restart: " + text + "; the server restarts when all players have left"));
   end({.begins_again = true, .when_empty = true});
-  done(false, text + ". The server restarts when all have left (cancel calls that off)");
+  done(false, text + ". The server restarts when all players have left (unless \"cancel\" is given)");
 }
 
 bool HostControls::keepsRound() const {

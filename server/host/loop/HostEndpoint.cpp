@@ -122,9 +122,9 @@ std::optional<JoinLink> HostEndpoint::joinLink(bool elsewhere) const {
 
 void HostEndpoint::setIdentity(ServerIdentity identity) {
   if (identity.fingerprint() != m_identity->fingerprint()) {
-    m_context.log(
-        LogEvent::warning("the key is another one: players who know the server are warned of it. It is " +
-                          identity.fingerprint().text()));
+    m_context.log(LogEvent::warning(
+        "the server's key has changed, so players with the old key see a warning. New key: " +
+        identity.fingerprint().text()));
   }
   m_identity = std::move(identity);
   m_network.setTls(m_identity->tls());

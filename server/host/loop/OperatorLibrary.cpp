@@ -31,8 +31,8 @@ std::vector<std::unique_ptr<HostPart>> makeOperatorParts(const HostAccess& acces
   if (MakeOperatorParts* const make = load()) {
     make(access, parts);
   } else {
-    access.context.log(LogEvent::warning("no scores, bans, dfctl, metrics, local network or bus: " +
-                                         std::string(dlerror())));
+    access.context.log(LogEvent::warning(
+        "scores, bans, dfctl, metrics, local network and bus are not available: " + std::string(dlerror())));
   }
   return parts;
 }

@@ -48,7 +48,7 @@ HostPulse::Verdict HostPulse::health(Clock::time_point now) const {
   const auto since = now - std::max(start, m_stages.tickBegan());
   if (since <= std::chrono::nanoseconds(m_patience.load(std::memory_order_relaxed))) return {true, "ok"};
   char text[128];
-  std::snprintf(text, sizeof text, "no tick has begun for %.1f s; since tick %llu the stage is: %s",
+  std::snprintf(text, sizeof text, "no tick has begun for %.1f s; in tick %llu, stage %s",
                 std::chrono::duration<double>(since).count(),
                 static_cast<unsigned long long>(m_stages.tick()), nameOf(m_stages.current()));
   return {false, text};
@@ -60,7 +60,7 @@ HostPulse::Verdict HostPulse::readiness(Clock::time_point now) const {
       return {false, "starting"};
     case Phase::kDraining:
     case Phase::kEnding:
-      return {false, "ending: no more players"};
+      return {false, "shutting down: no new players"};
     case Phase::kRunning:
       break;
   }

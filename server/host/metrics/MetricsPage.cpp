@@ -57,47 +57,45 @@ double seconds(std::chrono::nanoseconds time) {
 
 void writeBuild(Exposition& out) {
   out.begin("naiad_build_info", MetricType::kGauge,
-            "The version of the server, and of the protocol; always 1.");
+            "Versions of the server and the protocol, as labels; always 1.");
   out.add(metricLabel("version", kVersion) + "," +
               metricLabel("protocol", std::to_string(static_cast<unsigned>(kProtocolVersion))),
           std::uint64_t{1});
 }
 
 void writeTicks(Exposition& out, const MetricsSnapshot& snapshot) {
-  out.begin("naiad_tick_length_seconds", MetricType::kGauge, "How long a tick is meant to be.");
+  out.begin("naiad_tick_length_seconds", MetricType::kGauge, "Configured length of a tick.");
   out.add("", snapshot.tick_length);
-  out.begin(
-      "naiad_tick_duration_seconds", MetricType::kHistogram,
-      "From the beginning of a tick to when its last packet is handed over, worlds in processes included.");
+  out.begin("naiad_tick_duration_seconds", MetricType::kHistogram,
+            "Time from the start of a tick until its last packet is sent, including game processes.");
   out.add(snapshot.tick_durations);
   out.begin("naiad_tick_lateness_seconds", MetricType::kHistogram,
-            "How long after its deadline a tick began.");
+            "Delay of a tick's start after its deadline.");
   out.add(snapshot.tick_lateness);
   out.begin("naiad_stage_seconds_total", MetricType::kCounter,
-            "Time of the thread that ticks, by stage; between: streams are served, or it waits.");
+            "Time of the tick thread, by stage; between: serving streams or waiting.");
   for (std::size_t i = 0; i < kStages; ++i) {
     out.add(metricLabel("stage", nameOf(static_cast<Stage>(i))), seconds(snapshot.stages[i]));
   }
 }
 
 void writePlayers(Exposition& out, const MetricsSnapshot& snapshot) {
-  out.begin("naiad_players", MetricType::kGauge, "Players, by whether their connection is there.");
+  out.begin("naiad_players", MetricType::kGauge, "Players, by state of their connection.");
   out.add(R"(state="connected")", snapshot.connected);
   out.add(R"(state="detached")", snapshot.detached);
-  out.begin("naiad_max_players", MetricType::kGauge, "Places for players.");
+  out.begin("naiad_max_players", MetricType::kGauge, "Maximum number of players.");
   out.add("", snapshot.max_players);
-  out.begin("naiad_newcomers", MetricType::kGauge,
-            "Connections that are no players yet, or are about to end.");
+  out.begin("naiad_newcomers", MetricType::kGauge, "Connections that have not joined yet or are closing.");
   out.add("", snapshot.greeting);
-  out.begin("naiad_rooms", MetricType::kGauge, "Worlds that are played in.");
+  out.begin("naiad_rooms", MetricType::kGauge, "Worlds that are running.");
   out.add("", snapshot.rooms);
-  out.begin("naiad_objects", MetricType::kGauge, "Objects that are published, in worlds with players.");
+  out.begin("naiad_objects", MetricType::kGauge, "Objects that players are sent, in worlds with players.");
   out.add("", snapshot.objects);
   out.begin("naiad_round_trip_seconds", MetricType::kHistogram,
-            "Round trips from a snapshot to its acknowledgement: one of each player, each second.");
+            "Round-trip time from a snapshot to its acknowledgement: one sample per player and second.");
   out.add(snapshot.round_trips);
   out.begin("naiad_loss_ratio", MetricType::kHistogram,
-            "Share of the last snapshots that were lost: one of each player, each second.");
+            "Share of recent snapshots that were lost: one sample per player and second.");
   out.add(snapshot.losses);
 }
 
@@ -108,10 +106,11 @@ void writeNamedRooms(Exposition& out, const std::vector<MetricsSnapshot::NamedRo
   };
   out.begin("naiad_room_players", MetricType::kGauge, "Players, by room.");
   for (const auto& room : rooms) out.add(labels(room), room.players);
-  out.begin("naiad_room_asleep", MetricType::kGauge, "1 for a room that has no world until a player comes.");
+  out.begin("naiad_room_asleep", MetricType::kGauge,
+            "1 for a room without a world, which starts when a player joins.");
   for (const auto& room : rooms) out.add(labels(room), std::uint64_t{room.asleep ? 1u : 0u});
   out.begin("naiad_room_late_ticks_total", MetricType::kCounter,
-            "Ticks that the world of a room missed, since it had not ended the one before.");
+            "Ticks that a room's world missed because its previous tick was still running.");
   for (const auto& room : rooms) out.add(labels(room), room.late_ticks);
 }
 
@@ -154,16 +153,16 @@ ProcessFacts ProcessFacts::read() {
 void writeProcess(Exposition& out, const ProcessFacts& facts) {
   out.begin("process_cpu_seconds_total", MetricType::kCounter, "CPU time of the process.");
   out.add("", facts.cpu_seconds);
-  out.begin("process_resident_memory_bytes", MetricType::kGauge, "Memory of the process that is in RAM.");
+  out.begin("process_resident_memory_bytes", MetricType::kGauge, "Resident memory of the process.");
   out.add("", facts.resident);
-  out.begin("process_virtual_memory_bytes", MetricType::kGauge, "Addresses of the process.");
+  out.begin("process_virtual_memory_bytes", MetricType::kGauge, "Virtual memory of the process.");
   out.add("", facts.virtual_size);
-  out.begin("process_open_fds", MetricType::kGauge, "Files and sockets that are open.");
+  out.begin("process_open_fds", MetricType::kGauge, "Number of open files and sockets.");
   out.add("", facts.open_files);
-  out.begin("process_max_fds", MetricType::kGauge, "Files and sockets that may be open.");
+  out.begin("process_max_fds", MetricType::kGauge, "Maximum number of open files and sockets.");
   out.add("", facts.max_files);
   out.begin("process_start_time_seconds", MetricType::kGauge,
-            "When the process began, in seconds since 1970.");
+            "Start time of the process, in seconds since 1970.");
   out.add("", facts.start_seconds);
 }
 

@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kRetryDelay{100};
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 MetricsServer::Answer badRequest() {
-  return {400, "This is no request that is answered here.\n"};
+  return {400, "Invalid request.\n"};
 }
 
 /// Returns the reason phrase of a status (RFC 9110, 15). Clients ignore it.
@@ -176,7 +176,7 @@ void MetricsServer::Loop::listen(const MetricsAddress& address) {
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (error)
-    throw MetricsError("Metrics cannot be given out on port " + std::to_string(address.port) + " of " +
+    throw MetricsError("Cannot serve metrics on port " + std::to_string(address.port) + " of " +
                        address.address + " (" + error.message() + ").");
   port = acceptor.local_endpoint().port();
 }
@@ -218,7 +218,7 @@ MetricsServer::Answer MetricsServer::Loop::answer(const HttpHead& head) const {
   const auto request = HttpRequestLine::parse(head.start_line);
   if (!request) return badRequest();
   if (head.count("host") != 1 || !hosts.allows(head.value("host")))
-    return {403, "This server does not go by that name (--metrics-hosts).\n"};
+    return {403, "Unknown host name; --metrics-hosts lists the names of this server.\n"};
   if (request->method != "GET") return {405, "GET only.\n"};
   return respond(request->target.substr(0, request->target.find('?')));
 }

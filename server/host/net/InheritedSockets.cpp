@@ -47,9 +47,9 @@ asio::ip::tcp::endpoint endpointOf(int socket) {
   auto size = static_cast<socklen_t>(endpoint.capacity());
   if (getsockname(socket, endpoint.data(), &size) != 0) refuse(std::generic_category().message(errno));
   const int family = endpoint.data()->sa_family;
-  if (family != AF_INET && family != AF_INET6) refuse("one is not of the Internet");
+  if (family != AF_INET && family != AF_INET6) refuse("one is not an IPv4 or IPv6 socket");
   endpoint.resize(size);
-  if (endpoint.port() == 0) refuse("one has no port yet");
+  if (endpoint.port() == 0) refuse("one is not bound to a port");
   return endpoint;
 }
 
@@ -59,11 +59,11 @@ void sort(int socket, InheritedSockets& sockets) {
     refuse("descriptor " + std::to_string(socket) + " is not open");
   const int type = intOption(socket, SO_TYPE);
   if (type != SOCK_STREAM && type != SOCK_DGRAM)
-    refuse("descriptor " + std::to_string(socket) + " is no socket for TCP or UDP");
+    refuse("descriptor " + std::to_string(socket) + " is not a TCP or UDP socket");
   const bool is_stream = type == SOCK_STREAM;
   int& place = is_stream ? sockets.streams : sockets.datagrams;
-  if (place >= 0) refuse(is_stream ? "two are for TCP" : "two are for UDP");
-  if (is_stream && intOption(socket, SO_ACCEPTCONN) != 1) refuse("the one for TCP does not listen");
+  if (place >= 0) refuse(is_stream ? "both are TCP sockets" : "both are UDP sockets");
+  if (is_stream && intOption(socket, SO_ACCEPTCONN) != 1) refuse("the TCP socket is not listening");
   place = socket;
 }
 
@@ -99,10 +99,10 @@ std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Vari
   const char* p_count = variable("LISTEN_FDS");
   if (p_count == nullptr || numberIn(variable("LISTEN_PID")) != process) return std::nullopt;
   const auto count = numberIn(p_count);
-  if (!count || *count < 0) refuse(std::string("their number is \"") + p_count + '"');
+  if (!count || *count < 0) refuse(std::string("invalid number \"") + p_count + '"');
   if (*count == 0) return std::nullopt;
   if (*count != kWanted)
-    refuse("one for TCP and one for UDP are wanted, and there are " + std::to_string(*count));
+    refuse("expected one for TCP and one for UDP, but their number is " + std::to_string(*count));
   InheritedSockets sockets;
   for (int socket = first; socket < first + kWanted; ++socket) sort(socket, sockets);
   noteAddress(sockets);
@@ -115,7 +115,8 @@ InheritedSockets InheritedSockets::duplicate() const {
   InheritedSockets others = *this;
   for (int* const p_socket : {&others.streams, &others.datagrams}) {
     *p_socket = fcntl(*p_socket, F_DUPFD_CLOEXEC, kSpare);
-    if (*p_socket < 0) throw std::system_error(errno, std::generic_category(), "sockets to keep");
+    if (*p_socket < 0)
+      throw std::system_error(errno, std::generic_category(), "cannot duplicate the sockets");
   }
   return others;
 }
@@ -123,7 +124,7 @@ InheritedSockets InheritedSockets::duplicate() const {
 void InheritedSockets::exportToExec() const {
   for (const int socket : {streams, datagrams}) {
     if (fcntl(socket, F_SETFD, 0) != 0)
-      throw std::system_error(errno, std::generic_category(), "sockets for the next program");
+      throw std::system_error(errno, std::generic_category(), "cannot pass on the sockets");
   }
   std::ostringstream numbers;
   numbers << getpid() << ' ' << streams << ' ' << datagrams << ' ' << is_service;

@@ -87,7 +87,7 @@ ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& so
                            TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
                            VisitorsListening visitors) {
   if (!tls.context) {
-    throw ListenError("Sockets from the service manager are for encrypted connections only.",
+    throw ListenError("Sockets from the service manager require encryption: remove --insecure.",
                       std::make_error_code(std::errc::invalid_argument));
   }
   ServerPort opened;

@@ -42,7 +42,7 @@ std::vector<AdminPlayer> thoseThat(const std::vector<AdminPlayer>& players, cons
 
 PlayerChoice oneOf(const std::vector<AdminPlayer>& found, const std::string& typed) {
   if (found.size() == 1) return {found.front()};
-  AdminAnswer problem = AdminAnswer::refused("Several players may be meant by \"" + typed + "\":");
+  AdminAnswer problem = AdminAnswer::refused("Several players match \"" + typed + "\":");
   for (const AdminPlayer& player : found)
     problem.candidates.push_back("#" + std::to_string(player.id) + " " + player.name);
   return {std::nullopt, std::move(problem)};
@@ -94,18 +94,19 @@ BanPlan refusedPlan(AdminAnswer problem) {
 
 BanPlan planRange(Ban ban, const AddressRange& range) {
   if (range.bits() < (range.isIPv4() ? kMinBitsIPv4 : kMinBitsIPv6))
-    return refusedPlan(AdminAnswer::refused(range.text() + " is too wide: at least /" +
+    return refusedPlan(AdminAnswer::refused(range.text() + " is too wide: expected at least /" +
                                             std::to_string(range.isIPv4() ? kMinBitsIPv4 : kMinBitsIPv6) +
-                                            " is wanted."));
+                                            "."));
   const asio::ip::address first = unmapped(asio::ip::address_v6(range.bytes()));
   if (first.is_loopback() || range.contains(asio::ip::address_v6::loopback()))
-    return refusedPlan(AdminAnswer::refused("This machine itself cannot be banned: its doors are there."));
+    return refusedPlan(
+        AdminAnswer::refused("Loopback cannot be banned: this machine's doors connect from it."));
   ban.range = range;
   return {{std::move(ban)}, ""};
 }
 
 BanPlan planName(Ban ban, const std::string& name) {
-  if (name.empty()) return refusedPlan(AdminAnswer::refused("name: and a name are wanted."));
+  if (name.empty()) return refusedPlan(AdminAnswer::refused("Expected a name after \"name:\"."));
   ban.kind = Ban::Kind::kName;
   ban.name = name;
   return {{std::move(ban)}, ""};
@@ -116,13 +117,13 @@ BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, cons
   const PlayerChoice choice = choosePlayer(players, typed);
   if (!choice.player) {
     AdminAnswer problem = choice.problem;
-    if (problem.candidates.empty()) problem.text += " name:" + typed + " bans a name.";
+    if (problem.candidates.empty()) problem.text += " name:" + typed + " bans the name.";
     return refusedPlan(std::move(problem));
   }
   BanPlan plan = planName(ban, choice.player->name);
   const auto address = endpointAddress(choice.player->address);
   if (!address || address->is_loopback()) {
-    plan.note = "By name alone: they play on this machine.";
+    plan.note = "Only by name: they play on this machine.";
     return plan;
   }
   const AddressRange range = AddressRange::around(*address);
@@ -131,8 +132,8 @@ BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, cons
     return other.session != choice.player->session && theirs && range.contains(*theirs);
   });
   if (others > 0) {
-    plan.note = "By name alone: " + counted(static_cast<std::size_t>(others), "other") + " of " +
-                range.text() + " would have to go, too.";
+    plan.note = "Only by name: " + counted(static_cast<std::size_t>(others), "other") + " of " +
+                range.text() + " would be banned, too.";
     return plan;
   }
   Ban of_range = ban;
@@ -145,7 +146,7 @@ BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, cons
 BanPlan planBan(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
   if (const auto range = AddressRange::parse(typed)) return planRange(ban, *range);
   if (ban.kind == Ban::Kind::kException)
-    return refusedPlan(AdminAnswer::refused("\"" + typed + "\" is neither an address nor ADDRESS/BITS."));
+    return refusedPlan(AdminAnswer::refused("\"" + typed + "\" is not an address or ADDRESS/BITS."));
   if (typed.starts_with(kNameMark)) return planName(ban, typed.substr(std::string(kNameMark).size()));
   return planPlayer(ban, players, typed);
 }
@@ -178,7 +179,7 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
   const AdminCommand& command = *request.command;
   if (!command.isFor(caller.level, caller.place)) {
     m_context.log("admin: " + caller.name + ": refused: " + request.redacted());
-    return done(AdminAnswer::refused("You may not give the command \"" + command.name + "\" here."));
+    return done(AdminAnswer::refused("You may not use the command \"" + command.name + "\" here."));
   }
   const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket;
   if (by_admin && !command.only_reads) m_context.log("admin: " + caller.name + ": " + request.redacted());
@@ -194,7 +195,7 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
 
 AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCaller& caller) {
   const std::string& name = request.command->name;
-  if (name == "ping") return AdminAnswer::done("The server answers.");
+  if (name == "ping") return AdminAnswer::done("The server is running.");
   if (name == "who") return listPlayers(caller);
   if (name == "status") return {true, "", {}, m_admin.status(), false, {}};
   if (name == "rooms") return AdminAnswer::list(m_admin.rooms(), "This server has no rooms.");
@@ -209,7 +210,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
   if (name == "stop") return m_admin.stop(request.of("reason"));
   if (name == "say") {
     m_admin.say(request.of("text"));
-    return AdminAnswer::done("All players were sent it.");
+    return AdminAnswer::done("Sent to all players.");
   }
   return AdminAnswer::refused("\"" + name + "\" is not available here.");
 }
@@ -219,7 +220,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
 AdminAnswer AdminConsole::listPlayers(const AdminCaller& caller) const {
   std::vector<AdminRow> rows;
   for (const AdminPlayer& player : m_admin.players()) rows.push_back(rowOf(player, caller.level));
-  return AdminAnswer::list(std::move(rows), "Nobody plays.");
+  return AdminAnswer::list(std::move(rows), "No players.");
 }
 
 // Refuses a muted sender: a muted player must not reach others by private messages either.
@@ -248,7 +249,7 @@ AdminAnswer AdminConsole::mute(const AdminRequest& request, bool muted) {
   const PlayerChoice choice = choosePlayer(m_admin.players(), request.of("player"));
   if (!choice.player) return choice.problem;
   m_admin.setMuted(choice.player->session, muted);
-  return AdminAnswer::done(choice.player->name + (muted ? " is muted." : " may talk."));
+  return AdminAnswer::done(choice.player->name + (muted ? " is muted." : " is no longer muted."));
 }
 
 // ---- bans -------------------------------------------------------------------------------------------------
@@ -264,8 +265,8 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
   if (plan.bans.empty()) return done(plan.problem);
   std::string text;
   for (const Ban& one : plan.bans) text += (text.empty() ? "" : " and ") + one.target();
-  text += model.kind == Ban::Kind::kException ? " cannot be banned" : " banned";
-  text += model.until ? " until " + timeText(*model.until) + "." : " for ever.";
+  text += model.kind == Ban::Kind::kException ? " is exempt from address bans" : " banned";
+  text += model.until ? " until " + timeText(*model.until) + "." : " permanently.";
   if (!plan.note.empty()) text += " " + plan.note;
   // The writes are done in order, so the answer is sent when the last one is done.
   for (std::size_t i = 0; i < plan.bans.size(); ++i) {
@@ -274,7 +275,8 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
       if (is_last) answerSaved(text, problem, done);
     };
     if (!m_bans.add(plan.bans[i], saved))
-      return done(AdminAnswer::refused("There are " + std::to_string(BanList::kMaxBans) + " bans already."));
+      return done(
+          AdminAnswer::refused("The ban list is full (" + std::to_string(BanList::kMaxBans) + " bans)."));
   }
   endBanned();
 }
@@ -282,17 +284,17 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
 void AdminConsole::unban(const AdminRequest& request, const Done& done) {
   const std::string who = request.of("who");
   const auto saved = [this, done, who](const std::string& problem) {
-    answerSaved(oneLine(who) + " is no longer in the list.", problem, done);
+    answerSaved(oneLine(who) + " was removed from the list.", problem, done);
   };
   if (m_bans.remove(who, saved) == 0)
-    done(AdminAnswer::refused("No ban is listed as \"" + who + "\"; see bans."));
+    done(AdminAnswer::refused("There is no ban of \"" + who + "\"; \"bans\" lists them."));
 }
 
 // Called on the worker's thread, or on the host's thread if there is no file.
 void AdminConsole::answerSaved(const std::string& text, const std::string& problem, const Done& done) {
   post([this, text, problem, done] {
     if (!problem.empty()) m_context.log("bans: " + problem);
-    done(AdminAnswer::done(problem.empty() ? text : text + " For now: " + problem));
+    done(AdminAnswer::done(problem.empty() ? text : text + " Not saved: " + problem));
   });
 }
 
@@ -317,7 +319,7 @@ AdminAnswer AdminConsole::listBans() const {
                     {"by", ban.by},
                     {"reason", ban.reason}});
   }
-  return AdminAnswer::list(std::move(rows), "Nobody is banned.");
+  return AdminAnswer::list(std::move(rows), "No bans.");
 }
 
 // ---- the server -------------------------------------------------------------------------------------------
@@ -338,19 +340,20 @@ AdminAnswer AdminConsole::set(const AdminRequest& request) {
   for (const auto& [name, value] : m_admin.settings()) {
     if (name == request.of("option")) return {true, "", {}, {{name, value}}, false, {}};
   }
-  return AdminAnswer::refused("\"" + request.of("option") + "\" is no option that can be changed; see set.");
+  return AdminAnswer::refused("\"" + request.of("option") +
+                              "\" cannot be changed; \"set\" lists the options that can.");
 }
 
 void AdminConsole::scores(const AdminRequest& request, Done done) {
   std::size_t count = kScoresOfATable;
   if (request.has("room") && request.has("game"))
-    return done(AdminAnswer::refused("A room has one game: --room or --game, not both."));
+    return done(AdminAnswer::refused("Use --room or --game, not both."));
   if (request.has("count")) {
     const std::string& text = request.of("count");
     const char* p_end = text.data() + text.size();
     const auto [p_read, error] = std::from_chars(text.data(), p_end, count);
     if (error != std::errc() || p_read != p_end || count < 1 || count > kMaxScoresOfATable)
-      return done(AdminAnswer::refused("\"" + text + "\" is no number from 1 to " +
+      return done(AdminAnswer::refused("\"" + text + "\" is not a number from 1 to " +
                                        std::to_string(kMaxScoresOfATable) + "."));
   }
   m_admin.scores({request.of("table"), count, request.of("room"), request.of("game")}, std::move(done));
@@ -372,7 +375,7 @@ void AdminConsole::changePassword(const AdminRequest& request, Done done) {
       finish(std::nullopt, error.what());
     }
   });
-  if (!given) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
+  if (!given) done(AdminAnswer::refused("Busy: too many pending requests. Try again in a moment."));
 }
 
 // Reloads the ban file first. If that fails, the answer says so, and the rest is still reloaded.

@@ -55,7 +55,7 @@ void ChatCommands::serve(Session& session, const std::string& whole) {
 void ChatCommands::execute(Session& session, const AdminRequest& request) {
   const AdminCommand& command = *request.command;
   if (!command.isFor(levelOf(session), Place::kChat))
-    return reply(session, {"You may not give the command \"" + command.name + "\" here."});
+    return reply(session, {"You may not use the command \"" + command.name + "\" here."});
   if (command.name == "help" || command.name == "commands") return help(session, request);
   if (command.name == "admin") return becomeAdmin(session, request.of("password"));
   if (command.name == "vote") return vote(session, request);
@@ -73,7 +73,7 @@ void ChatCommands::help(Session& session, const AdminRequest& request) {
   const AdminCommand* const p_command = findAdminCommand(request.of("command"));
   if (!request.has("command")) return reply(session, adminHelp(levelOf(session), Place::kChat));
   if (p_command == nullptr || !p_command->isFor(levelOf(session), Place::kChat))
-    return reply(session, {"There is no command \"" + request.of("command") + "\" for you."});
+    return reply(session, {"Unknown command \"" + request.of("command") + "\", or you may not use it."});
   reply(session, adminHelp(*p_command));
 }
 
@@ -87,7 +87,7 @@ void ChatCommands::reply(Session& session, const std::vector<std::string>& lines
 // ---- admins -----------------------------------------------------------------------------------------------
 
 void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
-  if (!m_password) return reply(session, {"This server has no admins in the chat."});
+  if (!m_password) return reply(session, {"This server does not allow admins in the chat."});
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
   m_password->check(prefix, true, password, session.now(),
                     [this, id = session.id(), streams = session.standing().streams()](auto answer) {
@@ -107,8 +107,8 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
       logNews(*p_session, who + " is an admin now");
       return reply(*p_session, {"You are an admin until your connection ends."});
     case PasswordCheck::Answer::kWrong:
-      refuse(*p_session, "That is not the admins' password.");
-      return reply(*p_session, {"That is not the admins' password."});
+      refuse(*p_session, "That is not the admin password.");
+      return reply(*p_session, {"That is not the admin password."});
     case PasswordCheck::Answer::kTooMany:
       refuse(*p_session, "Too many wrong passwords for admins.");
       return reply(*p_session, {"Too many wrong passwords. Try again in a minute."});
@@ -120,29 +120,29 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
 // ---- votes ------------------------------------------------------------------------------------------------
 
 void ChatCommands::vote(Session& session, const AdminRequest& request) {
-  if (!m_access.context.options.vote_kick) return reply(session, {"This server has no votes."});
+  if (!m_access.context.options.vote_kick) return reply(session, {"This server does not allow votes."});
   const std::vector<AdminPlayer> players = m_admin.players();
   const PlayerChoice choice = choosePlayer(players, request.of("player"));
   if (!choice.player) return reply(session, answerText(choice.problem));
   const std::string& name = choice.player->name;
   const auto outcome = m_vote.vote(players, session.id(), choice.player->session, session.now());
   const std::string voices =
-      " (" + std::to_string(m_vote.voices()) + " of " + std::to_string(m_vote.needed()) + " voices)";
+      " (" + std::to_string(m_vote.voices()) + " of " + std::to_string(m_vote.needed()) + " votes)";
   switch (outcome) {
     case VoteKick::Outcome::kBegun:
-      logNews(session, inQuotes(session.name()) + " begins a vote to throw out " + inQuotes(name));
-      return m_admin.say(session.name() + " wants " + name + " out. /vote kick " + name +
-                         " agrees, within 30 seconds" + voices + ".");
+      logNews(session, inQuotes(session.name()) + " starts a vote to kick " + inQuotes(name));
+      return m_admin.say(session.name() + " starts a vote to kick " + name + ". /vote kick " + name +
+                         " agrees within 30 seconds" + voices + ".");
     case VoteKick::Outcome::kAgreed:
-      return m_admin.say(session.name() + " agrees that " + name + " goes" + voices + ".");
+      return m_admin.say(session.name() + " agrees to vote " + name + " out" + voices + ".");
     case VoteKick::Outcome::kPassed:
       return throwOut(*choice.player);
     case VoteKick::Outcome::kAlready:
-      return reply(session, {"You have agreed already."});
+      return reply(session, {"You have already agreed."});
     case VoteKick::Outcome::kOther:
-      return reply(session, {"A vote on another player is on. Wait until it is over."});
+      return reply(session, {"A vote on another player is running. Wait until it is over."});
     case VoteKick::Outcome::kTooSoon:
-      return reply(session, {"You began a vote a moment ago. Try again in two minutes."});
+      return reply(session, {"You started a vote recently. Try again in two minutes."});
     case VoteKick::Outcome::kSelf:
       return reply(session, {"You cannot vote on a player at your own address."});
   }
@@ -151,11 +151,11 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
 // Bans the name, and the address unless others play there. The ban is short, so it is not written to disk.
 void ChatCommands::throwOut(const AdminPlayer& player) {
   if (const Session* const p_session = m_access.clients.sessions().find(player.session))
-    logNews(*p_session, inQuotes(player.name) + " is thrown out by a vote");
-  m_admin.say("The players have voted: " + player.name + " goes for five minutes.");
+    logNews(*p_session, inQuotes(player.name) + " is kicked by a vote");
+  m_admin.say("The players have voted to kick " + player.name + " for five minutes.");
   Ban ban;
   ban.name = player.name;
-  ban.reason = "the players voted you out";
+  ban.reason = "the players voted to kick you";
   ban.by = "a vote";
   ban.made = m_bans.time();
   ban.until = ban.made + VoteKick::kOut;

@@ -64,7 +64,7 @@ AdminAnswer listOf(const std::vector<ScoreRow>& scores) {
                     {"tick", std::int64_t{row.tick}},
                     {"number", std::int64_t{row.number}}});
   }
-  return AdminAnswer::list(std::move(rows), "No scores are kept.");
+  return AdminAnswer::list(std::move(rows), "No scores.");
 }
 
 /// Returns text like "rooms one, two".
@@ -76,11 +76,11 @@ std::string listed(const std::vector<std::string>& rooms) {
 
 std::string unknownGame(const std::string& typed, const std::vector<std::string>& games) {
   const std::string near = nearestName(typed, games);
-  const std::string sentence = "No game \"" + safeText(typed, 100) + "\" is played here";
+  const std::string sentence = "Unknown game \"" + safeText(typed, 100) + "\"";
   if (!near.empty()) return sentence + "; did you mean \"" + near + "\"?";
   std::string all;
   for (const std::string& game : games) all += (all.empty() ? "" : ", ") + game;
-  return sentence + ". There are: " + all + ".";
+  return sentence + ". Games: " + all + ".";
 }
 
 HostControls::Done answering(std::function<void(AdminAnswer)> done) {
@@ -173,7 +173,7 @@ void HostAdmin::setMuted(std::uint64_t session, bool muted) {
 AdminAnswer HostAdmin::stop(const std::string& sentence) {
   m_access.controls.end(
       {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
-  return AdminAnswer::done("The server ends.");
+  return AdminAnswer::done("The server is stopping.");
 }
 
 AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
@@ -205,10 +205,10 @@ AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
   Ending::Plan plan{.when_empty = true};
   std::chrono::duration<double> patience(m_access.context.options.drain_time);
   if (most) patience = *most;
-  std::string text = "Nobody is let in any more. The server ends when all have left";
+  std::string text = "Draining: no new players. The server stops when all players have left";
   if (most || patience.count() > 0) {
     plan.at = Session::Clock::now() + std::chrono::duration_cast<Session::Clock::duration>(patience);
-    text += ", and in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
+    text += ", or in " + std::to_string(std::chrono::ceil<std::chrono::seconds>(patience).count()) +
             " s at the latest";
   }
   m_access.controls.end(std::move(plan));
@@ -216,9 +216,10 @@ AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
 }
 
 AdminAnswer HostAdmin::cancel() {
-  if (!m_access.controls.cancelEnd()) return AdminAnswer::refused("There is nothing to call off.");
-  say("The server goes on after all.");
-  return AdminAnswer::done("The server goes on.");
+  if (!m_access.controls.cancelEnd())
+    return AdminAnswer::refused("No shutdown, restart or drain is scheduled.");
+  say("The server stays up: its shutdown or restart was cancelled.");
+  return AdminAnswer::done("Cancelled: the server stays up.");
 }
 
 void HostAdmin::reload(std::function<void(AdminAnswer)> done) {
@@ -263,8 +264,7 @@ const HostAdmin::Board* HostAdmin::findBoard(const std::vector<Board>& boards, c
     refusal =
         AdminAnswer::refused(rooms.empty() ? "This server has no rooms." : unknownRoom(which.room, rooms));
   } else {
-    refusal =
-        AdminAnswer::refused("Each game has tables of its own; --game or --room says which one is meant:");
+    refusal = AdminAnswer::refused("Each game has its own tables; choose one with --game or --room:");
     for (const Board& board : boards)
       refusal.candidates.push_back("--game " + board.game + "  (" + listed(board.rooms) + ")");
   }
@@ -278,19 +278,20 @@ void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)
   if (p_board == nullptr) return done(refusal);
   ScoreKeeper& scores = m_scores.of(p_board->game);
   if (!scores.hasFile())
-    return done(AdminAnswer::refused("This server keeps no scores on disk (--state, or see its log)."));
+    return done(
+        AdminAnswer::refused("This server saves no scores to disk (see its --state option and its log)."));
   const auto answer = [this, done](const auto& rows, const std::string& problem) {
     const AdminAnswer read = problem.empty() ? listOf(rows) : AdminAnswer::refused(problem);
     asio::post(m_access.context.home, [read, done] { done(read); });
   };
   const bool reads = scores.read(which.table, which.count, answer);
-  if (!reads) done(AdminAnswer::refused("Too much waits to be done. Try again in a moment."));
+  if (!reads) done(AdminAnswer::refused("Busy: too many pending requests. Try again in a moment."));
 }
 
 AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {
   const auto& names = changeableOptions();
   if (std::find(names.begin(), names.end(), option) == names.end())
-    return AdminAnswer::refused("\"" + option + "\" is no option that can be changed while the server runs.");
+    return AdminAnswer::refused("\"" + option + "\" cannot be changed while the server runs.");
   HostOptions changed = m_access.context.options;
   try {
     setHostOption(changed, option, value);

@@ -115,7 +115,7 @@ void HostFleet::tick(Clock::time_point now) {
   m_said = now;
   sayPlayers();
   if (m_platform->takeEnd()) {
-    m_access.context.log("the platform shuts the server down");
+    m_access.context.log("the platform requested a shutdown");
     m_access.controls.endWhenEmpty(m_access.context.options.drain_time);
   }
   hearDirectory(now);

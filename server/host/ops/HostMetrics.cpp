@@ -56,7 +56,7 @@ MetricsServer::Answer HostMetrics::answer(std::string_view path) {
   }
   if (path == "/healthz") return answerOf(m_pulse.health(Clock::now()));
   if (path == "/readyz") return answerOf(m_pulse.readiness(Clock::now()));
-  return {404, "There are /metrics, /healthz and /readyz.\n"};
+  return {404, "Not found; there are /metrics, /healthz and /readyz.\n"};
 }
 
 void HostMetrics::begin() {

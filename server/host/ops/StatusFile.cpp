@@ -72,7 +72,7 @@ void StatusFile::write(const ServerFacts& facts) {
   if (failing == m_failing) return;
   m_failing = failing;
   m_news = failing ? "warning: the status file " + m_path + " cannot be written: " + problem
-                   : "the status file " + m_path + " is written again";
+                   : "the status file " + m_path + " can be written again";
 }
 
 }  // namespace naiad

@@ -31,7 +31,7 @@ bool Ending::isDue(Time now, bool is_empty) const {
 std::string Ending::sentence() const {
   if (!m_plan) return {};
   if (!m_plan->sentence.empty()) return m_plan->sentence;
-  return m_plan->begins_again ? "The server restarts. It is back in a moment."
+  return m_plan->begins_again ? "The server is restarting. Your client reconnects automatically."
                               : "The server is shutting down.";
 }
 
@@ -44,12 +44,12 @@ std::optional<std::string> Ending::takeNews(Time now) {
 }
 
 std::string Ending::news(Time now) const {
-  const std::string what = m_plan->begins_again ? "The server restarts" : "The server closes";
-  const std::string then = m_plan->begins_again ? " Your client comes back by itself." : "";
+  const std::string what = m_plan->begins_again ? "The server restarts" : "The server shuts down";
+  const std::string then = m_plan->begins_again ? " Your client reconnects automatically." : "";
   if (m_plan->at_round_end) return what + " when this round is over." + then;
   if (m_plan->when_empty && m_plan->at)
-    return what + " when all have left, and " + inSeconds(*m_plan->at, now) + " at the latest." + then;
-  if (m_plan->when_empty) return what + " when all have left." + then;
+    return what + " when all players have left, or " + inSeconds(*m_plan->at, now) + " at the latest." + then;
+  if (m_plan->when_empty) return what + " when all players have left." + then;
   return what + " " + (m_plan->at ? inSeconds(*m_plan->at, now) : "soon") + "." + then;
 }
 

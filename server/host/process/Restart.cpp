@@ -72,7 +72,7 @@ void StartCommand::run(std::uint16_t port) const {
   const std::vector<std::string> arguments = withPort(m_arguments, number);
   execv(m_program.c_str(),
         const_cast<char* const*>(pointersTo(arguments).data()));  // execv() changes none of them
-  throw std::system_error(errno, std::generic_category(), "The server cannot begin again");
+  throw std::system_error(errno, std::generic_category(), "cannot restart the server");
 }
 
 }  // namespace naiad

@@ -34,7 +34,7 @@ void WatchFeed::publishGame(const std::string& line, std::chrono::steady_clock::
     return;
   }
   if (const std::uint64_t count = std::exchange(m_left_out, 0); count > 0)
-    add({"game", "game: " + std::to_string(count) + " lines were too many and are left out"});
+    add({"game", "game: " + std::to_string(count) + " lines dropped (too many at once)"});
   add({"game", "game: " + oneLine(std::string_view(line).substr(0, kMaxGameLine))});
 }
 

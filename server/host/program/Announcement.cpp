@@ -27,7 +27,7 @@ void writeLine(const std::string& path, const char* what, const std::string& lin
 
 void addOtherDoors(const HostOptions& options, std::vector<std::string>& lines) {
   if (const auto door = SshDoor::parse(options.ssh_door))
-    lines.push_back("With ssh alone: " + door->command());
+    lines.push_back("With ssh only: " + door->command());
   if (!options.web_address.empty()) lines.push_back("In a browser: " + options.web_address);
 }
 
@@ -45,7 +45,7 @@ std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptio
   std::vector<std::string> lines{"Join from this machine with: dfclient " +
                                  (local ? local->text() : endpoint.joinArguments())};
   if (isHomeAlone(options.address)) {
-    lines.push_back("From elsewhere nobody can join: it listens on " + endpoint.address() + " alone. " +
+    lines.push_back("Only this machine can join: listening on " + endpoint.address() + ". " +
                     openness.how_to_open);
     addOtherDoors(options, lines);
     return lines;
@@ -53,7 +53,7 @@ std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptio
   if (const auto link = endpoint.joinLink(true)) lines.push_back("From elsewhere: dfclient " + link->text());
   if (const auto fingerprint = endpoint.fingerprint()) {
     const std::string begin = options.link_host.empty()
-                                  ? "From elsewhere with its name or address in place of the link's; its"
+                                  ? "From elsewhere, use this machine's name or address in the link. Its"
                                   : "Its";
     lines.push_back(begin + " key is " + fingerprint->text());
   }

@@ -89,7 +89,7 @@ OutputRedirect::OutputRedirect(const std::string& path) {
     for (const int saved : m_saved) {
       if (saved >= 0) close(saved);
     }
-    throw std::system_error(problem, std::generic_category(), "no descriptors for the terminal");
+    throw std::system_error(problem, std::generic_category(), "cannot duplicate the terminal's descriptors");
   }
   const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int file = openOrNull(path);

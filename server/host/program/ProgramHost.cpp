@@ -47,7 +47,7 @@ enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 constexpr std::chrono::seconds kLogTime{1};  ///< time to write log lines at the end
 
 const Openness kOpenness{
-    "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, lets others in.",
+    "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, allows others.",
     "NAIAD_ADDRESS=127.0.0.1 in the environment restricts it to this machine."};
 
 std::string programName() {
@@ -134,7 +134,7 @@ class TerminalPlayer {
     if (!options.local_client || !LocalClient::hasTerminal()) return;
     const auto program = LocalClient::findProgram();
     if (!program) {
-      std::cout << "There is no dfclient to play with in this terminal (NAIAD_CLIENT can name it)."
+      std::cout << "Cannot play in this terminal: dfclient not found (NAIAD_CLIENT can name it)."
                 << std::endl;
       return;
     }
@@ -162,9 +162,9 @@ class TerminalPlayer {
     m_host.clients().rooms().setEndsWithLast(false);
     m_local_left = !failed;
     if (failed) {
-      std::cout << "No client in this terminal; the game goes on as a server. Ctrl-C ends it." << std::endl;
+      std::cout << "The client failed; the game continues as a server. Ctrl-C stops it." << std::endl;
     } else if (const std::size_t others = m_host.clients().sessions().connected(); others > 0) {
-      std::cout << others << " still playing: the server ends when they have left, or with Ctrl-C."
+      std::cout << others << " still playing: the server stops when they have left, or with Ctrl-C."
                 << std::endl;
     }
     m_log(failed ? "the client in the terminal failed" : "the client in the terminal has left");
@@ -207,7 +207,7 @@ void reportEnd() {
   if (g_failed) return;
   if (crash::inTick()) {
     std::cerr << programName() << ": exit() was called" << crash::where()
-              << "; GM.setGameOver() ends a game in order" << std::endl;
+              << "; use GM.setGameOver() to end a game" << std::endl;
   } else if (!df::World::current().hasBegun()) {
     std::cerr << programName() << ": the program ended without GM.run(), so nothing was played" << std::endl;
   }

@@ -44,7 +44,7 @@ namespace {
 
 enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen = 4, kFile = 5 };
 
-const naiad::Openness kOpenness{"--address :: lets others in.",
+const naiad::Openness kOpenness{"--address :: allows other machines.",
                                 "--address 127.0.0.1 restricts it to this machine."};
 
 /// Connects games to the host. Undone however the game ends, because the game's statics outlive the host.
@@ -211,7 +211,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   watchReloads(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address() +
-      ", in worlds of their own");
+      ", in separate processes");
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
   naiad::RoundHandover handover(start.command, {{"", journals}});
@@ -286,11 +286,11 @@ int serve(Start& start) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::leavesAlone(options));
-    return play(naiad::GameModule(options.game), " in a world of its own", world, options, log,
+    return play(naiad::GameModule(options.game), " in a separate process", world, options, log,
                 [&log](const naiad::LogEvent& event) { log(event); });  // the front process marks lines
   }
   if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
-    throw std::runtime_error("The operators' features cannot be loaded, bans among them: " + problem);
+    throw std::runtime_error("Cannot load the operator features (bans, scores, dfctl, metrics): " + problem);
   naiad::LineLog log(options.log_file);
   useLogOptions(options, log);
   if (!options.rooms.empty()) return serveRooms(start, log);

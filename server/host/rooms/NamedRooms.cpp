@@ -61,7 +61,7 @@ void Rooms::openNamed() {
     std::string problem;
     const bool begins = room == m_rooms.front() || room->plan()->goes_on;
     if (begins && !wake(*room, problem))
-      m_log("the room " + room->plan()->name + " cannot begin: " + problem);
+      m_log("the room " + room->plan()->name + " cannot be started: " + problem);
   }
 }
 

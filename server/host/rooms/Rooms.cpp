@@ -151,7 +151,7 @@ Room* Rooms::roomForNewPlayer(std::string& problem) {
   if (m_closing || m_upgraded) return nullptr;
   if (!isPrivate()) return m_rooms.front().get();
   if (m_rooms.size() >= mostWorlds(m_options)) {
-    problem = "the worlds of those who left have not ended yet";
+    problem = "the worlds of former players are still ending";
     return nullptr;
   }
   try {
@@ -269,7 +269,7 @@ void Rooms::dismissLeavers(Room& room) {
     if (hasLastPlayer()) {
       room.round().endGame();
     } else if (Session* p_session = room.find(leaver)) {
-      p_session->goodbye("For you, the game is over.");
+      p_session->goodbye("The game is over for you.");
     }
   }
 }
@@ -284,7 +284,7 @@ void Rooms::checkWorlds(Time now) {
     if (const auto sessions = room->round().takeSessions()) endRecovery(*room, *sessions);
     if (const auto warning = room->round().takeWarning()) {
       m_log({LogEvent::Level::kWarning, *warning});
-      room->say("The game takes long over something: everything stands still.");
+      room->say("The game is not responding. Please wait.");
     }
     if (const auto taken_over = room->round().takeTakeOver()) noteTakeOver(*room, *taken_over);
     const auto end = room->round().end();
@@ -321,7 +321,7 @@ void Rooms::checkPlayers(Time now) {
 
 void Rooms::noteTakeOver(const Room& room, const TakeOver& done) {
   ++(done.by_copy ? m_counters.taken_over_by_copies : m_counters.taken_over_by_worlds);
-  room.say("The game failed, and goes on from where it was.");
+  room.say("The game failed and was restored.");
 }
 
 // After the replay of a killed server's round, its players may reconnect. The room list may have changed.
@@ -355,12 +355,11 @@ void Rooms::countEnd(WorldEnd::Why why) {
 // With private worlds, disconnects the room's players: their clients reconnect after the restart.
 void Rooms::noteUpgrade(const Room& room, const WorldEnd& end) {
   if (!std::exchange(m_upgraded, true)) {
-    m_upgrade_news = "this server's program was upgraded while it runs: a new world " + end.text +
-                     ", the server of " + ownBuildId().substr(0, kShownBuildId);
+    m_upgrade_news = "this server's program was upgraded while it runs: a new game process " + end.text +
+                     ", this server has " + ownBuildId().substr(0, kShownBuildId);
   }
   if (isPrivate())
-    room.dismiss("The server was upgraded. It begins again when those who play have left.",
-                 Ending::kLookAgain);
+    room.dismiss("The server was upgraded. It restarts when all players have left.", Ending::kLookAgain);
 }
 
 // No further round begins for a player alone in the game's own terminal, nor for a game that keeps ending at
@@ -374,7 +373,7 @@ void Rooms::endRound(Room& room, const WorldEnd& end) {
   countEnd(end.why);
   // If the old round cannot be recovered, the server starts with the next one.
   if (end.why == WorldEnd::kNotRecovered && beginRound(room))
-    return room.say("The round could not go on; the next one begins.");
+    return room.say("The round could not be recovered; a new one begins.");
   const bool is_short = room.ticks() < kShortestRound;
   const int short_rounds = room.countShortRounds(is_short);
   const bool hopeless = short_rounds >= kMaxShortRounds || (is_short && m_counters.joined == 0);
@@ -398,7 +397,7 @@ bool Rooms::beginRound(Room& room) {
   try {
     room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
-    m_log(std::string("there is no next round: ") + error.what());
+    m_log(std::string("cannot start the next round: ") + error.what());
     return false;
   }
   m_counters.sounds += room.sounds().sent() - sent;

@@ -72,8 +72,8 @@ std::string hexNumber(std::uint64_t number) {
 std::string describeLastDeath(const std::string& path, std::uint32_t tick, const std::string& game,
                               const std::string& module) {
   if (module.empty())
-    return " again; the round is kept in " + path + ", where it is tick " + std::to_string(tick);
-  return " again; the round is kept; to see where: " + debugCommand(path, tick, game, module);
+    return " again; the recording of the round is " + path + ", where this is tick " + std::to_string(tick);
+  return " again; to see where: " + debugCommand(path, tick, game, module);
 }
 
 DfrFacts factsOfStart(const WorldProcess& world) {
@@ -114,11 +114,11 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& gam
 /// Returns why this server cannot play the round as it was, in words; empty if it can.
 std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::uint64_t frame_nanos,
                          const KeptRounds& kept) {
-  if ((round.header().flags & kDfrStopped) != 0) return "its journal had stopped before";
+  if ((round.header().flags & kDfrStopped) != 0) return "its journal is incomplete";
   if ((round.header().flags & kDfrInProcess) != 0) return "the game ran in the server's own process";
   if (round.fact(kFactRepeatable) == "no") return "the game is not repeatable";
-  if (round.header().frame_nanos != frame_nanos) return "its ticks have another length";
-  if (round.fact(kFactClocks) != "repeatable") return "its clocks were real";
+  if (round.header().frame_nanos != frame_nanos) return "its ticks have a different length";
+  if (round.fact(kFactClocks) != "repeatable") return "its clocks were not repeatable";
   const auto proven = kept.find(uuidText(round.header().uuid));
   for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
     const auto here = expected.find(p_name);
@@ -126,11 +126,11 @@ std::string differenceOf(const OpenRound& round, const DfrFacts& expected, std::
     const bool is_proven =
         proven != kept.end() && std::string_view(p_name) == kFactModule && value == proven->second;
     if (round.fact(p_name) != value && !is_proven)
-      return "of its facts, " + std::string(p_name) + " is another one here";
+      return "its value of " + std::string(p_name) + " differs from this server's";
   }
   for (const auto& [name, value] : expected) {
     if (name.starts_with(kFactVariable) && round.fact(name) != value)
-      return "of its facts, " + name + " is another one here";
+      return "its value of " + name + " differs from this server's";
   }
   return {};
 }
@@ -246,9 +246,9 @@ Journals::Journals(const HostOptions& options, std::string game, const std::stri
   for (const auto& [uuid, hash] : m_shared->kept) left.insert(uuid);
   for (const std::string& sentence : salvageRounds(m_folder, left)) m_log(sentence);
   findRound(options);
-  m_log("each round is written down in " + m_folder);
+  m_log("recording rounds in " + m_folder);
   if (repeatPreload().empty())
-    m_log("warning: libdragonfly-repeat.so is missing: a game that reads a clock cannot be executed again");
+    m_log("warning: libdragonfly-repeat.so is missing: games that read a clock cannot be replayed");
 }
 
 std::uint32_t Journals::highestPlayer() const {
@@ -280,14 +280,14 @@ void Journals::findRound(const HostOptions& options) {
   std::string why_not;
   m_open = findOpenRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
   if (m_open != nullptr && options.players == "private") {
-    why_not = m_open->path() + ": worlds of single players are not gone on with";
+    why_not = m_open->path() + ": rounds of --players private are not recovered";
     m_open.reset();
   }
   // Players reconnect within the grace time, and a file is written once a second.
   const auto patience = std::chrono::duration<double>(options.grace) + JournalWriter::kBetween;
   if (m_open != nullptr && std::filesystem::file_time_type::clock::now() - m_open->writtenAt() > patience)
     m_open->dropSessions();
-  if (!why_not.empty()) m_log({LogEvent::Level::kWarning, "warning: the round cannot go on: " + why_not});
+  if (!why_not.empty()) m_log({LogEvent::Level::kWarning, "warning: cannot recover the round: " + why_not});
 }
 
 std::optional<WorldOrder> Journals::orderOfOpenRound() const {
@@ -308,10 +308,10 @@ std::shared_ptr<Journal> Journals::goOnWriting(OpenRound& round) const {
   auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
   const int attempts = attemptsOf(round);
   if (attempts >= kMaxAttempts) {
-    sink->write(spellDfrDone("given up: it could not go on " + std::to_string(attempts) + " times"));
+    sink->write(spellDfrDone("given up: recovery failed " + std::to_string(attempts) + " times"));
     sink->sync();
-    m_log({LogEvent::Level::kError, "the round " + round.path() + " has ended " + std::to_string(attempts) +
-                                        " servers that went on with it; another one begins"});
+    m_log({LogEvent::Level::kError, "giving up on the round " + round.path() + " after " +
+                                        std::to_string(attempts) + " failed recoveries; starting a new one"});
     return nullptr;
   }
   sink->write(
@@ -328,7 +328,7 @@ std::unique_ptr<Round> Journals::goOn(std::unique_ptr<WorldProcess> world, NewWo
   try {
     book.journal = goOnWriting(*round);
   } catch (const std::system_error& error) {
-    m_log({LogEvent::Level::kError, "the round cannot go on: " + std::string(error.what())});
+    m_log({LogEvent::Level::kError, "cannot recover the round: " + std::string(error.what())});
   }
   if (book.journal == nullptr) return nullptr;
   const bool is_kept = isKept(*round);
@@ -338,23 +338,23 @@ std::unique_ptr<Round> Journals::goOn(std::unique_ptr<WorldProcess> world, NewWo
       for (const auto& [name, value] : factsOfStart(*p_world)) {
         const std::string before = round->fact(name);
         if (name.starts_with(kFactFile) && !before.empty() && before != value)
-          return "it reads another " + name + " than it did";
+          return "it reads a different " + name + " than before";
       }
       return std::string();
     };
   book.on_recovered = [log = m_log, path, began = std::chrono::steady_clock::now()](
                           std::uint32_t ticks, const std::string& problem) {
     if (!problem.empty()) {
-      log({LogEvent::Level::kError, "the round cannot go on, and is kept in " + path + ": " + problem});
+      log({LogEvent::Level::kError, "cannot recover the round " + path + ": " + problem});
       return;
     }
     const auto took =
         std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - began);
-    log("the round goes on after " + std::to_string(ticks) + " ticks, which were executed again in " +
-        std::to_string(took.count()) + " ms");
+    log("round recovered: replayed " + std::to_string(ticks) + " ticks in " + std::to_string(took.count()) +
+        " ms");
   };
-  m_log((is_kept ? "the round is executed again in this program: "
-                 : "the server was killed in a round, which is executed again: ") +
+  m_log((is_kept ? "replaying the round that was handed over: "
+                 : "the previous server was killed; replaying its round: ") +
         path);
   book.history = round->records();
   book.first_tick =
@@ -374,20 +374,18 @@ Round::Book Journals::makeBook(const std::string& path, const WorldProcess& worl
   book.late_facts = [&world] { return factsOfStart(world); };
   book.on_problem = [log = m_log, path](const std::string& problem) {
     log({LogEvent::Level::kError,
-         "the round is not written down any more, and goes on: " + problem + " (" + path + ")"});
+         "no longer recording the round, which continues: " + problem + " (" + path + ")"});
   };
   book.on_death = [log = m_log, path, game = m_game, module = m_module](const WorldEnd& end,
                                                                         std::uint32_t tick, bool goes_on) {
-    log({LogEvent::Level::kError,
-         "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
-             (goes_on ? "; another world takes over, without the keys and clicks of that tick"
-                      : describeLastDeath(path, tick, game, module))});
+    log({LogEvent::Level::kError, "the game " + end.text + (end.when.empty() ? "" : " " + end.when) +
+                                      (goes_on ? "; recovering it without the input of that tick"
+                                               : describeLastDeath(path, tick, game, module))});
     for (const std::string& line : end.last_lines) log("the game's log: " + line);
   };
   book.on_taken_over = [log = m_log](const TakeOver& done, std::chrono::milliseconds time) {
-    log(std::string("the game goes on: ") + (done.by_copy ? "a copy of its world" : "another world") +
-        " executed " + std::to_string(done.ticks) + " ticks again, in " + std::to_string(time.count()) +
-        " ms");
+    log(std::string("game recovered: ") + (done.by_copy ? "a copy of its world" : "a new world") +
+        " replayed " + std::to_string(done.ticks) + " ticks in " + std::to_string(time.count()) + " ms");
   };
   book.on_copies = [log = m_log](const std::string& sentence) { log(sentence); };
   return book;
@@ -408,7 +406,7 @@ std::unique_ptr<Round> Journals::keep(std::unique_ptr<WorldProcess> world, const
         std::make_shared<Journal>(std::make_unique<JournalFileSink>(path), header, m_facts, m_ring, true,
                                   std::nullopt, ringFolder(m_folder), fs::path(path).filename().string());
   } catch (const std::system_error& error) {
-    m_log({LogEvent::Level::kError, "this round is not written down: " + std::string(error.what())});
+    m_log({LogEvent::Level::kError, "not recording this round: " + std::string(error.what())});
     return std::make_unique<Round>(std::move(world));
   }
   book.new_world = std::move(another);
@@ -456,14 +454,14 @@ std::optional<Journals::CurrentRound> Journals::currentRound() const {
 }
 
 std::string Journals::whyNotKept() const {
-  if (m_is_private) return "each player has a world of their own";
+  if (m_is_private) return "each player has a separate world";
   if (!m_recovers) return "--recover is off";
-  if (m_module.empty()) return "the game is a program of its own";
+  if (m_module.empty()) return "the game is a program, not a module";
   if (!*m_repeats) return "the game is not repeatable";
   const auto journal = m_current.lock();
   if (journal != nullptr && journal->hasStopped()) return "its journal has stopped";
   const auto clocks = m_facts.find(kFactClocks);
-  return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are real"
+  return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are not repeatable"
                                                                    : std::string();
 }
 

@@ -55,9 +55,9 @@ void warnOfTicks(const std::vector<LaunchedRoom>& rooms, const HostOptions& opti
     const int wanted = room.plan.ready.frame_millis;
     const int given = rooms.front().plan.ready.frame_millis;
     if (wanted == given) continue;
-    log({LogEvent::Level::kWarning,
-         "warning: the game in the room " + room.plan.name + " asks for ticks of " + std::to_string(wanted) +
-             " ms; those of this server take " + std::to_string(given) + " ms, as in its first room"});
+    log({LogEvent::Level::kWarning, "warning: the game in room " + room.plan.name + " asks for ticks of " +
+                                        std::to_string(wanted) + " ms; this server uses " +
+                                        std::to_string(given) + " ms, as its first room does"});
   }
 }
 

@@ -263,8 +263,7 @@ void Round::endRepeatedTick() {
   }
   const std::uint32_t tick = currentTick();
   const std::string difference = m_book.recovery->compareResult(m_world->answer());
-  if (!difference.empty() && m_by_copy)
-    return m_p_process->giveUp("is other in tick " + std::to_string(tick));
+  if (!difference.empty() && m_by_copy) return m_p_process->giveUp("differs in tick " + std::to_string(tick));
   if (!difference.empty())
     return endRecovery("in tick " + std::to_string(m_book.recovery->turns()) + " " + difference);
   if (m_book.recovery->isResultMissing() && !isTakingOver()) storeResult();
@@ -291,7 +290,7 @@ void Round::endRecovery(const std::string& problem) {
   if (m_p_process != nullptr) m_p_process->endRepetition();
   if (m_book.on_recovered) m_book.on_recovered(recovery->turns(), problem);
   if (problem.empty()) return;
-  m_unrecovered = WorldEnd{WorldEnd::kNotRecovered, "could not go on: " + problem};
+  m_unrecovered = WorldEnd{WorldEnd::kNotRecovered, "could not be recovered: " + problem};
   finish(m_unrecovered->text);
   close();
 }
@@ -305,7 +304,7 @@ bool Round::takeOver(const WorldEnd& end) {
   if (end.why == WorldEnd::kHung) noteHang();
   const std::uint32_t tick = currentTick();
   if (m_by_copy && !m_book.recovery->isAtUnknownResult()) {
-    say("a copy of the game's world " + end.text + " before it was where the world had been");
+    say("a copy of the game's world " + end.text + " before it had caught up");
     return beginAgain(false);
   }
   const bool again = m_died_at && tick < *m_died_at + kSameDeath;
@@ -332,9 +331,9 @@ void Round::noteHang() {
 // The first tick does not count, because games load in it.
 void Round::noteSlowTick() {
   if (currentTick() > 1 && std::exchange(m_hangs, Hangs::kSlow) != Hangs::kSlow)
-    say("tick " + std::to_string(m_later + currentTick()) +
-        " came to its end after all: from now on a tick of this round that seems to hang has " +
-        std::to_string(WorldProcess::kPatience) + " times as long before another world takes over");
+    say("slow tick " + std::to_string(m_later + currentTick()) +
+        " finished: from now on, ticks of this round get " + std::to_string(WorldProcess::kPatience) +
+        " times as long before they count as hung");
 }
 
 bool Round::beginAgain(bool drops_keys) {
@@ -393,7 +392,7 @@ void Round::endTakeOver(const std::string& problem) {
   const Death death = *std::exchange(m_death, std::nullopt);
   if (!problem.empty()) {
     m_unrecovered = death.end;
-    m_unrecovered->text += ", and another world did not do the same (" + problem + ")";
+    m_unrecovered->text += ", and its replay gave a different result (" + problem + ")";
     finish(m_unrecovered->text);
     return close();
   }
@@ -420,7 +419,7 @@ void Round::orderCopy() {
   if (!m_history.isCopyDue(m_ticks, [this] { return m_p_process->cpuTime(); })) return;
   m_history.beginCopy(m_ticks, m_players, m_p_process->keepCopy());
   if (const auto problem = m_p_process->takeCopyProblem())
-    say("of this game's world no copies are kept: " + *problem);
+    say("no copies of this game's world are kept: " + *problem);
 }
 
 void Round::say(const std::string& sentence_of_copies) const {

@@ -113,19 +113,18 @@ std::string lastWords(const std::string& printed) {
 
 std::string protocolProblem(const std::string& verified) {
   const std::size_t at = verified.find(kProtocolKey);
-  if (at == std::string::npos) return "it does not say which protocol it speaks";
+  if (at == std::string::npos) return "it does not report its protocol version";
   const long protocol = std::strtol(verified.c_str() + at + kProtocolKey.size(), nullptr, 10);
   if (protocol == long{kProtocolVersion}) return {};
-  return "it speaks protocol " + std::to_string(protocol) + ", and the players' clients speak " +
+  return "it uses protocol " + std::to_string(protocol) + ", but the players' clients use " +
          std::to_string(kProtocolVersion);
 }
 
 /// Describes an end without an exit code of the program's own; empty if it has one.
 std::string abruptEnd(const std::string& name, const ProgramEnd& end) {
-  if (end.is_late) return name + ", which tries that out, does not come to its end";
-  if (end.signal != 0)
-    return name + ", which tries that out, was ended by signal " + std::to_string(end.signal);
-  if (end.code == ProgramEnd::kNotStarted) return name + ", which tries that out, cannot be started";
+  if (end.is_late) return name + " timed out";
+  if (end.signal != 0) return name + " was killed by signal " + std::to_string(end.signal);
+  if (end.code == ProgramEnd::kNotStarted) return name + " cannot be started";
   return {};
 }
 
@@ -163,14 +162,14 @@ RoundHandover::~RoundHandover() {
 }
 
 std::string RoundHandover::refusal() const {
-  if (m_proving) return "that is being tried already";
+  if (m_proving) return "a handover is already in progress";
   bool is_any = false;
   for (const Room& room : m_rooms) {
     if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
       return inRoom(room.name, why_not);
     is_any = is_any || room.journals->currentRound();
   }
-  return is_any ? std::string() : "none is being written down";
+  return is_any ? std::string() : "no round is being recorded";
 }
 
 // Signals are handled on the thread that ticks.
@@ -204,7 +203,7 @@ std::string RoundHandover::problemOfProgram() {
   const ProgramEnd end = m_run.run(m_command.program(), arguments, kCheckTime);
   if (std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
   if (end.code == 0) return {};
-  return "dfserver does not start with the options of this server: " + safeText(end.printed, kMaxProblem);
+  return "the installed dfserver rejects this server's options: " + safeText(end.printed, kMaxProblem);
 }
 
 std::string RoundHandover::problemOf(Proof& proof) {
@@ -226,11 +225,11 @@ std::string RoundHandover::changeSinceProof() const {
     const bool is_proven = std::any_of(m_proofs.begin(), m_proofs.end(), [&round](const Proof& proof) {
       return proof.round.uuid == round->uuid;
     });
-    if (!is_proven) return inRoom(room.name, "another round has begun meanwhile");
+    if (!is_proven) return inRoom(room.name, "a new round began during the check");
   }
   for (const Proof& proof : m_proofs) {
     if (hashOfModule(proof.p_room->journals->module()) != proof.module_hash)
-      return inRoom(proof.p_room->name, "the game was replaced meanwhile");
+      return inRoom(proof.p_room->name, "the game was replaced during the check");
   }
   return {};
 }

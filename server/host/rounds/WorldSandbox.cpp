@@ -134,10 +134,10 @@ class Builder {
 
   /// Returns why a world must not have this folder; empty if it may.
   std::string reservedIn(const fs::path& folder) const {
-    if (isWide(folder)) return "is not the game's alone";
+    if (isWide(folder)) return "is a system or home folder";
     for (const fs::path& secret : m_secrets) {
       if (holds(folder, secret)) return "holds " + secret.string();
-      if (holds(secret, folder)) return "is the server's own";
+      if (holds(secret, folder)) return "belongs to the server";
     }
     return {};
   }
@@ -185,7 +185,7 @@ class Builder {
       noteServerFiles(folder);
     } else {
       addReadable(folder);
-      note(folder, "write into", "holds " + own->string());
+      note(folder, "write to", "holds " + own->string());
     }
   }
 
@@ -193,14 +193,14 @@ class Builder {
   void noteServerFiles(const fs::path& folder) {
     for (const std::string& file : m_place.server_files) {
       if (file.empty() || !holds(folder, resolve(file))) continue;
-      m_made.notes.push_back("warning: games in processes of their own can change " + resolve(file).string() +
-                             ", which lies in the folder that they write into");
+      m_made.notes.push_back("warning: game processes can change " + resolve(file).string() +
+                             ", which is in the folder that they write to");
     }
   }
 
   void note(const fs::path& folder, const std::string& what, const std::string& why) {
-    m_made.notes.push_back("games in processes of their own cannot " + what + " the working directory " +
-                           folder.string() + ", which " + why);
+    m_made.notes.push_back("game processes cannot " + what + " the working directory " + folder.string() +
+                           ", which " + why);
   }
 
   const HostOptions& m_options;

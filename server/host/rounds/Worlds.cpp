@@ -58,7 +58,7 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
                    wantsJournal(options) ? makeFixedEnvironment(options) : makeWorldEnvironment(options),
                    firstDirectory(), made.sandbox, repeatPreload(), hangTime(options), nice});
   if (!made.sandbox.on) {
-    log("games in processes of their own have no sandbox: they can do what this user can");
+    log("sandbox off: game processes can do everything that this user can");
     return launcher;
   }
   hideProcess();

@@ -27,7 +27,7 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, 
     }
   } catch (const StateFileError& error) {
     m_store.reset();
-    note(std::string(error.what()) + " Scores hold until the server ends.");
+    note(std::string(error.what()) + " Scores are lost when the server stops.");
   }
 }
 
@@ -106,7 +106,7 @@ bool ScoreKeeper::read(const std::string& table, std::size_t count, Read done) {
 void ScoreKeeper::note(std::string problem) {
   const std::lock_guard lock(m_mutex);
   if (problem == m_problem) return;
-  m_news = problem.empty() ? "scores are written again" : "warning: " + problem;
+  m_news = problem.empty() ? "scores can be written again" : "warning: " + problem;
   m_problem = std::move(problem);
   m_has_news = true;
 }

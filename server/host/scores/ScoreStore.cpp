@@ -8,7 +8,7 @@ namespace naiad {
 namespace {
 
 constexpr StateFile::Kind kFileOfScores{
-    "file of scores", 0x4e616953,  // "NaiS"
+    "score file", 0x4e616953,  // "NaiS"
     1,
     "CREATE TABLE scores(id INTEGER PRIMARY KEY, game TEXT NOT NULL, board TEXT NOT NULL, name TEXT NOT "
     "NULL, "

@@ -14,8 +14,8 @@ namespace {
 
 wire::ServerMessage noticeOf(std::uint64_t lines) {
   wire::ServerMessage message;  // no player: a line from the server
-  message.mutable_chat()->set_text(lines == 1 ? "1 line of chat was left out."
-                                              : std::to_string(lines) + " lines of chat were left out.");
+  message.mutable_chat()->set_text(lines == 1 ? "1 line of chat was dropped."
+                                              : std::to_string(lines) + " lines of chat were dropped.");
   return message;
 }
 

@@ -115,7 +115,7 @@ void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t receive
 void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams) {
   takeStream(other);
   if (other.stream() != nullptr) {
-    other.goodbye("You went on playing in another terminal.");
+    other.goodbye("This session was resumed in another client.");
   } else {
     other.m_state = State::kGone;
   }
@@ -224,7 +224,7 @@ void Session::checkGreeting(Clock::time_point now) {
   if (m_activity.silence(now) <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
   ++m_counters.login_timeouts;
   if (m_greeted) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
-  refuse(wire::Refused::BAD_REQUEST, "The server heard no greeting in time.");
+  refuse(wire::Refused::BAD_REQUEST, "The client sent no hello in time.");
 }
 
 void Session::checkSilence(Clock::time_point now) {
@@ -241,12 +241,12 @@ void Session::checkSilence(Clock::time_point now) {
     // An outage often breaks the stream at neither end.
     if (m_grace.count() > 0) return detach(now);
     setLeave(&Counters::left_silent);
-    goodbye("The server has not heard from you for a while.");
+    goodbye("Disconnected: no data from your client.");
   } else if (m_state == State::kPlaying && m_streams.isStalled(now) && silence < StallDetector::kPatience) {
     // A client that is also silent has lost its connection: it is detached later and may reconnect.
     ++m_counters.stuck_streams;
     setLeave(&Counters::left_stuck);
-    goodbye("Your end takes in too little of what the server sends.");
+    goodbye("Disconnected: your connection is too slow.");
   }
 }
 

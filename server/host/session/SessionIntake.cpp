@@ -24,7 +24,7 @@ bool Session::acceptMessage() {
   if (m_activity.countMessage()) return true;
   ++m_counters.message_floods;
   setLeave(&Counters::left_flood);
-  goodbye("Too many messages at once.");
+  goodbye("Disconnected: too many messages at once.");
   return false;
 }
 
@@ -145,7 +145,7 @@ void Session::takeInput(const Input& input) {
     case ReceivedInputs::Verdict::kTooMany:
       ++m_counters.input_floods;
       setLeave(&Counters::left_flood);
-      goodbye("Too many keys at once.");
+      goodbye("Disconnected: too many keys at once.");
   }
 }
 

@@ -52,8 +52,8 @@ HostOptions withUsableJournal(HostOptions options, const LogLine& log) {
   if (!options.default_journal || !wantsJournal(options)) return options;
   const std::error_code error = makeFolder(options.journal);
   if (!error) return options;
-  log(LogEvent::warning("rounds are not written down, so none goes on after a crash of the server: " +
-                        options.journal + ": " + error.message()));
+  log(LogEvent::warning("not recording rounds, so none survives a server crash: " + options.journal + ": " +
+                        error.message()));
   options.journal.clear();
   return options;
 }

@@ -34,8 +34,8 @@ fs::path locate(const std::string& game) {
   std::string known;
   for (const std::string& name : GameModule::available()) known += (known.empty() ? "" : ", ") + name;
   throw GameError("There is no game \"" + game + "\". " +
-                  (known.empty() ? "No games were found at all; NAIAD_GAMES can name their folder."
-                                 : "These can be played: " + known + "."));
+                  (known.empty() ? "No games were found; NAIAD_GAMES can name their folder."
+                                 : "Available games: " + known + "."));
 }
 
 }  // namespace

@@ -48,168 +48,169 @@ Row row(const std::string& name, OptionTarget target, const char* help, const Va
 /// Returns the table of options, with its targets in `o`.
 std::vector<Row> tableOf(HostOptions& o) {
   return {
-      row("--game", &o.game,
-          "Game to host: the name of a shipped one (see --list-games) or the path of a module (.so)", {},
+      row("--game", &o.game, "Game to host: a name from --list-games or the path of a module (.so)", {},
           UsedBy::kServer),
       row("--room", &o.rooms,
-          "NAME=GAME[,KEY=VALUE…]: a room in which this game is played, beside others; give it once for each "
-          "room (in the environment: with blanks between). Players begin in the first one, or join by "
-          "HOST/NAME. The keys are max-players, world-memory, seed and players, as the options",
+          "NAME=GAME[,KEY=VALUE…]: add a room that plays this game; repeat it for each room (in the "
+          "environment: separated by spaces). Players start in the first room, or join with HOST/NAME. KEY "
+          "is max-players, world-memory, seed or players, like the options",
           {}, UsedBy::kServer),
       row("--room-sleep", &o.room_sleep,
-          "Seconds without players after which a room ends its round and its process; the next player wakes "
-          "it",
+          "Seconds without players after which a room ends its round and its process; the next player starts "
+          "a new one",
           OptionRange{0, 1e6}, UsedBy::kServer),
       row("--address", &o.address,
-          "Numeric address to listen on; :: is every address of this machine, IPv4 too"),
-      row("--port", &o.port, "Port to listen on, TCP and UDP; 0 takes any free one", OptionRange{0, 65535}),
-      row("--max-players", &o.max_players, "Players at a time", OptionRange{1, kMaxServerPlayers}),
+          "Numeric address to listen on; :: means all addresses of this machine, IPv6 and IPv4"),
+      row("--port", &o.port, "Port to listen on, TCP and UDP; 0: any free port", OptionRange{0, 65535}),
+      row("--max-players", &o.max_players, "Maximum number of players", OptionRange{1, kMaxServerPlayers}),
       row("--max-per-address", &o.max_per_address,
-          "Players at a time from one IPv4 address or IPv6 network (/64), with those whose connection broke",
+          "Maximum number of players from one IPv4 address or IPv6 /64 network, including disconnected ones",
           OptionRange{1, static_cast<double>(kMaxServerPlayers)}),
       row("--server-name", &o.name, "Name shown to players"),
-      row("--seed", &o.seed, "Seed of the world's random numbers; 0 takes a new one and logs it",
+      row("--seed", &o.seed, "Seed of the world's random numbers; 0: use a new one and log it",
           OptionRange{0, 9e15}),
       row("--frame-time", &o.frame_micros,
-          "Length of a tick in microseconds, 1000 or more; 0 is what the game's df-config.txt says, else "
-          "exactly 1/30 s",
+          "Length of a tick in microseconds, at least 1000; 0: as the game's df-config.txt says, else 1/30 s",
           OptionRange{0, 1e6}),
-      row("--ticks", &o.ticks, "Stop after this many ticks; 0 never", OptionRange{0, 2e9}),
+      row("--ticks", &o.ticks, "Stop after this many ticks; 0: never", OptionRange{0, 2e9}),
       row("--exit-when-empty", &o.exit_when_empty,
-          "Stop this many seconds after the last player left (a minute if no player ever joins); 0 never",
+          "Stop this many seconds after the last player has left (at least 60 if no player ever joins); 0: "
+          "never",
           OptionRange{0, 1e6}),
       row("--players", &o.players,
-          "Whose keys and mouse the game hears: together = all players'; first = the first one's, while the "
-          "others watch and wait for their turn; private = a world for each player, in a process of its own",
+          "Whose input the game gets: together = all players'; first = that of one player, while the others "
+          "watch and wait for their turn; private = each player plays in a separate world and process",
           OneOf{"together", "first", "private"}),
       row("--on-game-over", &o.on_game_over,
-          "When the game is over because of a key or click of one player among several: leave = it is for "
-          "them alone; exit = for all. restart = as leave, and when the game itself is over or crashes, the "
-          "next round begins, in a process of its own; players stay connected",
+          "What happens when the input of one of several players ends the game: leave = only this player "
+          "leaves; exit = the game ends for all; restart = like leave, and after a game over or crash the "
+          "next round starts in a new process, with the players still connected",
           OneOf{"leave", "exit", "restart"}),
       row("--sandbox", &o.sandbox,
-          "Games in processes of their own cannot connect, reach this user's other processes, or open files "
-          "that are not the game's, as far as the kernel has Landlock and seccomp; off: they can do what "
-          "this user can",
+          "on: game processes cannot open connections, reach this user's other processes, or open other "
+          "files than the game's, as far as the kernel supports Landlock and seccomp; off: they can do "
+          "everything that this user can",
           OneOf{"on", "off"}),
-      row("--world-memory", &o.world_memory,
-          "MiB of addresses that a game in a process of its own may have; 0: no limit",
+      row("--world-memory", &o.world_memory, "Limit of a game process's address space, in MiB; 0: no limit",
           OptionRange{0, 1 << 20}),
       row("--hang-time", &o.hang_time,
-          "Seconds of one tick after which a game in a process of its own hangs: the log says what it does, "
-          "and after five times that it is ended. Neither a machine under load nor a debugger makes it hang",
+          "Seconds after which a tick of a game process counts as hung: the log says what the game is doing, "
+          "and after 5 times as long the process is killed. Time lost to load on the machine or in a "
+          "debugger does not count",
           OptionRange{0.1, 600}),
       row("--world-environment", &o.world_environment,
-          "Names of variables, with commas between, that games in processes of their own find in their "
-          "environment, beside the usual ones"),
+          "Names of environment variables, separated by commas, that game processes get in addition to the "
+          "usual ones"),
       row("--in-process", &o.in_process,
-          "The game runs in the server's own process, for a debugger, or where its pictures are too large "
-          "for another one: without sandbox and journal, and a crash ends the server",
+          "Run the game in the server's own process, for a debugger or for very large worlds: without "
+          "sandbox and journal, and a crash of the game ends the server",
           {}, UsedBy::kServer),
       row("--journal", &o.journal,
-          "Write each round down in a file of this directory, as it is played: dfreplay executes it again, "
-          "and a server that was killed goes on with it. The game has clocks and random devices then that "
-          "can be repeated. off: none. Default: rounds in the folder of --state; none with --players "
-          "private, --in-process, and for games that are programs themselves"),
+          "Record each round to a file in this directory: dfreplay can replay it, and after a crash the next "
+          "server resumes it. The game then gets repeatable clocks and random devices. off: do not record. "
+          "Default: rounds in the --state folder; off with --players private or --in-process, and for games "
+          "that are programs themselves"),
       row("--recover", &o.recover,
-          "When this server was killed in a round that --journal has: on = the round is executed again, and "
-          "its players go on with it; off = another one begins",
+          "After a crash of the server during a recorded round: on = replay the round, so that its players "
+          "can continue; off = start a new round",
           OneOf{"on", "off"}),
-      row("--insecure", &o.insecure, "Without encryption or datagrams, on loopback only (for tests)"),
+      row("--insecure", &o.insecure,
+          "Use no encryption and no datagrams, on loopback by default (for tests)"),
       row("--certificate", &o.certificate,
           "Certificate chain (PEM), with --key; default: self-signed, made on the first start"),
-      row("--key", &o.key, "Private key (PEM) of --certificate, readable by you alone"),
+      row("--key", &o.key, "Private key (PEM) of --certificate, readable only by you"),
       row("--identity", &o.identity,
-          "Directory of the self-made key; default: naiad in your configuration directory"),
+          "Directory of the key that the server creates; default: naiad in your configuration directory"),
       row("--password", &o.password,
-          "Password that players need, or its $argon2id$ hash (other users see the command line: rather set "
-          "it in the environment or in --config)"),
-      row("--grace", &o.grace, "Seconds that a player whose connection broke may take to come back; 0: none",
+          "Password that players need, or its $argon2id$ hash (other users can see the command line: prefer "
+          "the environment or --config)"),
+      row("--grace", &o.grace, "Seconds in which a disconnected player can reconnect; 0: not at all",
           OptionRange{0, 3600}),
       row("--drain-time", &o.drain_time,
-          "Seconds that SIGTERM gives players to finish: no new ones are let in, and the server ends when "
-          "all have left, or then; 0: it ends at once",
+          "Seconds that players have to finish after SIGTERM: new ones are refused, and the server stops "
+          "when all have left or the time is over; 0: stop at once",
           OptionRange{0, 86400}),
       row("--join-file", &o.join_file,
-          "Write address and fingerprint, as dfclient takes them, to this file once listening"),
+          "Write the address and fingerprint to this file once listening, as arguments for dfclient"),
       row("--visitors", &o.visitors,
-          "Path of a socket at which doors of this machine (ssh, browsers) bring visitors with their "
-          "addresses; who may write to the file, mode 0660, is believed"),
+          "Path of a socket for this machine's ssh and web doors (mode 0660); processes that can write to it "
+          "are trusted to state the players' addresses"),
       row("--link-host", &o.link_host,
-          "Name or address by which players elsewhere reach this machine, for the link that is printed; "
-          "HOST:PORT where a router forwards another port"),
+          "Host name or address of this machine for players elsewhere, printed in the link; HOST:PORT if a "
+          "router forwards another port"),
       row("--ssh-door", &o.ssh_door,
-          "Also print how to play by ssh: USER@HOST[:PORT] of a door to this server"),
-      row("--web-address", &o.web_address, "Also print this address of a page to play on (https://…)"),
-      row("--qr", &o.qr, "Print --web-address as a QR code, too"),
+          "Also print how to play with ssh: USER@HOST[:PORT] of a door to this server"),
+      row("--web-address", &o.web_address, "Also print this address of the browser page (https://…)"),
+      row("--qr", &o.qr, "Also print --web-address as a QR code"),
       row("--lan", &o.lan,
-          "Let dfclient without arguments find this server in the local network: auto = where the address is "
-          "private, on = wherever it listens, off = not",
+          "Let dfclient without arguments find this server in the local network: auto = on private "
+          "addresses, on = on all addresses, off = never",
           OneOf{"auto", "on", "off"}),
       row("--truth", &o.truth_file,
-          "Write what each player ought to see, tick by tick, to this file (for tests; large)"),
+          "Write to this file what each player should see in each tick (for tests; large)"),
       row("--metrics", &o.metrics,
-          "Give out metrics for Prometheus (/metrics) and health (/healthz, /readyz) by HTTP on this numeric "
-          "ADDR:PORT, like 127.0.0.1:9100; port 0 takes any free one"),
+          "Serve metrics for Prometheus (/metrics) and health checks (/healthz, /readyz) by HTTP on this "
+          "numeric ADDR:PORT, like 127.0.0.1:9100; port 0: any free port"),
       row("--metrics-hosts", &o.metrics_hosts,
-          "Names of this machine, with commas between, by which --metrics may be asked, beside localhost and "
+          "Host names, separated by commas, that requests to --metrics may use in addition to localhost and "
           "addresses"),
       row("--metrics-public", &o.metrics_public,
-          "--metrics may be an address that the internet can reach; everybody can read them then"),
+          "Allow a public address for --metrics; the metrics are then readable from the internet"),
       row("--audit", &o.audit,
-          "With --metrics: hold what one player was sent against what the world shows them, one second in "
-          "ten, and count wrong cells",
+          "With --metrics: compare one player's picture with the world's, one second in ten, and count wrong "
+          "cells",
           OneOf{"on", "off"}),
       row("--port-file", &o.port_file, "Write the port number to this file once listening"),
       row("--status-file", &o.status_file,
           "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
-          "seconds; for lists of servers on the web. It is removed when the server stops"),
+          "seconds, for server lists on the web. The file is removed when the server stops"),
       row("--log", &o.log_file, "Append log lines to this file instead of stderr"),
       row("--log-format", &o.log_format,
-          "How log lines look: text = sentences; json = an object a line, with the facts in it by name",
+          "Format of log lines: text = sentences; json = one object per line, with named fields",
           OneOf{"text", "json"}, UsedBy::kServer),
-      row("--log-level", &o.log_level, "Log what is as bad as this, or worse",
-          OneOf{"error", "warning", "info"}, UsedBy::kServer),
-      row("--log-chat", &o.log_chat, "Log what players say, too"),
+      row("--log-level", &o.log_level, "Least severe level to log", OneOf{"error", "warning", "info"},
+          UsedBy::kServer),
+      row("--log-chat", &o.log_chat, "Also log the players' chat"),
       row("--control", &o.control,
-          "Path of the socket for dfctl's commands, mode 0660: who may write to it is an admin; off: none. "
-          "Default: control-PORT.sock in naiad in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
-          "~/.local/state/naiad; none for games that are programs themselves"),
+          "Path of the socket for dfctl (mode 0660); users that can write to it are admins; off: no socket. "
+          "Default: naiad/control-PORT.sock in the user's runtime directory ($XDG_RUNTIME_DIR), else in "
+          "~/.local/state; off for games that are programs themselves"),
       row("--state", &o.state,
-          "Folder of what lasts beyond a restart: bans, scores, rounds that are written down. Default: naiad "
-          "in the user's directory for state ($XDG_STATE_HOME, ~/.local/state); none for games that are "
-          "programs themselves"),
+          "Folder of data that outlives a restart: bans, scores, recorded rounds. Default: naiad in the "
+          "user's state directory ($XDG_STATE_HOME, ~/.local/state); none for games that are programs "
+          "themselves"),
       row("--admin-password", &o.admin_password,
           "Password that makes a player an admin in the chat (/admin PASSWORD), or its $argon2id$ hash; as "
-          "with --password, rather in the environment or in --config"),
+          "for --password, prefer the environment or --config"),
       row("--vote-kick", &o.vote_kick,
-          "Players may vote others out for five minutes (/vote kick NAME): more than half of the addresses "
-          "that play have to agree within 30 seconds"),
+          "Let players ban another one for five minutes by a vote (/vote kick NAME): more than half of the "
+          "players' addresses must agree within 30 seconds"),
       row("--inactive-kick", &o.inactive_kick,
-          "Seconds without key, click or line of chat after which a player has to go, warned 10 seconds "
-          "before; 0 never",
+          "Seconds without key, click or chat after which a player is disconnected, with a warning 10 "
+          "seconds before; 0: never",
           OptionRange{0, 86400}),
       row("--platform", &o.platform,
-          "What runs the server, and is sent that it is ready, healthy, played on and at its end: systemd; "
-          "agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = the one that "
-          "has set its variable",
+          "Platform that runs the server and is told when it is ready, healthy, in use and stopping: "
+          "systemd; agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = "
+          "detect it by its environment variable",
           OneOf{"auto", "none", "systemd", "agones"}),
       row("--bus", &o.bus,
-          "Say on this NATS server what plays here, and the scores: nats://HOST:PORT or tls://HOST:PORT "
-          "(other users see the command line: a password rather in --bus-credentials)"),
+          "Publish this server's state and scores on this NATS server: nats://HOST:PORT or tls://HOST:PORT "
+          "(other users can see the command line: prefer --bus-credentials to a password there)"),
       row("--bus-id", &o.bus_id,
-          "Name of this server on the bus, of a-z, 0-9 and '-'; default: of the machine and the port"),
+          "Name of this server on the bus, of a-z, 0-9 and '-'; default: made from the machine's name and "
+          "the port"),
       row("--bus-interval", &o.bus_interval_ms,
-          "Milliseconds after which the server says again that it is there, as its directory's",
+          "Heartbeat interval in milliseconds; must equal the directory's",
           OptionRange{50, 60'000}),  // BusPayloads.h
-      row("--bus-credentials", &o.bus_credentials, "File of credentials for the bus, as nsc writes it"),
-      row("--bus-ca", &o.bus_ca,
-          "Certificates (PEM) by which that of a tls:// bus is judged; default: the system's"),
-      row("--headless", &o.headless, "Without network and players, as fast as possible", {},
+      row("--bus-credentials", &o.bus_credentials, "Credentials file for the bus, as written by nsc"),
+      row("--bus-ca", &o.bus_ca, "CA certificates (PEM) to verify a tls:// bus; default: the system's"),
+      row("--headless", &o.headless, "Run without network and players, as fast as possible", {},
           UsedBy::kProgram),
-      row("--local-client", &o.local_client, "Started in a terminal: play there, too", {}, UsedBy::kProgram),
+      row("--local-client", &o.local_client, "If started in a terminal, also play in it", {},
+          UsedBy::kProgram),
       row("--public", &o.is_public,
-          "Let players of other machines in: listen on every address, not on loopback alone", {},
+          "Accept players from other machines: listen on all addresses, not only on loopback", {},
           UsedBy::kProgram),
   };
 }
@@ -246,14 +247,14 @@ constexpr const char* kLoopback = "127.0.0.1";
 
 const char* const kExitCodes =
     "Exit codes:\n"
-    "  0  ended in order (game over, --ticks, --exit-when-empty, SIGINT or SIGTERM, SIGHUP in a terminal;\n"
-    "     a second one ends it at once, with a goodbye, by that signal)\n"
+    "  0  regular end (game over, --ticks, --exit-when-empty, SIGINT, SIGTERM, or SIGHUP in a terminal;\n"
+    "     a second signal ends the server at once, with a goodbye to its players, by that signal)\n"
     "  1  the game's main() returned an error or threw an exception, or the game hung when the server was\n"
-    "     to end\n"
+    "     to stop\n"
     "  2  wrong usage\n"
     "  3  no such game, or its module cannot be loaded\n"
     "  4  cannot listen on that address and port\n"
-    "  5  a file cannot be written, or a key, certificate or password not be used\n";
+    "  5  a file cannot be written, or a key, certificate or password cannot be used\n";
 
 /// Returns the option's key in df-config.txt: its name with _ for -; empty if it has no key.
 std::string keyOf(const Row& row) {
@@ -272,7 +273,7 @@ void warnOfReadersOf(const std::string& file, const std::string& password, HostO
   if (password.empty() || isHash(password) || stat(file.c_str(), &facts) != 0 ||
       (facts.st_mode & S_IROTH) == 0)
     return;
-  options.warnings.push_back(file + " has the password, and every user can read it. Run: chmod o-r " + file);
+  options.warnings.push_back(file + " has the password, but every user can read it. Run: chmod o-r " + file);
 }
 
 /// Returns FILE of "FILE:LINE".
@@ -322,10 +323,11 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
     if (option.name == "--admin-password") option.p_place = &places.admin_password;
     option.is_secret = option.p_place != nullptr;
   }
-  all.push_back({"--list-games", &printing.games, "Print the games that can be named, and exit"});
+  all.push_back({"--list-games", &printing.games, "Print the names of the available games, and exit"});
   all.push_back({"--check-config", &printing.check,
-                 "Say what is wrong with options, environment and the file of --config, and exit (0 or 2)"});
-  all.push_back({"--print-config", &printing.config, "Print what they amount to, as such a file, and exit"});
+                 "Check options, environment and the --config file, print problems, and exit (0 or 2)"});
+  all.push_back(
+      {"--print-config", &printing.config, "Print the resulting settings as a --config file, and exit"});
   all.push_back({"--markdown", &printing.markdown, "Print the options as a Markdown table, and exit"});
   all.back().hidden = true;
   return all;
@@ -345,8 +347,8 @@ CommandLine printConfig(const Printing& printing, const std::vector<Option>& all
 void useSockets(const InheritedSockets& sockets, HostOptions& options) {
   const bool is_told = options.port != kDefaultPort && options.port != sockets.port;
   if (is_told) {
-    options.warnings.push_back("the port is " + std::to_string(sockets.port) +
-                               ", of the sockets from the service manager, and not " +
+    options.warnings.push_back("using port " + std::to_string(sockets.port) +
+                               " of the sockets from the service manager instead of " +
                                std::to_string(options.port));
   }
   options.sockets = sockets;
@@ -420,7 +422,7 @@ OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
 
 std::string OptionChanges::text() const {
   std::string text = changed.empty()
-                         ? "none has changed"
+                         ? "no changes"
                          : listOf(changed) + (changed.size() == 1 ? " has" : " have") + " changed";
   if (!need_restart.empty())
     text += "; " + listOf(need_restart) + (need_restart.size() == 1 ? " needs" : " need") + " a restart";
@@ -473,20 +475,19 @@ std::string hostOptionsMarkdown() {
   HostOptions defaults;
   const std::vector<Row> rows = tableOf(defaults);
   std::string text =
-      "# Options of dfserver\n\nMade by `dfserver --markdown`; a test keeps it true.\n\n"
+      "# Options of dfserver\n\nGenerated by `dfserver --markdown`; a test keeps it true.\n\n"
       "| option | environment | default | meaning |\n|---|---|---|---|\n";
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kProgram) continue;
     text += std::string("| `") + row.option.name + "` | `" + row.option.environment + "` | " +
             currentValue(row.option) + " | " + row.option.help + " |\n";
   }
-  text +=
-      std::string("\n") + kExitCodes +
-      "\n## Games that are programs themselves\n\n"
-      "A game with a `main()` of its own ([bring-your-game.md](bring-your-game.md)) has no command line of "
-      "Naiad's. It takes the same\noptions from the environment, and where that does not say from its "
-      "`df-config.txt`, as lines `key:value,`:\n\n"
-      "| df-config.txt | environment | default | meaning |\n|---|---|---|---|\n";
+  text += std::string("\n") + kExitCodes +
+          "\n## Games that are programs themselves\n\n"
+          "A game with a `main()` of its own ([bring-your-game.md](bring-your-game.md)) has no Naiad command "
+          "line. It takes these\noptions from the environment, or else from its `df-config.txt`, as lines "
+          "`key:value,`:\n\n"
+          "| df-config.txt | environment | default | meaning |\n|---|---|---|---|\n";
   defaults.address = kLoopback;
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
@@ -498,8 +499,8 @@ std::string hostOptionsMarkdown() {
         " |\n";
   }
   return text +
-         "\nUnless `address` or `public` says otherwise, it listens on loopback alone.\n"
-         "It exits as its `main()` does, or with 2 for an option that makes no sense, 4 and 5 as above.\n";
+         "\nUnless `address` or `public` says otherwise, it listens on loopback only.\n"
+         "It exits as its `main()` does, or with 2 for an invalid option, and 4 and 5 like dfserver.\n";
 }
 
 }  // namespace naiad

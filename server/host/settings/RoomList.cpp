@@ -52,10 +52,10 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
   for (const Option& option : settingsOf(room)) {
     if (option.name != "--" + key) continue;
     const std::string setting = std::string(place).append(": ").append(key);
-    if (equals == std::string::npos) throw OptionError(setting + "=VALUE is wanted");
+    if (equals == std::string::npos) throw OptionError(setting + ": expected KEY=VALUE");
     return storeValue(option, text.substr(equals + 1), setting);
   }
-  throw OptionError(place + ": a room has no setting " + asTyped(key) + meant(key, settingNames()));
+  throw OptionError(place + ": unknown room setting " + asTyped(key) + meant(key, settingNames()));
 }
 
 /// Parses NAME=GAME[,KEY=VALUE…]. Throws OptionError.
@@ -63,7 +63,7 @@ RoomOptions readRoom(const std::string& text, const HostOptions& options) {
   const std::vector<std::string> parts = split(text, ',');
   const std::size_t equals = parts.empty() ? std::string::npos : parts.front().find('=');
   if (equals == std::string::npos)
-    throw OptionError("--room " + asTyped(text) + ": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+    throw OptionError("--room " + asTyped(text) + ": expected NAME=GAME or NAME=GAME,KEY=VALUE");
   RoomOptions room{.name = parts.front().substr(0, equals),
                    .game = parts.front().substr(equals + 1),
                    .max_players = options.max_players,
@@ -71,9 +71,9 @@ RoomOptions readRoom(const std::string& text, const HostOptions& options) {
                    .seed = options.seed,
                    .players = options.players};
   if (!isRoomName(room.name))
-    throw OptionError("--room: " + asTyped(room.name) + " is no name of a room: " + kRoomNameRule);
+    throw OptionError("--room: invalid room name " + asTyped(room.name) + ": " + kRoomNameRule);
   const std::string place = "--room " + room.name;
-  if (room.game.empty()) throw OptionError(place + ": a game is wanted behind the =");
+  if (room.game.empty()) throw OptionError(place + ": expected a game after the =");
   for (std::size_t i = 1; i < parts.size(); ++i) storeSetting(room, parts[i], place);
   return room;
 }
@@ -98,20 +98,20 @@ std::string gameComplaint(const RoomOptions& room) {
     const auto module = GameModule::find(room.game);
     std::error_code error;
     if (std::filesystem::is_regular_file(module, error)) return {};
-    return "--room " + room.name + ": there is no file " + asTyped(module.string());
+    return "--room " + room.name + ": no such file: " + asTyped(module.string());
   } catch (const GameError&) {
     const std::vector<std::string> games = GameModule::available();
     const std::string near = nearestName(room.game, games);
-    return "--room " + room.name + ": there is no game " + asTyped(room.game) +
-           (near.empty() ? "; --list-games prints those that there are" : "; did you mean " + near + "?");
+    return "--room " + room.name + ": unknown game " + asTyped(room.game) +
+           (near.empty() ? "; --list-games prints the known ones" : "; did you mean " + near + "?");
   }
 }
 
 /// Returns a message about an option that contradicts --room; else empty.
 std::string conflict(const HostOptions& options) {
-  if (options.players == "private") return "--room and --players private do not go together";
-  if (options.on_game_over == "exit") return "--room and --on-game-over exit do not go together";
-  if (!options.truth_file.empty()) return "--room and --truth do not go together";
+  if (options.players == "private") return "--room cannot be used with --players private";
+  if (options.on_game_over == "exit") return "--room cannot be used with --on-game-over exit";
+  if (!options.truth_file.empty()) return "--room cannot be used with --truth";
   return {};
 }
 
@@ -130,13 +130,13 @@ std::string roomsComplaint(const HostOptions& options) {
     return error.what();
   }
   if (rooms.size() > kMaxRooms)
-    return "--room: a server has " + std::to_string(kMaxRooms) + " rooms at most, not " +
+    return "--room: at most " + std::to_string(kMaxRooms) + " rooms are possible, not " +
            std::to_string(rooms.size());
   std::set<std::string> names;
   for (const RoomOptions& room : rooms) {
     // Players would confuse names that differ only in case.
     if (!names.insert(lowerCase(room.name)).second)
-      return "--room " + room.name + ": there are two rooms of this name";
+      return "--room " + room.name + ": this name is used twice";
     if (std::string wrong = gameComplaint(room); !wrong.empty()) return wrong;
   }
   return conflict(options);
@@ -165,7 +165,7 @@ std::string unknownRoom(const std::string& typed, const std::vector<std::string>
   const std::string near = nearestName(typed, names);
   std::string sentence = "There is no room " + asTyped(typed);
   if (!near.empty()) return sentence + "; did you mean \"" + near + "\"?";
-  sentence += ". There are: ";
+  sentence += ". Rooms: ";
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (sentence.size() > kMaxSentenceLength / 2) return sentence + ", …";
     sentence += (i > 0 ? ", " : "") + names[i];

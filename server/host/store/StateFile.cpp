@@ -94,7 +94,7 @@ void StateFile::make() {
   fs::create_directories(m_file.parent_path(), error);
   const fs::path fresh = m_file.string() + "." + std::to_string(::getpid()) + ".new";
   const int descriptor = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (descriptor < 0) fail("cannot be made: " + std::error_code(errno, std::generic_category()).message());
+  if (descriptor < 0) fail("cannot be created: " + std::error_code(errno, std::generic_category()).message());
   ::close(descriptor);
   openAt(fresh);
   try {
@@ -111,7 +111,7 @@ void StateFile::make() {
   const bool placed = ::link(fresh.c_str(), m_file.c_str()) == 0 || errno == EEXIST;
   const std::error_code why(errno, std::generic_category());
   ::unlink(fresh.c_str());
-  if (!placed) fail("cannot be made: " + why.message());
+  if (!placed) fail("cannot be created: " + why.message());
 }
 
 void StateFile::openAt(const fs::path& path) {
@@ -142,13 +142,14 @@ void StateFile::open() {
 
 void StateFile::check() {
   if (numberOf(m_database.get(), "SELECT count(*) FROM sqlite_master") < 1)
-    fail("cannot be read: it is damaged, or none");
+    fail("cannot be read: it is damaged, or not a database; restore it or move it away");
   if (numberOf(m_database.get(), "PRAGMA application_id") != m_kind.id)
-    fail("is a database of something else");
+    fail("is a database of another program");
   if (numberOf(m_database.get(), "PRAGMA user_version") != m_kind.format)
     fail("was written by another version of this program");
   StateStatement statement(m_database.get(), "PRAGMA quick_check(1)");
-  if (!statement.isGood() || !statement.step() || statement.text(0) != "ok") fail("is damaged");
+  if (!statement.isGood() || !statement.step() || statement.text(0) != "ok")
+    fail("is damaged; restore it or move it away");
 }
 
 void StateFile::run(const char* p_statements) {
@@ -167,8 +168,9 @@ bool StateFile::openIfThere() {
   const fs::file_status status = fs::status(m_file, error);
   if (status.type() == fs::file_type::not_found) return false;
   if (status.type() == fs::file_type::none) fail("cannot be read: " + error.message());
-  if (status.type() != fs::file_type::regular) fail("is no regular file");
-  if (fs::file_size(m_file, error) == 0 && !m_database) fail("is empty, which it never is by itself");
+  if (status.type() != fs::file_type::regular) fail("is not a regular file");
+  if (fs::file_size(m_file, error) == 0 && !m_database)
+    fail("is empty, so it is damaged; restore it or move it away");
   open();
   return true;
 }

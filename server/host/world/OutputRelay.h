@@ -80,7 +80,7 @@ class OutputRelay {
   }
   void reportDropped() {
     const std::uint64_t dropped = std::exchange(m_dropped, 0);
-    if (dropped > 0 && m_line) m_line(std::to_string(dropped) + " lines were too many and are left out");
+    if (dropped > 0 && m_line) m_line(std::to_string(dropped) + " lines dropped (too many at once)");
   }
 
   int m_pipe;

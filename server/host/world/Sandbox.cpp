@@ -250,9 +250,9 @@ SandboxSupport findSandboxSupport() {
 }
 
 std::string sandboxGaps(const SandboxSupport& support) {
-  const std::string files =
-      "Landlock: games in processes of their own can open every file that this user can";
-  const std::string calls = "filter of system calls: they can connect, and reach this user's other processes";
+  const std::string files = "Landlock: game processes can open every file that this user can";
+  const std::string calls =
+      "system call filter: game processes can open connections, and reach this user's other processes";
   if (support.landlock == 0 && support.filter == 0)
     return "this kernel has no " + files + "; and no " + calls;
   if (support.landlock == 0) return "this kernel has no " + files;

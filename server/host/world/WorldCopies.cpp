@@ -57,8 +57,8 @@ bool WorldCopies::order(pid_t world) {
   update();
   dropOrdered();
   if (!isOn()) return false;
-  if (m_failures >= kMaxFailures) m_problem = "its process makes none";
-  if (countThreads(world) > 1) m_problem = "it has threads, which a copy of its process would lack";
+  if (m_failures >= kMaxFailures) m_problem = "creating them fails";
+  if (countThreads(world) > 1) m_problem = "the game has threads, which a copy of its process would lack";
   if (m_problem) {
     stop();
     return false;

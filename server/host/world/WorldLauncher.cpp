@@ -92,9 +92,9 @@ bool receive(int from, Message& message) {
 }  // namespace
 
 WorldLauncher::WorldLauncher(WorldProgram program) : m_hang_time(program.hang_time) {
-  auto [ours, theirs] = socketPair(SOCK_SEQPACKET, "the launcher of worlds");
+  auto [ours, theirs] = socketPair(SOCK_SEQPACKET, "cannot start the launcher of game processes");
   m_process = fork();
-  require(m_process >= 0, "the launcher of worlds");
+  require(m_process >= 0, "cannot start the launcher of game processes");
   if (m_process == 0) runLauncher(theirs.get(), program);
   theirs = Descriptor();
   m_socket = ours.release();
@@ -102,7 +102,7 @@ WorldLauncher::WorldLauncher(WorldProgram program) : m_hang_time(program.hang_ti
   close(m_socket);
   ::kill(m_process, SIGKILL);
   waitpid(m_process, nullptr, 0);
-  throw std::system_error(ECHILD, std::generic_category(), "the launcher of worlds");
+  throw std::system_error(ECHILD, std::generic_category(), "cannot start the launcher of game processes");
 }
 
 WorldLauncher::~WorldLauncher() {
@@ -112,7 +112,7 @@ WorldLauncher::~WorldLauncher() {
 }
 
 StartedWorld WorldLauncher::start(const WorldOrder& order) const {
-  constexpr const char* kWhat = "a new world";
+  constexpr const char* kWhat = "cannot start a game process";
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);
   auto [our_output, their_output] = outputPipe(kWhat);

@@ -140,7 +140,7 @@ void WorldProcess::tick(const SentTurn& turn) {
     m_views.emplace(m_later);
   }
   ++m_next_tick;
-  if (turn.record.empty()) return fail(WorldEnd::kBroken, "was asked too much");
+  if (turn.record.empty()) return fail(WorldEnd::kBroken, "was sent too many inputs in one tick");
   appendTurnMessage(turn.record, m_copied && m_unanswered == 0, m_unsent);
   if (m_unanswered++ == 0) beginTick();
   sendTurns();
@@ -185,7 +185,7 @@ void WorldProcess::readHead() {
 
 void WorldProcess::readFields() {
   const auto size = loadLittleEndian<std::uint32_t>(m_in.data());
-  if (size > kMaxWorldFrame) return fail(WorldEnd::kBroken, "sent too long a frame");
+  if (size > kMaxWorldFrame) return fail(WorldEnd::kBroken, "sent a frame that is too long");
   m_in.resize(size);
   asio::async_read(m_socket, asio::buffer(m_in),
                    [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
@@ -198,13 +198,13 @@ void WorldProcess::readFields() {
 void WorldProcess::onFrame() {
   if (m_state >= State::kEnding) return;
   const bool starts = m_state == State::kStarting;
-  if (m_state == State::kReady) return fail(WorldEnd::kBroken, "spoke out of turn");
+  if (m_state == State::kReady) return fail(WorldEnd::kBroken, "sent an unexpected frame");
   if (starts) {
     takeReady();
     if (!m_ready) return;
   } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
-    if (!answer) return fail(WorldEnd::kBroken, "sent what no world sends");
+    if (!answer) return fail(WorldEnd::kBroken, "sent a malformed answer");
     m_answer = *std::move(answer);
     m_answer.hash = m_hashes ? hashAnswer(m_in) : 0;
     if (std::exchange(m_copied, false)) m_copies.add({currentTick() + 1, *m_views, m_view});
@@ -226,9 +226,9 @@ void WorldProcess::onFrame() {
 void WorldProcess::takeReady() {
   const auto build = readBuild(m_in);
   if (build && *build != ownBuildId())
-    return fail(WorldEnd::kForeign, "is of another build (" + build->substr(0, kShownBuildId) + ")");
+    return fail(WorldEnd::kForeign, "has another build (" + build->substr(0, kShownBuildId) + ")");
   m_ready = readReady(m_in);
-  if (!m_ready) fail(WorldEnd::kBroken, "sent what no world sends");
+  if (!m_ready) fail(WorldEnd::kBroken, "sent a malformed answer");
 }
 
 // ---- its end ----------------------------------------------------------------------------------------------
@@ -300,7 +300,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
     return fail(WorldEnd::kHung, "did not answer within " + secondsText(m_hang_time) + " s");
   if (m_waited <= patience()) return;
   if (m_state == State::kEnding) return kill();
-  fail(WorldEnd::kHung, m_state == State::kStarting ? "did not begin" : "did not answer any more");
+  fail(WorldEnd::kHung, m_state == State::kStarting ? "did not start" : "did not answer in time");
 }
 
 void WorldProcess::countTime(Clock::time_point now) {

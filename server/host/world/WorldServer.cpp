@@ -202,7 +202,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
   if (!writeAnswer(takeAnswer(turn, world), turn.watched ? &world.picture().view() : nullptr, m_views,
                    m_frame)) {
     world.log().write("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
-                      " bytes; the game is over. dfserver --in-process has no such bound.");
+                      " bytes; the game is over. dfserver --in-process has no such limit.");
     return false;
   }
   return send(m_frame);

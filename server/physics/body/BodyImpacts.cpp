@@ -226,7 +226,7 @@ void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts)
     if (state.solver != BodySolver::kImpact) continue;
     Proxy& proxy = m_proxies[state.index];
     const ImpactBody& body = m_world.body(proxy.id);
-    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "its motion cannot be computed";
     state.is_touched = state.is_touched || m_world.isTouching(proxy.id);
     if (!state.is_touched) {  // exactly as on its own
       state.place = state.start + state.flown.displacement;

@@ -23,7 +23,7 @@ constexpr double kFarthestFlight =
     1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
 constexpr double kFollowed =
     16;  // per tick²: the JointSolver follows a spring on joints up to this stiffness
-constexpr const char* kBeyond = "it has left all bounds of place or velocity";
+constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace
 
@@ -103,7 +103,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
     const Vec2 most = 2 * m_table->metric.fromCells(Vector(kMaxVelocityCells, kMaxVelocityCells));
     const Vec2 push = {std::clamp(state.push.x, -most.x, most.x), std::clamp(state.push.y, -most.y, most.y)};
     if (push != state.push && state.is_joined) {
-      state.p_failure = "it is pulled harder than joints can hold";
+      state.p_failure = "the force on it is too large for joints";
     } else if (push != state.push) {
       countLimited(world, state);
     }
@@ -190,7 +190,7 @@ void BodyLayer::fly(State& state) {
   }
   state.push = held_push;
   m_is_mixed = m_is_mixed || state.must_be_held;
-  if (status != IntegratorStatus::kDone) state.p_failure = "what moves it cannot be worked out";
+  if (status != IntegratorStatus::kDone) state.p_failure = "its free motion cannot be computed";
   const bool is_near = isFinite(state.flown.velocity) &&
                        lengthSquared(state.flown.displacement) < kFarthestFlight * kFarthestFlight;
   if (state.p_failure == nullptr && !is_near) state.p_failure = kBeyond;
@@ -328,9 +328,8 @@ void BodyLayer::limit(World& world, State& state) {
 void BodyLayer::countLimited(World& world, const State& state) {
   if (++m_table->counters.limited > 1) return;
   const Object* p_object = world.store().find(state.key);
-  world.log().write(
-      "physics: a " + (p_object != nullptr ? p_object->getType() : "body") +
-      " is faster or farther away than a world can hold, and is held back; further ones are only counted");
+  world.log().write("physics: a " + (p_object != nullptr ? p_object->getType() : "body") +
+                    " is too fast or too far away, so its motion is limited; further cases are only counted");
 }
 
 void BodyLayer::settle(World& world, State& state) {
@@ -376,8 +375,7 @@ void BodyLayer::logCrowd(World& world) {
       m_rigid_world.hasThinned() || m_substep_world.hasThinned() || m_heap_world.hasThinned();
   if (m_has_logged_crowd || !is_crowded) return;
   m_has_logged_crowd = true;
-  world.log().write(
-      "physics: too many bodies in one place: some pass through one another until there is room");
+  world.log().write("physics: too many bodies in one place: some pass through others until there is room");
 }
 
 // It stands where it is, so that nothing of it spreads.

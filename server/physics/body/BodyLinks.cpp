@@ -250,13 +250,13 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
     state.spin = body.spin;
     state.acceleration = state.contacts_changed ? Vec2{} : body.velocity - state.start_velocity;
     const bool is_held = body.inverse_mass == 0 && table.row(state.index).inverse_mass > 0;
-    if (is_held || !m_is_connected) state.p_failure = "its numbers are beyond what joints can hold";
+    if (is_held || !m_is_connected) state.p_failure = "its values are out of range for joints";
   }
   for (const JointIsland& island : m_solver.islands()) {
     if (!island.isFrozen()) continue;
     for (const int body : island.bodies()) {
       if (m_state_of[at(body)] < 0) continue;
-      states[at(m_state_of[at(body)])].p_failure = "what it is joined with cannot be worked out";
+      states[at(m_state_of[at(body)])].p_failure = "the bodies joined to it cannot be computed";
     }
   }
   std::vector<JointEntry>& entries = table.joints.entries();

@@ -292,10 +292,10 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     if (state.solver != m_solver) continue;
     const Proxy& proxy = m_proxies[state.index];
     if (proxy.id < 0) {
-      state.p_failure = "its numbers are beyond what can be calculated with";
+      state.p_failure = "its values are out of range";
       continue;
     }
-    if (m_world.isFrozen(proxy.id)) state.p_failure = "what happens to it cannot be worked out";
+    if (m_world.isFrozen(proxy.id)) state.p_failure = "its motion cannot be computed";
     const RigidBody& body = m_world.body(proxy.id);
     const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));

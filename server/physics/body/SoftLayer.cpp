@@ -131,7 +131,7 @@ void SoftLayer::logCrowd(World& world) {
   if (m_has_logged_crowd || m_table->world().counters().crowded == 0) return;
   m_has_logged_crowd = true;
   world.log().write(
-      "physics: too many soft bodies in one place: some pass through one another until there is room");
+      "physics: too many soft bodies in one place: some pass through others until there is room");
 }
 
 // Decides whether it takes part, and gathers what is around it.
@@ -205,7 +205,7 @@ void SoftLayer::freeze(World& world, int id) {
   m_table->world().setOut(id, true);
   const Object* p_object = world.store().find(entry.key);
   world.log().write("physics: a " + (p_object != nullptr ? p_object->getType() : "soft body") +
-                    " is frozen: its motion cannot be worked out");
+                    " is frozen: its motion cannot be computed");
 }
 
 void SoftLayer::publish(World& world, int id) {

@@ -142,14 +142,14 @@ UdpSocket::~UdpSocket() {
 }
 
 void UdpSocket::start(OnPacket on_packet) {
-  if (state_->started) throw std::logic_error("a socket can be started once");
+  if (state_->started) throw std::logic_error("the socket has already been started");
   state_->started = true;
   state_->on_packet = std::move(on_packet);
   state_->wait();
 }
 
 void UdpSocket::send(const Path& path, std::string_view packet) {
-  if (packet.empty() || packet.size() > kMaxDatagram) throw std::length_error("no size for a datagram");
+  if (packet.empty() || packet.size() > kMaxDatagram) throw std::length_error("invalid datagram size");
   if (!state_->socket.is_open() || !state_->outgoing->add(path, packet)) {
     ++state_->counters.send_errors;
     return;

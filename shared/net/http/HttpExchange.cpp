@@ -35,9 +35,9 @@ HttpExchange::End endOf(StreamResult::End end) {
 const char* inWords(HttpError error) {
   switch (error) {
     case HttpError::kHeadTooLong:
-      return "its head is too long";
+      return "the header is too long";
     case HttpError::kTruncated:
-      return "the connection ended within the answer";
+      return "the answer is incomplete";
     default:
       return "not HTTP/1.1";
   }

@@ -30,7 +30,7 @@ std::string sha1(const std::string& bytes) {
 
 void fillRandomly(char* bytes, int count) {
   if (RAND_bytes(reinterpret_cast<unsigned char*>(bytes), count) != 1)
-    throw std::runtime_error("OpenSSL has no random numbers.");
+    throw std::runtime_error("OpenSSL cannot generate random numbers.");
 }
 
 }  // namespace
@@ -52,10 +52,10 @@ std::string WebSocketUpgrade::problem(unsigned status, const HttpHead& answer) c
   if (!equalsIgnoringCase(answer.value("upgrade"), "websocket") || !answer.lists("connection", "upgrade"))
     return "not a WebSocket";
   if (answer.count("sec-websocket-accept") != 1 || answer.value("sec-websocket-accept") != accept)
-    return "a wrong Sec-WebSocket-Accept";
+    return "wrong Sec-WebSocket-Accept";
   if (answer.count("sec-websocket-protocol") != 1 || answer.value("sec-websocket-protocol") != m_subprotocol)
-    return "another subprotocol";
-  if (answer.count("sec-websocket-extensions") != 0) return "an extension that was not asked for";
+    return "wrong subprotocol";
+  if (answer.count("sec-websocket-extensions") != 0) return "unrequested extension";
   return {};
 }
 

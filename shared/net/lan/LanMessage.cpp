@@ -19,7 +19,7 @@ constexpr std::size_t kTexts = 48;  // offset of the texts in an answer
 constexpr std::size_t kLonger = 1;  // size of a text's length field
 
 static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize,
-              "an answer is no longer than a query");
+              "an answer must not be longer than a query");
 
 /// Appends 16 bits; larger numbers become 0xffff.
 void appendNumber(std::string& out, std::uint32_t number) {

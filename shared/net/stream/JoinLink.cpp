@@ -96,31 +96,31 @@ bool JoinLink::isMeant(std::string_view text) {
 std::variant<JoinLink, LinkProblem> JoinLink::parse(std::string_view text) {
   if (text.size() > kMaxLink) return LinkProblem{"it is longer than 512 characters"};
   if (!std::all_of(text.begin(), text.end(), isGraphic))
-    return LinkProblem{"it has a blank or a character that is not ASCII"};
+    return LinkProblem{"it contains a space or a non-ASCII character"};
   if (!isMeant(text) || !text.substr(kScheme.size()).starts_with("//"))
     return LinkProblem{"it does not begin with naiad://"};
   text.remove_prefix(kScheme.size() + 2);
 
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos || hash + 1 == text.size())
-    return LinkProblem{"it has no key (#…) at its end; it may have been cut off"};
+    return LinkProblem{"it has no key (#…) at its end; it may be truncated"};
   const auto key_text = decoded(text.substr(hash + 1));
   const auto key = key_text ? ShortKey::parse(*key_text) : std::nullopt;
   if (!key)
-    return LinkProblem{"the key behind its # is not 26 letters and digits 2 to 7, as dfserver prints them"};
+    return LinkProblem{"the key after the # must be 26 letters and digits 2 to 7, as dfserver prints it"};
   text = text.substr(0, hash);
 
-  if (text.find('?') != std::string_view::npos) return LinkProblem{"it has a ?, which no link to a game has"};
+  if (text.find('?') != std::string_view::npos) return LinkProblem{"it contains a ?, which is not allowed"};
   const std::size_t slash = std::min(text.find('/'), text.size());
   const auto authority = decoded(text.substr(0, slash));
   const auto room = decoded(text.substr(std::min(slash + 1, text.size())));
-  if (!authority || !room) return LinkProblem{"it has a % that does not stand for a printable character"};
+  if (!authority || !room) return LinkProblem{"it contains a % that does not encode a printable character"};
   if (authority->find('@') != std::string::npos)
-    return LinkProblem{"it names a user, which no link to a game does"};
+    return LinkProblem{"it contains a user name, which is not allowed"};
   const auto where = LinkHost::parse(*authority);
-  if (!where) return LinkProblem{"HOST or HOST:PORT is wanted behind naiad://"};
+  if (!where) return LinkProblem{"expected HOST or HOST:PORT after naiad://"};
   if (!room->empty() && !isRoomName(*room))
-    return LinkProblem{"what stands behind the / cannot be the name of a room"};
+    return LinkProblem{"the part after the / is not a valid room name"};
   return JoinLink{*where, *room, *key};
 }
 

@@ -92,7 +92,7 @@ StreamConnection::StreamConnection(std::unique_ptr<ByteStream> stream, std::uniq
       framing_(std::move(framing)) {}
 
 void StreamConnection::start(ReliableChannel::Callbacks callbacks) {
-  if (callbacks_) throw std::logic_error("a channel can be started once");
+  if (callbacks_) throw std::logic_error("the channel has already been started");
   callbacks_ = std::make_shared<ReliableChannel::Callbacks>(std::move(callbacks));
   if (phase_ == Phase::kClosed) return report();
   if (framing_->midFrame()) {

@@ -25,7 +25,7 @@ std::string sentence(const StreamResult& result, const StreamTarget& target,
     case End::kNotFound:
       return "The host name \"" + host + "\" could not be found (" + detail + ").";
     case End::kNotAllowed:
-      return where + " is nearer to you than the server that sent you there: that is not followed.";
+      return where + " is in a more private network than the redirecting server: redirect refused.";
     case End::kOtherMachine:
       return (detail == host ? host : host + " (" + detail + ")") +
              " is another machine: without encryption only loopback addresses are allowed.";

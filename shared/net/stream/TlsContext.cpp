@@ -155,7 +155,7 @@ void TlsContext::useCertificate(const std::string& pem) {
     const Certificate above(PEM_read_bio_X509(bio.get(), nullptr, noPassword, nullptr));
     if (!above) break;
     if (count == kMaxChain || SSL_CTX_add1_chain_cert(get(), above.get()) != 1) {
-      throw TlsError("OpenSSL refuses the certificates above the server's own.");
+      throw TlsError("OpenSSL refuses the chain of certificates.");
     }
   }
   // The end of the file, or text after the chain that is not a certificate.
@@ -171,7 +171,7 @@ void TlsContext::useKey(const std::string& pem) {
   if (!key) throw TlsError("The private key is not in PEM form, or is protected by a password.");
   const bool fits = SSL_CTX_use_PrivateKey(get(), key.get()) == 1 && SSL_CTX_check_private_key(get()) == 1;
   ERR_clear_error();
-  if (!fits) throw TlsError("Certificate and private key do not belong together.");
+  if (!fits) throw TlsError("The certificate does not match the private key.");
 }
 
 }  // namespace naiad

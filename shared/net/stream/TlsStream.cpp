@@ -146,7 +146,7 @@ void TlsStream::expect(const std::string& server_name) {
       server_name.ends_with('.') ? server_name.substr(0, server_name.size() - 1) : server_name;
   const bool good = !name.empty() && SSL_set_tlsext_host_name(ssl_.get(), name.c_str()) == 1 &&
                     X509_VERIFY_PARAM_set1_host(wanted, name.c_str(), name.size()) == 1;
-  if (!good) throw TlsError("\"" + server_name + "\" cannot be the name of a server.");
+  if (!good) throw TlsError("\"" + server_name + "\" is not a valid server name.");
 }
 
 ByteStream::Outcome TlsStream::handshake() {
@@ -235,7 +235,7 @@ void TlsStream::explain() {
   } else if (bio_.failed) {
     problem_ = "the connection broke";
   } else if (bio_.ended) {
-    problem_ = "it hung up";
+    problem_ = "it closed the connection";
   } else {
     problem_ = inWords(ERR_peek_error(), ssl_.get());
   }

@@ -48,9 +48,9 @@ void makePlace(asio::io_context& context, const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return;
   if (status.type() != fs::file_type::socket)
-    fail(path, "there is something that is no socket", std::make_error_code(std::errc::file_exists));
+    fail(path, "the path exists and is not a socket", std::make_error_code(std::errc::file_exists));
   if (!isStale(context, path))
-    fail(path, "another program listens there", std::make_error_code(std::errc::address_in_use));
+    fail(path, "another program is listening", std::make_error_code(std::errc::address_in_use));
   fs::remove(path, error);
 }
 

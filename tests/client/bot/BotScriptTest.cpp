@@ -75,13 +75,13 @@ struct BadScript {
 
 TEST(BotScript, ErrorsSayWhere) {
   const BadScript scripts[] = {
-      {"jump", 1, 1, "\"jump\" is no statement"},
+      {"jump", 1, 1, "\"jump\" is not a statement"},
       {"press SPACE\n  press", 2, 8, "key is missing"},
       {"press SPACE; press BANANA", 1, 20, "no key \"BANANA\""},
       {"hold A", 1, 7, "number of ticks"},
       {"hold A 0", 1, 8, "from 1 to"},
       {"wait 99999999999", 1, 6, "number"},
-      {"wait 5 6", 1, 8, "too much"},
+      {"wait 5 6", 1, 8, "unexpected"},
       {"click 4", 1, 8, "row"},
       {"click 4 1000", 1, 9, "row"},
       {"click 4 5 wheel", 1, 11, "button"},
@@ -89,11 +89,11 @@ TEST(BotScript, ErrorsSayWhere) {
       {"wait 1\nrepeat 3 wait 1", 2, 10, "'{'"},
       {"repeat 3 { }", 1, 12, "needs a statement"},
       {"repeat 3 { wait 1", 1, 18, "'}' is missing"},
-      {"wait 1 }", 1, 8, "no repeat"},
-      {"repeat", 1, 7, "whole script"},
+      {"wait 1 }", 1, 8, "without a repeat"},
+      {"repeat", 1, 7, "must follow a statement"},
       {"wait 1; repeat; wait 2", 1, 17, "nothing can follow"},
-      {"", 1, 1, "does nothing"},
-      {"# only a comment", 1, 17, "does nothing"},
+      {"", 1, 1, "no statements"},
+      {"# only a comment", 1, 17, "no statements"},
   };
   for (const BadScript& bad : scripts) {
     const auto result = BotScript::parse(bad.text);

@@ -83,7 +83,7 @@ TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
   const auto& hello = log.sent[log.sent.size() - 2].has_hello() ? log.sent[log.sent.size() - 2] : log.sent[1];
   EXPECT_TRUE(hello.hello().fresh());
   EXPECT_EQ(hello.hello().resume_token(), "0123456789abcdef");
-  EXPECT_EQ(heard(), std::vector<std::string>{"You are back in your old session."});
+  EXPECT_EQ(heard(), std::vector<std::string>{"Session resumed."});
 }
 
 TEST_F(ClientReturn, WithoutALineNoAcknowledgementIsDueForEver) {

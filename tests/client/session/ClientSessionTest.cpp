@@ -59,7 +59,7 @@ TEST_F(ClientSessionTest, AWelcomeWithoutAPictureIsGivenUpInWords) {
   now = end;
   session->update(now);
   EXPECT_EQ(session->state(), State::kLost);
-  EXPECT_EQ(session->sentence(), "The server let you in, but sent no picture of the game in 45 s.");
+  EXPECT_EQ(session->sentence(), "Joined, but the server sent no picture within 45 s.");
   EXPECT_TRUE(last().has_leave()) << "it keeps no place";
   EXPECT_TRUE(log.closed);
 }

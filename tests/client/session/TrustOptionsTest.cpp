@@ -34,9 +34,9 @@ TEST(TrustOptions, ALinkNamesTheServerAndItsKey) {
 
 TEST(TrustOptions, WhatIsWrongIsASentenceWithNothingThatSteersATerminal) {
   EXPECT_NE(Resolved("naiad://game.example").problem.find("it has no key"), std::string::npos);
-  EXPECT_NE(Resolved("a b").problem.find("is no server"), std::string::npos);
+  EXPECT_NE(Resolved("a b").problem.find("is not a valid server"), std::string::npos);
   const std::string hostile = Resolved("naiad://x\033]0;y\a\n#" + kKey).problem;
-  EXPECT_NE(hostile.find("is no link to a game"), std::string::npos);
+  EXPECT_NE(hostile.find("is not a valid link"), std::string::npos);
   for (const char c : hostile) EXPECT_GE(static_cast<unsigned char>(c), ' ');
 }
 
@@ -55,7 +55,7 @@ TEST(TrustOptions, ARoomIsTheBeginningOfTheSession) {
   for (const char* text :
        {"game.example/", "game.example/a/b", "game.example/-x", "game.example/x y", "game.example/\033[2J"}) {
     const std::string problem = Resolved(text).problem;
-    EXPECT_NE(problem.find("is no name of a room"), std::string::npos) << text;
+    EXPECT_NE(problem.find("is not a valid room name"), std::string::npos) << text;
     for (const char c : problem) EXPECT_GE(static_cast<unsigned char>(c), ' ');
   }
 }

@@ -113,7 +113,7 @@ TEST_F(WebSocketPeer, AnotherSubprotocolIsRefused) {
   start("chat");
   open();
   EXPECT_FALSE(channel);
-  EXPECT_EQ(error, "The gateway refused (another subprotocol).");
+  EXPECT_EQ(error, "Cannot join through the gateway (wrong subprotocol).");
 }
 
 TEST_F(WebSocketPeer, SpeaksTlsToWhatTheSystemTrusts) {

@@ -155,7 +155,7 @@ TEST_F(SessionFileTest, DamagedFilesAreReportedAndRemoved) {
     const auto file = open();
     EXPECT_EQ(file->tokenFor(keyOf('a')), "") << text;
     ASSERT_EQ(file->problems().size(), 1u) << text;
-    EXPECT_EQ(file->problems()[0], path.string() + " was damaged, and is removed.");
+    EXPECT_EQ(file->problems()[0], path.string() + " was damaged and has been removed.");
     EXPECT_TRUE(files().empty());
   }
 }
@@ -180,7 +180,8 @@ TEST_F(SessionFileTest, FilesThatOthersCanReadAreNotUsed) {
   auto file = open();
   EXPECT_EQ(file->tokenFor(keyOf('a')), "");
   ASSERT_EQ(file->problems().size(), 1u);
-  EXPECT_EQ(file->problems()[0], path.string() + " is not used: it is not a file of yours alone.");
+  EXPECT_EQ(file->problems()[0],
+            path.string() + " is ignored: expected a regular file of yours with mode 0600.");
   EXPECT_TRUE(fs::exists(path)) << "it is kept for the user to look at";
   file->save(session("mine"), now);
   EXPECT_EQ(files().size(), 2u) << "play goes on with another file";
@@ -192,7 +193,8 @@ TEST_F(SessionFileTest, DirectoriesOfOthersAreNotUsed) {
   auto file = open();
   EXPECT_EQ(file->tokenFor(keyOf('a')), "");
   ASSERT_EQ(file->problems().size(), 1u);
-  EXPECT_EQ(file->problems()[0], directory.string() + " is not a directory of yours alone.");
+  EXPECT_EQ(file->problems()[0],
+            directory.string() + " cannot be used: expected a directory of yours with mode 0700.");
   file->save(session("mine"), now);
   EXPECT_EQ(files().size(), 1u) << "nothing is written there";
 }

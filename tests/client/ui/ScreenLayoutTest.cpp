@@ -201,7 +201,7 @@ TEST(ScreenLayout, TooSmallTerminalSaysSo) {
 TEST(ScreenLayout, AnySizeIsSafe) {
   ScreenModel m = model();
   m.help = {"Space fires."};
-  m.banner = "Server lost, looking for it again: 1.0 s";
+  m.banner = "Connection lost, reconnecting: 1.0 s";
   m.note = "sound: fire";
   m.chat = {{"Ada", df::CYAN, std::string(200, 'x'), {}}};
   m.chat_text = std::string(200, 'y');
@@ -255,12 +255,12 @@ TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
 
 TEST(ScreenLayout, LinesThatContinueOneStandUnderItsText) {
   const Picture picture = layOut(modelWith(Panel::kHelp), 50, 40).picture;
-  // "Ctrl-] t   say something to all players (c does the same)"
+  // "Ctrl-] t   say something to all players (or Ctrl-] c)"
   const int row = rowWith(picture, "say something");
   ASSERT_TRUE(row >= 0 && row < 39);
   const std::u32string first = df::decodeUtf8(picture.rowText(row));
   const std::u32string next = df::decodeUtf8(picture.rowText(row + 1));
-  EXPECT_EQ(next.find(U"does"), first.find(U"say")) << picture.rowText(row + 1);
+  EXPECT_EQ(next.find(U"Ctrl-] c"), first.find(U"say")) << picture.rowText(row + 1);
 }
 
 TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {

@@ -46,7 +46,7 @@ MenuResult press(ServerMenu& menu, key::Key which, std::uint8_t modifiers = 0) {
 }
 
 ServerMenu menuOf(std::vector<FoundServer> servers) {
-  ServerMenu menu("Servers of this network");
+  ServerMenu menu("Servers in this network");
   menu.setEmpty({"No server answered.", "Start one."});
   menu.setServers(std::move(servers));
   menu.setLooking(false);
@@ -56,7 +56,7 @@ ServerMenu menuOf(std::vector<FoundServer> servers) {
 TEST(ServerMenu, ShowsWhatIsToBeKnownOfEachServer) {
   ServerMenu menu = menuOf({menuServer(5, "Ann's")});
   for (const char* p_text :
-       {"Servers of this network", "Ann's", "hello", "0/16", "192.168.1.5:9876", "Enter join"})
+       {"Servers in this network", "Ann's", "hello", "0/16", "192.168.1.5:9876", "Enter join"})
     EXPECT_TRUE(shows(menu, p_text)) << textOf(menu.compose(80, 24));
 }
 
@@ -115,7 +115,7 @@ TEST(ServerMenu, AServerOfAnotherVersionIsNotJoined) {
   other.protocol = kProtocolVersion + 1;
   ServerMenu menu = menuOf({other});
   EXPECT_EQ(press(menu, key::RETURN), MenuResult::kRedraw);
-  EXPECT_TRUE(shows(menu, "speaks version " + std::to_string(kProtocolVersion + 1)));
+  EXPECT_TRUE(shows(menu, "server protocol version " + std::to_string(kProtocolVersion + 1)));
 }
 
 TEST(ServerMenu, ALongListIsScrolledSoThatTheChosenOneIsSeen) {

@@ -195,7 +195,7 @@ TEST_F(WebClientTest, AReloadedPageAsksForItsSession) {
   snapshot(2);
   client->update(now += 1s);
   EXPECT_EQ(client->state(), WebClient::State::kPlaying);
-  EXPECT_TRUE(shows("You are back in your old session."));
+  EXPECT_TRUE(shows("Session resumed."));
 }
 
 TEST_F(WebClientTest, WhatIsNoTokenIsNotSent) {

@@ -96,8 +96,8 @@ TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
     EXPECT_NE(program.printed().find(text), std::string::npos) << program.printed();
   };
   expectRefusal({"--help"}, 0, "--list");
-  expectRefusal({}, 2, "--bus is wanted");
-  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "--list or --listen is wanted");
+  expectRefusal({}, 2, "--bus is required");
+  expectRefusal({"--bus", "nats://127.0.0.1:1"}, 2, "specify --list FILE, --listen ADDRESS:PORT");
   expectRefusal({"--bus", "http://127.0.0.1", "--list", folder / "list"}, 2, "nats://HOST:PORT");
   expectRefusal({"--bsu", "x"}, 2, "--bus");
   expectRefusal({"--bus", "nats://127.0.0.1:1", "--bus-interval", "49"}, 2, "50");

@@ -119,7 +119,8 @@ TEST_F(FleetFilesTest, TheDirectoryListsTheServerOfAFile) {
   RunningProgram directory({"dfdir", "--bus", urlIn("directory/dfdir.env"), "--bus-ca",
                             folder / "bus" / "ca.pem", "--bus-interval", kQuickInterval, "--list",
                             folder / "servers.json"});
-  EXPECT_TRUE(directory.prints("maze-1 is there")) << directory.printed() << server.log() << nats->log();
+  EXPECT_TRUE(directory.prints("maze-1 joined the fleet"))
+      << directory.printed() << server.log() << nats->log();
   EXPECT_TRUE(
       waitUntil([&] { return contentOf(folder / "servers.json").find("\"maze-1\"") != std::string::npos; }));
 }

@@ -40,7 +40,8 @@ TEST_F(FleetWatchTest, SaysWhichServersComeAndGo) {
   hear("a");
   update(2s);
   update(8s);
-  EXPECT_EQ(lines, (std::vector<std::string>{"the bus is connected", "a is there", "a is gone"}));
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{"the bus is connected", "a joined the fleet", "a left the fleet"}));
 }
 
 TEST_F(FleetWatchTest, WithoutABusTheListStaysForTenMinutes) {
@@ -74,8 +75,8 @@ TEST_F(FleetWatchTest, ServersThatPretendToComeWithoutEndFillNoLog) {
   EXPECT_EQ(lines.size(), 100u);
   hear("y");
   update(1s);
-  EXPECT_EQ(lines.at(100), "900 more servers came or went");
-  EXPECT_EQ(lines.at(101), "y is there");
+  EXPECT_EQ(lines.at(100), "900 more servers joined or left");
+  EXPECT_EQ(lines.at(101), "y joined the fleet");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class LobbyTest : public BusFixture {
     directory = std::make_unique<RunningProgram>(
         std::vector<std::string>{"dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--listen",
                                  "127.0.0.1:0", "--identity", home.identity("directory")});
-    ASSERT_TRUE(directory->prints(" is there", servers)) << directory->printed();
+    ASSERT_TRUE(directory->prints(" joined the fleet", servers)) << directory->printed();
     const std::string& text = directory->printed();
     const std::size_t begin = text.find("naiad://");
     const auto link = JoinLink::parse(text.substr(begin, text.find('\'', begin) - begin));

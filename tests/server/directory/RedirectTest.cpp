@@ -262,7 +262,7 @@ TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
   TestServer server(busyWorld(5), options);
   liar.sendTo(server.port(), *server.fingerprint());
   TestClient client(context, liar.port(), home.player("ann"));
-  EXPECT_EQ(refusal(client), "This server wants a password.");
+  EXPECT_EQ(refusal(client), "This server requires a password.");
   EXPECT_FALSE(client.connection().isPasswordRefused()) << "it would be typed for the server that was named";
 }
 
@@ -286,7 +286,7 @@ TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
     client.update(std::chrono::steady_clock::now());
   }
   EXPECT_EQ(neighbour.hellos(), 2u) << "asked for another once";
-  EXPECT_NE(client.sentence().find("nearer to you"), std::string::npos) << client.sentence();
+  EXPECT_NE(client.sentence().find("more private network"), std::string::npos) << client.sentence();
   EXPECT_EQ(local.heard(), "");
 }
 

@@ -135,13 +135,13 @@ TEST_F(GatewayStreamsTest, AnswerThatIsNoWebSocketIsRefused) {
     peer.emplace(std::move(socket));
   });
   open(other);
-  EXPECT_EQ(error, "The gateway refused (status 403).");
+  EXPECT_EQ(error, "Cannot join through the gateway (status 403).");
 }
 
 TEST_F(GatewayStreamsTest, WithoutEncryptionNoOtherMachineIsConnectedTo) {
   GatewayStreams streams(context, *GatewayAddress::parse("http://192.0.2.1"));
   open(streams);
-  EXPECT_EQ(error, "Without encryption (https) only gateways on this machine are connected to.");
+  EXPECT_EQ(error, "Without encryption (https) only gateways on this machine are allowed.");
 }
 
 TEST_F(GatewayStreamsTest, NothingIsCalledAfterCancel) {

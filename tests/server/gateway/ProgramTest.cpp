@@ -32,7 +32,7 @@ TEST_F(DfwebProgram, WhatIsWrongIsASentenceAndACode) {
   expectRefusal({"--help"}, 0, "--visitors");
   expectRefusal({}, 2, "link");
   expectRefusal({"http://game.test", "--visitors", "visitors"}, 2, "naiad://");
-  expectRefusal({link}, 2, "--visitors is wanted");
+  expectRefusal({link}, 2, "--visitors is required");
   expectRefusal({link, "--visitors", std::string(200, 'v')}, 2, "too long");
   expectRefusal({link, "--visitors", "visitors", "--certificate", "certificate"}, 2, "together");
   expectRefusal({link, "--visitors", "visitors", "--listen", "localhost:80"}, 2, "ADDRESS:PORT");
@@ -48,7 +48,7 @@ TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   const std::string real = "naiad://game.test#" + game.key().text();
   RunningProgram dfweb({"dfweb", real, "--visitors", home.path("visitors"), "--page", page, "--listen",
                         "127.0.0.1:0", "--port-file", home.path("port"), "--origin", "https://play.example"});
-  ASSERT_TRUE(dfweb.prints("leads browsers")) << dfweb.printed();
+  ASSERT_TRUE(dfweb.prints("connects browsers")) << dfweb.printed();
   std::uint16_t port = 0;
   std::ifstream(home.path("port")) >> port;
   EXPECT_TRUE(has(dfweb.printed(), "Players open https://play.example/#" + game.key().text()));

@@ -25,8 +25,8 @@ namespace {
 constexpr const char* kCopy = "df-copy";
 constexpr const char* kKeeper = "df-keeper";
 constexpr const char* kWorld = "dfserver";
-constexpr const char* kByCopy = "the game goes on: a copy of its world executed ";
-constexpr const char* kByAnother = "the game goes on: another world executed ";
+constexpr const char* kByCopy = "game recovered: a copy of its world replayed ";
+constexpr const char* kByAnother = "game recovered: a new world replayed ";
 
 bool isAlive(pid_t process) {
   return kill(process, 0) == 0;
@@ -119,7 +119,7 @@ TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
 // The second hang is waited for, because the game may only be slow. It does not end, so the third is not.
 TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
   constexpr const char* kAtOnce = "the game did not answer within ";
-  constexpr const char* kLate = "did not answer any more in tick";
+  constexpr const char* kLate = "did not answer in time in tick";
   constexpr std::size_t kWaitedFor[] = {0, 1, 1};
   for (std::size_t i = 0; i < std::size(kWaitedFor); ++i) {
     play(50);
@@ -150,8 +150,8 @@ TEST_F(SlowGameTest, LosesOneKeyAndGoesOn) {
     ASSERT_TRUE(tick()) << log;
     EXPECT_FALSE(world->takeTakeOver()) << log;
   }
-  EXPECT_EQ(count("; another world takes over, without"), 1u) << log;
-  EXPECT_EQ(count("came to its end after all"), 1u) << log;
+  EXPECT_EQ(count("; recovering it without"), 1u) << log;
+  EXPECT_EQ(count("finished: from now on"), 1u) << log;
   EXPECT_EQ(verify(), "");
 }
 
@@ -184,7 +184,7 @@ TEST_F(CopiesTest, AKeeperThatIsSlowEndsNoCopyOfTheWorldThatGoesOn) {
     playToACopy();
     press(df::Keyboard::Q);
     world->tick(true, false);
-    serveUntil([&] { return count("takes over") > death; });
+    serveUntil([&] { return count("; recovering it") > death; });
     kill(keeper.front(), SIGSTOP);
     serveUntil([this] { return world->isReady(); });
     FrailRound::play(static_cast<int>(Round::kSameDeath));
@@ -237,7 +237,7 @@ TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
   kill(copies.back(), SIGSTOP);
   press(df::Keyboard::Q);
   world->tick(true, false);
-  serveUntil([this] { return logs("takes over"); });
+  serveUntil([this] { return logs("; recovering it"); });
   kill(copies.back(), SIGKILL);
   serveUntil([this] { return world->isReady(); });
   EXPECT_TRUE(logs("a copy of the game's world crashed (SIGKILL) before")) << log;
@@ -255,9 +255,9 @@ TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
   const std::vector<pid_t> all = findAll();
   press(df::Keyboard::Q);
   EXPECT_FALSE(tick());
-  EXPECT_TRUE(logs("a copy of the game's world is other in tick 51 before")) << log;
+  EXPECT_TRUE(logs("a copy of the game's world differs in tick 51 before")) << log;
   ASSERT_TRUE(world->end());
-  EXPECT_TRUE(test::has(world->end()->text, "another world did not do the same"));
+  EXPECT_TRUE(test::has(world->end()->text, "its replay gave a different result"));
   waitUntilGone(all);
 }
 

@@ -132,7 +132,7 @@ TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
   char row[512];
   while (fgets(row, sizeof row, p_out) != nullptr) {
     said += row;
-    const std::string process = restAfter(row, "gdb is not there. In another terminal: gdb -p ");
+    const std::string process = restAfter(row, "gdb is not installed. In another terminal: gdb -p ");
     if (!process.empty()) kill(std::atoi(process.c_str()), SIGCONT);
   }
   EXPECT_EQ(pclose(p_out), 0) << said;
@@ -151,7 +151,7 @@ TEST_F(DebugTest, BothOptionsGoTogether) {
   for (const char* p_one : {"--debug", "--until 5"}) {
     const auto [code, said] = runLine(std::string("dfreplay FILE ") + p_one);
     EXPECT_EQ(code, 2) << said;
-    EXPECT_TRUE(test::has(said, "--debug and --until TICK go together"));
+    EXPECT_TRUE(test::has(said, "--debug and --until TICK require each other"));
   }
 }
 

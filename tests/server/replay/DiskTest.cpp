@@ -100,14 +100,14 @@ TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
   unset("stall");
   const std::size_t before = syncs().size();
   ASSERT_TRUE(waitUntil([&] { return syncs().size() > before + 1; }));
-  EXPECT_FALSE(test::has(log(), "not written down"));
+  EXPECT_FALSE(test::has(log(), "no longer recording"));
   EXPECT_GT(countTurns(round()), before_stall) << "and they are in the file";
 }
 
 TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
   std::mt19937 random(5);
   const int cuts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 20 : 1;
-  const std::string goes_on = "the round goes on after ";
+  const std::string goes_on = "round recovered: replayed ";
   std::size_t kept = 0;
   for (int cut = 0; cut < cuts; ++cut) {
     start();
@@ -152,14 +152,14 @@ TEST_F(DiskTest, AServerThatIsKilledBeforeTheDiskHasTheFileGoesOn) {
   end(server, SIGKILL);
   unset("stall");
   start();
-  EXPECT_TRUE(isLogged("is back, in the round that goes on")) << log();
+  EXPECT_TRUE(isLogged("reconnected to the recovered round")) << log();
 }
 
 TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
-  EXPECT_TRUE(isLogged("the round is not written down any more, and goes on: ")) << log();
+  EXPECT_TRUE(isLogged("no longer recording the round, which continues: ")) << log();
   EXPECT_TRUE(test::has(log(), "No space left on device"));
   EXPECT_TRUE(playTicks(100));
   unset("full");
@@ -167,7 +167,7 @@ TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
   const std::string bytes = contentOf(round());
   EXPECT_EQ(DfrReader(bytes).header().flags & kDfrStopped, kDfrStopped);
   start();
-  EXPECT_TRUE(isLogged("its journal had stopped before")) << log();
+  EXPECT_TRUE(isLogged("its journal is incomplete")) << log();
   EXPECT_TRUE(playTicks(10)) << "in another round";
 }
 
@@ -179,7 +179,7 @@ TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
   for (int i = 0; i < 2; ++i) {  // first found by the check, then known before it
     const std::string said =
         test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
-    EXPECT_TRUE(test::has(said, "The round cannot be kept: its journal has stopped"));
+    EXPECT_TRUE(test::has(said, "Cannot keep the round: its journal has stopped"));
   }
   EXPECT_TRUE(playTicks(100));
   const std::string cancelled = test::Talk(folder / "control.sock").ask(R"({"command":"cancel"})");
@@ -189,7 +189,7 @@ TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
 TEST_F(DiskTest, ADiskThatCannotBeWrittenIsSaidAndTheGameGoesOn) {
   set("read-only");
   start();
-  EXPECT_TRUE(isLogged("the round is not written down any more, and goes on: ")) << log();
+  EXPECT_TRUE(isLogged("no longer recording the round, which continues: ")) << log();
   EXPECT_TRUE(test::has(log(), "Read-only file system"));
   EXPECT_TRUE(playTicks(100));
   EXPECT_EQ(round(), fs::path());

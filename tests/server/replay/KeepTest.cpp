@@ -39,7 +39,7 @@ using test::contentOf;
 using test::countIn;
 using test::waitUntil;
 
-constexpr const char* kIsBack = "is back, in the round that goes on";
+constexpr const char* kIsBack = "reconnected to the recovered round";
 
 bool isGone(pid_t process) {
   const char state = test::stateOf(process);
@@ -237,7 +237,7 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
     Visitor visitor(std::atoi(port().c_str()));
     const auto [code, said] = control("restart --keep");
     ASSERT_EQ(code, 0) << said << log();
-    EXPECT_TRUE(test::has(said, "The round goes on in the program that is installed."));
+    EXPECT_TRUE(test::has(said, "The round resumes in the installed program."));
     ASSERT_TRUE(areBack(2 * i)) << log();
     visitor.end();
     EXPECT_EQ(visitor.refused(), 0) << "of " << visitor.streams() << " and " << visitor.datagrams();
@@ -252,8 +252,8 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
     expectToHoldAlone(datagrams);
     if (i == 1) open_before = descriptorsOf(server).size();
   }
-  EXPECT_TRUE(test::has(log(), "the round is executed again in this program: "));
-  EXPECT_FALSE(test::has(log(), "the server was killed"));
+  EXPECT_TRUE(test::has(log(), "replaying the round that was handed over: "));
+  EXPECT_FALSE(test::has(log(), "server was killed"));
   // Each waiting copy of the world has a descriptor here; the first may have been made since.
   EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before + WorldCopies::kKept + 1; }))
       << open_before << ", and then " << descriptorsOf(server).size();
@@ -283,8 +283,8 @@ TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1) << said;
-  EXPECT_TRUE(test::has(said, "The round cannot go on in the program that is installed: tick "));
-  EXPECT_TRUE(test::has(said, "The server restarts when all have left"));
+  EXPECT_TRUE(test::has(said, "Cannot move the round to the installed program: tick "));
+  EXPECT_TRUE(test::has(said, "The server restarts when all players have left"));
   EXPECT_TRUE(playTicks(100)) << "the game goes on";
   EXPECT_EQ(status("players"), 2);
   EXPECT_EQ(countIn(log(), " hosts mine on "), 1);
@@ -303,8 +303,7 @@ TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
   ASSERT_EQ(code, 0) << said << log();
   EXPECT_TRUE(areBack(4)) << log();
   for (const char* p_room : {"one", "two"}) {
-    const std::string line =
-        "room " + std::string(p_room) + ": the round is executed again in this program: ";
+    const std::string line = "room " + std::string(p_room) + ": replaying the round that was handed over: ";
     EXPECT_EQ(countIn(log(), line), 1) << log();
   }
   EXPECT_EQ(status("players"), 4);
@@ -312,8 +311,7 @@ TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));
   const auto [other_code, other_said] = control("restart --keep");
   EXPECT_EQ(other_code, 1);
-  EXPECT_TRUE(
-      test::has(other_said, "The round cannot go on in the program that is installed: room one: tick "));
+  EXPECT_TRUE(test::has(other_said, "Cannot move the round to the installed program: room one: tick "));
   EXPECT_EQ(control("cancel").first, 0);
   EXPECT_TRUE(playTicks(50));
   EXPECT_EQ(status("players"), 4);
@@ -328,7 +326,7 @@ TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
   start("");
   const auto [code, said] = control("restart keep");
   EXPECT_EQ(code, 1) << said;
-  EXPECT_TRUE(test::has(said, "No round can be kept here: that takes dfserver with --journal."));
+  EXPECT_TRUE(test::has(said, "Cannot keep the round: this requires dfserver with --journal."));
   EXPECT_TRUE(playTicks(10));
 }
 
@@ -341,11 +339,11 @@ TEST_F(KeepTest, ADfreplayThatIsKilledIsSaidAndTheGameGoesOn) {
   EXPECT_TRUE(playTicks(50)) << "the game goes on beside it";
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1);
-  EXPECT_TRUE(test::has(said, "The round cannot be kept: that is being tried already."));
+  EXPECT_TRUE(test::has(said, "Cannot keep the round: a handover is already in progress."));
   kill(replay(), SIGKILL);
   const auto [first_code, first_said] = first.get();
   EXPECT_EQ(first_code, 1);
-  EXPECT_TRUE(test::has(first_said, "dfreplay, which tries that out, was ended by signal 9"));
+  EXPECT_TRUE(test::has(first_said, "dfreplay was killed by signal 9"));
   EXPECT_TRUE(playTicks(50));
   EXPECT_EQ(status("players"), 2);
   EXPECT_EQ(control("cancel").first, 0) << "it was to begin again when all have left";
@@ -370,11 +368,9 @@ TEST_F(KeepTest, AProgramThatDoesNotTakeTheOptionsIsRefused) {
   installScript("dfserver", "echo 'dfserver: there is no option --journal' >&2; exit 2");
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1);
-  EXPECT_TRUE(
-      test::has(said,
-                "dfserver does not start with the options of this server: dfserver: there is no option "
-                "--journal"));
-  EXPECT_TRUE(test::has(said, "The round cannot be kept: "));
+  EXPECT_TRUE(test::has(
+      said, "the installed dfserver rejects this server's options: dfserver: there is no option --journal"));
+  EXPECT_TRUE(test::has(said, "Cannot keep the round: "));
   EXPECT_NE(control("cancel").first, 0) << "nor is it begun later";
   EXPECT_TRUE(playTicks(10));
   EXPECT_TRUE(lives());
@@ -389,17 +385,15 @@ TEST(RoundHandoverTest, TheVerdictIsAsDfreplaySaysIt) {
   const std::string ours = std::to_string(kProtocolVersion);
   EXPECT_EQ(readVerdict(ended(0, good + ours + " read to its end\n")), "");
   EXPECT_EQ(readVerdict(ended(0, good + "9000 read to its end\n")),
-            "it speaks protocol 9000, and the players' clients speak " + ours);
-  EXPECT_EQ(readVerdict(ended(0, "verified ticks=9\n")), "it does not say which protocol it speaks");
+            "it uses protocol 9000, but the players' clients use " + ours);
+  EXPECT_EQ(readVerdict(ended(0, "verified ticks=9\n")), "it does not report its protocol version");
   EXPECT_EQ(
-      readVerdict(ended(1, "note: x\ntick 51: the state is not as it was recorded\nWhat player 1 saw\n")),
-      "tick 51: the state is not as it was recorded");
+      readVerdict(ended(1, "note: x\ntick 51: the state differs from the recording\nPicture of player 1\n")),
+      "tick 51: the state differs from the recording");
   EXPECT_EQ(readVerdict(ended(3, "dfreplay: the file is damaged.\n")), "dfreplay: the file is damaged");
   EXPECT_EQ(readVerdict(ended(3, "")), "dfreplay ended with code 3");
-  EXPECT_EQ(readVerdict(ended(ProgramEnd::kNotStarted, "")),
-            "dfreplay, which tries that out, cannot be started");
-  EXPECT_EQ(readVerdict({.is_late = true, .printed = {}}),
-            "dfreplay, which tries that out, does not come to its end");
+  EXPECT_EQ(readVerdict(ended(ProgramEnd::kNotStarted, "")), "dfreplay cannot be started");
+  EXPECT_EQ(readVerdict({.is_late = true, .printed = {}}), "dfreplay timed out");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST_F(ServerRoundTest, OfAServerThatWasKilledHasTheTurnsThatWaitedForTheDisk) {
   const std::size_t before = countTurns(round());
   const fs::path killed = round();
   EXPECT_EQ(waitFor(startServer("--ticks=1")), 0);
-  EXPECT_TRUE(test::has(log(), "which has all of its turns now"));
+  EXPECT_TRUE(test::has(log(), "its last turns were added from memory"));
   EXPECT_GE(countTurns(killed), before);
   EXPECT_EQ(verify(killed), 0) << log();
 }

@@ -125,8 +125,8 @@ TEST(AdminText, RowsStandInColumnsAndControlCharactersAreEscaped) {
 }
 
 TEST(AdminText, ProgramsGetTheRowsTheFactsOrTheSentence) {
-  AdminAnswer answer = AdminAnswer::done("Nobody plays.");
-  EXPECT_EQ(answerJson(answer), R"({"text":"Nobody plays."})");
+  AdminAnswer answer = AdminAnswer::done("No players.");
+  EXPECT_EQ(answerJson(answer), R"({"text":"No players."})");
   answer.is_list = true;
   EXPECT_EQ(answerJson(answer), "[]");
   EXPECT_EQ(answerJson(AdminAnswer::refused("No.")), R"({"error":"No."})");

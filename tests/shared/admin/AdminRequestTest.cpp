@@ -58,7 +58,7 @@ TEST(AdminRequest, TakesNamedArgumentsAnywhere) {
   EXPECT_EQ(argumentsOf({"scores", "--room", "one", "keys", "3"}),
             (Arguments{{"room", "one"}, {"table", "keys"}, {"count", "3"}}));
   EXPECT_EQ(argumentsOf({"scores", "keys", "--game=a=b"}), (Arguments{{"table", "keys"}, {"game", "a=b"}}));
-  EXPECT_EQ(complaintAbout({"scores", "--room"}), "--room wants a value.");
+  EXPECT_EQ(complaintAbout({"scores", "--room"}), "--room requires a value.");
   EXPECT_EQ(complaintAbout({"scores", "--room="}), "scores: room is empty.");
   EXPECT_NE(complaintAbout({"scores", "--rom", "x"}).find("has no option --rom. Usage: scores [TABLE]"),
             std::string::npos);
@@ -79,7 +79,7 @@ TEST(AdminRequest, SaysWhatIsWrong) {
   EXPECT_EQ(complaintAbout({"kick"}), "Usage: kick PLAYER [REASON]");
   EXPECT_EQ(complaintAbout({"kick", ""}), "kick: player is empty.");
   EXPECT_EQ(complaintAbout({"who", "now"}), "Usage: who");
-  EXPECT_EQ(complaintAbout({"vote", "ban", "Ann"}), "vote: \"ban\" is none of: kick.");
+  EXPECT_EQ(complaintAbout({"vote", "ban", "Ann"}), "vote: \"ban\" is not one of: kick.");
   EXPECT_EQ(complaintAbout({"restart", "soon"}), "Usage: restart [now|at-round-end|in|keep] [SPAN]");
   EXPECT_EQ(complaintAbout({"say", std::string(2000, 'x')}), "say: text is too long.");
 }

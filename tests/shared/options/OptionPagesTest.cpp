@@ -143,7 +143,7 @@ TEST_F(OptionPagesTest, ALineForTheFileIsQuotedWhereItMustBe) {
   log = "a\"#b";
   EXPECT_EQ(configLine(options[3]), "log = 'a\"#b'");
   password = "secret";
-  EXPECT_EQ(configLine(options[4]), "# password is given, and not printed");
+  EXPECT_EQ(configLine(options[4]), "# password is set, but not printed");
 }
 
 }  // namespace

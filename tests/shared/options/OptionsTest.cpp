@@ -185,9 +185,8 @@ TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {
   EXPECT_EQ(result, Parsed::kUsageError);
   EXPECT_EQ(parseFile("# x\nport = 70000\n"), ofLine(2, "port: Value 70000 not in range 0 to 65535"));
   EXPECT_EQ(parseFile("[section]\n"), ofLine(1, "there is no option \"[section]\""));
-  EXPECT_EQ(parseFile("port\n"), ofLine(1, "\"port = …\" is wanted"));
-  EXPECT_EQ(parseFile("server-name = \"x\n"),
-            ofLine(1, "the quotes do not end, or something stands behind them"));
+  EXPECT_EQ(parseFile("port\n"), ofLine(1, "expected \"port = …\""));
+  EXPECT_EQ(parseFile("server-name = \"x\n"), ofLine(1, "missing closing quote, or text after it"));
 }
 
 TEST_F(OptionsTest, APipeIsNotWaitedFor) {

@@ -137,11 +137,11 @@ class VirtualNetwork::Socket : public DatagramSocket {
 
   void start(OnPacket on_packet) override {
     auto& receiver = node().receiver;
-    if (receiver) throw std::logic_error("a socket can be started once");
+    if (receiver) throw std::logic_error("the socket has already been started");
     receiver = std::make_shared<OnPacket>(std::move(on_packet));
   }
   void send(const Path& path, std::string_view packet) override {
-    if (packet.empty() || packet.size() > kMaxDatagram) throw std::length_error("no size for a datagram");
+    if (packet.empty() || packet.size() > kMaxDatagram) throw std::length_error("invalid datagram size");
     queue_.emplace_back(path.remote, packet);
   }
   void flush() override {

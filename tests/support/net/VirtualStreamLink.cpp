@@ -186,7 +186,7 @@ void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry
 // Receiving.
 
 void VirtualStreamLink::State::start(Side& side, Callbacks callbacks) {
-  if (side.callbacks) throw std::logic_error("a channel can be started once");
+  if (side.callbacks) throw std::logic_error("the channel has already been started");
   side.callbacks = std::make_shared<Callbacks>(std::move(callbacks));
   if (side.phase == Phase::kClosed) return report(side);
   after(Time(0), [&side](State& state) { state.consume(side); });

@@ -12,6 +12,6 @@ int main() {
   game.expect(game.find("Ship")->getPosition().getX() > before, "the right arrow flies to the right");
 
   game.join("bob");
-  game.expect(game.objects("Ship") == 2, "so has the second player");
+  game.expect(game.objects("Ship") == 2, "the second player has a ship, too");
   return game.report();
 }

@@ -154,7 +154,7 @@ int serve(const std::string& identity, int most) {
   options.grace = 0;                                     // frees slots before a trial with fewer players
   naiad::Host host(options, "capacity", [](const std::string& line) {
     const bool routine = line.ends_with(" left") || line.find(" joined with ") != std::string::npos ||
-                         line.find(" lines on players were not logged") != std::string::npos;
+                         line.find(" lines about players were not logged") != std::string::npos;
     if (!routine) std::cerr << "server: " << line << "\n";
   });
   Measurement measurement(host);

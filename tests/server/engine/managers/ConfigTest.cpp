@@ -48,8 +48,8 @@ TEST_F(ConfigTest, NonsenseIsLoggedAndLeftOut) {
   EXPECT_EQ(DM.getHorizontal(), 80);
   EXPECT_EQ(DM.getVertical(), 24);
   EXPECT_EQ(GM.getFrameTime(), 33);
-  EXPECT_EQ(logged("makes no sense"), 4);
-  EXPECT_EQ(logged("no window can be of 80 by 5000"), 1);
+  EXPECT_EQ(logged("is invalid and ignored"), 4);
+  EXPECT_EQ(logged("invalid window of 80 by 5000"), 1);
 }
 
 TEST_F(ConfigTest, SeedMakesTheDiceTheSame) {

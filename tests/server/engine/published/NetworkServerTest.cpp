@@ -86,9 +86,9 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
                  }),
             0);
   EXPECT_TRUE(played);
-  EXPECT_EQ(logged("the players that join are this server's connections"), 1);
-  EXPECT_EQ(logged("made up between them go nowhere"), 1);
-  EXPECT_EQ(logged("failed and is taken out"), 0);
+  EXPECT_EQ(logged("players that join are this server's connections"), 1);
+  EXPECT_EQ(logged("the game's own messages are not sent"), 1);
+  EXPECT_EQ(logged("is removed from the game"), 0);
 }
 
 TEST_F(NetworkServerTest, TheClientsHalfSaysThatItIsNotNeeded) {

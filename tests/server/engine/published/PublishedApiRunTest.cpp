@@ -14,7 +14,7 @@ TEST_F(PublishedApi, EveryNameThatGamesUseIsThereAndRuns) {
   EXPECT_EQ(published_api_main(0, nullptr), 0);
   EXPECT_EQ(logged("sprites/ship-spr.txt: cannot be read"), 1);
   EXPECT_EQ(logged("games need no sockets here"), 1);
-  EXPECT_EQ(logged("failed and is taken out"), 0);
+  EXPECT_EQ(logged("is removed from the game"), 0);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(PublishedSprite, TextAfterTheEndIsIgnoredWithAWarning) {
       RM.unloadSprite("s");
     }
   }
-  EXPECT_EQ(logged(":17: the sprite has ended, but there is \"made by Ann\", ignored"), 1);
+  EXPECT_EQ(logged(":17: unexpected \"made by Ann\" after the end of the sprite, ignored"), 1);
 }
 
 TEST_F(PublishedSprite, SlowdownMinusOneIsLoadedWithAWarning) {

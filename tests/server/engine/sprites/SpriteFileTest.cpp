@@ -92,12 +92,12 @@ TEST_F(SpriteFile, ErrorsAreLoggedWithFileAndLine) {
   const std::pair<const char*, const char*> kBad[] = {
       {"bad-short-row.txt", ":8: the row has 2 characters instead of 3"},
       {"bad-no-height.txt", ":4: height is missing"},
-      {"bad-color.txt", ":5: there is no color \"pink\""},
+      {"bad-color.txt", ":5: unknown color \"pink\""},
       {"bad-number.txt", ":2: frames should be a number, not \"two\""},
       {"bad-cut-off.txt", ":9: the file ends where \"end\" should be"},
-      {"bad-extra-row.txt", ":8: \"end\" should be here, not \"abc\""},
+      {"bad-extra-row.txt", ":8: expected \"end\", not \"abc\""},
       {"bad-long-row.txt", ":7: the row has 4 characters instead of 3"},
-      {"bad-no-end.txt", ":6: \"end\" should be here, not \"eof\""},
+      {"bad-no-end.txt", ":6: expected \"end\", not \"eof\""},
       {"bad-no-sprite.txt", ":1: a sprite begins with \"<HEADER>\", \"frames\" or a number"},
       {"bad-many-frames.txt", ":2: frames should be 1 to 10000, not 100000000"},
       {"bad-empty.txt", ":0: the file ends where \"<HEADER>\", \"frames\" or a number should be"},
@@ -160,7 +160,7 @@ TEST_F(SpriteFile, CutAndGarbledFilesAreRefusedOrRead) {
   }
   EXPECT_GT(refused, 100);
   EXPECT_EQ(troubleOf("1\n1\n1\n-1\nred\nx"), "4: slowdown should be 0 to 1000000, not -1");
-  EXPECT_EQ(troubleOf("1\n1\n1\n1\nred\nx\ny"), "7: the sprite has ended, but there is \"y\"");
+  EXPECT_EQ(troubleOf("1\n1\n1\n1\nred\nx\ny"), "7: unexpected \"y\" after the end of the sprite");
 }
 
 TEST_F(SpriteFile, FirstSpriteOfALabelStays) {

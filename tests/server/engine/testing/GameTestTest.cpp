@@ -173,7 +173,7 @@ TEST(GameTest, AMainThatDoesNotRunIsAnErrorThatSaysSo) {
     }
   };
   EXPECT_EQ(errorOf(noRunMain), "The game's main() ended without having called GM.run().");
-  EXPECT_EQ(errorOf(throwingMain), "The game's main() threw, before GM.run(): no level");
+  EXPECT_EQ(errorOf(throwingMain), "The game's main() threw before GM.run(): no level");
   EXPECT_THROW(GameTest("/no/such/game.so"), std::runtime_error);
 }
 
@@ -184,7 +184,7 @@ TEST(GameTest, WhatIsWrongIsPrintedWithThePicture) {
   EXPECT_FALSE(game.expect(false, "the moon is green"));
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("GameTestTest.cpp:"), std::string::npos);
-  EXPECT_NE(said.find("not so: the moon is green\nThe picture after tick 1:\n"), std::string::npos);
+  EXPECT_NE(said.find("check failed: the moon is green\nThe picture after tick 1:\n"), std::string::npos);
   EXPECT_NE(said.find('@'), std::string::npos);
   EXPECT_EQ(GameTest::report(), 1);
 }

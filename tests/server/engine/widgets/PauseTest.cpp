@@ -52,7 +52,7 @@ TEST_F(PauseTest, OfSeveralMoreThanHalfDecide) {
   EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
   press({1});
   EXPECT_TRUE(world.isPaused());
-  EXPECT_EQ(notes(), Notes{"go on: 1 of 3"});
+  EXPECT_EQ(notes(), Notes{"resume: 1 of 3"});
   press({0});
   EXPECT_FALSE(world.isPaused());
 }

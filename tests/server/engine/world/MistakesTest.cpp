@@ -74,7 +74,7 @@ TEST_F(Mistakes, AHandlerThatDoesNotOverride) {
   new Deaf;
   ticks(2);
   expectLine(
-      "Deaf registers interest in events and has no eventHandler() that gets them: it must be "
+      "Deaf registers interest in events but has no matching eventHandler(): it must be "
       "declared \"int eventHandler(const df::Event*) override\"");
 }
 
@@ -96,7 +96,7 @@ TEST_F(Mistakes, AnExceptionOutOfAHandler) {
   auto* p_saucer = new Probe("Saucer");
   p_saucer->hear(STEP_EVENT, [](Probe&, const Event&) { throw std::runtime_error("no sprite"); });
   world.tick();
-  expectLine("An object of type Saucer failed and is taken out of the game: no sprite");
+  expectLine("An object of type Saucer threw an exception and is removed from the game: no sprite");
 }
 
 TEST_F(Mistakes, AGameInsideAGame) {
@@ -122,14 +122,14 @@ TEST_F(Mistakes, ASpriteThatWasNotLoaded) {
   auto* p_saucer = new Saucer;
   EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
   EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
-  expectLine("setSprite(\"saucr\") of Saucer: no sprite is loaded under this label; none is loaded");
+  expectLine("setSprite(\"saucr\") of Saucer: no sprite is loaded under this label; loaded: none");
   RM.loadSprite(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/simple.txt", "saucer");
   const auto p_page = std::make_unique<ActivityPage>();
   world.setActivityPage(p_page.get());
   EXPECT_EQ(RM.getSprite("saucr"), nullptr) << "games ask so whether it is still to be loaded";
   EXPECT_EQ(RM.getSprite("saucr"), nullptr);
   world.setActivityPage(nullptr);
-  const std::string line = "RM.getSprite(\"saucr\"): nothing is loaded under this label; loaded are: saucer";
+  const std::string line = "RM.getSprite(\"saucr\"): nothing is loaded under this label; loaded: saucer";
   EXPECT_EQ(p_page->lines[0].text, line);
   EXPECT_EQ(p_page->lines_written, 1u);
   EXPECT_EQ(logged(line), 0) << "it need not be a fault";
@@ -153,9 +153,9 @@ TEST_F(Mistakes, ASoundThatWasNotLoadedIsSilent) {
   world.store().setWatched(true);
   RM.getSound("fire")->play();
   RM.getSound("fire")->play(true);
-  expectLine("RM.getSound(\"fire\"): nothing is loaded under this label; none is loaded");
+  expectLine("RM.getSound(\"fire\"): nothing is loaded under this label; loaded: none");
   RM.getMusic("theme")->play();
-  expectLine("RM.getMusic(\"theme\"): nothing is loaded under this label; none is loaded");
+  expectLine("RM.getMusic(\"theme\"): nothing is loaded under this label; loaded: none");
   world.tick();
   EXPECT_TRUE(world.picture().view().sounds.empty());
 }

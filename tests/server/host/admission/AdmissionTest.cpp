@@ -554,7 +554,7 @@ TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
   EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);
   EXPECT_EQ(counters.refused_busy, 1u);
   ASSERT_EQ(log.size(), 1u) << "in the log of clients alone: in others a client could write without end";
-  EXPECT_TRUE(log[0].starts_with("192.0.2.1:1 gets no world: a new world: ")) << log[0];
+  EXPECT_TRUE(log[0].starts_with("192.0.2.1:1 cannot join: a new world: ")) << log[0];
 }
 
 TEST_F(AdmissionTest, AHelloThatComesAfterTheWorldsWereClosedIsRefused) {

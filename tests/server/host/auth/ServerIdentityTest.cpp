@@ -49,11 +49,11 @@ TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
   fs::permissions(directory, fs::perms::owner_all | fs::perms::others_write | fs::perms::others_exec);
   EXPECT_EQ(complaint([&] { loadOrMake(); }),
             "The folder " + directory.string() +
-                " has the server's key, and every user can write in it. Run: " + "chmod go-w " +
+                " has the server's key, but every user can write to it. Run: " + "chmod go-w " +
                 directory.string());
   EXPECT_FALSE(fs::exists(directory / "key.pem"));
   fs::permissions(directory, fs::perms::owner_all | fs::perms::group_all);
-  EXPECT_TRUE(test::has(loadOrMake().warning(), "its group can write in it"));
+  EXPECT_TRUE(test::has(loadOrMake().warning(), "its group can write to it"));
   fs::permissions(directory, fs::perms::owner_all);
   EXPECT_EQ(loadOrMake().warning(), "");
 }
@@ -94,7 +94,7 @@ TEST_F(ServerIdentityTest, CertificateMayBeMadeAgainForTheSameKey) {
 TEST_F(ServerIdentityTest, LostKeyIsNotReplacedSilently) {
   loadOrMake();
   fs::remove(directory / "key.pem");
-  EXPECT_TRUE(test::has(complaint([&] { loadOrMake(); }), "is missing, though its certificate is there"));
+  EXPECT_TRUE(test::has(complaint([&] { loadOrMake(); }), "is missing, but its certificate exists"));
   EXPECT_FALSE(fs::exists(directory / "key.pem"));
 }
 
@@ -140,7 +140,7 @@ TEST_F(ServerIdentityTest, WrongFilesGiveASentence) {
   const std::string certificate = contentOf(directory / "certificate.pem");
   const std::string key = contentOf(directory / "key.pem");
   EXPECT_EQ(complaintAbout(certificate, key), "(none)");
-  EXPECT_EQ(complaintAbout(certificate, makeKeyPem()), "Certificate and private key do not belong together.");
+  EXPECT_EQ(complaintAbout(certificate, makeKeyPem()), "The certificate does not match the private key.");
   EXPECT_EQ(complaintAbout("nonsense", key), "The certificate is not in PEM form.");
   EXPECT_EQ(complaintAbout(certificate, "nonsense"),
             "The private key is not in PEM form, or is protected by a password.");

@@ -197,8 +197,8 @@ TEST(DfrTest, AChangedByteGivesNoOtherRecords) {
 TEST(DfrTest, AnotherVersionIsRefusedWithASentence) {
   std::string bytes = SmallFile().bytes;
   bytes[8] = 1;
-  EXPECT_EQ(DfrReader(bytes).problem(), "its format is version 1, and this program reads version 2");
-  EXPECT_EQ(DfrReader("#!/bin/sh\n").problem(), "it is no recording of a round");
+  EXPECT_EQ(DfrReader(bytes).problem(), "format version 1, but this program reads version 2");
+  EXPECT_EQ(DfrReader("#!/bin/sh\n").problem(), "not a round recording");
 }
 
 TEST(DfrTest, ManyRecordsTakeSeveralChunks) {

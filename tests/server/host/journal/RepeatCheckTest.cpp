@@ -72,7 +72,7 @@ TEST(RepeatCheck, AGameThatIsTheSameIsComparedForItsBeginningAndNothingIsSaid) {
 
 TEST(RepeatCheck, ADifferenceIsSaidOnceWithItsTickAndWhatItIs) {
   const Checked checked(300);
-  EXPECT_EQ(checked.said, (std::vector<std::string>{"the game is not repeatable: executed again, in tick 300 "
+  EXPECT_EQ(checked.said, (std::vector<std::string>{"the game is not repeatable: when replayed, in tick 300 "
                                                     "Object 3 is at (2.50, 0.00), not at (1.00, 0.00)"}));
   EXPECT_EQ(checked.turns.size(), 300u) << "and nothing is compared any more";
 }

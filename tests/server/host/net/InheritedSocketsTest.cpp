@@ -103,22 +103,22 @@ TEST_F(InheritedSocketsTest, OfAnotherProcessOrOfNoneAreLeftAlone) {
 
 TEST_F(InheritedSocketsTest, OfTheWrongNumberOrKindAreRefused) {
   variables["LISTEN_FDS"] = "1";
-  EXPECT_EQ(complaint(), saying("one for TCP and one for UDP are wanted, and there are 1"));
+  EXPECT_EQ(complaint(), saying("expected one for TCP and one for UDP, but their number is 1"));
   variables["LISTEN_FDS"] = "-1";
-  EXPECT_EQ(complaint(), saying("their number is \"-1\""));
+  EXPECT_EQ(complaint(), saying("invalid number \"-1\""));
   variables["LISTEN_FDS"] = "2";
   EXPECT_EQ(complaint(), saying("descriptor 700 is not open"));
   const int null = ::open("/dev/null", O_RDWR);
   put(null, 0);
   ::close(null);
-  EXPECT_EQ(complaint(), saying("descriptor 700 is no socket for TCP or UDP"));
+  EXPECT_EQ(complaint(), saying("descriptor 700 is not a TCP or UDP socket"));
   openBoth();
   put(kFirst, 1);
-  EXPECT_EQ(complaint(), saying("two are for UDP"));
+  EXPECT_EQ(complaint(), saying("both are UDP sockets"));
   int pair[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
   put(pair[0], 0);
-  EXPECT_EQ(complaint(), saying("the one for TCP does not listen"));
+  EXPECT_EQ(complaint(), saying("the TCP socket is not listening"));
   for (const int end : pair) ::close(end);
 }
 
@@ -129,11 +129,11 @@ TEST_F(InheritedSocketsTest, OfTwoPortsOrOfNoAddressAreRefused) {
   EXPECT_EQ(complaint(), saying("they have different addresses or ports"));
   udp::socket unbound(context, udp::v4());
   put(unbound.native_handle(), 0);
-  EXPECT_EQ(complaint(), saying("one has no port yet"));
+  EXPECT_EQ(complaint(), saying("one is not bound to a port"));
   int pair[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_DGRAM, 0, pair), 0);
   put(pair[0], 0);
-  EXPECT_EQ(complaint(), saying("one is not of the Internet"));
+  EXPECT_EQ(complaint(), saying("one is not an IPv4 or IPv6 socket"));
   for (const int end : pair) ::close(end);
 }
 

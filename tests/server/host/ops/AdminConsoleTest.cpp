@@ -262,7 +262,7 @@ TEST_F(AdminConsoleTest, OneOfAClassIsBannedByNameAlone) {
   add("Bob", "192.0.2.7:2");
   const AdminAnswer answer = give({"ban", "Ann"});
   EXPECT_TRUE(answer.ok);
-  EXPECT_NE(answer.text.find("By name alone"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("Only by name"), std::string::npos) << answer.text;
   EXPECT_FALSE(has("Ann"));
   EXPECT_TRUE(has("Bob"));
   EXPECT_FALSE(bans.isBanned(asio::ip::make_address("192.0.2.7")));
@@ -337,7 +337,7 @@ TEST_F(AdminConsoleTest, ARestartHasItsTime) {
   EXPECT_GT(context.ending.plan()->at, soon - 2s);
   EXPECT_TRUE(give({"restart", "--at-round-end"}).ok);
   EXPECT_TRUE(context.ending.plan()->at_round_end);
-  EXPECT_NE(give({"restart", "--keep"}).text.find("takes dfserver with --journal"), std::string::npos);
+  EXPECT_NE(give({"restart", "--keep"}).text.find("requires dfserver with --journal"), std::string::npos);
   EXPECT_TRUE(context.ending.plan()->at_round_end) << "as before";
   EXPECT_FALSE(give({"restart", "keep", "5s"}).ok);
   EXPECT_FALSE(give({"restart", "in"}).ok);

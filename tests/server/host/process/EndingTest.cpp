@@ -40,15 +40,15 @@ TEST_F(EndingTest, ADrainEndsWhenAllHaveLeftOrItsTimeIsOver) {
 
 TEST_F(EndingTest, PlayersHearOfItOnceAndOnceMoreShortlyBefore) {
   ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
-  EXPECT_EQ(news(), "The server closes when all have left, and in 60 seconds at the latest.");
+  EXPECT_EQ(news(), "The server shuts down when all players have left, or in 60 seconds at the latest.");
   for (; now < begin + 50s; now += 33ms) EXPECT_EQ(news(), "");
-  EXPECT_EQ(news(), "The server closes when all have left, and in 10 seconds at the latest.");
+  EXPECT_EQ(news(), "The server shuts down when all players have left, or in 10 seconds at the latest.");
   for (; now < begin + 61s; now += 33ms) EXPECT_EQ(news(), "");
 }
 
 TEST_F(EndingTest, AShortTimeIsSaidOnce) {
   ending.setPlan({.begins_again = true, .at = begin + 1s}, now);
-  EXPECT_EQ(news(), "The server restarts in 1 second. Your client comes back by itself.");
+  EXPECT_EQ(news(), "The server restarts in 1 second. Your client reconnects automatically.");
   for (; now < begin + 2s; now += 33ms) EXPECT_EQ(news(), "");
 }
 
@@ -62,10 +62,10 @@ TEST_F(EndingTest, AtOnceNothingIsSaidButTheLastSentence) {
 TEST_F(EndingTest, ARestartAtTheRoundsEndWaitsForItAndLetsPlayersIn) {
   ending.setPlan({.begins_again = true, .at_round_end = true}, now);
   EXPECT_TRUE(ending.isOpen() && ending.beginsAgain());
-  EXPECT_EQ(news(), "The server restarts when this round is over. Your client comes back by itself.");
+  EXPECT_EQ(news(), "The server restarts when this round is over. Your client reconnects automatically.");
   EXPECT_EQ(news(), "");
   EXPECT_FALSE(ending.isDue(begin + 24h, true));
-  EXPECT_EQ(ending.sentence(), "The server restarts. It is back in a moment.");
+  EXPECT_EQ(ending.sentence(), "The server is restarting. Your client reconnects automatically.");
 }
 
 TEST_F(EndingTest, APlanCanBeCancelledOrReplaced) {
@@ -75,7 +75,7 @@ TEST_F(EndingTest, APlanCanBeCancelledOrReplaced) {
   EXPECT_TRUE(ending.isOpen());
   EXPECT_FALSE(ending.isDue(begin + 1h, true));
   ending.setPlan({.at = begin + 30s}, now);
-  EXPECT_EQ(news(), "The server closes in 30 seconds.");
+  EXPECT_EQ(news(), "The server shuts down in 30 seconds.");
 }
 
 }  // namespace

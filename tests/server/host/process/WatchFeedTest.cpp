@@ -41,7 +41,7 @@ TEST_F(WatchFeedTest, AGameThatFloodsLeavesRoomForTheServersLinesAndIsCounted) {
   feed.publishGame("later", now);
   taken = feed.take();
   ASSERT_EQ(taken.events.size(), 2u);
-  EXPECT_EQ(taken.events[0].text, "game: 700 lines were too many and are left out");
+  EXPECT_EQ(taken.events[0].text, "game: 700 lines dropped (too many at once)");
   EXPECT_EQ(taken.events[1].text, "game: later");
 }
 

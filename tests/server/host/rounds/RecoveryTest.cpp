@@ -350,7 +350,7 @@ TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
 
 TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedIsHeldAgainstTheFile) {
   crashInSecondTurn(3);
-  EXPECT_EQ(said, "in tick 2 what the world answers is other than it was");
+  EXPECT_EQ(said, "in tick 2 the world's output is different");
 }
 
 TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {

@@ -133,7 +133,7 @@ TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
     std::ofstream(folder / "scores.sqlite3", std::ios::binary) << bytes;
     ScoreKeeper keeper(folder, "game");
     const std::string news = keeper.takeNews();
-    EXPECT_TRUE(test::has(news, "warning: The file of scores"));
+    EXPECT_TRUE(test::has(news, "warning: The score file"));
     EXPECT_EQ(keeper.takeNews(), "");
     EXPECT_FALSE(keeper.hasFile());
     EXPECT_FALSE(keeper.read("", 10, [](const auto&, const auto&) { FAIL(); }));
@@ -196,7 +196,7 @@ TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
   const std::uint64_t dropped = keeper.counters().dropped;
   EXPECT_LE(dropped, 5000u - ScoreKeeper::kMaxWaiting) << "some may have been with the writer";
   sync();
-  EXPECT_EQ(keeper.takeNews(), "scores are written again");
+  EXPECT_EQ(keeper.takeNews(), "scores can be written again");
   EXPECT_EQ(keeper.counters().written, 5001u - dropped);
   keeper.finish();
   EXPECT_EQ(stored().size(), 5001u - dropped);

@@ -141,8 +141,7 @@ TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut
   std::vector<std::string> rest = chatOf(second);
   ASSERT_GT(rest.size(), 200u);
   EXPECT_EQ(rest.back(), said(9'999));
-  EXPECT_EQ(rest.front(),
-            std::to_string(10'000 - seen - (rest.size() - 1)) + " lines of chat were left out.");
+  EXPECT_EQ(rest.front(), std::to_string(10'000 - seen - (rest.size() - 1)) + " lines of chat were dropped.");
   EXPECT_GT(counters.chat_left_out, 9'000u);
   EXPECT_EQ(gone, 0);
 }
@@ -257,7 +256,7 @@ TEST_F(SessionReturn, AClientThatTakesInNothingButSendsIsEnded) {
   }
   EXPECT_EQ(session->state(), Session::State::kEnding);
   EXPECT_EQ(counters.stuck_streams, 1u);
-  EXPECT_EQ(first.sent.back().goodbye().sentence(), "Your end takes in too little of what the server sends.");
+  EXPECT_EQ(first.sent.back().goodbye().sentence(), "Disconnected: your connection is too slow.");
 }
 
 TEST_F(SessionReturn, AClientThatIsSilentAsWellMayComeBack) {
@@ -297,7 +296,7 @@ TEST_F(SessionReturn, TheWelcomeOfAnotherProcessSaysWhereToGoOn) {
 TEST_F(SessionReturn, AProcessThatIsStillThereGetsAGoodbye) {
   const auto other = make(second);
   greet(second, "token", true);
-  EXPECT_EQ(first.sent.back().goodbye().sentence(), "You went on playing in another terminal.");
+  EXPECT_EQ(first.sent.back().goodbye().sentence(), "This session was resumed in another client.");
   EXPECT_TRUE(first.closed);
   EXPECT_FALSE(first.destroyed) << "the sentence is on its way";
   chatLine(first, "still here", 1);

@@ -194,7 +194,7 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   hear(key(ReceivedInputs::kMaxQueued + 1));
   EXPECT_TRUE(ended());
-  EXPECT_EQ(lastSent().goodbye().sentence(), "Too many keys at once.");
+  EXPECT_EQ(lastSent().goodbye().sentence(), "Disconnected: too many keys at once.");
   EXPECT_EQ(counters.input_floods, 1u);
 }
 
@@ -369,7 +369,7 @@ TEST_F(SessionTest, ManyMoreMessagesTickAfterTickEndTheSession) {
   }
   EXPECT_TRUE(ended());
   EXPECT_NEAR(ticks, 16, 4) << "those at once";
-  EXPECT_EQ(lastSent().goodbye().sentence(), "Too many messages at once.");
+  EXPECT_EQ(lastSent().goodbye().sentence(), "Disconnected: too many messages at once.");
   EXPECT_EQ(counters.message_floods, 1u);
 }
 

@@ -68,7 +68,7 @@ TEST_F(DefaultFoldersTest, AFolderThatCannotBeIsSaidAndCostsTheJournalAlone) {
   std::ofstream(folder / "state") << "a file";
   EXPECT_FALSE(wantsJournal(withUsableJournal(parse({}), log())));
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_NE(lines[0].find("rounds are not written down"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("not recording rounds"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find((folder / "state" / "rounds").string()), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("Not a directory"), std::string::npos) << lines[0];
   lines.clear();

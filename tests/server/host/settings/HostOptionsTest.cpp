@@ -59,7 +59,7 @@ TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
 TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
   HostOptions now;
   HostOptions next;
-  EXPECT_EQ(takeOver(next, now).text(), "none has changed");
+  EXPECT_EQ(takeOver(next, now).text(), "no changes");
   next.max_players = 7;
   next.password = "xyzzy";
   next.grace = 12.5;
@@ -79,7 +79,7 @@ TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
   EXPECT_EQ(takeOver(next, now).text(), "max-players has changed; port needs a restart");
   EXPECT_EQ(now.port, HostOptions().port);
   next.game = "tron";
-  EXPECT_EQ(takeOver(next, now).text(), "none has changed; game and port need a restart");
+  EXPECT_EQ(takeOver(next, now).text(), "no changes; game and port need a restart");
 }
 
 /// While this exists, the games hello and tron are found, but cannot be loaded.
@@ -132,29 +132,28 @@ TEST(HostOptions, RoomsAreReadInTheirOrder) {
 
 TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
   const Games games;
-  EXPECT_EQ(complaintOf({"hello"}), "dfserver: --room \"hello\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
-  EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": NAME=GAME or NAME=GAME,KEY=VALUE is wanted");
+  EXPECT_EQ(complaintOf({"hello"}), "dfserver: --room \"hello\": expected NAME=GAME or NAME=GAME,KEY=VALUE");
+  EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": expected NAME=GAME or NAME=GAME,KEY=VALUE");
   for (const char* name : {"=hello", "-x=hello", "a/b=hello", "\xc3\xbc=hello", "\033[2J=hello"}) {
     const std::string said = complaintOf({name});
-    EXPECT_TRUE(test::has(said, "is no name of a room: 1 to 32 of"));
+    EXPECT_TRUE(test::has(said, ": 1 to 32 of"));
     EXPECT_FALSE(test::has(said, "\033"));
   }
-  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}),
-            "dfserver: --room A: there are two rooms of this name");
-  EXPECT_EQ(complaintOf({"a=helo"}), "dfserver: --room a: there is no game \"helo\"; did you mean hello?");
+  EXPECT_EQ(complaintOf({"a=hello", "b=tron", "A=hello"}), "dfserver: --room A: this name is used twice");
+  EXPECT_EQ(complaintOf({"a=helo"}), "dfserver: --room a: unknown game \"helo\"; did you mean hello?");
   EXPECT_EQ(complaintOf({"a=zzzzzz"}),
-            "dfserver: --room a: there is no game \"zzzzzz\"; --list-games prints those that there are");
-  EXPECT_EQ(complaintOf({"a=/no/such/game.so"}), "dfserver: --room a: there is no file \"/no/such/game.so\"");
+            "dfserver: --room a: unknown game \"zzzzzz\"; --list-games prints the known ones");
+  EXPECT_EQ(complaintOf({"a=/no/such/game.so"}), "dfserver: --room a: no such file: \"/no/such/game.so\"");
   EXPECT_EQ(complaintOf({"a=hello,max-player=3"}),
-            "dfserver: --room a: a room has no setting \"max-player\"; did you mean max-players?");
-  EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players=VALUE is wanted");
+            "dfserver: --room a: unknown room setting \"max-player\"; did you mean max-players?");
+  EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players: expected KEY=VALUE");
   EXPECT_TRUE(test::has(complaintOf({"a=hello,max-players=many"}), "--room a: max-players: "));
   EXPECT_TRUE(test::has(complaintOf({"a=hello,players=private"}), "--room a: players: "));
   std::vector<std::string> many;
   for (int i = 0; i < 65; ++i) many.push_back("room-" + std::to_string(i) + "=hello");
   std::vector<const char*> all;
   for (const std::string& room : many) all.push_back(room.c_str());
-  EXPECT_EQ(complaintOf(all), "dfserver: --room: a server has 64 rooms at most, not 65");
+  EXPECT_EQ(complaintOf(all), "dfserver: --room: at most 64 rooms are possible, not 65");
 }
 
 TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
@@ -172,7 +171,7 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
 TEST(HostOptions, TheNearestRoomIsNamed) {
   EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
   EXPECT_FALSE(test::has(unknownRoom("x\033[2J", {"lobby", "tron"}), "\033"));
-  EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". There are: lobby, tron.");
+  EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". Rooms: lobby, tron.");
 }
 
 TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
@@ -258,7 +257,7 @@ TEST(HostOptions, APasswordThatEveryUserCanReadIsWarnedOf) {
   };
   constexpr fs::perms kOpen = fs::perms::owner_all | fs::perms::others_read;
   EXPECT_EQ(warnings("password = sesame\n", kOpen),
-            std::vector<std::string>{path + " has the password, and every user can read it. Run: chmod o-r " +
+            std::vector<std::string>{path + " has the password, but every user can read it. Run: chmod o-r " +
                                      path});
   EXPECT_TRUE(warnings("password = sesame\n", fs::perms::owner_all).empty());
   EXPECT_TRUE(warnings("ticks = 3\n", kOpen).empty());
@@ -436,7 +435,7 @@ TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
 TEST(HostOptions, APasswordIsNotPrinted) {
   const std::string text = printed({"--password", "verysecret", "--print-config"});
   EXPECT_FALSE(test::has(text, "verysecret"));
-  EXPECT_TRUE(test::has(text, "# password is given, and not printed\n"));
+  EXPECT_TRUE(test::has(text, "# password is set, but not printed\n"));
 }
 
 TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
@@ -506,7 +505,7 @@ TEST(HostOptions, SocketsFromTheServiceManagerDecideAddressAndPort) {
   other.port = 5000;
   useSockets({3, 4, "127.0.0.1", 4000}, other);
   EXPECT_EQ(other.warnings, std::vector<std::string>{
-                                "the port is 4000, of the sockets from the service manager, and not 5000"});
+                                "using port 4000 of the sockets from the service manager instead of 5000"});
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST_F(WorldCopiesTest, AWorldThatMakesNoneIsNotAskedForEver) {
   for (int i = 0; i < WorldCopies::kMaxFailures; ++i) make(0, 10);
   EXPECT_FALSE(copies->order(process));
   EXPECT_FALSE(copies->isOn());
-  EXPECT_EQ(copies->takeProblem(), "its process makes none");
+  EXPECT_EQ(copies->takeProblem(), "creating them fails");
   EXPECT_FALSE(copies->takeProblem());
   for (const int socket : sockets) EXPECT_TRUE(isClosed(socket));
 }

@@ -66,7 +66,7 @@ df::WorldView fullView() {
   view.sounds = {{"boom", df::SoundPlayed::kPause, true, true, 8}};
   view.sounds_lost = 3;
   view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
-  view.notes = {"pause: 1 of 3", "go on: 2 of 3"};
+  view.notes = {"pause: 1 of 3", "resume: 2 of 3"};
   view.background = df::BLUE;
   view.shake_x = -2;
   view.shake_y = 1;

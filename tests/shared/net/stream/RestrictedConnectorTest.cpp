@@ -32,7 +32,7 @@ TEST(RestrictedConnector, ANameThatLeadsToWhatIsNotAllowedIsNotConnectedTo) {
   };
   for (const std::string host : {"127.0.0.1", "localhost", "::1"}) {
     const std::string problem = connectError(host, none);
-    EXPECT_NE(problem.find("nearer to you"), std::string::npos) << problem;
+    EXPECT_NE(problem.find("more private network"), std::string::npos) << problem;
   }
   EXPECT_GE(asked, 3) << "after the name was looked up";
   EXPECT_NE(connectError("127.0.0.1", {}).find("connection refused"), std::string::npos);
