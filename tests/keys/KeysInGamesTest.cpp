@@ -16,7 +16,7 @@ class KeysInGames : public testing::TestWithParam<int> {
   const KeyMethod shipped{"shipped", HoldRule{}};
 };
 
-TEST_P(KeysInGames, ATapIsNoLongerThanInATerminalThatReportsReleases) {
+TEST_P(KeysInGames, GuessedTapsOvershootByUnderHalfACell) {
   for (const std::string& game : keyGames())
     EXPECT_LT(runPatterns(game, shipped, keyboard()).tap_over, 0.5) << game;
 }
@@ -26,7 +26,7 @@ TEST_P(KeysInGames, NothingTypedIsLost) {
     EXPECT_EQ(runPatterns(game, shipped, keyboard()).missed, 0) << game;
 }
 
-TEST_P(KeysInGames, TheTerminalThatReportsReleasesIsExact) {
+TEST_P(KeysInGames, ReportedReleasesAreExact) {
   const KeyMethod real{"releases", {}, true};
   for (const std::string& game : keyGames()) {
     const PatternFigures figures = runPatterns(game, real, keyboard());
@@ -34,7 +34,7 @@ TEST_P(KeysInGames, TheTerminalThatReportsReleasesIsExact) {
   }
 }
 
-TEST_P(KeysInGames, ARunnerWhoJumpsRunsOn) {
+TEST_P(KeysInGames, HoldRuleReducesStallsOfAJumpingRunner) {
   const KeyMethod silent{"as silent keys", HoldRule{HoldRule::First::kTap, 0ms, false}};
   const PatternFigures now = runPatterns("platformer", shipped, keyboard());
   const PatternFigures before = runPatterns("platformer", silent, keyboard());

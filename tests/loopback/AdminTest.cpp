@@ -58,7 +58,7 @@ class AdminTest : public VisitedServer {
   }
 };
 
-TEST_F(AdminTest, AKickEndsAPlayerWithinTwoTicksAndTheirTokenWithThem) {
+TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
   options.grace = 60;
   TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("ann");
@@ -100,13 +100,13 @@ std::string bytesFor(const std::string& visitors, const std::string& address) {
   return heard;
 }
 
-TEST_F(AdminTest, ABanTakesEffectOnTheNextConnectionBeforeTls) {
+TEST_F(AdminTest, BanDropsNewConnectionsBeforeTls) {
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.9:50003", "ann"));
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(does("ban", R"("who":"192.0.2.0/24","for":"2h")"));
   ASSERT_TRUE(ends(ann));
-  // TlsListenerTest.ABannedAddressGetsNotAByte also sends a hello.
+  // TlsListenerTest.BannedAddressGetsNoByte also sends a hello.
   EXPECT_EQ(bytesFor(options.visitors, "192.0.2.7:50001"), "");
   TestClient eve(context, server.port(), from("192.0.2.200:50003", "eve"));
   EXPECT_FALSE(joins(eve));
@@ -115,7 +115,7 @@ TEST_F(AdminTest, ABanTakesEffectOnTheNextConnectionBeforeTls) {
   EXPECT_EQ(server.counters().connections, 2u) << "ann's and bob's: no other one finished a handshake";
 }
 
-TEST_F(AdminTest, WhoIsBannedWhilePlayingIsToldWhyAndUntilWhen) {
+TEST_F(AdminTest, BannedPlayerIsToldTheReasonAndEndTime) {
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.7:50000", "ann"));
   TestClient bob(context, server.port(), from("192.0.2.8:50000", "bob"));
@@ -156,7 +156,7 @@ class CtlTest : public LoopbackFixture {
   GameProgram server{"dfserver", {{"NAIAD_GAME", "hello"}}};
 };
 
-TEST_F(CtlTest, ShowsAndDoesWhatItIsAsked) {
+TEST_F(CtlTest, CommandsShowStateAndActOnPlayers) {
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(joins(ann));
   const auto who = ctl("who");
@@ -177,7 +177,7 @@ TEST_F(CtlTest, ShowsAndDoesWhatItIsAsked) {
   })) << server.log();
 }
 
-TEST_F(CtlTest, ExitCodesTellWhatBecameOfACommand) {
+TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
   EXPECT_EQ(ctl("kick nobody").first, 1);
   EXPECT_EQ(ctl("kick").first, 2);
   EXPECT_EQ(ctl("kik ann").first, 2);
@@ -217,7 +217,7 @@ TEST_F(CtlTest, StopsAServer) {
   EXPECT_EQ(ctl("ping").first, 3);
 }
 
-TEST(CtlOfADamagedServer, AFileOfBansThatIsNoneStopsTheStart) {
+TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {
   const Home home;
   std::filesystem::create_directory(home.identity("state"));
   std::ofstream(home.identity("state") / "bans.sqlite3") << "nothing that SQLite wrote";
@@ -231,7 +231,7 @@ TEST(CtlOfADamagedServer, AFileOfBansThatIsNoneStopsTheStart) {
   EXPECT_TRUE(has(output, "ban file"));
 }
 
-TEST_F(AdminTest, TheTwoPasswordsAreChangedAndKept) {
+TEST_F(AdminTest, PasswordCommandSetsAndRemovesTheJoinPassword) {
   TestServer server(busyWorld(5), options);
   ASSERT_TRUE(does("password", R"("password":"xyzzy")"));
   TestClient ann(context, server.port(), home.player("ann"));
@@ -247,7 +247,7 @@ TEST_F(AdminTest, TheTwoPasswordsAreChangedAndKept) {
 
 // ---- in the chat ------------------------------------------------------------------------------------------
 
-TEST_F(AdminTest, NoCommandReachesOthersWhateverItIs) {
+TEST_F(AdminTest, ChatCommandsNeverReachOtherPlayers) {
   TestServer server(busyWorld(5), options);
   TestClient bob(context, server.port(), home.player("bob"));
   ASSERT_TRUE(joins(bob));
@@ -274,7 +274,7 @@ TEST_F(AdminTest, NoCommandReachesOthersWhateverItIs) {
     EXPECT_FALSE(hasRead(bob, secret)) << secret;
 }
 
-TEST_F(AdminTest, TheAdminsPasswordGivesRightsUntilTheStreamEnds) {
+TEST_F(AdminTest, AdminPasswordGrantsRightsUntilTheStreamEnds) {
   options.grace = 60;
   TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("ann");
@@ -300,7 +300,7 @@ TEST_F(AdminTest, TheAdminsPasswordGivesRightsUntilTheStreamEnds) {
   EXPECT_TRUE(bob.joined());
 }
 
-TEST_F(AdminTest, AMuteSurvivesAReturn) {
+TEST_F(AdminTest, MuteSurvivesAResume) {
   options.grace = 60;
   TestServer server(busyWorld(5), options);
   ClientSetup setup = home.player("ann");
@@ -320,7 +320,7 @@ TEST_F(AdminTest, AMuteSurvivesAReturn) {
   EXPECT_EQ(server.counters().chat_muted, 1u);
 }
 
-TEST_F(AdminTest, AVoteThrowsOutAndKeepsOut) {
+TEST_F(AdminTest, VoteKicksAndBansThePlayer) {
   options.vote_kick = true;
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.1:1", "ann"));
@@ -344,7 +344,7 @@ TEST_F(AdminTest, VotesAreOffByDefault) {
   EXPECT_TRUE(reads(ann, "This server does not allow votes."));
 }
 
-TEST_F(AdminTest, WhoDoesNothingIsWarnedAndGoes) {
+TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   options.inactive_kick = 1;
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), home.player("ann"));

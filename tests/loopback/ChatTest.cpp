@@ -62,7 +62,7 @@ class Chatterer {
   std::thread m_thread;
 };
 
-TEST(Chat, AFloodByResumesIsBoundedAndThrowsNobodyOut) {
+TEST(Chat, ChatFloodThroughResumesIsLimitedWithoutDisconnects) {
   Home home;
   Census census;
   TestServer server(countedWorld(census, 20), home.server());
@@ -146,7 +146,7 @@ class Revenant {
   std::thread m_thread;
 };
 
-TEST(Chat, WhoLeavesAndJoinsAgainSaysNoMoreThanAnAddressMay) {
+TEST(Chat, RejoiningDoesNotRaiseTheChatLimitPerAddress) {
   TestServer server([](df::World&) {});
   asio::io_context context;
   TestClient ann(context, server.port(), insecurely("ann"));

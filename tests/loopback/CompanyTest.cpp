@@ -41,7 +41,7 @@ TEST_F(Company, LeavingOnPurposeRemovesTheShip) {
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.inWorld(countShips) == 0; }));
 }
 
-TEST_F(Company, StalledClientCostsTheOthersNothing) {
+TEST_F(Company, StalledClientDoesNotDisturbOthers) {
   TestServer server(busyWorld(300));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
@@ -75,7 +75,7 @@ TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   }));
 }
 
-TEST_F(Company, ChatReachesEveryoneCleaned) {
+TEST_F(Company, ChatReachesAllPlayersSanitized) {
   TestServer server(busyWorld(5));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
@@ -87,7 +87,7 @@ TEST_F(Company, ChatReachesEveryoneCleaned) {
   EXPECT_EQ(bob.session().chat().back().text, "hi ?[2Jthere");
 }
 
-TEST_F(Company, SecondPlayerOfANameGetsANumber) {
+TEST_F(Company, DuplicateNamesBecomeUnique) {
   TestServer server(busyWorld(5));
   TestClient ann(context, server.port(), "Ann");
   TestClient other(context, server.port(), "ann");
@@ -104,7 +104,7 @@ wire::Refused refusalOf(std::uint16_t port, const wire::ClientMessage& hello) {
   return answer ? answer->refused() : wire::Refused();
 }
 
-TEST_F(Company, RefusalsAreSentencesAPersonUnderstands) {
+TEST_F(Company, RefusalsExplainTheirReason) {
   HostOptions options = fastOptions();
   options.max_players = 1;
   TestServer server(busyWorld(5), options);

@@ -96,7 +96,7 @@ std::ostream& operator<<(std::ostream& out, const Flood& flood) {
 
 class HalfOpenCrowd : public CrowdedDoor, public testing::WithParamInterface<Flood> {};
 
-TEST_P(HalfOpenCrowd, KeepsNoPlayerOutAndThrowsNoneOut) {
+TEST_P(HalfOpenCrowd, DoesNotBlockOrDisconnectPlayers) {
   const Flood& flood = GetParam();
   HostOptions options = home.server();
   options.max_players = flood.max_players;
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- honest crowds
 // --------------------------------------------------------------------------------------------
 
-TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
+TEST_F(CrowdedDoor, ThousandPlayersReconnectWithinTenSeconds) {
   HostOptions options = home.server();
   options.frame_micros = 0;
   options.max_players = 1000;
@@ -197,7 +197,7 @@ TEST_F(CrowdedDoor, AThousandPlayersWhoReturnAtOnceAreBackInTenSeconds) {
   EXPECT_TRUE(std::ranges::all_of(players, [](const auto& p) { return p->welcome().resumed(); }));
 }
 
-TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
+TEST_F(CrowdedDoor, TwoHundredPlayersOfOneAddressJoinAtOnce) {
   HostOptions options = home.server();
   options.max_players = options.max_per_address = 200;
   TestServer server(busyWorld(0), options);
@@ -214,7 +214,7 @@ TEST_F(CrowdedDoor, AnAddressThatMayHaveTwoHundredPlayersHasThemAtOnce) {
 // ---- session slots
 // ----------------------------------------------------------------------------------------------
 
-TEST_F(CrowdedDoor, OneAddressHoldsItsShareOfThePlacesHoweverOftenItComes) {
+TEST_F(CrowdedDoor, RepeatedJoinsCannotExceedTheAddressLimit) {
   HostOptions options = home.server();
   options.max_players = 10;
   options.max_per_address = 2;
@@ -279,7 +279,7 @@ class InsistentCrowd {
 // ---- handshakes
 // ------------------------------------------------------------------------------------------------
 
-TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotLimited) {
+TEST_F(CrowdedDoor, HandshakesOfOneAddressAreLimitedWithoutDelayingOthers) {
   TestServer server(busyWorld(20), home.server());
   server.keepTruth(false);
   TestClient ann(context, server.port(), home.player("ann"));
@@ -310,7 +310,7 @@ TEST_F(CrowdedDoor, PlayersWhoComeBackWithoutEndGetFewHandshakesAndOthersAreNotL
 // ---- passwords
 // --------------------------------------------------------------------------------------------------
 
-TEST_F(CrowdedDoor, EightyAddressesDoNotCloseAServerWithAPassword) {
+TEST_F(CrowdedDoor, WrongPasswordsOf80AddressesDoNotBlockJoining) {
   HostOptions options = home.server();
   options.password = PasswordHash::of("xyzzy", {.memory_kib = 4 * 1024, .passes = 6}).text();  // about 10 ms
   TestServer server(busyWorld(20), options);

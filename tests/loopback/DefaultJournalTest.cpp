@@ -68,7 +68,7 @@ class DefaultJournal : public RoomsFixture {
 };
 
 // Killed immediately, possibly before the file of the round exists.
-TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
+TEST_F(DefaultJournal, TwoKilledServersOfOneUserRecover) {
   Server servers[2] = {{"ann"}, {"bob"}};
   for (Server& one : servers) {
     start(one);
@@ -90,7 +90,7 @@ TEST_F(DefaultJournal, TwoServersOfOneUserAreKilledAndGoOn) {
   clients.clear();
 }
 
-TEST_F(DefaultJournal, AFolderThatCannotBeWrittenCostsTheJournalAlone) {
+TEST_F(DefaultJournal, UnwritableFolderDisablesOnlyTheJournal) {
   std::filesystem::create_directory(state());
   std::ofstream(state() + "/rounds") << "a file";
   Server one{"ann"};

@@ -23,7 +23,7 @@ struct Walker : df::Object {
   int draw() override { return DM.drawCh(getPosition(), '@', df::CYAN); }
 };
 
-TEST(EmptyServer, UnwatchedTicksCount) {
+TEST(EmptyServer, TicksWithoutPlayersAreCounted) {
   df::World world;
   const df::World::Scope scope(world);
   WorldInProcess port(world);
@@ -37,7 +37,7 @@ TEST(EmptyServer, UnwatchedTicksCount) {
   EXPECT_EQ(port.nextTick(), 7u);
 }
 
-TEST(EmptyServer, TheFirstPlayerAfterHalfAnHourSeesTheTickOfTheServer) {
+TEST(EmptyServer, PlayerJoiningAfterHalfAnHourSeesCurrentTicks) {
   TestServer server([](df::World& world) {
     for (std::uint32_t i = 0; i < kEmptyTicks; ++i) world.tick();
     new Walker;

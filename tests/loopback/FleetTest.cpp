@@ -42,7 +42,7 @@ std::pair<int, std::string> answerWell(const std::string& request) {
   return {200, request == "GET /gameserver" ? R"({"spec":{"health":{"period_seconds":1}}})" : "{}"};
 }
 
-TEST_F(Fleet, AServerOfAClusterIsReadyHealthyAllocatedAndShutDown) {
+TEST_F(Fleet, ServerReportsReadyHealthAllocateAndShutdown) {
   FakeSidecar sidecar;
   sidecar.start(answerWell);
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}});
@@ -58,7 +58,7 @@ TEST_F(Fleet, AServerOfAClusterIsReadyHealthyAllocatedAndShutDown) {
   EXPECT_TRUE(has(game->log(), "platform_requests="));
 }
 
-TEST_F(Fleet, AServerThatIsEndedAtOnceSaysSoToo) {
+TEST_F(Fleet, ImmediateStopAlsoReportsShutdown) {
   FakeSidecar sidecar;
   sidecar.start(answerWell);
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIME", "1000"}});
@@ -70,7 +70,7 @@ TEST_F(Fleet, AServerThatIsEndedAtOnceSaysSoToo) {
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
 }
 
-TEST_F(Fleet, AClusterThatShutsTheServerDownEndsItWithDrainTime) {
+TEST_F(Fleet, ClusterShutdownDrainsTheServer) {
   FakeSidecar sidecar;
   sidecar.start(answerWell);
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())},
@@ -86,7 +86,7 @@ TEST_F(Fleet, AClusterThatShutsTheServerDownEndsItWithDrainTime) {
   EXPECT_EQ(game->wait(), 0);
 }
 
-TEST_F(Fleet, ASidecarThatGoesCostsPlayersNothing) {
+TEST_F(Fleet, LostSidecarDoesNotDisturbPlayers) {
   auto sidecar = std::make_unique<FakeSidecar>();
   sidecar->start(answerWell);
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar->port())}});
@@ -98,7 +98,7 @@ TEST_F(Fleet, ASidecarThatGoesCostsPlayersNothing) {
   EXPECT_EQ(ann->session().counters().resets, 0u);
 }
 
-TEST_F(Fleet, ABusThatIsKilledCostsPlayersNothingAndIsFoundAgain) {
+TEST_F(Fleet, KilledBusDisturbsNoPlayerAndIsReconnected) {
   if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
   NatsServer bus;
   ASSERT_TRUE(bus.start()) << bus.log();

@@ -170,7 +170,7 @@ TEST_F(HostedServer, SigintEndsAtOnce) {
 
 // ---- options ----------------------------------------------------------------------------------------------
 
-TEST_F(HostedServer, ReloadTakesOverWhatMayChange) {
+TEST_F(HostedServer, ReloadAppliesChangeableOptions) {
   start({}, "max-players = 1\n");
   TestClient& ann = join("ann");
   EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
@@ -192,7 +192,7 @@ TEST_F(HostedServer, OptionsThatCannotBeUsedChangeNothing) {
   EXPECT_TRUE(ticks(ann));
 }
 
-TEST_F(HostedServer, ReloadChangesThePasswordForThoseWhoCome) {
+TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
   start({}, "password = " + cheapHash("old") + "\n");
   ClientSetup old = home.player("ann");
   old.options.password = "old";
@@ -250,7 +250,7 @@ TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
 
 // ---- the log ----------------------------------------------------------------------------------------------
 
-TEST_F(HostedServer, JsonLinesHaveTheFacts) {
+TEST_F(HostedServer, JsonLogLinesHaveEventFields) {
   start({{"NAIAD_LOG_FORMAT", "json"}, {"NAIAD_LOG_CHAT", "true"}});
   TestClient& ann = join("ann");
   ann.session().sendChat("hello \"all\"");
@@ -268,7 +268,7 @@ TEST_F(HostedServer, JsonLinesHaveTheFacts) {
   EXPECT_EQ(events.at("chat").at("line"), "hello \"all\"");
 }
 
-TEST_F(HostedServer, WithoutBeingAskedChatIsNotLogged) {
+TEST_F(HostedServer, ChatIsNotLoggedByDefault) {
   start({});
   TestClient& ann = join("ann");
   ann.session().sendChat("hello all");
@@ -295,7 +295,7 @@ class Fail2ban : public HostedServer, public testing::WithParamInterface<const c
   }
 };
 
-TEST_P(Fail2ban, FindsWhoGuessesPasswordsAndNobodyElse) {
+TEST_P(Fail2ban, MatchesOnlyWrongPasswordsInNormalMode) {
   start({{"NAIAD_LOG_FORMAT", GetParam()}, {"NAIAD_PASSWORD", cheapHash("xyzzy")}, {"NAIAD_LOG_CHAT", "1"}});
   ClientSetup ann = home.player("ann");
   ann.options.password = "xyzzy";
@@ -346,7 +346,7 @@ TEST_F(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().sentence();
 }
 
-TEST_F(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
+TEST_F(HostedWorld, DrainWaitsForADisconnectedPlayer) {
   TestServer server([](df::World&) {}, home.server());
   ClientSetup setup = home.player("ann");
   setup.sessions = home.sessions();
@@ -361,7 +361,7 @@ TEST_F(HostedWorld, ADrainWaitsForAPlayerWhoseConnectionBroke) {
   EXPECT_TRUE(ann.session().isResumed());
 }
 
-TEST_F(HostedWorld, AClientThatDoesNotLookAgainEnds) {
+TEST_F(HostedWorld, ClientWithoutReconnectEndsAtARestart) {
   TestServer server([](df::World&) {}, home.server());
   ClientSetup setup = home.player("ann");
   setup.rejoin = false;
@@ -385,7 +385,7 @@ class Restarts : public HostedServer, public testing::WithParamInterface<const c
   }
 };
 
-TEST_P(Restarts, TheSameProcessBeginsAgainOnItsPortAndPlayersComeBack) {
+TEST_P(Restarts, ServerRestartsOnItsPortAndPlayersReconnect) {
   start({{"NAIAD_ON_GAME_OVER", GetParam()}});
   ClientSetup setup = home.player("ann");
   setup.sessions = home.sessions();
@@ -406,7 +406,7 @@ TEST_P(Restarts, TheSameProcessBeginsAgainOnItsPortAndPlayersComeBack) {
 INSTANTIATE_TEST_SUITE_P(Worlds, Restarts, testing::Values("exit", "restart"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST_F(HostedServer, ARestartCanWaitAndBeCalledOff) {
+TEST_F(HostedServer, ScheduledRestartCanBeCancelled) {
   start({});
   TestClient& ann = join("ann");
   EXPECT_EQ(ctl("cancel"), std::pair(1, std::string("No shutdown, restart or drain is scheduled.\n")));
@@ -431,7 +431,7 @@ TEST_F(HostedServer, DrainEndsWhenAllHaveLeft) {
   EXPECT_TRUE(endsWell());
 }
 
-TEST_F(HostedServer, ReloadByDfctlSaysWhatBecameOfIt) {
+TEST_F(HostedServer, DfctlReloadReportsTheResult) {
   start({}, "max-players = 3\n");
   TestClient& ann = join("ann");
   writeConfig("max-players = 2\nworld-memory = 1000\n");
@@ -475,7 +475,7 @@ class Repeated {
 };
 
 // With the thread sanitizer, the server exits with another code if it finds a race.
-TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) {
+TEST_F(HostedServer, GameSurvives100ScrapesCommandsAndReloadsPerSecond) {
   start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
   const std::string where = "metrics are at http://127.0.0.1:";
   ASSERT_TRUE(logs(where)) << server->log();
@@ -504,7 +504,7 @@ TEST_F(HostedServer, ScrapersOrdersAndReloadsAHundredTimesASecondDisturbNobody) 
   EXPECT_TRUE(endsWell()) << server->log();
 }
 
-TEST_F(HostedServer, WhoeverIsHungUpOnBeforeTlsHasALineOfTheLog) {
+TEST_F(HostedServer, ConnectionDroppedBeforeTlsIsLogged) {
   start({{"NAIAD_VISITORS", home.identity("visitors")}});
   ASSERT_EQ(ctl("ban 192.0.2.0/24").first, 0);
   ClientSetup eve = home.player("eve");

@@ -191,7 +191,7 @@ TEST_F(HostileGame, GetsNoMoreMemoryAndDescriptorsThanItsShare) {
   expectTheOthersPlay();
 }
 
-TEST_F(HostileGame, IsLoadedByItsWorldsAlone) {
+TEST_F(HostileGame, IsLoadedOnlyByWorldProcesses) {
   start();
   const std::vector<Line> lines = report();
   EXPECT_FALSE(lines.empty());
@@ -233,7 +233,7 @@ TEST_F(HostileGame, ItsChildrenEndWithIt) {
   EXPECT_TRUE(serve([&] { return areGone(of_bob); })) << "the server could not end them any more";
 }
 
-TEST_F(HostileGame, ItsChildrenEndWithItsKeeper) {
+TEST_F(HostileGame, ChildrenEndWithTheirSupervisor) {
   start();
   ASSERT_EQ(worlds().size(), 2u);
   const std::vector<pid_t> of_ann = processesOf(worlds()[1]);

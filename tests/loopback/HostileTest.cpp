@@ -174,7 +174,7 @@ TEST_F(Hostile, KeyFloodEndsTheSession) {
   EXPECT_EQ(server.counters().input_floods, 1u);
 }
 
-TEST_F(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
+TEST_F(Hostile, MessageFloodEndsItsSessionWithoutStoppingOthers) {
   TestServer server(busyWorld(5), home.server());
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
@@ -201,7 +201,7 @@ TEST_F(Hostile, AFloodOfMessagesEndsItsSessionAndStopsNoOthersWorld) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
 }
 
-TEST_F(Hostile, ACrowdOfSilentConnectionsDoesNotLockPlayersOut) {
+TEST_F(Hostile, SilentConnectionsDoNotBlockPlayers) {
   HostOptions options = fastOptions();
   options.grace = HostOptions().grace;
   options.max_players = 1;

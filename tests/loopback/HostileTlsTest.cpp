@@ -107,7 +107,7 @@ TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
 }
 
-TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
+TEST_F(HostileTls, ReplayOfAHeldBackDatagramHasNoEffect) {
   TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settles(ann));
@@ -132,7 +132,7 @@ TEST_F(HostileTls, ADatagramThatWasHeldBackMovesNoPlayer) {
   EXPECT_TRUE(settles(ann));
 }
 
-TEST_F(HostileTls, AFloodOfDatagramsStopsNoPlayersGame) {
+TEST_F(HostileTls, DatagramFloodDoesNotStopTheGame) {
   TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settles(ann));
@@ -157,7 +157,7 @@ TEST_F(HostileTls, AFloodOfDatagramsStopsNoPlayersGame) {
   EXPECT_TRUE(settles(ann));
 }
 
-TEST_F(HostileTls, HalfOpenConnectionsAreHungUpOn) {
+TEST_F(HostileTls, HalfOpenConnectionsAreDropped) {
   using asio::ip::tcp;
   TestServer server(busyWorld(20), home.server());
   TestClient ann(context, server.port(), player("ann"));

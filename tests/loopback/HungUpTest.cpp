@@ -39,7 +39,7 @@ TEST_F(HungUp, ANewcomerTriesAgain) {
   EXPECT_EQ(ann.connection().state(), Connection::State::kJoining);
 }
 
-TEST_F(HungUp, ANewcomerWhoIsNeverAnsweredIsToldSoSoon) {
+TEST_F(HungUp, UnansweredClientGivesUpAfterAFewRetries) {
   TestClient& ann = joinWhereAnswered(1'000'000);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kUnreachable);

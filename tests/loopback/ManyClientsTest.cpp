@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 using ManyClients = LoopbackFixture;
 
-TEST_F(ManyClients, AClassOf64BehindOneAddressPlays) {
+TEST_F(ManyClients, OneAddressMayHave64Players) {
   TestServer server(busyWorld(5), home.server());
   std::vector<std::unique_ptr<LightClient>> pupils;
   for (int i = 0; i < 64; ++i) {
@@ -42,7 +42,7 @@ TEST_F(ManyClients, AClassOf64BehindOneAddressPlays) {
   EXPECT_EQ(server.counters().refused_address, 0u);
 }
 
-TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
+TEST_F(ManyClients, PlayersPerAddressAreLimited) {
   HostOptions options = fastOptions();
   options.grace = HostOptions().grace;
   options.max_players = 8;
@@ -68,7 +68,7 @@ TEST_F(ManyClients, OneAddressHasItsShareOfThePlaces) {
   EXPECT_TRUE(answerTo(fourth).has_welcome());
 }
 
-TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
+TEST_F(ManyClients, ClaimedTerminalSizeDoesNotEnlargeTheView) {
   TestServer server(busyWorld(5), fastOptions());
   wire::ClientMessage hello = RawClient::hello("ann");
   hello.mutable_hello()->set_columns(4'000'000'000u);
@@ -84,7 +84,7 @@ TEST_F(ManyClients, AClaimedSizeIsNoAdvantage) {
 }
 
 /// Comparing a wrong password takes as long as comparing the right one.
-TEST_F(ManyClients, TheWorldGoesOnWhileAPasswordIsCompared) {
+TEST_F(ManyClients, PasswordCheckDoesNotBlockTheTick) {
   HostOptions options = fastOptions();
   options.frame_micros = 1000;
   options.password = PasswordHash::of("the right one", {.memory_kib = 8 * 1024, .passes = 12}).text();
@@ -120,7 +120,7 @@ class Overheard : public DatagramSocket {
   std::string& m_newest;
 };
 
-TEST_F(ManyClients, ASpooferOfManyAddressesLocksNoPlayerOut) {
+TEST_F(ManyClients, SpoofedAddressesDoNotLockPlayersOut) {
   TestServer server(busyWorld(5), home.server());
   const auto valve = std::make_shared<Valve>();
   std::string overheard;

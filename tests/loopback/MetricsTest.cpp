@@ -122,7 +122,7 @@ TEST_F(Metrics, NoPlayersNameIsOnThePage) {
   EXPECT_FALSE(has(get("/metrics").body, "zebedee"));
 }
 
-TEST_F(Metrics, ThoseWhoHangUpAreCountedAsThat) {
+TEST_F(Metrics, DisconnectIsCountedWithItsReason) {
   start(busyWorld(5));
   join("ann");
   clients.clear();
@@ -155,7 +155,7 @@ class Blocker : public df::Object {
   const std::atomic<bool>& m_blocks;
 };
 
-TEST_F(Metrics, AGameThatHangsIsUnhealthyUntilItGoesOn) {
+TEST_F(Metrics, HungGameIsUnhealthyUntilItRecovers) {
   start([this](df::World&) { new Blocker(blocks); });
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
   blocks = true;
@@ -168,7 +168,7 @@ TEST_F(Metrics, AGameThatHangsIsUnhealthyUntilItGoesOn) {
   EXPECT_TRUE(serve([&] { return get("/healthz").status == 200 && get("/readyz").status == 200; }));
 }
 
-TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
+TEST_F(Metrics, InvalidHttpRequestsDoNotDisturbTheGame) {
   start(busyWorld(50));
   TestClient& ann = join("ann");
   std::list<HttpClient> silent;
@@ -189,7 +189,7 @@ TEST_F(Metrics, StrangersWhoCannotSpeakHttpCostTheGameNothing) {
 }
 
 // This proves, with the thread sanitizer, that no value is read while it is written.
-TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
+TEST_F(Metrics, PlayersJoinAndLeaveDuringScrapesAt100Hertz) {
   start(busyWorld(30));
   std::atomic<bool> stop = false;
   std::atomic<int> scrapes = 0;
@@ -220,7 +220,7 @@ TEST_F(Metrics, AScraperAtAHundredHertzDisturbsNobody) {
 
 // ---- audit of pictures ------------------------------------------------------------------------------------
 
-TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
+TEST_F(Metrics, AuditFindsNoWrongCellsInNormalPlay) {
   start(busyWorld(100));
   TestClient& ann = join("ann");
   std::uint32_t pressed = 0;
@@ -235,7 +235,7 @@ TEST_F(Metrics, TheAuditFindsNoWrongCellInAnHonestGame) {
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
 }
 
-TEST_F(Metrics, TheAuditFindsNoWrongCellOverALineThatLosesDatagrams) {
+TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   Home home;
   HostOptions options = home.server();
   options.metrics = "127.0.0.1:0";
@@ -273,7 +273,7 @@ TEST_F(Metrics, WithoutTheAuditNothingIsCompared) {
 }
 
 // Measures the CPU time of the thread that makes the pages, so other load on the machine does not matter.
-TEST_F(Metrics, APageTakesLittleTime) {
+TEST_F(Metrics, PageFor20PlayersTakesAtMost10Milliseconds) {
   const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
   start(busyWorld(5));
   for (int i = 0; i < 20; ++i) join("p" + std::to_string(i));
@@ -293,7 +293,7 @@ TEST_F(Metrics, APageTakesLittleTime) {
 }
 
 // A scraper that requests a page every two seconds then costs at most 0.5 % of a core.
-TEST_F(Metrics, APageOfAThousandPlayersTakesNoMoreThanTenMilliseconds) {
+TEST_F(Metrics, PageFor1000PlayersTakesAtMost10Milliseconds) {
   constexpr std::size_t kPlayers = kSanitized ? 100 : 1000;
   const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
   const Home home;

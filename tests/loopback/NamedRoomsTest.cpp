@@ -39,7 +39,7 @@ TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
   EXPECT_EQ(refusal("zzz"), "There is no room \"zzz\". Rooms: arcade, quiet.");
 }
 
-TEST_F(NamedRooms, FullRoomRefusesWhileOthersHavePlaces) {
+TEST_F(NamedRooms, FullRoomRefusesPlayersWhileOthersAccept) {
   start({"one", "small,max-players=1"});
   auto ann = join("ann", "small");
   EXPECT_TRUE(has(refusal("small"), "\"small\" is full (1 players)"));
@@ -75,7 +75,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
 }
 
 // A world that has missed ticks is behind the others in its tick number.
-TEST_F(NamedRooms, PlayerMovesToAWorldWhoseTicksAreBehind) {
+TEST_F(NamedRooms, PlayerMovesToAWorldWithEarlierTicks) {
   start({"one", "slow"});
   auto ann = join("ann", "one");
   auto bob = join("bob", "slow");
@@ -143,7 +143,7 @@ class Isolation : public RoomsFixture {
   }
 };
 
-TEST_F(Isolation, CrashIsOneRoomsOwn) {
+TEST_F(Isolation, CrashAffectsOnlyItsRoom) {
   int process = 0;
   expectOthersGoOn(df::Keyboard::C, [&](TestClient& bad) {
     if (process == 0) process = shown(bad).process;
@@ -154,13 +154,13 @@ TEST_F(Isolation, CrashIsOneRoomsOwn) {
   })) << server->log();
 }
 
-TEST_F(Isolation, HangIsOneRoomsOwn) {
+TEST_F(Isolation, HangAffectsOnlyItsRoom) {
   const auto began = Clock::now();
   expectOthersGoOn(df::Keyboard::H,
                    [&](TestClient&) { return Clock::now() - began > std::chrono::milliseconds(1500); });
 }
 
-TEST_F(Isolation, LoadIsOneRoomsOwn) {
+TEST_F(Isolation, LoadAffectsOnlyItsRoom) {
   int ticks = -1;
   expectOthersGoOn(df::Keyboard::B, [&](TestClient& bad) {
     if (ticks < 0) ticks = shown(bad).ticks;
@@ -168,7 +168,7 @@ TEST_F(Isolation, LoadIsOneRoomsOwn) {
   });
 }
 
-TEST_F(NamedRooms, GameThatFailsAgainAndAgainClosesItsRoomAlone) {
+TEST_F(NamedRooms, RepeatedlyFailingGameClosesOnlyItsRoom) {
   start({"one", "two"}, {"--room-sleep=0"});
   auto ann = join("ann", "one");
   auto bob = join("bob", "two");

@@ -42,7 +42,7 @@ class PausePlay : public testing::Test {
   std::optional<TestClient> ann, bob;
 };
 
-TEST_F(PausePlay, IsAVoteAndAllPlayersReadHowItStands) {
+TEST_F(PausePlay, PauseIsAVoteShownToAllPlayers) {
   start("together");
   pressP(*ann);
   ASSERT_TRUE(until([this] { return reads(*ann, "pause: 1 of 2") && reads(*bob, "pause: 1 of 2"); }));
@@ -52,7 +52,7 @@ TEST_F(PausePlay, IsAVoteAndAllPlayersReadHowItStands) {
   EXPECT_TRUE(isPaused());
 }
 
-TEST_F(PausePlay, ThePlayerWhomOthersWatchDecidesAlone) {
+TEST_F(PausePlay, WatchedPlayerPausesWithoutAVote) {
   start("first");
   pressP(*bob);  // bob only watches
   pressP(*ann);

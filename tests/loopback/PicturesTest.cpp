@@ -18,7 +18,7 @@ namespace {
 
 using Loopback = LoopbackFixture;
 
-TEST_F(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
+TEST_F(Loopback, ClientMatchesTheServerForAThousandTicks) {
   TestServer server(busyWorld(200));
   TestClient client(context, server.port(), "ann");
   std::uint32_t pressed = 0;
@@ -40,7 +40,7 @@ TEST_F(Loopback, ClientSeesWhatTheServerHasForAThousandTicks) {
   EXPECT_GT(shown, 500) << last;
 }
 
-TEST_F(Loopback, TwoClientsSeeTheSameWorldAndALateOneCatchesUp) {
+TEST_F(Loopback, EarlyAndLateClientsSeeTheSameWorld) {
   TestServer server(busyWorld(60));
   TestClient ann(context, server.port(), "ann");
   TestClient bob(context, server.port(), "bob");
@@ -77,7 +77,7 @@ struct Shaker : df::Object {
   }
 };
 
-TEST_F(Loopback, AWindowThatShakesIsSeenShaking) {
+TEST_F(Loopback, ScreenShakeReachesTheClient) {
   int shaken = 0;
   TestServer server([](df::World& world) {
     populateBusyWorld(world, 60);

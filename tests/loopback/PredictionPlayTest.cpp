@@ -78,7 +78,7 @@ class PredictionPlay : public testing::Test {
   StreamProxy proxy;
 };
 
-TEST_F(PredictionPlay, AKeyShowsInTheNextFrameAndComesTrue) {
+TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
   TestClient ann(context, proxy.port(), player());
   ASSERT_TRUE(isPredicting(ann));
   const df::FixedVector start = shown(ann);

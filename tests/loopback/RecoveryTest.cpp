@@ -29,7 +29,7 @@ bool isGone(pid_t process) {
 
 class KilledServer : public testing::TestWithParam<const char*> {};
 
-TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
+TEST_P(KilledServer, LosesNoPlayersAndNoTicks) {
   constexpr int kKills = kSanitized ? 2 : 5;
   std::mt19937_64 random(7);
   RecoveryRun run(GetParam(), 2, random());
@@ -48,7 +48,7 @@ TEST_P(KilledServer, AServerThatIsKilledLosesNobodyAndNothing) {
 }
 
 // After dfctl restart --keep, the new program meets the promises made for a kill.
-TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
+TEST_P(KilledServer, KeepRestartLosesNoPlayersAndNoTicks) {
   const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
   RecoveryRun run(GetParam(), 2, random());
@@ -69,7 +69,7 @@ TEST_P(KilledServer, AServerThatKeepsItsRoundLosesNoPlayerAndNothing) {
 }
 
 // The machine was off for longer than the grace time. The world still uses the ids of lost players.
-TEST(Recovery, NewcomersSeeARoundThatGoesOnWithoutItsPlayers) {
+TEST(Recovery, NewPlayersSeeTheRecoveredRoundWithoutItsPlayers) {
   constexpr std::chrono::hours kDay{24};
   RecoveryRun run("saucershoot", 2, 13);
   run.play(std::chrono::milliseconds(300));
@@ -84,7 +84,7 @@ TEST(Recovery, NewcomersSeeARoundThatGoesOnWithoutItsPlayers) {
 }
 
 // The long form is `deploy/bench recovery`, with a hundred kills.
-TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
+TEST(Recovery, ScoresSurviveKillsAndMatchTheRound) {
   RecoveryRun run(kScoresModule, 2, 11);
   for (int i = 0; i < 2; ++i) {
     run.play(std::chrono::milliseconds(400));
@@ -101,7 +101,7 @@ TEST(Recovery, ScoresOutliveKillsAndAreThoseOfTheRound) {
   EXPECT_EQ(check.foreign, 0u) << "none is there that the round does not add, or twice";
 }
 
-TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
+TEST(Recovery, KilledWorldResumesFromACheckpoint) {
   RecoveryRun run("saucershoot", 2, 3);
   for (int i = 0; i < 3; ++i) {
     run.play(std::chrono::milliseconds(700));
@@ -127,7 +127,7 @@ TEST(Recovery, AWorldThatIsKilledGoesOnUnderItsPlayers) {
   EXPECT_TRUE(by_copy) << run.log();
 }
 
-TEST(Recovery, ARoundThatKillsServersIsGivenUp) {
+TEST(Recovery, RoundThatKillsServersIsAbandoned) {
   RecoveryRun run("hello", 1, 3);
   run.play(std::chrono::milliseconds(500));
   run.killServer();
@@ -139,7 +139,7 @@ TEST(Recovery, ARoundThatKillsServersIsGivenUp) {
   EXPECT_TRUE(has(run.log(), "after 3 failed recoveries"));
 }
 
-TEST(Recovery, OfAnotherGameDoesNotHappen) {
+TEST(Recovery, DoesNotResumeARoundOfAnotherGame) {
   RecoveryRun run("hello", 1, 3);
   run.play(std::chrono::milliseconds(500));
   run.killServer();

@@ -66,7 +66,7 @@ TEST_F(Resume, ABrokenStreamIsReplacedUnnoticed) {
   EXPECT_EQ(proxy->count(), 4);
 }
 
-TEST_F(Resume, ASessionThatTheClientHasGivenUpIsGoneOnWith) {
+TEST_F(Resume, ClientResumesAfterItsSessionTimedOut) {
   TestClient& ann = startAndSettle();
   const std::uint32_t id = ann.player();
   ASSERT_TRUE(losesItsStream(ann));
@@ -84,7 +84,7 @@ TEST_F(Resume, ASessionThatTheClientHasGivenUpIsGoneOnWith) {
   expectNoJoinOrLeave();
 }
 
-TEST_F(Resume, DatagramsGoOnWhileThereIsNoStream) {
+TEST_F(Resume, DatagramsContinueWithoutAStream) {
   TestClient& ann = startAndSettle();
   ASSERT_TRUE(losesItsStream(ann));
   // Two seconds of play, with keys.
@@ -117,7 +117,7 @@ TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   EXPECT_TRUE(ann.session().isDetached());
 }
 
-TEST_F(Resume, WithoutDatagramsTheWorldGoesOnFromWhereItWas) {
+TEST_F(Resume, ResumeContinuesTheWorldWithoutDatagrams) {
   start();
   valve->up = valve->down = false;
   TestClient ann(context, proxy->port(), player("ann"));
@@ -151,7 +151,7 @@ TEST_F(Resume, AClientThatMissedThePlayerListGetsIt) {
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob"); }));
 }
 
-TEST_F(Resume, AClientThatDoesNotComeBackLeavesWhenTheGraceIsOver) {
+TEST_F(Resume, DisconnectedClientLeavesAfterTheGraceTime) {
   HostOptions options = home.server();
   options.grace = 0.5;
   start(options);
@@ -167,7 +167,7 @@ TEST_F(Resume, AClientThatDoesNotComeBackLeavesWhenTheGraceIsOver) {
       server->inWorld([](df::World& world) { return world.objects().objectsOfType("Ship").getCount(); }), 0);
 }
 
-TEST_F(Resume, AClientThatLeavesOnPurposeIsGoneAtOnce) {
+TEST_F(Resume, LeavingClientIsRemovedAtOnce) {
   TestClient& ann = startAndSettle();
   ann.connection().leave();
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return census.leaves == 1; }));
@@ -210,7 +210,7 @@ TEST_F(Resume, AGuessedTokenResumesNoSession) {
   EXPECT_TRUE(keyWorks(ann));
 }
 
-TEST_F(Resume, AnotherServerInItsPlaceIsToldNotAByte) {
+TEST_F(Resume, ImpostorServerReceivesNoBytesOnReconnect) {
   TestClient& ann = startAndSettle("xyzzy");
   RecordingServer impostor(home.identity("another identity"));
   proxy->setServer(impostor.port());
@@ -222,7 +222,7 @@ TEST_F(Resume, AnotherServerInItsPlaceIsToldNotAByte) {
   EXPECT_EQ(server->counters().resumed, 0u);
 }
 
-TEST_F(Resume, AnotherServerBehindASecondStreamIsToldNotAByte) {
+TEST_F(Resume, ImpostorOnTheSecondStreamReceivesNoBytes) {
   start();
   RecordingServer impostor(home.identity("another identity"));
   valve->up = valve->down = false;
@@ -238,7 +238,7 @@ TEST_F(Resume, AnotherServerBehindASecondStreamIsToldNotAByte) {
   EXPECT_TRUE(keyWorks(ann));
 }
 
-TEST_F(Resume, AClientThatIsRefusedForNowComesBackByItself) {
+TEST_F(Resume, TemporarilyRefusedClientReconnectsByItself) {
   TestClient& ann = startAndSettle();
   const std::uint32_t id = ann.player();
   // Break each new stream at once, until the server asks the client to wait.

@@ -91,7 +91,7 @@ class Return : public ProxiedServer {
   Keys keys;
 };
 
-TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
+TEST_F(Return, RestartedClientGetsItsObjectBack) {
   auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 3));
   const std::uint32_t id = ann->player();
@@ -115,7 +115,7 @@ TEST_F(Return, APlayerWhoseClientWasKilledHasTheirObjectBack) {
   expectNoJoinOrLeave();
 }
 
-TEST_F(Return, WithoutDatagramsToo) {
+TEST_F(Return, SessionIsResumedWithoutDatagrams) {
   start();
   valve->up = valve->down = false;
   auto ann = client("ann");
@@ -127,7 +127,7 @@ TEST_F(Return, WithoutDatagramsToo) {
   expectNoJoinOrLeave();
 }
 
-TEST_F(Return, BeforeTheServerKnowsThatTheClientWasKilled) {
+TEST_F(Return, SessionIsResumedBeforeTheServerNoticesTheKill) {
   auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 2));
   proxy->stall();  // the end of the old stream never reaches the server
@@ -138,7 +138,7 @@ TEST_F(Return, BeforeTheServerKnowsThatTheClientWasKilled) {
   expectNoJoinOrLeave();
 }
 
-TEST_F(Return, AStreamThatBreaksAfterwardsIsReplacedAsEver) {
+TEST_F(Return, StreamBrokenAfterTheReturnIsReplaced) {
   auto ann = startAndSettle();
   ann.reset();
   ann = client("ann");
@@ -175,7 +175,7 @@ TEST_F(Return, KeysOfAKilledClientAreReleased) {
       << "also where the server did not know";
 }
 
-TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
+TEST_F(Return, SecondClientDoesNotTakeARunningSession) {
   auto ann = startAndSettle();
   auto other = client("ann");
   ASSERT_TRUE(serveUntil(context, {ann.get(), other.get()}, [&] { return other->joined(); }));
@@ -195,7 +195,7 @@ TEST_F(Return, ASecondTerminalDoesNotTakeTheSessionOfOneThatRuns) {
   expectNoJoinOrLeave(2);
 }
 
-TEST_F(Return, AProcessThatIsRefusedForNowTriesAgainByItself) {
+TEST_F(Return, TemporarilyRefusedProcessRetriesByItself) {
   start();
   auto ann = client("ann");
   ASSERT_TRUE(joins(*ann));
@@ -225,7 +225,7 @@ TEST_F(Return, AnotherNameIsAnotherPlayer) {
   EXPECT_EQ(server->counters().restarted, 0u);
 }
 
-TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
+TEST_F(Return, SessionMovesToTheClientWithTheToken) {
   auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 2));
   ClientSetup copy = player("copy");
@@ -247,7 +247,7 @@ TEST_F(Return, TheSessionGoesToTheClientThatProvesTheToken) {
   }
 }
 
-TEST_F(Return, AClientThatWasCutOffMeanwhileGetsTheReasonAndStaysOut) {
+TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
   auto ann = startAndSettle();
   proxy->setOpen(false);
   proxy->cut();
@@ -283,7 +283,7 @@ TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
   EXPECT_EQ(impostor.counters().unknown_tokens, 0u);
 }
 
-TEST_F(Return, AfterTheGraceTheyAreANewPlayer) {
+TEST_F(Return, AfterTheGraceTimeClientIsANewPlayer) {
   HostOptions options = home.server();
   options.grace = 0.3;
   start(options);
@@ -299,7 +299,7 @@ TEST_F(Return, AfterTheGraceTheyAreANewPlayer) {
   EXPECT_TRUE(linesOf(*ann).empty());
 }
 
-TEST_F(Return, APlayerWhoLeftOnPurposeIsANewPlayer) {
+TEST_F(Return, LeftPlayerReturnsAsANewPlayer) {
   auto ann = startAndSettle();
   ann->connection().leave();
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.leaves == 1; }));
@@ -308,7 +308,7 @@ TEST_F(Return, APlayerWhoLeftOnPurposeIsANewPlayer) {
   EXPECT_EQ(server->counters().unknown_tokens, 0u) << "nothing was kept";
 }
 
-TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
+TEST_F(Return, ChatDuringADisconnectArrivesOnceInOrder) {
   auto ann = startAndSettle();
   TestClient bob(context, server->port(), home.player("bob"));
   ASSERT_TRUE(serveUntil(context, {ann.get(), &bob}, [&] { return bob.joined() && lists(*ann, "bob"); }));
@@ -341,7 +341,7 @@ TEST_F(Return, ChatSentWithoutAStreamArrivesOnceAndInOrder) {
   EXPECT_EQ(server->counters().kept_overflows, 0u);
 }
 
-TEST_F(Return, OldChatIsNotForANewProcess) {
+TEST_F(Return, NewProcessDoesNotReceiveOldChat) {
   auto ann = startAndSettle();
   ann->session().sendChat("old");
   ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return linesOf(*ann).size() == 1; }));

@@ -92,7 +92,7 @@ class RoomRecovery : public LobbyFixture {
   std::vector<const ClientSession*> m_before;  ///< the clients' sessions when the server was killed
 };
 
-TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
+TEST_F(RoomRecovery, PlayersReturnToTheirRoomsWithTheirIds) {
   startJournaled();
   auto ann = join("ann", "one");
   auto bob = join("bob", "two");
@@ -131,7 +131,7 @@ TEST_F(RoomRecovery, EachPlayerIsBackInTheirRoomAsTheSamePlayer) {
 }
 
 // At most two copies of a world wait, so three copies must be of both rooms.
-TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothing) {
+TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   startJournaled();
   auto ann = join("ann", "one");
   auto bob = join("bob", "two");
@@ -169,7 +169,7 @@ TEST_F(RoomRecovery, AWorldThatCrashesGoesOnFromACopyAndTheOtherRoomNoticesNothi
 }
 
 // The lobby's knowledge of rooms is part of its round.
-TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
+TEST_F(RoomRecovery, DoorsWorkAfterRecovery) {
   rooms = {"hall=lobby", "one"};
   startJournaled();
   auto ann = connect("ann", "hall");
@@ -187,7 +187,7 @@ TEST_F(RoomRecovery, DoorsLeadToRoomsAfterwards) {
   EXPECT_TRUE(serve([&] { return shown(*ann).process > 0; }));
 }
 
-TEST_F(RoomRecovery, ARoundThatCannotGoOnIsOneRoomsOwn) {
+TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   startJournaled();
   auto ann = join("ann", "one");
   auto bob = join("bob", "two");

@@ -141,19 +141,19 @@ class RoundEnd : public Rounds {
   }
 };
 
-TEST_F(RoundEnd, BySettingGameOver) {
+TEST_F(RoundEnd, GameOverStartsTheNextRound) {
   expectAnotherRound(df::Keyboard::X, "The round is over; the next one begins.");
 }
 
-TEST_F(RoundEnd, ByACrash) {
+TEST_F(RoundEnd, CrashStartsTheNextRound) {
   expectAnotherRound(df::Keyboard::C, "The game crashed (SIGABRT); the next round begins.");
 }
 
-TEST_F(RoundEnd, ByAGameThatHangs) {
+TEST_F(RoundEnd, HangStartsTheNextRound) {
   expectAnotherRound(df::Keyboard::H, "The game did not answer in time; the next round begins.");
 }
 
-TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
+TEST_F(Rounds, PlayersSeeWhatTheWorldsDraw) {
   const std::string truth = home.knownServers().string() + ".truth";
   start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH", truth}, {"NAIAD_INSECURE", "true"}});
   TestClient ann(context, game->port(), "ann");
@@ -183,7 +183,7 @@ TEST_F(Rounds, WhatPlayersSeeIsWhatTheWorldsDraw) {
       << "more than the server skipped for this client";
 }
 
-TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
+TEST_F(Rounds, GameThatCrashesAtStartEndsTheServer) {
   GameProgram hopeless("rounds_game", {{"NAIAD_ON_GAME_OVER", "restart"},
                                        {"ROUNDS_CRASH_AT_ONCE", "1"},
                                        {"NAIAD_WORLD_ENVIRONMENT", "ROUNDS_CRASH_AT_ONCE"}});
@@ -192,7 +192,7 @@ TEST_F(Rounds, AGameThatNeverBeginsEndsTheServer) {
   EXPECT_TRUE(has(hopeless.log(), "the game crashed (SIGABRT)"));
 }
 
-TEST_F(Rounds, TheEndOfTheServerIsTheEndOfItsWorld) {
+TEST_F(Rounds, ServerShutdownEndsItsWorld) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   const int process = shown(*ann).process;
@@ -243,7 +243,7 @@ TEST_F(Rounds, PrivateWorldsCrashAlone) {
   EXPECT_EQ(shown(*carl).steps, 0);
 }
 
-TEST_F(Rounds, APlayerWhoLeavesAPrivateWorldEndsIt) {
+TEST_F(Rounds, LeavingPlayerEndsTheirPrivateWorld) {
   start({{"NAIAD_PLAYERS", "private"}});
   auto ann = join("ann");
   auto bob = join("bob");
@@ -274,13 +274,13 @@ TEST_F(Rounds, PrivateWorldsHaveRounds) {
 
 // ---- output of games --------------------------------------------------------------------------------------
 
-TEST_F(Rounds, WhoWatchesTheServerReadsWhatAWorldPrints) {
+TEST_F(Rounds, WatchShowsPrintedGameOutput) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   EXPECT_EQ(watchedLine(*ann, df::Keyboard::P), R"({"event":"game","text":"game: printed \\x1b[31mred"})");
 }
 
-TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
+TEST_F(Rounds, WatchShowsGameLogLines) {
   start({});
   auto ann = join("ann");
   EXPECT_EQ(watchedLine(*ann, df::Keyboard::L), R"({"event":"game","text":"game: logged \\x1b[31mred"})");
@@ -289,7 +289,7 @@ TEST_F(Rounds, WhoWatchesTheServerReadsWhatItsGameLogs) {
   EXPECT_TRUE(has(gamesOwnLog(), "logged")) << "its own file has it as ever";
 }
 
-TEST_F(Rounds, ARestartAtTheRoundsEndWaitsForItAndPlayersComeBack) {
+TEST_F(Rounds, RestartAtRoundEndWaitsAndPlayersReconnect) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   const int process = shown(*ann).process;
@@ -356,7 +356,7 @@ class Upgrade : public Rounds {
   std::string m_code;
 };
 
-TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
+TEST_F(Upgrade, NextRoundDetectsTheUpgradeAndRestartsTheServer) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   const int process = shown(*ann).process;
@@ -374,7 +374,7 @@ TEST_F(Upgrade, IsNoticedByTheNextRoundAndTheServerBeginsAgain) {
   EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();
 }
 
-TEST_F(Upgrade, PrivateWorldsGoOnUntilTheirPlayersHaveLeft) {
+TEST_F(Upgrade, PrivateWorldsContinueUntilTheirPlayersLeave) {
   start({{"NAIAD_PLAYERS", "private"}});
   auto ann = join("ann");
   upgrade();

@@ -52,7 +52,7 @@ class Scores : public LoopbackFixture {
   std::unique_ptr<TestClient> client;
 };
 
-TEST_F(Scores, TheNextRoundKnowsThemAndSoDoesTheNextServerAfterAKill) {
+TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   start();
   join();
   ASSERT_TRUE(shows("best=-1;"));
@@ -74,7 +74,7 @@ TEST_F(Scores, TheNextRoundKnowsThemAndSoDoesTheNextServerAfterAKill) {
   EXPECT_EQ(listed(), list) << "none twice, none lost";
 }
 
-TEST_F(Scores, TheLogCountsThem) {
+TEST_F(Scores, ShutdownLogCountsTheScores) {
   start();
   join();
   press(df::Keyboard::S);
@@ -106,7 +106,7 @@ class RoomScores : public RoomsFixture {
   }
 };
 
-TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
+TEST_F(RoomScores, ScoreIsFoundAtItsTickInTheRecording) {
   start({"one", std::string("two=") + kScoresModule, "doors=lobby"}, {},
         {{"NAIAD_STATE", home.identity("state")}, {"NAIAD_JOURNAL", home.identity("rounds")}});
   auto ann = connect("ann", "two");
@@ -136,7 +136,7 @@ TEST_F(RoomScores, ARowOfARoomsGameIsFoundInItsRecording) {
       << "it came in that tick";
 }
 
-TEST_F(RoomScores, WhereRoomsPlaySeveralGamesOneIsAskedFor) {
+TEST_F(RoomScores, SeveralGamesRequireAGameOrRoomOption) {
   start({"one", "two", "doors=lobby"}, {}, {{"NAIAD_STATE", home.identity("state")}});
   const auto expectRefusal = [&](const std::string& words, const std::string& sentence) {
     const auto [code, said] = scores(words);

@@ -65,7 +65,7 @@ TEST_F(SealedPlay, KeysArriveAndTheStreamFallsSilent) {
   EXPECT_GT(datagrams(ann) - before, 10 * (streamed(ann) - on_stream));
 }
 
-TEST_F(SealedPlay, WithDatagramsBlockedTheStreamWillDo) {
+TEST_F(SealedPlay, BlockedDatagramsFallBackToTheStream) {
   for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
     valve = std::make_shared<Valve>();
     valve->up = up;
@@ -106,7 +106,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   EXPECT_TRUE(keyWorks(ann));
 }
 
-TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
+TEST_F(SealedPlay, ReconnectedClientReopensTheSecondStream) {
   valve->up = valve->down = false;
   TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
@@ -129,7 +129,7 @@ TEST_F(SealedPlay, AClientThatBreaksOffHasASecondStreamAgain) {
   EXPECT_EQ(server.counters().divergences, 0u);
 }
 
-TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
+TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
   valve->up = valve->down = false;
   TestServer server(busyWorld(50), home.server());
   StreamProxy proxy(context, server.port());
@@ -148,7 +148,7 @@ TEST_F(SealedPlay, AStreamThatWaitsDoesNotHoldUpTheGame) {
   EXPECT_EQ(server.counters().detached, 0u);
 }
 
-TEST_F(SealedPlay, WithoutTheTokenOfASessionThereIsNoSecondStream) {
+TEST_F(SealedPlay, SecondStreamNeedsASessionToken) {
   TestServer server(busyWorld(5), home.server());
   for (const std::string& token : {std::string(), std::string("0123456789abcdef")}) {
     ClientSetup stranger = player("eve");
@@ -187,7 +187,7 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
   }
 }
 
-TEST_F(SealedPlay, NearTheEndOfItsKeysASessionTakesAnotherStream) {
+TEST_F(SealedPlay, ExhaustedKeysMoveTheSessionToANewStream) {
   TestServer server(busyWorld(50), home.server());
   ClientSetup setup = player("ann");
   setup.options.seal_limits.new_epoch_after = 300;
@@ -207,7 +207,7 @@ TEST_F(SealedPlay, NearTheEndOfItsKeysASessionTakesAnotherStream) {
   EXPECT_EQ(counters.malformed_messages, 0u);
 }
 
-TEST_F(SealedPlay, AnotherPortGoesOnWithinASecond) {
+TEST_F(SealedPlay, PortChangeIsFollowedWithinASecond) {
   TestServer server(busyWorld(50), home.server());
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(settles(ann));

@@ -23,7 +23,7 @@ std::chrono::microseconds tickToldWith(int frame_time_millis, int frame_micros) 
   return client.session().welcome().tick;
 }
 
-TEST(Settings, TheFrameTimeOfTheGameCountsAndIsInTheWelcome) {
+TEST(Settings, WelcomeHasFrameTimeOfGameOrHost) {
   EXPECT_EQ(tickToldWith(5, 0), std::chrono::milliseconds(5));
   EXPECT_EQ(tickToldWith(50, 3000), std::chrono::milliseconds(3)) << "the host's own counts more";
   EXPECT_EQ(tickToldWith(33, 0), std::chrono::microseconds(33333))
@@ -31,7 +31,7 @@ TEST(Settings, TheFrameTimeOfTheGameCountsAndIsInTheWelcome) {
   EXPECT_EQ(tickToldWith(999999, 0), std::chrono::seconds(1)) << "clients believe no longer one";
 }
 
-TEST(Settings, TheBackgroundReachesClientsWheneverItChanges) {
+TEST(Settings, BackgroundChangesReachClients) {
   TestServer server([](df::World&) { DM.setBackgroundColor(df::BLUE); });
   asio::io_context context;
   TestClient client(context, server.port(), "ann");
@@ -60,7 +60,7 @@ struct Quitter : df::Object {
   }
 };
 
-TEST(Settings, TheKeyThatEndsAGameEndsItForOnePlayer) {
+TEST(Settings, GameOverKeyEndsTheGameForOnePlayer) {
   TestServer server([](df::World&) { new Quitter; });
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");

@@ -40,7 +40,7 @@ std::vector<std::string> heardBy(TestClient& client, std::vector<std::string>& h
   return heard;
 }
 
-TEST(SoundPlay, ReachesAllPlayersAndNewcomersHearWhatGoesOn) {
+TEST(SoundPlay, SoundsReachAllPlayersAndMusicReachesNewPlayers) {
   TestServer server([](df::World&) { new Band; });
   asio::io_context context;
   TestClient ann(context, server.port(), "ann");

@@ -102,7 +102,7 @@ class Trouble : public LoopbackFixture {
 
 // ---- the log ----------------------------------------------------------------------------------------------
 
-TEST_F(Trouble, AReaderOfTheLogThatGoesEndsNobodysGame) {
+TEST_F(Trouble, ClosedLogPipeDoesNotEndTheGame) {
   Pipe pipe;
   start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
   auto ann = join("ann");
@@ -119,7 +119,7 @@ TEST_F(Trouble, AReaderOfTheLogThatGoesEndsNobodysGame) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
-TEST_F(Trouble, AReaderOfTheLogThatStallsHoldsUpNoTick) {
+TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   Pipe pipe;
   start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
   std::string said;
@@ -134,7 +134,7 @@ TEST_F(Trouble, AReaderOfTheLogThatStallsHoldsUpNoTick) {
   EXPECT_TRUE(has(said, "\"ann\" joined")) << "what waited was lost";
 }
 
-TEST_F(Trouble, RefusalsAreLoggedWithTheirAddressFirst) {
+TEST_F(Trouble, RefusalIsLoggedWithItsMessage) {
   start({{"NAIAD_MAX_PLAYERS", "1"}});
   auto ann = join("ann");
   const ClientSetup bob = home.player("bob");
@@ -145,7 +145,7 @@ TEST_F(Trouble, RefusalsAreLoggedWithTheirAddressFirst) {
   EXPECT_TRUE(logs(" \"ann\" joined with \"test\"\n")) << game->log();
 }
 
-TEST_F(Trouble, WhatWasRefusedIsLoggedAtTheEnd) {
+TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
   start({{"NAIAD_PASSWORD", PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text()}});
   for (const std::string password : {"plugh", "", "xyzzy"}) {
     ClientSetup setup = home.player("ann");
@@ -176,7 +176,7 @@ TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
 
 // ---- a game that hangs ------------------------------------------------------------------------------------
 
-TEST_F(Trouble, AGameThatHangsIsReportedAndTheFirstSignalEndsItInOrder) {
+TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
 #endif
@@ -193,7 +193,7 @@ TEST_F(Trouble, AGameThatHangsIsReportedAndTheFirstSignalEndsItInOrder) {
   EXPECT_TRUE(logs("forced to exit: the game does not finish tick ")) << game->log();
 }
 
-TEST_F(Trouble, TheSecondSignalEndsAtOnceWithAGoodbye) {
+TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "this sanitizer keeps signals from a thread that only computes";
 #endif
@@ -240,28 +240,28 @@ class Crash : public Trouble {
   }
 };
 
-TEST_F(Crash, ByEndlessRecursionLeavesALine) {
+TEST_F(Crash, EndlessRecursionIsLogged) {
   expectLine(df::Keyboard::R, SIGSEGV, "SIGSEGV");
 }
 
-TEST_F(Crash, ByAnAbortLeavesALine) {
+TEST_F(Crash, AbortIsLogged) {
   expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
 }
 
-TEST_F(Crash, InDrawLeavesALine) {
+TEST_F(Crash, CrashInDrawIsLogged) {
   expectLine(df::Keyboard::D, SIGSEGV, "SIGSEGV", "Trouble ran draw()");
 }
 
-TEST_F(Crash, ByADivisionLeavesALine) {
+TEST_F(Crash, DivisionByZeroIsLogged) {
   expectLine(df::Keyboard::Z, SIGFPE, "SIGFPE");
 }
 
-TEST_F(Crash, AfterTheHandlerThatItCalledNamesTheOuterOne) {
+TEST_F(Crash, CrashAfterNestedHandlerNamesTheOuterHandler) {
   expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
 }
 
 /// Like the tests above, with the world in a process that shares its crash page with the front.
-TEST_F(Trouble, AWorldThatCrashesLeavesTheSameLines) {
+TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   ASSERT_TRUE(ticks(*ann, 1));
@@ -293,7 +293,7 @@ std::string lastWords(const std::string& mistake, int& code) {
   return game.log();
 }
 
-TEST(ProgramMistakes, EndInALine) {
+TEST(ProgramMistakes, AreExplainedInTheLog) {
   int code = 0;
   EXPECT_TRUE(has(lastWords("no-run", code),
                   "trouble_game: the program ended without GM.run(), so nothing was played\n"));
@@ -338,7 +338,7 @@ class HangsWhileItLogs : public df::Object {
   HeldLog& m_log;
 };
 
-TEST(TroubleDeathTest, SignalsEndAGameThatHangsInTheLog) {
+TEST(TroubleDeathTest, SignalsEndAHungGameThatLocksTheLog) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const auto hang = [] {
     alarm(30);  // ends a test that hangs

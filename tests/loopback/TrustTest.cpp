@@ -28,7 +28,7 @@ class TrustTest : public LoopbackFixture {
   std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
 };
 
-TEST_F(TrustTest, RightWrongAndMissingPasswords) {
+TEST_F(TrustTest, OnlyTheRightPasswordJoins) {
   HostOptions options = home.server();
   options.password = quick("xyzzy");
   TestServer server(busyWorld(5), options);
@@ -43,7 +43,7 @@ TEST_F(TrustTest, RightWrongAndMissingPasswords) {
   EXPECT_EQ(server.counters().joined, 1u);
 }
 
-TEST_F(TrustTest, AnAddressThatGuessesTooOftenWaitsEvenWithTheRightPassword) {
+TEST_F(TrustTest, RepeatedGuessesBlockEvenTheRightPassword) {
   HostOptions options = home.server();
   options.password = quick("xyzzy");
   TestServer server(busyWorld(5), options);
@@ -58,7 +58,7 @@ TEST_F(TrustTest, AnAddressThatGuessesTooOftenWaitsEvenWithTheRightPassword) {
   EXPECT_EQ(server.counters().joined, 0u);
 }
 
-TEST_F(TrustTest, TheFirstKeyIsPinnedAndTheSameOneIsWelcome) {
+TEST_F(TrustTest, FirstKeyIsPinnedAndAcceptedAgain) {
   TestServer server(busyWorld(5), home.server());
   EXPECT_EQ(refusal(server.port(), home.player("ann")), "");
   const std::string pin =
@@ -69,7 +69,7 @@ TEST_F(TrustTest, TheFirstKeyIsPinnedAndTheSameOneIsWelcome) {
   EXPECT_EQ(pins(), before);
 }
 
-TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
+TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   auto server = std::make_unique<TestServer>(busyWorld(5), home.server());
   const std::uint16_t port = server->port();
   EXPECT_EQ(refusal(port, home.player("ann")), "");
@@ -93,7 +93,7 @@ TEST_F(TrustTest, AnotherKeyIsRefusedLoudly) {
   EXPECT_EQ(refusal(port, home.player("ann")), "");
 }
 
-TEST_F(TrustTest, AGivenFingerprintCountsMost) {
+TEST_F(TrustTest, GivenFingerprintMustMatch) {
   TestServer server(busyWorld(5), home.server());
   ClientSetup setup = home.player("ann");
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
@@ -114,7 +114,7 @@ TEST_F(TrustTest, ALinkJoinsAndTheWholeKeyIsPinned) {
   EXPECT_TRUE(has(pins(), server.fingerprint()->text()));
 }
 
-TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
+TEST_F(TrustTest, ServerWithoutTheLinksKeyReceivesNoBytes) {
   RecordingServer impostor(home.identity("another identity"));
   ClientSetup setup = home.player("ann");
   setup.options.password = "xyzzy";
@@ -129,7 +129,7 @@ TEST_F(TrustTest, AServerWithoutTheKeyOfTheLinkIsToldNotAByte) {
 
 /// The password is a secret, and the hello contains it. Tested with a pin from an earlier session and with a
 /// key given by the host.
-TEST_F(TrustTest, AServerWithAnotherKeyIsToldNotAByte) {
+TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
   RecordingServer impostor(home.identity("another identity"));
   ClientSetup setup = home.player("ann");
   setup.options.password = "xyzzy";

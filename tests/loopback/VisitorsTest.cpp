@@ -17,7 +17,7 @@ class VisitorsTest : public VisitedServer {
   VisitorsTest() { options.max_per_address = 2; }
 };
 
-TEST_F(VisitorsTest, PlayersCountWhereTheyAre) {
+TEST_F(VisitorsTest, PlayersCountForTheirOwnAddress) {
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
   TestClient bob(context, server.port(), from("192.0.2.7:50313", "bob"));
@@ -32,7 +32,7 @@ TEST_F(VisitorsTest, PlayersCountWhereTheyAre) {
   EXPECT_EQ(server.counters().joined, 4u);
 }
 
-TEST_F(VisitorsTest, AVisitorWhoGuessesPasswordsLocksOutNobodyElse) {
+TEST_F(VisitorsTest, PasswordGuessesLockOutOnlyTheirAddress) {
   options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
   TestServer server(busyWorld(5), options);
   for (int i = 0; i < 5; ++i) {
@@ -52,7 +52,7 @@ TEST_F(VisitorsTest, AVisitorWhoGuessesPasswordsLocksOutNobodyElse) {
   }
 }
 
-TEST_F(VisitorsTest, HeadersThatAreNoneCostTheGameNothing) {
+TEST_F(VisitorsTest, InvalidHeadersDoNotDisturbTheGame) {
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
   ASSERT_TRUE(joins(ann));
@@ -98,7 +98,7 @@ TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   EXPECT_EQ(server.counters().connections, 1u);
 }
 
-TEST_F(VisitorsTest, ASessionIsResumedThroughIt) {
+TEST_F(VisitorsTest, SessionResumesThroughTheVisitorSocket) {
   options.grace = 60;
   TestServer server(busyWorld(5), options);
   ClientSetup setup = from("192.0.2.7:50312", "ann");
@@ -115,7 +115,7 @@ TEST_F(VisitorsTest, ASessionIsResumedThroughIt) {
   EXPECT_EQ(again.player(), player);
 }
 
-TEST_F(VisitorsTest, WhereNobodyListensThereIsASentence) {
+TEST_F(VisitorsTest, MissingVisitorSocketGivesAMessage) {
   TestServer server(busyWorld(5), home.server());
   TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
   EXPECT_TRUE(has(refusal(ann), "Could not connect through")) << ann.connection().sentence();

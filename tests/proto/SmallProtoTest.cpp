@@ -101,7 +101,7 @@ TYPED_TEST(SmallProto, EachReadsWhatTheOtherWrites) {
   }
 }
 
-TYPED_TEST(SmallProto, CopiesAndMovesAreWhole) {
+TYPED_TEST(SmallProto, CopiesAndMovesKeepAllFields) {
   for (std::uint64_t seed = 0; seed < kMessages / 10; ++seed) {
     typename TypeParam::Small small, assigned;
     RandomFields random(seed);
@@ -123,7 +123,7 @@ TYPED_TEST(SmallProto, CopiesAndMovesAreWhole) {
   }
 }
 
-TYPED_TEST(SmallProto, BothJudgeChangedBytesAlike) {
+TYPED_TEST(SmallProto, CodecsAgreeOnMutatedBytes) {
   RandomFields random(7);
   std::string whole = validBytes<TypeParam>(random), other = whole;
   int accepted = 0;
@@ -139,7 +139,7 @@ TYPED_TEST(SmallProto, BothJudgeChangedBytesAlike) {
   EXPECT_LT(accepted, kMutations * 9 / 10);
 }
 
-TYPED_TEST(SmallProto, BothJudgeEveryTruncationAlike) {
+TYPED_TEST(SmallProto, CodecsAgreeOnEveryTruncation) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RandomFields random(seed);
     const std::string whole = validBytes<TypeParam>(random);
@@ -150,7 +150,7 @@ TYPED_TEST(SmallProto, BothJudgeEveryTruncationAlike) {
   }
 }
 
-TYPED_TEST(SmallProto, BothJudgeEveryTwoBytesAlike) {
+TYPED_TEST(SmallProto, CodecsAgreeOnAllTwoByteInputs) {
   const int step = kSanitized ? 7 : 1;
   for (int bytes = 0; bytes < 0x10000; bytes += step) {
     readByBoth<TypeParam>({static_cast<char>(bytes), static_cast<char>(bytes >> 8)});
@@ -158,7 +158,7 @@ TYPED_TEST(SmallProto, BothJudgeEveryTwoBytesAlike) {
   }
 }
 
-TYPED_TEST(SmallProto, BothJudgeAFieldOfEveryWireTypeAlike) {
+TYPED_TEST(SmallProto, CodecsAgreeOnFieldsOfEveryWireType) {
   // Lengths of 2^31 − 1 and more, numbers of ten bytes and more, and some valid values.
   const std::vector<std::string> values = {std::string(8, '\0'),
                                            "\x01\x01",
@@ -203,7 +203,7 @@ std::string nested(int levels, bool group) {
   return bytes;
 }
 
-TEST(SmallProtoLimits, AHundredLevelsAreAcceptedAndNoMore) {
+TEST(SmallProtoLimits, NestingIsLimitedTo100Levels) {
   for (const bool group : {false, true}) {
     EXPECT_TRUE(bothAccept(nested(100, group)));
     EXPECT_FALSE(bothAccept(nested(101, group)));
@@ -221,7 +221,7 @@ TEST(SmallProtoLimits, GroupsEndWithTheirOwnNumber) {
   EXPECT_FALSE(bothAccept("\x9A\x01\x01\x2C")) << "in a message";
 }
 
-TEST(SmallProtoLimits, KeysAndLengthsTakeUpToFiveBytesAndNumbersTen) {
+TEST(SmallProtoLimits, VarintLengthIsLimitedToFiveOrTenBytes) {
   EXPECT_TRUE(bothAccept(std::string("\xA0\x80\x80\x80\x00\x01", 6)));
   EXPECT_FALSE(bothAccept(std::string("\xA0\x80\x80\x80\x80\x00\x01", 7)));
   EXPECT_TRUE(bothAccept(std::string("\x8A\x01\x81\x80\x80\x80\x00x", 8)));
@@ -235,7 +235,7 @@ TEST(SmallProtoLimits, ANegativeSizeIsRefused) {
   EXPECT_FALSE(small.ParseFromArray("", -1));
 }
 
-TEST(SmallProtoLimits, BothKnowTheSameUtf8) {
+TEST(SmallProtoLimits, CodecsAgreeOnValidUtf8) {
   silenceParseErrors();
   // All texts of two bytes, and those of three and four whose last bytes are at the ends of their ranges.
   const std::string lasts = "\x7F\x80\x8F\x90\x9F\xA0\xBF\xC0";
@@ -259,7 +259,7 @@ TEST(SmallProtoLimits, BothKnowTheSameUtf8) {
   }
 }
 
-TEST(SmallProtoFields, AMessageThatIsThereTwiceIsMerged) {
+TEST(SmallProtoFields, DuplicateMessageFieldsAreMerged) {
   const std::string twice("\x9A\x01\x02\x20\x07\x9A\x01\x02\x18\x04", 10);
   ASSERT_TRUE(bothAccept(twice));
   Small small;
@@ -268,7 +268,7 @@ TEST(SmallProtoFields, AMessageThatIsThereTwiceIsMerged) {
   EXPECT_EQ(small.child().signed_number(), 2);
 }
 
-TEST(SmallProtoFields, AOneofKeepsTheLastAndMergesTheSame) {
+TEST(SmallProtoFields, OneofKeepsTheLastMemberAndMergesDuplicates) {
   // deeper { number 7 }, deeper { signed_number 2 } are merged, but not with a text between them.
   const std::string one("\xE2\x12\x02\x20\x07", 5), two("\xE2\x12\x02\x18\x04", 5), text("\xF2\x01\x01x", 4);
   for (const bool between : {false, true}) {
@@ -302,7 +302,7 @@ TEST(SmallProtoFields, AOneofHoldsOneOfItsMembers) {
   EXPECT_EQ(moved.second_blob2(), "kept");
 }
 
-TEST(SmallProtoFields, NumbersLoseTheBitsBeyondTheirTypesButABoolCountsThemAll) {
+TEST(SmallProtoFields, IntegersAreTruncatedAndBoolsUseAll64Bits) {
   // 2^32 + 5 and 2^32 in fields of 32 bits, and 2^32 and 2^70 as a bool.
   EXPECT_TRUE(bothAccept("\x20\x85\x80\x80\x80\x10\x18\x80\x80\x80\x80\x10"));
   Small small;
@@ -317,7 +317,7 @@ TEST(SmallProtoFields, NumbersLoseTheBitsBeyondTheirTypesButABoolCountsThemAll) 
   EXPECT_FALSE(small.flag());
 }
 
-TEST(SmallProtoFields, RepeatedNumbersArePackedOrNot) {
+TEST(SmallProtoFields, PackedAndUnpackedNumbersAreRead) {
   const std::string packed("\xFA\x7F\x02\x01\x02", 5), single("\xF8\x7F\x03", 3);
   ASSERT_TRUE(bothAccept(packed + single + packed));
   Small small;
@@ -327,7 +327,7 @@ TEST(SmallProtoFields, RepeatedNumbersArePackedOrNot) {
   EXPECT_EQ(hex(small.SerializeAsString()), "fa7f03010203");
 }
 
-TEST(SmallProtoFields, RepeatedFieldsHaveTheirElements) {
+TEST(SmallProtoFields, RepeatedFieldsStoreTheirElements) {
   Small small;
   small.add_numbers(1);
   small.set_numbers(0, 5);
@@ -348,7 +348,7 @@ TEST(SmallProtoFields, RepeatedFieldsHaveTheirElements) {
   EXPECT_EQ(sum, 3u);
 }
 
-TEST(SmallProtoFields, EnumsHaveProtobufsNames) {
+TEST(SmallProtoFields, EnumsMatchProtobuf) {
   using Other = naiad::small_wire::Refused;
   using Known = naiad::wire::Refused;
   static_assert(int{Other::ELSEWHERE} == int{Known::ELSEWHERE});

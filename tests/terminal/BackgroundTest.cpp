@@ -21,7 +21,7 @@ wire::ServerMessage onBlue() {
 
 using BackgroundTest = FakeServerFixture;
 
-TEST_F(BackgroundTest, IsTheTerminalsOwnUntilTheGameWantsAnother) {
+TEST_F(BackgroundTest, GameBackgroundReplacesTheTerminalsOwn) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   EXPECT_FALSE(has(terminal.output(), "\033[44m"));
@@ -31,7 +31,7 @@ TEST_F(BackgroundTest, IsTheTerminalsOwnUntilTheGameWantsAnother) {
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE")) << "everything is redrawn";
 }
 
-TEST_F(BackgroundTest, IsNoneWithoutColours) {
+TEST_F(BackgroundTest, NoColorDisablesTheBackground) {
   PtyTerminal::Options with = options();
   with.environment["NO_COLOR"] = "1";
   PtyTerminal terminal(with);

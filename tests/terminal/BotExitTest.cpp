@@ -41,12 +41,12 @@ class BotExitTest : public HomeFixture {
   }
 };
 
-TEST_F(BotExitTest, AFolderIsNoScript) {
+TEST_F(BotExitTest, FolderIsRejectedAsAScript) {
   PtyTerminal bot(inHome({programPath("dfbot"), "127.0.0.1:1", "--insecure", "--script", m_home.string()}));
   expectEnd(bot, 2, "dfbot: --script: " + m_home.string() + " is a folder");
 }
 
-TEST_F(BotExitTest, IsOkIfWhatItSawIsTheTruth) {
+TEST_F(BotExitTest, MatchingPicturesAreOk) {
   expectEnd(*join({"--seconds", "1", "--truth", file("truth")}), 0, "wrong_cells=0");
 }
 

@@ -29,7 +29,7 @@ class BusyServerTest : public FakeServerFixture {
   std::shared_ptr<std::atomic<int>> hellos = std::make_shared<std::atomic<int>>(0);
 };
 
-TEST_F(BusyServerTest, IsAskedAgainAndItsSentenceIsShownOnce) {
+TEST_F(BusyServerTest, IsRetriedAndItsMessageShownOnce) {
   refuse(3, wire::Refused::BUSY);
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();

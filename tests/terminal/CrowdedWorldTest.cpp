@@ -55,7 +55,7 @@ class CrowdedWorldTest : public FakeServerFixture {
   }
 };
 
-TEST_F(CrowdedWorldTest, ControlCLeavesAPile) {
+TEST_F(CrowdedWorldTest, ControlCLeavesAWorldOf48000Objects) {
   PtyTerminal terminal(options());
   show(terminal, pileOf(48'000));
   const auto asked = std::chrono::steady_clock::now();
@@ -64,7 +64,7 @@ TEST_F(CrowdedWorldTest, ControlCLeavesAPile) {
   EXPECT_LT(std::chrono::steady_clock::now() - asked, kSoon);
 }
 
-TEST_F(CrowdedWorldTest, ASignalEndsItWhileItPredictsAmongThousandsOfLargeLooks) {
+TEST_F(CrowdedWorldTest, SignalEndsPredictionAmong20000LargeObjects) {
   // All objects block the player's own object, and each has a look that fills the view.
   std::vector<ObjectState> objects = pileOf(20'000);
   Appearance look;

@@ -162,7 +162,7 @@ class DoorTest : public testing::Test {
 #define NAIAD_SKIP_WITHOUT(terminal) \
   if ((terminal) == nullptr) GTEST_SKIP() << "this sshd, which is not root's, gives no terminals here"
 
-TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
+TEST_F(DoorTest, TwoVisitorsPlayUnderTheirOwnAddresses) {
   open();
   PtyTerminal* ann = play("ann", {"-b", "127.0.0.2"});
   NAIAD_SKIP_WITHOUT(ann);
@@ -183,7 +183,7 @@ TEST_F(DoorTest, TwoVisitorsPlayOneGameFromWhereTheyAre) {
   expectEnd(*ann, "");
 }
 
-TEST_F(DoorTest, TheWindowsSizeIsThatOfTheVisitorsTerminal) {
+TEST_F(DoorTest, WindowSizeFollowsTheVisitorsTerminal) {
   open();
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
@@ -195,7 +195,7 @@ TEST_F(DoorTest, TheWindowsSizeIsThatOfTheVisitorsTerminal) {
   EXPECT_TRUE(ann->waitFor(" player")) << ann->newOutput();
 }
 
-TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
+TEST_F(DoorTest, BrokenConnectionKeepsTheSession) {
   open();
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
@@ -211,7 +211,7 @@ TEST_F(DoorTest, ALineThatBreaksCostsNothing) {
 }
 
 /// The old connection is dead but not yet timed out.
-TEST_F(DoorTest, AVisitorGoesOnInAnotherTerminal) {
+TEST_F(DoorTest, VisitorResumesInAnotherTerminal) {
   open();
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
@@ -261,7 +261,7 @@ TEST_F(DoorTest, NothingIsForwarded) {
   EXPECT_NE(remote->waitForExit(), 0) << remote->output();
 }
 
-TEST_F(DoorTest, TheClientHasTheDoorsEnvironmentAndAPlainTerminalType) {
+TEST_F(DoorTest, ClientGetsDoorEnvironmentAndPlainTerminalType) {
   open();
   PtyTerminal* ann = play("ann", {"-o", "SetEnv=LD_PRELOAD=/nowhere/x.so NAIAD_SERVER=evil LANG=x LC_ALL=y"},
                           {{"TERM", "../../../../etc/passwd"}});
@@ -280,7 +280,7 @@ TEST_F(DoorTest, TheClientHasTheDoorsEnvironmentAndAPlainTerminalType) {
   }
 }
 
-TEST_F(DoorTest, ControlZStopsNothing) {
+TEST_F(DoorTest, ControlZDoesNotSuspendTheClient) {
   open();
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
@@ -290,7 +290,7 @@ TEST_F(DoorTest, ControlZStopsNothing) {
   EXPECT_NE(clientOf("ann"), 0);
 }
 
-TEST_F(DoorTest, NamesAreCleanedAndAreNoOptions) {
+TEST_F(DoorTest, NamesAreNotOptionsOrCommands) {
   open();
   PtyTerminal* ann = visit("ann");
   if (!ann->waitFor("Your name?")) GTEST_SKIP() << "this sshd, which is not root's, gives no terminals here";
@@ -308,7 +308,7 @@ TEST_F(DoorTest, PlacesAreLimited) {
   EXPECT_TRUE(visit("bob")->waitFor("Your name?"));
 }
 
-TEST_F(DoorTest, AVisitorWhoIsAwayLeaves) {
+TEST_F(DoorTest, IdleVisitorIsDisconnected) {
   open({"--idle-limit", "2"});
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
@@ -316,7 +316,7 @@ TEST_F(DoorTest, AVisitorWhoIsAwayLeaves) {
   EXPECT_TRUE(serverSays("\"ann\" left")) << m_server->output();
 }
 
-TEST_F(DoorTest, SeveralGamesAreOfferedAndNothingElseIs) {
+TEST_F(DoorTest, VisitorsChooseOnlyAmongTheListedGames) {
   open();
   door({"add", m_home / "door", "other", m_link, m_home / "other.visitors"});
   PtyTerminal* ann = visit("ann");
@@ -353,7 +353,7 @@ TEST_F(DoorTest, SilentConnectionsDoNotCloseIt) {
   EXPECT_TRUE(in) << bob->output();
 }
 
-TEST_F(DoorTest, IsRemovedWithAllThatItMade) {
+TEST_F(DoorTest, RemoveDeletesTheDoorsFolder) {
   open();
   m_door.reset();
   m_server.reset();
@@ -362,7 +362,7 @@ TEST_F(DoorTest, IsRemovedWithAllThatItMade) {
 }
 
 /// Installs below a folder instead of /: sshd accepts the configuration, and uninstalling leaves no file.
-TEST_F(DoorTest, AnInstalledOneIsSoundAndLeavesNothing) {
+TEST_F(DoorTest, InstallWritesASafeConfigAndUninstallRemovesIt) {
   const std::string place = m_home / "root";
   door({"install", "--root", place});
   std::stringstream text;

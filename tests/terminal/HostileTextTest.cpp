@@ -97,7 +97,7 @@ class HostileTextTest : public FakeServerFixture {
   }
 };
 
-TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {
+TEST_F(HostileTextTest, ChatAndNamesCannotControlTheTerminal) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
   int n = 0;
@@ -124,7 +124,7 @@ TEST_F(HostileTextTest, ChatAndNamesOfEveryClassReachTheTerminalHarmless) {
   expectHarmless(terminal, "chat and names");
 }
 
-TEST_F(HostileTextTest, GoodbyesOfEveryClassReachTheTerminalHarmless) {
+TEST_F(HostileTextTest, GoodbyesCannotControlTheTerminal) {
   for (const std::string& hostile : gathered()) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
@@ -137,7 +137,7 @@ TEST_F(HostileTextTest, GoodbyesOfEveryClassReachTheTerminalHarmless) {
   }
 }
 
-TEST_F(HostileTextTest, WelcomesAndRefusalsAreHarmlessToo) {
+TEST_F(HostileTextTest, WelcomesAndRefusalsCannotControlTheTerminal) {
   for (const std::string& hostile : gathered()) {
     server.onWelcome([&hostile](wire::ServerMessage& message) {
       wire::Welcome& welcome = *message.mutable_welcome();

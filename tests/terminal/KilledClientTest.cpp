@@ -37,7 +37,7 @@ class KilledClientTest : public HomeFixture {
 
 constexpr const char* kBack = "Session resumed.";
 
-TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
+TEST_F(KilledClientTest, ResumesItsSessionAndPoints) {
   auto terminal = join();
   EXPECT_FALSE(has(terminal->output(), kBack));
   int last = 0;
@@ -73,7 +73,7 @@ TEST_F(KilledClientTest, GoesOnWithItsShipAndItsPoints) {
   EXPECT_FALSE(has(terminal->output(), kBack)) << "a player that left does not come back";
 }
 
-TEST_F(KilledClientTest, IsForgottenIfThePlayerWantsIt) {
+TEST_F(KilledClientTest, NoResumeOptionJoinsAsANewPlayer) {
   auto terminal = join();
   kill(*terminal);
   terminal = join({"--no-resume"});

@@ -90,7 +90,7 @@ TEST_F(LanListTest, EnterJoinsTheChosenServerAndPinsItsKey) {
   EXPECT_TRUE(fs::exists(m_home / "known"));
 }
 
-TEST_F(LanListTest, TheListIsLeftWithTheTerminalAsItWas) {
+TEST_F(LanListTest, LeavingTheListRestoresTheTerminal) {
   for (const char* p_key : {"q", "\033", "\003"}) {
     const auto ann = client();
     ASSERT_TRUE(ann->waitFor("Servers in this network")) << ann->output();
@@ -101,7 +101,7 @@ TEST_F(LanListTest, TheListIsLeftWithTheTerminalAsItWas) {
   }
 }
 
-TEST_F(LanListTest, ThePinCountsMoreThanTheList) {
+TEST_F(LanListTest, PinnedKeyOverridesTheListedKey) {
   serve();
   std::ofstream(m_home / "known") << address() << " " << std::string(64, '0') << "\n";
   const auto ann = client();
@@ -113,7 +113,7 @@ TEST_F(LanListTest, ThePinCountsMoreThanTheList) {
   EXPECT_FALSE(has(m_server->output(), "\"ann\""));
 }
 
-TEST_F(LanListTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
+TEST_F(LanListTest, PasswordIsPromptedAndEnvironmentPasswordNotSent) {
   serve("on", "xyzzy");
   const auto ann = client({}, {{"NAIAD_PASSWORD", "ambient"}});
   ASSERT_TRUE(choose(*ann)) << ann->output();
@@ -133,12 +133,12 @@ TEST_F(LanListTest, TextAndJsonNameTheLink) {
   EXPECT_TRUE(has(json, R"("link": ")" + m_link + "\"")) << json;
 }
 
-TEST_F(LanListTest, AServerOnLoopbackAloneIsNotListedUnlessAsked) {
+TEST_F(LanListTest, LoopbackServerIsNotListedByDefault) {
   serve("auto");
   EXPECT_FALSE(has(listOnce(), m_name));
 }
 
-TEST_F(LanListTest, AServerThatHidesIsNotListed) {
+TEST_F(LanListTest, HiddenServerIsNotListed) {
   serve("off");
   EXPECT_FALSE(has(listOnce(), m_name));
 }
@@ -158,7 +158,7 @@ TEST_F(LanListTest, WithoutATerminalAServerIsRequired) {
   expectEnd(shell, 2, "server is required");
 }
 
-TEST_F(LanListTest, WhatDoesNotGoTogetherIsAUsageError) {
+TEST_F(LanListTest, ContradictoryOptionsAreUsageErrors) {
   expectEnd(*client({"--json"}), 2, "--json requires --list");
   expectEnd(*client({"--list", "127.0.0.1"}), 2, "cannot be used with SERVER");
   expectEnd(*client({"--password", "xyzzy"}), 2, "--ask-password");
@@ -210,7 +210,7 @@ std::string rawAnswer(const LanNonce& nonce, unsigned number, const std::string&
   return bytes.substr(0, 48) + static_cast<char>(name.size()) + name + bytes.substr(49);
 }
 
-TEST_F(LanListTest, NothingOfAHostileAnswerSteersTheTerminal) {
+TEST_F(LanListTest, HostileAnswerCannotControlTheTerminal) {
   FakeLanServer fake;
   const auto ann = client();
   ASSERT_TRUE(ann->waitUntil([&] {
@@ -229,7 +229,7 @@ TEST_F(LanListTest, NothingOfAHostileAnswerSteersTheTerminal) {
   expectEnd(*ann, 0, "");
 }
 
-TEST_F(LanListTest, AnswersWithAnotherNonceAreNone) {
+TEST_F(LanListTest, AnswersWithAWrongNonceAreIgnored) {
   FakeLanServer fake;
   const auto ann = client();
   ASSERT_TRUE(ann->waitUntil([&] {
@@ -245,7 +245,7 @@ TEST_F(LanListTest, AnswersWithAnotherNonceAreNone) {
   EXPECT_FALSE(has(ann->output(), "forged"));
 }
 
-TEST_F(LanListTest, AServerThatSaysItWantsNoPasswordGetsNoneFromTheEnvironment) {
+TEST_F(LanListTest, ServerAnnouncingNoPasswordGetsNoEnvironmentPassword) {
   serve("off", "xyzzy");
   FakeLanServer fake;
   const auto ann = client({}, {{"NAIAD_PASSWORD", "xyzzy"}});

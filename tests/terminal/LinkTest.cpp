@@ -30,13 +30,13 @@ class LinkTest : public HomeFixture {
   }
 };
 
-TEST_F(LinkTest, TheOneThatIsPrintedJoins) {
+TEST_F(LinkTest, PrintedLinkJoinsTheGame) {
   serve("hello");
   ASSERT_TRUE(m_link.starts_with("naiad://127.0.0.1:")) << m_server->output();
   expectPlays(*client(m_link));
 }
 
-TEST_F(LinkTest, AnotherKeyIsRefusedAndTheServerHearsNoName) {
+TEST_F(LinkTest, LinkWithAnotherKeyIsRefusedBeforeTheHello) {
   serve("hello");
   char& first = m_link[m_link.find('#') + 1];
   first = first == 'a' ? 'b' : 'a';
@@ -46,11 +46,11 @@ TEST_F(LinkTest, AnotherKeyIsRefusedAndTheServerHearsNoName) {
   EXPECT_FALSE(has(m_server->output(), "\"ann\""));
 }
 
-TEST_F(LinkTest, AMalformedOneIsAUsageError) {
+TEST_F(LinkTest, MalformedLinkIsAUsageError) {
   expectEnd(*client("naiad://127.0.0.1#tooshort"), 2, "the key after the #");
 }
 
-TEST_F(LinkTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
+TEST_F(LinkTest, PasswordIsPromptedAndEnvironmentPasswordNotSent) {
   serve("hello", {}, "xyzzy");
   const auto eve = client(m_link, {}, "xyzzy");
   ASSERT_TRUE(eve->waitFor("Password of 127.0.0.1:")) << eve->output();
@@ -63,7 +63,7 @@ TEST_F(LinkTest, ThePasswordIsAskedForAndTheOneInTheEnvironmentIsNotSent) {
   EXPECT_FALSE(has(ann->output(), "xyzzy")) << "echoed";
 }
 
-TEST_F(LinkTest, AServerThatWantsAPasswordIsAnsweredAsInSsh) {
+TEST_F(LinkTest, WrongPasswordIsPromptedAgainWithoutEcho) {
   serve("hello", {}, "xyzzy");
   const auto ann = client(m_link);
   ASSERT_TRUE(ann->waitFor("Password of 127.0.0.1:")) << ann->output();
@@ -85,7 +85,7 @@ TEST_F(LinkTest, ControlCAtThePasswordRestoresTheTerminal) {
   EXPECT_TRUE(sameModes(ann->originalModes(), ann->currentModes()));
 }
 
-TEST_F(LinkTest, OtherDoorsArePrintedWhereTheyAreNamed) {
+TEST_F(LinkTest, ConfiguredSshAndWebAddressesArePrinted) {
   serve("hello", {"--ssh-door", "play@game.example:2222", "--web-address", "https://game.example/", "--qr"});
   EXPECT_TRUE(m_server->waitFor(" -p 2222 play@game.example")) << m_server->output();
   EXPECT_TRUE(m_server->waitFor("In a browser: https://game.example/"));

@@ -10,7 +10,7 @@ namespace {
 
 using NoPicture = FakeServerFixture;
 
-TEST_F(NoPicture, TheClientSaysWhatItWaitsForAndLeavesWhenAsked) {
+TEST_F(NoPicture, WaitIsReportedAndControlCLeaves) {
   server.withholdPictures();
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("waiting for the first picture")) << terminal.output();
@@ -21,7 +21,7 @@ TEST_F(NoPicture, TheClientSaysWhatItWaitsForAndLeavesWhenAsked) {
   EXPECT_FALSE(has(terminal.output(), "\033")) << "the terminal was not touched";
 }
 
-TEST_F(NoPicture, AServerThatIsGoneBeforeItIsSaid) {
+TEST_F(NoPicture, LostServerEndsTheClientWithAMessage) {
   server.withholdPictures();
   server.onWelcome([](wire::ServerMessage& message) {
     message.mutable_welcome()->set_resume_token("0123456789abcdef");  // so that it could be resumed

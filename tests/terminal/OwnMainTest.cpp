@@ -97,7 +97,7 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   EXPECT_TRUE(has(log, "\"ann\" joined"));
 }
 
-TEST_F(OwnMain, PlaysOnAfterATitleWithARunOfItsOwn) {
+TEST_F(OwnMain, TitleWithItsOwnRunLeadsToTheGame) {
   auto game = start({{"LONE_TITLE", "1"}});
   ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
   game->type(kRight);
@@ -128,7 +128,7 @@ TEST_F(OwnMain, LeavingAtTheTitleEndsTheSession) {
   EXPECT_FALSE(has(game->output(), "WALKED-"));
 }
 
-TEST_F(OwnMain, EndsInOrderWithItsPlayer) {
+TEST_F(OwnMain, EndsCleanlyWithItsPlayer) {
   struct {
     const char* name;
     const char* configuration;
@@ -146,7 +146,7 @@ TEST_F(OwnMain, EndsInOrderWithItsPlayer) {
   }
 }
 
-TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
+TEST_F(OwnMain, CrashRestoresTheTerminal) {
   auto game = startPlaying();
   game->forget();
   game->type("c");
@@ -156,7 +156,7 @@ TEST_F(OwnMain, LeavesTheTerminalInOrderWhenItCrashes) {
   EXPECT_TRUE(game->waitForOriginalModes());
 }
 
-TEST_F(OwnMain, GoesOnForOthersUntilTheyHaveLeft) {
+TEST_F(OwnMain, ContinuesUntilOtherPlayersHaveLeft) {
   auto game = startPlaying();
   auto bob = join("bob");
   game->type("q");
@@ -184,7 +184,7 @@ TEST_F(OwnMain, OneKeyDoesNotEndTheGameForAll) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, OneKeyEndsTheGameForAllIfTheHostWantsThat) {
+TEST_F(OwnMain, OneKeyEndsTheGameForAllIfConfigured) {
   configure("on_game_over:exit,\n");
   auto game = startServer();
   auto ann = join("ann");
@@ -204,7 +204,7 @@ void walkAgain(PtyTerminal& player) {
   EXPECT_TRUE(has(player.newOutput(), "$")) << player.output();
 }
 
-TEST_F(OwnMain, TheNextRoundIsAFreshProcessAndItsPlayersComeAlong) {
+TEST_F(OwnMain, NextRoundKeepsItsPlayersInANewProcess) {
   configure("on_game_over:restart,\n");
   auto game = startServer();
   auto ann = join("ann");
@@ -242,7 +242,7 @@ TEST_F(OwnMain, ModulesHaveRoundsToo) {
   expectOrderlyEnd(server);
 }
 
-TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
+TEST_F(OwnMain, FirstPlayerPlaysWhileOthersWaitTheirTurn) {
   configure("players:first,\n");
   auto game = startServer();
   auto ann = join("ann");
@@ -263,7 +263,7 @@ TEST_F(OwnMain, TheFirstPlaysAndTheOthersWaitForTheirTurn) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, WithoutATerminalItIsAServerThatASignalEnds) {
+TEST_F(OwnMain, WithoutATerminalItServesUntilASignal) {
   PtyTerminal shell(inHome(
       {"/bin/sh", "-c", "\"$0\" </dev/null >\"$1\" 2>&1 & pid=$!; trap 'kill -TERM $pid' TERM; wait; wait",
        programPath("lone_game"), m_home / "out"}));
@@ -292,7 +292,7 @@ TEST_F(OwnMain, WithoutAClientItIsAServer) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
+TEST_F(OwnMain, RunsWithoutTheOperatorsLibrary) {
   const fs::path libraries = fs::path(programPath("lone_game")).parent_path().parent_path() / "lib";
   fs::create_directory(m_home / "lib");
   fs::copy(libraries / "libdragonfly.so.0", m_home / "lib");
@@ -307,7 +307,7 @@ TEST_F(OwnMain, WithoutTheOperatorsLibraryItIsPlayedAllTheSame) {
   EXPECT_EQ(log.find(warning), log.rfind(warning)) << "once";
 }
 
-TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
+TEST_F(OwnMain, RunsAsAServerIfTheTerminalCannotDraw) {
   auto game = start({{"TERM", "unknown"}});
   ASSERT_TRUE(game->waitFor("the game continues as a server")) << game->output();
   auto ann = join("ann");
@@ -315,7 +315,7 @@ TEST_F(OwnMain, ATerminalThatCannotDrawLeavesAServer) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, IsCompatibleUnlessAskedOtherwise) {
+TEST_F(OwnMain, CompatibilityIsOnByDefault) {
   constexpr const char* kYes = "published engine: yes";
   constexpr const char* kNo = "published engine: no";
   EXPECT_TRUE(has(startServer()->output(), kYes));
@@ -325,7 +325,7 @@ TEST_F(OwnMain, IsCompatibleUnlessAskedOtherwise) {
   EXPECT_TRUE(has(startServer({{"DF_COMPAT", "1"}})->output(), kYes));
 }
 
-TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
+TEST_F(OwnMain, InvalidSettingIsReportedWithExitCode2) {
   configure("max_players:many,\n");
   auto game = start();
   EXPECT_EQ(WEXITSTATUS(game->waitForExit()), 2) << game->output();
@@ -333,7 +333,7 @@ TEST_F(OwnMain, WhatMakesNoSenseIsOneLineAndACode) {
       << game->output();
 }
 
-TEST_F(OwnMain, ListensOnLoopbackAloneUnlessAskedOtherwise) {
+TEST_F(OwnMain, ListensOnLoopbackOnlyByDefault) {
   std::ofstream(m_home / "df-config.txt") << "logfile:" << (m_home / "game.log").string() << ",\n";
   constexpr const char* kAlone = "Only this machine can join: listening on 127.0.0.1:";
   EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
@@ -342,7 +342,7 @@ TEST_F(OwnMain, ListensOnLoopbackAloneUnlessAskedOtherwise) {
   EXPECT_TRUE(has(open, "Listening on every address of this machine, port "));
 }
 
-TEST_F(OwnMain, TheEndOfItsTerminalEndsItInOrder) {
+TEST_F(OwnMain, HangupOfItsTerminalEndsItCleanly) {
   auto game = startServer();
   auto ann = join("ann");
   game->signal(SIGHUP);
@@ -351,7 +351,7 @@ TEST_F(OwnMain, TheEndOfItsTerminalEndsItInOrder) {
   expectOrderlyEnd(*game);
 }
 
-TEST_F(OwnMain, APasswordThatEveryUserCanReadIsWarnedOf) {
+TEST_F(OwnMain, WorldReadablePasswordIsReported) {
   configure("password:sesame,\n");
   fs::permissions(m_home / "df-config.txt", fs::perms::owner_all | fs::perms::others_read);
   startServer();
@@ -359,7 +359,7 @@ TEST_F(OwnMain, APasswordThatEveryUserCanReadIsWarnedOf) {
       << read("game.log");
 }
 
-TEST_F(OwnMain, APortThatIsTakenMattersOnlyIfItWasAskedFor) {
+TEST_F(OwnMain, RequestedPortInUseEndsTheProgram) {
   auto first = startServer();
   std::string join_line = read("join");
   const std::string port = join_line.substr(10, join_line.find(' ') - 10);

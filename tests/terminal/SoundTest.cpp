@@ -33,14 +33,14 @@ class TerminalSoundTest : public FakeServerFixture {
   static auto bells(const PtyTerminal& terminal) { return std::ranges::count(terminal.output(), '\a'); }
 };
 
-TEST_F(TerminalSoundTest, IsANoteUnlessSomethingElseIsWanted) {
+TEST_F(TerminalSoundTest, ShowsANoteByDefault) {
   PtyTerminal terminal(with(""));
   play(terminal);
   EXPECT_TRUE(terminal.waitFor("sound: pew"));
   EXPECT_EQ(bells(terminal), 0);
 }
 
-TEST_F(TerminalSoundTest, RingsTheBellOnceHoweverManyThereAre) {
+TEST_F(TerminalSoundTest, FiftySoundsRingTheBellAtMostThreeTimes) {
   PtyTerminal terminal(with("bell"));
   play(terminal);
   EXPECT_TRUE(terminal.waitFor("sound: pew"));

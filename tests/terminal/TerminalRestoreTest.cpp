@@ -30,7 +30,7 @@ class TerminalRestoreTest : public FakeServerFixture {
   }
 };
 
-TEST_F(TerminalRestoreTest, AfterLeaving) {
+TEST_F(TerminalRestoreTest, LeavingRestoresTheTerminal) {
   PtyTerminal terminal(options());
   join(terminal);
   terminal.type("\x1d");
@@ -41,7 +41,7 @@ TEST_F(TerminalRestoreTest, AfterLeaving) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, AfterControlC) {
+TEST_F(TerminalRestoreTest, ControlCRestoresTheTerminal) {
   PtyTerminal terminal(options());
   join(terminal);
   terminal.type("\x03");
@@ -49,7 +49,7 @@ TEST_F(TerminalRestoreTest, AfterControlC) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, AfterSignalsThatEndIt) {
+TEST_F(TerminalRestoreTest, SignalsRestoreTheTerminal) {
   for (const int number : {SIGTERM, SIGHUP}) {
     PtyTerminal terminal(options());
     join(terminal);
@@ -59,7 +59,7 @@ TEST_F(TerminalRestoreTest, AfterSignalsThatEndIt) {
   }
 }
 
-TEST_F(TerminalRestoreTest, AfterACrash) {
+TEST_F(TerminalRestoreTest, CrashRestoresTheTerminal) {
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS}) {
     PtyTerminal::Options with = options();
     with.answer_kitty = true;
@@ -78,7 +78,7 @@ TEST_F(TerminalRestoreTest, AfterACrash) {
   }
 }
 
-TEST_F(TerminalRestoreTest, AfterTheServersGoodbye) {
+TEST_F(TerminalRestoreTest, GoodbyeRestoresTheTerminal) {
   PtyTerminal terminal(options());
   join(terminal);
   wire::ServerMessage goodbye;
@@ -138,7 +138,7 @@ TEST_F(TerminalRestoreTest, KeyRecordsHaveRealReleases) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
+TEST_F(TerminalRestoreTest, PlainKeysMouseAndResizeReachTheServer) {
   PtyTerminal terminal(options());
   join(terminal);
   terminal.type("\033[C");
@@ -158,7 +158,7 @@ TEST_F(TerminalRestoreTest, PlainKeysMouseAndResize) {
   EXPECT_TRUE(terminal.waitFor("NAIAD-HERE"));
 }
 
-TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
+TEST_F(TerminalRestoreTest, ReconnectsToALostServer) {
   PtyTerminal terminal(options());
   join(terminal);
   server.drop();
@@ -170,7 +170,7 @@ TEST_F(TerminalRestoreTest, FindsALostServerAgain) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, NoServer) {
+TEST_F(TerminalRestoreTest, UnreachableServerLeavesTheTerminalUntouched) {
   PtyTerminal::Options with = options();
   with.command[1] = "127.0.0.1:1";
   PtyTerminal terminal(with);

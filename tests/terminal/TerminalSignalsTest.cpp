@@ -90,7 +90,7 @@ class TerminalSignalsTest : public FakeServerFixture {
   std::mt19937 random{4711};
 };
 
-TEST_F(TerminalSignalsTest, InTheGame) {
+TEST_F(TerminalSignalsTest, SignalsDuringTheGameRestoreTheTerminal) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
@@ -101,7 +101,7 @@ TEST_F(TerminalSignalsTest, InTheGame) {
 }
 
 // Signals arrive while restore() runs.
-TEST_F(TerminalSignalsTest, WhileItLeaves) {
+TEST_F(TerminalSignalsTest, SignalsWhileLeavingRestoreTheTerminal) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
@@ -113,7 +113,7 @@ TEST_F(TerminalSignalsTest, WhileItLeaves) {
   }
 }
 
-TEST_F(TerminalSignalsTest, WhileItStarts) {
+TEST_F(TerminalSignalsTest, SignalsWhileStartingRestoreTheTerminal) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("\033[?1049h")) << terminal.output();
@@ -122,7 +122,7 @@ TEST_F(TerminalSignalsTest, WhileItStarts) {
   }
 }
 
-TEST_F(TerminalSignalsTest, InTheServerChooser) {
+TEST_F(TerminalSignalsTest, SignalsInTheServerMenuRestoreTheTerminal) {
   PtyTerminal::Options chooser = options();
   chooser.command = {programPath("dfclient")};
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
@@ -135,7 +135,7 @@ TEST_F(TerminalSignalsTest, InTheServerChooser) {
 }
 
 // A common case: Ctrl-Z, then kill. The client ends and the shell keeps its terminal modes.
-TEST_F(TerminalSignalsTest, AfterControlZ) {
+TEST_F(TerminalSignalsTest, KillAfterControlZRestoresTheTerminal) {
   for (const std::string kill : {"kill %1", "kill -HUP %1; kill %1; kill -INT %1",
                                  "bg >/dev/null; kill %1; kill %1", "bg >/dev/null; sleep .3; kill %1"}) {
     PtyTerminal terminal(shell());
@@ -158,7 +158,7 @@ TEST_F(TerminalSignalsTest, AfterControlZ) {
   }
 }
 
-TEST_F(TerminalSignalsTest, ContinuedInTheBackgroundItComesBackWithTheForeground) {
+TEST_F(TerminalSignalsTest, ContinuedInBackgroundItDrawsOnlyInForeground) {
   PtyTerminal terminal(shell());
   ASSERT_NO_FATAL_FAILURE(playAndSuspend(terminal));
   terminal.forget();

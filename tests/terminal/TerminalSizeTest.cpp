@@ -47,7 +47,7 @@ TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
   }
 }
 
-TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
+TEST_F(TerminalSizeTest, GrowingWindowTakesBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   PtyTerminal terminal(sized(100, 30));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
@@ -65,7 +65,7 @@ TEST_F(TerminalSizeTest, AWindowThatGrowsDuringTheGameTakesBoundedMemory) {
 }
 
 // Some terminal descriptions have no size.
-TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
+TEST_F(TerminalSizeTest, EveryTerminalTypeReportsItsRealSize) {
   for (const char* type : {"linux", "vt100", "xterm-256color", "tmux-256color"}) {
     PtyTerminal::Options typed = sized(100, 30);
     typed.environment["TERM"] = type;
@@ -81,7 +81,7 @@ TEST_F(TerminalSizeTest, IsTheTerminalsOwnWhateverItsType) {
 }
 
 // Here the terminal itself has no size.
-TEST_F(TerminalSizeTest, ColumnsAndLinesAreBoundedLikewise) {
+TEST_F(TerminalSizeTest, InvalidColumnsAndLinesTakeBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {
     PtyTerminal::Options without = sized(0, 0);

@@ -16,7 +16,7 @@ class TerminalTypeTest : public FakeServerFixture {
   }
 };
 
-TEST_F(TerminalTypeTest, OneThatIsNotKnownIsDrawnAsXterm) {
+TEST_F(TerminalTypeTest, UnknownTypeIsDrawnAsXterm) {
   for (const char* p_term : {"xterm-kitty-nonesuch", "ghostty-nonesuch"}) {
     PtyTerminal terminal(with(p_term));
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
@@ -28,13 +28,13 @@ TEST_F(TerminalTypeTest, OneThatIsNotKnownIsDrawnAsXterm) {
   }
 }
 
-TEST_F(TerminalTypeTest, AKnownOneIsUsedWithoutAWord) {
+TEST_F(TerminalTypeTest, KnownTypeGivesNoWarning) {
   PtyTerminal terminal(with("xterm"));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   EXPECT_FALSE(has(terminal.output(), "not known"));
 }
 
-TEST_F(TerminalTypeTest, WhereNothingCanBeDrawnTheServerIsNotAsked) {
+TEST_F(TerminalTypeTest, UnusableTypeFailsBeforeConnecting) {
   for (const char* p_term : {"dumb", "unknown", ""}) {
     PtyTerminal terminal(with(p_term));
     EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 5) << terminal.output();
@@ -44,7 +44,7 @@ TEST_F(TerminalTypeTest, WhereNothingCanBeDrawnTheServerIsNotAsked) {
   EXPECT_EQ(server.connections(), 0);
 }
 
-TEST_F(TerminalTypeTest, ItsNameIsShownHarmless) {
+TEST_F(TerminalTypeTest, TypeNameIsSanitized) {
   PtyTerminal terminal(with("x\033]0;OWNED\007" + std::string(300, 'y')));
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   ASSERT_TRUE(terminal.waitFor("is not known")) << terminal.output();

@@ -47,7 +47,7 @@ double orderOf(const std::string& method) {
   return std::log2(coarse / fine);
 }
 
-TEST(Laboratory, MethodsHaveTheirOrders) {
+TEST(Laboratory, MethodsConvergeWithTheirOrder) {
   // The order of semi_implicit is that of its phase; its positions have order 1.
   for (const char* method : {"semi_implicit", "verlet", "tr_bdf2"})
     EXPECT_NEAR(orderOf(method), 2, 0.1) << method;
@@ -60,7 +60,7 @@ TEST(Laboratory, MethodsHaveTheirOrders) {
   }
 }
 
-TEST(Laboratory, VerletKeepsItsOrderWithDrag) {
+TEST(Laboratory, VerletStaysSecondOrderWithDrag) {
   const Problem drag = problemOf("2");
   const double coarse = errorOf(drag.cases[1], methodOf("verlet"), 8);
   const double fine = errorOf(drag.cases[1], methodOf("verlet"), 16);
@@ -68,7 +68,7 @@ TEST(Laboratory, VerletKeepsItsOrderWithDrag) {
 }
 
 // Runs an integrator as the product, with and without an error, which lines, CSV and exit code must show.
-TEST(Laboratory, APlantedErrorMissesItsTarget) {
+TEST(Laboratory, PlantedErrorMissesItsTarget) {
   const Problem problem = problemOf("1");
   const Case& flight = problem.cases[0];
   for (const bool planted : {false, true}) {
@@ -92,7 +92,7 @@ TEST(Laboratory, APlantedErrorMissesItsTarget) {
   }
 }
 
-TEST(Laboratory, TimesAreJudgedAgainstAnotherMethods) {
+TEST(Laboratory, CpuTimeIsComparedWithAnotherMethod) {
   const Problem problem = problemOf("5");
   const Method product = integrator(Rule::VERLET, Method::Kind::PRODUCT);
   const CpuBound bound{"cpu_ratio", "box2d", 4, 0.5};
@@ -105,7 +105,7 @@ TEST(Laboratory, TimesAreJudgedAgainstAnotherMethods) {
   }
 }
 
-TEST(Laboratory, EachLevelIsJudgedByItsOwnTargetAtItsOwnSubsteps) {
+TEST(Laboratory, LevelsAreJudgedByTheirOwnTargetAndSubsteps) {
   Problem problem = problemOf("1");
   Case& flight = problem.cases[0];
   flight.metrics.resize(1);
@@ -142,7 +142,7 @@ class Stumbling : public Simulation {
   int m_tick = 0;
 };
 
-TEST(Laboratory, TheDearestTickIsHeldAgainstWhatItMayCost) {
+TEST(Laboratory, SlowestTickIsJudgedByItsTimeLimit) {
   const Problem problem = problemOf("1");
   Case flight = problem.cases[0];
   flight.metrics.clear();
@@ -158,14 +158,14 @@ TEST(Laboratory, TheDearestTickIsHeldAgainstWhatItMayCost) {
   }
 }
 
-TEST(Laboratory, WhatATickMayCostGrowsWithWhatIsInIt) {
+TEST(Laboratory, TickTimeLimitGrowsWithItsContents) {
   const TickBound bound;
   EXPECT_EQ(bound.allowedUs(0, 0, 0, 0), 1000);
   EXPECT_EQ(bound.allowedUs(100, 200, 50, 300), 1000 + 5 * 350 + 300);
   EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // limited by the reserve
 }
 
-TEST(Laboratory, OnlyTheProductIsJudged) {
+TEST(Laboratory, OnlyProductMethodsAreJudged) {
   const Problem problem = problemOf("1");
   Records records("");
   records.add(problem, problem.cases[0], methodOf("euler"), 1,
@@ -173,7 +173,7 @@ TEST(Laboratory, OnlyTheProductIsJudged) {
   EXPECT_TRUE(records.allMet());
 }
 
-TEST(Laboratory, WhatBlowsUpIsAFailureWithAReason) {
+TEST(Laboratory, DivergingMethodFailsWithAReason) {
   const Problem problem = problemOf("4");
   const Case& stiffest = problem.cases.back();
   const Measurement measurement = measure(stiffest, methodOf("euler"), 1, 1);
@@ -201,7 +201,7 @@ Method methodThatIs() {
   return {"bad", "bad", "1", Method::Kind::PEER, [](const Scene&) { return std::make_unique<Simulated>(); }};
 }
 
-TEST(Laboratory, WhatCrashesOrNeverEndsIsAFailureAndNoMore) {
+TEST(Laboratory, CrashingOrEndlessMethodIsReportedAsFailure) {
   const Problem problem = problemOf("1");
   const Measurement crash = measureApart(problem.cases[0], methodThatIs<Aborting>(), 1, 1, 1);
   EXPECT_EQ(crash.reason, "crashed by signal 6");
@@ -212,7 +212,7 @@ TEST(Laboratory, WhatCrashesOrNeverEndsIsAFailureAndNoMore) {
   EXPECT_TRUE(std::isinf(loop.errors[2]));
 }
 
-TEST(Laboratory, ApartIsTheSameAsHere) {
+TEST(Laboratory, SeparateProcessMeasuresTheSameErrors) {
   const Problem problem = problemOf("5");
   const Measurement here = measure(problem.cases[0], methodOf("verlet"), 2, 1);
   const Measurement apart = measureApart(problem.cases[0], methodOf("verlet"), 2, 1, 60);
@@ -221,7 +221,7 @@ TEST(Laboratory, ApartIsTheSameAsHere) {
   EXPECT_LE(apart.cpu.least, apart.cpu.median);
 }
 
-TEST(Laboratory, WhatAMethodCannotSayIsNotMeasured) {
+TEST(Laboratory, SceneUnsupportedByTheMethodIsReported) {
   const Problem problem = problemOf("8");
   EXPECT_FALSE(measureApart(problem.cases[0], methodOf("rk4"), 1, 1, 10).expressed);
   EXPECT_TRUE(measureApart(problem.cases[0], methodOf("box2d"), 1, 1, 10).expressed);
@@ -238,7 +238,7 @@ void expectStart(const Scene& scene, const Simulation& simulation, double tolera
 }
 
 // Every engine starts from the scene's own state.
-TEST(Laboratory, PeersStartWhereTheSceneSays) {
+TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
   for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17", "25", "27"}) {
     for (const Case& its_case : problemOf(id).cases) {
       for (const std::string name : {"box2d", "chipmunk"}) {
@@ -255,7 +255,7 @@ TEST(Laboratory, PeersStartWhereTheSceneSays) {
 }
 
 // The equations of the textbooks' methods start from it, too.
-TEST(Laboratory, EquationsStartWhereTheSceneSays) {
+TEST(Laboratory, EquationsStartFromTheSceneState) {
   for (const char* id : {"1", "2", "3", "4", "5", "6"}) {
     for (const Case& its_case : problemOf(id).cases)
       expectStart(its_case.scene, *methodOf("rk4").build(its_case.scene), 1e-14, id + its_case.name);

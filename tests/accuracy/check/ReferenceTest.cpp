@@ -60,7 +60,7 @@ TEST(Reference, SolversAgreeOnRobertson) {
 }
 
 // Compares the coordinate only, because the speed jumps by 1e6 within 1e-6 s.
-TEST(Reference, SolversAgreeOnVanDerPolAndWithThePublishedEnd) {
+TEST(Reference, SolversAgreeOnVanDerPolAndPublishedResult) {
   const auto equations = equationsOf(VanDerPol());
   const Trajectory exact = equations->byExtrapolation(kTick, 60, Stiffness::STIFF);
   const Trajectory other = equations->byCvode(kTick, 60, sharp(true));
@@ -71,7 +71,7 @@ TEST(Reference, SolversAgreeOnVanDerPolAndWithThePublishedEnd) {
   EXPECT_NEAR(exact.back()[1], -0.8928097010247975, 1e-12);
 }
 
-TEST(Reference, SolversAgreeOnHiresAndWithThePublishedEnd) {
+TEST(Reference, SolversAgreeOnHiresAndPublishedResult) {
   constexpr double kEnd = 321.8122;
   constexpr int kTicks = 20;
   const auto equations = equationsOf(Hires());
@@ -114,7 +114,7 @@ TEST(Reference, ClosedFormOfDragAgreesWithCvode) {
   EXPECT_NEAR(end[3], -5 * std::tanh(4.0), kAgree);
 }
 
-TEST(Reference, CvodeReturnsAfterAnOrbit) {
+TEST(Reference, CvodeReturnsToTheStartAfterOneOrbit) {
   Kepler system;
   system.eccentricity = 0.6;
   const auto path = equationsOf(system)->byCvode(2 * M_PI, 1, sharp(false));
@@ -122,7 +122,7 @@ TEST(Reference, CvodeReturnsAfterAnOrbit) {
   EXPECT_NEAR(path.back()[1], path.front()[1], kAgree);
 }
 
-TEST(Reference, KeplerReturnsToItsStart) {
+TEST(Reference, ExtrapolationReturnsToTheStartAfterOneOrbit) {
   Kepler system;
   system.eccentricity = 0.6;
   const auto path = equationsOf(system)->byExtrapolation(2 * M_PI, 20, Stiffness::NONE);
@@ -145,7 +145,7 @@ class Replay : public Simulation {
   std::size_t m_tick = 0;
 };
 
-TEST(Reference, CvodeMeetsTheReferenceOfEveryProblemWithEquations) {
+TEST(Reference, CvodeMatchesTheReferenceOfEveryEquationProblem) {
   int judged = 0;
   for (const ProblemEntry& entry : allProblems()) {
     if (entry.id.size() > 2) continue;  // maps repeat problem 4
@@ -169,7 +169,7 @@ TEST(Reference, CvodeMeetsTheReferenceOfEveryProblemWithEquations) {
 }
 
 // Compares dual numbers with differences, for the equations with most kinds of operations.
-TEST(Reference, DerivativesAreThoseOfTheEquations) {
+TEST(Reference, JacobianMatchesFiniteDifferences) {
   DoublePendulum system;
   const double y[] = {0.3, -1.1, 2.0, 0.7};
   const auto jacobian = jacobianOf(system, 0, y);

@@ -56,7 +56,7 @@ TEST(BotScript, IgnoresCommentsAndBlanks) {
   EXPECT_EQ(parse("# first\n\n ; press SPACE # then\n;;wait 1\r\n").steps().size(), 2u);
 }
 
-TEST(BotScript, KnowsAllKeys) {
+TEST(BotScript, FindsKeysByNameInAnyCase) {
   EXPECT_EQ(keyNamed("space"), SPACE);
   EXPECT_EQ(keyNamed("F12"), F12);
   EXPECT_EQ(keyNamed("Z"), Z);
@@ -73,7 +73,7 @@ struct BadScript {
   const char* message;  ///< part of the message
 };
 
-TEST(BotScript, ErrorsSayWhere) {
+TEST(BotScript, ErrorsNameLineAndColumn) {
   const BadScript scripts[] = {
       {"jump", 1, 1, "\"jump\" is not a statement"},
       {"press SPACE\n  press", 2, 8, "key is missing"},
@@ -120,7 +120,7 @@ TEST(BotScript, RandomTextNeverHangs) {
   }
 }
 
-TEST(RandomPlayer, IsTheSameForTheSameSeedAndStaysInTheView) {
+TEST(RandomPlayer, SameSeedGivesEqualActionCountsWithinTheView) {
   RandomPlayer a(42, 80, 24);
   RandomPlayer b(42, 80, 24);
   int actions = 0;

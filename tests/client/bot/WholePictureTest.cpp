@@ -29,25 +29,25 @@ TEST_F(WholePictureTest, NeedsACompleteSnapshotAndAllBeforeIt) {
   EXPECT_TRUE(addSnapshot(3, false)) << "now it is, and 4 is complete";
 }
 
-TEST_F(WholePictureTest, ALateSnapshotDoesNotTakeThePictureBack) {
+TEST_F(WholePictureTest, LateSnapshotDoesNotMoveTheTickBack) {
   addSnapshot(1, true);
   addSnapshot(5, true);
   EXPECT_FALSE(addSnapshot(3, true));
   EXPECT_EQ(picture.tick(), 105u);
 }
 
-TEST_F(WholePictureTest, IsNotWholeBeforeTheFirstSnapshotsHaveCome) {
+TEST_F(WholePictureTest, IsIncompleteUntilTheFirstSnapshotArrives) {
   EXPECT_FALSE(addSnapshot(2, true)) << "the world was in 1, on the stream";
   EXPECT_TRUE(addSnapshot(1, false));
 }
 
-TEST_F(WholePictureTest, LacksWhatIsMissingForAsLongAsItCanBeUnderWay) {
+TEST_F(WholePictureTest, MissingSnapshotMattersUntil65NewerOnesArrive) {
   addSnapshot(1, true);
   for (std::uint32_t number = 3; number <= 66; ++number) EXPECT_FALSE(addSnapshot(number, true)) << number;
   EXPECT_TRUE(addSnapshot(67, true)) << "by then what was in 2 was sent again";
 }
 
-TEST_F(WholePictureTest, OfASessionThatGoesOnNeedsNothingThatWasSentBefore) {
+TEST_F(WholePictureTest, ResumedSessionNeedsNoEarlierSnapshots) {
   acks.addReceived(8);
   SnapshotHeader header;
   header.number = 8;

@@ -9,7 +9,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-TEST(CtlCommandLine, OptionsStandInFrontOfTheCommand) {
+TEST(CtlCommandLine, OptionsPrecedeTheCommand) {
   const CtlCommandLine line = readCtlCommandLine({"--control", "/run/x", "--json", "restart", "--in", "60s"});
   EXPECT_EQ(line.control, "/run/x");
   EXPECT_TRUE(line.json);
@@ -24,7 +24,7 @@ TEST(CtlCommandLine, JsonMayBeTheLastWord) {
   EXPECT_EQ(readCtlCommandLine({"say", "--json", "is", "nice"}).words.size(), 4u);
 }
 
-TEST(CtlCommandLine, AnUnknownOptionIsAnErrorWithTheNearest) {
+TEST(CtlCommandLine, UnknownOptionErrorSuggestsTheNearest) {
   try {
     readCtlCommandLine({"--jsn", "who"});
     FAIL();

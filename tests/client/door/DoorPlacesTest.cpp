@@ -31,7 +31,7 @@ class DoorPlaces : public DoorFolder {
   std::vector<std::unique_ptr<DoorPlace>> held;
 };
 
-TEST_F(DoorPlaces, AreLimitedForOneAddressAndInAll) {
+TEST_F(DoorPlaces, AreLimitedPerAddressAndInTotal) {
   EXPECT_EQ(take("192.0.2.7:1"), Refusal::kNone);
   EXPECT_EQ(take("192.0.2.7:2"), Refusal::kNone);
   EXPECT_EQ(take("192.0.2.7:3"), Refusal::kFullForPrefix);
@@ -43,7 +43,7 @@ TEST_F(DoorPlaces, AreLimitedForOneAddressAndInAll) {
   EXPECT_EQ(take("192.0.2.8:1"), Refusal::kNone);
 }
 
-TEST_F(DoorPlaces, AProcessThatIsKilledGivesItsPlaceBack) {
+TEST_F(DoorPlaces, KilledProcessReleasesItsPlace) {
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
@@ -66,7 +66,7 @@ TEST_F(DoorPlaces, AProcessThatIsKilledGivesItsPlaceBack) {
 
 class KeyFolders : public DoorFolder {};
 
-TEST_F(KeyFolders, HaveTheNameOfTheKeyThatWasProven) {
+TEST_F(KeyFolders, AreNamedAfterTheAuthenticatedKey) {
   const auto ann = keyFolderName("publickey ssh-ed25519 AAAAC3ann\n");
   ASSERT_TRUE(ann);
   EXPECT_EQ(ann->size(), 64u);
@@ -78,7 +78,7 @@ TEST_F(KeyFolders, HaveTheNameOfTheKeyThatWasProven) {
   EXPECT_FALSE(keyFolderName("publickey " + std::string(20'000, 'x')));
 }
 
-TEST_F(KeyFolders, OneProcessAtATimeHasTheUse) {
+TEST_F(KeyFolders, CanBeUsedByOneProcessAtATime) {
   const auto first = VisitorFolder::open(folder, "a");
   ASSERT_TRUE(first && first->take());
   const auto second = VisitorFolder::open(folder, "a");
@@ -88,7 +88,7 @@ TEST_F(KeyFolders, OneProcessAtATimeHasTheUse) {
   EXPECT_EQ(second->name(), "ann");
 }
 
-TEST_F(KeyFolders, AreLimitedAndUnusedOnesMakeRoom) {
+TEST_F(KeyFolders, AreLimitedAndUnusedOnesAreEvicted) {
   ASSERT_TRUE(VisitorFolder::open(folder, "a", 2));
   ASSERT_TRUE(VisitorFolder::open(folder, "b", 2));
   EXPECT_FALSE(VisitorFolder::open(folder, "c", 2));
@@ -98,7 +98,7 @@ TEST_F(KeyFolders, AreLimitedAndUnusedOnesMakeRoom) {
   EXPECT_FALSE(fs::exists(folder / "b"));
 }
 
-TEST_F(KeyFolders, OneForAVisitorWithoutAKeyGoesWithThem) {
+TEST_F(KeyFolders, TemporaryFolderIsRemovedAfterTheVisit) {
   fs::path path;
   {
     const auto visit = VisitorFolder::makeTemporary(folder / "visits");

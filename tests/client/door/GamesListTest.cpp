@@ -7,7 +7,7 @@ namespace {
 
 const std::string kLink = "naiad://127.0.0.1:9877#abcdefghijklmnopqrstuvwxya";
 
-TEST(GamesList, HasOneGameALine) {
+TEST(GamesList, HasOneGamePerLine) {
   const auto list = GamesList::parse("# mine\n\n  saucers\t" + kLink + "  /run/a.visitors\ntron " + kLink +
                                      " /run/b.visitors password\n");
   EXPECT_EQ(list.problem, "");
@@ -19,7 +19,7 @@ TEST(GamesList, HasOneGameALine) {
   EXPECT_TRUE(list.games[1].wants_password);
 }
 
-TEST(GamesList, OneWrongLineIsNamedAndNothingIsOffered) {
+TEST(GamesList, InvalidLineIsReportedAndNoGamesAreListed) {
   const std::string good = "saucers " + kLink + " /run/a.visitors\n";
   for (const std::string& bad :
        {"tron " + kLink, "tron " + kLink + " relative", "tron " + kLink + " /run/b password more",

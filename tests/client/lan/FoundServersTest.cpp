@@ -31,7 +31,7 @@ asio::ip::udp::endpoint at(const std::string& address) {
   return {make_address(address), kLanPort};
 }
 
-TEST(FoundServers, ThePortIsTheOneThatIsSaidAndTheAddressTheOneItCameFrom) {
+TEST(FoundServers, UsesAnnouncedPortAndSourceAddress) {
   FoundServers servers;
   EXPECT_TRUE(servers.addAnswer(at("192.168.1.5"), answerOf(1)));
   ASSERT_EQ(servers.size(), 1u);
@@ -50,7 +50,7 @@ TEST(FoundServers, TheSameKeyIsTheSameServer) {
   EXPECT_EQ(servers.sorted()[0].players, 3);
 }
 
-TEST(FoundServers, OfSeveralAddressesTheBestStays) {
+TEST(FoundServers, KeepsTheBestOfSeveralAddresses) {
   FoundServers servers;
   const auto where = [&servers] { return servers.sorted()[0].where.host; };
   servers.addAnswer(at("127.0.0.1"), answerOf(1));
@@ -67,7 +67,7 @@ TEST(FoundServers, OfSeveralAddressesTheBestStays) {
   EXPECT_EQ(servers.size(), 1u);
 }
 
-TEST(FoundServers, AListHasAnEndWhoeverAnswers) {
+TEST(FoundServers, ListLengthIsLimited) {
   FoundServers servers;
   for (unsigned i = 0; i < 1000; ++i) {
     const std::string address = "10.0." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
@@ -84,7 +84,7 @@ TEST(FoundServers, OneAddressCannotFillTheList) {
   EXPECT_TRUE(servers.addAnswer(at("10.0.0.7"), answerOf(1001, "honest")));
 }
 
-TEST(FoundServers, TheyAreInOrderOfTheirNames) {
+TEST(FoundServers, AreSortedByName) {
   FoundServers servers;
   servers.addAnswer(at("10.0.0.1"), answerOf(1, "b"));
   servers.addAnswer(at("10.0.0.2"), answerOf(2, "a"));
@@ -109,7 +109,7 @@ bool isAccepted(const std::string& source, unsigned interface, int hops = 255) {
   return isFromLink(packet, {own(1, "127.0.0.1", 8), own(2, "192.168.1.20", 24), own(2, "fe80::20", 64)});
 }
 
-TEST(LanBrowser, AnswersComeFromTheLinkTheQueryWentTo) {
+TEST(LanBrowser, AcceptsAnswersOnlyFromTheQueriedLink) {
   EXPECT_TRUE(isAccepted("192.168.1.5", 2));
   EXPECT_TRUE(isAccepted("fe80::5%2", 2));
   EXPECT_TRUE(isAccepted("127.0.0.1", 1));
@@ -121,7 +121,7 @@ TEST(LanBrowser, AnswersComeFromTheLinkTheQueryWentTo) {
   EXPECT_FALSE(isAccepted("203.0.113.5", 2));
 }
 
-TEST(LanBrowser, WhatCameThroughARouterIsNoAnswer) {
+TEST(LanBrowser, RejectsAnswersThatPassedARouter) {
   for (const int hops : {0, 1, 64, 254}) EXPECT_FALSE(isAccepted("192.168.1.5", 2, hops)) << hops;
 }
 

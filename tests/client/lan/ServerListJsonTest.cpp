@@ -20,7 +20,7 @@ std::vector<FoundServer> serversOf(const std::string& json) {
   return servers ? servers->sorted() : std::vector<FoundServer>{};
 }
 
-TEST(ServerListJson, AnObjectIsAServerAndAnArrayAList) {
+TEST(ServerListJson, ReadsOneServerOrAnArray) {
   const std::string one =
       R"({"name": "Ann's", "game": "hello", "players": 3, "max_players": 16, "password": true,
     "protocol": 4, "version": "0.1.0", "link": ")" +
@@ -39,12 +39,12 @@ TEST(ServerListJson, AnObjectIsAServerAndAnArrayAList) {
   EXPECT_EQ(serversOf("[]").size(), 0u);
 }
 
-TEST(ServerListJson, WhatIsPrintedAsJsonIsReadAgain) {
+TEST(ServerListJson, PrintedJsonIsReadBackUnchanged) {
   const auto servers = serversOf("[{\"name\": \"na\u00efve\", \"link\": \"" + kListLink + "\"}]");
   EXPECT_EQ(serversOf(serversAsJson(servers)), servers);
 }
 
-TEST(ServerListJson, OtherMembersArePassedOver) {
+TEST(ServerListJson, UnknownOrMistypedMembersAreIgnored) {
   const auto servers =
       serversOf(R"([{"extra": {"a": [1, {"b": null}], "c": -1.5e3}, "name": 7, "players": "many",
     "password": 1, "link": ")" +
@@ -56,14 +56,14 @@ TEST(ServerListJson, OtherMembersArePassedOver) {
   EXPECT_TRUE(servers[0].isPlayable()) << "no protocol is said";
 }
 
-TEST(ServerListJson, NumbersOutOfRangeAreTheNearestInIt) {
+TEST(ServerListJson, NumbersOutOfRangeAreClamped) {
   const auto servers = serversOf(R"({"players": -3, "max_players": 1e300, "link": ")" + kListLink + "\"}");
   ASSERT_EQ(servers.size(), 1u);
   EXPECT_EQ(servers[0].players, 0);
   EXPECT_EQ(servers[0].max_players, 65535);
 }
 
-TEST(ServerListJson, WithoutAWholeLinkThereIsNoServer) {
+TEST(ServerListJson, ServersWithoutAValidLinkAreDropped) {
   for (const std::string& link :
        {std::string(), std::string("naiad://game.example"), "https://game.example#" + kListKey,
         "naiad://-x#" + kListKey, "naiad://game.example/room#" + kListKey})
@@ -71,7 +71,7 @@ TEST(ServerListJson, WithoutAWholeLinkThereIsNoServer) {
   EXPECT_EQ(serversOf("[{}, {\"link\": null}]").size(), 0u);
 }
 
-TEST(ServerListJson, EscapesAreReadAndTextsMadeSafe) {
+TEST(ServerListJson, EscapesAreDecodedAndTextsSanitized) {
   const auto nameOf = [](const std::string& quoted) {
     const auto servers = serversOf("{\"link\": \"" + kListLink + "\", \"name\": " + quoted + "}");
     return servers.empty() ? "none" : servers[0].name;
@@ -86,7 +86,7 @@ TEST(ServerListJson, EscapesAreReadAndTextsMadeSafe) {
   }
 }
 
-TEST(ServerListJson, WhatIsNoJsonIsNoList) {
+TEST(ServerListJson, InvalidListsAreRejected) {
   for (const char* p_text :
        {"", "<html>", "1", "\"a\"", "null", "[1]", "[{}", "[{}]x", "{\"a\":1,}", "{a:1}"})
     EXPECT_FALSE(readServerList(p_text)) << p_text;
@@ -99,7 +99,7 @@ TEST(ServerListJson, DepthIsBounded) {
   EXPECT_TRUE(readServerList("[{\"a\":[[[[[1]]]]]}]"));
 }
 
-TEST(ServerListJson, AListHasAnEnd) {
+TEST(ServerListJson, ListLengthIsLimited) {
   std::string json = "[";
   for (int i = 0; i < 1000; ++i) {
     std::string key = kListKey;
@@ -111,7 +111,7 @@ TEST(ServerListJson, AListHasAnEnd) {
   EXPECT_EQ(serversOf(json + "]").size(), FoundServers::kMax);
 }
 
-TEST(ServerListJson, MutatedListsAreNoneOrSafe) {
+TEST(ServerListJson, MutatedListsAreRejectedOrSafe) {
   SplitMix64 random(5);
   const std::string json =
       R"([{"name": "a\u00ef", "game": "b", "players": 1.5e1, "x": [true, null], "link": ")" + kListLink +
@@ -131,7 +131,7 @@ TEST(ServerListJson, MutatedListsAreNoneOrSafe) {
 
 // ---- addresses --------------------------------------------------------------------------------------------
 
-TEST(ListUrl, OnlyHttpsIsOne) {
+TEST(ListUrl, AcceptsOnlyHttps) {
   const auto url = ListUrl::parse("https://lists.example:8443/naiad.json?a=b#c");
   ASSERT_TRUE(url);
   EXPECT_EQ(*url, (ListUrl{"lists.example", 8443, "/naiad.json?a=b"}));
@@ -147,7 +147,7 @@ TEST(ListUrl, OnlyHttpsIsOne) {
   EXPECT_FALSE(ListUrl::parse("https://lists.example/" + std::string(2000, 'a')));
 }
 
-TEST(ListUrl, ARedirectDoesNotLeadOutOfEncryption) {
+TEST(ListUrl, RedirectsMustStayOnHttps) {
   const ListUrl url = *ListUrl::parse("https://lists.example/a");
   EXPECT_EQ(url.redirected("/b?c#d")->target, "/b?c");
   EXPECT_EQ(url.redirected("/b")->host, "lists.example");

@@ -17,7 +17,7 @@ FoundServer listed(const std::string& name) {
   return server;
 }
 
-TEST(ServerListText, APersonReadsColumnsAndALink) {
+TEST(ServerListText, TextHasColumnsAndALink) {
   FoundServer full = listed("b");
   full.players = 16;
   const std::string key = full.key.text();
@@ -37,7 +37,7 @@ TEST(ServerListText, AnEmptyListSaysWhatToDo) {
   EXPECT_EQ(serversAsJson({}), "[]\n");
 }
 
-TEST(ServerListText, NotesSayWhatIsToBeKnownBeforeJoining) {
+TEST(ServerListText, NotesShowPasswordFullAndOtherVersion) {
   FoundServer server = listed("a");
   EXPECT_EQ(noteOf(server), "");
   server.asks_password = true;
@@ -48,7 +48,7 @@ TEST(ServerListText, NotesSayWhatIsToBeKnownBeforeJoining) {
   EXPECT_EQ(noteOf(server), "version " + std::to_string(kProtocolVersion + 1));
 }
 
-TEST(ServerListText, AProgramReadsJson) {
+TEST(ServerListText, JsonHasEveryField) {
   FoundServer zoned = listed("b");
   zoned.where = {"fe80::5%eth0", 9876};
   zoned.asks_password = true;

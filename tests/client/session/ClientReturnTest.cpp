@@ -78,7 +78,7 @@ class ClientReturn : public ClientSessionFixture {
   wire::ServerMessage welcome = welcomeMessage();
 };
 
-TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
+TEST_F(ClientReturn, HelloOfANewProcessIsMarkedFresh) {
   restart(Continuation{});
   const auto& hello = log.sent[log.sent.size() - 2].has_hello() ? log.sent[log.sent.size() - 2] : log.sent[1];
   EXPECT_TRUE(hello.hello().fresh());
@@ -86,7 +86,7 @@ TEST_F(ClientReturn, AHelloOfAnotherProcessSaysSo) {
   EXPECT_EQ(heard(), std::vector<std::string>{"Session resumed."});
 }
 
-TEST_F(ClientReturn, WithoutALineNoAcknowledgementIsDueForEver) {
+TEST_F(ClientReturn, DisconnectedClientStopsSchedulingAcknowledgements) {
   restart(Continuation{});
   receive(emptySnapshot(1, 0));
   session->closed(CloseReason::kPeer);
@@ -119,14 +119,14 @@ TEST_F(ClientReturn, AWelcomeWithoutContinuationIsRejected) {
   EXPECT_EQ(session->state(), ClientSession::State::kEnded);
 }
 
-TEST_F(ClientReturn, ATokenThatIsVoidMakesANewPlayer) {
+TEST_F(ClientReturn, VoidTokenJoinsAsANewPlayer) {
   beginFresh();
   join();
   EXPECT_EQ(session->state(), ClientSession::State::kPlaying);
   EXPECT_TRUE(heard().empty());
 }
 
-TEST_F(ClientReturn, ReliableFramesCountOnceAndAreAcknowledged) {
+TEST_F(ClientReturn, ReliableFramesAreDeduplicatedAndAcknowledged) {
   join();
   receive(line("one", 1));
   receive(line("two", 2));
@@ -156,7 +156,7 @@ TEST_F(ClientReturn, LargeAmountsAreAcknowledgedImmediately) {
   EXPECT_EQ(lastPing()->received(), session->receivedFrames());
 }
 
-TEST_F(ClientReturn, ChatWaitsForAStreamAndIsSentAgainUntilAcknowledged) {
+TEST_F(ClientReturn, UnacknowledgedChatIsResentOnTheNextStream) {
   joinResumable();
   session->sendChat("one");
   EXPECT_EQ(last().number(), 1u);
@@ -179,7 +179,7 @@ TEST_F(ClientReturn, ChatWaitsForAStreamAndIsSentAgainUntilAcknowledged) {
   session.reset();
 }
 
-TEST_F(ClientReturn, AfterALongStandstillTicksCountFromTheWelcome) {
+TEST_F(ClientReturn, AfterLongDisconnectTicksContinueFromTheWelcome) {
   joinResumable();
   snapshot(1, 100);
   session->closed(CloseReason::kError);

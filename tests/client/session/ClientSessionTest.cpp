@@ -44,7 +44,7 @@ TEST_F(ClientSessionTest, PlaysAfterTheWelcome) {
   EXPECT_TRUE(last().has_ping()) << "the round trip is measured from the start";
 }
 
-TEST_F(ClientSessionTest, AWelcomeWithoutAPictureIsGivenUpInWords) {
+TEST_F(ClientSessionTest, MissingFirstPictureEndsTheSessionWithAMessage) {
   join();
   wire::ServerMessage pong;
   pong.mutable_pong()->set_token(12345);
@@ -64,7 +64,7 @@ TEST_F(ClientSessionTest, AWelcomeWithoutAPictureIsGivenUpInWords) {
   EXPECT_TRUE(log.closed);
 }
 
-TEST_F(ClientSessionTest, WithAPictureItWaitsForNone) {
+TEST_F(ClientSessionTest, FirstPictureDisablesThePictureTimeout) {
   join();
   snapshot(1, 10);
   now += WorldFeed::kPatience;
@@ -78,7 +78,7 @@ TEST_F(ClientSessionTest, WithAPictureItWaitsForNone) {
   EXPECT_EQ(session->state(), State::kPlaying);
 }
 
-TEST_F(ClientSessionTest, RefusalKeepsItsSentence) {
+TEST_F(ClientSessionTest, RefusalKeepsItsMessage) {
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(wire::Refused::FULL);
   message.mutable_refused()->set_sentence("The server is full (4 players).");
@@ -88,7 +88,7 @@ TEST_F(ClientSessionTest, RefusalKeepsItsSentence) {
   EXPECT_TRUE(log.closed);
 }
 
-TEST_F(ClientSessionTest, GoodbyeKeepsItsSentence) {
+TEST_F(ClientSessionTest, GoodbyeKeepsItsSanitizedMessage) {
   join();
   wire::ServerMessage message;
   message.mutable_goodbye()->set_sentence("Maintenance\033[31m at nine.");
@@ -111,7 +111,7 @@ TEST_F(ClientSessionTest, AppliesAndAcknowledgesSnapshots) {
   EXPECT_TRUE(session->hasPicture(now));
 }
 
-TEST_F(ClientSessionTest, EveryThirdSnapshotIsAcknowledgedAndTheLastOnesALittleLater) {
+TEST_F(ClientSessionTest, AcknowledgesEveryThirdSnapshotOrAfterADelay) {
   join();
   const std::size_t before = log.sent.size();
   snapshot(1, 100);
@@ -154,7 +154,7 @@ TEST_F(ClientSessionTest, ObserverSeesTheReplicaBeforeTheSnapshot) {
   EXPECT_EQ(seen, (std::vector<std::pair<std::uint32_t, std::size_t>>{{100, 0}, {101, 1}}));
 }
 
-TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameTheNewestSnapshot) {
+TEST_F(ClientSessionTest, InputsAreNumberedFromOneWithTheNewestSnapshot) {
   join();
   snapshot(7, 100);
   EXPECT_TRUE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
@@ -174,7 +174,7 @@ TEST_F(ClientSessionTest, InputsAreNumberedFromOneAndNameTheNewestSnapshot) {
   EXPECT_EQ(click.y, 5);
 }
 
-TEST_F(ClientSessionTest, NumbersAreRestoredNearTheTickOfTheWelcome) {
+TEST_F(ClientSessionTest, SixteenBitTicksAreExpandedFromTheWelcome) {
   wire::ServerMessage welcome = welcomeMessage();
   welcome.mutable_welcome()->set_tick(3'000'000'000);
   receive(welcome);
@@ -206,7 +206,7 @@ TEST_F(ClientSessionTest, AStaleSnapshotIsDroppedAndNotAcknowledged) {
   EXPECT_EQ(lastUpdate().acks.mask, 0b101u);
 }
 
-TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeAndNoInvalidKeys) {
+TEST_F(ClientSessionTest, EarlyInputAndInvalidKeysAreNotSent) {
   EXPECT_FALSE(session->sendKey(df::Keyboard::SPACE, df::KEY_PRESSED, now));
   join();
   EXPECT_FALSE(session->sendKey(df::Keyboard::UNDEFINED_KEY, df::KEY_PRESSED, now));
@@ -214,7 +214,7 @@ TEST_F(ClientSessionTest, SendsNoInputBeforeTheWelcomeAndNoInvalidKeys) {
   EXPECT_EQ(session->counters().inputs, 0u);
 }
 
-TEST_F(ClientSessionTest, NeverSendsMoreThanAServerTolerates) {
+TEST_F(ClientSessionTest, InputRateStaysWithinTheServersLimit) {
   join();
   int sent = 0;
   for (int i = 0; i < 1000; ++i)
@@ -264,7 +264,7 @@ TEST_F(ClientSessionTest, SendsOnePingASecond) {
   EXPECT_EQ(log.sent.size() - before, 5u);
 }
 
-TEST_F(ClientSessionTest, GivesUpASilentServer) {
+TEST_F(ClientSessionTest, GreetingTimesOutAfterFiveSeconds) {
   listenUntil(now + 4900ms);
   EXPECT_EQ(session->state(), State::kGreeting);
   listenUntil(now + 5s);
@@ -272,7 +272,7 @@ TEST_F(ClientSessionTest, GivesUpASilentServer) {
   EXPECT_FALSE(session->sentence().empty());
 }
 
-TEST_F(ClientSessionTest, AServerThatAnsweredWhileThisProcessDidNotRunWasNotSilent) {
+TEST_F(ClientSessionTest, TimeoutIgnoresTimeWhileTheProcessWasSuspended) {
   session->update(now);
   session->update(now += 20s);  // the answer has arrived and is read next
   EXPECT_EQ(session->state(), State::kGreeting) << session->sentence();
@@ -281,7 +281,7 @@ TEST_F(ClientSessionTest, AServerThatAnsweredWhileThisProcessDidNotRunWasNotSile
   EXPECT_EQ(session->state(), State::kPlaying) << session->sentence();
 }
 
-TEST_F(ClientSessionTest, GivesUpASilentGame) {
+TEST_F(ClientSessionTest, SilentGameTimesOutAfterFifteenSeconds) {
   join();
   listenUntil(now + 14900ms);
   EXPECT_EQ(session->state(), State::kPlaying);
@@ -289,7 +289,7 @@ TEST_F(ClientSessionTest, GivesUpASilentGame) {
   EXPECT_EQ(session->state(), State::kLost);
 }
 
-TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
+TEST_F(ClientSessionTest, ResumableSessionWaitsSixtySecondsForTheServer) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_resume_token(std::string(16, 't'));
   receive(message);
@@ -304,7 +304,7 @@ TEST_F(ClientSessionTest, ASilentGameThatCanBeResumedIsWaitedFor) {
   EXPECT_FALSE(session->sentence().empty());
 }
 
-TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
+TEST_F(ClientSessionTest, ResentWorldContinuesTheNumbering) {
   join();
   snapshot(20'000, 10);
   receive(snapshotMessage(40'000, 11, 20'000));
@@ -325,7 +325,7 @@ TEST_F(ClientSessionTest, AWorldSentAgainContinuesTheNumbers) {
   EXPECT_EQ(lastUpdate().acks.newest, 40'002u);
 }
 
-TEST_F(ClientSessionTest, AWorldSeveralResetsLaterIsAccepted) {
+TEST_F(ClientSessionTest, WorldAfterSkippedResetsIsAccepted) {
   join();
   snapshot(1, 10);
   for (const auto& [number, epoch, resets] :
@@ -342,13 +342,13 @@ TEST_F(ClientSessionTest, AWorldSeveralResetsLaterIsAccepted) {
   EXPECT_EQ(session->replica().newest().number, 70u);
 }
 
-TEST_F(ClientSessionTest, ClosedChannelIsALostServer) {
+TEST_F(ClientSessionTest, ClosedChannelCountsAsLostServer) {
   join();
   session->closed(CloseReason::kPeer);
   EXPECT_EQ(session->state(), State::kLost);
 }
 
-TEST_F(ClientSessionTest, ALostServerIsSentNoAcknowledgementThatWasDue) {
+TEST_F(ClientSessionTest, LostServerCancelsTheDueAcknowledgement) {
   join();
   snapshot(1, 100);
   ASSERT_TRUE(session->nextWake());
@@ -366,7 +366,7 @@ TEST_F(ClientSessionTest, LeavingSendsALeaveMessage) {
   EXPECT_EQ(session->state(), State::kLeft);
 }
 
-TEST_F(ClientSessionTest, LostLineIsSilentAfterHalfASecond) {
+TEST_F(ClientSessionTest, MissingSnapshotsCountAsSilenceAfterHalfASecond) {
   join();
   EXPECT_FALSE(session->isSilent(now + 1h)) << "before the first snapshot there is nothing to miss";
   snapshot(1, 100);
@@ -377,7 +377,7 @@ TEST_F(ClientSessionTest, LostLineIsSilentAfterHalfASecond) {
   EXPECT_FALSE(session->isSilent(now));
 }
 
-TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
+TEST_F(ClientSessionTest, PendingInputsAreLimitedWhileTheServerStalls) {
   join();
   snapshot(1, 100);
   for (int tick = 0; tick < 300; ++tick) {
@@ -395,7 +395,7 @@ TEST_F(ClientSessionTest, AHeldKeyIsNoFloodAfterTheServerStalled) {
   EXPECT_EQ(lastInput().id, newest + 2);
 }
 
-TEST_F(ClientSessionTest, SoundsAreHandedOnOnce) {
+TEST_F(ClientSessionTest, SoundsAreDeliveredOnce) {
   join();
   wire::ServerMessage message;
   wire::Sound& sound = *message.mutable_sounds()->add_sounds();

@@ -17,7 +17,7 @@ using State = ClientSession::State;
 
 class HostileServerTest : public test::ClientSessionFixture {};
 
-TEST_F(HostileServerTest, ChatIsCutFilteredAndBounded) {
+TEST_F(HostileServerTest, ChatIsTruncatedSanitizedAndLimited) {
   join();
   wire::ServerMessage players;
   auto* entry = players.mutable_players()->add_players();
@@ -49,7 +49,7 @@ TEST_F(HostileServerTest, SendsOnlyDrawableChat) {
   EXPECT_EQ(last().chat().text().size(), kMaxChatLength);
 }
 
-TEST_F(HostileServerTest, HostileNamesAreMadeHarmless) {
+TEST_F(HostileServerTest, HostileNamesAreSanitized) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_name(
       "\033[2J\xE2\x80\xAE"
@@ -61,7 +61,7 @@ TEST_F(HostileServerTest, HostileNamesAreMadeHarmless) {
   EXPECT_EQ(session->welcome().server.size(), 40u);
 }
 
-TEST_F(HostileServerTest, EndsOnBytesThatAreNoMessage) {
+TEST_F(HostileServerTest, EndsOnUnparsableBytes) {
   session->receive("\xff\xff\xff garbage", now);
   expectRejected();
   const std::size_t sent = log.sent.size();
@@ -70,7 +70,7 @@ TEST_F(HostileServerTest, EndsOnBytesThatAreNoMessage) {
   EXPECT_EQ(session->state(), State::kEnded);
 }
 
-TEST_F(HostileServerTest, EndsOnMessagesThatAreNoneOrMayNotComeNow) {
+TEST_F(HostileServerTest, EndsOnEmptyOrUnexpectedMessages) {
   wire::ServerMessage pong, sounds;
   pong.mutable_pong()->set_token(1);
   sounds.mutable_sounds();

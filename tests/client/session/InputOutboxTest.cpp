@@ -22,7 +22,7 @@ TEST(InputOutbox, KeepsInputsUntilTheyAreAcknowledged) {
   EXPECT_EQ(ids(outbox.all()), (std::vector<std::uint32_t>{3, 4}));
 }
 
-TEST(InputOutbox, SendsEachOnceOnAStream) {
+TEST(InputOutbox, SendsEachInputOncePerStream) {
   InputOutbox outbox;
   outbox.add({});
   outbox.add({});

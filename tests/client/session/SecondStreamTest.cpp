@@ -76,7 +76,7 @@ TEST_F(SecondStreamTest, NothingIsSentWhileBytesWaitOnIt) {
   EXPECT_EQ(line.sent.size(), 2u);
 }
 
-TEST_F(SecondStreamTest, MayEndAtAnyTime) {
+TEST_F(SecondStreamTest, SendAndCloseAfterItsEndAreHarmless) {
   line.receive(yes());
   const auto on_closed = line.callbacks.on_closed;
   on_closed(CloseReason::kError);
@@ -85,7 +85,7 @@ TEST_F(SecondStreamTest, MayEndAtAnyTime) {
   stream.close();
 }
 
-TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
+TEST_F(SecondStreamTest, FailedAttemptsBackOffExponentially) {
   SecondStream closed;
   int attempts = 0;
   Time time{1h};
@@ -94,7 +94,7 @@ TEST_F(SecondStreamTest, AttemptsThatFailBecomeSeldom) {
   EXPECT_FALSE(stream.takeAttempt(time)) << "there is one";
 }
 
-TEST_F(SecondStreamTest, AStreamThatLastedMayBeReplacedSoon) {
+TEST_F(SecondStreamTest, LongLivedStreamResetsTheRetryDelay) {
   for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
     MessageLine<wire::ClientMessage> other;
     SecondStream again;
@@ -114,7 +114,7 @@ TEST_F(SecondStreamTest, AStreamThatLastedMayBeReplacedSoon) {
   }
 }
 
-TEST_F(SecondStreamTest, ASilentStreamIsGivenUp) {
+TEST_F(SecondStreamTest, SilentStreamTimesOut) {
   now += SecondStream::kMaxSilence - 1ms;
   stream.update(now);
   EXPECT_FALSE(line.destroyed);
@@ -139,7 +139,7 @@ TEST_F(SecondStreamTest, RecognisesRepeatedSnapshots) {
   EXPECT_FALSE(stream.isRepeat("0")) << "long ago";
 }
 
-TEST_F(SecondStreamTest, ASessionWithoutKeysForDatagramsOpensNone) {
+TEST_F(SecondStreamTest, SessionWithoutDatagramKeysWantsNoSecondStream) {
   wire::ServerMessage message = welcomeMessage();
   message.mutable_welcome()->set_second_stream(true);
   receive(message);

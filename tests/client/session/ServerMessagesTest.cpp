@@ -97,7 +97,7 @@ void expectGood(const ServerMessageValue& value) {
   std::visit([](const auto& message) { expectGood(message); }, value);
 }
 
-TEST(ServerMessages, ARoomThatIsNoneIsRefused) {
+TEST(ServerMessages, InvalidRoomMessagesAreRejected) {
   const auto reads = [](const std::function<void(wire::Entered&)>& change) {
     wire::ServerMessage message = test::serverMessages("Ann")[8];
     change(*message.mutable_entered());
@@ -154,7 +154,7 @@ TEST(ServerMessages, MutatedMessagesAreRefusedOrValid) {
 
 /// The first and last number of each range are read unchanged. Their outer neighbours are rejected or, for
 /// some fields, replaced by a harmless value.
-TEST(ServerMessages, EveryNumberHasItsRange) {
+TEST(ServerMessages, NumbersOutOfRangeAreRejectedOrClamped) {
   constexpr std::uint32_t kLast = 0xFFFFFFFF;
   const auto width = static_cast<std::uint32_t>(kMaxViewWidth);
   const auto height = static_cast<std::uint32_t>(kMaxViewHeight);

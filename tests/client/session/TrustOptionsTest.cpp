@@ -32,7 +32,7 @@ TEST(TrustOptions, ALinkNamesTheServerAndItsKey) {
   EXPECT_FALSE(address.trust.link_key);
 }
 
-TEST(TrustOptions, WhatIsWrongIsASentenceWithNothingThatSteersATerminal) {
+TEST(TrustOptions, ErrorMessagesContainNoControlCharacters) {
   EXPECT_NE(Resolved("naiad://game.example").problem.find("it has no key"), std::string::npos);
   EXPECT_NE(Resolved("a b").problem.find("is not a valid server"), std::string::npos);
   const std::string hostile = Resolved("naiad://x\033]0;y\a\n#" + kKey).problem;
@@ -40,7 +40,7 @@ TEST(TrustOptions, WhatIsWrongIsASentenceWithNothingThatSteersATerminal) {
   for (const char c : hostile) EXPECT_GE(static_cast<unsigned char>(c), ' ');
 }
 
-TEST(TrustOptions, ARoomIsTheBeginningOfTheSession) {
+TEST(TrustOptions, AddressMayNameTheFirstRoom) {
   const Resolved link("naiad://game.example/tron#" + kKey);
   EXPECT_EQ(link.problem, "");
   EXPECT_EQ(link.session.room, "tron");
@@ -72,13 +72,13 @@ TEST(TrustOptions, OptionsThatContradictALinkAreErrors) {
   EXPECT_NE(Resolved("naiad://127.0.0.1#" + kKey, "", false, insecure).problem, "");
 }
 
-TEST(TrustOptions, ThePasswordInTheEnvironmentIsNotForLinks) {
+TEST(TrustOptions, EnvironmentPasswordIsNotUsedForLinks) {
   EXPECT_EQ(Resolved("naiad://game.example#" + kKey, "xyzzy", true).session.password, "");
   EXPECT_EQ(Resolved("naiad://game.example#" + kKey, "xyzzy", false).session.password, "xyzzy");
   EXPECT_EQ(Resolved("game.example", "xyzzy", true).session.password, "xyzzy");
 }
 
-TEST(TrustOptions, APagesAddressLeadsThroughItsGateway) {
+TEST(TrustOptions, WebPageAddressSelectsItsGateway) {
   const Resolved page("https://play.example:8443/#" + kKey, "xyzzy", true);
   EXPECT_EQ(page.problem, "");
   ASSERT_TRUE(page.trust.gateway);
@@ -97,7 +97,7 @@ TEST(TrustOptions, APagesAddressLeadsThroughItsGateway) {
   EXPECT_NE(Resolved("http://127.0.0.1:80/", "", false, insecure).problem, "");
 }
 
-TEST(TrustOptions, AVisitHasASocketAndAnAddress) {
+TEST(TrustOptions, VisitNeedsASocketAndAnAddress) {
   const auto problem = [](const std::string& visitors, const std::string& visitor, bool insecure = false) {
     ServerAddress address;
     ServerTrust trust;
@@ -116,7 +116,7 @@ TEST(TrustOptions, AVisitHasASocketAndAnAddress) {
   EXPECT_NE(problem("/run/x", "192.0.2.7:50312", true), "");
 }
 
-TEST(TrustOptions, AServerOfAListHasTheKeyOfTheListAndGetsNoPasswordFromTheEnvironment) {
+TEST(TrustOptions, ListedServerUsesListKeyWithoutEnvironmentPassword) {
   const auto resolve = [](const std::string& text, bool ambient, ServerTrust& trust) {
     SessionOptions session;
     session.password = "xyzzy";

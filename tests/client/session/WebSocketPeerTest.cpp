@@ -85,7 +85,7 @@ TEST_F(WebSocketPeer, FramesOfAllKindsAreUnderstood) {
   EXPECT_TRUE(peer->prints("closed 1000\n")) << peer->printed();
 }
 
-TEST_F(WebSocketPeer, EndsInOrderAndOthersAreToldApart) {
+TEST_F(WebSocketPeer, NormalAndAbnormalClosesAreDistinguished) {
   start();
   for (const bool in_order : {true, false}) {
     error.reset();
@@ -97,7 +97,7 @@ TEST_F(WebSocketPeer, EndsInOrderAndOthersAreToldApart) {
   }
 }
 
-TEST_F(WebSocketPeer, WhatMayNotBeSentEndsItWithTheCodeForIt) {
+TEST_F(WebSocketPeer, InvalidMessagesCloseWithTheMatchingCode) {
   start();
   for (const auto& [message, code] : {std::pair("too large", "1009"), std::pair("text", "1003")}) {
     error.reset();
@@ -116,7 +116,7 @@ TEST_F(WebSocketPeer, AnotherSubprotocolIsRefused) {
   EXPECT_EQ(error, "Cannot join through the gateway (wrong subprotocol).");
 }
 
-TEST_F(WebSocketPeer, SpeaksTlsToWhatTheSystemTrusts) {
+TEST_F(WebSocketPeer, TlsAcceptsASystemTrustedCertificate) {
   const std::string certificate = folder / "certificate.pem";
   const std::string key = folder / "key.pem";
   ASSERT_EQ(runProgram("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=localhost -addext "

@@ -88,7 +88,7 @@ TEST(HeldKeys, AHeldKeyStaysDownWhileAnotherIsTapped) {
   EXPECT_EQ(keys.expire(last + 20ms + HoldRule::kCompanion), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
 }
 
-TEST(HeldKeys, OtherKeysDoNotKeepASilentKeyDownForEver) {
+TEST(HeldKeys, SilentKeyIsReleasedDespiteOtherKeys) {
   HeldKeys keys;
   const Time last = hold(keys, RIGHTARROW, kStart);
   Time now = last;
@@ -102,7 +102,7 @@ TEST(HeldKeys, OtherKeysDoNotKeepASilentKeyDownForEver) {
   }
 }
 
-TEST(HeldKeys, AKeyThatIsPressedAgainAfterAnotherIsANewPress) {
+TEST(HeldKeys, SecondPressAfterAnotherKeyIsANewPress) {
   HeldKeys keys;
   const Time last = hold(keys, RIGHTARROW, kStart);
   keys.takeKey({SPACE}, last + 20ms);
@@ -129,14 +129,14 @@ TEST(HeldKeys, TheOppositeDirectionEndsAHold) {
   }
 }
 
-TEST(HeldKeys, ATapBesideAnotherTapEndsAsSoonAsAlone) {
+TEST(HeldKeys, SecondTapDoesNotProlongTheFirst) {
   HeldKeys keys;
   keys.takeKey({RIGHTARROW}, kStart);
   keys.takeKey({SPACE}, kStart + 30ms);
   EXPECT_EQ(keys.expire(kStart + 80ms), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
 }
 
-TEST(HeldKeys, LearnsThePauseOfTheKeyboard) {
+TEST(HeldKeys, LearnsTheKeyboardsRepeatDelay) {
   HeldKeys keys;
   EXPECT_EQ(keys.pause(), HeldKeys::Duration{});
   hold(keys, RIGHTARROW, kStart);
@@ -158,7 +158,7 @@ TEST(HeldKeys, RealReleasesPassThrough) {
   EXPECT_TRUE(keys.tick().empty());
 }
 
-TEST(HeldKeys, AKeyThatWasNotDownOrIsNoneIsIgnored) {
+TEST(HeldKeys, UndefinedKeysAndUnmatchedReleasesAreIgnored) {
   HeldKeys keys;
   EXPECT_TRUE(keys.takeKey({UNDEFINED_KEY, U'é'}, kStart).empty());
   keys.setRealReleases(true);

@@ -256,7 +256,7 @@ TEST(InputDecoder, APasteIsBounded) {
   EXPECT_EQ(std::get<PasteEvent>(events[0]).text, std::u32string(InputDecoder::kMaxPaste, U'x'));
 }
 
-TEST(InputDecoder, APasteMayPauseAndEndsByItselfWhenItsEndIsLost) {
+TEST(InputDecoder, PasteMayPauseAndEndsByTimeout) {
   InputDecoder decoder;
   EXPECT_TRUE(decoder.feed("\033[200~one\r", kFed).empty());
   EXPECT_TRUE(decoder.feed("two", kFed + 1900ms).empty()) << "a slow line";
@@ -265,7 +265,7 @@ TEST(InputDecoder, APasteMayPauseAndEndsByItselfWhenItsEndIsLost) {
   EXPECT_EQ(decoder.feed("a", kFed + 3901ms), Events{key(A, U'a')});
 }
 
-TEST(InputDecoder, ASpelledEscapeIsAKeyAfterTheSameTime) {
+TEST(InputDecoder, KeyRecordEscapeIsAKeyAfter25Milliseconds) {
   InputDecoder decoder;
   EXPECT_FALSE(decoder.hasKeyRecords());
   EXPECT_TRUE(decoder.feed(spelled("\033"), kFed).empty());
@@ -276,7 +276,7 @@ TEST(InputDecoder, ASpelledEscapeIsAKeyAfterTheSameTime) {
   EXPECT_FALSE(decoder.deadline());
 }
 
-TEST(InputDecoder, ASpelledPasteEndsByItselfWhenItsEndIsLost) {
+TEST(InputDecoder, KeyRecordPasteWithoutEndTimesOut) {
   InputDecoder decoder;
   EXPECT_TRUE(decoder.feed(spelled("\033[200~one\r"), kFed).empty());
   EXPECT_TRUE(decoder.feed("\033[", kFed + 1990ms).empty()) << "a record begins";

@@ -45,7 +45,7 @@ struct KnownServersTest : testing::Test {
   KnownServers servers{path};
 };
 
-TEST_F(KnownServersTest, FirstUsePinsForTheOwnerAloneAndTheSameKeyIsTrusted) {
+TEST_F(KnownServersTest, FirstUsePinsKeyPrivatelyAndTrustsItLater) {
   EXPECT_EQ(admit(selfSigned('a')), Trust::kFirstUse);
   EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
   struct stat facts {};
@@ -55,7 +55,7 @@ TEST_F(KnownServersTest, FirstUsePinsForTheOwnerAloneAndTheSameKeyIsTrusted) {
   EXPECT_TRUE(servers.problems().empty());
 }
 
-TEST_F(KnownServersTest, ChangedKeyIsRefusedLoudlyAndStaysRefused) {
+TEST_F(KnownServersTest, ChangedKeyIsAlwaysRefusedWithAWarning) {
   admit(selfSigned('a'));
   for (int i = 0; i < 2; ++i) {
     const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {});
@@ -72,7 +72,7 @@ TEST_F(KnownServersTest, JudgingWritesNothing) {
   EXPECT_EQ(content(), "(missing)");
 }
 
-TEST_F(KnownServersTest, GivenFingerprintCountsMostAndIsPinned) {
+TEST_F(KnownServersTest, GivenFingerprintOverridesTheChainAndThePin) {
   EXPECT_EQ(admit(selfSigned('a'), key('b')), Trust::kGivenUnequal);
   EXPECT_EQ(admit(verified('a'), key('b')), Trust::kGivenUnequal);
   EXPECT_EQ(content(), "(missing)");
@@ -82,7 +82,7 @@ TEST_F(KnownServersTest, GivenFingerprintCountsMostAndIsPinned) {
   EXPECT_EQ(admit(selfSigned('a')), Trust::kChanged);
 }
 
-TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
+TEST_F(KnownServersTest, MatchingLinkKeyPinsTheFullKey) {
   const auto admitBy = [this](const PeerFacts& facts, char digit) {
     return servers.admit("game.test", 9876, facts, {}, ShortKey::of(key(digit)));
   };
@@ -100,7 +100,7 @@ TEST_F(KnownServersTest, AShortKeyOfALinkIsEnoughAndTheWholeKeyIsPinned) {
   EXPECT_EQ(admitBy(twin, 'a').trust, Trust::kChanged);
 }
 
-TEST_F(KnownServersTest, ALinkReplacesNoPinAndAFingerprintDoes) {
+TEST_F(KnownServersTest, FingerprintReplacesThePinButLinkDoesNot) {
   admit(selfSigned('a'));
   const auto link = ShortKey::of(key('b'));
   const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {}, link);
@@ -111,7 +111,7 @@ TEST_F(KnownServersTest, ALinkReplacesNoPinAndAFingerprintDoes) {
   EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
 }
 
-TEST_F(KnownServersTest, ChainIsTrustedAndGuardsAgainstALesserCertificateLater) {
+TEST_F(KnownServersTest, ValidChainUpdatesThePinButUnverifiedKeyCannot) {
   EXPECT_EQ(admit(verified('a')), Trust::kChain);
   EXPECT_EQ(admit(verified('b')), Trust::kChain);  // renewed with a new key
   EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
@@ -152,13 +152,13 @@ TEST_F(KnownServersTest, KnownServersAreNotWrittenAgain) {
   EXPECT_FALSE(fs::exists(path.string() + ".lock"));
 }
 
-TEST_F(KnownServersTest, UnusableFileGivesASentence) {
+TEST_F(KnownServersTest, UnusableFileIsAnError) {
   fs::create_directories(path);  // a directory where the file should be
   EXPECT_THROW(admit(selfSigned('a')), KnownServersError);
   EXPECT_THROW(servers.problems(), KnownServersError);
 }
 
-TEST_F(KnownServersTest, ThreadsLoseNoPinOfEachOther) {
+TEST_F(KnownServersTest, ConcurrentThreadsLoseNoPins) {
   constexpr int kThreads = 8, kServers = 20;
   std::vector<std::thread> threads;
   for (int t = 0; t < kThreads; ++t) {
@@ -173,7 +173,7 @@ TEST_F(KnownServersTest, ThreadsLoseNoPinOfEachOther) {
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), kThreads * kServers);
 }
 
-TEST_F(KnownServersTest, ProcessesThatPinAServerTogetherAgreeOnOneKey) {
+TEST_F(KnownServersTest, ConcurrentProcessesAgreeOnOneKey) {
   constexpr int kProcesses = 8;
   std::vector<pid_t> children;
   for (int i = 0; i < kProcesses; ++i) {

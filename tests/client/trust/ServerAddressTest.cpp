@@ -5,7 +5,7 @@
 namespace naiad {
 namespace {
 
-TEST(ServerAddress, TakesWhatPeopleType) {
+TEST(ServerAddress, ParsesHostAndOptionalPort) {
   const struct {
     const char* text;
     const char* host;
@@ -23,7 +23,7 @@ TEST(ServerAddress, TakesWhatPeopleType) {
   EXPECT_EQ(ServerAddress::parse("a")->text(), "a:9876");
 }
 
-TEST(ServerAddress, RefusesTheRest) {
+TEST(ServerAddress, RejectsMalformedAddresses) {
   for (const char* text : {"", ":", ":80", "a:", "a:0", "a:65536", "a:-1", "a:8x", "[::1", "[]:1", "[::1]80",
                            "a b", "a/b", "a\033b"}) {
     EXPECT_FALSE(ServerAddress::parse(text)) << text;

@@ -53,7 +53,7 @@ class SessionFileTest : public testing::Test {
   SessionFile::Time now{std::chrono::hours(24 * 365 * 50)};
 };
 
-TEST_F(SessionFileTest, TheNextClientFindsTheFileOfAKilledOne) {
+TEST_F(SessionFileTest, NextClientFindsTheFileOfAKilledClient) {
   auto first = open();
   EXPECT_EQ(first->tokenFor(keyOf('a')), "");
   EXPECT_FALSE(fs::exists(directory)) << "reading makes no directory";
@@ -85,7 +85,7 @@ TEST_F(SessionFileTest, FindsOnlyFilesOfTheSameServerAndName) {
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "here");
 }
 
-TEST_F(SessionFileTest, FindsTheNewestOfSeveralAndEachOnce) {
+TEST_F(SessionFileTest, ReturnsEachFileOnceNewestFirst) {
   leave("old");
   now += 5s;
   leave("new");
@@ -108,7 +108,7 @@ TEST_F(SessionFileTest, FilesPastTheirGraceAreRemoved) {
   EXPECT_TRUE(late->problems().empty()) << "nothing is wrong with that";
 }
 
-TEST_F(SessionFileTest, TheGraceCountsFromWhenTheSessionWasLastAlive) {
+TEST_F(SessionFileTest, GraceTimeStartsWhenTheSessionWasLastAlive) {
   auto running = open();
   running->save(session("token"), now);
   for (int i = 0; i < 100; ++i) running->refresh(now += 2s);
@@ -117,7 +117,7 @@ TEST_F(SessionFileTest, TheGraceCountsFromWhenTheSessionWasLastAlive) {
   EXPECT_EQ(open()->tokenFor(keyOf('a')), "token");
 }
 
-TEST_F(SessionFileTest, LeavingInOrderRemovesTheFile) {
+TEST_F(SessionFileTest, LeavingRemovesTheFile) {
   auto file = open();
   file->save(session("token"), now);
   file->remove();
@@ -160,7 +160,7 @@ TEST_F(SessionFileTest, DamagedFilesAreReportedAndRemoved) {
   }
 }
 
-TEST_F(SessionFileTest, EveryByteThatChangesIsNoticedOrHarmless) {
+TEST_F(SessionFileTest, EveryChangedByteIsRejectedOrReadExactly) {
   leave("token");
   const std::string good = test::contentOf(files()[0]);
   for (std::size_t i = 0; i < good.size(); ++i) {
@@ -187,7 +187,7 @@ TEST_F(SessionFileTest, FilesThatOthersCanReadAreNotUsed) {
   EXPECT_EQ(files().size(), 2u) << "play goes on with another file";
 }
 
-TEST_F(SessionFileTest, DirectoriesOfOthersAreNotUsed) {
+TEST_F(SessionFileTest, DirectoriesThatOthersCanWriteAreNotUsed) {
   leave("token");
   fs::permissions(directory, fs::perms::others_write, fs::perm_options::add);
   auto file = open();

@@ -44,7 +44,7 @@ TEST(ClientControls, PrefixOpensCommands) {
   EXPECT_EQ(command(controls, Q, U'q'), Result::kLeave);
 }
 
-TEST(ClientControls, TheStatusKeyChangesWhatIsSeen) {
+TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
   ClientControls controls;
   const auto press = [&controls] {
     command(controls, S, U's');
@@ -83,7 +83,7 @@ TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
   EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
 }
 
-TEST(ClientControls, TheListOfRoomsHasAChoiceThatReturnTakes) {
+TEST(ClientControls, ArrowsChooseARoomAndReturnEntersIt) {
   ClientControls controls;
   EXPECT_EQ(command(controls, R, U'r'), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kRooms);
@@ -98,7 +98,7 @@ TEST(ClientControls, TheListOfRoomsHasAChoiceThatReturnTakes) {
   EXPECT_EQ(controls.takeKey({RETURN}), Result::kGame);
 }
 
-TEST(ClientControls, WithoutRoomsReturnClosesTheirList) {
+TEST(ClientControls, ReturnClosesAnEmptyRoomList) {
   ClientControls controls;
   command(controls, R, U'r');
   controls.noteShown({.rooms = 0});
@@ -128,7 +128,7 @@ TEST(ClientControls, PrefixTwiceClosesEverything) {
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }
 
-TEST(ClientControls, ModifiersAndRepeatsAreNoCommands) {
+TEST(ClientControls, ModifiersAndRepeatsDoNotEndThePrefix) {
   ClientControls controls;
   controls.takeKey(kPrefix);
   controls.takeKey({RIGHTBRACKET, 0, KeyEvent::Action::kRepeat, kControl});
@@ -159,7 +159,7 @@ TEST(ClientControls, ChatLineTakesText) {
   EXPECT_FALSE(controls.chatOpen());
 }
 
-TEST(ClientControls, EmptyOrEscapedChatSaysNothing) {
+TEST(ClientControls, EmptyOrCancelledChatSendsNothing) {
   ClientControls controls;
   command(controls, C, U'c');
   EXPECT_EQ(controls.takeKey({RETURN}), Result::kClosed);

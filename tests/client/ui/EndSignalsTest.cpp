@@ -21,7 +21,7 @@ class EndSignalsTest : public testing::Test {
   std::optional<EndSignals> signals{std::in_place, context, [this](int signal) { got = signal; }};
 };
 
-TEST_F(EndSignalsTest, TheFirstOneIsReportedAndTheNextOneIsTheSystems) {
+TEST_F(EndSignalsTest, FirstSignalIsReportedAndRestoresDefaultHandlers) {
   ASSERT_FALSE(isDefault(SIGTERM));
   raise(SIGTERM);
   while (got == 0) context.run_one();
@@ -29,7 +29,7 @@ TEST_F(EndSignalsTest, TheFirstOneIsReportedAndTheNextOneIsTheSystems) {
   EXPECT_TRUE(isDefault(SIGTERM) && isDefault(SIGINT) && isDefault(SIGHUP));
 }
 
-TEST_F(EndSignalsTest, OneWhoseReportIsQueuedWhenTheyAreGoneIsReported) {
+TEST_F(EndSignalsTest, SignalQueuedAtDestructionIsStillReported) {
   asio::signal_set probe(context, SIGINT);  // the newest set reports first; the other's report is then queued
   int next = 0;
   bool gone = false;
@@ -47,7 +47,7 @@ TEST_F(EndSignalsTest, OneWhoseReportIsQueuedWhenTheyAreGoneIsReported) {
   EXPECT_FALSE(isDefault(SIGINT)) << "the report used what was gone";
 }
 
-TEST_F(EndSignalsTest, WithoutASignalNothingIsReportedAndNothingIsLeft) {
+TEST_F(EndSignalsTest, WithoutASignalDestructionRestoresDefaultHandlers) {
   signals.reset();
   EXPECT_TRUE(isDefault(SIGTERM) && isDefault(SIGINT) && isDefault(SIGHUP));
   context.run();

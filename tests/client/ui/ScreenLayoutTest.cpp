@@ -42,7 +42,7 @@ bool contains(const Picture& picture, const std::string& text) {
   return rowWith(picture, text) >= 0;
 }
 
-TEST(ScreenLayout, RoomsAreListedWithTheirPlayersAndTheChosenOneStandsOut) {
+TEST(ScreenLayout, RoomListShowsPlayersAndHighlightsTheChosenRoom) {
   ScreenModel m = modelWith(Panel::kRooms);
   m.room = "lobby";
   m.rooms = {{"lobby", "lobby", 2, 64, false}, {"arcade", "saucershoot", 0, 8, true}};
@@ -68,7 +68,7 @@ TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
   }
 }
 
-TEST(ScreenLayout, AServerWithoutRoomsSaysSo) {
+TEST(ScreenLayout, PanelSaysThatTheServerHasNoRooms) {
   EXPECT_TRUE(contains(layOut(modelWith(Panel::kRooms), 80, 24).picture, "This server has no rooms."));
 }
 
@@ -87,7 +87,7 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   EXPECT_NE(layout.picture.rowText(29).find("Ctrl-] help"), std::string::npos);
 }
 
-TEST(ScreenLayout, TerminalOfTheViewsSizeShowsAllOfItAndTheStatusWhereTheGameShowsNothing) {
+TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
   ScreenModel m = model();
   const ScreenLayout layout = layOut(m, 80, 24);
   EXPECT_FALSE(layout.placement.framed);
@@ -101,7 +101,7 @@ TEST(ScreenLayout, TerminalOfTheViewsSizeShowsAllOfItAndTheStatusWhereTheGameSho
   EXPECT_EQ(layOut(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
 }
 
-TEST(ScreenLayout, WithoutRoomTheStatusIsOverTheGameForAMomentOnly) {
+TEST(ScreenLayout, StatusOverlayIsTemporaryButStatusRowStays) {
   ScreenModel m = model();
   m.status_over_game = false;
   const ScreenLayout layout = layOut(m, 80, 24);
@@ -115,7 +115,7 @@ TEST(ScreenLayout, WithoutRoomTheStatusIsOverTheGameForAMomentOnly) {
   EXPECT_FALSE(contains(layOut(m, 80, 25).picture, "42 ms"));
 }
 
-TEST(ScreenLayout, ColumnsBesideTheViewHoldTheStatusIfThereIsNoRow) {
+TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   ScreenModel m = model();
   m.status_over_game = false;
   m.note = "sound: fire";
@@ -130,7 +130,7 @@ TEST(ScreenLayout, ColumnsBesideTheViewHoldTheStatusIfThereIsNoRow) {
   EXPECT_FALSE(layOut(m, 90, 24).placement.status_side);
 }
 
-TEST(ScreenLayout, OneRowMoreThanTheViewIsTheStatusLine) {
+TEST(ScreenLayout, OneExtraRowBecomesTheStatusLine) {
   const ScreenLayout layout = layOut(model(), 80, 25);
   EXPECT_TRUE(layout.placement.status_row);
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
@@ -172,7 +172,7 @@ TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
   EXPECT_EQ(layOut(model(), 100, 30).picture.background(), df::BLACK);
 }
 
-TEST(ScreenLayout, SmallTerminalIsCroppedAroundTheFocus) {
+TEST(ScreenLayout, SmallTerminalCropsTheViewAroundTheFocus) {
   ScreenModel m = model();
   m.focus = {70, 20};
   const ScreenLayout layout = layOut(m, 40, 12);
@@ -230,7 +230,7 @@ TEST(ScreenLayout, PlayersAreListedByScore) {
   EXPECT_TRUE(contains(picture, "70"));
 }
 
-TEST(ScreenLayout, HelpShowsTheGamesLinesTheClientsKeysAndWhetherReleasesAreReported) {
+TEST(ScreenLayout, HelpShowsGameLinesClientKeysAndReleaseReporting) {
   ScreenModel m = modelWith(Panel::kHelp);
   m.help = {"Space fires."};
   const Picture picture = layOut(m, 80, 24).picture;
@@ -240,7 +240,7 @@ TEST(ScreenLayout, HelpShowsTheGamesLinesTheClientsKeysAndWhetherReleasesAreRepo
   EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "exact"));
 }
 
-TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
+TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
   ScreenModel m = modelWith(Panel::kHelp);
   // 76 characters, the limit of a server's line.
   m.help = {"This line of the game is as long as any can be, and here is its very end: END",
@@ -253,7 +253,7 @@ TEST(ScreenLayout, HelpIsWholeInANarrowTerminal) {
   }
 }
 
-TEST(ScreenLayout, LinesThatContinueOneStandUnderItsText) {
+TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
   const Picture picture = layOut(modelWith(Panel::kHelp), 50, 40).picture;
   // "Ctrl-] t   say something to all players (or Ctrl-] c)"
   const int row = rowWith(picture, "say something");
@@ -282,7 +282,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_TRUE(contains(layOut(m, 20, 10).picture, "Down"));
 }
 
-TEST(ScreenLayout, PlayersScrollUnderTheirHead) {
+TEST(ScreenLayout, PlayerListScrollsUnderItsHeader) {
   ScreenModel m = modelWith(Panel::kPlayers);
   for (std::uint32_t i = 0; i < 64; ++i)
     m.players.push_back({10 + i, "p" + std::to_string(i), df::RED, -1, 5});
@@ -328,7 +328,7 @@ bool containsIn(const Picture& picture, const std::string& text, df::Color color
   return cell.color == color && cell.style == style;
 }
 
-TEST(ScreenLayout, TheStatusLineBeginsWithThePlayersNameInTheirColour) {
+TEST(ScreenLayout, StatusLineBeginsWithTheColouredPlayerName) {
   ScreenModel m = model();
   m.self_name = "Ada";
   m.self_color = df::CYAN;
@@ -361,7 +361,7 @@ TEST(ScreenLayout, APointerShowsThePlayersOwnObject) {
   }
 }
 
-TEST(ScreenLayout, AWideTerminalHasPlayersChatAndHelpBesideTheGame) {
+TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
   ScreenModel m = model();
   m.help = {"Arrows   fly", "Space    shoot"};
   m.history = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
@@ -403,7 +403,7 @@ TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
   }
 }
 
-TEST(ScreenLayout, APanelOfManyPlayersAndLongTextsFits) {
+TEST(ScreenLayout, ManyPlayersAndLongTextsFitTheSidePanel) {
   ScreenModel m = model();
   m.help.assign(40, std::string(300, 'h'));
   m.players.clear();

@@ -53,7 +53,7 @@ ServerMenu menuOf(std::vector<FoundServer> servers) {
   return menu;
 }
 
-TEST(ServerMenu, ShowsWhatIsToBeKnownOfEachServer) {
+TEST(ServerMenu, ShowsNameGamePlayersAndAddress) {
   ServerMenu menu = menuOf({menuServer(5, "Ann's")});
   for (const char* p_text :
        {"Servers in this network", "Ann's", "hello", "0/16", "192.168.1.5:9876", "Enter join"})
@@ -87,7 +87,7 @@ TEST(ServerMenu, OtherKeysRefreshAndLeave) {
   EXPECT_EQ(menu.takeKey(release), MenuResult::kNone);
 }
 
-TEST(ServerMenu, TheChosenOneStaysChosenWhereverItGoes) {
+TEST(ServerMenu, SelectionFollowsItsServerWhenTheListChanges) {
   ServerMenu menu = menuOf(menuServers(3));
   press(menu, key::DOWNARROW);
   menu.setServers(
@@ -101,7 +101,7 @@ TEST(ServerMenu, TheChosenOneStaysChosenWhereverItGoes) {
   EXPECT_EQ(press(menu, key::DOWNARROW), MenuResult::kRedraw);
 }
 
-TEST(ServerMenu, AnEmptyListSaysWhatToDoOnceTheAnswersWouldBeThere) {
+TEST(ServerMenu, EmptyListSaysWhatToDoAfterTheSearch) {
   ServerMenu menu = menuOf({});
   EXPECT_TRUE(shows(menu, "No server answered."));
   EXPECT_TRUE(shows(menu, "Start one."));
@@ -118,7 +118,7 @@ TEST(ServerMenu, AServerOfAnotherVersionIsNotJoined) {
   EXPECT_TRUE(shows(menu, "server protocol version " + std::to_string(kProtocolVersion + 1)));
 }
 
-TEST(ServerMenu, ALongListIsScrolledSoThatTheChosenOneIsSeen) {
+TEST(ServerMenu, LongListScrollsToTheChosenServer) {
   ServerMenu menu = menuOf(menuServers(60));
   EXPECT_TRUE(shows(menu, "server 1 "));
   EXPECT_FALSE(shows(menu, "server 60"));

@@ -42,7 +42,7 @@ TEST_F(SoundNotesTest, NotesDoNotFlicker) {
   EXPECT_EQ(note(), "sound: boom");
 }
 
-TEST_F(SoundNotesTest, OwnSoundsReplaceThoseOfOthers) {
+TEST_F(SoundNotesTest, OwnSoundsReplaceSoundsOfOthers) {
   sound("theirs", 7);
   EXPECT_EQ(note(), "sound: theirs");
   sound("more of theirs", 8);
@@ -72,7 +72,7 @@ TEST_F(SoundNotesTest, TheBellRingsNeitherForMusicNorForOthers) {
   EXPECT_FALSE(notes.takeBell());
 }
 
-TEST_F(SoundNotesTest, AStoppedSoundShowsNoNoteAndEndsItsOwn) {
+TEST_F(SoundNotesTest, StoppingASoundClearsOnlyItsOwnNote) {
   notes.addSound({"theme", SoundLine::Action::kPlay, true, true, 0}, kSelf, now);
   EXPECT_EQ(note(), "music: theme");
   notes.addSound({"fire", SoundLine::Action::kStop, false, false, 0}, kSelf, now);

@@ -20,7 +20,7 @@ TEST(StatusTimer, ShowsForAMomentAfterJoining) {
   EXPECT_TRUE(timer.isShown(now)) << "as another player, after the server was lost";
 }
 
-TEST(StatusTimer, ShowsForAMomentWhenTheLineBecomesBad) {
+TEST(StatusTimer, ShowsForAMomentWhenTheConnectionBecomesBad) {
   StatusTimer timer;
   StatusTimer::Time now{1h};
   timer.update(3, 40ms, now);

@@ -12,7 +12,7 @@ KeyEvent press(BrowserKeys& keys, std::string_view key, std::string_view code) {
   return keys.translate(key, code, Action::kPress, 0);
 }
 
-TEST(BrowserKeys, NamesAndCharactersAreTheKeysThatATerminalHas) {
+TEST(BrowserKeys, MapToTerminalKeys) {
   BrowserKeys keys;
   const struct {
     const char* key;
@@ -43,14 +43,14 @@ TEST(BrowserKeys, NamesAndCharactersAreTheKeysThatATerminalHas) {
   }
 }
 
-TEST(BrowserKeys, WhatTheClientHasNotIsNoKey) {
+TEST(BrowserKeys, UnknownKeysAreUndefined) {
   BrowserKeys keys;
   for (const char* key : {"AudioVolumeUp", "Unidentified", "", "\xff", "ab", "F25"})
     EXPECT_EQ(press(keys, key, "X").key, UNDEFINED_KEY) << key;
   EXPECT_EQ(press(keys, std::string(1000, 'a'), "KeyA").key, UNDEFINED_KEY);
 }
 
-TEST(BrowserKeys, AKeyGoesUpAsWhatItWentDownAs) {
+TEST(BrowserKeys, ReleaseUsesTheKeyThatWasPressed) {
   BrowserKeys keys;
   EXPECT_EQ(press(keys, "?", "Digit7").key, SLASH);
   EXPECT_EQ(keys.translate("7", "Digit7", Action::kRepeat, 0).key, SLASH);

@@ -99,7 +99,7 @@ class WebClientTest : public testing::Test {
   int first = 0;
 };
 
-TEST_F(WebClientTest, TheRoomOfTheAddressIsInTheHelloIfItIsAName) {
+TEST_F(WebClientTest, HelloContainsTheRoomOfTheAddressIfValid) {
   for (const auto& [room, wanted] : {std::pair<std::string, std::string>{"arcade", "arcade"},
                                      {"a b", ""},
                                      {"../x", ""},
@@ -114,7 +114,7 @@ TEST_F(WebClientTest, TheRoomOfTheAddressIsInTheHelloIfItIsAName) {
   }
 }
 
-TEST_F(WebClientTest, SaysHelloShowsThePictureAndOpensASecondStream) {
+TEST_F(WebClientTest, JoinsShowsThePictureAndOpensASecondStream) {
   EXPECT_EQ(client->state(), WebClient::State::kJoining);
   play();
   ASSERT_FALSE(page.streams[first].sent.empty());
@@ -143,7 +143,7 @@ TEST_F(WebClientTest, KeysAndPointerReachTheServer) {
   EXPECT_TRUE(sent[2].is_mouse);
 }
 
-TEST_F(WebClientTest, AKeyThatIsHeldGoesUpWhenThePageLosesTheKeyboard) {
+TEST_F(WebClientTest, HeldKeyIsReleasedWhenThePageLosesFocus) {
   play();
   client->pressKey("a", "KeyA", KeyEvent::Action::kPress, 0, now);
   for (int i = 0; i < 30; ++i) client->update(now += 33ms);
@@ -155,7 +155,7 @@ TEST_F(WebClientTest, AKeyThatIsHeldGoesUpWhenThePageLosesTheKeyboard) {
   EXPECT_EQ(inputs().size(), count);
 }
 
-TEST_F(WebClientTest, ChatIsWrittenInAFieldOfThePage) {
+TEST_F(WebClientTest, ChatTextComesFromThePagesInputField) {
   play();
   client->command(U't', now);
   EXPECT_TRUE(client->isChatOpen());
@@ -168,7 +168,7 @@ TEST_F(WebClientTest, ChatIsWrittenInAFieldOfThePage) {
   EXPECT_FALSE(shows("late"));
 }
 
-TEST_F(WebClientTest, HelpSpeaksOfNoTerminal) {
+TEST_F(WebClientTest, HelpDoesNotMentionTerminals) {
   play();
   client->command(U'h', now);
   EXPECT_TRUE(shows("this help"));
@@ -198,7 +198,7 @@ TEST_F(WebClientTest, AReloadedPageAsksForItsSession) {
   EXPECT_TRUE(shows("Session resumed."));
 }
 
-TEST_F(WebClientTest, WhatIsNoTokenIsNotSent) {
+TEST_F(WebClientTest, MalformedTokenStartsNoResume) {
   for (const std::string& kept :
        {std::string("0"), std::string("zz"), std::string(1000, 'a'), std::string("01AB")}) {
     make(kept);
@@ -207,7 +207,7 @@ TEST_F(WebClientTest, WhatIsNoTokenIsNotSent) {
   }
 }
 
-TEST_F(WebClientTest, ALostStreamIsOpenedAgainAndTheSessionGoesOn) {
+TEST_F(WebClientTest, LostStreamIsReopenedToResumeTheSession) {
   play();
   client->streams().closed(first, 1006, "");
   client->update(now += 100ms);
@@ -220,7 +220,7 @@ TEST_F(WebClientTest, ALostStreamIsOpenedAgainAndTheSessionGoesOn) {
   EXPECT_FALSE(page.streams[second].sent.front().hello().fresh());
 }
 
-TEST_F(WebClientTest, AWrongKeyIsFinal) {
+TEST_F(WebClientTest, WrongServerKeyIsFinal) {
   client->streams().closed(page.newest, static_cast<int>(PlayClose::kWrongKey), "It has another key.");
   EXPECT_EQ(client->state(), WebClient::State::kRefused);
   EXPECT_EQ(client->sentence(), "It has another key.");

@@ -48,7 +48,7 @@ TEST_F(WebStreamsTest, AMessageIsAFrame) {
   EXPECT_EQ(frames.size(), 2u);
 }
 
-TEST_F(WebStreamsTest, WhatIsNoFrameEndsTheStream) {
+TEST_F(WebStreamsTest, OversizedFrameEndsTheStream) {
   openAndStart();
   channel->setReceiveLimit(10);
   streams.received(page.newest, "0123456789");
@@ -59,7 +59,7 @@ TEST_F(WebStreamsTest, WhatIsNoFrameEndsTheStream) {
   EXPECT_EQ(frames.size(), 1u);
 }
 
-TEST_F(WebStreamsTest, AGatewayThatIsSilentIsGivenUp) {
+TEST_F(WebStreamsTest, SilentGatewayTimesOut) {
   open();
   const WebStreams::Time start{};
   streams.update(start);
@@ -74,7 +74,7 @@ TEST_F(WebStreamsTest, AGatewayThatIsSilentIsGivenUp) {
   EXPECT_EQ(done, 1);
 }
 
-TEST_F(WebStreamsTest, TheGatewaysSentenceIsSaidAndHarmless) {
+TEST_F(WebStreamsTest, GatewayMessageIsShownSanitized) {
   open();
   streams.closed(page.newest, static_cast<int>(PlayClose::kUnreachable), "Nobody \033[2Jis there.");
   EXPECT_EQ(error, "Nobody ?[2Jis there.");
@@ -86,7 +86,7 @@ TEST_F(WebStreamsTest, TheGatewaysSentenceIsSaidAndHarmless) {
   EXPECT_TRUE(streams.refusal().empty());
 }
 
-TEST_F(WebStreamsTest, ACrowdPassesAndAWrongKeyDoesNot) {
+TEST_F(WebStreamsTest, FullGatewayIsTemporaryAndWrongKeyIsFinal) {
   open();
   streams.closed(page.newest, static_cast<int>(PlayClose::kFull), "Too many.");
   EXPECT_TRUE(streams.wasHungUpOn());
@@ -113,7 +113,7 @@ TEST_F(WebStreamsTest, TwoStreamsAreIndependent) {
   EXPECT_EQ(frames.size(), 1u);
 }
 
-TEST_F(WebStreamsTest, AChannelThatIsDestroyedInItsOwnCallbackIsGone) {
+TEST_F(WebStreamsTest, ChannelMayBeDestroyedInItsOwnCallback) {
   open();
   streams.opened(page.newest);
   channel->start(
@@ -124,7 +124,7 @@ TEST_F(WebStreamsTest, AChannelThatIsDestroyedInItsOwnCallbackIsGone) {
   EXPECT_FALSE(closed);
 }
 
-TEST_F(WebStreamsTest, AnotherAttemptCancelsTheOneBefore) {
+TEST_F(WebStreamsTest, NewAttemptCancelsThePreviousOne) {
   open();
   const int first = page.newest;
   open();

@@ -13,7 +13,7 @@ using Time = DisplayClock::Time;
 const Time kStart = Time{} + 1h;
 constexpr auto kTick = std::chrono::microseconds(33333);
 
-TEST(DisplayClock, CountsOnFromTheNewestSnapshotFor250Milliseconds) {
+TEST(DisplayClock, ExtrapolatesTheTickForAtMost250Milliseconds) {
   DisplayClock clock(kTick);
   clock.noteSnapshot(100, kStart);
   EXPECT_EQ(clock.displayTick(kStart), 100u);
@@ -41,7 +41,7 @@ TEST(DisplayClock, NeverRunsBackwardsUnderJitter) {
   }
 }
 
-TEST(DisplayClock, JitterDoesNotShakeThePicture) {
+TEST(DisplayClock, LateSnapshotsDoNotDelayTheClock) {
   // Every other snapshot is 20 ms late. The estimate follows the punctual ones.
   DisplayClock clock(kTick);
   for (std::uint32_t tick = 0; tick < 100; ++tick) {
@@ -54,7 +54,7 @@ TEST(DisplayClock, JitterDoesNotShakeThePicture) {
   }
 }
 
-TEST(DisplayClock, FollowsAServerThatLostTime) {
+TEST(DisplayClock, FollowsAServerThatFallsBehind) {
   DisplayClock clock(kTick);
   clock.noteSnapshot(100, kStart);
   // All later snapshots are 150 ms late.

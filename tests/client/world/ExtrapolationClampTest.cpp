@@ -43,7 +43,7 @@ class ExtrapolationClampTest : public testing::Test {
   std::uint32_t m_number = 0;
 };
 
-TEST_F(ExtrapolationClampTest, AnObjectThatFliesIntoAWallIsDrawnBeforeIt) {
+TEST_F(ExtrapolationClampTest, ObjectFlyingIntoAWallStopsBeforeIt) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
   add(cellsAt(14, 5));
   EXPECT_EQ(clamped(ball, 0), cellsAt(10, 5));
@@ -68,13 +68,13 @@ TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
   EXPECT_EQ(clamped(ball, 5), cellsAt(10, 10));
 }
 
-TEST_F(ExtrapolationClampTest, WallsThatMoveAreWhereTheyAreAtThatTick) {
+TEST_F(ExtrapolationClampTest, MovingWallsAreExtrapolatedToo) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
   add(cellsAt(14, 5), cellsAt(0, 2));  // it moves out of the way in time
   EXPECT_EQ(clamped(ball, 6), cellsAt(16, 5));
 }
 
-TEST_F(ExtrapolationClampTest, LongExtrapolationsAndThePastAreAsModelled) {
+TEST_F(ExtrapolationClampTest, LongExtrapolationsAndPastTicksAreNotClamped) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
   add(cellsAt(14, 5));
   EXPECT_EQ(clamped(ball, ExtrapolationClamp::kMaxTicks + 1), cellsAt(27, 5));
@@ -99,7 +99,7 @@ FixedVector plainly(const Replica& replica, const ObjectState& mover, std::uint3
   return positionAt(mover.motion, drawn);
 }
 
-TEST_F(ExtrapolationClampTest, EqualsThePlainRuleForRandomCrowds) {
+TEST_F(ExtrapolationClampTest, MatchesTheReferenceForRandomObjects) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SplitMix64 rng(seed);
@@ -150,7 +150,7 @@ class CrowdedSpotTest : public ExtrapolationClampTest {
   }
 };
 
-TEST_F(CrowdedSpotTest, OfTwoHundredIsAsThePlainRuleSays) {
+TEST_F(CrowdedSpotTest, TwoHundredObjectsMatchTheReference) {
   fill(200);
   const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);
   ASSERT_FALSE(clamp.isExhausted());
@@ -164,7 +164,7 @@ TEST_F(CrowdedSpotTest, OfTwoHundredIsAsThePlainRuleSays) {
 }
 
 // Counts units of work, about ten nanoseconds each, so the result does not depend on the processor.
-TEST_F(CrowdedSpotTest, TakesABoundedAmountOfWorkHoweverManyThereAre) {
+TEST_F(CrowdedSpotTest, WorkIsLimitedForAnyNumberOfObjects) {
   for (const int count : {1'000, 4'000, 48'000}) {
     replica = Replica();
     fill(count);
@@ -180,7 +180,7 @@ TEST_F(CrowdedSpotTest, TakesABoundedAmountOfWorkHoweverManyThereAre) {
   }
 }
 
-TEST_F(CrowdedSpotTest, DoesNotTakeTheWorkThatOthersNeed) {
+TEST_F(CrowdedSpotTest, LeavesWorkForObjectsElsewhere) {
   fill(2'000);
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
   add(cellsAt(14, 5));
@@ -189,7 +189,7 @@ TEST_F(CrowdedSpotTest, DoesNotTakeTheWorkThatOthersNeed) {
   EXPECT_EQ(clamp.positionOf(replica.find(ball)->state), cellsAt(12, 5)) << "before its wall";
 }
 
-TEST_F(CrowdedSpotTest, OfLargeObjectsIsBoundedToo) {
+TEST_F(CrowdedSpotTest, WorkIsLimitedForLargeObjects) {
   for (int i = 0; i < 3'000; ++i)
     add(cellsAt(i % 50, i % 20), cellsAt(0.1, 0.1), df::HARD, {cellsAt(-50, -50), cellsAt(100, 100)});
   const ExtrapolationClamp clamp(replica, kKnown, kKnown + 8);

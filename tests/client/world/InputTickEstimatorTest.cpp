@@ -24,11 +24,11 @@ class InputTickEstimatorTest : public testing::Test {
   InputTickEstimator take_in;
 };
 
-TEST_F(InputTickEstimatorTest, WithoutDelayItIsTheNextTick) {
+TEST_F(InputTickEstimatorTest, WithoutDelayEstimatesTheNextTick) {
   EXPECT_EQ(ahead(), 1u);
 }
 
-TEST_F(InputTickEstimatorTest, ARoundTripMakesItLater) {
+TEST_F(InputTickEstimatorTest, RoundTripAdvancesTheEstimate) {
   take_in.noteRoundTrip(100ms);  // two and a half ticks, plus the margin
   EXPECT_EQ(ahead(), 3u);
   InputTickEstimator far;
@@ -36,7 +36,7 @@ TEST_F(InputTickEstimatorTest, ARoundTripMakesItLater) {
   EXPECT_EQ(far.tickFor(clock, kTickTime, now) - clock.newestTick(), 11u);
 }
 
-TEST_F(InputTickEstimatorTest, TheShortestOfTheLastEightCounts) {
+TEST_F(InputTickEstimatorTest, UsesTheShortestOfTheLastEightRoundTrips) {
   take_in.noteRoundTrip(400ms);
   take_in.noteRoundTrip(40ms);
   EXPECT_EQ(ahead(), 2u);
@@ -46,12 +46,12 @@ TEST_F(InputTickEstimatorTest, TheShortestOfTheLastEightCounts) {
   EXPECT_EQ(ahead(), 11u);
 }
 
-TEST_F(InputTickEstimatorTest, TimeThatPassesMakesItLater) {
+TEST_F(InputTickEstimatorTest, ElapsedTimeAdvancesTheEstimate) {
   now += 3 * kTickTime;
   EXPECT_EQ(ahead(), 4u);
 }
 
-TEST_F(InputTickEstimatorTest, ASilentLineDoesNotMakeItEndless) {
+TEST_F(InputTickEstimatorTest, EstimateIsLimitedDuringSilence) {
   now += 1000 * kTickTime;
   EXPECT_EQ(ahead(), 1 + DisplayClock::kMaxAhead / kTickTime);
   take_in.noteRoundTrip(std::chrono::hours(1));
@@ -80,7 +80,7 @@ TEST_F(InputTickEstimatorTest, TicksMayWrapAround) {
 }
 
 // The margin neither grows nor shrinks if this share of the inputs is late.
-TEST_F(InputTickEstimatorTest, OneInFortyMayBeLate) {
+TEST_F(InputTickEstimatorTest, MarginBalancesAtOneLateInputInForty) {
   const auto drift = [](int every) {
     InputTickEstimator other;
     for (int i = 0; i < 10; ++i) other.noteTaken(0, 1);

@@ -112,14 +112,14 @@ TEST_F(PredictionTest, NothingIsPredictedWithoutTableStateOrObject) {
   EXPECT_FALSE(other.isActive());
 }
 
-TEST_F(PredictionTest, AnInputCountsFromItsTickOn) {
+TEST_F(PredictionTest, InputTakesEffectAtItsTick) {
   press(1, D, KEY_PRESSED, kFirstTick + 5);
   EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
   EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
   EXPECT_EQ(at(kFirstTick + 9), cells(11, 10));
 }
 
-TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
+TEST_F(PredictionTest, InputsTakeEffectInSendOrder) {
   press(1, D, KEY_PRESSED, kFirstTick + 5);
   press(2, S, KEY_PRESSED, kFirstTick + 3);
   prediction.applyControl(state(kFirstTick + 1, 1, cells(10, 10)));
@@ -127,7 +127,7 @@ TEST_F(PredictionTest, NoInputComesBeforeOneThatWasSentEarlier) {
   EXPECT_EQ(at(kFirstTick + 5), cells(10, 11));
 }
 
-TEST_F(PredictionTest, AControlStateRemovesTheInputsThatItCovers) {
+TEST_F(PredictionTest, ControlStateRemovesConfirmedInputs) {
   press(1, D, KEY_PRESSED, kFirstTick + 2);
   press(2, S, KEY_PRESSED, kFirstTick + 6);
   EXPECT_EQ(at(kFirstTick + 8), cells(11, 11));
@@ -138,7 +138,7 @@ TEST_F(PredictionTest, AControlStateRemovesTheInputsThatItCovers) {
   EXPECT_EQ(prediction.counters().mispredicted, 0u);
 }
 
-TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
+TEST_F(PredictionTest, LateInputIsExpectedInTheNextTick) {
   press(1, D, KEY_PRESSED, kFirstTick + 2);
   EXPECT_EQ(at(kFirstTick + 6), cells(11, 10));
   prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // the input has not arrived
@@ -147,7 +147,7 @@ TEST_F(PredictionTest, AnInputThatIsLateIsExpectedWithTheNextTick) {
   EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));
 }
 
-TEST_F(PredictionTest, TheNextPictureIsTheNewReplay) {
+TEST_F(PredictionTest, MispredictionIsCorrectedInTheNextPicture) {
   press(1, D, KEY_PRESSED, kFirstTick + 2);
   press(2, D, KEY_PRESSED, kFirstTick + 5);
   at(kFirstTick + 5);
@@ -174,7 +174,7 @@ TEST_F(PredictionTest, TicksAndInputsMayWrapAround) {
   EXPECT_EQ(prediction.pendingInputs(), 0u);
 }
 
-TEST_F(PredictionTest, TheOrderOfCreationDecidesWhichObjectsHaveMoved) {
+TEST_F(PredictionTest, ObjectsMoveInOrderOfCreation) {
   // The block to the right moves away, in time for the ship only if it moves first.
   table.rows[0] = {D, KEY_PRESSED, df::ControlEffect::kVelocity, true, true, cells(1, 0)};
   prediction.setTable(table);
@@ -206,7 +206,7 @@ TEST_F(PredictionTest, InputsAndTicksAreBounded) {
   EXPECT_EQ(at(kFirstTick + 1'000'000), cells(10 + static_cast<int>(Prediction::kMaxInputs), 10));
 }
 
-TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
+TEST_F(PredictionTest, ExtremeNumbersAreHarmless) {
   constexpr df::Fixed kFar = df::fromCells(2'000'000'000);
   constexpr df::Fixed kFast = df::fromCells(1 << 24);
   applyRecords(
@@ -224,7 +224,7 @@ TEST_F(PredictionTest, NumbersAtTheEndOfTheirRangeAreHarmless) {
     EXPECT_EQ(clamp.positionOf(entry.state), positionAt(entry.state.motion, kFirstTick + 8));
 }
 
-TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
+TEST_F(PredictionTest, PictureShowsPredictedShipAndView) {
   // A view of 30 by 12 in a world of 200 by 24 follows the ship at (10,10).
   Records records = objects({object(1, cells(40, 10))});
   records.worlds = {{{{}, cells(200, 24)}, 30, 12}};
@@ -245,7 +245,7 @@ TEST_F(PredictionTest, ThePictureShowsTheShipAndTheViewWhereTheyWillBe) {
 }
 
 // Two thousand steps per frame (64 keys with 32 rows), all of them against a pile of objects.
-TEST_F(PredictionTest, WorkIsBoundedHoweverManyObjectsAreInTheWay) {
+TEST_F(PredictionTest, WorkIsLimitedForAnyNumberOfObstacles) {
   std::vector<ObjectRecord> pile;
   for (std::uint32_t slot = 1000; slot < 49'000; ++slot) {
     pile.push_back(object(slot, cells(12, 10)));

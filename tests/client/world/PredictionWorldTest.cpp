@@ -97,7 +97,7 @@ void playAmongWalls(FarPlayer& far, int steps) {
   playAtRandom(far, steps);
 }
 
-TEST(PredictionWorld, EveryFrameIsRightWhileAllElseIsAtRest) {
+TEST(PredictionWorld, EveryFrameIsRightIfNothingElseMoves) {
   int inputs = 0;
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -116,7 +116,7 @@ TEST(PredictionWorld, EveryFrameIsRightWhileAllElseIsAtRest) {
   EXPECT_GT(compared, 15000);
 }
 
-TEST(PredictionWorld, LossThatTheMarginCoversChangesNothing) {
+TEST(PredictionWorld, LossWithinTheMarginCausesNoMispredictions) {
   int inputs = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FarPlayer far({4, 3, 0.2, 10}, seed);
@@ -129,7 +129,7 @@ TEST(PredictionWorld, LossThatTheMarginCoversChangesNothing) {
   EXPECT_GT(inputs, 1500);
 }
 
-TEST(PredictionWorld, StatesThatTheClientPredictsAreNotSent) {
+TEST(PredictionWorld, PredictedControlStatesAreNotSent) {
   int states = 0;
   int ticks = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -157,7 +157,7 @@ class Shuttle : public Object {
   }
 };
 
-TEST(PredictionWorld, MovingObstaclesAreCorrectedWithinARoundTrip) {
+TEST(PredictionWorld, MispredictedCollisionsAreCorrectedWithinARoundTrip) {
   int wrong = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     FarPlayer far({4, 4, 0, 1}, seed);
@@ -210,7 +210,7 @@ TEST(PredictionWorld, LateInputsAreCorrectedAndTheShipNeverDiverges) {
   EXPECT_GT(mispredicted, 20u);
 }
 
-TEST(PredictionWorld, AKeyIsSeenInTheNextFrameHoweverLongTheDelay) {
+TEST(PredictionWorld, KeyShowsInTheNextFrameAtAnyDelay) {
   for (const std::uint32_t delay : {0u, 1u, 3u, 10u, 25u}) {
     FarPlayer far({delay, delay, 0, 2}, 1);
     launch(far, Controls().onKey(df::Keyboard::D).step(1, 0).onKey(df::Keyboard::S).drive(0, 1));

@@ -55,7 +55,7 @@ class WorldFeedTest : public testing::Test {
 };
 
 // Farther behind than the 16 bits of the tick in a snapshot can express.
-TEST_F(WorldFeedTest, AnExpectedWorldMayBeFarBehindThePresentOne) {
+TEST_F(WorldFeedTest, ExpectedWorldMayBeManyTicksBehind) {
   tick = 500'000;
   feed.noteTick(tick);
   birth(1, true);
@@ -89,7 +89,7 @@ TEST_F(WorldFeedTest, TheFirstPictureWaitsForTheCompleteWorld) {
   EXPECT_TRUE(hasPicture()) << "what is born later is another matter";
 }
 
-TEST_F(WorldFeedTest, ACompleteSnapshotThatOvertookOthersWaitsForThem) {
+TEST_F(WorldFeedTest, CompleteSnapshotWaitsForEarlierSnapshots) {
   probe(4, true);
   EXPECT_FALSE(hasPicture()) << "it came as a datagram; the world is on the stream";
   birth(1, false);
@@ -113,7 +113,7 @@ TEST_F(WorldFeedTest, AnIncompleteWorldIsShownAfterAWhile) {
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, AMissingSnapshotIsWaitedForNoLonger) {
+TEST_F(WorldFeedTest, MissingSnapshotIsWaitedForUntilTheTimeout) {
   birth(1, false);
   birth(3, true);
   now += WorldFeed::kPatience - 1ms;
@@ -122,7 +122,7 @@ TEST_F(WorldFeedTest, AMissingSnapshotIsWaitedForNoLonger) {
   EXPECT_TRUE(hasPicture());
 }
 
-TEST_F(WorldFeedTest, MoreSnapshotsThanTheWindowMakeACompleteWorld) {
+TEST_F(WorldFeedTest, WorldMayNeedMoreSnapshotsThanTheWindow) {
   for (std::uint32_t number = 1; number < 200; ++number) birth(number, false);
   EXPECT_FALSE(hasPicture());
   birth(200, true);
@@ -130,7 +130,7 @@ TEST_F(WorldFeedTest, MoreSnapshotsThanTheWindowMakeACompleteWorld) {
   EXPECT_EQ(shown(), 200u);
 }
 
-TEST_F(WorldFeedTest, ASessionThatGoesOnCountsFromWhereItWas) {
+TEST_F(WorldFeedTest, ResumedSessionContinuesTheSnapshotNumbers) {
   feed = WorldFeed({70'000, 100, 0}, 0);
   birth(70'001, false);
   EXPECT_FALSE(hasPicture());
@@ -139,7 +139,7 @@ TEST_F(WorldFeedTest, ASessionThatGoesOnCountsFromWhereItWas) {
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, AWorldSentAgainIsTheFirstPictureIfThereWasNone) {
+TEST_F(WorldFeedTest, ResentWorldMayBeTheFirstPicture) {
   birth(1, false);
   birth(2, false, 1);
   EXPECT_FALSE(hasPicture());
@@ -149,7 +149,7 @@ TEST_F(WorldFeedTest, AWorldSentAgainIsTheFirstPictureIfThereWasNone) {
   EXPECT_EQ(feed.resets(), 1u);
 }
 
-TEST_F(WorldFeedTest, AWorldSentAgainIsShownOnceItIsComplete) {
+TEST_F(WorldFeedTest, ResentWorldIsShownWhenComplete) {
   birth(1, true);
   birth(2, false, 1);
   EXPECT_TRUE(hasPicture());
@@ -174,7 +174,7 @@ TEST_F(WorldFeedTest, SnapshotsOfAnyEarlierWorldAreIgnored) {
   EXPECT_EQ(shown(), 2u);
 }
 
-TEST_F(WorldFeedTest, APendingWorldIsReplacedOnlyByANewerOne) {
+TEST_F(WorldFeedTest, OnlyANewerWorldReplacesAPendingOne) {
   using Result = WorldFeed::Result;
   birth(1, true);
   EXPECT_EQ(of(1, 2, false), Result::kApplied);

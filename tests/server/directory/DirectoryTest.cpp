@@ -64,7 +64,7 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   EXPECT_NE(directory->printed().find("counters: heard="), std::string::npos) << directory->printed();
 }
 
-TEST_F(DirectoryTest, HostilePayloadsAreCountedAndCostNothing) {
+TEST_F(DirectoryTest, HostilePayloadsAreCountedAndIgnored) {
   NatsServer bus("max_payload: 100KB");
   ASSERT_TRUE(bus.start()) << bus.log();
   const auto directory = startDirectory(bus);
@@ -88,7 +88,7 @@ TEST_F(DirectoryTest, HostilePayloadsAreCountedAndCostNothing) {
     EXPECT_NE(directory->printed().find(count), std::string::npos) << count << directory->printed();
 }
 
-TEST_F(DirectoryTest, WhatIsWrongIsASentenceAndACode) {
+TEST_F(DirectoryTest, InvalidOptionsPrintAMessageAndSetExitCode) {
   const auto expectRefusal = [](std::vector<std::string> words, int code, const std::string& text) {
     words.insert(words.begin(), "dfdir");
     RunningProgram program(words);

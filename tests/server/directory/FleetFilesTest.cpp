@@ -57,7 +57,7 @@ class FleetFilesTest : public BusFixture {
   std::unique_ptr<NatsServer> nats;
 };
 
-TEST_F(FleetFilesTest, SecretsAreTheOwnersAlone) {
+TEST_F(FleetFilesTest, SecretFilesAreReadableByTheOwnerOnly) {
   for (const fs::path& file :
        {folder / "bus" / "nats.conf", folder / "bus" / "key.pem", folder / "bus" / "reader.password",
         folder / "servers" / "tron-1.conf", folder / "directory" / "dfdir.env"}) {
@@ -72,7 +72,7 @@ TEST_F(FleetFilesTest, SecretsAreTheOwnersAlone) {
   EXPECT_EQ(make("127.0.0.1 tron=2"), 1) << "it is there already";
 }
 
-TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
+TEST_F(FleetFilesTest, EachServerUsesOnlyItsOwnBusSubjects) {
   const auto directory = connect("directory/dfdir.env", {"naiad.presence.*"});
   const auto tron = connect("servers/tron-1.conf", {sendOnSubject("tron-1"), sendOnSubject("maze-1")});
   ASSERT_TRUE(waitUntil([&] { return directory->isConnected() && tron->isConnected(); }))
@@ -100,7 +100,7 @@ TEST_F(FleetFilesTest, EachServerSaysAndHearsItsOwnAlone) {
         << said << nats->log();
 }
 
-TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
+TEST_F(FleetFilesTest, BusConnectionFailsWithoutPasswordTrustedAuthorityOrTls) {
   const std::string url = urlIn("servers/tron-1.conf");
   const std::string without = "tls://" + url.substr(url.find('@') + 1);
   const auto stranger = connectBus({without, "", folder / "bus" / "ca.pem"});
@@ -112,7 +112,7 @@ TEST_F(FleetFilesTest, WithoutItsAuthorityOrPasswordTheBusIsClosed) {
   }
 }
 
-TEST_F(FleetFilesTest, TheDirectoryListsTheServerOfAFile) {
+TEST_F(FleetFilesTest, DirectoryListsAServerStartedWithItsGeneratedConfig) {
   GameProgram server("dfserver", {{"NAIAD_BUS", urlIn("servers/maze-1.conf")}, {"NAIAD_GAME", "maze"}},
                      {"--config", folder / "servers" / "maze-1.conf"});
   ASSERT_NE(server.port(), 0) << server.log();

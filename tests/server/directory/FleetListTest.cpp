@@ -41,7 +41,7 @@ std::string chosen(FleetList& list, const FleetList::Wish& wish = {"", 4}) {
   return place.p_server->id + (place.room.empty() ? "" : "/" + place.room);
 }
 
-TEST(FleetListTest, AServerIsThereUntilItSaysNothingForSixSeconds) {
+TEST(FleetListTest, ServerExpiresAfterSixSilentSeconds) {
   FleetList list;
   EXPECT_TRUE(list.put(presenceSubject("a"), presenceOf("a").payload(), kStart));
   EXPECT_FALSE(list.put(presenceSubject("a"), presenceOf("a").payload(), kStart + 2s)) << "it is not new";
@@ -53,7 +53,7 @@ TEST(FleetListTest, AServerIsThereUntilItSaysNothingForSixSeconds) {
   EXPECT_TRUE(list.put(presenceSubject("a"), presenceOf("a").payload(), kStart + 9s)) << "it is back";
 }
 
-TEST(FleetListTest, SilenceWithoutABusIsForgiven) {
+TEST(FleetListTest, ResettingTimeoutsGivesServersAnotherSixSeconds) {
   FleetList list;
   put(list, presenceOf("a"));
   list.forgiveSilence(kStart + 60s);
@@ -61,7 +61,7 @@ TEST(FleetListTest, SilenceWithoutABusIsForgiven) {
   EXPECT_EQ(list.removeSilent(kStart + 66s).size(), 1u);
 }
 
-TEST(FleetListTest, AServerSpeaksForItselfAlone) {
+TEST(FleetListTest, PresenceUnderAnotherSubjectIsIgnoredAndCounted) {
   FleetList list;
   EXPECT_FALSE(list.put(presenceSubject("b"), presenceOf("a").payload(), kStart));
   EXPECT_FALSE(list.put("naiad.results.a", presenceOf("a").payload(), kStart));
@@ -71,7 +71,7 @@ TEST(FleetListTest, AServerSpeaksForItselfAlone) {
   EXPECT_EQ(list.counters().unreadable, 1u);
 }
 
-TEST(FleetListTest, ThousandsOfNamesCrowdOutNoServerThatIsThere) {
+TEST(FleetListTest, ServerFloodDoesNotEvictAListedServer) {
   FleetList list;
   put(list, presenceOf("honest"));
   for (std::size_t i = 0; i < 2 * FleetList::kMaxServers; ++i) put(list, presenceOf("x" + std::to_string(i)));
@@ -81,7 +81,7 @@ TEST(FleetListTest, ThousandsOfNamesCrowdOutNoServerThatIsThere) {
   EXPECT_EQ(list.servers().front().players, 7u);
 }
 
-TEST(FleetListTest, PlayersLookForCompanyAndThenForRoom) {
+TEST(FleetListTest, ChoosesFullestUncrowdedServerElseTheEmptiest) {
   FleetList list;
   put(list, presenceOf("a", 3));
   put(list, presenceOf("b", 9));
@@ -92,7 +92,7 @@ TEST(FleetListTest, PlayersLookForCompanyAndThenForRoom) {
   EXPECT_EQ(chosen(list), "a") << "none is calm";
 }
 
-TEST(FleetListTest, APlaceIsTakenBeforeTheServerHasCountedThePlayer) {
+TEST(FleetListTest, ChosenSlotIsReservedUntilTheThirdReport) {
   FleetList list;
   put(list, presenceOf("a", 0, 4));
   for (int i = 0; i < 4; ++i) EXPECT_EQ(chosen(list), "a");
@@ -140,7 +140,7 @@ FleetList::Wish wishFor(const std::string& game, const std::string& room = "") {
   return {game, 4, "", room};
 }
 
-TEST(FleetListTest, PlayersAreSentToARoomOfTheirGameThatHasAPlace) {
+TEST(FleetListTest, ChoosesARoomOfTheGameWithFreeSlots) {
   Presence server = presenceOf("a", 3, 32);
   server.game = "lobby";
   server.rooms = {
@@ -163,7 +163,7 @@ TEST(FleetListTest, PlayersAreSentToARoomOfTheirGameThatHasAPlace) {
   EXPECT_EQ(list.roomiest({"tron", 4, "b"}).room, "big");
 }
 
-TEST(FleetListTest, APlaceInARoomIsTakenBeforeTheServerHasCountedThePlayer) {
+TEST(FleetListTest, ChosenRoomSlotIsReservedUntilTheThirdReport) {
   Presence server = presenceOf("a", 0, 32);
   server.rooms = {{"hall", "lobby", 0, 32}, {"one", "tron", 0, 1}, {"two", "tron", 0, 1}};
   FleetList list;
@@ -189,7 +189,7 @@ TEST(FleetListTest, AFullServerSendsToNoneOfItsRooms) {
   EXPECT_EQ(chosen(list), "");
 }
 
-TEST(FleetListTest, WhateverIsSaidNoServerGetsMorePlayersThanItHasPlaces) {
+TEST(FleetListTest, NoServerGetsMorePlayersThanItHasSlots) {
   SplitMix64 random(3);
   FleetList list;
   std::map<std::string, std::uint32_t> sent;

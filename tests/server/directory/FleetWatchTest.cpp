@@ -54,7 +54,7 @@ TEST_F(FleetWatchTest, WithoutABusTheListStaysForTenMinutes) {
   EXPECT_EQ(watch.servers().size(), 0u);
 }
 
-TEST_F(FleetWatchTest, OnceTheBusIsBackServersHaveTheirWholeTimeToBeHeard) {
+TEST_F(FleetWatchTest, ServersGetAFullTimeoutAfterABusOutage) {
   hear("a");
   hear("b");
   update(1s);
@@ -69,7 +69,7 @@ TEST_F(FleetWatchTest, OnceTheBusIsBackServersHaveTheirWholeTimeToBeHeard) {
   EXPECT_EQ(watch.servers().size(), 1u) << "b was not heard";
 }
 
-TEST_F(FleetWatchTest, ServersThatPretendToComeWithoutEndFillNoLog) {
+TEST_F(FleetWatchTest, ServerFloodDoesNotFillTheLog) {
   for (int i = 0; i < 1000; ++i) hear("x" + std::to_string(i));
   update(0s);
   EXPECT_EQ(lines.size(), 100u);

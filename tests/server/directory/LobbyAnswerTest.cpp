@@ -47,7 +47,7 @@ wire::Refused answerTo(const wire::ClientMessage& message, FleetList& servers) {
   return said.refused();
 }
 
-TEST(LobbyAnswerTest, APlayerIsSentToAServerThatHasAPlaceInWordsToo) {
+TEST(LobbyAnswerTest, RedirectLinkIsAlsoInTheMessage) {
   FleetList servers;
   putServer(servers, lobbyServer("a"));
   const wire::Refused refused = answerTo(hello("tron"), servers);
@@ -57,7 +57,7 @@ TEST(LobbyAnswerTest, APlayerIsSentToAServerThatHasAPlaceInWordsToo) {
       << "for clients that know no redirect";
 }
 
-TEST(LobbyAnswerTest, TheRoomGoesBesideTheLinkAndIntoTheSentence) {
+TEST(LobbyAnswerTest, RedirectNamesTheRoomSeparatelyAndInTheMessage) {
   FleetList servers;
   Presence server = lobbyServer("a");
   server.rooms = {{"hall", "lobby", 0, 2}, {"duel", "tron", 0, 2}};
@@ -74,7 +74,7 @@ TEST(LobbyAnswerTest, TheRoomGoesBesideTheLinkAndIntoTheSentence) {
   EXPECT_NE(answerTo(wish, servers).sentence().find("cellar"), std::string::npos);
 }
 
-TEST(LobbyAnswerTest, WithoutAPlaceTheyAreAskedToComeAgain) {
+TEST(LobbyAnswerTest, PlayersGetABusyReplyWhenServersAreFull) {
   FleetList servers;
   putServer(servers, lobbyServer("a"));
   answerTo(hello(), servers);
@@ -84,7 +84,7 @@ TEST(LobbyAnswerTest, WithoutAPlaceTheyAreAskedToComeAgain) {
   EXPECT_EQ(refused.redirect(), "");
 }
 
-TEST(LobbyAnswerTest, WhatNoServerPlaysOrSpeaksIsSaid) {
+TEST(LobbyAnswerTest, UnknownGameOrProtocolIsRefusedWithTheReason) {
   FleetList servers;
   putServer(servers, lobbyServer("a"));
   EXPECT_EQ(answerTo(hello("maze"), servers).reason(), wire::Refused::GAME);
@@ -98,7 +98,7 @@ TEST(LobbyAnswerTest, WhatNoServerPlaysOrSpeaksIsSaid) {
       << "it knows each version's servers";
 }
 
-TEST(LobbyAnswerTest, WhatIsNoHelloHasNoAnswerAndTakesNoPlace) {
+TEST(LobbyAnswerTest, InvalidHelloGetsNoReplyAndReservesNoSlot) {
   FleetList servers;
   putServer(servers, lobbyServer("a"));
   wire::ClientMessage other = hello();

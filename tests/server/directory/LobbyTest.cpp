@@ -121,7 +121,7 @@ TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
   EXPECT_EQ(eve->session().welcome().room, "hall") << "the first";
 }
 
-TEST_F(LobbyTest, AServerThatIsFullSendsOnToOneThatIsNot) {
+TEST_F(LobbyTest, FullServerRedirectsToAServerWithFreeSlots) {
   const auto small = startServer("small", 1);
   const auto large = startServer("large", 8);
   ASSERT_NO_FATAL_FAILURE(startDirectory(2));
@@ -141,7 +141,7 @@ TEST_F(LobbyTest, AServerThatIsFullSendsOnToOneThatIsNot) {
   EXPECT_EQ(ann->connection().address().port, small->port());
 }
 
-TEST_F(LobbyTest, WithoutABusItSendsPlayersOnAsBefore) {
+TEST_F(LobbyTest, LobbyRedirectsDuringABusOutage) {
   const auto server = startServer("berlin", 8);
   ASSERT_NO_FATAL_FAILURE(startDirectory(1));
   bus.kill();
@@ -178,7 +178,7 @@ class RunningLobby {
   std::thread m_thread;
 };
 
-TEST_F(LobbyTest, StrangersWhoSayNothingOrNonsenseCostItNothing) {
+TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
   EXPECT_EQ(LobbySettings().hello_time, 5s);
   TestServer server(busyWorld(5), home.server());
   Presence presence;

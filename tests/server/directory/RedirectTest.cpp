@@ -39,7 +39,7 @@ class RedirectTest : public LoopbackFixture {
   LyingServer liar{context, home.identity("liar")};
 };
 
-TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
+TEST_F(RedirectTest, RedirectedClientJoinsTheOtherServer) {
   TestServer server(busyWorld(5), home.server());
   liar.sendTo(server.port(), *server.fingerprint());
   TestClient client(context, liar.port(), home.player("ann"));
@@ -51,7 +51,7 @@ TEST_F(RedirectTest, AClientThatIsSentOnPlaysThere) {
       << "datagrams, too";
 }
 
-TEST_F(RedirectTest, CrowdsAreSpreadOverASecond) {
+TEST_F(RedirectTest, RedirectDelaysTheJoinByUpToASecond) {
   EXPECT_EQ(ServerTrust().max_redirect_wait, std::chrono::seconds(1));
   ClientSetup setup = home.player("ann");
   setup.trust.max_redirect_wait = std::chrono::hours(1);
@@ -62,14 +62,14 @@ TEST_F(RedirectTest, CrowdsAreSpreadOverASecond) {
   EXPECT_EQ(liar.hellos(), 1u) << "it waits";
 }
 
-TEST_F(RedirectTest, AServerThatIsFullSendsOn) {
+TEST_F(RedirectTest, ClientFollowsTheRedirectOfAFullServer) {
   TestServer roomy(busyWorld(5), home.server("roomy"));
   liar.answer(wire::Refused::FULL, "The server is full.",
               LyingServer::linkTo("127.0.0.1", roomy.port(), *roomy.fingerprint()));
   EXPECT_EQ(refusal(home.player("ann")), "");
 }
 
-TEST_F(RedirectTest, TheRoomThereIsTheOneThatTheFirstServerNames) {
+TEST_F(RedirectTest, RedirectReplacesTheRequestedRoom) {
   LyingServer second(context, home.identity("second"));
   second.answer(wire::Refused::GAME, "No.", "");
   ClientSetup setup = home.player("ann");
@@ -86,7 +86,7 @@ TEST_F(RedirectTest, TheRoomThereIsTheOneThatTheFirstServerNames) {
   }
 }
 
-TEST_F(RedirectTest, TheOtherServerGetsANameAndNeitherPasswordNorToken) {
+TEST_F(RedirectTest, RedirectTargetGetsNeitherPasswordNorResumeToken) {
   RecordingServer thief(home.identity("thief"));
   liar.sendTo(thief.port(), thief.fingerprint());
   ClientSetup setup = home.player("ann");
@@ -102,7 +102,7 @@ TEST_F(RedirectTest, TheOtherServerGetsANameAndNeitherPasswordNorToken) {
   EXPECT_EQ(heard.find("token"), std::string::npos);
 }
 
-TEST_F(RedirectTest, NoTokenOfThatServerIsSentThereEither) {
+TEST_F(RedirectTest, SavedTokenOfTheRedirectTargetIsNotSent) {
   TestServer server(busyWorld(5), home.server());
   ClientSetup setup = home.player("ann");
   setup.sessions = home.sessions();
@@ -117,7 +117,7 @@ TEST_F(RedirectTest, NoTokenOfThatServerIsSentThereEither) {
   EXPECT_EQ(server.counters().resumed, 0u);
 }
 
-TEST_F(RedirectTest, AServerWithAnotherKeyThanItWasSaidToHaveHearsNothing) {
+TEST_F(RedirectTest, RedirectTargetWithAWrongKeyReceivesNothing) {
   RecordingServer other(home.identity("other"));
   liar.sendTo(other.port(), liar.key());
   TestClient client(context, liar.port(), home.player("ann"));
@@ -139,7 +139,7 @@ TEST_F(RedirectTest, APinnedKeyIsNotReplaced) {
   EXPECT_EQ(pins().find(impostor.fingerprint().text()), std::string::npos);
 }
 
-TEST_F(RedirectTest, TheServerThereIsNotPinned) {
+TEST_F(RedirectTest, RedirectTargetIsNotPinned) {
   TestServer server(busyWorld(5), home.server());
   liar.sendTo(server.port(), *server.fingerprint());
   ASSERT_EQ(refusal(home.player("ann")), "");
@@ -147,7 +147,7 @@ TEST_F(RedirectTest, TheServerThereIsNotPinned) {
   EXPECT_NE(pins().find(liar.key().text()), std::string::npos);
 }
 
-TEST_F(RedirectTest, WhereTheServerHasBecomeFullTheFirstOneIsAskedForAnother) {
+TEST_F(RedirectTest, ClientRetriesTheOriginalServerIfTargetIsFull) {
   LyingServer full(context, home.identity("full"));
   full.answer(wire::Refused::FULL, "Full.", "");
   TestServer server(busyWorld(5), home.server());
@@ -165,7 +165,7 @@ TEST_F(RedirectTest, WhereTheServerHasBecomeFullTheFirstOneIsAskedForAnother) {
   EXPECT_EQ(client.connection().address().port, server.port());
 }
 
-TEST_F(RedirectTest, TheFirstOneIsAskedForAnotherOnce) {
+TEST_F(RedirectTest, OriginalServerIsRetriedOnlyOnce) {
   LyingServer full(context, home.identity("full"));
   RecordingServer third(home.identity("third"));
   full.answer(wire::Refused::FULL, "Full.",
@@ -177,7 +177,7 @@ TEST_F(RedirectTest, TheFirstOneIsAskedForAnotherOnce) {
   EXPECT_EQ(third.heard(), "") << "that a server names to which the client was sent";
 }
 
-TEST_F(RedirectTest, AfterTheEndOfTheServerTheFirstOneIsAskedForAnother) {
+TEST_F(RedirectTest, ClientRetriesTheOriginalServerAfterTargetIsKilled) {
   GameProgram killed("dfserver", {{"NAIAD_GAME", "hello"}, {"NAIAD_IDENTITY", home.identity("killed")}});
   ASSERT_NE(killed.port(), 0) << killed.log();
   const auto key =
@@ -198,7 +198,7 @@ TEST_F(RedirectTest, AfterTheEndOfTheServerTheFirstOneIsAskedForAnother) {
   EXPECT_EQ(client.session().welcome().name, "ann");
 }
 
-TEST_F(RedirectTest, OneServerSendsOnAndTheNextDoesNot) {
+TEST_F(RedirectTest, SecondRedirectIsNotFollowed) {
   LyingServer second(context, home.identity("second"));
   RecordingServer third(home.identity("third"));
   liar.sendTo(second.port(), second.key());
@@ -209,13 +209,13 @@ TEST_F(RedirectTest, OneServerSendsOnAndTheNextDoesNot) {
   EXPECT_EQ(third.heard(), "");
 }
 
-TEST_F(RedirectTest, AServerThatSendsToItselfIsAskedTwiceAndNoMore) {
+TEST_F(RedirectTest, SelfRedirectIsFollowedOnce) {
   liar.sendTo(liar.port(), liar.key());
   EXPECT_EQ(refusal(home.player("ann")), "Go on.");
   EXPECT_EQ(liar.hellos(), 2u);
 }
 
-TEST_F(RedirectTest, WithNoRedirectAndThroughADoorPlayersStay) {
+TEST_F(RedirectTest, NoRedirectOptionAndDoorsIgnoreRedirects) {
   RecordingServer other(home.identity("other"));
   liar.sendTo(other.port(), other.fingerprint());
   ClientSetup stays = home.player("ann");
@@ -227,7 +227,7 @@ TEST_F(RedirectTest, WithNoRedirectAndThroughADoorPlayersStay) {
   EXPECT_EQ(other.heard(), "");
 }
 
-TEST_F(RedirectTest, OtherLinksThanToAServerAreASentence) {
+TEST_F(RedirectTest, InvalidRedirectLinksAreNotFollowed) {
   RecordingServer other(home.identity("other"));
   const std::string key = ShortKey::of(other.fingerprint()).text();
   const std::string port = std::to_string(other.port());
@@ -246,7 +246,7 @@ TEST_F(RedirectTest, OtherLinksThanToAServerAreASentence) {
   EXPECT_EQ(other.heard(), "");
 }
 
-TEST_F(RedirectTest, OnlyARefusalForWantOfAPlaceSendsOn) {
+TEST_F(RedirectTest, RefusalsForOtherReasonsDoNotRedirect) {
   RecordingServer other(home.identity("other"));
   const std::string link = LyingServer::linkTo("127.0.0.1", other.port(), other.fingerprint());
   for (const auto reason : {wire::Refused::PASSWORD, wire::Refused::VERSION, wire::Refused::GAME}) {
@@ -256,7 +256,7 @@ TEST_F(RedirectTest, OnlyARefusalForWantOfAPlaceSendsOn) {
   EXPECT_EQ(other.heard(), "");
 }
 
-TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
+TEST_F(RedirectTest, ClientDoesNotAskForTheTargetsPassword) {
   HostOptions options = home.server();
   options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
   TestServer server(busyWorld(5), options);
@@ -266,7 +266,7 @@ TEST_F(RedirectTest, ThePasswordOfTheOtherServerIsNotAskedFor) {
   EXPECT_FALSE(client.connection().isPasswordRefused()) << "it would be typed for the server that was named";
 }
 
-TEST_F(RedirectTest, FromANeighbourPlayersAreNotSentToTheirOwnMachine) {
+TEST_F(RedirectTest, LanServerCannotRedirectToTheClientsLoopback) {
   std::string address;
   for (const LanNetwork& network : lanNetworks()) {
     if (!network.is_loopback && network.address.is_v4()) address = network.address.to_string();

@@ -26,7 +26,7 @@ Presence listedServer(const std::string& id, char key = 'a') {
   return presence;
 }
 
-TEST(ServerListTest, IsWhatAClientReads) {
+TEST(ServerListTest, ClientReadsEveryWrittenField) {
   const Presence server = listedServer("a");
   const auto read = readServerList(serverListText({server}));
   ASSERT_TRUE(read && read->size() == 1) << serverListText({server});
@@ -42,7 +42,7 @@ TEST(ServerListTest, IsWhatAClientReads) {
   EXPECT_TRUE(found.asks_password);
 }
 
-TEST(ServerListTest, RoomsAreInItAndTheListStaysOfTheLengthThatClientsTake) {
+TEST(ServerListTest, RoomsAreListedWithinTheClientsSizeLimit) {
   Presence server = listedServer("a");
   server.rooms = {{"hall", "lobby", 3, 64}, {"duel", "tron", 0, 2}};
   EXPECT_TRUE(test::has(serverListText({server}),
@@ -59,13 +59,13 @@ TEST(ServerListTest, RoomsAreInItAndTheListStaysOfTheLengthThatClientsTake) {
   EXPECT_TRUE(read && read->size() > 0);
 }
 
-TEST(ServerListTest, AnEmptyOneIsAListToo) {
+TEST(ServerListTest, EmptyListIsValid) {
   const auto read = readServerList(serverListText({}));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->size(), 0u);
 }
 
-TEST(ServerListTest, ServersThatAreClosedOrNowhereAreLeftOut) {
+TEST(ServerListTest, ClosedAndUnreachableServersAreOmitted) {
   Presence closed = listedServer("a");
   closed.is_open = false;
   Presence nowhere = listedServer("b");
@@ -77,7 +77,7 @@ TEST(ServerListTest, ServersThatAreClosedOrNowhereAreLeftOut) {
   EXPECT_EQ(read->size(), 1u);
 }
 
-TEST(ServerListTest, OfTooManyThoseWithRoomAreListedAndTheFileIsOneThatAClientTakes) {
+TEST(ServerListTest, FullListKeepsServersWithFreeSlots) {
   std::vector<Presence> servers;
   for (int i = 0; i < 4096; ++i) {
     Presence server = listedServer("s" + std::to_string(i));

@@ -66,7 +66,7 @@ TEST_P(BreakoutFor, BotsClearTheFirstLevel) {
 
 INSTANTIATE_TEST_SUITE_P(OneToFour, BreakoutFor, ::testing::Values(1, 2, 4));
 
-TEST(Breakout, TheFifthWaitsUntilASideIsFree) {
+TEST(Breakout, FifthPlayerWaitsForAFreeSide) {
   hostGame(breakout_main, 1, [](World& world) {
     std::vector<std::uint32_t> players;
     for (int i = 0; i < 5; ++i) players.push_back(world.input().join("bot", RED));

@@ -55,7 +55,7 @@ std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
   return p_best != nullptr ? p_best->keys : std::set<Keyboard::Key>{};
 }
 
-TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
+TEST(BulletHell, DodgingBotBeatsTheFirstBoss) {
   hostGame(bullethell_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world);
     Fingers fingers(world, ann);
@@ -69,7 +69,7 @@ TEST(BulletHell, ABotThatDodgesBeatsTheFirstBoss) {
   });
 }
 
-TEST(BulletHell, APlayerThatNeverMovesLosesThreeLivesAndThenAllBeginAgain) {
+TEST(BulletHell, IdlePlayerLosesThreeLivesAndTheGameRestarts) {
   hostGame(bullethell_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_TRUE(shows(world, ann, "lives 3"));

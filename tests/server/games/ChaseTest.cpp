@@ -40,7 +40,7 @@ TEST(Chase, AGreedyBotGathersTenPiecesOfGold) {
   });
 }
 
-TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
+TEST(Chase, HoundsCatchAnIdlePlayerAndTakeHalf) {
   hostGame(chase_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world);
     world.views().player(ann)->setScore(40);
@@ -50,7 +50,7 @@ TEST(Chase, HoundsCatchAPlayerThatStandsStillAndTakeHalf) {
   });
 }
 
-TEST(Chase, MoreGoldMoreHounds) {
+TEST(Chase, MoreGoldBringsMoreHounds) {
   hostGame(chase_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_EQ(world.objects().objectsOfType("Hound").getCount(), 3);

@@ -11,7 +11,7 @@
 namespace naiad {
 namespace {
 
-TEST(Help, OfEveryGameIsThereAndFitsItsWindowAndTheProtocol) {
+TEST(Help, EveryGamesHelpFitsItsWindowAndProtocol) {
   for (const auto& [game, game_main] : gameMains()) {
     const std::string name = game;  // clang captures no structured binding
     bool played = false;
@@ -31,7 +31,7 @@ TEST(Help, OfEveryGameIsThereAndFitsItsWindowAndTheProtocol) {
   }
 }
 
-TEST(Help, IsAskedOfEveryGameThatThereIs) {
+TEST(Help, TestsCoverEveryGameFolder) {
   std::set<std::string> folders, names;
   for (const auto& entry : std::filesystem::directory_iterator(NAIAD_SOURCE_DIR "/server/games"))
     if (entry.is_directory()) folders.insert(entry.path().filename());

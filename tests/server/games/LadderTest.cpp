@@ -43,7 +43,7 @@ TEST_P(Ladder, AThousandTicksShowTheSamePicturesEverywhere) {
   EXPECT_EQ(hash.value(), GetParam().hash) << "it is " << text << "; another game has another number";
 }
 
-TEST_P(Ladder, EightPlayersThatComeAndGoBreakNothing) {
+TEST_P(Ladder, EightJoiningAndLeavingPlayersBreakNothing) {
   for (std::uint64_t seed = 1; seed <= (test::kSanitized ? 1 : 2); ++seed) {
     hostGame(
         gameMains().at(GetParam().name), seed,

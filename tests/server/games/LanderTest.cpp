@@ -53,7 +53,7 @@ TEST(Lander, AGentlePilotLandsAndEarnsPoints) {
   });
 }
 
-TEST(Lander, TheBestLandingIsAServersToRemember) {
+TEST(Lander, BestLandingIsShownAndNewOnesAreStored) {
   hostGame(lander_main, 3, [](df::World& world) {
     world.input().push(
         {.kind = df::InputQueue::kScore, .player = 0, .name = "bob", .table = "landings", .points = 5000});

@@ -41,7 +41,7 @@ std::string walkTo(World& world, std::uint32_t player, int door) {
   return {};
 }
 
-TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
+TEST(Lobby, EachOtherRoomHasADoorThatLeadsThere) {
   hostGame(lobby_main, 1, [](World& world) {
     GameRoom own = room("lobby");
     own.is_this_one = true;
@@ -59,7 +59,7 @@ TEST(Lobby, HasADoorForEachOtherRoomAndWalkingIntoOneLeadsThere) {
   });
 }
 
-TEST(Lobby, ShowsWhatChanges) {
+TEST(Lobby, DoorShowsItsRoomsNewPlayerCount) {
   hostGame(lobby_main, 1, [](World& world) {
     keep(world, room("arcade", 3));
     const std::uint32_t ann = joinAnn(world, 2);
@@ -71,14 +71,14 @@ TEST(Lobby, ShowsWhatChanges) {
   });
 }
 
-TEST(Lobby, SaysThatThereAreNoOtherRooms) {
+TEST(Lobby, ShowsThatThereAreNoOtherRooms) {
   hostGame(lobby_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 2);
     EXPECT_TRUE(shows(world, ann, "This server has no other rooms."));
   });
 }
 
-TEST(Lobby, HasRoomForAllDoorsThatAServerCanHave) {
+TEST(Lobby, FitsTheMaximumOfSixtyFourDoors) {
   hostGame(lobby_main, 1, [](World& world) {
     for (int i = 0; i < 64; ++i) keep(world, room("room-" + std::to_string(i)));
     const std::uint32_t ann = joinAnn(world, 2);

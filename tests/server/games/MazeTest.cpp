@@ -48,7 +48,7 @@ std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
   return {};
 }
 
-TEST(Maze, HasSevenHundredWallsAndAPathForAnySeed) {
+TEST(Maze, EverySeedHasSevenHundredWallsAndAPath) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     hostGame(maze_main, seed, [](World& world) {
       const std::uint32_t ann = joinAnn(world);
@@ -78,7 +78,7 @@ TEST(Maze, ABotWithThePathWinsThreeMazes) {
   });
 }
 
-TEST(Maze, TwoInAPassageLetEachOtherBy) {
+TEST(Maze, PlayersSwapPlacesInAPassage) {
   hostGame(maze_main, 1, [](World& world) {
     const std::uint32_t ann = world.input().join("ann", RED);
     const std::uint32_t bob = world.input().join("bob", GREEN);
@@ -96,7 +96,7 @@ TEST(Maze, TwoInAPassageLetEachOtherBy) {
   });
 }
 
-TEST(Maze, TheViewFollows) {
+TEST(Maze, ViewFollowsThePlayer) {
   hostGame(maze_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world);
     const Vector corner = world.views().player(ann)->getViewCorner();

@@ -26,7 +26,7 @@ std::set<Keyboard::Key> run(const Object& runner) {
   return {Keyboard::RIGHTARROW};
 }
 
-TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
+TEST(Platformer, JumpingBotReachesTheFlag) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 2);
     Fingers fingers(world, ann);
@@ -44,7 +44,7 @@ TEST(Platformer, ABotThatJumpsInTimeReachesTheFlag) {
   });
 }
 
-TEST(Platformer, GravityLandsExactlyAndAJumpIsHighEnoughForFiveRows) {
+TEST(Platformer, JumpReachesFiveRowsAndLandsExactly) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 40);
     const Object* p_runner = world.views().player(ann)->getObject();
@@ -82,7 +82,7 @@ TEST(Platformer, NoPlayerSticksToAWall) {
   });
 }
 
-TEST(Platformer, FriendsCanBeStoodOn) {
+TEST(Platformer, PlayersCanStandOnEachOther) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = world.input().join("ann", RED);
     const std::uint32_t bob = world.input().join("bob", GREEN);
@@ -95,7 +95,7 @@ TEST(Platformer, FriendsCanBeStoodOn) {
   });
 }
 
-TEST(Platformer, CoinsAreTakenAndComeBack) {
+TEST(Platformer, CollectedCoinsReappear) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 40);
     Fingers fingers(world, ann);

@@ -33,7 +33,7 @@ void drag(df::World& world, std::uint32_t player, df::EventMouseAction action, i
   world.tick();
 }
 
-TEST(Sandbox, WhatStandsKeepsStandingAndNothingIsLost) {
+TEST(Sandbox, StructuresKeepStandingAndNothingIsLost) {
   hostGame(sandbox_main, 1, [](df::World& world) {
     world.input().join("ann", df::RED);
     tick(world, 30);
@@ -54,7 +54,7 @@ TEST(Sandbox, WhatStandsKeepsStandingAndNothingIsLost) {
   });
 }
 
-TEST(Sandbox, ABallIsDraggedAndStaysWhereItFalls) {
+TEST(Sandbox, DraggedBallFallsWhenReleased) {
   hostGame(sandbox_main, 1, [](df::World& world) {
     const std::uint32_t ann = joinAnn(world, 60);
     df::Body* p_ball = bodyAt(world, {4, 16});
@@ -68,7 +68,7 @@ TEST(Sandbox, ABallIsDraggedAndStaysWhereItFalls) {
   });
 }
 
-TEST(Sandbox, AVoteTurnsGravityAndKeysMakeThings) {
+TEST(Sandbox, MajorityTurnsGravityAndKeysAddBodies) {
   hostGame(sandbox_main, 1, [](df::World& world) {
     const std::uint32_t ann = world.input().join("ann", df::RED);
     world.input().join("bob", df::GREEN);

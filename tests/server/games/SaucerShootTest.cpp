@@ -99,7 +99,7 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
   return hash;
 }
 
-TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
+TEST(SaucerShoot, SaucersAvoidTheTextRows) {
   host(1, [](df::World& world) {
     const std::uint32_t first = joinAndFly(world);
     for (int i = 0; i < 11; ++i) world.input().join("pilot", df::RED);  // many pilots, many saucers
@@ -117,7 +117,7 @@ TEST(SaucerShoot, SaucersKeepOffTheRowsOfTheTexts) {
   });
 }
 
-TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSecondsForAnySeed) {
+TEST(SaucerShoot, SimplestPlayHitsASaucerWithinFiveSeconds) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     host(seed, [&](df::World& world) {
       const std::uint32_t player = world.input().join("bot", df::RED);
@@ -151,7 +151,7 @@ TEST(SaucerShoot, SameSeedAndInputsShowTheSameGame) {
   EXPECT_NE(hashOfARandomGame(7, 600), hashOfARandomGame(8, 600));
 }
 
-TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
+TEST(SaucerShoot, ObjectCountStaysBoundedWithFourRandomPlayers) {
   host(3, [](df::World& world) {
     df::Random random(3);
     std::vector<std::uint32_t> players;
@@ -175,7 +175,7 @@ TEST(SaucerShoot, ObjectsStayBoundedWhateverFourPlayersDo) {
   });
 }
 
-TEST(SaucerShoot, APlayerThatLeavesTakesTheShipAlong) {
+TEST(SaucerShoot, LeavingPlayersShipIsRemoved) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
     const std::uint32_t bob = world.input().join("bob", df::GREEN);
@@ -189,7 +189,7 @@ TEST(SaucerShoot, APlayerThatLeavesTakesTheShipAlong) {
   });
 }
 
-TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
+TEST(SaucerShoot, TapMovesOneCellAndHoldMovesUntilReleased) {
   host(1, [](df::World& world) {
     const std::uint32_t player = joinAndFly(world);
     const df::Object* p_hero = world.views().player(player)->getObject();
@@ -208,7 +208,7 @@ TEST(SaucerShoot, TapMovesOneCellAndAHeldKeyMovesUntilReleased) {
   });
 }
 
-TEST(SaucerShoot, ShipWhoseReleaseGotLostStopsByItself) {
+TEST(SaucerShoot, ShipStopsWhenTheKeyReleaseIsLost) {
   host(1, [](df::World& world) {
     const std::uint32_t player = joinAndFly(world);
     world.input().key(player, df::Keyboard::D, df::KEY_PRESSED);
@@ -234,7 +234,7 @@ ControlRecord recordOf(df::World& world, std::uint32_t player) {
 }
 
 /// What a client gets is enough to compute where the ship flies, until it is hit.
-TEST(SaucerShoot, AShipsControlsForetellItsPath) {
+TEST(SaucerShoot, ControlsPredictTheShipsPath) {
   int foretold = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     host(seed, [&](df::World& world) {
@@ -290,7 +290,7 @@ TEST(SaucerShoot, TheTitleWaitsForAKey) {
   });
 }
 
-TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
+TEST(SaucerShoot, LostShipIsReplacedTwiceThenTitleReturns) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     host(seed, [](df::World& world) {
       const std::uint32_t player = joinAndFly(world);
@@ -319,7 +319,7 @@ TEST(SaucerShoot, ALostShipIsReplacedUntilTheThirdThenTheTitleComesBack) {
   }
 }
 
-TEST(SaucerShoot, ARoundEndsWithItsLastPilot) {
+TEST(SaucerShoot, RoundEndsWhenTheLastPilotLeaves) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
     world.input().leave(ann);
@@ -329,7 +329,7 @@ TEST(SaucerShoot, ARoundEndsWithItsLastPilot) {
   });
 }
 
-TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
+TEST(SaucerShoot, TeamPointsAreTheScoresPlusSeconds) {
   host(5, [](df::World& world) {
     const std::uint32_t player = joinAndFly(world);
     for (int t = 0; t < 300; ++t) {
@@ -344,7 +344,7 @@ TEST(SaucerShoot, PointsAreTheTeamsAndTheScoresThePilots) {
   });
 }
 
-TEST(SaucerShoot, TheBestPilotsAreShownFromTheTitleOnAndAPilotComesInWithTheLastShip) {
+TEST(SaucerShoot, TitleShowsHighScoresAndLastDeathAddsOne) {
   host(5, [](df::World& world) {
     for (const auto& [name, points] : {std::pair{"bob", 2000}, {"bob", 1000}, {"eve", 500}})
       world.input().push(

@@ -65,7 +65,7 @@ TEST(Tron, ACarefulRiderWinsARoundAgainstTheRobot) {
   });
 }
 
-TEST(Tron, ARiderThatDoesNotTurnHitsTheFenceAndTheOtherWins) {
+TEST(Tron, RiderThatNeverTurnsLosesToTheOther) {
   hostGame(tron_main, 1, [](World& world) {
     const std::uint32_t ann = world.input().join("ann", RED);
     const std::uint32_t bob = world.input().join("bob", GREEN);
@@ -81,7 +81,7 @@ TEST(Tron, ARiderThatDoesNotTurnHitsTheFenceAndTheOtherWins) {
   });
 }
 
-TEST(Tron, LatePlayersRideInTheNextRoundAndThoseThatLeaveLose) {
+TEST(Tron, LatePlayersWaitAndLeavingPlayersLose) {
   hostGame(tron_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 60);
     const std::uint32_t bob = world.input().join("bob", GREEN);

@@ -76,7 +76,7 @@ TEST_F(GatewayStreamsTest, FramesOfTheLargestSizeArrive) {
   EXPECT_EQ(recorder.frames, std::vector<std::string>{largest});
 }
 
-TEST_F(GatewayStreamsTest, GameThatEndsTheStreamInOrderIsThePeersEnd) {
+TEST_F(GatewayStreamsTest, GameClosingItsStreamIsReportedAsPeerClose) {
   start([](ReliableChannel& to, const std::string&) { to.close(); });
   GatewayStreams streams(context, address());
   open(streams);
@@ -97,7 +97,7 @@ TEST_F(GatewayStreamsTest, GatewayWithoutAServerIsAnError) {
   EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_F(GatewayStreamsTest, AGatewayThatIsKilledWhileMuchIsUnsentIsReportedOnce) {
+TEST_F(GatewayStreamsTest, GatewayLossWithPendingWritesIsReportedOnce) {
   std::promise<void> end;
   start([wait = end.get_future().share()](ReliableChannel&, const std::string&) { wait.wait(); });
   GatewayStreams streams(context, address());
@@ -118,7 +118,7 @@ TEST_F(GatewayStreamsTest, AGatewayThatIsKilledWhileMuchIsUnsentIsReportedOnce) 
   EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_F(GatewayStreamsTest, AnswerThatIsNoWebSocketIsRefused) {
+TEST_F(GatewayStreamsTest, UnreachableOrRefusingGatewayIsReported) {
   start();
   const GatewayAddress here = address();
   gateway.reset();

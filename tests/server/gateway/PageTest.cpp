@@ -61,7 +61,7 @@ class GatewayPage : public testing::Test {
   GatewaySettings settings = home.settings(anyKey());
 };
 
-TEST_F(GatewayPage, FilesHaveTheirTypesAndAreSentOnce) {
+TEST_F(GatewayPage, FilesHaveContentTypesAndSupportConditionalRequests) {
   GatewayRun gateway(settings);
   WebClient browser(gateway.port());
   const auto index = browser.ask("/");
@@ -161,7 +161,7 @@ TEST_F(GatewayPage, OnlyItsOwnFilesAreThere) {
   }
 }
 
-TEST_F(GatewayPage, OtherNamesThanItsOwnAreRefused) {
+TEST_F(GatewayPage, UnknownHostHeaderIsRejected) {
   settings.origins.push_back(*WebOrigin::parse("https://play.example"));
   GatewayRun gateway(settings);
   const std::string port = std::to_string(gateway.port());
@@ -199,7 +199,7 @@ TEST_F(GatewayPage, GarbageGetsAnErrorOrNothing) {
   EXPECT_EQ(WebClient(gateway.port()).ask("/")->status, 200);
 }
 
-TEST_F(GatewayPage, ABodyIsRefused) {
+TEST_F(GatewayPage, RequestBodyIsRejected) {
   GatewayRun gateway(settings);
   for (const char* const lines :
        {"Content-Length: 5\r\n", "Transfer-Encoding: chunked\r\n", "Content-Length: 99999999999\r\n"}) {
@@ -213,7 +213,7 @@ TEST_F(GatewayPage, ABodyIsRefused) {
   }
 }
 
-TEST_F(GatewayPage, AHeadThatDribblesEndsInTime) {
+TEST_F(GatewayPage, SlowRequestHeadTimesOut) {
   settings.head_time = std::chrono::milliseconds(300);
   GatewayRun gateway(settings);
   WebClient silent(gateway.port());
@@ -240,7 +240,7 @@ TEST_F(GatewayPage, RequestsOfOneConnectionAreBounded) {
   EXPECT_EQ(answers, 100);
 }
 
-TEST_F(GatewayPage, WithoutACertificateItIsForThisMachineAlone) {
+TEST_F(GatewayPage, GatewayWithoutCertificateMustListenOnLoopback) {
   settings.address = "0.0.0.0";
   try {
     GatewayRun gateway(settings);
@@ -250,7 +250,7 @@ TEST_F(GatewayPage, WithoutACertificateItIsForThisMachineAlone) {
   }
 }
 
-TEST_F(GatewayPage, HttpsIsHttp11InTls13AndItsCertificateCanBeRenewed) {
+TEST_F(GatewayPage, HttpsUsesHttp11Tls13AndReloadableCertificate) {
   settings.head_time = std::chrono::seconds(30);  // a handshake in an instrumented build is slow
   const std::string key = makeKeyPem();
   settings.certificate = home.path("web.pem");

@@ -48,7 +48,7 @@ class GatewayPlay : public testing::Test {
   std::unique_ptr<GatewayRun> gateway;
 };
 
-TEST_F(GatewayPlay, EachMessageIsAFrame) {
+TEST_F(GatewayPlay, EachWebSocketMessageIsOneFrame) {
   start();
   WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
@@ -67,7 +67,7 @@ TEST_F(GatewayPlay, EachMessageIsAFrame) {
   EXPECT_EQ(browser.frame()->payload, "in three parts");
 }
 
-TEST_F(GatewayPlay, WhatIsNoMessageOfOursClosesItWithTheCodeForThat) {
+TEST_F(GatewayPlay, InvalidMessagesCloseWithTheMatchingCode) {
   start();
   const std::uint16_t port = gateway->port();
   const std::string large(kMaxClientFrame + 1, 'x');
@@ -92,7 +92,7 @@ TEST_F(GatewayPlay, WhatIsNoMessageOfOursClosesItWithTheCodeForThat) {
   for (const std::string& frame : game->frames()) EXPECT_EQ(frame, "hello") << "nothing of all that";
 }
 
-TEST_F(GatewayPlay, AFragmentThatOnlyClaimsToBeHugeCostsNothing) {
+TEST_F(GatewayPlay, FrameClaimingAHugeLengthIsRejected) {
   start();
   WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play() && echoes(browser, "hello"));
@@ -101,7 +101,7 @@ TEST_F(GatewayPlay, AFragmentThatOnlyClaimsToBeHugeCostsNothing) {
   EXPECT_TRUE(code == 1009 || code == 1002) << code;
 }
 
-TEST_F(GatewayPlay, OnlyItsOwnPageMayOpenOne) {
+TEST_F(GatewayPlay, WebSocketIsOpenedOnlyFromAllowedOrigins) {
   start({}, [](GatewaySettings& settings) {
     settings.origins.push_back(*WebOrigin::parse("https://play.example"));
   });
@@ -125,7 +125,7 @@ TEST_F(GatewayPlay, OnlyItsOwnPageMayOpenOne) {
   EXPECT_TRUE(quoted);
 }
 
-TEST_F(GatewayPlay, TheAddressIsThatOfTheSocketWhateverIsClaimed) {
+TEST_F(GatewayPlay, ClientAddressComesFromTheSocketNotTheHeaders) {
   start();
   WebClient browser(gateway->port(), "127.0.0.7");
   browser.requestPlay(
@@ -144,7 +144,7 @@ TEST_F(GatewayPlay, TheAddressIsThatOfTheSocketWhateverIsClaimed) {
   EXPECT_EQ(game->visitors().size(), 1u);
 }
 
-TEST_F(GatewayPlay, AServerWithAnotherKeyHearsNotAByte) {
+TEST_F(GatewayPlay, ServerWithAWrongKeyReceivesNothing) {
   FakeGame impostor(home.path("other"), home.path("visitors"));
   const auto real = ServerIdentity::loadOrMake(home.path("identity"), std::chrono::system_clock::now());
   gateway = std::make_unique<GatewayRun>(home.settings(ShortKey::of(real.fingerprint())));
@@ -158,7 +158,7 @@ TEST_F(GatewayPlay, AServerWithAnotherKeyHearsNotAByte) {
   EXPECT_EQ(gateway->counters().wrong_keys, 1u);
 }
 
-TEST_F(GatewayPlay, AServerThatIsCrowdedIsTriedAgain) {
+TEST_F(GatewayPlay, GatewayRetriesWhenTheServerDropsConnections) {
   start();
   game->hangUpOn(3);
   WebClient browser(gateway->port());
@@ -168,7 +168,7 @@ TEST_F(GatewayPlay, AServerThatIsCrowdedIsTriedAgain) {
   EXPECT_EQ(gateway->counters().unreachable, 0u);
 }
 
-TEST_F(GatewayPlay, WithoutAServerThePageIsToldSo) {
+TEST_F(GatewayPlay, CloseCodeTellsHowTheServerEnded) {
   start({}, [](GatewaySettings& settings) { settings.open_time = std::chrono::seconds(2); });
   WebClient before(gateway->port());
   ASSERT_TRUE(before.play() && echoes(before, "hello"));
@@ -221,7 +221,7 @@ TEST_F(GatewayPlay, AWebSocketWithoutAHelloEnds) {
   EXPECT_EQ(game->handshakes(), 0u);
 }
 
-TEST_F(GatewayPlay, ASilentBrowserIsPingedAndADeadOneEnds) {
+TEST_F(GatewayPlay, SilentBrowserIsPingedAndDeadOneIsDisconnected) {
   start({}, [](GatewaySettings& settings) { settings.ping_time = std::chrono::milliseconds(200); });
   WebClient alive(gateway->port());
   WebClient dead(gateway->port());
@@ -238,7 +238,7 @@ TEST_F(GatewayPlay, ASilentBrowserIsPingedAndADeadOneEnds) {
   EXPECT_TRUE(echoes(alive, "still there"));
 }
 
-TEST_F(GatewayPlay, AFloodOfPingsEndsIt) {
+TEST_F(GatewayPlay, PingFloodDisconnectsTheBrowser) {
   start();
   WebClient ann(gateway->port());
   WebClient flood(gateway->port());
@@ -280,7 +280,7 @@ TEST_F(GatewayPlay, PlacesAreLimitedForOneAddressAndInAll) {
   })) << "a place that was given back";
 }
 
-TEST_F(GatewayPlay, AThousandHalfOpenConnectionsKeepNobodyOut) {
+TEST_F(GatewayPlay, ThousandHalfOpenConnectionsDoNotBlockNewPlayers) {
   constexpr int kStrangers = 1200;
   if (allowOpenFiles(3 * kStrangers) < 3 * kStrangers) GTEST_SKIP() << "too few open files are allowed";
   start();
@@ -306,7 +306,7 @@ TEST_F(GatewayPlay, AThousandHalfOpenConnectionsKeepNobodyOut) {
   EXPECT_EQ(game->visitors().size(), 2u) << "the game heard of none of them";
 }
 
-TEST_F(GatewayPlay, MessagesThatAreThereTogetherAreSentTogether) {
+TEST_F(GatewayPlay, PendingMessagesAreSentInOneWrite) {
   start(ignore);
   WebClient browser(gateway->port());
   ASSERT_TRUE(browser.play());
@@ -364,7 +364,7 @@ TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
 }
 
 // 400 ms at 256 kbit/s are 12,800 bytes: no more may be in flight, whatever the game sends.
-TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
+TEST_F(GatewayPlay, SlowLineGetsFreshPicturesWithoutABacklog) {
   constexpr std::size_t kPicture = 2000;
   constexpr std::size_t kLine = 32'000;  // bytes per second
   constexpr std::size_t kMaxUnderWay = kLine * 4 / 10;
@@ -398,7 +398,7 @@ TEST_F(GatewayPlay, ASlowLineHasFreshPicturesAndNoBacklog) {
   RecordProperty("bytes_under_way", std::to_string(worst));
 }
 
-TEST_F(GatewayPlay, ABrowserThatDoesNotReadAtAllEnds) {
+TEST_F(GatewayPlay, BrowserThatReadsNothingIsDisconnected) {
   start(ignore, [](GatewaySettings& settings) { settings.stall_time = std::chrono::milliseconds(300); });
   WebClient stuck(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(stuck.play());
@@ -410,7 +410,7 @@ TEST_F(GatewayPlay, ABrowserThatDoesNotReadAtAllEnds) {
   EXPECT_TRUE(waitUntil([&] { return gateway->guests() == 0; })) << "though it never answers the close";
 }
 
-TEST_F(GatewayPlay, ABrowserThatSendsFasterThanTheServerReadsIsNotRead) {
+TEST_F(GatewayPlay, GatewayStopsReadingWhileTheServerIsSlow) {
   std::promise<void> go_on;
   const auto waited = go_on.get_future().share();
   start([waited](ReliableChannel&, const std::string&) { waited.wait(); });

@@ -28,7 +28,7 @@ class DfwebProgram : public testing::Test {
   const std::string page = home.path("page").string();
 };
 
-TEST_F(DfwebProgram, WhatIsWrongIsASentenceAndACode) {
+TEST_F(DfwebProgram, InvalidOptionsPrintAMessageAndSetExitCode) {
   expectRefusal({"--help"}, 0, "--visitors");
   expectRefusal({}, 2, "link");
   expectRefusal({"http://game.test", "--visitors", "visitors"}, 2, "naiad://");

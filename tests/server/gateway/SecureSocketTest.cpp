@@ -90,7 +90,7 @@ std::string takeRecord(std::string& text) {
 class SecureSocketTest : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(PlainAndTls, SecureSocketTest, testing::Bool());
 
-TEST_P(SecureSocketTest, WhatIsPutIsNeverWithinAWriteNorAWriteWithinIt) {
+TEST_P(SecureSocketTest, PutsAndWritesDoNotInterleave) {
   SocketPair pair(GetParam());
   SplitMix64 random(1);
   std::deque<std::string> put;      // put, but not yet received: small letters
@@ -148,7 +148,7 @@ TEST_P(SecureSocketTest, WhatIsPutIsNeverWithinAWriteNorAWriteWithinIt) {
   EXPECT_GT(most_kept, 4096u) << "the kernel took all of it at once: nothing was tried";
 }
 
-TEST_P(SecureSocketTest, NothingCanBeFlushedOnceItHasEnded) {
+TEST_P(SecureSocketTest, FlushFailsAfterClose) {
   SocketPair pair(GetParam());
   pair.from->put("late");
   pair.from->close();

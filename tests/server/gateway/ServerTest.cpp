@@ -89,7 +89,7 @@ TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
   EXPECT_EQ(gateway.counters().played, 2u);
 }
 
-TEST_F(GatewayServer, AReloadedPageGoesOnWithItsSession) {
+TEST_F(GatewayServer, ReloadedPageResumesItsSession) {
   TestServer server(populate, options);
   GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
   wire::Welcome welcome;

@@ -97,7 +97,7 @@ class CopiesTest : public FrailRound {
   }
 };
 
-TEST_F(CopiesTest, ACopyGoesOnWithTheTicksSince) {
+TEST_F(CopiesTest, CheckpointReplaysTheTicksSinceItWasMade) {
   play(100);
   EXPECT_EQ(find(kCopy).size(), 1u);
   const std::vector<pid_t> copy = find(kCopy);
@@ -108,7 +108,7 @@ TEST_F(CopiesTest, ACopyGoesOnWithTheTicksSince) {
   EXPECT_EQ(verify(), "") << "byte for byte what it answered before";
 }
 
-TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
+TEST_F(CopiesTest, CrashInDrawIsRecoveredToo) {
   play(60);
   survive(df::Keyboard::D);
   EXPECT_TRUE(logs(kByCopy)) << log;
@@ -117,7 +117,7 @@ TEST_F(CopiesTest, ACrashInDrawIsFollowedToo) {
 }
 
 // The second hang is waited for, because the game may only be slow. It does not end, so the third is not.
-TEST_F(CopiesTest, TheFirstHangOfARoundIsNotWaitedFor) {
+TEST_F(CopiesTest, FirstHangOfARoundIsRecoveredAtOnce) {
   constexpr const char* kAtOnce = "the game did not answer within ";
   constexpr const char* kLate = "did not answer in time in tick";
   constexpr std::size_t kWaitedFor[] = {0, 1, 1};
@@ -141,7 +141,7 @@ class SlowGameTest : public CopiesTest {
   SlowGameTest() { hang_time = 0.3; }
 };
 
-TEST_F(SlowGameTest, LosesOneKeyAndGoesOn) {
+TEST_F(SlowGameTest, LosesOneKeyAndContinues) {
   play(50);
   survive(df::Keyboard::S);
   for (int i = 0; i < 2; ++i) {
@@ -155,7 +155,7 @@ TEST_F(SlowGameTest, LosesOneKeyAndGoesOn) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, AHangIsFollowedToo) {
+TEST_F(CopiesTest, HungWorldIsKilledAndRecovered) {
   play(50);
   const std::vector<pid_t> hangs = find(kWorld);
   survive(df::Keyboard::H);
@@ -165,7 +165,7 @@ TEST_F(CopiesTest, AHangIsFollowedToo) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, EachDeathIsFollowedByANewerCopy) {
+TEST_F(CopiesTest, EachCrashIsRecoveredFromANewerCheckpoint) {
   for (int death = 0; death < 3; ++death) {
     playToACopy();
     play(static_cast<int>(Round::kSameDeath));
@@ -176,7 +176,7 @@ TEST_F(CopiesTest, EachDeathIsFollowedByANewerCopy) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, AKeeperThatIsSlowEndsNoCopyOfTheWorldThatGoesOn) {
+TEST_F(CopiesTest, SlowSupervisorEndsNoCheckpointOfTheNewWorld) {
   const std::vector<pid_t> keeper = find(kKeeper);
   ASSERT_EQ(keeper.size(), 1u);
   constexpr std::size_t kDeaths = 8;
@@ -194,7 +194,7 @@ TEST_F(CopiesTest, AKeeperThatIsSlowEndsNoCopyOfTheWorldThatGoesOn) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, ASecondDeathAtTheSamePlaceEndsTheRoundAndAllProcesses) {
+TEST_F(CopiesTest, SecondCrashAtTheSamePlaceEndsAllProcesses) {
   play(60);
   survive(df::Keyboard::Q);
   play(5);
@@ -206,7 +206,7 @@ TEST_F(CopiesTest, ASecondDeathAtTheSamePlaceEndsTheRoundAndAllProcesses) {
   waitUntilGone(all);
 }
 
-TEST_F(CopiesTest, TheOlderOneGoesOnWhereTheNewerIsGone) {
+TEST_F(CopiesTest, OlderCheckpointIsUsedIfTheNewerIsGone) {
   play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), WorldCopies::kKept);
@@ -218,7 +218,7 @@ TEST_F(CopiesTest, TheOlderOneGoesOnWhereTheNewerIsGone) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, WithoutThemTheRoundIsExecutedFromItsBeginning) {
+TEST_F(CopiesTest, RoundIsReplayedFromTheStartWithoutCheckpoints) {
   play(60);
   const std::vector<pid_t> copies = find(kCopy);
   EXPECT_EQ(copies.size(), 1u);
@@ -230,7 +230,7 @@ TEST_F(CopiesTest, WithoutThemTheRoundIsExecutedFromItsBeginning) {
 }
 
 // Kills the world and then the copy that takes over, while it replays its turns.
-TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
+TEST_F(CopiesTest, CheckpointDyingDuringReplayIsReplacedByTheNext) {
   play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), WorldCopies::kKept);
@@ -248,7 +248,7 @@ TEST_F(CopiesTest, ACopyThatEndsWhileItHasTheTurnsAgainIsFollowedByTheNext) {
 }
 
 // The copy differs in its process id, which the key P makes visible.
-TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
+TEST_F(CopiesTest, CheckpointWithDifferentAnswersEndsTheRound) {
   play(50);
   press(df::Keyboard::P);
   ASSERT_TRUE(tick());
@@ -261,7 +261,7 @@ TEST_F(CopiesTest, ACopyThatAnswersOtherwiseIsNotGoneOnWith) {
   waitUntilGone(all);
 }
 
-TEST_F(CopiesTest, AtMostTwoAreKept) {
+TEST_F(CopiesTest, AtMostTwoCheckpointsAreKept) {
   play(static_cast<int>(RoundHistory::kFirst + 2 * RoundHistory::kTicks));
   EXPECT_LE(find(kCopy).size(), WorldCopies::kKept + 1);
   // A surplus copy ends by itself, but late on a busy machine.
@@ -273,7 +273,7 @@ TEST_F(CopiesTest, AtMostTwoAreKept) {
   EXPECT_EQ(find(kCopy).size(), WorldCopies::kKept);
 }
 
-TEST_F(CopiesTest, OfAWorldThatStandsStillThereAreNoneUntilItsNextTick) {
+TEST_F(CopiesTest, PausedWorldHasNoCheckpointUntilItsNextTick) {
   play(400);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), 2u);
@@ -286,7 +286,7 @@ TEST_F(CopiesTest, OfAWorldThatStandsStillThereAreNoneUntilItsNextTick) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, AWorldThatStoodStillAndCrashesAtOnceIsExecutedFromItsBeginning) {
+TEST_F(CopiesTest, CrashAfterAPauseReplaysFromTheStart) {
   play(400);
   world->dropCopies();
   survive(df::Keyboard::Q);
@@ -294,7 +294,7 @@ TEST_F(CopiesTest, AWorldThatStoodStillAndCrashesAtOnceIsExecutedFromItsBeginnin
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, OfAGameWithThreadsThereAreNone) {
+TEST_F(CopiesTest, GameWithThreadsHasNoCheckpoints) {
   play(60);
   EXPECT_EQ(find(kCopy).size(), 1u);
   press(df::Keyboard::T);
@@ -303,7 +303,7 @@ TEST_F(CopiesTest, OfAGameWithThreadsThereAreNone) {
   EXPECT_EQ(count("no copies are kept: it has threads"), 1u) << log;
 }
 
-TEST_F(CopiesTest, NoneIsLeftWhenTheRoundEnds) {
+TEST_F(CopiesTest, NoProcessIsLeftWhenTheRoundEnds) {
   play(50);
   const std::vector<pid_t> all = findAll();
   EXPECT_EQ(all.size(), 3u);
@@ -311,7 +311,7 @@ TEST_F(CopiesTest, NoneIsLeftWhenTheRoundEnds) {
   waitUntilGone(all);
 }
 
-TEST_F(CopiesTest, NoneIsLeftWhenTheKeeperIsKilled) {
+TEST_F(CopiesTest, NoProcessIsLeftWhenTheSupervisorIsKilled) {
   play(50);
   const std::vector<pid_t> all = findAll();
   for (const pid_t keeper : find(kKeeper)) kill(keeper, SIGKILL);
@@ -320,7 +320,7 @@ TEST_F(CopiesTest, NoneIsLeftWhenTheKeeperIsKilled) {
   EXPECT_TRUE(logs(kByAnother)) << log;
 }
 
-TEST_F(CopiesTest, ARoundGoesOnWhenTheGroupOfTheWorldIsKilled) {
+TEST_F(CopiesTest, RoundSurvivesAKillOfTheWorldsProcessGroup) {
   play(50);
   for (const pid_t one : find(kWorld)) kill(-one, SIGKILL);
   serveUntil([this] { return logs("the game goes on"); });
@@ -328,7 +328,7 @@ TEST_F(CopiesTest, ARoundGoesOnWhenTheGroupOfTheWorldIsKilled) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(CopiesTest, OfWorldsOfSinglePlayersThereAreNone) {
+TEST_F(CopiesTest, PrivateWorldsHaveNoCheckpoints) {
   HostOptions options;
   options.journal = (recorder.folder() / "others").string();
   const auto order = [&] {

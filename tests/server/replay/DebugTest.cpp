@@ -77,7 +77,7 @@ class DebugTest : public FrailRound {
   fs::path file;
 };
 
-TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
+TEST_F(DebugTest, LoggedCommandStopsTheGameBeforeTheCrash) {
   playToTheLastDeath();
   makeDebugger();
   const std::string line = restAfter(log, "to see where: ");
@@ -96,7 +96,7 @@ TEST_F(DebugTest, TheLineOfASecondDeathStopsTheGameBeforeIt) {
   EXPECT_TRUE(test::has(said, end));
 }
 
-TEST_F(DebugTest, ADeathThatWasLeftOutLaterHappensAgain) {
+TEST_F(DebugTest, CrashSkippedByRecoveryHappensAgain) {
   playToTheLastDeath();
   makeDebugger();
   ASSERT_LT(deathTick(false), deathTick(true));
@@ -105,7 +105,7 @@ TEST_F(DebugTest, ADeathThatWasLeftOutLaterHappensAgain) {
   EXPECT_TRUE(test::has(said, "The world ended in tick " + std::to_string(deathTick(false))));
 }
 
-TEST_F(DebugTest, AGameThatLivesThroughTheTickPlaysOnToItsDeath) {
+TEST_F(DebugTest, GameSurvivingTheTickPlaysToItsCrash) {
   playToTheLastDeath();
   makeDebugger();
   const auto [code, said] = runLine(command(20));
@@ -122,7 +122,7 @@ TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
   EXPECT_TRUE(test::has(said, "gdb ended with code 7"));
 }
 
-TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
+TEST_F(DebugTest, MissingDebuggerPrintsTheCommandToType) {
   playToTheLastDeath();
   // This PATH hides an installed gdb.
   const std::string line = "PATH=/nowhere " NAIAD_BINARY_DIR "/" + command(deathTick(true)) + " 2>&1";
@@ -140,14 +140,14 @@ TEST_F(DebugTest, WithoutADebuggerASentenceSaysWhatToType) {
   EXPECT_TRUE(test::has(said, "The world ended in tick " + std::to_string(deathTick(true))));
 }
 
-TEST_F(DebugTest, ATickThatTheRoundDoesNotHaveIsRefused) {
+TEST_F(DebugTest, TickBeyondTheRoundIsRefused) {
   playToTheLastDeath();
   const auto [code, said] = runLine(command(5000));
   EXPECT_EQ(code, 3) << said;
   EXPECT_TRUE(test::has(said, "in tick " + std::to_string(deathTick(true)) + ", before tick 5000"));
 }
 
-TEST_F(DebugTest, BothOptionsGoTogether) {
+TEST_F(DebugTest, DebugAndUntilRequireEachOther) {
   for (const char* p_one : {"--debug", "--until 5"}) {
     const auto [code, said] = runLine(std::string("dfreplay FILE ") + p_one);
     EXPECT_EQ(code, 2) << said;
@@ -155,7 +155,7 @@ TEST_F(DebugTest, BothOptionsGoTogether) {
   }
 }
 
-TEST(DebugCommandTest, NamesTheGameWhereItIsNotInstalled) {
+TEST(DebugCommandTest, NamesAnUninstalledGameAndQuotesPaths) {
   const std::string installed = GameModule::find("hello").string();
   EXPECT_EQ(debugCommand("/r/hello-1.dfr", 7, "hello", installed),
             "dfreplay /r/hello-1.dfr --until 7 --debug");

@@ -85,7 +85,7 @@ class DiskTest : public test::ServerFixture {
 };
 
 // If a tick waited for the disk, no tick would end while the disk stalls.
-TEST_F(DiskTest, ADiskThatStallsHoldsUpNoTick) {
+TEST_F(DiskTest, StalledDiskDoesNotBlockTicks) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty(); })) << log();
   const bool is_long = std::getenv("NAIAD_LONG_TESTS") != nullptr;
@@ -144,7 +144,7 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
       << log();
 }
 
-TEST_F(DiskTest, AServerThatIsKilledBeforeTheDiskHasTheFileGoesOn) {
+TEST_F(DiskTest, RoundOfAKilledServerSurvivesAStalledDisk) {
   set("stall");
   start();
   ASSERT_TRUE(playTicks(50)) << log();
@@ -155,7 +155,7 @@ TEST_F(DiskTest, AServerThatIsKilledBeforeTheDiskHasTheFileGoesOn) {
   EXPECT_TRUE(isLogged("reconnected to the recovered round")) << log();
 }
 
-TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
+TEST_F(DiskTest, FullDiskEndsTheJournalNotTheGame) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
@@ -172,7 +172,7 @@ TEST_F(DiskTest, AFullDiskEndsTheJournalAndNotTheGame) {
 }
 
 // The round cannot be handed over, but the server continues.
-TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
+TEST_F(DiskTest, RoundWithAStoppedJournalIsNotHandedOver) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
@@ -186,7 +186,7 @@ TEST_F(DiskTest, ARoundThatAFullDiskEndedTheJournalOfIsNotKept) {
   EXPECT_TRUE(test::has(cancelled, "\"ok\":false")) << "nothing was planned: ";
 }
 
-TEST_F(DiskTest, ADiskThatCannotBeWrittenIsSaidAndTheGameGoesOn) {
+TEST_F(DiskTest, ReadOnlyDiskIsLoggedAndTheGameContinues) {
   set("read-only");
   start();
   EXPECT_TRUE(isLogged("no longer recording the round, which continues: ")) << log();

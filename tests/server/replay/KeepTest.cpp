@@ -223,7 +223,7 @@ class KeepTest : public test::ServerFixture {
   std::vector<pid_t> bots;
 };
 
-TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
+TEST_F(KeepTest, PlayersStayInTheRoundAndPortsStayOpen) {
   installPrograms("ls -l /proc/$$/fd > replay.fds; exec " NAIAD_BINARY_DIR "/dfreplay \"$@\"");
   start("rounds");
   startBots();
@@ -261,7 +261,7 @@ TEST_F(KeepTest, ThePlayersPlayOnInTheSameRoundAndNoPortIsClosed) {
   expectOneWholeRound();
 }
 
-TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
+TEST_F(KeepTest, RebuiltGameContinuesTheRoundAndSurvivesAKill) {
   start("rounds");
   startBots();
   ASSERT_TRUE(playTicks(100));
@@ -276,7 +276,7 @@ TEST_F(KeepTest, AGameThatPlaysTheSameGoesOnWithTheRoundAndAlsoAfterAKill) {
   expectOneWholeRound();
 }
 
-TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
+TEST_F(KeepTest, ChangedGameIsRefusedAndPlayersFinishTheRound) {
   start("rounds", {"--game=./mine.so", "--grace=1"});
   startBots();
   ASSERT_TRUE(playTicks(100));
@@ -294,7 +294,7 @@ TEST_F(KeepTest, AGameThatPlaysOtherwiseIsRefusedAndThePlayersFinish) {
   EXPECT_TRUE(playTicks(50)) << "in the other game: " << log();
 }
 
-TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
+TEST_F(KeepTest, RoundsOfAllRoomsContinue) {
   start("rounds", {"--room=one=./mine.so", "--room=two=./mine.so", "--room=asleep=hello"});
   startBots();
   startBots("two");
@@ -322,7 +322,7 @@ TEST_F(KeepTest, TheRoundsOfAllRoomsGoOn) {
   expectOneWholeRound(folder / "rounds/two");
 }
 
-TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
+TEST_F(KeepTest, KeepIsRefusedWithoutAJournal) {
   start("");
   const auto [code, said] = control("restart keep");
   EXPECT_EQ(code, 1) << said;
@@ -330,7 +330,7 @@ TEST_F(KeepTest, WithoutAJournalASentenceSaysSo) {
   EXPECT_TRUE(playTicks(10));
 }
 
-TEST_F(KeepTest, ADfreplayThatIsKilledIsSaidAndTheGameGoesOn) {
+TEST_F(KeepTest, KilledDfreplayIsReportedAndTheGameContinues) {
   installPrograms(kHangs);
   start("rounds");
   startBots();
@@ -349,7 +349,7 @@ TEST_F(KeepTest, ADfreplayThatIsKilledIsSaidAndTheGameGoesOn) {
   EXPECT_EQ(control("cancel").first, 0) << "it was to begin again when all have left";
 }
 
-TEST_F(KeepTest, AServerThatEndsDuringTheProofEndsIt) {
+TEST_F(KeepTest, ServerShutdownEndsTheTrialReplay) {
   installPrograms(kHangs);
   start("rounds");
   startBots();
@@ -361,7 +361,7 @@ TEST_F(KeepTest, AServerThatEndsDuringTheProofEndsIt) {
   EXPECT_TRUE(isGone(replay()));
 }
 
-TEST_F(KeepTest, AProgramThatDoesNotTakeTheOptionsIsRefused) {
+TEST_F(KeepTest, ProgramRejectingTheOptionsIsRefused) {
   installPrograms("exit 0");
   start("rounds");
   ASSERT_TRUE(playTicks(10));
@@ -380,7 +380,7 @@ ProgramEnd ended(int code, const std::string& printed) {
   return {.code = code, .printed = printed};
 }
 
-TEST(RoundHandoverTest, TheVerdictIsAsDfreplaySaysIt) {
+TEST(RoundHandoverTest, VerdictFollowsDfreplaysOutput) {
   const std::string good = "note: x\nverified ticks=9 times_real_time=9 protocol=";
   const std::string ours = std::to_string(kProtocolVersion);
   EXPECT_EQ(readVerdict(ended(0, good + ours + " read to its end\n")), "");

@@ -37,7 +37,7 @@ class ServerRoundTest : public test::ServerFixture {
   int verify(const fs::path& file) const { return waitFor(run({"dfreplay", file.string(), "--verify"})); }
 };
 
-TEST_F(ServerRoundTest, OfTwoBotsIsTheSameAgain) {
+TEST_F(ServerRoundTest, RoundOfTwoBotsReplaysIdentically) {
   startServer("--exit-when-empty=1");
   EXPECT_EQ(waitFor(startBots()), 0) << log();
   EXPECT_EQ(waitFor(server), 0) << log();
@@ -49,7 +49,7 @@ TEST_F(ServerRoundTest, OfTwoBotsIsTheSameAgain) {
     EXPECT_FALSE(test::has(contentOf(round()), secret)) << secret;
 }
 
-TEST_F(ServerRoundTest, OfAServerThatWasKilledHasTheTurnsThatWaitedForTheDisk) {
+TEST_F(ServerRoundTest, RoundOfAKilledServerGetsItsUnwrittenTurns) {
   startServer("--grace=5");
   pid_t bots = startBots();
   EXPECT_TRUE(waitUntil([this] { return countTurns(round()) >= 30; })) << log();

@@ -13,7 +13,7 @@ namespace {
 
 class TakeOverTest : public FrailRound {};
 
-TEST_F(TakeOverTest, AWorldThatCrashesByAKeyGoesOnWithoutIt) {
+TEST_F(TakeOverTest, CrashByAKeyIsRecoveredWithoutTheKey) {
   play(100);
   const std::uint32_t next = world->nextTick();
   press(df::Keyboard::Q);
@@ -29,7 +29,7 @@ TEST_F(TakeOverTest, AWorldThatCrashesByAKeyGoesOnWithoutIt) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(TakeOverTest, WhatPlayersDoMeanwhileIsInTheNextTick) {
+TEST_F(TakeOverTest, InputsDuringFailoverAreInTheNextTick) {
   play(50);
   press(df::Keyboard::Q);
   world->tick(true, false);
@@ -43,7 +43,7 @@ TEST_F(TakeOverTest, WhatPlayersDoMeanwhileIsInTheNextTick) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(TakeOverTest, ASecondDeathAtTheSamePlaceEndsTheRound) {
+TEST_F(TakeOverTest, SecondCrashAtTheSamePlaceEndsTheRound) {
   play(50);
   press(df::Keyboard::Q);
   ASSERT_TRUE(tick()) << log;
@@ -56,7 +56,7 @@ TEST_F(TakeOverTest, ASecondDeathAtTheSamePlaceEndsTheRound) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(TakeOverTest, ALaterDeathIsAnotherOne) {
+TEST_F(TakeOverTest, LaterCrashIsRecoveredAgain) {
   for (int death = 0; death < 3; ++death) {
     play(static_cast<int>(Round::kSameDeath) + 10);
     press(df::Keyboard::Q);
@@ -66,7 +66,7 @@ TEST_F(TakeOverTest, ALaterDeathIsAnotherOne) {
   EXPECT_EQ(verify(), "");
 }
 
-TEST_F(TakeOverTest, AWorldThatHangsByAKeyGoesOnWithoutIt) {
+TEST_F(TakeOverTest, HangByAKeyIsRecoveredWithoutTheKey) {
   play(50);
   press(df::Keyboard::H);
   ASSERT_TRUE(tick()) << log;

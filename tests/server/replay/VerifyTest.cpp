@@ -41,7 +41,7 @@ std::string verify(const fs::path& file, const std::string& game, bool& same) {
 
 class ShippedGameTest : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedGameTest, ThreeRoundsOfItAreTheSameAgain) {
+TEST_P(ShippedGameTest, ThreeRoundsReplayIdentically) {
   if (test::kSanitized) GTEST_SKIP() << "what is promised is of the product";
   Recorder recorder;
   for (const std::uint64_t seed : {1, 2, 3}) {
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Games, ShippedGameTest, testing::ValuesIn(GameModule::a
 
 class UnsteadyGameTest : public testing::TestWithParam<std::string> {};
 
-TEST_P(UnsteadyGameTest, IsFoundAtItsTick) {
+TEST_P(UnsteadyGameTest, DifferenceIsFoundAtItsTick) {
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), GetParam());
   const fs::path file_for_it = module + ".txt";
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, UnsteadyGameTest,
 
 class CuredGameTest : public testing::TestWithParam<std::string> {};
 
-TEST_P(CuredGameTest, IsTheSameAgain) {
+TEST_P(CuredGameTest, ReplaysIdentically) {
   if (GetParam() == "pointers" && !canFixAddresses()) GTEST_SKIP() << "addresses cannot be fixed here";
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), GetParam());
@@ -100,7 +100,7 @@ TEST_P(CuredGameTest, IsTheSameAgain) {
 INSTANTIATE_TEST_SUITE_P(Ways, CuredGameTest, testing::Values("time", "device", "pointers"),
                          [](const auto& info) { return info.param; });
 
-TEST(VerifyTest, RoundsOfOneSeedThatBeginAtDifferentTimesHaveDifferentClocks) {
+TEST(VerifyTest, RoundsOfOneSeedHaveDifferentClocks) {
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), "time");
   const auto state = [](const fs::path& file) {
@@ -135,7 +135,7 @@ TEST_F(RoundTest, InputsArePrinted) {
   EXPECT_TRUE(test::has(out.str(), "ticks=400 read to its end: the game stopped"));
 }
 
-TEST_F(RoundTest, FactsSayWhichGameItWasAndNoPathOrAddress) {
+TEST_F(RoundTest, FactsNameTheGameAndNoLocalPath) {
   const RecordedRound round(file);
   EXPECT_EQ(round.fact(kFactGame), "saucershoot");
   EXPECT_EQ(round.fact(kFactModule).size(), 64u);
@@ -148,7 +148,7 @@ TEST_F(RoundTest, FactsSayWhichGameItWasAndNoPathOrAddress) {
   EXPECT_TRUE(has_sprite) << "files that it read are noted";
 }
 
-TEST_F(RoundTest, ATornFileIsVerifiedToItsLastWholeTurn) {
+TEST_F(RoundTest, TruncatedFileStillVerifies) {
   fs::resize_file(file, fs::file_size(file) - 100);
   bool same = false;
   const std::string text = verify(file, "", same);
@@ -186,7 +186,7 @@ TEST_F(RoundTest, AFileThatNamesAPathLoadsNothing) {
   }
 }
 
-TEST_F(RoundTest, TheReelGoesToAndFro) {
+TEST_F(RoundTest, ReplaySeeksForwardAndBackward) {
   const RecordedRound round(file);
   const RoundStage stage(round, "");
   PictureReel reel(round, stage);
@@ -206,7 +206,7 @@ TEST_F(RoundTest, TheReelGoesToAndFro) {
   EXPECT_EQ(reel.firstDifference(), 0u);
 }
 
-TEST_F(RoundTest, KeysOfThePlayerOfRounds) {
+TEST_F(RoundTest, KeysControlThePlayback) {
   using Time = RoundControls::Time;
   using std::chrono::milliseconds;
   const RecordedRound round(file);

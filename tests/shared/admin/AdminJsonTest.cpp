@@ -26,7 +26,7 @@ AdminAnswer readAll(const std::string& text) {
   return reader.answer();
 }
 
-TEST(AdminJson, ARequestIsReadAsItIsWritten) {
+TEST(AdminJson, RequestSurvivesTheRoundTrip) {
   const AdminRequest request = readAdminRequest({"ban", "\"Ann\\\xc3\xa9\"", "2h", "a\nb"});
   std::string line = requestLine(request);
   ASSERT_EQ(line.back(), '\n');
@@ -37,7 +37,7 @@ TEST(AdminJson, ARequestIsReadAsItIsWritten) {
   EXPECT_EQ(readRequestLine(R"({"arguments":{"player":7},"command":"kick"})").of("player"), "7");
 }
 
-TEST(AdminJson, WhatIsNoRequestIsRefusedWithASentence) {
+TEST(AdminJson, MalformedRequestIsRefusedWithAnError) {
   const std::string deep(2000, '[');
   const std::string nested = R"({"command":"kick","arguments":{"player":{"a":1}}})";
   for (const std::string& line :
@@ -69,7 +69,7 @@ TEST(AdminJson, WhatIsNoRequestIsRefusedWithASentence) {
   }
 }
 
-TEST(AdminJson, AnAnswerOfAnySizeIsReadAsItIsWritten) {
+TEST(AdminJson, LargeAnswerSurvivesTheRoundTrip) {
   AdminAnswer answer = AdminAnswer::done("");
   answer.is_list = true;
   for (std::int64_t i = 0; i < 500; ++i)
@@ -81,7 +81,7 @@ TEST(AdminJson, AnAnswerOfAnySizeIsReadAsItIsWritten) {
   EXPECT_EQ(read.rows, answer.rows);
 }
 
-TEST(AdminJson, FactsKeepTheirOrderAndRefusalsTheirCandidates) {
+TEST(AdminJson, FactsKeepOrderAndRefusalsKeepCandidates) {
   AdminAnswer facts = AdminAnswer::done("");
   facts.facts = {{"z", std::string("last")}, {"a", std::int64_t{1}}, {"m", 0.5}};
   EXPECT_EQ(readAll(answerLines(facts)).facts, facts.facts);
@@ -93,7 +93,7 @@ TEST(AdminJson, FactsKeepTheirOrderAndRefusalsTheirCandidates) {
   EXPECT_EQ(read.candidates, refused.candidates);
 }
 
-TEST(AdminJson, NoTextMakesALineTooLongOrEndsIt) {
+TEST(AdminJson, HostileTextStaysWithinOneLine) {
   for (const std::string& text :
        {std::string(10'000, '\x01'), std::string(10'000, '\xff'), std::string("a\nb\r\n"),
         std::string(3000, '"'), std::string("\xe2\x82") + std::string(5000, 'x')}) {
@@ -115,7 +115,7 @@ TEST(AdminJson, NoTextMakesALineTooLongOrEndsIt) {
   EXPECT_EQ(reader.readLine("SSH-2.0-OpenSSH"), AnswerReader::Got::kNonsense);
 }
 
-TEST(AdminText, RowsStandInColumnsAndControlCharactersAreEscaped) {
+TEST(AdminText, RowsAlignInColumnsAndControlCharactersAreEscaped) {
   AdminAnswer answer = AdminAnswer::done("");
   answer.is_list = true;
   answer.rows = {{{"id", std::int64_t{1}}, {"name", std::string("\xc3\x84nn")}, {"away", false}},
@@ -124,7 +124,7 @@ TEST(AdminText, RowsStandInColumnsAndControlCharactersAreEscaped) {
                                                           "12  Bob\\x1b[2J  yes"}));
 }
 
-TEST(AdminText, ProgramsGetTheRowsTheFactsOrTheSentence) {
+TEST(AdminText, JsonHasRowsTextOrError) {
   AdminAnswer answer = AdminAnswer::done("No players.");
   EXPECT_EQ(answerJson(answer), R"({"text":"No players."})");
   answer.is_list = true;

@@ -23,7 +23,7 @@ std::string complaintAbout(const Words& words) {
   return "";
 }
 
-TEST(AdminCommands, HaveNamesOfTheirOwnAndArgumentsThatCanBeTyped) {
+TEST(AdminCommands, HaveUniqueNamesAndParsableArguments) {
   std::set<std::string> names;
   for (const AdminCommand& command : adminCommands()) {
     EXPECT_TRUE(names.insert(command.name).second) << command.name;
@@ -40,21 +40,21 @@ TEST(AdminCommands, HaveNamesOfTheirOwnAndArgumentsThatCanBeTyped) {
   EXPECT_EQ(findAdminCommand("banana"), nullptr);
 }
 
-TEST(AdminRequest, TakesTheRestOfALineForAText) {
+TEST(AdminRequest, TextArgumentTakesTheRestOfTheLine) {
   EXPECT_EQ(argumentsOf({"say", "the", "server", "ends"}), (Arguments{{"text", "the server ends"}}));
   EXPECT_EQ(argumentsOf({"kick", "Ann"}), (Arguments{{"player", "Ann"}}));
   EXPECT_EQ(argumentsOf({"kick", "Ann", "too", "loud"}),
             (Arguments{{"player", "Ann"}, {"reason", "too loud"}}));
 }
 
-TEST(AdminRequest, SkipsASpanThatIsLeftOut) {
+TEST(AdminRequest, SpanArgumentMayBeOmitted) {
   EXPECT_EQ(argumentsOf({"ban", "Ann", "2h", "spam"}),
             (Arguments{{"who", "Ann"}, {"for", "2h"}, {"reason", "spam"}}));
   EXPECT_EQ(argumentsOf({"ban", "Ann", "spam"}), (Arguments{{"who", "Ann"}, {"reason", "spam"}}));
   EXPECT_EQ(argumentsOf({"drain"}), Arguments());
 }
 
-TEST(AdminRequest, TakesNamedArgumentsAnywhere) {
+TEST(AdminRequest, NamedArgumentsMayAppearAnywhere) {
   EXPECT_EQ(argumentsOf({"scores", "--room", "one", "keys", "3"}),
             (Arguments{{"room", "one"}, {"table", "keys"}, {"count", "3"}}));
   EXPECT_EQ(argumentsOf({"scores", "keys", "--game=a=b"}), (Arguments{{"table", "keys"}, {"game", "a=b"}}));
@@ -67,13 +67,13 @@ TEST(AdminRequest, TakesNamedArgumentsAnywhere) {
       << "of commands that have none it is a word";
 }
 
-TEST(AdminRequest, TakesChoicesWithDashes) {
+TEST(AdminRequest, ChoicesMayHaveDashes) {
   EXPECT_EQ(argumentsOf({"restart", "--in", "60s"}), (Arguments{{"when", "in"}, {"span", "60s"}}));
   EXPECT_EQ(argumentsOf({"restart", "at-round-end"}), (Arguments{{"when", "at-round-end"}}));
   EXPECT_EQ(argumentsOf({"vote", "kick", "Ann"}), (Arguments{{"what", "kick"}, {"player", "Ann"}}));
 }
 
-TEST(AdminRequest, SaysWhatIsWrong) {
+TEST(AdminRequest, InvalidRequestsGetAClearMessage) {
   EXPECT_EQ(complaintAbout({}), "A command is missing.");
   EXPECT_EQ(complaintAbout({"kik"}), "There is no command \"kik\"; did you mean \"kick\"?");
   EXPECT_EQ(complaintAbout({"kick"}), "Usage: kick PLAYER [REASON]");
@@ -93,7 +93,7 @@ TEST(AdminRequest, ReadsArgumentsByName) {
   EXPECT_THROW(readAdminRequest("ban", {}), AdminUsageError);
 }
 
-TEST(AdminRequest, PasswordsAreNotInWhatIsLogged) {
+TEST(AdminRequest, PasswordsAreRedactedInTheLog) {
   EXPECT_EQ(readAdminRequest({"password", "hunter2"}).redacted(), "password ***");
   EXPECT_EQ(readAdminRequest({"admin", "hunter2"}).redacted(), "admin ***");
   EXPECT_EQ(readAdminRequest({"kick", "Ann"}).redacted(), "kick \"Ann\"");

@@ -15,14 +15,14 @@ TEST(TimeSpan, ReadsNumbersWithUnits) {
   EXPECT_EQ(readTimeSpan("1w"), readTimeSpan("7d"));
 }
 
-TEST(TimeSpan, RefusesWhatIsNone) {
+TEST(TimeSpan, RefusesInvalidSpans) {
   for (const char* text : {"", "m", "30", "-1m", "0m", "1.5h", "30 m", "30mm", "m30", "99999999999999999999s",
                            "9223372036854775807w", "4000d", "+3m"})
     EXPECT_FALSE(readTimeSpan(text)) << text;
   EXPECT_EQ(readTimeSpan("3653d"), std::optional(kMaxTimeSpan));
 }
 
-TEST(TimeSpan, IsWrittenInTheLargestUnitInWhichItIsWhole) {
+TEST(TimeSpan, IsWrittenInTheLargestWholeUnit) {
   EXPECT_EQ(timeSpanText(90s), "90s");
   EXPECT_EQ(timeSpanText(30min), "30m");
   EXPECT_EQ(timeSpanText(48h), "2d");

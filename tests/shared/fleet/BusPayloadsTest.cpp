@@ -60,7 +60,7 @@ std::string with(std::string payload, const std::string& name, const std::string
   return payload.replace(begin, end - begin, value);
 }
 
-TEST(BusPayloads, CrossWhole) {
+TEST(BusPayloads, SurviveTheRoundTrip) {
   EXPECT_EQ(Presence::parse(fullPresence().payload()), fullPresence());
   EXPECT_EQ(GameResult::parse(fullResult().payload()), fullResult());
   Presence least;
@@ -71,7 +71,7 @@ TEST(BusPayloads, CrossWhole) {
   EXPECT_EQ(fullResult().messageId(), "0123456789abcdef0123456789abcdef-4000000000-255");
 }
 
-TEST(BusPayloads, TheLongestFits) {
+TEST(BusPayloads, LongestPresenceFitsByDroppingRooms) {
   Presence presence = fullPresence();
   presence.id = std::string(kMaxServerId, 'x');
   presence.name = presence.game = std::string(Presence::kMaxName, '"');
@@ -90,7 +90,7 @@ TEST(BusPayloads, TheLongestFits) {
   EXPECT_GT(roomsText(read->rooms).size() + 40, kMaxRoomsText) << "and not one fewer";
 }
 
-TEST(BusPayloads, ARoomWhoseGameHasNoNameToBeWrittenIsLeftOut) {
+TEST(BusPayloads, RoomWithAnUnwritableGameNameIsDropped) {
   Presence presence = fullPresence();
   presence.rooms = {{"one", "two words", 0, 1}, {"two", "", 0, 1}, {"three", "tron", 1, 2}};
   const auto read = Presence::parse(presence.payload());
@@ -98,7 +98,7 @@ TEST(BusPayloads, ARoomWhoseGameHasNoNameToBeWrittenIsLeftOut) {
   EXPECT_EQ(read->rooms, (std::vector<PresenceRoom>{{"three", "tron", 1, 2}}));
 }
 
-TEST(BusPayloads, RoomsOfAnotherSpellingAreRefused) {
+TEST(BusPayloads, MalformedRoomListsAreRefused) {
   const std::string good = fullPresence().payload();
   EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"\""))) << "none";
   EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"a=b:0/0\"")));
@@ -140,7 +140,7 @@ struct Refused {
   std::vector<const char*> values;
 };
 
-TEST(BusPayloads, WhatNoServerWritesIsRefused) {
+TEST(BusPayloads, InvalidFieldValuesAreRefused) {
   const std::string good = fullPresence().payload();
   const Refused bad_presences[] = {
       {"v", {"2"}},
@@ -174,7 +174,7 @@ TEST(BusPayloads, WhatNoServerWritesIsRefused) {
   }
 }
 
-TEST(BusPayloads, MissingRepeatedAndNestedMembersAreRefusedUnknownOnesAreNot) {
+TEST(BusPayloads, MissingRepeatedAndNestedMembersAreRefused) {
   const std::string good = fullPresence().payload();
   const std::string inside = good.substr(1);
   EXPECT_TRUE(Presence::parse("{\"region\":\"eu\",\"weight\":1.5,\"next\":null," + inside));
@@ -191,7 +191,7 @@ TEST(BusPayloads, MissingRepeatedAndNestedMembersAreRefusedUnknownOnesAreNot) {
   }
 }
 
-TEST(BusPayloads, EveryTruncationAndEveryFlippedBitIsRefusedOrLegal) {
+TEST(BusPayloads, TruncatedAndFlippedPayloadsAreRefusedOrValid) {
   for (const std::string& good : {fullPresence().payload(), fullResult().payload()}) {
     for (std::size_t size = 0; size < good.size(); ++size) {
       EXPECT_FALSE(Presence::parse(good.substr(0, size)));
@@ -223,7 +223,7 @@ TEST(BusPayloads, RandomBytesAndDeepNestingAreRefused) {
   EXPECT_FALSE(Presence::parse(deep));
 }
 
-TEST(ServerId, IsOneWordOfASubject) {
+TEST(ServerId, IsOneTokenOfABusSubject) {
   EXPECT_TRUE(isServerId("a"));
   EXPECT_TRUE(isServerId("berlin-1-9876"));
   for (const std::string bad : {"", "-a", "A", "a.b", "a*", ">", "a b", "\xc3\xa4"})

@@ -66,7 +66,7 @@ class Elementary : public testing::TestWithParam<Function> {};
 INSTANTIATE_TEST_SUITE_P(All, Elementary, testing::ValuesIn(kFunctions),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST_P(Elementary, IsWithinOneUnitInTheLastPlace) {
+TEST_P(Elementary, IsWithinOneUlp) {
   const Function& f = GetParam();
   SplitMix64 random(1);
   double worst = 0, worst_at = 0;
@@ -145,7 +145,7 @@ TEST_P(Elementary, IsWithinOneUnitInTheLastPlace) {
   EXPECT_LE(worst, 1.0) << f.name << " at " << worst_at;
 }
 
-TEST(ElementaryFunctions, SineAndCosineAreExactNextToTheirZeros) {
+TEST(ElementaryFunctions, SineAndCosineAreAccurateNearTheirZeros) {
   // The doubles nearest to multiples of π/2, among them the nearest of all.
   SplitMix64 random(2);
   double worst = 0;
@@ -196,7 +196,7 @@ TEST(ElementaryFunctions, SineAndCosineAreExactNextToTheirZeros) {
   EXPECT_LE(worst, 1.0);
 }
 
-TEST(ElementaryFunctions, Atan2IsWithinOneUnitInTheLastPlace) {
+TEST(ElementaryFunctions, Atan2IsWithinOneUlp) {
   SplitMix64 random(3);
   double worst = 0, worst_x = 0, worst_y = 0;
   const auto check = [&](double y, double x) {
@@ -239,7 +239,7 @@ void expectSame(double value, double expected, const char* what) {
 }
 #define EXPECT_SAME(value, expected) expectSame(value, expected, #value)
 
-TEST(ElementaryFunctions, DefineZerosInfinitiesAndNaN) {
+TEST(ElementaryFunctions, SpecialValuesFollowTheCStandard) {
   for (const Function& f : kFunctions) EXPECT_TRUE(std::isnan(f.own(kNaN))) << f.name;
   for (const auto odd :
        {math::expm1, math::log1p, math::sin, math::tanh, math::sinh, math::atan, math::asin}) {
@@ -283,7 +283,7 @@ TEST(ElementaryFunctions, DefineZerosInfinitiesAndNaN) {
 }
 
 // A hash of a million results. It must not depend on compiler or optimization level.
-TEST(ElementaryFunctions, AreTheSameBitsEverywhere) {
+TEST(ElementaryFunctions, HashIsTheSameOnEveryPlatform) {
   SplitMix64 random(4);
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto add = [&](double value) {

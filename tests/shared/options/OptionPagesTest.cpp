@@ -81,7 +81,7 @@ TEST_F(OptionPagesTest, EachShownOptionIsInEachPage) {
   EXPECT_EQ(page("pdf"), "none");
 }
 
-TEST_F(OptionPagesTest, ThePageForManHasDefaultsVariablesAndTheEndOfHelp) {
+TEST_F(OptionPagesTest, ManPageHasDefaultsVariablesAndNotes) {
   const std::string text = page("man");
   EXPECT_NE(text.find(".TP\n\\fB\\-\\-port\\fR=\\fIVALUE\\fR\n"
                       "Port: 'any' [free] one\\eway. Default: 7. Variable: \\fBTHING_PORT\\fR.\n"),
@@ -94,7 +94,7 @@ TEST_F(OptionPagesTest, ThePageForManHasDefaultsVariablesAndTheEndOfHelp) {
       << text;
 }
 
-TEST_F(OptionPagesTest, CompletionsKnowWordsAndFiles) {
+TEST_F(OptionPagesTest, CompletionsOfferWordsAndFiles) {
   EXPECT_NE(
       page("bash").find("--players) mapfile -t COMPREPLY < <(compgen -W 'together first' -- \"$word\")"),
       std::string::npos);
@@ -109,7 +109,7 @@ TEST_F(OptionPagesTest, CompletionsKnowWordsAndFiles) {
 }
 
 // The real bash runs the completion.
-TEST_F(OptionPagesTest, BashCompletes) {
+TEST_F(OptionPagesTest, BashRunsTheCompletion) {
   const test::TempFolder base;
   std::ofstream(base / "completion") << page("bash");
   std::ofstream(base / "try")
@@ -124,7 +124,7 @@ TEST_F(OptionPagesTest, BashCompletes) {
             "--port --players --password\nfirst\ntogether\ntogether first\n\n\n");
 }
 
-TEST_F(OptionPagesTest, EachLineOfTheExampleIsADefault) {
+TEST_F(OptionPagesTest, ExampleConfigListsTheDefaults) {
   const std::string text = page("config");
   EXPECT_EQ(linesWith(text, "#port"), std::vector<std::string>{"#port = 7"});
   EXPECT_EQ(linesWith(text, "#password"), std::vector<std::string>{"#password ="});
@@ -137,7 +137,7 @@ TEST_F(OptionPagesTest, EachLineOfTheExampleIsADefault) {
   }
 }
 
-TEST_F(OptionPagesTest, ALineForTheFileIsQuotedWhereItMustBe) {
+TEST_F(OptionPagesTest, ConfigLineIsQuotedWhereNeeded) {
   log = "/tmp/a b";
   EXPECT_EQ(configLine(options[3]), "log = \"/tmp/a b\"");
   log = "a\"#b";

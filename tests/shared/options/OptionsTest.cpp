@@ -68,7 +68,7 @@ class OptionsTest : public testing::Test {
   bool from_environment = false;
 };
 
-TEST_F(OptionsTest, AVariableCanGiveAnArgument) {
+TEST_F(OptionsTest, EnvironmentVariableCanSupplyAnArgument) {
   const std::vector<Option> options{
       {.name = "server", .target = &name, .help = "", .environment = "OPTIONS_TEST_PORT"}};
   const std::vector<const char*> alone{"dfthing"};
@@ -88,7 +88,7 @@ TEST_F(OptionsTest, AVariableCanGiveAnArgument) {
   }
 }
 
-TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
+TEST_F(OptionsTest, JoiningOptionMayBeGivenSeveralTimes) {
   EXPECT_EQ(parse({"--thing", "a=1", "--thing=b,c"}), "");
   EXPECT_EQ(things, "a=1 b,c");
   things.clear();
@@ -99,7 +99,7 @@ TEST_F(OptionsTest, OneThatJoinsMayBeGivenSeveralTimes) {
   EXPECT_EQ(things, "z") << "the command line counts more than the file";
 }
 
-TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
+TEST_F(OptionsTest, UnknownOptionSuggestsTheNearestOne) {
   EXPECT_EQ(parse({"--max-player", "3"}),
             said("there is no option --max-player; did you mean --max-players?"));
   EXPECT_EQ(result, Parsed::kUsageError);
@@ -109,20 +109,20 @@ TEST_F(OptionsTest, AnUnknownOptionIsNamedWithTheNearestOne) {
   EXPECT_EQ(parse({"what"}), said("unexpected argument \"what\""));
 }
 
-TEST_F(OptionsTest, AProgramEndsWith2AfterWrongUsageAndWith0AfterHelp) {
+TEST_F(OptionsTest, UsageErrorExitsWith2HelpWith0) {
   EXPECT_EQ(exitCodeOf(Parsed::kRun), std::nullopt);
   EXPECT_EQ(exitCodeOf(Parsed::kDone), 0);
   EXPECT_EQ(exitCodeOf(Parsed::kUsageError), 2);
 }
 
-TEST_F(OptionsTest, AValueOutOfRangeIsNamedWithItsOption) {
+TEST_F(OptionsTest, OutOfRangeValueErrorNamesItsOption) {
   EXPECT_EQ(parse({"--port", "70000"}), said("--port: Value 70000 not in range 0 to 65535"));
   setenv("OPTIONS_TEST_PORT", "70000", 1);
   EXPECT_EQ(parse({}), said("OPTIONS_TEST_PORT: Value 70000 not in range 0 to 65535"));
   EXPECT_EQ(result, Parsed::kUsageError);
 }
 
-TEST_F(OptionsTest, AFileIsReadLineByLine) {
+TEST_F(OptionsTest, ConfigFileIsReadLineByLine) {
   EXPECT_EQ(parseFile("# a comment\n\n; another\r\n port= 70 # seventy\nmax-players =\"3\"\n"
                       "server-name = 'a \"b\" # c' # d\r\nquiet\n"),
             "");
@@ -137,7 +137,7 @@ TEST_F(OptionsTest, AFileIsReadLineByLine) {
   EXPECT_FALSE(quiet);
 }
 
-TEST_F(OptionsTest, EachWrongLineOfTheFileIsNamed) {
+TEST_F(OptionsTest, EveryWrongConfigLineIsReported) {
   const std::string file = config.string();
   EXPECT_EQ(parseFile("prot = 1\nmax-players = 3\nport = 70000\n\nquite\n"),
             said(file + ":1: there is no option \"prot\"; did you mean port?\ndfthing: " + file +
@@ -146,14 +146,14 @@ TEST_F(OptionsTest, EachWrongLineOfTheFileIsNamed) {
   EXPECT_EQ(result, Parsed::kUsageError);
 }
 
-TEST_F(OptionsTest, ATextWithoutAValueIsEmpty) {
+TEST_F(OptionsTest, TextSettingWithoutValueIsEmpty) {
   name = "before";
   EXPECT_EQ(parseFile("server-name =\n"), "");
   EXPECT_EQ(name, "");
   EXPECT_NE(parseFile("port =\n"), "") << "a number is not";
 }
 
-TEST_F(OptionsTest, APageIsPrintedWhateverElseIsWanted) {
+TEST_F(OptionsTest, OptionPageIsPrintedInsteadOfRunning) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(parse({"--option-page", "bash"}), "");
   EXPECT_EQ(result, Parsed::kDone);
@@ -161,7 +161,7 @@ TEST_F(OptionsTest, APageIsPrintedWhateverElseIsWanted) {
   EXPECT_EQ(parse({"--option-page", "pdf"}), said("there is no page \"pdf\""));
 }
 
-TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
+TEST_F(OptionsTest, CommandLineAndEnvironmentOverrideTheFile) {
   setenv("OPTIONS_TEST_PORT", "71", 1);
   EXPECT_EQ(parseFile("port = 70\nmax-players = 3\nserver-name = x\n", {"--max-players", "4"}), "");
   EXPECT_EQ(port, 71);
@@ -169,7 +169,7 @@ TEST_F(OptionsTest, CommandLineAndEnvironmentCountMoreThanTheFile) {
   EXPECT_EQ(name, "x");
 }
 
-TEST_F(OptionsTest, WhetherTheEnvironmentGaveAValueIsKnown) {
+TEST_F(OptionsTest, EnvironmentOriginOfAValueIsReported) {
   EXPECT_EQ(parseFile("port = 70\n"), "");
   EXPECT_FALSE(from_environment);
   setenv("OPTIONS_TEST_PORT", "71", 1);
@@ -179,7 +179,7 @@ TEST_F(OptionsTest, WhetherTheEnvironmentGaveAValueIsKnown) {
   EXPECT_FALSE(from_environment);
 }
 
-TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {
+TEST_F(OptionsTest, ConfigErrorNamesFileAndLine) {
   EXPECT_EQ(parseFile("port = 70\n\nmax-player = 3\n"),
             ofLine(3, "there is no option \"max-player\"; did you mean max-players?"));
   EXPECT_EQ(result, Parsed::kUsageError);
@@ -189,7 +189,7 @@ TEST_F(OptionsTest, AnErrorInAFileHasItsFileAndLine) {
   EXPECT_EQ(parseFile("server-name = \"x\n"), ofLine(1, "missing closing quote, or text after it"));
 }
 
-TEST_F(OptionsTest, APipeIsNotWaitedFor) {
+TEST_F(OptionsTest, ConfigPipeIsRefusedWithoutBlocking) {
   ASSERT_EQ(mkfifo(config.c_str(), 0600), 0);
   EXPECT_EQ(parse({"--config", config}), said("--config: " + config.string() + " is not a regular file"));
   const std::string none = base / "none";

@@ -5,7 +5,7 @@
 namespace naiad {
 namespace {
 
-TEST(UnknownVariables, AreNamedWithTheNearestOne) {
+TEST(UnknownVariables, AreReportedWithTheNearestName) {
   const char* const environment[] = {"PATH=/bin",   "NAIAD_PORT=1",  "NAIAD_PROT=1", "NAIAD_SOMETHING_ELSE=",
                                      "NAIAD_LOG=x", "XNAIAD_PROT=1", nullptr};
   EXPECT_EQ(complainOfUnknownVariables(environment, "NAIAD_", {"NAIAD_PORT", "NAIAD_LOG"}),

@@ -28,7 +28,7 @@ class ClientLogTest : public testing::Test {
   ClientLog::Time now{1h};
 };
 
-TEST_F(ClientLogTest, TheAddressComesFirstAndASentenceIsQuoted) {
+TEST_F(ClientLogTest, AddressComesFirstAndRefusalIsQuoted) {
   log.logNews("192.0.2.1:4000", "\"Ann\" joined", now);
   log.logRefusal("[2001:db8::1]:4000", "This server plays \"maze\".", now);
   const std::vector<std::string> expected{R"(192.0.2.1:4000 "Ann" joined)",
@@ -36,7 +36,7 @@ TEST_F(ClientLogTest, TheAddressComesFirstAndASentenceIsQuoted) {
   EXPECT_EQ(lines, expected);
 }
 
-TEST_F(ClientLogTest, AddressAndSentenceAreFactsToo) {
+TEST_F(ClientLogTest, AddressAndMessageAreFields) {
   LogEvent::Fields facts;
   ClientLog keeper([&facts](const LogEvent& event) { facts = event.fields; });
   keeper.logNews("192.0.2.1:4000", {"joined", "\"Ann\" joined", {{"player", "Ann"}}}, now);
@@ -45,7 +45,7 @@ TEST_F(ClientLogTest, AddressAndSentenceAreFactsToo) {
   EXPECT_EQ(facts, (LogEvent::Fields{{"address", "192.0.2.1:4000"}, {"sentence", "No."}}));
 }
 
-TEST_F(ClientLogTest, RefusalsOfOnePrefixAreALineASecond) {
+TEST_F(ClientLogTest, RefusalsPerPrefixLogOneLinePerSecond) {
   for (int i = 0; i < 10'000; ++i) {
     log.logRefusal("192.0.2.1:" + std::to_string(1024 + i), "No.", now);
     now += 1ms;
@@ -56,7 +56,7 @@ TEST_F(ClientLogTest, RefusalsOfOnePrefixAreALineASecond) {
   EXPECT_EQ(lines.back(), "9990 more refusals were not logged");
 }
 
-TEST_F(ClientLogTest, RefusalsInAllAreTwentyLinesASecond) {
+TEST_F(ClientLogTest, TotalRefusalsLogTwentyLinesPerSecond) {
   for (int i = 0; i < 40'000; ++i) {
     log.logRefusal(address(i % 4000), "No.", now);
     now += 250us;
@@ -67,7 +67,7 @@ TEST_F(ClientLogTest, RefusalsInAllAreTwentyLinesASecond) {
   EXPECT_LE(count("not logged"), 2u);
 }
 
-TEST_F(ClientLogTest, WhoComesBackAgainAndAgainWritesALineASecond) {
+TEST_F(ClientLogTest, RepeatedReturnsLogOneLinePerSecond) {
   for (int i = 0; i < 60'000; ++i) {
     log.logNews("192.0.2.1:4000", "\"Ann\" is back", now);
     now += 1ms;
@@ -78,7 +78,7 @@ TEST_F(ClientLogTest, WhoComesBackAgainAndAgainWritesALineASecond) {
   EXPECT_EQ(count("Bob"), 1u) << "others have lines of their own";
 }
 
-TEST_F(ClientLogTest, AClassMayJoinAndLeaveAtOnce) {
+TEST_F(ClientLogTest, JoinsAndLeavesOfAClassAreAllLogged) {
   for (int i = 0; i < 64; ++i) log.logNews("192.0.2.1:4000", "joined", now);
   for (int i = 0; i < 64; ++i) log.logNews("192.0.2.1:4000", "left", now);
   EXPECT_EQ(lines.size(), 128u);

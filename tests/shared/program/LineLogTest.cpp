@@ -107,7 +107,7 @@ class StderrPipe {
   int m_ends[2] = {-1, -1};
 };
 
-TEST_F(LineLogTest, WritesLinesWithTheTimeForItsOwnerAndGroup) {
+TEST_F(LineLogTest, LinesHaveTimestampsAndFileIsNotWorldReadable) {
   LineLog log(path);
   log("first");
   ASSERT_TRUE(comes("first\n"));
@@ -117,7 +117,7 @@ TEST_F(LineLogTest, WritesLinesWithTheTimeForItsOwnerAndGroup) {
   EXPECT_EQ(facts.st_mode & 0137, 0u) << std::oct << facts.st_mode;
 }
 
-TEST_F(LineLogTest, EndsWhenAllIsWritten) {
+TEST_F(LineLogTest, DestructorWritesAllLines) {
   {
     LineLog log(path);
     log("last words");
@@ -125,7 +125,7 @@ TEST_F(LineLogTest, EndsWhenAllIsWritten) {
   EXPECT_NE(read().find("last words\n"), std::string::npos);
 }
 
-TEST_F(LineLogTest, AReaderThatStallsHoldsUpNobodyAndWhatIsLostIsSaid) {
+TEST_F(LineLogTest, StalledReaderDoesNotBlockAndLossIsReported) {
   StderrPipe pipe;
   LineLog log("");
   const std::string line(1000, 'x');
@@ -140,7 +140,7 @@ TEST_F(LineLogTest, AReaderThatStallsHoldsUpNobodyAndWhatIsLostIsSaid) {
   EXPECT_EQ(linesLost(said), kLines - kept);
 }
 
-TEST_F(LineLogTest, AReaderThatGoesEndsNothing) {
+TEST_F(LineLogTest, ClosedReaderDoesNotEndTheProgram) {
   StderrPipe pipe;
   LineLog log("");
   log("first");
@@ -149,7 +149,7 @@ TEST_F(LineLogTest, AReaderThatGoesEndsNothing) {
   for (int i = 0; i < 100; ++i) log("nobody reads this");
 }
 
-TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
+TEST_F(LineLogTest, LogContinuesAfterAFullDiskAndReportsLoss) {
   LineLog log(path);
   log("before");
   ASSERT_TRUE(comes("before\n"));
@@ -171,7 +171,7 @@ TEST_F(LineLogTest, AfterAFullDiskItGoesOnAndSaysWhatWasLost) {
   EXPECT_TRUE(comes(" after\n"));
 }
 
-TEST_F(LineLogTest, WithoutAThreadWhatWouldWaitIsLostAndCounted) {
+TEST_F(LineLogTest, ThreadlessLogDropsAndCountsInsteadOfBlocking) {
   StderrPipe pipe;
   LineLog log("", LineLog::Writer::kCaller);
   const std::string line(1500, 'x');
@@ -183,7 +183,7 @@ TEST_F(LineLogTest, WithoutAThreadWhatWouldWaitIsLostAndCounted) {
   EXPECT_EQ(linesLost(said), 100 - std::count(kept.begin(), kept.end(), '\n')) << said;
 }
 
-TEST_F(LineLogTest, OpensItsFileAgainWhenAsked) {
+TEST_F(LineLogTest, ReopensItsFileOnRequest) {
   LineLog log(path);
   log("first");
   ASSERT_TRUE(comes("first\n"));
@@ -224,7 +224,7 @@ TEST_F(LineLogTest, APipeOrAFolderIsRefused) {
   EXPECT_THROW(LineLog((base / "none" / "log").string()), std::runtime_error);
 }
 
-TEST_F(LineLogTest, OneCallIsOneLine) {
+TEST_F(LineLogTest, OneCallWritesOneLine) {
   LineLog log(path);
   log("one\n2025-01-01 00:00:00 two\x1b[31m\r\xc2\x9b");
   ASSERT_TRUE(comes("one\\n2025-01-01 00:00:00 two\\x1b[31m\\x0d\\x9b\n")) << read();
@@ -236,7 +236,7 @@ TEST_F(LineLogTest, OneCallIsOneLine) {
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 3);
 }
 
-TEST(LogText, QuotesSayWhereATextEnds) {
+TEST(LogText, QuotesEscapeTheirContent) {
   EXPECT_EQ(inQuotes("Ann"), "\"Ann\"");
   EXPECT_EQ(inQuotes("a\" left"), R"("a\" left")");
   EXPECT_EQ(inQuotes("a\\"), R"("a\\")");

@@ -23,14 +23,14 @@ Json parse(const LogEvent& event, std::size_t most = kMost) {
   return Json::parse(jsonLine(event, most));
 }
 
-TEST(LogFormatTest, AnEventIsASentence) {
+TEST(LogFormatTest, EventIsFormattedAsText) {
   const LogEvent event{"joined", "192.0.2.1:4000 \"Ann\" joined", {{"player", "Ann"}}};
   EXPECT_EQ(formatEvent(event, LogFormat::kBare, kTime, kMost), "192.0.2.1:4000 \"Ann\" joined\n");
   const std::string line = formatEvent(event, LogFormat::kText, kTime, kMost);
   EXPECT_EQ(line.substr(std::string("2026-01-31 11:59:59").size()), " 192.0.2.1:4000 \"Ann\" joined\n");
 }
 
-TEST(LogFormatTest, TheSameEventIsAnObjectWithItsFacts) {
+TEST(LogFormatTest, EventIsFormattedAsJsonWithItsFields) {
   EXPECT_EQ(jsonLine({"joined", "192.0.2.1:4000 \"Ann\" joined", {{"address", "192.0.2.1:4000"}}}),
             R"({"time":"2026-01-31T11:59:59.007Z","level":"info","event":"joined",)"
             R"("text":"192.0.2.1:4000 \"Ann\" joined","address":"192.0.2.1:4000"})"
@@ -39,7 +39,7 @@ TEST(LogFormatTest, TheSameEventIsAnObjectWithItsFacts) {
   EXPECT_EQ(parse({LogEvent::Level::kWarning, "warning: x"}).at("level"), "warning");
 }
 
-TEST(LogFormatTest, WhateverTheBytesAreItIsOneLineOfValidJson) {
+TEST(LogFormatTest, AnyBytesGiveOneLineOfValidJson) {
   std::string all;
   for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
   const std::string line = jsonLine({"chat", all, {{"line", all}, {"player", "\"},{\"event\":\"joined"}}});
@@ -50,7 +50,7 @@ TEST(LogFormatTest, WhateverTheBytesAreItIsOneLineOfValidJson) {
   for (const char c : object.at("text").get<std::string>()) EXPECT_GE(static_cast<unsigned char>(c), 0x20);
 }
 
-TEST(LogFormatTest, ALongLineIsCutAndStaysAnObject) {
+TEST(LogFormatTest, LongLineIsTruncatedButStaysValidJson) {
   for (const std::string& piece : {std::string("x"), std::string("\""), std::string("\xe2\x82\xac")}) {
     std::string text;
     while (text.size() < 10'000) text += piece;

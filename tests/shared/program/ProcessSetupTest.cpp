@@ -21,7 +21,7 @@ class BrokenPipes : public testing::Test {
   struct sigaction m_before {};
 };
 
-TEST_F(BrokenPipes, AWriteFailsAndWhatIsStartedHasTheDefault) {
+TEST_F(BrokenPipes, WriteFailsButChildProcessesKeepTheDefault) {
   signal(SIGPIPE, SIG_DFL);
   surviveBrokenPipes();
   int ends[2];
@@ -34,7 +34,7 @@ TEST_F(BrokenPipes, AWriteFailsAndWhatIsStartedHasTheDefault) {
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGPIPE) << status;
 }
 
-TEST_F(BrokenPipes, AGamesOwnHandlerStays) {
+TEST_F(BrokenPipes, GameDefinedHandlerIsKept) {
   const auto handler = [](int) {};
   signal(SIGPIPE, handler);
   surviveBrokenPipes();

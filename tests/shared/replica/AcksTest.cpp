@@ -17,7 +17,7 @@ TEST(Acks, KnowNothingAtFirst) {
   EXPECT_FALSE(acks.has(0xFFFFFFFF));
 }
 
-TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusIWhateverComesTwice) {
+TEST(Acks, MaskBitsCountBackFromTheNewestIgnoringDuplicates) {
   for (const auto& [received, newest, mask] :
        {std::tuple{std::vector{1u, 2u, 5u, 4u}, 5u, 0b1101u}, {{1, 3, 3, 1}, 3, 0b10}}) {
     AckWindow acks;
@@ -27,7 +27,7 @@ TEST(Acks, BitIOfTheMaskIsNewestMinusOneMinusIWhateverComesTwice) {
   }
 }
 
-TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
+TEST(Acks, MatchASetOfTheLast65Numbers) {
   SplitMix64 rng(4);
   for (int run = 0; run < 50; ++run) {
     AckWindow acks;
@@ -51,7 +51,7 @@ TEST(Acks, AgreeWithASetOfTheLast65Numbers) {
   }
 }
 
-TEST(Acks, RememberAcrossTheWrap) {
+TEST(Acks, SurviveTheNumberWrap) {
   AckWindow acks;
   acks.newest = 0xFFFFFFFE;
   acks.mask = 1;
@@ -66,7 +66,7 @@ TEST(Acks, RememberAcrossTheWrap) {
   EXPECT_FALSE(isNewer(0xFFFFFFFF, 2));
 }
 
-TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
+TEST(Acks, JumpOfOneWindowKeepsTheLastBit) {
   AckWindow acks;
   acks.addReceived(1);
   acks.addReceived(65);
@@ -76,7 +76,7 @@ TEST(Acks, AJumpOfTheWholeWindowKeepsTheLastBit) {
   EXPECT_TRUE(acks.has(65));
 }
 
-TEST(Acks, TheFirstMayBeAny) {
+TEST(Acks, FirstNumberMayBeAnything) {
   for (const std::uint32_t first : {1u, 65u, 0x80000000u, 0xFFFFFFFFu}) {
     AckWindow acks;
     acks.addReceived(first);

@@ -78,7 +78,7 @@ TEST(Bits, ExpGolombOfEveryOrderSurvivesTheRoundTrip) {
   }
 }
 
-TEST(Bits, ExpGolombHasTheLengthsOfTheStandard) {
+TEST(Bits, ExpGolombLengthsMatchTheStandard) {
   const auto length = [](std::uint64_t value, int order) {
     BitWriter out;
     out.golomb(value, order);
@@ -128,7 +128,7 @@ TEST(Bits, AppendContinuesAtAnyBit) {
   }
 }
 
-TEST(Bits, AClearedWriterIsAsNew) {
+TEST(Bits, ClearedWriterIsLikeNew) {
   BitWriter out;
   out.bits(0x1FFF, 13);
   out.clear();
@@ -137,7 +137,7 @@ TEST(Bits, AClearedWriterIsAsNew) {
   EXPECT_EQ(out.bytes(), "\x02");
 }
 
-TEST(Bits, AReaderFailsWhereBitsAreMissing) {
+TEST(Bits, ReaderFailsWhenBitsAreMissing) {
   const std::string bytes = "\xFF\xFF";
   BitReader in(bytes);
   EXPECT_EQ(in.bits(15), 0x7FFFu);
@@ -183,7 +183,7 @@ TEST(Bits, ExpGolombBeyondItsLimitFails) {
   }
 }
 
-TEST(Bits, ExpGolombOfTooManyZerosFails) {
+TEST(Bits, ExpGolombWithTooManyZerosFails) {
   for (int order = 0; order < 16; ++order) {
     const std::string nothing(30, '\0');
     BitReader in(nothing);
@@ -192,7 +192,7 @@ TEST(Bits, ExpGolombOfTooManyZerosFails) {
   }
 }
 
-TEST(Bits, TheEndIsZerosThatFillTheLastByte) {
+TEST(Bits, EndAllowsOnlyZeroPaddingInTheLastByte) {
   const auto endsAfter = [](int count, const std::string& bytes) {
     BitReader in(bytes);
     in.bits(count);

@@ -16,7 +16,7 @@ std::uint64_t sumOf(std::uint32_t id, std::uint8_t generation, const ObjectState
          bodySum(id, state.body);
 }
 
-TEST(Checksum, AnyBaseOfAPathGivesTheSameSum) {
+TEST(Checksum, SumDoesNotDependOnTheMotionsBaseTick) {
   RandomRecords random(1);
   for (int i = 0; i < 2000; ++i) {
     const auto tick = static_cast<std::uint32_t>(random.rng().below(1u << 30));
@@ -29,7 +29,7 @@ TEST(Checksum, AnyBaseOfAPathGivesTheSameSum) {
   }
 }
 
-TEST(Checksum, EveryFieldMatters) {
+TEST(Checksum, EveryFieldChangesTheSum) {
   ObjectState state{7,
                     {100, {df::fromCells(10), 5}, {3, 4}, {1, 2}},
                     {{{{0, 0, U'@', df::CYAN}, {256, 0, U'>', df::CYAN}}}, 2},
@@ -108,7 +108,7 @@ TEST(Checksum, EveryFieldMatters) {
   EXPECT_EQ(sums.size(), std::size(changes) + 2);
 }
 
-TEST(Checksum, AnyTickAtWhichALookIsSentGivesTheSameSum) {
+TEST(Checksum, SumDoesNotDependOnTheLooksSendTick) {
   RandomRecords random(3);
   for (int i = 0; i < 2000; ++i) {
     const Look look = random.look();
@@ -118,7 +118,7 @@ TEST(Checksum, AnyTickAtWhichALookIsSentGivesTheSameSum) {
   }
 }
 
-TEST(Checksum, IdsMatterInEveryGroup) {
+TEST(Checksum, IdsChangeTheSumOfEveryGroup) {
   const ObjectState state;
   EXPECT_NE(lifeSum(1, 0, 0), lifeSum(2, 0, 0));
   EXPECT_NE(motionSum(1, state.motion), motionSum(2, state.motion));
@@ -127,7 +127,7 @@ TEST(Checksum, IdsMatterInEveryGroup) {
 }
 
 // Otherwise an exchange of groups between two objects would go unnoticed.
-TEST(Checksum, ObjectsThatExchangeAGroupChangeTheSum) {
+TEST(Checksum, SwappingGroupsBetweenObjectsChangesTheSum) {
   RandomRecords random(2);
   for (int i = 0; i < 500; ++i) {
     ObjectState a = random.state(9);

@@ -34,7 +34,7 @@ df::ControlTable longestTable() {
   return table;
 }
 
-TEST(ControlCodec, TablesAndStatesComeBackAsTheyWere) {
+TEST(ControlCodec, TablesAndStatesSurviveTheRoundTrip) {
   SplitMix64 rng(1);
   for (int i = 0; i < 5000; ++i) {
     const df::ControlTable table = randomTable(rng);
@@ -50,7 +50,7 @@ TEST(ControlCodec, TablesAndStatesComeBackAsTheyWere) {
   }
 }
 
-TEST(ControlCodec, TheLongestFitTheirLimits) {
+TEST(ControlCodec, LongestTableAndRecordFitTheirLimits) {
   EXPECT_LE(written(longestTable()).size(), kMaxControlTableBytes);
   ControlRecord record;
   record.slot = (1u << 20) - 1;
@@ -65,7 +65,7 @@ TEST(ControlCodec, TheLongestFitTheirLimits) {
   EXPECT_EQ(readControlRecord(written(record), 0), record);
 }
 
-TEST(ControlCodec, AMovingShipCostsSomeFortyBytes) {
+TEST(ControlCodec, MovingShipTakesAtMost44Bytes) {
   ControlRecord record;
   record.slot = 40;
   record.generation = 1;
@@ -88,7 +88,7 @@ TEST(ControlCodec, TruncatedAndOverlongBytesAreRefused) {
   }
 }
 
-TEST(ControlCodec, WhateverIsReadIsValidAndIsWrittenTheSame) {
+TEST(ControlCodec, AcceptedTablesAreValidAndRoundTrip) {
   SplitMix64 rng(3);
   int accepted = 0;
   for (int i = 0; i < 20000; ++i) {

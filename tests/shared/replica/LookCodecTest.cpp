@@ -92,7 +92,7 @@ TEST(LookCodec, ANameStandsForItsSequence) {
   EXPECT_EQ(met.look, look);
 }
 
-TEST(LookCodec, SingleCharactersAndNothingNeedNoName) {
+TEST(LookCodec, SingleAndEmptyLooksNeedNoName) {
   for (const LookForm form : {LookForm{}, LookForm{LookForm::kNamed, 3}, LookForm{LookForm::kDefined, 3}}) {
     for (const Look& look : {Look{}, Look{{{{0, 0, U'@', df::CYAN}}}, 2}}) {
       const Met met = read(write(look, form));
@@ -107,7 +107,7 @@ TEST(LookCodec, SingleCharactersAndNothingNeedNoName) {
   EXPECT_FALSE(isSingleCharacter({}));
 }
 
-TEST(LookCodec, WordsAreShort) {
+TEST(LookCodec, WordsEncodeCompactly) {
   // Each letter after the first takes: plain, a different one, narrow, 7 bits.
   EXPECT_EQ(encodedBits(word("saucers").sequence) - encodedBits(word("saucer").sequence), 10u);
   EXPECT_EQ(encodedBits(word("xxxx").sequence) - encodedBits(word("xxx").sequence), 2u);
@@ -116,7 +116,7 @@ TEST(LookCodec, WordsAreShort) {
   EXPECT_EQ(one.bitCount(), 14u);
 }
 
-TEST(LookCodec, EncodedBitsAreWhatASpelledLookTakes) {
+TEST(LookCodec, EncodedBitsMatchTheWrittenLook) {
   RandomRecords random(2);
   for (int i = 0; i < 500; ++i) {
     const Look look = random.look();
@@ -130,7 +130,7 @@ TEST(LookCodec, EncodedBitsAreWhatASpelledLookTakes) {
   }
 }
 
-TEST(LookCodec, EveryDrawableCharacterAndNoOtherIsRead) {
+TEST(LookCodec, OnlyDrawableCharactersAreRead) {
   for (char32_t ch = 0; ch < 1u << 14; ++ch) {
     BitWriter out;
     writeCharacter(out, ch);
@@ -146,7 +146,7 @@ TEST(LookCodec, EveryDrawableCharacterAndNoOtherIsRead) {
   for (char32_t ch = 1u << 14; ch < 0x110000; ++ch) ASSERT_FALSE(df::isDrawable(ch));
 }
 
-TEST(LookCodec, GlyphsFartherThanAllowedAreRefused) {
+TEST(LookCodec, GlyphsBeyondTheOffsetLimitAreRefused) {
   const auto isRead = [](std::int32_t dx, std::int32_t dy) {
     return read(write({{{{0, 0, U'a', df::RED}, {dx, dy, U'b', df::RED}}}, 2})).whole;
   };
@@ -160,7 +160,7 @@ TEST(LookCodec, GlyphsFartherThanAllowedAreRefused) {
 }
 
 // Each glyph follows the last at the implied distance, so only the sum exceeds the limit.
-TEST(LookCodec, GlyphsThatWalkTooFarAreRefused) {
+TEST(LookCodec, GlyphsSummingBeyondTheOffsetLimitAreRefused) {
   const auto start = static_cast<std::int32_t>(kMaxGlyphOffset) - 256;
   Look look{{{{start, 0, U'a', df::RED}, {start + 256, 0, U'b', df::RED}}}, 2};
   EXPECT_TRUE(read(write(look)).whole);
@@ -168,7 +168,7 @@ TEST(LookCodec, GlyphsThatWalkTooFarAreRefused) {
   EXPECT_FALSE(read(write(look)).whole);
 }
 
-TEST(LookCodec, TheLargestAppearanceFitsAndALargerOneIsRefused) {
+TEST(LookCodec, LargestAppearanceFitsALargerOneIsRefused) {
   Look look{{Appearance(kMaxGlyphs, Glyph{0, 0, U'#', df::RED})}, 2};
   EXPECT_EQ(read(write(look)).look, look);
   BitWriter out = beginSpelled(true);
@@ -177,7 +177,7 @@ TEST(LookCodec, TheLargestAppearanceFitsAndALargerOneIsRefused) {
   EXPECT_FALSE(read(out.bytes()).whole);
 }
 
-TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
+TEST(LookCodec, ClaimedGlyphCountReservesLittleMemory) {
   BitWriter out = beginSpelled(true);
   out.golomb(kMaxGlyphs, 3);
   const Met met = read(out.bytes());
@@ -186,7 +186,7 @@ TEST(LookCodec, ACountThatIsOnlyClaimedCostsNothing) {
 }
 
 // The limits apply to the whole sequence, not to each appearance.
-TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
+TEST(LookCodec, AllFramesShareTheGlyphLimit) {
   const Appearance half(kMaxGlyphs / 2, Glyph{0, 0, U'#', df::RED});
   const auto bytes = [](const Appearance& a, const Appearance& b) {
     BitWriter out = beginSpelled(false);
@@ -211,7 +211,7 @@ TEST(LookCodec, FramesShareTheLimitOfGlyphs) {
   EXPECT_FALSE(read(bytes(half, more)).whole);
 }
 
-TEST(LookCodec, TheLongestSequenceFitsAndALongerOneIsRefused) {
+TEST(LookCodec, LongestSequenceFitsALongerOneIsRefused) {
   const auto isRead = [](std::size_t count) {
     BitWriter out = beginSpelled(false);
     out.golomb(count - 2, 3);
@@ -240,7 +240,7 @@ TEST(LookCodec, SelectorsSurviveTheRoundTripAtAnyTick) {
   }
 }
 
-TEST(LookCodec, SelectorsBeyondTheirRangeAreRefused) {
+TEST(LookCodec, OutOfRangeSelectorsAreRefused) {
   const auto isRead = [](auto write) {
     BitWriter out;
     out.flag(false);
@@ -276,7 +276,7 @@ TEST(LookCodec, SelectorsBeyondTheirRangeAreRefused) {
 }
 
 // A clock has only one valid age per tick, because an equal picture with another age would be another look.
-TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
+TEST(LookCodec, ClocksOlderThanOneCycleAreRefused) {
   const Appearance a{{256, 0, U'a', df::RED}};
   const Sequence three{a, {}, a};
   const auto isRead = [&](Selector::Kind kind, std::uint64_t age, bool named) {
@@ -301,7 +301,7 @@ TEST(LookCodec, ClocksOlderThanTheirRoundAreRefused) {
 }
 
 // A change of a body's spin takes: the name, the angle to a fraction of a frame, and the spin.
-TEST(LookCodec, AnotherTurningOfANamedSequenceIsShort) {
+TEST(LookCodec, SpinChangeOfANamedSequenceIsShort) {
   const Appearance a{{256, 0, U'a', df::RED}};
   BitWriter out;
   writeLook(out, {{a, {}, a, {}}, 2, Selector::turning(0, 0xABC00000, 20'000'000)}, {LookForm::kNamed, 7}, 0);

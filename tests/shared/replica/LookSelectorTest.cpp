@@ -7,7 +7,7 @@ namespace naiad {
 namespace {
 
 // Compares with a simple clock that counts ticks and turns the page.
-TEST(LookSelector, AClockTurnsThePageEverySoManyTicks) {
+TEST(LookSelector, ClockAdvancesTheFrameEveryInterval) {
   for (const std::uint32_t begin : {0u, 1000u, 0xFFFFFFF0u}) {  // tick numbers may wrap
     for (const bool loop : {true, false}) {
       for (const std::size_t frames : {2u, 3u, 256u}) {
@@ -24,7 +24,7 @@ TEST(LookSelector, AClockTurnsThePageEverySoManyTicks) {
   }
 }
 
-TEST(LookSelector, BeforeItsStartAClockThatGoesRoundWentRoundAndAnotherShowsTheFirst) {
+TEST(LookSelector, BeforeStartLoopsWrapOneShotsShowFirstFrame) {
   EXPECT_EQ(Selector::clock(100, 2).at(99, 5), 4u);
   EXPECT_EQ(Selector::clock(100, 2).at(90, 5), 0u);
   EXPECT_EQ(Selector::clock(100, 2, false).at(99, 5), 0u);
@@ -53,7 +53,7 @@ TEST(LookSelector, AnAngleShowsTheNearestFrame) {
   }
 }
 
-TEST(LookSelector, AnAngleGrowsByItsSpinThroughAllWraps) {
+TEST(LookSelector, AngleGrowsByItsSpinAcrossWraps) {
   test::RandomRecords random(2);
   for (int i = 0; i < 2000; ++i) {
     const auto spin = static_cast<std::int32_t>(random.rng().next());
@@ -67,7 +67,7 @@ TEST(LookSelector, AnAngleGrowsByItsSpinThroughAllWraps) {
   }
 }
 
-TEST(LookSelector, RebasedItShowsTheSameFromThenOn) {
+TEST(LookSelector, RebasedSelectorShowsTheSameFrames) {
   test::RandomRecords random(3);
   for (int i = 0; i < 5000; ++i) {
     const std::size_t frames = 2 + random.rng().below(20);
@@ -82,7 +82,7 @@ TEST(LookSelector, RebasedItShowsTheSameFromThenOn) {
   }
 }
 
-TEST(LookSelector, OnlyWhatSelectsAmongTheFramesFits) {
+TEST(LookSelector, SelectorsMustFitTheFrameCount) {
   EXPECT_TRUE(Selector::fixed(0).fits(1));
   EXPECT_TRUE(Selector::fixed(255).fits(256));
   EXPECT_FALSE(Selector::fixed(2).fits(2));

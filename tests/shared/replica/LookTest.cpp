@@ -14,13 +14,13 @@ namespace {
 using test::cellsAt;
 constexpr std::int32_t kCell = 1 << kGlyphUnitBits;
 
-TEST(Look, PlacesGlyphsByTheFloorOfAHalfMore) {
+TEST(Look, GlyphCellsRoundHalfUp) {
   EXPECT_EQ(glyphCell(cellsAt(3.25, -2.5), {}), (CellPosition{3, -2}));
   EXPECT_EQ(glyphCell(cellsAt(3.25, 0), {kCell / 4, 0, U'x', df::RED}), (CellPosition{4, 0}));
   EXPECT_EQ(glyphCell(cellsAt(3.25, 0), {kCell / 4 - 1, -kCell, U'x', df::RED}), (CellPosition{3, -1}));
 }
 
-TEST(Look, HalfCellOffsetsAgreeWithRealNumbersEverywhere) {
+TEST(Look, HalfCellOffsetsMatchFloatingPointRounding) {
   SplitMix64 rng(3);
   for (int i = 0; i < 10'000; ++i) {
     const double x = (rng.unit() - 0.5) * 1000;
@@ -33,7 +33,7 @@ TEST(Look, HalfCellOffsetsAgreeWithRealNumbersEverywhere) {
   }
 }
 
-TEST(Look, FarAwayGlyphsWrapWithoutTrapping) {
+TEST(Look, DistantGlyphsWrapWithoutTrapping) {
   const df::Fixed most = std::numeric_limits<df::Fixed>::max();
   EXPECT_EQ(glyphCell({most, most}, {kCell, 0, U'x', df::RED}).x,
             std::numeric_limits<std::int32_t>::min() + 1);

@@ -38,7 +38,7 @@ int exactBits(df::FixedVector v) {
   return std::max(0, df::kFixedBits - std::countr_zero(all));
 }
 
-TEST(MotionCodec, RandomMotionsAreExactWhateverTheOrigin) {
+TEST(MotionCodec, RandomMotionsAreExactFromAnyOrigin) {
   RandomRecords random(1);
   for (int i = 0; i < 20'000; ++i) {
     expectExact(random.motion(static_cast<std::uint32_t>(i)), random.origin());
@@ -76,13 +76,13 @@ TEST(MotionCodec, EveryMagnitudeAndEveryFractionIsExact) {
   }
 }
 
-TEST(MotionCodec, AModelThatWasAcceleratedOnceTooOftenFits) {
+TEST(MotionCodec, MotionAcceleratedPastTheLimitStillFits) {
   const df::Fixed most = *df::toFixed(df::kMaxVelocityCells);
   const Motion fastest{8, {}, {most, -most}, {most, -most}};
   expectExact(rebase(fastest, 9), {});
 }
 
-TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
+TEST(MotionCodec, OutOfRangeNumbersAreRefused) {
   const auto isRead = [](const Motion& motion) {
     BitWriter out;
     writeMotion(out, motion, {});
@@ -98,13 +98,13 @@ TEST(MotionCodec, NumbersBeyondTheirRangeAreRefused) {
   EXPECT_FALSE(isRead({0, {}, {1, 0}, {0, -kMaxWireVelocity - 1}}));
 }
 
-TEST(MotionCodec, ShortMotionsAreSharedByAllClients) {
+TEST(MotionCodec, ShortMotionsAreEncodedOnceForAllClients) {
   EXPECT_EQ(shareMotion({1, cellsAt(3, 4), {}, {}}).count, 2 + 4);  // the kind, without a fraction
   EXPECT_GT(shareMotion({1, cellsAt(3.5, 4.25), cellsAt(0.25, 0), {}}).count, 0);
   EXPECT_EQ(shareMotion({1, cellsAt(1.0 / 3, 1.0 / 3), cellsAt(1.0 / 3, 0), {}}).count, 0) << "too long";
 }
 
-TEST(MotionCodec, WholeCellsInTheWindowAreShort) {
+TEST(MotionCodec, WholeCellsInTheWindowEncodeCompactly) {
   const Origin window{{-10, 5}, 7, 5, 0};
   for (const double x : {-10.0, 0.0, 117.0}) {
     EXPECT_EQ(bitsOf({0, cellsAt(x, 5), {}, {}}, window), 1u + 7 + 5 + 2 + 4);
@@ -117,7 +117,7 @@ TEST(MotionCodec, WholeCellsInTheWindowAreShort) {
   EXPECT_LE(bitsOf({0, cellsAt(0, 5), cellsAt(-0.25, 0), {}}, window), 32u);
 }
 
-TEST(MotionCodec, AFractionTakesAtLeastTheBitsItHas) {
+TEST(MotionCodec, FractionTakesAtLeastItsOwnBits) {
   RandomRecords random(3);
   for (int bits = 0; bits <= df::kFixedBits; ++bits) {
     const df::Fixed step = df::Fixed{1} << (df::kFixedBits - bits);
@@ -164,7 +164,7 @@ TEST(MotionCodec, HostileBytesAreRefusedOrLegal) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(MotionCodec, VectorsAreExactAndHeldToTheirLimit) {
+TEST(MotionCodec, VectorsAreExactAndLimited) {
   RandomRecords random(6);
   for (int i = 0; i < 5000; ++i) {
     const df::FixedVector v = random.vector(1'000'000);

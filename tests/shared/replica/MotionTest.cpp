@@ -43,7 +43,7 @@ TEST(Motion, ClosedFormEqualsSteppingBitForBit) {
   }
 }
 
-TEST(Motion, ReachesBackBeforeItsBase) {
+TEST(Motion, PositionsBeforeTheBaseTickAreExact) {
   SplitMix64 rng(2);
   for (int i = 0; i < 100; ++i) {
     const Motion start = randomMotion(rng, 64);
@@ -54,7 +54,7 @@ TEST(Motion, ReachesBackBeforeItsBase) {
   }
 }
 
-TEST(Motion, CrossesTheWrapOfTheTickCounter) {
+TEST(Motion, TickCounterWrapIsHandled) {
   const Motion m{0xFFFFFFFE, {10, 0}, {3, 0}, {1, 0}};
   EXPECT_EQ(positionAt(m, 1).x, 10 + 3 * 3 + 3);
 }

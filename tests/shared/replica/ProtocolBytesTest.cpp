@@ -134,7 +134,7 @@ std::string hexOfBits(const std::string& bits) {
   return hex(out.bytes());
 }
 
-TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
+TEST(ProtocolBytes, HelloMatchesTheDocument) {
   wire::ClientMessage message;
   message.mutable_hello()->set_magic(kHelloMagic);
   message.mutable_hello()->set_protocol(kProtocolVersion);
@@ -144,17 +144,17 @@ TEST(ProtocolBytes, HelloIsAsTheDocumentSays) {
   EXPECT_EQ(hex(frame), example(0).bytes);
 }
 
-TEST(ProtocolBytes, SnapshotIsAsTheDocumentSays) {
+TEST(ProtocolBytes, SnapshotMatchesTheDocument) {
   EXPECT_EQ(hex(exampleSnapshot()), example(1).bytes);
   EXPECT_EQ(hexOfBits(example(1).bits), example(1).bytes);
 }
 
-TEST(ProtocolBytes, UpdateIsAsTheDocumentSays) {
+TEST(ProtocolBytes, UpdateMatchesTheDocument) {
   EXPECT_EQ(hex(writeUpdate(exampleUpdate())), example(2).bytes);
   EXPECT_EQ(hexOfBits(example(2).bits), example(2).bytes);
 }
 
-TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
+TEST(ProtocolBytes, FrameMatchesTheDocument) {
   SnapshotWriter out;
   SnapshotHeader header;
   header.number = 4;
@@ -168,19 +168,19 @@ TEST(ProtocolBytes, FrameIsAsTheDocumentSays) {
   EXPECT_EQ(hex(frame), example(3).bytes);
 }
 
-TEST(ProtocolBytes, UpdateThatMissesLittleIsAsTheDocumentSays) {
+TEST(ProtocolBytes, UpdateWithFewLossesMatchesTheDocument) {
   ClientUpdate update;
   update.acks = {70, ~std::uint64_t{1}};
   EXPECT_EQ(hex(writeUpdate(update)), example(4).bytes);
   EXPECT_EQ(hexOfBits(example(4).bits), example(4).bytes);
 }
 
-TEST(ProtocolBytes, SoundsAreAsTheDocumentSays) {
+TEST(ProtocolBytes, SoundsMatchTheDocument) {
   EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
 }
 
 // A second copy of the bytes. It reveals a change of the protocol when page and code change together.
-TEST(ProtocolBytes, Version4StaysAsItIs) {
+TEST(ProtocolBytes, Version4BytesNeverChange) {
   EXPECT_EQ(kProtocolVersion, 4u);
   EXPECT_EQ(hex(exampleSnapshot()),
             "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
@@ -192,7 +192,7 @@ TEST(ProtocolBytes, Version4StaysAsItIs) {
 }
 
 // The frozen bytes must also decode to their original values.
-TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
+TEST(ProtocolBytes, ExamplesDecodeToTheirOriginalValues) {
   SnapshotDictionary dictionary;
   dictionary.define(2, OriginRecord{1, kConfirmed});
   Snapshot snapshot;
@@ -209,7 +209,7 @@ TEST(ProtocolBytes, TheExamplesAreReadAsTheyWereMeant) {
   EXPECT_EQ(update->inputs, exampleUpdate().inputs);
 }
 
-TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
+TEST(ProtocolBytes, LimitsMatchTheDocument) {
   const std::map<std::string, std::uint64_t> limits = {
       {"kProtocolVersion", kProtocolVersion},
       {"kHelloMagic", kHelloMagic},
@@ -263,18 +263,18 @@ TEST(ProtocolBytes, LimitsAreAsTheDocumentSays) {
   EXPECT_EQ(listed, limits);
 }
 
-TEST(ProtocolBytes, LastKeyIsAsTheDocumentSays) {
+TEST(ProtocolBytes, LastKeyMatchesTheDocument) {
   EXPECT_NE(document().find("`key`: 0 … " + std::to_string(df::Keyboard::PAGEDOWN) + ","), std::string::npos);
   EXPECT_EQ(df::Keyboard::kKeyCount, df::Keyboard::PAGEDOWN + 1);
 }
 
-TEST(ProtocolBytes, TheLargestSnapshotFitsItsFrame) {
+TEST(ProtocolBytes, LargestSnapshotFitsItsFrame) {
   wire::ServerMessage message;
   message.set_snapshot(std::string(kMaxSnapshot, 'x'));
   EXPECT_LE(message.ByteSizeLong(), kMaxServerFrame);
 }
 
-TEST(ProtocolBytes, TheLargestUpdateFitsItsFrame) {
+TEST(ProtocolBytes, LargestUpdateFitsItsFrame) {
   wire::ClientMessage message;
   message.set_update(std::string(kMaxUpdate, 'x'));
   EXPECT_LE(message.ByteSizeLong(), kMaxClientFrame);

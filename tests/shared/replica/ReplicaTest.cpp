@@ -78,7 +78,7 @@ TEST(Replica, IgnoresOlderRecordsOfAGroup) {
   EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'@') << "a motion is no look";
 }
 
-TEST(Replica, ALateBirthDoesNotBringTheDeadBack) {
+TEST(Replica, LateBirthDoesNotReviveADeadObject) {
   Replica replica;
   apply(replica, 2, 0, death(7));
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'@')));
@@ -86,7 +86,7 @@ TEST(Replica, ALateBirthDoesNotBringTheDeadBack) {
   EXPECT_EQ(replica.aliveCount(), 0u);
 }
 
-TEST(Replica, ALateDeathDoesNotKillTheNextUnderTheId) {
+TEST(Replica, LateDeathDoesNotKillTheIdsNextObject) {
   Replica replica;
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
   apply(replica, 2, 0, death(7));
@@ -99,7 +99,7 @@ TEST(Replica, ALateDeathDoesNotKillTheNextUnderTheId) {
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
 
-TEST(Replica, ARepeatedBirthIsTheSameObject) {
+TEST(Replica, RepeatedBirthKeepsTheSameObject) {
   Replica replica;
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
   apply(replica, 3, 0, motion(7, 9));
@@ -109,7 +109,7 @@ TEST(Replica, ARepeatedBirthIsTheSameObject) {
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
 
-TEST(Replica, ABirthOfAnotherGenerationEndsTheOneBefore) {
+TEST(Replica, BirthOfANewGenerationReplacesTheOldOne) {
   Replica replica;
   apply(replica, 1, 0, birth(7, 3, character(1, 0, U'a', 2, 10)));
   apply(replica, 2, 0, birth(7, 0, character(4, 0, U'b', 2, 20)));
@@ -119,7 +119,7 @@ TEST(Replica, ABirthOfAnotherGenerationEndsTheOneBefore) {
   EXPECT_EQ(replica.aliveCount(), 1u);
 }
 
-TEST(Replica, NumbersWrap) {
+TEST(Replica, SnapshotNumbersMayWrap) {
   Replica replica;
   apply(replica, 0xFFFFFFFE, 0, birth(7, 3, character(1, 0, U'a')));
   apply(replica, 0xFFFFFFFF, 0, motion(7, 2));
@@ -130,7 +130,7 @@ TEST(Replica, NumbersWrap) {
   EXPECT_EQ(replica.find(7), nullptr);
 }
 
-TEST(Replica, KnowsTheNewestOfWhatItApplied) {
+TEST(Replica, ReportsTheNewestAppliedSnapshot) {
   Replica replica(1000);
   EXPECT_EQ(replica.newest().tick, 1000u);
   const auto input = [&](std::uint32_t number, std::uint32_t tick, std::uint32_t id) {
@@ -152,7 +152,7 @@ TEST(Replica, KnowsTheNewestOfWhatItApplied) {
   EXPECT_EQ(replica.newest().input, 3u);
 }
 
-TEST(Replica, KeepsNamesForTheSnapshotsToCome) {
+TEST(Replica, KeepsNamesForLaterSnapshots) {
   Replica replica;
   const ObjectState state = character(1, 1, U'x');
   ObjectState word = state;
@@ -195,7 +195,7 @@ TEST(Replica, RecordsAboutUnknownObjectsDrawNothing) {
   EXPECT_EQ(countDifferences(replica.render(0), df::Canvas(80, 24)), 0);
 }
 
-TEST(Replica, AnEmptyTextIsGone) {
+TEST(Replica, EmptyTextRemovesTheText) {
   Replica replica;
   Records text;
   text.texts.push_back({3, 0, 0, df::RED, "score"});
@@ -221,14 +221,14 @@ TEST(Replica, FollowsTheObjectOfTheViewRecord) {
   EXPECT_EQ(replica.focus(40), (CellPosition{30, 10}));
 }
 
-TEST(Replica, IsBoundedWhateverItIsSent) {
+TEST(Replica, ObjectCountIsBoundedAndOverflowCounted) {
   Replica replica;
   for (std::uint32_t id = 0; id < kMaxReplicaObjects + 10; ++id) apply(replica, id + 1, 0, birth(id, 1, {}));
   EXPECT_EQ(replica.entries().size(), kMaxReplicaObjects);
   EXPECT_EQ(replica.overflowCount(), 10u);
 }
 
-TEST(Replica, OnePictureHasABoundedNumberOfGlyphsThoseOnTop) {
+TEST(Replica, DrawnGlyphsAreLimitedToTheTopmost) {
   // All objects share it, so it takes little memory but much drawing.
   const Sequence large{Appearance(8192, Glyph{0, 0, U'#', df::RED})};
   const std::uint32_t fits = kMaxDrawnGlyphs / 8192;
@@ -249,7 +249,7 @@ TEST(Replica, OnePictureHasABoundedNumberOfGlyphsThoseOnTop) {
   }
 }
 
-TEST(Replica, OnePictureHasABoundedNumberOfObjectsThoseOnTop) {
+TEST(Replica, DrawnObjectsAreLimitedToTheTopmost) {
   Records records;
   for (std::uint32_t id = 0; id < kMaxDrawnObjects + 2; ++id) {
     records.objects.push_back({id, 1, kAllGroups, character(id < 3 ? static_cast<int>(id) : 5, 0, U'x')});
@@ -260,7 +260,7 @@ TEST(Replica, OnePictureHasABoundedNumberOfObjectsThoseOnTop) {
   EXPECT_EQ(replica.render(0).text().substr(0, 6), "  x  x");
 }
 
-TEST(Replica, WhatReachesIntoTheViewIsDrawn) {
+TEST(Replica, ObjectsReachingIntoTheViewAreDrawn) {
   // A glyph at each end of a long look, with the object outside the view on every side.
   Replica replica;
   std::uint32_t id = 0;
@@ -276,7 +276,7 @@ TEST(Replica, WhatReachesIntoTheViewIsDrawn) {
   for (const auto& [x, y] : {std::pair{0, 3}, {0, 4}, {5, 0}, {6, 0}}) EXPECT_EQ(picture.at(x, y).ch, U'@');
 }
 
-TEST(Replica, LooksAreBoundedInAll) {
+TEST(Replica, TotalLookSizeIsBounded) {
   Replica replica;
   ObjectState huge = character(1, 1, U'x');
   const auto makeCopy = [&huge] { huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})}; };
@@ -303,7 +303,7 @@ TEST(Replica, LooksAreBoundedInAll) {
   EXPECT_EQ(replica.find(fits + 1)->state.look, huge.look);
 }
 
-TEST(Replica, WhatManyLooksShareCountsOnce) {
+TEST(Replica, SharedLooksCountOnce) {
   Replica replica;
   ObjectState huge = character(1, 1, U'x');
   huge.look.sequence = {Appearance(8192, Glyph{0, 0, U'#', df::RED})};
@@ -428,7 +428,7 @@ void expectSameState(const Replica& a, const Replica& b, std::uint32_t tick) {
   }
 }
 
-TEST(Replica, EndsTheSameWhateverTheOrderOfArrivalWithDuplicates) {
+TEST(Replica, FinalStateIgnoresArrivalOrderAndDuplicates) {
   std::size_t deaths = 0;
   std::size_t partial = 0;
   std::size_t reused = 0;
@@ -456,7 +456,7 @@ TEST(Replica, EndsTheSameWhateverTheOrderOfArrivalWithDuplicates) {
   EXPECT_GT(reused, 1000u);
 }
 
-TEST(Replica, TheChecksumIsThatOfTheLiving) {
+TEST(Replica, ChecksumCoversOnlyLivingObjects) {
   Replica replica;
   EXPECT_EQ(replica.checksum(), 0u);
   apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));

@@ -65,7 +65,7 @@ TEST(SnapshotCodec, RandomSnapshotsSurviveTheRoundTrip) {
   }
 }
 
-TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
+TEST(SnapshotCodec, PositionsAndOrdersAreRelativeToAnOrigin) {
   RandomRecords random(12);
   for (int i = 0; i < 2000; ++i) {
     const SnapshotHeader head = random.header();
@@ -82,7 +82,7 @@ TEST(SnapshotCodec, PositionsAndOrdersAreCountedFromAnOrigin) {
   }
 }
 
-TEST(SnapshotCodec, NumbersAreRestoredNearThoseKnown) {
+TEST(SnapshotCodec, NumbersAreRestoredNearKnownOnes) {
   for (const std::uint32_t known : {5u, 0x8000u, 0xFFFFu, 0x10000u, 0xFFFFFFFFu}) {
     for (const std::int32_t apart : {-32768, -1, 1, 32767}) {
       SnapshotHeader head = header(known + static_cast<std::uint32_t>(apart), known - 1);
@@ -97,7 +97,7 @@ TEST(SnapshotCodec, NumbersAreRestoredNearThoseKnown) {
   }
 }
 
-TEST(SnapshotCodec, AnInputLongAgoIsSentAs63TicksOld) {
+TEST(SnapshotCodec, OldInputIsSentAs63TicksOld) {
   SnapshotHeader head = header(3, 1000);
   head.has_input = true;
   head.input = 7;
@@ -114,11 +114,11 @@ TEST(SnapshotCodec, NumberZeroIsRefused) {
   EXPECT_EQ(read(bytes, {0x10000, 5, 0}, out), ReadResult::kOk);
 }
 
-TEST(SnapshotCodec, ASignOfLifeTakesSixBytes) {
+TEST(SnapshotCodec, EmptySnapshotTakesSixBytes) {
   EXPECT_EQ(writeSnapshot(header(3, 100), {}).size(), 6u);
 }
 
-TEST(SnapshotCodec, TheEpochCanBeReadFirst) {
+TEST(SnapshotCodec, EpochCanBeReadFromTheFirstBytes) {
   for (std::uint8_t epoch = 0; epoch < 4; ++epoch) {
     SnapshotHeader head = header(0xABCD, 0x1234);
     head.epoch = epoch;
@@ -214,7 +214,7 @@ TEST(SnapshotCodec, CharactersThatDisturbATerminalAreRefused) {
   }
 }
 
-TEST(SnapshotCodec, IdsBeyondTheLastAreRefused) {
+TEST(SnapshotCodec, IdsBeyondTheLimitAreRefused) {
   const auto isRead = [](std::uint32_t first, std::uint32_t second) {
     Records records;
     records.objects.push_back({first, 0, kDeath, {}});
@@ -228,7 +228,7 @@ TEST(SnapshotCodec, IdsBeyondTheLastAreRefused) {
   EXPECT_FALSE(isRead(kMaxSlots - 1, kMaxSlots));
 }
 
-TEST(SnapshotCodec, AViewThatFollowsAnIdBeyondTheLastIsRefused) {
+TEST(SnapshotCodec, ViewFollowingAnInvalidIdIsRefused) {
   for (const std::uint32_t id : {kMaxSlots - 1, kMaxSlots}) {
     Records records;
     records.views.push_back({{}, true, id, 3});
@@ -275,7 +275,7 @@ TEST(SnapshotCodec, WorldsOutOfRangeAreRefused) {
   EXPECT_FALSE(isRead({{{}, {0, -1}}, 80, 24, df::BLACK}));
 }
 
-TEST(SnapshotCodec, ObjectsThatAreOnlyClaimedCostNothing) {
+TEST(SnapshotCodec, ClaimedObjectCountReservesLittleMemory) {
   BitWriter out;
   out.bits(1, 16);
   out.bits(1, 16);
@@ -319,7 +319,7 @@ std::set<std::uint32_t> someIds(RandomRecords& random, std::size_t count) {
   return ids;
 }
 
-TEST(SnapshotCodec, ARecordThatHasRoomFits) {
+TEST(SnapshotCodec, RecordsAcceptedByHasRoomFit) {
   RandomRecords random(16);
   double filled = 0;
   int full = 0;
@@ -356,7 +356,7 @@ TEST(SnapshotCodec, ARecordThatHasRoomFits) {
 }
 
 // The most expensive ids: gaps of three times the code's step, with almost a third of the gaps empty.
-TEST(SnapshotCodec, EvenTheDearestIdsFitWhereThereIsRoom) {
+TEST(SnapshotCodec, MostExpensiveIdsFitWhenHasRoomAccepts) {
   for (int order = 1; order <= 15; ++order) {
     for (const std::uint32_t count : {1u, 2u, 5u, 30u, 300u}) {
       SnapshotWriter out;

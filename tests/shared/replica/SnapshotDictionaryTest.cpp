@@ -16,14 +16,14 @@ Find find(const SnapshotDictionary& dictionary, std::uint32_t number, std::uint3
   return dictionary.find(number, slot, origin);
 }
 
-TEST(SnapshotDictionary, SlotZeroIsTheZeroOriginForEver) {
+TEST(SnapshotDictionary, SlotZeroIsTheZeroOrigin) {
   const SnapshotDictionary dictionary;
   Origin origin{{5, 6}, 7, 8, 9};
   EXPECT_EQ(dictionary.find(1, 0, origin), Find::kFound);
   EXPECT_EQ(origin, Origin{});
 }
 
-TEST(SnapshotDictionary, AnOriginIsKnownToSnapshotsAfterTheOneThatSetIt) {
+TEST(SnapshotDictionary, OriginIsKnownOnlyToLaterSnapshots) {
   SnapshotDictionary dictionary;
   const Origin there{{5, -6}, 7, 8, 9};
   EXPECT_EQ(find(dictionary, 11, 2), Find::kUnknown);
@@ -37,7 +37,7 @@ TEST(SnapshotDictionary, AnOriginIsKnownToSnapshotsAfterTheOneThatSetIt) {
   EXPECT_EQ(find(dictionary, 11, kOriginSlots + 1), Find::kUnknown);
 }
 
-TEST(SnapshotDictionary, TheNewestDefinitionHoldsWhateverTheOrder) {
+TEST(SnapshotDictionary, NewestDefinitionWinsInAnyOrder) {
   for (const bool in_order : {true, false}) {
     SnapshotDictionary dictionary;
     const std::uint32_t before = 0xFFFFFFFF;
@@ -65,7 +65,7 @@ TEST(SnapshotDictionary, AnUndefinedSequenceIsUnknown) {
   EXPECT_EQ(dictionary.find(2, 7, sequence), Find::kFound);
 }
 
-TEST(SnapshotDictionary, GlyphsAreBoundedInAllAndGivenBack) {
+TEST(SnapshotDictionary, TotalGlyphsAreBoundedAndReleased) {
   SnapshotDictionary dictionary;
   const std::size_t large = kMaxDictionaryGlyphs / 8;
   std::uint32_t number = 0;

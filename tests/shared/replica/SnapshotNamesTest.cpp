@@ -48,7 +48,7 @@ class SnapshotNames : public testing::Test {
   SnapshotHeader m_header;
 };
 
-TEST_F(SnapshotNames, AKnownNameStandsForItsAppearance) {
+TEST_F(SnapshotNames, KnownNameResolvesToItsAppearance) {
   know(49, 7, "saucer");
   look(3, "saucer", {kNamed, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
@@ -63,7 +63,7 @@ TEST_F(SnapshotNames, ADefinitionIsReported) {
   EXPECT_EQ(snapshot.records.sequences, (std::vector<SequenceRecord>{{7, drawnAs("saucer").look.sequence}}));
 }
 
-TEST_F(SnapshotNames, ANameMayBeDefinedBehindItsUse) {
+TEST_F(SnapshotNames, NameMayBeDefinedAfterItsUse) {
   look(9, "saucer", {kDefined, 7});
   look(3, "saucer", {kNamed, 7});
   look(12, "saucer", {kNamed, 7});
@@ -71,7 +71,7 @@ TEST_F(SnapshotNames, ANameMayBeDefinedBehindItsUse) {
   for (const std::size_t object : {0u, 1u, 2u}) EXPECT_EQ(lookOf(object), drawnAs("saucer").look);
 }
 
-TEST_F(SnapshotNames, TheDefinitionOfTheSnapshotItselfComesFirst) {
+TEST_F(SnapshotNames, SnapshotsOwnDefinitionTakesPrecedence) {
   know(40, 7, "old");
   look(9, "new", {kDefined, 7});
   look(3, "new", {kNamed, 7});
@@ -82,7 +82,7 @@ TEST_F(SnapshotNames, TheDefinitionOfTheSnapshotItselfComesFirst) {
   EXPECT_EQ(lookOf(0), drawnAs("new").look);
 }
 
-TEST_F(SnapshotNames, ANameThatWasGivenAwaySinceIsStale) {
+TEST_F(SnapshotNames, RedefinedNameIsStale) {
   know(51, 7, "another");
   look(3, "saucer", {kNamed, 7});
   EXPECT_EQ(read(), ReadResult::kStale);
@@ -94,7 +94,7 @@ TEST_F(SnapshotNames, AnUndefinedNameIsMalformed) {
   EXPECT_EQ(read(), ReadResult::kMalformed);
 }
 
-TEST_F(SnapshotNames, WhatIsBothStaleAndUnknownIsMalformed) {
+TEST_F(SnapshotNames, StaleNameWithAnUnknownOneIsMalformed) {
   know(51, 7, "another");
   look(3, "saucer", {kNamed, 7});
   look(4, "saucer", {kNamed, 6});
@@ -138,7 +138,7 @@ TEST_F(SnapshotNames, LooksOfOneNameShareTheirSequence) {
   EXPECT_TRUE(lookOf(1000).sequence.isSharedWith(lookOf(1001).sequence));
 }
 
-TEST_F(SnapshotNames, ASelectorMustFitWhatItsNameStandsFor) {
+TEST_F(SnapshotNames, SelectorMustFitItsNamedSequence) {
   const auto isRead = [this](const Selector& selector, std::uint32_t name, bool defined_here) {
     start(50);
     const Appearance a{{256, 0, U'a', df::RED}};
@@ -168,7 +168,7 @@ TEST_F(SnapshotNames, ASelectorMustFitWhatItsNameStandsFor) {
   EXPECT_EQ(isRead(Selector::turning(100, 3, 9), 9, false), ReadResult::kMalformed);
 }
 
-TEST_F(SnapshotNames, RandomDefinitionsAndUsesUnfoldAsTheyWere) {
+TEST_F(SnapshotNames, RandomDefinitionsAndUsesSurviveTheRoundTrip) {
   test::RandomRecords random(5);
   for (std::uint32_t round = 0; round < 300; ++round) {
     start(50 + round);

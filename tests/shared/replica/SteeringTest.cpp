@@ -61,7 +61,7 @@ class Steering : public testing::Test {
   bool steering = true;
 };
 
-TEST_F(Steering, AStepIsOneMoveInItsTickAndTwoAreTwo) {
+TEST_F(Steering, EachStepKeyMovesOnceInItsTick) {
   row(A, ControlEffect::kStep, cells(1, 0));
   SteeredCopy copy = ship();
   copy.beginTick();
@@ -74,7 +74,7 @@ TEST_F(Steering, AStepIsOneMoveInItsTickAndTwoAreTwo) {
   EXPECT_EQ(copy.position(), cells(12, 10));
 }
 
-TEST_F(Steering, RowsOfAGroupWaitForEachOtherAndOthersDoNot) {
+TEST_F(Steering, RowsWaitOnlyForTheirOwnGroup) {
   row(A, ControlEffect::kStep, cells(1, 0), 3, 1);
   row(B, ControlEffect::kStep, cells(0, 1), 3, 1);
   row(C, ControlEffect::kStep, cells(0, 1), 3, 2);
@@ -87,7 +87,7 @@ TEST_F(Steering, RowsOfAGroupWaitForEachOtherAndOthersDoNot) {
   EXPECT_EQ(copy.position(), cells(13, 11));
 }
 
-TEST_F(Steering, ABlockedStepStaysAndCountsAsAct) {
+TEST_F(Steering, BlockedStepStaysButStartsTheWait) {
   row(A, ControlEffect::kStep, cells(5, 0), 2);
   const Wall wall;
   SteeredCopy copy = ship(&wall);
@@ -96,7 +96,7 @@ TEST_F(Steering, ABlockedStepStaysAndCountsAsAct) {
   EXPECT_EQ(copy.now().state.wait[0], 2);
 }
 
-TEST_F(Steering, AVelocityStaysUntilItIsChangedAndKeepsTheOtherAxis) {
+TEST_F(Steering, VelocityKeyPersistsAndKeepsTheOtherAxis) {
   velocity = {0, kFixedOne / 4};
   table.rows.push_back({A, KEY_PRESSED, ControlEffect::kVelocity, true, false, {kFixedOne, 0}, 0, 0});
   SteeredCopy copy = ship();
@@ -105,7 +105,7 @@ TEST_F(Steering, AVelocityStaysUntilItIsChangedAndKeepsTheOtherAxis) {
   EXPECT_EQ(copy.position(), cells(14, 11));
 }
 
-TEST_F(Steering, ABlockedVelocityIsTriedAgainEachTick) {
+TEST_F(Steering, BlockedVelocityIsRetriedEachTick) {
   velocity = {kFixedOne, 0};
   const Wall wall;
   SteeredCopy copy = ship(&wall);
@@ -125,7 +125,7 @@ TEST_F(Steering, ADriveLastsAsLongAsItsKey) {
   EXPECT_EQ(copy.position().x, fromCells(13));
 }
 
-TEST_F(Steering, AKeyThatGoesDownAndUpInOneTickCountsInIt) {
+TEST_F(Steering, KeyTappedWithinOneTickCountsInIt) {
   drive(A, {kFixedOne / 2, 0});
   SteeredCopy copy = ship();
   copy.beginTick();
@@ -136,7 +136,7 @@ TEST_F(Steering, AKeyThatGoesDownAndUpInOneTickCountsInIt) {
   EXPECT_EQ(copy.position().x, fromCells(10) + kFixedOne / 2);
 }
 
-TEST_F(Steering, OfTwoKeysOfAnAxisTheLastOnePressedWins) {
+TEST_F(Steering, LastPressedKeyOfAnAxisWins) {
   drive(A, {-kFixedOne, 0});
   drive(B, {kFixedOne, 0});
   SteeredCopy copy = ship();
@@ -147,7 +147,7 @@ TEST_F(Steering, OfTwoKeysOfAnAxisTheLastOnePressedWins) {
   EXPECT_EQ(copy.velocity().x, kFixedOne);
 }
 
-TEST_F(Steering, AReleasedDriveGlidesToTheNextWholeCellAndNeverBeyond) {
+TEST_F(Steering, ReleasedDriveStopsAtTheNextWholeCell) {
   table.whole_cells = true;
   for (const df::Fixed speed : {kFixedOne / 3, kFixedOne / 2, kFixedOne * 2 / 7, kFixedOne}) {
     for (const int sign : {1, -1}) {
@@ -165,7 +165,7 @@ TEST_F(Steering, AReleasedDriveGlidesToTheNextWholeCellAndNeverBeyond) {
   }
 }
 
-TEST_F(Steering, NoKeyLeadsOutOfTheBounds) {
+TEST_F(Steering, KeysCannotLeaveTheBounds) {
   table.bounded = true;
   table.bounds = {cells(8, 8), cells(4, 4)};  // from 8 to 12
   drive(A, cells(1, 0));
@@ -199,7 +199,7 @@ TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
   EXPECT_EQ(copy.velocity(), cells(0, 0));
 }
 
-TEST_F(Steering, APlayerThatSteersNothingRemembersWhichKeysAreDown) {
+TEST_F(Steering, HeldKeysAreRememberedWithoutSteering) {
   steering = false;
   drive(A, cells(1, 0));
   row(B, ControlEffect::kStep, cells(0, 1), 5);

@@ -70,14 +70,14 @@ TEST(UpdateCodec, RandomUpdatesSurviveTheRoundTrip) {
   }
 }
 
-TEST(UpdateCodec, AnAcknowledgementAloneIsShort) {
+TEST(UpdateCodec, AcknowledgementAloneTakesThreeBytes) {
   ClientUpdate update;
   update.acks = {5, ~std::uint64_t{0}};
   EXPECT_EQ(writeUpdate(update).size(), 3u);
   EXPECT_EQ(writeUpdate({}).size(), 1u);
 }
 
-TEST(UpdateCodec, AsManyInputsAsAllowedAlwaysFit) {
+TEST(UpdateCodec, MaximumInputsAlwaysFit) {
   ClientUpdate update;
   update.acks = {0xFFFFFFFF, 1};
   update.checksum = 0;
@@ -112,11 +112,11 @@ TEST(UpdateCodec, EveryTruncationIsRefused) {
   }
 }
 
-TEST(UpdateCodec, MoreBytesThanAllowedAreRefused) {
+TEST(UpdateCodec, OversizedUpdatesAreRefused) {
   EXPECT_FALSE(readUpdate(std::string(kMaxUpdate + 1, '\0'), {}));
 }
 
-TEST(UpdateCodec, NumbersAreRestoredNearThoseKnown) {
+TEST(UpdateCodec, NumbersAreRestoredNearKnownOnes) {
   for (const std::uint32_t known : {7u, 0x8000u, 0x1FFFFu, 0x20000u, 0x7FFFFFFFu, 0xFFFFFFF0u}) {
     for (const std::int32_t apart : {-32768, -5, 0, 5, 32767}) {
       ClientUpdate update;
@@ -210,7 +210,7 @@ TEST(UpdateCodec, TicksTooFarApartAreRefused) {
   }
 }
 
-TEST(UpdateCodec, MoreInputsThanAllowedAreRefused) {
+TEST(UpdateCodec, TooManyInputsAreRefused) {
   for (const std::uint64_t count : {kMaxUpdateInputs, kMaxUpdateInputs + 1}) {
     BitWriter out = bareInputs(count);
     for (std::uint64_t i = 0; i < count; ++i) {

@@ -20,7 +20,7 @@ TEST(ViewFollow, StaysWhileTheObjectIsInTheInnerThird) {
   EXPECT_EQ(followView(frame(50, 40), cellsAt(90, 60)), cellsAt(50, 40));
 }
 
-TEST(ViewFollow, MovesByJustAsMuchAsItTakes) {
+TEST(ViewFollow, MovesNoFartherThanNeeded) {
   EXPECT_EQ(followView(frame(50, 40), cellsAt(69, 50)), cellsAt(49, 40));
   EXPECT_EQ(followView(frame(50, 40), cellsAt(90.25, 60)), cellsAt(50.25, 40));
   EXPECT_EQ(followView(frame(50, 40), cellsAt(70, 49)), cellsAt(50, 39));
@@ -33,7 +33,7 @@ TEST(ViewFollow, StaysInsideTheBoundary) {
   EXPECT_EQ(clampView(frame(0, 0), cellsAt(-5, 90)), cellsAt(0, 70));
 }
 
-TEST(ViewFollow, BeginsAtTheCornerOfABoundarySmallerThanTheView) {
+TEST(ViewFollow, SmallBoundaryPinsTheViewToItsCorner) {
   ViewFrame f = frame(50, 40);
   f.boundary = {cellsAt(-10, 5), cellsAt(59, 30)};
   EXPECT_EQ(clampView(f, cellsAt(50, 40)), cellsAt(-10, 5));
@@ -55,7 +55,7 @@ TEST(ViewFollow, ExtremesSaturate) {
   }
 }
 
-TEST(ViewFollow, ModelStaysWithoutAnObjectAndInThePast) {
+TEST(ViewFollow, ModelKeepsTheCornerWithoutObjectOrInPast) {
   const Motion away{10, cellsAt(190, 90), cellsAt(1, 1), {}};
   EXPECT_EQ(viewCornerAt(frame(50, 40), 10, nullptr, 99), cellsAt(50, 40));
   EXPECT_EQ(viewCornerAt(frame(50, 40), 10, &away, 10), cellsAt(50, 40));

@@ -22,7 +22,7 @@ TEST(Canvas, IsBlankAtFirstAndAfterClear) {
   EXPECT_EQ(canvas.at(1, 1), Cell{});
 }
 
-TEST(Canvas, DropsWhatLiesOutside) {
+TEST(Canvas, DropsCellsOutside) {
   Canvas canvas(3, 2);
   for (const auto& [x, y] : {std::pair{-1, 0}, {3, 0}, {0, -1}, {0, 2}}) canvas.put(x, y, {U'x', RED});
   EXPECT_EQ(countDifferences(canvas, Canvas(3, 2)), 0);
@@ -37,7 +37,7 @@ TEST(Canvas, TextTrimsRowsAndRowTextDoesNot) {
   EXPECT_EQ(canvas.rowText(0), " é  ");
 }
 
-TEST(Canvas, BlanksOfAnyColourAreEqualAndCharactersAreNot) {
+TEST(Canvas, BlanksOfAnyColourAreEqual) {
   EXPECT_EQ((Cell{U' ', RED}), (Cell{U' ', BLUE}));
   EXPECT_FALSE((Cell{U'a', RED}) == (Cell{U'a', BLUE}));
   EXPECT_FALSE((Cell{U'a', RED}) == (Cell{U'b', RED}));
@@ -90,12 +90,12 @@ TEST(Utf8, AnyBytesDecode) {
   }
 }
 
-TEST(Drawable, LetsOrdinaryCharactersThrough) {
+TEST(Drawable, AcceptsOrdinaryCharacters) {
   for (const char32_t ch : std::u32string(U" ~aéΩд│█●⠿→≈"))
     EXPECT_TRUE(isDrawable(ch)) << std::hex << static_cast<std::uint32_t>(ch);
 }
 
-TEST(Drawable, StopsWhatWouldDisturbATerminal) {
+TEST(Drawable, RejectsCharactersThatDisruptATerminal) {
   for (const char32_t ch : {U'\0',     U'\n',     U'\x1b',   U'\x7f',   U'\u0085', U'\u009b', U'\u00ad',
                             U'\u0300', U'\u0301', U'\u200b', U'\u200d', U'\u200e', U'\u202a', U'\u202e',
                             U'\u2066', U'\ufeff', U'\u4e00', U'\u1100', U'\uff21', U'\ufffd'}) {

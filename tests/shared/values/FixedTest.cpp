@@ -21,7 +21,7 @@ TEST(Fixed, RoundsToNearestWithTiesToEven) {
   EXPECT_EQ(toFixed(0.75 * kUnit), 1);
 }
 
-TEST(Fixed, RefusesWhatIsNotFiniteOrBeyondTheLimit) {
+TEST(Fixed, RefusesNonFiniteAndOutOfRangeNumbers) {
   EXPECT_FALSE(toFixed(std::numeric_limits<double>::quiet_NaN()));
   EXPECT_FALSE(toFixed(std::numeric_limits<double>::infinity()));
   EXPECT_FALSE(toFixed(-std::numeric_limits<double>::infinity()));
@@ -33,7 +33,7 @@ TEST(Fixed, RefusesWhatIsNotFiniteOrBeyondTheLimit) {
   EXPECT_FALSE(toFixed(7.5, 7.0));
 }
 
-TEST(Fixed, SurvivesTheRoundTripThroughDoublesUpTo2To21Cells) {
+TEST(Fixed, ExactThroughDoublesUpTo2To21Cells) {
   naiad::SplitMix64 rng(1);
   for (int i = 0; i < 10'000; ++i) {
     const Fixed value = static_cast<Fixed>(rng.below(std::uint64_t{1} << 54)) - (Fixed{1} << 53);
@@ -41,7 +41,7 @@ TEST(Fixed, SurvivesTheRoundTripThroughDoublesUpTo2To21Cells) {
   }
 }
 
-TEST(Fixed, CellIsTheFloorOfAHalfMore) {
+TEST(Fixed, CellRoundsHalfUp) {
   EXPECT_EQ(cellOf(0), 0);
   EXPECT_EQ(cellOf(kFixedOne / 2 - 1), 0);
   EXPECT_EQ(cellOf(kFixedOne / 2), 1);
@@ -62,7 +62,7 @@ TEST(Fixed, ALegalPositionPlusALegalVelocityFits) {
   EXPECT_FALSE(__builtin_add_overflow(*toFixed(-kMaxCells), *toFixed(-kMaxVelocityCells), &sum));
 }
 
-TEST(Fixed, BoxesThatTouchIntersect) {
+TEST(Fixed, TouchingBoxesIntersect) {
   const FixedBox box{{0, 0}, {kFixedOne, kFixedOne}};
   EXPECT_TRUE(intersects(box, translate(box, {kFixedOne, kFixedOne})));
   EXPECT_TRUE(intersects(box, translate(box, {-kFixedOne, 0})));

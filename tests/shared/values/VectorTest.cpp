@@ -11,7 +11,7 @@ TEST(Vector, BeginsAtTheOrigin) {
   EXPECT_EQ(Vector(), Vector(0, 0));
 }
 
-TEST(Vector, KeepsAllDigitsBesideTheBooksFloats) {
+TEST(Vector, KeepsDoublePrecisionBehindFloatGetters) {
   Vector v;
   v.setXY(100'000.015625, -0.1);
   EXPECT_EQ(v.x(), 100'000.015625);

@@ -82,7 +82,7 @@ TEST(LossyDatagramLink, DirectionsHaveTheirOwnConditions) {
   EXPECT_EQ(bench.link.counters(LinkEnd::kServer).dropped, 5u);
 }
 
-TEST(LossyDatagramLink, LosesTheShareThatWasSet) {
+TEST(LossyDatagramLink, LosesTheConfiguredShare) {
   for (const double loss : {0.0, 0.02, 0.3, 1.0}) {
     LinkBench bench({.loss = loss});
     bench.sendMany(20'000, 1us);
@@ -92,7 +92,7 @@ TEST(LossyDatagramLink, LosesTheShareThatWasSet) {
   }
 }
 
-TEST(LossyDatagramLink, DuplicatesTheShareThatWasSet) {
+TEST(LossyDatagramLink, DuplicatesTheConfiguredShare) {
   LinkBench bench({.delay = 1ms, .duplicate = 0.1});
   bench.sendMany(20'000, 1us);
   EXPECT_NEAR(static_cast<double>(bench.counters().duplicated) / 20'000, 0.1, 0.01);
@@ -156,7 +156,7 @@ TEST(LossyDatagramLink, RateHoldsOverManySmallPackets) {
   EXPECT_NEAR(static_cast<double>(bench.arrivals.back().when.count()), 70'000, 20);
 }
 
-TEST(LossyDatagramLink, QueueDropsWhatDoesNotFit) {
+TEST(LossyDatagramLink, FullQueueDropsPackets) {
   LinkBench bench({.rate = 10'000, .queue = 3000});
   for (int i = 0; i < 10; ++i) bench.client->send(std::to_string(i) + std::string(999, 'x'));
   bench.clock.advanceBy(150ms);  // half of the second is still on the line
@@ -179,7 +179,7 @@ TEST(LossyDatagramLink, SameSeedGivesTheSameDeliveries) {
   EXPECT_NE(run(7), run(8));
 }
 
-TEST(LossyDatagramLink, LossLeavesTheFateOfOtherPacketsAlone) {
+TEST(LossyDatagramLink, LossDoesNotAffectOtherPackets) {
   LinkBench clean({.jitter = 40ms});
   LinkBench lossy({.jitter = 40ms, .loss = 0.2});
   clean.sendMany(500, 1ms);

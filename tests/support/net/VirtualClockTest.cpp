@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(VirtualClock, RunsActionsInTimeOrderAndTiesInOrderOfScheduling) {
+TEST(VirtualClock, RunsActionsInTimeThenSchedulingOrder) {
   VirtualClock clock;
   std::string order;
   clock.schedule(2ms, [&] { order += 'c'; });
@@ -30,7 +30,7 @@ TEST(VirtualClock, ActionsSeeTheTimeTheyWereScheduledFor) {
   EXPECT_EQ(seen, 3ms);
 }
 
-TEST(VirtualClock, LeavesLaterActionsAlone) {
+TEST(VirtualClock, DoesNotRunLaterActions) {
   VirtualClock clock;
   int runs = 0;
   clock.schedule(2ms, [&] { ++runs; });
@@ -63,7 +63,7 @@ TEST(VirtualClock, PastActionsRunAtTheNextAdvance) {
   EXPECT_EQ(seen, 5ms);
 }
 
-TEST(VirtualClock, RefusesToGoBackOrToBeAdvancedByItsActions) {
+TEST(VirtualClock, RefusesBackwardAndNestedAdvances) {
   VirtualClock clock;
   clock.advanceTo(5ms);
   EXPECT_THROW(clock.advanceTo(4ms), std::logic_error);

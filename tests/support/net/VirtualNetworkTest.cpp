@@ -75,7 +75,7 @@ TEST(VirtualNetwork, NothingLeavesBeforeTheFlush) {
   EXPECT_EQ(bench.server.arrivals.size(), 1u);
 }
 
-TEST(VirtualNetwork, PacketsToAnAddressThatWasLeftAreLost) {
+TEST(VirtualNetwork, PacketsToAnAbandonedAddressAreLost) {
   NetworkBench bench({.delay = 20ms});
   const Endpoint old = bench.ann.socket->localEndpoint();
   bench.server.send(old, "under way");
@@ -105,7 +105,7 @@ TEST(VirtualNetwork, ReopeningTakesAnotherPort) {
   EXPECT_EQ(bench.ann.arrivals.size(), 1u);
 }
 
-TEST(VirtualNetwork, EachDirectionCanBeBlockedByItself) {
+TEST(VirtualNetwork, EachDirectionCanBeBlockedSeparately) {
   for (const bool outgoing : {false, true}) {
     for (const bool incoming : {false, true}) {
       NetworkBench bench({});
@@ -120,7 +120,7 @@ TEST(VirtualNetwork, EachDirectionCanBeBlockedByItself) {
   }
 }
 
-TEST(VirtualNetwork, PairsHaveConditionsOfTheirOwn) {
+TEST(VirtualNetwork, PairsHaveSeparateConditions) {
   NetworkBench bench({.delay = 10ms});
   bench.network.setConditions(*bench.ann.socket, *bench.server.socket, {.delay = 50ms});
   bench.network.setConditions(*bench.server.socket, *bench.ann.socket, {.loss = 1});
@@ -147,7 +147,7 @@ TEST(VirtualNetwork, SpoofedPacketsBearTheForgedSender) {
   EXPECT_EQ(bench.server.arrivals[0].path.remote, at("10.0.0.2", 7));
 }
 
-TEST(VirtualNetwork, TapSeesWhatIsSentLostOrNot) {
+TEST(VirtualNetwork, TapSeesLostPacketsToo) {
   NetworkBench bench({.loss = 1});
   std::vector<std::string> seen;
   bench.network.setTap([&](const Endpoint& from, const Endpoint& to, std::string_view packet) {
@@ -165,14 +165,14 @@ TEST(VirtualNetwork, AddressesBelongToOneSocket) {
   EXPECT_NO_THROW(bench.network.rebind(*bench.ann.socket, at("10.0.0.1")));
 }
 
-TEST(VirtualNetwork, SizesAreThoseOfDatagrams) {
+TEST(VirtualNetwork, PayloadSizeLimitsAreEnforced) {
   NetworkBench bench({});
   EXPECT_THROW(bench.ann.send(at("10.0.0.1"), ""), std::length_error);
   EXPECT_THROW(bench.ann.send(at("10.0.0.1"), std::string(1201, 'x')), std::length_error);
   EXPECT_NO_THROW(bench.ann.send(at("10.0.0.1"), std::string(1200, 'x')));
 }
 
-TEST(VirtualNetwork, SocketMayBeDestroyedInItsCallbackAndOutliveTheNetwork) {
+TEST(VirtualNetwork, SocketMayOutliveNetworkAndBeDestroyedInCallback) {
   VirtualClock clock;
   auto network = std::make_unique<VirtualNetwork>(clock, LinkConditions{}, 1);
   auto receiver = network->open(at("10.0.0.1"));
@@ -189,7 +189,7 @@ TEST(VirtualNetwork, SocketMayBeDestroyedInItsCallbackAndOutliveTheNetwork) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(VirtualNetwork, SameSeedGivesTheSameDeliveriesAndAllAreAccountedFor) {
+TEST(VirtualNetwork, SameSeedGivesTheSameAccountedDeliveries) {
   const auto run = [](std::uint64_t seed) {
     NetworkBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1}, seed);
     for (int i = 0; i < 500; ++i) {

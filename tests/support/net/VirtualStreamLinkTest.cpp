@@ -46,7 +46,7 @@ std::string frameOnLine(std::size_t bytes) {
   return std::string(bytes - kFrameHeaderSize, 'x');
 }
 
-TEST(VirtualStreamLink, DelaysFramesAndNothingElse) {
+TEST(VirtualStreamLink, OnlyDelaysFrames) {
   StreamBench bench({.delay = 50ms});
   bench.client->send("one");
   bench.clock.advanceTo(10ms);
@@ -82,7 +82,7 @@ TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
   EXPECT_GT(held_back, 1000u);
 }
 
-TEST(VirtualStreamLink, LossHoldsUpWhatCameAfterIt) {
+TEST(VirtualStreamLink, LossDelaysLaterFrames) {
   StreamBench bench({.delay = 20ms});
   bench.link.setConditions(LinkEnd::kClient, {.delay = 20ms, .loss = 1});
   bench.client->send("lost");
@@ -119,7 +119,7 @@ TEST(VirtualStreamLink, RateSpacesFramesOutAndShowsAsUnsentBytes) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.times[i], (i + 1) * 100ms + 5ms);
 }
 
-TEST(VirtualStreamLink, WindowLimitsWhatIsUnderWay) {
+TEST(VirtualStreamLink, WindowLimitsBytesInFlight) {
   StreamBench bench({.delay = 50ms, .window = 2000});
   for (int i = 0; i < 6; ++i) bench.client->send(frameOnLine(1000));
   EXPECT_EQ(bench.client->unsentBytes(), 4000u);
@@ -172,7 +172,7 @@ TEST(VirtualStreamLink, FramesWaitForAReceiverThatStartsLate) {
   EXPECT_EQ(recorder.frames.size(), 3u);
 }
 
-TEST(VirtualStreamLink, CloseFlushesAndBothEndsHear) {
+TEST(VirtualStreamLink, CloseFlushesAndNotifiesBothEnds) {
   StreamBench bench({.delay = 50ms, .rate = 10'000});
   for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
   bench.client->close();
@@ -204,7 +204,7 @@ TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
   EXPECT_LE(bench.at_server.frames.size(), 2u);
 }
 
-TEST(VirtualStreamLink, DestroyedAfterCloseItStillFlushes) {
+TEST(VirtualStreamLink, EndDestroyedAfterCloseStillFlushes) {
   StreamBench bench({.rate = 10'000});
   for (int i = 0; i < 5; ++i) bench.client->send(frameOnLine(1000));
   bench.client->close();
@@ -215,14 +215,14 @@ TEST(VirtualStreamLink, DestroyedAfterCloseItStillFlushes) {
   EXPECT_FALSE(bench.at_client.closed);
 }
 
-TEST(VirtualStreamLink, DestroyingHangsUp) {
+TEST(VirtualStreamLink, DestroyingAnEndDisconnects) {
   StreamBench bench({.delay = 50ms});
   bench.client.reset();
   bench.clock.advanceTo(50ms);
   EXPECT_EQ(bench.at_server.closed, CloseReason::kPeer);
 }
 
-TEST(VirtualStreamLink, NothingIsSentAgainToAnEndThatIsGone) {
+TEST(VirtualStreamLink, NothingIsRetransmittedToADestroyedEnd) {
   StreamBench bench({.loss = 1});
   bench.link.setConditions(LinkEnd::kServer, {});
   bench.client->send("lost");
@@ -232,7 +232,7 @@ TEST(VirtualStreamLink, NothingIsSentAgainToAnEndThatIsGone) {
   EXPECT_EQ(bench.clock.nextDue(), std::nullopt);
 }
 
-TEST(VirtualStreamLink, FrameOverTheReceiveLimitBreaksTheProtocol) {
+TEST(VirtualStreamLink, OversizedFrameIsAProtocolError) {
   StreamBench bench({});
   bench.server->setReceiveLimit(4);
   for (const char* frame : {"four", "fives", "six"}) bench.client->send(frame);
@@ -242,7 +242,7 @@ TEST(VirtualStreamLink, FrameOverTheReceiveLimitBreaksTheProtocol) {
   EXPECT_EQ(bench.at_client.closed, CloseReason::kError);
 }
 
-TEST(VirtualStreamLink, StartsWithTheLimitOfAServerBeforeLogin) {
+TEST(VirtualStreamLink, StartsWithThePreLoginLimit) {
   VirtualClock clock;
   VirtualStreamLink link(clock, {}, 1);
   const auto client = link.takeEnd(LinkEnd::kClient);
@@ -254,7 +254,7 @@ TEST(VirtualStreamLink, StartsWithTheLimitOfAServerBeforeLogin) {
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST(VirtualStreamLink, RefusesSizesThatAreNoFrame) {
+TEST(VirtualStreamLink, RefusesInvalidFrameSizes) {
   StreamBench bench({});
   EXPECT_THROW(bench.client->send(""), std::length_error);
   EXPECT_THROW(bench.client->send(std::string(kMaxFramePayload + 1, 'x')), std::length_error);

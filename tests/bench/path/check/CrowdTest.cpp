@@ -10,7 +10,7 @@
 namespace bench::path {
 namespace {
 
-TEST(Crowd, IsAFunctionOfItsSeed) {
+TEST(Crowd, DependsOnlyOnItsSeed) {
   Crowd a(5);
   Crowd b(5);
   Crowd other(6);
@@ -23,7 +23,7 @@ TEST(Crowd, IsAFunctionOfItsSeed) {
   EXPECT_NE(drawScene(a).cells, drawScene(other).cells);
 }
 
-TEST(Crowd, StaysOnTheScreenInOrderOfBirth) {
+TEST(Crowd, WalkersStayOnScreenInCreationOrder) {
   Crowd crowd(7);
   for (int i = 0; i < 2000; ++i) {
     crowd.tick();
@@ -37,7 +37,7 @@ TEST(Crowd, StaysOnTheScreenInOrderOfBirth) {
   }
 }
 
-TEST(Crowd, DoesWhatItIsSaidToDo) {
+TEST(Crowd, WalkersChangeAtTheSpecifiedRates) {
   Crowd crowd(8);
   std::map<std::uint32_t, Walker> before;
   int changed = 0;

@@ -39,7 +39,7 @@ TEST(Direction, DeliversAfterTheDelay) {
   EXPECT_EQ(counters.packets, 2u);
 }
 
-TEST(Direction, HandsOverWhatItWasGiven) {
+TEST(Direction, DeliversPacketsUnchanged) {
   DirectionCounters counters;
   Direction direction({}, counters);
   const auto sent = packet(60);
@@ -65,7 +65,7 @@ TEST(Direction, FullQueueDropsTheTail) {
   EXPECT_EQ(deliveries(direction).size(), 1u);
 }
 
-TEST(Direction, LosesTheShareThatItShouldAndTheSameOnesEachTime) {
+TEST(Direction, LosesTheConfiguredShareReproducibly) {
   const auto survivors = [](std::uint64_t seed) {
     DirectionCounters counters;
     Direction direction({.loss = 0.02, .seed = seed}, counters);
@@ -92,7 +92,7 @@ TEST(Direction, JitterKeepsTheOrder) {
   }
 }
 
-TEST(Direction, BlocksUdpAndNothingElse) {
+TEST(Direction, BlocksOnlyUdp) {
   DirectionCounters counters;
   Direction direction({.block_udp = true}, counters);
   direction.take(packet(100, kUdp), fromMilliseconds(0));
@@ -101,7 +101,7 @@ TEST(Direction, BlocksUdpAndNothingElse) {
   EXPECT_EQ(counters.blocked, 1u);
 }
 
-TEST(Direction, WhatIsNotIpv4Vanishes) {
+TEST(Direction, DropsPacketsThatAreNotIpv4) {
   DirectionCounters counters;
   Direction direction({}, counters);
   auto ipv6 = packet(100);

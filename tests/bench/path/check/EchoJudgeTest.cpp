@@ -11,7 +11,7 @@ Nanoseconds ms(int value) {
 
 const Nanoseconds kEver = ms(1'000'000);
 
-TEST(EchoJudge, MeasuresFromThePressToTheFirstSight) {
+TEST(EchoJudge, MeasuresFromKeyPressToFirstEcho) {
   EchoJudge judge(26);
   EXPECT_EQ(judge.press(ms(100)), 0u);
   EXPECT_EQ(judge.press(ms(300)), 1u);
@@ -21,7 +21,7 @@ TEST(EchoJudge, MeasuresFromThePressToTheFirstSight) {
   EXPECT_EQ(judge.latencies(ms(0), kEver), (std::vector<double>{120, 150}));
 }
 
-TEST(EchoJudge, KeysThatCameTogetherAreSeenTogether) {
+TEST(EchoJudge, OneEchoAnswersAllEarlierKeys) {
   EchoJudge judge(26);
   judge.press(ms(100));
   judge.press(ms(110));
@@ -29,7 +29,7 @@ TEST(EchoJudge, KeysThatCameTogetherAreSeenTogether) {
   EXPECT_EQ(judge.latencies(ms(0), kEver), (std::vector<double>{100, 90}));
 }
 
-TEST(EchoJudge, NumbersComeAgain) {
+TEST(EchoJudge, EchoNumbersWrapAround) {
   EchoJudge judge(4);
   for (int i = 0; i < 9; ++i) {
     judge.press(ms(100 * i));
@@ -38,7 +38,7 @@ TEST(EchoJudge, NumbersComeAgain) {
   EXPECT_EQ(judge.latencies(ms(700), kEver), (std::vector<double>{37, 38}));
 }
 
-TEST(EchoJudge, OnlyKeysOfTheWindowCount) {
+TEST(EchoJudge, OnlyKeysPressedInTheWindowCount) {
   EchoJudge judge(26);
   judge.press(ms(100));
   judge.press(ms(200));
@@ -50,7 +50,7 @@ TEST(EchoJudge, OnlyKeysOfTheWindowCount) {
   EXPECT_EQ(judge.unanswered(ms(0), ms(301)), 1u);
 }
 
-TEST(EchoJudge, WhatWasNeverPressedIsNoAnswer) {
+TEST(EchoJudge, EchoOfAnUnpressedKeyIsIgnored) {
   EchoJudge judge(26);
   judge.press(ms(100));
   judge.look(7, ms(150));

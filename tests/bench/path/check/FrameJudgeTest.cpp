@@ -33,7 +33,7 @@ class FrameJudgeTest : public testing::Test {
   FrameJudge m_judge{*m_truth};
 };
 
-TEST_F(FrameJudgeTest, RightFramesCountOnce) {
+TEST_F(FrameJudgeTest, CorrectFramesCountOnce) {
   m_judge.look(scene(4), fromMilliseconds(450));
   m_judge.look(scene(4), fromMilliseconds(460));
   m_judge.look(scene(5), fromMilliseconds(550));
@@ -51,7 +51,7 @@ TEST_F(FrameJudgeTest, EchoAndMarkerAreNotJudged) {
   EXPECT_EQ(likeness(screen, scene(4)), 100);
 }
 
-TEST_F(FrameJudgeTest, CrowdMayBeTwoTicksFromTheCounter) {
+TEST_F(FrameJudgeTest, CrowdMayDifferFromTheCounterByTwoTicks) {
   m_judge.look(mixed(6, 4), fromMilliseconds(700));
   EXPECT_EQ(m_judge.shown().size(), 1u);
   m_judge.look(mixed(8, 5), fromMilliseconds(800));
@@ -59,7 +59,7 @@ TEST_F(FrameJudgeTest, CrowdMayBeTwoTicksFromTheCounter) {
   EXPECT_LT(m_judge.lastLikeness(), FrameJudge::kLikenessPercent);
 }
 
-TEST_F(FrameJudgeTest, TornFrameIsRefusedUnlessItGetsRight) {
+TEST_F(FrameJudgeTest, TornFrameIsRejectedUnlessLaterCompleted) {
   Picture torn = mixed(9, 5);
   m_judge.look(torn, fromMilliseconds(600));
   EXPECT_TRUE(m_judge.shown().empty());
@@ -72,14 +72,14 @@ TEST_F(FrameJudgeTest, TornFrameIsRefusedUnlessItGetsRight) {
   EXPECT_EQ(m_judge.refused().size(), 1u);
 }
 
-TEST_F(FrameJudgeTest, ColoursCount) {
+TEST_F(FrameJudgeTest, FrameInWrongColoursIsNotCounted) {
   Picture screen = scene(4);
   for (Cell& cell : screen.cells) cell.color = 1;
   m_judge.look(screen, fromMilliseconds(450));
   EXPECT_TRUE(m_judge.shown().empty());
 }
 
-TEST_F(FrameJudgeTest, CountersThatNeverWereOrGoBackAreIgnored) {
+TEST_F(FrameJudgeTest, FutureAndDecreasingCountersAreIgnored) {
   m_judge.look(scene(6), fromMilliseconds(650));
   m_judge.look(mixed(6, 5), fromMilliseconds(660));
   Picture future = scene(6);
@@ -89,7 +89,7 @@ TEST_F(FrameJudgeTest, CountersThatNeverWereOrGoBackAreIgnored) {
   EXPECT_TRUE(m_judge.refused().empty());
 }
 
-TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
+TEST(Fluency, MissingFramesCountAsFreezeAndStaleness) {
   // A frame every 100 ms, each 50 ms late, except those at 500 and 600 ms.
   std::vector<Shown> shown;
   for (int i = 0; i < 10; ++i) {
@@ -104,14 +104,14 @@ TEST(Fluency, OfAScreenThatStandsStillForAWhile) {
   EXPECT_NEAR(fluency.staleness_p99_ms, 340, 2);
 }
 
-TEST(Fluency, AnEndWithoutFramesIsAFreeze) {
+TEST(Fluency, PeriodWithoutFramesIsAFreeze) {
   const Fluency fluency = fluencyOf({{fromMilliseconds(10), fromMilliseconds(0), 1}}, fromMilliseconds(20),
                                     fromMilliseconds(520));
   EXPECT_NEAR(fluency.freeze_ms, 510, 1e-9);
   EXPECT_EQ(fluency.frames_per_second, 0);
 }
 
-TEST(Fluency, IsUnknownBeforeTheFirstFrame) {
+TEST(Fluency, StalenessIsUnknownBeforeTheFirstFrame) {
   EXPECT_TRUE(std::isnan(fluencyOf({{fromMilliseconds(100), fromMilliseconds(0), 1}}, fromMilliseconds(20),
                                    fromMilliseconds(520))
                              .staleness_p50_ms));

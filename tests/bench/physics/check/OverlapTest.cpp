@@ -36,14 +36,14 @@ double depth(const Body& a, const Pose& at_a, const Body& b, const Pose& at_b) {
   return depth;
 }
 
-TEST(Overlap, OfUprightBoxesIsAlongTheShorterWayOut) {
+TEST(Overlap, UprightBoxesOverlapAlongTheShortestWayOut) {
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), {0.75, 0.25}), 0.25, kEps);
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), {-0.25, -0.875}), 0.125, kEps);
   EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), {1, 0}), 0);
   EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), {0.5, 1.25}), 0);
 }
 
-TEST(Overlap, OfTurnedBoxesIsThatOfTheirSides) {
+TEST(Overlap, RotatedBoxesAreMeasuredAlongTheirSides) {
   const double eighth = std::acos(-1.0) / 4;
   const double corner = std::sqrt(0.5);
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), turned(0.5 + corner - 0.1, 0, eighth)), 0.1, kEps);
@@ -55,7 +55,7 @@ TEST(Overlap, OfTurnedBoxesIsThatOfTheirSides) {
   }
 }
 
-TEST(Overlap, OfACircleIsMeasuredFromItsEdge) {
+TEST(Overlap, CircleIsMeasuredFromItsEdge) {
   EXPECT_NEAR(depth(disc(1), {0, 0}, disc(0.5), {0.6, 0.8}), 0.5, kEps);
   EXPECT_EQ(depth(disc(1), {0, 0}, disc(0.5), {1.2, 0.95}), 0);
   // The circle is next to a side, at a corner, or with its centre inside.
@@ -65,7 +65,7 @@ TEST(Overlap, OfACircleIsMeasuredFromItsEdge) {
   EXPECT_NEAR(depth(unitBox(), {0, 0}, disc(0.5), {0.3, 0.1}), 0.7, kEps);
 }
 
-TEST(Overlap, OfCompoundsIsPartByPartAndNotWithThemselves) {
+TEST(Overlap, CompoundPartsAreMeasuredButNotAgainstEachOther) {
   Body corner = unitBox();
   corner.parts = {{.half_width = 2, .half_height = 0.5, .y = 1.9},
                   {.half_width = 0.5, .half_height = 2, .x = 1.9}};
@@ -76,12 +76,12 @@ TEST(Overlap, OfCompoundsIsPartByPartAndNotWithThemselves) {
   EXPECT_NEAR(depth(corner, turned(0, 0, quarter), unitBox(), {-1.1, 0}), 0.2, kEps);
 }
 
-TEST(Overlap, OfBodiesThatCannotMoveDoesNotCount) {
+TEST(Overlap, OverlapOfImmovableBodiesDoesNotCount) {
   EXPECT_EQ(depth(unitBox(Motion::STATIC), {0, 0}, unitBox(Motion::KINEMATIC), {0.5, 0}), 0);
   EXPECT_NEAR(depth(unitBox(Motion::STATIC), {0, 0}, unitBox(), {0.5, 0}), 0.5, kEps);
 }
 
-TEST(Overlap, OfManyIsThatOfTheDeepestPair) {
+TEST(Overlap, ManyBodiesReportTheDeepestPair) {
   std::mt19937 random(7);
   const auto next = [&](double range) { return range * static_cast<double>(random()) / 4294967296.0; };
   for (int round = 0; round < 50; ++round) {
@@ -103,7 +103,7 @@ TEST(Overlap, OfManyIsThatOfTheDeepestPair) {
   }
 }
 
-TEST(WidestHinge, IsTheDistanceOfItsTwoAnchors) {
+TEST(WidestHinge, IsTheLargestDistanceBetweenAnchors) {
   Scene scene;
   scene.bodies = {unitBox(), unitBox()};
   scene.bodies[1].x = 1;

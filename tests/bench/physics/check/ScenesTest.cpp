@@ -26,7 +26,7 @@ void expectStart(const Scene& scene, int dynamic, std::size_t hinges) {
   }
 }
 
-TEST(Scenes, BeginWithoutOverlap) {
+TEST(Scenes, StartWithoutOverlap) {
   expectStart(makePyramid60(), 1830, 0);
   expectStart(makePyramids100(), 5500, 0);
   expectStart(makeTumbler500(), 500, 0);
@@ -37,7 +37,7 @@ TEST(Scenes, BeginWithoutOverlap) {
   expectStart(makeGrid100(), 9993, 19'800);
 }
 
-TEST(Scenes, HangHundredLinksOnTheChain) {
+TEST(Scenes, ChainLoadWeighsAHundredLinks) {
   const Scene scene = makeChain100();
   EXPECT_DOUBLE_EQ(scene.bodies.back().mass(), 100 * scene.bodies.front().mass());
 }
@@ -63,7 +63,7 @@ Scene boxOverFloor() {
   return scene;
 }
 
-TEST(Run, LooksAfterEachTenthTick) {
+TEST(Run, SamplesOverlapEveryTenTicks) {
   const Scene scene = boxOverFloor();
   Scripted simulation(scene);
   simulation.fall = 0.01;
@@ -75,7 +75,7 @@ TEST(Run, LooksAfterEachTenthTick) {
   EXPECT_FALSE(result.cut);
 }
 
-TEST(Run, CountsWhatIsThroughAWallFrozenOrNotFinite) {
+TEST(Run, CountsTunnelledFrozenAndNonFiniteBodies) {
   const Scene scene = boxOverFloor();
   Scripted sinking(scene), frozen(scene), lost(scene), dizzy(scene);
   sinking.fall = 0.021;  // only at the end its centre is in the floor
@@ -88,7 +88,7 @@ TEST(Run, CountsWhatIsThroughAWallFrozenOrNotFinite) {
   EXPECT_EQ(run(scene, dizzy, 1000).failed, 1);
 }
 
-TEST(Run, JudgesTheDrumInItsOwnAxes) {
+TEST(Run, ChecksTheDrumInItsRotatedFrame) {
   Scene scene = makeTumbler500();
   scene.bodies.resize(2);
   Scripted simulation(scene);
@@ -101,7 +101,7 @@ TEST(Run, JudgesTheDrumInItsOwnAxes) {
   EXPECT_EQ(run(scene, simulation, 1000).failed, 0);
 }
 
-TEST(Run, IsCutOffWhenItsTimeIsUp) {
+TEST(Run, StopsAtTheTimeLimit) {
   const Scene scene = boxOverFloor();
   Scripted simulation(scene);
   const auto result = run(scene, simulation, -1);

@@ -76,7 +76,7 @@ FixedBox randomBox(Random& random) {
   return {{number(size) - number(size), number(size) - number(size)}, {number(size), number(size)}};
 }
 
-TEST(Grid, FindsWhatTouchesWhereverItLiesAndHoweverLarge) {
+TEST(Grid, FindsTouchingBoxesOfAnySizeAnywhere) {
   Random random(7);
   for (const int spread : {20, 400, 40000, 2000000000}) {
     Filed it(400);
@@ -98,7 +98,7 @@ TEST(Grid, FindsWhatTouchesWhereverItLiesAndHoweverLarge) {
 }
 
 // Characters step among characters; characters and boxes step among both.
-TEST(Grid, ABoxStepsWhereItTouchesNothing) {
+TEST(Grid, StepIsFreeIfNothingTouches) {
   Random random(8);
   for (const int spread : {12, 60, 700, 2000000000}) {
     for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
@@ -127,7 +127,7 @@ TEST(Grid, ABoxStepsWhereItTouchesNothing) {
   }
 }
 
-TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
+TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
   Random random(11);
   // Positions on the borders between spots, and one unit away from them.
   const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
@@ -158,7 +158,7 @@ TEST(Grid, ATouchIsExactHoweverCoarselyItsSpotIsKept) {
 
 // Few boxes among many characters. Where no box is near, a step does not search the other levels, but it must
 // not miss a contact.
-TEST(Grid, CharactersMeetFewBoxesWhereverTheseGo) {
+TEST(Grid, CharactersAmongFewBoxesMissNoContact) {
   Random random(13);
   constexpr Grid::Slot kCount = 430, kCharacters = 400;
   const auto number = [&](int cells) {
@@ -213,7 +213,7 @@ TEST(Grid, CharactersMeetFewBoxesWhereverTheseGo) {
   EXPECT_GT(met, 3000);
 }
 
-TEST(Grid, ManyInOneCellComeAndGoInAnyOrder) {
+TEST(Grid, CrowdedCellSurvivesAddsAndRemovesInAnyOrder) {
   Random random(9);
   Filed it(300);
   for (int round = 0; round < 5000; ++round) {
@@ -238,7 +238,7 @@ TEST(Grid, FarAwayBoxesAreNotVisited) {
 }
 
 // Boxes on a lattice whose step is a power of two must be spread over many cells.
-TEST(Grid, ALatticeDoesNotPileUp) {
+TEST(Grid, RegularLatticeSpreadsOverManyCells) {
   for (const int step : {64, 1024, 65536}) {
     Filed it(10000);
     for (Grid::Slot s = 0; s < 10000; ++s) {
@@ -254,7 +254,7 @@ TEST(Grid, ALatticeDoesNotPileUp) {
   }
 }
 
-TEST(Grid, MemoryFollowsTheNumberOfBoxesNotTheSizeOfTheWorld) {
+TEST(Grid, MemoryGrowsWithBoxCountNotWorldSize) {
   Random random(10);
   Filed it(10000);
   for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, randomPosition(random, 4000000), kCharacterBox);

@@ -35,7 +35,7 @@ TEST(Mask, ShorterRowsArePaddedWithHoles) {
   EXPECT_EQ(picture(maskOf({"#", "", "###", " #"})), (Rows{"#..", "...", "###", ".#."}));
 }
 
-TEST(Mask, GivenCharacterIsAHoleAsBlanksAre) {
+TEST(Mask, TransparencyCharacterIsAHole) {
   EXPECT_EQ(picture(maskOf({"a.b", " .c"}, U'.')), (Rows{"#.#", "..#"}));
   EXPECT_EQ(picture(maskOf({"█░█"}, U'░')), (Rows{"#.#"}));
 }
@@ -45,7 +45,7 @@ TEST(Mask, CharactersAreCountedNotBytes) {
   EXPECT_EQ(picture(maskOf({"\xff \xe2\x82"})), (Rows{"#.##"})) << "a malformed byte is one character";
 }
 
-TEST(Mask, OnlyHolesAreAMaskThatSharesNoCell) {
+TEST(Mask, EmptyMaskSharesNoCell) {
   const Mask mask = maskOf({"  ", " "});
   const FixedBox box = {{}, {2 * kFixedOne, 2 * kFixedOne}};
   EXPECT_EQ(picture(mask), (Rows{"..", ".."}));
@@ -53,7 +53,7 @@ TEST(Mask, OnlyHolesAreAMaskThatSharesNoCell) {
   EXPECT_FALSE(shareCell(&mask, box, &mask, box));
 }
 
-TEST(Mask, NothingOrTooMuchIsRefused) {
+TEST(Mask, EmptyAndOversizedMasksAreRefused) {
   const auto side = static_cast<std::size_t>(Mask::kMaxSide);
   EXPECT_FALSE(Mask::fromRows({}));
   EXPECT_FALSE(Mask::fromRows({""}));
@@ -69,7 +69,7 @@ TEST(Mask, NothingOrTooMuchIsRefused) {
   EXPECT_EQ(maskOf({wide}).width(), Mask::kMaxSide) << "the limit is one of characters";
 }
 
-TEST(Mask, NothingIsSetOutside) {
+TEST(Mask, CellsOutsideTheMaskAreNotSet) {
   const Mask mask = maskOf(Rows(3, std::string(70, '#')));
   EXPECT_TRUE(mask.isSet(69, 2));
   for (const auto& [x, y] : std::vector<std::pair<int, int>>{
@@ -92,7 +92,7 @@ TEST(Mask, FirstCharacterLiesInTheCellAfterTheCorner) {
             (Cells{-2000999999, 2001000001, 1000000, 1}));
 }
 
-TEST(Mask, SideBySideSharesNoCell) {
+TEST(Mask, AdjacentBoxesShareNoCell) {
   const FixedVector size = {kFixedOne, kFixedOne};
   const FixedBox a = {{0, 0}, size};
   const FixedBox b = {{kFixedOne, 0}, size};
@@ -101,7 +101,7 @@ TEST(Mask, SideBySideSharesNoCell) {
   EXPECT_TRUE(shareCell(nullptr, a, nullptr, translate(b, {-1, 0})));
 }
 
-TEST(Mask, HolesLetThrough) {
+TEST(Mask, HolesDoNotCollide) {
   const Mask ring = maskOf({"####", "#  #", "####"});
   const Mask dot = maskOf({"o"});
   const FixedBox ring_box = {{}, {4 * kFixedOne, 3 * kFixedOne}};
@@ -150,7 +150,7 @@ class MaskPairs : public testing::Test {
   naiad::SplitMix64 random{11};
 };
 
-TEST_F(MaskPairs, ShareWhatAPlainDoubleLoopFinds) {
+TEST_F(MaskPairs, MatchABruteForceComparison) {
   int shared = 0;
   const int cases = 6000;
   for (int i = 0; i < cases; ++i) {

@@ -37,7 +37,7 @@ class RandomSweeps : public testing::Test {
   naiad::SplitMix64 random{5};
 };
 
-TEST_F(RandomSweeps, TouchWhatEveryStepFinds) {
+TEST_F(RandomSweeps, TouchResultsMatchSteppingUnitByUnit) {
   int hits = 0;
   int starts = 0;
   int outs = 0;
@@ -82,7 +82,7 @@ TEST_F(RandomSweeps, TouchWhatEveryStepFinds) {
 }
 
 // The borders of cells and boxes are a few units apart, so short moves cross them in any order.
-TEST_F(RandomSweeps, ShareWhatEveryStepFinds) {
+TEST_F(RandomSweeps, FirstShareMatchesSteppingUnitByUnit) {
   int hits = 0;
   int agains = 0;
   for (int i = 0; i < 150000; ++i) {
@@ -113,7 +113,7 @@ TEST_F(RandomSweeps, ShareWhatEveryStepFinds) {
   EXPECT_GT(agains, 20) << "hit again after coming apart";
 }
 
-TEST_F(RandomSweeps, OverManyCellsMeetWhatAWalkFromMarkToMarkFinds) {
+TEST_F(RandomSweeps, MultiCellSweepsMatchAReferenceWalk) {
   int hits = 0;
   int late = 0;
   int agains = 0;
@@ -159,7 +159,7 @@ TEST_F(RandomSweeps, OverManyCellsMeetWhatAWalkFromMarkToMarkFinds) {
   EXPECT_GT(agains, 50) << "hit again after coming apart";
 }
 
-TEST_F(RandomSweeps, AcrossTheWorldTouchWhatAWalkFromMarkToMarkFinds) {
+TEST_F(RandomSweeps, WorldWideSweepsMatchAReferenceWalk) {
   int hits = 0;
   for (int i = 0; i < 100000; ++i) {
     const Fixed reach = i % 2 == 0 ? kFar : kFar / 1000;

@@ -8,7 +8,7 @@ namespace {
 
 // ---- Moments.
 
-TEST(Moments, AreComparedAsFractionsNotAsDoubles) {
+TEST(Moments, AreComparedAsExactFractions) {
   constexpr std::uint64_t kMax = UINT64_MAX;
   EXPECT_EQ((Moment{1, 2}), (Moment{3, 6}));
   EXPECT_EQ((Moment{0, 1}), (Moment{0, kMax}));
@@ -24,7 +24,7 @@ TEST(Moments, AreComparedAsFractionsNotAsDoubles) {
 
 const FixedBox kCharacter = {{-kFixedOne / 2, -kFixedOne / 2}, {kFixedOne, kFixedOne}};
 
-TEST(SweptMove, FastArrowMeetsTheWindow) {
+TEST(SweptMove, FastArrowHitsTheWindow) {
   const FixedBox arrow = {cells(-2, -0.5), cells(4, 1)};
   const FixedBox window = translate(kCharacter, cells(21, 0));
   const Sweep sweep(arrow, cells(10, 0), cells(25, 0));
@@ -35,7 +35,7 @@ TEST(SweptMove, FastArrowMeetsTheWindow) {
   EXPECT_EQ(sweep.before(*touch), (FixedVector{fromCells(10) + 17 * (kFixedOne / 2) - 1, 0}));
 }
 
-TEST(SweptMove, WhatLiesBesideBeforeOrBehindIsNotHit) {
+TEST(SweptMove, BoxesOffThePathAreNotHit) {
   const Sweep sweep(kCharacter, cells(0, 0), cells(10, 5));
   const auto isHit = [&](double x, double y) {
     return sweep.firstTouch(translate(kCharacter, cells(x, y))).has_value();
@@ -49,7 +49,7 @@ TEST(SweptMove, WhatLiesBesideBeforeOrBehindIsNotHit) {
   EXPECT_FALSE(isHit(0, 5));
 }
 
-TEST(SweptMove, MovesAnAxisOnlyWhenAWholeUnitIsFull) {
+TEST(SweptMove, AxisMovesOnlyAfterAFullUnit) {
   // Two units to the right during three units down: x is 1 from t = 1/2 on, while y is 1.
   const Sweep sweep({{}, {}}, {0, 0}, {2, 3});
   EXPECT_EQ(sweep.firstTouch({{1, 1}, {}}), (Moment{1, 2}));
@@ -75,7 +75,7 @@ class AtTheWall : public testing::Test {
   const FixedBox wall = {{0, 0}, {2 * kFixedOne, 10 * kFixedOne}};
 };
 
-TEST_F(AtTheWall, HitsAtOnceUnlessItLeaves) {
+TEST_F(AtTheWall, TouchingMoverHitsAtOnceUnlessLeaving) {
   for (const FixedVector by : {FixedVector{-1, 0}, cells(-20, 0), cells(-20, 3)}) {
     EXPECT_EQ(touch(by), std::nullopt) << "leaving by " << by.x << ", " << by.y;
   }
@@ -89,7 +89,7 @@ TEST_F(AtTheWall, HitsAtOnceUnlessItLeaves) {
   EXPECT_EQ(touch(cells(0, -20)), std::nullopt);
 }
 
-TEST_F(AtTheWall, OneUnitAwaySlidesFreely) {
+TEST_F(AtTheWall, MoverOneUnitAwaySlidesFreely) {
   // The position of a mover that the wall has stopped.
   const Sweep arrival(kCharacter, cells(-10, 3), cells(10, 7));
   const std::optional<Moment> touch = arrival.firstTouch(wall);
@@ -102,7 +102,7 @@ TEST_F(AtTheWall, OneUnitAwaySlidesFreely) {
   EXPECT_EQ(Sweep(kCharacter, stop, stop + FixedVector{1, 0}).firstTouch(wall), (Moment{1, 1}));
 }
 
-TEST_F(AtTheWall, FromInsideTheShortestPathOutIsFree) {
+TEST_F(AtTheWall, InsideMoverLeavesFreelyByShortestPath) {
   // Half a cell deep from the left, five cells from above and below.
   const FixedVector inside = cells(0, 5);
   const auto touch_from = [&](FixedVector by) {
@@ -115,7 +115,7 @@ TEST_F(AtTheWall, FromInsideTheShortestPathOutIsFree) {
   EXPECT_EQ(touch_from(cells(0, 20)), std::nullopt) << "no deeper, and out in the end";
 }
 
-TEST(SweptMove, GapOfAPairIsTheLargerAndClosesOnlyIfAllOfItDoes) {
+TEST(SweptMove, GapClosesOnlyIfEveryLargestAxisCloses) {
   const FixedBox wall = {{0, 0}, cells(4, 4)};
   const auto closes = [&](FixedVector from, FixedVector by) {
     return Sweep(kCharacter, from, from + by).closesGap(wall);
@@ -134,7 +134,7 @@ TEST(SweptMove, GapOfAPairIsTheLargerAndClosesOnlyIfAllOfItDoes) {
   EXPECT_FALSE(closes(cells(2, 2), cells(-1, 1)));
 }
 
-TEST(SweptMove, MovesOutIfTheGapIsLargerAtTheEnd) {
+TEST(SweptMove, MovesOutIfGapIsLargerAtEnd) {
   const FixedBox wall = {{0, 0}, cells(4, 4)};
   const auto movesOut = [&](FixedVector from, FixedVector by) {
     return Sweep(kCharacter, from, from + by).movesOutOf(wall);
@@ -160,7 +160,7 @@ class MaskedMove : public testing::Test {
   }
 };
 
-TEST_F(MaskedMove, FliesThroughAHoleAsHighAsItself) {
+TEST_F(MaskedMove, ArrowFliesThroughAHoleOfItsHeight) {
   const Mask arrow = *Mask::fromRows({">-->"});
   const Mask gate = *Mask::fromRows({"#", "#", " ", "#"});
   const FixedBox box = boxAt(10, 0, 1, 4);
@@ -173,7 +173,7 @@ TEST_F(MaskedMove, FliesThroughAHoleAsHighAsItself) {
   }
 }
 
-TEST_F(MaskedMove, SideBySideMayPass) {
+TEST_F(MaskedMove, NeighbouringRowsDoNotCollide) {
   const Mask dot = *Mask::fromRows({"o"});
   const Sweep move = sweep(dot, cells(0, 0), cells(20, 0));
   EXPECT_TRUE(move.firstTouch(boxAt(10, 1, 1, 1)));
@@ -183,7 +183,7 @@ TEST_F(MaskedMove, SideBySideMayPass) {
   EXPECT_TRUE(move.firstShare(nullptr, boxAt(10, 0, 1, 1), nullptr));
 }
 
-TEST_F(MaskedMove, GoesDownIntoACellAtItsLastUnit) {
+TEST_F(MaskedMove, DecreasingMoveEntersACellAtItsLastUnit) {
   const Mask dot = *Mask::fromRows({"o"});
   const Sweep move = sweep(dot, cells(5, 0), cells(-5, 0));
   const FixedBox other = boxAt(0, 0, 1, 1);
@@ -194,7 +194,7 @@ TEST_F(MaskedMove, GoesDownIntoACellAtItsLastUnit) {
   EXPECT_EQ(move.before(*share), cells(1, 0));
 }
 
-TEST_F(MaskedMove, MeetsAgainWhatItHasLeft) {
+TEST_F(MaskedMove, MayHitTheSameMaskAgainAfterLeaving) {
   // Two bars in a row: the mover begins in the first, leaves it and hits the second.
   const Mask bars = *Mask::fromRows({"#   #   "});
   const Mask dot = *Mask::fromRows({"o"});
@@ -208,7 +208,7 @@ TEST_F(MaskedMove, MeetsAgainWhatItHasLeft) {
   EXPECT_EQ(sweep(dot, cells(0, 0), cells(3, 0)).firstShare(&dot, box, &bars), std::nullopt);
 }
 
-TEST_F(MaskedMove, InsideARingIsFreeUntilItMeetsTheRim) {
+TEST_F(MaskedMove, MovesFreelyInsideARingUntilTheRim) {
   const Mask ring = *Mask::fromRows({"######", "#    #", "#    #", "#    #", "######"});
   const Mask dot = *Mask::fromRows({"o"});
   const FixedBox box = boxAt(0, 0, 6, 5);
@@ -217,7 +217,7 @@ TEST_F(MaskedMove, InsideARingIsFreeUntilItMeetsTheRim) {
   EXPECT_EQ(sweep(dot, cells(1, 2), cells(1, 2)).firstShare(&dot, box, &ring), std::nullopt);
 }
 
-TEST_F(MaskedMove, CrossesTheLargestBoxByItsEndsOnly) {
+TEST_F(MaskedMove, LargestBoxIsHitOnlyBySetCells) {
   // A ship of two rows, the lower one empty, above the wall. Only the empty row is level with the wall.
   const Mask ship = *Mask::fromRows({"####", "    "});
   const FixedBox wall = boxAt(0, 0, 1000000, 1);
@@ -255,7 +255,7 @@ void expectSameEverywhere(const Move& base, const FixedBox& other, Masks masks =
   }
 }
 
-TEST(FarAndFast, AnswersAreTheSameAtTheEndsOfTheWorld) {
+TEST(FarAndFast, ResultsDoNotDependOnDistanceFromOrigin) {
   const Mask mask = *Mask::fromRows({"#  #", " ## ", "#  #"});
   for (const double size : {0.0, 1.0, 10000.0, 1000000.0}) {
     for (const double speed : {1.0, 15.0, 1000000.0}) {
@@ -272,7 +272,7 @@ TEST(FarAndFast, AnswersAreTheSameAtTheEndsOfTheWorld) {
   }
 }
 
-TEST(FarAndFast, FromEndToEndOfTheWorld) {
+TEST(FarAndFast, SweepAcrossTheWholeWorldIsExact) {
   const FixedVector first = {-kFar, -kFar};
   const FixedVector last = {kFar, kFar};
   for (const bool is_back : {false, true}) {

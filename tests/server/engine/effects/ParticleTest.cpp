@@ -55,7 +55,7 @@ TEST_F(ParticleTest, EveryKindAppearsMovesAndEnds) {
   EXPECT_EQ(addParticles(UNDEFINED_PARTICLE_TYPE, Vector()), -1);
 }
 
-TEST_F(ParticleTest, CountSpeedAndAgeAreAsAskedFor) {
+TEST_F(ParticleTest, CountSpeedAndAgeMatchTheRequest) {
   EXPECT_EQ(addParticles(7, 0, Vector(40, 12), 0, Vector(1, 0), 0, 10, 0, 0.5, 0, 4, 0, 255, 0, 0, 255, 0, 0),
             0);
   ASSERT_EQ(count(), 7);
@@ -68,7 +68,7 @@ TEST_F(ParticleTest, CountSpeedAndAgeAreAsAskedFor) {
   EXPECT_EQ(count(), 1000);
 }
 
-TEST_F(ParticleTest, PrecipitationComesInAgain) {
+TEST_F(ParticleTest, PrecipitationReentersTheWorld) {
   EXPECT_EQ(addParticles(RAIN, DOWN), 0);
   EXPECT_EQ(addParticles(SNOW, LEFT), 0);
   EXPECT_EQ(addParticles(STARFIELD, LEFT), 0);
@@ -83,7 +83,7 @@ TEST_F(ParticleTest, PrecipitationComesInAgain) {
   }
 }
 
-TEST_F(ParticleTest, ParticlesLeaveTheGamesDiceAlone) {
+TEST_F(ParticleTest, ParticlesDoNotUseTheGamesRandomNumbers) {
   World other;
   world.setSeed(5);
   other.setSeed(5);

@@ -11,7 +11,7 @@ Config& config() {
   return Config::getInstance();
 }
 
-TEST_F(ConfigTest, DefaultsAreThePublishedOnes) {
+TEST_F(ConfigTest, DefaultsMatchPublishedDragonfly) {
   EXPECT_EQ(config().getWindowHorizontalChars(), 80);
   EXPECT_EQ(config().getWindowVerticalChars(), 24);
   EXPECT_EQ(config().getFrameTime(), 33);
@@ -41,7 +41,7 @@ TEST_F(ConfigTest, ReadsPairsAcrossLinesAndBlanks) {
   EXPECT_TRUE(world.compat());
 }
 
-TEST_F(ConfigTest, NonsenseIsLoggedAndLeftOut) {
+TEST_F(ConfigTest, InvalidValuesAreLoggedAndIgnored) {
   config().loadConfig(
       "window_horizontal_chars:wide,frame_time:-3,headless:maybe,window_background_color:pink,"
       "window_vertical_chars:5000,");
@@ -52,7 +52,7 @@ TEST_F(ConfigTest, NonsenseIsLoggedAndLeftOut) {
   EXPECT_EQ(logged("invalid window of 80 by 5000"), 1);
 }
 
-TEST_F(ConfigTest, SeedMakesTheDiceTheSame) {
+TEST_F(ConfigTest, ConfiguredSeedReproducesRandomNumbers) {
   World other;
   other.setSeed(42);
   config().loadConfig("random_seed:42,");

@@ -38,7 +38,7 @@ TEST_F(BookTest, CharactersWithinOneSpaceIntersect) {
 }
 
 // "the first object is moved back to its original location - the collision still happens".
-TEST_F(BookTest, HardOntoHardIsTwoEventsAndNoMove) {
+TEST_F(BookTest, HardOntoHardSendsTwoEventsAndBlocks) {
   Object* p_mover = make(10, 10);
   make(15, 10);
   EXPECT_EQ(m_world.moveObject(p_mover, cells(14.5, 10)), -1);
@@ -57,7 +57,7 @@ TEST_F(BookTest, SoftObjectsShareASpaceAndAllGetEvents) {
   EXPECT_EQ(m_events, "2:2>0 0:2>0 2:2>1 1:2>1 ");
 }
 
-TEST_F(BookTest, AHardObjectDoesNotHideTheOthersFromTheirEvents) {
+TEST_F(BookTest, HardBlockerDoesNotSuppressOtherCollisionEvents) {
   make(15, 10, df::HARD);
   make(15, 10, df::SOFT);
   Object* p_mover = make(10, 10);
@@ -75,7 +75,7 @@ TEST_F(BookTest, SpectralObjectsNeverCollide) {
 }
 
 // "soft game objects are treated as hard game objects in this case", but "will still generate collisions".
-TEST_F(BookTest, NoSoftDoesNotMoveOntoSoft) {
+TEST_F(BookTest, NoSoftMoverIsBlockedBySoft) {
   Object* p_mover = make(10, 10, df::SOFT);
   p_mover->no_soft = true;
   make(15, 10, df::SOFT);
@@ -95,7 +95,7 @@ TEST_F(BookTest, OverlapTestingLetsFastObjectsThrough) {
 }
 
 // "only sends an EventOut once, when the Object first moves from inside to outside the game world".
-TEST_F(BookTest, OutOncePerLeaving) {
+TEST_F(BookTest, OutEventIsSentOncePerExit) {
   Object* p_o = make(78.5, 10);
   p_o->velocity = cells(1, 0);
   m_world.update();
@@ -111,7 +111,7 @@ TEST_F(BookTest, OutOncePerLeaving) {
   EXPECT_EQ(m_events, "out:0 out:0 ");
 }
 
-TEST_F(BookTest, TheEdgeAtZeroIsInsideAndTheOneAtTheWidthIsNot) {
+TEST_F(BookTest, LowerBoundaryEdgeIsInsideUpperIsOutside) {
   Object* p_o = make(1, 1);
   m_world.moveObject(p_o, cells(0, 0));
   EXPECT_EQ(m_events, "");
@@ -130,7 +130,7 @@ TEST_F(BookTest, HeadOnMoversCollideTwice) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 1:1>0 0:1>0 ");
 }
 
-TEST_F(BookTest, MarkedObjectsGoAtTheEndOfUpdateAndOnce) {
+TEST_F(BookTest, MarkedObjectsAreDeletedOnceAfterUpdate) {
   Object* p_bullet = make(10, 10);
   p_bullet->velocity = cells(1, 0);
   make(12, 10);
@@ -140,7 +140,7 @@ TEST_F(BookTest, MarkedObjectsGoAtTheEndOfUpdateAndOnce) {
   EXPECT_EQ(m_world.getAllObjects().size(), 1U);
 }
 
-TEST_F(BookTest, WhetherAPairBlocksIsJudgedAfterItsHandlers) {
+TEST_F(BookTest, BlockingIsDecidedAfterTheHandlers) {
   Object* p_ghost = make(10, 10);
   make(15, 10);
   m_on_collision = [&](Object* p_receiver) {
@@ -150,7 +150,7 @@ TEST_F(BookTest, WhetherAPairBlocksIsJudgedAfterItsHandlers) {
   EXPECT_EQ(p_ghost->position, cells(15, 10));
 }
 
-TEST_F(BookTest, ABirthInAHandlerCanBeHitAtOnceAndMovesNextTick) {
+TEST_F(BookTest, ObjectBornInHandlerCollidesNowMovesNextTick) {
   Object* p_mover = make(10, 10, df::SOFT);
   p_mover->velocity = cells(1, 0);
   make(12, 10, df::SOFT);
@@ -169,7 +169,7 @@ TEST_F(BookTest, ABirthInAHandlerCanBeHitAtOnceAndMovesNextTick) {
   EXPECT_EQ(p_born->position, cells(33, 10));
 }
 
-TEST_F(BookTest, InactiveObjectsAreNotMovedNotHitAndGetNoEvents) {
+TEST_F(BookTest, InactiveObjectsNeitherMoveCollideNorReceiveEvents) {
   Object* p_sleeper = make(15, 10);
   p_sleeper->velocity = cells(1, 0);
   p_sleeper->active = false;
@@ -180,7 +180,7 @@ TEST_F(BookTest, InactiveObjectsAreNotMovedNotHitAndGetNoEvents) {
   EXPECT_EQ(m_events, "");
 }
 
-TEST_F(BookTest, ADeletedOtherIsPassedOverAndBlocksNothing) {
+TEST_F(BookTest, ObjectDeletedByAHandlerBlocksNothing) {
   Object* p_mover = make(10, 10);
   make(15, 10);
   Object* p_wall = make(15, 10);
@@ -192,7 +192,7 @@ TEST_F(BookTest, ADeletedOtherIsPassedOverAndBlocksNothing) {
   EXPECT_EQ(m_events, "0:0>1 gone:2 1:0>1 ");
 }
 
-TEST_F(BookTest, MovesNestThirtyTwoDeep) {
+TEST_F(BookTest, NestedMovesAreLimitedToThirtyTwo) {
   Object* p_o = make(10, 10);
   make(11, 10);
   int refused = 0;

@@ -19,7 +19,7 @@ TEST_F(ContactsTest, PreciseCharactersPassSideBySide) {
 }
 
 // "A pair is tested so if either of the two is precise."
-TEST_F(ContactsTest, OneOfTheTwoIsEnough) {
+TEST_F(ContactsTest, OnePreciseObjectMakesThePairPrecise) {
   Object* p_o = make(10, 10);
   make(15, 11)->precise = true;
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
@@ -60,7 +60,7 @@ TEST_F(ContactsTest, AFullMaskHasAtLeastOneCharacter) {
 }
 
 // "the time is the first at which the masks share a cell and the boxes touch"
-TEST_F(ContactsTest, ASweptShotFliesIntoTheMouthAndIsStoppedByTheThroat) {
+TEST_F(ContactsTest, SweptShotStopsAtTheEndOfAHole) {
   Object* p_mouth = make(20, 10);
   p_mouth->box = boxOf(5, 3);
   p_mouth->mask = {"#####", "    #", "#####"};
@@ -94,7 +94,7 @@ TEST_F(ContactsTest, ObjectLeavingOneToothMayHitTheNext) {
 }
 
 // An Object with rest contacts collides in every update as if it had moved to its own position.
-TEST_F(ContactsTest, AtRestContactsAreSentOnRequest) {
+TEST_F(ContactsTest, RestContactsAreSentOnRequest) {
   Object* p_floor = make(10, 10);
   make(11, 10);
   m_world.update();
@@ -109,7 +109,7 @@ TEST_F(ContactsTest, AtRestContactsAreSentOnRequest) {
 }
 
 // "So a HARD Object that was placed inside another can leave it. Both still hear."
-TEST_F(ContactsTest, ObjectThatMayMoveOutLeavesAWallStepByStep) {
+TEST_F(ContactsTest, MoveOutObjectLeavesAWallStepByStep) {
   for (const bool swept : {false, true}) {
     Object* p_o = make(12, swept ? 18 : 6);
     p_o->swept = swept;
@@ -129,7 +129,7 @@ TEST_F(ContactsTest, ObjectThatMayMoveOutLeavesAWallStepByStep) {
 }
 
 // "a pair that touches where the move begins": other pairs block as always.
-TEST_F(ContactsTest, MovingOutOfOneDoesNotAllowMovingIntoAnother) {
+TEST_F(ContactsTest, MovingOutDoesNotAllowEnteringAnother) {
   Object* p_o = make(10, 10);
   p_o->may_move_out = true;
   make(9.5, 10);
@@ -140,7 +140,7 @@ TEST_F(ContactsTest, MovingOutOfOneDoesNotAllowMovingIntoAnother) {
 
 // "the position nearest to `near`, in whole cells from it"; of equally near positions, the one with the least
 // y, then the least x.
-TEST_F(ContactsTest, FreePlacesAreTheNearestOnes) {
+TEST_F(ContactsTest, FindFreeReturnsTheNearestPosition) {
   EXPECT_EQ(m_world.findFree(kCharacterBox, cells(10.5, 10.5)), cells(10.5, 10.5));
   make(10.5, 10.5);
   EXPECT_EQ(m_world.findFree(kCharacterBox, cells(10.5, 10.5)), cells(10.5, 8.5));  // one cell away touches

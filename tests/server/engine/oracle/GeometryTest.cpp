@@ -72,7 +72,7 @@ Case randomCase(Rng& rng, Fixed unit, int reach, int size) {
   return c;
 }
 
-TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
+TEST(GeometryTest, FirstTouchMatchesTestingEveryPosition) {
   Rng rng(1);
   int met = 0;
   int at_start = 0;
@@ -105,7 +105,7 @@ TEST(GeometryTest, FirstTouchIsTheFirstOfAllPositions) {
 }
 
 // Contacts change only where a coordinate reaches a multiple of the unit or leaves it.
-TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
+TEST(GeometryTest, FirstShareMatchesTestingEveryPosition) {
   const Fixed unit = df::kFixedOne / 4;
   Rng rng(2);
   int met = 0;
@@ -146,7 +146,7 @@ TEST(GeometryTest, FirstShareIsTheFirstOfAllPositions) {
 }
 
 // Compares with a move so short that the largest of the four distances stays the largest.
-TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
+TEST(GeometryTest, ClosingGapIsSmallerAMomentLater) {
   constexpr Fixed kMoment = 1000;
   Rng rng(3);
   const auto scaled = [](FixedBox box) {
@@ -166,7 +166,7 @@ TEST(GeometryTest, TheGapClosesIfItIsSmallerAMomentLater) {
 }
 
 // Across the whole number range, a distance does not fit a signed 64-bit number.
-TEST(GeometryTest, PathsAreAsLongAsTheWorldIsWide) {
+TEST(GeometryTest, PathAcrossTheWholeWorldIsExact) {
   const Fixed end = df::fromCells(2'000'000'000);
   const FixedBox character{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
   const SweepPath path{{-end, -end}, {end, end}};

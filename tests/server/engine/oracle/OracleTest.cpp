@@ -133,7 +133,7 @@ void reportPaths(const Sum& sum) {
   std::printf("\n");
 }
 
-TEST(OracleTest, EngineEqualsTheBooksLoopInRandomWorlds) {
+TEST(OracleTest, EngineMatchesTheOracleInRandomWorlds) {
   const std::int64_t worlds = setting("NAIAD_ORACLE_WORLDS", kWorlds);
   const std::int64_t first_seed = setting("NAIAD_ORACLE_SEED", 1);
   const bool with_options = setting("NAIAD_ORACLE_OPTIONS", 1) != 0;

@@ -22,7 +22,7 @@ class SweptMovesTest : public BookWorld {
 };
 
 // "An arrow four characters long that flies 15 cells a tick misses the window", but not if it is swept.
-TEST_F(SweptMovesTest, TheArrowIsStoppedAtTheLastPositionBeforeTheGlass) {
+TEST_F(SweptMovesTest, SweptArrowStopsJustBeforeTheGlass) {
   for (const bool swept : {false, true}) {
     Object* p_arrow = make(10, swept ? 10 : 20);
     p_arrow->box = boxOf(4, 1);
@@ -37,7 +37,7 @@ TEST_F(SweptMovesTest, TheArrowIsStoppedAtTheLastPositionBeforeTheGlass) {
   EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hit in flight, and again from where it stopped
 }
 
-TEST_F(SweptMovesTest, TheSwitchOfTheWorldSweepsAll) {
+TEST_F(SweptMovesTest, WorldSettingSweepsAllMoves) {
   Object* p_arrow = make(10, 10);
   makeGlass(17);
   m_world.setSweptCollisions(true);
@@ -48,7 +48,7 @@ TEST_F(SweptMovesTest, TheSwitchOfTheWorldSweepsAll) {
 }
 
 // "All solid Objects whose boxes touch the mover's somewhere on the way, in the order of (time, creation)."
-TEST_F(SweptMovesTest, WhatIsHitComesInTheOrderOfTimeThenOfCreation) {
+TEST_F(SweptMovesTest, HitsComeInOrderOfTimeThenCreation) {
   Object* p_mover = makeSwept(10, 10);
   make(30, 10, df::SOFT);
   make(20, 10.5, df::SOFT);
@@ -62,7 +62,7 @@ TEST_F(SweptMovesTest, WhatIsHitComesInTheOrderOfTimeThenOfCreation) {
 
 // "it ends with the first time at which a pair blocks", and "everyone else hit at that very time still
 // hears".
-TEST_F(SweptMovesTest, WhatIsHitLaterThanWhatBlocksGetsNoEvent) {
+TEST_F(SweptMovesTest, ObjectsBehindTheBlockerGetNoEvent) {
   Object* p_mover = makeSwept(10, 10);
   make(25, 10, df::SOFT);
   make(20, 10, df::HARD);
@@ -73,7 +73,7 @@ TEST_F(SweptMovesTest, WhatIsHitLaterThanWhatBlocksGetsNoEvent) {
   EXPECT_EQ(p_mover->position, cells(19, 10) - kUnit);
 }
 
-TEST_F(SweptMovesTest, NoSoftStopsBeforeSoft) {
+TEST_F(SweptMovesTest, NoSoftMoverStopsBeforeSoft) {
   Object* p_mover = makeSwept(10, 10, df::SOFT);
   p_mover->no_soft = true;
   make(20, 10, df::SOFT);
@@ -82,7 +82,7 @@ TEST_F(SweptMovesTest, NoSoftStopsBeforeSoft) {
 }
 
 // "the last position before that time": holds for both axes, even if only one of them leads to the contact.
-TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
+TEST_F(SweptMovesTest, BothAxesStopJustBeforeTheContact) {
   Object* p_mover = makeSwept(0, 0);
   make(20, 10);
   EXPECT_EQ(m_world.moveObject(p_mover, cells(40, 20)), -1);
@@ -91,7 +91,7 @@ TEST_F(SweptMovesTest, BothAxesAreWhereTheyWereJustBefore) {
 }
 
 // "counts, at time 0, only if the move closes the gap or the boxes touch at the end, too".
-TEST_F(SweptMovesTest, LeavingAWallIsFreeAndSlidingAlongItIsNot) {
+TEST_F(SweptMovesTest, LeavingAWallIsFreeButSlidingIsBlocked) {
   Object* p_o = makeSwept(10, 10);
   make(11, 10)->box = boxOf(1, 6);
   EXPECT_EQ(m_world.moveObject(p_o, cells(9, 10)), 0);    // away from it
@@ -134,7 +134,7 @@ TEST_F(SweptMovesTest, BrokenGlassLetsTheArrowThroughToTheNext) {
 }
 
 // "in the world as it is then, for Objects not yet met in this move".
-TEST_F(SweptMovesTest, TheRestOfThePathIsSearchedInTheWorldAsItIsThen) {
+TEST_F(SweptMovesTest, RemainingPathSeesChangesMadeByHandlers) {
   Object* p_arrow = makeSwept(10, 10);
   Object* p_glass = makeGlass(20);
   Object* p_met = makeGlass(15, df::SOFT);
@@ -154,7 +154,7 @@ TEST_F(SweptMovesTest, TheRestOfThePathIsSearchedInTheWorldAsItIsThen) {
 }
 
 // If nothing blocks, there is one search: Objects that enter the path later are not met.
-TEST_F(SweptMovesTest, WithoutABlockThereIsOneSearch) {
+TEST_F(SweptMovesTest, UnblockedMoveSearchesOnce) {
   Object* p_arrow = makeSwept(10, 10);
   makeGlass(20, df::SOFT);
   Object* p_late = makeGlass(70);
@@ -164,7 +164,7 @@ TEST_F(SweptMovesTest, WithoutABlockThereIsOneSearch) {
 }
 
 // "Both sides of each pair hear, as in the book, and the pair is judged afterwards."
-TEST_F(SweptMovesTest, APairThatBlocksOnlyAfterItsHandlersEndsTheMove) {
+TEST_F(SweptMovesTest, PairHardenedByItsHandlerBlocksTheMove) {
   Object* p_arrow = makeSwept(10, 10);
   Object* p_foam = makeGlass(20, df::SOFT);
   makeGlass(30);
@@ -175,7 +175,7 @@ TEST_F(SweptMovesTest, APairThatBlocksOnlyAfterItsHandlersEndsTheMove) {
 }
 
 // "if it still stands where it began; where a handler put it, it stays".
-TEST_F(SweptMovesTest, WhereAHandlerPutABlockedMoverItStays) {
+TEST_F(SweptMovesTest, BlockedMoverStaysWhereAHandlerPutIt) {
   Object* p_arrow = makeSwept(10, 10);
   makeGlass(20);
   m_on_collision = [&](Object*) { p_arrow->position = cells(3, 3); };
@@ -183,7 +183,7 @@ TEST_F(SweptMovesTest, WhereAHandlerPutABlockedMoverItStays) {
   EXPECT_EQ(p_arrow->position, cells(3, 3));
 }
 
-TEST_F(SweptMovesTest, AMoverThatNoLongerCollidesPassesOnToTheTarget) {
+TEST_F(SweptMovesTest, MoverTurnedSpectralPassesToTheTarget) {
   Object* p_ghost = makeSwept(10, 10);
   makeGlass(20);
   makeGlass(30);
@@ -193,7 +193,7 @@ TEST_F(SweptMovesTest, AMoverThatNoLongerCollidesPassesOnToTheTarget) {
   EXPECT_EQ(p_ghost->position, cells(50, 10));
 }
 
-TEST_F(SweptMovesTest, ABlockedMoverThatIsPlacedOutsideTheWorldGetsAnOutEvent) {
+TEST_F(SweptMovesTest, MoverStoppedOutsideTheWorldGetsAnOutEvent) {
   Object* p_o = makeSwept(70, 10);
   make(90, 10);
   EXPECT_EQ(m_world.moveObject(p_o, cells(100, 10)), -1);

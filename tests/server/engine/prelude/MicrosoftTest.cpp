@@ -13,7 +13,7 @@
 namespace df::test {
 namespace {
 
-TEST(Microsoft, TextNeverOverruns) {
+TEST(Microsoft, StringFunctionsTruncateInsteadOfOverrunning) {
   char text[8];
   EXPECT_EQ(sprintf_s(text, "%d lives", 3), 7);
   EXPECT_STREQ(text, "3 lives");
@@ -34,7 +34,7 @@ TEST(Microsoft, TextNeverOverruns) {
 
 using Windows = WorldTest;
 
-TEST_F(Windows, TimeIsTheGames) {
+TEST_F(Windows, TickCountFollowsGameTime) {
   const DWORD before = GetTickCount();
   Sleep(1000);
   EXPECT_EQ(GetTickCount(), before);
@@ -42,13 +42,13 @@ TEST_F(Windows, TimeIsTheGames) {
   EXPECT_EQ(GetTickCount(), before + 33);
 }
 
-TEST_F(Windows, NoKeyIsDown) {
+TEST_F(Windows, KeyFunctionsReportNoKey) {
   EXPECT_EQ(GetAsyncKeyState('A'), 0);
   EXPECT_FALSE(_kbhit());
   EXPECT_EQ(max(1, 2), 2);
 }
 
-TEST(Microsoft, SaysWhyAFileIsNotOpened) {
+TEST(Microsoft, FileOpenFailureReturnsTheErrorCode) {
   std::FILE* p_file = stdin;
   EXPECT_EQ(fopen_s(&p_file, "/nowhere/scores.txt", "r"), ENOENT);
   EXPECT_EQ(p_file, nullptr);

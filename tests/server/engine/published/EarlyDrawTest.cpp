@@ -25,7 +25,7 @@ class Title : public ViewObject {
   void draw() override { DM.drawString(Vector(0, 3), "title", LEFT_JUSTIFIED, WHITE); }
 };
 
-TEST(EarlyDraw, ShowsWhatItDraws) {
+TEST(EarlyDraw, DrawFunctionsReturningVoidStillWork) {
   World world;
   const World::Scope scope(world);
   (new Platform)->setPosition(Vector(1, 2));

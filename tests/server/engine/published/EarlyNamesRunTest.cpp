@@ -31,17 +31,17 @@ class EarlyNames : public WorldTest {
   Sprite m_arrow{1};
 };
 
-TEST_F(EarlyNames, AreThere) {
+TEST_F(EarlyNames, StillCompileAndRun) {
   EXPECT_EQ(earlyNames(), 0);
   world.tick();
   EXPECT_EQ(WM.getAllObjects().getCount(), 0) << "the splash goes by itself";
 }
 
-TEST_F(EarlyNames, OfLaterVersionsAreThereToo) {
+TEST_F(EarlyNames, LaterVersionsNamesCompileAndRun) {
   EXPECT_EQ(laterNames(), 0);
 }
 
-TEST_F(EarlyNames, IsCollisionIsAListAndAnAnswer) {
+TEST_F(EarlyNames, IsCollisionConvertsToListAndBool) {
   Probe mover("mover");
   Probe wall("wall", nullptr, Vector(5, 5));
   Probe other("other", nullptr, Vector(5.5, 5));
@@ -49,12 +49,12 @@ TEST_F(EarlyNames, IsCollisionIsAListAndAnAnswer) {
   EXPECT_EQ(earlyCollisions(&mover, Vector(20, 5)), 0);
 }
 
-TEST_F(EarlyNames, TextOfOneFlag) {
+TEST_F(EarlyNames, SerializeAcceptsABoolFlag) {
   Probe probe;
   EXPECT_TRUE(earlyText(&probe));
 }
 
-TEST_F(EarlyNames, ASpriteThatIsNotCentredBeginsAtThePosition) {
+TEST_F(EarlyNames, UncentredSpriteStartsAtThePosition) {
   PlacedObject o(Vector(9, 10.5));
   o.setSprite(&m_arrow);
   EXPECT_EQ(earlySprites(&o), "arrow");
@@ -67,7 +67,7 @@ TEST_F(EarlyNames, ASpriteThatIsNotCentredBeginsAtThePosition) {
   EXPECT_EQ(o.getBox(), m_arrow.getBox());
 }
 
-TEST_F(EarlyNames, ATransformedSpriteIsDrawnTurnedOver) {
+TEST_F(EarlyNames, TransformedSpriteIsDrawnFlipped) {
   PlacedObject o(Vector(9, 10.5));
   o.setSprite(&m_arrow);
   Animation animation = o.getAnimation();

@@ -52,7 +52,7 @@ class NetworkServerTest : public WorldTest {
   }
 };
 
-TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
+TEST_F(NetworkServerTest, ServerHalfOfATwoProgramGameServesPlayers) {
   bool played = false;
   EXPECT_EQ(play("server", "",
                  [&] {
@@ -91,7 +91,7 @@ TEST_F(NetworkServerTest, TwoPlayersPlayAGameOfTwoProgramsOnItsServer) {
   EXPECT_EQ(logged("is removed from the game"), 0);
 }
 
-TEST_F(NetworkServerTest, TheClientsHalfSaysThatItIsNotNeeded) {
+TEST_F(NetworkServerTest, ClientHalfReportsItIsNotNeeded) {
   EXPECT_EQ(play("client", "example.org", [&] { EXPECT_TRUE(GM.getGameOver()); }), 0);
   EXPECT_EQ(logged("NetworkManager::connect: games need no sockets here"), 1);
 }
@@ -129,7 +129,7 @@ TEST_F(NetworkServerTest, PlayersBeyondTheLimitWatch) {
   EXPECT_FALSE(NM.isConnected()) << "whose connection was closed watches";
 }
 
-TEST_F(NetworkServerTest, AKeyThatNoObjectTakesFromTheNetworkIsALocalOne) {
+TEST_F(NetworkServerTest, KeyWithoutNetworkListenerIsSentAsLocalKey) {
   NM.setServer();
   Probe quitter("quitter", &received);
   quitter.registerInterest(KEYBOARD_EVENT);
@@ -143,7 +143,7 @@ TEST_F(NetworkServerTest, AKeyThatNoObjectTakesFromTheNetworkIsALocalOne) {
   EXPECT_EQ(received, (std::vector<std::string>{"quitter:df-keyboard", "hand:df-mouse-network"}));
 }
 
-TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
+TEST_F(NetworkServerTest, PlayingServerUsesTheFirstPlayerAsLocal) {
   Config::getInstance().loadConfig("server_plays:true,");
   NM.setServer();
   Probe hero("hero", &received);
@@ -159,7 +159,7 @@ TEST_F(NetworkServerTest, AServerThatPlaysHasTheFirstPlayerAsItsOwn) {
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard", "hero:df-keyboard-network"}));
 }
 
-TEST_F(NetworkServerTest, WhoWatchesDoesNotSteerThePlayerAtTheServer) {
+TEST_F(NetworkServerTest, SpectatorsDoNotSteerTheServersPlayer) {
   Config::getInstance().loadConfig("server_plays:true,");
   NM.setServer();
   NM.setMaxConnections(1);
@@ -180,7 +180,7 @@ TEST_F(NetworkServerTest, WhoWatchesDoesNotSteerThePlayerAtTheServer) {
   EXPECT_EQ(received, (std::vector<std::string>{"hero:df-keyboard"}));
 }
 
-TEST_F(NetworkServerTest, WhatIsSynchronisedCountsAsWritten) {
+TEST_F(NetworkServerTest, SynchronisedObjectCountsAsWritten) {
   NM.setServer();
   NetworkNode node;
   Probe apple("apple", nullptr, Vector(3, 4));

@@ -10,7 +10,7 @@ namespace {
 
 using PublishedApi = WorldTest;
 
-TEST_F(PublishedApi, EveryNameThatGamesUseIsThereAndRuns) {
+TEST_F(PublishedApi, EveryPublishedNameExistsAndRuns) {
   EXPECT_EQ(published_api_main(0, nullptr), 0);
   EXPECT_EQ(logged("sprites/ship-spr.txt: cannot be read"), 1);
   EXPECT_EQ(logged("games need no sockets here"), 1);

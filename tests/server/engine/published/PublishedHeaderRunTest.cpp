@@ -19,7 +19,7 @@ namespace {
 
 using PublishedHeader = WorldTest;
 
-TEST_F(PublishedHeader, BringsAlongWhatGamesName) {
+TEST_F(PublishedHeader, HeaderIncludesTheNamesGamesUse) {
   Probe a("a");
   Probe b("b");
   ObjectList list = WM.getAllObjects();
@@ -33,12 +33,12 @@ TEST_F(PublishedHeader, BringsAlongWhatGamesName) {
   pastTheEngine();
 }
 
-TEST(PublishedHeaderMicrosoft, WhatDoesNotFitIsCutOff) {
+TEST(PublishedHeaderMicrosoft, LongTextIsTruncated) {
   EXPECT_EQ(ping(7), "Ping 7!");
   EXPECT_EQ(ping(1234567), "Ping 12");
 }
 
-TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
+TEST_F(PublishedHeader, StringsAreLoggedUnchanged) {
   const Probe probe("gems");
   EXPECT_EQ(logStrings(probe), 1);
   EXPECT_EQ(lines, (std::vector<std::string>{"ann has 3 of gems", "ann", "5"}));
@@ -46,7 +46,7 @@ TEST_F(PublishedHeader, StringsAreLoggedAsTheyAre) {
 
 // An inline string would be one variable for library (C++20) and game (C++17). The two initialise it in
 // different ways, and in a C++17 game it would stay empty.
-TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
+TEST(PublishedHeaderStrings, AreLocalToTheirTranslationUnit) {
   for (const char* name : {"CONFIG_FILENAME", "WINDOW_TITLE_DEFAULT", "FONT_FILE_DEFAULT", "LOGFILE_DEFAULT",
                            "DRAGONFLY_PORT", "UNDEFINED_STATE"}) {
     const std::string symbol = "_ZN2df" + std::to_string(std::strlen(name)) + name + "B5cxx11E";
@@ -55,7 +55,7 @@ TEST(PublishedHeaderStrings, AreEachTranslationUnitsOwn) {
   EXPECT_NE(dlsym(RTLD_DEFAULT, "_ZN2df15UNDEFINED_EVENTE"), nullptr) << "an event type is one for all";
 }
 
-TEST_F(PublishedHeader, AccelerateIsWhatUpdateDoes) {
+TEST_F(PublishedHeader, AccelerateAddsAccelerationToVelocity) {
   Probe probe;
   probe.setVelocity(Vector(1, 0));
   probe.setAcceleration(Vector(0.5, 0.25));
@@ -64,7 +64,7 @@ TEST_F(PublishedHeader, AccelerateIsWhatUpdateDoes) {
   EXPECT_EQ(Box(Vector(1, 2), 3, 4).toString(), "(1.000000,2.000000),3.000000,4.000000");
 }
 
-TEST_F(PublishedHeader, ColoursOfTheGraphicsLibrary) {
+TEST_F(PublishedHeader, SfmlColoursAndClockAreAvailable) {
   EXPECT_TRUE(colorToSFML(RED) == sf::Color::Red);
   EXPECT_TRUE(colorToSFML(BLACK) == sf::Color::Black);
   const sf::Clock clock;

@@ -13,7 +13,7 @@ namespace {
 
 using UtilityTest = WorldTest;
 
-TEST_F(UtilityTest, Boxes) {
+TEST_F(UtilityTest, BoxContainsBoxesUpToItsEdges) {
   const Box box(Vector(1, 1), 4, 2);
   EXPECT_TRUE(boxContainsBox(box, Box(Vector(1, 1), 4, 2)));
   EXPECT_TRUE(boxContainsBox(box, Box(Vector(2, 2), 1, 1)));
@@ -32,7 +32,7 @@ TEST_F(UtilityTest, LinesCross) {
   EXPECT_FALSE(lineIntersectsLine(rising, rising));
 }
 
-TEST_F(UtilityTest, LinesMeetBoxes) {
+TEST_F(UtilityTest, LinesIntersectBoxes) {
   const Box box(Vector(2, 2), 2, 2);
   EXPECT_TRUE(lineIntersectsBox(Line(Vector(0, 3), Vector(9, 3)), box));    // through
   EXPECT_TRUE(lineIntersectsBox(Line(Vector(3, 3), Vector(3.5, 3)), box));  // inside
@@ -43,7 +43,7 @@ TEST_F(UtilityTest, LinesMeetBoxes) {
   EXPECT_FALSE(lineIntersectsBox(Line(Vector(5, 0), Vector(5, 9)), box));
 }
 
-TEST_F(UtilityTest, CirclesMeetBoxes) {
+TEST_F(UtilityTest, CirclesIntersectBoxes) {
   const Box box(Vector(2, 2), 2, 2);
   EXPECT_TRUE(circleIntersectsBox(Circle(Vector(3, 3), 0.1f), box));
   EXPECT_TRUE(circleIntersectsBox(Circle(Vector(6, 3), 2), box));
@@ -51,7 +51,7 @@ TEST_F(UtilityTest, CirclesMeetBoxes) {
   EXPECT_FALSE(circleIntersectsBox(Circle(Vector(5, 5), 1.4f), box));
 }
 
-TEST_F(UtilityTest, ObjectsInPlaces) {
+TEST_F(UtilityTest, ObjectsAreFoundByArea) {
   PlacedObject a(Vector(10, 10));
   PlacedObject b(Vector(20, 10));
   PlacedObject asleep(Vector(10, 10));
@@ -68,7 +68,7 @@ TEST_F(UtilityTest, ObjectsInPlaces) {
   EXPECT_EQ(WM.getSceneGraph().solidObjects(), WM.solidObjects());
 }
 
-TEST_F(UtilityTest, NormalPointsBackToWhereTheMoverCameFrom) {
+TEST_F(UtilityTest, NormalPointsFromTheWallToTheMover) {
   Object wall;
   wall.setBox(Box(Vector(-3, -3), 6, 6));
   wall.setPosition(Vector(20, 10));
@@ -83,7 +83,7 @@ TEST_F(UtilityTest, NormalPointsBackToWhereTheMoverCameFrom) {
   EXPECT_EQ(getNormal(nullptr, &wall), Vector());
 }
 
-TEST_F(UtilityTest, AnglesGoFromRightOverDown) {
+TEST_F(UtilityTest, AnglesGrowFromRightToDown) {
   EXPECT_FLOAT_EQ(vectorToAngle(Vector(2, 0)), 0);
   EXPECT_FLOAT_EQ(vectorToAngle(Vector(0, 1)), 90);
   EXPECT_FLOAT_EQ(vectorToAngle(Vector(-1, 0)), 180);
@@ -91,7 +91,7 @@ TEST_F(UtilityTest, AnglesGoFromRightOverDown) {
   EXPECT_FLOAT_EQ(vectorToAngle(Vector()), 0);
 }
 
-TEST_F(UtilityTest, ColoursThereAndBack) {
+TEST_F(UtilityTest, ColoursSurviveTheRgbRoundTrip) {
   for (int c = BLACK; c <= WHITE; ++c) {
     unsigned char r = 1;
     unsigned char g = 1;
@@ -104,7 +104,7 @@ TEST_F(UtilityTest, ColoursThereAndBack) {
   EXPECT_EQ(nearestColor(255, 100, 90), RED);
 }
 
-TEST_F(UtilityTest, Text) {
+TEST_F(UtilityTest, ValuesConvertToText) {
   EXPECT_EQ(toString(7), "7");
   EXPECT_EQ(toString(2.5f), "2.5");
   EXPECT_EQ(toString('x'), "x");
@@ -134,7 +134,7 @@ TEST_F(UtilityTest, MatchFindsValuesAndRemembersTheString) {
   EXPECT_EQ(match("aa:1,a:2", "a"), "2");
 }
 
-TEST_F(UtilityTest, StreamsAreChecked) {
+TEST_F(UtilityTest, FailedStreamIsReported) {
   std::stringstream stream;
   EXPECT_EQ(stringStreamCheck("test", &stream), 0);
   stream.setstate(std::ios::failbit);
@@ -142,7 +142,7 @@ TEST_F(UtilityTest, StreamsAreChecked) {
   EXPECT_EQ(logged("test: the stream has failed"), 1);
 }
 
-TEST_F(UtilityTest, ClockRunsOnTheGamesTime) {
+TEST_F(UtilityTest, ClockFollowsGameTime) {
   Clock clock;
   for (int i = 0; i < 30; ++i) world.tick();
   EXPECT_NEAR(static_cast<double>(clock.split()), 1e6, 10);
@@ -180,7 +180,7 @@ TEST_F(UtilityTest, StateMachineEntersExecutesAndLeaves) {
   EXPECT_EQ(machine.getState(), &calm);
 }
 
-TEST_F(UtilityTest, SocketsFailAndSayOnceWhatToUseInstead) {
+TEST_F(UtilityTest, SocketCallsFailAndLogOneHint) {
   EXPECT_EQ(NM.setServer(false), 0);
   EXPECT_EQ(NM.connect("localhost"), -1);
   EXPECT_FALSE(NM.isServer());

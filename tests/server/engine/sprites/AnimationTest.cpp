@@ -26,7 +26,7 @@ TEST_F(AnimationTest, EachFrameIsShownForSlowdownTicks) {
   EXPECT_EQ(shown(10, 9), "aabbccaab");
 }
 
-TEST_F(AnimationTest, SlowdownZeroIsNoAnimationAndMinusOneStopsIt) {
+TEST_F(AnimationTest, SlowdownZeroOrCountMinusOneStopsAnimation) {
   Sprite still = sprite({"a", "b"}, 0);
   PlacedObject o(Vector(10, 10));
   o.setSprite(&still);
@@ -41,7 +41,7 @@ TEST_F(AnimationTest, SlowdownZeroIsNoAnimationAndMinusOneStopsIt) {
   EXPECT_EQ(shown(10, 3), "bab");
 }
 
-TEST_F(AnimationTest, GoesOnOutOfSightButNotWhileInactiveOrInvisible) {
+TEST_F(AnimationTest, AdvancesOffScreenButNotInactiveOrInvisible) {
   Sprite s = sprite({"a", "b", "c", "d", "e"});
   Object o;
   o.setSprite(&s);
@@ -60,7 +60,7 @@ TEST_F(AnimationTest, GoesOnOutOfSightButNotWhileInactiveOrInvisible) {
   EXPECT_EQ(o.getSpriteIndex(), 2);
 }
 
-TEST_F(AnimationTest, AnimationOfTheGamesOwnGoesOnWhenItIsDrawn) {
+TEST_F(AnimationTest, GameOwnedAnimationAdvancesWhenDrawn) {
   Sprite s = sprite({"a", "b"});
   Animation animation;
   EXPECT_EQ(animation.draw(Vector()), -1);
@@ -88,7 +88,7 @@ TEST_F(AnimationTest, SpritesAreDrawnAroundThePosition) {
   EXPECT_EQ(canvas.at(10, 10).color, MAGENTA);
 }
 
-TEST_F(AnimationTest, TransparentCharactersShowWhatIsBehindAndBlanksDoNot) {
+TEST_F(AnimationTest, TransparentCharactersShowTheBackgroundBlanksDoNot) {
   Sprite s = sprite({"a# b"});
   s.setTransparency('#');
   Probe ground("ground", nullptr, Vector(10, 10));
@@ -101,7 +101,7 @@ TEST_F(AnimationTest, TransparentCharactersShowWhatIsBehindAndBlanksDoNot) {
   EXPECT_EQ(world.picture().render({}).rowText(10).substr(8, 5), ".a. b");
 }
 
-TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
+TEST_F(AnimationTest, SpriteSetsTheBoxUnlessDisabled) {
   Sprite s = sprite({"abcd"});
   Object o;
   o.setSprite(&s, false);
@@ -115,7 +115,7 @@ TEST_F(AnimationTest, BoxBecomesTheSpritesUnlessSwitchedOff) {
   EXPECT_EQ(o.getBox(), Box(Vector(-2, -0.5), 4, 1));
 }
 
-TEST_F(AnimationTest, UnknownSpriteIsRefusedAndAQuestionMarkShows) {
+TEST_F(AnimationTest, UnknownSpriteIsRefusedAndShowsAQuestionMark) {
   PlacedObject o(Vector(3, 10));
   EXPECT_EQ(o.setSprite("ghost"), -1);
   EXPECT_EQ(logged("setSprite(\"ghost\") of "), 1);
@@ -132,7 +132,7 @@ TEST_F(AnimationTest, UnknownSpriteIsRefusedAndAQuestionMarkShows) {
   EXPECT_EQ(published.getSprite(), nullptr);
 }
 
-TEST_F(AnimationTest, PreciseCollisionsCompareTheFrameThatShows) {
+TEST_F(AnimationTest, PreciseCollisionsUseTheShownFrame) {
   Sprite s = sprite({"##  ", "  ##"}, 0);
   PlacedObject wall(Vector(20, 10));
   wall.setSprite(&s);
@@ -159,7 +159,7 @@ TEST_F(AnimationTest, AStaticLookFollowsTheFrame) {
   EXPECT_EQ(shown(10, 3), "aba");
 }
 
-TEST_F(AnimationTest, ObjectsMayGoAndComeWhileTheyAreAnimated) {
+TEST_F(AnimationTest, AnimatedObjectsCanBeRemovedAndReinserted) {
   Sprite s = sprite({"a", "b"});
   std::vector<Object*> objects;
   for (int i = 0; i < 5; ++i) {

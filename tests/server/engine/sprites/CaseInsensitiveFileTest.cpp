@@ -37,7 +37,7 @@ class CaseInsensitiveFile : public WorldTest {
   const fs::path folder = makeFolder();
 };
 
-TEST_F(CaseInsensitiveFile, BackslashesPartFoldersAndCaseDoesNotCount) {
+TEST_F(CaseInsensitiveFile, BackslashesSeparateFoldersAndCaseIsIgnored) {
   const std::string brick = (folder / "sprites" / "Walls" / "Brick.txt").string();
   for (const char* name : {"sprites\\Walls\\Brick.txt", "Sprites/walls/brick.TXT",
                            "./SPRITES\\.\\walls/BRICK.txt", "sprites/../sprites/walls/brick.txt"}) {
@@ -46,18 +46,18 @@ TEST_F(CaseInsensitiveFile, BackslashesPartFoldersAndCaseDoesNotCount) {
   }
 }
 
-TEST_F(CaseInsensitiveFile, WhatIsNotThereOrNoFileIsNotFound) {
+TEST_F(CaseInsensitiveFile, MissingFilesAndFoldersAreNotFound) {
   EXPECT_EQ(findLoosely(folder.string(), "sprites/none.txt"), "");
   EXPECT_EQ(findLoosely(folder.string(), "sprites\\walls"), "");
   EXPECT_EQ(findLoosely((folder / "nowhere").string(), "ship.txt"), "");
   EXPECT_EQ(findLoosely(folder.string(), ""), "");
 }
 
-TEST_F(CaseInsensitiveFile, TheFirstByNameOfSeveral) {
+TEST_F(CaseInsensitiveFile, SeveralMatchesReturnTheFirstByName) {
   EXPECT_EQ(findLoosely(folder.string(), "sprites/Ship.txt"), (folder / "sprites" / "SHIP.txt").string());
 }
 
-TEST_F(CaseInsensitiveFile, SpritesAreFoundSo) {
+TEST_F(CaseInsensitiveFile, SpriteFilesAreFoundInAnyCase) {
   const fs::path before = fs::current_path();
   fs::current_path(folder);
   EXPECT_EQ(RM.loadSprite("Sprites\\walls\\brick.txt", "brick"), 0);

@@ -41,7 +41,7 @@ class PublishedSprite : public WorldTest {
   std::filesystem::path m_file;
 };
 
-TEST_F(PublishedSprite, TheBookRefusesThem) {
+TEST_F(PublishedSprite, WithoutCompatInvalidHeadersAreRefused) {
   EXPECT_EQ(load(withHeader("slowdown -1\n")), -1);
   EXPECT_EQ(load(withHeader("slowdown\n")), -1);
   EXPECT_EQ(load(withHeader("transparency \" \"\n")), -1);
@@ -73,7 +73,7 @@ TEST_F(PublishedSprite, SlowdownMinusOneIsLoadedWithAWarning) {
   EXPECT_EQ(load(withHeader("slowdown -2\n"), "t"), -1);
 }
 
-TEST_F(PublishedSprite, SlowdownWithNothingBehindItIsZero) {
+TEST_F(PublishedSprite, SlowdownWithoutAValueIsZero) {
   world.setCompat();
   ASSERT_EQ(load(withHeader("slowdown\n")), 0);
   EXPECT_EQ(RM.getSprite("s")->getSlowdown(), 0);
@@ -92,7 +92,7 @@ TEST_F(PublishedSprite, AQuotedBlankMakesTheQuotationMarkTransparent) {
   EXPECT_EQ(logged("transparency should be one character"), 1);
 }
 
-TEST_F(PublishedSprite, AFileThatTheBookAllowsGivesNoWarning) {
+TEST_F(PublishedSprite, ValidFileGivesNoWarning) {
   world.setCompat();
   ASSERT_EQ(load(withHeader("slowdown 2\ntransparency #\n")), 0);
   EXPECT_EQ(RM.getSprite("s")->getSlowdown(), 2);
@@ -111,7 +111,7 @@ TEST_F(PublishedSprite, SlowdownZeroMinusOneAndMissingAdvanceEveryStep) {
   EXPECT_EQ(shownOf("missing", 4), "abab");
 }
 
-TEST_F(PublishedSprite, ASpriteThatTheGameMakesAdvancesTooAndACountOfMinusOneStopsIt) {
+TEST_F(PublishedSprite, GameMadeSpriteAdvancesAndMinusOneStopsIt) {
   world.setCompat();
   Sprite sprite(2);
   sprite.setWidth(1);
@@ -128,7 +128,7 @@ TEST_F(PublishedSprite, ASpriteThatTheGameMakesAdvancesTooAndACountOfMinusOneSto
   EXPECT_EQ(o.getSpriteIndex(), 1);
 }
 
-TEST_F(PublishedSprite, TheBookStandsStillAndAMissingSlowdownIsOne) {
+TEST_F(PublishedSprite, WithoutCompatSlowdownZeroStopsAndMissingIsOne) {
   ASSERT_EQ(load(withHeader("slowdown 0\n"), "zero"), 0);
   ASSERT_EQ(load(withHeader(""), "missing"), 0);
   EXPECT_EQ(RM.getSprite("missing")->getSlowdown(), 1);

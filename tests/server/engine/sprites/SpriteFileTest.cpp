@@ -39,7 +39,7 @@ class SpriteFile : public WorldTest {
   std::vector<decltype(parseSprite("", "", std::declval<std::string&>()))> sprites;
 };
 
-TEST_F(SpriteFile, HeaderFormatSaysEverything) {
+TEST_F(SpriteFile, HeaderFormatSetsAllProperties) {
   for (const char* name : {"header.txt", "header-crlf.txt"}) {
     ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
     const Sprite* p_sprite = RM.getSprite(name);
@@ -56,7 +56,7 @@ TEST_F(SpriteFile, HeaderFormatSaysEverything) {
   }
 }
 
-TEST_F(SpriteFile, HeaderHasDefaultsAndTheFileNeedNotEndInANewline) {
+TEST_F(SpriteFile, HeaderDefaultsApplyAndFinalNewlineIsOptional) {
   ASSERT_EQ(RM.loadSprite(kFolder + "header-no-newline.txt", "s"), 0);
   const Sprite* p_sprite = RM.getSprite("s");
   EXPECT_EQ(p_sprite->getColor(), WHITE);
@@ -65,7 +65,7 @@ TEST_F(SpriteFile, HeaderHasDefaultsAndTheFileNeedNotEndInANewline) {
   EXPECT_EQ(p_sprite->getFrame(0).getString(), "<>");
 }
 
-TEST_F(SpriteFile, SimpleFormat) {
+TEST_F(SpriteFile, SimpleFormatIsRead) {
   for (const char* name : {"simple.txt", "simple-crlf-no-newline.txt"}) {
     ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
     const Sprite* p_sprite = RM.getSprite(name);
@@ -78,7 +78,7 @@ TEST_F(SpriteFile, SimpleFormat) {
   }
 }
 
-TEST_F(SpriteFile, OldFormat) {
+TEST_F(SpriteFile, OldFormatIsRead) {
   for (const char* name : {"old.txt", "old-crlf-no-newline.txt"}) {
     ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
     const Sprite* p_sprite = RM.getSprite(name);
@@ -110,7 +110,7 @@ TEST_F(SpriteFile, ErrorsAreLoggedWithFileAndLine) {
   }
 }
 
-TEST_F(SpriteFile, RowsMayLookLikeTheirEndAndBlanksCount) {
+TEST_F(SpriteFile, RowsMayEqualTheEndMarkerAndKeepBlanks) {
   EXPECT_EQ(parsed("frames 1\nwidth 3\nheight 2\nend\nend\nend\neof\n").getFrame(0).getString(), "endend");
   EXPECT_EQ(parsed("1\n4\n1\n1\nwhite\na   ").getFrame(0).getString(), "a   ");
   EXPECT_EQ(
@@ -140,7 +140,7 @@ TEST_F(SpriteFile, RowsMayBeBlank) {
 }
 
 // Parsing any contents results in either a sprite or an error message.
-TEST_F(SpriteFile, CutAndGarbledFilesAreRefusedOrRead) {
+TEST_F(SpriteFile, TruncatedOrCorruptFilesLoadOrReportAnError) {
   int refused = 0;
   for (const char* name : {"header.txt", "simple.txt", "old.txt", "header-crlf.txt"}) {
     const std::string text = textOf(name);
@@ -163,7 +163,7 @@ TEST_F(SpriteFile, CutAndGarbledFilesAreRefusedOrRead) {
   EXPECT_EQ(troubleOf("1\n1\n1\n1\nred\nx\ny"), "7: unexpected \"y\" after the end of the sprite");
 }
 
-TEST_F(SpriteFile, FirstSpriteOfALabelStays) {
+TEST_F(SpriteFile, FirstSpriteWithALabelIsKept) {
   ASSERT_EQ(RM.loadSprite(kFolder + "simple.txt", "s"), 0);
   Sprite* p_first = RM.getSprite("s");
   EXPECT_EQ(RM.loadSprite(kFolder + "old.txt", "s"), 0);
@@ -174,13 +174,13 @@ TEST_F(SpriteFile, FirstSpriteOfALabelStays) {
   EXPECT_EQ(p_first->getFrameCount(), 3);  // still valid, because Objects may show it
 }
 
-TEST_F(SpriteFile, RelativeNamesAreLookedForInTheWorldsFolders) {
+TEST_F(SpriteFile, RelativeNamesAreSearchedInTheWorldsFolders) {
   EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), -1);
   world.extras().resources.addFolder(std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine");
   EXPECT_EQ(RM.loadSprite("sprites/simple.txt", "s"), 0);
 }
 
-TEST_F(SpriteFile, WorldsHaveSpritesOfTheirOwn) {
+TEST_F(SpriteFile, WorldsHaveSeparateSprites) {
   ASSERT_EQ(RM.loadSprite(kFolder + "simple.txt", "s"), 0);
   World other;
   const World::Scope inside(other);

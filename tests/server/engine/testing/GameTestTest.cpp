@@ -68,7 +68,7 @@ int throwingMain() {
   throw std::runtime_error("no level");
 }
 
-TEST(GameTest, KeysReachTheGameAndItsPictureIsSeen) {
+TEST(GameTest, KeysReachTheGameAndChangeItsPicture) {
   GameTest game(walkerMain, 7);
   const std::uint32_t ann = game.join("ann");
   EXPECT_EQ(game.count("@"), 1);
@@ -82,7 +82,7 @@ TEST(GameTest, KeysReachTheGameAndItsPictureIsSeen) {
   EXPECT_EQ(game.getTicks(), 2);
 }
 
-TEST(GameTest, AKeyIsHeldForSoManyTicks) {
+TEST(GameTest, HoldKeepsAKeyDownForGivenTicks) {
   GameTest game(walkerMain);
   game.join();
   game.hold(Keyboard::A, 5);
@@ -90,7 +90,7 @@ TEST(GameTest, AKeyIsHeldForSoManyTicks) {
   EXPECT_EQ(dynamic_cast<Walker*>(game.find("Walker"))->held, 4);
 }
 
-TEST(GameTest, PlayersHaveKeysAndViewsOfTheirOwn) {
+TEST(GameTest, PlayersHaveSeparateKeysAndViews) {
   GameTest game(walkerMain);
   game.join("ann");
   const std::uint32_t bob = game.join("bob");
@@ -105,7 +105,7 @@ TEST(GameTest, PlayersHaveKeysAndViewsOfTheirOwn) {
   EXPECT_EQ(game.objects("Walker"), 1);
 }
 
-TEST(GameTest, ClicksAreInCellsOfTheView) {
+TEST(GameTest, ClicksUseViewCells) {
   GameTest game(walkerMain);
   game.join();
   game.click(33, 9);
@@ -127,7 +127,7 @@ TEST(GameTest, TheSameSeedGivesTheSameGame) {
   EXPECT_NE(other.picture(), first);
 }
 
-TEST(GameTest, AfterTheGameIsOverNoTickPasses) {
+TEST(GameTest, NoTickRunsAfterGameOver) {
   GameTest game(walkerMain);
   game.join();
   game.press(Keyboard::Q);
@@ -135,7 +135,7 @@ TEST(GameTest, AfterTheGameIsOverNoTickPasses) {
   EXPECT_EQ(game.tick(10), 0);
 }
 
-TEST(GameTest, AGameThatRunsTwiceGoesOn) {
+TEST(GameTest, GameThatRunsTwiceContinues) {
   g_runs_ended = 0;
   GameTest game(twoRunsMain);
   game.join();
@@ -156,14 +156,14 @@ TEST(GameTest, MainRunsToItsEnd) {
   EXPECT_EQ(WM.getAllObjects(true).getCount(), before);
 }
 
-TEST(GameTest, TicksPassUntilSomethingHolds) {
+TEST(GameTest, TickUntilStopsWhenTheConditionHolds) {
   GameTest game(walkerMain);
   EXPECT_TRUE(game.tickUntil([&] { return game.getTicks() == 12; }));
   EXPECT_FALSE(game.tickUntil([] { return false; }, 5));
   EXPECT_EQ(game.getTicks(), 17);
 }
 
-TEST(GameTest, AMainThatDoesNotRunIsAnErrorThatSaysSo) {
+TEST(GameTest, MainWithoutRunThrowsAClearError) {
   const auto errorOf = [](int (*main)()) -> std::string {
     try {
       GameTest game(main);
@@ -177,7 +177,7 @@ TEST(GameTest, AMainThatDoesNotRunIsAnErrorThatSaysSo) {
   EXPECT_THROW(GameTest("/no/such/game.so"), std::runtime_error);
 }
 
-TEST(GameTest, WhatIsWrongIsPrintedWithThePicture) {
+TEST(GameTest, FailedCheckPrintsThePicture) {
   GameTest game(walkerMain);
   game.join();
   testing::internal::CaptureStderr();
@@ -197,7 +197,7 @@ int exitingMain() {
   std::exit(0);
 }
 
-TEST(GameTestDeathTest, AGameThatCallsExitDoesNotPassItsTest) {
+TEST(GameTestDeathTest, GameCallingExitFailsItsTest) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(GameTest game(exitingMain), testing::ExitedWithCode(1), "the game called exit");
 }

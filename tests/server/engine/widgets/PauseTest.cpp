@@ -40,7 +40,7 @@ TEST_F(PauseTest, OnePlayerAloneDecides) {
   EXPECT_FALSE(world.isPaused());
 }
 
-TEST_F(PauseTest, OfSeveralMoreThanHalfDecide) {
+TEST_F(PauseTest, MajorityOfPlayersDecides) {
   join(3);
   press({0});
   EXPECT_FALSE(world.isPaused());
@@ -57,7 +57,7 @@ TEST_F(PauseTest, OfSeveralMoreThanHalfDecide) {
   EXPECT_FALSE(world.isPaused());
 }
 
-TEST_F(PauseTest, HalfOfThemIsNotEnough) {
+TEST_F(PauseTest, HalfOfThePlayersIsNotEnough) {
   join(2);
   press({1});
   EXPECT_FALSE(world.isPaused());
@@ -73,7 +73,7 @@ TEST_F(PauseTest, PressingTwiceIsOneVote) {
   EXPECT_EQ(notes(), Notes{}) << "so a player cannot fill the others' screens";
 }
 
-TEST_F(PauseTest, VotesAreForgottenAfterTenSeconds) {
+TEST_F(PauseTest, VotesExpireAfterTenSeconds) {
   join(2);
   press({0});
   for (int i = 0; i < 300; ++i) world.tick();
@@ -85,7 +85,7 @@ TEST_F(PauseTest, VotesAreForgottenAfterTenSeconds) {
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, PlayersThatLeaveAreNotCountedAnyMore) {
+TEST_F(PauseTest, DepartedPlayersAreNotCounted) {
   join(4);
   press({0, 1});
   EXPECT_FALSE(world.isPaused()) << "two of four";
@@ -95,7 +95,7 @@ TEST_F(PauseTest, PlayersThatLeaveAreNotCountedAnyMore) {
   EXPECT_EQ(notes(), Notes{"pause: 2 of 3"});
 }
 
-TEST_F(PauseTest, PlayersThatLeaveLoseTheirVote) {
+TEST_F(PauseTest, DepartedPlayersLoseTheirVote) {
   join(3);
   press({0});
   world.input().leave(players[0]);
@@ -105,7 +105,7 @@ TEST_F(PauseTest, PlayersThatLeaveLoseTheirVote) {
   EXPECT_EQ(notes(), Notes{"pause: 1 of 2"});
 }
 
-TEST_F(PauseTest, WhenNoPlayerIsLeftTheGameGoesOn) {
+TEST_F(PauseTest, GameResumesWhenTheLastPlayerLeaves) {
   join(2);
   press({0, 1});
   ASSERT_TRUE(world.isPaused());
@@ -117,7 +117,7 @@ TEST_F(PauseTest, WhenNoPlayerIsLeftTheGameGoesOn) {
   EXPECT_FALSE(world.isPaused());
 }
 
-TEST_F(PauseTest, OnlyPlayersWhoseKeysCountCanVote) {
+TEST_F(PauseTest, OnlyPlayersWithInputFocusCanVote) {
   join(3);
   world.extras().heard_player = players[1];
   press({1});
@@ -128,13 +128,13 @@ TEST_F(PauseTest, OnlyPlayersWhoseKeysCountCanVote) {
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, AKeyOfTheGamesOwnIsObeyed) {
+TEST_F(PauseTest, KeyEventSentByTheGamePauses) {
   join(3);
   WorldTest::press(Keyboard::P);
   EXPECT_TRUE(world.isPaused());
 }
 
-TEST_F(PauseTest, JoinsAndLeavesInAPauseAreSent) {
+TEST_F(PauseTest, JoinAndLeaveEventsAreSentDuringPause) {
   join(1);
   press({0});
   Probe game("game", &received);

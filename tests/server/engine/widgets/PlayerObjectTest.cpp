@@ -35,7 +35,7 @@ class PlayerObjects : public test::WorldTest {
   }
 };
 
-TEST_F(PlayerObjects, EachPlayerThatJoinsGetsOne) {
+TEST_F(PlayerObjects, EachJoiningPlayerGetsAnObject) {
   EXPECT_TRUE(WM.objectsOfType("Boat").isEmpty());
   const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
@@ -46,7 +46,7 @@ TEST_F(PlayerObjects, EachPlayerThatJoinsGetsOne) {
   EXPECT_EQ(ferryOf(bob)->getColor(), world.views().player(bob)->getColor());
 }
 
-TEST_F(PlayerObjects, EachGetsItsPlayersInputOnly) {
+TEST_F(PlayerObjects, EachObjectGetsOnlyItsPlayersInput) {
   const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
   ferryOf(ann)->received.clear(), ferryOf(bob)->received.clear();
@@ -59,7 +59,7 @@ TEST_F(PlayerObjects, EachGetsItsPlayersInputOnly) {
   EXPECT_EQ(ferryOf(bob)->getPosition(), Vector(9, 7));
 }
 
-TEST_F(PlayerObjects, OtherEventsGoToWhatItIsMadeOf) {
+TEST_F(PlayerObjects, OtherEventsReachTheBaseClass) {
   const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   ferryOf(ann)->setVelocity(Vector(-10, 0));
@@ -67,7 +67,7 @@ TEST_F(PlayerObjects, OtherEventsGoToWhatItIsMadeOf) {
   EXPECT_EQ(ferryOf(ann)->outs, 1);
 }
 
-TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
+TEST_F(PlayerObjects, ObjectIsDeletedWhenItsPlayerLeaves) {
   const std::uint32_t ann = world.input().join("ann", RED), bob = world.input().join("bob", BLUE);
   world.tick();
   Ferry* p_left = ferryOf(bob);
@@ -79,7 +79,7 @@ TEST_F(PlayerObjects, ItGoesWithItsPlayer) {
 }
 
 // The Object may still get a step event in the tick in which its player leaves; getPlayer() is then null.
-TEST_F(PlayerObjects, WithoutAPlayerItDoesNotStep) {
+TEST_F(PlayerObjects, ObjectWithoutAPlayerGetsNoStep) {
   const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();
   Ferry* p_ferry = ferryOf(ann);

@@ -20,7 +20,7 @@ class ViewObjectTest : public WorldTest {
   FixedVector viewCorner() const { return *toFixed(WM.getView().getCorner()); }
 };
 
-TEST_F(ViewObjectTest, IsSpectralOnTopWithBorderAndValue) {
+TEST_F(ViewObjectTest, DefaultsToSpectralTopmostWithBorderAndValue) {
   const ViewObject points;
   EXPECT_EQ(points.getSolidness(), SPECTRAL);
   EXPECT_EQ(points.getAltitude(), MAX_ALTITUDE);
@@ -42,7 +42,7 @@ TEST_F(ViewObjectTest, ShowsTextAndValueInABorder) {
   EXPECT_EQ(row(2), std::string(34, ' ') + "+-----------+");
 }
 
-TEST_F(ViewObjectTest, WithoutBorderItLiesOnTheOutermostRow) {
+TEST_F(ViewObjectTest, BorderlessObjectLiesOnTheOutermostRow) {
   ViewObject points;
   points.setViewString("Lives");
   points.setBorder(false);
@@ -70,7 +70,7 @@ TEST_F(ViewObjectTest, LocationsAreAtSixthsOfTheWidth) {
   EXPECT_EQ(o.getPosition(), Vector(3, 4));
 }
 
-TEST_F(ViewObjectTest, ViewEventsSetAndAddWhereTheTagFits) {
+TEST_F(ViewObjectTest, ViewEventsSetAndAddForMatchingTags) {
   ViewObject points;
   points.setViewString("Points");
   ViewObject lives;
@@ -83,7 +83,7 @@ TEST_F(ViewObjectTest, ViewEventsSetAndAddWhereTheTagFits) {
   EXPECT_EQ(lives.getValue(), 0);
 }
 
-TEST_F(ViewObjectTest, KeepsItsPlaceWhereverTheViewIs) {
+TEST_F(ViewObjectTest, StaysOnScreenWhenTheViewMoves) {
   WM.setBoundary(Box(Vector(), 400, 100));
   ViewObject points;
   points.setViewString("P");
@@ -97,7 +97,7 @@ TEST_F(ViewObjectTest, KeepsItsPlaceWhereverTheViewIs) {
   EXPECT_EQ(row(0), before);
 }
 
-TEST_F(ViewObjectTest, IsSeenInEveryPlayersOwnView) {
+TEST_F(ViewObjectTest, IsDrawnInEveryPlayersView) {
   WM.setBoundary(Box(Vector(), 400, 100));
   ViewObject points;
   points.setViewString("P");
@@ -139,7 +139,7 @@ TEST_F(ViewObjectTest, TextEntryTakesKeysUntilReturn) {
   EXPECT_NE(row(1).find("Name: Ab-_7"), std::string::npos) << row(1);
 }
 
-TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
+TEST_F(ViewObjectTest, TextEntryBelongsToThePlayerThatOpenedIt) {
   const std::uint32_t ann = world.input().join("ann", RED);
   const std::uint32_t bob = world.input().join("bob", BLUE);
   world.tick();
@@ -168,7 +168,7 @@ TEST_F(ViewObjectTest, TextEntryMadeForAPlayersKeyTakesThatPlayersKeys) {
   EXPECT_EQ(p_entry->entered, std::vector<std::string>{"a"}) << "any player can finish";
 }
 
-TEST_F(ViewObjectTest, TextEntryWithoutAPlayerTakesAllKeysUntilItGetsOne) {
+TEST_F(ViewObjectTest, UnassignedTextEntryTakesKeysOfAllPlayers) {
   const std::uint32_t ann = world.input().join("ann", RED);
   const std::uint32_t bob = world.input().join("bob", BLUE);
   Entry entry;
@@ -188,7 +188,7 @@ TEST_F(ViewObjectTest, TextEntryWithoutAPlayerTakesAllKeysUntilItGetsOne) {
   EXPECT_EQ(entry.getText(), "abbc");
 }
 
-TEST_F(ViewObjectTest, TextEntryKeepsItsLimitAndMayTakeDigitsOnly) {
+TEST_F(ViewObjectTest, TextEntryEnforcesLengthLimitAndDigitsOnly) {
   Entry entry;
   entry.setLimit(2);
   entry.setNumbersOnly();
@@ -243,7 +243,7 @@ TEST_F(ViewObjectTest, ButtonLightsUpUnderTheMouseAndIsClicked) {
   EXPECT_EQ(quit.getColor(), COLOR_DEFAULT);
 }
 
-TEST_F(ViewObjectTest, PauseStopsStepsMovesAndInputUntilItIsPressedAgain) {
+TEST_F(ViewObjectTest, PauseStopsStepsMovesAndInputUntilResumed) {
   Probe mover("mover", &received, Vector(5, 5));
   mover.setVelocity(Vector(1, 0));
   mover.registerInterest(STEP_EVENT);
@@ -265,7 +265,7 @@ TEST_F(ViewObjectTest, PauseStopsStepsMovesAndInputUntilItIsPressedAgain) {
   EXPECT_FALSE(received.empty());
 }
 
-TEST_F(ViewObjectTest, GameGoesOnWhenThePauseIsDeleted) {
+TEST_F(ViewObjectTest, DeletingThePauseResumesTheGame) {
   auto* p_pause = new Pause(Keyboard::P);
   press(Keyboard::P);
   delete p_pause;

@@ -47,7 +47,7 @@ std::uint64_t allocationsOf(bool swept, bool precise, bool events) {
   return during;
 }
 
-TEST(Allocation, AWarmWorldMovesSweepsAndTouchesWithoutAny) {
+TEST(Allocation, WarmWorldMovesAndSweepsWithoutAllocating) {
   if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
   EXPECT_EQ(allocationsOf(false, false, false), 0u);
   EXPECT_EQ(allocationsOf(true, false, false), 0u) << "sweeps";

@@ -37,7 +37,7 @@ TEST_F(Capture, DrawsByAltitudeThenCreation) {
   EXPECT_EQ(world.picture().render({}).at(3, 3).color, RED);
 }
 
-TEST_F(Capture, InactiveInvisibleAndFarOnesAreNotDrawn) {
+TEST_F(Capture, InactiveInvisibleAndDistantObjectsAreNotDrawn) {
   make("a", 3, 3)->setActive(false);
   make("b", 3, 3)->setVisible(false);
   make("c", 100, 3);
@@ -47,7 +47,7 @@ TEST_F(Capture, InactiveInvisibleAndFarOnesAreNotDrawn) {
   EXPECT_EQ(received, (Received{"d"}));
 }
 
-TEST_F(Capture, WhatAPlayersViewShowsIsDrawn) {
+TEST_F(Capture, ObjectsInAPlayersViewAreDrawn) {
   WM.setBoundary(Box(Vector(0, 0), 500, 500));
   Probe* a = make("a", 300, 300);
   GM.tick();
@@ -143,7 +143,7 @@ TEST_F(Capture, DrawMayDeleteAndThrow) {
   EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
-TEST_F(Capture, DrawCannotBeginATickOrAnotherPicture) {
+TEST_F(Capture, DrawCannotStartATickOrAnotherDraw) {
   Probe* a = make("a", 3, 3);
   a->on_draw = [this](Probe& self) {
     received.push_back("draw");
@@ -168,7 +168,7 @@ TEST_F(Capture, ShutDownInsideDrawWaitsForItsEnd) {
   EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
-TEST_F(Capture, UnwatchedReportsNothingAndTheFirstWatchedTickEverything) {
+TEST_F(Capture, UnwatchedTicksReportNothingFirstWatchedReportsAll) {
   Object a;
   Object b;
   GM.tick();
@@ -203,7 +203,7 @@ TEST_F(Capture, ChangesAreReportedInCreationOrder) {
   ASSERT_EQ(world.picture().view().changed.size(), 1u);
 }
 
-TEST_F(Capture, EveryFactIsReported) {
+TEST_F(Capture, EveryPropertyChangeIsReported) {
   Object o;
   world.store().setWatched(true);
   GM.tick();
@@ -228,7 +228,7 @@ TEST_F(Capture, EveryFactIsReported) {
   EXPECT_EQ(changed(o), nullptr);
 }
 
-TEST_F(Capture, BlockedObjectHasNoVelocityUntilItIsFree) {
+TEST_F(Capture, BlockedObjectReportsNoVelocityUntilFree) {
   PlacedObject wall(Vector(12, 10));
   PlacedObject a(Vector(10.5, 10));
   a.setVelocity(Vector(1, 0));
@@ -258,7 +258,7 @@ TEST_F(Capture, BouncerReportsItsNewVelocity) {
   EXPECT_EQ(toCells(changed(a)->velocity.x), -1);
 }
 
-TEST_F(Capture, VanishedAreThoseThatWereReported) {
+TEST_F(Capture, OnlyReportedObjectsAreReportedVanished) {
   auto* p_a = new Object;
   world.store().setWatched(true);
   GM.tick();
@@ -273,7 +273,7 @@ TEST_F(Capture, VanishedAreThoseThatWereReported) {
   EXPECT_TRUE(world.picture().view().vanished.empty());
 }
 
-TEST_F(Capture, ReturningObjectIsANewOne) {
+TEST_F(Capture, ReinsertedObjectIsReportedAsNew) {
   Object o;
   world.store().setWatched(true);
   GM.tick();

@@ -35,7 +35,7 @@ class Careless : public Object {
 
 using CompatDefaults = WorldTest;
 
-TEST_F(CompatDefaults, ObjectsBeginAtOneOneAndWithoutAType) {
+TEST_F(CompatDefaults, ObjectsStartAtOneOneWithoutAType) {
   const Object by_the_book;
   EXPECT_EQ(by_the_book.getPosition(), Vector());
   EXPECT_EQ(by_the_book.getType(), "Object");
@@ -47,7 +47,7 @@ TEST_F(CompatDefaults, ObjectsBeginAtOneOneAndWithoutAType) {
   EXPECT_EQ(Object(moved).getPosition(), Vector(7, 8));
 }
 
-TEST_F(CompatDefaults, TypesAndPlacesOfWidgets) {
+TEST_F(CompatDefaults, WidgetsHaveThePublishedDefaults) {
   EXPECT_EQ(std::make_unique<Pause>()->getType(), "df-pause");
   EXPECT_EQ(std::make_unique<Press>()->getPosition(), Vector(40, 1));
   EXPECT_EQ(std::make_unique<Entry>()->getLimit(), 30);
@@ -69,7 +69,7 @@ TEST_F(CompatDefaults, AViewEventHasNoTag) {
   EXPECT_EQ(EventView().getTag(), "");
 }
 
-TEST_F(CompatDefaults, UnregisteringWhatIsNotRegisteredIsNoError) {
+TEST_F(CompatDefaults, UnregisteringAnUnknownInterestSucceeds) {
   Probe probe;
   EXPECT_EQ(probe.unregisterInterest(VIEW_EVENT), -1);
   world.setCompat();
@@ -115,7 +115,7 @@ __attribute__((noinline)) bool isClear(const Careless& o) {
   return true;
 }
 
-TEST_F(CompatDefaults, TheMemoryOfANewObjectIsClear) {
+TEST_F(CompatDefaults, NewObjectMemoryIsZeroed) {
   world.setCompat();
   constexpr std::align_val_t kLine{64};
   for (int i = 0; i < 20; ++i) {

@@ -37,7 +37,7 @@ class CompatTest : public WorldTest {
   }
 };
 
-TEST_F(CompatTest, ThePublishedEngineCountsStepsFromZero) {
+TEST_F(CompatTest, CompatCountsStepsFromZero) {
   std::vector<int> counts;
   Probe probe;
   probe.hear(STEP_EVENT, [&](Probe&, const Event& e) {
@@ -51,7 +51,7 @@ TEST_F(CompatTest, ThePublishedEngineCountsStepsFromZero) {
   EXPECT_EQ(counts.back(), 3);
 }
 
-TEST_F(CompatTest, TheBookJudgesLeavingByThePositionAndThePublishedEngineByTheBox) {
+TEST_F(CompatTest, CompatJudgesLeavingByBoxNotPosition) {
   const Box sprite(Vector(-3, -1), 6, 2), beside(Vector(10, 0), 1, 1);
   const struct {
     const char* p_name;
@@ -78,7 +78,7 @@ TEST_F(CompatTest, TheBookJudgesLeavingByThePositionAndThePublishedEngineByTheBo
   }
 }
 
-TEST_F(CompatTest, SpritelessNeighboursDoNotTouchThere) {
+TEST_F(CompatTest, SpritelessNeighboursDoNotTouchInCompat) {
   world.setCompat();
   Probe a("a", &received, Vector(10, 10));
   Probe b("b", &received, Vector(12, 10));
@@ -93,7 +93,7 @@ TEST_F(CompatTest, SpritelessNeighboursDoNotTouchThere) {
   EXPECT_EQ(WM.moveObject(&c, Vector(14, 12)), -1);
 }
 
-TEST_F(CompatTest, LogLevelsCountTheOtherWayRound) {
+TEST_F(CompatTest, CompatReversesLogLevels) {
   LM.setLogLevel(3);
   LM.writeLog(5, "five");
   LM.writeLog(1, "one");
@@ -106,7 +106,7 @@ TEST_F(CompatTest, LogLevelsCountTheOtherWayRound) {
   EXPECT_EQ(logged("one"), 1);
 }
 
-TEST_F(CompatTest, AWorldMadeByHandIsLeftAlone) {
+TEST_F(CompatTest, StartUpKeepsTheModeOfHandMadeWorlds) {
   EXPECT_EQ(world.program(), nullptr);
   GM.startUp();
   EXPECT_FALSE(world.compat());
@@ -115,7 +115,7 @@ TEST_F(CompatTest, AWorldMadeByHandIsLeftAlone) {
   EXPECT_TRUE(world.compat());
 }
 
-TEST_F(CompatTest, TheEnvironmentHasTheLastWord) {
+TEST_F(CompatTest, EnvironmentOverridesCompatMode) {
   setenv("DF_COMPAT", "1", 1);
   GM.startUp();
   EXPECT_TRUE(world.compat());
@@ -128,7 +128,7 @@ TEST_F(CompatTest, TheEnvironmentHasTheLastWord) {
   EXPECT_TRUE(world.compat());
 }
 
-TEST_F(WorldTest, AGameThatIsOverForOnePlayerGoesOnForTheOthers) {
+TEST_F(WorldTest, GameOverForOnePlayerLeavesOthersPlaying) {
   Probe quitter("quitter");
   quitter.hear(KEYBOARD_EVENT, [](Probe&, const Event& e) {
     if (e.getType() == KEYBOARD_EVENT) GM.setGameOver();

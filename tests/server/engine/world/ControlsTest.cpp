@@ -33,7 +33,7 @@ class DeclaredControls : public WorldTest {
   Probe ship{"ship", &received, Vector(10, 10)};
 };
 
-TEST_F(DeclaredControls, AKeyMovesTheObjectBeforeItsEventIsSent) {
+TEST_F(DeclaredControls, KeyMovesTheObjectBeforeItsEvent) {
   ASSERT_EQ(player().setControls(arrows()), 0);
   Vector at_event;
   std::vector<bool> handled;
@@ -50,7 +50,7 @@ TEST_F(DeclaredControls, AKeyMovesTheObjectBeforeItsEventIsSent) {
   EXPECT_EQ(handled, (std::vector{true, false, false}));
 }
 
-TEST_F(DeclaredControls, WithoutControlsKeysAreTheGamesAlone) {
+TEST_F(DeclaredControls, WithoutControlsKeysMoveNothing) {
   Probe listener("listener", nullptr, Vector(50, 20));
   listener.registerInterest(KEYBOARD_EVENT);
   bool handled = true;
@@ -63,7 +63,7 @@ TEST_F(DeclaredControls, WithoutControlsKeysAreTheGamesAlone) {
   EXPECT_EQ(player().facts().steering.p_table, nullptr);
 }
 
-TEST_F(DeclaredControls, AHardObjectBlocksAStepAndBothGetTheEvent) {
+TEST_F(DeclaredControls, HardObjectBlocksAStepAndBothGetEvents) {
   player().setControls(arrows());
   const Probe wall("wall", &received, Vector(11.5, 10));
   press(RIGHTARROW);
@@ -71,7 +71,7 @@ TEST_F(DeclaredControls, AHardObjectBlocksAStepAndBothGetTheEvent) {
   EXPECT_EQ(received, (std::vector<std::string>{"ship:df-collision", "wall:df-collision"}));
 }
 
-TEST_F(DeclaredControls, ASoftObjectLetsAStepPassAndGetsTheEvent) {
+TEST_F(DeclaredControls, SoftObjectAllowsAStepAndGetsAnEvent) {
   player().setControls(arrows());
   Probe fog("fog", &received, Vector(11.5, 10));
   fog.setSolidness(SOFT);
@@ -84,7 +84,7 @@ TEST_F(DeclaredControls, ASoftObjectLetsAStepPassAndGetsTheEvent) {
   expectAt(ship, 10, 10);
 }
 
-TEST_F(DeclaredControls, AStepOutOfTheWorldSendsOneOutEvent) {
+TEST_F(DeclaredControls, StepOutOfTheWorldSendsOneOutEvent) {
   player().setControls(arrows());
   ship.setPosition(Vector(0, 10));
   press(LEFTARROW);
@@ -93,7 +93,7 @@ TEST_F(DeclaredControls, AStepOutOfTheWorldSendsOneOutEvent) {
   EXPECT_EQ(received, (std::vector<std::string>{"ship:df-out"}));
 }
 
-TEST_F(DeclaredControls, TheViewFollowsStepsAsMoves) {
+TEST_F(DeclaredControls, ViewFollowsSteps) {
   WM.setBoundary(Box(Vector(), 200, 24));
   ship.setPosition(Vector(40, 10));
   player().setObject(&ship);
@@ -103,7 +103,7 @@ TEST_F(DeclaredControls, TheViewFollowsStepsAsMoves) {
   EXPECT_NEAR(player().getViewCorner().x(), 70 - (80 - 80 / 3.0), 0.01);
 }
 
-TEST_F(DeclaredControls, StepsWaitAsDeclared) {
+TEST_F(DeclaredControls, StepsHonourTheDeclaredWait) {
   player().setControls(arrows(3));
   for (int i = 0; i < 6; ++i) press(RIGHTARROW);
   expectAt(ship, 12, 10);
@@ -130,7 +130,7 @@ TEST_F(DeclaredControls, OnlyThePlayersOwnKeysMoveTheirObject) {
   expectAt(ship, 10, 10);
 }
 
-TEST_F(DeclaredControls, NoSteeringAndNoActivityMeanNoEffect) {
+TEST_F(DeclaredControls, DisabledSteeringOrInactiveObjectIgnoresKeys) {
   player().setControls(arrows());
   player().setSteering(false);
   press(RIGHTARROW);
@@ -145,7 +145,7 @@ TEST_F(DeclaredControls, NoSteeringAndNoActivityMeanNoEffect) {
   expectAt(ship, 11, 10);
 }
 
-TEST_F(DeclaredControls, TheObjectMayGoInTheMiddleOfAKey) {
+TEST_F(DeclaredControls, ObjectMayBeDeletedDuringAKey) {
   auto* p_doomed = new Probe("doomed", nullptr, Vector(30, 10));
   player().setObject(p_doomed);
   player().setControls(Controls().onKey(D).step(1, 0).onKey(D).step(1, 0).onKey(D).velocity(1, 1));
@@ -160,7 +160,7 @@ TEST_F(DeclaredControls, TheObjectMayGoInTheMiddleOfAKey) {
   EXPECT_EQ(player().facts().steering.p_table, nullptr);
 }
 
-TEST_F(DeclaredControls, ControlsMoveWhateverObjectIsThePlayersNow) {
+TEST_F(DeclaredControls, ControlsMoveThePlayersCurrentObject) {
   player().setControls(arrows());
   Probe other("other", nullptr, Vector(40, 5));
   player().setObject(&other);
@@ -169,7 +169,7 @@ TEST_F(DeclaredControls, ControlsMoveWhateverObjectIsThePlayersNow) {
   expectAt(other, 41, 5);
 }
 
-TEST_F(DeclaredControls, FactsAreExactAndSayWhatIsTriedNext) {
+TEST_F(DeclaredControls, SteeringFactsAreExactAndIncludeBlockedVelocity) {
   player().setControls(Controls().onKey(D).velocityX(1.0 / 3));
   const Probe wall("wall", nullptr, Vector(11.2, 10));
   press(D);
@@ -181,7 +181,7 @@ TEST_F(DeclaredControls, FactsAreExactAndSayWhatIsTriedNext) {
   EXPECT_EQ(*facts.p_table, *Controls().onKey(D).velocityX(1.0 / 3).table());
 }
 
-TEST_F(DeclaredControls, BadNumbersSpoilTheTableAndAreCounted) {
+TEST_F(DeclaredControls, InvalidControlTablesAreRefusedAndCounted) {
   ASSERT_EQ(player().setControls(arrows()), 0);
   Controls many;
   for (int i = 0; i < 33; ++i) many.onKey(A).step(1, 0);

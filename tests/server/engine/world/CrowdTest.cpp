@@ -98,7 +98,7 @@ void expectTheSame(const Crowd& crowd) {
   }
 }
 
-TEST(Crowd, MovesAsIfAllHadBeenAsked) {
+TEST(Crowd, MovesMatchACrowdWithHandlersEverywhere) {
   const std::pair<const char*, Crowd> kCrowds[] = {
       {"hard ones", {}},
       {"that moves apart", {.spread = 12}},
@@ -120,7 +120,7 @@ TEST(Crowd, MovesAsIfAllHadBeenAsked) {
 }
 
 // An odd Object needs no list, whether or not other odd ones are near.
-TEST(Crowd, OfSoftOnesIsNotListedForAHardOne) {
+TEST(Crowd, SoftCrowdIsNotListedForAHardObject) {
   for (const bool is_hard : {true, false}) {
     for (const int every : {1000, 20}) {
       MoverStats stats;
@@ -133,7 +133,7 @@ TEST(Crowd, OfSoftOnesIsNotListedForAHardOne) {
   }
 }
 
-TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
+TEST(Crowd, CountsStayCorrectWhenObjectsChangeOrLeave) {
   World world;
   const World::Scope scope(world);
   std::vector<Object*> soft;
@@ -170,7 +170,7 @@ TEST(Crowd, IsCountedAsItIsWhenSomeChangeTheirKindOrGo) {
   world.shutDown();
 }
 
-TEST(Crowd, OfManyHearsNothingOneByOne) {
+TEST(Crowd, ObjectsWithoutHandlersAreNotListed) {
   MoverStats stats;
   play({.objects = 2000}, 1, false, &stats);
   EXPECT_EQ(stats.met, 0u);
@@ -178,7 +178,7 @@ TEST(Crowd, OfManyHearsNothingOneByOne) {
 }
 
 // An Object with a handler that is far away does not make the crowd slower.
-TEST(Crowd, IsNotListedBecauseOfAHearerElsewhere) {
+TEST(Crowd, DistantHandlerDoesNotSlowTheCrowd) {
   World world;
   const World::Scope scope(world);
   std::ostringstream pages;

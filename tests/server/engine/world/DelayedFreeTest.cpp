@@ -28,7 +28,7 @@ class DelayedFreeTest : public WorldTest {
   }
 };
 
-TEST(DelayedFree, KeepSoManyAndNoMore) {
+TEST(DelayedFree, KeepsALimitedNumberOfBlocks) {
   constexpr std::align_val_t kAlign{64};
   const auto p_freed = std::make_unique<DelayedFree>();
   DelayedFree& freed = *p_freed;
@@ -71,7 +71,7 @@ TEST_F(DelayedFreeTest, GettersOfADeletedObjectStillWork) {
   EXPECT_EQ(p_gone->eventHandler(&step), 0);
 }
 
-TEST_F(DelayedFreeTest, DeletingItAgainSparesTheNextObjectOfItsSlot) {
+TEST_F(DelayedFreeTest, SecondDeleteSparesTheSlotsNextObject) {
   Object* p_gone = new Probe("gone");
   WM.markForDelete(p_gone);
   world.update();

@@ -99,7 +99,7 @@ void Recording::spawn() {
   new Wanderer(*this);
 }
 
-TEST(Determinism, ALongRunHasOneHashWhateverCompiledIt) {
+TEST(Determinism, LongRunHashIsTheSameForEveryCompiler) {
   Recording run;
   for (int tick = 0; tick < kTicks; ++tick) {
     run.world.tick();

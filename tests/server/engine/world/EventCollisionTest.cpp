@@ -9,7 +9,7 @@ std::string typeOfMover(const EventCollision& collision) {
   return collision.getObject1()->getType();
 }
 
-TEST(EventCollisionHeader, BringsTheObjectsItNames) {
+TEST(EventCollisionHeader, IncludesTheObjectHeader) {
   Object mover;
   EXPECT_EQ(typeOfMover(EventCollision(&mover, nullptr, Vector())), "Object");
 }

@@ -54,7 +54,7 @@ std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) 
 }
 
 // Positions are read from the store, because a double cannot hold 2^-32 cells at 2e9.
-TEST_F(Extremes, APathTwoBillionCellsAwayIsTheSameAsAtTheOrigin) {
+TEST_F(Extremes, PathsAtTwoBillionCellsMatchTheOrigin) {
   for (const bool swept : {false, true}) {
     int here = 0;
     const std::vector<FixedVector> path = pathAround(Vector(0, 0), swept, here);
@@ -67,7 +67,7 @@ TEST_F(Extremes, APathTwoBillionCellsAwayIsTheSameAsAtTheOrigin) {
   }
 }
 
-TEST_F(Extremes, AMillionCellsPerTickEndWhereTheyShould) {
+TEST_F(Extremes, MillionCellsPerTickEndAtTheRightPosition) {
   WM.setBoundary(Box(Vector(0, 0), 1e6, 1e6));
   auto* p_wall = new Reacting;
   p_wall->setPosition(Vector(900000, 10));
@@ -84,7 +84,7 @@ TEST_F(Extremes, AMillionCellsPerTickEndWhereTheyShould) {
   EXPECT_GT(p_fast->getPosition().x(), 899998.999);
 }
 
-TEST_F(Extremes, BoxesWithoutSizeAndHugeOnesMeet) {
+TEST_F(Extremes, ZeroSizeAndHugeBoxesCollide) {
   auto* p_huge = new Reacting;
   p_huge->setPosition(Vector(0, 0));
   EXPECT_EQ(p_huge->setBox(Box(Vector(-5000, -5000), 1e4, 1e4)), 0);
@@ -99,7 +99,7 @@ TEST_F(Extremes, BoxesWithoutSizeAndHugeOnesMeet) {
   EXPECT_EQ(p_point->getPosition(), Vector(5001, 0));
 }
 
-TEST_F(Extremes, NumbersThatAreNoneAreRefusedAndTheWorldGoesOn) {
+TEST_F(Extremes, InvalidNumbersAreRefusedAndTheWorldContinues) {
   auto* p_o = new Reacting;
   p_o->setVelocity(Vector(1, 0));
   auto* p_other = new Reacting;
@@ -138,7 +138,7 @@ TEST_F(Extremes, AMillionObjectsLoadAndStep) {
 }
 
 // One shot hits 700 Objects. Each is deleted and leaves a piece of wreckage in its collision handler.
-TEST_F(Extremes, SevenHundredDieAndAreBornInOneTick) {
+TEST_F(Extremes, SevenHundredObjectsAreReplacedInOneTick) {
   WM.setBoundary(Box(Vector(0, 0), 200, 100));
   int born = 0;
   for (int i = 0; i < 700; ++i) {

@@ -55,7 +55,7 @@ class FindFree : public WorldTest {
   }
 };
 
-TEST_F(FindFree, InAnEmptyWorldItIsThePlaceItself) {
+TEST_F(FindFree, EmptyWorldReturnsTheRequestedPosition) {
   EXPECT_EQ(WM.findFree(kCharacter, Vector(3.25, 4.5)), Vector(3.25, 4.5));
 }
 
@@ -70,7 +70,7 @@ TEST_F(FindFree, TakesTheNearestThenTheHighestThenTheLeftmost) {
   EXPECT_EQ(WM.findFree(kCharacter, Vector(10.5, 10)), Vector(11.5, 10));  // half a cell apart
 }
 
-TEST_F(FindFree, SoftOnesTakeRoomAndSpectralAndInactiveOnesDoNot) {
+TEST_F(FindFree, SoftObjectsTakeSpaceSpectralAndInactiveDoNot) {
   Object* p = make(10, 10, SOFT);
   EXPECT_NE(WM.findFree(kCharacter, Vector(10, 10)), Vector(10, 10));
   p->setSolidness(SPECTRAL);
@@ -116,7 +116,7 @@ TEST_F(FindFree, BoxesOfAnySizeFit) {
   EXPECT_EQ(WM.findFree(Box(Vector(), 0, 0), Vector(0, 2.5)), Vector(0, 3.5));
 }
 
-TEST_F(FindFree, FindsWhatATestOfAllObjectsFinds) {
+TEST_F(FindFree, MatchesATestOfAllObjects) {
   std::mt19937 random(7);
   const auto within = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);
@@ -144,7 +144,7 @@ TEST_F(FindFree, FindsWhatATestOfAllObjectsFinds) {
   }
 }
 
-TEST_F(FindFree, InACrowdOfManyThousands) {
+TEST_F(FindFree, FindsSpaceAroundThousandsOfObjects) {
   for (int y = -150; y <= 150; ++y) {
     for (int x = -150; x <= 150; ++x) make(x, y);
   }

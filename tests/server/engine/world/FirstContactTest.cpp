@@ -18,7 +18,7 @@ TEST_F(FirstContact, MovesNothingAndSendsNothing) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(FirstContact, WithoutAContactIsTheTarget) {
+TEST_F(FirstContact, ReturnsTheTargetWithoutAContact) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 20, 10);
   const auto expectNobody = [&](const Object* p_o, Vector where) {

@@ -28,7 +28,7 @@ class FramesTest : public test::WorldTest {
   std::string row() { return world.picture().render({}).rowText(5).substr(9, 3); }
 };
 
-TEST_F(FramesTest, AClockTurnsTheFrames) {
+TEST_F(FramesTest, ClockSelectorAdvancesTheFrames) {
   Object object;  // needs no draw() of its own
   object.setPosition(Vector(10, 5));
   ASSERT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::clock(1, 2)), 0);
@@ -42,7 +42,7 @@ TEST_F(FramesTest, AClockTurnsTheFrames) {
   EXPECT_EQ(object.getFrameCount(), 3);
 }
 
-TEST_F(FramesTest, AHostGetsFramesAndSelector) {
+TEST_F(FramesTest, WatchingHostGetsFramesAndSelector) {
   test::PlacedObject object(Vector(10, 5));
   ObjectLookAccess::setFrames(object, letters(), Selector::turning(1, 5, 7));
   world.tick();
@@ -57,7 +57,7 @@ TEST_F(FramesTest, AHostGetsFramesAndSelector) {
   EXPECT_EQ(look.p_look->selector, Selector::turning(1, 5, 7));
 }
 
-TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
+TEST_F(FramesTest, DrawOfAnObjectMayAddToItsFrames) {
   Adorned object;
   object.setPosition(Vector(10, 5));
   ObjectLookAccess::setFrames(object, letters(), Selector::fixed(1));
@@ -65,7 +65,7 @@ TEST_F(FramesTest, ADrawOfItsOwnMayAddToThem) {
   EXPECT_EQ(row(), "<*>");
 }
 
-TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
+TEST_F(FramesTest, FramesAreHiddenAndDeletedWithTheObject) {
   auto* p_object = new test::PlacedObject(Vector(10, 5));
   ObjectLookAccess::setFrames(*p_object, letters(), Selector::fixed(2));
   world.tick();
@@ -90,7 +90,7 @@ TEST_F(FramesTest, TheyGoWithTheObjectAndEndWithIt) {
   }
 }
 
-TEST_F(FramesTest, WhatDoesNotFitIsRefused) {
+TEST_F(FramesTest, InvalidFramesAndSelectorsAreRefused) {
   Object object;
   EXPECT_EQ(ObjectLookAccess::setSelector(object, Selector::fixed(0)), -1) << "no frames";
   EXPECT_EQ(ObjectLookAccess::setFrames(object, letters(), Selector::fixed(3)), -1);

@@ -14,7 +14,7 @@ class GameRoomsTest : public test::WorldTest {
   GameRooms rooms;
 };
 
-TEST_F(GameRoomsTest, AreThoseThatTheServerHasInItsOrder) {
+TEST_F(GameRoomsTest, RoomsKeepTheServersOrder) {
   EXPECT_TRUE(rooms.getRooms().empty());
   keep({.name = "one", .players = 1});
   keep({.name = "two"});
@@ -24,14 +24,14 @@ TEST_F(GameRoomsTest, AreThoseThatTheServerHasInItsOrder) {
   EXPECT_EQ(rooms.getRooms()[1].name, "two");
 }
 
-TEST_F(GameRoomsTest, AreLimited) {
+TEST_F(GameRoomsTest, RoomCountAndNamesAreLimited) {
   for (std::size_t i = 0; i < 2 * GameRooms::kMaxRooms; ++i) keep({.name = "room-" + std::to_string(i)});
   keep({.name = std::string(GameRooms::kMaxName + 1, 'x')});
   keep({.name = ""});
   EXPECT_EQ(rooms.getRooms().size(), GameRooms::kMaxRooms);
 }
 
-TEST_F(GameRoomsTest, PlayersAreSentToOthersAlone) {
+TEST_F(GameRoomsTest, PlayersAreSentOnlyToOtherRooms) {
   keep({.name = "here", .is_this_one = true});
   keep({.name = "there"});
   const std::uint32_t ann = world.input().join("ann", RED);
@@ -47,7 +47,7 @@ TEST_F(GameRoomsTest, PlayersAreSentToOthersAlone) {
   EXPECT_NE(world.views().player(ann), nullptr) << "until the server leads them away";
 }
 
-TEST_F(GameRoomsTest, SendingIsLimitedInATickAndForgottenAfterIt) {
+TEST_F(GameRoomsTest, TransfersAreLimitedPerTickThenForgotten) {
   keep({.name = "there"});
   const std::uint32_t ann = world.input().join("ann", RED);
   world.tick();

@@ -19,7 +19,7 @@ class HighScoresTest : public test::WorldTest {
   HighScores scores{"arcade"};
 };
 
-TEST_F(HighScoresTest, TheBestComeFirstAndOfEqualOnesTheOlder) {
+TEST_F(HighScoresTest, BestScoresComeFirstThenOldest) {
   EXPECT_TRUE(scores.best().empty());
   EXPECT_EQ(scores.add("ann", 5), 0);
   EXPECT_EQ(scores.add("bob", 7), 0);
@@ -41,7 +41,7 @@ struct Watcher : Object {
   }
 };
 
-TEST_F(HighScoresTest, WhatAHostKeptIsThereInTheFirstStepAndIsNotAddedAgain) {
+TEST_F(HighScoresTest, StoredScoresLoadFirstAndAreNotAddedAgain) {
   Watcher watcher;
   keep("arcade", "ann", 5);
   keep("arcade", "bob", 6);
@@ -50,7 +50,7 @@ TEST_F(HighScoresTest, WhatAHostKeptIsThereInTheFirstStepAndIsNotAddedAgain) {
   EXPECT_TRUE(taken().empty());
 }
 
-TEST_F(HighScoresTest, AHostGetsWhatWasAddedOnceInItsOrder) {
+TEST_F(HighScoresTest, HostGetsAddedScoresOnceInOrder) {
   scores.add("ann", 5);  // before the first tick, as main() does
   world.tick();
   auto added = taken();
@@ -70,7 +70,7 @@ TEST_F(HighScoresTest, AHostGetsWhatWasAddedOnceInItsOrder) {
   EXPECT_EQ(added[1].number, 1);
 }
 
-TEST_F(HighScoresTest, WithoutAHostNothingPilesUp) {
+TEST_F(HighScoresTest, WithoutAHostScoresDoNotPileUp) {
   for (int t = 0; t < 100; ++t) {
     for (int i = 0; i < 16; ++i) ASSERT_EQ(scores.add("ann", t), 0);
     world.tick();
@@ -80,7 +80,7 @@ TEST_F(HighScoresTest, WithoutAHostNothingPilesUp) {
   EXPECT_EQ(scores.best(1000).back().points, 93);
 }
 
-TEST_F(HighScoresTest, MoreThanSixteenInATickAreRefusedAndTheNextTickTakesMore) {
+TEST_F(HighScoresTest, OnlySixteenScoresAreAcceptedPerTick) {
   for (int i = 0; i < 16; ++i) EXPECT_EQ(scores.add("ann", i), 0);
   EXPECT_EQ(HighScores("other").add("ann", 99), -1);
   EXPECT_EQ(lines.size(), 1u);
@@ -90,7 +90,7 @@ TEST_F(HighScoresTest, MoreThanSixteenInATickAreRefusedAndTheNextTickTakesMore) 
   EXPECT_EQ(taken().size(), 17u);
 }
 
-TEST_F(HighScoresTest, WhatIsNoTableNoNameOrOutOfRangeIsRefused) {
+TEST_F(HighScoresTest, InvalidTablesNamesAndPointsAreRefused) {
   for (const std::string table : {"", "a b", "a/b", "\xc3\xa4", "123456789012345678901234567890123"}) {
     EXPECT_EQ(HighScores(table).add("ann", 1), -1) << table;
     EXPECT_TRUE(HighScores(table).best().empty());
@@ -111,13 +111,13 @@ TEST_F(HighScoresTest, ASeventeenthTableIsRefused) {
   EXPECT_EQ(HighScores("t15").add("ann", 1), 0);
 }
 
-TEST_F(HighScoresTest, NamesAreCutAndDrawable) {
+TEST_F(HighScoresTest, NamesAreTruncatedAndMadeDrawable) {
   scores.add("12345678901234567", 2);
   scores.add("a\nb\x1b[2J", 1);
   EXPECT_EQ(scores.best(), (std::vector<HighScore>{{"1234567890123456", 2}, {"a?b?[2J", 1}}));
 }
 
-TEST_F(HighScoresTest, AGameThatBeginsAgainFindsItsTables) {
+TEST_F(HighScoresTest, RestartedGameKeepsItsTables) {
   scores.add("ann", 5);
   world.shutDown();
   EXPECT_EQ(scores.best(), (std::vector<HighScore>{{"ann", 5}}));
@@ -125,7 +125,7 @@ TEST_F(HighScoresTest, AGameThatBeginsAgainFindsItsTables) {
 
 int watchingMain();
 
-TEST(HighScoresInGameTest, ATestKeepsAndReadsThem) {
+TEST(HighScoresInGameTest, GameTestAddsAndReadsStoredScores) {
   GameTest game(watchingMain);
   game.keepScore("arcade", "old", 500);
   game.join("ann");

@@ -99,13 +99,13 @@ class Hits : public WorldTest {
   std::size_t found = 0;
 };
 
-TEST_F(Hits, OfCharactersAreAllFoundInOrder) {
+TEST_F(Hits, AllCharacterHitsAreFoundInOrder) {
   crowd(1000, Vector(), 40, 0);
   compareMany(Vector(), 50, 100, 2000);
   EXPECT_GT(found, 2000u);
 }
 
-TEST_F(Hits, OfManySizesAreAllFoundInOrder) {
+TEST_F(Hits, AllHitsOfManySizesAreFoundInOrder) {
   crowd(150, Vector(), 60, 3);
   crowd(30, Vector(), 80, 60);
   crowd(5, Vector(), 80, 900);
@@ -113,21 +113,21 @@ TEST_F(Hits, OfManySizesAreAllFoundInOrder) {
   EXPECT_GT(found, 2000u);
 }
 
-TEST_F(Hits, OfTheVeryFastAreAllFoundInOrder) {
+TEST_F(Hits, AllHitsOfFastMoversAreFoundInOrder) {
   crowd(300, Vector(), 500, 30);
   compareMany(Vector(), 500, 1e6, 500);
   compareMany(Vector(), 500, 1e9, 500);
   EXPECT_GT(found, 500u);
 }
 
-TEST_F(Hits, AtTheEndOfTheNumberRangeAreAllFoundInOrder) {
+TEST_F(Hits, HitsAtTheNumberLimitAreFoundInOrder) {
   crowd(300, Vector(1999999900, -1999999900), 60, 30);
   compareMany(Vector(1999999900, -1999999900), 60, 40, 500);
   EXPECT_GT(found, 500u);
 }
 
 // Doubles cannot distinguish the ends of such a path.
-TEST_F(Hits, OfAPathOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
+TEST_F(Hits, TinyPathsAtTheNumberLimitFindTheirHits) {
   const Vector far(-1999999000, 1999999000);
   auto* p_mover = new Object;
   objects.push_back(p_mover);
@@ -152,7 +152,7 @@ TEST_F(Hits, OfAPathOfAFewUnitsAtTheEndOfTheNumberRangeAreFound) {
   EXPECT_GT(found, 100u);
 }
 
-TEST_F(Hits, OfAPathAcrossTheWholeWorldAreFound) {
+TEST_F(Hits, PathAcrossTheWorldFindsItsHits) {
   crowd(300, Vector(), 3, 10);
   auto* p_mover = new Object;
   objects.push_back(p_mover);
@@ -165,7 +165,7 @@ TEST_F(Hits, OfAPathAcrossTheWholeWorldAreFound) {
   EXPECT_GT(found, 4u);
 }
 
-TEST_F(Hits, OfAPathOfNoLengthAreWhatIsTouched) {
+TEST_F(Hits, ZeroLengthPathFindsTouchedObjects) {
   crowd(300, Vector(), 20, 5);
   compareMany(Vector(), 20, 0, 200);
   EXPECT_GT(found, 200u);

@@ -16,7 +16,7 @@ class Interests : public WorldTest {
   Event ping = named("ping");
 };
 
-TEST_F(Interests, EventsGoToTheRegisteredInOrderOfRegistration) {
+TEST_F(Interests, EventsAreSentInRegistrationOrder) {
   Probe a("a", &received);
   Probe b("b", &received);
   Probe c("c", &received);
@@ -27,7 +27,7 @@ TEST_F(Interests, EventsGoToTheRegisteredInOrderOfRegistration) {
   EXPECT_EQ(WM.onEvent(nullptr), 0);
 }
 
-TEST_F(Interests, RegisteringTwiceIsOnceAndUnregisteringEnds) {
+TEST_F(Interests, RegisteringTwiceCountsOnceUntilUnregistered) {
   Probe a("a", &received);
   EXPECT_EQ(a.registerInterest("ping"), 0);
   EXPECT_EQ(a.registerInterest("ping"), 0);
@@ -38,7 +38,7 @@ TEST_F(Interests, RegisteringTwiceIsOnceAndUnregisteringEnds) {
   EXPECT_EQ(WM.onEvent(&ping), 0);
 }
 
-TEST_F(Interests, InactiveGetNoEvents) {
+TEST_F(Interests, InactiveObjectsGetNoEvents) {
   Probe a("a", &received);
   a.registerInterest("ping");
   a.setActive(false);
@@ -47,7 +47,7 @@ TEST_F(Interests, InactiveGetNoEvents) {
   EXPECT_EQ(WM.onEvent(&ping), 1);
 }
 
-TEST_F(Interests, NewcomersWaitAndTheDeletedAreSkipped) {
+TEST_F(Interests, NewListenersWaitAndDeletedOnesAreSkipped) {
   auto* p_a = new Probe("a", &received);
   auto* p_b = new Probe("b", &received);
   auto* p_c = new Probe("c", &received);
@@ -75,7 +75,7 @@ TEST_F(Interests, HandlerMayDeleteItselfAndSendMore) {
   EXPECT_EQ(WM.onEvent(&ping), 0);
 }
 
-TEST_F(Interests, RemovalEndsInterestEvenAfterReturning) {
+TEST_F(Interests, ReinsertedObjectHasLostItsInterests) {
   Probe a("a", &received);
   a.registerInterest("ping");
   WM.removeObject(&a);
@@ -84,7 +84,7 @@ TEST_F(Interests, RemovalEndsInterestEvenAfterReturning) {
   EXPECT_EQ(WM.onEvent(&ping), 0);
 }
 
-TEST_F(Interests, ManyComersAndGoersKeepTheOrder) {
+TEST_F(Interests, OrderSurvivesManyDeletionsAndUnregistrations) {
   std::vector<std::unique_ptr<Probe>> probes;
   for (int i = 0; i < 200; ++i) {
     probes.push_back(std::make_unique<Probe>(std::to_string(i), &received));
@@ -116,7 +116,7 @@ TEST_F(Interests, StepEventCountsTheTicks) {
   EXPECT_EQ(GM.getStepCount(), 2);
 }
 
-TEST_F(Interests, HandlerThatThrowsIsQuarantinedAndTheTickGoesOn) {
+TEST_F(Interests, ThrowingHandlerIsQuarantinedAndTheTickContinues) {
   auto* p_bad = new Probe("bad", &received);
   Probe good("good", &received);
   p_bad->registerInterest(STEP_EVENT);

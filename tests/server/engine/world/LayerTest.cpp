@@ -39,7 +39,7 @@ class Layers : public test::WorldTest {
   Falling* layer = nullptr;
 };
 
-TEST_F(Layers, AreFoundByTheirClassAndStepOnceInEachUpdate) {
+TEST_F(Layers, FoundByClassAndSteppedOncePerUpdate) {
   class Other : public Falling {};
   ASSERT_NE(layer, nullptr);
   EXPECT_EQ(world.findLayer<Other>(), nullptr);
@@ -48,7 +48,7 @@ TEST_F(Layers, AreFoundByTheirClassAndStepOnceInEachUpdate) {
   EXPECT_EQ(layer->steps, 2);
 }
 
-TEST_F(Layers, TheBooksMovesSkipBodies) {
+TEST_F(Layers, OnlyTheLayerMovesItsBodies) {
   Object body, plain;
   layer->add(body);
   for (Object* p_object : {&body, &plain}) {
@@ -94,7 +94,7 @@ TEST_F(Layers, ABodyBlocksOthers) {
   EXPECT_EQ(plain.getPosition(), Vector(3, 0));
 }
 
-TEST_F(Layers, AnObjectMarkedInAStepIsDeletedInTheSameUpdate) {
+TEST_F(Layers, StepMarkedObjectIsDeletedInTheSameUpdate) {
   class Reaper : public Layer {
    public:
     void step(World& world) override {

@@ -38,7 +38,7 @@ class LogFileTest : public WorldTest {
   fs::path file;
 };
 
-TEST_F(LogFileTest, IsEmptiedAtFirstAndMadeForItsOwnerAndGroup) {
+TEST_F(LogFileTest, FileIsTruncatedAtStartAndNotWorldReadable) {
   std::ofstream(file) << "of yesterday\n";
   LM.writeLog("first");
   LM.writeLog("second\n");
@@ -51,7 +51,7 @@ TEST_F(LogFileTest, IsEmptiedAtFirstAndMadeForItsOwnerAndGroup) {
   EXPECT_EQ(facts.st_mode & 0137, 0u) << std::oct << facts.st_mode;
 }
 
-TEST_F(LogFileTest, APipeThatNobodyReadsHoldsUpNoGame) {
+TEST_F(LogFileTest, UnreadPipeDoesNotBlockTheGame) {
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   LM.writeLog("nobody is there");
   EXPECT_EQ(LM.writeMyLog(file.string(), "nobody"), -1);
@@ -73,13 +73,13 @@ TEST_F(LogFileTest, APipeThatNobodyReadsHoldsUpNoGame) {
   close(reader);
 }
 
-TEST_F(LogFileTest, AFullDiskHoldsUpNoGame) {
+TEST_F(LogFileTest, FullDiskDoesNotBlockTheGame) {
   Config::getInstance().setLogFile("/dev/full");
   for (int i = 0; i < 100; ++i) LM.writeLog("line %d", i);
   EXPECT_EQ(LM.writeMyLog("/dev/full", "line"), -1);
 }
 
-TEST_F(LogFileTest, NoPipeIsWaitedForWhereAFileIsRead) {
+TEST_F(LogFileTest, ReadingAPipeAsAFileDoesNotBlock) {
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   EXPECT_EQ(RM.loadSprite(file.string(), "pipe"), -1);
   setenv("DRAGONFLY_CONFIG", file.c_str(), 1);

@@ -15,7 +15,7 @@ class MayMoveOut : public WorldTest {
   Probe* a;
 };
 
-TEST_F(MayMoveOut, WithoutItOnePlacedInsideCannotLeaveStepByStep) {
+TEST_F(MayMoveOut, WithoutItAnInsideObjectCannotLeave) {
   for (const bool may_the_other : {false, true}) {
     wall->setMayMoveOut(may_the_other);  // has no effect: only the mover's setting counts
     EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1) << may_the_other;
@@ -32,21 +32,21 @@ TEST_F(MayMoveOut, LeavesStepByStepAndBothGetTheEvent) {
   expectAt(*a, 26, 10);
 }
 
-TEST_F(MayMoveOut, DoesNotLetItDeeperIn) {
+TEST_F(MayMoveOut, DoesNotAllowMovingDeeper) {
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(22, 10)), -1);
   EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // neither less nor more deep
   expectAt(*a, 23, 10);
 }
 
-TEST_F(MayMoveOut, DoesNotLetItIntoWhatItDidNotTouch) {
+TEST_F(MayMoveOut, DoesNotAllowEnteringAnotherObject) {
   a->setMayMoveOut();
   new Probe("b", &received, Vector(25, 10));
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
   expectAt(*a, 23, 10);
 }
 
-TEST_F(MayMoveOut, LetsANoSoftOneLeaveASoftOne) {
+TEST_F(MayMoveOut, NoSoftObjectMayLeaveASoftOne) {
   wall->setSolidness(SOFT);
   a->setNoSoft();
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), -1);
@@ -54,14 +54,14 @@ TEST_F(MayMoveOut, LetsANoSoftOneLeaveASoftOne) {
   EXPECT_EQ(WM.moveObject(a, Vector(24, 10)), 0);
 }
 
-TEST_F(MayMoveOut, LeavesWithUpdate) {
+TEST_F(MayMoveOut, UpdateMovesTheObjectOut) {
   a->setMayMoveOut();
   a->setVelocity(Vector(0.5, 0));
   for (int i = 0; i < 10; ++i) WM.update();
   expectAt(*a, 28, 10);
 }
 
-TEST_F(MayMoveOut, SweptOneLeavesAndIsStoppedByTheNextWall) {
+TEST_F(MayMoveOut, SweptObjectLeavesAndStopsAtNextWall) {
   a->setSwept();
   a->setMayMoveOut();
   new Probe("next", &received, Vector(40, 10));
@@ -72,7 +72,7 @@ TEST_F(MayMoveOut, SweptOneLeavesAndIsStoppedByTheNextWall) {
   EXPECT_NEAR(a->getPosition().x(), 39, 1e-9);
 }
 
-TEST_F(MayMoveOut, SweptOneIsBlockedAtOnceWhenItMovesIn) {
+TEST_F(MayMoveOut, SweptObjectMovingDeeperIsBlockedAtOnce) {
   a->setSwept();
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);

@@ -69,7 +69,7 @@ class Mistakes : public WorldTest {
   }
 };
 
-TEST_F(Mistakes, AHandlerThatDoesNotOverride) {
+TEST_F(Mistakes, HandlerWithoutOverrideIsReported) {
   new Deaf;
   new Deaf;
   ticks(2);
@@ -78,47 +78,47 @@ TEST_F(Mistakes, AHandlerThatDoesNotOverride) {
       "declared \"int eventHandler(const df::Event*) override\"");
 }
 
-TEST_F(Mistakes, InterestInAnEventThatTheEngineDoesNotSend) {
+TEST_F(Mistakes, InterestInAMisspelledEngineEventIsReported) {
   auto* p_saucer = new Saucer;
   p_saucer->registerInterest("step");
   p_saucer->registerInterest("steps");  // no message: may be the game's own event
   expectLine("registerInterest(\"step\"): the engine sends no such event; it sends df::STEP_EVENT");
 }
 
-TEST_F(Mistakes, AnEventWithoutAType) {
+TEST_F(Mistakes, EventWithoutATypeIsReported) {
   const EventNuke nuke;
   WM.onEvent(&nuke);
   WM.onEvent(&nuke);
   expectLine("WM.onEvent() of a EventNuke without a type: setType() was forgotten");
 }
 
-TEST_F(Mistakes, AnExceptionOutOfAHandler) {
+TEST_F(Mistakes, HandlerExceptionIsReported) {
   auto* p_saucer = new Probe("Saucer");
   p_saucer->hear(STEP_EVENT, [](Probe&, const Event&) { throw std::runtime_error("no sprite"); });
   world.tick();
   expectLine("An object of type Saucer threw an exception and is removed from the game: no sprite");
 }
 
-TEST_F(Mistakes, AGameInsideAGame) {
+TEST_F(Mistakes, NestedRunIsReported) {
   auto* p_saucer = new Probe("Saucer");
   p_saucer->hear(STEP_EVENT, [](Probe&, const Event&) { GM.run(); });
   ticks(2);
   expectLine("GM.run() inside a handler does nothing: the game is running");
 }
 
-TEST_F(Mistakes, ASpriteFileThatIsNotThere) {
+TEST_F(Mistakes, MissingSpriteFileIsReported) {
   EXPECT_EQ(RM.loadSprite("sprites/saucr.txt", "saucer"), -1);
   expectBeginning("Sprite saucer: sprites/saucr.txt: cannot be read; looked in /");
 }
 
-TEST_F(Mistakes, ASpriteFileWithARowTooLong) {
+TEST_F(Mistakes, OverlongSpriteRowIsReportedWithItsLine) {
   const std::string file = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/bad-long-row.txt";
   EXPECT_EQ(RM.loadSprite(file, "saucer"), -1);
   EXPECT_EQ(logged(":7: the row has 4 characters instead of 3"), 1);
   EXPECT_NE(page().find(":7: the row has 4 characters instead of 3`"), std::string::npos);
 }
 
-TEST_F(Mistakes, ASpriteThatWasNotLoaded) {
+TEST_F(Mistakes, UnknownSpriteLabelIsReported) {
   auto* p_saucer = new Saucer;
   EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
   EXPECT_EQ(p_saucer->setSprite("saucr"), -1);
@@ -136,7 +136,7 @@ TEST_F(Mistakes, ASpriteThatWasNotLoaded) {
   EXPECT_NE(page().find("`" + line + "`"), std::string::npos);
 }
 
-TEST_F(Mistakes, ASpriteThatCouldNotBeLoadedIsAQuestionMark) {
+TEST_F(Mistakes, SpriteThatFailedToLoadIsAQuestionMark) {
   auto* p_saucer = new Saucer;
   EXPECT_EQ(RM.loadSprite("sprites/saucr.txt", "saucer"), -1);
   ASSERT_NE(RM.getSprite("saucer"), nullptr);
@@ -144,12 +144,12 @@ TEST_F(Mistakes, ASpriteThatCouldNotBeLoadedIsAQuestionMark) {
   EXPECT_EQ(RM.getSprite("saucer")->getFrame(0).getString(), "?");
 }
 
-TEST_F(Mistakes, ASoundFileThatIsNotThere) {
+TEST_F(Mistakes, MissingSoundFileIsReported) {
   EXPECT_EQ(RM.loadSound("sounds/fier.wav", "fire"), -1);
   expectBeginning("Sound: sounds/fier.wav: cannot be read; looked in /");
 }
 
-TEST_F(Mistakes, ASoundThatWasNotLoadedIsSilent) {
+TEST_F(Mistakes, UnknownSoundIsSilentAndReported) {
   world.store().setWatched(true);
   RM.getSound("fire")->play();
   RM.getSound("fire")->play(true);
@@ -160,7 +160,7 @@ TEST_F(Mistakes, ASoundThatWasNotLoadedIsSilent) {
   EXPECT_TRUE(world.picture().view().sounds.empty());
 }
 
-TEST_F(Mistakes, AClassThatForgotItsType) {
+TEST_F(Mistakes, ClassWithoutSetTypeIsReported) {
   new Saucer;
   EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
   EXPECT_TRUE(world.objects().objectsOfType("Saucer").isEmpty());
@@ -170,7 +170,7 @@ TEST_F(Mistakes, AClassThatForgotItsType) {
       "setType(\"Saucer\")");
 }
 
-TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
+TEST_F(Mistakes, RefusingSettersAreReportedOnceEach) {
   auto* p_saucer = new Saucer;
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(p_saucer->setAltitude(5), -1);
@@ -199,21 +199,21 @@ TEST_F(Mistakes, SettersThatRefuseAreNamedOnceEach) {
       "ones are only counted)");
 }
 
-TEST_F(Mistakes, ObjectsThatAreNotThere) {
+TEST_F(Mistakes, NullObjectsAreReported) {
   WM.markForDelete(static_cast<Object*>(nullptr));
   expectLine("WM.markForDelete() of a null pointer");
   WM.moveObject(nullptr, Vector());
   expectLine("WM.moveObject() of a null pointer");
 }
 
-TEST_F(Mistakes, AnObjectThatWasNotMadeWithNew) {
+TEST_F(Mistakes, DeletingAnObjectNotMadeWithNewIsReported) {
   Saucer saucer;
   WM.markForDelete(&saucer);
   world.tick();
   expectLine("Marked for deletion, but not made with new, so only removed: object of type Saucer");
 }
 
-TEST(ClassName, IsAsItsAuthorWroteIt) {
+TEST(ClassName, MatchesTheSourceCode) {
   struct Local {};
   EXPECT_EQ(classNameOf(typeid(Saucer)), "df::test::Saucer");
   EXPECT_NE(classNameOf(typeid(Local)).find("Local"), std::string::npos);

@@ -25,14 +25,14 @@ TEST_F(MoveObject, BlockedMoverKeepsItsPosition) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(MoveObject, TouchingEdgesCollideAndAHairApartDoesNot) {
+TEST_F(MoveObject, TouchingEdgesCollideButATinyGapDoesNot) {
   Probe* a = make("a", 10, 10);
   make("b", 15, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(14, 11)), -1);
   EXPECT_EQ(WM.moveObject(a, Vector(14 - 1.0 / 1024 / 1024, 11)), 0);
 }
 
-TEST_F(MoveObject, SoftPairsMoveAndBothGetTheEvent) {
+TEST_F(MoveObject, SoftPairsOverlapAndBothGetEvents) {
   for (const auto& [mover, other] : {std::pair{SOFT, SOFT}, std::pair{SOFT, HARD}, std::pair{HARD, SOFT}}) {
     received.clear();
     Probe* a = make("a", 10, 10, mover);
@@ -45,7 +45,7 @@ TEST_F(MoveObject, SoftPairsMoveAndBothGetTheEvent) {
   }
 }
 
-TEST_F(MoveObject, SpectralNeverCollides) {
+TEST_F(MoveObject, SpectralObjectsNeverCollide) {
   Probe* a = make("a", 10, 10, SPECTRAL);
   Probe* b = make("b", 15, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
@@ -63,7 +63,7 @@ TEST_F(MoveObject, NoSoftMoverIsBlockedBySoft) {
   EXPECT_EQ(WM.moveObject(b, Vector(10, 10)), 0);
 }
 
-TEST_F(MoveObject, AllOverlappedGetEventsInCreationOrderEvenIfTheFirstBlocks) {
+TEST_F(MoveObject, AllOverlappedGetEventsInOrderDespiteABlocker) {
   make("b", 15, 10);
   make("c", 15.5, 10, SOFT);
   Probe* a = make("a", 10, 10);
@@ -129,7 +129,7 @@ TEST_F(MoveObject, HandlersDecideHowTheMoveEnds) {
   }
 }
 
-TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
+TEST_F(MoveObject, RuleIsAppliedRightAfterEachPairsHandlers) {
   make("b", 15, 10);
   Probe* c = make("c", 15, 10, SOFT);
   Probe* a = make("a", 10, 10);
@@ -138,7 +138,7 @@ TEST_F(MoveObject, TheCollisionRuleIsAppliedRightAfterTheHandlersOfAPair) {
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
 
-TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
+TEST_F(MoveObject, ObjectDeletedByAHandlerIsSkipped) {
   Probe* b = make("b", 15, 10);
   Probe* c = make("c", 15, 10);
   Probe* a = make("a", 10, 10, SOFT);
@@ -147,7 +147,7 @@ TEST_F(MoveObject, ListMemberDeletedByHandIsSkipped) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
+TEST_F(MoveObject, DeletingTheMoverInAHandlerEndsTheMove) {
   make("b", 15, 10);
   Probe* c = make("c", 15, 10);
   Probe* a = make("a", 10, 10);
@@ -157,7 +157,7 @@ TEST_F(MoveObject, MoverDeletedByHandEndsTheMove) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "a:df-collision", "c:df-collision"}));
 }
 
-TEST_F(MoveObject, InactiveNeitherCollidesNorGetsEvents) {
+TEST_F(MoveObject, InactiveObjectNeitherCollidesNorGetsEvents) {
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 15, 10);
   b->setActive(false);
@@ -167,14 +167,14 @@ TEST_F(MoveObject, InactiveNeitherCollidesNorGetsEvents) {
   EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), -1);
 }
 
-TEST_F(MoveObject, MovingToWhereItIsTestsCollisions) {
+TEST_F(MoveObject, MovingToTheSamePositionTestsCollisions) {
   Probe* a = make("a", 10, 10, SOFT);
   make("b", 10, 10);
   EXPECT_EQ(WM.moveObject(a, a->getPosition()), 0);
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(MoveObject, NestedDeeperThan32IsRefused) {
+TEST_F(MoveObject, MovesNestedDeeperThan32AreRefused) {
   Probe* a = make("a", 10, 10, SOFT);
   Probe* b = make("b", 11, 10, SOFT);
   int depth = 0;
@@ -192,7 +192,7 @@ TEST_F(MoveObject, NestedDeeperThan32IsRefused) {
   expectAt(*b, 11, 10);
 }
 
-TEST_F(MoveObject, OutOnceWhenItLeavesAndNotOnReentry) {
+TEST_F(MoveObject, OutEventIsSentOnExitNotOnReentry) {
   Probe* a = make("a", 78, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(79.99, 10)), 0);
   EXPECT_TRUE(received.empty());
@@ -205,7 +205,7 @@ TEST_F(MoveObject, OutOnceWhenItLeavesAndNotOnReentry) {
   EXPECT_EQ(received.size(), 2u);
 }
 
-TEST_F(MoveObject, NoOutEventWhenPlacedOutsideOrBySetPosition) {
+TEST_F(MoveObject, PlacingAnObjectOutsideSendsNoOutEvent) {
   Probe* a = make("a", -5, 10);
   WM.moveObject(a, Vector(-6, 10));
   a->setPosition(Vector(5, 5));
@@ -213,7 +213,7 @@ TEST_F(MoveObject, NoOutEventWhenPlacedOutsideOrBySetPosition) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(MoveObject, OutIsJudgedJustBeforeTheFinalSet) {
+TEST_F(MoveObject, OutEventIsJudgedFromThePositionAfterHandlers) {
   Probe* a = make("a", 78, 10, SOFT);
   make("b", 82, 10);
   a->on_event = [](Probe& self, const Event& e) {
@@ -234,7 +234,7 @@ TEST_F(MoveObject, OutHandlerSeesThePositionOutsideAndMayDelete) {
   EXPECT_EQ(x, 85);
 }
 
-TEST_F(MoveObject, OutFollowsTheBoundaryWithItsCorner) {
+TEST_F(MoveObject, OutEventUsesTheBoundarysCorner) {
   ASSERT_EQ(WM.setBoundary(Box(Vector(100, 100), 10, 10)), 0);
   Probe* a = make("a", 100, 100);
   WM.moveObject(a, Vector(99.9, 100));
@@ -251,7 +251,7 @@ TEST_F(MoveObject, TargetOutOfRangeIsRefused) {
   EXPECT_EQ(world.log().refusals(), 2u);
 }
 
-TEST_F(MoveObject, HandlerThatThrowsCostsItsObjectOnly) {
+TEST_F(MoveObject, ThrowingHandlerRemovesOnlyItsObject) {
   Probe* a = make("a", 10, 10, SOFT);
   Probe* b = make("b", 15, 10);
   b->on_event = [](Probe&, const Event&) { throw std::runtime_error("oops"); };

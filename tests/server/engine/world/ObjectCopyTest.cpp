@@ -74,7 +74,7 @@ TEST_F(ObjectCopy, IsNotInTheWorld) {
   EXPECT_EQ(WM.getAllObjects().getCount(), 1);
 }
 
-TEST_F(ObjectCopy, ComesIntoTheWorldWhenItIsInserted) {
+TEST_F(ObjectCopy, EntersTheWorldWhenInserted) {
   Card card;
   Card copy = card;
   EXPECT_EQ(WM.insertObject(&copy), 0);
@@ -86,7 +86,7 @@ TEST_F(ObjectCopy, ComesIntoTheWorldWhenItIsInserted) {
 }
 
 // A member that is assigned a temporary: `reticle = Reticle();`
-TEST_F(ObjectCopy, AssignmentKeepsPlaceInterestsAndId) {
+TEST_F(ObjectCopy, AssignmentKeepsIdAndInterests) {
   Card card(1);
   const int id = card.getId();
   {
@@ -106,7 +106,7 @@ TEST_F(ObjectCopy, AssignmentKeepsPlaceInterestsAndId) {
   EXPECT_EQ(card.received, 1);
 }
 
-TEST_F(ObjectCopy, AViewObjectTakesItsTextAlong) {
+TEST_F(ObjectCopy, ViewObjectAssignmentCopiesItsText) {
   ViewObject points;
   points.setViewString("Points");
   points.setValue(5);

@@ -42,7 +42,7 @@ TEST_F(ObjectListTest, KeepsOrderAcrossTheInlineLimit) {
   EXPECT_EQ(list[0], objects[3].get());
 }
 
-TEST_F(ObjectListTest, DeadOnesReadAsNullEvenIfTheSlotIsReused) {
+TEST_F(ObjectListTest, DeletedObjectsReadAsNullDespiteSlotReuse) {
   auto objects = make(2);
   ObjectList list;
   for (const auto& p : objects) list.insert(p.get());
@@ -56,7 +56,7 @@ TEST_F(ObjectListTest, DeadOnesReadAsNullEvenIfTheSlotIsReused) {
   EXPECT_EQ(list[1], objects[1].get());
 }
 
-TEST_F(ObjectListTest, CopiesAndSums) {
+TEST_F(ObjectListTest, CopiesMovesAndConcatenates) {
   const auto objects = make(30);
   ObjectList a;
   ObjectList b;
@@ -77,7 +77,7 @@ TEST_F(ObjectListTest, CopiesAndSums) {
   EXPECT_TRUE(moved.isEmpty());
 }
 
-TEST_F(ObjectListTest, HoldsOneWorldOnly) {
+TEST_F(ObjectListTest, AcceptsObjectsOfOneWorldOnly) {
   Object here;
   World other;
   const World::Scope scope_of_other(other);
@@ -101,7 +101,7 @@ TEST_F(ObjectListTest, IteratorVisitsAllInOrder) {
   EXPECT_TRUE(none.isDone());
 }
 
-TEST_F(ObjectListTest, IteratorSkipsTheDeadAndSurvivesDeletionInTheLoop) {
+TEST_F(ObjectListTest, IteratorSkipsDeletedObjectsAndSurvivesDeletion) {
   auto objects = make(6);
   ObjectList list;
   for (const auto& p : objects) list.insert(p.get());

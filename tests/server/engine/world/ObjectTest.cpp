@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class ObjectTest : public WorldTest {};
 
-TEST_F(ObjectTest, DefaultsAreTheBooks) {
+TEST_F(ObjectTest, DefaultsMatchTheBook) {
   Object o;
   EXPECT_EQ(o.getType(), "Object");
   expectAt(o, 0, 0);
@@ -42,7 +42,7 @@ TEST_F(ObjectTest, VelocityIsDirectionTimesSpeed) {
   EXPECT_EQ(o.predictPosition(), Vector(0, 2));
 }
 
-TEST_F(ObjectTest, SetVelocityNormalisesAndZeroZeroes) {
+TEST_F(ObjectTest, SetVelocitySetsSpeedAndDirection) {
   Object o;
   o.setVelocity(Vector(3, 4));
   EXPECT_EQ(o.getSpeed(), 5);
@@ -55,7 +55,7 @@ TEST_F(ObjectTest, SetVelocityNormalisesAndZeroZeroes) {
   EXPECT_EQ(o.getDirection(), Vector(0, 0));
 }
 
-TEST_F(ObjectTest, SettersRefuseWhatIsNotFiniteOrOutOfRange) {
+TEST_F(ObjectTest, SettersRefuseNonFiniteAndOutOfRangeValues) {
   Probe o("refuser");
   o.setPosition(Vector(1, 2));
   o.setVelocity(Vector(1, 0));
@@ -81,7 +81,7 @@ TEST_F(ObjectTest, SettersRefuseWhatIsNotFiniteOrOutOfRange) {
   EXPECT_EQ(logged("of refuser"), 8) << "each setter once";
 }
 
-TEST_F(ObjectTest, IdsAreTheCreationOrder) {
+TEST_F(ObjectTest, IdsFollowCreationOrder) {
   Object a;
   Object b;
   EXPECT_LT(a.getId(), b.getId());
@@ -89,7 +89,7 @@ TEST_F(ObjectTest, IdsAreTheCreationOrder) {
   EXPECT_EQ(WM.objectWithId(99), nullptr);
 }
 
-TEST_F(ObjectTest, AutomaticOnesAreOnlyRemoved) {
+TEST_F(ObjectTest, StackObjectsAreRemovedButNotDeleted) {
   Probe o("automatic");
   WM.markForDelete(&o);
   WM.update();
@@ -109,7 +109,7 @@ struct Owner : Probe {
   Object* p_child;
 };
 
-TEST_F(ObjectTest, OnlyWhatNewMadeIsTheWorldsToDelete) {
+TEST_F(ObjectTest, WorldDeletesOnlyObjectsMadeWithNew) {
   auto* p_owner = new Owner(new Probe("child"));  // the inner `new` runs while the outer is pending
   EXPECT_EQ(world.store().countInWorld(), 3);
   WM.markForDelete(&p_owner->member);  // inside a heap block, but not the block itself
@@ -121,7 +121,7 @@ TEST_F(ObjectTest, OnlyWhatNewMadeIsTheWorldsToDelete) {
   EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
-TEST_F(ObjectTest, ArraysOptionalsAndMixinsAreSafe) {
+TEST_F(ObjectTest, MarkingArrayOptionalAndMixinObjectsIsSafe) {
   struct Mixin {
     virtual ~Mixin() = default;
     long padding[4] = {};
@@ -138,7 +138,7 @@ TEST_F(ObjectTest, ArraysOptionalsAndMixinsAreSafe) {
   delete[] p_array;
 }
 
-TEST_F(ObjectTest, ConstructorThatThrowsLeavesNothing) {
+TEST_F(ObjectTest, ThrowingConstructorLeavesNoObject) {
   struct Bad : Object {
     Bad() { throw std::runtime_error("no"); }
   };
@@ -150,7 +150,7 @@ struct alignas(64) Wide : Object {
   char bytes[64] = {};
 };
 
-TEST_F(ObjectTest, OverAlignedOnesAreDeletedProperly) {
+TEST_F(ObjectTest, OverAlignedObjectsAreDeleted) {
   WM.markForDelete(new Wide);
   WM.markForDelete(new (std::nothrow) Probe);
   WM.update();
@@ -172,7 +172,7 @@ TEST(StaticObject, LivesInTheDefaultWorldAndSurvivesShutDown) {
   EXPECT_EQ(world.store().find(aStaticObject().key()), &aStaticObject());
 }
 
-TEST(ObjectOfAGoneWorld, IsHarmless) {
+TEST(ObjectOfAGoneWorld, IsSafeToUse) {
   std::optional<World> world(std::in_place);
   std::optional<World::Scope> scope(*world);
   auto p_o = std::make_unique<Probe>("orphan", nullptr, Vector(4, 5));

@@ -13,7 +13,7 @@ using ObjectText = WorldTest;
 
 constexpr unsigned kPosition = static_cast<unsigned>(ObjectAttribute::POSITION);
 
-TEST_F(ObjectText, WritesAllAndReadsItBack) {
+TEST_F(ObjectText, SerializedObjectReadsBackEqual) {
   Object a;
   a.setType("ship");
   a.setPosition(Vector(2.5, -3));
@@ -38,7 +38,7 @@ TEST_F(ObjectText, WritesAllAndReadsItBack) {
   EXPECT_EQ(b.deserialize("altitude:99,"), -1);
 }
 
-TEST_F(ObjectText, WritesWhatIsModifiedSinceItWasWritten) {
+TEST_F(ObjectText, WritesOnlyChangesSinceTheLastWrite) {
   Object o;
   EXPECT_TRUE(o.isModified());
   o.serialize("ALL");
@@ -55,7 +55,7 @@ TEST_F(ObjectText, WritesWhatIsModifiedSinceItWasWritten) {
   EXPECT_FALSE(o.isModified());
 }
 
-TEST_F(ObjectText, StreamsSayWhatTheyBrought) {
+TEST_F(ObjectText, DeserializeReportsTheAttributesItRead) {
   PlacedObject a(Vector(7, 8));
   std::stringstream stream;
   EXPECT_EQ(a.serialize(&stream, kPosition), 0);
@@ -74,7 +74,7 @@ TEST_F(ObjectText, StreamsSayWhatTheyBrought) {
   EXPECT_TRUE(!Vector());
 }
 
-TEST_F(ObjectText, IdsOfTheGamesOwnFindTheirObjects) {
+TEST_F(ObjectText, ObjectIsFoundByAGameChosenId) {
   Object a;
   const int before = a.getId();
   EXPECT_EQ(Object::max_id, before);
@@ -96,7 +96,7 @@ void build(std::vector<std::unique_ptr<Object>>& wall, int height) {
   }
 }
 
-TEST_F(ObjectText, WalksRoundAWallToItsTarget) {
+TEST_F(ObjectText, WalkerGoesAroundAWallToItsTarget) {
   std::vector<std::unique_ptr<Object>> wall;
   build(wall, 20);
   Probe walker("walker", &received, Vector(10, 5));
@@ -113,7 +113,7 @@ TEST_F(ObjectText, WalksRoundAWallToItsTarget) {
   EXPECT_GT(ticks, 50);
 }
 
-TEST_F(ObjectText, AnEventSaysThatThereIsNoPath) {
+TEST_F(ObjectText, MissingPathIsReportedByAnEvent) {
   std::vector<std::unique_ptr<Object>> wall;
   build(wall, 24);
   Probe walker("walker", nullptr, Vector(10, 5));
@@ -126,7 +126,7 @@ TEST_F(ObjectText, AnEventSaysThatThereIsNoPath) {
   EXPECT_TRUE(findPath(walker, Vector(1e9, 0)).getPath().empty());
 }
 
-TEST_F(ObjectText, MoverStatsCountTheirNodes) {
+TEST_F(ObjectText, PathIteratesItsNodes) {
   Path path;
   EXPECT_EQ(path.nextNode(), Vector(-1, -1));
   EXPECT_TRUE(path.endOfPath());

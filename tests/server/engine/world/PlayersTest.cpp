@@ -23,7 +23,7 @@ class Players : public WorldTest {
   Probe listener;
 };
 
-TEST_F(Players, JoinReturnsTheIdAtOnceAndTheEventComesNextTick) {
+TEST_F(Players, JoinReturnsAnIdAndSendsEventNextTick) {
   const std::uint32_t ann = world.input().join("ann", RED);
   const std::uint32_t bob = world.input().join("bob", GREEN);
   EXPECT_EQ(ann, 1u);
@@ -64,7 +64,7 @@ TEST_F(Players, PlayerExistsUntilJustAfterTheLeaveEvent) {
   EXPECT_EQ(world.input().join("eve", RED), ann + 1);
 }
 
-TEST_F(Players, InputComesAfterTheStepEventInTheOrderItCame) {
+TEST_F(Players, InputFollowsTheStepEventInArrivalOrder) {
   listener.registerInterest(STEP_EVENT);
   const std::uint32_t ann = joined("ann");
   received.clear();
@@ -76,7 +76,7 @@ TEST_F(Players, InputComesAfterTheStepEventInTheOrderItCame) {
             (Received{"listener:df-step", "listener:df-mouse", "listener:df-keyboard", "listener:df-leave"}));
 }
 
-TEST_F(Players, KeysNameTheirPlayer) {
+TEST_F(Players, KeyEventsNameTheirPlayer) {
   const std::uint32_t ann = joined("ann");
   const std::uint32_t bob = joined("bob");
   std::vector<std::uint32_t> from;
@@ -114,7 +114,7 @@ TEST_F(Players, MousePositionIsInWorldCoordinates) {
   EXPECT_EQ(received, (Received{"listener:df-join", "listener:df-mouse"}));
 }
 
-TEST_F(Players, WithoutObjectTheyShareTheWorldsView) {
+TEST_F(Players, PlayersWithoutObjectShareTheWorldsView) {
   WM.setBoundary(Box(Vector(0, 0), 500, 500));
   const std::uint32_t ann = joined("ann");
   WM.setView(Box(Vector(50, 60), 80, 24));
@@ -126,7 +126,7 @@ TEST_F(Players, WithoutObjectTheyShareTheWorldsView) {
   EXPECT_EQ(world.views().player(joined("bob"))->getViewCorner(), Vector(70, 60));
 }
 
-TEST_F(Players, DuringInputTheViewIsThatOfThePlayer) {
+TEST_F(Players, InputHandlersSeeThePlayersView) {
   WM.setBoundary(Box(Vector(0, 0), 500, 500));
   const std::uint32_t ann = joined("ann");
   PlacedObject ship(Vector(240, 112));
@@ -212,7 +212,7 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
   EXPECT_EQ(logged("setText"), 1);
 }
 
-TEST_F(Players, NothingHappensWithoutRegisteredInterests) {
+TEST_F(Players, JoinAndInputWorkWithoutListeners) {
   WM.removeObject(&listener);
   const std::uint32_t ann = world.input().join("ann", RED);
   world.input().key(ann, Keyboard::A, KEY_PRESSED);
@@ -237,7 +237,7 @@ TEST_F(Players, WindowSizeHasLimits) {
   EXPECT_EQ(WM.setBoundary(Box(Vector(0, 0), -1, 50)), -1);
 }
 
-TEST_F(Players, ViewThatFollowsAnotherLeavesThePlayersObjectAlone) {
+TEST_F(Players, ViewFollowingAnotherKeepsThePlayersObject) {
   const std::uint32_t id = joined("ann");
   Player& player = *WM.getPlayer(id);
   Object ship;

@@ -43,7 +43,7 @@ TEST_F(Precise, EitherOfTheTwoMakesThePairPrecise) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(Precise, OthersInTheSameWorldCollideAsAlways) {
+TEST_F(Precise, OtherPairsStillCollideByBoxes) {
   makeCorner(10, 10);
   make("b", 40, 12);
   Probe* a = make("a", 30, 12);
@@ -51,14 +51,14 @@ TEST_F(Precise, OthersInTheSameWorldCollideAsAlways) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision"}));
 }
 
-TEST_F(Precise, CharactersSideBySideShareNoCell) {
+TEST_F(Precise, AdjacentCharactersShareNoCell) {
   make("b", 20, 10)->setPrecise();
   Probe* a = make("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), 0);
   EXPECT_EQ(WM.moveObject(a, Vector(19.5, 10)), -1);
 }
 
-TEST_F(Precise, CollisionsAreListedByTheCharacters) {
+TEST_F(Precise, GetCollisionsComparesCharacters) {
   Probe* corner = makeCorner(10, 10);
   Probe* b = make("b", 13, 12);
   const Probe* a = make("a", 30, 12);
@@ -71,7 +71,7 @@ TEST_F(Precise, CollisionsAreListedByTheCharacters) {
   EXPECT_FALSE(WM.isCollision(a, Vector(11, 12)));
 }
 
-TEST_F(Precise, CharactersThatWalkInUpdateEnterTheHoles) {
+TEST_F(Precise, UpdateMovesCharactersIntoHoles) {
   makeCorner(10, 10);
   Probe* a = make("a", 16, 12);
   a->setVelocity(Vector(-1, 0));
@@ -82,14 +82,14 @@ TEST_F(Precise, CharactersThatWalkInUpdateEnterTheHoles) {
   expectAt(*b, 14, 10);
 }
 
-TEST_F(Precise, OneThatIsGoneIsForgotten) {
+TEST_F(Precise, DeletedPreciseObjectAffectsNoOthers) {
   delete makeCorner(10, 10);
   make("b", 20, 10);
   Probe* a = make("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);
 }
 
-TEST_F(Precise, SweptOneIsStoppedByTheCharactersInside) {
+TEST_F(Precise, SweptMoverStopsAtCharactersInside) {
   makeCorner(10, 10);
   Probe* a = make("a", 30, 12);
   a->setSwept();
@@ -99,7 +99,7 @@ TEST_F(Precise, SweptOneIsStoppedByTheCharactersInside) {
   EXPECT_EQ(a->getPosition().x(), 10.5);
 }
 
-TEST_F(Precise, SweptOneFliesThroughTheHoles) {
+TEST_F(Precise, SweptMoverFliesThroughHoles) {
   Probe* gate = make("gate", 20, 8, {"#", " ", " ", "#"});
   gate->setPrecise();
   Probe* a = make("a", 10, 9);
@@ -109,7 +109,7 @@ TEST_F(Precise, SweptOneFliesThroughTheHoles) {
   EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
 }
 
-TEST_F(Precise, FirstContactIsWithTheCharacters) {
+TEST_F(Precise, FirstContactComparesCharacters) {
   Probe* corner = makeCorner(10, 10);
   const Probe* a = make("a", 30, 12);
   EXPECT_EQ(WM.firstContact(a, Vector(12, 12)).p_object, nullptr);

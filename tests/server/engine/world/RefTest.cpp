@@ -8,7 +8,7 @@ namespace {
 
 class Reference : public WorldTest {};
 
-TEST_F(Reference, LeadsToItsObjectUntilThatIsDeleted) {
+TEST_F(Reference, PointsToItsObjectUntilDeletion) {
   auto* p = new Probe("a");
   const Ref<Probe> ref = p;
   EXPECT_EQ(ref.get(), p);
@@ -32,7 +32,7 @@ TEST_F(Reference, ReadsNullOnceTheObjectIsRemoved) {
   EXPECT_EQ(meanwhile, p);
 }
 
-TEST_F(Reference, MarkedObjectIsThereUntilTheUpdateEnds) {
+TEST_F(Reference, PointsToAMarkedObjectUntilUpdateEnds) {
   auto* p = new Probe;
   const Ref<Probe> ref = p;
   WM.markForDelete(p);
@@ -41,7 +41,7 @@ TEST_F(Reference, MarkedObjectIsThereUntilTheUpdateEnds) {
   EXPECT_FALSE(ref);
 }
 
-TEST_F(Reference, IsNotFooledByASuccessorInTheSamePlace) {
+TEST_F(Reference, DoesNotMatchASuccessorAtTheSameAddress) {
   alignas(Probe) std::byte place[sizeof(Probe)];
   auto* p = new (place) Probe("a");
   const Ref<Probe> ref = p;
@@ -77,7 +77,7 @@ TEST_F(Reference, ComparesByTheObject) {
   EXPECT_TRUE(ref != Ref<Probe>(b));
 }
 
-TEST_F(Reference, CopiesAndMovesAndForgets) {
+TEST_F(Reference, CopyMoveAndResetWork) {
   auto* a = new Probe;
   auto* b = new Probe;
   Ref<Probe> first = a;
@@ -97,7 +97,7 @@ TEST_F(Reference, CopiesAndMovesAndForgets) {
   EXPECT_EQ(copy, nullptr);
 }
 
-TEST_F(Reference, MayBeConstAndInAList) {
+TEST_F(Reference, WorksForConstObjectsInAVector) {
   std::vector<Ref<const Object>> refs;
   std::vector<Probe*> probes(10);
   for (Probe*& p : probes) p = new Probe;

@@ -12,7 +12,7 @@ class RestContacts : public SweptWorld {
   }
 };
 
-TEST_F(RestContacts, OneAtRestGetsACollisionAtEachTurn) {
+TEST_F(RestContacts, RestingObjectGetsACollisionEachUpdate) {
   Probe* mine = makeMine();
   make("b", 11, 10, SOFT);
   make("apart", 12.5, 10);
@@ -32,7 +32,7 @@ TEST_F(RestContacts, AreOffByDefaultAndCanBeSwitchedOff) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(RestContacts, OneThatMovesIsTestedOnceAsAlways) {
+TEST_F(RestContacts, MovingObjectIsTestedOnlyOnce) {
   Probe* mine = makeMine();
   mine->setVelocity(Vector(1, 0));
   make("b", 12, 10, SOFT);
@@ -41,7 +41,7 @@ TEST_F(RestContacts, OneThatMovesIsTestedOnceAsAlways) {
   expectAt(*mine, 11, 10);
 }
 
-TEST_F(RestContacts, SpectralAndInactiveOnesGetNoEvents) {
+TEST_F(RestContacts, SpectralAndInactiveObjectsGetNoEvents) {
   Probe* mine = makeMine(SPECTRAL);
   make("b", 11, 10);
   WM.update();
@@ -51,7 +51,7 @@ TEST_F(RestContacts, SpectralAndInactiveOnesGetNoEvents) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(RestContacts, AreTheSameForASweptOne) {
+TEST_F(RestContacts, SweptRestingObjectAlsoCollides) {
   Probe* mine = makeMine();
   mine->setSwept();
   make("b", 11, 10);
@@ -70,7 +70,7 @@ TEST_F(RestContacts, HandlersMayDeleteBoth) {
   EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
-TEST_F(RestContacts, OneAtRestStillAccelerates) {
+TEST_F(RestContacts, RestingObjectStillAccelerates) {
   Probe* mine = makeMine();
   mine->setAcceleration(Vector(0.5, 0));
   make("b", 9, 10, SOFT);

@@ -40,7 +40,7 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
   EXPECT_EQ(RM.unloadMusic("theme"), 0);
 }
 
-TEST_F(SoundTest, WhatIsPlayedInATickIsInItsView) {
+TEST_F(SoundTest, SoundsPlayedInATickAreInItsView) {
   probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     RM.getSound("fire")->play();
     RM.getMusic("theme")->play();
@@ -56,7 +56,7 @@ TEST_F(SoundTest, WhatIsPlayedInATickIsInItsView) {
   EXPECT_TRUE(view().sounds.empty());
 }
 
-TEST_F(SoundTest, AKeysSoundNamesItsPlayer) {
+TEST_F(SoundTest, SoundPlayedByAKeyNamesItsPlayer) {
   const std::uint32_t player = world.input().join("ann", RED);
   world.tick();
   probe.hear("df-keyboard", [](Probe&, const Event&) { RM.getSound("fire")->play(true); });
@@ -67,7 +67,7 @@ TEST_F(SoundTest, AKeysSoundNamesItsPlayer) {
   EXPECT_TRUE(view().sounds[0].loop);
 }
 
-TEST_F(SoundTest, WhatPlaysAgainAndAgainIsInEveryViewUntilItEnds) {
+TEST_F(SoundTest, LoopingSoundsStayInEveryViewUntilStopped) {
   RM.loadSound(kFile, "engine");
   RM.loadMusic(kFile, "engine");  // music and sounds have separate labels
   RM.getMusic("theme")->play();   // before the first tick, as games do
@@ -89,7 +89,7 @@ TEST_F(SoundTest, WhatPlaysAgainAndAgainIsInEveryViewUntilItEnds) {
   EXPECT_TRUE(view().playing.empty());
 }
 
-TEST_F(SoundTest, WhatIsUnloadedStops) {
+TEST_F(SoundTest, UnloadedSoundsStop) {
   probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     RM.getMusic("theme")->play();
     RM.unloadMusic("theme");

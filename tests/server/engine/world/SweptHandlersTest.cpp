@@ -7,7 +7,7 @@ namespace {
 
 class SweptHandlers : public SweptWorld {};
 
-TEST_F(SweptHandlers, HardenedOneBlocksAndLaterOnesGetNoEvent) {
+TEST_F(SweptHandlers, HardenedObjectBlocksAndLaterOnesGetNoEvent) {
   Probe* b = make("b", 15, 10, SOFT);
   make("also", 15, 10, SOFT);
   make("c", 20, 10, SOFT);
@@ -18,7 +18,7 @@ TEST_F(SweptHandlers, HardenedOneBlocksAndLaterOnesGetNoEvent) {
   expectAt(*a, 14 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, PassesOnWhenTheGlassIsDeleted) {
+TEST_F(SweptHandlers, MoverContinuesWhenTheGlassIsDeleted) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   make("near", 22, 10, SOFT);
@@ -29,7 +29,7 @@ TEST_F(SweptHandlers, PassesOnWhenTheGlassIsDeleted) {
   expectAt(*a, 29 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, PassesOnWhenTheGlassTurnsSoftAndMeetsItOnce) {
+TEST_F(SweptHandlers, MoverPassesGlassTurnedSoftWithOneEvent) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   make("soft", 15, 10, SOFT);
@@ -49,7 +49,7 @@ TEST_F(SweptHandlers, BreaksAllGlassesOnItsPath) {
   expectAt(*a, 70, 10);
 }
 
-TEST_F(SweptHandlers, SearchesTheRestOfThePathInTheWorldAsItIsThen) {
+TEST_F(SweptHandlers, RemainingPathSeesChangesMadeByHandlers) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   Probe* aside = make("aside", 30, 20);
@@ -66,7 +66,7 @@ TEST_F(SweptHandlers, SearchesTheRestOfThePathInTheWorldAsItIsThen) {
   expectAt(*a, 39 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, OneThatWasMetIsNotMetAgainFurtherOn) {
+TEST_F(SweptHandlers, ObjectAlreadyHitIsNotHitAgainLater) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   glass->on_event = [](Probe& self, const Event&) { self.setPosition(Vector(40, 10)); };
@@ -82,7 +82,7 @@ TEST_F(SweptHandlers, OneThatWasMetIsNotMetAgainFurtherOn) {
   EXPECT_EQ(received, pairs("a", {"glass"}));
 }
 
-TEST_F(SweptHandlers, MoverThatTurnsSpectralPassesToItsTarget) {
+TEST_F(SweptHandlers, MoverTurnedSpectralPassesToTheTarget) {
   Probe* a = makeSwept("a", 10, 10);
   make("glass", 20, 10);
   make("wall", 30, 10);
@@ -92,7 +92,7 @@ TEST_F(SweptHandlers, MoverThatTurnsSpectralPassesToItsTarget) {
   expectAt(*a, 50, 10);
 }
 
-TEST_F(SweptHandlers, MoverThatGrowsHasItsNewBoxOnTheRestOfThePath) {
+TEST_F(SweptHandlers, GrownMoverUsesItsNewBoxAfterwards) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* glass = make("glass", 20, 10);
   make("wall", 30, 14);
@@ -104,7 +104,7 @@ TEST_F(SweptHandlers, MoverThatGrowsHasItsNewBoxOnTheRestOfThePath) {
   expectAt(*a, 25.5 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, GlassThatIsReplacedEachTimeStopsTheMoverInTheEnd) {
+TEST_F(SweptHandlers, MoverStopsAfterAThousandReplacedGlasses) {
   Probe* a = makeSwept("a", 10, 10);
   make("glass", 20, 10);
   int glasses = 0;
@@ -135,7 +135,7 @@ TEST_F(SweptHandlers, BlockedMoverStaysWhereAHandlerPutIt) {
   expectAt(*a, 5, 5);
 }
 
-TEST_F(SweptHandlers, IsDecidedWhenTheMoveBegins) {
+TEST_F(SweptHandlers, SweptSettingIsFixedDuringTheMove) {
   Probe* a = makeSwept("a", 10, 10);
   make("glass", 20, 10, SOFT);
   make("wall", 30, 10);
@@ -144,7 +144,7 @@ TEST_F(SweptHandlers, IsDecidedWhenTheMoveBegins) {
   expectAt(*a, 29 - kUnit, 10);
 }
 
-TEST_F(SweptHandlers, NestedMovesHaveListsOfTheirOwn) {
+TEST_F(SweptHandlers, NestedMovesHaveSeparateHitLists) {
   Probe* a = makeSwept("a", 10, 10, SOFT);
   Probe* b = makeSwept("b", 20, 10, SOFT);
   make("on both ways", 30, 10, SOFT);
@@ -157,7 +157,7 @@ TEST_F(SweptHandlers, NestedMovesHaveListsOfTheirOwn) {
                                 "on both ways:df-collision", "a:df-collision", "on both ways:df-collision"}));
 }
 
-TEST_F(SweptHandlers, NestedDeeperThan32IsRefused) {
+TEST_F(SweptHandlers, MovesNestedDeeperThan32AreRefused) {
   Probe* a = makeSwept("a", 10, 10, SOFT);
   make("b", 20, 10, SOFT);
   int deepest = 0;

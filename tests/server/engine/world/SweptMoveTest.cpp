@@ -18,7 +18,7 @@ TEST_F(SweptMoves, ArrowDoesNotFlyThroughTheWindow) {
   }
 }
 
-TEST_F(SweptMoves, BlockedMoverStandsOneUnitBeforeTheContact) {
+TEST_F(SweptMoves, BlockedMoverStopsOneUnitBeforeTheContact) {
   Probe* a = makeSwept("a", 10, 10);
   make("b", 20, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(50, 10)), -1);
@@ -27,14 +27,14 @@ TEST_F(SweptMoves, BlockedMoverStandsOneUnitBeforeTheContact) {
   EXPECT_TRUE(WM.getCollisions(a, a->getPosition()).isEmpty());
 }
 
-TEST_F(SweptMoves, BlockedOnASlopeStandsWhereBothCoordinatesWereThen) {
+TEST_F(SweptMoves, DiagonalMoverStopsWithBothCoordinatesBeforeContact) {
   Probe* a = makeSwept("a", 10, 10);
   make("b", 21, 15);
   EXPECT_EQ(WM.moveObject(a, Vector(30, 20)), -1);  // touches at x = 20, half-way
   expectAt(*a, 20 - kUnit, 15 - kUnit);
 }
 
-TEST_F(SweptMoves, MoveThatTouchesExactlyAtItsEndIsBlockedThere) {
+TEST_F(SweptMoves, MoveEndingInATouchStopsOneUnitBefore) {
   Probe* a = makeSwept("a", 10, 10);
   make("b", 20, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(19, 10)), -1);
@@ -60,7 +60,7 @@ TEST_F(SweptMoves, EventHasThePositionJustBeforeTheContact) {
   EXPECT_EQ(seen, 2);
 }
 
-TEST_F(SweptMoves, SoftOnesOnThePathGetEventsInTheOrderOfTimeThenCreation) {
+TEST_F(SweptMoves, SoftObjectsGetEventsInTimeThenCreationOrder) {
   make("far", 40, 10, SOFT);
   make("second", 20, 10.5, SOFT);
   make("third", 20, 9.5, SOFT);
@@ -72,7 +72,7 @@ TEST_F(SweptMoves, SoftOnesOnThePathGetEventsInTheOrderOfTimeThenCreation) {
   EXPECT_EQ(received, pairs("a", {"first", "second", "third", "far"}));
 }
 
-TEST_F(SweptMoves, BlockedMoverGetsNoEventOfWhatLiesBehind) {
+TEST_F(SweptMoves, ObjectsBehindTheBlockerGetNoEvent) {
   make("behind", 30, 10, SOFT);
   makeWall("wall", 25);
   make("at once", 25, 10, SOFT);
@@ -108,7 +108,7 @@ TEST_F(SweptMoves, MaySlideAlongAWallAndLeaveIt) {
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(SweptMoves, TouchingMoverIsBlockedAtOnceIfItMovesCloser) {
+TEST_F(SweptMoves, TouchingMoverMovingCloserIsBlockedAtOnce) {
   make("b", 11, 10);
   Probe* a = makeSwept("a", 10, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(20, 10)), -1);
@@ -116,7 +116,7 @@ TEST_F(SweptMoves, TouchingMoverIsBlockedAtOnceIfItMovesCloser) {
   EXPECT_EQ(received, pairs("a", {"b"}));
 }
 
-TEST_F(SweptMoves, OthersStandWhereTheyAreNow) {
+TEST_F(SweptMoves, OtherObjectsCountAtTheirCurrentPosition) {
   Probe* a = makeSwept("a", 10, 10);
   Probe* b = make("b", 30, 10);
   a->setVelocity(Vector(40, 0));
@@ -128,7 +128,7 @@ TEST_F(SweptMoves, OthersStandWhereTheyAreNow) {
   expectAt(*a, 69 - kUnit, 10);
 }
 
-TEST_F(SweptMoves, MoversThatCrossInOneTickMeet) {
+TEST_F(SweptMoves, MoversCrossingInOneTickCollide) {
   WM.setSweptCollisions();
   Probe* a = make("a", 10, 10);
   Probe* b = make("b", 20, 10);
@@ -139,7 +139,7 @@ TEST_F(SweptMoves, MoversThatCrossInOneTickMeet) {
   expectAt(*b, 20, 10);
 }
 
-TEST_F(SweptMoves, SwitchOfTheWorldSweepsAll) {
+TEST_F(SweptMoves, WorldSettingSweepsAllMoves) {
   make("wall", 20, 10);
   Probe* a = make("a", 10, 10);
   EXPECT_FALSE(WM.getSweptCollisions());
@@ -155,7 +155,7 @@ TEST_F(SweptMoves, SwitchOfTheWorldSweepsAll) {
   expectAt(*a, 59 - kUnit, 10);
 }
 
-TEST_F(SweptMoves, BlockedMoverGoesOnTryingAndIsBlocked) {
+TEST_F(SweptMoves, BlockedMoverRetriesEachUpdateAndStaysBlocked) {
   Probe* a = makeSwept("a", 10, 10);
   make("wall", 20, 10);
   a->setVelocity(Vector(5, 0));
@@ -165,7 +165,7 @@ TEST_F(SweptMoves, BlockedMoverGoesOnTryingAndIsBlocked) {
   EXPECT_EQ(received.size(), 6u);
 }
 
-TEST_F(SweptMoves, HoldsAtAnySpeed) {
+TEST_F(SweptMoves, MoverIsStoppedAtAnySpeed) {
   make("wall", 500000, 10);
   for (const double speed : {0.001, 1.0, 7.0, 128.0, 5000.0, 1e6}) {
     for (const double sign : {1.0, -1.0}) {
@@ -179,7 +179,7 @@ TEST_F(SweptMoves, HoldsAtAnySpeed) {
   }
 }
 
-TEST_F(SweptMoves, FindsASingleCharacterOnAMillionCells) {
+TEST_F(SweptMoves, FindsASingleCharacterOnAMillionCellPath) {
   for (int i = 0; i < 50; ++i) make("away", 20000 * i, 500);
   make("wall", 999900, 999900);
   Probe* a = makeSwept("a", 0, 0);
@@ -187,7 +187,7 @@ TEST_F(SweptMoves, FindsASingleCharacterOnAMillionCells) {
   expectAt(*a, 999899 - kUnit, 999899 - kUnit);
 }
 
-TEST_F(SweptMoves, HoldsAtTheEndOfTheNumberRange) {
+TEST_F(SweptMoves, MoverIsStoppedAtTheNumberLimit) {
   const double far = 1999999999;
   Probe* a = makeSwept("a", far - 40, -far);
   Probe* b = make("b", far, -far);
@@ -203,7 +203,7 @@ TEST_F(SweptMoves, HoldsAtTheEndOfTheNumberRange) {
   expectAt(*a, -1 - kUnit, 1 + kUnit);
 }
 
-TEST_F(SweptMoves, OutEventComesOnceAtTheTargetOrWhereItStops) {
+TEST_F(SweptMoves, OutEventIsSentOnceAtTheFinalPosition) {
   Probe* a = makeSwept("a", 70, 10);
   EXPECT_EQ(WM.moveObject(a, Vector(100, 10)), 0);
   EXPECT_EQ(received, (Received{"a:df-out"}));
@@ -219,7 +219,7 @@ TEST_F(SweptMoves, OutEventComesOnceAtTheTargetOrWhereItStops) {
   EXPECT_EQ(x, 89 - kUnit);
 }
 
-TEST_F(SweptMoves, ViewFollowsToWhereItStops) {
+TEST_F(SweptMoves, ViewFollowsToTheStopPosition) {
   WM.setBoundary(Box(Vector(), 400, 24));
   makeWall("wall", 201);
   Probe* a = makeSwept("a", 40, 10);

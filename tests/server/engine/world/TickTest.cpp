@@ -33,7 +33,7 @@ class TickAlone : public WorldTest {
   std::uint32_t ann = 0;
 };
 
-TEST_F(TickAlone, StepsAreInOrderAndAPausedOneOnlyDraws) {
+TEST_F(TickAlone, StagesRunInOrderAndPausedTickOnlyDraws) {
   world.input().key(ann, Keyboard::A, KEY_PRESSED);
   world.tick();
   EXPECT_EQ(received, (Received{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));

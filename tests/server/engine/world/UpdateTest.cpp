@@ -20,7 +20,7 @@ TEST_F(Update, MovesEachObjectByItsVelocityOnce) {
   EXPECT_EQ(world.getStepCount(), 0);
 }
 
-TEST_F(Update, PositionFirstThenAcceleration) {
+TEST_F(Update, PositionChangesBeforeVelocity) {
   Probe* a = make("a", 10, 10);
   a->setAcceleration(Vector(0.125, 0));
   const double expected[] = {10, 10.125, 10.375, 10.75};
@@ -49,7 +49,7 @@ TEST_F(Update, VelocityNeverLeavesItsRange) {
   EXPECT_EQ(a->getVelocity(), Vector(kMaxVelocityCells, 0));
 }
 
-TEST_F(Update, ObjectStopsAtTheEndOfTheNumberRange) {
+TEST_F(Update, ObjectStopsAtTheNumberLimit) {
   Probe* a = make("a", 1999999999, 0, Vector(10, 0));
   WM.update();
   WM.update();
@@ -75,28 +75,28 @@ TEST_F(Update, HeadOnMoversRaiseFourEvents) {
   EXPECT_EQ(received, (Received{"a:df-collision", "b:df-collision", "b:df-collision", "a:df-collision"}));
 }
 
-TEST_F(Update, HardObjectPushingAWallRaisesAPairEveryTick) {
+TEST_F(Update, PushingAWallSendsAPairEveryTick) {
   make("wall", 12, 10);
   make("a", 10.75, 10, Vector(1, 0));
   for (int i = 0; i < 3; ++i) WM.update();
   EXPECT_EQ(received.size(), 6u);
 }
 
-TEST_F(Update, ObjectsAtRestRaiseNothing) {
+TEST_F(Update, ObjectsAtRestRaiseNoEvents) {
   make("a", 10, 10);
   make("b", 10, 10);
   WM.update();
   EXPECT_TRUE(received.empty());
 }
 
-TEST_F(Update, InactiveIsNotMoved) {
+TEST_F(Update, InactiveObjectIsNotMoved) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   a->setActive(false);
   WM.update();
   expectAt(*a, 10, 10);
 }
 
-TEST_F(Update, ActivityAndSolidnessAreReadAtTheTurn) {
+TEST_F(Update, ActivityIsReadAtTheObjectsTurn) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   Probe* b = make("b", 20, 10, Vector(1, 0));
   make("wall", 11, 10)->setSolidness(SOFT);
@@ -105,7 +105,7 @@ TEST_F(Update, ActivityAndSolidnessAreReadAtTheTurn) {
   expectAt(*b, 20, 10);
 }
 
-TEST_F(Update, ChangedVelocityActsNextTickForThePendingMover) {
+TEST_F(Update, ChangedVelocityTakesEffectNextTick) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   make("wall", 11, 10)->setSolidness(SOFT);
   a->on_event = [](Probe& self, const Event&) { self.setVelocity(Vector(0, 1)); };
@@ -114,7 +114,7 @@ TEST_F(Update, ChangedVelocityActsNextTickForThePendingMover) {
   EXPECT_EQ(a->getVelocity(), Vector(0, 1));
 }
 
-TEST_F(Update, ObjectRemovedMeanwhileLosesItsTurn) {
+TEST_F(Update, ObjectReinsertedDuringUpdateLosesItsTurn) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   Probe* b = make("b", 20, 10, Vector(1, 0));
   make("wall", 11, 10)->setSolidness(SOFT);
@@ -129,7 +129,7 @@ TEST_F(Update, ObjectRemovedMeanwhileLosesItsTurn) {
   expectAt(*b, 21, 10);
 }
 
-TEST_F(Update, BornInACollisionHandlerIsHitAtOnceAndMovedNextTick) {
+TEST_F(Update, ObjectBornInHandlerCollidesNowMovesNextTick) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   make("wall", 11, 10)->setSolidness(SOFT);
   Probe* c = make("c", 30, 10, Vector(1, 0));
@@ -145,7 +145,7 @@ TEST_F(Update, BornInACollisionHandlerIsHitAtOnceAndMovedNextTick) {
   expectAt(*born, 35, 10);
 }
 
-TEST_F(Update, BornInAStepHandlerIsMovedInTheSameTickWithoutAStepEvent) {
+TEST_F(Update, ObjectBornInStepMovesNowWithoutStepEvent) {
   Probe* a = make("a", 10, 10);
   a->registerInterest(STEP_EVENT);
   Probe* born = nullptr;
@@ -161,7 +161,7 @@ TEST_F(Update, BornInAStepHandlerIsMovedInTheSameTickWithoutAStepEvent) {
   EXPECT_EQ(received, (Received{"a:df-step", "a:df-step", "born:df-step"}));
 }
 
-TEST_F(Update, MarkedObjectMovesCollidesAndGetsEventsUntilTheEnd) {
+TEST_F(Update, MarkedObjectStaysActiveUntilTheUpdateEnds) {
   Probe* a = make("a", 10, 10, Vector(1, 0));
   Probe* b = make("b", 11.5, 10);
   WM.markForDelete(a);
@@ -172,7 +172,7 @@ TEST_F(Update, MarkedObjectMovesCollidesAndGetsEventsUntilTheEnd) {
   EXPECT_EQ(world.store().countInWorld(), 0);
 }
 
-TEST_F(Update, DeletionsGoInOrderOfTheMarks) {
+TEST_F(Update, DeletionsHappenInMarkOrder) {
   struct Dying : Object {
     Dying(std::string n, Received* list) : name(std::move(n)), p_list(list) {}
     ~Dying() override { p_list->push_back(name); }
@@ -189,7 +189,7 @@ TEST_F(Update, DeletionsGoInOrderOfTheMarks) {
   EXPECT_EQ(received, (Received{"b", "a"}));
 }
 
-TEST_F(Update, MarkOfAnObjectDeletedByHandDoesNotHitItsSuccessor) {
+TEST_F(Update, StaleDeletionMarkDoesNotHitASuccessor) {
   Probe* a = make("a", 10, 10);
   WM.markForDelete(a);
   delete a;
@@ -237,7 +237,7 @@ TEST_F(Update, SevenHundredBirthsAndDeathsInOneTick) {
   expectAt(*WM.objectsOfType("new")[699], 200 + 3 * (699 % 80), 3 * (699 / 80) + 50);
 }
 
-TEST_F(Update, OrderStaysTightWhenEverythingDiesByHandInHandlers) {
+TEST_F(Update, HandlersMayDeleteEveryObjectRepeatedly) {
   for (int round = 0; round < 200; ++round) {
     Probe* a = make("a", 10, 20, Vector(1, 0));
     Probe* wall = make("wall", 11, 20);

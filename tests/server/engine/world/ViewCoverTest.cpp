@@ -39,13 +39,13 @@ void compare(std::size_t views, std::int64_t extent, std::uint64_t seed) {
   EXPECT_LT(met, 3000);
 }
 
-TEST(ViewCoverTest, AnswersAsALookAtEveryViewWould) {
+TEST(ViewCoverTest, MatchesTestingEveryView) {
   for (const std::size_t views : {0u, 1u, 5u, 8u, 9u, 40u, 700u}) {
     for (const std::int64_t extent : {60, 400, 20'000}) compare(views, extent, views + 1000 * extent);
   }
 }
 
-TEST(ViewCoverTest, EdgesCount) {
+TEST(ViewCoverTest, TouchingEdgesIntersect) {
   std::vector<FixedVector> corners;
   for (int i = 0; i < 20; ++i) corners.push_back(cells(100 * i, 0));
   const ViewCover cover(corners, cells(20, 10));

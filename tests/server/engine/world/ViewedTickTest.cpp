@@ -38,7 +38,7 @@ class TenToTheLeft : public LagCompensation {
 
 using SeenAt = WorldTest;
 
-TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
+TEST_F(SeenAt, FindsObjectsWhereTheyAreDrawn) {
   const Probe dot("dot", nullptr, Vector(10.6, 5));  // in cell 11
   Probe ship("ship", nullptr, Vector(20, 10));       // three by two: cells 19 to 21, rows 10 and 11
   ship.setBox(Box(Vector(-1.5, -1), 3, 2));
@@ -57,7 +57,7 @@ TEST_F(SeenAt, IsWhereTheBoxIsDrawn) {
   EXPECT_EQ(names(WM.objectsSeenAt(Vector(19, 11))), Names{});
 }
 
-TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
+TEST_F(SeenAt, LagCompensationAppliesOnlyToInputWithATick) {
   TenToTheLeft compensation(world);
   world.input().setLagCompensation(&compensation);
   const std::uint32_t ann = world.input().join("ann", RED);
@@ -86,7 +86,7 @@ TEST_F(SeenAt, GoesBackOnlyWhileAnInputWithAKnownTickIsHandled) {
   world.input().setLagCompensation(nullptr);
 }
 
-TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
+TEST_F(SeenAt, ClickUsesTheViewThePlayerSaw) {
   TenToTheLeft compensation(world);
   world.input().setLagCompensation(&compensation);
   const std::uint32_t ann = world.input().join("ann", RED);
@@ -107,7 +107,7 @@ TEST_F(SeenAt, AClickIsInTheViewAsItWasThen) {
   world.input().setLagCompensation(nullptr);
 }
 
-TEST_F(SeenAt, TheGameSaysWhetherItLooksBack) {
+TEST_F(SeenAt, LookingBackIsOffUntilTheGameEnablesIt) {
   EXPECT_FALSE(world.input().isLookingBack());
   WM.setLookingBack();
   EXPECT_TRUE(world.input().isLookingBack());

@@ -11,7 +11,7 @@ namespace {
 
 class WorldLife : public WorldTest {};
 
-TEST_F(WorldLife, TwoWorldsInOneProcessDoNotMeet) {
+TEST_F(WorldLife, TwoWorldsInOneProcessDoNotInteract) {
   Probe here("here", nullptr, Vector(10, 10));
   World other;
   {
@@ -46,7 +46,7 @@ TEST_F(WorldLife, HandlersSeeTheirOwnWorldAsCurrent) {
   other.shutDown();
 }
 
-TEST_F(WorldLife, ShutDownDeletesWhatNewMadeAndStartsOver) {
+TEST_F(WorldLife, ShutDownDeletesHeapObjectsAndResetsState) {
   EXPECT_EQ(GM.startUp(), 0);
   EXPECT_TRUE(GM.isStarted() && WM.isStarted() && LM.isStarted() && DM.isStarted() && IM.isStarted());
   int dead = 0;
@@ -78,7 +78,7 @@ TEST_F(WorldLife, ShutDownDeletesWhatNewMadeAndStartsOver) {
   EXPECT_EQ(dead, 2);
 }
 
-TEST_F(WorldLife, ObjectsMadeByDestructorsAreShutDownToo) {
+TEST_F(WorldLife, ObjectsMadeInDestructorsAreDeletedToo) {
   struct Phoenix : Object {
     explicit Phoenix(int lives) : left(lives) {}
     ~Phoenix() override {
@@ -107,7 +107,7 @@ TEST_F(WorldLife, ShutDownInsideATickWaitsForItsEnd) {
   EXPECT_FALSE(GM.getGameOver());
 }
 
-TEST_F(WorldLife, ShutDownInsideAHandlerOutsideATickWaitsForTheHandler) {
+TEST_F(WorldLife, ShutDownOutsideATickWaitsForTheHandler) {
   auto* p_quitter = new Probe("quitter", nullptr, Vector(10, 10));
   auto* p_wall = new Probe("wall", nullptr, Vector(20, 20));
   bool alive_after = false;
@@ -135,7 +135,7 @@ TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
   EXPECT_EQ(GM.getStepCount(), 7);
 }
 
-TEST_F(WorldLife, RunGoesOnAfterOneThatEnded) {
+TEST_F(WorldLife, RunCanBeCalledAgainAfterGameOver) {
   GM.startUp();
   Probe p("title");
   p.registerInterest(STEP_EVENT);
@@ -164,7 +164,7 @@ TEST_F(WorldLife, RunInsideAHandlerReturnsAtOnce) {
   EXPECT_EQ(GM.getStepCount(), 3);
 }
 
-TEST_F(WorldLife, RunGoesThroughTheRunner) {
+TEST_F(WorldLife, RunUsesTheRunner) {
   struct Three : Runner {
     void run(World& w) override {
       for (int i = 0; i < 3; ++i) w.tick();
@@ -193,7 +193,7 @@ TEST_F(WorldLife, RandomNumbersFollowTheSeed) {
   for (const int count : counts) EXPECT_NEAR(count, 1000, 150);
 }
 
-TEST(RandomSequence, IsTheSameForEver) {
+TEST(RandomSequence, MatchesTheXoshiroReferenceValue) {
   Random random(0);
   EXPECT_EQ(random.next(), 0x99EC5F36CB75F2B4u);  // xoshiro256** after splitmix64(0)
 }
@@ -224,7 +224,7 @@ TEST_F(WorldLife, AGameMayAddAManager) {
   EXPECT_FALSE(music.isStarted());
 }
 
-TEST_F(WorldLife, UtilityFunctionsAreTheBooks) {
+TEST_F(WorldLife, UtilityFunctionsMatchTheBook) {
   EXPECT_TRUE(positionsIntersect(Vector(1, 1), Vector(2, 0)));
   EXPECT_FALSE(positionsIntersect(Vector(1, 1), Vector(2.001, 1)));
   EXPECT_TRUE(boxIntersectsBox(Box(Vector(0, 0), 1, 1), Box(Vector(1, 1), 1, 1)));

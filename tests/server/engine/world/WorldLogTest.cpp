@@ -27,7 +27,7 @@ TEST_F(Log, RepeatedRefusalIsOnlyCounted) {
   EXPECT_EQ(lines[0], "Refused: setAltitude of Ship: an altitude is 0 to 4 (further ones are only counted)");
 }
 
-TEST_F(Log, ClearForgetsWhatWasWrittenOnce) {
+TEST_F(Log, ClearForgetsOnceOnlyLines) {
   log.writeOnce("line");
   log.writeOnce("line");
   log.clear();
@@ -43,7 +43,7 @@ TEST_F(Log, DifferentLinesAreBounded) {
   EXPECT_EQ(lines.back(), "always");
 }
 
-TEST_F(Log, NotedLineNeedsAPage) {
+TEST_F(Log, NotedLineWithoutAPageIsDropped) {
   log.noteOnce("line");
   log.writeOnce("line");
   EXPECT_EQ(lines, std::vector<std::string>{"line"});

@@ -8,7 +8,7 @@ namespace {
 
 using Store = WorldTest;
 
-TEST_F(Store, SlotOfTheDeadRestsBeforeItIsUsedAgain) {
+TEST_F(Store, FreedSlotIsReusedOnlyAfterARest) {
   auto first = std::make_unique<Object>();
   const ObjectKey dead = first->key();
   first.reset();
@@ -21,7 +21,7 @@ TEST_F(Store, SlotOfTheDeadRestsBeforeItIsUsedAgain) {
   EXPECT_GT(late.key().generation, dead.generation);
 }
 
-TEST_F(Store, ChurnDoesNotGrowForEver) {
+TEST_F(Store, ChurnDoesNotGrowTheStore) {
   std::uint32_t highest = 0;
   for (int tick = 0; tick < 2000; ++tick) {
     auto* p_o = new Object;

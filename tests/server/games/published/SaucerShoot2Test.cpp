@@ -84,7 +84,7 @@ TEST_F(SaucerShoot2, ShowsItsTitleAndStartsAtAKey) {
   EXPECT_EQ(log.find("Sprite"), std::string::npos) << log;
 }
 
-TEST_F(SaucerShoot2, AHeldKeyMovesTheShipAndTheMouseFires) {
+TEST_F(SaucerShoot2, HeldKeyMovesTheShipAndMouseFires) {
   host([this] {
     press(df::Keyboard::P);
     const df::Object* p_hero = WM.objectsOfType("Hero")[0];
@@ -104,7 +104,7 @@ TEST_F(SaucerShoot2, AHeldKeyMovesTheShipAndTheMouseFires) {
   });
 }
 
-TEST_F(SaucerShoot2, AShotSaucerExplodesForTenPointsAndAnotherComes) {
+TEST_F(SaucerShoot2, ShotSaucerExplodesForTenPointsAndIsReplaced) {
   host([this] {
     press(df::Keyboard::P);
     tick(20);
@@ -136,7 +136,7 @@ TEST_F(SaucerShoot2, ANukeClearsTheSky) {
   });
 }
 
-TEST_F(SaucerShoot2, AHitShipEndsTheRoundAndTheTitleComesBack) {
+TEST_F(SaucerShoot2, HitShipEndsTheRoundAndShowsTheTitle) {
   host([this] {
     for (int round = 0; round < 2; ++round) {
       press(df::Keyboard::P);
@@ -158,7 +158,7 @@ TEST_F(SaucerShoot2, AHitShipEndsTheRoundAndTheTitleComesBack) {
   });
 }
 
-TEST_F(SaucerShoot2, SameDiceShowTheSameGame) {
+TEST_F(SaucerShoot2, SameSeedShowsTheSameGame) {
   std::vector<std::string> pictures;
   for (int i = 0; i < 2; ++i) {
     host([&] {

@@ -57,7 +57,7 @@ class BanListTest : public testing::Test {
   AdminWorker worker;
 };
 
-TEST_F(BanListTest, ARangeHoldsForItsAddressesAlone) {
+TEST_F(BanListTest, RangeBanAppliesOnlyToItsAddresses) {
   BanList list(worker, {}, clock());
   add(list, ofRange("192.0.2.0/24"));
   add(list, ofRange("2001:db8::5"));
@@ -69,7 +69,7 @@ TEST_F(BanListTest, ARangeHoldsForItsAddressesAlone) {
   EXPECT_EQ(list.count(), 3u);
 }
 
-TEST_F(BanListTest, AnExceptionHoldsInAllRanges) {
+TEST_F(BanListTest, ExceptionOverridesAllRangeBans) {
   BanList list(worker, {}, clock());
   add(list, ofRange("192.0.2.0/24"));
   add(list, ofRange("192.0.0.0/16"));
@@ -91,7 +91,7 @@ TEST_F(BanListTest, LoopbackIsNeverBanned) {
   EXPECT_FALSE(list.isBanned(at("::1")));
 }
 
-TEST_F(BanListTest, ABanEndsWithItsTime) {
+TEST_F(BanListTest, BanExpiresAtItsEndTime) {
   BanList list(worker, folder, clock());
   Ban ban = ofRange("192.0.2.7");
   ban.until = now + 2h;
@@ -104,7 +104,7 @@ TEST_F(BanListTest, ABanEndsWithItsTime) {
   EXPECT_TRUE(BanList(other, folder, clock()).now()->all().empty());
 }
 
-TEST_F(BanListTest, ANameHoldsForThoseThatLookLikeIt) {
+TEST_F(BanListTest, NameBanAppliesToLookalikeNames) {
   BanList list(worker, {}, clock());
   Ban ban = ofName("Bob");
   ban.reason = "spam";
@@ -149,7 +149,7 @@ TEST_F(BanListTest, BansLastBeyondARestart) {
   EXPECT_EQ(facts.st_mode & 0077, 0u) << "addresses of players are for nobody else";
 }
 
-TEST_F(BanListTest, ANewBanOfTheSameTakesThePlaceOfTheOld) {
+TEST_F(BanListTest, NewBanOfSameRangeReplacesTheOld) {
   BanList list(worker, folder, clock());
   Ban ban = ofRange("192.0.2.7");
   ban.until = now + 1h;
@@ -174,7 +174,7 @@ TEST_F(BanListTest, ABanIsLiftedByItsNumber) {
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
 }
 
-TEST_F(BanListTest, AFileThatCannotBeUsedIsAnErrorAndStaysAsItIs) {
+TEST_F(BanListTest, InvalidFileIsAnErrorAndIsNotOverwritten) {
   for (const std::string& content : {std::string(), std::string("not a database, by any means, at all\n"),
                                      std::string("SQLite format 3\0 and then nothing", 33)}) {
     std::ofstream(file(), std::ios::binary | std::ios::trunc) << content;
@@ -201,7 +201,7 @@ TEST_F(BanListTest, ADamagedFileOfBansIsAnError) {
   EXPECT_THROW(BanList(other, folder, clock()), BanFileError);
 }
 
-TEST_F(BanListTest, ADatabaseOfSomethingElseIsAnError) {
+TEST_F(BanListTest, DatabaseWithAnotherSchemaIsAnError) {
   sqlite3* p_database = nullptr;
   ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(p_database, "CREATE TABLE bans(x)", nullptr, nullptr, nullptr), SQLITE_OK);
@@ -210,7 +210,7 @@ TEST_F(BanListTest, ADatabaseOfSomethingElseIsAnError) {
 }
 
 // Simulates a full disk: the folder cannot be created.
-TEST_F(BanListTest, ABanThatCannotBeWrittenHoldsAndIsToldAndIsWrittenLater) {
+TEST_F(BanListTest, UnsavedBanAppliesReportsErrorAndReloadSavesIt) {
   const fs::path blocked = folder / "state";
   std::ofstream(blocked) << "in the way";
   BanList list(worker, blocked, clock());
@@ -228,13 +228,13 @@ TEST_F(BanListTest, ABanThatCannotBeWrittenHoldsAndIsToldAndIsWrittenLater) {
   EXPECT_TRUE(BanList(other, blocked, clock()).isBanned(at("192.0.2.7")));
 }
 
-TEST_F(BanListTest, WithoutAFolderBansEndWithTheServerAndThatIsTold) {
+TEST_F(BanListTest, BanWithoutAFolderAppliesAndReportsAProblem) {
   BanList list(worker, {}, clock());
   EXPECT_NE(add(list, ofRange("192.0.2.7")), "");
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
 }
 
-TEST_F(BanListTest, ThereIsALimit) {
+TEST_F(BanListTest, BanBeyondTheLimitIsRefused) {
   BanList list(worker, {}, clock());
   std::vector<Ban> bans;
   for (std::uint32_t i = 0; i < BanList::kMaxBans; ++i)

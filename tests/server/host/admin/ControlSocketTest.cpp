@@ -74,7 +74,7 @@ class ControlSocketTest : public testing::Test {
   std::vector<std::string> log;
 };
 
-TEST_F(ControlSocketTest, ACommandIsAnsweredAndItsGiverIsKnown) {
+TEST_F(ControlSocketTest, CommandIsAnsweredAndItsSenderIdentified) {
   const auto control = open();
   Talk talk(options.path);
   EXPECT_EQ(talk.ask(kPing), R"({"ok":true,"text":"ping"})");
@@ -86,7 +86,7 @@ TEST_F(ControlSocketTest, ACommandIsAnsweredAndItsGiverIsKnown) {
   EXPECT_EQ(callers[0].level, AdminCommand::Level::kAdmin);
 }
 
-TEST_F(ControlSocketTest, TheFileIsForItsGroupAndGoesWithTheServer) {
+TEST_F(ControlSocketTest, SocketHasMode0660AndIsRemovedOnClose) {
   options.path = folder / "deep" / "er" / "control.sock";
   auto control = open();
   struct stat facts {};
@@ -99,7 +99,7 @@ TEST_F(ControlSocketTest, TheFileIsForItsGroupAndGoesWithTheServer) {
   EXPECT_TRUE(fs::is_empty(options.path.parent_path()));
 }
 
-TEST_F(ControlSocketTest, AStaleSocketIsReplacedALiveOneNever) {
+TEST_F(ControlSocketTest, OnlyAStaleSocketIsReplaced) {
   auto control = open();
   EXPECT_THROW(open(), ListenError);
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})") << "the first one lives";
@@ -117,7 +117,7 @@ TEST_F(ControlSocketTest, AStaleSocketIsReplacedALiveOneNever) {
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})");
 }
 
-TEST_F(ControlSocketTest, WhatIsNoSocketStays) {
+TEST_F(ControlSocketTest, NonSocketPathIsRefusedAndKept) {
   std::ofstream(options.path) << "mine";
   EXPECT_THROW(open(), ListenError);
   EXPECT_EQ(fs::file_size(options.path), 4u);
@@ -128,7 +128,7 @@ TEST_F(ControlSocketTest, WhatIsNoSocketStays) {
   EXPECT_THROW(open(), ListenError);
 }
 
-TEST_F(ControlSocketTest, OnlyDeadSocketsOfServersAreSweptAway) {
+TEST_F(ControlSocketTest, OnlyStaleServerSocketsAreRemoved) {
   options.path = folder / "control-1.sock";
   const auto control = open();
   std::ofstream(folder / "control-2.sock") << "no socket";
@@ -199,7 +199,7 @@ TEST_F(ControlSocketTest, LinesMayComeInPiecesAndTogether) {
   writer.join();
 }
 
-TEST_F(ControlSocketTest, WhoSaysNoMoreStillGetsTheAnswer) {
+TEST_F(ControlSocketTest, HalfClosedClientStillGetsItsAnswer) {
   held = true;
   const auto control = open();
   Talk talk(options.path);
@@ -211,7 +211,7 @@ TEST_F(ControlSocketTest, WhoSaysNoMoreStillGetsTheAnswer) {
   EXPECT_FALSE(talk.readLine());
 }
 
-TEST_F(ControlSocketTest, OnePlaceIsKeptForShortCommands) {
+TEST_F(ControlSocketTest, LastConnectionIsReservedForShortCommands) {
   options.short_time = std::chrono::seconds(4);
   const auto control = open();
   std::vector<std::unique_ptr<Talk>> talks;
@@ -227,7 +227,7 @@ TEST_F(ControlSocketTest, OnePlaceIsKeptForShortCommands) {
   EXPECT_EQ(next.ask(kPing), R"({"ok":true,"text":"ping"})") << "the place is free again";
 }
 
-TEST_F(ControlSocketTest, BeyondThePlacesThereIsASentence) {
+TEST_F(ControlSocketTest, ConnectionBeyondTheLimitGetsAnError) {
   options.short_time = std::chrono::minutes(10);
   const auto control = open();
   std::vector<std::unique_ptr<Talk>> talks;
@@ -240,7 +240,7 @@ TEST_F(ControlSocketTest, BeyondThePlacesThereIsASentence) {
   EXPECT_FALSE(more.readLine());
 }
 
-TEST_F(ControlSocketTest, PeersThatAreRefusedAreHungUpOn) {
+TEST_F(ControlSocketTest, RefusedPeersAreDisconnected) {
   options.is_refused = [](pid_t process) { return process == getpid(); };
   const auto control = open();
   Talk talk(options.path);
@@ -261,7 +261,7 @@ TEST_F(ControlSocketTest, AWatcherSeesWhatIsPublished) {
   EXPECT_EQ(talk.readLine(), R"({"event":"chat","text":"\"Ann\": \u001b"})");
 }
 
-TEST_F(ControlSocketTest, AWatcherThatStallsLosesEventsAndLearnsHowMany) {
+TEST_F(ControlSocketTest, StalledWatcherLosesEventsAndLearnsTheCount) {
   const auto control = open();
   Talk stalled(options.path);
   Talk other(options.path);
@@ -284,7 +284,7 @@ TEST_F(ControlSocketTest, AWatcherThatStallsLosesEventsAndLearnsHowMany) {
   EXPECT_GT(dropped, 0u);
 }
 
-TEST_F(ControlSocketTest, AnAnswerThatComesTooLateIsDropped) {
+TEST_F(ControlSocketTest, AnswerAfterCloseIsDropped) {
   held = true;
   auto control = open();
   Talk talk(options.path);

@@ -11,7 +11,7 @@ std::uint32_t chosen(const test::Players& target, const std::string& typed) {
   return choice.player ? choice.player->id : 0;
 }
 
-TEST(PlayerChoice, TheWholeNameGoesBeforeOneThatBeginsSo) {
+TEST(PlayerChoice, ExactNameWinsOverPrefix) {
   test::Players target;
   target.add("Anna");
   target.add("Ann");
@@ -20,7 +20,7 @@ TEST(PlayerChoice, TheWholeNameGoesBeforeOneThatBeginsSo) {
   EXPECT_EQ(chosen(target, "anna"), 1u);
 }
 
-TEST(PlayerChoice, SeveralThatFitAreAnErrorThatListsThem) {
+TEST(PlayerChoice, AmbiguousPrefixIsAnErrorListingCandidates) {
   test::Players target;
   target.add("Anna");
   target.add("Annika");
@@ -32,7 +32,7 @@ TEST(PlayerChoice, SeveralThatFitAreAnErrorThatListsThem) {
   EXPECT_EQ(chosen(target, "b"), 3u);
 }
 
-TEST(PlayerChoice, AnIdIsNeverAName) {
+TEST(PlayerChoice, HashNumberMatchesIdsNotNames) {
   test::Players target;
   target.add("#2");
   target.add("Bob");
@@ -41,7 +41,7 @@ TEST(PlayerChoice, AnIdIsNeverAName) {
   EXPECT_EQ(chosen(target, "#3"), 0u);
 }
 
-TEST(PlayerChoice, NobodyIsNobody) {
+TEST(PlayerChoice, UnknownNameMatchesNoPlayer) {
   test::Players target;
   const PlayerChoice choice = choosePlayer(target.all, "Ann");
   EXPECT_FALSE(choice.player);

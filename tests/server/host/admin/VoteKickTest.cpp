@@ -24,7 +24,7 @@ class VoteKickTest : public testing::Test {
   VoteKick::Time now = VoteKick::Time() + std::chrono::hours(1);
 };
 
-TEST_F(VoteKickTest, TakesMoreThanHalf) {
+TEST_F(VoteKickTest, VotePassesWithMoreThanHalf) {
   addPlayers(4);
   EXPECT_EQ(vote(0, 3), Outcome::kBegun);
   EXPECT_EQ(vote(0, 3), Outcome::kAlready);
@@ -32,13 +32,13 @@ TEST_F(VoteKickTest, TakesMoreThanHalf) {
   EXPECT_EQ(vote(2, 3), Outcome::kPassed);
 }
 
-TEST_F(VoteKickTest, OneAloneThrowsNobodyOut) {
+TEST_F(VoteKickTest, SingleVoteDoesNotKick) {
   addPlayers(2);
   EXPECT_EQ(vote(0, 1), Outcome::kBegun);
   EXPECT_EQ(votes.needed(), 2u);
 }
 
-TEST_F(VoteKickTest, AnAddressIsOneVoterHoweverManyPlayThere) {
+TEST_F(VoteKickTest, AddressHasOneVoteForAllItsPlayers) {
   addPlayers(3);
   for (int i = 0; i < 10; ++i) target.add("q" + std::to_string(i), "192.0.2.1:" + std::to_string(100 + i));
   EXPECT_EQ(vote(0, 2), Outcome::kBegun);
@@ -47,14 +47,14 @@ TEST_F(VoteKickTest, AnAddressIsOneVoterHoweverManyPlayThere) {
   EXPECT_EQ(vote(1, 2), Outcome::kPassed);
 }
 
-TEST_F(VoteKickTest, NeitherOneselfNorANeighbourIsVotedOn) {
+TEST_F(VoteKickTest, PlayersCannotVoteOnTheirOwnAddress) {
   addPlayers(2);
   target.add("neighbour", "192.0.2.1:77");
   EXPECT_EQ(vote(0, 0), Outcome::kSelf);
   EXPECT_EQ(vote(0, 2), Outcome::kSelf);
 }
 
-TEST_F(VoteKickTest, OneVoteAtATimeAndItsTimeIsLimited) {
+TEST_F(VoteKickTest, OnlyOneVoteRunsAndItTimesOut) {
   addPlayers(5);
   EXPECT_EQ(vote(0, 4), Outcome::kBegun);
   EXPECT_EQ(vote(1, 3), Outcome::kOther);
@@ -65,7 +65,7 @@ TEST_F(VoteKickTest, OneVoteAtATimeAndItsTimeIsLimited) {
   EXPECT_EQ(vote(1, 4), Outcome::kBegun) << "the voices of before are gone";
 }
 
-TEST_F(VoteKickTest, AVoterBeginsOneInTwoMinutes) {
+TEST_F(VoteKickTest, VoterStartsOneVoteInTwoMinutes) {
   addPlayers(4);
   EXPECT_EQ(vote(0, 3), Outcome::kBegun);
   now += VoteKick::kTime;
@@ -74,7 +74,7 @@ TEST_F(VoteKickTest, AVoterBeginsOneInTwoMinutes) {
   EXPECT_EQ(vote(0, 2), Outcome::kBegun);
 }
 
-TEST_F(VoteKickTest, TheVoicesOfThoseWhoLeftDoNotCount) {
+TEST_F(VoteKickTest, VotesOfDisconnectedPlayersDoNotCount) {
   addPlayers(5);
   EXPECT_EQ(vote(0, 4), Outcome::kBegun);
   EXPECT_EQ(vote(1, 4), Outcome::kAgreed);

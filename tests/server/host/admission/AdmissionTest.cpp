@@ -202,7 +202,7 @@ class AdmissionTest : public testing::Test {
   std::optional<Admission> m_admission;
 };
 
-TEST_F(AdmissionTest, NoNameReadsAsAnotherPlayersLineInTheLog) {
+TEST_F(AdmissionTest, NamesCannotForgeLogLines) {
   wire::Hello hello = helloOf("A\" joined with");
   hello.set_program("x\"\n192.0.2.9:1 \"Bob\" left");
   greet(hello, "192.0.2.1:1");
@@ -210,7 +210,7 @@ TEST_F(AdmissionTest, NoNameReadsAsAnotherPlayersLineInTheLog) {
   EXPECT_EQ(log[0], R"(192.0.2.1:1 "A\" joined with" joined with "x\" 192.0.2.9:1 \"Bob\" left")");
 }
 
-TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
+TEST_F(AdmissionTest, HelloCreatesAPlayerAndGetsAWelcome) {
   const Client& ann = greet(helloOf("Ann"));
   ASSERT_TRUE(sendsList());
   ASSERT_FALSE(sendsList()) << "nothing has changed";
@@ -227,7 +227,7 @@ TEST_F(AdmissionTest, AHelloMakesAPlayerWhoIsWelcomed) {
   EXPECT_TRUE(sendsList()) << "the newcomer has none";
 }
 
-TEST_F(AdmissionTest, AHelloWaitsASecondForARoundThatIsExecutedAgain) {
+TEST_F(AdmissionTest, HelloWaitsOneSecondForARunningReplay) {
   FakeWorld& room = recover(50);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 999ms));
@@ -237,7 +237,7 @@ TEST_F(AdmissionTest, AHelloWaitsASecondForARoundThatIsExecutedAgain) {
   EXPECT_TRUE(greet(helloOf("Ann")).isWelcome());
 }
 
-TEST_F(AdmissionTest, AHelloWaitsForTheRestOfARoundThatIsMoreThanHalfDone) {
+TEST_F(AdmissionTest, HelloWaitsForAReplayMoreThanHalfDone) {
   FakeWorld& room = recover(40);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 999ms));
@@ -248,7 +248,7 @@ TEST_F(AdmissionTest, AHelloWaitsForTheRestOfARoundThatIsMoreThanHalfDone) {
   EXPECT_TRUE(client.isWelcome());
 }
 
-TEST_F(AdmissionTest, ARoundThatNeverEndsKeepsNoHelloForEver) {
+TEST_F(AdmissionTest, HelloWaitsAtMostThreeSecondsForAReplay) {
   recover(99);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 2999ms));
@@ -273,7 +273,7 @@ TEST_F(AdmissionTest, ANameWithoutPrintableCharactersIsRefused) {
   EXPECT_EQ(counters.joined, 0u);
 }
 
-TEST_F(AdmissionTest, NoMorePlayersThanTheServerOrOneAddressMayHave) {
+TEST_F(AdmissionTest, PlayerLimitsOfServerAndAddressAreEnforced) {
   options.max_per_address = 1;
   EXPECT_TRUE(greet(helloOf("Ann"), "192.0.2.1:1").isWelcome());
   EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
@@ -284,7 +284,7 @@ TEST_F(AdmissionTest, NoMorePlayersThanTheServerOrOneAddressMayHave) {
   EXPECT_EQ(counters.refused_full, 1u);
 }
 
-TEST_F(AdmissionTest, OneAddressCannotCollectThePlacesOfBrokenStreams) {
+TEST_F(AdmissionTest, DisconnectedPlayersCountAgainstTheAddressLimit) {
   options.max_per_address = 1;
   Client& ann = greet(helloOf("Ann"));
   ann.drop();
@@ -296,7 +296,7 @@ TEST_F(AdmissionTest, OneAddressCannotCollectThePlacesOfBrokenStreams) {
   EXPECT_TRUE(greet(helloOf("Cid")).isWelcome());
 }
 
-TEST_F(AdmissionTest, APlayerWhoComesBackIsWelcomeWhereTheirAddressIsFull) {
+TEST_F(AdmissionTest, ResumeIsAllowedFromAFullAddress) {
   options.max_per_address = 1;
   Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
   greet(helloOf("Bob"), "192.0.2.2:1");
@@ -307,7 +307,7 @@ TEST_F(AdmissionTest, APlayerWhoComesBackIsWelcomeWhereTheirAddressIsFull) {
   EXPECT_EQ(greet(helloOf("Cid"), "192.0.2.2:2").refusal(), wire::Refused::FULL);
 }
 
-TEST_F(AdmissionTest, AMovedPlayerCountsWhereTheyAre) {
+TEST_F(AdmissionTest, ResumedPlayerCountsAtOldAndNewAddress) {
   options.max_per_address = 1;
   Client& ann = greet(helloOf("Ann"), "192.0.2.1:1");
   ann.drop();
@@ -317,7 +317,7 @@ TEST_F(AdmissionTest, AMovedPlayerCountsWhereTheyAre) {
   EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.3:2").isWelcome());
 }
 
-TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {
+TEST_F(AdmissionTest, TokenResumesItsSessionOnAnotherStream) {
   Client& ann = greet(helloOf("Ann"));
   ann.drop();
   const Client& back = greet(returning(ann));
@@ -329,7 +329,7 @@ TEST_F(AdmissionTest, ATokenContinuesItsSessionOnAnotherStream) {
   EXPECT_EQ(sessions.playing(), 1u);
 }
 
-TEST_F(AdmissionTest, AClientThatComesBackTooOftenIsRefusedForNowAndItsTokenStaysGood) {
+TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
   Client* p_ann = &greet(helloOf("Ann"));
   const std::uint32_t player = p_ann->welcome().player();
   const auto comeBack = [&](bool fresh) {
@@ -360,7 +360,7 @@ TEST_F(AdmissionTest, AClientThatComesBackTooOftenIsRefusedForNowAndItsTokenStay
   EXPECT_EQ(sessions.playing(), 1u);
 }
 
-TEST_F(AdmissionTest, ATokenIsVoidOnceTheNextOneIsConfirmed) {
+TEST_F(AdmissionTest, OldTokenIsInvalidOnceTheNextIsConfirmed) {
   Client& ann = greet(helloOf("Ann"));
   ann.drop();
   greet(returning(ann));
@@ -370,7 +370,7 @@ TEST_F(AdmissionTest, ATokenIsVoidOnceTheNextOneIsConfirmed) {
   EXPECT_NE(late.welcome().player(), ann.welcome().player()) << "a new player";
 }
 
-TEST_F(AdmissionTest, AProcessWhoseSessionWentOnElsewhereIsRefused) {
+TEST_F(AdmissionTest, ClientIsRefusedAfterItsSessionResumedElsewhere) {
   Client& ann = greet(helloOf("Ann"));
   ASSERT_TRUE(sendsList());
   wire::Hello fresh = returning(ann);
@@ -383,7 +383,7 @@ TEST_F(AdmissionTest, AProcessWhoseSessionWentOnElsewhereIsRefused) {
   EXPECT_EQ(counters.refused_elsewhere, 1u);
 }
 
-TEST_F(AdmissionTest, NothingGoesOnWithASessionThatWasForgotten) {
+TEST_F(AdmissionTest, ForgottenSessionCannotBeResumed) {
   Client& ann = greet(helloOf("Ann"));
   admission().forgetSession(sessionOf(1));
   greet(returning(ann));
@@ -391,7 +391,7 @@ TEST_F(AdmissionTest, NothingGoesOnWithASessionThatWasForgotten) {
   EXPECT_EQ(sessions.playing(), 2u);
 }
 
-TEST_F(AdmissionTest, ASecondStreamNeedsTheTokenOfASessionThatHasItsFirst) {
+TEST_F(AdmissionTest, SecondStreamNeedsTokenOfAConnectedSession) {
   wire::Hello second = helloOf("Ann");
   second.set_second_stream(true);
   second.set_resume_token("no token");
@@ -406,7 +406,7 @@ TEST_F(AdmissionTest, ASecondStreamNeedsTheTokenOfASessionThatHasItsFirst) {
   EXPECT_EQ(counters.joined, 1u);
 }
 
-TEST_F(AdmissionTest, SecondStreamsThatComeTooOftenAreRefusedForNow) {
+TEST_F(AdmissionTest, RapidSecondStreamsAreRefusedAsBusy) {
   Client& ann = greet(helloOf("Ann"));
   wire::Hello second = returning(ann);
   second.set_second_stream(true);
@@ -454,7 +454,7 @@ TEST_F(AdmissionTest, APasswordIsNeededByNewPlayersOnly) {
   EXPECT_TRUE(greet(returning(right)).isWelcome()) << "at once, by its token";
 }
 
-TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
+TEST_F(AdmissionTest, PasswordResultAfterDisconnectAdmitsNoPlayer) {
   options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
   const auto work = asio::make_work_guard(io);
   wire::Hello hello = helloOf("Ann");
@@ -466,7 +466,7 @@ TEST_F(AdmissionTest, APasswordThatWasCheckedAfterItsClientLeftAdmitsNoPlayer) {
   EXPECT_TRUE(sessions.isEmpty());
 }
 
-TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
+TEST_F(AdmissionTest, PasswordsBeyondTheQueueAreCountedAsBusy) {
   options.password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
   const auto work = asio::make_work_guard(io);
   wire::Hello hello = helloOf("Ann");
@@ -480,7 +480,7 @@ TEST_F(AdmissionTest, APasswordThatIsNotComparedIsCounted) {
 
 // ---- repeated joins ---------------------------------------------------------------------------------------
 
-TEST_F(AdmissionTest, AClassOf64BehindOneAddressJoinsLeavesAndJoinsAgainAtOnce) {
+TEST_F(AdmissionTest, ClassOf64AtOneAddressRejoinsImmediately) {
   options.max_players = 64;
   EXPECT_EQ(joinClass(64), 64);
   EXPECT_EQ(joinClass(64), 64);
@@ -490,7 +490,7 @@ TEST_F(AdmissionTest, AClassOf64BehindOneAddressJoinsLeavesAndJoinsAgainAtOnce) 
   EXPECT_EQ(joinClass(64), 64);
 }
 
-TEST_F(AdmissionTest, WhoLeavesAndJoinsAgainIsSlowedDown) {
+TEST_F(AdmissionTest, RepeatedJoinsFromOneAddressAreRateLimited) {
   int joins = 0;
   for (int i = 0; i < 1000; ++i, now += 10ms) joins += visit("192.0.2.1:1") ? 1 : 0;
   EXPECT_LE(joins, 128 + 2 * 10);
@@ -499,7 +499,7 @@ TEST_F(AdmissionTest, WhoLeavesAndJoinsAgainIsSlowedDown) {
   EXPECT_TRUE(visit("192.0.2.2:1")) << "another address";
 }
 
-TEST_F(AdmissionTest, AClientOfManyAddressesIsSlowedDownByItsNetwork) {
+TEST_F(AdmissionTest, JoinsFromManyAddressesShareTheNetworkLimit) {
   int joins = 0;
   for (int i = 0; i < 2000; ++i, now += 5ms) {
     std::array<char, 64> address{};
@@ -510,7 +510,7 @@ TEST_F(AdmissionTest, AClientOfManyAddressesIsSlowedDownByItsNetwork) {
   EXPECT_TRUE(visit("[2001:db8:2::1]:1")) << "another network";
 }
 
-TEST_F(AdmissionTest, AClassOf64HasPrivateWorldsAtOnce) {
+TEST_F(AdmissionTest, ClassOf64RejoinsPrivateWorldsImmediately) {
   options.max_players = 64;
   playInPrivate();
   EXPECT_EQ(joinClass(64), 64);
@@ -518,7 +518,7 @@ TEST_F(AdmissionTest, AClassOf64HasPrivateWorldsAtOnce) {
   EXPECT_EQ(joinClass(64), 64) << "and are back";
 }
 
-TEST_F(AdmissionTest, NewWorldsAreLimitedForOneAddressAndInAll) {
+TEST_F(AdmissionTest, NewWorldsAreLimitedPerAddressAndInTotal) {
   options.max_players = 100;
   playInPrivate();
   int joins = 0;
@@ -534,7 +534,7 @@ TEST_F(AdmissionTest, NewWorldsAreLimitedForOneAddressAndInAll) {
   EXPECT_GE(joins, 200 + 8 * 10 - 1);
 }
 
-TEST_F(AdmissionTest, WorldsThatDoNotEndArePlacesTaken) {
+TEST_F(AdmissionTest, WorldsStillEndingCountAgainstTheLimit) {
   playInPrivate();
   worlds_end = false;
   int joins = 0;
@@ -546,7 +546,7 @@ TEST_F(AdmissionTest, WorldsThatDoNotEndArePlacesTaken) {
   EXPECT_TRUE(visit("192.0.2.1:1"));
 }
 
-TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
+TEST_F(AdmissionTest, FailedWorldStartRefusesItsClientAndIsLogged) {
   options.players = "private";
   rooms.setWorlds([](asio::io_context&) -> std::unique_ptr<Round> {
     throw std::system_error(std::make_error_code(std::errc::too_many_files_open), "a new world");
@@ -557,7 +557,7 @@ TEST_F(AdmissionTest, AWorldThatCannotBeginIsALineOfItsClient) {
   EXPECT_TRUE(log[0].starts_with("192.0.2.1:1 cannot join: a new world: ")) << log[0];
 }
 
-TEST_F(AdmissionTest, AHelloThatComesAfterTheWorldsWereClosedIsRefused) {
+TEST_F(AdmissionTest, HelloAfterWorldsWereClosedIsRefused) {
   admission();
   rooms.closeWorlds();
   EXPECT_EQ(greet(helloOf("Ann")).refusal(), wire::Refused::BUSY);

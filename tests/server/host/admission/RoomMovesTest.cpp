@@ -155,7 +155,7 @@ class RoomMovesTest : public testing::Test {
   RoomMoves moves{context, sessions, rooms, admission};
 };
 
-TEST_F(RoomMovesTest, AHelloLeadsToTheRoomOrTheGameThatItNames) {
+TEST_F(RoomMovesTest, HelloJoinsTheRoomOrGameItNames) {
   EXPECT_EQ(join("ann", "").welcome().room(), "lobby");
   EXPECT_EQ(join("bob", "quiet").welcome().game(), "game of quiet");
   wire::Hello by_game = helloTo("cid", "");
@@ -178,7 +178,7 @@ TEST_F(RoomMovesTest, RoomsBeginWithTheirFirstPlayer) {
   EXPECT_EQ(begun["quiet"], 1);
 }
 
-TEST_F(RoomMovesTest, AMoveLeavesOneWorldAndJoinsAnotherUnderAnotherId) {
+TEST_F(RoomMovesTest, MoveSwitchesWorldsAndChangesThePlayerId) {
   Client& ann = join("ann", "lobby");
   tick();
   const std::uint32_t before = ann.welcome().player();
@@ -197,7 +197,7 @@ TEST_F(RoomMovesTest, AMoveLeavesOneWorldAndJoinsAnotherUnderAnotherId) {
   EXPECT_EQ(counters.room_moves, 1u) << "they are there";
 }
 
-TEST_F(RoomMovesTest, WhoCannotGoStaysAndHearsWhy) {
+TEST_F(RoomMovesTest, RefusedMoveKeepsTheRoomAndTellsTheReason) {
   Client& ann = join("ann", "lobby");
   join("bob", "arcade");
   enter(ann, "arcade");
@@ -248,7 +248,7 @@ TEST_F(RoomMovesTest, TheListHasAllRooms) {
 }
 
 // An old client would take a room message for that of a broken server.
-TEST_F(RoomMovesTest, AClientOfBeforeRoomsStaysWhereItJoinedAndIsSentNothingOfThem) {
+TEST_F(RoomMovesTest, OldClientStaysInItsRoomWithoutRoomMessages) {
   Client& old = join("old", "", false);
   enter(old, "quiet");
   moves.askByGame(sessionOf(old), "quiet");
@@ -259,7 +259,7 @@ TEST_F(RoomMovesTest, AClientOfBeforeRoomsStaysWhereItJoinedAndIsSentNothingOfTh
     EXPECT_FALSE(message.has_entered() || message.has_rooms());
 }
 
-TEST_F(RoomMovesTest, AGameSendsItsOwnPlayersAlone) {
+TEST_F(RoomMovesTest, GameMovesOnlyItsOwnPlayers) {
   Client& ann = join("ann", "lobby");
   Client& bob = join("bob", "quiet");
   ports["lobby"]->sent = {
@@ -270,7 +270,7 @@ TEST_F(RoomMovesTest, AGameSendsItsOwnPlayersAlone) {
   EXPECT_EQ(roomOf(bob), "quiet");
 }
 
-TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
+TEST_F(RoomMovesTest, RepeatedGameMovesDoNotFloodThePlayer) {
   Client& ann = join("ann", "lobby");
   for (int i = 0; i < 100; ++i) {
     ports["lobby"]->sent.assign(64, {sessionOf(ann).player(), "nowhere"});
@@ -281,7 +281,7 @@ TEST_F(RoomMovesTest, AGameThatSendsWithoutEndFloodsNoPlayer) {
   EXPECT_GE(lines, 4);
 }
 
-TEST_F(RoomMovesTest, GamesKnowTheRoomsAndHearWhenTheyChange) {
+TEST_F(RoomMovesTest, GamesReceiveTheRoomsAndTheirChanges) {
   const auto known = [&](const std::string& where, const std::string& name) {
     df::GameRoom last;
     for (const auto& input : ports[where]->inputs) {
@@ -303,7 +303,7 @@ TEST_F(RoomMovesTest, GamesKnowTheRoomsAndHearWhenTheyChange) {
   EXPECT_EQ(ports["lobby"]->inputs.size(), inputs) << "nothing has changed";
 }
 
-TEST_F(RoomMovesTest, AnAddressWakesFourRoomsAtOnceAndThenOneInASecond) {
+TEST_F(RoomMovesTest, AddressWakesFourRoomsAtOnceAndMoreLater) {
   std::vector<RoomPlan> plans;
   for (int i = 0; i < 20; ++i) plans.push_back(plan("room-" + std::to_string(i), 8));
   Rooms many{context, sessions, [] {}};
@@ -319,7 +319,7 @@ TEST_F(RoomMovesTest, AnAddressWakesFourRoomsAtOnceAndThenOneInASecond) {
   EXPECT_FALSE(door.open(*many.findRoom("room-19"), prefix, now + 2s));
 }
 
-TEST_F(RoomMovesTest, ARoomWhoseGameFailsAgainAndAgainLosesItsPlayersToTheFirst) {
+TEST_F(RoomMovesTest, RepeatedlyFailingRoomMovesPlayersToFirstRoom) {
   options.on_game_over = "restart";
   Client& ann = join("ann", "quiet");
   Client& old = join("old", "quiet", false);

@@ -59,7 +59,7 @@ TEST(PasswordHash, KnowsTheRightPasswordOnly) {
   }
 }
 
-TEST_F(PasswordCheckTest, AnotherPasswordHoldsFromThenOn) {
+TEST_F(PasswordCheckTest, ChangedPasswordAppliesToLaterChecks) {
   ask(1, "open sesame");
   EXPECT_EQ(run(), std::vector{Answer::kRight});
   check->setHash(PasswordHash::of("xyzzy", kCheap));
@@ -70,7 +70,7 @@ TEST_F(PasswordCheckTest, AnotherPasswordHoldsFromThenOn) {
   EXPECT_EQ(both, (std::vector{Answer::kRight, Answer::kWrong}));
 }
 
-TEST(PasswordHash, LongPasswordsAreNotCutOff) {
+TEST(PasswordHash, LongPasswordsAreNotTruncated) {
   const std::string longest(kMaxPassword, 'x');
   const PasswordHash hash = PasswordHash::of(longest, kCheap);
   EXPECT_TRUE(hash.matches(longest));
@@ -93,7 +93,7 @@ TEST(PasswordHash, TextIsAPasswordOrAHash) {
   EXPECT_THROW(PasswordHash::fromText("\n"), PasswordError);
 }
 
-TEST_F(PasswordCheckTest, AnswersRightAndWrongLater) {
+TEST_F(PasswordCheckTest, AnswersRightAndWrongAsynchronously) {
   ask(1, "open sesame");
   ask(2, "open barley");
   EXPECT_TRUE(answers.empty());
@@ -102,7 +102,7 @@ TEST_F(PasswordCheckTest, AnswersRightAndWrongLater) {
   EXPECT_EQ(check->counters().wrong, 1u);
 }
 
-TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
+TEST_F(PasswordCheckTest, FiveWrongTriesBlockTheAddressForAMinute) {
   for (int i = 0; i < 5; ++i) {
     ask(1, "guess");
     EXPECT_EQ(run(), std::vector{Answer::kWrong});
@@ -116,7 +116,7 @@ TEST_F(PasswordCheckTest, WrongTriesFromOnePlaceAreFew) {
   EXPECT_EQ(check->counters().too_many, 1u);
 }
 
-TEST_F(PasswordCheckTest, RightTriesAreNotCounted) {
+TEST_F(PasswordCheckTest, SuccessfulTriesAreNotCounted) {
   for (int i = 0; i < 64; ++i) {  // a class behind one address
     ask(1, "open sesame");
     EXPECT_EQ(run(), std::vector{Answer::kRight});
@@ -124,14 +124,14 @@ TEST_F(PasswordCheckTest, RightTriesAreNotCounted) {
   EXPECT_EQ(check->remembered(), 0u);
 }
 
-TEST_F(PasswordCheckTest, TriesAtOnceDoNotGetAroundTheLimit) {
+TEST_F(PasswordCheckTest, ConcurrentTriesDoNotBypassTheLimit) {
   for (int i = 0; i < 7; ++i) ask(1, "guess");
   const auto all = run();
   EXPECT_EQ(std::ranges::count(all, Answer::kWrong), 5);
   EXPECT_EQ(std::ranges::count(all, Answer::kBusy), 2);
 }
 
-TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
+TEST_F(PasswordCheckTest, FloodBeyondTheQueueIsAnsweredBusy) {
   for (int i = 0; i < 100; ++i) ask(i, "open sesame");  // no answer yet, because the loop does not run
   const auto all = run();
   ASSERT_EQ(all.size(), 100u);
@@ -140,7 +140,7 @@ TEST_F(PasswordCheckTest, FloodMeetsAShortQueue) {
   EXPECT_EQ(check->counters().busy, 92u);
 }
 
-TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
+TEST_F(PasswordCheckTest, ImpossiblePasswordsAreNotComparedAndUseNoTries) {
   for (int i = 0; i < 100; ++i) ask(1, i % 2 == 0 ? std::string() : std::string(kMaxPassword + 1, 'x'));
   EXPECT_TRUE(answers.empty());
   EXPECT_EQ(run(), std::vector(100, Answer::kWrong));
@@ -152,7 +152,7 @@ TEST_F(PasswordCheckTest, WhatCannotBeAPasswordIsNeitherComparedNorCounted) {
 }
 
 /// Attackers, each in its own network, who retry as soon as they have an answer.
-TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
+TEST_F(PasswordCheckTest, EightyGuessingAddressesDoNotBlockNewPlayers) {
   const auto network = [](int i) {
     return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256));
   };
@@ -184,7 +184,7 @@ TEST_F(PasswordCheckTest, EightyAddressesThatGuessKeepNoPlayerOut) {
   EXPECT_GT(guesses, 300u);
 }
 
-TEST_F(PasswordCheckTest, PrefixesThatPlayComeFirst) {
+TEST_F(PasswordCheckTest, PrefixesWithPlayersAreCheckedFirst) {
   std::vector<int> order;
   for (int i = 0; i < 9; ++i) {
     check->check(AddressPrefix::of(asio::ip::address_v4(0x0A000001u + static_cast<unsigned>(i) * 256)),
@@ -196,7 +196,7 @@ TEST_F(PasswordCheckTest, PrefixesThatPlayComeFirst) {
   EXPECT_EQ(order, (std::vector{0, 8, 1, 2, 3, 4, 5, 6})) << "after the one that was begun; one was too many";
 }
 
-TEST_F(PasswordCheckTest, MayBeDestroyedInItsCallbackAndIsSilentAfterwards) {
+TEST_F(PasswordCheckTest, DestructionInACallbackStopsLaterCallbacks) {
   int calls = 0;
   for (int i = 0; i < 3; ++i) {
     check->check(prefix(i), false, "open sesame", now, [&, marker = std::string(100, 'm')](Answer) {
@@ -235,7 +235,7 @@ TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
   EXPECT_EQ(limit.beginTry(prefix(0), now), LoginRateLimit::Answer::kAllowed);
 }
 
-TEST(LoginRateLimit, TriesThatWereGivenUpAreNotWrong) {
+TEST(LoginRateLimit, AbandonedTriesAreNotCountedAsWrong) {
   LoginRateLimit limit(2, 60s, 100);
   Time now{};
   for (int i = 1; i <= 1000; ++i) {

@@ -29,7 +29,7 @@ class PasswordQueueTest : public testing::Test {
   PasswordQueue::Id newest = 0;
 };
 
-TEST_F(PasswordQueueTest, EqualsAreServedInTheOrderInWhichTheyCame) {
+TEST_F(PasswordQueueTest, EqualEntriesAreServedInArrivalOrder) {
   for (int i = 1; i <= 4; ++i) EXPECT_EQ(add("198.51." + std::to_string(i) + ".1"), 0u);
   EXPECT_EQ(add("198.51.5.1"), 5u) << "there is no place";
   EXPECT_EQ(takeAll(), (Ids{1, 2, 3, 4}));
@@ -37,7 +37,7 @@ TEST_F(PasswordQueueTest, EqualsAreServedInTheOrderInWhichTheyCame) {
   EXPECT_EQ(queue.size(), 0u);
 }
 
-TEST_F(PasswordQueueTest, TheMostCrowdedAddressLosesItsNewest) {
+TEST_F(PasswordQueueTest, MostCrowdedAddressLosesItsNewestEntry) {
   add("198.51.1.1");
   add("198.51.2.1");
   add("198.51.2.1");
@@ -62,14 +62,14 @@ TEST_F(PasswordQueueTest, NetworksOfOneCustomerCountTogether) {
   EXPECT_EQ(takeAll(), (Ids{1, 4, 5, 6}));
 }
 
-TEST_F(PasswordQueueTest, PrefixesThatPlayComeFirst) {
+TEST_F(PasswordQueueTest, PrefixesWithPlayersAreServedFirst) {
   for (int i = 1; i <= 3; ++i) add("198.51." + std::to_string(i) + ".1");
   add("192.0.2.1", true, 3, 3);
   EXPECT_EQ(add("192.0.2.1", true), 3u) << "however crowded they are";
   EXPECT_EQ(takeAll(), (Ids{5, 4, 1, 2}));
 }
 
-TEST_F(PasswordQueueTest, ThoseThatWereWrongOrSentAwayComeLast) {
+TEST_F(PasswordQueueTest, PrefixesWithWrongOrRefusedTriesAreServedLast) {
   add("198.51.1.1", false, 2);
   add("198.51.2.1", false, 0, 5);
   add("198.51.3.1", false, 1);

@@ -15,7 +15,7 @@ TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
   EXPECT_EQ(tokens.redeem(""), std::nullopt);
 }
 
-TEST(ResumeTokens, OnlyTheNewestShowsWhoseItIsWithoutBeingUsed) {
+TEST(ResumeTokens, HolderLookupAcceptsOnlyNewestAndConsumesNothing) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.holderOf(first), 5u);
@@ -27,7 +27,7 @@ TEST(ResumeTokens, OnlyTheNewestShowsWhoseItIsWithoutBeingUsed) {
   EXPECT_EQ(tokens.holderOf(""), std::nullopt);
 }
 
-TEST(ResumeTokens, AreGoodUntilTheNextOneIsKnownToHaveCome) {
+TEST(ResumeTokens, RemainValidUntilTheNextIsConfirmed) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u);
@@ -40,7 +40,7 @@ TEST(ResumeTokens, AreGoodUntilTheNextOneIsKnownToHaveCome) {
   EXPECT_EQ(tokens.redeem(third), 5u);
 }
 
-TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
+TEST(ResumeTokens, ExpireOnLaterTokenUseAndOnSessionEnd) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u);
@@ -54,7 +54,7 @@ TEST(ResumeTokens, AreVoidOnceALaterOneIsUsedOrTheSessionIsOver) {
 }
 
 // The restored server knows only the stored hashes of the tokens.
-TEST(ResumeTokens, AreGoodAfterARestoreAsTheyWereBefore) {
+TEST(ResumeTokens, StayValidAfterRestoringTheirHashes) {
   ResumeTokens killed;
   const std::string first = killed.issue(5);
   ASSERT_EQ(killed.redeem(first), 5u);
@@ -70,7 +70,7 @@ TEST(ResumeTokens, AreGoodAfterARestoreAsTheyWereBefore) {
   EXPECT_EQ(tokens.find(first), std::nullopt);
 }
 
-TEST(ResumeTokens, MoveToTheSessionThatGoesOn) {
+TEST(ResumeTokens, RemainValidAfterMovingToAnotherSession) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u);
@@ -85,7 +85,7 @@ TEST(ResumeTokens, MoveToTheSessionThatGoesOn) {
   EXPECT_EQ(tokens.find(second), 9u);
 }
 
-TEST(ResumeTokens, SayWhenTheSessionGoesOnElsewhere) {
+TEST(ResumeTokens, ReportSessionsResumedElsewhere) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u);
@@ -107,7 +107,7 @@ TEST(ResumeTokens, SayWhenTheSessionGoesOnElsewhere) {
   EXPECT_FALSE(tokens.isElsewhere(first));
 }
 
-TEST(ResumeTokens, ARestartWhoseAnswerWasLostMayBeTriedAgain) {
+TEST(ResumeTokens, ClientRestartMayBeRetriedAfterALostAnswer) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   for (int i = 0; i < 3; ++i) {

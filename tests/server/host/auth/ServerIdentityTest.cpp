@@ -44,7 +44,7 @@ struct ServerIdentityTest : testing::Test {
   fs::path directory = base / "config" / "naiad";
 };
 
-TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
+TEST_F(ServerIdentityTest, WorldWritableFolderIsRefused) {
   fs::create_directories(directory);
   fs::permissions(directory, fs::perms::owner_all | fs::perms::others_write | fs::perms::others_exec);
   EXPECT_EQ(complaint([&] { loadOrMake(); }),
@@ -58,7 +58,7 @@ TEST_F(ServerIdentityTest, AFolderInWhichEveryUserCanWriteIsRefused) {
   EXPECT_EQ(loadOrMake().warning(), "");
 }
 
-TEST_F(ServerIdentityTest, AKeyThatIsAPipeIsNotWaitedFor) {
+TEST_F(ServerIdentityTest, PipeInsteadOfAFileIsRefusedWithoutWaiting) {
   fs::create_directories(base);
   const fs::path pipe = base / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -85,7 +85,7 @@ TEST_F(ServerIdentityTest, OtherDirectoriesHaveOtherKeys) {
   EXPECT_NE(loadOrMake().fingerprint(), ServerIdentity::loadOrMake(base / "other", kNow).fingerprint());
 }
 
-TEST_F(ServerIdentityTest, CertificateMayBeMadeAgainForTheSameKey) {
+TEST_F(ServerIdentityTest, LostCertificateIsRecreatedForTheSameKey) {
   const Fingerprint first = loadOrMake().fingerprint();
   fs::remove(directory / "certificate.pem");
   EXPECT_EQ(loadOrMake().fingerprint(), first);
@@ -110,7 +110,7 @@ TEST_F(ServerIdentityTest, KeyThatOthersCanReadIsRefused) {
   EXPECT_EQ(complaint([&] { loadOrMake(); }), "(none)");
 }
 
-TEST_F(ServerIdentityTest, FilesFromElsewhereAreLoaded) {
+TEST_F(ServerIdentityTest, ExplicitFilesAreLoadedOrReportedMissing) {
   const Fingerprint made = loadOrMake().fingerprint();
   EXPECT_EQ(ServerIdentity::load(directory / "certificate.pem", directory / "key.pem").fingerprint(), made);
   EXPECT_EQ(complaint([&] { ServerIdentity::load(base / "none.pem", directory / "key.pem"); }),
@@ -119,7 +119,7 @@ TEST_F(ServerIdentityTest, FilesFromElsewhereAreLoaded) {
             "There is no key file " + (base / "none.pem").string() + ".");
 }
 
-TEST_F(ServerIdentityTest, ChainIsSentWhole) {
+TEST_F(ServerIdentityTest, WholeCertificateChainIsLoaded) {
   loadOrMake();
   const std::string above = makeCertificatePem(makeKeyPem(), kNow);
   const fs::path chain = base / "fullchain.pem";
@@ -130,7 +130,7 @@ TEST_F(ServerIdentityTest, ChainIsSentWhole) {
   EXPECT_EQ(sk_X509_num(sent), 1);
 }
 
-TEST_F(ServerIdentityTest, WrongFilesGiveASentence) {
+TEST_F(ServerIdentityTest, InvalidFilesGiveSpecificMessages) {
   loadOrMake();
   const auto complaintAbout = [&](const std::string& certificate, const std::string& key) {
     replaceFile(base / "certificate", certificate);
@@ -158,7 +158,7 @@ TEST_F(ServerIdentityTest, ServersThatStartTogetherHaveOneKey) {
   for (const std::string& fingerprint : seen) EXPECT_EQ(fingerprint, seen[0]);
 }
 
-TEST_F(ServerIdentityTest, CertificateIsValidFromTheDayBeforeWithoutEnd) {
+TEST_F(ServerIdentityTest, CertificateStartsYesterdayAndNeverExpires) {
   const ServerIdentity identity = loadOrMake();
   const X509* const certificate = SSL_CTX_get0_certificate(identity.tls()->get());
   EXPECT_EQ(ASN1_TIME_cmp_time_t(X509_get0_notBefore(certificate), 1'800'000'000 - 86'400), 0);

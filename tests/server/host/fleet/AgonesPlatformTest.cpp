@@ -37,7 +37,7 @@ class Ticks {
   std::jthread m_thread;
 };
 
-TEST(AgonesPlatform, TriesAgainUntilALateSidecarThatIsBusyAtFirstAnswers) {
+TEST(AgonesPlatform, RetriesUntilALateAndBusySidecarAnswers) {
   FakeSidecar sidecar;
   AgonesPlatform platform(sidecar.port());
   platform.notifyReady();
@@ -59,7 +59,7 @@ TEST(AgonesPlatform, TriesAgainUntilALateSidecarThatIsBusyAtFirstAnswers) {
   EXPECT_NE(news.find("players reach naiad-x7 at 192.0.2.7:7012"), std::string::npos) << news;
 }
 
-TEST(AgonesPlatform, PlayersAreACounterAndAListAndHealthComesFromTheTick) {
+TEST(AgonesPlatform, SendsPlayerCountAndListAndHealthOnTicks) {
   FakeSidecar sidecar;
   sidecar.start(well);
   AgonesPlatform platform(sidecar.port());
@@ -74,7 +74,7 @@ TEST(AgonesPlatform, PlayersAreACounterAndAListAndHealthComesFromTheTick) {
   EXPECT_TRUE(sidecar.waitFor("POST /health {}"));
 }
 
-TEST(AgonesPlatform, SaysThatItEndsAndWaitsForTheAnswer) {
+TEST(AgonesPlatform, FinishSendsShutdownBeforeReturning) {
   FakeSidecar sidecar;
   sidecar.start(well);
   AgonesPlatform platform(sidecar.port());
@@ -83,7 +83,7 @@ TEST(AgonesPlatform, SaysThatItEndsAndWaitsForTheAnswer) {
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
 }
 
-TEST(AgonesPlatform, WithoutASidecarTheEndDoesNotWaitForLong) {
+TEST(AgonesPlatform, FinishWithoutASidecarTimesOut) {
   FakeSidecar sidecar;  // refuses connections until start()
   const auto begin = std::chrono::steady_clock::now();
   {
@@ -94,7 +94,7 @@ TEST(AgonesPlatform, WithoutASidecarTheEndDoesNotWaitForLong) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 30s);
 }
 
-TEST(AgonesPlatform, TheWatchSaysWhenTheServerIsShutDownAlsoAfterItWasCutAndInPieces) {
+TEST(AgonesPlatform, WatchReportsShutdownAfterReconnectAndInPieces) {
   FakeSidecar sidecar;
   sidecar.start(well);
   AgonesPlatform platform(sidecar.port());
@@ -112,7 +112,7 @@ TEST(AgonesPlatform, TheWatchSaysWhenTheServerIsShutDownAlsoAfterItWasCutAndInPi
   EXPECT_FALSE(platform.takeEnd()) << "once";
 }
 
-TEST(AgonesPlatform, AnAnswerThatIsTooLongIsAskedForAgain) {
+TEST(AgonesPlatform, OversizedAnswerIsRequestedAgain) {
   FakeSidecar sidecar;
   std::atomic<int> asked = 0;
   sidecar.start([&](const std::string& request) {
@@ -129,7 +129,7 @@ TEST(AgonesPlatform, AnAnswerThatIsTooLongIsAskedForAgain) {
   EXPECT_GE(platform.counters().failures, 1u);
 }
 
-TEST(AgonesPlatform, AWatchWithoutLinesIsHungUpOn) {
+TEST(AgonesPlatform, WatchWithOversizedLineIsReconnected) {
   FakeSidecar sidecar;
   sidecar.start(well);
   AgonesPlatform platform(sidecar.port());

@@ -26,7 +26,7 @@ BusMessage kept(int number) {
   return {"naiad.results.a", "result " + std::to_string(number), "round-0-" + std::to_string(number)};
 }
 
-TEST(BusQueue, TheOldestGoAndOfPresenceTheNewestIsEnough) {
+TEST(BusQueue, DropsTheOldestAndKeepsOnlyNewestPresence) {
   BusQueue queue;
   for (int i = 0; i < 100; ++i) queue.push({"naiad.presence.a", std::to_string(i)});
   ASSERT_TRUE(queue.hasFleeting());
@@ -43,7 +43,7 @@ TEST(BusQueue, TheOldestGoAndOfPresenceTheNewestIsEnough) {
   EXPECT_EQ(queue.firstKept().id, kept(5001 - Bus::kMaxKept).id);
 }
 
-TEST(BusInbox, KeepsTheNewestOfEachSubjectAndNothingThatIsTooLong) {
+TEST(BusInbox, KeepsNewestPerSubjectAndIgnoresOversizedMessages) {
   BusInbox inbox;
   for (int i = 0; i < 1000; ++i) inbox.put("naiad.presence.loud", std::to_string(i));
   inbox.put("naiad.presence.quiet", "here");
@@ -58,7 +58,7 @@ TEST(BusInbox, KeepsTheNewestOfEachSubjectAndNothingThatIsTooLong) {
   EXPECT_EQ(inbox.ignored(), 2u);
 }
 
-TEST(BusInbox, SubjectsWithoutEndCrowdOutNoneThatIsThere) {
+TEST(BusInbox, FloodOfSubjectsDoesNotEvictExistingOnes) {
   BusInbox inbox;
   inbox.put("honest", "old");
   for (std::size_t i = 0; i < 2 * BusInbox::kMaxSubjects; ++i) inbox.put(std::to_string(i), "");
@@ -69,7 +69,7 @@ TEST(BusInbox, SubjectsWithoutEndCrowdOutNoneThatIsThere) {
   EXPECT_EQ(taken.back().payload, "new");
 }
 
-TEST(BusSettings, WhatIsNoAddressIsSaidBeforeTheStart) {
+TEST(BusSettings, InvalidAddressesAreRejected) {
 #ifdef NAIAD_NATS
   EXPECT_EQ(busComplaint({"nats://127.0.0.1:4222", "", ""}), "");
   EXPECT_EQ(busComplaint({"tls://bus.example", "file", "ca.pem"}), "");
@@ -156,7 +156,7 @@ TEST_F(NatsBusTest, PresenceArrives) {
   EXPECT_EQ(bus->takeNews(), "");
 }
 
-TEST_F(NatsBusTest, OneOfEachResultIsKeptHoweverOftenItIsSent) {
+TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
   test::NatsServer server;
   ASSERT_TRUE(server.start()) << server.log();
   const Listener listener(server.url());
@@ -171,7 +171,7 @@ TEST_F(NatsBusTest, OneOfEachResultIsKeptHoweverOftenItIsSent) {
   EXPECT_EQ(listener.results(), 3u);
 }
 
-TEST_F(NatsBusTest, WhatWasPublishedWhileTheBusWasGoneArrivesOnceItIsBackAndTooMuchIsDropped) {
+TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
   test::NatsServer server;
   ASSERT_TRUE(server.start()) << server.log();
   const auto bus = connect(server.url());
@@ -198,7 +198,7 @@ TEST_F(NatsBusTest, WhatWasPublishedWhileTheBusWasGoneArrivesOnceItIsBackAndTooM
   EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxKept);
 }
 
-TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
+TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
   test::NatsServer server;
   ASSERT_TRUE(server.start()) << server.log();
   const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
@@ -224,7 +224,7 @@ TEST_F(NatsBusTest, WhatOthersSayUnderItsSubjectsIsHeardAlsoOnceTheBusIsBack) {
   }
 }
 
-TEST_F(NatsBusTest, AServerMayPublishItsOwnPresenceAlone) {
+TEST_F(NatsBusTest, ServerMayPublishOnlyItsOwnPresence) {
   test::NatsServer server(
       "authorization { users = [\n"
       "  {user: a, password: x, permissions: {publish: [\"naiad.presence.a\"]}}\n"

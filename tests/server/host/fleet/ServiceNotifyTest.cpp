@@ -56,7 +56,7 @@ class ServiceNotifyTest : public testing::Test {
   std::map<std::string, std::string> variables;
 };
 
-TEST_F(ServiceNotifyTest, SaysEachThingInADatagram) {
+TEST_F(ServiceNotifyTest, SendsEachNotificationInOneDatagram) {
   ServiceNotify service(variable());
   ASSERT_TRUE(service.isActive());
   service.notifyReady();
@@ -69,7 +69,7 @@ TEST_F(ServiceNotifyTest, SaysEachThingInADatagram) {
                             "EXTEND_TIMEOUT_USEC=2000000", "STOPPING=1"}));
 }
 
-TEST_F(ServiceNotifyTest, KeepsAliveTwiceInTheTimeThatIsGiven) {
+TEST_F(ServiceNotifyTest, SendsKeepAlivesTwicePerWatchdogTimeout) {
   variables["WATCHDOG_USEC"] = "1000000";
   variables["WATCHDOG_PID"] = std::to_string(getpid());
   ServiceNotify service(variable());
@@ -78,7 +78,7 @@ TEST_F(ServiceNotifyTest, KeepsAliveTwiceInTheTimeThatIsGiven) {
   EXPECT_EQ(heard(), std::vector<std::string>(5, "WATCHDOG=1")) << "at 0, 500, 1000, 1500 and 2000 ms";
 }
 
-TEST_F(ServiceNotifyTest, KeepsAliveOnlyIfThatIsAsked) {
+TEST_F(ServiceNotifyTest, SendsKeepAlivesOnlyIfRequested) {
   for (const auto& [usec, pid] : std::vector<std::pair<std::string, std::string>>{
            {"", ""}, {"0", ""}, {"x", ""}, {"-5", ""}, {"1000000", "1"}, {"1000000", "x"}}) {
     variables.erase("WATCHDOG_USEC");
@@ -92,14 +92,14 @@ TEST_F(ServiceNotifyTest, KeepsAliveOnlyIfThatIsAsked) {
   EXPECT_EQ(heard(), texts({}));
 }
 
-TEST_F(ServiceNotifyTest, FindsASocketThatIsNoFile) {
+TEST_F(ServiceNotifyTest, SupportsAbstractSockets) {
   listenAt("@naiad-notify-test-" + std::to_string(getpid()));
   ServiceNotify service(variable());
   service.notifyReady();
   EXPECT_EQ(heard(), texts({"READY=1"}));
 }
 
-TEST_F(ServiceNotifyTest, IsSilentWithoutAManager) {
+TEST_F(ServiceNotifyTest, IsInactiveWithoutAServiceManager) {
   for (const std::string& path : {std::string("relative"), std::string("/nowhere/notify"), std::string("@"),
                                   std::string(), std::string(200, '/')}) {
     variables["NOTIFY_SOCKET"] = path;
@@ -113,7 +113,7 @@ TEST_F(ServiceNotifyTest, IsSilentWithoutAManager) {
 }
 
 // A manager that does not read must not block the server: its socket holds only some datagrams.
-TEST_F(ServiceNotifyTest, DoesNotWaitForAManagerThatDoesNotRead) {
+TEST_F(ServiceNotifyTest, StalledManagerBlocksNothingAndLostStatusIsResent) {
   variables["WATCHDOG_USEC"] = "2";
   ServiceNotify service(variable());
   for (int i = 0; i < 100'000; ++i) service.keepAlive(Time(milliseconds(i)));

@@ -45,7 +45,7 @@ TEST_F(SidecarDutiesTest, SaysNothingBeforeTheServerIsReady) {
   EXPECT_EQ(said(), All{});
 }
 
-TEST_F(SidecarDutiesTest, AsksOneThingAtATimeAndTriesAgainAfterAWhile) {
+TEST_F(SidecarDutiesTest, SendsOneRequestAtATimeAndRetriesLater) {
   duties.setReady();
   ASSERT_TRUE(duties.next(now));
   EXPECT_FALSE(duties.next(now + 1h)) << "no answer yet";
@@ -74,7 +74,7 @@ TEST_F(SidecarDutiesTest, IsHealthyAsLongAsItTicks) {
   EXPECT_EQ(duties.counters().health, 5u);
 }
 
-TEST_F(SidecarDutiesTest, TheSidecarSaysHowOftenItWantsToHear) {
+TEST_F(SidecarDutiesTest, HealthIntervalComesFromTheSidecar) {
   duties.setReady();
   duties.noteTick(now);
   said(200, R"({"spec":{"health":{"period_seconds":2}}})");
@@ -83,7 +83,7 @@ TEST_F(SidecarDutiesTest, TheSidecarSaysHowOftenItWantsToHear) {
   EXPECT_EQ(said(), All{"POST /health"});
 }
 
-TEST_F(SidecarDutiesTest, IsAllocatedWhilePlayersAreThereAndReadyAgainAfterThem) {
+TEST_F(SidecarDutiesTest, IsAllocatedWithPlayersAndReadyWithoutThem) {
   duties.setReady();
   said();
   bodies.clear();
@@ -98,7 +98,7 @@ TEST_F(SidecarDutiesTest, IsAllocatedWhilePlayersAreThereAndReadyAgainAfterThem)
   EXPECT_EQ(said().front(), "POST /ready");
 }
 
-TEST_F(SidecarDutiesTest, AListHasAThousandAtMost) {
+TEST_F(SidecarDutiesTest, PlayerListIsLimitedTo1000Ids) {
   duties.setReady();
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 1; id <= 1500; ++id) ids.push_back(id);
@@ -109,7 +109,7 @@ TEST_F(SidecarDutiesTest, AListHasAThousandAtMost) {
   EXPECT_EQ(bodies.back().find("1001"), std::string::npos);
 }
 
-TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
+TEST_F(SidecarDutiesTest, MissingCountersAndListsAreNotRetried) {
   duties.setReady();
   play({});
   for (int i = 0; i < 10; ++i) {
@@ -123,7 +123,7 @@ TEST_F(SidecarDutiesTest, WhatTheResourceDoesNotHaveIsNotAskedForWithoutEnd) {
 }
 
 // An unusable answer: too long, truncated, or from another program on that port.
-TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesOn) {
+TEST_F(SidecarDutiesTest, InvalidServerInfoIsRetriedWithoutBlockingOtherDuties) {
   const std::string server = R"({"status":{"address":"192.0.2.7","ports":[{"port":7012}]}})";
   for (const std::string& body :
        {"{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}", server.substr(0, 30), std::string("[]")}) {
@@ -143,7 +143,7 @@ TEST_F(SidecarDutiesTest, FactsThatCannotBeReadAreAskedForAgainWhileTheRestGoesO
   EXPECT_EQ(duties.facts()->port, 7012);
 }
 
-TEST_F(SidecarDutiesTest, TheEndComesBeforeAllAndLast) {
+TEST_F(SidecarDutiesTest, ShutdownIsSentFirstAndEndsAllRequests) {
   duties.setReady();
   duties.noteTick(now);
   play({1});
@@ -158,7 +158,7 @@ TEST_F(SidecarDutiesTest, TheEndComesBeforeAllAndLast) {
   EXPECT_EQ(said(), All{});
 }
 
-TEST(GameServerFacts, ReadsWhatIsPublishedAndLeavesTheRestOut) {
+TEST(GameServerFacts, ReadsKnownFieldsAndIgnoresTheRest) {
   const std::string server =
       R"({"object_meta":{"name":"naiad-x7","labels":{"a":"b"}},"spec":{"health":{"period_seconds":5}},)"
       R"("status":{"state":"Allocated","address":"192.0.2.7","ports":[{"name":"default","port":7012},{"port":1}]}})";
@@ -174,7 +174,7 @@ TEST(GameServerFacts, ReadsWhatIsPublishedAndLeavesTheRestOut) {
   EXPECT_FALSE(GameServerFacts::parse(R"({"error":{"http_code":500}})", true));
 }
 
-TEST(GameServerFacts, NonsenseIsNoneOrEmpty) {
+TEST(GameServerFacts, InvalidJsonIsRejectedAndInvalidFieldsAreEmpty) {
   for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string("7"),
                                   std::string(100'000, '['), std::string("{\"a\":\xff}")})
     EXPECT_FALSE(GameServerFacts::parse(text, false)) << text.substr(0, 20);

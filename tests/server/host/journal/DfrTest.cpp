@@ -87,7 +87,7 @@ std::size_t countRecords(DfrReader& reader) {
   return count;
 }
 
-TEST(DfrTest, WhatIsWrittenIsRead) {
+TEST(DfrTest, WrittenFileIsReadBackUnchanged) {
   const SmallFile file;
   DfrReader reader(file.bytes);
   ASSERT_EQ(reader.problem(), "");
@@ -119,7 +119,7 @@ TEST(DfrTest, WhatIsWrittenIsRead) {
   EXPECT_EQ(reader.facts().at("file sprites/ship.txt"), "1234");
 }
 
-TEST(DfrTest, APictureIsReadAgain) {
+TEST(DfrTest, PictureIsReadBackUnchanged) {
   RecordedPicture picture{7, df::Canvas(80, 24)};
   picture.canvas.put(3, 4, {U'█', df::GREEN});
   std::string records;
@@ -132,7 +132,7 @@ TEST(DfrTest, APictureIsReadAgain) {
   EXPECT_EQ(countDifferences(std::get<RecordedPicture>(*read).canvas, picture.canvas), 0);
 }
 
-TEST(DfrTest, AFileThatIsTornAtAnyByteOpensUpToItsLastWholeRecord) {
+TEST(DfrTest, TruncatedFileIsReadableUpToLastWholeRecord) {
   const SmallFile file;
   for (std::size_t size = 0; size <= file.bytes.size(); size += kEachByte) {
     DfrReader reader(std::string_view(file.bytes).substr(0, size));
@@ -167,7 +167,7 @@ TEST(DfrTest, SkippingToTheEndGetsAsFarAsReading) {
   }
 }
 
-TEST(DfrTest, BlocksThatWereNeverWrittenReadAsATornFile) {
+TEST(DfrTest, UnwrittenBlocksReadAsATruncatedFile) {
   const SmallFile file;
   const std::string bytes = file.bytes.substr(0, file.records_at[2].first) + std::string(4096, '\0');
   DfrReader zeros(bytes);
@@ -175,7 +175,7 @@ TEST(DfrTest, BlocksThatWereNeverWrittenReadAsATornFile) {
   EXPECT_EQ(zeros.end(), DfrEnd::kTorn);
 }
 
-TEST(DfrTest, AChangedByteGivesNoOtherRecords) {
+TEST(DfrTest, ChangedByteStopsReadingAtItsChunk) {
   const SmallFile file(3);
   const std::size_t all = file.records_at.back().second;
   for (std::size_t at = 0; at < file.bytes.size(); at += kEachByte) {
@@ -194,14 +194,14 @@ TEST(DfrTest, AChangedByteGivesNoOtherRecords) {
   }
 }
 
-TEST(DfrTest, AnotherVersionIsRefusedWithASentence) {
+TEST(DfrTest, OtherVersionsAndFormatsAreRefused) {
   std::string bytes = SmallFile().bytes;
   bytes[8] = 1;
   EXPECT_EQ(DfrReader(bytes).problem(), "format version 1, but this program reads version 2");
   EXPECT_EQ(DfrReader("#!/bin/sh\n").problem(), "not a round recording");
 }
 
-TEST(DfrTest, ManyRecordsTakeSeveralChunks) {
+TEST(DfrTest, RecordsBeyondOneChunkAreReadBack) {
   std::string records;
   TurnRecordWriter writer;
   WorldTurn turn;
@@ -241,7 +241,7 @@ TEST(DfrTest, UnknownRecordsAreSkipped) {
   EXPECT_FALSE(reader.isBad());
 }
 
-TEST(DfrTest, AChunkThatPromisesTooMuchIsDamaged) {
+TEST(DfrTest, ChunkWithOversizedLengthIsDamaged) {
   std::string bytes = SmallFile(1).bytes;
   storeLittleEndian(static_cast<std::uint32_t>(kMaxDfrPayload + 1), bytes.data() + kDfrHeaderSize + 4);
   DfrReader reader(bytes);
@@ -250,7 +250,7 @@ TEST(DfrTest, AChunkThatPromisesTooMuchIsDamaged) {
 }
 
 // Repetition packs to almost nothing: such a file could cost as much memory as one a thousand times its size.
-TEST(DfrTest, AFileThatUnpacksToHundredsOfTimesItsSizeIsDamaged) {
+TEST(DfrTest, DecompressionBombIsReportedAsDamaged) {
   DfrTurnPacker packer;
   std::string records;
   for (int i = 0; i < 100'000; ++i)
@@ -266,7 +266,7 @@ TEST(DfrTest, AFileThatUnpacksToHundredsOfTimesItsSizeIsDamaged) {
   EXPECT_EQ(reader.end(), DfrEnd::kDamaged);
 }
 
-TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
+TEST(RecordCoder, PackedPiecesUnpackToTheSameBytes) {
   SplitMix64 random(3);
   RecordPacker packer;
   RecordUnpacker unpacker;
@@ -283,7 +283,7 @@ TEST(RecordCoder, AnyBytesComeBackInPiecesOfAnySize) {
 }
 
 // The bytes must not change, because other machines and later versions read the files.
-TEST(RecordCoder, TheBytesAreThoseThatTheyWere) {
+TEST(RecordCoder, PackedFormatIsUnchanged) {
   std::string records;
   TurnRecordWriter writer;
   SplitMix64 random(11);

@@ -99,7 +99,7 @@ class JournalTest : public testing::Test {
   std::shared_ptr<Journal> journal;
 };
 
-TEST_F(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
+TEST_F(JournalTest, AddedRecordsAreOnDiskAfterDraining) {
   begin();
   for (int i = 0; i < 100; ++i) ASSERT_TRUE(journal->add(turnRecord()));
   ASSERT_TRUE(drains());
@@ -114,7 +114,7 @@ TEST_F(JournalTest, WhatIsAddedIsOnTheDiskAfterATurnOfTheWriter) {
 }
 
 // A reader gets the facts before the first turn, even if they came while the header was written.
-TEST_F(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
+TEST_F(JournalTest, FactsPrecedeRecordsAddedLater) {
   disk.setStalled(true);
   begin();
   writer.wake();
@@ -129,7 +129,7 @@ TEST_F(JournalTest, FactsAreBeforeTheRecordsThatWereAddedAfterThem) {
 }
 
 // Adding returns although the disk stalls; otherwise this test would hang.
-TEST_F(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
+TEST_F(JournalTest, StalledDiskDoesNotBlockTheTick) {
   begin(std::size_t{1} << 20);
   disk.setStalled(true);
   ASSERT_TRUE(journal->add(turnRecord()));
@@ -141,7 +141,7 @@ TEST_F(JournalTest, ADiskThatStallsKeepsNobodyWaiting) {
   EXPECT_EQ(countTurns(disk.bytes), 301u);
 }
 
-TEST_F(JournalTest, ADiskThatIsTooSlowForTheRingStopsTheJournal) {
+TEST_F(JournalTest, DiskTooSlowForTheRingStopsTheJournal) {
   begin();
   ASSERT_TRUE(journal->add(turnRecord()));
   ASSERT_TRUE(drains());
@@ -156,7 +156,7 @@ TEST_F(JournalTest, ADiskThatIsTooSlowForTheRingStopsTheJournal) {
   EXPECT_EQ(journal->takeProblem(), std::nullopt) << "it is said once";
 }
 
-TEST_F(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
+TEST_F(JournalTest, FullDiskStopsTheJournalAndIsReportedOnce) {
   begin();
   ASSERT_TRUE(journal->add(turnRecord()));
   ASSERT_TRUE(drains());
@@ -173,7 +173,7 @@ TEST_F(JournalTest, AFullDiskStopsTheJournalAndIsSaidOnce) {
   EXPECT_EQ(countTurns(disk.bytes), 1u);
 }
 
-TEST_F(JournalTest, WhileNoPlayerIsThereTheDiskHasHalfAMinutesRest) {
+TEST_F(JournalTest, JournalWithoutPlayersSkipsMostFlushes) {
   journal = journalOn(disk);
   journal->setCalm(true);
   ASSERT_TRUE(journal->flush());
@@ -229,7 +229,7 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
 }
 
 // Records still in memory when the process is killed are written at the next start: no turn is lost.
-TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk) {
+TEST_F(JournalFileTest, SalvageRecoversUnwrittenTurnsOfAKilledServer) {
   const fs::path path = folder / "hello.dfr";
   const DfrHeader header = headerOf(0x5A);
   const pid_t child = fork();
@@ -252,7 +252,7 @@ TEST_F(JournalFileTest, AKilledServersRoundGetsTheTurnsThatHadNotReachedTheDisk)
 }
 
 // The file is created by another thread, some time after the world's first turns.
-TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards) {
+TEST_F(JournalFileTest, SalvageCreatesAMissingOrIncompleteRoundFile) {
   const fs::path path = folder / "hello-first.dfr";
   DfrHeader header = headerOf(0x5C);
   header.seed = 7;
@@ -284,7 +284,7 @@ TEST_F(JournalFileTest, AServerThatWasKilledBeforeItsFileWasBegunHasItAfterwards
 }
 
 // The shared memory belongs to this user, but a name in it must not become a path outside the folder.
-TEST_F(JournalFileTest, ARingNamesNoFileElsewhere) {
+TEST_F(JournalFileTest, RingCannotNameFilesOutsideItsFolder) {
   int number = 0;
   for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {
     const pid_t child = fork();
@@ -316,7 +316,7 @@ TEST_F(JournalFileTest, ARoundThatIsBeingPlayedIsLeftAlone) {
   EXPECT_EQ(fs::file_size(path), size);
 }
 
-TEST_F(JournalFileTest, MemoryOfARoundThatHasNoFileIsFreedByTheNextServerOfItsFolder) {
+TEST_F(JournalFileTest, NextServerFreesMemoryOfUnsavedRounds) {
   const auto dead = headerOf(1, 4).uuid;
   const auto lives = headerOf(2, 4).uuid;
   const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
@@ -337,19 +337,19 @@ TEST_F(JournalFileTest, MemoryOfARoundThatHasNoFileIsFreedByTheNextServerOfItsFo
   EXPECT_TRUE(fs::exists(pathOf(lives))) << "its process lives";
 }
 
-TEST_F(JournalFileTest, AFolderThatIsNotThereIsAnError) {
+TEST_F(JournalFileTest, MissingFolderIsAnError) {
   JournalFileSink sink((folder / "none" / "rounds" / "hello.dfr").string());
   EXPECT_THROW(sink.write("x"), std::system_error);
 }
 
-TEST_F(JournalFileTest, NoFileIsWrittenOver) {
+TEST_F(JournalFileTest, ExistingFileIsNotOverwritten) {
   std::ofstream(folder / "hello.dfr") << "kept";
   JournalFileSink sink((folder / "hello.dfr").string());
   EXPECT_THROW(sink.write("x"), std::system_error);
   EXPECT_EQ(test::contentOf(folder / "hello.dfr"), "kept");
 }
 
-TEST_F(JournalFileTest, TheOldestRoundsMakeRoom) {
+TEST_F(JournalFileTest, OldestRoundsAreDeletedBeyondTheLimit) {
   for (std::size_t i = 0; i < JournalFileSink::kMaxFiles + 5; ++i) {
     const fs::path path = folder / ("old-" + std::to_string(i) + ".dfr");
     std::ofstream(path) << i;
@@ -364,7 +364,7 @@ TEST_F(JournalFileTest, TheOldestRoundsMakeRoom) {
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
 }
 
-TEST_F(JournalFileTest, RoundsThatAreTooLongTogetherMakeRoomUnlessOneIsPlayed) {
+TEST_F(JournalFileTest, SizeLimitDeletesOldRoundsExceptTheOnePlayed) {
   JournalFileSink played((folder / "a.dfr").string());
   played.write(std::string(400, 'x'));
   const auto now = fs::file_time_type::clock::now();
@@ -384,7 +384,7 @@ TEST_F(JournalFileTest, RoundsThatAreTooLongTogetherMakeRoomUnlessOneIsPlayed) {
   EXPECT_FALSE(fs::exists(folder / "d.dfr"));
 }
 
-TEST_F(JournalFileTest, ARoundHasALongestFile) {
+TEST_F(JournalFileTest, RoundFileSizeIsLimited) {
   const fs::path path = folder / "long.dfr";
   std::ofstream(path) << "x";
   fs::resize_file(path, kMaxRoundFile - 10);
@@ -399,7 +399,7 @@ TEST_F(JournalFileTest, ARoundHasALongestFile) {
   EXPECT_EQ(fs::file_size(path), kMaxRoundFile);
 }
 
-TEST(TurnRingTest, BytesComeOutAsTheyWentInAcrossItsEnd) {
+TEST(TurnRingTest, WrapAroundPreservesBytesAndFullRingRejects) {
   TurnRing ring(100, {}, false);
   std::string in;
   std::string out;
@@ -416,7 +416,7 @@ TEST(TurnRingTest, BytesComeOutAsTheyWentInAcrossItsEnd) {
   EXPECT_TRUE(ring.isFilling());
 }
 
-TEST(TurnRingTest, SharedMemoryIsForThisUserAloneAndGoesWithTheRing) {
+TEST(TurnRingTest, SharedMemoryIsPrivateAndRemovedWithTheRing) {
   std::string path;
   {
     const TurnRing ring(4096, {0xAB, 0xCD}, true);
@@ -429,7 +429,7 @@ TEST(TurnRingTest, SharedMemoryIsForThisUserAloneAndGoesWithTheRing) {
   EXPECT_FALSE(fs::exists(path));
 }
 
-TEST(TurnRingTest, OneThreadStoresWhileAnotherTakes) {
+TEST(TurnRingTest, ConcurrentStoreAndReadLoseNoBytes) {
   TurnRing ring(1000, {}, false);
   constexpr int kParts = 20'000;
   std::string out;

@@ -60,7 +60,7 @@ struct Checked {
   }
 };
 
-TEST(RepeatCheck, AGameThatIsTheSameIsComparedForItsBeginningAndNothingIsSaid) {
+TEST(RepeatCheck, DeterministicGameReportsNothingAndTheCheckEnds) {
   const Checked checked(UINT32_MAX);
   EXPECT_TRUE(checked.said.empty());
   ASSERT_EQ(checked.turns.size(), RepeatCheck::kTicks);
@@ -70,7 +70,7 @@ TEST(RepeatCheck, AGameThatIsTheSameIsComparedForItsBeginningAndNothingIsSaid) {
   EXPECT_EQ(checked.turns[4].inputs.size(), 1u);
 }
 
-TEST(RepeatCheck, ADifferenceIsSaidOnceWithItsTickAndWhatItIs) {
+TEST(RepeatCheck, DifferenceIsReportedOnceWithTickAndObject) {
   const Checked checked(300);
   EXPECT_EQ(checked.said, (std::vector<std::string>{"the game is not repeatable: when replayed, in tick 300 "
                                                     "Object 3 is at (2.50, 0.00), not at (1.00, 0.00)"}));

@@ -19,7 +19,7 @@ bool play(RoundHistory& round, std::uint32_t tick, milliseconds time = milliseco
   return due;
 }
 
-TEST(RoundHistory, TheFirstIsDueSoonAndOthersFollowInTime) {
+TEST(RoundHistory, CheckpointsAreDueAtTick30ThenEvery300) {
   RoundHistory round;
   std::vector<std::uint32_t> due;
   for (std::uint32_t tick = 1; tick <= 700; ++tick) {
@@ -28,7 +28,7 @@ TEST(RoundHistory, TheFirstIsDueSoonAndOthersFollowInTime) {
   EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 330, 630}));
 }
 
-TEST(RoundHistory, WhereTicksTakeLongTheyAreDueMoreOften) {
+TEST(RoundHistory, SlowTicksShortenTheCheckpointInterval) {
   RoundHistory round;
   std::vector<std::uint32_t> due;
   for (std::uint32_t tick = 1; tick <= 300; ++tick) {
@@ -37,7 +37,7 @@ TEST(RoundHistory, WhereTicksTakeLongTheyAreDueMoreOften) {
   EXPECT_EQ(due, (std::vector<std::uint32_t>{30, 150, 270}));
 }
 
-TEST(RoundHistory, OneThatGoesOnLeavesThoseBeforeIt) {
+TEST(RoundHistory, TakingACheckpointKeepsEarlierAndDropsLaterOnes) {
   RoundHistory round;
   for (std::uint32_t tick = 1; tick <= 700; ++tick) play(round, tick);
   const auto mark = round.takeCopy(330);
@@ -49,7 +49,7 @@ TEST(RoundHistory, OneThatGoesOnLeavesThoseBeforeIt) {
   EXPECT_FALSE(round.takeCopy(30));
 }
 
-TEST(RoundHistory, OfALongRoundTheRecordsSinceTheOldestCopyAreKept) {
+TEST(RoundHistory, LongRoundKeepsRecordsSinceOldestCheckpoint) {
   RoundHistory round("0123456789");
   for (std::uint32_t tick = 1; tick <= 700; ++tick) play(round, tick);
   EXPECT_TRUE(round.hasBeginning());
@@ -60,14 +60,14 @@ TEST(RoundHistory, OfALongRoundTheRecordsSinceTheOldestCopyAreKept) {
   EXPECT_EQ(round.takeCopy(30)->records, 0u);
 }
 
-TEST(RoundHistory, OfALongRoundWithoutACopyNothingIsKept) {
+TEST(RoundHistory, LongRoundWithoutCheckpointsKeepsNothing) {
   RoundHistory round;
   EXPECT_TRUE(round.add(std::string(RoundHistory::kMaxBytes, 'x')));
   EXPECT_FALSE(round.add("y"));
   EXPECT_TRUE(round.records().empty());
 }
 
-TEST(RoundHistory, OfATickWithoutAResultThereIsNone) {
+TEST(RoundHistory, UnfinishedOrFailedCheckpointIsNotKept) {
   RoundHistory round;
   round.beginCopy(30, {}, true);
   EXPECT_FALSE(round.takeCopy(30));

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 const HostPulse::Clock::time_point kStart{1h};
 
-TEST(HostPulse, IsWellButNotReadyBeforeItListens) {
+TEST(HostPulse, IsHealthyButNotReadyBeforeListening) {
   const StageClock stages;
   const HostPulse pulse(stages);
   EXPECT_TRUE(pulse.health(kStart).is_good);
@@ -20,7 +20,7 @@ TEST(HostPulse, IsWellButNotReadyBeforeItListens) {
   EXPECT_EQ(pulse.readiness(kStart).sentence, "starting");
 }
 
-TEST(HostPulse, ATickThatDoesNotBeginWithinASecondIsAHang) {
+TEST(HostPulse, NoTickForOverOneSecondIsAHang) {
   StageClock stages;
   stages.start();
   HostPulse pulse(stages);
@@ -37,7 +37,7 @@ TEST(HostPulse, ATickThatDoesNotBeginWithinASecondIsAHang) {
   EXPECT_TRUE(pulse.health(kStart + 2s).is_good);
 }
 
-TEST(HostPulse, BeforeTheFirstTickTimeCountsFromWhereTicksWereToBegin) {
+TEST(HostPulse, HangBeforeFirstTickIsTimedFromTheStart) {
   const StageClock stages;
   HostPulse pulse(stages);
   pulse.begin(33ms, kStart);
@@ -45,7 +45,7 @@ TEST(HostPulse, BeforeTheFirstTickTimeCountsFromWhereTicksWereToBegin) {
   EXPECT_FALSE(pulse.health(kStart + 1001ms).is_good);
 }
 
-TEST(HostPulse, LongTicksHaveTenOfThemBeforeItIsAHang) {
+TEST(HostPulse, LongTicksHangAfterTenTickLengths) {
   StageClock stages;
   stages.start();
   HostPulse pulse(stages);
@@ -66,7 +66,7 @@ TEST(HostPulse, IsNotReadyWhileFull) {
   EXPECT_TRUE(pulse.readiness(kStart).is_good);
 }
 
-TEST(HostPulse, IsNotReadyWhileItDrainsAndCanHangOnlyWhileItTicks) {
+TEST(HostPulse, DrainingIsNotReadyAndHangsOnlyWhileTicking) {
   const StageClock stages;
   HostPulse pulse(stages);
   pulse.begin(33ms, kStart);

@@ -25,7 +25,7 @@ struct Pair {
   int negative = 0;
 };
 
-TEST(LatestValue, AReaderOfAnotherThreadSeesWholeValuesInOrder) {
+TEST(LatestValue, ConcurrentReaderSeesWholeValuesInOrder) {
   constexpr int kLast = 20'000;
   LatestValue<Pair> value;
   std::thread writer([&value] {

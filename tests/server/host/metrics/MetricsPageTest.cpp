@@ -47,7 +47,7 @@ TEST(CounterFamilies, HaveEveryCounter) {
   expectAllWritten<NetworkCounters>([](MetricsSnapshot & all) -> auto& { return all.network; });
 }
 
-TEST(CounterFamilies, WhatCountsAPartIsTakenFromTheWhole) {
+TEST(CounterFamilies, PartialCountersAreSubtractedFromTheTotal) {
   MetricsSnapshot snapshot;
   snapshot.counters.snapshots = 10;
   snapshot.counters.datagram_snapshots = 7;
@@ -56,7 +56,7 @@ TEST(CounterFamilies, WhatCountsAPartIsTakenFromTheWhole) {
   EXPECT_EQ(test::metricOf(page, R"(naiad_snapshots_total{path="datagram"})"), 7);
 }
 
-TEST(CounterFamilies, AreInTheSummaryOfTheLogAsWell) {
+TEST(CounterFamilies, LogSummaryContainsEveryCounter) {
   constexpr std::size_t kCount = sizeof(Counters) / sizeof(std::uint64_t);
   for (std::size_t i = 0; i < kCount; ++i) {
     std::vector<std::uint64_t> values(kCount);
@@ -95,7 +95,7 @@ TEST(MetricsPage, HasTheValues) {
 }
 
 // A family is a block of its HELP line, its TYPE line and its samples, each of which occurs once.
-TEST(MetricsPage, EachFamilyIsOneBlockAndEachSampleStandsOnce) {
+TEST(MetricsPage, FamiliesAreContiguousAndSamplesUnique) {
   std::istringstream lines(fullPage());
   std::set<std::string> families;
   std::set<std::string> samples;
@@ -119,7 +119,7 @@ TEST(MetricsPage, EachFamilyIsOneBlockAndEachSampleStandsOnce) {
   EXPECT_EQ(fullPage().back(), '\n');
 }
 
-TEST(MetricsPage, SaysWhatTheProcessKnowsBeforeTheHostDoes) {
+TEST(MetricsPage, ShowsProcessMetricsBeforeTheFirstSnapshot) {
   const std::string page = renderMetrics(nullptr, ProcessFacts::read());
   EXPECT_NE(page.find("\nnaiad_build_info{version=\""), std::string::npos);
   EXPECT_EQ(page.find("naiad_ticks_total"), std::string::npos);
@@ -134,7 +134,7 @@ TEST(Exposition, LabelsAreEscaped) {
   EXPECT_EQ(metricLabel("a", "x\"y\\z\n"), R"(a="x\"y\\z\n")");
 }
 
-TEST(Exposition, NumbersAreReadBackAsTheyWere) {
+TEST(Exposition, NumbersAreWrittenExactly) {
   Exposition out;
   out.begin("n", MetricType::kGauge, "Help.");
   out.add("", 0.1);

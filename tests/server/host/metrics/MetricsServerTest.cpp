@@ -45,7 +45,7 @@ TEST_F(MetricsServerTest, ALargeAnswerArrivesWhole) {
   EXPECT_EQ(HttpClient::get(server.port(), "/big").body.size(), std::size_t{1} << 20);
 }
 
-TEST_F(MetricsServerTest, OtherMethodsAreRefusedWithWhatIsAllowed) {
+TEST_F(MetricsServerTest, OtherMethodsGet405WithAllowHeader) {
   for (const char* method : {"POST", "PUT", "HEAD", "DELETE", "OPTIONS", "TRACE"}) {
     const auto reply =
         ask(std::string(method) + " /metrics HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\nhello");
@@ -56,7 +56,7 @@ TEST_F(MetricsServerTest, OtherMethodsAreRefusedWithWhatIsAllowed) {
   EXPECT_EQ(ask("POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999\r\n\r\n").status, 405);
 }
 
-TEST_F(MetricsServerTest, ANameThatIsNotOursIsForbidden) {
+TEST_F(MetricsServerTest, UnknownHostNameIsForbidden) {
   const auto with = [this](const std::string& lines) {
     return ask("GET /metrics HTTP/1.1\r\n" + lines + "\r\n").status;
   };
@@ -68,7 +68,7 @@ TEST_F(MetricsServerTest, ANameThatIsNotOursIsForbidden) {
   EXPECT_EQ(with("Host: localhost\r\nHost: evil.example\r\n"), 403);
 }
 
-TEST_F(MetricsServerTest, WhatIsNoHttpIsABadRequest) {
+TEST_F(MetricsServerTest, InvalidHttpIsABadRequest) {
   for (const char* request : {"hello\r\n\r\n", "GET\r\n\r\n", "GET /metrics\r\n\r\n", "\r\n\r\n\r\n",
                               "GET / HTTP/9.9\r\n\r\n", "GET /metrics HTTP/1.1\r\nHost localhost\r\n\r\n",
                               "\x16\x03\x01\x02\x05\x01\xfc\x03\x03"
@@ -77,7 +77,7 @@ TEST_F(MetricsServerTest, WhatIsNoHttpIsABadRequest) {
   }
 }
 
-TEST_F(MetricsServerTest, AHeadOfMoreThanFourKibIsABadRequest) {
+TEST_F(MetricsServerTest, RequestHeadAboveFourKibIsABadRequest) {
   const std::string before = "GET /metrics HTTP/1.1\r\nHost: localhost\r\nX: ";
   const std::string after = "\r\n\r\n";
   const std::size_t room = MetricsServer::kMaxHead - before.size() - after.size();
@@ -97,7 +97,7 @@ TEST_F(MetricsServerTest, RandomBytesChangeNothing) {
   EXPECT_EQ(HttpClient::get(server.port(), "/metrics").body, "n 1\n");
 }
 
-TEST_F(MetricsServerTest, AHundredSilentConnectionsKeepNoScraperOut) {
+TEST_F(MetricsServerTest, HundredSilentConnectionsDoNotBlockScrapers) {
   std::list<HttpClient> silent;
   for (int i = 0; i < 100; ++i) silent.emplace_back(server.port()).send("GET /metrics HTTP/1.1\r\n");
   for (int i = 0; i < 10; ++i) EXPECT_EQ(HttpClient::get(server.port(), "/metrics").body, "n 1\n");
@@ -106,7 +106,7 @@ TEST_F(MetricsServerTest, AHundredSilentConnectionsKeepNoScraperOut) {
   EXPECT_TRUE(silent.front().isHungUp());
 }
 
-TEST_F(MetricsServerTest, AHundredThatDoNotGoWithTheirAnswerKeepNoScraperOut) {
+TEST_F(MetricsServerTest, HundredUnclosedConnectionsDoNotBlockScrapers) {
   std::list<HttpClient> clients;
   for (int i = 0; i < 100; ++i) {
     clients.emplace_back(server.port()).send("GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -114,7 +114,7 @@ TEST_F(MetricsServerTest, AHundredThatDoNotGoWithTheirAnswerKeepNoScraperOut) {
   }
 }
 
-TEST_F(MetricsServerTest, AHeadThatDoesNotEndIsHungUpOnInTime) {
+TEST_F(MetricsServerTest, UnfinishedRequestHeadTimesOut) {
   HttpClient client(server.port());
   client.send("GET /metrics HTTP/1.1\r\nHost: localh");
   const auto began = std::chrono::steady_clock::now();
@@ -123,7 +123,7 @@ TEST_F(MetricsServerTest, AHeadThatDoesNotEndIsHungUpOnInTime) {
   EXPECT_GE(std::chrono::steady_clock::now() - began, MetricsServer::kPatience - std::chrono::seconds(1));
 }
 
-TEST_F(MetricsServerTest, APortInUseIsAnErrorThatSaysSo) {
+TEST_F(MetricsServerTest, PortInUseErrorNamesThePort) {
   const std::string taken = "127.0.0.1:" + std::to_string(server.port());
   try {
     const MetricsServer other(*MetricsAddress::parse(taken), *MetricsHosts::parse(""),
@@ -135,7 +135,7 @@ TEST_F(MetricsServerTest, APortInUseIsAnErrorThatSaysSo) {
   }
 }
 
-TEST_F(MetricsServerTest, ItsTimeIsMeasured) {
+TEST_F(MetricsServerTest, CpuTimeIsMeasured) {
   const auto before = server.cpuTime();
   for (int i = 0; i < 20; ++i) HttpClient::get(server.port(), "/big");
   EXPECT_GT(server.cpuTime(), before);

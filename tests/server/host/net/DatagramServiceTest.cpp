@@ -115,7 +115,7 @@ class DatagramServiceTest : public testing::Test {
   Heard one, two;
 };
 
-TEST_F(DatagramServiceTest, SaysNothingBeforeItHasHeardTheClient) {
+TEST_F(DatagramServiceTest, SendsNothingBeforeHearingFromTheClient) {
   const auto channel = open(1, one);
   ASSERT_TRUE(channel);
   EXPECT_EQ(channel->room(), std::nullopt);
@@ -142,7 +142,7 @@ TEST_F(DatagramServiceTest, CarriesPayloadsBothWaysWithBothCiphers) {
   }
 }
 
-TEST_F(DatagramServiceTest, EachSessionHearsItsOwn) {
+TEST_F(DatagramServiceTest, EachSessionReceivesOnlyItsOwnPayloads) {
   const auto first = open(1, one);
   const auto second = open(2, two);
   EXPECT_NE(first->id(), second->id());
@@ -170,7 +170,7 @@ TEST_F(DatagramServiceTest, AStreamWithoutKeysHasNoDatagrams) {
   EXPECT_EQ(one, Heard{"still here"});
 }
 
-TEST_F(DatagramServiceTest, AnIdThatIsTakenIsDrawnAgainAndItsOwnerKeepsIt) {
+TEST_F(DatagramServiceTest, DuplicateIdIsRedrawnAndItsOwnerKeepsIt) {
   next_random = {5};
   const auto first = open(1, one);
   EXPECT_EQ(first->id(), 5u);
@@ -183,7 +183,7 @@ TEST_F(DatagramServiceTest, AnIdThatIsTakenIsDrawnAgainAndItsOwnerKeepsIt) {
   EXPECT_EQ(one, Heard{"mine"});
 }
 
-TEST_F(DatagramServiceTest, AChannelThatIsGoneIsDeafAndSilent) {
+TEST_F(DatagramServiceTest, DestroyedChannelNeitherReceivesNorSends) {
   auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
   ann.send("first");
@@ -197,7 +197,7 @@ TEST_F(DatagramServiceTest, AChannelThatIsGoneIsDeafAndSilent) {
   EXPECT_EQ(service.counters().unknown_id, 1u);
 }
 
-TEST_F(DatagramServiceTest, AnotherStreamBringsNewKeysWithoutAGap) {
+TEST_F(DatagramServiceTest, NewStreamRenewsKeysWithoutLoss) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
   ann.send("old");
@@ -217,7 +217,7 @@ TEST_F(DatagramServiceTest, AnotherStreamBringsNewKeysWithoutAGap) {
   EXPECT_EQ(ann.heard, Heard{"new"});
 }
 
-TEST_F(DatagramServiceTest, FollowsToAnotherAddressOnceThatHasAnswered) {
+TEST_F(DatagramServiceTest, FollowsAddressChangeWithLimitedBudgetUntilValidated) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
   ann.send("from home");
@@ -239,7 +239,7 @@ TEST_F(DatagramServiceTest, FollowsToAnotherAddressOnceThatHasAnswered) {
   EXPECT_EQ(ann.heard, Heard{"there you are"});
 }
 
-TEST_F(DatagramServiceTest, AnAddressThatDoesNotAnswerGetsLittle) {
+TEST_F(DatagramServiceTest, UnvalidatedAddressReceivesFewBytes) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
   ann.send("I pretend to be another client");
@@ -257,7 +257,7 @@ TEST_F(DatagramServiceTest, AnAddressThatDoesNotAnswerGetsLittle) {
   EXPECT_GT(channel->counters().over_budget, 0u);
 }
 
-TEST_F(DatagramServiceTest, WhatIsNotAuthenticIsNeverAnswered) {
+TEST_F(DatagramServiceTest, ForgedDatagramsAreNeverAnswered) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");
   Client liar(*this, *channel, 2, "10.0.0.3");  // knows the id, not the keys

@@ -75,7 +75,7 @@ class InheritedSocketsTest : public WithIdentity {
   std::map<std::string, std::string> variables{{"LISTEN_PID", "1234"}, {"LISTEN_FDS", "2"}};
 };
 
-TEST_F(InheritedSocketsTest, AreTakenInAnyOrderAndStayInThisProcess) {
+TEST_F(InheritedSocketsTest, AreFoundByKindAndMadeCloseOnExec) {
   const std::uint16_t port = openBoth();
   const auto sockets = take();
   ASSERT_TRUE(sockets);
@@ -86,7 +86,7 @@ TEST_F(InheritedSocketsTest, AreTakenInAnyOrderAndStayInThisProcess) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(::fcntl(kFirst + i, F_GETFD), FD_CLOEXEC);
 }
 
-TEST_F(InheritedSocketsTest, OfAnotherProcessOrOfNoneAreLeftAlone) {
+TEST_F(InheritedSocketsTest, AreIgnoredForOtherProcessesOrWithoutCount) {
   openBoth();
   variables["LISTEN_PID"] = "12345";
   EXPECT_FALSE(take());
@@ -101,7 +101,7 @@ TEST_F(InheritedSocketsTest, OfAnotherProcessOrOfNoneAreLeftAlone) {
   EXPECT_EQ(::fcntl(kFirst, F_GETFD), 0) << "untouched";
 }
 
-TEST_F(InheritedSocketsTest, OfTheWrongNumberOrKindAreRefused) {
+TEST_F(InheritedSocketsTest, WrongNumberOrKindIsRefused) {
   variables["LISTEN_FDS"] = "1";
   EXPECT_EQ(complaint(), saying("expected one for TCP and one for UDP, but their number is 1"));
   variables["LISTEN_FDS"] = "-1";
@@ -122,7 +122,7 @@ TEST_F(InheritedSocketsTest, OfTheWrongNumberOrKindAreRefused) {
   for (const int end : pair) ::close(end);
 }
 
-TEST_F(InheritedSocketsTest, OfTwoPortsOrOfNoAddressAreRefused) {
+TEST_F(InheritedSocketsTest, DifferentOrMissingAddressesAreRefused) {
   openBoth();
   udp::socket other(context, udp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
   put(other.native_handle(), 0);

@@ -50,7 +50,7 @@ class LanQueryJudgeTest : public testing::Test {
   LanQueryJudge judge{lanFacts()};
 };
 
-TEST_F(LanQueryJudgeTest, AnHonestQueryIsAnsweredFromTheAddressInItsNetwork) {
+TEST_F(LanQueryJudgeTest, HonestQueryIsAnsweredFromItsNetworksAddress) {
   const Query query;
   const auto reply = judge.judgePacket(query.packet, 3, kBegin);
   ASSERT_TRUE(reply);
@@ -63,7 +63,7 @@ TEST_F(LanQueryJudgeTest, AnHonestQueryIsAnsweredFromTheAddressInItsNetwork) {
   EXPECT_EQ(judge.counters().answered, 1u);
 }
 
-TEST_F(LanQueryJudgeTest, WhatCameThroughARouterIsNotAnswered) {
+TEST_F(LanQueryJudgeTest, RoutedQueriesAreNotAnswered) {
   for (const int hops : {0, 1, 64, 254, 256}) {
     Query query;
     query.packet.hop_limit = hops;
@@ -99,7 +99,7 @@ TEST_F(LanQueryJudgeTest, QueriesThatAreTooShortAreNotAnswered) {
   EXPECT_EQ(judge.counters().malformed, 5u);
 }
 
-TEST_F(LanQueryJudgeTest, OneSenderIsAnsweredTwiceASecondAndLeavesTheRestToOthers) {
+TEST_F(LanQueryJudgeTest, SenderGetsTwoAnswersASecondWithoutStarvingOthers) {
   int answered = 0;
   for (int i = 0; i < 10'000; ++i) answered += answers(Query().packet, kBegin + i * 1ms) ? 1 : 0;
   EXPECT_GE(answered, 4 + 2 * 9);
@@ -108,7 +108,7 @@ TEST_F(LanQueryJudgeTest, OneSenderIsAnsweredTwiceASecondAndLeavesTheRestToOther
   EXPECT_EQ(judge.counters().too_often, 10'000u - static_cast<unsigned>(answered));
 }
 
-TEST_F(LanQueryJudgeTest, AFloodFromForgedNeighboursIsAnsweredTenTimesASecond) {
+TEST_F(LanQueryJudgeTest, SpoofedNeighbourFloodIsAnsweredTenTimesASecond) {
   int answered = 0;
   for (int i = 0; i < 10'000; ++i) {
     const std::string from = "10.0." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
@@ -118,7 +118,7 @@ TEST_F(LanQueryJudgeTest, AFloodFromForgedNeighboursIsAnsweredTenTimesASecond) {
   EXPECT_LE(answered, 10 + 10 * 10);
 }
 
-TEST_F(LanQueryJudgeTest, WhatCannotBeSentIsCountedOnce) {
+TEST_F(LanQueryJudgeTest, UnsentAnswerIsNotCountedAsAnswered) {
   ASSERT_TRUE(answers(Query().packet));
   judge.noteUnsent();
   EXPECT_EQ(judge.counters().answered, 0u);
@@ -141,27 +141,27 @@ std::vector<std::string> answered(const std::string& address, LanMode mode, bool
 
 using Addresses = std::vector<std::string>;
 
-TEST(AnsweredNetworks, ByThemselvesOnlyPrivateOnes) {
+TEST(AnsweredNetworks, AutoModeAnswersOnlyLoopbackAndPrivateNetworks) {
   EXPECT_EQ(answered("::", LanMode::kAuto), (Addresses{"127.0.0.1", "::1", "192.168.1.5", "fd00::5"}));
   EXPECT_EQ(answered("0.0.0.0", LanMode::kAuto), (Addresses{"127.0.0.1", "192.168.1.5"}));
   EXPECT_EQ(answered("192.168.1.5", LanMode::kAuto), Addresses{"192.168.1.5"});
   EXPECT_EQ(answered("198.51.100.5", LanMode::kAuto), Addresses{});
 }
 
-TEST(AnsweredNetworks, NoneOfAMachineWithPublicAddressesOrOfAServerOnLoopbackAlone) {
+TEST(AnsweredNetworks, AutoModeIsOffWithoutAReachablePrivateNetwork) {
   EXPECT_EQ(answered("::", LanMode::kAuto, false), Addresses{});
   EXPECT_EQ(answered("127.0.0.1", LanMode::kAuto), Addresses{});
   EXPECT_EQ(answered("::1", LanMode::kAuto), Addresses{});
 }
 
-TEST(AnsweredNetworks, OnMeansWhereverItListens) {
+TEST(AnsweredNetworks, OnModeAnswersWhereverTheServerListens) {
   EXPECT_EQ(answered("::", LanMode::kOn),
             (Addresses{"127.0.0.1", "::1", "198.51.100.5", "fe80::3", "192.168.1.5", "fd00::5"}));
   EXPECT_EQ(answered("127.0.0.1", LanMode::kOn), Addresses{"127.0.0.1"});
   EXPECT_EQ(answered("198.51.100.5", LanMode::kOn), Addresses{"198.51.100.5"});
 }
 
-TEST(AnsweredNetworks, OffMeansNone) {
+TEST(AnsweredNetworks, OffModeAnswersNoNetworks) {
   EXPECT_EQ(answered("::", LanMode::kOff), Addresses{});
 }
 

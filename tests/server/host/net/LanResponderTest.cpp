@@ -98,7 +98,7 @@ class LanResponderTest : public testing::TestWithParam<LanSocket::Family> {
   LanPacket m_last_packet;
 };
 
-TEST_P(LanResponderTest, AnswersWithTheFullHopLimitAndTheNumberOfPlayers) {
+TEST_P(LanResponderTest, AnswersWithFullHopLimitAndPlayerCount) {
   const auto responder = respond(1);
   ASSERT_TRUE(hearAll({1}));
   EXPECT_EQ(m_last_packet.hop_limit, 255);
@@ -115,7 +115,7 @@ TEST_P(LanResponderTest, SeveralServersOfAMachineAreAllFound) {
   EXPECT_TRUE(hearAll({11, 12}));
 }
 
-TEST_P(LanResponderTest, AFloodOfNonsenseIsReadAndAHonestQueryAnsweredAfterwards) {
+TEST_P(LanResponderTest, QueryAfterAFloodOfGarbageIsAnswered) {
   const auto responder = respond(21);
   ASSERT_TRUE(hearAll({21}));
   for (int i = 0; i < 2000; ++i) ask(i % 2 == 0 ? "nlan" : std::string(512, 'x'));
@@ -125,7 +125,7 @@ TEST_P(LanResponderTest, AFloodOfNonsenseIsReadAndAHonestQueryAnsweredAfterwards
   EXPECT_GE(responder->counters().answered, 2u);
 }
 
-TEST_P(LanResponderTest, AFloodOfQueriesIsAnsweredAtItsRate) {
+TEST_P(LanResponderTest, QueryFloodIsAnsweredAtTheLimitedRate) {
   const auto begin = std::chrono::steady_clock::now();
   const auto responder = respond(31);
   ASSERT_TRUE(hearAll({31}));

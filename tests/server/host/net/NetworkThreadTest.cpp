@@ -114,7 +114,7 @@ TEST_F(NetworkThreadTest, FramesCrossBothWaysInOrder) {
   EXPECT_EQ(closed, std::vector<CloseReason>{CloseReason::kLocal});
 }
 
-TEST_F(NetworkThreadTest, AChannelThatIsDestroyedHangsUp) {
+TEST_F(NetworkThreadTest, DestroyedChannelClosesItsConnection) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
@@ -139,7 +139,7 @@ TEST_F(NetworkThreadTest, UnsentBytesStayWhileAPeerDoesNotRead) {
   EXPECT_TRUE(runUntil([&] { return near[0]->unsentBytes() == 0; })) << "now that the peer reads";
 }
 
-TEST_F(NetworkThreadTest, AStreamThatSendsMoreThanIsServedEndsAloneAndIsCounted) {
+TEST_F(NetworkThreadTest, InputOverflowClosesOnlyItsStreamAndIsCounted) {
   NetworkThread::Limits limits;
   limits.stream_in = 10'000;
   listen(limits);
@@ -156,7 +156,7 @@ TEST_F(NetworkThreadTest, AStreamThatSendsMoreThanIsServedEndsAloneAndIsCounted)
   EXPECT_EQ(network->counters().streams_overflowed, 1u);
 }
 
-TEST_F(NetworkThreadTest, AStreamThatIsSentMoreThanItTakesEndsAndIsCounted) {
+TEST_F(NetworkThreadTest, OutputOverflowClosesTheStreamAndIsCounted) {
   listen();
   const auto far = connect();
   ASSERT_TRUE(runUntil([&] { return near.size() == 1; }));
@@ -213,7 +213,7 @@ struct FarDatagrams {
   std::vector<std::string> heard;
 };
 
-TEST_F(NetworkThreadTest, DatagramsHaveTheirStreamsKeysAndThoseOfTheNext) {
+TEST_F(NetworkThreadTest, DatagramsTakeKeysFromTheirStreamAndItsSuccessor) {
   listen({}, true);
   ASSERT_TRUE(network->hasDatagrams());
   const auto far = connect();
@@ -270,7 +270,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsGoneGivesNoKeys) {
   EXPECT_EQ(network->counters().keyless, 1u);
 }
 
-TEST_F(NetworkThreadTest, DatagramsThatFindTheMailboxFullAreDroppedAndCounted) {
+TEST_F(NetworkThreadTest, FullMailboxDropsAndCountsDatagrams) {
   NetworkThread::Limits limits;
   limits.mailbox = 20'000;
   listen(limits, true);

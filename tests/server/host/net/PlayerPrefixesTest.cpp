@@ -27,7 +27,7 @@ TEST(PlayerPrefixes, CountSessionsFromTheirBeginningToTheirEnd) {
   EXPECT_EQ(prefixes.count(of("192.0.2.1")), 0u);
 }
 
-TEST(PlayerPrefixes, ASessionThatMovesCountsWhereItJoinedAndWhereItIs) {
+TEST(PlayerPrefixes, MovedSessionCountsAtFirstAndCurrentPrefix) {
   PlayerPrefixes prefixes;
   const auto counts = [&] {
     return std::array{prefixes.count(of("192.0.2.1")), prefixes.count(of("192.0.2.2")),

@@ -29,7 +29,7 @@ class ServerPortTest : public WithIdentity {
   asio::io_context context;
 };
 
-TEST_F(ServerPortTest, StreamsAndDatagramsShareANumber) {
+TEST_F(ServerPortTest, StreamsAndDatagramsShareOnePort) {
   std::set<std::uint16_t> ports;
   std::vector<ServerPort> opened;
   for (int i = 0; i < 10; ++i) {
@@ -41,7 +41,7 @@ TEST_F(ServerPortTest, StreamsAndDatagramsShareANumber) {
   EXPECT_EQ(ports.size(), 10u);
 }
 
-TEST_F(ServerPortTest, TheNumberThatWasAskedForIsTaken) {
+TEST_F(ServerPortTest, RequestedPortIsUsedOrReportedInUse) {
   std::uint16_t port = 0;
   {
     const ServerPort first = open("127.0.0.1");
@@ -53,7 +53,7 @@ TEST_F(ServerPortTest, TheNumberThatWasAskedForIsTaken) {
   EXPECT_EQ(again.datagrams->port(), port);
 }
 
-TEST_F(ServerPortTest, ANumberThatIsFreeForStreamsOnlyWillNotDo) {
+TEST_F(ServerPortTest, PortFreeForStreamsOnlyIsRefused) {
   using asio::ip::udp;
   const udp::socket taken(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
   EXPECT_EQ(failure("127.0.0.1", taken.local_endpoint().port()), std::errc::address_in_use);
@@ -66,7 +66,7 @@ TEST_F(ServerPortTest, WithoutEncryptionThereAreNoDatagrams) {
   EXPECT_THROW(openServerPort(context, "0.0.0.0", 0, [](auto) {}, {}, {}), ListenError);
 }
 
-TEST_F(ServerPortTest, AllAddressesMeansBothFamilies) {
+TEST_F(ServerPortTest, WildcardAddressListensOnBothFamilies) {
   const ServerPort all = open("::");
   EXPECT_EQ(all.datagrams->port(), all.streams->port());
   using asio::ip::udp;
@@ -80,7 +80,7 @@ TEST_F(ServerPortTest, AllAddressesMeansBothFamilies) {
   EXPECT_EQ(all.datagrams->counters().too_short, 1u);
 }
 
-TEST_F(ServerPortTest, WhatIsNoAddressIsRefused) {
+TEST_F(ServerPortTest, InvalidOrForeignAddressIsRefused) {
   EXPECT_EQ(failure("localhost", 0), std::errc::invalid_argument);
   EXPECT_TRUE(failure("192.0.2.77", 0)) << "not one of this machine";
 }

@@ -21,7 +21,7 @@ TEST(TickTimesTest, QuantilesAreRoundedUpByASixteenthAtMost) {
   EXPECT_EQ(times.count(), 0u);
 }
 
-TEST(TickTimesTest, ExtremesHaveAPlace) {
+TEST(TickTimesTest, ExtremeDurationsHaveABucket) {
   TickTimes times;
   times.add(-5ns);
   times.add(0ns);

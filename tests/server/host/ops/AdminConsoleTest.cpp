@@ -137,7 +137,7 @@ TEST_F(AdminConsoleTest, ScoresAreAskedForByTableAndCount) {
   EXPECT_FALSE(give({"scores", "--room", "one", "--game", "maze"}).ok);
 }
 
-TEST_F(AdminConsoleTest, ScoresOfRoomsAreThoseOfTheirGames) {
+TEST_F(AdminConsoleTest, RoomScoresComeFromTheRoomsGame) {
   addRoom("lobby", "maze");
   addRoom("arcade", "tron");
   open();
@@ -188,7 +188,7 @@ TEST_F(AdminConsoleTest, WithoutRoomsNoneIsListed) {
   EXPECT_EQ(give({"rooms"}).text, "This server has no rooms.");
 }
 
-TEST_F(AdminConsoleTest, RoomsAreListedAndTheRoomOfEachPlayerWithThem) {
+TEST_F(AdminConsoleTest, ListsShowRoomsAndEachPlayersRoom) {
   addRoom("arcade", "tron");
   add("Ann");
   const std::vector<AdminRow> rooms = give({"rooms"}).rows;
@@ -199,7 +199,7 @@ TEST_F(AdminConsoleTest, RoomsAreListedAndTheRoomOfEachPlayerWithThem) {
   EXPECT_EQ(std::get<std::string>(row.back().second), "arcade");
 }
 
-TEST_F(AdminConsoleTest, PlayersMayDoLittle) {
+TEST_F(AdminConsoleTest, PlayersCannotUseAdminCommands) {
   add("Ann");
   for (const AdminCommand& command : adminCommands()) {
     if (command.level != Level::kAdmin) continue;
@@ -228,14 +228,14 @@ TEST_F(AdminConsoleTest, PlayersSeeNoAddresses) {
   EXPECT_TRUE(shown);
 }
 
-TEST_F(AdminConsoleTest, AKickIsToldInWords) {
+TEST_F(AdminConsoleTest, KickTellsThePlayerTheReason) {
   const test::Client& ann = add("Ann");
   EXPECT_TRUE(give({"kick", "Ann", "too", "loud"}).ok);
   EXPECT_EQ(goodbye(ann), "You were removed from the game: too loud");
   EXPECT_FALSE(give({"kick", "Ann"}).ok);
 }
 
-TEST_F(AdminConsoleTest, AnAmbiguousNameKicksNobody) {
+TEST_F(AdminConsoleTest, AmbiguousNameKicksNoPlayer) {
   add("Anna");
   add("Annika");
   const AdminAnswer answer = give({"kick", "Ann"});
@@ -244,7 +244,7 @@ TEST_F(AdminConsoleTest, AnAmbiguousNameKicksNobody) {
   EXPECT_TRUE(has("Anna") && has("Annika"));
 }
 
-TEST_F(AdminConsoleTest, ABanOfAPlayerIsOfTheirNameAndAddress) {
+TEST_F(AdminConsoleTest, PlayerBanCoversNameAndAddress) {
   const test::Client& ann = add("Ann", "192.0.2.7:1");
   add("Bob", "192.0.2.8:1");
   EXPECT_TRUE(give({"ban", "Ann", "2h", "spam"}).ok);
@@ -257,7 +257,7 @@ TEST_F(AdminConsoleTest, ABanOfAPlayerIsOfTheirNameAndAddress) {
   EXPECT_FALSE(bans.isBanned(asio::ip::make_address("192.0.2.7")));
 }
 
-TEST_F(AdminConsoleTest, OneOfAClassIsBannedByNameAlone) {
+TEST_F(AdminConsoleTest, PlayerAtSharedAddressIsBannedByNameOnly) {
   add("Ann", "192.0.2.7:1");
   add("Bob", "192.0.2.7:2");
   const AdminAnswer answer = give({"ban", "Ann"});
@@ -268,7 +268,7 @@ TEST_F(AdminConsoleTest, OneOfAClassIsBannedByNameAlone) {
   EXPECT_FALSE(bans.isBanned(asio::ip::make_address("192.0.2.7")));
 }
 
-TEST_F(AdminConsoleTest, ARangeThrowsOutThoseWhoPlayThere) {
+TEST_F(AdminConsoleTest, RangeBanKicksPlayersInTheRange) {
   add("Ann", "192.0.2.7:1");
   add("Bob", "192.0.2.8:1");
   add("Eve", "198.51.100.1:1");
@@ -278,7 +278,7 @@ TEST_F(AdminConsoleTest, ARangeThrowsOutThoseWhoPlayThere) {
   EXPECT_TRUE(has("Eve"));
 }
 
-TEST_F(AdminConsoleTest, LoopbackAndHalfTheWorldAreNotBanned) {
+TEST_F(AdminConsoleTest, LoopbackAndHugeRangesCannotBeBanned) {
   add("Ann", "127.0.0.1:1");
   for (const char* who : {"127.0.0.1", "127.0.0.0/8", "::1", "0.0.0.0/0", "::/0", "192.0.0.0/7"})
     EXPECT_FALSE(give({"ban", who}).ok) << who;
@@ -287,7 +287,7 @@ TEST_F(AdminConsoleTest, LoopbackAndHalfTheWorldAreNotBanned) {
   EXPECT_EQ(bans.now()->all().size(), 1u);
 }
 
-TEST_F(AdminConsoleTest, AMistypedNameBansNobody) {
+TEST_F(AdminConsoleTest, UnknownNameIsBannedOnlyWithNamePrefix) {
   EXPECT_FALSE(give({"ban", "Anm"}).ok);
   EXPECT_TRUE(give({"ban", "name:Anm"}).ok);
   EXPECT_EQ(give({"bans"}).rows.size(), 1u);
@@ -296,7 +296,7 @@ TEST_F(AdminConsoleTest, AMistypedNameBansNobody) {
   EXPECT_TRUE(give({"bans"}).rows.empty());
 }
 
-TEST_F(AdminConsoleTest, APasswordIsHashedAndNowhereElse) {
+TEST_F(AdminConsoleTest, PasswordIsSetAndNeverLogged) {
   EXPECT_TRUE(give({"password", "correct horse"}).ok);
   EXPECT_TRUE(clients.admission().needsPassword());
   EXPECT_TRUE(give({"password", ""}).ok);
@@ -305,7 +305,7 @@ TEST_F(AdminConsoleTest, APasswordIsHashedAndNowhereElse) {
   for (const std::string& line : log) EXPECT_EQ(line.find("horse"), std::string::npos) << line;
 }
 
-TEST_F(AdminConsoleTest, TheLogSaysWhoGaveACommand) {
+TEST_F(AdminConsoleTest, LogShowsTheCallerOfEachChange) {
   add("Ann");
   give({"kick", "Ann"});
   give({"who"});
@@ -314,7 +314,7 @@ TEST_F(AdminConsoleTest, TheLogSaysWhoGaveACommand) {
   EXPECT_EQ(adminLog().front(), "admin: user 0, process 1: kick \"Ann\"");
 }
 
-TEST_F(AdminConsoleTest, AMutedPlayerTellsNobodyAnything) {
+TEST_F(AdminConsoleTest, MutedPlayerCannotSendPrivateMessages) {
   add("Ann");
   const test::Client& bob = add("Bob", "192.0.2.2:1");
   const std::uint64_t ann = find("Ann")->id();
@@ -327,7 +327,7 @@ TEST_F(AdminConsoleTest, AMutedPlayerTellsNobodyAnything) {
   EXPECT_EQ(told, 1);
 }
 
-TEST_F(AdminConsoleTest, ARestartHasItsTime) {
+TEST_F(AdminConsoleTest, RestartIsScheduledReplacedAndCancelled) {
   open();
   const auto soon = Ending::Time::clock::now() + 61s;
   EXPECT_TRUE(give({"restart", "--in", "60s"}).ok);
@@ -347,7 +347,7 @@ TEST_F(AdminConsoleTest, ARestartHasItsTime) {
   EXPECT_FALSE(give({"cancel"}).ok);
 }
 
-TEST_F(AdminConsoleTest, OptionsThatMayChangeAreSet) {
+TEST_F(AdminConsoleTest, OnlyChangeableOptionsCanBeSet) {
   open();
   EXPECT_TRUE(give({"set", "max-players", "5"}).ok);
   EXPECT_EQ(context.options.max_players, 5);

@@ -28,17 +28,17 @@ TEST(StatusFile, TheTextIsJsonWithTheLink) {
                 "\"link\": \"naiad://game.example#abcdefghijklmnopqrstuvwxya\"}\n");
 }
 
-TEST(StatusFile, WithoutALinkThereIsNone) {
+TEST(StatusFile, TextOmitsAnEmptyLink) {
   EXPECT_EQ(statusText(statusFacts(), "").find("link"), std::string::npos);
 }
 
-TEST(StatusFile, AHostileNameStaysInItsQuotes) {
+TEST(StatusFile, HostileNameIsEscapedInJson) {
   ServerFacts facts = statusFacts();
   facts.name = "a\n\033[2J\"}";
   EXPECT_NE(statusText(facts, kLink).find("\"a ?[2J\\\"}\""), std::string::npos) << statusText(facts, kLink);
 }
 
-TEST(StatusFile, IsThereWhileItLivesAndGoneAfterwards) {
+TEST(StatusFile, IsWrittenAndRemovedOnDestruction) {
   const test::TempFolder home;
   {
     const StatusFile file(home / "status.json", statusFacts(), kLink);

@@ -20,7 +20,7 @@ class EndingTest : public testing::Test {
   Ending::Time now = begin;
 };
 
-TEST_F(EndingTest, WithoutAPlanItGoesOn) {
+TEST_F(EndingTest, IsNotDueWithoutAPlan) {
   EXPECT_FALSE(ending.isDue(now, true));
   EXPECT_TRUE(ending.isOpen());
   EXPECT_EQ(news(), "");
@@ -28,7 +28,7 @@ TEST_F(EndingTest, WithoutAPlanItGoesOn) {
   EXPECT_FALSE(ending.cancel());
 }
 
-TEST_F(EndingTest, ADrainEndsWhenAllHaveLeftOrItsTimeIsOver) {
+TEST_F(EndingTest, DrainEndsWhenEmptyOrAtItsDeadline) {
   ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
   EXPECT_FALSE(ending.isOpen()) << "who comes now would keep it from ending";
   EXPECT_FALSE(ending.isDue(now, false));
@@ -38,7 +38,7 @@ TEST_F(EndingTest, ADrainEndsWhenAllHaveLeftOrItsTimeIsOver) {
   EXPECT_EQ(ending.sentence(), "The server is shutting down.");
 }
 
-TEST_F(EndingTest, PlayersHearOfItOnceAndOnceMoreShortlyBefore) {
+TEST_F(EndingTest, ShutdownIsAnnouncedAtOnceAndTenSecondsBefore) {
   ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
   EXPECT_EQ(news(), "The server shuts down when all players have left, or in 60 seconds at the latest.");
   for (; now < begin + 50s; now += 33ms) EXPECT_EQ(news(), "");
@@ -46,20 +46,20 @@ TEST_F(EndingTest, PlayersHearOfItOnceAndOnceMoreShortlyBefore) {
   for (; now < begin + 61s; now += 33ms) EXPECT_EQ(news(), "");
 }
 
-TEST_F(EndingTest, AShortTimeIsSaidOnce) {
+TEST_F(EndingTest, ShortNoticeIsAnnouncedOnce) {
   ending.setPlan({.begins_again = true, .at = begin + 1s}, now);
   EXPECT_EQ(news(), "The server restarts in 1 second. Your client reconnects automatically.");
   for (; now < begin + 2s; now += 33ms) EXPECT_EQ(news(), "");
 }
 
-TEST_F(EndingTest, AtOnceNothingIsSaidButTheLastSentence) {
+TEST_F(EndingTest, ImmediateShutdownSendsOnlyTheFinalMessage) {
   ending.setPlan({.at = now, .sentence = "Bye."}, now);
   EXPECT_EQ(news(), "");
   EXPECT_TRUE(ending.isDue(now, false));
   EXPECT_EQ(ending.sentence(), "Bye.");
 }
 
-TEST_F(EndingTest, ARestartAtTheRoundsEndWaitsForItAndLetsPlayersIn) {
+TEST_F(EndingTest, RestartAtRoundEndWaitsAndAdmitsPlayers) {
   ending.setPlan({.begins_again = true, .at_round_end = true}, now);
   EXPECT_TRUE(ending.isOpen() && ending.beginsAgain());
   EXPECT_EQ(news(), "The server restarts when this round is over. Your client reconnects automatically.");
@@ -68,7 +68,7 @@ TEST_F(EndingTest, ARestartAtTheRoundsEndWaitsForItAndLetsPlayersIn) {
   EXPECT_EQ(ending.sentence(), "The server is restarting. Your client reconnects automatically.");
 }
 
-TEST_F(EndingTest, APlanCanBeCancelledOrReplaced) {
+TEST_F(EndingTest, PlanCanBeCancelledAndSetAgain) {
   ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
   news();
   EXPECT_TRUE(ending.cancel());

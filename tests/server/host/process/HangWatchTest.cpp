@@ -26,7 +26,7 @@ TEST_F(HangWatchTest, ReportsATickThatHangsOnce) {
   EXPECT_EQ(watch.check(std::nullopt, {}, 0, now), Step::kNothing);
 }
 
-TEST_F(HangWatchTest, ASignalDuringATickThatHangsEndsTheServer) {
+TEST_F(HangWatchTest, SignalDuringAHungTickEndsTheServer) {
   EXPECT_EQ(check(2s), Step::kReport);
   EXPECT_EQ(check(6s, 1), Step::kNothing) << "the tick may finish just now";
   now += 900ms;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<double, 3> kBounds{0.001, 0.01, 0.1};
 
-TEST(Histogram, AValueIsInTheBucketOfTheLeastBoundThatHoldsIt) {
+TEST(Histogram, ValueFallsIntoTheSmallestFittingBucket) {
   Histogram histogram(kBounds);
   for (const double value : {-1.0, 0.0, 0.001, 0.0011, 0.01, 0.05, 0.1, 0.11, 1e9}) histogram.add(value);
   EXPECT_EQ(histogram.count(0), 3u);  // a value equal to a bound is below it
@@ -25,7 +25,7 @@ TEST(Histogram, AddsUp) {
   EXPECT_DOUBLE_EQ(histogram.sum(), 0.75);
 }
 
-TEST(Histogram, MoreBoundsThanItHoldsAreLeftOut) {
+TEST(Histogram, BoundsBeyondTheMaximumAreDropped) {
   std::array<double, Histogram::kMaxBounds + 4> many{};
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i);
   Histogram histogram(many);

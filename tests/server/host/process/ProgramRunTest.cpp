@@ -39,7 +39,7 @@ TEST(ProgramRun, SaysThatItCannotBeStarted) {
   EXPECT_EQ(ProgramRun().run("/nowhere/dfreplay", {}, kLong).code, ProgramEnd::kNotStarted);
 }
 
-TEST(ProgramRun, OneThatHangsIsKilledWithWhatItHasStarted) {
+TEST(ProgramRun, HangingProgramIsKilledWithItsChildren) {
   const auto began = Clock::now();
   const ProgramEnd end = runShell("sleep 300 & echo $!; trap '' TERM; wait", kShort);
   EXPECT_TRUE(end.is_late);
@@ -58,7 +58,7 @@ TEST(ProgramRun, OneThatHangsIsKilledWithWhatItHasStarted) {
   EXPECT_NE(kill(other, 0), 0);
 }
 
-TEST(ProgramRun, WhatItLeavesBehindIsNotWaitedFor) {
+TEST(ProgramRun, RunDoesNotWaitForLeftoverChildren) {
   const auto began = Clock::now();
   const ProgramEnd end = runShell("sleep 300 & echo $!");
   EXPECT_EQ(end.code, 0);
@@ -66,13 +66,13 @@ TEST(ProgramRun, WhatItLeavesBehindIsNotWaitedFor) {
   kill(std::stoi(end.printed), SIGKILL);
 }
 
-TEST(ProgramRun, OneThatPrintsWithoutEndIsKilledAtItsTime) {
+TEST(ProgramRun, EndlesslyPrintingProgramIsKilledAtTheTimeout) {
   const ProgramEnd end = runShell("yes", kShort);
   EXPECT_TRUE(end.is_late);
   EXPECT_EQ(end.printed.size(), ProgramRun::kMaxPrinted);
 }
 
-TEST(ProgramRun, ItGetsNoFileOfThisProcess) {
+TEST(ProgramRun, ProgramInheritsNoOpenFiles) {
   const int file = open("/dev/zero", O_RDONLY);  // without O_CLOEXEC
   ASSERT_GE(file, 0);
   const ProgramEnd end =
@@ -81,7 +81,7 @@ TEST(ProgramRun, ItGetsNoFileOfThisProcess) {
   EXPECT_EQ(end.printed, "gone\n");
 }
 
-TEST(ProgramRun, ItCanBeCalledOff) {
+TEST(ProgramRun, CancelEndsTheRunAndPreventsLaterOnes) {
   ProgramRun run;
   ProgramEnd end;
   std::thread thread([&] { end = run.run("/bin/sh", {"-c", "echo x; exec sleep 300"}, kLong * 5); });

@@ -20,7 +20,7 @@ TEST(TickClock, ThirtyTicksTakeExactlyASecond) {
   EXPECT_EQ(clock.deadline(), at(1h + 1s));
 }
 
-TEST(TickClock, ALittleLateDoesNotMoveTheSchedule) {
+TEST(TickClock, SlightDelayKeepsTheSchedule) {
   TickClock clock(at(0ns));
   EXPECT_FALSE(clock.beginTick(at(33ms)));
   EXPECT_EQ(clock.deadline(), at(33'333'333ns));
@@ -28,7 +28,7 @@ TEST(TickClock, ALittleLateDoesNotMoveTheSchedule) {
   EXPECT_EQ(clock.deadline(), at(66'666'666ns));
 }
 
-TEST(TickClock, AWholeTickLateRebasesTheSchedule) {
+TEST(TickClock, LongDelayRebasesTheSchedule) {
   TickClock clock(at(0ns));
   clock.beginTick(at(0ns));
   EXPECT_TRUE(clock.beginTick(at(2s)));
@@ -36,7 +36,7 @@ TEST(TickClock, AWholeTickLateRebasesTheSchedule) {
   EXPECT_FALSE(clock.beginTick(clock.deadline()));
 }
 
-TEST(TickClock, OtherLengthsAreWholeMicroseconds) {
+TEST(TickClock, LengthIsSetInMicrosecondsOrDefaultsAtZero) {
   TickClock clock(at(0ns), TickLength::fromMicros(10'000));
   for (int i = 0; i < 7; ++i) clock.beginTick(clock.deadline());
   EXPECT_EQ(clock.deadline(), at(70ms));

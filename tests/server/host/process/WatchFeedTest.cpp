@@ -29,7 +29,7 @@ TEST_F(WatchFeedTest, LinesOfGamesAreMarkedEscapedAndCut) {
   EXPECT_EQ(events[1].text, "game: " + std::string(WatchFeed::kMaxGameLine, 'x'));
 }
 
-TEST_F(WatchFeedTest, AGameThatFloodsLeavesRoomForTheServersLinesAndIsCounted) {
+TEST_F(WatchFeedTest, GameFloodKeepsServerLinesAndIsCounted) {
   constexpr auto kBurst = static_cast<std::size_t>(WatchFeed::kGameRate.burst);
   for (std::size_t i = 0; i < kBurst + 700; ++i) feed.publishGame("flood", now);
   feed.publish("log", "the server's own");
@@ -45,7 +45,7 @@ TEST_F(WatchFeedTest, AGameThatFloodsLeavesRoomForTheServersLinesAndIsCounted) {
   EXPECT_EQ(taken.events[1].text, "game: later");
 }
 
-TEST_F(WatchFeedTest, WhatIsWatchedIsLoggedAsEver) {
+TEST_F(WatchFeedTest, WatchedLinesAreStillLogged) {
   std::string logged;
   const LogLine log = [&logged](const LogEvent& event) { logged += event.text + ";"; };
   feed.watched(log)("one");

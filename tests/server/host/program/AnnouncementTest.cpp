@@ -32,7 +32,7 @@ class QrCodeTest : public testing::Test {
   std::vector<std::string> m_modules;  ///< rows; '#' is a dark module
 };
 
-TEST_F(QrCodeTest, HasItsThreeCornersAndAQuietZone) {
+TEST_F(QrCodeTest, HasThreeFinderPatternsAndQuietZone) {
   if (m_lines.empty()) GTEST_SKIP() << "built without libqrencode";
   const std::size_t width = m_modules[0].size();
   ASSERT_EQ((width - 8 - 21) % 4, 0u) << "a side of 21 + 4k modules and twice 4 of quiet zone";
@@ -49,7 +49,7 @@ TEST_F(QrCodeTest, HasItsThreeCornersAndAQuietZone) {
   }
 }
 
-TEST_F(QrCodeTest, AServerWithoutTheLibrarySaysSo) {
+TEST_F(QrCodeTest, ServerWithoutTheLibraryReportsIt) {
   HostOptions options;
   EXPECT_TRUE(qrLines(options).empty());
   options.web_address = "https://game.example/play";
@@ -59,7 +59,7 @@ TEST_F(QrCodeTest, AServerWithoutTheLibrarySaysSo) {
   EXPECT_EQ(lines.front().find("libqrencode") != std::string::npos, m_lines.empty());
 }
 
-TEST(QrCode, ATextThatNoCodeHoldsGivesNone) {
+TEST(QrCode, TooLongTextGivesNoCode) {
   EXPECT_TRUE(qrCode(std::string(5000, 'x')).empty());
 }
 

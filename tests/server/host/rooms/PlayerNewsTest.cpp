@@ -41,7 +41,7 @@ class PlayerNewsTest : public testing::Test {
   int messages = 0;
 };
 
-TEST_F(PlayerNewsTest, AllGetTheWholeListWhenItHasChanged) {
+TEST_F(PlayerNewsTest, ChangedListIsSentInFullToAllPlayers) {
   play(3);
   EXPECT_EQ(listsSent(1, 16).size(), 3u);
   EXPECT_EQ(listsSent(16, 100).size(), 0u) << "nothing has changed";
@@ -52,7 +52,7 @@ TEST_F(PlayerNewsTest, AllGetTheWholeListWhenItHasChanged) {
   EXPECT_EQ(heard.at(3), (std::vector<std::string>{"1", "2", "3"}));
 }
 
-TEST_F(PlayerNewsTest, AListOfTheLongestNamesFitsInAFrame) {
+TEST_F(PlayerNewsTest, ListOfTheLongestNamesFitsAFrame) {
   play(static_cast<int>(kMaxPlayers));
   for (auto& player : facts) {
     player.id += 100'000;
@@ -64,7 +64,7 @@ TEST_F(PlayerNewsTest, AListOfTheLongestNamesFitsInAFrame) {
   EXPECT_GT(heard.begin()->second.size(), kMaxPlayers / 2);
 }
 
-TEST_F(PlayerNewsTest, InACrowdEachGetsTheBestAndTheirOwnEntry) {
+TEST_F(PlayerNewsTest, LargeListsHaveOnlyBestAndOwnEntries) {
   const int many = static_cast<int>(kMaxPlayers) + 800;
   play(many);
   facts[899].score = 5;

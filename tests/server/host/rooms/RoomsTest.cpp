@@ -131,7 +131,7 @@ class EmptyWorldTest : public RoomsTest {
   }
 };
 
-TEST_F(EmptyWorldTest, StandsStillAfterAMinuteUntilSomebodyJoins) {
+TEST_F(EmptyWorldTest, PausesAfterAMinuteUntilAPlayerJoins) {
   options.grace = 0;
   EXPECT_TRUE(ticks(0s));
   EXPECT_TRUE(ticks(59s));
@@ -149,7 +149,7 @@ TEST_F(EmptyWorldTest, StandsStillAfterAMinuteUntilSomebodyJoins) {
   EXPECT_FALSE(ticks(7261s));
 }
 
-TEST_F(EmptyWorldTest, APlayerWhoseConnectionBrokeIsThere) {
+TEST_F(EmptyWorldTest, DisconnectedPlayerKeepsTheWorldRunning) {
   options.grace = 1000;
   join("ann").drop();
   ASSERT_EQ(sessions.playing(), 1u);
@@ -157,7 +157,7 @@ TEST_F(EmptyWorldTest, APlayerWhoseConnectionBrokeIsThere) {
   EXPECT_TRUE(ticks(900s));
 }
 
-TEST_F(EmptyWorldTest, GoesOnIfItsGameWantsThat) {
+TEST_F(EmptyWorldTest, KeepsRunningIfTheGameRequestsIt) {
   WM.setRunsEmpty();
   EXPECT_TRUE(ticks(0s));
   EXPECT_TRUE(ticks(3600s));
@@ -165,7 +165,7 @@ TEST_F(EmptyWorldTest, GoesOnIfItsGameWantsThat) {
   EXPECT_FALSE(ticks(3601s));
 }
 
-TEST_F(EmptyWorldTest, TicksThatWereAskedForArePlayed) {
+TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
   EXPECT_TRUE(ticks(0s));
   options.ticks = 10'000;
   EXPECT_TRUE(ticks(3600s));
@@ -193,13 +193,13 @@ class AuditTurnsTest : public RoomsTest {
   }
 };
 
-TEST_F(AuditTurnsTest, WithoutAnAuditNoPictureIsWanted) {
+TEST_F(AuditTurnsTest, NoPictureIsRequestedWithoutAnAudit) {
   const Client& ann = join("Ann");
   tick(40);
   EXPECT_EQ(wanted(0, ann), 0u);
 }
 
-TEST_F(AuditTurnsTest, OnePlayersPictureIsWantedOneSecondInTen) {
+TEST_F(AuditTurnsTest, OnePlayersPictureIsRequestedOneSecondInTen) {
   rooms.startAudit(kTicksPerSecond);
   const Client& ann = join("Ann");
   const Client& bob = join("Bob");
@@ -208,7 +208,7 @@ TEST_F(AuditTurnsTest, OnePlayersPictureIsWantedOneSecondInTen) {
   EXPECT_EQ(wanted(1, bob), 0u);
 }
 
-TEST_F(AuditTurnsTest, TheTurnGoesToThoseWhoJoinAfterItHasLastedTenSeconds) {
+TEST_F(AuditTurnsTest, AuditMovesToANewPlayerAfterTenSeconds) {
   rooms.startAudit(kTicksPerSecond);
   const Client& ann = join("Ann");
   tick(AuditTurns::kPeriod * kTicksPerSecond);
@@ -220,7 +220,7 @@ TEST_F(AuditTurnsTest, TheTurnGoesToThoseWhoJoinAfterItHasLastedTenSeconds) {
   EXPECT_EQ(wanted(2, cal), 0u);
 }
 
-TEST_F(AuditTurnsTest, WhenOneHasLeftTheNextToJoinHasTheTurnAtOnce) {
+TEST_F(AuditTurnsTest, AuditMovesToTheNextPlayerAfterALeave) {
   options.grace = 0;
   rooms.startAudit(kTicksPerSecond);
   const Client& ann = join("Ann");
@@ -232,7 +232,7 @@ TEST_F(AuditTurnsTest, WhenOneHasLeftTheNextToJoinHasTheTurnAtOnce) {
   EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
 }
 
-TEST_F(RoomsTest, AWorldThatLiesAboutItsPlayersIsBelievedItsOwnScoresAlone) {
+TEST_F(RoomsTest, LyingWorldAffectsOnlyScoresOfItsPlayers) {
   const Client& ann = join("Ann");
   const Client& bob = join("Bob");
   const std::uint32_t of_ann = ann.welcome().player();

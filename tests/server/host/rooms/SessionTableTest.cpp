@@ -48,7 +48,7 @@ class SessionTableTest : public testing::Test {
   SessionTable table{3, counters, [this](Session& session) { removed.push_back(session.id()); }};
 };
 
-TEST_F(SessionTableTest, FindsSessionsByIdAndCountsThoseThatPlay) {
+TEST_F(SessionTableTest, FindsSessionsByIdAndCountsPlayers) {
   play();
   connect();
   EXPECT_EQ(table.find(1)->player(), 1u);
@@ -58,14 +58,14 @@ TEST_F(SessionTableTest, FindsSessionsByIdAndCountsThoseThatPlay) {
   EXPECT_EQ(counters.connections, 2u);
 }
 
-TEST_F(SessionTableTest, ABrokenStreamStillPlaysButIsNotConnected) {
+TEST_F(SessionTableTest, DetachedSessionStillPlaysButIsNotConnected) {
   play().drop();
   play();
   EXPECT_EQ(table.playing(), 2u);
   EXPECT_EQ(table.connected(), 1u);
 }
 
-TEST_F(SessionTableTest, TheOldestSilentConnectionMakesRoomForTheNextOne) {
+TEST_F(SessionTableTest, FullTableEvictsTheOldestSilentConnection) {
   play();
   Client& silent = connect();
   connect();
@@ -77,7 +77,7 @@ TEST_F(SessionTableTest, TheOldestSilentConnectionMakesRoomForTheNextOne) {
   EXPECT_EQ(counters.turned_away, 1u);
 }
 
-TEST_F(SessionTableTest, ACrowdMakesRoomBeforeAnOlderConnectionFromElsewhere) {
+TEST_F(SessionTableTest, EvictionPrefersTheAddressWithMostConnections) {
   Client& old = connect("198.51.100.1:1");
   Client& first = connect("192.0.2.1:1");
   Client& second = connect("192.0.2.1:2");
@@ -86,13 +86,13 @@ TEST_F(SessionTableTest, ACrowdMakesRoomBeforeAnOlderConnectionFromElsewhere) {
   EXPECT_FALSE(old.destroyed || second.destroyed || newcomer.destroyed);
 }
 
-TEST_F(SessionTableTest, TheAddressesOfANetworkAreOneCrowd) {
+TEST_F(SessionTableTest, EvictionCountsAddressesOfANetworkTogether) {
   Client& old = connect("198.51.100.1:1");
   for (int i = 1; i < 50; ++i) connect("192.0.2." + std::to_string(i) + ":1");
   EXPECT_FALSE(old.destroyed);
 }
 
-TEST_F(SessionTableTest, ANewcomerCountsToTheirOwnCrowd) {
+TEST_F(SessionTableTest, EvictionCountsTheNewConnectionToItsNetwork) {
   Client& old = connect("198.51.100.1:1");
   Client& first = connect("192.0.2.1:1");
   connect("203.0.113.1:1");
@@ -101,7 +101,7 @@ TEST_F(SessionTableTest, ANewcomerCountsToTheirOwnCrowd) {
   EXPECT_FALSE(old.destroyed);
 }
 
-TEST_F(SessionTableTest, AClientWhoseHelloIsBeingJudgedIsNotReplaced) {
+TEST_F(SessionTableTest, ClientWithAPendingHelloIsNotEvicted) {
   judges = false;
   Client& judged = connect();
   judged.greet(test::helloOf("Ann"));
@@ -119,7 +119,7 @@ TEST_F(SessionTableTest, PlayersAreNotReplacedByNewConnections) {
   EXPECT_EQ(counters.turned_away, 1u);
 }
 
-TEST_F(SessionTableTest, ASessionThatHasEndedIsDestroyedBySweepAlone) {
+TEST_F(SessionTableTest, EndedSessionIsDestroyedOnlyBySweep) {
   Client& client = connect();
   client.drop();
   EXPECT_FALSE(table.isEmpty());

@@ -60,7 +60,7 @@ class SoundNewsTest : public testing::Test {
   bool sends = true;
 };
 
-TEST_F(SoundNewsTest, AllHearOfASoundInTheTickInWhichItIs) {
+TEST_F(SoundNewsTest, AllPlayersGetASoundInItsTick) {
   tick();
   sound("fire", 2);
   tick();
@@ -89,14 +89,14 @@ TEST_F(SoundNewsTest, MusicLoopsPausesAndStopsMustArrive) {
   EXPECT_TRUE(last.sounds().sounds(0).music());
 }
 
-TEST_F(SoundNewsTest, TheSameSeveralTimesInATickIsOnce) {
+TEST_F(SoundNewsTest, RepeatedSoundInATickIsSentOnce) {
   for (int i = 0; i < 20; ++i) sound("boom");
   tick();
   EXPECT_EQ(once[1], Labels{"boom"});
   EXPECT_EQ(news.dropped(), 0u);
 }
 
-TEST_F(SoundNewsTest, OfTooManyInATickThoseThatMatterMostAreHeard) {
+TEST_F(SoundNewsTest, ExcessSoundsOfATickAreDroppedByPriority) {
   tick();
   for (int i = 0; i < 3; ++i) sound("theirs " + std::to_string(i), 2);
   sound("no player's");
@@ -109,7 +109,7 @@ TEST_F(SoundNewsTest, OfTooManyInATickThoseThatMatterMostAreHeard) {
   EXPECT_EQ(news.dropped(), 4u);
 }
 
-TEST_F(SoundNewsTest, InTheLongRunTenASecondAreHeardAndTheRestIsCounted) {
+TEST_F(SoundNewsTest, TenSoundsASecondAreSentAndExcessCounted) {
   play(1);
   std::size_t heard = 0;
   for (int i = 0; i < 300; ++i) {
@@ -124,7 +124,7 @@ TEST_F(SoundNewsTest, InTheLongRunTenASecondAreHeardAndTheRestIsCounted) {
 }
 
 // A player who is disconnected for a minute must not lose the session because of a noisy game.
-TEST_F(SoundNewsTest, WhatIsKeptForAMinuteIsFarFromWhatMayBeKept) {
+TEST_F(SoundNewsTest, MinuteOfSoundsFillsUnderHalfTheOutbox) {
   play(1);
   std::size_t bytes = 0;
   for (int i = 0; i < 60 * 30; ++i) {
@@ -155,7 +155,7 @@ TEST_F(SoundNewsTest, ANewPlayerGetsWhatIsPlaying) {
   EXPECT_TRUE(lasting.empty());
 }
 
-TEST_F(SoundNewsTest, WithTheWorldEndsWhatLastedInIt) {
+TEST_F(SoundNewsTest, WorldChangeStopsLastingSounds) {
   view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
   tick();
   view.playing.push_back({"siren", df::SoundPlayed::kPlay, false, true, 2});
@@ -184,7 +184,7 @@ TEST_F(SoundNewsTest, WithTheWorldEndsWhatLastedInIt) {
   EXPECT_EQ(lasting[1], Labels{"theme"}) << "what goes on in the next world is new to all";
 }
 
-TEST_F(SoundNewsTest, WhatLoopsIsStoppedHoweverMuchMusicWasPlayedSince) {
+TEST_F(SoundNewsTest, LoopsAreStoppedEvenAfter100LaterTunes) {
   play(1);
   tick();
   view.sounds = {{"siren", df::SoundPlayed::kPlay, false, true, 0}};
@@ -199,7 +199,7 @@ TEST_F(SoundNewsTest, WhatLoopsIsStoppedHoweverMuchMusicWasPlayedSince) {
   EXPECT_EQ(lasting[1].back(), "-tune 99");
 }
 
-TEST_F(SoundNewsTest, LabelsAreMadeFitForAWire) {
+TEST_F(SoundNewsTest, SoundLabelsAreTruncatedAndSanitized) {
   sound(std::string(100, 'x') + "\x1b");
   sound("\xff\x1b[2J");
   tick();
@@ -216,7 +216,7 @@ TEST_F(SoundNewsTest, WhatCannotBeSentIsCounted) {
   EXPECT_EQ(news.dropped(), 2u);
 }
 
-TEST_F(SoundNewsTest, SoundsBeyondTheNumberConsideredAreCounted) {
+TEST_F(SoundNewsTest, SoundsOverThePerTickLimitAreCounted) {
   play(1);
   for (int i = 0; i < 200; ++i) sound(std::to_string(i));
   view.sounds_lost = 7;

@@ -180,7 +180,7 @@ class RecoveryTest : public testing::Test {
   int reported = 0;
 };
 
-TEST_F(RecoveryTest, AFileSaysWhoPlaysAndWhichKeysAreDown) {
+TEST_F(RecoveryTest, FileTellsPlayersSessionsAndPressedKeys) {
   play();
   session({.player = 2, .over = true});
   session(sessionOf(3));  // welcomed, but not yet known to the world
@@ -203,7 +203,7 @@ TEST_F(RecoveryTest, AFileSaysWhoPlaysAndWhichKeysAreDown) {
 }
 
 // A file torn at any place can be opened, and its journal continues after the last complete record.
-TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
+TEST_F(RecoveryTest, FileTruncatedAnywhereCanBeContinued) {
   for (int i = 0; i < 6; ++i) {
     turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)});
     if (i % 2 == 1) packed += packer.pack(records.substr(0, records.size() - 2));  // an incomplete record
@@ -236,7 +236,7 @@ TEST_F(RecoveryTest, AFileThatIsTornAnywhereGoesOn) {
   }
 }
 
-TEST_F(RecoveryTest, TheScoresOfAllRepeatedTurnsAreGivenOutSinceTheLastMayNotBeWritten) {
+TEST_F(RecoveryTest, ReplayReportsAllScoresAgain) {
   play();
   goOn();
   EXPECT_EQ(world->name().id, uuidText(round->header().uuid));
@@ -248,7 +248,7 @@ TEST_F(RecoveryTest, TheScoresOfAllRepeatedTurnsAreGivenOutSinceTheLastMayNotBeW
   EXPECT_TRUE(world->takeScores().empty());
 }
 
-TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
+TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
   play();
   goOn();
   world->checkProcess(1);
@@ -275,7 +275,7 @@ TEST_F(RecoveryTest, AWorldHasAllTurnsAgainBeforeItIsReady) {
   EXPECT_EQ(world->recovering(), std::nullopt);
 }
 
-TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
+TEST_F(RecoveryTest, JournalContinuesInTheSameFile) {
   play();
   goOn();
   executeAgain();
@@ -301,7 +301,7 @@ TEST_F(RecoveryTest, ItsJournalGoesOnInTheSameFile) {
   EXPECT_EQ(results, 55u) << "also that of the tick that the server was killed in";
 }
 
-TEST_F(RecoveryTest, WhatComesMeanwhileIsInTheFirstTickThatFollows) {
+TEST_F(RecoveryTest, InputsDuringReplayWaitForTheNextTick) {
   play();
   goOn();
   p_echo->ready = true;
@@ -318,7 +318,7 @@ TEST_F(RecoveryTest, WhatComesMeanwhileIsInTheFirstTickThatFollows) {
 }
 
 // A copy of a world has read other turns before those that are replayed.
-TEST_F(RecoveryTest, TheFirstTurnThatIsRepeatedSaysAllItsFlags) {
+TEST_F(RecoveryTest, FirstReplayedTurnStatesAllFlags) {
   WorldTurn watched;
   watched.watched = true;
   std::string before;
@@ -335,7 +335,7 @@ TEST_F(RecoveryTest, TheFirstTurnThatIsRepeatedSaysAllItsFlags) {
   EXPECT_FALSE(std::get<WorldTurn>(*record).watched);
 }
 
-TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
+TEST_F(RecoveryTest, TurnWithDroppedKeysHasOneResult) {
   crashInSecondTurn(2);
   EXPECT_EQ(said, "");
   ASSERT_GE(p_echo->turns.size(), 2u);
@@ -348,12 +348,12 @@ TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedHasOneResult) {
   EXPECT_EQ(results, 4) << "of three turns and the closing one";
 }
 
-TEST_F(RecoveryTest, ATurnWhoseKeysWereDroppedIsHeldAgainstTheFile) {
+TEST_F(RecoveryTest, TurnWithDroppedKeysIsComparedWithTheFile) {
   crashInSecondTurn(3);
   EXPECT_EQ(said, "in tick 2 the world's output is different");
 }
 
-TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
+TEST_F(RecoveryTest, RecoveryFailsIfTheWorldAnswersDifferently) {
   play();
   turn({}, false);
   writeCheck(255);
@@ -365,7 +365,7 @@ TEST_F(RecoveryTest, AWorldThatAnswersOtherwiseIsNotGoneOnWith) {
   EXPECT_TRUE(world->takeSessions()) << "its players are in the next round";
 }
 
-TEST_F(RecoveryTest, AWorldThatEndsMeanwhileIsNotGoneOnWith) {
+TEST_F(RecoveryTest, RecoveryFailsIfTheWorldCrashesDuringReplay) {
   play();
   goOn();
   p_echo->dies_at = 10;
@@ -376,7 +376,7 @@ TEST_F(RecoveryTest, AWorldThatEndsMeanwhileIsNotGoneOnWith) {
   EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
 }
 
-TEST_F(RecoveryTest, SeveralTurnsAreUnderWayAtOnceBehindTheFirst) {
+TEST_F(RecoveryTest, ReplaySendsTurnsAheadAfterTheFirstAnswer) {
   play();
   goOn();
   p_echo->ready = true;
@@ -391,7 +391,7 @@ TEST_F(RecoveryTest, SeveralTurnsAreUnderWayAtOnceBehindTheFirst) {
   EXPECT_EQ(p_echo->turns.back().size(), 1u) << "the closing turn comes when all are answered";
 }
 
-TEST_F(RecoveryTest, WhatIsOtherIsFoundAtItsTurnThoughMoreAreUnderWay) {
+TEST_F(RecoveryTest, DifferenceIsReportedAtItsTurnDespiteTurnsAhead) {
   turn({joinOf(1)});
   for (int i = 0; i < 9; ++i) turn({});
   turn({}, false);
@@ -403,7 +403,7 @@ TEST_F(RecoveryTest, WhatIsOtherIsFoundAtItsTurnThoughMoreAreUnderWay) {
   EXPECT_NE(said.find("in tick 11 "), std::string::npos) << said;
 }
 
-TEST_F(RecoveryTest, TwoServersDoNotWriteOneFile) {
+TEST_F(RecoveryTest, JournalFileCannotBeOpenedTwice) {
   play();
   const std::size_t size = open().wholeBytes();
   const JournalFileSink first(path, size);

@@ -123,7 +123,7 @@ TEST_F(RoundTest, EveryThirtiethTickHasAHashOfTheState) {
   EXPECT_EQ(hashes, (std::vector<std::uint64_t>{30, 60}));
 }
 
-TEST_F(RoundTest, NowAndThenATickHasAPictureOfThePlayerWhoHasBeenThereLongest) {
+TEST_F(RoundTest, RecordsPicturesOfTheLongestPresentPlayer) {
   round->addInput({.kind = df::InputQueue::kJoin, .player = 1, .name = "Ann"});
   round->addInput({.kind = df::InputQueue::kJoin, .player = 2, .name = "Bob"});
   for (std::uint32_t i = 1; i <= Round::kFirstPicture + 1; ++i) {
@@ -141,7 +141,7 @@ TEST_F(RoundTest, NowAndThenATickHasAPictureOfThePlayerWhoHasBeenThereLongest) {
   EXPECT_EQ(pictures[0].canvas.at(0, 0).ch, U'B');
 }
 
-TEST_F(RoundTest, WhatPlayersSawIsCountedByTheWorldsOwnTicks) {
+TEST_F(RoundTest, ViewedTicksAreRecordedInTheWorldsOwnTicks) {
   p_fake->first = 1001;  // not the host's first world
   round->tick(true, false);
   df::InputQueue::Input click{.kind = df::InputQueue::kMouse, .player = 1, .seen = {true, 1001, 1000}};

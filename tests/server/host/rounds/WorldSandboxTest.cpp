@@ -50,7 +50,7 @@ TEST_F(WorldSandboxTest, AGamesFolderIsReadable) {
   EXPECT_FALSE(reads(m_folder));
 }
 
-TEST_F(WorldSandboxTest, OfAFolderWithTheServersKeyTheSpritesAreReadable) {
+TEST_F(WorldSandboxTest, FolderWithServerSecretsExposesOnlyItsSprites) {
   options.identity = m_folder / "game/identity";
   place.folders = {(m_folder / "game").string()};
   EXPECT_FALSE(reads(m_folder / "game"));
@@ -64,7 +64,7 @@ TEST_F(WorldSandboxTest, OfAFolderWithTheServersKeyTheSpritesAreReadable) {
   EXPECT_FALSE(reads(m_folder / "game"));
 }
 
-TEST_F(WorldSandboxTest, FoldersOfTheUserAndOfTheMachineAreNotReadable) {
+TEST_F(WorldSandboxTest, HomeAndSystemFoldersAreNotReadable) {
   setenv("HOME", (m_folder / "game").c_str(), 1);
   place.folders = {(m_folder / "game").string(), m_folder.string(), "/", "/etc", "/tmp"};
   EXPECT_FALSE(reads(m_folder / "game"));
@@ -88,7 +88,7 @@ TEST_F(WorldSandboxTest, LinksToSpritesAreFollowedWithinAProject) {
   EXPECT_FALSE(reads(m_folder / "game/sprites"));
 }
 
-TEST_F(WorldSandboxTest, TheWorkingDirectoryIsWritableUnlessItHoldsTheServer) {
+TEST_F(WorldSandboxTest, WorkingDirectoryWithServerFilesIsNotWritable) {
   const WorldSandbox made = makeWorldSandbox(options, place);
   const bool writable = has(made.sandbox.writable, fs::canonical(firstDirectory()).string());
   EXPECT_EQ(writable, made.notes.empty()) << "or the log says why not";
@@ -108,7 +108,7 @@ TEST_F(WorldSandboxTest, TheServersFilesInTheGamesFolderAreNamed) {
   EXPECT_NE(made.notes[0].find((fs::canonical(firstDirectory()) / "server.log").string()), std::string::npos);
 }
 
-TEST_F(WorldSandboxTest, TheEnvironmentIsAFixedChoiceWithoutThePassword) {
+TEST_F(WorldSandboxTest, GameGetsOnlyAllowedVariablesAndNoPassword) {
   setenv("NAIAD_PASSWORD", "open-sesame", 1);
   setenv("SOMETHING_ELSE", "1", 1);
   setenv("WANTED", "1", 1);
@@ -123,7 +123,7 @@ TEST_F(WorldSandboxTest, TheEnvironmentIsAFixedChoiceWithoutThePassword) {
   unsetenv("WANTED");
 }
 
-TEST(HidePassword, OverwritesIt) {
+TEST(HidePassword, OverwritesThePasswordArgument) {
   char words[][24] = {"dfserver", "--password", "open-sesame", "--password=open", "--port", "9"};
   char* arguments[] = {words[0], words[1], words[2], words[3], words[4], words[5], nullptr};
   hidePassword(6, arguments);
@@ -132,7 +132,7 @@ TEST(HidePassword, OverwritesIt) {
   EXPECT_STREQ(words[5], "9");
 }
 
-TEST(HidePassword, OverwritesThatOfAdmins) {
+TEST(HidePassword, OverwritesTheAdminPasswordArgument) {
   char words[][32] = {"dfserver", "--admin-password", "open-sesame", "--admin-password=open"};
   char* arguments[] = {words[0], words[1], words[2], words[3], nullptr};
   hidePassword(4, arguments);

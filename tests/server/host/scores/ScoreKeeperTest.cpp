@@ -52,7 +52,7 @@ class ScoreKeeperTest : public testing::Test {
   const test::TempFolder folder;
 };
 
-TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
+TEST_F(ScoreKeeperTest, NextServerLoadsTheScores) {
   {
     ScoreKeeper keeper(folder, "game", [] { return 1'800'000'000; });
     addAll(keeper, "round", 7, {of("ann", 5), of("bob", 9), of("eve", -3, "other")});
@@ -74,7 +74,7 @@ TEST_F(ScoreKeeperTest, TheNextServerKnowsThem) {
   EXPECT_EQ(status.st_mode & 0777u, 0600u);
 }
 
-TEST_F(ScoreKeeperTest, EachGameHasItsOwn) {
+TEST_F(ScoreKeeperTest, EachGameHasItsOwnScores) {
   {
     ScoreKeeper keeper(folder, "game");
     addAll(keeper, "r", 1, {of("ann", 5)});
@@ -86,7 +86,7 @@ TEST_F(ScoreKeeperTest, EachGameHasItsOwn) {
   EXPECT_EQ(ScoreKeeper(folder, "game").tables().at("arcade"), (std::vector<df::HighScore>{{"ann", 5}}));
 }
 
-TEST_F(ScoreKeeperTest, TheSameRowIsKeptOnceHoweverOftenItComes) {
+TEST_F(ScoreKeeperTest, DuplicateScoreRowIsStoredOnce) {
   for (int times = 0; times < 3; ++times) {
     ScoreKeeper keeper(folder, "game");
     addAll(keeper, "round", 7, {of("ann", 5), of("ann", 5)});
@@ -99,7 +99,7 @@ TEST_F(ScoreKeeperTest, TheSameRowIsKeptOnceHoweverOftenItComes) {
   EXPECT_EQ(keeper.counters().added, 1u);
 }
 
-TEST_F(ScoreKeeperTest, ATableOnDiskHasTenThousandRowsAndTheLeastGo) {
+TEST_F(ScoreKeeperTest, StoredTableKeepsTheBestTenThousandRows) {
   std::vector<ScoreRow> rows;
   for (int i = 0; i < 10'050; ++i)
     rows.push_back({"arcade", "ann", (i * 7919) % 10'050, 0, "round", static_cast<std::uint32_t>(i), 0});
@@ -114,7 +114,7 @@ TEST_F(ScoreKeeperTest, ATableOnDiskHasTenThousandRowsAndTheLeastGo) {
   EXPECT_EQ(stored("", 3).size(), 4u) << "three of a table";
 }
 
-TEST_F(ScoreKeeperTest, AWorldThatSendsNonsenseFillsNothing) {
+TEST_F(ScoreKeeperTest, InvalidAndExcessScoresAreRejected) {
   ScoreKeeper keeper(folder, "game");
   for (std::uint32_t t = 0; t < 100; ++t) addAll(keeper, "round", t, {of("ann", 1, "t" + std::to_string(t))});
   addAll(keeper, "round", 100,
@@ -128,7 +128,7 @@ TEST_F(ScoreKeeperTest, AWorldThatSendsNonsenseFillsNothing) {
   EXPECT_EQ(stored("t1").front().name, "a?b?[2J and a ve");
 }
 
-TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
+TEST_F(ScoreKeeperTest, UnusableFileIsReportedOnceAndLeftUnchanged) {
   for (const std::string& bytes : {std::string("no database"), std::string()}) {
     std::ofstream(folder / "scores.sqlite3", std::ios::binary) << bytes;
     ScoreKeeper keeper(folder, "game");
@@ -144,7 +144,7 @@ TEST_F(ScoreKeeperTest, AFileThatCannotBeUsedStaysAsItIsAndIsSaidOnce) {
   }
 }
 
-TEST_F(ScoreKeeperTest, WithoutAFolderTheyEndWithTheServer) {
+TEST_F(ScoreKeeperTest, ScoresWithoutAFolderStayInMemory) {
   ScoreKeeper keeper({}, "game");
   addAll(keeper, "round", 1, {of("ann", 5)});
   EXPECT_EQ(keeper.tables().at("arcade").size(), 1u);
@@ -165,7 +165,7 @@ class Blocker {
   sqlite3* m_p_database = nullptr;
 };
 
-TEST_F(ScoreKeeperTest, WhatCannotBeWrittenWaitsAndIsWrittenOnceInItsOrder) {
+TEST_F(ScoreKeeperTest, LockedFileQueuesScoresUntilItIsFree) {
   ScoreKeeper keeper(folder, "game");
   addAll(keeper, "round", 0, {of("ann", 0)});
   std::mutex mutex;
@@ -232,7 +232,7 @@ std::uint64_t killAfter(int words, const fs::path& folder, const std::string& ro
   return written;
 }
 
-TEST_F(ScoreKeeperTest, AHundredKillsLoseNoneThatWasWrittenAndNoneComesTwice) {
+TEST_F(ScoreKeeperTest, HundredKillsNeitherLoseNorDuplicateWrittenScores) {
   std::map<std::string, std::uint64_t> written;
   for (int kill = 0; kill < 100; ++kill) {
     const std::string round = "round " + std::to_string(kill);

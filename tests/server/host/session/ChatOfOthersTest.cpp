@@ -121,7 +121,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   bool talking = true;
 };
 
-TEST_P(ChatOfOthers, CostsNobodyTheirSession) {
+TEST_P(ChatOfOthers, EndsNoListenersSession) {
   std::string wide;
   for (std::size_t i = 0; i < kMaxChatLength; ++i) wide += "\u2588";  // three bytes each
   wire::ClientMessage line;

@@ -20,7 +20,7 @@ TEST(Names, BlanksAreTrimmedAndCollapsed) {
   EXPECT_EQ(cleanName(""), "");
 }
 
-TEST(Names, WhatDisturbsATerminalIsLeftOut) {
+TEST(Names, CharactersThatDisturbATerminalAreRemoved) {
   EXPECT_EQ(cleanName("A\x1b[31mn\nn"), "A[31mnn");
   EXPECT_EQ(cleanName("\u202eevil\u200b"), "evil");
   EXPECT_EQ(cleanName("\xff\xfe\xc3"), "");
@@ -60,7 +60,7 @@ TEST(Names, ATakenNameGetsTheLowestFreeNumber) {
   EXPECT_EQ(uniqueName("Ann", {"Ann", "ANN2", "Ann4"}), "Ann3");
 }
 
-TEST(Names, LookAlikesAreTaken) {
+TEST(Names, ConfusableNamesCountAsTaken) {
   const std::pair<const char*, const char*> alike[] = {
       {"ann", "ANN"},                 // different case
       {"ZOË", "zoë"},                 // also beyond ASCII
@@ -82,7 +82,7 @@ TEST(Names, LookAlikesAreTaken) {
   }
 }
 
-TEST(Names, DistinguishableNamesAreNotTaken) {
+TEST(Names, DistinguishableNamesDoNotCountAsTaken) {
   for (const auto& [name, taken] :
        std::initializer_list<std::pair<const char*, const char*>>{{"Ann", "Anna"},
                                                                   {"Zoe", "Zoë"},
@@ -94,7 +94,7 @@ TEST(Names, DistinguishableNamesAreNotTaken) {
   }
 }
 
-TEST(Names, LookAlikesShareOneRowOfNumbers) {
+TEST(Names, ConfusableNamesShareTheirNumbering) {
   EXPECT_EQ(uniqueName("\u0410NN", {"ANN", "\u0410nn2"}), "\u0410NN3");
 }
 

@@ -121,7 +121,7 @@ LinkConditions bad() {
   return conditions;
 }
 
-TEST(PictureAudit, AnHonestServerHasNoWrongCellOverABadLine) {
+TEST(PictureAudit, BadLineCausesNoWrongCells) {
   std::uint64_t pictures = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -134,14 +134,14 @@ TEST(PictureAudit, AnHonestServerHasNoWrongCellOverABadLine) {
   EXPECT_GT(pictures, 400u);
 }
 
-TEST(PictureAudit, AGoodLineHasNearlyAllPicturesCompared) {
+TEST(PictureAudit, GoodLineHasMostPicturesCompared) {
   AuditedPair pair({}, 1);
   for (int i = 0; i < 200; ++i) pair.tick();
   EXPECT_GT(pair.counters.audited_pictures, 100u);
   EXPECT_EQ(pair.counters.wrong_cells, 0u);
 }
 
-TEST(PictureAudit, AChangeThatIsNotPublishedIsSeen) {
+TEST(PictureAudit, UnpublishedChangeIsDetected) {
   AuditedPair pair({}, 1);
   for (int i = 0; i < 60; ++i) pair.tick();
   ASSERT_EQ(pair.counters.wrong_cells, 0u);
@@ -150,7 +150,7 @@ TEST(PictureAudit, AChangeThatIsNotPublishedIsSeen) {
   EXPECT_GT(pair.counters.wrong_cells, 0u);
 }
 
-TEST(PictureAudit, GoesOnWithAWorldThatIsSentAgain) {
+TEST(PictureAudit, ContinuesAfterTheWorldIsReset) {
   AuditedPair pair({}, 2);
   for (int i = 0; i < 60; ++i) pair.tick();
   const std::uint64_t before = pair.counters.audited_pictures;
@@ -169,7 +169,7 @@ TEST(PictureAudit, WaitsForTheBeginningOfAWorld) {
   EXPECT_GT(pair.counters.audited_pictures, 20u);
 }
 
-TEST(PictureAudit, ASmallTerminalIsNotHeldAgainstTheWholeView) {
+TEST(PictureAudit, SmallTerminalIsNotAudited) {
   AuditedPair pair({}, 4);
   pair.sender.setTerminal(20, 10);
   for (int i = 0; i < 100; ++i) pair.tick();

@@ -126,7 +126,7 @@ TEST_F(ReliableOutboxTest, AListReplacesTheOneBefore) {
   EXPECT_EQ(reader.list, 9'999u);
 }
 
-TEST_F(ReliableOutboxTest, OfASoundTheNewestStateIsKept) {
+TEST_F(ReliableOutboxTest, OnlyTheNewestStateOfASoundIsKept) {
   for (int i = 0; i < 10'000; ++i) {
     outbox.add(soundOf("theme", wire::Sound::PLAY));
     outbox.add(soundOf("siren", wire::Sound::PLAY));
@@ -138,7 +138,7 @@ TEST_F(ReliableOutboxTest, OfASoundTheNewestStateIsKept) {
   EXPECT_EQ(counters.kept_overflows, 0u);
 }
 
-TEST_F(ReliableOutboxTest, WhenItIsFullTheOldestChatGoesAndANumberIsSaid) {
+TEST_F(ReliableOutboxTest, FullOutboxDropsOldestChatAndReportsTheCount) {
   outbox.add(listOf(200, 1));
   outbox.add(soundOf("theme", wire::Sound::PLAY));
   for (int i = 0; i < 500; ++i) outbox.add(chatOf(std::to_string(i) + std::string(200, 'x')));
@@ -165,7 +165,7 @@ TEST_F(ReliableOutboxTest, NoMoreThanAWindowIsUnacknowledged) {
 }
 
 /// Joins, leaves and scores of others, on a line on which chat is always waiting.
-TEST_F(ReliableOutboxTest, AListThatAlwaysChangesIsSentAllTheSame) {
+TEST_F(ReliableOutboxTest, ConstantlyChangingListIsStillSent) {
   for (std::uint32_t version = 1; version <= 2'000; ++version) {
     outbox.add(listOf(200, version));
     outbox.add(chatOf(std::string(200, 'x')));
@@ -180,7 +180,7 @@ TEST_F(ReliableOutboxTest, AListThatAlwaysChangesIsSentAllTheSame) {
   EXPECT_GT(reader.list, 1'800u);
 }
 
-TEST_F(ReliableOutboxTest, SoundsOfAnyNumberLeaveRoomForTheRest) {
+TEST_F(ReliableOutboxTest, SoundFloodUsesAtMostHalfTheOutbox) {
   outbox.add(listOf(200, 7));
   for (int i = 0; i < 100'000; ++i)
     outbox.add(soundOf(std::to_string(i) + std::string(100, 's'), wire::Sound::PLAY));

@@ -29,7 +29,7 @@ TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
   EXPECT_EQ(second.sent[1].number(), 3u);
 }
 
-TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
+TEST_F(SessionReturn, BestEffortMessagesAreSentNowOrDropped) {
   wire::ServerMessage sound;
   sound.mutable_sounds()->add_sounds()->set_label("fire");
   EXPECT_TRUE(session->sendFleeting(sound));
@@ -44,7 +44,7 @@ TEST_F(SessionReturn, WhatIsOnlyWorthSomethingAtOnceIsSentAtOnceOrNotAtAll) {
   EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
 }
 
-TEST_F(SessionReturn, OfPlayerListsTheNewestIsSentAgain) {
+TEST_F(SessionReturn, OnlyTheNewestPlayerListIsResent) {
   for (const std::uint32_t player : {1u, 2u}) {
     wire::ServerMessage list;
     list.mutable_players()->add_players()->set_player(player);
@@ -59,7 +59,7 @@ TEST_F(SessionReturn, OfPlayerListsTheNewestIsSentAgain) {
   EXPECT_EQ(second.sent[2].players().players(0).player(), 2u);
 }
 
-TEST_F(SessionReturn, WhatComesTwiceIsTakenOnce) {
+TEST_F(SessionReturn, DuplicateFramesAreIgnored) {
   chatLine(first, "one", 1);
   chatLine(first, "two", 2);
   breakStream(first);
@@ -74,7 +74,7 @@ TEST_F(SessionReturn, WhatComesTwiceIsTakenOnce) {
   EXPECT_EQ(second.sent.back().pong().received(), 3u);
 }
 
-TEST_F(SessionReturn, TheChatOfAMinuteMayComeAtOnce) {
+TEST_F(SessionReturn, ChatQueuedWhileDisconnectedMayArriveAtOnce) {
   breakStream(first);
   now += 20s;
   session->checkDeadlines(now);
@@ -106,7 +106,7 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   EXPECT_EQ(session->state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionReturn, AClientThatSendsNothingMaySayWhatWasTypedMeanwhileAndNoMore) {
+TEST_F(SessionReturn, SilentClientMaySend30ChatLinesAfterResuming) {
   std::uint32_t number = 0;
   std::vector<std::unique_ptr<Session>> others;
   Wire* p_line = &first;
@@ -122,7 +122,7 @@ TEST_F(SessionReturn, AClientThatSendsNothingMaySayWhatWasTypedMeanwhileAndNoMor
 }
 
 /// A client that reads nothing keeps its session, however much others chat.
-TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut) {
+TEST_F(SessionReturn, UnacknowledgingClientIsToldTheDroppedChatCount) {
   const std::string line(200, 'x');
   const auto said = [&line](int i) { return std::to_string(i) + " " + line; };
   for (int i = 0; i < 5'000; ++i) sendChat(said(i));
@@ -147,7 +147,7 @@ TEST_F(SessionReturn, AClientThatDoesNotAcknowledgeIsToldHowManyLinesWereLeftOut
 }
 
 /// Only a little chat may wait in the stream of a slow line, so that snapshots get through.
-TEST_F(SessionReturn, ChatOfOthersNeitherClogsASlowStreamNorHoldsUpThePicture) {
+TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   constexpr std::size_t kPerTick = 300;  // bytes: 72 kbit/s
   test::SimulatedWorld world({}, 7);
   Publisher publisher;
@@ -175,7 +175,7 @@ TEST_F(SessionReturn, ChatOfOthersNeitherClogsASlowStreamNorHoldsUpThePicture) {
   EXPECT_EQ(counters.stuck_streams, 0u);
 }
 
-TEST_F(SessionReturn, ComingBackIsLimitedToOnceASecondInTheLongRun) {
+TEST_F(SessionReturn, ResumesAreLimitedToOneASecond) {
   int admitted = 0;
   for (int i = 0; i < 1'000; ++i, now += 10ms) admitted += session->admitResume() ? 1 : 0;
   EXPECT_GE(admitted, 3 + 9);
@@ -184,11 +184,11 @@ TEST_F(SessionReturn, ComingBackIsLimitedToOnceASecondInTheLongRun) {
   EXPECT_EQ(session->state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionReturn, ALineThatBreaksEveryTwoSecondsIsNotLimited) {
+TEST_F(SessionReturn, ResumesEveryTwoSecondsAreNotLimited) {
   for (int i = 0; i < 1'000; ++i, now += 2s) ASSERT_TRUE(session->admitResume());
 }
 
-TEST_F(SessionReturn, AClientThatIsRefusedForNowIsHeardOfAllTheSame) {
+TEST_F(SessionReturn, DeferredResumeExtendsTheGracePeriod) {
   breakStream(first);
   for (int i = 0; i < 3; ++i) session->admitResume();
   for (int i = 0; i < 100; ++i, now += 500ms) session->checkDeadlines(now);
@@ -200,7 +200,7 @@ TEST_F(SessionReturn, AClientThatIsRefusedForNowIsHeardOfAllTheSame) {
   EXPECT_EQ(session->state(), Session::State::kGone);
 }
 
-TEST_F(SessionReturn, AWorldSentToAnotherProcessCountsAsAReset) {
+TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   ClientUpdate update;
   update.wants_reset = true;
   wire::ClientMessage wants;
@@ -243,7 +243,7 @@ TEST_F(SessionReturn, AnAcknowledgementOfUnsentMessagesIsIgnored) {
   EXPECT_EQ(chatOf(second), std::vector<std::string>{"a"});
 }
 
-TEST_F(SessionReturn, AClientThatTakesInNothingButSendsIsEnded) {
+TEST_F(SessionReturn, ClientThatSendsButNeverReadsIsDisconnected) {
   first.unsent = 100'000;
   for (int i = 0; i < 99; ++i, now += 100ms) {
     ping(first, 0);
@@ -259,7 +259,7 @@ TEST_F(SessionReturn, AClientThatTakesInNothingButSendsIsEnded) {
   EXPECT_EQ(first.sent.back().goodbye().sentence(), "Disconnected: your connection is too slow.");
 }
 
-TEST_F(SessionReturn, AClientThatIsSilentAsWellMayComeBack) {
+TEST_F(SessionReturn, SilentClientWithAStuckStreamMayResume) {
   first.unsent = 100'000;
   for (int i = 0; i < 160; ++i, now += 100ms) session->checkDeadlines(now);
   EXPECT_TRUE(session->isDetached());
@@ -267,7 +267,7 @@ TEST_F(SessionReturn, AClientThatIsSilentAsWellMayComeBack) {
   EXPECT_EQ(counters.detached, 1u);
 }
 
-TEST_F(SessionReturn, TheWelcomeOfAnotherProcessSaysWhereToGoOn) {
+TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
   key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
   key(first, 2, df::Keyboard::A, df::KEY_RELEASED);
   sendChat("old");
@@ -293,7 +293,7 @@ TEST_F(SessionReturn, TheWelcomeOfAnotherProcessSaysWhereToGoOn) {
   EXPECT_EQ(gone, 0);
 }
 
-TEST_F(SessionReturn, AProcessThatIsStillThereGetsAGoodbye) {
+TEST_F(SessionReturn, ReplacedProcessGetsAGoodbye) {
   const auto other = make(second);
   greet(second, "token", true);
   EXPECT_EQ(first.sent.back().goodbye().sentence(), "This session was resumed in another client.");
@@ -309,12 +309,12 @@ TEST_F(SessionReturn, AProcessThatIsStillThereGetsAGoodbye) {
   EXPECT_EQ(gone, 0) << "no player left";
 }
 
-TEST_F(SessionReturn, ItsTokenIsNotRemembered) {
+TEST_F(SessionReturn, SessionDoesNotKeepItsResumeToken) {
   EXPECT_EQ(first.sent[0].welcome().resume_token(), "secret");
   EXPECT_TRUE(session->welcomed().resume_token().empty());
 }
 
-TEST_F(SessionReturn, KeysOfAClientThatIsCutOffAreReleasedInTheirTurn) {
+TEST_F(SessionReturn, DisconnectReleasesHeldKeysAfterQueuedInputs) {
   key(first, 1, df::Keyboard::B, df::KEY_PRESSED);
   key(first, 2, df::Keyboard::A, df::KEY_DOWN);
   key(first, 3, df::Keyboard::C, df::KEY_PRESSED);
@@ -330,7 +330,7 @@ TEST_F(SessionReturn, KeysOfAClientThatIsCutOffAreReleasedInTheirTurn) {
   EXPECT_TRUE(taken().empty()) << "once";
 }
 
-TEST_F(SessionReturn, KeysOfTheOldProcessAreReleasedBeforeTheNewOnePresses) {
+TEST_F(SessionReturn, ResumeInNewProcessReleasesOldKeysFirst) {
   key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = make(second);
   greet(second, "token", true);
@@ -339,7 +339,7 @@ TEST_F(SessionReturn, KeysOfTheOldProcessAreReleasedBeforeTheNewOnePresses) {
   EXPECT_EQ(taken(), (std::vector<std::string>{a + " down", a + " up", a + " down"}));
 }
 
-TEST_F(SessionReturn, AStreamThatIsReplacedInTimeKeepsTheKeys) {
+TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
   key(first, 1, df::Keyboard::A, df::KEY_PRESSED);
   const auto other = make(second);
   greet(second, "token");

@@ -124,7 +124,7 @@ TEST_F(SessionTest, IsWelcomedAfterItsHello) {
   EXPECT_EQ(line.receive_limit, kMaxClientFrame);
 }
 
-TEST_F(SessionTest, IsRefusedInWordsAndEnds) {
+TEST_F(SessionTest, RefusalHasAMessageAndEndsTheSession) {
   hear(hello(kProtocolVersion + 1));
   EXPECT_TRUE(ended());
   ASSERT_EQ(line.sent.size(), 1u);
@@ -133,7 +133,7 @@ TEST_F(SessionTest, IsRefusedInWordsAndEnds) {
   EXPECT_EQ(counters.malformed_messages, 0u);
 }
 
-TEST_F(SessionTest, EndsIfTheFirstMessageIsNoHello) {
+TEST_F(SessionTest, EndsIfTheFirstMessageIsNotAHello) {
   hear(key(1));
   EXPECT_TRUE(ended());
   EXPECT_TRUE(line.sent.empty());
@@ -205,7 +205,7 @@ TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
   EXPECT_EQ(takeInputs().size(), 2u);
 }
 
-TEST_F(SessionTest, InputsThatComeAgainWithLaterOnesAreTakenOnce) {
+TEST_F(SessionTest, InputsResentWithLaterOnesAreTakenOnce) {
   greet();
   hear(inputs({keyInput(1), keyInput(2)}));
   hear(inputs({keyInput(1), keyInput(2), keyInput(3)}));
@@ -213,7 +213,7 @@ TEST_F(SessionTest, InputsThatComeAgainWithLaterOnesAreTakenOnce) {
   EXPECT_EQ(counters.repeated_inputs, 2u);
 }
 
-TEST_F(SessionTest, AnUpdateThatIsBadInPartIsBadAsAWhole) {
+TEST_F(SessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
   greet();
   hear(inputs({keyInput(1), keyInput(2, 127)}));
   EXPECT_TRUE(ended());
@@ -306,7 +306,7 @@ TEST_F(SessionTest, MutatedMessagesEndTheSessionOrAreLegal) {
   EXPECT_GT(ends, 500u);
 }
 
-TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
+TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
   greet();
   for (int i = 0; i < 5; ++i) hear(says("  line\x1b " + std::to_string(i)));
   EXPECT_EQ(chat, (std::vector<std::string>{"line 0", "line 1", "line 2"}));
@@ -321,7 +321,7 @@ TEST_F(SessionTest, ChatIsCleanedAndThreeLinesASecond) {
   EXPECT_NEAR(static_cast<double>(chat.size()), 4 + 30, 1);
 }
 
-TEST_F(SessionTest, TheWorldIsResetAtMostOnceInTwoSeconds) {
+TEST_F(SessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
   greet();
   ClientUpdate update;
   update.wants_reset = true;
@@ -337,7 +337,7 @@ TEST_F(SessionTest, TheWorldIsResetAtMostOnceInTwoSeconds) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
+TEST_F(SessionTest, ExcessChecksumsAreDroppedAndCounted) {
   greet();
   ClientUpdate update;
   update.checksum = 1;
@@ -351,7 +351,7 @@ TEST_F(SessionTest, ChecksumsAreComparedFourTimesASecond) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, AsManyMessagesAsAnHonestClientMayNeedAreTakenForEver) {
+TEST_F(SessionTest, MaximumHonestMessageRateIsAccepted) {
   greet();
   for (int tick = 0; tick < 3'000; ++tick, now += 33ms) {
     for (int i = 0; i < ClientActivity::kMessagesPerTick; ++i) hear(updateOf({}));
@@ -360,7 +360,7 @@ TEST_F(SessionTest, AsManyMessagesAsAnHonestClientMayNeedAreTakenForEver) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, ManyMoreMessagesTickAfterTickEndTheSession) {
+TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
   greet();
   int ticks = 0;
   for (; ticks < 100 && session.state() == Session::State::kPlaying; ++ticks, now += 33ms) {
@@ -373,7 +373,7 @@ TEST_F(SessionTest, ManyMoreMessagesTickAfterTickEndTheSession) {
   EXPECT_EQ(counters.message_floods, 1u);
 }
 
-TEST_F(SessionTest, ChatOfNothingCostsNothing) {
+TEST_F(SessionTest, BlankChatLinesDoNotCountTowardTheLimit) {
   greet();
   for (int i = 0; i < 5; ++i) hear(says(" \t "));
   hear(says("word"));
@@ -393,7 +393,7 @@ TEST_F(SessionTest, AnswersPingsAndNotesTheRoundTrip) {
   EXPECT_EQ(session.rttMillis(), 99'999u);
 }
 
-TEST_F(SessionTest, LeavingIsAnsweredAndEnds) {
+TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
   greet();
   wire::ClientMessage leave;
   leave.mutable_leave();
@@ -413,7 +413,7 @@ TEST_F(SessionTest, AResizeIsAccepted) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
 
-TEST_F(SessionTest, ATerminalsSizeIsTakenOverFourTimesASecond) {
+TEST_F(SessionTest, TerminalResizesAreAppliedFourTimesASecond) {
   greet();
   test::SimulatedWorld world({}, 7);
   Publisher publisher;
@@ -440,7 +440,7 @@ TEST_F(SessionTest, EndsWithoutAHelloInFiveSeconds) {
   EXPECT_EQ(counters.login_timeouts, 1u);
 }
 
-TEST_F(SessionTest, AHelloThatCameWhileTheServerDidNotRunIsHeard) {
+TEST_F(SessionTest, HelloReceivedDuringAServerStallIsAccepted) {
   session.checkDeadlines(now);
   session.checkDeadlines(now + 20s);  // a hello that arrived in the meantime is read next
   EXPECT_EQ(session.state(), Session::State::kGreeting);
@@ -450,7 +450,7 @@ TEST_F(SessionTest, AHelloThatCameWhileTheServerDidNotRunIsHeard) {
   EXPECT_EQ(counters.login_timeouts + counters.idle_timeouts, 0u);
 }
 
-TEST_F(SessionTest, AHelloThatIsNotJudgedInTimeIsRefusedAsBusy) {
+TEST_F(SessionTest, HelloNotEvaluatedInTimeIsRefusedAsBusy) {
   Wire waiting_line;
   Session waiting(std::make_unique<FakeChannel>(waiting_line), counters, now);
   int hellos = 0;
@@ -484,7 +484,7 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   EXPECT_EQ(counters.idle_timeouts, 1u);
 }
 
-TEST_F(SessionTest, FifteenSecondsOfSilenceCostAResumableSessionItsStreamOnly) {
+TEST_F(SessionTest, FifteenSilentSecondsDetachAResumableSession) {
   greet();
   session.setGrace(60s);
   listenUntil(session, 0s);  // restarts the clock
@@ -501,7 +501,7 @@ TEST_F(SessionTest, FifteenSecondsOfSilenceCostAResumableSessionItsStreamOnly) {
   EXPECT_EQ(gone, 1);
 }
 
-TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentAndCatchesUpAfter) {
+TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
   greet();
   test::SimulatedWorld world({}, 5);
   Publisher publisher;

@@ -64,7 +64,7 @@ class SessionWithTwoStreams : public SessionReturn {
   Publisher publisher;
 };
 
-TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNoPlayerJoins) {
+TEST_F(SessionWithTwoStreams, SecondStreamIsWelcomedWithoutANewPlayer) {
   ASSERT_EQ(second.sent.size(), 1u);
   EXPECT_TRUE(second.sent[0].welcome().second_stream());
   EXPECT_EQ(second.sent[0].welcome().resume_token(), "") << "the one that was shown stays good";
@@ -77,7 +77,7 @@ TEST_F(SessionWithTwoStreams, TheSecondIsWelcomedAndNoPlayerJoins) {
   EXPECT_FALSE(second.destroyed) << "it belongs to the session now";
 }
 
-TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
+TEST_F(SessionWithTwoStreams, SmallSnapshotsUseBothStreamsLargeOnesTheFirst) {
   tick();
   ASSERT_EQ(snapshots(first).size(), 1u);
   ASSERT_GT(snapshots(first)[0].size(), SnapshotDelivery::kMaxOnSecond) << "all of a world";
@@ -89,7 +89,7 @@ TEST_F(SessionWithTwoStreams, SmallSnapshotsGoOnBothLargeOnesOnTheFirst) {
   EXPECT_EQ(snapshots(second), snapshots(first));
 }
 
-TEST_F(SessionWithTwoStreams, WhatIsLargeIsNotOvertaken) {
+TEST_F(SessionWithTwoStreams, SecondStreamDoesNotOvertakeALargeSnapshot) {
   tick();
   forget();
   for (int i = 0; i < 5; ++i) tick();
@@ -106,7 +106,7 @@ TEST_F(SessionWithTwoStreams, WhatIsLargeIsNotOvertaken) {
   EXPECT_EQ(snapshots(second).size(), 1u);
 }
 
-TEST_F(SessionWithTwoStreams, OneThatWaitsDoesNotHoldUpTheOther) {
+TEST_F(SessionWithTwoStreams, BlockedStreamDoesNotBlockTheOther) {
   settle();
   first.unsent = 100;
   for (int i = 0; i < 5; ++i) tick();
@@ -126,7 +126,7 @@ TEST_F(SessionWithTwoStreams, OneThatWaitsDoesNotHoldUpTheOther) {
   EXPECT_EQ(session->skippedTicks() - skipped, 5u);
 }
 
-TEST_F(SessionWithTwoStreams, WhatElseWaitsOnTheFirstDoesNotHoldUpTheSecond) {
+TEST_F(SessionWithTwoStreams, PendingChatDoesNotBlockTheSecondStream) {
   settle();
   sendChat(std::string(200, 'x'));
   first.unsent = 10'000;
@@ -134,7 +134,7 @@ TEST_F(SessionWithTwoStreams, WhatElseWaitsOnTheFirstDoesNotHoldUpTheSecond) {
   EXPECT_EQ(snapshots(second).size(), 5u);
 }
 
-TEST_F(SessionWithTwoStreams, AFirstThatHasDiedIsNoticed) {
+TEST_F(SessionWithTwoStreams, DeadFirstStreamDetachesTheSession) {
   for (int i = 0; i < 200; ++i, now += 100ms) {
     key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
     session->checkDeadlines(now);
@@ -143,7 +143,7 @@ TEST_F(SessionWithTwoStreams, AFirstThatHasDiedIsNoticed) {
   EXPECT_EQ(counters.idle_timeouts, 1u);
 }
 
-TEST_F(SessionWithTwoStreams, InputsAreTakenOnceWhereverTheyComeFirst) {
+TEST_F(SessionWithTwoStreams, DuplicateInputsOfBothStreamsAreTakenOnce) {
   key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
   key(first, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
   key(first, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
@@ -153,7 +153,7 @@ TEST_F(SessionWithTwoStreams, InputsAreTakenOnceWhereverTheyComeFirst) {
   EXPECT_EQ(counters.repeated_inputs, 2u);
 }
 
-TEST_F(SessionWithTwoStreams, OnTheSecondThereAreUpdatesOnly) {
+TEST_F(SessionWithTwoStreams, ChatOnTheSecondStreamEndsTheSession) {
   chatLine(second, "hello", 1);
   EXPECT_TRUE(chat.empty());
   EXPECT_EQ(counters.malformed_messages, 1u);
@@ -167,7 +167,7 @@ TEST_F(SessionWithTwoStreams, BytesThatAreNoMessageEndTheSession) {
   EXPECT_EQ(session->state(), Session::State::kEnding);
 }
 
-TEST_F(SessionWithTwoStreams, WithoutTheSecondItGoesOnAsBefore) {
+TEST_F(SessionWithTwoStreams, LossOfTheSecondStreamKeepsTheSession) {
   settle();
   second.callbacks.on_closed(CloseReason::kError);
   EXPECT_FALSE(session->hasSecondStream());
@@ -184,7 +184,7 @@ TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
   EXPECT_TRUE(second.destroyed);
 }
 
-TEST_F(SessionWithTwoStreams, AnotherSecondReplacesIt) {
+TEST_F(SessionWithTwoStreams, NewSecondStreamReplacesTheOldOne) {
   Wire& third = lines.emplace_back();
   const auto newer = make(third);
   wire::ClientMessage message;

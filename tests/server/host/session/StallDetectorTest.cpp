@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kPile = StallDetector::kMuch + 1000;
 
-TEST(StallDetector, AStreamThatTakesNothingForTenSecondsIsStuck) {
+TEST(StallDetector, StreamIsStuckAfterTenSecondsWithoutProgress) {
   StallDetector detector;
   StallDetector::Time now{1h};
   EXPECT_FALSE(detector.addSample(kPile, now));
@@ -18,7 +18,7 @@ TEST(StallDetector, AStreamThatTakesNothingForTenSecondsIsStuck) {
   EXPECT_TRUE(detector.addSample(kPile + 5000, now + 11s)) << "more bytes do not help";
 }
 
-TEST(StallDetector, ASlowStreamIsNot) {
+TEST(StallDetector, SlowStreamIsNotStuck) {
   StallDetector detector;
   StallDetector::Time now{1h};
   for (std::size_t left = 900'000; left > 1000; left -= 1000, now += 9s) {
@@ -26,13 +26,13 @@ TEST(StallDetector, ASlowStreamIsNot) {
   }
 }
 
-TEST(StallDetector, LittleMayLieForEver) {
+TEST(StallDetector, SmallBacklogIsNeverStuck) {
   StallDetector detector;
   StallDetector::Time now{1h};
   for (int i = 0; i < 100; ++i, now += 1s) ASSERT_FALSE(detector.addSample(StallDetector::kMuch, now));
 }
 
-TEST(StallDetector, TheTimeStartsAgainWithEachPile) {
+TEST(StallDetector, EachNewBacklogRestartsTheTimeout) {
   StallDetector detector;
   StallDetector::Time now{1h};
   detector.addSample(kPile, now);

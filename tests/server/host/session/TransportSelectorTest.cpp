@@ -64,7 +64,7 @@ TEST_F(TransportSelectorTest, OneAcknowledgedProbeOpensIt) {
   EXPECT_FALSE(selector.wantsProbe(now));
 }
 
-TEST_F(TransportSelectorTest, WhatIsAcknowledgedOnTheStreamShowsOneDirectionOnly) {
+TEST_F(TransportSelectorTest, AcknowledgementOnTheStreamDoesNotOpenDatagrams) {
   const std::uint32_t probe = send(true);
   now += 20ms;
   hearOnStream(probe);
@@ -106,7 +106,7 @@ TEST_F(TransportSelectorTest, TheSameAcknowledgementDoesNotKeepItOpen) {
   EXPECT_FALSE(selector.isOpen(now));
 }
 
-TEST_F(TransportSelectorTest, WhatWasSentLongAgoDoesNotOpenIt) {
+TEST_F(TransportSelectorTest, AcknowledgementAfterTwoSecondsDoesNotOpenIt) {
   const std::uint32_t old = send(true);
   now += 2000ms;
   hear(old);
@@ -117,7 +117,7 @@ TEST_F(TransportSelectorTest, WhatWasSentLongAgoDoesNotOpenIt) {
   EXPECT_TRUE(selector.isOpen(now));
 }
 
-TEST_F(TransportSelectorTest, ProbesOftenAgainAfterAnotherStream) {
+TEST_F(TransportSelectorTest, NewStreamTriggersAProbe) {
   now += 10s;
   send(true);
   now += 100ms;
@@ -140,7 +140,7 @@ TEST_F(TransportSelectorTest, ProbesEagerlyForAWhileAfterItWasOpen) {
   EXPECT_NEAR(late, 10, 1);
 }
 
-TEST_F(TransportSelectorTest, ProbesEagerlyAsLongAsThereIsNoOtherWay) {
+TEST_F(TransportSelectorTest, ProbesEagerlyWithoutAStream) {
   now += 60s;
   send(true);
   now += 250ms;
@@ -148,7 +148,7 @@ TEST_F(TransportSelectorTest, ProbesEagerlyAsLongAsThereIsNoOtherWay) {
   EXPECT_TRUE(selector.wantsProbe(now, true));
 }
 
-TEST_F(TransportSelectorTest, NumbersThatWereNotSentChangeNothing) {
+TEST_F(TransportSelectorTest, AcknowledgementOfUnsentNumbersIsIgnored) {
   hear(77, ~std::uint64_t{0});
   EXPECT_FALSE(selector.isOpen(now));
   EXPECT_EQ(selector.roundTrip().count(), 0);
@@ -174,7 +174,7 @@ TEST_F(TransportSelectorTest, TheShortestRoundTripIsForgottenAfterTenSeconds) {
   EXPECT_EQ(selector.shortestRoundTrip(), 80ms);
 }
 
-TEST_F(TransportSelectorTest, AQueueThatGrowsLowersTheRateStepByStep) {
+TEST_F(TransportSelectorTest, QueueingDelayLowersTheRateStepByStep) {
   EXPECT_EQ(run(2s, 20ms), 1u);
   EXPECT_EQ(run(900ms, 150ms), 1u);
   EXPECT_EQ(run(1s, 150ms), 2u);
@@ -183,7 +183,7 @@ TEST_F(TransportSelectorTest, AQueueThatGrowsLowersTheRateStepByStep) {
   EXPECT_EQ(run(1s, 150ms), 6u);
 }
 
-TEST_F(TransportSelectorTest, TheRateReturnsAfterFiveGoodSecondsEach) {
+TEST_F(TransportSelectorTest, RateRisesAStepAfterFiveGoodSeconds) {
   run(2s, 20ms);
   EXPECT_EQ(run(1300ms, 20ms, 0.3), 2u);
   EXPECT_EQ(run(1100ms, 20ms, 0.3), 3u);
@@ -193,12 +193,12 @@ TEST_F(TransportSelectorTest, TheRateReturnsAfterFiveGoodSecondsEach) {
   EXPECT_EQ(run(400ms, 20ms), 1u);
 }
 
-TEST_F(TransportSelectorTest, LittleLossLowersNothing) {
+TEST_F(TransportSelectorTest, LossUpTo15PercentKeepsTheRate) {
   EXPECT_EQ(run(20s, 20ms, 0.05), 1u);
   EXPECT_EQ(run(20s, 20ms, 0.15), 1u);
 }
 
-TEST_F(TransportSelectorTest, BadMomentsShorterThanASecondLowerNothing) {
+TEST_F(TransportSelectorTest, LossBurstsUnderASecondKeepTheRate) {
   for (int i = 0; i < 10; ++i) {
     EXPECT_EQ(run(800ms, 20ms, 0.5), 1u);
     EXPECT_EQ(run(100ms, 20ms), 1u);

@@ -35,7 +35,7 @@ class DefaultFoldersTest : public testing::Test {
   std::vector<std::string> lines;
 };
 
-TEST_F(DefaultFoldersTest, RoundsAreWrittenDownUnlessAnOptionSaysOtherwise) {
+TEST_F(DefaultFoldersTest, RoundsAreRecordedUnlessAnOptionPreventsIt) {
   EXPECT_EQ(parse({}).journal, (folder / "state" / "rounds").string());
   EXPECT_TRUE(journals({"--on-game-over", "restart"}));
   EXPECT_TRUE(journals({"--room", "a=hello", "--room", "b=hello"}));
@@ -47,7 +47,7 @@ TEST_F(DefaultFoldersTest, RoundsAreWrittenDownUnlessAnOptionSaysOtherwise) {
   EXPECT_TRUE(journals({"--players", "private", "--journal", "elsewhere"}));
 }
 
-TEST_F(DefaultFoldersTest, AGameThatIsAProgramHasNoJournalByItself) {
+TEST_F(DefaultFoldersTest, GameProgramsRecordNoRoundsByDefault) {
   HostOptions options;
   readProgramOptions([](const std::string&) { return std::string(); }, options);
   EXPECT_FALSE(wantsJournal(options));
@@ -64,7 +64,7 @@ TEST_F(DefaultFoldersTest, TheFolderIsMadeForThisUserAlone) {
   EXPECT_EQ(facts.st_mode & 0777, 0700u);
 }
 
-TEST_F(DefaultFoldersTest, AFolderThatCannotBeIsSaidAndCostsTheJournalAlone) {
+TEST_F(DefaultFoldersTest, UncreatableFolderIsLoggedAndDisablesTheJournal) {
   std::ofstream(folder / "state") << "a file";
   EXPECT_FALSE(wantsJournal(withUsableJournal(parse({}), log())));
   ASSERT_EQ(lines.size(), 1u);

@@ -29,7 +29,7 @@ CommandLine parse(const std::vector<const char*>& arguments, HostOptions& option
   return parseHostOptions(static_cast<int>(all.size()), all.data(), options);
 }
 
-TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
+TEST(HostOptions, MisspeltConfigFileOptionIsAnError) {
   const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
   std::ofstream(path) << "ticks = 3\n";
   HostOptions options;
@@ -40,7 +40,7 @@ TEST(HostOptions, AMisspeltOptionInTheConfigFileIsAnError) {
   std::remove(path.c_str());
 }
 
-TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
+TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
   const char* const good[] = {"dfserver", "--max-players", "3"};
   EXPECT_EQ(readHostOptions(3, good).max_players, 3);
   const char* const bad[] = {"dfserver", "--max-players", "many"};
@@ -56,7 +56,7 @@ TEST(HostOptions, ReadAgainTheyThrowInsteadOfPrinting) {
   }
 }
 
-TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
+TEST(HostOptions, ReloadAppliesChangeableOptions) {
   HostOptions now;
   HostOptions next;
   EXPECT_EQ(takeOver(next, now).text(), "no changes");
@@ -71,7 +71,7 @@ TEST(HostOptions, ARunningServerTakesOverWhatMayChange) {
   EXPECT_TRUE(now.log_chat);
 }
 
-TEST(HostOptions, ARunningServerNamesWhatNeedsARestart) {
+TEST(HostOptions, ReloadNamesOptionsThatNeedARestart) {
   HostOptions now;
   HostOptions next;
   next.port = 1;
@@ -130,7 +130,7 @@ TEST(HostOptions, RoomsAreReadInTheirOrder) {
   EXPECT_TRUE(roomsOf(HostOptions()).empty());
 }
 
-TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
+TEST(HostOptions, InvalidRoomIsRejectedWithTheNearestMatch) {
   const Games games;
   EXPECT_EQ(complaintOf({"hello"}), "dfserver: --room \"hello\": expected NAME=GAME or NAME=GAME,KEY=VALUE");
   EXPECT_EQ(complaintOf({"a b=hello"}), "dfserver: --room \"a\": expected NAME=GAME or NAME=GAME,KEY=VALUE");
@@ -156,7 +156,7 @@ TEST(HostOptions, ARoomThatMakesNoSenseIsNamedWithTheNearestThatDoes) {
   EXPECT_EQ(complaintOf(all), "dfserver: --room: at most 64 rooms are possible, not 65");
 }
 
-TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
+TEST(HostOptions, OptionsIncompatibleWithRoomsAreErrors) {
   const Games games;
   HostOptions options;
   EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
@@ -168,20 +168,20 @@ TEST(HostOptions, WhatDoesNotGoWithRoomsIsAnError) {
   EXPECT_EQ(parse({"--truth", "", "--journal", "/tmp"}, options), CommandLine::kRun);
 }
 
-TEST(HostOptions, TheNearestRoomIsNamed) {
+TEST(HostOptions, UnknownRoomMessageSuggestsTheNearest) {
   EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
   EXPECT_FALSE(test::has(unknownRoom("x\033[2J", {"lobby", "tron"}), "\033"));
   EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". Rooms: lobby, tron.");
 }
 
-TEST(HostOptions, ATickThatNoClientWouldBelieveIsAnError) {
+TEST(HostOptions, FrameTimeBelow1000MicrosecondsIsAnError) {
   HostOptions options;
   EXPECT_EQ(parse({"--frame-time", "999"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--frame-time", "1000"}, options), CommandLine::kRun);
   EXPECT_EQ(parse({"--frame-time", "0"}, options), CommandLine::kRun);
 }
 
-TEST(HostOptions, OneAddressMayHaveAllPlaces) {
+TEST(HostOptions, PerAddressLimitMayEqualTheServerLimit) {
   HostOptions options;
   const std::string most = std::to_string(kMaxServerPlayers);
   EXPECT_EQ(parse({"--max-players", most.c_str(), "--max-per-address", most.c_str()}, options),
@@ -192,7 +192,7 @@ TEST(HostOptions, OneAddressMayHaveAllPlaces) {
   EXPECT_EQ(parse({"--max-per-address", "0"}, options), CommandLine::kUsageError);
 }
 
-TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
+TEST(HostOptions, UnknownOptionValueIsAnError) {
   HostOptions options;
   EXPECT_EQ(parse({"--players", "nobody"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--players", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
@@ -200,7 +200,7 @@ TEST(HostOptions, WhatIsNoneOfTheWordsIsAnError) {
   EXPECT_EQ(options.on_game_over, "exit");
 }
 
-TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
+TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
   for (const char* address : {"127.0.0.1:0", "[::1]:9100", "10.0.0.7:9100"}) {
     HostOptions options;
     EXPECT_EQ(parse({"--metrics", address, "--metrics-hosts", "game.internal,b"}, options),
@@ -219,7 +219,7 @@ TEST(HostOptions, MetricsOnAPublicAddressAreAnErrorUnlessThatIsAskedFor) {
   EXPECT_EQ(parse({"--audit", "perhaps"}, options), CommandLine::kUsageError);
 }
 
-TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
+TEST(HostOptions, AddressesPrintedForPlayersAreValidated) {
   HostOptions options;
   EXPECT_EQ(parse({"--link-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
                    "--web-address", "https://game.example/play", "--qr"},
@@ -240,12 +240,12 @@ TEST(HostOptions, WhatIsPrintedForPlayersIsChecked) {
   }
 }
 
-TEST(HostOptions, ThoseOfProgramsAreNoneOfDfservers) {
+TEST(HostOptions, DfserverRejectsGameProgramOptions) {
   HostOptions options;
   EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);
 }
 
-TEST(HostOptions, APasswordThatEveryUserCanReadIsWarnedOf) {
+TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
   namespace fs = std::filesystem;
   const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".conf";
   const auto warnings = [&path](const std::string& text, fs::perms perms) {
@@ -305,7 +305,7 @@ TEST_F(ProgramOptions, ComeFromTheConfigFile) {
   EXPECT_EQ(options.grace, 1.5);
 }
 
-TEST_F(ProgramOptions, AndBeforeThatFromTheEnvironment) {
+TEST_F(ProgramOptions, EnvironmentOverridesTheConfigFile) {
   config = {{"port", "1234"}, {"headless", "true"}};
   setenv("NAIAD_PORT", "4321", 1);
   setenv("NAIAD_HEADLESS", "0", 1);
@@ -323,7 +323,7 @@ TEST_F(ProgramOptions, TheGamesFrameTimeIsNotTheHosts) {
   EXPECT_EQ(options.frame_micros, 5000);
 }
 
-TEST_F(ProgramOptions, WhichGameIsNoQuestion) {
+TEST_F(ProgramOptions, ConfiguredGameNameIsIgnored) {
   setenv("NAIAD_GAME", "hello", 1);
   config = {{"game", "hello"}};
   EXPECT_TRUE(read().empty());
@@ -348,7 +348,7 @@ TEST_F(ProgramOptions, ListensOnLoopbackUnlessAskedOtherwise) {
   EXPECT_EQ(options.address, "::");
 }
 
-TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
+TEST_F(ProgramOptions, InvalidValueIsReportedWithItsLocation) {
   config = {{"port", "70000"}};
   EXPECT_EQ(complaint(), "df-config.txt:3: port: Value 70000 not in range 0 to 65535");
   setenv("NAIAD_PORT", "70001", 1);
@@ -364,7 +364,7 @@ TEST_F(ProgramOptions, NonsenseIsNamedWithItsPlace) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST(HostOptions, OnlyDfserverHasAControlSocketByItself) {
+TEST(HostOptions, OnlyDfserverHasAControlSocketByDefault) {
   HostOptions server;
   EXPECT_EQ(parse({}, server), CommandLine::kRun);
   EXPECT_TRUE(server.control_by_port);
@@ -383,7 +383,7 @@ TEST(HostOptions, OnlyDfserverHasAControlSocketByItself) {
   EXPECT_EQ(program.state, "");
 }
 
-TEST(HostOptions, OneIsChangedByItsNameWithinItsRange) {
+TEST(HostOptions, OptionIsSetByNameWithinItsRange) {
   HostOptions options;
   setHostOption(options, "max-players", "7");
   EXPECT_EQ(options.max_players, 7);
@@ -419,7 +419,7 @@ TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
   std::remove(path.c_str());
 }
 
-TEST(HostOptions, WhatIsPrintedAsAConfigurationIsOne) {
+TEST(HostOptions, PrintedConfigurationCanBeReadAgain) {
   const std::string path = testing::TempDir() + "naiad-printed-" + std::to_string(getpid());
   const std::vector<const char*> given{"--server-name", "a # \"b\"",     "--port",      "0",
                                        "--qr",          "--web-address", "https://x/#y"};
@@ -454,7 +454,7 @@ TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
   std::remove(path.c_str());
 }
 
-TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
+TEST(HostOptions, UnknownEnvironmentVariableCausesAWarning) {
   setenv("NAIAD_MAX_PLAYER", "3", 1);
   HostOptions options;
   EXPECT_EQ(parse({}, options), CommandLine::kRun);
@@ -465,7 +465,7 @@ TEST(HostOptions, AVariableThatIsNoneIsAWarning) {
 }
 
 // Variables of the other programs are accepted, because they may be set for all programs.
-TEST(HostOptions, VariablesOfTheClientAreNoMistakes) {
+TEST(HostOptions, VariablesOfOtherProgramsCauseNoWarning) {
   namespace fs = std::filesystem;
   std::set<std::string> names;
   const std::regex name("[\"`](NAIAD_[A-Z_]+)[\"`]");

@@ -18,7 +18,7 @@ TEST(MetricsAddress, IsANumericAddressAndAPort) {
   EXPECT_EQ(six->hostText(), "[::1]");
 }
 
-TEST(MetricsAddress, NothingElseIsOne) {
+TEST(MetricsAddress, RejectsInvalidAddresses) {
   for (const char* text :
        {"", "9100", ":9100", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:1x",
         "::1:9100", "[::1]", "[127.0.0.1]:1", "localhost:9100", "[]:1", "127.0.0.1:9100 ", "[::1]9100"}) {
@@ -26,7 +26,7 @@ TEST(MetricsAddress, NothingElseIsOne) {
   }
 }
 
-TEST(MetricsAddress, WhatNoRouterOfTheInternetLeadsToIsPrivate) {
+TEST(MetricsAddress, TellsPrivateAddressesFromPublicOnes) {
   for (const char* text :
        {"127.0.0.1:1", "127.255.0.9:1", "10.1.2.3:1", "172.16.0.1:1", "172.31.255.255:1", "192.168.7.7:1",
         "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"}) {
@@ -43,7 +43,7 @@ TEST(MetricsAddress, WhatNoRouterOfTheInternetLeadsToIsPrivate) {
   }
 }
 
-TEST(MetricsHosts, AreLocalhostNumbersAndNamesThatWereGiven) {
+TEST(MetricsHosts, AllowLocalhostNumericAddressesAndConfiguredNames) {
   const auto hosts = MetricsHosts::parse("game.internal,Node-7");
   ASSERT_TRUE(hosts);
   for (const char* host : {"localhost", "LOCALHOST:9100", "127.0.0.1", "127.0.0.1:1", "[::1]", "[::1]:9100",
@@ -57,7 +57,7 @@ TEST(MetricsHosts, AreLocalhostNumbersAndNamesThatWereGiven) {
   }
 }
 
-TEST(MetricsHosts, WhatIsNoNameIsRefused) {
+TEST(MetricsHosts, RejectInvalidNames) {
   EXPECT_TRUE(MetricsHosts::parse(""));
   for (const char* names : {",", "a,,b", "a b", "a:80", "http://a", "-a", "a,-b"}) {
     EXPECT_FALSE(MetricsHosts::parse(names)) << names;

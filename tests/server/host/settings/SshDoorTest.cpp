@@ -9,7 +9,7 @@ namespace {
 
 const std::string kSsh = "ssh -o IgnoreUnknown=ObscureKeystrokeTiming -o ObscureKeystrokeTiming=no ";
 
-TEST(SshDoor, IsTheCommandToType) {
+TEST(SshDoor, ReturnsTheSshCommand) {
   EXPECT_EQ(SshDoor::parse("play@game.example")->command(), kSsh + "play@game.example");
   EXPECT_EQ(SshDoor::parse("play@game.example:22")->command(), kSsh + "play@game.example");
   EXPECT_EQ(SshDoor::parse("play@game.example:2222")->command(), kSsh + "-p 2222 play@game.example");

@@ -71,7 +71,7 @@ TEST_F(AppearanceNamesTest, TheLeastRecentlyUsedIdIsReassigned) {
   EXPECT_EQ(write(2, ++snapshot, 2).kind, LookForm::kDefined);
 }
 
-TEST_F(AppearanceNamesTest, ALateArrivalDoesNotConfirmTheNextUnderTheId) {
+TEST_F(AppearanceNamesTest, LateArrivalDoesNotConfirmAReassignedId) {
   std::uint32_t snapshot = 0;
   for (std::uint64_t hash = 1; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
   const LookForm next = write(9, ++snapshot, kLargest);  // takes the id of 1
@@ -93,7 +93,7 @@ TEST_F(AppearanceNamesTest, AnEarlierDefinitionDoesNotConfirmALaterOne) {
   EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kNamed);
 }
 
-TEST_F(AppearanceNamesTest, GlyphsAreBoundedInAll) {
+TEST_F(AppearanceNamesTest, TotalGlyphsAreLimited) {
   std::uint32_t snapshot = 0;
   EXPECT_EQ(write(1, ++snapshot, kLargest + 1).kind, LookForm::kSpelled) << "too large for a name";
   for (std::uint64_t hash = 1; hash <= 20; ++hash) {

@@ -22,7 +22,7 @@ std::vector<std::size_t> marked(const ChangeIndex::Marks& marks) {
   return all;
 }
 
-TEST(ChangeIndex, MarksWhatAnExaminationOfEachChangeWould) {
+TEST(ChangeIndex, MarksTheSameChangesAsAFullScan) {
   SplitMix64 rng(1);
   ChangeIndex index;
   ChangeIndex::Marks marks;
@@ -53,13 +53,13 @@ TEST(ChangeIndex, MarksWhatAnExaminationOfEachChangeWould) {
   }
 }
 
-TEST(ChangeIndex, NowhereMeetsNothing) {
+TEST(ChangeIndex, NowhereRectangleMeetsNothing) {
   EXPECT_FALSE(CompactRect::nowhere().meets(CompactRect::everywhere()));
   EXPECT_FALSE(CompactRect::nowhere().meets(CompactRect({-5, -5, 5, 5})));
   EXPECT_TRUE(CompactRect({-5, -5, 5, 5}).meets(CompactRect::everywhere()));
 }
 
-TEST(SlotBits, HoldSlotsModuloTheirNumber) {
+TEST(SlotBits, StoreSlotsModuloTheBitCount) {
   SlotBits bits;
   bits.set(70);
   EXPECT_TRUE(bits.has(70));

@@ -63,7 +63,7 @@ TEST(ClientViewport, ALargeTerminalShowsTheViewAndNoMore) {
   }
 }
 
-TEST(ClientViewport, ASmallTerminalShowsTheMiddleOfAViewThatFollowsNothing) {
+TEST(ClientViewport, SmallTerminalShowsTheMiddleOfAFixedView) {
   Scene scene;
   ClientViewport window;
   window.setTerminal(40, 24);
@@ -75,7 +75,7 @@ TEST(ClientViewport, ASmallTerminalShowsTheMiddleOfAViewThatFollowsNothing) {
   EXPECT_EQ(rect.bottom, 74);
 }
 
-TEST(ClientViewport, ASmallTerminalShowsTheObjectThatTheViewFollows) {
+TEST(ClientViewport, SmallTerminalShowsTheFollowedObject) {
   Scene scene;
   scene.follow();
   scene.put(150, 60, 0);
@@ -91,7 +91,7 @@ TEST(ClientViewport, ASmallTerminalShowsTheObjectThatTheViewFollows) {
   EXPECT_LT(rect.bottom, 74);
 }
 
-TEST(ClientViewport, TheSmallestTerminalIsTheLowerLimit) {
+TEST(ClientViewport, TinyTerminalGetsTheMinimumViewport) {
   Scene scene;
   ClientViewport window;
   window.setTerminal(1, 1);
@@ -100,7 +100,7 @@ TEST(ClientViewport, TheSmallestTerminalIsTheLowerLimit) {
   EXPECT_GE(rect.bottom - rect.top, ClientViewport::kMinRows);
 }
 
-TEST(ClientViewport, AFastShipNeedsRoomAndKeepsItForAWhileWhenItStops) {
+TEST(ClientViewport, ViewportGrowsForAFastObjectAndShrinksLate) {
   Scene scene;
   scene.follow();
   ClientViewport window;

@@ -27,7 +27,7 @@ TEST(InterestGrid, RectanglesAreHalfOpen) {
   EXPECT_FALSE(rect.grownBy(1).contains({6, 4}));
 }
 
-TEST(InterestGrid, CompactRectanglesMeetAsTheyWouldInFull) {
+TEST(InterestGrid, CompactRectanglesIntersectLikeFullOnes) {
   const CompactRect rect(CellRect{-2, 3, 5, 4});
   EXPECT_TRUE(rect.meets(CompactRect(CellRect{4, 3, 9, 9})));
   EXPECT_FALSE(rect.meets(CompactRect(CellRect{5, 3, 9, 9})));
@@ -39,7 +39,7 @@ TEST(InterestGrid, CompactRectanglesMeetAsTheyWouldInFull) {
   EXPECT_FALSE(rect.meets(CompactRect(CellRect{kFar, -kFar, 2 * kFar, kFar})));
 }
 
-TEST(InterestGrid, FindsAnObjectThatEntersABlockFoundEmptyBefore) {
+TEST(InterestGrid, FindsAnObjectEnteringAKnownEmptyBlock) {
   InterestGrid grid;
   const CellRect rect{0, 0, 1, 1};
   for (std::uint32_t slot = 0; slot < 40; ++slot)
@@ -56,7 +56,7 @@ TEST(InterestGrid, FindsAnObjectThatEntersABlockFoundEmptyBefore) {
   EXPECT_EQ(near(grid, rect), std::multiset<std::uint32_t>{9});
 }
 
-TEST(InterestGrid, FindsAllInARectangleOnceAndNothingFarAway) {
+TEST(InterestGrid, FindsEachObjectOfARectangleOnce) {
   SplitMix64 rng(1);
   for (const std::int64_t world : {200, 20'000, 2'000'000'000}) {
     InterestGrid grid;

@@ -38,7 +38,7 @@ class KnownObjectsTest : public testing::Test {
   std::uint32_t number = 0;
 };
 
-TEST_F(KnownObjectsTest, ABirthIsPendingWholeUntilOneArrived) {
+TEST_F(KnownObjectsTest, BirthIsSentInFullUntilOneArrives) {
   known.addObject(70, 5, 33);
   const std::uint32_t id = known.find(70);
   EXPECT_EQ(id, 0u);
@@ -86,7 +86,7 @@ TEST_F(KnownObjectsTest, LostGroupsArePendingAgain) {
   EXPECT_EQ(known.at(id).pending_since, 20u);
 }
 
-TEST_F(KnownObjectsTest, GroupsSentAgainSinceAreNotPendingForTheOlderLoss) {
+TEST_F(KnownObjectsTest, OlderLossDoesNotRequeueResentGroups) {
   const std::uint32_t id = alive(3);
   known.addPending(id, kMotion | kLook, 5);
   const Sent first = send(id, 10);
@@ -140,7 +140,7 @@ TEST_F(KnownObjectsTest, ALostBirthIsPendingAgainUnlessAnotherArrived) {
   EXPECT_EQ(known.groupsToSend(id), kBody) << "alive already, and all else is as the one that arrived said";
 }
 
-TEST_F(KnownObjectsTest, AnObjectThatWasNeverSentIsRemovedAtOnce) {
+TEST_F(KnownObjectsTest, UnsentObjectIsRemovedAtOnce) {
   known.addObject(3, 1, 0);
   known.removeObject(0, 1);
   EXPECT_EQ(known.find(3), KnownObjects::kNone);
@@ -183,7 +183,7 @@ TEST_F(KnownObjectsTest, ADeathIsPendingUntilItArrived) {
   EXPECT_FALSE(known.requeueLost(death, 10, 30)) << "it is over";
 }
 
-TEST_F(KnownObjectsTest, ReportsOfEarlierGroupsDoNotAffectADyingObject) {
+TEST_F(KnownObjectsTest, EarlierReportsDoNotAffectADyingObject) {
   const std::uint32_t id = alive(3);
   known.addPending(id, kMotion, 4);
   const Sent moved = send(id, 9);
@@ -198,7 +198,7 @@ TEST_F(KnownObjectsTest, ReportsOfEarlierGroupsDoNotAffectADyingObject) {
   EXPECT_EQ(known.at(id).life, Life::kFree);
 }
 
-TEST_F(KnownObjectsTest, AnIdIsUsedAgainOnlyAfterItsDeathArrived) {
+TEST_F(KnownObjectsTest, IdIsReusedOnlyAfterItsDeathArrived) {
   const std::uint32_t first = alive(3);
   known.removeObject(first, 5);
   known.addObject(4, 1, 5);
@@ -214,7 +214,7 @@ TEST_F(KnownObjectsTest, AnIdIsUsedAgainOnlyAfterItsDeathArrived) {
   EXPECT_EQ(KnownObjects::generationOf(known.at(first)), (birth + 1) % 3 + 1) << "never 0";
 }
 
-TEST_F(KnownObjectsTest, ReportsOfThePreviousObjectDoNotAffectTheNextUnderItsId) {
+TEST_F(KnownObjectsTest, OldReportsDoNotAffectAReusedId) {
   const std::uint32_t id = alive(3);
   known.addPending(id, kMotion, 4);
   const Sent moved = send(id, 9);

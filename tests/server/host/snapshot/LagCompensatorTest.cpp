@@ -33,7 +33,7 @@ class LagCompensatorTest : public testing::Test {
   std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // by tick and slot
 };
 
-TEST_F(LagCompensatorTest, ReturnsThePositionThatAClientWithTheBaseDrew) {
+TEST_F(LagCompensatorTest, ReturnsThePositionTheClientDrew) {
   SplitMix64 rng(1);
   int there = 0;
   int not_born = 0;
@@ -83,7 +83,7 @@ TEST_F(LagCompensatorTest, OldAndFutureTicksAreClamped) {
   EXPECT_GT(objects, 10);
 }
 
-TEST_F(LagCompensatorTest, WithoutAViewedTickOrAnObjectThereIsNoPosition) {
+TEST_F(LagCompensatorTest, UnknownTickOrObjectHasNoPosition) {
   tick();
   tick();
   std::map<std::uint32_t, Publisher::Model> before = published[world.tickNumber()];
@@ -152,7 +152,7 @@ class LagCompensatorViews : public testing::Test {
   std::map<std::uint32_t, std::vector<Replica>> known;  ///< tick -> each player's replica
 };
 
-TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
+TEST_F(LagCompensatorViews, MatchTheViewsThatClientsDrew) {
   SplitMix64 rng(3);
   int compared = 0;
   int scrolled = 0;
@@ -180,7 +180,7 @@ TEST_F(LagCompensatorViews, AreWhereTheClientThatKnewTheBaseDrewThem) {
   std::printf("compared=%d scrolled=%d\n", compared, scrolled);
 }
 
-TEST_F(LagCompensatorViews, UnknownPlayersHaveNoViewAndOldTicksAreClamped) {
+TEST_F(LagCompensatorViews, RejectUnknownPlayersAndClampOldTicks) {
   for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
   const std::uint32_t now = world.tickNumber();
   const std::uint32_t id = player(1).id;
@@ -193,7 +193,7 @@ TEST_F(LagCompensatorViews, UnknownPlayersHaveNoViewAndOldTicksAreClamped) {
             compensator.viewCornerOf(id, {true, now - 20, now - LagCompensator::kMaxBehind}));
 }
 
-TEST_F(LagCompensatorViews, AreNotCompensatedForAPlayerWhoSteersTheFollowedObject) {
+TEST_F(LagCompensatorViews, AreNotCompensatedWhenPlayersSteerTheFollowedObject) {
   for (int t = 0; t < 50; ++t) ASSERT_NO_FATAL_FAILURE(tick());
   df::WorldView view = world.view();
   df::PlayerFacts& steers = view.players[0];

@@ -148,7 +148,7 @@ class LevelLoad {
   SplitMix64 m_rng{700};
 };
 
-TEST(LevelLoad, SevenHundredBirthsArriveWithinThreeTicksAndDelayNoOtherClient) {
+TEST(LevelLoad, Sends700BirthsInThreeTicksWithoutDelayingOthers) {
   LevelLoad scene;
   for (std::uint64_t i = 0; i < 2; ++i) scene.clients.push_back(std::make_unique<Client>(scene.clock, i));
   Client& loading = *scene.clients[0];

@@ -34,7 +34,7 @@ TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
   }
 }
 
-TEST(LookCapture, CellsAreRightAtTheCapturedPositionWhateverTheOffset) {
+TEST(LookCapture, CapturedCellsAreCorrectForAnyOffset) {
   SplitMix64 rng(2);
   for (int i = 0; i < 2000; ++i) {
     const df::FixedVector where = cellsAt((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
@@ -72,7 +72,7 @@ TEST(LookCapture, LeavesOutDistantCharacters) {
   EXPECT_EQ(captureCells(cellsAt(0, 0), commands).size(), 1u);
 }
 
-TEST(LookCapture, OppositeEndsOfTheWorldAreTooFarApart) {
+TEST(LookCapture, CharactersAcrossTheWorldAreDropped) {
   const std::vector<df::DrawCommand> commands = {{cellsAt(2e9, -2e9), U'a', df::RED}};
   EXPECT_TRUE(captureAppearance(cellsAt(-2e9, 2e9), commands).empty());
   EXPECT_TRUE(captureCells(cellsAt(-2e9, 2e9), commands).empty());
@@ -83,7 +83,7 @@ TEST(LookCapture, CutsAtTheLargestAppearance) {
   EXPECT_EQ(captureAppearance(cellsAt(0, 0), commands).size(), kMaxGlyphs);
 }
 
-TEST(LookCapture, FitsALookIntoARecordByCuttingItsEnd) {
+TEST(LookCapture, TruncatesALookToFitARecord) {
   Appearance whole(kMaxGlyphs);
   SplitMix64 rng(3);
   for (Glyph& glyph : whole) {

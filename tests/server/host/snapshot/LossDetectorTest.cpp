@@ -36,7 +36,7 @@ TEST(LossDetector, ALateArrivalMakesItPatient) {
   EXPECT_TRUE(losses.isLost(snapshotOf(8), {8 + LossEstimator::kPatience, 0}));
 }
 
-TEST(LossDetector, AProbeSaysNothingOfTheLine) {
+TEST(LossDetector, LostProbeDoesNotCountAsLoss) {
   LossDetector losses;
   losses.recordOutcome(snapshotOf(5, false, true), true);
   EXPECT_EQ(losses.estimator().loss(), 0);

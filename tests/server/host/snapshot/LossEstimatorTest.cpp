@@ -5,7 +5,7 @@
 namespace naiad::test {
 namespace {
 
-TEST(LossEstimator, OneLossInFiftyIsRememberedThroughAWhileWithoutLoss) {
+TEST(LossEstimator, TwoPercentLossIsRememberedFor250Snapshots) {
   LossEstimator line;
   for (int i = 0; i < 1000; ++i) line.addOutcome(i % 50 == 0);
   EXPECT_NEAR(line.usualLoss(), 0.02, 0.01);

@@ -74,7 +74,7 @@ class Random {
   SplitMix64 m_rng;
 };
 
-TEST(MotionFit, DrawsTheSameCellsUpToTheHorizonWithNoMoreBits) {
+TEST(MotionFit, DrawsTheSameCellsWithoutMoreBits) {
   Random random(1);
   int coarser = 0;
   for (int i = 0; i < 6000; ++i) {
@@ -103,14 +103,14 @@ TEST(MotionFit, ShortNumbersStayAsTheyAre) {
   }
 }
 
-TEST(MotionFit, WhatStandsStillIsDrawnFromItsCell) {
+TEST(MotionFit, StandingObjectIsRoundedToItsCell) {
   const Motion truth{10, {df::fromCells(5) + 12345, df::fromCells(-7) - 54321}, {}, {}};
   const Motion fitted = fitMotion(truth, Offsets(1), 64);
   EXPECT_EQ(fitted.position, cellsAt(5, -7));
   EXPECT_EQ(fitted.velocity, df::FixedVector{});
 }
 
-TEST(MotionFit, OffsetsOfHalfACellMatter) {
+TEST(MotionFit, FractionalGlyphOffsetsAreRespected) {
   const Motion truth{10, cellsAt(5.25, 3), {}, {}};
   EXPECT_EQ(fitMotion(truth, Offsets{cellsAt(0, 0)}, 64).position, cellsAt(5, 3));
   // The offsets are drawn in cells 5 and 6. From (5, 3) all would be in cell 5, from (5.5, 3) all in cell 6.
@@ -120,7 +120,7 @@ TEST(MotionFit, OffsetsOfHalfACellMatter) {
   EXPECT_NE(fitted.position, cellsAt(5, 3));
 }
 
-TEST(MotionFit, TheTruthIsReturnedWhereNothingIsTried) {
+TEST(MotionFit, UnfittableMotionIsReturnedUnchanged) {
   const Offsets offsets(1);
   const Motion odd{10, {12345, 67}, {891, 23}, {}};
   EXPECT_NE(fitMotion(odd, offsets, kLongestHorizon), odd);

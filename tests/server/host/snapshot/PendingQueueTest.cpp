@@ -37,11 +37,11 @@ class PendingQueueTest : public testing::Test {
   PendingQueue queue;
 };
 
-TEST_F(PendingQueueTest, WhereAllFitTheyComeById) {
+TEST_F(PendingQueueTest, ObjectsThatAllFitAreOrderedById) {
   EXPECT_EQ(order(kMaxSnapshot), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
 }
 
-TEST_F(PendingQueueTest, ElseTheNearestToTheMiddleOfTheViewComesFirst) {
+TEST_F(PendingQueueTest, LimitedQueueIsSortedByDistanceFromTheMiddle) {
   EXPECT_EQ(order(100), (std::vector<std::uint32_t>{4, 3, 5, 2, 6, 1, 7, 0}));
 }
 

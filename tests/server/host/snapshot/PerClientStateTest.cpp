@@ -69,7 +69,7 @@ TEST(PerClientState, WorldViewAndOriginComeFirstAndOnce) {
   EXPECT_TRUE(records.worlds.empty());
 }
 
-TEST(PerClientState, OnlyTheNewestSendingCanBeLost) {
+TEST(PerClientState, OnlyTheNewestSendingIsRequeuedWhenLost) {
   Alone scene;
   scene.tick();
   scene.say("old");
@@ -175,7 +175,7 @@ class Following {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, AViewIsRightAlthoughTheMotionItFollowsCameLate) {
+TEST(PerClientState, ViewIsCorrectAfterLateMotionOfFollowedObject) {
   Following scene;
   scene.tick(100, 0, Arrival::kBothWays);
   scene.expectSameView();
@@ -187,7 +187,7 @@ TEST(PerClientState, AViewIsRightAlthoughTheMotionItFollowsCameLate) {
   scene.expectSameView();
 }
 
-TEST(PerClientState, AViewFollowsAnotherObjectAtOnceAlthoughTheDeathIsUnconfirmed) {
+TEST(PerClientState, ViewFollowsNewObjectBeforeOldDeathIsConfirmed) {
   Following scene;
   scene.tick(100, 0, Arrival::kBothWays);
   scene.becomeAnother();
@@ -280,7 +280,7 @@ class Steering {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, ControlsAreSentOnceAndTheirStateWhereItCannotBeComputed) {
+TEST(PerClientState, ControlStateIsSentOnlyWhenUnpredictable) {
   Steering scene;
   EXPECT_TRUE(scene.tick({}));
   EXPECT_EQ(scene.replica.controlTable(), scene.table());
@@ -316,7 +316,7 @@ TEST(PerClientState, LostControlsAreSentAgain) {
   scene.expectKnown();
 }
 
-TEST(PerClientState, ControlsThatEndAreSentAsATableWithoutRows) {
+TEST(PerClientState, EndOfControlsIsSentAsAnEmptyTable) {
   Steering scene;
   scene.tick({});
   scene.steering() = {};
@@ -325,7 +325,7 @@ TEST(PerClientState, ControlsThatEndAreSentAsATableWithoutRows) {
   EXPECT_EQ(scene.replica.controlTableNumber(), 2u);
 }
 
-TEST(PerClientState, AShipThatTurnsCostsLittle) {
+TEST(PerClientState, ControlRecordOfAMoveFitsIn8Bytes) {
   Steering scene;
   scene.tick({});
   for (int i = 0; i < 10; ++i) scene.tick({});

@@ -85,7 +85,7 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
 }
 
 // Holds for repeated calls and in every tick.
-TEST_F(PublisherTest, TheSharedMotionIsThatOfTheModelAtTheTick) {
+TEST_F(PublisherTest, SharedMotionEqualsTheModelAtTheTick) {
   const auto expectShared = [&](std::uint32_t slot) {
     const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
     for (int asked = 0; asked < 2; ++asked) {
@@ -121,7 +121,7 @@ TEST_F(PublisherTest, StraightFlightIsPublishedOnce) {
   EXPECT_EQ(publisher.correctionCount(), 0u);
 }
 
-TEST_F(PublisherTest, AViewObjectStandsWhereverTheViewsGo) {
+TEST_F(PublisherTest, ViewObjectStandsStillWhileViewsMove) {
   for (int i = 0; i < 50; ++i) {
     const df::FixedVector corner = cellsAt(100 + 0.3 * i, 7.5);  // corner of the world's own view
     view().corner = corner;
@@ -141,7 +141,7 @@ TEST_F(PublisherTest, AViewObjectStandsWhereverTheViewsGo) {
   EXPECT_GT(model.reach, Publisher::Model::kWide) << "so it is sent to every client";
 }
 
-TEST_F(PublisherTest, ABackgroundThatIsNoColourIsNone) {
+TEST_F(PublisherTest, InvalidBackgroundColourBecomesBlack) {
   const auto published = [&](df::Color background) {
     view().background = background;
     publish();
@@ -165,7 +165,7 @@ TEST_F(PublisherTest, AcceleratedFlightIsPublishedOnce) {
   }
 }
 
-TEST_F(PublisherTest, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
+TEST_F(PublisherTest, TurnIsCorrectedExactlyWhenItsCellIsWrong) {
   df::FixedVector position = cellsAt(10, 10);
   df::FixedVector velocity = cellsAt(0.125, 0);
   Motion modelled{1, position, velocity, {}};
@@ -198,7 +198,7 @@ TEST_F(PublisherTest, ATurnIsCorrectedExactlyWhenTheCellWouldBeWrong) {
   EXPECT_LE(corrections, 4);
 }
 
-TEST_F(PublisherTest, ATurnOfAnObjectThatDrawsNothingIsCorrectedToo) {
+TEST_F(PublisherTest, TurnOfAnUndrawnObjectIsCorrectedToo) {
   changed(0, cellsAt(10, 10), cellsAt(1, 0));
   drew({0, 1}, {});
   publish();
@@ -223,7 +223,7 @@ TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
   }
 }
 
-TEST_F(PublisherTest, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
+TEST_F(PublisherTest, UnreportedObjectStandsStillEvenIfItMovedBefore) {
   drawn(0, cellsAt(10, 10), cellsAt(1, 0));
   publish();
   drew(0, cellsAt(10, 10));
@@ -231,7 +231,7 @@ TEST_F(PublisherTest, AnObjectThatIsNotReportedStandsStillEvenIfItLastMoved) {
   EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
 }
 
-TEST_F(PublisherTest, SolidObjectsThatStandAreExactOnceAClientPredicts) {
+TEST_F(PublisherTest, StandingSolidObjectsAreExactOnceAClientPredicts) {
   const df::FixedVector position = cellsAt(10.3, 10.2);
   drawn(0, position);
   publish();
@@ -248,7 +248,7 @@ TEST_F(PublisherTest, SolidObjectsThatStandAreExactOnceAClientPredicts) {
   EXPECT_EQ(publisher.find(0)->state.motion.position, position + cellsAt(0.05, 0));
 }
 
-TEST_F(PublisherTest, ANewCharacterIsALookAndNothingElse) {
+TEST_F(PublisherTest, NewCharacterChangesOnlyTheLook) {
   changed(0, cellsAt(10, 10));
   drew(0, cellsAt(10, 10), U'a');
   publish();
@@ -258,7 +258,7 @@ TEST_F(PublisherTest, ANewCharacterIsALookAndNothingElse) {
   EXPECT_EQ(publisher.correctionCount(), 0u);
 }
 
-TEST_F(PublisherTest, BoxAndAltitudeAreBodyAndLook) {
+TEST_F(PublisherTest, BoxChangesTheBodyAndAltitudeTheLook) {
   drawn(0, cellsAt(10, 10));
   publish();
   changed(0, cellsAt(10, 10)).box = {cellsAt(-1, -1), cellsAt(2, 2)};
@@ -272,7 +272,7 @@ TEST_F(PublisherTest, BoxAndAltitudeAreBodyAndLook) {
   EXPECT_EQ(publisher.find(0)->state.look.altitude, 4);
 }
 
-TEST_F(PublisherTest, AHalfCellSpriteFliesFree) {
+TEST_F(PublisherTest, HalfCellSpriteInFlightNeedsFewCorrections) {
   df::FixedVector position = cellsAt(5.3, 5.1);
   const df::FixedVector velocity = cellsAt(0.37, 0.11);
   std::size_t corrections = 0;
@@ -290,7 +290,7 @@ TEST_F(PublisherTest, AHalfCellSpriteFliesFree) {
   EXPECT_LE(corrections, 2u);
 }
 
-TEST_F(PublisherTest, AHiddenObjectLosesItsLookAndGetsItBack) {
+TEST_F(PublisherTest, HiddenObjectLosesItsLookUntilShown) {
   drawn(0, cellsAt(10, 10));
   publish();
   changed(0, cellsAt(10, 10)).shown = false;
@@ -301,7 +301,7 @@ TEST_F(PublisherTest, AHiddenObjectLosesItsLookAndGetsItBack) {
   EXPECT_EQ(groupsOf(publish(), 0), kLook);
 }
 
-TEST_F(PublisherTest, ASolidObjectThatStopsAndHidesIsHiddenAtOnce) {
+TEST_F(PublisherTest, SolidObjectStoppingAndHidingIsHiddenAtOnce) {
   view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
   drawn(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
   publish();
@@ -323,7 +323,7 @@ TEST_F(PublisherTest, AnObjectThatLeavesEveryViewKeepsItsLook) {
   EXPECT_NE(publisher.find(0)->state.look.select(0), nullptr);
 }
 
-TEST_F(PublisherTest, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
+TEST_F(PublisherTest, SlotReuseInOneTickIsOneChange) {
   changed(3, cellsAt(10, 10));
   publish();
   view().vanished.push_back({3, 1});
@@ -339,7 +339,7 @@ TEST_F(PublisherTest, ADeathAndABirthInOneSlotAreOneChangeToTheNewGeneration) {
   EXPECT_EQ(publisher.find(3), nullptr);
 }
 
-TEST_F(PublisherTest, LooseCharactersShareOneObjectBeneathAll) {
+TEST_F(PublisherTest, CharactersDrawnOutsideObjectsShareOneObject) {
   drew({}, {{cellsAt(5, 5), U'x', df::RED}});
   drew({}, {{cellsAt(60, 20), U'y', df::RED}});
   EXPECT_EQ(groupsOf(publish(), kLooseSlot), kAllGroups);
@@ -406,7 +406,7 @@ void expectSamePictures(const test::WorldConfig& config, std::uint64_t seed, int
   }
 }
 
-TEST_F(PublisherTest, AReplicaDrawsWhatTheWorldDrawsAtEveryTick) {
+TEST_F(PublisherTest, ReplicaDrawsTheWorldsPictureEveryTick) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     test::WorldConfig config;
     config.players = 1 + seed % 3;
@@ -426,7 +426,7 @@ TEST_F(PublisherTest, ALivelyWorldIsDrawnAsWell) {
   }
 }
 
-TEST_F(PublisherTest, WorldsOfStraightFlightCostNothing) {
+TEST_F(PublisherTest, StraightFlightNeedsFewUpdates) {
   test::WorldConfig config;
   config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
   config.scribble = config.speech = config.refollow = 0;
@@ -470,7 +470,7 @@ TEST_F(PublisherTest, ALookThatChangesByItselfIsPublishedOnce) {
   }
 }
 
-TEST_F(PublisherTest, AnotherPaceIsPublishedWithTheFirstFrameThatDiffers) {
+TEST_F(PublisherTest, PaceChangeIsPublishedWithTheFirstDifferentFrame) {
   Look look{wheel(), 2, Selector::turning(1, 0, 1 << 24)};  // 64 ticks per frame
   changed(0, cellsAt(10, 10));
   showed(0, cellsAt(10, 10), look);
@@ -507,7 +507,7 @@ TEST_F(PublisherTest, ADrawnLookOverridesTheDeclaredOne) {
   EXPECT_EQ(published.selector, look.selector);
 }
 
-TEST_F(PublisherTest, ATurningObjectThatFliesOverFractionsOfCellsIsPublishedOnce) {
+TEST_F(PublisherTest, TurningObjectInFractionalFlightIsPublishedOnce) {
   const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
   df::FixedVector position = cellsAt(1.25, 3.5);
   const df::FixedVector velocity = cellsAt(0.3, 0.07);

@@ -35,7 +35,7 @@ struct Sent {
   std::vector<KnownObjects::Sent> sent;
 };
 
-TEST(RedundantResend, ALongRecordIsRepeatedOnceAShortOneTwice) {
+TEST(RedundantResend, LongRecordIsRepeatedOnceShortOneTwice) {
   Sent one;
   one.redundancy.addRecord(one.sent[0], 100, 0);
   EXPECT_EQ(one.next(100).size(), 1u);

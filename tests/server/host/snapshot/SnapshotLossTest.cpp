@@ -222,7 +222,7 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
 }
 
 // A confirmed record is not sent again, although newer snapshots that carried it are still in flight.
-TEST(SnapshotLoss, ARecordSentEveryTickIsConfirmedByTheFirstThatArrives) {
+TEST(SnapshotLoss, FirstArrivalConfirmsARecordSentEveryTick) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     LinkConditions slow;

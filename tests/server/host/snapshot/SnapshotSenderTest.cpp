@@ -14,7 +14,7 @@ namespace {
 using test::cellsAt;
 using test::DirectSender;
 
-TEST(SnapshotSender, RespectsTheRecordLimitFor700Births) {
+TEST(SnapshotSender, Sends700BirthsInDatagramSizedSnapshots) {
   DirectSender direct(700);
   const auto snapshots = direct.tick();
   std::set<std::uint32_t> born;
@@ -45,7 +45,7 @@ TEST(SnapshotSender, SendsAnEmptySnapshotEveryFifthTick) {
   }
 }
 
-TEST(SnapshotSender, UntilABirthIsAcknowledgedEveryRecordIsABirth) {
+TEST(SnapshotSender, RecordsAreBirthsUntilOneIsAcknowledged) {
   DirectSender direct(1);
   direct.tick();
   df::ObjectFacts facts;
@@ -64,7 +64,7 @@ TEST(SnapshotSender, UntilABirthIsAcknowledgedEveryRecordIsABirth) {
   EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kMotion);
 }
 
-TEST(SnapshotSender, AnObjectThatDiedBeforeItWasSentIsNeverMentioned) {
+TEST(SnapshotSender, ObjectThatDiedUnsentIsNeverMentioned) {
   DirectSender direct(2);
   direct.skip();
   direct.view().vanished.push_back({0, 1});
@@ -75,7 +75,7 @@ TEST(SnapshotSender, AnObjectThatDiedBeforeItWasSentIsNeverMentioned) {
   EXPECT_EQ(records.objects[0].state.order, 2u);
 }
 
-TEST(SnapshotSender, ALostSnapshotIsSentAgainInItsNewestState) {
+TEST(SnapshotSender, LostSnapshotIsResentWithTheNewestState) {
   DirectSender direct(1);
   direct.tick();
   direct.acknowledge(1);
@@ -173,7 +173,7 @@ TEST(SnapshotSender, AProbeCarriesNothingAndMayBeLost) {
   EXPECT_EQ(direct.sender.resentCount(), 0u);
 }
 
-TEST(SnapshotSender, ALossOfWhatIsPendingAgainIsNoDivergence) {
+TEST(SnapshotSender, LossOfPendingChangesIsNotADivergence) {
   DirectSender direct(1);
   direct.tick();
   direct.acknowledge(1);

@@ -124,7 +124,7 @@ std::size_t flight(int slowdown) {
   return show.ticks(300);
 }
 
-TEST(SpriteLook, TwoHundredAnimatedSaucersInFlightCostWhatStillOnesDo) {
+TEST(SpriteLook, TwoHundredAnimatedSaucersInFlightCostNothing) {
   const std::size_t animated = flight(4);
   EXPECT_EQ(animated, flight(0));
   EXPECT_EQ(animated, idle(300));
@@ -148,7 +148,7 @@ struct PublishedAnimation {
   }
 };
 
-TEST(SpriteLook, AClientShowsTheFramesThatThePublishedEngineDraws) {
+TEST(SpriteLook, ClientShowsTheFramesOfThePublishedEngine) {
   for (const int slowdown : {0, 1, 2, 3, 5, 8}) {
     SCOPED_TRACE(slowdown);
     Show show;
@@ -187,7 +187,7 @@ TEST(SpriteLook, EachPaceIsDrawnFrameByFrame) {
   show.ticks(200);
 }
 
-TEST(SpriteLook, AChangeOfAnAnimationShowsInTheSameTick) {
+TEST(SpriteLook, AnimationChangeShowsInTheSameTick) {
   Show show;
   df::Sprite sprite = saucer(4);
   df::Sprite other = makeSprite({"xx", "yy", "zz"}, 2, 2);

@@ -12,7 +12,7 @@ std::string classOfName(const char* p_mangled) {
   return std::string(classInMangled(p_mangled));
 }
 
-TEST(ActivityReader, NamesTheClassAlone) {
+TEST(ActivityReader, ExtractsTheClassFromAMangledName) {
   EXPECT_EQ(classOfName("9EventStep"), "EventStep");
   EXPECT_EQ(classOfName("N2df9EventStepE"), "EventStep");
   EXPECT_EQ(classOfName("N12_GLOBAL__N_14ShipE"), "Ship");
@@ -23,7 +23,7 @@ TEST(ActivityReader, NamesTheClassAlone) {
     EXPECT_EQ(classOfName(p_strange), p_strange);
 }
 
-TEST(ActivityReader, SaysWhatRuns) {
+TEST(ActivityReader, DescribesTheRunningHandler) {
   const auto page = std::make_unique<df::ActivityPage>();
   EXPECT_TRUE(describeActivity(*page, "handled").empty());
   page->addName(16, "4Ship");
@@ -38,7 +38,7 @@ TEST(ActivityReader, SaysWhatRuns) {
   EXPECT_EQ(describeActivity(*page, "handled").view(), ", while an Object of unknown class handled an event");
 }
 
-TEST(ActivityReader, HasRoomForSoManyClassesAndForgetsNone) {
+TEST(ActivityReader, FullNameTableKeepsItsClasses) {
   const auto page = std::make_unique<df::ActivityPage>();
   for (std::uintptr_t id = 1; id <= df::ActivityPage::kNames + 10; ++id)
     page->addName(8 * id, ("5C" + std::to_string(1000 + id)).c_str());

@@ -11,7 +11,7 @@
 namespace naiad {
 namespace {
 
-TEST(BuildId, OfTheLibraryIsWhatItsFileSays) {
+TEST(BuildId, MatchesTheLibraryFile) {
   const std::string& id = ownBuildId();
   ASSERT_GE(id.size(), 2 * kShownBuildId);
   ASSERT_LE(id.size(), kMaxBuildId);

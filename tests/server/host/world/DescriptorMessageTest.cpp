@@ -54,7 +54,7 @@ class DescriptorMessageTest : public testing::Test {
   std::size_t open_before = 0;
 };
 
-TEST_F(DescriptorMessageTest, TheyArriveInTheirOrderWithTheBytes) {
+TEST_F(DescriptorMessageTest, DescriptorsArriveInOrderWithTheBytes) {
   for (const std::size_t count : {std::size_t{1}, std::size_t{2}, std::size_t{5}, kMaxPassed}) {
     ASSERT_TRUE(send(count)) << count;
     std::array<int, kMaxPassed> room{};
@@ -71,7 +71,7 @@ TEST_F(DescriptorMessageTest, TheyArriveInTheirOrderWithTheBytes) {
   EXPECT_EQ(openDescriptors(), open_before);
 }
 
-TEST_F(DescriptorMessageTest, MoreThanThereIsRoomForAreClosed) {
+TEST_F(DescriptorMessageTest, ExcessDescriptorsAreClosed) {
   for (const std::size_t count : {std::size_t{2}, std::size_t{3}, kMaxPassed}) {
     ASSERT_TRUE(send(count));
     int one = -1;
@@ -81,7 +81,7 @@ TEST_F(DescriptorMessageTest, MoreThanThereIsRoomForAreClosed) {
   }
 }
 
-TEST_F(DescriptorMessageTest, ThoseOfAMessageOfAnotherLengthAreClosed) {
+TEST_F(DescriptorMessageTest, DescriptorsOfAMessageOfWrongLengthAreClosed) {
   std::array<int, kMaxPassed> room{};
   for (const std::size_t size : {sizeof kWord - 1, sizeof kWord + 1}) {
     ASSERT_TRUE(send(2));
@@ -91,7 +91,7 @@ TEST_F(DescriptorMessageTest, ThoseOfAMessageOfAnotherLengthAreClosed) {
   }
 }
 
-TEST_F(DescriptorMessageTest, AMessageMayComeWithoutAny) {
+TEST_F(DescriptorMessageTest, MessageWithoutDescriptorsIsReceived) {
   ASSERT_EQ(::send(ends[0], &kWord, sizeof kWord, 0), static_cast<ssize_t>(sizeof kWord));
   std::array<int, kMaxPassed> room{};
   std::uint32_t word = 0;
@@ -99,7 +99,7 @@ TEST_F(DescriptorMessageTest, AMessageMayComeWithoutAny) {
   EXPECT_EQ(word, kWord);
 }
 
-TEST_F(DescriptorMessageTest, NothingIsReceivedWhereNothingWasSentOrTheOtherEndIsClosed) {
+TEST_F(DescriptorMessageTest, EmptyOrClosedSocketFailsWithoutASignal) {
   std::array<int, kMaxPassed> room{};
   std::uint32_t word = 0;
   EXPECT_EQ(receiveDescriptors(ends[1], &word, sizeof word, room, MSG_DONTWAIT), -1);

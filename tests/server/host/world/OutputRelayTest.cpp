@@ -34,7 +34,7 @@ class OutputRelayTest : public testing::Test {
   int m_end = -1;
 };
 
-TEST_F(OutputRelayTest, PassesOnWholeLinesAndAtTheEndTheRest) {
+TEST_F(OutputRelayTest, RelaysCompleteLinesAndTheRestAtTheEnd) {
   print("one\ntw");
   relay->update(now);
   EXPECT_EQ(lines, std::vector<std::string>{"one"});

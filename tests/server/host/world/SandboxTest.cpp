@@ -25,7 +25,7 @@ TEST(Sandbox, SaysWhatTheKernelLacks) {
 }
 
 // Like a systemd service whose allowed system calls do not include Landlock's and seccomp().
-TEST(Sandbox, GoesOnWithTheFilterWhereTheHostForbidsLandlock) {
+TEST(Sandbox, UsesOnlyTheFilterIfLandlockIsForbidden) {
   if (findSandboxSupport().filter == 0) GTEST_SKIP() << "this kernel has no seccomp";
   const pid_t child = fork();
   if (child == 0) {

@@ -57,7 +57,7 @@ TEST_F(SystemCallFilterTest, WithoutLandlockNoOtherProcessIsSignalled) {
   EXPECT_EQ(status, 0) << WEXITSTATUS(status);
 }
 
-TEST_F(SystemCallFilterTest, ACrashIsStillTheSignalThatItWas) {
+TEST_F(SystemCallFilterTest, CrashKeepsItsSignal) {
   const int aborted = run({}, []() -> int { abort(); });
   EXPECT_TRUE(WIFSIGNALED(aborted) && WTERMSIG(aborted) == SIGABRT) << aborted;
   const int killed = run({}, [] { return kill(getpid(), SIGTERM); });
@@ -82,7 +82,7 @@ TEST_F(SystemCallFilterTest, WithoutLandlockNoReadableFileIsEmptied) {
   unlink(path.c_str());
 }
 
-TEST_F(SystemCallFilterTest, ProgramsOfTheOtherKindsOfTheProcessorAreRefused) {
+TEST_F(SystemCallFilterTest, X32SystemCallsAreRefused) {
 #ifdef __x86_64__
   const int status = run({}, [] { return firstAllowed({[] { return syscall(0x4000'0000 + SYS_getpid); }}); });
   EXPECT_EQ(status, 0) << WEXITSTATUS(status);
@@ -91,7 +91,7 @@ TEST_F(SystemCallFilterTest, ProgramsOfTheOtherKindsOfTheProcessorAreRefused) {
 #endif
 }
 
-TEST_F(SystemCallFilterTest, NewerCallsLookAsIfTheyWereNotThere) {
+TEST_F(SystemCallFilterTest, NewerSystemCallsFailWithEnosys) {
   const int status = run({}, [] {
     for (const long call : {435L, 437L, 463L, 1000L}) {  // clone3 and openat2 have older replacements
       if (syscall(call, 0, 0, 0, 0) != -1 || errno != ENOSYS) return static_cast<int>(call % 200);

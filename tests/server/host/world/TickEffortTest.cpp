@@ -40,7 +40,7 @@ TEST_F(TickEffortTest, AMachineUnderLoadGivesAGameMoreTime) {
   EXPECT_GT(run(57'000ms, Doing::kRuns, 0), 5s) << "but not for ever";
 }
 
-TEST_F(TickEffortTest, AGameThatHasStoppedItselfIsNotWaitedForForEver) {
+TEST_F(TickEffortTest, StoppedGameIsNotWaitedForForever) {
   EXPECT_LT(run(5s, Doing::kStopped, 0), 1s);
   EXPECT_GT(run(55s, Doing::kStopped, 0), 5s);
 }
@@ -54,7 +54,7 @@ TEST_F(TickEffortTest, AGameInADebuggerIsWaitedFor) {
   EXPECT_EQ(effort.stopped(), 0s) << "it goes on";
 }
 
-TEST_F(TickEffortTest, WhatAMachineMayHaveCausedIsNotItsOwn) {
+TEST_F(TickEffortTest, OwnTimeExcludesDelaysOfTheMachine) {
   run(1000ms, Doing::kWaits, 0);
   EXPECT_EQ(effort.own(), 1000ms);
   run(1000ms, Doing::kRuns, 20);
@@ -67,7 +67,7 @@ TEST_F(TickEffortTest, WhatAMachineMayHaveCausedIsNotItsOwn) {
   EXPECT_GT(effort.counted(), before);
 }
 
-TEST_F(TickEffortTest, WhereTheKernelSaysNothingAllCounts) {
+TEST_F(TickEffortTest, AllTimeCountsWithoutKernelInformation) {
   for (int i = 0; i < 10; ++i) effort.add(100ms, [] { return std::optional<ProcessLook>(); });
   EXPECT_EQ(effort.counted(), 1000ms);
 }
@@ -126,7 +126,7 @@ TEST(LookAtProcess, SaysWhetherItRunsWaitsOrIsStopped) {
   while (lookAtProcess(runs.process())->cpu <= before->cpu) ASSERT_LT(std::chrono::steady_clock::now(), end);
 }
 
-TEST(LookAtProcess, KnowsADebuggerFromASignal) {
+TEST(LookAtProcess, RecognizesADebuggedProcess) {
   const Child debugged([] {
     ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
     raise(SIGUSR1);
@@ -134,7 +134,7 @@ TEST(LookAtProcess, KnowsADebuggerFromASignal) {
   EXPECT_TRUE(debugged.comesTo(Doing::kDebugged));
 }
 
-TEST(LookAtProcess, HasNothingOfOneThatIsNotThere) {
+TEST(LookAtProcess, ReturnsNothingForInvalidProcessIds) {
   EXPECT_FALSE(lookAtProcess(0));
   EXPECT_FALSE(lookAtProcess(-1));
 }

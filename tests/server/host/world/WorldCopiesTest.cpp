@@ -74,7 +74,7 @@ class WorldCopiesTest : public testing::Test {
   std::optional<WorldCopies> copies;
 };
 
-TEST_F(WorldCopiesTest, TheNewestTwoThatHaveSpokenAreKept) {
+TEST_F(WorldCopiesTest, NewestTwoReportedCheckpointsAreKept) {
   const int first = make(11, 10);
   const int second = make(12, 20);
   const int third = make(0, 30);
@@ -92,7 +92,7 @@ TEST_F(WorldCopiesTest, TheNewestTwoThatHaveSpokenAreKept) {
   EXPECT_FALSE(isClosed(second));
 }
 
-TEST_F(WorldCopiesTest, OneThatHasEndedOrHasNotSpokenDoesNotGoOn) {
+TEST_F(WorldCopiesTest, EndedOrUnreportedCheckpointIsNotUsed) {
   make(11, 10);
   const int second = make(12, 20);
   make(0, 30);
@@ -104,13 +104,13 @@ TEST_F(WorldCopiesTest, OneThatHasEndedOrHasNotSpokenDoesNotGoOn) {
   EXPECT_FALSE(copies->takeNewest());
 }
 
-TEST_F(WorldCopiesTest, OneThatSpeaksBeforeItGoesOnIsNone) {
+TEST_F(WorldCopiesTest, CheckpointThatSpeaksTooEarlyIsNotUsed) {
   const int copy = make(11, 10);
   ASSERT_EQ(send(copy, "x", 1, 0), 1);
   EXPECT_FALSE(copies->takeNewest());
 }
 
-TEST_F(WorldCopiesTest, AWorldThatMakesNoneIsNotAskedForEver) {
+TEST_F(WorldCopiesTest, RepeatedFailuresTurnCheckpointsOff) {
   for (int i = 0; i < WorldCopies::kMaxFailures; ++i) make(0, 10);
   EXPECT_FALSE(copies->order(process));
   EXPECT_FALSE(copies->isOn());
@@ -119,14 +119,14 @@ TEST_F(WorldCopiesTest, AWorldThatMakesNoneIsNotAskedForEver) {
   for (const int socket : sockets) EXPECT_TRUE(isClosed(socket));
 }
 
-TEST_F(WorldCopiesTest, OfATurnThatHadNoAnswerThereIsNone) {
+TEST_F(WorldCopiesTest, UnansweredTurnGivesNoCheckpoint) {
   ASSERT_TRUE(copies->order(process));
   const int socket = takeOrder();
   EXPECT_FALSE(copies->takeNewest());
   EXPECT_TRUE(isClosed(socket));
 }
 
-TEST_F(WorldCopiesTest, AllEndWithTheFront) {
+TEST_F(WorldCopiesTest, CheckpointsEndWithTheirOwner) {
   const int first = make(11, 10);
   const int second = make(12, 20);
   copies.reset();
@@ -134,7 +134,7 @@ TEST_F(WorldCopiesTest, AllEndWithTheFront) {
   EXPECT_TRUE(isClosed(second));
 }
 
-TEST(WorldCopies, WithoutASocketForOrdersThereAreNone) {
+TEST(WorldCopies, CheckpointsAreOffWithoutAnOrderSocket) {
   WorldCopies none(-1);
   EXPECT_FALSE(none.isOn());
   EXPECT_FALSE(none.order(getpid()));

@@ -113,7 +113,7 @@ TEST(WorldLauncher, ReportsHowAWorldEnded) {
   }
 }
 
-TEST(WorldLauncher, WhatAWorldLeavesEndsBeforeItsEndIsReported) {
+TEST(WorldLauncher, LeftoverProcessesEndBeforeTheEndIsReported) {
   const WorldLauncher launcher(shell("setsid sh -c 'echo $$ >&3; exec sleep 1000' & read word <&3; exit 0"));
   const StartedWorld world = launcher.start();
   const pid_t left = std::stoi(readLine(world.socket));
@@ -125,7 +125,7 @@ TEST(WorldLauncher, WhatAWorldLeavesEndsBeforeItsEndIsReported) {
   closeBoth(world);
 }
 
-TEST(WorldLauncher, WhoeverClosesTheKeepersSocketEndsTheWorld) {
+TEST(WorldLauncher, ClosingTheSupervisorSocketEndsTheWorld) {
   const WorldLauncher launcher(shell("(setsid sh -c 'echo $$ >&3; exec sleep 1000' &) ; exec sleep 1000"));
   const StartedWorld shut = launcher.start();
   const pid_t of_shut = std::stoi(readLine(shut.socket));
@@ -145,7 +145,7 @@ TEST(WorldLauncher, WhoeverClosesTheKeepersSocketEndsTheWorld) {
   closeBoth(shut);
 }
 
-TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
+TEST(WorldLauncher, EndlesslyForkingGameIsEnded) {
   // Each process leaves its group and starts two more, whose parents have then ended.
   const std::string script =
       "echo $1 >&3; test $1 -lt 7 && for i in 1 2; do setsid sh -c \"$0\" \"$0\" $(($1 + 1)) & done; exec "
@@ -164,7 +164,7 @@ TEST(WorldLauncher, AGameThatForksOnAndOnEnds) {
   closeBoth(world);
 }
 
-TEST(WorldLauncher, AGameThatHopsFromProcessToProcessEnds) {
+TEST(WorldLauncher, GameHoppingBetweenProcessesIsEnded) {
 #if defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "this sanitizer takes processes that share memory for threads";
 #endif
@@ -185,7 +185,7 @@ TEST(WorldLauncher, AGameThatHopsFromProcessToProcessEnds) {
   closeBoth(world);
 }
 
-TEST(Descendants, ChildrenAreFoundWithoutThePublicListOfProcesses) {
+TEST(Descendants, ChildIsFoundAndEnded) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const pid_t child = fork();
@@ -211,7 +211,7 @@ TEST(Descendants, ChildrenAreFoundWithoutThePublicListOfProcesses) {
   close(ends[1]);
 }
 
-TEST(Descendants, AChildAndItsChildAndNoOtherProcess) {
+TEST(Descendants, IncludeOnlyChildrenAndGrandchildren) {
   int ends[2];
   int names[2];
   ASSERT_EQ(pipe(ends), 0);
@@ -234,7 +234,7 @@ TEST(Descendants, AChildAndItsChildAndNoOtherProcess) {
   waitpid(child, nullptr, 0);
 }
 
-TEST(WorldLauncher, HasASessionOfItsOwnAndOnlyItsDescriptors) {
+TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
   const WorldLauncher launcher(shell(
       "read pid comm state ppid pgrp session tty rest < /proc/$$/stat; for n in 0 1 2 3 4 5 6 7 8 9 10; do "
       "test -e /proc/$$/fd/$n && set -- $* $n; done; "
@@ -283,7 +283,7 @@ class LeftCopies : public testing::Test {
   pid_t left[3] = {};
 };
 
-TEST_F(LeftCopies, TheOneThatGoesOnStaysAndAllOthersEnd) {
+TEST_F(LeftCopies, ChosenCheckpointResumesAndUnlistedOnesEnd) {
   order({KeeperOrder::kGoOn, left[0], {left[1], 0, 0}});
   EXPECT_EQ(waitForReport(), "exit 7, one goes on");
   EXPECT_EQ(kill(left[2], 0), -1);
@@ -298,18 +298,18 @@ TEST_F(LeftCopies, TheOneThatGoesOnStaysAndAllOthersEnd) {
   EXPECT_EQ(kill(left[1], 0), -1);
 }
 
-TEST_F(LeftCopies, NoProcessButAChildOfTheKeeperGoesOn) {
+TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
   order({KeeperOrder::kGoOn, getpid(), {left[0], left[1], left[2]}});
   EXPECT_EQ(waitForReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
-TEST_F(LeftCopies, WithoutAWordAllEnd) {
+TEST_F(LeftCopies, AllEndWithoutAnOrder) {
   EXPECT_EQ(waitForReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
-TEST(WorldLauncher, OnlyAWorldThatMakesCopiesHasASocketForThem) {
+TEST(WorldLauncher, OnlyCheckpointingWorldHasACheckpointSocket) {
   const WorldLauncher launcher(shell(
       "for n in 0 1 2 3 4 5 6 99 100 101; do test -e /proc/$$/fd/$n && set -- $* $n; done; echo $* >&3"));
   for (const bool copies : {false, true}) {

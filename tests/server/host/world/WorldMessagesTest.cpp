@@ -142,7 +142,7 @@ void expectSame(const df::WorldView& a, const df::WorldView& b) {
   EXPECT_EQ(a.shake_y, b.shake_y);
 }
 
-TEST(WorldMessages, ViewsCrossWhole) {
+TEST(WorldMessages, ViewsArriveUnchanged) {
   ViewWriter writer;
   ViewReader reader;
   const df::WorldView sent = fullView();
@@ -160,7 +160,7 @@ TEST(WorldMessages, ViewsCrossWhole) {
   }
 }
 
-TEST(WorldMessages, NumbersStartAgainWhenThereAreTooMany) {
+TEST(WorldMessages, ViewNumbersRestartAtTheLimit) {
   ViewWriter writer;
   ViewReader reader;
   df::WorldView sent = fullView();
@@ -173,7 +173,7 @@ TEST(WorldMessages, NumbersStartAgainWhenThereAreTooMany) {
   }
 }
 
-TEST(WorldMessages, TicksOfALaterWorldAreLater) {
+TEST(WorldMessages, TicksOfALaterWorldAreOffset) {
   constexpr std::uint32_t kLater = 1000;
   ViewWriter writer;
   ViewReader reader(kLater);
@@ -189,7 +189,7 @@ TEST(WorldMessages, TicksOfALaterWorldAreLater) {
   }
 }
 
-TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
+TEST(WorldMessages, ReadyMessageArrivesCompleteAndInRange) {
   WorldReady sent{100, 30, 50, true, {"left and right", std::string(kMaxHelpLength + 5, 'x')}};
   sent.runs_empty = true;
   std::string frame;
@@ -217,7 +217,7 @@ TEST(WorldMessages, WhatAGameHasSetUpCrossesWholeAndInItsRange) {
   EXPECT_EQ(readReady(fieldsOf(frame)).value_or(WorldReady()).help.size(), kMaxHelpLines);
 }
 
-TEST(WorldMessages, OfAnotherBuildNothingButItsIdIsRead) {
+TEST(WorldMessages, OnlyTheIdOfAnotherBuildIsRead) {
   std::string frame;
   writeReady({}, frame);
   std::string fields(fieldsOf(frame));
@@ -233,7 +233,7 @@ TEST(WorldMessages, OfAnotherBuildNothingButItsIdIsRead) {
   EXPECT_FALSE(readBuild(fields)) << "what is no id must not come to the log";
 }
 
-TEST(WorldMessages, AnswersCrossWhole) {
+TEST(WorldMessages, AnswersArriveUnchanged) {
   ViewWriter writer;
   ViewReader reader;
   WorldAnswer sent{true, {3, 70'000}, false, {}};
@@ -302,7 +302,7 @@ std::optional<WorldTurn> readTurn(std::string_view fields, bool* p_copied = null
   return turn;
 }
 
-TEST(WorldMessages, TurnsCrossWhole) {
+TEST(WorldMessages, TurnsArriveUnchanged) {
   const WorldTurn sent = fullTurn();
   bool copied = false;
   const std::string message = messageOf(sent, true);
@@ -413,7 +413,7 @@ TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
   EXPECT_FALSE(isRead(17));
 }
 
-TEST(WorldMessages, WhatIsOutOfRangeIsCutByTheWriter) {
+TEST(WorldMessages, WriterClampsOutOfRangeValues) {
   df::WorldView sent = fullView();
   sent.players[0].view_corner = {INT64_MAX, INT64_MIN};
   sent.changed[0].velocity = {INT64_MIN, INT64_MAX};
@@ -441,7 +441,7 @@ long mostMemory() {
   return facts.ru_maxrss / 1024;
 }
 
-TEST(WorldMessages, AListOfAsManyAsTheFrameHasBytesIsRefusedBeforeItGrows) {
+TEST(WorldMessages, OversizedListIsRejectedBeforeAllocation) {
   constexpr long kMuch = 100;  // 16 Mi strings would take 512
   WorldReady ready;
   std::string frame;

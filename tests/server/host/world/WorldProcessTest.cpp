@@ -82,11 +82,11 @@ class WorldProcessTest : public testing::Test {
   asio::io_context m_io;
 };
 
-TEST_F(WorldProcessTest, OneThatExitsIsOver) {
+TEST_F(WorldProcessTest, CleanExitMeansGameOver) {
   EXPECT_EQ(play("exit 0").why, WorldEnd::kGameOver);
 }
 
-TEST_F(WorldProcessTest, OneThatFailsHasCrashed) {
+TEST_F(WorldProcessTest, FailedExitOrSignalIsACrash) {
   EXPECT_EQ(play("exit 3").text, "ended with code 3");
   EXPECT_EQ(play("kill -SEGV $$").text, "crashed (SIGSEGV)");
 }
@@ -100,7 +100,7 @@ TEST_F(WorldProcessTest, ACrashSaysInWhichTickItWas) {
   EXPECT_EQ(play(isReady() + takesTurn() + answers(true) + crash).when, "after tick 1");
 }
 
-TEST_F(WorldProcessTest, SeveralTurnsAreAnsweredOneByOneAndACrashIsInTheFirstThatWasNot) {
+TEST_F(WorldProcessTest, CrashIsReportedForFirstUnansweredTurn) {
   ahead = 3;
   const std::string turn = takesTurn() + answers();
   EXPECT_EQ(play(isReady() + turn + turn + turn + takesTurn() + "kill -SEGV $$").when, "in tick 4");
@@ -110,7 +110,7 @@ TEST_F(WorldProcessTest, SeveralTurnsAreAnsweredOneByOneAndACrashIsInTheFirstTha
   EXPECT_EQ(play(isReady() + turn + takesTurn() + takesTurn() + "kill -SEGV $$").when, "in tick 2");
 }
 
-TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
+TEST_F(WorldProcessTest, GarbageActivityPageIsReadAsPrintableText) {
   // Zeros are replaced, because a line that begins with one is empty.
   const std::string garbage =
       "head -c " + std::to_string(sizeof(df::ActivityPage)) + " /dev/urandom | tr '\\000' x >&4; ";
@@ -124,14 +124,14 @@ TEST_F(WorldProcessTest, APageOfGarbageIsReadAsPrintableText) {
   }
 }
 
-TEST_F(WorldProcessTest, APageThatCannotBeCutOff) {
+TEST_F(WorldProcessTest, ActivityPageCannotBeTruncated) {
   // Reading beyond the new end would raise SIGBUS.
   const WorldEnd end = play(isReady() + takesTurn() + "truncate -s 0 /proc/self/fd/4 2>&1; kill -SEGV $$");
   EXPECT_EQ(end.when, "in tick 1");
   EXPECT_FALSE(printed.empty()) << "the attempt fails";
 }
 
-TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
+TEST_F(WorldProcessTest, WorldSendingAMalformedFrameIsKilled) {
   // Four gigabytes, two malformed ready frames, an answer without a turn, and a malformed answer.
   for (const char* p_sent :
        {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {
@@ -145,7 +145,7 @@ TEST_F(WorldProcessTest, OneThatSendsAMalformedFrameIsKilled) {
   EXPECT_EQ(ticks, 0);
 }
 
-TEST_F(WorldProcessTest, OfAnotherBuildNothingIsReadAndItIsEnded) {
+TEST_F(WorldProcessTest, WorldOfAnotherBuildIsEnded) {
   std::string frame = readyFrame();
   frame[kFirstDigit] = frame[kFirstDigit] == 'a' ? 'b' : 'a';
   const std::string id = frame.substr(kFirstDigit, 8);
@@ -158,12 +158,12 @@ TEST_F(WorldProcessTest, OfAnotherBuildNothingIsReadAndItIsEnded) {
   EXPECT_EQ(ticks, 0);
 }
 
-TEST_F(WorldProcessTest, OneThatHangsUpAndStaysIsKilled) {
+TEST_F(WorldProcessTest, WorldThatClosesItsSocketIsKilled) {
   EXPECT_EQ(play("exec 3>&-; exec sleep 100").why, WorldEnd::kCrashed);
 }
 
 // The host needs the process id to watch and copy the process.
-TEST_F(WorldProcessTest, IsReadyOnceItsKeeperHasNamedItsProcess) {
+TEST_F(WorldProcessTest, IsReadyOnceTheSupervisorReportsItsProcessId) {
   int world_ends[2];
   int keeper_ends[2];
   ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, world_ends), 0);
@@ -203,12 +203,12 @@ TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
   }
 }
 
-TEST_F(WorldProcessTest, WhatItPrintsIsPassedOnToTheLastLine) {
+TEST_F(WorldProcessTest, OutputIsRelayedToTheLastLine) {
   EXPECT_EQ(play("echo one; echo two >&2; printf three; kill -SEGV $$").text, "crashed (SIGSEGV)");
   EXPECT_EQ(printed, (std::vector<std::string>{"one", "two", "three"}));
 }
 
-TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
+TEST_F(WorldProcessTest, OutputFloodIsLimitedAndTheExitReported) {
   EXPECT_EQ(play("head -c 2000000 /dev/zero | tr '\\0' '\\n'; echo end; exit 3").text, "ended with code 3");
   EXPECT_LT(printed.size(), 20'000u);
   EXPECT_NE(std::ranges::find_if(
@@ -216,7 +216,7 @@ TEST_F(WorldProcessTest, OneThatFloodsEndsAsEver) {
             printed.end());
 }
 
-TEST_F(WorldProcessTest, AnAnswerIsATick) {
+TEST_F(WorldProcessTest, EachAnswerCountsAsATick) {
   const std::string answer = takesTurn() + answers();
   EXPECT_EQ(play(isReady() + answer + answer + "exit 0").why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
@@ -235,7 +235,7 @@ class HangingWorldTest : public WorldProcessTest {
   }
 };
 
-TEST_F(HangingWorldTest, AnEndlessLoopIsSaidAndThenEnded) {
+TEST_F(HangingWorldTest, EndlessLoopIsReportedAndThenEnded) {
   const auto began = std::chrono::steady_clock::now();
   const WorldEnd end = play(hangs("while :; do :; done"));
   EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kPatience - 1));
@@ -244,12 +244,12 @@ TEST_F(HangingWorldTest, AnEndlessLoopIsSaidAndThenEnded) {
                           "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));
 }
 
-TEST_F(HangingWorldTest, SoIsOneThatWaitsForWhatNeverComes) {
+TEST_F(HangingWorldTest, EndlessWaitIsReportedAndThenEnded) {
   EXPECT_EQ(play(hangs("exec sleep 100")).why, WorldEnd::kHung);
   EXPECT_EQ(warnings.size(), 1u);
 }
 
-TEST_F(HangingWorldTest, ASlowTickIsSaidAndMayEnd) {
+TEST_F(HangingWorldTest, SlowTickIsReportedAndMayFinish) {
   const WorldEnd end = play(hangs("sleep 0.3; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
@@ -264,7 +264,7 @@ TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
 }
 
 /// It is stopped for longer than a hanging world would survive.
-TEST_F(HangingWorldTest, OneThatASignalHasStoppedIsSaidAndHasLonger) {
+TEST_F(HangingWorldTest, StoppedGameIsReportedAndGetsMoreTime) {
   const std::string goes_on = "(sleep 1.2; kill -CONT $$) & ";
   const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);

@@ -138,7 +138,7 @@ TEST_F(WorldServerTest, SaysWhatTheGameHasSetUp) {
   EXPECT_EQ(ready->help, std::vector<std::string>{"fly"});
 }
 
-TEST_F(WorldServerTest, TicksOnceForEachTurnAndSendsAViewIfItIsWatched) {
+TEST_F(WorldServerTest, TicksOncePerTurnAndSendsWatchedViews) {
   EXPECT_FALSE(turn({}, false).has_view);
   EXPECT_TRUE(turn({join(7)}).has_view);
   EXPECT_EQ(view.tick, 2u);
@@ -162,14 +162,14 @@ class ScrollingWorldServerTest : public WorldServerTest {
   ScrollingWorldServerTest() : WorldServerTest(true) {}
 };
 
-TEST_F(ScrollingWorldServerTest, AClickIsInTheViewAsItWasOnThePlayersScreen) {
+TEST_F(ScrollingWorldServerTest, ClickUsesTheViewOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 80) turn();
   // The flyer was in cell 88 in tick 78, at two thirds of the view. Both have moved to the right since.
   EXPECT_EQ(hitsOfClicks({true, 76, 78}, 53, 55), 1);
 }
 
-TEST_F(WorldServerTest, AKeyThatEndsTheGameIsForTheHostToJudge) {
+TEST_F(WorldServerTest, GameOverByAPlayerReportsALeaver) {
   turn({join(7)});
   const WorldAnswer answer = turn(
       {{.kind = df::InputQueue::kKey, .player = 7, .key = df::Keyboard::Q, .key_action = df::KEY_PRESSED}});

@@ -23,7 +23,7 @@ TEST_F(BodyContacts, BothGetOneEventWithTheImpulse) {
   EXPECT_FALSE(p_b->notes[1].is_begin);
 }
 
-TEST_F(BodyContacts, WhatLiesStillSaysNothingAndCostsNothing) {
+TEST_F(BodyContacts, RestingBodySendsNoEventsOrUpdates) {
   layFloor();
   auto* p_crate = crate<Listener>(Vector(0, -0.75));
   p_crate->setContactEnds();
@@ -38,7 +38,7 @@ TEST_F(BodyContacts, WhatLiesStillSaysNothingAndCostsNothing) {
   }
 }
 
-TEST_F(BodyContacts, AnObjectThatGoesLetsFallWhatLayOnIt) {
+TEST_F(BodyContacts, DeletedFloorLetsBodiesFall) {
   Object* p_floor = layFloor(5, 1);
   Body* p_crate = crate(Vector(0, -0.5));
   Body* p_upper = crate(Vector(0, -1.5));
@@ -50,7 +50,7 @@ TEST_F(BodyContacts, AnObjectThatGoesLetsFallWhatLayOnIt) {
   EXPECT_NEAR(p_upper->getPosition().y(), 3.5, 1e-9);
 }
 
-TEST_F(BodyContacts, OneThatStepsAsideDoesSo) {
+TEST_F(BodyContacts, MovedOrSpectralFloorLetsBodiesFall) {
   Object* p_floor = layFloor(5, 1);
   Body* p_crate = crate(Vector(0, -0.5));
   ticks(10);
@@ -79,14 +79,14 @@ TEST_F(BodyContacts, SoftBodiesGetEventsAndPushNothing) {
   EXPECT_EQ(p_ball->notes[1].p_second, p_mist);
 }
 
-TEST_F(BodyContacts, AFastBodyGetsAnEventForTheMistItFlewThrough) {
+TEST_F(BodyContacts, FastBodyGetsEventForPassedSoftObject) {
   auto* p_ball = ball<Listener>(Vector(0, 0), Vector(3000, 0));
   wall(Vector(30, 0), Vector(0.1, 5))->setSolidness(SOFT);
   ticks(2);
   EXPECT_EQ(p_ball->notes.size(), 1u);
 }
 
-TEST_F(BodyContacts, SpectralOnesTouchNothing) {
+TEST_F(BodyContacts, SpectralBodiesTouchNothing) {
   auto* p_ghost = ball<Listener>(Vector(0, 0), Vector(6, 0));
   p_ghost->setSolidness(SPECTRAL);
   wall(Vector(3, 0), Vector(0.5, 5));
@@ -97,7 +97,7 @@ TEST_F(BodyContacts, SpectralOnesTouchNothing) {
   EXPECT_TRUE(p_ball->notes.empty());
 }
 
-TEST_F(BodyContacts, AHandlerMayDeleteBoth) {
+TEST_F(BodyContacts, HandlerMayDeleteBothBodies) {
   class Bomb : public Body {
    public:
     int eventHandler(const Event* p_e) override {
@@ -117,7 +117,7 @@ TEST_F(BodyContacts, AHandlerMayDeleteBoth) {
   EXPECT_NEAR(speedOf(p_third).x(), 6, 1e-9);
 }
 
-TEST_F(BodyContacts, AHandlerMayMakeBodiesWhoseRowsAreUsedAgain) {
+TEST_F(BodyContacts, HandlerMayCreateBodiesThatReuseRows) {
   class Splitter : public Body {
    public:
     int eventHandler(const Event* p_e) override {
@@ -140,7 +140,7 @@ TEST_F(BodyContacts, AHandlerMayMakeBodiesWhoseRowsAreUsedAgain) {
   EXPECT_EQ(PM.getBodyCount(), 4);
 }
 
-TEST_F(BodyContacts, AHandlerMayTurnTheBallAway) {
+TEST_F(BodyContacts, HandlerMaySetTheBodysVelocity) {
   class Shy : public Body {
    public:
     int eventHandler(const Event* p_e) override {
@@ -154,7 +154,7 @@ TEST_F(BodyContacts, AHandlerMayTurnTheBallAway) {
   EXPECT_NEAR(speedOf(p_shy).x(), -1, 1e-12);
 }
 
-TEST_F(BodyContacts, ABoxThatChangesIsTheNewShape) {
+TEST_F(BodyContacts, ChangedBoxBecomesTheShape) {
   layFloor();
   auto* p_body = new Body;  // its box: a character, one by one here
   p_body->setPosition(Vector(0, -3));
@@ -165,7 +165,7 @@ TEST_F(BodyContacts, ABoxThatChangesIsTheNewShape) {
   EXPECT_NEAR(p_body->getPosition().y(), -0.25, 1e-9);
 }
 
-TEST_F(BodyContacts, DragAndSpringsCountInContactToo) {
+TEST_F(BodyContacts, DragAndSpringsActDuringContact) {
   layFloor();
   Body* p_drop = crate(Vector(0, -0.5));
   p_drop->setDrag(0.05);
@@ -180,7 +180,7 @@ TEST_F(BodyContacts, DragAndSpringsCountInContactToo) {
   EXPECT_NEAR(p_held->getPosition().y(), -0.5, 1e-9);
 }
 
-TEST_F(BodyContacts, TheAspectCountsForWhatIsHit) {
+TEST_F(BodyContacts, AspectRatioAppliesToCollisions) {
   OwnWorld there(2);
   wall(Vector(0, 11), Vector(10, 1));
   auto* p_ball = new Body;
@@ -191,7 +191,7 @@ TEST_F(BodyContacts, TheAspectCountsForWhatIsHit) {
   EXPECT_NEAR(p_ball->getPosition().y(), 9, 1e-9);
 }
 
-TEST_F(BodyContacts, LeavingTheWorldIsAnEventAndNoWall) {
+TEST_F(BodyContacts, WorldBoundarySendsAnEventButDoesNotBlock) {
   class Leaver : public Listener {
    public:
     int eventHandler(const Event* p_e) override {

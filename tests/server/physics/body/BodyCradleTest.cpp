@@ -41,14 +41,14 @@ class BodyCradle : public BodyScene {
 };
 
 // Problem 8.
-TEST_F(BodyCradle, OneStrikesAndOneLeaves) {
+TEST_F(BodyCradle, OneBallStrikesAndOneLeaves) {
   hang(1);
   ticks(45);
   for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(speedOfEnergy(i), i == kBalls - 1 ? 1 : 0, 1e-3) << i;
   EXPECT_GT(speedOf(balls[4]).x(), 1);
 }
 
-TEST_F(BodyCradle, GoesToAndFroForAMinute) {
+TEST_F(BodyCradle, SwingsForAMinuteWithoutLoss) {
   hang(1);
   int changes = 0;
   bool was_first = true;
@@ -63,13 +63,13 @@ TEST_F(BodyCradle, GoesToAndFroForAMinute) {
   EXPECT_EQ(changes, 27);  // half a swing takes 2.260 s, and the first strike comes after half of that
 }
 
-TEST_F(BodyCradle, TwoStrikeAndTwoLeave) {
+TEST_F(BodyCradle, TwoBallsStrikeAndTwoLeave) {
   hang(2);
   ticks(45);
   for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(speedOfEnergy(i), i >= kBalls - 2 ? 1 : 0, 1e-3) << i;
 }
 
-TEST_F(BodyCradle, BallsThatHangSideBySideAreStill) {
+TEST_F(BodyCradle, TouchingBallsHangStill) {
   hang(0);
   ticks(300);
   for (int i = 0; i < kBalls; ++i) {
@@ -80,7 +80,7 @@ TEST_F(BodyCradle, BallsThatHangSideBySideAreStill) {
   }
 }
 
-TEST_F(BodyCradle, EveryImpactIsOneEventForBoth) {
+TEST_F(BodyCradle, EveryImpactSendsBothBallsOneEvent) {
   hang(1);
   ticks(45);
   for (std::size_t i = 0; i < kBalls; ++i) {
@@ -95,7 +95,7 @@ TEST_F(BodyCradle, EveryImpactIsOneEventForBoth) {
 }
 
 // So fast that balls that are hit leave the region that was searched for them.
-TEST_F(BodyCradle, AFreeBallStrikesIt) {
+TEST_F(BodyCradle, FreeBallPassesItsSpeedThroughTheCradle) {
   PM.setGravity(Vector());
   hang(0);
   Listener* p_shot = ball<Listener>(hung[0] + Vector(-5, 0), Vector(30, 0));
@@ -106,7 +106,7 @@ TEST_F(BodyCradle, AFreeBallStrikesIt) {
   EXPECT_NEAR(std::hypot(v.x(), v.y()), 30, 1e-4);
 }
 
-TEST_F(BodyCradle, IsTheSameFarAway) {
+TEST_F(BodyCradle, BehavesTheSameFarAway) {
   hang(0);
   balls[0]->setVelocity(perSecond(Vector(-2, 0)));
   ticks(120);
@@ -122,7 +122,7 @@ TEST_F(BodyCradle, IsTheSameFarAway) {
 
 // Half the speed of approach is left: of each pair the impact takes a quarter of what moves against its
 // centre.
-TEST_F(BodyCradle, LossIsThatOfEachImpactAlone) {
+TEST_F(BodyCradle, EnergyLossMatchesEachImpact) {
   hang(1, 1, 0.5);
   ticks(36);  // the first strike comes within the 35th tick
   const double left = std::pow(0.75, kBalls - 1);
@@ -130,7 +130,7 @@ TEST_F(BodyCradle, LossIsThatOfEachImpactAlone) {
 }
 
 // Too near for their rods: they press on one another, and no sequence of bounces solves that.
-TEST_F(BodyCradle, BallsThatPressOnOneAnotherAreKeptApart) {
+TEST_F(BodyCradle, PressingBallsAreKeptApart) {
   for (const double restitution : {0.5, 1.0}) {
     hang(0, 0.99, restitution);
     ticks(300);

@@ -11,7 +11,7 @@ namespace {
 using BodyDegenerate = BodyScene;
 
 // Refused, unless convex with an area: a sheet of a fiftieth falls on a floor and lies there.
-TEST_F(BodyDegenerate, PolygonsOfNoAreaAreRefusedAndThinOnesLie) {
+TEST_F(BodyDegenerate, DegeneratePolygonsAreRefusedAndThinOnesRest) {
   PM.setGravity(Vector(0, 0.01));
   wall(Vector(0, 5), Vector(500, 5));
   const std::vector<std::vector<Vector>> all = {
@@ -51,7 +51,7 @@ TEST_F(BodyDegenerate, PolygonsOfNoAreaAreRefusedAndThinOnesLie) {
 
 // Bodies in one place: a rod or a rope of no length is refused, and so is a slider without a direction; what
 // may have no length (spring, hinge, weld, slider) holds them.
-TEST_F(BodyDegenerate, JointsOfNoLengthAreRefusedOrHold) {
+TEST_F(BodyDegenerate, ZeroLengthJointsAreRefusedOrHold) {
   PM.setGravity(Vector(0, 0.01));
   const auto here = Vector(3, 4);
   for (int kind = 0; kind < 8; ++kind) {
@@ -83,7 +83,7 @@ TEST_F(BodyDegenerate, JointsOfNoLengthAreRefusedOrHold) {
 }
 
 // Springs of 1e10, of every mass: bounded, and as long as they should be.
-TEST_F(BodyDegenerate, StiffSpringsHold) {
+TEST_F(BodyDegenerate, StiffSpringsKeepTheirLength) {
   PM.setGravity(Vector(0, 0.01));
   for (const double mass : {1e-3, 1.0, 1e3}) {
     for (const double damping : {0.0, 1e5, 1e10}) {
@@ -106,7 +106,7 @@ TEST_F(BodyDegenerate, StiffSpringsHold) {
 }
 
 // A millionfold mass on compounds, on hinges and on soft bodies; and light on heavy.
-TEST_F(BodyDegenerate, MassesOfAMillionToOneStayBounded) {
+TEST_F(BodyDegenerate, MassRatiosOfAMillionStayBounded) {
   PM.setGravity(Vector(0, 0.01));
   wall(Vector(0, 5), Vector(500, 5));
   for (const bool is_heavy_above : {true, false}) {

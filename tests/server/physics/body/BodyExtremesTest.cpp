@@ -154,7 +154,7 @@ const Bits& undisturbed(int ticks) {
 }
 
 // A blow that is no number, or larger than a velocity may be, is refused, and nothing has happened.
-TEST(BodyExtremes, AnExplosionBeyondAllBoundsIsRefusedByEveryKind) {
+TEST(BodyExtremes, ExcessiveImpulsesAreRefusedByEveryKind) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.p_name);
@@ -181,7 +181,7 @@ TEST(BodyExtremes, AnExplosionBeyondAllBoundsIsRefusedByEveryKind) {
 
 // The hardest blow that is taken: nearly as fast as a velocity may be, away from the others. They fly, or are
 // frozen, alone.
-TEST(BodyExtremes, TheHardestBlowStaysAlone) {
+TEST(BodyExtremes, StrongestAllowedImpulseAffectsNoOtherBody) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.p_name);
@@ -209,7 +209,7 @@ TEST(BodyExtremes, TheHardestBlowStaysAlone) {
 
 // A force of 1e30, where it is taken, moves a body as fast as one can be. One on joints, and a soft one, is
 // frozen. Both are counted and named. Where it is not taken, it is refused.
-TEST(BodyExtremes, AForceBeyondAllBoundsDisturbsWhatItPushesAlone) {
+TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.p_name);
@@ -234,7 +234,7 @@ TEST(BodyExtremes, AForceBeyondAllBoundsDisturbsWhatItPushesAlone) {
 // Hundreds of one kind in one place. None flies off, none is frozen, and it is the same every time.
 class InOnePlace : public testing::TestWithParam<Kind> {};
 
-TEST_P(InOnePlace, HundredsStayBounded) {
+TEST_P(InOnePlace, HundredsOfBodiesStayBounded) {
   constexpr int kTicks = 5;
   const int many = (GetParam().is_dear ? 100 : 200) / (naiad::test::kSanitized ? 2 : 1);
   constexpr double kFall = 0.01 * kTicks, kFastest = 10;

@@ -33,7 +33,7 @@ FlightBits flightOf(const Body* p_body) {
           bits(velocity.y()), bits(p_body->getAngle()), bits(p_body->getSpin())};
 }
 
-TEST_F(BodyFast, TheLevelIsWhatWasSet) {
+TEST_F(BodyFast, AccuracyLevelIsKeptPerWorld) {
   EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
   const std::uint64_t refusals = world.log().refusals();
   EXPECT_EQ(PM.setAccuracy(static_cast<Accuracy>(7)), -1);
@@ -53,7 +53,7 @@ TEST_F(BodyFast, TheLevelIsWhatWasSet) {
   EXPECT_TRUE(PM.isSleeping());
 }
 
-TEST_F(BodyFast, ACrateRestsOnAnObjectAndHearsItOnce) {
+TEST_F(BodyFast, RestingCrateGetsOneContactEvent) {
   Object* p_floor = wall(Vector(0, 5), Vector(100, 5));
   auto* p_crate = turningCrate<Listener>(Vector(0, -2));
   ticks(200);
@@ -67,7 +67,7 @@ TEST_F(BodyFast, ACrateRestsOnAnObjectAndHearsItOnce) {
   EXPECT_EQ(layer().rigidCounters().ticks, 0);
 }
 
-TEST_F(BodyFast, FreeFlightIsThatOfTheOtherLevel) {
+TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
   const auto fly = [](Accuracy accuracy) {
     OwnWorld own;
     PM.setGravity(perSecondSquared(Vector(0, 10)));
@@ -94,7 +94,7 @@ TEST_F(BodyFast, FreeFlightIsThatOfTheOtherLevel) {
   EXPECT_EQ(fly(ACCURACY_DEFAULT), fly(ACCURACY_FAST));
 }
 
-TEST_F(BodyFast, AChangeOfLevelSendsNoEventTwice) {
+TEST_F(BodyFast, LevelChangeRepeatsNoContactEvents) {
   wall(Vector(0, 5), Vector(100, 5));
   std::vector<Listener*> pile;
   for (int row = 0; row < 4; ++row) {
@@ -125,7 +125,7 @@ TEST_F(BodyFast, AChangeOfLevelSendsNoEventTwice) {
 }
 
 // With joints, and what hangs on the world: they hold on both sides of a change.
-TEST_F(BodyFast, JointsOutliveAChangeOfLevel) {
+TEST_F(BodyFast, JointsSurviveALevelChange) {
   Body* p_plank = turningCrate(Vector(2, 0), Vector(2, 0.2));
   Joint hinge = PM.addHinge(nullptr, p_plank, Vector(0, 0));
   ASSERT_TRUE(hinge.exists());
@@ -170,7 +170,7 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
   EXPECT_GE(layer().substepCounters().contacts, contacts + 80);  // each of them, in each tick
 }
 
-TEST_F(BodyFast, AnObjectThatGoesLetsThemFall) {
+TEST_F(BodyFast, DeletedFloorLetsBodiesFall) {
   Object* p_floor = wall(Vector(0, 1), Vector(5, 1));
   wall(Vector(0, 10), Vector(50, 5));
   auto* p_crate = turningCrate<Listener>(Vector(0, -0.5));

@@ -30,7 +30,7 @@ class CountedField : public Field {
 
 // However stiff it is and however many bodies are in it, a tick calls it a bounded number of times: one body
 // in the air, one that is about to touch a floor, and a hundred.
-TEST_F(BodyFields, ATickCallsAFieldABoundedNumberOfTimes) {
+TEST_F(BodyFields, FieldCallsPerTickAreBounded) {
   wall(Vector(0, 0.5), Vector(50, 0.5));
   for (const int count : {1, 100}) {
     for (const int kind : {0, 1, 2}) {
@@ -60,7 +60,7 @@ TEST_F(BodyFields, ATickCallsAFieldABoundedNumberOfTimes) {
 }
 
 // What is linear swings on, by formula, at any stiffness.
-TEST_F(BodyFields, AStiffFieldInTheAirKeepsItsEnergy) {
+TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
   for (const double k : {1.0, 1e3, 1e4, 1e6, 1e10}) {
     const CountedField field(0, k);
     Body* p_ball = ball(Vector(1, 0), Vector());

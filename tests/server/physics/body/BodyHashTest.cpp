@@ -103,7 +103,7 @@ std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT
 }
 
 // gcc and clang, every level. (RigidWorld is hashed in its own tests.)
-TEST(BodyHash, IsTheSameEverywhere) {
+TEST(BodyHash, IsTheSameOnEveryPlatform) {
   EXPECT_EQ(run(false, 50), kHash);
   EXPECT_EQ(run(true, 50, ACCURACY_FAST), kFastHash);
   EXPECT_EQ(run(true, 50), run(true, 50));

@@ -32,7 +32,7 @@ class BodyHeap : public BodyScene {
   std::vector<Listener*> bodies;
 };
 
-TEST_F(BodyHeap, ThatFallsTogetherIsMovedInSubstepsAndComesToRest) {
+TEST_F(BodyHeap, FallingHeapMovesInSubstepsAndComesToRest) {
   for (int i = 0; i < 64; ++i) put(Vector(1.05 * (i % 8) + 0.1 * (i / 8 % 2), -1 - 1.3 * (i / 8)));
   double most = energy();
   const double start = most;
@@ -51,7 +51,7 @@ TEST_F(BodyHeap, ThatFallsTogetherIsMovedInSubstepsAndComesToRest) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-TEST_F(BodyHeap, APyramidOfNeighboursThatTouchComesToRest) {
+TEST_F(BodyHeap, PyramidOfTouchingBoxesComesToRest) {
   constexpr int kRows = 20;
   for (int row = 0; row < kRows; ++row) {
     for (int i = 0; i < kRows - row; ++i) put(Vector(i + 0.5 * row, -0.5 - row));
@@ -67,7 +67,7 @@ TEST_F(BodyHeap, APyramidOfNeighboursThatTouchComesToRest) {
 }
 
 // A few, even fast ones, are solved for at once.
-TEST_F(BodyHeap, AFewThatFallStayExact) {
+TEST_F(BodyHeap, FewFallingBodiesAreSolvedExactly) {
   for (int i = 0; i < 8; ++i) put(Vector(0.1 * (i % 2), -1 - 1.5 * i));
   ticks(200);
   EXPECT_EQ(layer().heapCounters().ticks, 0);

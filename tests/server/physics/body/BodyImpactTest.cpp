@@ -15,7 +15,7 @@ namespace {
 class BodyImpacts : public BodyScene {};
 
 // Problem 7.
-TEST_F(BodyImpacts, ABouncingBallKeepsItsPartAndLiesStillInTheEnd) {
+TEST_F(BodyImpacts, BouncingBallFollowsRestitutionAndComesToRest) {
   layFloor();
   Body* p_ball = ball(Vector(0, -10.5), Vector());
   p_ball->setRestitution(0.8);
@@ -39,7 +39,7 @@ TEST_F(BodyImpacts, ABouncingBallKeepsItsPartAndLiesStillInTheEnd) {
 }
 
 // Problem 8.
-TEST_F(BodyImpacts, ACradleHandsTheBlowOn) {
+TEST_F(BodyImpacts, CradlePassesOnTheImpulse) {
   std::vector<Body*> balls;
   for (int i = 0; i < 5; ++i) balls.push_back(ball(Vector(i == 0 ? -2 : i, 0), Vector(i == 0 ? 5 : 0, 0)));
   ticks(60);
@@ -47,7 +47,7 @@ TEST_F(BodyImpacts, ACradleHandsTheBlowOn) {
 }
 
 // Problem 8b.
-TEST_F(BodyImpacts, AnObliqueBlowGoesAlongTheLineOfCentres) {
+TEST_F(BodyImpacts, ObliqueImpactActsAlongTheLineOfCentres) {
   for (const double speed : {5.0, 50.0}) {
     for (int i = 0; i < 24; ++i) {
       const double offset = (i + 0.5) / 24 * 0.98, y = 32.0 * i;
@@ -64,7 +64,7 @@ TEST_F(BodyImpacts, AnObliqueBlowGoesAlongTheLineOfCentres) {
 }
 
 // Problem 8c: the struck ball flies far within the tick, to walls that were not near.
-TEST_F(BodyImpacts, GalperinsBilliardCountsThePi) {
+TEST_F(BodyImpacts, GalperinsBilliardCountsTheDigitsOfPi) {
   long right = 3;
   double mass = 1;
   for (int k = 0; k <= 3; ++k, mass *= 100, right = static_cast<long>(std::numbers::pi * std::pow(10, k))) {
@@ -82,7 +82,7 @@ TEST_F(BodyImpacts, GalperinsBilliardCountsThePi) {
 }
 
 // Problems 9 and 10, upright.
-TEST_F(BodyImpacts, CratesStand) {
+TEST_F(BodyImpacts, StackedCratesStayInPlace) {
   layFloor(100);
   const auto stands = [&](const std::vector<double>& masses) {
     std::vector<Body*> crates;
@@ -129,7 +129,7 @@ TEST_F(BodyImpacts, FrictionHoldsUpToItsAngleAndSlidesBeyond) {
 }
 
 // Problem 14, a sample.
-TEST_F(BodyImpacts, NothingGoesThroughAnything) {
+TEST_F(BodyImpacts, FastBodiesDoNotTunnel) {
   naiad::SplitMix64 random(14);
   for (int i = 0; i < 2000; ++i) {
     const int pair = i % 4;
@@ -155,7 +155,7 @@ TEST_F(BodyImpacts, NothingGoesThroughAnything) {
 }
 
 // Problem 15.
-TEST_F(BodyImpacts, TheRestOfTheTickIsUsed) {
+TEST_F(BodyImpacts, BounceUsesTheRestOfTheTick) {
   const double gap = 2.3 / 30 * 200;
   Body* p_ball = ball(Vector(0, 0), Vector(200, 0));
   wall(Vector(gap + 1.5, 0), Vector(1, 10));
@@ -171,7 +171,7 @@ class UpperHalf : public Field {
 };
 
 // Problem 16.
-TEST_F(BodyImpacts, FarAwayIsAsHere) {
+TEST_F(BodyImpacts, BehavesTheSameFarAway) {
   const UpperHalf field;
   const auto run = [&](double distance) {
     const Vector origin(distance, -distance);
@@ -226,7 +226,7 @@ TEST_F(BodyImpacts, AClosedSystemKeepsItsMomentum) {
 }
 
 // Problem 18.
-TEST_F(BodyImpacts, BadNumbersChangeNoOtherBody) {
+TEST_F(BodyImpacts, InvalidNumbersAffectNoOtherBody) {
   const auto run = [&](int poison) {
     OwnWorld there;
     layFloor();

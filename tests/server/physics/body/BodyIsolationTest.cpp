@@ -105,7 +105,7 @@ std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_f
 
 class BodyIsolation : public testing::TestWithParam<std::tuple<Link, Link>> {};
 
-TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
+TEST_P(BodyIsolation, PairMovesTheSameAloneAndBesideAnother) {
   const auto [link, other_link] = GetParam();
   for (const double speed : {kOnTheFloor, kOnAFloor, 0.0, 0.01, 0.3, 10.0, 1e3, 1e5}) {
     const bool is_shared = speed == kOnTheFloor;
@@ -125,7 +125,7 @@ TEST_P(BodyIsolation, APairIsTheSameAloneAndBesideAnother) {
 }
 
 // Then another solver moves it, and all jointed bodies are collected again.
-TEST_P(BodyIsolation, APairInTheAirIsTheSameWhenAnotherTakesOff) {
+TEST_P(BodyIsolation, AirbornePairMovesTheSameWhenAnotherTakesOff) {
   const auto [link, other_link] = GetParam();
   const Others others = {other_link, kOnTheFloor, Added::kBefore, false, true};
   EXPECT_EQ(bitsOf(link, {}, true), bitsOf(link, others, true));

@@ -18,7 +18,7 @@ Body* point(Vector place, double mass = 1) {
 }
 
 // Problem 5.
-TEST_F(BodyJoints, APendulumSwingsForAMinute) {
+TEST_F(BodyJoints, PendulumKeepsLengthAndEnergyForAMinute) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_bob = point(Vector(1, 0));
   ASSERT_TRUE(PM.addDistance(nullptr, p_bob, Vector(0, 0), Vector(1, 0)).exists());
@@ -78,7 +78,7 @@ TEST_F(BodyJoints, AStiffSpringIsExactAtAnyStiffness) {
   }
 }
 
-TEST_F(BodyJoints, ASpringThatSwingsAsideKeepsItsEnergy) {
+TEST_F(BodyJoints, SwingingSpringKeepsItsEnergy) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_body = point(Vector(2, 0));
   PM.addSpring(nullptr, p_body, Vector(), Vector(2, 0), perSecondSquared(100)).setLength(2);
@@ -114,7 +114,7 @@ TEST_F(BodyJoints, ARopeOfRodsDoesNotStretch) {
   }
 }
 
-TEST_F(BodyJoints, AreTakenApartAndPutTogetherAgain) {
+TEST_F(BodyJoints, JointsCanBeRemovedAndAddedAgain) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_bob = point(Vector(0, 2));
   Joint rod = PM.addDistance(nullptr, p_bob, Vector(), Vector(0, 2));
@@ -130,7 +130,7 @@ TEST_F(BodyJoints, AreTakenApartAndPutTogetherAgain) {
   EXPECT_NEAR(p_bob->getPosition().y(), 7, 1e-9);
 }
 
-TEST_F(BodyJoints, BreakWhenTheyHaveToHoldTooMuch) {
+TEST_F(BodyJoints, JointsBreakAboveTheirBreakForce) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_bob = point(Vector(0, 2), 3);
   Joint rod = PM.addDistance(nullptr, p_bob, Vector(), Vector(0, 2));
@@ -144,7 +144,7 @@ TEST_F(BodyJoints, BreakWhenTheyHaveToHoldTooMuch) {
   EXPECT_GT(p_bob->getPosition().y(), 6);
 }
 
-TEST_F(BodyJoints, AMouseDragsItsBodyToWhereItPoints) {
+TEST_F(BodyJoints, MouseJointDragsItsBodyToTheTarget) {
   Body* p_crate = point(Vector(0, 0), 4);
   Joint mouse = PM.addMouse(p_crate, Vector(0, 0), 1e6);
   mouse.setTarget(Vector(5, -3));
@@ -168,7 +168,7 @@ TEST_F(BodyJoints, AMotorTurnsAWheelOnItsAxle) {
   EXPECT_NEAR(p_wheel->getPosition().x(), 3, 1e-12);
 }
 
-TEST_F(BodyJoints, OneThatIsTakenOutHoldsWhatHangsOnIt) {
+TEST_F(BodyJoints, InactiveBodyHoldsTheBodyJointedToIt) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_hook = point(Vector(0, 0));
   Body* p_bob = point(Vector(0, 2));
@@ -182,7 +182,7 @@ TEST_F(BodyJoints, OneThatIsTakenOutHoldsWhatHangsOnIt) {
   EXPECT_GT(p_hook->getPosition().y(), 4);
 }
 
-TEST_F(BodyJoints, OneWithBadNumbersFreezesAndNoOtherGroup) {
+TEST_F(BodyJoints, ExcessiveForceFreezesOnlyItsJointGroup) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   Body* p_good = point(Vector(1, 0));
   PM.addDistance(nullptr, p_good, Vector(), Vector(1, 0));
@@ -196,7 +196,7 @@ TEST_F(BodyJoints, OneWithBadNumbersFreezesAndNoOtherGroup) {
   EXPECT_GT(p_good->getPosition().y(), 0.01);
 }
 
-TEST_F(BodyJoints, BodiesTurnFreelyByTheirTorque) {
+TEST_F(BodyJoints, TorqueTurnsAFreeBody) {
   Body* p_wheel = point(Vector());
   p_wheel->setCircle(2);
   p_wheel->setTurning();

@@ -49,31 +49,31 @@ std::vector<std::string> drawn(const ConvexShape& shape, double degrees, const F
 
 using Rows = std::vector<std::string>;
 
-TEST(BodyLook, OutlinesRunAsTheEdgesDo) {
+TEST(BodyLook, OutlinesFollowTheEdges) {
   EXPECT_EQ(drawn(boxShape(6, 3), 0), (Rows{"+----------+", "|          |", "+----------+"}));
   EXPECT_EQ(drawn(boxShape(4, 4), 45), (Rows{"    /\\    ", "  //  \\\\  ", "//      \\\\", "\\\\      //",
                                              "  \\\\  //  ", "    \\/    "}));
   EXPECT_EQ(drawn(circleShape(4), 0), (Rows{" /----\\ ", "/      \\", "\\      /", " \\----/ "}));
 }
 
-TEST(BodyLook, WhatIsThinIsALine) {
+TEST(BodyLook, ThinShapeIsDrawnAsALine) {
   EXPECT_EQ(drawn(boxShape(6, 0.3), 0), (Rows{"------------"}));
   EXPECT_EQ(drawn(boxShape(6, 0.3), 90), (Rows{"|", "|", "|", "|", "|", "|"}));
 }
 
-TEST(BodyLook, WhatIsSmallIsACharacter) {
+TEST(BodyLook, SmallShapeIsDrawnAsOneCharacter) {
   EXPECT_EQ(drawn(circleShape(0.5), 0), (Rows{"o"}));
   EXPECT_EQ(drawn(boxShape(0.5, 1), 0), (Rows{"#"}));
 }
 
-TEST(BodyLook, ASpokeShowsHowACircleIsTurned) {
+TEST(BodyLook, SpokeShowsACirclesRotation) {
   FrameStyle style;
   style.spoke = true;
   EXPECT_NE(drawn(circleShape(4), 0, style), drawn(circleShape(4), 90, style));
   EXPECT_EQ(drawn(circleShape(4), 0), drawn(circleShape(4), 90));
 }
 
-TEST(BodyLook, SpritesTurnByTheNearestCell) {
+TEST(BodyLook, SpritesRotateToTheNearestCell) {
   FrameStyle style;
   style.how = df::BodyDrawing::SPRITE;
   style.rows = {U"abcd", U"efgh"};
@@ -86,7 +86,7 @@ TEST(BodyLook, SpritesTurnByTheNearestCell) {
 }
 
 // What is filled covers about its area, at any angle.
-TEST(BodyLook, FillingsAreAsLargeAsTheShape) {
+TEST(BodyLook, FilledAreaMatchesTheShape) {
   FrameStyle style;
   style.how = df::BodyDrawing::FILL;
   for (int degrees = 0; degrees < 360; degrees += 7) {
@@ -97,7 +97,7 @@ TEST(BodyLook, FillingsAreAsLargeAsTheShape) {
   }
 }
 
-TEST(BodyLook, SymmetricShapesShowTheirSequenceSeveralTimesInATurn) {
+TEST(BodyLook, SymmetricShapesRepeatTheirFramesInATurn) {
   EXPECT_EQ(symmetryOf(std::vector{boxShape(4, 4)}), 4u);
   EXPECT_EQ(symmetryOf(std::vector{boxShape(4, 3)}), 2u);
   EXPECT_EQ(symmetryOf(std::vector{circleShape(3)}), 0u);
@@ -108,7 +108,7 @@ TEST(BodyLook, SymmetricShapesShowTheirSequenceSeveralTimesInATurn) {
   EXPECT_EQ(drawTurn(std::vector{circleShape(3)}, kAspect, {}).frames.size(), 1u);
 }
 
-TEST(BodyLook, EveryTurnMayBePublished) {
+TEST(BodyLook, EveryTurnFitsThePublishingLimits) {
   FrameStyle style;
   for (const df::BodyDrawing how : {df::BodyDrawing::OUTLINE, df::BodyDrawing::FILL}) {
     style.how = how;
@@ -141,7 +141,7 @@ double between(double a, double b) {
 }
 
 // Ten minutes of it: the error of the integer spin never adds up to a part of a frame in that time.
-TEST(BodyLook, WhatTurnsFreelyKeepsItsSelector) {
+TEST(BodyLook, SteadilyTurningBodyKeepsItsSelector) {
   for (const double spin : {0.1, -0.031, 3.0, 1e-5}) {
     BodyLook look;
     look.update(form(boxShape(6, 3), 0.3, spin), {}, kAspect, 1);
@@ -154,7 +154,7 @@ TEST(BodyLook, WhatTurnsFreelyKeepsItsSelector) {
 }
 
 // However it is jerked about, what is shown is the angle to within three quarters of a frame.
-TEST(BodyLook, TheFrameShownIsNearTheAngle) {
+TEST(BodyLook, ShownFrameIsNearTheAngle) {
   SplitMix64 random(1);
   for (const ConvexShape& shape : {boxShape(6, 3), boxShape(4, 4), circleShape(5)}) {
     BodyLook look;
@@ -175,7 +175,7 @@ TEST(BodyLook, TheFrameShownIsNearTheAngle) {
   }
 }
 
-TEST(BodyLook, WhatNeverTurnsIsOnePicture) {
+TEST(BodyLook, NonTurningBodyHasOneFrame) {
   BodyLook look;
   look.update(form(boxShape(6, 3), 0.5, 0), {}, kAspect, 1);
   EXPECT_EQ(look.frames().size(), 1u);
@@ -233,7 +233,7 @@ class DrawnBody : public testing::Test {
   double m_angle = 0;
 };
 
-TEST_F(DrawnBody, WhatTurnsIsPublishedOnceAndAnotherSpinOnce) {
+TEST_F(DrawnBody, TurningBodyIsPublishedOncePerSpinChange) {
   body.setBoxShape(10, 4);
   EXPECT_EQ(countLooks(1000, 0.05), 1);
   EXPECT_EQ(countLooks(1000, 0.05), 0);
@@ -242,7 +242,7 @@ TEST_F(DrawnBody, WhatTurnsIsPublishedOnceAndAnotherSpinOnce) {
 }
 
 // The engine turns it: after its birth only its path is published, ever more rarely.
-TEST_F(DrawnBody, WhatTurnsAndFliesFreelyCostsNoRecord) {
+TEST_F(DrawnBody, FreelyFlyingTurningBodyPublishesOnlyMotion) {
   body.setBoxShape(10, 4);
   body.setTurning();
   body.setSpin(0.05);
@@ -259,14 +259,14 @@ TEST_F(DrawnBody, WhatTurnsAndFliesFreelyCostsNoRecord) {
   EXPECT_LE(published, 4u) << "a path that outlives its horizon is published again";
 }
 
-TEST_F(DrawnBody, ACircleAndASpriteLikewise) {
+TEST_F(DrawnBody, TurningCircleAndSpriteArePublishedOnce) {
   body.setCircle(4);
   EXPECT_EQ(countLooks(500, 0.05), 1);
   body.setDrawing({"<==", "|o>"}, df::RED);
   EXPECT_EQ(countLooks(500, 0.05), 1);
 }
 
-TEST_F(DrawnBody, InvisibleDrawingsAreRefused) {
+TEST_F(DrawnBody, InvalidDrawingsAreRefused) {
   EXPECT_EQ(body.setDrawing(df::BodyDrawing::OUTLINE, U'\n'), -1);
   EXPECT_EQ(body.setDrawing(df::BodyDrawing::SPRITE), -1);
   EXPECT_EQ(body.setDrawing(std::vector<std::string>{}), -1);

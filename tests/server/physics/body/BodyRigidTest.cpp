@@ -85,7 +85,7 @@ TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   EXPECT_TRUE(world.picture().view().changed.empty());  // asleep
 }
 
-TEST_F(BodyRigids, OneAloneFliesExactly) {
+TEST_F(BodyRigids, LoneBodyFliesExactly) {
   Body* p_crate = turningCrate(Vector(0, 0));
   p_crate->setSpin(0.1);
   p_crate->setVelocity(perSecond(Vector(3, -20)));
@@ -96,7 +96,7 @@ TEST_F(BodyRigids, OneAloneFliesExactly) {
   EXPECT_EQ(layer().rigidCounters().ticks, 0);
 }
 
-TEST_F(BodyRigids, TheOthersStayWhereAllIsExact) {
+TEST_F(BodyRigids, NonTurningBodiesKeepTheExactSolver) {
   layFloor(100);
   turningCrate(Vector(-20, -2));
   auto* p_ball = ball<Listener>(Vector(20, -5.5), Vector());
@@ -110,7 +110,7 @@ TEST_F(BodyRigids, TheOthersStayWhereAllIsExact) {
 }
 
 // A crate that does not turn lies on the floor; one that does comes, and both are handed to the RigidWorld.
-TEST_F(BodyRigids, AChangeOfSolverSendsNoEventTwice) {
+TEST_F(BodyRigids, SolverChangeRepeatsNoContactEvents) {
   Object* p_floor = layFloor(100);
   auto* p_crate = crate<Listener>(Vector(0, -0.75));
   p_crate->setContactEnds();
@@ -127,7 +127,7 @@ TEST_F(BodyRigids, AChangeOfSolverSendsNoEventTwice) {
 }
 
 // A plank on a hinge, and something that falls onto its end.
-TEST_F(BodyRigids, WhatIsJoinedIsHit) {
+TEST_F(BodyRigids, JointedBodyCollides) {
   auto* p_plank = new Listener;
   p_plank->setBoxShape(6, 0.5);
   p_plank->setTurning();
@@ -146,7 +146,7 @@ TEST_F(BodyRigids, WhatIsJoinedIsHit) {
   EXPECT_NEAR(std::hypot(p_plank->getPosition().x(), p_plank->getPosition().y()), 0, 1e-3);
 }
 
-TEST_F(BodyRigids, AFloorThatGoesLetsThemFall) {
+TEST_F(BodyRigids, DeletedFloorLetsBodiesFall) {
   Object* p_floor = layFloor(5, 1);
   wall(Vector(0, 10), Vector(50, 5));
   Body* p_crate = turningCrate(Vector(0, -0.5));
@@ -157,7 +157,7 @@ TEST_F(BodyRigids, AFloorThatGoesLetsThemFall) {
   EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
 }
 
-TEST_F(BodyRigids, BodiesMayDieWhileTheyLieOnEachOther) {
+TEST_F(BodyRigids, StackedBodiesMayBeDeleted) {
   layFloor();
   std::vector<Body*> crates;
   for (int i = 0; i < 5; ++i) {
@@ -175,7 +175,7 @@ TEST_F(BodyRigids, BodiesMayDieWhileTheyLieOnEachOther) {
 }
 
 // What it hangs on need not be HARD itself.
-TEST_F(BodyRigids, ALampHangsFromANailThatNothingTouches) {
+TEST_F(BodyRigids, LampHangsFromASpectralNail) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     PM.setAccuracy(accuracy);
     auto* p_nail = new Body;

@@ -56,7 +56,7 @@ class BodyScenes : public BodyScene {
   std::vector<Body*> bodies;
 };
 
-TEST_F(BodyScenes, FourThatMeetInAPointAreAFewImpacts) {
+TEST_F(BodyScenes, FourBodiesMeetingAtAPointNeedFewImpacts) {
   for (const double x : {-3, 3}) {
     for (const double y : {-3, 3}) {
       put(crate(Vector(x, y)))->setVelocity(Vector(x > 0 ? -0.1 : 0.1, y > 0 ? -0.1 : 0.1));
@@ -66,7 +66,7 @@ TEST_F(BodyScenes, FourThatMeetInAPointAreAFewImpacts) {
   EXPECT_LE(layer().impactCounters().impacts, 20);
 }
 
-TEST_F(BodyScenes, ARingThatMeetsInAPointKeepsItsMomentum) {
+TEST_F(BodyScenes, RingMeetingAtAPointKeepsItsMomentum) {
   constexpr int kCount = 60;
   for (int i = 0; i < kCount; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCount;
@@ -76,7 +76,7 @@ TEST_F(BodyScenes, ARingThatMeetsInAPointKeepsItsMomentum) {
   expectClosed(250, 1e-6);
 }
 
-TEST_F(BodyScenes, BlocksOfTouchingBoxesPush) {
+TEST_F(BodyScenes, TouchingBlocksKeepMomentumWithFewImpacts) {
   for (int seed = 0; seed < 60; ++seed) {
     naiad::SplitMix64 random(static_cast<std::uint64_t>(seed));
     const int side = 2 + seed % 2;
@@ -93,7 +93,7 @@ TEST_F(BodyScenes, BlocksOfTouchingBoxesPush) {
 
 // More than the reserve: the group is moved as a whole in soft sub-steps. Each pair still hears of begin and
 // end by turns.
-TEST_F(BodyScenes, WhatHitsMoreOftenThanATickAllowsIsMovedAsAGroup) {
+TEST_F(BodyScenes, GroupOverTheImpactLimitMovesInSubsteps) {
   for (const double side : {-1, 1}) {
     wall(Vector(side * 5.5, 0), Vector(0.5, 6));
     wall(Vector(0, side * 5.5), Vector(6, 0.5));
@@ -195,7 +195,7 @@ TEST_F(PulledBox, AStiffFieldIsBoundedAtAnyStiffness) {
   }
 }
 
-TEST_F(BodyScenes, ASpringOnARodIsBoundedAtAnyStiffness) {
+TEST_F(BodyScenes, RodAndSpringStayBoundedAtAnyStiffness) {
   PM.setGravity(perSecondSquared(Vector(0, kFall)));
   for (const double k : kStiffnesses) {
     Body* p_bob = ball(Vector(3, 4), Vector(), 0.25);
@@ -214,7 +214,7 @@ TEST_F(BodyScenes, ASpringOnARodIsBoundedAtAnyStiffness) {
 
 // Whether the spring pulls along the circle or off it: the joints' solver follows the swing, of up to some
 // radians a tick, to order 6, and above it is damped.
-TEST_F(BodyScenes, ASpringOnARodIsNotThrown) {
+TEST_F(BodyScenes, RodAndSpringGainNoEnergy) {
   const double g = perSecondSquared(Vector(0, kFall)).y();
   PM.setGravity(Vector(0, g));
   for (const double to : {4.0, 5.0}) {
@@ -248,7 +248,7 @@ class Magnet : public Field {
 
 // A magnet presses what slides onto the floor, and what goes round against its rod: at right angles to the
 // way, so that nothing becomes slower or faster.
-TEST_F(BodyScenes, AMagnetDoesNotBrakeWhatIsHeld) {
+TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
   Magnet magnet;
   wall(Vector(0, 0.5), Vector(500, 0.5));
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
@@ -283,7 +283,7 @@ TEST_F(BodyScenes, AMagnetDoesNotBrakeWhatIsHeld) {
 
 // A magnet however strong freezes nothing, at both levels, in flight, on a floor, on a rod and in a
 // collision.
-TEST_F(BodyScenes, AStrongMagnetFreezesNothing) {
+TEST_F(BodyScenes, StrongMagnetFreezesNoBodies) {
   Magnet magnet;
   layFloor(50, 0.5);
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
@@ -312,7 +312,7 @@ TEST_F(BodyScenes, AStrongMagnetFreezesNothing) {
 }
 
 // A spring joint with a length, off its line: no integrator follows it, and nothing need be frozen.
-TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
+TEST_F(BodyScenes, StiffSpringJointHoldsABodyOnAFloor) {
   layFloor(50, 0.5);
   for (const double k : kStiffnesses) {
     Body* p_box = turningCrate(Vector(1, -0.5));
@@ -328,7 +328,7 @@ TEST_F(BodyScenes, AStiffSpringJointFromTheWorldHoldsWhatLiesOnAFloor) {
 }
 
 // The same in the air, at both levels, whatever else it may touch.
-TEST_F(BodyScenes, AStiffSpringJointHoldsWhatNothingTouches) {
+TEST_F(BodyScenes, StiffSpringJointHoldsABodyInTheAir) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     ASSERT_EQ(PM.setAccuracy(accuracy), 0);
     for (const Solidness solidness : {HARD, SPECTRAL}) {
@@ -368,7 +368,7 @@ TEST_F(BodyScenes, StickAndSlipStaysBounded) {
   }
 }
 
-TEST_F(BodyScenes, AStackThatLeansToAndFroStands) {
+TEST_F(BodyScenes, ZigzagStackStands) {
   layFloor(50, 0.5);
   for (const int count : {20, 40, 60}) {
     for (int i = 0; i < count; ++i) {
@@ -385,7 +385,7 @@ TEST_F(BodyScenes, AStackThatLeansToAndFroStands) {
 }
 
 // However fast it swings, the floor holds it with its whole width.
-TEST_F(PulledBox, WhatSlidesFastDoesNotTiltIntoTheFloor) {
+TEST_F(PulledBox, FastSlidingBoxDoesNotSinkIntoTheFloor) {
   for (double k = 0.01; k <= 2; k *= 1.1) {  // up to 1.4 times its width a tick
     const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
     EXPECT_LE(its.gained, 1e-6) << k;
@@ -415,7 +415,7 @@ TEST_F(BodyScenes, AHeavyBodyLiesOnLightOnes) {
 // A heavy body lies, off the middle or on it, or falls, on light ones. None is thrown away. Up to 10⁶ times
 // their mass, none is pressed into the floor by half its height; beyond, none gets half-way through the
 // floor. The fast level promises no place: it squeezes them.
-TEST_F(BodyScenes, AHeavyBodyThrowsAwayNothingLight) {
+TEST_F(BodyScenes, HeavyBodyDoesNotThrowLightOnes) {
   const double g = perSecondSquared(Vector(0, kFall)).y();
   PM.setGravity(Vector(0, g));
   wall(Vector(0, 0.5), Vector(50, 0.5));
@@ -488,7 +488,7 @@ TEST_F(BodyScenes, ANetOfManyLoopsIsMovedInSubsteps) {
 }
 
 // Each is pushed by the nearest only, so that a tick's work grows with their number and not with its square.
-TEST_F(BodyScenes, ACrowdOfTurningBoxesInOneCellCostsItsNumber) {
+TEST_F(BodyScenes, TurningBoxesInOneCellNeedLinearWork) {
   constexpr int kCount = 800;
   naiad::SplitMix64 random(1);
   for (int i = 0; i < kCount; ++i) {
@@ -502,7 +502,7 @@ TEST_F(BodyScenes, ACrowdOfTurningBoxesInOneCellCostsItsNumber) {
 }
 
 // Nor are all pairs of a crowd that moves looked at before it is known that they are too many.
-TEST_F(BodyScenes, ACrowdOfMovingCirclesInOneCellCostsItsNumber) {
+TEST_F(BodyScenes, MovingCirclesInOneCellNeedLinearWork) {
   constexpr int kCount = 1500;
   naiad::SplitMix64 random(1);
   for (int i = 0; i < kCount; ++i) {
@@ -518,7 +518,7 @@ TEST_F(BodyScenes, ACrowdOfMovingCirclesInOneCellCostsItsNumber) {
 
 // It is moved in sub-steps: the centre of mass goes as its momentum says, which stays, and nobody stops where
 // a free one would go on. What passes by sees nothing of it.
-TEST_F(BodyScenes, ACrowdThatMovesIsHeldNowhere) {
+TEST_F(BodyScenes, MovingCrowdKeepsMomentumAndNeverStalls) {
   constexpr int kCount = 900;
   naiad::SplitMix64 random(3);
   for (int i = 0; i < kCount; ++i) {

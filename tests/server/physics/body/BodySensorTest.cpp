@@ -27,7 +27,7 @@ std::pair<double, double> gapsOf(const Track& a, const Track& b) {
   return {gapAt(when), gapAt(1)};
 }
 
-TEST_F(BodySensorScene, HearWhatTheirPathsSayOfEveryPair) {
+TEST_F(BodySensorScene, ContactEventsMatchEveryPairsPaths) {
   std::uint32_t seed = 1;
   const auto part = [&] { return ((seed = seed * 1664525 + 1013904223) >> 8) / 16777216.0; };
   std::vector<Track> tracks(80);
@@ -74,7 +74,7 @@ TEST_F(BodySensorScene, HearWhatTheirPathsSayOfEveryPair) {
   EXPECT_GT(ends, 150);
 }
 
-TEST_F(BodySensorScene, OneThatLeavesAtOnceHasParted) {
+TEST_F(BodySensorScene, TeleportedObjectEndsItsContacts) {
   auto* p_soft = ball<Listener>(Vector(0, 0), Vector(0, 0));
   p_soft->setSolidness(SOFT);
   p_soft->setContactEnds();
@@ -91,7 +91,7 @@ TEST_F(BodySensorScene, OneThatLeavesAtOnceHasParted) {
 }
 
 // More than three hundred slots and two thousand pairs.
-TEST_F(BodySensorScene, ManyInOnePlaceHearEachBeginAndEndOnce) {
+TEST_F(BodySensorScene, CrowdedSensorsGetEachBeginAndEndOnce) {
   constexpr std::size_t kCount = 66;
   for (int i = 0; i < 250; ++i) ball(Vector(-10 - 2 * i, 0), Vector(0, 0));
   std::vector<Listener*> bodies;
@@ -121,7 +121,7 @@ TEST_F(BodySensorScene, ManyInOnePlaceHearEachBeginAndEndOnce) {
   }
 }
 
-TEST_F(BodySensorScene, FarFromOneAnotherAskForFewPairs) {
+TEST_F(BodySensorScene, DistantSensorsCheckFewPairs) {
   for (int i = 0; i < 1024; ++i) ball(Vector(3 * (i % 32), 3 * (i / 32)), Vector(3, 0))->setSolidness(SOFT);
   ticks(3);
   EXPECT_LE(naiad::physics::BodyLayer::of(world).sensorPairs(), 3 * 2 * 1024);

@@ -8,7 +8,7 @@ namespace {
 
 using BodyShapes = test::PhysicsWorld;
 
-TEST_F(BodyShapes, TheBoxGoesAroundTheShape) {
+TEST_F(BodyShapes, BoxEnclosesTheShape) {
   auto* p_body = new Body;
   ASSERT_EQ(p_body->setCircle(2), 0);
   EXPECT_EQ(p_body->getBox().getHorizontal(), 4);
@@ -21,7 +21,7 @@ TEST_F(BodyShapes, TheBoxGoesAroundTheShape) {
   EXPECT_NEAR(p_body->getBox().getVertical(), 3, 1e-9);
 }
 
-TEST_F(BodyShapes, InertiaIsThatOfTheShape) {
+TEST_F(BodyShapes, InertiaMatchesTheShape) {
   PM.setAspect(1);
   auto* p_body = new Body;
   p_body->setMass(3);
@@ -45,7 +45,7 @@ TEST_F(BodyShapes, PartsMakeACompound) {
   EXPECT_TRUE(p_body->getShapes().empty());
 }
 
-TEST_F(BodyShapes, RefuseWhatIsNone) {
+TEST_F(BodyShapes, InvalidShapesAndNumbersAreRefused) {
   auto* p_body = new Body;
   for (const double bad : {kNan, -1.0, 0.0, 1e31}) {
     EXPECT_EQ(p_body->setCircle(bad), -1) << bad;
@@ -66,7 +66,7 @@ TEST_F(BodyShapes, RefuseWhatIsNone) {
   EXPECT_GT(world.log().refusals(), 18u);
 }
 
-TEST_F(BodyShapes, AnImpulseBesideTheMiddleTurnsWhatMayTurn) {
+TEST_F(BodyShapes, OffCentreImpulseSpinsOnlyTurningBodies) {
   PM.setAspect(1);
   auto* p_body = new Body;
   p_body->setMass(2);
@@ -79,7 +79,7 @@ TEST_F(BodyShapes, AnImpulseBesideTheMiddleTurnsWhatMayTurn) {
   EXPECT_NEAR(p_body->getSpin(), 4, 1e-15);
 }
 
-TEST_F(BodyShapes, JointsGoWithTheirBodies) {
+TEST_F(BodyShapes, JointsAreDeletedWithTheirBodies) {
   auto* p_a = new Body;
   auto* p_b = new Body;
   p_b->setPosition(Vector(3, 2));
@@ -98,7 +98,7 @@ TEST_F(BodyShapes, JointsGoWithTheirBodies) {
   EXPECT_EQ(PM.getJointCount(), 1);
 }
 
-TEST_F(BodyShapes, JointsThatCannotBeAreNone) {
+TEST_F(BodyShapes, ImpossibleJointsAreNotCreated) {
   auto* p_body = new Body;
   EXPECT_FALSE(Joint().exists());
   EXPECT_FALSE(PM.addDistance(p_body, p_body).exists());

@@ -135,7 +135,7 @@ Found shoot(const Shot& shot) {
   return found;
 }
 
-TEST(BodyShot, NothingGoesThroughAWall) {
+TEST(BodyShot, ShotsDoNotPassThroughWalls) {
   int through = 0, unmet = 0, frozen = 0, gained = 0, lost = 0, shown = 0;
   for (int i = 0, n = shots(); i < n; ++i) {
     const Shot shot = shotOf(i);

@@ -42,7 +42,7 @@ FixedBox boxAt(Vector corner, Vector size) {
 }
 
 // Heaps and single ones, on both sides of the origin, small and large, whole cells and parts of them.
-TEST_F(BodySurrounding, AreWhatEachFindsAlone) {
+TEST_F(BodySurrounding, BatchSearchMatchesSingleSearches) {
   naiad::SplitMix64 random(11);
   const auto in = [&](double least, double most) { return least + (most - least) * random.unit(); };
   for (int i = 0; i < 150; ++i) {
@@ -70,7 +70,7 @@ TEST_F(BodySurrounding, AreWhatEachFindsAlone) {
   EXPECT_GT(answers, 5000u);
 }
 
-TEST_F(BodySurrounding, WithoutObjectsAreNone) {
+TEST_F(BodySurrounding, OnlyNonBodyObjectsAreFound) {
   crate(Vector(1, 1));
   crate(Vector(2, 2));
   BodySurroundings surroundings;

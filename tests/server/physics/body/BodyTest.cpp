@@ -18,14 +18,14 @@ void expectNear(Vector a, Vector b, double tolerance) {
   EXPECT_NEAR(a.y(), b.y(), tolerance);
 }
 
-TEST_F(Bodies, AWorldWithoutThemHasNoLayer) {
+TEST_F(Bodies, WorldWithoutBodiesHasNoLayer) {
   new Object;
   ticks(3);
   EXPECT_EQ(world.findLayer<naiad::physics::BodyLayer>(), nullptr);
 }
 
 // Problem 1 of the laboratory, through the public interface.
-TEST_F(Bodies, FallAsGalileoSays) {
+TEST_F(Bodies, FreeFallFollowsTheFormula) {
   PM.setAspect(1);
   PM.setGravity(perSecondSquared(Vector(0, -10)));
   auto* p_ball = new Body;
@@ -35,7 +35,7 @@ TEST_F(Bodies, FallAsGalileoSays) {
   expectNear(p_ball->getVelocity(), perSecond(Vector(3, 0)), 1e-12);
 }
 
-TEST_F(Bodies, ALongFlightCostsAWatcherNothing) {
+TEST_F(Bodies, LongFlightIsPredictedFromOneRecord) {
   PM.setGravity(Vector(0, 0.0123));
   auto* p_ball = new Body;
   p_ball->setVelocity(Vector(0.3, -1.7));
@@ -70,7 +70,7 @@ TEST_F(Bodies, DragAndSpringsFollowTheirFormulas) {
   EXPECT_NEAR(p_falling->getPosition().y(), std::log1p(0.5 * 8 * 2) / 0.5, 1e-8);
 }
 
-TEST_F(Bodies, ForcesLastATickAndImpulsesAreAtOnce) {
+TEST_F(Bodies, ForcesLastOneTickAndImpulsesActAtOnce) {
   auto* p_body = new Body;
   p_body->setMass(4);
   EXPECT_EQ(p_body->applyForce(Vector(2, 0)), 0);
@@ -84,7 +84,7 @@ TEST_F(Bodies, ForcesLastATickAndImpulsesAreAtOnce) {
   expectNear(p_body->getVelocity(), Vector(0, 0), 1e-15);
 }
 
-TEST_F(Bodies, TheSettersOfAnObjectAreTakenOver) {
+TEST_F(Bodies, BaseObjectSettersMoveTheBody) {
   auto* p_body = new Body;
   Object* p_object = p_body;
   p_object->setPosition(Vector(10, 5));
@@ -96,7 +96,7 @@ TEST_F(Bodies, TheSettersOfAnObjectAreTakenOver) {
   expectNear(p_body->getPosition(), Vector(11, 4.5), 1e-9);
 }
 
-TEST_F(Bodies, GetAnEventWhenTheyLeaveTheWorldAndMayBeDeletedInIt) {
+TEST_F(Bodies, LeavingTheWorldSendsAnEventThatMayDelete) {
   class Leaver : public Body {
    public:
     int eventHandler(const Event* p_e) override {
@@ -139,7 +139,7 @@ TEST_F(Bodies, AFieldHoldsASatelliteInItsOrbit) {
   expectNear(p_moon->getPosition(), Vector(40 + std::cos(angle), 12 + std::sin(angle)), 1e-9);
 }
 
-TEST_F(Bodies, OneThatFallsIntoASingularityFreezesAlone) {
+TEST_F(Bodies, BodyInASingularityFreezesAlone) {
   PM.setAspect(1);
   const Planet planet(1);
   auto* p_doomed = new Body;
@@ -160,7 +160,7 @@ TEST_F(Bodies, OneThatFallsIntoASingularityFreezesAlone) {
   expectNear(p_doomed->getPosition(), Vector(1, 0), 1e-12);
 }
 
-TEST_F(Bodies, RefuseWhatIsNoNumber) {
+TEST_F(Bodies, InvalidNumbersAreRefused) {
   auto* p_body = new Body;
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e31}) {
     EXPECT_EQ(p_body->setMass(bad), -1) << bad;
@@ -184,7 +184,7 @@ TEST_F(Bodies, RefuseWhatIsNoNumber) {
   EXPECT_EQ(p_body->getPosition(), Vector());
 }
 
-TEST_F(Bodies, AThrustBeyondAllBoundsMakesItAsFastAsABodyCanBe) {
+TEST_F(Bodies, ExcessiveForceIsClampedToMaximumSpeed) {
   auto* p_rocket = new Body;
   p_rocket->applyForce(Vector(1e30, 0));
   auto* p_other = new Body;
@@ -226,7 +226,7 @@ TEST_F(Bodies, OutliveTheirWorld) {
   EXPECT_EQ(body->getVelocity(), Vector(1, 1));
 }
 
-TEST_F(Bodies, TheAspectIsSettledBeforeTheFirst) {
+TEST_F(Bodies, AspectRatioIsFixedOnceABodyExists) {
   EXPECT_EQ(PM.getAspect(), 2);
   EXPECT_EQ(PM.setAspect(kNan), -1);
   EXPECT_EQ(PM.setAspect(8), -1);
@@ -235,7 +235,7 @@ TEST_F(Bodies, TheAspectIsSettledBeforeTheFirst) {
   EXPECT_EQ(PM.setAspect(2), -1);
 }
 
-TEST_F(Bodies, RemovedAndInsertedAgainTheyGoOn) {
+TEST_F(Bodies, ReinsertedBodyContinuesMoving) {
   auto* p_body = new Body;
   p_body->setVelocity(Vector(1, 0));
   ticks(1);

@@ -18,7 +18,7 @@ BodyContact contactOf(df::ObjectKey first, df::ObjectKey second, bool is_begin) 
 using Pair = std::pair<df::ObjectKey, df::ObjectKey>;
 
 // Contacts begin and end at random, slots change hands, bodies vanish: the same as from a plain list.
-TEST(BodyTouching, IsKnownOfEveryBodyAtAnyTime) {
+TEST(BodyTouching, MatchesAPlainListOfContacts) {
   constexpr std::uint32_t kSlots = 12;
   SplitMix64 random(9);
   const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random.next() % limit); };

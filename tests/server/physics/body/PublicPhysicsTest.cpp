@@ -28,7 +28,7 @@ class PublicPhysics : public testing::Test {
   World::Scope scope;
 };
 
-TEST_F(PublicPhysics, TheIntegratorIsSetFromItsOptions) {
+TEST_F(PublicPhysics, IntegratorOptionsCanBeSet) {
   naiad::physics::IntegratorOptions options = PM.getIntegrator();
   options.method = naiad::physics::IntegratorMethod::kRadau;
   options.stiff_relative = 1e-6;
@@ -39,7 +39,7 @@ TEST_F(PublicPhysics, TheIntegratorIsSetFromItsOptions) {
   EXPECT_EQ(PM.getIntegrator().stiff_relative, 1e-6);
 }
 
-TEST_F(PublicPhysics, ShapesAreReadCornerByCorner) {
+TEST_F(PublicPhysics, ShapesExposeTheirCorners) {
   auto* p_body = new Body;
   ASSERT_EQ(p_body->setBoxShape(4, 1), 0);
   ASSERT_EQ(p_body->addCircle(1, Vector(0, 2)), 0);
@@ -69,7 +69,7 @@ TEST_F(PublicPhysics, AFieldMovesABody) {
   EXPECT_EQ(p_body->setField(nullptr), 0);
 }
 
-TEST_F(PublicPhysics, JointsGripsAndSoftBodiesAreValues) {
+TEST_F(PublicPhysics, PublicHeadersCoverJointsGripsAndSoftBodies) {
   auto* p_body = new Body;
   Joint spring = PM.addSpring(p_body, nullptr, Vector(0, 0), Vector(3, 0), 1);
   EXPECT_TRUE(spring.exists());

@@ -12,7 +12,7 @@ class SoftCloth : public test::PhysicsWorld {
   SoftCloth() { PM.setGravity(Vector(0, 0.02)); }
 };
 
-TEST_F(SoftCloth, HasTheThreadsThatAreAskedForWithinLimits) {
+TEST_F(SoftCloth, ThreadCountIsAsRequestedWithinLimits) {
   const Cloth usual(Vector(0, 0), 1000, 1000);
   EXPECT_EQ(usual.getColumns(), 25);
   EXPECT_EQ(usual.getRows(), 25);
@@ -28,7 +28,7 @@ TEST_F(SoftCloth, HasTheThreadsThatAreAskedForWithinLimits) {
   EXPECT_EQ(refused.getColumns(), 13);
 }
 
-TEST_F(SoftCloth, HangsByTwoCornersAndStretchesByLessThanAPart) {
+TEST_F(SoftCloth, PinnedClothStretchesByAtMostFivePercent) {
   constexpr int kThreads = 100;
   auto* p_cloth = new Cloth(Vector(10, 5), 99, 49.5, 1, 5, kThreads, kThreads);
   p_cloth->pin(p_cloth->getNode(0, 0));
@@ -49,7 +49,7 @@ TEST_F(SoftCloth, HangsByTwoCornersAndStretchesByLessThanAPart) {
   EXPECT_FALSE(p_cloth->isFrozen());
 }
 
-TEST_F(SoftCloth, IsBlownByAForceAtEachNode) {
+TEST_F(SoftCloth, NodeForcesMoveTheWholeCloth) {
   auto* p_cloth = new Cloth(Vector(10, 5), 20, 10, 1, 5, 40, 40);
   PM.setGravity(Vector(0, 0));
   for (int i = 0; i < 10; ++i) {

@@ -60,7 +60,7 @@ double lowest(const SoftBody& body) {
   return y;
 }
 
-TEST_F(SoftObjects, AWorldWithoutThemHasNoLayer) {
+TEST_F(SoftObjects, WorldWithoutSoftBodiesHasNoLayer) {
   new Body;
   ticks(3);
   EXPECT_EQ(world.findLayer<naiad::physics::SoftLayer>(), nullptr);
@@ -81,7 +81,7 @@ TEST_F(SoftObjects, ABlobFallsLikeABody) {
   EXPECT_LT(box.getVertical(), 5.5);
 }
 
-TEST_F(SoftObjects, ABlobComesToRestOnAFloorAndBothGetEvents) {
+TEST_F(SoftObjects, BlobRestsOnAFloorAndBothGetEvents) {
   auto* p_floor = new Hearing<Floor>(Vector(0, 20));
   auto* p_blob = new Hearing<Blob>(Vector(20, 15), 3);
   ticks(100);
@@ -117,7 +117,7 @@ TEST_F(SoftObjects, ARestingBlobPublishesNothing) {
   }
 }
 
-TEST_F(SoftObjects, ASleeperWakesWhenItsFloorGoesAndWhenSomethingComes) {
+TEST_F(SoftObjects, SleepingBlobWakesOnImpactOrLostFloor) {
   auto* p_floor = new Floor(Vector(0, 20));
   auto* p_blob = new Blob(Vector(20, 15), 3);
   ticks(500);
@@ -150,7 +150,7 @@ TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
   EXPECT_NEAR(lowest(*p_rope), y + 0.5, 0.3);
 }
 
-TEST_F(SoftObjects, WhatLiesOnARopeIsPublishedTheSameInEachTick) {
+TEST_F(SoftObjects, CrateRestingOnARopePublishesUnchangedState) {
   const Rope* p_rope = bridge();
   auto* p_crate = crate(Vector(20, 8), Vector(2, 0.5));
   world.store().setWatched(true);
@@ -192,7 +192,7 @@ TEST_F(SoftObjects, ATurningStackLiesOnACloth) {
   EXPECT_NEAR(p_below->getPosition().y(), y_before, 0.01);
 }
 
-TEST_F(SoftObjects, ABlowKeepsTheMomentum) {
+TEST_F(SoftObjects, ImpactKeepsTheMomentum) {
   PM.setGravity(Vector(0, 0));
   auto* p_blob = new Blob(Vector(10, 10), 2);
   p_blob->setDrag(0);
@@ -208,7 +208,7 @@ TEST_F(SoftObjects, ABlowKeepsTheMomentum) {
   EXPECT_GT(p_crate->getVelocity().x(), 0.05);
 }
 
-TEST_F(SoftObjects, TwoBlobsGetEventsOfEachOther) {
+TEST_F(SoftObjects, CollidingBlobsBothGetEvents) {
   PM.setGravity(Vector(0, 0));
   auto* p_left = new Hearing<Blob>(Vector(10, 10), 2);
   auto* p_right = new Hearing<Blob>(Vector(20, 10), 2);
@@ -247,7 +247,7 @@ TEST_F(SoftObjects, ABodyHangsOnARope) {
   EXPECT_GT(p_ball->getPosition().y(), 10);
 }
 
-TEST_F(SoftObjects, WhatIsAttachedSwingsWithoutRubbingOnTheRope) {
+TEST_F(SoftObjects, AttachedBodySwingsWithoutTouchingTheRope) {
   auto* p_rope = new Rope(Vector(20, 2), Vector(30, 2), 0.2, 200);
   p_rope->setDrag(0);
   p_rope->pin(0);
@@ -270,7 +270,7 @@ TEST_F(SoftObjects, WhatIsAttachedSwingsWithoutRubbingOnTheRope) {
   EXPECT_EQ(p_ball->heard, 0);
 }
 
-TEST_F(SoftObjects, AGrabbedBodyFollowsThePointer) {
+TEST_F(SoftObjects, GrabbedBlobFollowsThePointer) {
   PM.setGravity(Vector(0, 0));
   auto* p_blob = new Blob(Vector(20, 10), 2);
   EXPECT_EQ(p_blob->dragTo(Vector(30, 10)), -1);
@@ -286,7 +286,7 @@ TEST_F(SoftObjects, AGrabbedBodyFollowsThePointer) {
   EXPECT_GT(p_blob->getPosition().x(), 45);
 }
 
-TEST_F(SoftObjects, WhatTheGameSetsIsTakenOver) {
+TEST_F(SoftObjects, SettersForcesAndImpulsesTakeEffect) {
   PM.setGravity(Vector(0, 0));
   auto* p_blob = new Blob(Vector(20, 10), 2, 3);
   EXPECT_NEAR(p_blob->getMass(), 3, 1e-12);
@@ -304,7 +304,7 @@ TEST_F(SoftObjects, WhatTheGameSetsIsTakenOver) {
   EXPECT_NEAR(p_blob->getVelocity().x(), -0.75, 1e-6);
 }
 
-TEST_F(SoftObjects, BadNumbersAreRefused) {
+TEST_F(SoftObjects, InvalidNumbersAreRefused) {
   auto* p_blob = new Blob(Vector(20, 10), kNan, -1, 1e30);
   EXPECT_EQ(world.log().refusals(), 3u);
   EXPECT_NEAR(p_blob->getMass(), 1, 1e-12);
@@ -331,7 +331,7 @@ TEST_F(SoftObjects, BadNumbersAreRefused) {
   EXPECT_EQ(PM.getQuarantineCount(), 0u);
 }
 
-TEST_F(SoftObjects, WhatGoesWrongStaysAlone) {
+TEST_F(SoftObjects, RunawaySoftBodyFreezesAlone) {
   const auto scene = [&](bool with_runaway) {
     test::OwnWorld own(2);
     World& alone = own.world;
@@ -374,7 +374,7 @@ struct Vandal : Blob {
   bool suicidal = false;
 };
 
-TEST_F(SoftObjects, HandlersMayDeleteAnybody) {
+TEST_F(SoftObjects, HandlersMayDeleteAnyObject) {
   new Floor(Vector(0, 20));
   new Floor(Vector(0, 25));
   auto* p_crate = new Body;
@@ -395,7 +395,7 @@ struct Spawner : Body {
   }
 };
 
-TEST_F(SoftObjects, TheFirstOneMayComeFromAHandlerOfABody) {
+TEST_F(SoftObjects, HandlerOfABodyMayCreateTheFirstBlob) {
   new Floor(Vector(0, 20));
   auto* p_body = new Spawner;
   p_body->setPosition(Vector(20, 15));
@@ -404,7 +404,7 @@ TEST_F(SoftObjects, TheFirstOneMayComeFromAHandlerOfABody) {
   EXPECT_GT(WM.objectsOfType("Blob").getCount(), 0);
 }
 
-TEST_F(SoftObjects, TheRunIsTheSameEveryTime) {
+TEST_F(SoftObjects, RepeatedRunsAreIdentical) {
   const auto run = [] {
     test::OwnWorld own(2);
     World& alone = own.world;
@@ -428,7 +428,7 @@ TEST_F(SoftObjects, TheRunIsTheSameEveryTime) {
   EXPECT_EQ(run(), run());
 }
 
-TEST_F(SoftObjects, StiffnessIsWhatItSays) {
+TEST_F(SoftObjects, StiffnessDeterminesTheSag) {
   constexpr double kGravity = 0.04;  // in widths of a cell
   const double rows = 0.5;           // a width of a cell
   auto* p_rope = new Rope(Vector(5, 2), Vector(5, 12), 3, 1);
@@ -441,7 +441,7 @@ TEST_F(SoftObjects, StiffnessIsWhatItSays) {
 }
 
 // A force at the end of a clamped beam bends it by FL³/3EI, at any number of elements.
-TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
+TEST_F(SoftObjects, EndForceBendsABeamByTheFormula) {
   PM.setGravity(Vector(0, 0));
   constexpr double kMass = 2, kStiffness = 1, kLength = 20, kForce = 0.02;  // rows
   constexpr double kEi = kStiffness * kMass * kLength * kLength / 8;
@@ -463,7 +463,7 @@ TEST_F(SoftObjects, AForceAtItsEndBendsABeam) {
   }
 }
 
-TEST_F(SoftObjects, CirclesAreRoundInTheMetric) {
+TEST_F(SoftObjects, BlobsAreRoundDespiteTheCellAspect) {
   auto* p_blob = new Blob(Vector(20, 10), 4);
   std::vector<double> x, y;
   for (int i = 0; i < p_blob->getNodeCount(); ++i) {
@@ -494,7 +494,7 @@ TEST_F(SoftObjects, SoftBodiesAreDrawn) {
   EXPECT_EQ(canvas.at(43, 10).ch, U' ');
 }
 
-TEST_F(SoftObjects, OneThatIsInactiveStaysAndIsNothingToOthers) {
+TEST_F(SoftObjects, InactiveBlobStaysAndCollidesWithNothing) {
   auto* p_blob = new Blob(Vector(20, 10), 2);
   p_blob->setActive(false);
   auto* p_body = new Body;
@@ -507,7 +507,7 @@ TEST_F(SoftObjects, OneThatIsInactiveStaysAndIsNothingToOthers) {
   EXPECT_GT(p_blob->getPosition().y(), 10.5);
 }
 
-TEST_F(SoftObjects, TheyVanishWithTheirObject) {
+TEST_F(SoftObjects, DeletedBlobLeavesTheSolver) {
   auto* p_blob = new Blob(Vector(20, 10), 2);
   ticks(3);
   delete p_blob;

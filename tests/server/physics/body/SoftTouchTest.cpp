@@ -36,7 +36,7 @@ struct Hearing : Base {
 using SoftTouch = BodyScene;
 
 // The begin says how hard: what the crate has gained in that tick. The end comes once, when they part.
-TEST_F(SoftTouch, ABlowBeginsWithItsImpulseAndEnds) {
+TEST_F(SoftTouch, ImpactReportsItsImpulseAndLaterItsEnd) {
   auto* p_blob = new Hearing<Blob>(Vector(0, 0), 2);
   p_blob->setContactEnds();
   p_blob->setDrag(0);
@@ -60,7 +60,7 @@ TEST_F(SoftTouch, ABlowBeginsWithItsImpulseAndEnds) {
 }
 
 // At rest there is one begin more than there are ends; taken away, as many.
-TEST_F(SoftTouch, WhatLiesHasBegunAndNotEnded) {
+TEST_F(SoftTouch, RestingContactHasBegunButNotEnded) {
   PM.setGravity(Vector(0, 0.02));
   auto* p_floor = wall(Vector(0, 5), Vector(20, 1));
   auto* p_blob = new Hearing<Blob>(Vector(0, 0), 2);
@@ -92,7 +92,7 @@ TEST_F(SoftTouch, EndsAreSentOnlyOnRequest) {
 }
 
 // A deleted body ends no contact; another body that gets its id in the solver begins new ones.
-TEST_F(SoftTouch, WhatIsDeletedEndsNothing) {
+TEST_F(SoftTouch, DeletedBodySendsNoContactEnd) {
   PM.setGravity(Vector(0, 0.02));
   auto* p_floor = new Hearing<Body>;
   p_floor->setBoxShape(40, 2);

@@ -117,7 +117,7 @@ class Rule {
 
 // Three crowds, one of them of all sizes, that move through each other, among others and what never moves;
 // all of them, or a few.
-TEST(BroadPhaseCrowd, IsThinnedByTheRule) {
+TEST(BroadPhaseCrowd, PairLimitMatchesTheReferenceRule) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SplitMix64 random(seed);
     BroadPhase broad(true);
@@ -163,7 +163,7 @@ struct CrowdOf {
 };
 
 // In one cell, in a tenth of it, and in one place: of like size, and of many.
-TEST(BroadPhaseCrowd, CostsByItsBodiesNotByTheirPairs) {
+TEST(BroadPhaseCrowd, CostGrowsWithBodiesNotPairs) {
   for (const auto& [spread, least] : {CrowdOf{64, 32}, CrowdOf{6.4, 32}, CrowdOf{0, 32}, CrowdOf{64, 3.2},
                                       CrowdOf{6.4, 3.2}, CrowdOf{0, 3.2}}) {
     const double most_pairs = least < 32 ? 2 * kNearest + 1 : kNearest + 1;

@@ -76,7 +76,7 @@ void step(BroadPhase& broad, std::vector<Body>& bodies) {
   }
 }
 
-TEST(BroadPhase, FindsThePairsThatAllAgainstAllFindInOrder) {
+TEST(BroadPhase, PairsMatchABruteForceSearchInOrder) {
   SplitMix64 random(1);
   BroadPhase broad;
   std::vector<Body> bodies = someBodies(random, 300, 40, 0);
@@ -114,7 +114,7 @@ TEST(BroadPhase, FindsThePairsThatAllAgainstAllFindInOrder) {
   EXPECT_GT(most, 300U);
 }
 
-TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
+TEST(BroadPhase, QueriesMatchABruteForceSearch) {
   SplitMix64 random(2);
   BroadPhase broad;
   std::vector<Body> bodies = someBodies(random, 500, 60, 0);
@@ -134,7 +134,7 @@ TEST(BroadPhase, QueriesFindWhatAllAgainstAllFinds) {
   EXPECT_GT(hits, 2000U);
 }
 
-TEST(BroadPhase, FarFromTheOriginItFindsTheSame) {
+TEST(BroadPhase, DistantScenesFindTheSamePairs) {
   SplitMix64 random_near(3), random_far(3);
   BroadPhase near, far;
   std::vector<Body> here = someBodies(random_near, 400, 50, 0),
@@ -158,7 +158,7 @@ TEST(BroadPhase, FarFromTheOriginItFindsTheSame) {
   }
 }
 
-TEST(BroadPhase, WhatLiesStillCostsNothingAndNothingAllocatesOnceWarm) {
+TEST(BroadPhase, AllocatesNothingOnceWarm) {
   if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
   SplitMix64 random(4);
   BroadPhase broad;
@@ -192,7 +192,7 @@ TEST(BroadPhase, FindsThePairsOfRowsAndHeaps) {
 }
 
 // Of 300 in one place, by the order of the bodies: whatever ids they have, and whenever these were given.
-TEST(BroadPhase, InACrowdEachFindsTheNearestWhateverTheirIds) {
+TEST(BroadPhase, CrowdedBodiesFindTheNearestRegardlessOfIds) {
   constexpr std::size_t kCount = 300, kKept = 16;
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
   const auto pairsOf = [&](bool is_shuffled) {
@@ -228,7 +228,7 @@ TEST(BroadPhase, InACrowdEachFindsTheNearestWhateverTheirIds) {
 }
 
 // A place with 20 and one with 60, of which the 27 oldest find more than 32 that are younger.
-TEST(BroadPhase, OnlyWhatFindsTooManyKeepsTheNearest) {
+TEST(BroadPhase, OnlyCrowdedBodiesAreLimitedToTheNearest) {
   SplitMix64 random(6);
   BroadPhase broad(true);
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
@@ -258,7 +258,7 @@ TEST(BroadPhase, OnlyWhatFindsTooManyKeepsTheNearest) {
   for (std::uint32_t i = 0; i < 80; ++i) EXPECT_EQ(broad.isThinned(proxies[i]), i >= 20 && i < 47) << i;
 }
 
-TEST(BroadPhase, BoundsHoldTheShapeAndMoveWithWholeCells) {
+TEST(BroadPhase, GridBoundsEncloseTheShapeTightly) {
   SplitMix64 random(5);
   for (int i = 0; i < 10000; ++i) {
     const Vec2 at = anyVec(random, 100);

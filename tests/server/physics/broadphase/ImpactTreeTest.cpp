@@ -57,7 +57,7 @@ TEST(ImpactTree, FindsEveryPairOnce) {
 }
 
 // Also when the boxes have moved, and the tree is the old one.
-TEST(ImpactTree, FindsEveryPairOfThoseThatMove) {
+TEST(ImpactTree, FindsEveryPairAfterBoxesMove) {
   SplitMix64 random(6);
   ImpactTree tree;
   Boxes made = randomBoxes(random, 200, 30);
@@ -93,7 +93,7 @@ class Together {
   std::vector<int> m_parent;
 };
 
-TEST(ImpactTree, FindsWhatHangsTogetherWithoutAllPairs) {
+TEST(ImpactTree, FindsGroupsWithoutListingAllPairs) {
   SplitMix64 random(7);
   ImpactTree tree;
   for (const int count : {0, 1, 2, 3, 10, 100, 400}) {
@@ -119,7 +119,7 @@ TEST(ImpactTree, FindsWhatHangsTogetherWithoutAllPairs) {
 }
 
 // Those of which nothing is known to hang together are found with every pair, once.
-TEST(ImpactTree, LeavesOutNoPairOfWhatGoesItsOwnWay) {
+TEST(ImpactTree, UngroupedBoxesGetEveryPairOnce) {
   SplitMix64 random(8);
   ImpactTree tree;
   const Boxes made = randomBoxes(random, 300, 5);
@@ -141,7 +141,7 @@ TEST(ImpactTree, LeavesOutNoPairOfWhatGoesItsOwnWay) {
   }
 }
 
-TEST(ImpactTree, AQueryEndsWhenItIsTold) {
+TEST(ImpactTree, QueryStopsWhenTheCallbackReturnsFalse) {
   SplitMix64 random(9);
   ImpactTree tree;
   const Boxes made = randomBoxes(random, 100, 0);

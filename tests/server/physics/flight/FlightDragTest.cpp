@@ -23,7 +23,7 @@ Quad wayOfPush(Quad c, Quad t) {
   return sum;
 }
 
-TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
+TEST(LinearDrag, IsExactFromZeroToExtremeDrag) {
   double worst = 0;
   for (const double t : {1.0, 1.0 / 30, 2.0, 1e4}) {
     for (double c = 1e-300; c < 1e300; c *= 3.7) {
@@ -48,7 +48,7 @@ TEST(LinearDrag, IsExactFromNoDragToDragThatStopsAtOnce) {
   std::printf("linear drag: largest relative error %.2g\n", worst);
 }
 
-TEST(LinearDrag, EndsWhereTheFormulaSaysInManySteps) {
+TEST(LinearDrag, ManyStepsMatchTheFormula) {
   for (const int steps : {1, 60, 3840}) {
     Place place{};
     Vec2 velocity = {10, 0};
@@ -88,7 +88,7 @@ FlownOnLine referenceOnLine(double velocity, double acceleration, double drag, d
   return {static_cast<double>(displacement), static_cast<double>(end)};
 }
 
-TEST(QuadraticDrag, AlongALineIsTheClosedForm) {
+TEST(QuadraticDrag, StraightFlightMatchesTheClosedForm) {
   double worst = 0;
   for (const double t : {1.0 / 30, 1.0, 40.0}) {
     for (const double c : {1e-8, 1e-4, 0.01, 0.3, 2.0, 50.0}) {
@@ -116,7 +116,7 @@ TEST(QuadraticDrag, AlongALineIsTheClosedForm) {
   std::printf("quadratic drag on a line: largest relative error %.2g\n", worst);
 }
 
-TEST(QuadraticDrag, WithoutDragIsFreeFlight) {
+TEST(QuadraticDrag, ZeroDragIsFreeFlight) {
   for (const double drag : {0.0, 1e-300, 1e-320}) {
     const FlownOnLine flown = flyQuadraticDragOnLine(-3, 2, drag, 5);
     EXPECT_NEAR(flown.displacement, 10, 1e-12);
@@ -124,7 +124,7 @@ TEST(QuadraticDrag, WithoutDragIsFreeFlight) {
   }
 }
 
-TEST(QuadraticDrag, AcrossGravityIsWithinTheTolerance) {
+TEST(QuadraticDrag, PlanarFlightIsWithinTolerance) {
   double worst = 0;
   std::int64_t calls = 0;
   IntegratorCounters counters;
@@ -159,7 +159,7 @@ TEST(QuadraticDrag, AcrossGravityIsWithinTheTolerance) {
               static_cast<double>(counters.evaluations) / static_cast<double>(calls));
 }
 
-TEST(QuadraticDrag, OfAnySizeComesToAnEnd) {
+TEST(QuadraticDrag, AnyDragIsIntegratedInBoundedSteps) {
   for (const double drag : {1e-12, 1e3, 1e9, 1e15}) {
     for (const double speed : {1e-9, 1.0, 1e6}) {
       IntegratorCounters counters;

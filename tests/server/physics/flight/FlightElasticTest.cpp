@@ -9,7 +9,7 @@
 namespace naiad::physics {
 namespace {
 
-TEST(ElasticField, ItsJacobianIsThatOfItsAcceleration) {
+TEST(ElasticField, JacobianMatchesItsAcceleration) {
   SplitMix64 random(1);
   const auto any = [&] { return 4 * random.unit() - 2; };
   for (int i = 0; i < 1000; ++i) {
@@ -30,7 +30,7 @@ TEST(ElasticField, ItsJacobianIsThatOfItsAcceleration) {
 
 // Of the last one a tick is 53 turns, for which the calls of a tick are too few: it is followed as well as
 // they allow.
-TEST(ElasticField, AlongItsLineItIsTheClosedFormAboutTheRestLength) {
+TEST(ElasticField, LineMotionMatchesTheClosedForm) {
   const struct {
     double k;
     double most;
@@ -50,7 +50,7 @@ TEST(ElasticField, AlongItsLineItIsTheClosedFormAboutTheRestLength) {
   }
 }
 
-TEST(ElasticField, DoesNothingAtItsOrigin) {
+TEST(ElasticField, ExertsNoForceAtItsOrigin) {
   const ElasticField field(3, 0.7, 1, {0, 10});
   EXPECT_EQ(field.acceleration({}, {1, 1}, 0), (Vec2{0, 10}));
   Mat22 by_p, by_v;

@@ -11,7 +11,7 @@
 namespace naiad::physics {
 namespace {
 
-TEST(FlightFree, BallisticFlightEndsWhereTheFormulaSays) {
+TEST(FlightFree, BallisticFlightMatchesTheFormula) {
   const Vec2 gravity = {0, -10}, start = {3, 20};
   for (const int steps : {1, 60, 120, 3840}) {
     Place place{};
@@ -28,7 +28,7 @@ TEST(FlightFree, BallisticFlightEndsWhereTheFormulaSays) {
   }
 }
 
-TEST(Place, KeepsTheRestWithinHalfACell) {
+TEST(Place, FractionStaysWithinHalfACell) {
   SplitMix64 random(1);
   Place place{};
   for (int i = 0; i < 10000; ++i) {
@@ -78,7 +78,7 @@ TEST(Place, FlightIsTheSameAtABillionCells) {
   EXPECT_EQ(here, fly(-4'000'000'000'000));
 }
 
-TEST(Place, ASlowMoverIsNotFrozenFarAway) {
+TEST(Place, SlowMoverStillMovesFarAway) {
   Place place = {1'000'000'000, 0, 0, 0};
   for (int i = 0; i < 1000; ++i) place = place + flyFree({1e-9, 0}, {}, 1).displacement;
   EXPECT_NEAR((place - Place{1'000'000'000, 0, 0, 0}).x, 1e-6, 1e-18);

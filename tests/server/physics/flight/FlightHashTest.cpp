@@ -26,7 +26,7 @@ struct Whirl : ForceField {
 };
 
 // One number for all that flies. Whatever compiled this, at whatever level: the same.
-TEST(Flight, IsTheSameBitsEverywhere) {
+TEST(Flight, HashIsTheSameOnEveryPlatform) {
   SplitMix64 random(1);
   Hash hash;
   const auto any = [&](double size) { return size * (2 * random.unit() - 1); };

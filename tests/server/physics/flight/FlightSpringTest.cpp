@@ -56,7 +56,7 @@ TEST(Spring, UndampedKeepsItsAmplitudeForTenPeriods) {
   }
 }
 
-TEST(Spring, StiffAndDampedStaysOnTheExponential) {
+TEST(Spring, StiffAndDampedMatchesTheExactSolution) {
   const double eps = 0x1p-52, duration = 10, gravity = -10;
   double worst_share = 0;
   for (const double k : {1e-6, 1.0, 100.0, 1e4, 1e6, 1e8, 1e10}) {
@@ -89,7 +89,7 @@ TEST(Spring, StiffAndDampedStaysOnTheExponential) {
   std::printf("stiff springs: largest error is %.3f of the bound 1e-11 + 4 eps omega T\n", worst_share);
 }
 
-TEST(Spring, OneStepIsExactWhateverItsParameters) {
+TEST(Spring, OneStepIsExactForAnyParameters) {
   SplitMix64 random(1);
   double worst = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -141,7 +141,7 @@ TEST(Spring, StaysBoundedAtAnyStiffnessAndStep) {
   }
 }
 
-TEST(Spring, WithoutStiffnessIsLinearDragAndWithoutAnythingFree) {
+TEST(Spring, ZeroStiffnessIsLinearDragOrFreeFlight) {
   const Flown free = flySpring({5, 5}, {1, 2}, {0, 4}, {0, 0}, 3);
   EXPECT_EQ(free.displacement, (Vec2{3, 24}));
   EXPECT_EQ(free.velocity, (Vec2{1, 14}));

@@ -18,7 +18,7 @@ using test::between;
 
 constexpr double kPi = df::math::kPi;
 
-TEST(Rotation, QuarterTurnsAndNoTurnsAreExact) {
+TEST(Rotation, QuarterAndZeroTurnsAreExact) {
   const Vec2 v = {0.1, -0.7};
   EXPECT_EQ((Rotation{0, 1} * v), perpendicular(v));
   EXPECT_EQ((Rotation{} * v), v);
@@ -26,7 +26,7 @@ TEST(Rotation, QuarterTurnsAndNoTurnsAreExact) {
   EXPECT_EQ(renormalised(Rotation{0, -1}), (Rotation{0, -1}));
 }
 
-TEST(Rotation, TurningIsExactAndStaysOnTheCircle) {
+TEST(Rotation, TurningIsAccurateAndStaysNormalised) {
   double worst = 0;
   for (const double angle : {1e-300, 1e-9, 1e-3, 0.0625, 0.1249999, 0.125, 0.2, 1.0, -3.0, -0.125, 100.0}) {
     Rotation q;
@@ -43,7 +43,7 @@ TEST(Rotation, TurningIsExactAndStaysOnTheCircle) {
   std::printf("rotation: %.2g rad off after 10,000 turns\n", worst);
 }
 
-TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
+TEST(ConvexShape, RefusesInvalidShapesAndKeepsTheOldOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   ConvexShape shape = test::circleShape(2);
   for (const double bad : {nan, inf, -inf}) {
@@ -83,7 +83,7 @@ TEST(ConvexShape, RefusesWhatIsNoShapeAndLeavesTheOldOne) {
   EXPECT_EQ(shape.radius, 2);
 }
 
-TEST(Mass, HasTheTextbooksValues) {
+TEST(Mass, MatchesTextbookValues) {
   ConvexShape shape;
   Mass mass = massOf(test::boxShape(1.5, 0.5), 2);
   EXPECT_NEAR(mass.mass, 6, 1e-15);
@@ -104,7 +104,7 @@ TEST(Mass, HasTheTextbooksValues) {
   EXPECT_LE(length(mass.centre), 1e-15);
 }
 
-TEST(Mass, IsTheSumOverManyPoints) {
+TEST(Mass, MatchesASumOverSamplePoints) {
   SplitMix64 random(2);
   for (int i = 0; i < 40; ++i) {
     const ConvexShape shape = anyShape(random);
@@ -127,7 +127,7 @@ TEST(Mass, IsTheSumOverManyPoints) {
   }
 }
 
-TEST(Mass, ACompoundOfPartsIsTheWhole) {
+TEST(Mass, CompoundOfPartsHasTheWholesMass) {
   ConvexShape whole, parts[2];
   ASSERT_EQ(makeBox(1, 0.5, {3, 1}, {}, 0, whole), ShapeStatus::kOk);
   ASSERT_EQ(makeBox(0.25, 0.5, {2.25, 1}, {}, 0, parts[0]), ShapeStatus::kOk);
@@ -145,7 +145,7 @@ TEST(Mass, ACompoundOfPartsIsTheWhole) {
               2 * one.mass, 1e-13);
 }
 
-TEST(Mass, TurningAndMovingTheShapeMovesTheCentreOnly) {
+TEST(Mass, MovingTheShapeChangesOnlyTheCentre) {
   SplitMix64 random(3);
   for (int i = 0; i < 20000; ++i) {
     const ConvexShape shape = anyShape(random);
@@ -158,7 +158,7 @@ TEST(Mass, TurningAndMovingTheShapeMovesTheCentreOnly) {
   }
 }
 
-TEST(ShapeQuery, TheClosestPointIsOnTheSurfaceAndNoneIsCloser) {
+TEST(ShapeQuery, ClosestPointIsOnTheSurfaceAndNearest) {
   SplitMix64 random(4);
   for (int i = 0; i < 100000; ++i) {
     const ConvexShape shape = anyShape(random);
@@ -205,7 +205,7 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
   EXPECT_GT(misses, 10000);
 }
 
-TEST(ShapeQuery, ARayFromFarAwayHitsWhereItShould) {
+TEST(ShapeQuery, DistantRayHitsAtTheRightPoint) {
   const ConvexShape shape = test::boxShape(0.5, 0.5);
   // Through the corner between two edges, too.
   for (const double y : {0.0, 0.25, -0.5 + 1e-9, 0.5 - 1e-9}) {
@@ -218,7 +218,7 @@ TEST(ShapeQuery, ARayFromFarAwayHitsWhereItShould) {
   EXPECT_FALSE(castRay(shape, {-2, 0}, {1, 0}).hit);
 }
 
-TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
+TEST(ShapeRaster, CoversCellsWithTheirCentreInside) {
   SplitMix64 random(6);
   std::vector<CellSpan> spans;
   long covered = 0;
@@ -248,7 +248,7 @@ TEST(ShapeRaster, CoversTheCellsWhoseCentresAreInside) {
   EXPECT_GT(covered, 50000);
 }
 
-TEST(ShapeRaster, WhatIsHugeIsCutOff) {
+TEST(ShapeRaster, HugeShapeIsClippedToTheLimit) {
   TurnedShape placed;
   turn(test::boxShape(1e6, 1e6), {}, placed);
   std::vector<CellSpan> spans;

@@ -10,7 +10,7 @@ namespace naiad::physics {
 namespace {
 
 // One number for all of the geometry. Whatever compiled this, at whatever level: the same.
-TEST(Manifold, AndAllGeometryIsTheSameBitsEverywhere) {
+TEST(Manifold, GeometryHashIsTheSameOnEveryPlatform) {
   SplitMix64 random(1);
   test::BitHash hash;
   BroadPhase broad;

@@ -19,7 +19,7 @@ double smallest(const Manifold& m) {
   return m.count == 2 ? std::min(m.points[0].separation, m.points[1].separation) : m.points[0].separation;
 }
 
-TEST(ShapeDistance, IsWhatEveryCornerAgainstEveryEdgeSays) {
+TEST(ShapeDistance, MatchesBruteForceCornerEdgeDistances) {
   SplitMix64 random(1);
   double worst = 0;
   int apart = 0, overlapping = 0, seen_by_faces = 0;
@@ -54,7 +54,7 @@ TEST(ShapeDistance, IsWhatEveryCornerAgainstEveryEdgeSays) {
   std::printf("distance: largest error %.2g of %d apart, %d overlapping\n", worst, apart, overlapping);
 }
 
-TEST(ShapeDistance, HoldsForParallelEdgesAndPointsOnOneLine) {
+TEST(ShapeDistance, IsExactForParallelEdgesAndCollinearPoints) {
   SplitMix64 random(2);
   for (int i = 0; i < 100000; ++i) {
     // Multiples of 1/4, turned alike: ties everywhere, broken by rounding.
@@ -107,7 +107,7 @@ TEST(ShapeDistance, LongCapsulesThatCrossOverlap) {
   EXPECT_GT(crossed, 1000);
 }
 
-TEST(Manifold, BoxesAlongTheAxesAreExact) {
+TEST(Manifold, AxisAlignedBoxesAreExact) {
   const ConvexShape big = boxShape(0.5, 0.5), plank = boxShape(3, 0.3);
   for (const double gap : {0.0, 0x1p-20, -0x1p-20, 0x1p-45, -0x1p-8}) {
     for (const Rotation q : {Rotation{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
@@ -135,7 +135,7 @@ TEST(Manifold, BoxesAlongTheAxesAreExact) {
   EXPECT_EQ(m.points[1].separation, 0);
 }
 
-TEST(Manifold, ItsSmallestSeparationIsTheGap) {
+TEST(Manifold, SmallestSeparationEqualsTheGap) {
   SplitMix64 random(3);
   int with_two = 0, with_one = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -171,7 +171,7 @@ TEST(Manifold, ItsSmallestSeparationIsTheGap) {
   EXPECT_GT(with_one, 3000);
 }
 
-TEST(Manifold, SwappedItIsTheSameTheOtherWayRound) {
+TEST(Manifold, SwappedShapesGiveTheMirroredManifold) {
   SplitMix64 random(4);
   for (int i = 0; i < 100000; ++i) {
     const ConvexShape a = anyShape(random), b = anyShape(random);
@@ -193,7 +193,7 @@ TEST(Manifold, SwappedItIsTheSameTheOtherWayRound) {
   }
 }
 
-TEST(Manifold, FarFromTheOriginItHasTheSameBits) {
+TEST(Manifold, DistantScenesGiveTheSameBits) {
   SplitMix64 random(5);
   for (int i = 0; i < 100000; ++i) {
     const ConvexShape a = anyShape(random), b = anyShape(random);
@@ -216,7 +216,7 @@ TEST(Manifold, FarFromTheOriginItHasTheSameBits) {
   }
 }
 
-TEST(Manifold, TurnsWithTheScene) {
+TEST(Manifold, RotatesWithTheScene) {
   SplitMix64 random(6);
   int compared = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -240,7 +240,7 @@ TEST(Manifold, TurnsWithTheScene) {
   EXPECT_GT(compared, 10000);
 }
 
-TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
+TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
   const ConvexShape below = boxShape(0.5, 0.5), above = boxShape(0.5, 0.5);
   SplitMix64 random(7);
   Manifold first;
@@ -268,7 +268,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRockOnEachOther) {
   }
 }
 
-TEST(Manifold, AWrongMemoryDoesNoHarm) {
+TEST(Manifold, WrongCachedFaceDoesNoHarm) {
   const ConvexShape a = boxShape(0.5, 0.5), b = boxShape(0.5, 0.5);
   TurnedShape ta, tb;
   turn(a, {}, ta);
@@ -283,7 +283,7 @@ TEST(Manifold, AWrongMemoryDoesNoHarm) {
   }
 }
 
-TEST(Manifold, CirclesInOnePlaceHaveANormal) {
+TEST(Manifold, ConcentricCirclesHaveANormal) {
   const ConvexShape circle = test::circleShape(0.5);
   Manifold m;
   ASSERT_TRUE(collide(circle, {}, circle, {}, {}, 0, m));

@@ -113,7 +113,7 @@ TEST(TimeOfImpact, NeverMissesNorInventsAHit) {
   run("spinning", 5, sweeps(20000), 1, 30, 200);
 }
 
-TEST(TimeOfImpact, IsTheClosedFormForCircles) {
+TEST(TimeOfImpact, MatchesTheClosedFormForCircles) {
   SplitMix64 random(6);
   int hits = 0;
   for (int i = 0; i < 200000; ++i) {
@@ -144,7 +144,7 @@ TEST(TimeOfImpact, IsTheClosedFormForCircles) {
   EXPECT_GT(hits, 50000);
 }
 
-TEST(TimeOfImpact, APairThatTouchesAndPartsOrSlidesDoesNotHit) {
+TEST(TimeOfImpact, TouchingPairHitsOnlyWhenApproaching) {
   const ConvexShape a = test::boxShape(0.5, 0.5), b = test::boxShape(0.5, 0.5);
   for (const Vec2 displacement : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {
     const TimeOfImpact result = timeOfImpact(a, {}, b, {displacement, {}, 0}, {0, -1});
@@ -164,7 +164,7 @@ TEST(TimeOfImpact, APairThatTouchesAndPartsOrSlidesDoesNotHit) {
 }
 
 // Pairs that touch at the start: what counts from there on is whether they come nearer.
-TEST(TimeOfImpact, APairThatTouchesHitsWhenItComesNearer) {
+TEST(TimeOfImpact, TouchingPairsNeverPenetrateBeforeTheHit) {
   SplitMix64 random(7);
   int hits = 0, late = 0, apart = 0;
   for (int i = 0; i < 20000 / kShare; ++i) {
@@ -202,7 +202,7 @@ TEST(TimeOfImpact, StopsAtTheTargetDistance) {
   EXPECT_NEAR(result.gap, 0.25, 1e-9);
 }
 
-TEST(TimeOfImpact, SwappedItIsTheSameTime) {
+TEST(TimeOfImpact, SwappedShapesGiveTheSameTime) {
   SplitMix64 random(8);
   for (int i = 0; i < 20000; ++i) {
     const Scene s = anyScene(random, 10, 2);
@@ -213,7 +213,7 @@ TEST(TimeOfImpact, SwappedItIsTheSameTime) {
   }
 }
 
-TEST(TimeOfImpact, ABulletThroughAThinWallAtAnySpeed) {
+TEST(TimeOfImpact, BulletHitsAThinWallAtAnySpeed) {
   SplitMix64 random(9);
   const ConvexShape bullet = test::boxShape(0.05, 0.05), wall = test::boxShape(0.001, 10);
   for (int i = 0; i < 100000; ++i) {

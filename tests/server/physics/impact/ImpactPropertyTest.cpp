@@ -100,7 +100,7 @@ Kept keptOf(const ImpactWorld& world) {
   return kept;
 }
 
-TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
+TEST(ImpactProperty, NothingOverlapsAndConservedQuantitiesStay) {
   std::int64_t impacts = 0, solves = 0, unconverged = 0;
   for (std::uint64_t seed = 0; seed < 1000 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed);
@@ -129,7 +129,7 @@ TEST(ImpactProperty, NothingOverlapsAndWhatIsKeptIsKept) {
 }
 
 // Row 16: to the last bit.
-TEST(ImpactProperty, FarAwayIsAsHere) {
+TEST(ImpactProperty, DistantScenesGiveTheSameBits) {
   for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed);
     ImpactWorld here;
@@ -150,7 +150,7 @@ TEST(ImpactProperty, FarAwayIsAsHere) {
 }
 
 // A scene far off changes nothing here, whether its bodies come first or last, are frozen or well.
-TEST(ImpactProperty, ASceneFarAwayChangesNothing) {
+TEST(ImpactProperty, SeparateSceneChangesNothing) {
   for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed), other = randomScene(seed + 5000);
     ImpactWorld alone, first, last;
@@ -204,7 +204,7 @@ TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
 }
 
 // One that came for ever: a bounce of a height that a double does not resolve.
-TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
+TEST(ImpactProperty, ScenesThatOnceFailedNowWork) {
   for (const std::uint64_t seed : {98U, 371U, 377U, 758U, 9444U}) {
     ImpactWorld world;
     fill(world, randomScene(seed));
@@ -216,7 +216,7 @@ TEST(ImpactProperty, TheScenesThatOnceWentWrongGoWell) {
 }
 
 // Row 14: a projectile at every speed against everything; through means that they have changed sides.
-TEST(ImpactProperty, NothingTunnels) {
+TEST(ImpactProperty, FastBodiesDoNotTunnel) {
   SplitMix64 random(14);
   int shots = 0;
   for (int i = 0; i < 20000 / test::kShare; ++i) {
@@ -260,7 +260,7 @@ TEST(ImpactProperty, NothingTunnels) {
   EXPECT_GT(shots, 10000 / test::kShare);
 }
 
-TEST(ImpactProperty, BadNumbersAreRefused) {
+TEST(ImpactProperty, InvalidNumbersAreRefused) {
   ImpactWorld world;
   const ImpactBody good;
   const int id = world.add(good);
@@ -308,7 +308,7 @@ TEST(ImpactProperty, ManyBodiesInOnePlaceStayBounded) {
 }
 
 // Pairs of a crowd that do not fit into a tick are not looked at one by one, nor all counted; others are.
-TEST(ImpactProperty, ACrowdOfTooManyPairsIsGivenUpBeforeTheyAreLookedAt) {
+TEST(ImpactProperty, OversizedCrowdIsAbandonedBeforeTestingItsPairs) {
   constexpr int kCrowd = 2000;
   SplitMix64 random(4);
   ImpactWorld world;
@@ -339,7 +339,7 @@ TEST(ImpactProperty, ACrowdOfTooManyPairsIsGivenUpBeforeTheyAreLookedAt) {
 }
 
 // Ids that are free are given again, the lowest first.
-TEST(ImpactProperty, TheLowestFreeIdIsGiven) {
+TEST(ImpactProperty, LowestFreeIdIsReused) {
   ImpactWorld world;
   for (int i = 0; i < 5; ++i) EXPECT_EQ(world.add({}), i);
   world.remove(3);

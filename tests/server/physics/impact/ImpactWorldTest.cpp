@@ -41,7 +41,7 @@ Vec2 at(const ImpactWorld& world, int id) {
 }
 
 // Row 7: e = 0.8 from a height of 10, against the closed form, with the stop at Zeno's time.
-TEST(ImpactWorld, ABallBouncesAsHighAsItMustAndStopsAtZenosTime) {
+TEST(ImpactWorld, BouncingBallMatchesTheClosedFormAndStops) {
   ImpactWorld world;
   world.add(fixed(box({0, 1}, {5, 1})));  // its top is y = 0
   const int id = world.add(falling(moving(ball({0, -10.5}), {0, 0}, 0.8)));
@@ -67,7 +67,7 @@ TEST(ImpactWorld, ABallBouncesAsHighAsItMustAndStopsAtZenosTime) {
   EXPECT_NEAR(stopped, 12.727922061357857 * kTicks, 1);  // √2·(1 + 0.8)/(1 − 0.8) seconds
 }
 
-TEST(ImpactWorld, AnElasticBallBouncesForEver) {
+TEST(ImpactWorld, ElasticBallKeepsBouncing) {
   ImpactWorld world;
   world.add(fixed(box({0, 1}, {5, 1})));
   const int id = world.add(falling(moving(ball({0, -5.5}), {0, 0}, 1)));
@@ -82,7 +82,7 @@ TEST(ImpactWorld, AnElasticBallBouncesForEver) {
 }
 
 // Row 8.
-TEST(ImpactWorld, NewtonsCradleHandsTheSpeedThrough) {
+TEST(ImpactWorld, NewtonsCradlePassesTheSpeedThrough) {
   for (const double gap : {0.0, 0.01}) {
     ImpactWorld world;
     for (int i = 0; i < 5; ++i) world.add(moving(ball({i * (1 + gap), 0}), {}, 1));
@@ -142,7 +142,7 @@ TEST(ImpactWorld, GalperinsBilliardCountsTheDigitsOfPi) {
 }
 
 // Row 15.
-TEST(ImpactWorld, TheRestOfTheTickIsUsed) {
+TEST(ImpactWorld, BounceUsesTheRestOfTheTick) {
   for (const double speed : {200 / kTicks, 1e6 / kTicks}) {
     ImpactWorld world;
     world.add(fixed(box({10.5, 0}, {0.5, 5})));
@@ -194,7 +194,7 @@ std::vector<int> addStack(ImpactWorld& world, int count, double above) {
 }
 
 // Not crate by crate, each time with a solution for all below it. Also where others stood before.
-TEST(ImpactWorld, AStackThatHasJustBeenPutDownIsSolvedForOnce) {
+TEST(ImpactWorld, NewStackIsSolvedOnlyOnce) {
   constexpr int kCount = 100;
   ImpactWorld world;
   world.setReserve(ImpactWorld::kUsualReserve);
@@ -214,7 +214,7 @@ TEST(ImpactWorld, AStackThatHasJustBeenPutDownIsSolvedForOnce) {
 
 // Each impact that goes through a large stack costs a solution for all of it: such a tick takes what its
 // bodies and events allow, and what does not fit is given up.
-TEST(ImpactWorld, ATickTakesNoMoreThanItsBodiesAndEventsAllow) {
+TEST(ImpactWorld, TickWorkIsLimitedByBodiesAndEvents) {
   for (const int count : {30, 100, 300}) {
     ImpactWorld world;
     world.setReserve(ImpactWorld::kUsualReserve);
@@ -232,7 +232,7 @@ TEST(ImpactWorld, ATickTakesNoMoreThanItsBodiesAndEventsAllow) {
 }
 
 // Boxes with air between them fall on one another and come to rest as a stack.
-TEST(ImpactWorld, AStackThatFallsTogetherStands) {
+TEST(ImpactWorld, FallingBoxesComeToRestAsAStack) {
   for (const double restitution : {0.0, 0.3}) {
     ImpactWorld world;
     world.add(fixed(box({0, 1}, {5, 1})));
@@ -269,7 +269,7 @@ TEST(ImpactWorld, FrictionHoldsUpToItsAngle) {
   }
 }
 
-TEST(ImpactWorld, ASlidingBoxStopsWhereItsFrictionSays) {
+TEST(ImpactWorld, SlidingBoxStopsAtTheFrictionDistance) {
   for (const double v : {0.1, 0.37, 3.0}) {
     ImpactWorld world;
     ImpactBody ground = fixed(box({0, 1}, {5000, 1}));
@@ -309,7 +309,7 @@ TEST(ImpactWorld, APlatformCarriesAndPushes) {
 }
 
 // Over seams of tiles at any speed: no edge to stumble on, no force along the way.
-TEST(ImpactWorld, SeamsOfTilesAreNotFelt) {
+TEST(ImpactWorld, TileSeamsDoNotDisturbSliding) {
   for (const bool is_ball : {false, true}) {
     for (const double v : {0.013, 0.3, 7.0}) {
       ImpactWorld world;
@@ -323,7 +323,7 @@ TEST(ImpactWorld, SeamsOfTilesAreNotFelt) {
   }
 }
 
-TEST(ImpactWorld, WhatLosesItsSupportFalls) {
+TEST(ImpactWorld, UnsupportedBodiesFall) {
   ImpactWorld world;
   const int floor = world.add(fixed(box({0, 1}, {5, 1})));
   const int lower = world.add(falling(box({0, -0.5}))), upper = world.add(falling(box({0, -1.5})));
@@ -336,7 +336,7 @@ TEST(ImpactWorld, WhatLosesItsSupportFalls) {
 }
 
 // A box slides off a table's edge and flies from there, on the parabola that begins at the edge.
-TEST(ImpactWorld, ABoxLeavesTheEdgeAtItsMoment) {
+TEST(ImpactWorld, BoxLeavesTheTableExactlyAtItsEdge) {
   ImpactWorld world;
   world.add(fixed(box({0, 1}, {2, 1})));
   const int id = world.add(falling(moving(box({0, -0.5}), {0.3, 0})));
@@ -383,7 +383,7 @@ TEST(ImpactWorld, ReportsWhenContactsBeginAndEnd) {
 }
 
 // Balls heaped on two others: each force along its line of centres, until the lower ones slide apart.
-TEST(ImpactWorld, ABallBetweenTwoWedgesStaysOrPartsThem) {
+TEST(ImpactWorld, BallOnTwoBallsRestsOrPartsThem) {
   for (const bool is_held : {true, false}) {
     ImpactWorld world;
     world.add(fixed(box({0, 1}, {50, 1})));
@@ -413,7 +413,7 @@ TEST(ImpactWorld, ABallBetweenTwoWedgesStaysOrPartsThem) {
 }
 
 // Whoever was put deep into something that cannot be pushed goes out by the nearest face, without a quarrel.
-TEST(ImpactWorld, ABallWithItsCentreInAWallGoesOut) {
+TEST(ImpactWorld, BallInsideAWallIsPushedOut) {
   for (const double restitution : {0.0, 0.12, 1.0}) {
     for (const double speed : {0.3, -0.3, 0.0}) {
       ImpactWorld world;
@@ -430,7 +430,7 @@ TEST(ImpactWorld, ABallWithItsCentreInAWallGoesOut) {
 }
 
 // An impact that sends a body farther than obstacles were searched ends the step there.
-TEST(ImpactWorld, AStepEndsWhereAReachDoes) {
+TEST(ImpactWorld, StepEndsWhereTheSearchedReachEnds) {
   ImpactWorld world;
   world.add(moving(ball({-2, 0}), {3, 0}, 1));
   const int struck = world.add(ball({0, 0}));

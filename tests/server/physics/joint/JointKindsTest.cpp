@@ -33,7 +33,7 @@ TEST(JointKinds, WeldMakesOneBodyOfTwo) {
   EXPECT_NEAR(scene.body(0).spin, spin, 1e-4);
 }
 
-TEST(JointKinds, SliderLetsOneWayAndNoTurn) {
+TEST(JointKinds, SliderAllowsOneDirectionAndNoRotation) {
   JointScene scene = test::nailed();
   scene.rigid({0, 0}, 1, 1);
   Joint& slider = scene.join(JointKind::kSlider, 0, 1);
@@ -84,7 +84,7 @@ TEST(JointKinds, AngleLimitsStopBothWays) {
   EXPECT_LE(scene.worstGap(), 1e-10);
 }
 
-TEST(JointKinds, SoftSpringSwingsAsACosineAndADampedOneDies) {
+TEST(JointKinds, SpringFollowsTheDampedCosine) {
   const struct {
     double stiffness, damping;
     int ticks;
@@ -109,7 +109,7 @@ TEST(JointKinds, SoftSpringSwingsAsACosineAndADampedOneDies) {
   }
 }
 
-TEST(JointKinds, NoStiffnessLimitsTheStep) {
+TEST(JointKinds, SpringEnergyStaysBoundedAtAnyStiffness) {
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10}) {
     for (const double damping : {0.0, 0.1 * std::sqrt(stiffness), 10 * std::sqrt(stiffness)}) {
       for (const double rest : {0.0, 1.0}) {
@@ -152,7 +152,7 @@ TEST(JointKinds, MouseDragsWithAtMostItsForce) {
   EXPECT_NEAR(scene.at(0).y, 3, 1e-6);
 }
 
-TEST(JointKinds, ForceIsTheWeightAndTooMuchBreaks) {
+TEST(JointKinds, JointForceIsTheWeightAndOverloadBreaks) {
   JointScene scene = test::nailed();
   scene.point({0, 1}, 0.5);
   scene.join(JointKind::kDistance, 0, 1, 1).break_force = 25;
@@ -174,7 +174,7 @@ TEST(JointKinds, ForceIsTheWeightAndTooMuchBreaks) {
   EXPECT_NEAR(scene.at(2).y - scene.at(1).y, 1, 1e-10);
 }
 
-TEST(JointKinds, MovingAnchorTakesItsPendulumAlong) {
+TEST(JointKinds, MovingAnchorCarriesItsPendulum) {
   JointScene scene = test::nailed();
   scene.point({0, 1});
   scene.join(JointKind::kDistance, 0, 1, 1);
@@ -185,7 +185,7 @@ TEST(JointKinds, MovingAnchorTakesItsPendulumAlong) {
   EXPECT_NEAR(scene.at(1).x, 2, 1e-9);
 }
 
-TEST(JointKinds, RefusesWhatIsNotAJoint) {
+TEST(JointKinds, InvalidJointsBodiesAndStepsAreRefused) {
   const auto refused = [](const auto& change) {
     JointScene scene = test::nailed();
     scene.point({1, 0});

@@ -74,7 +74,7 @@ TEST(JointPendulum, KeepsEnergyAndLengthForAMinute) {
   EXPECT_LE(scene.solver.counters().stages, 1800u * 8);
 }
 
-TEST(JointPendulum, SwingsInItsPeriod) {
+TEST(JointPendulum, PeriodMatchesTheFormula) {
   JointScene scene = pendulum();
   const Crossings found = crossingsOf(scene, 1800, {});
   ASSERT_GT(found.count, 20);
@@ -82,7 +82,7 @@ TEST(JointPendulum, SwingsInItsPeriod) {
   EXPECT_NEAR(period / periodOf(1, 10, std::acos(-1.0) / 2), 1, 1e-5);
 }
 
-TEST(JointPendulum, MethodsHaveTheirOrder) {
+TEST(JointPendulum, MethodsConvergeWithTheirOrder) {
   const auto drift = [](JointMethod method, int substeps) {
     JointScene scene = pendulum();
     double worst = 0;
@@ -103,7 +103,7 @@ TEST(JointPendulum, MethodsHaveTheirOrder) {
   }
 }
 
-TEST(JointPendulum, RigidBodyOnAHingeSwingsAsAPhysicalPendulum) {
+TEST(JointPendulum, HingedRigidBodyHasAPhysicalPendulumsPeriod) {
   JointScene scene = test::nailed();
   scene.rigid({1, 0}, 2, 0.5);  // I/m·r + r = 1.25: the equivalent length
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
@@ -164,7 +164,7 @@ double doublePendulumError(JointOptions options, double* drift) {
   return length(scene.at(2) - (elbow + Vec2{std::sin(end[1]), std::cos(end[1])}));
 }
 
-TEST(JointPendulum, DoubleOneFollowsTheAngles) {
+TEST(JointPendulum, DoublePendulumMatchesTheAngleEquations) {
   double drift = 0;
   const double by_default = doublePendulumError({}, &drift);
   EXPECT_LE(by_default, 1e-2);
@@ -176,7 +176,7 @@ TEST(JointPendulum, DoubleOneFollowsTheAngles) {
 
 // The cradle's part that joints have: pendulums of one length keep in step, to the last bit, whatever else
 // swings.
-TEST(JointPendulum, CradleOnRodsKeepsInStep) {
+TEST(JointPendulum, EqualPendulumsStayInStep) {
   JointScene scene;
   for (int i = 0; i < 5; ++i) {
     scene.point({static_cast<double>(i), 0}, 0);

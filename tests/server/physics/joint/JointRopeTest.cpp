@@ -10,7 +10,7 @@ using test::JointScene;
 using test::kDown;
 using test::ropeOf;
 
-TEST(JointRope, WithAWeightKeepsLengthAndEnergy) {
+TEST(JointRope, WeightedRopeKeepsLengthAndEnergy) {
   for (const double ratio : {1.0, 100.0, 1000.0}) {
     JointScene scene = ropeOf(20, ratio);
     EXPECT_EQ(scene.solver.islands()[0].fill(), 0);
@@ -28,7 +28,7 @@ TEST(JointRope, WithAWeightKeepsLengthAndEnergy) {
   }
 }
 
-TEST(JointRope, WithAMillionfoldWeightStaysBoundedAndCountsTheFallBack) {
+TEST(JointRope, MillionfoldWeightStaysBoundedAndCountsFallbacks) {
   JointScene scene = ropeOf(20, 1e6);
   const double scale = 10 * 20 * 1e6, start = scene.energy(kDown);
   for (int i = 0; i < 300; ++i) {
@@ -43,7 +43,7 @@ TEST(JointRope, WithAMillionfoldWeightStaysBoundedAndCountsTheFallBack) {
 
 // Rods in a line have a method of their own, which must do what the general one does: that is asked for by a
 // post that turns, which its rods do not feel.
-TEST(JointRope, GoesTheSameWayByEitherMethod) {
+TEST(JointRope, ChainAndGeneralMethodsAgree) {
   for (const bool is_bridge : {false, true}) {
     JointScene scenes[2];
     for (const bool is_general : {false, true}) {
@@ -126,7 +126,7 @@ TEST(JointRope, PullsButDoesNotPush) {
   EXPECT_NEAR(scene.at(1).y, 1.9, 1e-9);
 }
 
-TEST(JointRope, IsTheSameFarAway) {
+TEST(JointRope, BehavesTheSameFarAway) {
   JointScene here = ropeOf(8, 10), there = ropeOf(8, 10);
   for (JointBody& body : there.bodies) {
     body.place.cell_x += 1'000'000'000;

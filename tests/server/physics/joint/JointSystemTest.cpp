@@ -83,7 +83,7 @@ TEST(JointSystem, RandomLoopsKeepTheirJoints) {
   }
 }
 
-TEST(JointSystem, ClosedOneOfAHundredKeepsItsMomentum) {
+TEST(JointSystem, HundredLinkedBodiesKeepTheirMomentum) {
   SceneRandom random;
   for (const bool has_loops : {false, true}) {
     JointScene scene = randomTree(random, 100, true);
@@ -111,7 +111,7 @@ TEST(JointSystem, ClosedOneOfAHundredKeepsItsMomentum) {
   }
 }
 
-TEST(JointSystem, RedundantRowsAreLeftOutAndCounted) {
+TEST(JointSystem, RedundantRowsAreDroppedAndCounted) {
   JointScene scene = test::nailed();
   scene.rigid({1, 0}, 1, 0.2);
   for (int i = 0; i < 3; ++i) scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
@@ -144,7 +144,7 @@ TEST(JointSystem, ContradictionsStayBoundedAndAreCounted) {
   EXPECT_GT(scene.solver.counters().regularised, 0u);
 }
 
-TEST(JointSystem, ManyLegsOnOneBody) {
+TEST(JointSystem, FortyLegsOnOneBodyHold) {
   JointScene scene;
   scene.rigid({0, 0}, 5, 5);
   for (int i = 0; i < 40; ++i) {
@@ -164,7 +164,7 @@ TEST(JointSystem, ManyLegsOnOneBody) {
   EXPECT_NEAR(scene.angularMomentum(), turning, 1e-10);
 }
 
-TEST(JointSystem, WhatIsNotANumberStaysAlone) {
+TEST(JointSystem, InvalidNumbersAffectOnlyTheirGroup) {
   const double bad[] = {std::nan(""), kNoLimit, -kNoLimit, 1e30, 1e300};
   for (const double number : bad) {
     for (int where = 0; where < 3; ++where) {
@@ -203,7 +203,7 @@ TEST(JointSystem, ExtremeMassesStepsAndSizesStayFinite) {
   }
 }
 
-TEST(JointSystem, SameStartSameBits) {
+TEST(JointSystem, SameStartGivesTheSameBits) {
   SceneRandom random;
   JointScene one = randomTree(random, 30, false);
   one.connect();

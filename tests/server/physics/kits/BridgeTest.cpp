@@ -12,7 +12,7 @@ class Bridges : public PhysicsWorld {
   Bridges() { PM.setGravity(Vector(0, 0.02)); }
 };
 
-TEST_F(Bridges, ItHangsBetweenItsEnds) {
+TEST_F(Bridges, BridgeHangsBetweenItsEnds) {
   const std::vector<Body*> planks = makeBridge(Vector(10, 10), Vector(42, 12), 8);
   ASSERT_EQ(planks.size(), 8u);
   EXPECT_EQ(PM.getJointCount(), 9);
@@ -31,7 +31,7 @@ TEST_F(Bridges, ItHangsBetweenItsEnds) {
   EXPECT_NEAR(planks.back()->getPosition().x(), 40, 1);
 }
 
-TEST_F(Bridges, ACrateLiesOnIt) {
+TEST_F(Bridges, CrateRestsOnTheBridge) {
   makeBridge(Vector(10, 10), Vector(42, 10), 8);
   Body* p_crate = turningCrate(Vector(26, 8), Vector(3, 1));
   p_crate->setFriction(0.8);
@@ -41,7 +41,7 @@ TEST_F(Bridges, ACrateLiesOnIt) {
   EXPECT_NEAR(p_crate->getPosition().x(), 26, 4);
 }
 
-TEST_F(Bridges, OfNothingIsNone) {
+TEST_F(Bridges, InvalidBridgesAreNotBuilt) {
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), 0).empty());
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), -3).empty());
   EXPECT_TRUE(makeBridge(Vector(0, 0), Vector(10, 0), 100).empty());
@@ -50,7 +50,7 @@ TEST_F(Bridges, OfNothingIsNone) {
   EXPECT_EQ(PM.getBodyCount(), 0);
 }
 
-TEST_F(Bridges, BodiesLieOnAnObstacle) {
+TEST_F(Bridges, BodiesRestOnAnObstacle) {
   const auto* p_floor = new Obstacle(Vector(0, 20), 40, 2, '%', BLUE);
   const Body* p_crate = crate(Vector(20, 10), Vector(2, 1));
   ticks(300);

@@ -14,7 +14,7 @@ double apart(Vector a, Vector b) {
   return (a - b).getMagnitude();
 }
 
-TEST_F(Grips, ABodyFollowsAndFliesOn) {
+TEST_F(Grips, GrabbedBodyFollowsAndKeepsItsVelocity) {
   Body* p_crate = crate(Vector(3, 4));
   Grip grip;
   EXPECT_FALSE(grip.isHolding());
@@ -34,7 +34,7 @@ TEST_F(Grips, ABodyFollowsAndFliesOn) {
   EXPECT_EQ(p_crate->getVelocity(), velocity);
 }
 
-TEST_F(Grips, ASoftBodyFollows) {
+TEST_F(Grips, GrabbedSoftBodyFollows) {
   auto* p_blob = new Blob(Vector(3, 4), 2);
   Grip grip;
   ASSERT_EQ(grip.grab(Vector(3, 4)), 0);
@@ -47,7 +47,7 @@ TEST_F(Grips, ASoftBodyFollows) {
 }
 
 // As hard as the mass asks for: a heavy one comes as fast as a light one.
-TEST_F(Grips, TheMassMakesNoDifference) {
+TEST_F(Grips, HeavyAndLightBodiesFollowEquallyFast) {
   double gone[2] = {};
   for (int i = 0; i < 2; ++i) {
     Body* p_crate = crate(Vector(0, 100.0 * i), Vector(0.5, 0.5), i == 0 ? 1 : 1000);
@@ -61,7 +61,7 @@ TEST_F(Grips, TheMassMakesNoDifference) {
   EXPECT_NEAR(gone[1], gone[0], 1e-6);
 }
 
-TEST_F(Grips, NothingIsThereOrAnotherGripHoldsIt) {
+TEST_F(Grips, GrabFailsWithoutAFreeBody) {
   new Blob(Vector(3, 4), 2);
   wall(Vector(20, 20), Vector(1, 1));
   Grip mine, yours;
@@ -76,7 +76,7 @@ TEST_F(Grips, NothingIsThereOrAnotherGripHoldsIt) {
   EXPECT_EQ(yours.grab(Vector(3, 4)), 0);
 }
 
-TEST_F(Grips, ItEndsWithWhatItHoldsOrWithItself) {
+TEST_F(Grips, GripEndsWithItsBodyOrItself) {
   Body* p_crate = crate(Vector(3, 4));
   auto* p_blob = new Blob(Vector(20, 4), 2);
   Grip one;

@@ -53,7 +53,7 @@ struct VanDerPol : ForceField {
 };
 
 // x = 2, v = 0 at first. Through T = 2: published, and by a second solver here.
-TEST(Stiff, VanDerPol) {
+TEST(Stiff, VanDerPolMatchesThePublishedResult) {
   const QuadSystem<2> system = [](Quad, const QuadVector<2>& y) {
     return QuadVector<2>{y[1], ((1 - y[0] * y[0]) * y[1] - y[0]) / q(1e-6)};
   };
@@ -100,14 +100,14 @@ void elasticPendulum(double k, int reference_steps, double bound) {
   EXPECT_LE(error, bound);
 }
 
-TEST(Stiff, ElasticPendulum) {
+TEST(Stiff, ElasticPendulumIsAccurate) {
   elasticPendulum(1e4, 4000, 1e-9);
   elasticPendulum(1e6, 10000, 1e-8);
 }
 
 // k where the reference would take minutes: the rod's oscillation is smaller than what is asked for, and the
 // swing is that of a rigid pendulum.
-TEST(Stiff, ElasticPendulumNearlyRigid) {
+TEST(Stiff, NearlyRigidElasticPendulumSwingsLikeARod) {
   // theta'' = 10 cos(theta), angle from the horizontal
   const QuadSystem<2> rigid = [](Quad, const QuadVector<2>& y) {
     return QuadVector<2>{y[1], 10 * cosq(y[0])};
@@ -123,7 +123,7 @@ TEST(Stiff, ElasticPendulumNearlyRigid) {
 }
 
 // A charge in a magnetic field across the plane and an electric one in it: gyration and drift.
-TEST(Stiff, ChargedParticle) {
+TEST(Stiff, ChargedParticleMatchesTheClosedForm) {
   struct Charged : ForceField {
     double b = 1000;
     Vec2 acceleration(Vec2, Vec2 v, double) const override { return Vec2{0, 5} - b * perpendicular(v); }
@@ -149,7 +149,7 @@ TEST(Stiff, ChargedParticle) {
 
 // A magnet however strong turns and does not brake, and costs a stated number of calls. One that is stronger
 // on one side makes the body drift along it; a wind or a slope across it, too.
-TEST(Stiff, AStrongMagnetTurnsAndDoesNotBrake) {
+TEST(Stiff, StrongMagnetTurnsButDoesNotBrake) {
   struct Magnet : ForceField {
     double rate = 1, slope = 0;
     Vec2 across;
@@ -195,7 +195,7 @@ struct Robertson {
   void derivative(double, const StateVector<3>& y, StateVector<3>& rate) const { rate = rates(y); }
 };
 
-TEST(Stiff, RobertsonOverElevenDecades) {
+TEST(Stiff, RobertsonIsAccurateOverElevenDecades) {
   const QuadSystem<3> system = [](Quad, const QuadVector<3>& y) { return Robertson::rates(y); };
   for (const double end : {40.0, 1e11}) {
     const auto truth = quadSolveStiff<3>(system, 0, q(end), {1, 0, 0}, q(1e-10), q(1e-16));
@@ -233,7 +233,7 @@ struct Hires {
   void derivative(double, const StateVector<8>& y, StateVector<8>& rate) const { rate = rates(y); }
 };
 
-TEST(Stiff, Hires) {
+TEST(Stiff, HiresMatchesThePublishedResult) {
   const double end = 321.8122;
   const QuadSystem<8> system = [](Quad, const QuadVector<8>& y) { return Hires::rates(y); };
   const auto truth = quadSolveStiff<8>(system, 0, q(end), {1, 0, 0, 0, 0, 0, 0, q(0.0057)}, q(1e-9), q(1e-6));
@@ -251,7 +251,7 @@ TEST(Stiff, Hires) {
   }
 }
 
-TEST(Stiff, GivesUpAtItsLimitsAndSaysSo) {
+TEST(Stiff, StopsAtItsLimitsAndReportsIt) {
   VanDerPol field;
   IntegratorOptions options;
   options.max_evaluations = 500;
@@ -268,7 +268,7 @@ TEST(Stiff, GivesUpAtItsLimitsAndSaysSo) {
 }
 
 // Nonlinear, and stiffer than any limit follows: it is not thrown, and not given up.
-TEST(Stiff, WhatNoLimitFollowsIsSolvedCoarsely) {
+TEST(Stiff, ProblemsBeyondTheLimitsAreSolvedCoarsely) {
   struct Cubic : ForceField {
     double stiffness = 1;
     Vec2 acceleration(Vec2 p, Vec2, double) const override {
@@ -298,7 +298,7 @@ TEST(Stiff, WhatNoLimitFollowsIsSolvedCoarsely) {
 }
 
 // No hidden memory: a call in between, or another order, changes nothing.
-TEST(Stiff, IsAPureFunction) {
+TEST(Stiff, KeepsNoStateBetweenCalls) {
   VanDerPol field;
   IntegratorCounters counters;
   Flown first, between, again;

@@ -59,7 +59,7 @@ TEST(Integrator, KeplerReturnsToItsStartAfterTwentyOrbits) {
   EXPECT_LE(own.evaluations_per_orbit, 16000);
 }
 
-TEST(Integrator, KeplerTable) {
+TEST(Integrator, KeplerErrorFollowsTheTolerance) {
   for (const IntegratorMethod method : {IntegratorMethod::kExtrapolation, IntegratorMethod::kRadau}) {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
       IntegratorOptions options;
@@ -92,7 +92,7 @@ struct DoublePendulum {
   }
 };
 
-TEST(Integrator, DoublePendulumOfFiveSeconds) {
+TEST(Integrator, DoublePendulumIsAccurateForFiveSeconds) {
   const StateVector<4> start = {1.5, 1.0, 0, 0};
   const QuadSystem<4> system = [](Quad, const QuadVector<4>& y) { return doublePendulum(y, sinq, cosq); };
   const auto truth = quadSolve<4>(system, 0, 5, {q(start[0]), q(start[1]), 0, 0}, 1500, 5);
@@ -109,7 +109,7 @@ TEST(Integrator, DoublePendulumOfFiveSeconds) {
   EXPECT_LE(error, 1e-9);
 }
 
-TEST(Integrator, TimeOfTheFieldIsTheWorlds) {
+TEST(Integrator, FieldGetsTheWorldsTime) {
   struct Tide : ForceField {
     Vec2 acceleration(Vec2, Vec2, double t) const override { return {df::math::cos(t), 0}; }
   } field;
@@ -124,7 +124,7 @@ TEST(Integrator, TimeOfTheFieldIsTheWorlds) {
 }
 
 // A zone with another gravity, entered anywhere within the tick, in a world that has been running for years.
-TEST(Integrator, FindsItsWayThroughAJumpOfTheForce) {
+TEST(Integrator, HandlesAJumpOfTheForce) {
   struct Zone : ForceField {
     double border = 0;
     Vec2 acceleration(Vec2 p, Vec2, double) const override { return p.x < border ? Vec2{} : Vec2{0, 10}; }
@@ -146,7 +146,7 @@ TEST(Integrator, FindsItsWayThroughAJumpOfTheForce) {
   }
 }
 
-TEST(Integrator, RefusesWhatIsNotFiniteAndStopsAtSingularities) {
+TEST(Integrator, NonFiniteForcesFailAndSingularitiesStop) {
   struct Broken : ForceField {
     Vec2 acceleration(Vec2 p, Vec2, double) const override { return {std::sqrt(p.x), 0}; }
   } broken;

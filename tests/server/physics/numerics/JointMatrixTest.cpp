@@ -104,7 +104,7 @@ double errorOf(const System& system, JointMatrix& matrix) {
   return errorOf(system, matrix, all);
 }
 
-TEST(JointMatrix, SolvesAChainOfHingesAsABand) {
+TEST(JointMatrix, ChainOfHingesIsSolvedAsABand) {
   for (const int links : {1, 2, 3, 5, 20}) {
     JointMatrix matrix;
     EXPECT_LT(errorOf(inOrder(chainOfHinges(links)), matrix), 1e-9) << links;
@@ -112,7 +112,7 @@ TEST(JointMatrix, SolvesAChainOfHingesAsABand) {
   }
 }
 
-TEST(JointMatrix, SolvesWhatIsNoBand) {
+TEST(JointMatrix, SolvesMatricesThatAreNoBand) {
   JointMatrix matrix;
   EXPECT_LT(errorOf(inOrder(star(6)), matrix), 1e-9);
   EXPECT_FALSE(matrix.isBand());
@@ -128,7 +128,7 @@ TEST(JointMatrix, SolvesWhatIsNoBand) {
   EXPECT_FALSE(matrix.isBand());
 }
 
-TEST(JointMatrix, OfABandRowsCanBeLeftOut) {
+TEST(JointMatrix, BandRowsCanBeExcluded) {
   const System system = inOrder(chainOfHinges(9));
   JointMatrix matrix;
   matrix.analyse(system.rows, system.masses);

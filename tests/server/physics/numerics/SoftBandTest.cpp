@@ -50,7 +50,7 @@ void decomposePlainly(BandSystem& system) {
 }
 
 // Whether pivots are taken one at a time or four, and wherever the band ends.
-TEST(SoftBand, HasTheBitsOfThePlainDecomposition) {
+TEST(SoftBand, MatchesThePlainDecompositionBitForBit) {
   SplitMix64 random(4);
   for (const int size : {1, 2, 3, 4, 5, 7, 8, 20, 41, 90}) {
     for (const int width : {0, 1, 3, 11, 12, 13, 14, 15, 30, 53, 89}) {
@@ -67,7 +67,7 @@ TEST(SoftBand, HasTheBitsOfThePlainDecomposition) {
   }
 }
 
-TEST(SoftBand, SolvesWhatItDecomposed) {
+TEST(SoftBand, SolvesTheDecomposedSystem) {
   SplitMix64 random(5);
   for (const int width : {1, 5, 12, 40}) {
     constexpr int kSize = 83;
@@ -86,7 +86,7 @@ TEST(SoftBand, SolvesWhatItDecomposed) {
   }
 }
 
-TEST(SoftBand, RefusesWhatIsNotPositive) {
+TEST(SoftBand, RefusesMatricesThatAreNotPositive) {
   SplitMix64 random(6);
   for (const int width : {2, 20}) {
     for (const double bad : {0.0, -100.0, 1e301, std::nan("")}) {

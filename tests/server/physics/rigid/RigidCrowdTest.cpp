@@ -30,7 +30,7 @@ double spread(const RigidWorld& world) {
   return farthest;
 }
 
-TEST(RigidCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
+TEST(RigidCrowd, ContactsGrowWithBodiesNotPairs) {
   constexpr int kMaxOthers = 32, kPoints = 9;  // shapes of one times shapes of the other
   for (const int count : {50, 100, 200}) {
     RigidWorld world(sleepless());
@@ -42,7 +42,7 @@ TEST(RigidCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
   }
 }
 
-TEST(RigidCrowd, TheyComeApart) {
+TEST(RigidCrowd, OverlappingBodiesComeApartGently) {
   constexpr int kMany = 100, kTicks = 400;
   RigidWorld world;
   for (int i = 0; i < kMany; ++i) {
@@ -68,7 +68,7 @@ TEST(RigidCrowd, TheyComeApart) {
 }
 
 // Thin planks in a pile have many others within their length; all their contacts count.
-TEST(RigidCrowd, WhatLiesSideBySideIsNone) {
+TEST(RigidCrowd, PileOfPlanksKeepsAllContacts) {
   RigidWorld world = onFloor();
   const ConvexShape plank = boxShape(5, 0.1), crate = boxShape(0.5, 0.5);
   for (int i = 0; i < 40; ++i) world.add(movable({0, -0.1 - 0.2 * i}, plank), plank);
@@ -79,7 +79,7 @@ TEST(RigidCrowd, WhatLiesSideBySideIsNone) {
 }
 
 // A tray that holds a hundred marbles is near all of them.
-TEST(RigidCrowd, ATrayTouchesAllItsMarbles) {
+TEST(RigidCrowd, TrayHoldsAHundredMarbles) {
   RigidWorld world = onFloor();
   std::vector<ConvexShape> tray(3);
   makeBox(12, 0.5, {}, {}, 0, tray[0]);
@@ -111,7 +111,7 @@ RigidWorld pyramid(int rows, double apart = 1) {
 
 // Its rounds cost a fixed number of multiplications for each contact. Where all of them would cost more,
 // the first ones would be wasted.
-TEST(RigidCrowd, ADirectSolutionIsNotTriedAtAHigherPrice) {
+TEST(RigidCrowd, DirectSolutionIsSkippedWhenTooExpensive) {
   RigidWorld wide = pyramid(30);
   wide.step();
   EXPECT_EQ(wide.counters().direct_solves, 0);
@@ -127,7 +127,7 @@ TEST(RigidCrowd, ADirectSolutionIsNotTriedAtAHigherPrice) {
 }
 
 // What half a sub-step of gravity needs, the other half needs too.
-TEST(RigidCrowd, TheSecondHalfOfANewHeapIsGuessedByTheFirst) {
+TEST(RigidCrowd, NewHeapReusesImpulsesOfTheFirstHalf) {
   RigidWorld world = pyramid(10);
   world.step();
   EXPECT_EQ(world.counters().direct_solves, 2);  // one sub-step; then the impulses are known

@@ -113,7 +113,7 @@ class Scene {
 
 class RigidIsolation : public testing::TestWithParam<std::tuple<bool, Elsewhere>> {};
 
-TEST_P(RigidIsolation, AGroupIsTheSameAloneAndBesideOthers) {
+TEST_P(RigidIsolation, GroupMovesTheSameAloneAndBesideOthers) {
   const auto [has_joints, elsewhere] = GetParam();
   Scene alone(has_joints, Elsewhere::kNothing, Added::kAfter, false);
   const std::vector<Bits> expected = alone.run();

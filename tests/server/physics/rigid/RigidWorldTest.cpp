@@ -32,7 +32,7 @@ TEST(RigidWorld, StacksStand) {
   }
 }
 
-TEST(RigidWorld, TheLightOneBearsTheHeavyOne) {
+TEST(RigidWorld, LightBodyBearsAHeavyOne) {
   for (const double ratio : {10.0, 1e2, 1e3, 1e4}) {
     RigidWorld world = onFloor();
     const ConvexShape crate = boxShape(0.5, 0.5);
@@ -66,7 +66,7 @@ TEST(RigidWorld, FrictionHoldsUpToItsAngle) {
   }
 }
 
-TEST(RigidWorld, SlidesAndRollsAsItShould) {
+TEST(RigidWorld, SlidingAndRollingMatchTheFormulas) {
   RigidWorld slides(sleepless()), rolls(sleepless());
   const double steep = 40 * kDegree, angle = 30 * kDegree;
   const Vec2 steep_up = addSlope(slides, steep), up = addSlope(rolls, angle);
@@ -80,7 +80,7 @@ TEST(RigidWorld, SlidesAndRollsAsItShould) {
   EXPECT_NEAR(length(rolls.body(id).velocity), 0.5 * std::fabs(rolls.body(id).spin), 1e-12);
 }
 
-TEST(RigidWorld, AnElasticBallBouncesForEver) {
+TEST(RigidWorld, ElasticBallKeepsBouncing) {
   RigidWorld world = onFloor();
   const ConvexShape disc = circleShape(0.5);
   RigidBody ball = movable({0, -5.5}, disc);
@@ -94,7 +94,7 @@ TEST(RigidWorld, AnElasticBallBouncesForEver) {
   }
 }
 
-TEST(RigidWorld, AnElasticBoxTumblesForEver) {
+TEST(RigidWorld, TumblingElasticBoxKeepsItsEnergy) {
   RigidWorld world;
   RigidBody floor = immovable({0, 5});
   floor.restitution = 1;
@@ -116,7 +116,7 @@ TEST(RigidWorld, AnElasticBoxTumblesForEver) {
 }
 
 // Nothing is passed, at any speed, turning or not, whichever body moves.
-TEST(RigidWorld, NothingGoesThrough) {
+TEST(RigidWorld, FastBodiesDoNotTunnel) {
   SceneRandom uniform;
   for (int kind = 0; kind < 3; ++kind) {
     for (int shot = 0; shot < 2000; ++shot) {
@@ -146,7 +146,7 @@ TEST(RigidWorld, NothingGoesThrough) {
   }
 }
 
-TEST(RigidWorld, MomentumStays) {
+TEST(RigidWorld, MomentumIsConserved) {
   RigidWorld world(sleepless());
   const ConvexShape crate = boxShape(0.5, 0.5);
   for (int i = 0; i < 100; ++i) {
@@ -217,13 +217,13 @@ std::uint64_t heapAt(const Place& origin, bool has_poison) {
   return hashOf(world, origin, has_poison ? poisoned : world.idLimit());
 }
 
-TEST(RigidWorld, IsTheSameEverywhere) {
+TEST(RigidWorld, HashIsTheSameEverywhereAndFarAway) {
   const std::uint64_t here = heapAt({}, false);
   EXPECT_EQ(here, heapAt({1'000'000'000, -1'000'000'000, 0, 0}, false));
   EXPECT_EQ(here, 12217238143877681386ULL);  // whatever compiled this
 }
 
-TEST(RigidWorld, WhatCannotBeSolvedStaysAlone) {
+TEST(RigidWorld, InvalidBodyAffectsNoOtherBody) {
   EXPECT_EQ(heapAt({}, false), heapAt({}, true));
   RigidWorld world;
   RigidBody body;
@@ -231,7 +231,7 @@ TEST(RigidWorld, WhatCannotBeSolvedStaysAlone) {
   EXPECT_EQ(world.add(body, circleShape(1)), -1);
 }
 
-TEST(RigidWorld, HundredsInOnePlaceComeApart) {
+TEST(RigidWorld, HundredsOfOverlappingCratesComeApart) {
   RigidWorld world = onFloor();
   const ConvexShape crate = boxShape(0.5, 0.5);
   for (int i = 0; i < 200; ++i) world.add(movable({0, -20}, crate), crate);
@@ -244,7 +244,7 @@ TEST(RigidWorld, HundredsInOnePlaceComeApart) {
   EXPECT_LT(world.deepest(), 0.1);
 }
 
-TEST(RigidWorld, SleepsStillAndWakesWhenItMust) {
+TEST(RigidWorld, SleepsAtRestAndWakesWhenDisturbed) {
   RigidWorld world = onFloor({});
   const ConvexShape crate = boxShape(0.5, 0.5);
   const int lower = world.add(movable({0, -0.6}, crate), crate);
@@ -273,7 +273,7 @@ TEST(RigidWorld, SleepsStillAndWakesWhenItMust) {
   EXPECT_NEAR(whereIs(world, upper).y - height, 0.5 * kGravityPerTick * 100, 1e-6);
 }
 
-TEST(RigidWorld, WhatSpeedsUpDoesNotSleep) {
+TEST(RigidWorld, AcceleratingBodyDoesNotSleep) {
   RigidWorld world;
   const double angle = std::atan(0.5) + 0.01 * kDegree;
   const int id = addCrateOnSlope(world, angle, addSlope(world, angle));
@@ -344,7 +344,7 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
   EXPECT_LT(whereIs(world, load).y, 4);  // it lies on the bridge
 }
 
-TEST(RigidWorld, StepsWithoutAskingForMemory) {
+TEST(RigidWorld, StepAllocatesNothing) {
   if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
   RigidWorld world = onFloor();
   const ConvexShape crate = boxShape(0.5, 0.5);

@@ -21,7 +21,7 @@ double lowest(const SoftWorld& world, int id) {
   return (world.body(id).place - Place{}).y + most;
 }
 
-TEST(SoftContact, BlobRestsOnTheFloorWithItsWeight) {
+TEST(SoftContact, FloorBearsTheBlobsWeight) {
   const ConvexShape slab = test::boxShape(20, 1);
   SoftObstacle floor = test::obstacleAt(7, slab, {0, 1}, 0.5);
   SoftWorld world;
@@ -104,7 +104,7 @@ TEST(SoftContact, CrateLiesOnACloth) {
 }
 
 // What one loses the other gets.
-TEST(SoftContact, MomentumIsKeptBetweenSoftAndRigid) {
+TEST(SoftContact, SoftRigidContactConservesMomentum) {
   const ConvexShape cube = test::boxShape(1, 1);
   SoftBody blob = softBlob({-4, 0.3});
   blob.drag = 0;

@@ -51,7 +51,7 @@ class Crowd {
   int m_left_out = 0;
 };
 
-TEST(SoftCrowd, WithoutOneEveryContactCounts) {
+TEST(SoftCrowd, SmallGroupsKeepEveryContact) {
   for (const int count : {2, SoftCrowd::kMaxOthers + 1}) {
     const Crowd few(count, 0.1);
     const std::vector<SoftRow> all = few.all();
@@ -62,7 +62,7 @@ TEST(SoftCrowd, WithoutOneEveryContactCounts) {
   }
 }
 
-TEST(SoftCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
+TEST(SoftCrowd, ContactsGrowWithBodiesNotPairs) {
   for (const int count : {50, 100, 200}) {
     const Crowd many(count, 0);
     EXPECT_EQ(many.leftOut(), count);
@@ -74,7 +74,7 @@ TEST(SoftCrowd, ItsContactsGrowWithItsBodiesAndNotWithTheirPairs) {
 }
 
 // In one place each begins with another one, so that all have as many contacts.
-TEST(SoftCrowd, NoBodyHasMoreContactsThanOthers) {
+TEST(SoftCrowd, ContactsAreSharedAmongTheBodies) {
   constexpr int kMany = 60;
   const Crowd many(kMany, 0);
   std::vector<int> times_touched(kMany, 0);
@@ -84,7 +84,7 @@ TEST(SoftCrowd, NoBodyHasMoreContactsThanOthers) {
 }
 
 // In a row where each overlaps a score of others, the nearest count, and of their contacts the deepest.
-TEST(SoftCrowd, TheNearestAreMet) {
+TEST(SoftCrowd, OnlyTheNearestBodiesTouch) {
   const Crowd row(100, 0.1);
   for (const SoftRow& contact : row.rows) {
     EXPECT_LE(std::abs(contact.a.body - contact.b.body), SoftCrowd::kMaxOthers) << contact.a.body;

@@ -32,7 +32,7 @@ double relativeDeflection(int elements) {
 }
 
 // Row 11b: FL³/3EI within 1 %, and the error falls with the cube of the number of elements.
-TEST(SoftBody, CantileverBendsAsItsStiffnessSays) {
+TEST(SoftBody, CantileverBendsByTheFormula) {
   const double coarse = relativeDeflection(8), medium = relativeDeflection(16), fine = relativeDeflection(32);
   EXPECT_LT(std::fabs(coarse), 1e-3);
   EXPECT_LT(std::fabs(fine), 1e-5);
@@ -112,7 +112,7 @@ TEST(SoftBody, RopeHangsAsACatenary) {
 }
 
 // A ring under pressure: tension = pressure · radius (and the polygon's cosine), tension = EA · strain.
-TEST(SoftBody, BlobSwellsAsItsSkinAllows) {
+TEST(SoftBody, BlobSwellsToTheSkinPressureBalance) {
   constexpr int kNodes = 24;
   constexpr double kRadius = 2, kSkin = 1, kPressure = 0.1;
   SoftBody blob = makeBlob({}, kRadius, kNodes, 5, kPressure, 0, kSkin);
@@ -139,7 +139,7 @@ double springError(int substeps) {
   return most / 0.1;
 }
 
-TEST(SoftBody, StepIsOfSecondOrder) {
+TEST(SoftBody, StepConvergesWithSecondOrder) {
   const double coarse = springError(8), medium = springError(16), fine = springError(32);
   EXPECT_LT(fine, 1e-3);
   EXPECT_NEAR(coarse / medium, 4, 0.4);

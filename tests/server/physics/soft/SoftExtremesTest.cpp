@@ -67,14 +67,14 @@ class Scene {
 };
 
 // Whatever compiled this, at whatever level: the same.
-TEST(SoftWorld, IsTheSameBitsEverywhere) {
+TEST(SoftWorld, HashIsTheSameOnEveryPlatform) {
   Scene scene;
   for (int i = 0; i < 200; ++i) scene.step();
   EXPECT_EQ(scene.hash(), 17057286927604812260U);
 }
 
 // Row 16.
-TEST(SoftWorld, MovesFarAwayAsAtTheOrigin) {
+TEST(SoftWorld, MovesTheSameFarAway) {
   Scene here, there(1'000'000'000);
   for (int i = 0; i < 200; ++i) {
     here.step();
@@ -113,7 +113,7 @@ TEST(SoftWorld, AllocatesNothingOnceWarm) {
 }
 
 // Row 18, at the call.
-TEST(SoftWorld, RefusesWhatIsNotSound) {
+TEST(SoftWorld, InvalidBodiesAndNumbersAreRefused) {
   SoftWorld world;
   const SoftBody rope = makeRope({}, {4, 0}, 4, 1, 10);
   for (const double bad : {kNan, kInfinite, -kInfinite, 1e30}) {
@@ -144,7 +144,7 @@ TEST(SoftWorld, RefusesWhatIsNotSound) {
 }
 
 // Row 18: what cannot be worked out is frozen; all others move as in a world without it.
-TEST(SoftWorld, FreezesOneBodyAndNoOther) {
+TEST(SoftWorld, UnsolvableBodyFreezesAlone) {
   Scene without, with;
   SoftBody doomed = makeRope(placeAt({0, -30}), {4, 0}, 8, 1, 1e10);
   for (SoftNode& node : doomed.nodes) node.mass = 1e-12;

@@ -38,7 +38,7 @@ double stretchOf(const SoftBody& body) {
   return most;
 }
 
-TEST(SoftWide, GradientsSolveWhatTheyAreGiven) {
+TEST(SoftWide, ConjugateGradientsSolveTheSystem) {
   std::mt19937 random(7);
   const auto number = [&random] { return static_cast<double>(random() % 1000) / 1000; };
   constexpr int kNodes = 60;
@@ -68,7 +68,7 @@ TEST(SoftWide, GradientsSolveWhatTheyAreGiven) {
   for (int i = 0; i < 2 * kNodes; ++i) EXPECT_NEAR(rows[at(i)], truth[at(i)], 1e-4) << i;
 }
 
-TEST(SoftWide, OnlyWhatCostsTooMuchDirectlyIsWide) {
+TEST(SoftWide, OnlyExpensiveBodiesAreSolvedIteratively) {
   SoftElastic elastic;
   const auto isWide = [&](SoftBody body) {
     elastic.prepare(body);
@@ -79,7 +79,7 @@ TEST(SoftWide, OnlyWhatCostsTooMuchDirectlyIsWide) {
   EXPECT_TRUE(isWide(makeSheet(30, 1)));
 }
 
-TEST(SoftWide, HangsByTwoCornersWithoutStretching) {
+TEST(SoftWide, PinnedSheetStretchesByAtMostFivePercent) {
   constexpr int kThreads = naiad::test::kSanitized ? 40 : 100;  // a sanitizer takes minutes for all
   SoftBody sheet = makeSheet(kThreads, 0.4);
   pinCorners(sheet, kThreads);
@@ -98,7 +98,7 @@ TEST(SoftWide, HangsByTwoCornersWithoutStretching) {
   EXPECT_LE(test::fastest(world.body(id)), 0.5);
 }
 
-TEST(SoftWide, KeepsItsMomentumToRounding) {
+TEST(SoftWide, MomentumIsConservedToRounding) {
   constexpr int kThreads = 32;
   SoftBody sheet = makeSheet(kThreads, 0.5);
   sheet.drag = 0;
@@ -116,7 +116,7 @@ TEST(SoftWide, KeepsItsMomentumToRounding) {
   }
 }
 
-TEST(SoftWide, FallsOnABoxAndNoNodeEndsInIt) {
+TEST(SoftWide, FallingSheetPutsNoNodeInTheBox) {
   constexpr int kThreads = 60;
   SoftWorld world;
   world.setGravity({0, kPull});
@@ -137,7 +137,7 @@ TEST(SoftWide, FallsOnABoxAndNoNodeEndsInIt) {
   EXPECT_EQ(world.counters().quarantined, 0);
 }
 
-TEST(SoftWide, CarriesABoxThatPushesBack) {
+TEST(SoftWide, SheetCarriesAMovableBox) {
   constexpr int kThreads = 40;
   SoftBody sheet = makeSheet(kThreads, 0.5, 200);
   for (int j = 0; j < kThreads; ++j) {
@@ -176,7 +176,7 @@ TEST(SoftWide, AnAttachedNodeFollowsItsObstacle) {
   }
 }
 
-TEST(SoftWide, PinsHoldAndLetGo) {
+TEST(SoftWide, PinsHoldUntilReleased) {
   constexpr int kThreads = 30;
   SoftWorld world;
   world.setGravity({0, kPull});
@@ -192,7 +192,7 @@ TEST(SoftWide, PinsHoldAndLetGo) {
   EXPECT_FALSE(world.pin(id, kThreads * kThreads, true));
 }
 
-TEST(SoftWide, StaysFiniteWhateverItsStiffnessAndMass) {
+TEST(SoftWide, GainsNoEnergyAtAnyStiffnessAndMass) {
   for (const double stiffness : {1e-6, 1.0, 1e6}) {
     for (const double mass : {1e-6, 1e6}) {
       SoftBody sheet = makeSheet(30, 0.1, stiffness);
@@ -213,7 +213,7 @@ TEST(SoftWide, StaysFiniteWhateverItsStiffnessAndMass) {
 
 // The stiffest does not always converge with an earlier decomposition. One iteration at most in a sub-step is
 // lost by that: 4 % more of them than with a decomposition for each.
-TEST(SoftWide, TheUsualClothKeepsADecompositionAsLongAsItConverges) {
+TEST(SoftWide, DefaultClothReusesItsDecompositionWhileItConverges) {
   for (const double stiffness : {5.0, 5e10}) {
     SoftBody sheet = makeSheet(25, 0.1, stiffness);
     for (SoftStretch& s : sheet.stretches) s.limit = 0;
@@ -255,7 +255,7 @@ std::uint64_t hashOfSheet(int threads, bool& has_touched) {
 }
 
 // Whatever compiled it.
-TEST(SoftWide, AWideSheetAndTheUsualClothHaveTheSameBitsEverywhere) {
+TEST(SoftWide, SheetHashesAreTheSameOnEveryPlatform) {
   for (const auto& [threads, hash] : {std::pair{30, 0x430d960ec7c94411u}, {25, 10971624823872805848u}}) {
     bool has_touched = false;
     EXPECT_EQ(hashOfSheet(threads, has_touched), hash) << threads;

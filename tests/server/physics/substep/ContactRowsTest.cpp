@@ -142,7 +142,7 @@ TEST(Lanes, TransposeTurnsRowsIntoColumns) {
   }
 }
 
-TEST(Lanes, ComparisonsAreLaneByLane) {
+TEST(Lanes, ComparisonsWorkPerLane) {
   const Lanes a = {1, 2, 3, 4}, b = {4, 3, 2, 1};
   const Lanes high = larger(a, b), low = smaller(a, b);
   for (int i = 0; i < 4; ++i) {
@@ -151,7 +151,7 @@ TEST(Lanes, ComparisonsAreLaneByLane) {
   }
 }
 
-TEST(ContactRows, FourSideBySideGetWhatEachGetsAlone) {
+TEST(ContactRows, BatchedRowsMatchSingleRows) {
   std::vector<Trial> trials;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) trials.push_back(trialOf(seed));
   const std::vector<Outcome> alone = stepOf(trials, 1);
@@ -163,7 +163,7 @@ TEST(ContactRows, FourSideBySideGetWhatEachGetsAlone) {
   }
 }
 
-TEST(ContactRows, PushesOnlyAndRubsWithinItsCone) {
+TEST(ContactRows, ContactsOnlyPushAndFrictionStaysInCone) {
   int pushing = 0, sliding = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const Trial trial = trialOf(seed);
@@ -213,7 +213,7 @@ Trial lyingOne(float kick) {
   return trial;
 }
 
-TEST(ContactRows, ATrendFadesWhenThePushIsEven) {
+TEST(ContactRows, TrendFadesUnderConstantPush) {
   Trial trial = lyingOne(0.05f);
   trial.row.is_lasting = true;
   float most = trial.known.normal[0].trend;
@@ -225,7 +225,7 @@ TEST(ContactRows, ATrendFadesWhenThePushIsEven) {
   EXPECT_NEAR(trial.known.normal[0].kept, 0.05f, 1e-6f);
 }
 
-TEST(ContactRows, OnlyWhatLastsFollowsItsTrend) {
+TEST(ContactRows, OnlyLastingContactsUseTheTrend) {
   for (const bool is_lasting : {false, true}) {
     Trial trial = lyingOne(0.05f), flat = trial;
     trial.row.is_lasting = flat.row.is_lasting = is_lasting;
@@ -235,7 +235,7 @@ TEST(ContactRows, OnlyWhatLastsFollowsItsTrend) {
 }
 
 // Whatever is remembered: where nothing pushed before, there is no trend to go on with.
-TEST(ContactRows, ABlowHasNoTrend) {
+TEST(ContactRows, NewImpactIgnoresAStoredTrend) {
   Trial trial = lyingOne(0), flat;
   trial.row.is_lasting = true;
   trial.row.velocity = {0, -0.3};
@@ -245,7 +245,7 @@ TEST(ContactRows, ABlowHasNoTrend) {
   EXPECT_EQ(stepOf({trial}, 1)[0].bits[6], stepOf({flat}, 1)[0].bits[6]);
 }
 
-TEST(ContactRows, ABlowMeetsNoSoftSpring) {
+TEST(ContactRows, FastImpactIsNotSoftened) {
   for (const float fast : {0.1f, 1.0f}) {
     Trial trial = lyingOne(0);
     trial.row.is_lasting = true;
@@ -260,7 +260,7 @@ TEST(ContactRows, ABlowMeetsNoSoftSpring) {
   }
 }
 
-TEST(ContactRows, AGapMayCloseAndNoMore) {
+TEST(ContactRows, GapClosesButNoFurther) {
   for (const float speed : {0.05f, 0.5f, 5.0f}) {
     Trial trial;
     ContactRow& row = trial.row;
@@ -276,7 +276,7 @@ TEST(ContactRows, AGapMayCloseAndNoMore) {
   }
 }
 
-TEST(ContactRows, OverlapIsUndoneNoFasterThanItsLimit) {
+TEST(ContactRows, OverlapIsResolvedWithinTheSpeedLimit) {
   Trial trial = lyingOne(0);
   trial.manifold.points[0].separation = -5;
   const Outcome outcome = stepOf({trial}, 1)[0];

@@ -22,7 +22,7 @@ SubstepScene crowd(int count, double spread) {
 }
 
 // They are fast as soon as they are pushed, and pass each other.
-TEST(SubstepCrowd, ItsWorkGrowsWithItsBodiesAndNotWithTheirPairs) {
+TEST(SubstepCrowd, WorkGrowsWithBodiesNotPairs) {
   constexpr int kNearest = 16, kMargin = 2,
                 kInTheWay = 64;  // of a body: few others are near once it is not thinned
   for (const double spread : {1.0, 0.0}) {
@@ -43,7 +43,7 @@ TEST(SubstepCrowd, ItsWorkGrowsWithItsBodiesAndNotWithTheirPairs) {
 }
 
 // Small discs in large ones: of those that are larger each keeps the nearest, too.
-TEST(SubstepCrowd, OfAllSizesEachKeepsFewContacts) {
+TEST(SubstepCrowd, MixedSizesKeepFewContactsEach) {
   constexpr int kKept = 2 * 16 + 2, kInTheWay = 128;  // of a body
   for (const int count : {500, 2000}) {
     SplitMix64 random(31);
@@ -66,7 +66,7 @@ TEST(SubstepCrowd, OfAllSizesEachKeepsFewContacts) {
   }
 }
 
-TEST(SubstepCrowd, ComesApart) {
+TEST(SubstepCrowd, OverlappingBodiesComeApart) {
   SubstepScene scene = crowd(1000, 1);
   scene.ticks(120);
   EXPECT_LT(scene.world.deepest(), 0.05);
@@ -76,7 +76,7 @@ TEST(SubstepCrowd, ComesApart) {
 }
 
 // What is as fast as they are but not of them still stops at what it meets: at a crowd, too.
-TEST(SubstepCrowd, IsHitByWhatFliesIntoIt) {
+TEST(SubstepCrowd, FastBodyStopsAtTheCrowd) {
   SubstepScene scene = crowd(300, 1);
   const ConvexShape disc = circleShape(0.5);
   const int id = scene.add(floating({-30, 0.5}, disc, {40, 0}, 50), disc);
@@ -86,7 +86,7 @@ TEST(SubstepCrowd, IsHitByWhatFliesIntoIt) {
 }
 
 // The youngest are not thinned, as they find few that are younger: one that lies in others which are.
-TEST(SubstepCrowd, WhatLiesInOneCanLeaveThroughIt) {
+TEST(SubstepCrowd, BodyInsideACrowdCanLeaveIt) {
   SubstepScene scene = crowd(300, 0.3);
   const ConvexShape disc = circleShape(0.5);
   for (int i = 0; i < 40; ++i) scene.add(floating({0.007 * i, -0.5}, disc), disc);
@@ -97,7 +97,7 @@ TEST(SubstepCrowd, WhatLiesInOneCanLeaveThroughIt) {
 }
 
 // A heavy one stays where the crowd was. Another crowd that flies at it does not pass.
-TEST(SubstepCrowd, WhatIsLeftOfOneStandsInTheWayOfAnother) {
+TEST(SubstepCrowd, RemainingBodyOfACrowdStopsAnotherCrowd) {
   SubstepScene scene(awake());
   const ConvexShape disc = circleShape(0.5);
   SplitMix64 random(3);

@@ -38,7 +38,7 @@ int through(BulletKind kind, double speed, double restitution, int shots) {
   return passed;
 }
 
-TEST(SubstepFast, NoDiscAndNoStickGoesThroughAWall) {
+TEST(SubstepFast, DiscsAndSticksDoNotTunnel) {
   for (const BulletKind kind : {BulletKind::kDisc, BulletKind::kStick}) {
     for (const double speed : {1.0, 3.0, 10.0, 100.0, 1e3, 1e4}) {
       for (const double restitution : {0.0, 1.0}) {
@@ -49,7 +49,7 @@ TEST(SubstepFast, NoDiscAndNoStickGoesThroughAWall) {
   }
 }
 
-TEST(SubstepFast, StopsWhereItTouchesAndIsFreeInTheNextTick) {
+TEST(SubstepFast, FastBodyStopsAtContactAndContinuesNextTick) {
   SubstepScene scene;
   scene.add(immovable({10, 0}), boxShape(0.5, 50));
   const ConvexShape disc = circleShape(0.25);
@@ -67,7 +67,7 @@ TEST(SubstepFast, StopsWhereItTouchesAndIsFreeInTheNextTick) {
 }
 
 // Two that meet at once, and one that hits a sleeping stack.
-TEST(SubstepFast, FastOnesMeet) {
+TEST(SubstepFast, FastBodiesDoNotPassEachOther) {
   for (const double speed : {2.0, 30.0, 1e3}) {
     SubstepScene scene;
     const ConvexShape crate = boxShape(0.5, 0.5);
@@ -81,7 +81,7 @@ TEST(SubstepFast, FastOnesMeet) {
   }
 }
 
-TEST(SubstepFast, AFastOneWakesAndPushesWhatItHits) {
+TEST(SubstepFast, FastBodyWakesAndPushesASleepingOne) {
   SubstepScene scene;
   scene.addFloor();
   const int crate = scene.addCrate({0, -0.5});
@@ -98,7 +98,7 @@ TEST(SubstepFast, AFastOneWakesAndPushesWhatItHits) {
 }
 
 // What is hit flies on with what it meets in its way: the ram behind it, just as fast, does not run over it.
-TEST(SubstepFast, ARamDoesNotRunOverWhatItPushes) {
+TEST(SubstepFast, RamDoesNotPenetrateThePushedCrates) {
   SubstepScene scene;
   const ConvexShape block = boxShape(4, 4);
   RigidBody ram = floating({-80.0 / 3, 0}, block, {4.0 / 3, 0}, 3200);
@@ -121,7 +121,7 @@ TEST(SubstepFast, ARamDoesNotRunOverWhatItPushes) {
   EXPECT_LT(deepest, 0.2);
 }
 
-TEST(SubstepFast, SpeedsBeyondCalculationAreFrozen) {
+TEST(SubstepFast, ExcessiveSpeedFreezesTheBody) {
   SubstepScene scene;
   const ConvexShape disc = circleShape(0.3);
   RigidBody ball = movable({0, 0}, disc);

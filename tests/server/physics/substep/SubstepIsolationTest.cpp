@@ -127,20 +127,20 @@ void expectSameBits(GroupKind watched, GroupKind others) {
   EXPECT_FALSE(std::is_sorted(among.watched().begin(), among.watched().end()));
 }
 
-TEST(SubstepIsolation, AGroupIsTheSameAloneAndAmongOthersHoweverHeavy) {
+TEST(SubstepIsolation, GroupMovesTheSameAmongOthersOfAnyMass) {
   expectSameBits({}, {});
   expectSameBits({}, {.mass = 1e6});
   expectSameBits({}, {.mass = 1e-6});
 }
 
 // The rows of those that bounce lie beside the rows of those that do not.
-TEST(SubstepIsolation, WhatDoesNotBounceDoesNotSeeWhatBounces) {
+TEST(SubstepIsolation, BouncingAndInelasticGroupsDoNotInteract) {
   expectSameBits({}, {.restitution = 0.7});
   expectSameBits({.restitution = 0.4}, {});
 }
 
 // Masses that no float can invert, on the same floor.
-TEST(SubstepIsolation, WhatCannotBeCalculatedWithChangesNothing) {
+TEST(SubstepIsolation, ExtremeMassesChangeNoOtherGroup) {
   for (const double mass : {1e30, 1e37, 1e40, 1e44, 1e60}) {
     SCOPED_TRACE(mass);
     expectSameBits({}, {.mass = mass});
@@ -148,7 +148,7 @@ TEST(SubstepIsolation, WhatCannotBeCalculatedWithChangesNothing) {
 }
 
 // Four that meet within one tick: who is stopped first follows from their order, whatever their ids are.
-TEST(SubstepIsolation, FastOnesDoNotDependOnIds) {
+TEST(SubstepIsolation, FastBodiesDoNotDependOnIds) {
   const auto meet = [](std::array<std::size_t, 4> added) {
     SubstepWorld world;
     const ConvexShape disc = circleShape(0.4);

@@ -39,7 +39,7 @@ TEST(SubstepJoints, AHingeKeepsAPendulumsLength) {
   EXPECT_LT(farthest, -1.8);  // it swings to the other side
 }
 
-TEST(SubstepJoints, ADistanceIsKept) {
+TEST(SubstepJoints, DistanceJointKeepsItsLength) {
   Hanging scene({2, 0});
   const int rod = scene.join({.length = 2}, JointKind::kDistance, scene.nail, scene.crate);
   for (int tick = 0; tick < 300; ++tick) {
@@ -74,7 +74,7 @@ TEST(SubstepJoints, AWeldHoldsPlaceAndAngle) {
   }
 }
 
-TEST(SubstepJoints, ASliderSlides) {
+TEST(SubstepJoints, SliderMovesOnlyAlongItsAxis) {
   Hanging scene({0, 0});
   const Vec2 axis = {0.6, 0.8};
   ASSERT_GE(scene.join({.axis = axis}, JointKind::kSlider, scene.nail, scene.crate), 0);
@@ -136,7 +136,7 @@ TEST(SubstepJoints, ASpringStaysBounded) {
   }
 }
 
-TEST(SubstepJoints, AWeakSpringSwingsAtItsRate) {
+TEST(SubstepJoints, WeakSpringSwingsAtItsFrequency) {
   Hanging scene({1, 0});
   ASSERT_GE(scene.join({.stiffness = 0.01}, JointKind::kSpring, scene.nail, scene.crate), 0);
   RigidBody body = scene.body();
@@ -147,7 +147,7 @@ TEST(SubstepJoints, AWeakSpringSwingsAtItsRate) {
   EXPECT_NEAR(scene.at(scene.crate).x, -1, 0.1);
 }
 
-TEST(SubstepJoints, AMouseDrawsWithNoMoreThanItsForce) {
+TEST(SubstepJoints, MouseJointForceStaysWithinItsLimit) {
   Hanging scene({0, 0});
   const JointSettings pull = {.stiffness = 0.1, .damping = 0.5, .max_force = 0.05, .target = placeAt({5, 0})};
   const int mouse = scene.join(pull, JointKind::kMouse, -1, scene.crate);
@@ -162,7 +162,7 @@ TEST(SubstepJoints, AMouseDrawsWithNoMoreThanItsForce) {
   EXPECT_NEAR(scene.at(scene.crate).y, kGravityPerTick / 0.1, 0.05);
 }
 
-TEST(SubstepJoints, BreaksAboveItsForceOnly) {
+TEST(SubstepJoints, JointBreaksOnlyAboveItsForce) {
   for (const double factor : {0.5, 1.5}) {
     Hanging scene({0, 1});
     const int hinge = scene.join({.break_force = factor * kGravityPerTick}, JointKind::kHinge, scene.nail,
@@ -175,7 +175,7 @@ TEST(SubstepJoints, BreaksAboveItsForceOnly) {
   }
 }
 
-TEST(SubstepJoints, JoinedBodiesDoNotTouch) {
+TEST(SubstepJoints, JointedBodiesDoNotCollide) {
   for (const bool may_touch : {false, true}) {
     SubstepScene scene(awake());
     const ConvexShape crate = boxShape(0.5, 0.5);
@@ -191,7 +191,7 @@ TEST(SubstepJoints, JoinedBodiesDoNotTouch) {
   }
 }
 
-TEST(SubstepJoints, WhatHungOnABrokenOneTouchesAgain) {
+TEST(SubstepJoints, BrokenJointLetsItsBodiesCollide) {
   SubstepScene scene(awake());
   const ConvexShape crate = boxShape(0.5, 0.5);
   const int a = scene.add(floating({0, 0}, crate), crate);
@@ -202,7 +202,7 @@ TEST(SubstepJoints, WhatHungOnABrokenOneTouchesAgain) {
   EXPECT_GT(scene.world.counters().contacts, 0);
 }
 
-TEST(SubstepJoints, ARemovedBodyTakesItsJoints) {
+TEST(SubstepJoints, RemovedBodyRemovesItsJoints) {
   Hanging scene({2, 0});
   const int hinge = scene.join({}, JointKind::kHinge, scene.nail, scene.crate, {}, {-2, 0});
   ASSERT_TRUE(scene.world.remove(scene.nail));

@@ -20,7 +20,7 @@ std::vector<int> addCloud(SubstepScene& scene, double speed) {
   return ids;
 }
 
-TEST(SubstepSearch, BodiesThatFallTogetherAreNotExamined) {
+TEST(SubstepSearch, BodiesFallingTogetherNeedNoContacts) {
   SubstepScene scene(awake());
   addCloud(scene, 0.9);
   scene.ticks(20);
@@ -28,7 +28,7 @@ TEST(SubstepSearch, BodiesThatFallTogetherAreNotExamined) {
 }
 
 // Those above meet in the same tick the ones that have been stopped by the floor.
-TEST(SubstepSearch, WhatIsStoppedIsFoundByWhatComesAfterIt) {
+TEST(SubstepSearch, FallingBodiesFindStoppedOnesInTheTick) {
   SubstepScene scene(awake());
   scene.addFloor();
   addCloud(scene, 0.3);
@@ -42,7 +42,7 @@ TEST(SubstepSearch, WhatIsStoppedIsFoundByWhatComesAfterIt) {
 }
 
 // One comes from the side and faster than the cloud moves.
-TEST(SubstepSearch, WhatIsHitInFlightHitsTheNext) {
+TEST(SubstepSearch, BodyHitInFlightHitsTheNext) {
   SubstepScene scene(awake());
   const std::vector<int> ids = addCloud(scene, 0.9);
   const ConvexShape crate = boxShape(0.5, 0.5);
@@ -61,7 +61,7 @@ TEST(SubstepSearch, WhatIsHitInFlightHitsTheNext) {
 
 // The work is bounded: along a row whose pairs stand in no order, a push would be passed on by one body a
 // sweep.
-TEST(SubstepSearch, APushAlongARowInNoOrderIsNotFollowedForEver) {
+TEST(SubstepSearch, PushAlongAShuffledRowHasBoundedWork) {
   constexpr int kCrates = 400;
   SubstepScene scene(awake());
   std::vector<int> rows(kCrates);
@@ -83,7 +83,7 @@ TEST(SubstepSearch, APushAlongARowInNoOrderIsNotFollowedForEver) {
   EXPECT_LE(scene.world.counters().sweeps, 32);
 }
 
-TEST(SubstepSearch, AnImmovableBodyThatWasMovedIsFoundWhereItIs) {
+TEST(SubstepSearch, MovedImmovableBodyIsFoundAtItsNewPlace) {
   SubstepScene scene(awake());
   const int shelf = scene.add(immovable({100, 5}), boxShape(5, 0.5));
   const int crate = scene.addCrate({0, 0});
@@ -93,7 +93,7 @@ TEST(SubstepSearch, AnImmovableBodyThatWasMovedIsFoundWhereItIs) {
   EXPECT_NEAR(scene.at(crate).y, 4, 0.05);
 }
 
-TEST(SubstepSearch, BodiesOfEqualShapesKeepTheirOwn) {
+TEST(SubstepSearch, ChangingOneShapeLeavesEqualOnesUnchanged) {
   SubstepScene scene(awake());
   scene.addFloor();
   const int first = scene.addCrate({0, -0.5}), second = scene.addCrate({5, -0.5});

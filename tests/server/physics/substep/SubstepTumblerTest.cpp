@@ -25,7 +25,7 @@ void addDrum(SubstepScene& scene) {
   scene.world.addInOrder(++scene.order, drum, walls);
 }
 
-TEST(SubstepTumbler, ABoxOfBoxesTurns) {
+TEST(SubstepTumbler, TurningDrumKeepsItsBoxesInside) {
   SubstepOptions options = awake();
   options.searches = 2, options.substeps = 5;  // as at ACCURACY_DEFAULT
   SubstepScene scene(options);

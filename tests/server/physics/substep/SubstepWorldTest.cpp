@@ -58,7 +58,7 @@ TEST(SubstepWorld, APyramidStandsAndSleeps) {
 }
 
 // More contacts than are solved for at a time: none of them is forgotten.
-TEST(SubstepWorld, SixHundredStacksAllStandTouchOnceAndSleep) {
+TEST(SubstepWorld, SixHundredStacksStandTouchOnceAndSleep) {
   constexpr int kStacks = 600;
   SubstepScene scene;
   scene.addFloor();
@@ -81,7 +81,7 @@ TEST(SubstepWorld, SixHundredStacksAllStandTouchOnceAndSleep) {
 }
 
 // A pile's slow swings are damped, and it does not creep sideways.
-TEST(SubstepWorld, ATallPyramidOfNeighboursThatTouchComesToRest) {
+TEST(SubstepWorld, TallPyramidOfTouchingBoxesComesToRest) {
   constexpr int kRows = 20;
   SubstepScene scene;
   scene.addFloor();
@@ -96,7 +96,7 @@ TEST(SubstepWorld, ATallPyramidOfNeighboursThatTouchComesToRest) {
 }
 
 // It is set down on three light ones, wherever on the top one.
-TEST(SubstepWorld, TheHeaviestPressesNothingThroughTheFloor) {
+TEST(SubstepWorld, HeaviestBodyPressesNothingThroughTheFloor) {
   for (double off = 0; off < 0.5; off += 0.0127) {
     SubstepScene scene;
     scene.add(immovable({0, 0.5}), boxShape(50, 0.5));
@@ -114,7 +114,7 @@ TEST(SubstepWorld, TheHeaviestPressesNothingThroughTheFloor) {
 }
 
 // Where nothing holds them: rounding leaves them a speed, but what drifts goes on.
-TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
+TEST(SubstepWorld, FloatingBodiesSleepAtRestDriftingOnesDoNot) {
   for (const double drift : {0.0, 1e-9}) {
     SubstepScene scene;
     const ConvexShape shape = boxShape(0.2, 0.2);
@@ -133,7 +133,7 @@ TEST(SubstepWorld, WhatFloatsAtRestSleepsAndWhatDriftsDoesNot) {
 }
 
 // Not what gravity pulls, nor what has just been woken.
-TEST(SubstepWorld, WhatBeginsAtRestWithoutGravitySleepsAtOnce) {
+TEST(SubstepWorld, BodyStartedAtRestWithoutGravitySleepsAtOnce) {
   SubstepScene scene;
   const ConvexShape shape = boxShape(0.2, 0.2);
   RigidBody body = movable({0, 0}, shape);
@@ -213,7 +213,7 @@ TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
 }
 
 // It slides along a wall that it does not press: that is one contact, until it leaves.
-TEST(SubstepWorld, AContactLastsWithoutPressure) {
+TEST(SubstepWorld, ContactLastsWithoutPressure) {
   SubstepScene scene(awake());
   scene.addFloor();
   const ConvexShape crate = boxShape(0.5, 0.5);
@@ -233,7 +233,7 @@ TEST(SubstepWorld, AContactLastsWithoutPressure) {
   EXPECT_NEAR(scene.world.body(id).velocity.y, 0, 1e-6);
 }
 
-TEST(SubstepWorld, WhatIsTouchedWakesWithItsGroup) {
+TEST(SubstepWorld, TouchedBodyWakesWithItsGroup) {
   SubstepScene scene;
   scene.addFloor();
   std::vector<int> stack;
@@ -251,7 +251,7 @@ TEST(SubstepWorld, WhatIsTouchedWakesWithItsGroup) {
   scene.world.remove(id);
 }
 
-TEST(SubstepWorld, ARemovedFloorLetsThemFall) {
+TEST(SubstepWorld, RemovedFloorLetsBodiesFall) {
   SubstepScene scene;
   const int floor = scene.addFloor();
   const int lower = scene.addCrate({0, -0.5}), upper = scene.addCrate({0, -1.5});
@@ -265,7 +265,7 @@ TEST(SubstepWorld, ARemovedFloorLetsThemFall) {
   EXPECT_TRUE(scene.world.events().empty());
 }
 
-TEST(SubstepWorld, AKinematicOnePushes) {
+TEST(SubstepWorld, KinematicBodyPushes) {
   SubstepScene scene;
   scene.addFloor();
   const int crate = scene.addCrate({0, -0.5});
@@ -282,7 +282,7 @@ TEST(SubstepWorld, AKinematicOnePushes) {
 }
 
 // Slower than what counts as still; it lies on a floor that stands.
-TEST(SubstepWorld, WhatIsPushedSlowlyDoesNotSleep) {
+TEST(SubstepWorld, SlowlyPushedBodyDoesNotSleep) {
   SubstepScene scene;
   scene.addFloor();
   const int crate = scene.addCrate({0, -0.5});
@@ -297,7 +297,7 @@ TEST(SubstepWorld, WhatIsPushedSlowlyDoesNotSleep) {
 }
 
 // A platform that carries: friction takes the crate along, and it does not sleep on what moves.
-TEST(SubstepWorld, APlatformCarries) {
+TEST(SubstepWorld, MovingPlatformCarriesTheCrate) {
   SubstepScene scene;
   RigidBody platform = immovable({0, 0.5});
   const int carrier = scene.add(platform, boxShape(4, 0.5));
@@ -320,7 +320,7 @@ TEST(SubstepWorld, APlatformCarries) {
   EXPECT_NEAR(scene.at(crate).x - start, 0.05, 1e-3);
 }
 
-TEST(SubstepWorld, AnElasticBallReturns) {
+TEST(SubstepWorld, ElasticBallReturnsToItsHeight) {
   for (const double height : {3.0, 4.3, 5.0, 5.7, 9.1}) {
     SubstepScene scene;
     scene.addFloor();
@@ -338,7 +338,7 @@ TEST(SubstepWorld, AnElasticBallReturns) {
   }
 }
 
-TEST(SubstepWorld, HalfOfTheSpeedIsLeft) {
+TEST(SubstepWorld, RestitutionHalfKeepsHalfTheSpeed) {
   SubstepScene scene;
   scene.add(immovable({10, 0}), boxShape(1, 5));
   RigidBody body = floating({5, 0}, circleShape(0.5), {0.4, 0});
@@ -371,7 +371,7 @@ TEST(SubstepWorld, FrictionHoldsUpToItsAngle) {
   }
 }
 
-TEST(SubstepWorld, MomentumOfAClosedSystemStays) {
+TEST(SubstepWorld, ClosedSystemKeepsItsMomentum) {
   SubstepScene scene(awake());
   const ConvexShape crate = boxShape(0.5, 0.5), disc = circleShape(0.5);
   double scale = 0;
@@ -430,7 +430,7 @@ TEST(SubstepWorld, APileGainsNoEnergy) {
   EXPECT_LT(scene.world.deepest(), 0.03);
 }
 
-TEST(SubstepWorld, WhatIsNotFiniteIsRefused) {
+TEST(SubstepWorld, NonFiniteNumbersAreRefused) {
   SubstepScene scene;
   RigidBody body = movable({0, 0}, circleShape(1));
   body.velocity.x = std::numeric_limits<double>::quiet_NaN();
@@ -444,7 +444,7 @@ TEST(SubstepWorld, WhatIsNotFiniteIsRefused) {
   EXPECT_EQ(scene.world.counters().ticks, 0);
 }
 
-TEST(SubstepWorld, WhatCannotBeCalculatedWithIsFrozenAlone) {
+TEST(SubstepWorld, ExcessiveAccelerationFreezesTheBodyAlone) {
   SubstepScene scene;
   scene.addFloor();
   const int crate = scene.addCrate({0, -0.5}), above = scene.addCrate({0, -1.5});
@@ -466,7 +466,7 @@ TEST(SubstepWorld, WhatCannotBeCalculatedWithIsFrozenAlone) {
   EXPECT_NEAR(scene.at(poisoned).y, -2.5, 1e-2);
 }
 
-TEST(SubstepWorld, IdsAreUsedAgain) {
+TEST(SubstepWorld, IdsAreReused) {
   SubstepScene scene;
   scene.addFloor();
   const int first = scene.addCrate({0, -0.5}), second = scene.addCrate({0, -1.5});

@@ -16,12 +16,12 @@ TEST(AddressPrefix, IsTheWholeIPv4Address) {
   EXPECT_NE(of("0.0.0.0"), of("::"));
 }
 
-TEST(AddressPrefix, IsTheFirstHalfOfAnIPv6Address) {
+TEST(AddressPrefix, IsTheFirstHalfOfIPv6) {
   EXPECT_EQ(of("2001:db8:1:2::1"), of("2001:db8:1:2:ffff:ffff:ffff:ffff"));
   EXPECT_NE(of("2001:db8:1:2::1"), of("2001:db8:1:3::1"));
 }
 
-TEST(AddressPrefix, IsReadFromTheNameOfAPeer) {
+TEST(AddressPrefix, IsParsedFromAnEndpoint) {
   EXPECT_EQ(AddressPrefix::ofEndpoint("192.0.2.1:40000"), of("192.0.2.1"));
   EXPECT_EQ(AddressPrefix::ofEndpoint("[2001:db8:1:2::1]:9"), of("2001:db8:1:2::2"));
   for (const char* text :
@@ -30,7 +30,7 @@ TEST(AddressPrefix, IsReadFromTheNameOfAPeer) {
   }
 }
 
-TEST(AddressPrefix, HasWiderOnesAsCustomersHave) {
+TEST(AddressPrefix, HasWiderPrefixesForCustomerNetworks) {
   EXPECT_EQ(of("192.0.2.1").wide(), of("192.0.2.255").wide());
   EXPECT_NE(of("192.0.2.1").wide(), of("192.0.3.1").wide());
   EXPECT_EQ(of("192.0.2.1").widest(), of("192.0.2.255").widest());

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 const IdleTimer::Time kBegin{1000s};
 
-TEST(IdleTimer, LastsSinceTheLastMessage) {
+TEST(IdleTimer, CountsSinceTheLastMessage) {
   IdleTimer silence(kBegin);
   EXPECT_EQ(silence.at(kBegin + 300ms), 300ms);
   silence.heard(kBegin + 400ms);
@@ -39,7 +39,7 @@ TEST(IdleTimer, RestartsWithTheFirstReadAfterAnAbsence) {
   EXPECT_LE(silence.at(kBegin + 1h + 1ms), 1ms);
 }
 
-TEST(IdleTimer, DoesNotMindAClockThatIsReadLate) {
+TEST(IdleTimer, ToleratesTimesInTheWrongOrder) {
   IdleTimer silence(kBegin);
   silence.listen(kBegin + 300ms);
   silence.listen(kBegin + 200ms);

@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 constexpr LinkStats::Time kStart{1h};
 
-TEST(LinkStats, SmoothsByEighths) {
+TEST(LinkStats, SmoothsWithWeightOneEighth) {
   LinkStats stats;
   EXPECT_EQ(stats.smoothed(), 0ms);
   stats.addSample(80ms, kStart);
@@ -20,7 +20,7 @@ TEST(LinkStats, SmoothsByEighths) {
   EXPECT_EQ(stats.smoothed(), 90ms);
 }
 
-TEST(LinkStats, ForgetsTheShortestAfterTenSeconds) {
+TEST(LinkStats, MinimumExpiresAfterTenSeconds) {
   LinkStats stats;
   stats.addSample(20ms, kStart);
   for (auto time = 1s; time < 10s; time += 1s) stats.addSample(80ms, kStart + time);

@@ -21,7 +21,7 @@ TEST(PathProbe, IsOpenForASecondAfterEvidence) {
   EXPECT_TRUE(probe.isDue(kProbed + 1s, false));
 }
 
-TEST(PathProbe, MayBeginWhileThePathIsStillOpen) {
+TEST(PathProbe, MayProbeWhileThePathIsStillOpen) {
   PathProbe probe(400ms, kProbed - 1min);
   probe.addEvidence(kProbed);
   EXPECT_FALSE(probe.isDue(kProbed + 399ms, true));
@@ -31,7 +31,7 @@ TEST(PathProbe, MayBeginWhileThePathIsStillOpen) {
   EXPECT_TRUE(probe.isDue(kProbed + 500ms, false));
 }
 
-TEST(PathProbe, WithoutEvidenceEverThereIsNothingToBeEagerAbout) {
+TEST(PathProbe, WithoutEvidenceProbesAreOneSecondApart) {
   PathProbe probe(400ms, kProbed - 1min);
   probe.probeSent(kProbed);
   EXPECT_FALSE(probe.isDue(kProbed + 999ms, false));

@@ -28,14 +28,14 @@ struct PerAddressTest {
   SplitMix64 rng{2};
 };
 
-TEST(PerAddress, PrefixesDoNotTouchEachOther) {
+TEST(PerAddress, PrefixesHaveSeparateBuckets) {
   PerAddressTest table;
   for (std::uint64_t number = 0; number < 100; ++number) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(table.takeToken(number, kFirst), i < 3);
   }
 }
 
-TEST(PerAddress, FloodOfPrefixesOnlyFillsBuckets) {
+TEST(PerAddress, PrefixFloodKeepsTheTableBounded) {
   PerAddressTest table;
   for (int i = 0; i < 4; ++i) EXPECT_EQ(table.takeToken(42, kFirst), i < 3);
   for (int i = 0; i < 100'000; ++i) EXPECT_TRUE(table.takeToken(table.rng.next(), kFirst + 1ms));
@@ -43,7 +43,7 @@ TEST(PerAddress, FloodOfPrefixesOnlyFillsBuckets) {
   EXPECT_EQ(table.buckets.size(), 4096u);
 }
 
-TEST(PerAddress, BusyPrefixKeepsItsPlace) {
+TEST(PerAddress, BusyPrefixIsNotEvicted) {
   PerAddressTest table;
   int taken = 0;
   Time now = kFirst;
@@ -65,7 +65,7 @@ TEST(PerAddress, EvictsTheLeastRecentlyUsed) {
   EXPECT_EQ(*table.find(prefix(3)), 30);
 }
 
-TEST(PerAddress, ErasedPrefixesMakeRoom) {
+TEST(PerAddress, ErasedPrefixesFreeTheirSlot) {
   PerAddress<int> table(2);
   table.use(prefix(1)) = 10;
   table.use(prefix(2)) = 20;

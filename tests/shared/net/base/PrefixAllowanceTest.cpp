@@ -25,7 +25,7 @@ class PrefixAllowanceTest : public testing::Test {
   PrefixAllowance::Time now{1h};
 };
 
-TEST_F(PrefixAllowanceTest, OneAddressHasItsOwnAndSharesThatOfItsNetwork) {
+TEST_F(PrefixAllowanceTest, AddressHasItsLimitAndSharesItsNetworks) {
   PrefixAllowance allowance({{1, 5}, {2, 8}, std::nullopt});
   EXPECT_EQ(take(allowance, "192.0.2.1", 100), 5);
   EXPECT_EQ(take(allowance, "192.0.2.2", 100), 3);
@@ -34,14 +34,14 @@ TEST_F(PrefixAllowanceTest, OneAddressHasItsOwnAndSharesThatOfItsNetwork) {
   EXPECT_EQ(take(allowance, "192.0.2.1", 100), 1);
 }
 
-TEST_F(PrefixAllowanceTest, WhoIsOverTheirLimitTakesNothingFromTheNetwork) {
+TEST_F(PrefixAllowanceTest, AddressOverItsLimitDoesNotChargeItsNetwork) {
   PrefixAllowance allowance({{1, 5}, {2, 8}, BucketRate{1, 9}});
   EXPECT_EQ(take(allowance, "192.0.2.1", 100'000), 5);
   EXPECT_EQ(take(allowance, "192.0.2.2", 100'000), 3);
   EXPECT_EQ(take(allowance, "198.51.100.1", 100), 1) << "of all";
 }
 
-TEST_F(PrefixAllowanceTest, AskingTakesNothing) {
+TEST_F(PrefixAllowanceTest, CheckingConsumesNoTokens) {
   PrefixAllowance allowance({{1, 2}, {2, 3}, std::nullopt});
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(allowance.has(of("192.0.2.1"), now));
   EXPECT_EQ(take(allowance, "192.0.2.1", 100), 2);
@@ -53,7 +53,7 @@ TEST_F(PrefixAllowanceTest, AskingTakesNothing) {
   EXPECT_TRUE(allowance.has(of("192.0.2.1"), now));
 }
 
-TEST_F(PrefixAllowanceTest, AClassOf64ComesTwiceWithSecondStreamsAndEachEveryEightSeconds) {
+TEST_F(PrefixAllowanceTest, ClassOf64JoinsTwiceThenEveryEightSeconds) {
   PrefixAllowance handshakes(PrefixRates::handshakes(64));
   EXPECT_EQ(take(handshakes, "192.0.2.1", 300), 256);
   for (int i = 0; i < 10; ++i) {
@@ -62,7 +62,7 @@ TEST_F(PrefixAllowanceTest, AClassOf64ComesTwiceWithSecondStreamsAndEachEveryEig
   }
 }
 
-TEST_F(PrefixAllowanceTest, AClassOf64SpeaksAtOnceAndEachEveryFourSeconds) {
+TEST_F(PrefixAllowanceTest, ClassOf64ChatsTogetherThenEveryFourSeconds) {
   PrefixAllowance chat(PrefixRates::chat(64));
   EXPECT_EQ(take(chat, "192.0.2.1", 64 * 3), 64 * 3);
   EXPECT_EQ(take(chat, "192.0.2.1", 1), 0);
@@ -72,7 +72,7 @@ TEST_F(PrefixAllowanceTest, AClassOf64SpeaksAtOnceAndEachEveryFourSeconds) {
   }
 }
 
-TEST_F(PrefixAllowanceTest, AnAddressThatMayHaveMorePlayersHasMore) {
+TEST_F(PrefixAllowanceTest, AllowanceGrowsWithPlayersPerAddress) {
   PrefixAllowance joins(PrefixRates::joins(200));
   EXPECT_EQ(take(joins, "192.0.2.1", 400), 400);
   PrefixAllowance few(PrefixRates::joins(1));

@@ -24,7 +24,7 @@ struct SafeFileTest : testing::Test {
   const fs::path path = base / "file";
 };
 
-TEST_F(SafeFileTest, ReplacesWholeAndForItsOwnerAlone) {
+TEST_F(SafeFileTest, ReplacedFileIsCompleteAndOwnerOnly) {
   std::ofstream(path) << "something longer, open to all";
   fs::permissions(path, fs::perms::owner_all | fs::perms::others_read);
   EXPECT_TRUE(openToOthers(path));
@@ -34,14 +34,14 @@ TEST_F(SafeFileTest, ReplacesWholeAndForItsOwnerAlone) {
   EXPECT_EQ(filesThere(), 1);
 }
 
-TEST_F(SafeFileTest, MakesOnlyWhatIsNotThere) {
+TEST_F(SafeFileTest, MakeFileDoesNotOverwrite) {
   EXPECT_TRUE(makeFile(path, "first"));
   EXPECT_FALSE(makeFile(path, "second"));
   EXPECT_EQ(readSmallFile(path, 100), "first");
   EXPECT_EQ(filesThere(), 1);
 }
 
-TEST_F(SafeFileTest, SaysWhatTheSystemRefuses) {
+TEST_F(SafeFileTest, SystemErrorsAreThrown) {
   EXPECT_EQ(readSmallFile(path, 100), std::nullopt);
   makeFile(path, "four");
   EXPECT_THROW(readSmallFile(path, 3), std::system_error);
@@ -50,7 +50,7 @@ TEST_F(SafeFileTest, SaysWhatTheSystemRefuses) {
   EXPECT_THROW(openToOthers(base / "none"), std::system_error);
 }
 
-TEST_F(SafeFileTest, APipeIsNotWaitedFor) {
+TEST_F(SafeFileTest, PipesAreRefusedWithoutBlocking) {
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   EXPECT_THROW(readSmallFile(path, 100), std::system_error);
   EXPECT_THROW(publishFile(path, "x"), std::system_error);
@@ -59,7 +59,7 @@ TEST_F(SafeFileTest, APipeIsNotWaitedFor) {
   EXPECT_NO_THROW(requireRegular(base / "none"));
 }
 
-TEST_F(SafeFileTest, WhatIsPublishedReplacesALinkAndIsReadableByAll) {
+TEST_F(SafeFileTest, PublishReplacesALinkAndIsWorldReadable) {
   const fs::path other = base / "other";
   std::ofstream(other) << "precious";
   fs::create_symlink(other, path);
@@ -75,7 +75,7 @@ TEST_F(SafeFileTest, WhatIsPublishedReplacesALinkAndIsReadableByAll) {
   EXPECT_EQ(filesThere(), 2);
 }
 
-TEST_F(SafeFileTest, AReaderSeesTheOldOrTheNewButNoPart) {
+TEST_F(SafeFileTest, OpenReaderKeepsSeeingTheWholeOldFile) {
   publishFile(path, std::string(100'000, 'a'));
   std::ifstream reader(path);
   publishFile(path, std::string(100'000, 'b'));

@@ -24,7 +24,7 @@ TEST(TokenBucket, GivesItsBurstAndThenItsRate) {
   EXPECT_EQ(taken, 110);
 }
 
-TEST(TokenBucket, TimeThatGoesBackGivesNothing) {
+TEST(TokenBucket, BackwardTimeGivesNoTokens) {
   const BucketRate rate{.per_second = 1000, .burst = 1};
   TokenBucket bucket;
   EXPECT_TRUE(bucket.takeToken(rate, kFull));
@@ -33,7 +33,7 @@ TEST(TokenBucket, TimeThatGoesBackGivesNothing) {
   EXPECT_TRUE(bucket.takeToken(rate, kFull + 1ms));
 }
 
-TEST(TokenBucket, ForcedTokensMakeADebtOfAtMostABurst) {
+TEST(TokenBucket, ForcedTokensAddDebtOfAtMostABurst) {
   const BucketRate rate{.per_second = 1, .burst = 3};
   TokenBucket bucket;
   for (int i = 0; i < 100; ++i) bucket.forceToken(rate, kFull);

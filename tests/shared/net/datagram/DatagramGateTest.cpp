@@ -89,7 +89,7 @@ TEST(DatagramGate, FindsTheSessionByItsId) {
   EXPECT_EQ(gate.counters().delivered, 2u);
 }
 
-TEST(DatagramGate, IdsAreUniqueAndCanBeGivenUp) {
+TEST(DatagramGate, IdsAreUniqueAndReusableAfterRemoval) {
   DatagramGate gate;
   Guest ann(gate, 1);
   SealedLink other({.role = SealedLink::Role::kServer, .id = {1}, .random = [] { return 0; }, .limits = {}});
@@ -102,7 +102,7 @@ TEST(DatagramGate, IdsAreUniqueAndCanBeGivenUp) {
   EXPECT_TRUE(gate.add(other, [](std::string_view) {}));
 }
 
-TEST(DatagramGate, RefusalsAreCountedWhereTheyHappen) {
+TEST(DatagramGate, RefusalsAreCountedByReason) {
   DatagramGate gate;
   Guest ann(gate, 1);
   const std::string packet = ann.seal("x");
@@ -144,7 +144,7 @@ TEST(DatagramGate, HandlerMayRemoveItsSession) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST(DatagramGate, ForgersWhoKnowNoIdReachNoCryptography) {
+TEST(DatagramGate, ForgersWithoutAnIdReachNoCryptography) {
   DatagramGate gate;
   Guest ann(gate, 1);
   SplitMix64 rng(3);
@@ -177,7 +177,7 @@ TEST(DatagramGate, ForgedFloodLeavesAProvenSessionUnharmed) {
   EXPECT_GT(gate.counters().claimed_flood, 290'000u);
 }
 
-TEST(DatagramGate, FloodForOneSessionDoesNotKeepOthersFromRoaming) {
+TEST(DatagramGate, FloodOnOneSessionDoesNotStopOthersRoaming) {
   DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.settle();
@@ -188,7 +188,7 @@ TEST(DatagramGate, FloodForOneSessionDoesNotKeepOthersFromRoaming) {
   EXPECT_EQ(ben.heard, std::vector<std::string>{"roamed"});
 }
 
-TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
+TEST(DatagramGate, FloodFromOnePrefixIsLimitedToIt) {
   DatagramGateRates rates;
   rates.prefix = {.per_second = 1, .burst = 50};
   DatagramGate gate(rates);
@@ -208,7 +208,7 @@ TEST(DatagramGate, FloodFromOnePrefixStaysThere) {
   }
 }
 
-TEST(DatagramGate, StrangersHaveOneLimitInAll) {
+TEST(DatagramGate, UnprovenAddressesShareOneLimit) {
   DatagramGateRates rates;
   rates.strangers = {.per_second = 10, .burst = 100};
   DatagramGate gate(rates);
@@ -223,7 +223,7 @@ TEST(DatagramGate, StrangersHaveOneLimitInAll) {
   EXPECT_EQ(guests[0]->heard.size(), 100u);
 }
 
-TEST(DatagramGate, SessionHasAnAllowanceOfItsOwn) {
+TEST(DatagramGate, EachSessionHasItsOwnRateLimit) {
   DatagramGate gate;
   Guest ann(gate, 1), ben(gate, 2);
   ann.settle();
@@ -238,7 +238,7 @@ TEST(DatagramGate, SessionHasAnAllowanceOfItsOwn) {
   EXPECT_EQ(ann.heard.size(), 750u);
 }
 
-TEST(DatagramGate, ReplaysSpendNothing) {
+TEST(DatagramGate, ReplaysConsumeNoRateLimit) {
   DatagramGate gate;
   Guest ann(gate, 1);
   ann.settle();

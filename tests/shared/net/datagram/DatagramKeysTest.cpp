@@ -16,7 +16,7 @@ std::string hexOf(const SealKey& key, std::size_t key_size) {
 }
 
 // Computed with HMAC-SHA256 in Python from the exporter_master_secret 00 01 … 1f.
-TEST(DatagramKeys, KnownAnswers) {
+TEST(DatagramKeys, MatchKnownAnswers) {
   const DatagramKeys aes = deriveDatagramKeys(knownExporter(), AeadId::kAes128Gcm, kKnownId, 0x13);
   EXPECT_EQ(hexOf(aes.client, 16), "4bf58675aeb5d26a6fb351d2ba56c3d4 84784d40194d0940a7028eaf");
   EXPECT_EQ(hexOf(aes.server, 16), "8ebd5d909a24e84b1f9686b6ddfe75f1 d644bd65fb79bc54285b075c");
@@ -27,7 +27,7 @@ TEST(DatagramKeys, KnownAnswers) {
             "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137 14a508dfd5a797fd08477130");
 }
 
-TEST(DatagramKeys, ExporterIsAskedForWhatThePageSays) {
+TEST(DatagramKeys, ExporterGetsTheDocumentedLabelAndContext) {
   std::string label, context;
   std::size_t asked = 0;
   const KeyExporter spy = [&](std::string_view l, std::string_view c, std::size_t bytes) {
@@ -59,14 +59,14 @@ TEST(DatagramKeys, NoTwoSessionsEpochsOrCiphersShareKeys) {
   EXPECT_EQ(all.size(), 2u * 3 * 4 * 2 * 2);
 }
 
-TEST(DatagramKeys, ExporterThatFailsIsAnError) {
+TEST(DatagramKeys, FailingExporterIsAnError) {
   for (const std::size_t size : {0u, 55u, 57u}) {
     const KeyExporter broken = [&](auto, auto, std::size_t) { return std::string(size, 'k'); };
     EXPECT_THROW(deriveDatagramKeys(broken, AeadId::kAes128Gcm, kKnownId, 0), KeyExportError) << size;
   }
 }
 
-TEST(DatagramKeys, OnlyKnownCiphersHaveNumbers) {
+TEST(DatagramKeys, UnknownCipherNumbersAreRefused) {
   EXPECT_EQ(aeadFromWire(1), AeadId::kAes128Gcm);
   EXPECT_EQ(aeadFromWire(2), AeadId::kChaCha20Poly1305);
   for (const std::uint32_t number : {0u, 3u, 255u, 257u, 0xffffffffu}) EXPECT_FALSE(aeadFromWire(number));

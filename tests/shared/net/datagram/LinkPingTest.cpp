@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 using Millis = LinkPing::Millis;
 
-TEST(LinkPing, MeasuresTheWayThereAndBackWithoutTheWait) {
+TEST(LinkPing, MeasuresRoundTripWithoutServerDelay) {
   LinkPair pair;
   pair.settle(pair.home);
   EXPECT_FALSE(pair.client.takeRoundTrip());
@@ -29,7 +29,7 @@ TEST(LinkPing, MeasuresTheWayThereAndBackWithoutTheWait) {
   EXPECT_FALSE(pair.client.takeRoundTrip());
 }
 
-TEST(LinkPing, WhatIsLostOrLateSaysNothing) {
+TEST(LinkPing, LateOrLongHeldPingsAreIgnored) {
   LinkPair pair;
   pair.settle(pair.home);
   pair.client.ping();
@@ -51,7 +51,7 @@ TEST(LinkPing, WhatIsLostOrLateSaysNothing) {
   EXPECT_EQ(pair.client.takeRoundTrip(), Millis(0));
 }
 
-TEST(LinkPing, AServerThatHeldItLongerThanItTookIsNotBelieved) {
+TEST(LinkPing, HoldTimeAboveTheRoundTripGivesZero) {
   LinkPing ping;
   const LinkPing::Time now{1h};
   ping.ask();
@@ -64,7 +64,7 @@ TEST(LinkPing, AServerThatHeldItLongerThanItTookIsNotBelieved) {
   EXPECT_FALSE(ping.takeRoundTrip()) << "a second answer";
 }
 
-TEST(LinkPing, WaitsForAPacketWithRoom) {
+TEST(LinkPing, WaitsForAPacketWithFreeSpace) {
   LinkPair pair;
   pair.toServer(pair.fromClient("here"));
   pair.toClient(pair.fromServer("who?"));  // an answer of 8 bytes is now pending
@@ -78,7 +78,7 @@ TEST(LinkPing, WaitsForAPacketWithRoom) {
   EXPECT_TRUE(pair.client.takeRoundTrip());
 }
 
-TEST(LinkPing, AnUnprovenAddressGetsNoMoreForIt) {
+TEST(LinkPing, PingDoesNotRaiseAnUnprovenAddressesLimit) {
   LinkPair pair;
   pair.client.ping();
   const std::string ping = pair.fromClient("");

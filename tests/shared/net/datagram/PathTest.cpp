@@ -8,14 +8,14 @@
 namespace naiad {
 namespace {
 
-TEST(Endpoint, PrintsAsPeopleWriteIt) {
+TEST(Endpoint, PrintsInStandardNotation) {
   EXPECT_EQ(toString(*makeEndpoint("127.0.0.1", 40'000)), "127.0.0.1:40000");
   EXPECT_EQ(toString(*makeEndpoint("::1", 80)), "[::1]:80");
   EXPECT_EQ(toString(*makeEndpoint("2001:db8::5", 1)), "[2001:db8::5]:1");
   EXPECT_EQ(toString(Path{*makeEndpoint("127.0.0.2", 1), *makeEndpoint("::1", 2)}), "127.0.0.2:1 <- [::1]:2");
 }
 
-TEST(Endpoint, RefusesWhatIsNoNumericAddress) {
+TEST(Endpoint, RefusesNonNumericAddresses) {
   for (const char* text : {"", "localhost", "1.2.3", "1.2.3.4:5", "::1::2", "256.0.0.1"})
     EXPECT_FALSE(makeEndpoint(text, 1)) << text;
 }
@@ -26,7 +26,7 @@ TEST(Endpoint, MappedAddressIsTheIPv4Address) {
   EXPECT_FALSE(makeEndpoint("::10.1.2.3", 5)->isIPv4());
 }
 
-TEST(Endpoint, KnowsAnyAddress) {
+TEST(Endpoint, RecognisesTheUnspecifiedAddress) {
   EXPECT_TRUE(makeEndpoint("0.0.0.0", 5)->isAny());
   EXPECT_TRUE(makeEndpoint("::", 5)->isAny());
   EXPECT_TRUE(Endpoint{}.isAny());
@@ -34,7 +34,7 @@ TEST(Endpoint, KnowsAnyAddress) {
   EXPECT_FALSE(makeEndpoint("::1", 0)->isAny());
 }
 
-TEST(Endpoint, EveryPartDistinguishes) {
+TEST(Endpoint, EveryPartMattersForEquality) {
   const Endpoint base = *makeEndpoint("fe80::1%1", 5);
   std::unordered_set<Endpoint> all{base};
   for (const char* other : {"fe80::1%2", "fe80::2%1", "fe80:0:0:1::1%1", "::ffff:1.2.3.4"})
@@ -45,7 +45,7 @@ TEST(Endpoint, EveryPartDistinguishes) {
   EXPECT_EQ(paths.size(), 4u);
 }
 
-TEST(Endpoint, PrefixIsTheAddressForIPv4AndTheNetworkForIPv6) {
+TEST(Endpoint, PrefixIsTheAddressOrIPv6Network) {
   const auto prefix = [](const char* text, std::uint16_t port = 1) {
     return makeEndpoint(text, port)->prefix();
   };

@@ -18,7 +18,7 @@ Verdict plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
   return old ? Verdict::kTooOld : Verdict::kNew;
 }
 
-TEST(ReplayWindow, AgreesWithASetOfAllNumbers) {
+TEST(ReplayWindow, MatchesASetOfAllNumbers) {
   SplitMix64 rng(3);
   for (int round = 0; round < 60; ++round) {
     ReplayWindow window;
@@ -40,7 +40,7 @@ TEST(ReplayWindow, AgreesWithASetOfAllNumbers) {
   }
 }
 
-TEST(ReplayWindow, EveryPlaceInTheWindowIsItsOwn) {
+TEST(ReplayWindow, EverySlotInTheWindowIsIndependent) {
   for (const std::uint64_t newest : {1023u, 1024u, 5000u, 65'536u}) {
     ReplayWindow window;
     window.mark(newest);
@@ -56,7 +56,7 @@ TEST(ReplayWindow, EveryPlaceInTheWindowIsItsOwn) {
   }
 }
 
-TEST(ReplayWindow, JumpForgetsExactlyWhatFallsOut) {
+TEST(ReplayWindow, JumpForgetsOnlyNumbersOutsideTheWindow) {
   for (std::uint64_t jump = 1; jump < 2 * ReplayWindow::kSize; ++jump) {
     ReplayWindow window;
     for (std::uint64_t i = 0; i < ReplayWindow::kSize; ++i) window.mark(i);
@@ -71,11 +71,11 @@ TEST(ReplayWindow, JumpForgetsExactlyWhatFallsOut) {
   }
 }
 
-TEST(RestoreSequence, ExampleOfTheRfc) {
+TEST(RestoreSequence, MatchesTheRfcExample) {
   EXPECT_EQ(restoreSequence(0xa82f30ea + 1, 0x9b32), 0xa82f9b32u);  // RFC 9000, A.3
 }
 
-TEST(RestoreSequence, WhateverIsNearComesBack) {
+TEST(RestoreSequence, NearbyNumbersAreRestored) {
   SplitMix64 rng(9);
   for (int i = 0; i < 300'000; ++i) {
     const std::uint64_t expected = rng.below(3) == 0 ? rng.below(200'000) : rng.next() >> (2 + rng.below(60));

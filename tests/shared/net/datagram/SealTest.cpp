@@ -100,7 +100,7 @@ const KnownAnswer kKnownAnswers[] = {
       "2302012717c3d916a5ef3a5c231b3d413875a05a507ea0ffcf"}},
 };
 
-TEST(Seal, KnownAnswers) {
+TEST(Seal, MatchesKnownAnswers) {
   for (const KnownAnswer& known : kKnownAnswers) {
     const DatagramKeys keys = knownKeys(known.aead, kKnownId, 0x13);
     Sealer sealer(known.direction == SealDirection::kClientToServer ? keys.client : keys.server);
@@ -114,7 +114,7 @@ TEST(Seal, KnownAnswers) {
   }
 }
 
-TEST(Seal, PlainEvpOpensWhatWasSealed) {
+TEST(Seal, PlainOpenSslOpensSealedPackets) {
   SplitMix64 rng(1);
   for (const AeadId aead : kBothAeads) {
     const DatagramKeys keys = knownKeys(aead);
@@ -129,7 +129,7 @@ TEST(Seal, PlainEvpOpensWhatWasSealed) {
   }
 }
 
-TEST(Seal, OpensAcrossManyWrapsOfTheNumberOnTheWire) {
+TEST(Seal, OpensAcrossManySequenceNumberWraps) {
   for (const AeadId aead : kBothAeads) {
     Ends ends(aead);
     SplitMix64 rng(2);
@@ -224,7 +224,7 @@ TEST(Seal, PacketsBehindTheWindowAreTooOld) {
   EXPECT_EQ(openWith(ends.opener, second), OpenResult::kOpened);
 }
 
-TEST(Seal, StopsBeforeItsLimit) {
+TEST(Seal, SealingStopsAtTheKeyLimit) {
   const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
   Sealer sealer(keys.client, {.new_epoch_after = 3, .most = 5});
   for (int i = 0; i < 5; ++i) {
@@ -238,7 +238,7 @@ TEST(Seal, StopsBeforeItsLimit) {
   EXPECT_EQ(SealLimits{}.new_epoch_after, 1u << 23);
 }
 
-TEST(Seal, KeyThatSawTooManyForgeriesOpensNothing) {
+TEST(Seal, KeyWithTooManyForgeriesOpensNothing) {
   EXPECT_EQ(mostFailedOpens(AeadId::kAes128Gcm), std::uint64_t{1} << 52);
   EXPECT_EQ(mostFailedOpens(AeadId::kChaCha20Poly1305), std::uint64_t{1} << 36);
   const DatagramKeys keys = knownKeys(AeadId::kChaCha20Poly1305);

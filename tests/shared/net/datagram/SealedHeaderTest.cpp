@@ -16,7 +16,7 @@ std::string packetOf(SealDirection direction, std::size_t size) {
   return packet;
 }
 
-TEST(SealedHeader, BytesAreWhereThePageSaysTheyAre) {
+TEST(SealedHeader, LayoutMatchesTheDocument) {
   std::string packet(40, '\0');
   EXPECT_EQ(writeSealedPrefix(SealDirection::kClientToServer, 0x25, {0x0807060504030201}, packet.data()), 9u);
   EXPECT_EQ(packet.substr(0, 9), "\x15\x01\x02\x03\x04\x05\x06\x07\x08");
@@ -24,7 +24,7 @@ TEST(SealedHeader, BytesAreWhereThePageSaysTheyAre) {
   EXPECT_EQ(packet[0], '\x25');
 }
 
-TEST(SealedHeader, ReadsWhatWasWritten) {
+TEST(SealedHeader, SurvivesTheRoundTrip) {
   for (const SealDirection direction : kBoth) {
     std::string packet(100, '\0');
     const std::size_t prefix = writeSealedPrefix(direction, 0xabcdef7, {~0ull - 9}, packet.data());

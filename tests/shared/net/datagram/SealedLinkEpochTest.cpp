@@ -54,7 +54,7 @@ TEST(SealedLinkEpoch, ClientUsesNewKeysOnceTheServerHasThem) {
   EXPECT_EQ(pair.fromClient("x")[0] & 15, 1);
 }
 
-TEST(SealedLinkEpoch, ClientThatHearsNothingUsesNewKeysWhenTheOldOnesExpire) {
+TEST(SealedLinkEpoch, ClientWithoutRepliesSwitchesWhenOldKeysExpire) {
   LinkPair pair;
   pair.settle(pair.home);
   pair.client.startEpoch(1, pair.keys(1), pair.now);
@@ -81,7 +81,7 @@ TEST(SealedLinkEpoch, ManyEpochsFollowEachOther) {
   EXPECT_EQ(pair.server.counters().path_changes, 1u);
 }
 
-TEST(SealedLinkEpoch, EpochsOnlyGoForwardAndNotTooFar) {
+TEST(SealedLinkEpoch, EpochsAdvanceOnlyByALimitedStep) {
   LinkPair pair;
   EXPECT_TRUE(pair.client.startEpoch(15, pair.keys(15), pair.now));
   for (const Epoch epoch : {0u, 14u, 15u, 31u, 0xffffffffu})
@@ -90,7 +90,7 @@ TEST(SealedLinkEpoch, EpochsOnlyGoForwardAndNotTooFar) {
   EXPECT_TRUE(pair.client.startEpoch(30, pair.keys(30), pair.now));
 }
 
-TEST(SealedLinkEpoch, LimitsOfTheKeyAreShownAndHeld) {
+TEST(SealedLinkEpoch, KeyLimitIsReportedAndEnforced) {
   LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 8});
   for (int i = 0; i < 8; ++i) {
     EXPECT_EQ(pair.client.wantsNewEpoch(), i >= 5);
@@ -105,7 +105,7 @@ TEST(SealedLinkEpoch, LimitsOfTheKeyAreShownAndHeld) {
 }
 
 // Only the client makes new streams, so it also watches the limit of the server's key.
-TEST(SealedLinkEpoch, AClientSeesTheLimitOfTheServersKey) {
+TEST(SealedLinkEpoch, ClientWatchesTheServersKeyLimit) {
   LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 100});
   pair.settle(pair.home);  // otherwise the server may send only three times the bytes received
   for (int i = 1; i < 5; ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(SealedLinkPath, NewestPacketNamesTheAddress) {
+TEST(SealedLinkPath, NewestPacketSetsThePeerAddress) {
   LinkPair pair;
   const Path roamed = pathFrom("203.0.113.1");
   pair.settle(pair.home);
@@ -22,7 +22,7 @@ TEST(SealedLinkPath, NewestPacketNamesTheAddress) {
   EXPECT_EQ(pair.server.counters().path_changes, 2u);
 }
 
-TEST(SealedLinkPath, OlderEpochNamesNoAddress) {
+TEST(SealedLinkPath, OlderEpochDoesNotChangeTheAddress) {
   LinkPair pair;
   pair.settle(pair.home);
   std::string late;
@@ -34,7 +34,7 @@ TEST(SealedLinkPath, OlderEpochNamesNoAddress) {
   EXPECT_EQ(pair.server.path(), pair.home);
 }
 
-TEST(SealedLinkPath, ReplaysAndForgeriesNameNoAddress) {
+TEST(SealedLinkPath, ReplaysAndForgeriesDoNotChangeTheAddress) {
   LinkPair pair;
   pair.settle(pair.home);
   const std::string packet = pair.fromClient("x");
@@ -46,7 +46,7 @@ TEST(SealedLinkPath, ReplaysAndForgeriesNameNoAddress) {
   EXPECT_EQ(pair.server.path(), pair.home);
 }
 
-TEST(SealedLinkPath, UnprovenAddressGetsThreeTimesItsBytes) {
+TEST(SealedLinkPath, UnprovenAddressGetsAtMostThreeTimesItsBytes) {
   LinkPair pair;
   pair.settle(pair.home);
   for (const std::size_t size : {0u, 1u, 50u, 1000u}) {
@@ -109,7 +109,7 @@ TEST(SealedLinkPath, LostChallengesAndAnswersAreRepeated) {
   EXPECT_TRUE(pair.server.isValidated(pair.home));
 }
 
-TEST(SealedLinkPath, AnswerToAnotherAddressProvesNothing) {
+TEST(SealedLinkPath, AnswerFromAnotherAddressProvesNothing) {
   LinkPair pair;
   const Path victim = pathFrom("203.0.113.1");
   pair.toServer(pair.fromClient(std::string(200, 'x')));
@@ -121,7 +121,7 @@ TEST(SealedLinkPath, AnswerToAnotherAddressProvesNothing) {
   EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
 }
 
-TEST(SealedLinkPath, OnlyTheAnswerToItsOwnChallengeProvesAnAddress) {
+TEST(SealedLinkPath, AddressIsProvenOnlyByItsOwnChallenge) {
   LinkPair pair;
   const Path victim = pathFrom("203.0.113.1");
   pair.toServer(pair.fromClient(std::string(200, 'x')));
@@ -135,7 +135,7 @@ TEST(SealedLinkPath, OnlyTheAnswerToItsOwnChallengeProvesAnAddress) {
   EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
 }
 
-TEST(SealedLinkPath, ComingBackToTheProvenAddressCostsNothing) {
+TEST(SealedLinkPath, ReturnToAProvenAddressNeedsNoChallenge) {
   LinkPair pair;
   pair.settle(pair.home);
   const std::string copied = pair.fromClient("copied by someone on the way");

@@ -49,7 +49,7 @@ TEST(SealedLink, WithoutKeysNothingIsSealedOrOpened) {
   EXPECT_EQ(client.counters().unknown_epoch, 1u);
 }
 
-TEST(SealedLink, LargestPayloadsFitExactlyAndAlways) {
+TEST(SealedLink, LargestPayloadsAlwaysFitExactly) {
   LinkPair pair;
   EXPECT_EQ(pair.client.maxPayload(), 1164u);
   EXPECT_EQ(pair.server.maxPayload(), 1172u);
@@ -95,7 +95,7 @@ TEST(SealedLink, EveryRefusalHasItsCounter) {
   EXPECT_EQ(counted.opened, 1u);
 }
 
-TEST(SealedLink, ThrownBackPacketsAreRefused) {
+TEST(SealedLink, ReflectedPacketsAreRefused) {
   LinkPair pair;
   const std::string up = pair.fromClient("up");
   pair.toServer(up);
@@ -106,7 +106,7 @@ TEST(SealedLink, ThrownBackPacketsAreRefused) {
   EXPECT_EQ(pair.server.counters().bad_kind, 1u);
 }
 
-TEST(SealedLink, AuthenticNonsenseIsCountedAndMovesNothing) {
+TEST(SealedLink, AuthenticMalformedPacketsAreCountedAndIgnored) {
   LinkPair pair;
   pair.toServer(pair.fromClient("x"));
   Sealer sealer(pair.keys(0).client);

@@ -137,7 +137,7 @@ TEST(SealedSoak, CleanNetworkLosesNothing) {
   }
 }
 
-TEST(SealedSoak, RoamingNewKeysAndForgersOverABadNetwork) {
+TEST(SealedSoak, SurvivesRoamingRekeyingAndForgersOnBadNetwork) {
   World world({.delay = 50ms, .jitter = 40ms, .loss = 0.05, .duplicate = 0.02}, 6);
   SplitMix64 rng(4);
   std::set<Endpoint> victims;
@@ -173,7 +173,7 @@ TEST(SealedSoak, RoamingNewKeysAndForgersOverABadNetwork) {
   for (const Endpoint& victim : victims) EXPECT_LE(world.ledger.to[victim], 3 * world.ledger.from[victim]);
 }
 
-TEST(SealedSoak, StolenAddressesGetThreeTimesTheirBytesAndTheSessionGoesOn) {
+TEST(SealedSoak, HijackedPacketsAreLimitedAndTheSessionContinues) {
   // An attacker on the path copies packets. The copies arrive first; the session follows them and returns.
   World world({.delay = 50ms}, 1);
   world.run(20);
@@ -192,7 +192,7 @@ TEST(SealedSoak, StolenAddressesGetThreeTimesTheirBytesAndTheSessionGoesOn) {
   EXPECT_EQ(player.heard_up.size(), 620u);
 }
 
-TEST(SealedSoak, OneBlockedWayLeavesTheOtherOpen) {
+TEST(SealedSoak, OneBlockedDirectionLeavesTheOtherOpen) {
   World world({.delay = 10ms}, 2);
   world.run(30);
   Player& player = *world.players[0];

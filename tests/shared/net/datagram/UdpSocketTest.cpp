@@ -64,7 +64,7 @@ TEST_F(UdpSocketTest, CarriesPacketsBothWays) {
   EXPECT_EQ(server.socket.counters().received, 1u);
 }
 
-TEST_F(UdpSocketTest, RepliesLeaveFromTheAddressThatWasAddressed) {
+TEST_F(UdpSocketTest, RepliesLeaveFromTheReceivingAddress) {
   for (const bool is_ipv6 : {false, true}) {
     if (is_ipv6 && !haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 here";
     const char* const own = is_ipv6 ? "::1" : "127.0.0.1";
@@ -99,7 +99,7 @@ TEST_F(UdpSocketOnIPv6, DualStackServesBothFamilies) {
   EXPECT_EQ(six.received[0].packet, "six");
 }
 
-TEST_F(UdpSocketOnIPv6, AloneItLeavesThePortToIPv4) {
+TEST_F(UdpSocketOnIPv6, SingleStackLeavesTheIPv4PortFree) {
   if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 here";
   Peer six(context, {.address = "::", .v6_only = true});
   Peer four(context, {.address = "0.0.0.0", .port = six.socket.localEndpoint().port});
@@ -155,7 +155,7 @@ TEST_F(UdpSocketTest, NothingLeavesBeforeTheFlushOrAFullBatch) {
   ASSERT_TRUE(arrive(context, server, kUdpBatch + 1));
 }
 
-TEST_F(UdpSocketTest, PacketsMadeInItsMemoryArriveBesideCopies) {
+TEST_F(UdpSocketTest, PacketsBuiltInPlaceArriveLikeCopies) {
   Peer server(context, {}), client(context, {});
   const Path path{{}, server.at("127.0.0.1")};
   for (std::size_t i = 0; i < 2 * kUdpBatch; ++i) {
@@ -170,7 +170,7 @@ TEST_F(UdpSocketTest, PacketsMadeInItsMemoryArriveBesideCopies) {
     EXPECT_EQ(server.received[i].packet, "packet " + std::to_string(i));
 }
 
-TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
+TEST_F(UdpSocketTest, OneWakeUpReadsALimitedNumberOfPackets) {
   Peer server(context, {}), client(context, {});
   for (int i = 0; i < 400; ++i) client.socket.send({{}, server.at("127.0.0.1")}, "x");
   client.socket.flush();
@@ -179,7 +179,7 @@ TEST_F(UdpSocketTest, OneWakeUpReadsABoundedNumber) {
   ASSERT_TRUE(arrive(context, server, 400));
 }
 
-TEST_F(UdpSocketTest, AClosedPortIsNoError) {
+TEST_F(UdpSocketTest, ClosedPortIsNotAnError) {
   const std::uint16_t free_port = Peer(context, {}).socket.localEndpoint().port;
   Peer server(context, {}), client(context, {});
   for (int i = 0; i < 10; ++i) client.send(*makeEndpoint("127.0.0.1", free_port), "x");
@@ -189,7 +189,7 @@ TEST_F(UdpSocketTest, AClosedPortIsNoError) {
   EXPECT_EQ(client.socket.counters().sent + client.socket.counters().send_errors, 11u);
 }
 
-TEST_F(UdpSocketTest, WhatCannotBeSentIsCountedAndDelaysNothingElse) {
+TEST_F(UdpSocketTest, UnsendablePacketsAreCountedAndDelayNothing) {
   Peer server(context, {}), client(context, {});
   client.socket.send({{}, *makeEndpoint("::1", 9)}, "another family");
   client.socket.send({{}, server.at("127.0.0.1")}, "one");
@@ -203,7 +203,7 @@ TEST_F(UdpSocketTest, WhatCannotBeSentIsCountedAndDelaysNothingElse) {
   EXPECT_EQ(client.socket.counters().sent, 2u);
 }
 
-TEST_F(UdpSocketTest, SizesAreThoseOfDatagrams) {
+TEST_F(UdpSocketTest, PayloadSizeLimitsAreEnforced) {
   Peer server(context, {}), client(context, {});
   const Path path{{}, server.at("127.0.0.1")};
   EXPECT_THROW(client.socket.send(path, ""), std::length_error);
@@ -239,7 +239,7 @@ TEST_F(UdpSocketTest, OversizedPacketsAreCountedAndDropped) {
   EXPECT_EQ(server.socket.counters().too_large, 2u);
 }
 
-TEST_F(UdpSocketTest, ReopenedClientComesFromAnotherPort) {
+TEST_F(UdpSocketTest, ReopenedSocketUsesAnotherPort) {
   Peer server(context, {}), client(context, {});
   std::set<std::uint16_t> ports;
   for (std::size_t i = 0; i < 5; ++i) {
@@ -275,7 +275,7 @@ TEST_F(UdpSocketTest, MayBeReopenedOrDestroyedInItsCallback) {
   EXPECT_EQ(server, nullptr);
 }
 
-TEST_F(UdpSocketTest, PortInUseIsSaidInASentence) {
+TEST_F(UdpSocketTest, PortInUseGivesAClearMessage) {
   Peer first(context, {});
   try {
     UdpSocket second(context, {.port = first.socket.localEndpoint().port});
@@ -286,7 +286,7 @@ TEST_F(UdpSocketTest, PortInUseIsSaidInASentence) {
   }
 }
 
-TEST_F(UdpSocketTest, BadAddressesAreSaidInASentence) {
+TEST_F(UdpSocketTest, BadAddressesThrowAListenError) {
   for (const char* address : {"localhost", "", "192.0.2.77"})
     EXPECT_THROW(UdpSocket(context, {.address = address}), ListenError) << address;
 }

@@ -98,7 +98,7 @@ TEST_F(HttpExchangeTest, SendsTheRequestAndReadsTheAnswerInPieces) {
   EXPECT_EQ(exchange->answer().body(), "abc");
 }
 
-TEST_F(HttpExchangeTest, RequestsWithABodySayHowLongItIs) {
+TEST_F(HttpExchangeTest, RequestsWithABodyHaveAContentLength) {
   const HttpRequest post{"POST", "/ready", "localhost", {{"Content-Type", "application/json"}}, "{}"};
   EXPECT_EQ(post.text(),
             "POST /ready HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: "
@@ -113,14 +113,14 @@ TEST_F(HttpExchangeTest, EndOfTheConnectionEndsABodyWithoutLength) {
   EXPECT_EQ(exchange->answer().body(), "all");
 }
 
-TEST_F(HttpExchangeTest, TruncatedAnswerIsABadOne) {
+TEST_F(HttpExchangeTest, TruncatedAnswerIsABadAnswer) {
   run(plain());
   respond("HTTP/1.1 200 OK\r\nContent-Length: 4\r\n\r\nall");
   peer.reset();
   EXPECT_EQ(end(), End::kBadAnswer);
 }
 
-TEST_F(HttpExchangeTest, AnswersOfOtherProtocolsAndLongOnesAreRefused) {
+TEST_F(HttpExchangeTest, NonHttpAndOversizedAnswersAreRefused) {
   run(plain());
   accept();
   answer("220 mail.example ESMTP\r\n\r\n");
@@ -142,24 +142,24 @@ TEST_F(HttpExchangeTest, SilentServerTimesOut) {
   })) << "it is hung up on";
 }
 
-TEST_F(HttpExchangeTest, NothingThatListensIsUnreachable) {
+TEST_F(HttpExchangeTest, ClosedPortIsUnreachable) {
   const StreamTarget target = plain();
   acceptor.close();
   run(target);
   EXPECT_EQ(end(), End::kUnreachable);
 }
 
-TEST_F(HttpExchangeTest, WithoutEncryptionNoOtherMachineIsConnectedTo) {
+TEST_F(HttpExchangeTest, UnencryptedRequestsStayOnThisMachine) {
   run({"192.0.2.1", 80});
   EXPECT_EQ(end(), End::kOtherMachine);
 }
 
-TEST_F(HttpExchangeTest, HostWithoutAnAddressIsNotFound) {
+TEST_F(HttpExchangeTest, UnknownHostIsNotFound) {
   run({"nothing.invalid", 80});
   EXPECT_EQ(end(), End::kNotFound);
 }
 
-TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndWhatCameBehindTheAnswer) {
+TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndEarlyBytes) {
   run(plain());
   respond("HTTP/1.1 101 Switching\r\nUpgrade: x\r\n\r\nfirst");
   ASSERT_EQ(end(), End::kAnswered);
@@ -169,7 +169,7 @@ TEST_F(HttpExchangeTest, SwitchedProtocolGetsTheStreamAndWhatCameBehindTheAnswer
   EXPECT_EQ(stream->write("x").outcome, ByteStream::Outcome::kDone);
 }
 
-TEST_F(HttpExchangeTest, AnswerWithoutEndIsHandedOverPieceByPieceAndHasTime) {
+TEST_F(HttpExchangeTest, StreamedAnswerArrivesInPiecesWithoutTimeout) {
   std::string pieces;
   run(plain(), milliseconds(80), [&](std::string_view piece) {
     pieces += piece;
@@ -188,7 +188,7 @@ TEST_F(HttpExchangeTest, AnswerWithoutEndIsHandedOverPieceByPieceAndHasTime) {
   EXPECT_EQ(end(), End::kStopped);
 }
 
-TEST_F(HttpExchangeTest, AnswerWithoutEndNeedsStatus200) {
+TEST_F(HttpExchangeTest, StreamedAnswerNeedsStatus200) {
   int pieces = 0;
   run(plain(), seconds(20), [&](std::string_view) { return ++pieces > 0; });
   respond("HTTP/1.1 500 No\r\n\r\nx");
@@ -197,7 +197,7 @@ TEST_F(HttpExchangeTest, AnswerWithoutEndNeedsStatus200) {
   EXPECT_EQ(pieces, 0);
 }
 
-TEST_F(HttpExchangeTest, HandlerOfTheBodyMayCancel) {
+TEST_F(HttpExchangeTest, BodyHandlerMayCancel) {
   bool called = false;
   run(plain(), seconds(20), [&](std::string_view) {
     called = true;
@@ -212,7 +212,7 @@ TEST_F(HttpExchangeTest, HandlerOfTheBodyMayCancel) {
   EXPECT_FALSE(ended);
 }
 
-TEST_F(HttpExchangeTest, EventLoopMayEndWhileItRuns) {
+TEST_F(HttpExchangeTest, EventLoopMayEndDuringAnExchange) {
   bool called = false;
   for (const bool connects : {false, true}) {
     asio::io_context other;
@@ -244,7 +244,7 @@ struct HttpsExchange : HttpExchangeTest {
   std::shared_ptr<const TlsContext> client_context;
 };
 
-TEST_F(HttpsExchange, ServerWithAGoodCertificateIsAsked) {
+TEST_F(HttpsExchange, ServerWithAValidCertificateGetsTheRequest) {
   run(https());
   respond("HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\nok");
   EXPECT_EQ(end(), End::kAnswered);
@@ -260,7 +260,7 @@ TEST_F(HttpsExchange, OlderTlsIsRefused) {
   EXPECT_EQ(end(), End::kUntrusted);
 }
 
-TEST_F(HttpsExchange, CertificateThatIsNotGoodGetsNoRequest) {
+TEST_F(HttpsExchange, ServerWithAnInvalidCertificateGetsNoRequest) {
   const TestIdentity stranger = TestIdentity::make("localhost");
   const TestIdentity other = TestIdentity::make("other.test", &authority);
   for (const TestIdentity* const identity : {&stranger, &other}) {

@@ -14,7 +14,7 @@ TEST(HttpRequestLine, HasMethodAndTarget) {
   EXPECT_TRUE(HttpRequestLine::parse("OPTIONS * HTTP/1.0"));
 }
 
-TEST(HttpRequestLine, RefusesOtherLines) {
+TEST(HttpRequestLine, RefusesMalformedLines) {
   for (const char* const line :
        {"", " ", "  ", "GET", "GET /", "GET / ", "GET  HTTP/1.1", "GET / HTTP/1.2", "GET / HTTP/2",
         "GET / http/1.1", "GET /a b HTTP/1.1", "GET  / HTTP/1.1", " GET / HTTP/1.1", "G\tT / HTTP/1.1",

@@ -61,7 +61,7 @@ HttpError errorOf(const std::string& text) {
 
 const std::string kOk = "HTTP/1.1 200 OK\r\n";
 
-TEST(HttpResponseReader, ReadsABodyOfAnnouncedLength) {
+TEST(HttpResponseReader, ReadsABodyWithContentLength) {
   const Answer answer = readText(kOk + "Content-Length: 5\r\nX: y\r\n\r\nhello and more");
   EXPECT_EQ(answer, (Answer{true, HttpError::kNone, 200, "hello", " and more"}));
   EXPECT_TRUE(readText(kOk + "content-length:\t0 \r\n\r\n").done);
@@ -79,7 +79,7 @@ TEST(HttpResponseReader, ReadsToTheEndOfTheConnection) {
   EXPECT_FALSE(readText(kOk + "\r\nno").done);
 }
 
-TEST(HttpResponseReader, ConnectionThatBreaksTruncatesTheBody) {
+TEST(HttpResponseReader, BrokenConnectionTruncatesTheBody) {
   std::string_view text = "HTTP/1.1 200 OK\r\n\r\nhalf of";
   HttpResponseReader reader;
   reader.feed(text);
@@ -122,7 +122,7 @@ TEST(HttpResponseReader, RefusesStartLinesOfOtherProtocols) {
     EXPECT_EQ(errorOf(std::string(line) + "\r\nContent-Length: 0\r\n\r\n"), HttpError::kMalformed) << line;
 }
 
-TEST(HttpResponseReader, RefusesLinesThatCanBeReadInTwoWays) {
+TEST(HttpResponseReader, RefusesAmbiguousHeaderLines) {
   for (const char* const lines :
        {"A: b\r\n c\r\n", "A: b\r\n\tc\r\n", "A : b\r\n", " A: b\r\n", ": b\r\n", "A\r\n", "A b: c\r\n",
         "A: b\rc\r\n", "A: b\n", "A: b\n\r\n", "A: \x01\r\n", "A: \x7f\r\n", "\xc3\xa4: b\r\n"})
@@ -150,7 +150,7 @@ TEST(HttpResponseReader, RefusesMalformedChunks) {
     EXPECT_EQ(errorOf(kOk + "Transfer-Encoding: chunked\r\n\r\n" + chunks), HttpError::kMalformed) << chunks;
 }
 
-TEST(HttpResponseReader, EveryCutOfAnAnswerIsTruncated) {
+TEST(HttpResponseReader, EveryTruncationIsDetected) {
   for (const std::string& text : {kOk + "Content-Length: 3\r\n\r\nabc",
                                   kOk + "Transfer-Encoding: chunked\r\n\r\n3\r\nabc\r\n0\r\nA: b\r\n\r\n"}) {
     EXPECT_TRUE(readText(text, true).done);
@@ -159,7 +159,7 @@ TEST(HttpResponseReader, EveryCutOfAnAnswerIsTruncated) {
   }
 }
 
-TEST(HttpResponseReader, HeadsHaveALimitInAll) {
+TEST(HttpResponseReader, HeadSizeIsLimitedInTotal) {
   const HttpLimits limits{.head = 200, .body = 10};
   const auto with = [&](std::size_t head) {
     const std::string begin = kOk + "A: ";
@@ -174,7 +174,7 @@ TEST(HttpResponseReader, HeadsHaveALimitInAll) {
   EXPECT_EQ(readText(interim, false, limits).error, HttpError::kHeadTooLong);
 }
 
-TEST(HttpResponseReader, BodiesHaveALimitHoweverTheyAreFramed) {
+TEST(HttpResponseReader, BodySizeIsLimitedInEveryFraming) {
   const HttpLimits limits{.head = 200, .body = 10};
   const std::string chunked = kOk + "Transfer-Encoding: chunked\r\n\r\n";
   EXPECT_EQ(readText(kOk + "\r\n0123456789", true, limits).body, "0123456789");
@@ -189,7 +189,7 @@ TEST(HttpResponseReader, BodiesHaveALimitHoweverTheyAreFramed) {
             HttpError::kHeadTooLong);
 }
 
-TEST(HttpResponseReader, AnAnswerWithoutEndIsTakenOutPieceByPiece) {
+TEST(HttpResponseReader, EndlessAnswerIsReadInPieces) {
   HttpResponseReader reader({.head = 200, .body = HttpLimits::kUnlimited});
   const std::string head = kOk + "Transfer-Encoding: chunked\r\n\r\n";
   std::string_view bytes = head;

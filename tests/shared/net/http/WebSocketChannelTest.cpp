@@ -58,7 +58,7 @@ TEST_P(WebSocketChannel, MessagesGoBothWays) {
   EXPECT_EQ(recorder.frames, (std::vector<std::string>{"a", "yz"}));
 }
 
-TEST_P(WebSocketChannel, BytesThatCameWithTheAnswerAreReadAtOnce) {
+TEST_P(WebSocketChannel, BytesAfterTheUpgradeAnswerAreReadAtOnce) {
   open(
       "\x82\x05"
       "first");
@@ -71,7 +71,7 @@ TEST_P(WebSocketChannel, PingsAreAnswered) {
   EXPECT_EQ(peerReads(8), "\x8a\x82" + kZeroMask + "hi");
 }
 
-TEST_P(WebSocketChannel, NormalCloseIsAnOrderlyEndAndEchoed) {
+TEST_P(WebSocketChannel, NormalCloseEndsOrderlyAndIsEchoed) {
   open();
   peerSends("\x82\x01z\x88\x02\x03\xe8");
   EXPECT_EQ(closed(), CloseReason::kPeer);
@@ -79,21 +79,21 @@ TEST_P(WebSocketChannel, NormalCloseIsAnOrderlyEndAndEchoed) {
   EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x03\xe8");
 }
 
-TEST_P(WebSocketChannel, OtherCodesAreErrorsAndEchoed) {
+TEST_P(WebSocketChannel, OtherCloseCodesAreErrorsAndEchoed) {
   open();
   peerSends("\x88\x02\x0f\xa0");
   EXPECT_EQ(closed(), CloseReason::kError);
   EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x0f\xa0");
 }
 
-TEST_P(WebSocketChannel, PeerThatBreaksTheRulesIsToldSo) {
+TEST_P(WebSocketChannel, ProtocolViolationIsAnsweredWithItsCloseCode) {
   open();
   peerSends("\x83\x01x");
   EXPECT_EQ(closed(), CloseReason::kProtocol);
   EXPECT_EQ(peerReads(8), "\x88\x82" + kZeroMask + "\x03\xea");
 }
 
-TEST_P(WebSocketChannel, CloseSendsWhatIsQueuedThenACloseFrame) {
+TEST_P(WebSocketChannel, CloseSendsQueuedDataThenACloseFrame) {
   open();
   channel->send("x");
   channel->close();
@@ -104,7 +104,7 @@ TEST_P(WebSocketChannel, CloseSendsWhatIsQueuedThenACloseFrame) {
   EXPECT_EQ(closed(), CloseReason::kLocal);
 }
 
-TEST_P(WebSocketChannel, HasNoSecretOfBothEnds) {
+TEST_P(WebSocketChannel, HasNoSharedSecret) {
   open();
   EXPECT_EQ(channel->exportSecret("label", "", 32), "") << "a gateway has the other end";
 }

@@ -77,7 +77,7 @@ std::string unmasked(std::string payload) {
 
 const std::string kMask = "\x01\x02\x04\x08";
 
-TEST(WebSocketFraming, ReadsMessagesOfOneFrame) {
+TEST(WebSocketFraming, ReadsSingleFrameMessages) {
   const std::string medium(126, 'm');
   const Outcome outcome = readStream(frame(0x82, "one") + frame(0x82, "") + frame(0x82, medium) +
                                      frame(0x82, std::string(kLimit, 'x')));
@@ -91,7 +91,7 @@ TEST(WebSocketFraming, ReadsLengthsOf64Bits) {
   EXPECT_EQ(readStream(header + payload, payload.size()).messages, std::vector<std::string>{payload});
 }
 
-TEST(WebSocketFraming, PutsFragmentsTogetherAndAnswersBetweenThem) {
+TEST(WebSocketFraming, JoinsFragmentsAndAnswersPingsBetweenThem) {
   const std::string stream = frame(0x02, "on") + frame(0x89, "ping") + frame(0x00, "") + frame(0x80, "e") +
                              frame(0x82, "two") + frame(0x02, "") + frame(0x80, "three");
   EXPECT_EQ(readStream(stream).messages, (std::vector<std::string>{"one", "two", "three"}));
@@ -111,7 +111,7 @@ TEST(WebSocketFraming, AnswersTheLastOfManyPings) {
   EXPECT_FALSE(framing.midFrame());
 }
 
-TEST(WebSocketFraming, RefusesWhatServersMayNotSend) {
+TEST(WebSocketFraming, RefusesFramesServersMayNotSend) {
   const std::string long_ping(126, 'p');
   for (const std::string& stream :
        {frame(0xc2, "x"), frame(0xa2, "x"), frame(0x92, "x"), frame(0x83, "x"), frame(0x87, "x"),
@@ -138,7 +138,7 @@ TEST(WebSocketFraming, MessagesOverTheLimitAreRefusedByTheirHeader) {
             WebSocketClose::kTooBig);
 }
 
-TEST(WebSocketFraming, ALowerLimitHoldsWithinAMessage) {
+TEST(WebSocketFraming, LoweredLimitAppliesWithinAMessage) {
   WebSocketFraming framing = makeFraming();
   framing.feed(frame(0x02, "12345678"));
   EXPECT_FALSE(framing.next());
@@ -169,7 +169,7 @@ TEST(WebSocketFraming, RefusesCloseCodesThatMayNotBeSent) {
   }
 }
 
-TEST(WebSocketFraming, CodeNormalAloneIsAnOrderlyEnd) {
+TEST(WebSocketFraming, OnlyCode1000IsAnOrderlyEnd) {
   for (const bool is_normal : {true, false}) {
     WebSocketFraming framing = makeFraming();
     EXPECT_FALSE(framing.peerClosed());
@@ -194,7 +194,7 @@ TEST(WebSocketFraming, WritesMaskedMessagesWithTheShortestLength) {
   }
 }
 
-TEST(WebSocketFraming, AsksForAMaskForEachFrame) {
+TEST(WebSocketFraming, EachFrameGetsItsOwnMask) {
   int masks = 0;
   WebSocketFraming framing(kLimit, [&masks] {
     ++masks;
@@ -205,7 +205,7 @@ TEST(WebSocketFraming, AsksForAMaskForEachFrame) {
   EXPECT_EQ(masks, 3);
 }
 
-TEST(WebSocketFraming, ClosesOnceWithTheCodeForIt) {
+TEST(WebSocketFraming, ClosesOnceWithTheMatchingCode) {
   const auto code = [](std::string_view stream) {
     WebSocketFraming framing = makeFraming();
     framing.feed(stream);

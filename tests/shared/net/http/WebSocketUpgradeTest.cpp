@@ -26,7 +26,7 @@ HttpHead answer(const Fields& changes = {}) {
 
 const WebSocketUpgrade kUpgrade("naiad.1", "the sample nonce");
 
-TEST(WebSocketUpgrade, AsksForItsSubprotocolWithAKey) {
+TEST(WebSocketUpgrade, RequestHasSubprotocolAndKey) {
   HttpRequest request{
       .target = "/play", .host = "example.org", .fields = {{"Origin", "https://example.org"}}};
   kUpgrade.addTo(request);
@@ -37,7 +37,7 @@ TEST(WebSocketUpgrade, AsksForItsSubprotocolWithAKey) {
       "Sec-WebSocket-Protocol: naiad.1\r\n\r\n");
 }
 
-TEST(WebSocketUpgrade, TakesTheAnswerOfTheStandard) {
+TEST(WebSocketUpgrade, AcceptsTheStandardsExampleAnswer) {
   EXPECT_EQ(kUpgrade.problem(101, answer()), "");
 }
 

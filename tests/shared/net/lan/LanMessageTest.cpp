@@ -36,7 +36,7 @@ bool isSafe(const std::string& text) {
   return safeText(text, kMaxLanText) == text && columnsOf(text) <= kMaxLanText;
 }
 
-TEST(LanMessage, AQueryHasTheBytesOfThePage) {
+TEST(LanMessage, QueryBytesMatchTheDocument) {
   const std::string query = writeLanQuery(nonceOf(0x40));
   ASSERT_EQ(query.size(), 512u);
   EXPECT_EQ(query.substr(0, 8), std::string("nlan\1\1\0\0", 8));
@@ -45,7 +45,7 @@ TEST(LanMessage, AQueryHasTheBytesOfThePage) {
   EXPECT_EQ(readLanQuery(query), nonceOf(0x40));
 }
 
-TEST(LanMessage, AnAnswerHasTheBytesOfThePage) {
+TEST(LanMessage, AnswerBytesMatchTheDocument) {
   const std::string bytes = writeLanAnswer(sample());
   const std::string wanted = std::string("nlan\1\2\4\1", 8) + "@ABCDEFGHIJKLMNO" +
                              std::string("\x94\x26\1\0\3\0\x40\0", 8) +
@@ -54,7 +54,7 @@ TEST(LanMessage, AnAnswerHasTheBytesOfThePage) {
   EXPECT_EQ(readLanAnswer(bytes), sample());
 }
 
-TEST(LanMessage, NothingButAWholeQueryIsOne) {
+TEST(LanMessage, OnlyACompleteQueryIsAccepted) {
   const std::string query = writeLanQuery(nonceOf(1));
   for (std::size_t size = 0; size < query.size(); ++size)
     EXPECT_FALSE(readLanQuery(query.substr(0, size))) << size;
@@ -69,7 +69,7 @@ TEST(LanMessage, NothingButAWholeQueryIsOne) {
   }
 }
 
-TEST(LanMessage, AnswersArriveAsTheyWereWritten) {
+TEST(LanMessage, AnswersSurviveTheRoundTrip) {
   SplitMix64 random(7);
   for (int i = 0; i < 2000; ++i) {
     LanAnswer answer = sample();
@@ -99,7 +99,7 @@ TEST(LanMessage, AnAnswerIsNeverLongerThanItsQuery) {
   }
 }
 
-TEST(LanMessage, AnAnswerThatIsCutOffOrTooLongIsNone) {
+TEST(LanMessage, TruncatedAndOverlongAnswersAreRefused) {
   const std::string bytes = writeLanAnswer(sample());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_FALSE(readLanAnswer(bytes.substr(0, size))) << size;
@@ -107,7 +107,7 @@ TEST(LanMessage, AnAnswerThatIsCutOffOrTooLongIsNone) {
   EXPECT_FALSE(readLanAnswer(writeLanQuery(nonceOf(0x40))));
 }
 
-TEST(LanMessage, EveryFieldOfAnAnswerHasItsRange) {
+TEST(LanMessage, OutOfRangeAnswerFieldsAreRefused) {
   const std::string bytes = writeLanAnswer(sample());
   const auto with = [&bytes](std::size_t at, const std::string& piece) {
     std::string other = bytes;
@@ -139,7 +139,7 @@ TEST(LanMessage, HostileTextsAreMadeSafe) {
   }
 }
 
-TEST(LanMessage, MutatedAnswersAreNoneOrValid) {
+TEST(LanMessage, MutatedAnswersAreRefusedOrValid) {
   SplitMix64 random(11);
   const std::string bytes = writeLanAnswer(sample());
   int read = 0;

@@ -16,7 +16,7 @@ bool contains(const LanNetwork& network, const std::string& address) {
   return network.contains(asio::ip::make_address(address));
 }
 
-TEST(LanNetworks, ANetworkContainsWhatHasItsPrefix) {
+TEST(LanNetworks, NetworkContainsAddressesWithItsPrefix) {
   EXPECT_TRUE(contains(lanNetworkOf(1, "192.168.1.7", 24), "192.168.1.255"));
   EXPECT_FALSE(contains(lanNetworkOf(1, "192.168.1.7", 24), "192.168.2.7"));
   EXPECT_TRUE(contains(lanNetworkOf(1, "10.1.2.3", 20), "10.1.15.9"));
@@ -29,7 +29,7 @@ TEST(LanNetworks, ANetworkContainsWhatHasItsPrefix) {
   EXPECT_FALSE(contains(lanNetworkOf(1, "0.0.0.0", 0), "fd00::1")) << "another family";
 }
 
-TEST(LanNetworks, PrivateAreTheRangesOfHomesAndOffices) {
+TEST(LanNetworks, HomeAndOfficeRangesArePrivate) {
   for (const char* p_address :
        {"10.255.0.1", "172.16.0.1", "172.31.255.1", "192.168.9.1", "169.254.3.4", "fd00::1", "fc12::1"}) {
     std::vector<LanNetwork> networks{lanNetworkOf(1, p_address, 24)};
@@ -44,7 +44,7 @@ TEST(LanNetworks, PrivateAreTheRangesOfHomesAndOffices) {
   }
 }
 
-TEST(LanNetworks, AnAddressOfTheLinkIsAsPrivateAsItsInterface) {
+TEST(LanNetworks, LinkLocalNetworkIsAsPrivateAsItsInterface) {
   const auto isPrivate = [](std::vector<LanNetwork> networks) {
     markPrivate(networks);
     return networks[0].is_private;
@@ -56,7 +56,7 @@ TEST(LanNetworks, AnAddressOfTheLinkIsAsPrivateAsItsInterface) {
   EXPECT_FALSE(isPrivate({link, lanNetworkOf(1, "2001:db8::1", 64), lanNetworkOf(2, "192.168.1.1", 24)}));
 }
 
-TEST(LanNetworks, ThisMachineHasLoopbackAndNothingTwice) {
+TEST(LanNetworks, ListHasLoopbackAndNoDuplicates) {
   const auto networks = lanNetworks();
   ASSERT_LE(networks.size(), kMaxLanNetworks);
   for (const LanNetwork& network : networks) {

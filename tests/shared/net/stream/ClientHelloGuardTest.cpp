@@ -27,7 +27,7 @@ bool acceptsInPieces(const std::string& bytes, std::size_t piece) {
   return true;
 }
 
-TEST(ClientHelloGuard, PassesHellosUpToTheLimitHoweverTheyAreCut) {
+TEST(ClientHelloGuard, PassesHellosUpToTheLimitInAnyPieces) {
   const std::string largest = hello(ClientHelloGuard::kMaxHello);
   const std::string whole = record(22, largest);
   const std::string cut = record(22, largest.substr(0, 2)) + record(22, "") +
@@ -39,7 +39,7 @@ TEST(ClientHelloGuard, PassesHellosUpToTheLimitHoweverTheyAreCut) {
   }
 }
 
-TEST(ClientHelloGuard, StopsALongerOneAtItsHeader) {
+TEST(ClientHelloGuard, StopsAnOversizedHelloAtItsHeader) {
   const std::string longer = hello(ClientHelloGuard::kMaxHello + 1).substr(0, 4);
   const std::string small = record(22, hello(10));
   for (const std::size_t piece : {1u, 3u, 5u, 7u, 100000u}) {

@@ -25,7 +25,7 @@ void expectSecrets(const ReliableChannel& near, const ReliableChannel& far, std:
   }
 }
 
-TEST(ExportSecret, IsTheSameAtBothEndsOfTlsAndForNothingElse) {
+TEST(ExportSecret, BothTlsEndsShareAUniqueSecret) {
   asio::io_context context;
   std::set<std::string> seen;
   for (int connection = 0; connection < 2; ++connection) {
@@ -34,7 +34,7 @@ TEST(ExportSecret, IsTheSameAtBothEndsOfTlsAndForNothingElse) {
   }
 }
 
-TEST(ExportSecret, IsTheSameAtBothEndsOfAVirtualLinkAndDependsOnItsSeed) {
+TEST(ExportSecret, VirtualLinkEndsShareASecretFromTheSeed) {
   VirtualClock clock;
   std::set<std::string> seen;
   for (const std::uint64_t seed : {1u, 2u}) {

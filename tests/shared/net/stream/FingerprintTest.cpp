@@ -12,7 +12,7 @@ Fingerprint of(const TestIdentity& identity) {
       *SSL_CTX_get0_certificate(TlsContext::forServer(identity.certificate, identity.key)->get()));
 }
 
-TEST(Fingerprint, TextComesBackTheSame) {
+TEST(Fingerprint, TextSurvivesTheRoundTrip) {
   const Fingerprint key = of(testIdentity());
   EXPECT_EQ(key.text().size(), 64u);
   EXPECT_EQ(Fingerprint::parse(key.text()), key);
@@ -25,7 +25,7 @@ TEST(Fingerprint, DifferentKeysDiffer) {
   EXPECT_NE(of(testIdentity()), of(TestIdentity::make("naiad.test")));
 }
 
-TEST(Fingerprint, OtherTextsAreRefused) {
+TEST(Fingerprint, MalformedTextsAreRefused) {
   const std::string good = of(testIdentity()).text();
   std::string wrong = good;
   wrong[10] = 'g';

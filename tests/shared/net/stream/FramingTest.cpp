@@ -38,7 +38,7 @@ TEST(Framing, WriterRefusesWrongSizesAndLeavesTheOutputAlone) {
   EXPECT_EQ(out, "before");
 }
 
-TEST(Framing, LargestFrameSurvives) {
+TEST(Framing, LargestFrameIsReadBack) {
   const std::string payload(kMaxFramePayload, 'x');
   FrameReader reader(kMaxFramePayload);
   std::vector<std::string> frames;
@@ -62,7 +62,7 @@ TEST(Framing, TruncatedFrameIsNotYielded) {
   }
 }
 
-TEST(Framing, EmptyFrameIsAnErrorForEver) {
+TEST(Framing, EmptyFrameIsAPermanentError) {
   FrameReader reader(kMaxHelloFrame);
   std::vector<std::string> frames;
   feed(reader, framed("good") + "\0\0"s + framed("never"), frames);
@@ -73,7 +73,7 @@ TEST(Framing, EmptyFrameIsAnErrorForEver) {
   EXPECT_EQ(reader.error(), FrameError::kEmpty);
 }
 
-TEST(Framing, FrameOverTheLimitIsAnErrorBeforeItsPayload) {
+TEST(Framing, OversizedFrameFailsBeforeItsPayload) {
   for (const std::size_t first : {1u, 2u, 7u}) {  // bytes that arrive before the others
     FrameReader reader(4);
     std::vector<std::string> frames;
@@ -89,7 +89,7 @@ TEST(Framing, FrameOverTheLimitIsAnErrorBeforeItsPayload) {
   }
 }
 
-TEST(Framing, LimitChangesBetweenTwoFramesOfOnePiece) {
+TEST(Framing, LimitMayChangeBetweenTwoFrames) {
   FrameReader reader(4);
   const std::string piece = framed("four") + framed("a longer one");
   reader.feed(piece);
@@ -107,7 +107,7 @@ TEST(Framing, LoweredLimitHoldsForAnIncompleteFrame) {
   EXPECT_EQ(reader.error(), FrameError::kTooLarge);
 }
 
-TEST(Framing, KeepsOnlyBytesThatCame) {
+TEST(Framing, BuffersOnlyReceivedBytes) {
   FrameReader reader(kMaxFramePayload);
   std::vector<std::string> frames;
   feed(reader, "\xff\xff", frames);  // announces 64 KiB
@@ -116,7 +116,7 @@ TEST(Framing, KeepsOnlyBytesThatCame) {
   EXPECT_EQ(reader.buffered(), 12u);
 }
 
-TEST(Framing, NeverKeepsMoreThanOneFrame) {
+TEST(Framing, NeverBuffersMoreThanOneFrame) {
   FrameReader reader(8);
   std::vector<std::string> frames;
   std::string stream;
@@ -126,7 +126,7 @@ TEST(Framing, NeverKeepsMoreThanOneFrame) {
   while (reader.next()) EXPECT_LE(reader.buffered(), kFrameHeaderSize + 8);
 }
 
-TEST(Framing, FeedingBeforeDrainingIsABug) {
+TEST(Framing, FeedingBeforeDrainingThrows) {
   FrameReader reader(kMaxHelloFrame);
   const std::string piece = framed("a");
   reader.feed(piece);

@@ -73,7 +73,7 @@ class HalfOpenLimitTest : public testing::Test {
   Id newest = 0;
 };
 
-TEST_F(HalfOpenLimitTest, SilentOnesOfFourAddressesMakeRoomForEveryNewcomer) {
+TEST_F(HalfOpenLimitTest, SilentConnectionsAreEvictedForNewcomers) {
   for (int i = 0; i < 64; ++i) {
     for (const char* from : {"198.51.100.1", "198.51.101.1", "198.51.102.1", "198.51.103.1"})
       EXPECT_EQ(come(of(from)), 0u);
@@ -84,7 +84,7 @@ TEST_F(HalfOpenLimitTest, SilentOnesOfFourAddressesMakeRoomForEveryNewcomer) {
   EXPECT_EQ(come(of("198.51.103.1")), 4u) << "one of its own: it has as many as a prefix may have";
 }
 
-TEST_F(HalfOpenLimitTest, TheMostCrowdedPrefixLosesItsOldest) {
+TEST_F(HalfOpenLimitTest, MostCrowdedPrefixLosesItsOldest) {
   const Id lonely = newest + 1;
   come(of("192.0.2.1"));
   for (int i = 0; i < 205; ++i) come(of("203.0." + std::to_string(i) + ".1"));
@@ -95,7 +95,7 @@ TEST_F(HalfOpenLimitTest, TheMostCrowdedPrefixLosesItsOldest) {
   EXPECT_TRUE(limit.isSilent(lonely)) << "older, but alone";
 }
 
-TEST_F(HalfOpenLimitTest, AddressesOfOneNeighbourhoodCountTogether) {
+TEST_F(HalfOpenLimitTest, AddressesOfOneNetworkCountTogether) {
   for (int i = 0; i < 10; ++i) come(of("203.0.113.7"));  // the address with most connections
   const Id crowd = newest + 1;
   for (int i = 0; i < 246; ++i) come(of("198.51.100." + std::to_string(i)));  // in the most crowded /24
@@ -111,7 +111,7 @@ TEST_F(HalfOpenLimitTest, NetworksOfOneCustomerCountTogether) {
   EXPECT_EQ(come(of("2001:db8:2::1")), crowd);
 }
 
-TEST_F(HalfOpenLimitTest, AConnectionThatHasGreetedIsNeverEnded) {
+TEST_F(HalfOpenLimitTest, ConnectionWithHelloIsNeverEvicted) {
   ASSERT_TRUE(comeWithHello(of("198.51.100.1")));
   const Id greeted = newest;
   for (int i = 0; i < 1000; ++i) EXPECT_NE(come(of("198.51.100.1")), greeted);
@@ -122,7 +122,7 @@ TEST_F(HalfOpenLimitTest, AConnectionThatHasGreetedIsNeverEnded) {
   EXPECT_EQ(limit.count(), 255u);
 }
 
-TEST_F(HalfOpenLimitTest, HellosOfFourAddressesLeavePlacesForNewcomers) {
+TEST_F(HalfOpenLimitTest, HelloFloodOfFourAddressesLeavesFreeSlots) {
   const std::vector<AddressPrefix> four{of("198.51.100.1"), of("198.51.101.1"), of("198.51.102.1"),
                                         of("198.51.103.1")};
   flood(four, 1000);
@@ -130,7 +130,7 @@ TEST_F(HalfOpenLimitTest, HellosOfFourAddressesLeavePlacesForNewcomers) {
   expectRoomFor(40);
 }
 
-TEST_F(HalfOpenLimitTest, HellosOfManyNetworksOfFourCustomersLeavePlacesForNewcomers) {
+TEST_F(HalfOpenLimitTest, HelloFloodOfFourCustomersLeavesFreeSlots) {
   std::vector<AddressPrefix> many;
   for (int customer = 0; customer < 4; ++customer) {
     for (int network = 0; network < 200; ++network) many.push_back(customersNetwork(customer, network));
@@ -140,7 +140,7 @@ TEST_F(HalfOpenLimitTest, HellosOfManyNetworksOfFourCustomersLeavePlacesForNewco
   expectRoomFor(10);
 }
 
-TEST_F(HalfOpenLimitTest, NineNetworksThatFillUpOneAfterTheOtherTakeAllPlaces) {
+TEST_F(HalfOpenLimitTest, NineNetworksInTurnTakeAllSlots) {
   int networks = 0;
   for (; limit.judge(of("203.0.113.1")).kind == Kind::kFits; ++networks) {
     std::vector<AddressPrefix> network;
@@ -151,21 +151,21 @@ TEST_F(HalfOpenLimitTest, NineNetworksThatFillUpOneAfterTheOtherTakeAllPlaces) {
   EXPECT_EQ(networks, 9) << "as threats.md says";
 }
 
-TEST_F(HalfOpenLimitTest, HellosThatBeginFirstAndFinishTogetherLeavePlacesForNewcomers) {
+TEST_F(HalfOpenLimitTest, SimultaneousHellosOfOneNetworkLeaveFreeSlots) {
   beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
   EXPECT_EQ(limit.count(), 128u) << "one network has half of the places";
   EXPECT_FALSE(comeWithHello(of("198.51.100.5")));
   expectRoomFor(40);
 }
 
-TEST_F(HalfOpenLimitTest, HellosOfFourNetworksThatFinishTogetherLeavePlacesForNewcomers) {
+TEST_F(HalfOpenLimitTest, SimultaneousHellosOfFourNetworksLeaveFreeSlots) {
   beginAndFinishTogether(
       {customersNetwork(1, 0), customersNetwork(2, 0), customersNetwork(3, 0), customersNetwork(4, 0)});
   EXPECT_LE(limit.count(), 208u);
   expectRoomFor(40);
 }
 
-TEST_F(HalfOpenLimitTest, AHelloThatIsRefusedLeavesItsPlace) {
+TEST_F(HalfOpenLimitTest, RefusedHelloFreesItsSlot) {
   beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
   come(of("192.0.2.1"));
   EXPECT_TRUE(limit.noteHello(newest)) << "of another network";
@@ -185,7 +185,7 @@ TEST_F(HalfOpenLimitTest, ManyMachinesOfOneNetworkFit) {
   EXPECT_EQ(flood(machines, 1), 128);
 }
 
-TEST_F(HalfOpenLimitTest, IsFullWhenAllHaveGreeted) {
+TEST_F(HalfOpenLimitTest, IsFullWhenEveryConnectionSentItsHello) {
   expectRoomFor(256);
   EXPECT_EQ(limit.judge(of("203.0.113.1")).kind, Kind::kFull);
   limit.release(7);
@@ -201,7 +201,7 @@ TEST_F(HalfOpenLimitTest, IsCrowdedAboveHalfOfTheLimit) {
   EXPECT_FALSE(limit.isCrowded());
 }
 
-TEST_F(HalfOpenLimitTest, ReleasesWhatWasAdmittedAndNothingElse) {
+TEST_F(HalfOpenLimitTest, OnlyAdmittedConnectionsCanBeReleased) {
   come(of("192.0.2.1"));
   limit.release(1);
   EXPECT_EQ(limit.count(), 0u);
@@ -273,7 +273,7 @@ AddressPrefix randomPrefix(SplitMix64& random) {
   return of("2001:db8:" + few() + ":" + few() + "0" + few() + "::1");
 }
 
-TEST_F(HalfOpenLimitTest, AgreesWithCountingFromTheBeginning) {
+TEST_F(HalfOpenLimitTest, MatchesANaiveRecount) {
   SplitMix64 random(16);
   int ended = 0, refused = 0;
   for (int round = 0; round < 20; ++round) {

@@ -28,7 +28,7 @@ TEST(ShortKey, IsTheFirst128BitsInBase32) {
   EXPECT_EQ(ShortKey::of(*Fingerprint::parse(kHex)).text(), "aerukz4jvpg66ajdivtytk6n54");
 }
 
-TEST(ShortKey, EveryBitOfTheFirstHalfCountsAndNoOtherOne) {
+TEST(ShortKey, OnlyTheFirstHalfOfTheFingerprintCounts) {
   const ShortKey whole = ShortKey::of(*Fingerprint::parse(kHex));
   for (std::size_t digit = 0; digit < kHex.size(); ++digit) {
     std::string other = kHex;
@@ -37,7 +37,7 @@ TEST(ShortKey, EveryBitOfTheFirstHalfCountsAndNoOtherOne) {
   }
 }
 
-TEST(ShortKey, TextComesBackInEitherCase) {
+TEST(ShortKey, TextSurvivesTheRoundTripInEitherCase) {
   std::mt19937 random(7);
   for (int i = 0; i < 200; ++i) {
     std::string hex;
@@ -51,7 +51,7 @@ TEST(ShortKey, TextComesBackInEitherCase) {
   }
 }
 
-TEST(ShortKey, OtherTextsAreRefused) {
+TEST(ShortKey, MalformedTextsAreRefused) {
   ASSERT_TRUE(ShortKey::parse(kKey));
   for (const std::string& text :
        {std::string(), kKey.substr(1), kKey + "a", "0" + kKey.substr(1), "1" + kKey.substr(1),
@@ -60,7 +60,7 @@ TEST(ShortKey, OtherTextsAreRefused) {
   }
 }
 
-TEST(JoinLink, TakesWhatServersPrintAndDesktopsPassOn) {
+TEST(JoinLink, AcceptsPrintedAndEscapedLinks) {
   const struct {
     std::string text;
     std::string host;
@@ -86,7 +86,7 @@ TEST(JoinLink, TakesWhatServersPrintAndDesktopsPassOn) {
   EXPECT_EQ(parse("naiad://[::1]:9876/tron#" + kKey)->text(), "naiad://[::1]/tron#" + kKey);
 }
 
-TEST(JoinLink, EachFaultHasItsSentence) {
+TEST(JoinLink, EachFaultHasItsOwnMessage) {
   const struct {
     std::string text;
     const char* part;
@@ -119,7 +119,7 @@ TEST(JoinLink, EachFaultHasItsSentence) {
     EXPECT_NE(problem(b.text).find(b.part), std::string::npos) << b.text << ": " << problem(b.text);
 }
 
-TEST(JoinLink, HostsThatAreNoneAreRefused) {
+TEST(JoinLink, InvalidHostsAreRefused) {
   EXPECT_FALSE(parse("naiad://#" + kKey));
   EXPECT_FALSE(parse("naiad://" + std::string(64, 'a') + "#" + kKey));
   std::istringstream hosts(
@@ -129,12 +129,12 @@ TEST(JoinLink, HostsThatAreNoneAreRefused) {
 }
 
 // LinkHost also parses texts that may hold any byte, for example addresses of pages.
-TEST(LinkHostTest, AnAddressEndsAtItsBracketAndNotAtAZeroByte) {
+TEST(LinkHostTest, ZeroByteDoesNotEndAnAddress) {
   EXPECT_TRUE(LinkHost::parse("[::1]", 1));
   EXPECT_FALSE(LinkHost::parse(std::string_view("[::1\0]", 6), 1));
 }
 
-TEST(JoinLink, AnyBytesAreRefusedOrComeBackTheSame) {
+TEST(JoinLink, MutatedLinksAreRefusedOrRoundTrip) {
   std::mt19937 random(11);
   const std::string letters = "naid:/#[]%2F.@?-0a" + kKey + std::string(1, '\0') + "\xff";
   int good = 0;

@@ -50,7 +50,7 @@ class ParseMemory : public testing::Test {
   }
 };
 
-TEST_F(ParseMemory, TheDearestHelloIsSmall) {
+TEST_F(ParseMemory, LargestHelloFitsTheMemoryLimit) {
   // One-byte numbers in an unpacked list of words, repeated empty texts, a text field.
   for (const char* part : {"\x48\x01", "\x1a\x00", "\x50\x01"}) {
     const std::string bytes = filled('\x0a', std::string(part, 2), kMaxHelloFrame);
@@ -59,14 +59,14 @@ TEST_F(ParseMemory, TheDearestHelloIsSmall) {
   }
 }
 
-TEST_F(ParseMemory, TheDearestMessageOfAClientIsSmall) {
+TEST_F(ParseMemory, LargestClientMessageFitsTheMemoryLimit) {
   for (const char outer : {'\x12', '\x2a', '\x32', '\x3a'}) {
     const std::string bytes = filled(outer, std::string("\x12\x00", 2), kMaxClientFrame);
     EXPECT_LE(heapOf<wire::ClientMessage>(bytes), 64u * 1024) << static_cast<int>(outer);
   }
 }
 
-TEST_F(ParseMemory, TheDearestMessageOfAServerIsBounded) {
+TEST_F(ParseMemory, LargestServerMessageFitsTheMemoryLimit) {
   // Empty entries, each of which becomes an object.
   const std::string players = filled('\x22', std::string("\x0a\x00", 2), kMaxServerFrame);
   const std::size_t heap = heapOf<wire::ServerMessage>(players);

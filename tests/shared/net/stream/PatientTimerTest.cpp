@@ -29,7 +29,7 @@ TEST_F(PatientTimerTest, CallsOnceAndNotBeforeItsTime) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST_F(PatientTimerTest, AnAbsenceIsAPartOfItsTimeAndNoMore) {
+TEST_F(PatientTimerTest, AbsenceCountsOnlyAsOnePart) {
   start(8ms);
   std::this_thread::sleep_for(16ms);  // time in which the context does not run
   for (int part = 1; part < PatientTimer::kParts; ++part) {
@@ -40,7 +40,7 @@ TEST_F(PatientTimerTest, AnAbsenceIsAPartOfItsTimeAndNoMore) {
   EXPECT_EQ(calls, 1);
 }
 
-TEST_F(PatientTimerTest, CancelledItDoesNotCallAndLetsGo) {
+TEST_F(PatientTimerTest, CancelledTimerDoesNotCallAndReleasesItself) {
   start(1h);
   timer->cancel();
   context.run();
@@ -48,7 +48,7 @@ TEST_F(PatientTimerTest, CancelledItDoesNotCallAndLetsGo) {
   EXPECT_EQ(timer.use_count(), 1);
 }
 
-TEST_F(PatientTimerTest, CancelledWhenItsTimeIsOverItDoesNotCallEither) {
+TEST_F(PatientTimerTest, TimerCancelledAfterExpiryDoesNotCall) {
   start(8ms);
   std::this_thread::sleep_for(16ms);
   asio::post(context, [this] { timer->cancel(); });
@@ -57,7 +57,7 @@ TEST_F(PatientTimerTest, CancelledWhenItsTimeIsOverItDoesNotCallEither) {
   EXPECT_EQ(timer.use_count(), 1);
 }
 
-TEST_F(PatientTimerTest, TheNewestTimeCounts) {
+TEST_F(PatientTimerTest, RestartReplacesTheEarlierTime) {
   start(1h);
   start(8ms);
   context.run();

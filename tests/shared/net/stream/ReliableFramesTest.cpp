@@ -13,7 +13,7 @@ std::vector<std::string> all(const ReliableFrames& frames) {
   return found;
 }
 
-TEST(ReliableFrames, StayUntilTheyAreAcknowledgedInOrder) {
+TEST(ReliableFrames, AreKeptUntilAcknowledgedInOrder) {
   ReliableFrames frames;
   EXPECT_EQ(frames.next(), 1u);
   for (const char* text : {"a", "b", "c"}) ASSERT_TRUE(frames.keep(text));
@@ -31,7 +31,7 @@ TEST(ReliableFrames, StayUntilTheyAreAcknowledgedInOrder) {
   EXPECT_EQ(frames.bytes(), 0u);
 }
 
-TEST(ReliableFrames, AreNotMoreThan64KiB) {
+TEST(ReliableFrames, KeepAtMost64KiB) {
   ReliableFrames frames;
   const std::string frame(1022, 'x');
   for (int i = 0; i < 64; ++i) ASSERT_TRUE(frames.keep(frame));
@@ -43,7 +43,7 @@ TEST(ReliableFrames, AreNotMoreThan64KiB) {
   EXPECT_TRUE(frames.keep("y"));
 }
 
-TEST(ReliableFrames, AreHeardOnce) {
+TEST(ReliableFrames, AreAcceptedOnce) {
   ReliableFramesHeard heard;
   EXPECT_TRUE(heard.take(0)) << "it is not kept";
   EXPECT_EQ(heard.newest(), 0u);

@@ -24,7 +24,7 @@ std::string connectError(const std::string& host,
   return problem;
 }
 
-TEST(RestrictedConnector, ANameThatLeadsToWhatIsNotAllowedIsNotConnectedTo) {
+TEST(RestrictedConnector, NameResolvingToAForbiddenAddressIsRefused) {
   int asked = 0;
   const auto none = [&asked](const asio::ip::address&) {
     ++asked;

@@ -18,7 +18,7 @@ using namespace std::string_literals;
 using TcpChannelEndTest = TcpFixture;
 INSTANTIATE_TEST_SUITE_P(Channel, TcpChannelEndTest, testing::Values(Kind::kPlain, Kind::kTls), nameOf);
 
-TEST_P(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
+TEST_P(TcpChannelEndTest, CloseFlushesQueuedFrames) {
   ChannelPair pair(context, GetParam());
   Recorder closer;
   pair.near->start(closer.callbacks());
@@ -32,7 +32,7 @@ TEST_P(TcpChannelEndTest, CloseFlushesWhatIsQueued) {
   EXPECT_EQ(closer.closed, CloseReason::kLocal);
 }
 
-TEST_P(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
+TEST_P(TcpChannelEndTest, ChannelDestroyedAfterCloseStillFlushes) {
   ChannelPair pair(context, GetParam());
   pair.far->start(recorder.callbacks());
   for (int i = 0; i < 50; ++i) pair.near->send(std::string(10'000, 'x'));
@@ -43,7 +43,7 @@ TEST_P(TcpChannelEndTest, DestroyedAfterCloseItStillFlushes) {
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
 }
 
-TEST_P(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
+TEST_P(TcpChannelEndTest, LastFrameReachesAPeerThatIsStillSending) {
   ChannelPair pair(context, GetParam());
   pair.near->start({nullptr, nullptr});
   pair.far->start(recorder.callbacks());
@@ -55,7 +55,7 @@ TEST_P(TcpChannelEndTest, LastWordsSurviveAPeerThatWasStillTalking) {
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
 }
 
-TEST_P(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
+TEST_P(TcpChannelEndTest, CloseGivesUpWhenThePeerStopsReading) {
   connect({.close_timeout = 30ms});
   fillUp();
   channel->close();
@@ -65,7 +65,7 @@ TEST_P(TcpChannelEndTest, CloseGivesUpOnAPeerThatDoesNotRead) {
   EXPECT_EQ(peerReads(), ByteStream::Outcome::kBroken);  // a reset: the kernel keeps no unsent data
 }
 
-TEST_P(TcpChannelEndTest, DestroyingWithoutCloseHangsUp) {
+TEST_P(TcpChannelEndTest, DestroyingWithoutCloseDisconnects) {
   ChannelPair pair(context, GetParam());
   pair.far->start(recorder.callbacks());
   pair.near.reset();
@@ -95,7 +95,7 @@ TEST_P(TcpChannelEndTest, FramesFromBeforeAResetAreStillDelivered) {
   EXPECT_EQ(recorder.closed, CloseReason::kError);
 }
 
-TEST_P(TcpChannelEndTest, SendingToAPeerThatWentAwayEndsTheChannel) {
+TEST_P(TcpChannelEndTest, SendingToAResetPeerClosesTheChannel) {
   connect({});
   peerResets();
   for (int i = 0; i < 10; ++i) channel->send("hello?");
@@ -160,7 +160,7 @@ TEST_P(TcpChannelEndTest, EndBeforeStartIsReportedAfterStart) {
   EXPECT_EQ(recorder.closed, CloseReason::kLocal);
 }
 
-TEST_P(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
+TEST_P(TcpChannelEndTest, UnstartedClosedChannelEndsWithItsPeer) {
   makeChannel({.close_timeout = 1h});
   channel->close();
   channel.reset();
@@ -168,7 +168,7 @@ TEST_P(TcpChannelEndTest, ClosedBeforeStartItIsGoneWhenThePeerIs) {
   EXPECT_TRUE(runUntil(context, [&] { return context.stopped(); }));  // no operation is pending
 }
 
-TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
+TEST_P(TcpChannelEndTest, PeerAddressIsKnownAfterTheEnd) {
   connect({});
   sockaddr_in local{};
   socklen_t size = sizeof local;
@@ -180,7 +180,7 @@ TEST_P(TcpChannelEndTest, KnowsItsPeersAddressAfterTheEndToo) {
   EXPECT_EQ(channel->peerAddress(), expected);
 }
 
-TEST_P(TcpChannelEndTest, TheReasonIsHowThePeerEndedAndWhere) {
+TEST_P(TcpChannelEndTest, CloseReasonDependsOnHowThePeerEnded) {
   const std::vector<std::string> none, hello{"hello"};
   const CloseReason torn_off = encrypted() ? CloseReason::kError : CloseReason::kPeer;
   const struct {

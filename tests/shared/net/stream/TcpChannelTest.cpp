@@ -86,7 +86,7 @@ TEST_P(TcpChannelTest, SlowReaderMakesUnsentBytesGrowAndThenOverflows) {
   EXPECT_EQ(recorder.closed, CloseReason::kOverflow);
 }
 
-TEST_P(TcpChannelTest, UnsentBytesFallToZeroWhenTheReaderWakesUp) {
+TEST_P(TcpChannelTest, UnsentBytesFallToZeroWhenReaderResumes) {
   connect({});
   fillUp();
   EXPECT_TRUE(runUntil(context, [&] {
@@ -96,7 +96,7 @@ TEST_P(TcpChannelTest, UnsentBytesFallToZeroWhenTheReaderWakesUp) {
   EXPECT_FALSE(recorder.closed);
 }
 
-TEST_P(TcpChannelTest, FrameOverTheReceiveLimitBreaksTheProtocol) {
+TEST_P(TcpChannelTest, OversizedFrameIsAProtocolError) {
   connect({.receive_limit = 4});
   peerSends("\x04\0four\x05\0fives"s);
   EXPECT_TRUE(runUntilClosed());
@@ -115,13 +115,13 @@ TEST_P(TcpChannelTest, HandlerRaisesTheLimitForTheNextFrame) {
   EXPECT_TRUE(runUntil(context, [&] { return recorder.frames.size() == 2; }));
 }
 
-TEST_P(TcpChannelTest, SendRefusesSizesThatAreNoFrame) {
+TEST_P(TcpChannelTest, SendRefusesInvalidSizes) {
   connect({});
   EXPECT_THROW(channel->send(""), std::length_error);
   EXPECT_THROW(channel->send(std::string(kMaxFramePayload + 1, 'x')), std::length_error);
 }
 
-TEST(IsLoopback, KnowsThisMachineFromOthers) {
+TEST(IsLoopback, AcceptsOnlyLoopbackAddresses) {
   for (const char* here : {"127.0.0.1", "127.9.8.7", "::1", "::ffff:127.0.0.1"})
     EXPECT_TRUE(isLoopback(asio::ip::make_address(here))) << here;
   for (const char* there : {"0.0.0.0", "128.0.0.1", "10.0.0.1", "::", "::2", "fe80::1", "::ffff:8.8.8.8"})

@@ -25,7 +25,7 @@ struct TcpConnectorTest : ConnectFixture {
   TcpConnector connector{context};
 };
 
-TEST_F(TcpConnectorTest, DeliversAChannelThatWorks) {
+TEST_F(TcpConnectorTest, DeliversAWorkingChannel) {
   for (const std::string host : {"127.0.0.1", "localhost", "::1"}) {
     const bool is_ipv6 = host == "::1";
     if (is_ipv6 && !haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
@@ -44,7 +44,7 @@ TEST_F(TcpConnectorTest, DeliversAChannelThatWorks) {
   }
 }
 
-TEST_F(TcpConnectorTest, WhatCannotBeReachedGivesASentence) {
+TEST_F(TcpConnectorTest, UnreachableHostsGiveAClearError) {
   const std::uint16_t port = closedPort();
   const std::string unknown = std::string(70, 'x') + ".invalid";  // too long for a DNS query
   const std::string far = " is another machine: without encryption only loopback addresses are allowed.";
@@ -96,7 +96,7 @@ TEST_F(TcpConnectorTest, MayBeDestroyedInItsCallback) {
   EXPECT_TRUE(channel);
 }
 
-TEST_F(TcpConnectorTest, TriesAgainFromItsOwnCallbackUntilTheServerIsBack) {
+TEST_F(TcpConnectorTest, RetriesFromItsCallbackUntilTheServerReturns) {
   const std::uint16_t port = closedPort();
   std::unique_ptr<TcpListener> listener;
   TcpConnector::Done again = [&](std::unique_ptr<ReliableChannel> made, const std::string&) {

@@ -52,7 +52,7 @@ TEST_F(TcpListenerTest, ListensOnIPv6) {
   EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
 }
 
-TEST_F(TcpListenerTest, PortInUseIsASentence) {
+TEST_F(TcpListenerTest, PortInUseGivesAClearMessage) {
   TcpListener first(context, "127.0.0.1", 0, keep());
   try {
     TcpListener second(context, "127.0.0.1", first.port(), keep());
@@ -76,7 +76,7 @@ TEST_F(TcpListenerTest, AddressesThatAreNotLoopbackAreRefused) {
   }
 }
 
-TEST_F(TcpListenerTest, PortCanBeTakenAgainRightAfterItsConnectionsEnded) {
+TEST_F(TcpListenerTest, PortCanBeReusedRightAfterItsConnectionsEnd) {
   auto listener = std::make_unique<TcpListener>(context, "127.0.0.1", 0, keep());
   const std::uint16_t port = listener->port();
   tcp::socket client = connectTo(*listener);

@@ -24,7 +24,7 @@ struct TlsConnectorTest : TlsFixture {
   }
 };
 
-TEST_F(TlsConnectorTest, LearnsTheKeyOfAServerThatSignedForItself) {
+TEST_F(TlsConnectorTest, LearnsTheKeyOfASelfSignedServer) {
   listen();
   join();
   ASSERT_TRUE(connector.peerFacts());
@@ -37,7 +37,7 @@ TEST_F(TlsConnectorTest, LearnsTheKeyOfAServerThatSignedForItself) {
   EXPECT_FALSE(connector.peerFacts());
 }
 
-TEST_F(TlsConnectorTest, ChainVerifiesForTheNameItWasMadeFor) {
+TEST_F(TlsConnectorTest, ChainVerifiesOnlyForItsOwnName) {
   const TestIdentity authority = TestIdentity::make("authority.test");
   const TestIdentity server = TestIdentity::make("game.test", &authority);
   tls.context = TlsContext::forServer(server.certificate, server.key);
@@ -56,7 +56,7 @@ TEST_F(TlsConnectorTest, ChainVerifiesForTheNameItWasMadeFor) {
   EXPECT_FALSE(connector.peerFacts()->chain_verifies);
 }
 
-TEST_F(TlsConnectorTest, SendsTheNameOfTheServerButNoAddress) {
+TEST_F(TlsConnectorTest, SniHasHostNamesButNoAddresses) {
   auto context_with_ears = TlsContext::forServer(testIdentity().certificate, testIdentity().key);
   std::string heard;
   SSL_CTX_set_tlsext_servername_arg(context_with_ears->get(), &heard);
@@ -74,7 +74,7 @@ TEST_F(TlsConnectorTest, SendsTheNameOfTheServerButNoAddress) {
   EXPECT_EQ(heard, "nothing");
 }
 
-TEST_F(TlsConnectorTest, ServerThatSpeaksPlainGivesASentence) {
+TEST_F(TlsConnectorTest, PlaintextServerGivesAClearError) {
   TcpListener plain(context, "127.0.0.1", 0, [&](auto made) {
     made->send("hello, this is plain");
     accepted.push_back(std::move(made));
@@ -87,7 +87,7 @@ TEST_F(TlsConnectorTest, ServerThatSpeaksPlainGivesASentence) {
   EXPECT_FALSE(connector.peerFacts());
 }
 
-TEST_F(TlsConnectorTest, ServerWithoutTheProtocolIsRefused) {
+TEST_F(TlsConnectorTest, ServerWithoutOurAlpnIsRefused) {
   auto forgetful = TlsContext::forServer(testIdentity().certificate, testIdentity().key);
   SSL_CTX_set_alpn_select_cb(
       forgetful->get(),
@@ -111,7 +111,7 @@ TEST_F(TlsConnectorTest, SilentServerEndsInATimeout) {
   EXPECT_EQ(error, "No answer from 127.0.0.1:" + std::to_string(port) + " within 100 ms.");
 }
 
-TEST_F(TlsConnectorTest, SilentAddressCostsItsShareAndThenTheNextIsTried) {
+TEST_F(TlsConnectorTest, SilentAddressTimesOutAndTheNextIsTried) {
   listen();
   const tcp::acceptor silent(context, {asio::ip::address_v4::loopback(), 0});
   const tcp::endpoint good(asio::ip::address_v4::loopback(), listener->port());
@@ -122,7 +122,7 @@ TEST_F(TlsConnectorTest, SilentAddressCostsItsShareAndThenTheNextIsTried) {
   EXPECT_TRUE(channel) << error;
 }
 
-TEST_F(TlsConnectorTest, AddressThatRefusesIsPassedOver) {
+TEST_F(TlsConnectorTest, RefusingAddressIsSkipped) {
   const std::uint16_t closed = TcpListener(context, "127.0.0.1", 0, [](auto) {}).port();
   listen();
   const auto here = asio::ip::address_v4::loopback();
@@ -131,7 +131,7 @@ TEST_F(TlsConnectorTest, AddressThatRefusesIsPassedOver) {
   EXPECT_TRUE(channel) << error;
 }
 
-TEST_F(TlsConnectorTest, CancelledWithinAHandshakeItStaysSilent) {
+TEST_F(TlsConnectorTest, AttemptCancelledDuringHandshakeStaysSilent) {
   const tcp::acceptor silent(context, {asio::ip::address_v4::loopback(), 0});
   connector.connect("127.0.0.1", silent.local_endpoint().port(), 1h,
                     [](auto, const auto&) { FAIL() << "cancelled"; });

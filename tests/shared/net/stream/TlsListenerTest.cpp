@@ -56,7 +56,7 @@ TEST_F(TlsListenerTest, UnspecifiedIPv6AddressTakesBothFamilies) {
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, NegotiatesNothingButTls13) {
+TEST_F(TlsListenerTest, NegotiatesOnlyTls13) {
   listen();
   tcp::socket socket = knock();
   RawTls client;
@@ -76,7 +76,7 @@ TEST_F(TlsListenerTest, RefusesTls12) {
   EXPECT_TRUE(accepted.empty());
 }
 
-TEST_F(TlsListenerTest, RefusesOtherProtocolsAndNone) {
+TEST_F(TlsListenerTest, RefusesWrongAndMissingAlpn) {
   listen();
   for (const std::string alpn : {"", "h2", "naiad/2", "naiad/11", "naiad/"}) {
     const std::uint64_t before = counters().handshakes_failed;
@@ -90,7 +90,7 @@ TEST_F(TlsListenerTest, RefusesOtherProtocolsAndNone) {
   EXPECT_EQ(listener->halfOpen(), 0u);
 }
 
-TEST_F(TlsListenerTest, RefusesWhatIsNoTls) {
+TEST_F(TlsListenerTest, RefusesNonTlsBytes) {
   listen();
   for (const std::string& words :
        {"\x05\0hello"s, "GET / HTTP/1.1\r\n\r\n"s, std::string(70'000, '\xff'), "\x16\x03"s}) {
@@ -105,7 +105,7 @@ TEST_F(TlsListenerTest, RefusesWhatIsNoTls) {
   EXPECT_EQ(listener->halfOpen(), 0u);
 }
 
-TEST_F(TlsListenerTest, RefusesAHelloThatAnnouncesToBeLong) {
+TEST_F(TlsListenerTest, RefusesAnOversizedHelloAtItsHeader) {
   listen();
   tcp::socket socket = knock();
   asio::write(socket,
@@ -113,7 +113,7 @@ TEST_F(TlsListenerTest, RefusesAHelloThatAnnouncesToBeLong) {
   EXPECT_TRUE(runUntil(context, [&] { return counters().handshakes_failed == 1; }));
 }
 
-TEST_F(TlsListenerTest, GivesNoTicketsToResumeWith) {
+TEST_F(TlsListenerTest, SendsNoSessionTickets) {
   listen();
   tcp::socket socket = knock();
   RawTls client;
@@ -167,7 +167,7 @@ TEST_F(TlsListenerTest, HandshakeThatStopsHalfwayIsEndedByTheDeadline) {
   EXPECT_TRUE(end);  // connection closed
 }
 
-TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
+TEST_F(TlsListenerTest, IdleConnectionsPerPrefixAreLimited) {
   tls.max_half_open_per_prefix = 5;
   tls.handshake_timeout = 1h;
   listen();
@@ -181,7 +181,7 @@ TEST_F(TlsListenerTest, IdleConnectionsFromOnePlaceAreLimited) {
   EXPECT_EQ(counters().refused_from_prefix, 0u);
 }
 
-TEST_F(TlsListenerTest, AClassOf64BehindOneAddressMayKnockAtOnce) {
+TEST_F(TlsListenerTest, ClassOf64MayConnectFromOneAddress) {
   tls.handshake_timeout = 1h;
   listen();
   auto pupils = knockTimes(64);
@@ -191,7 +191,7 @@ TEST_F(TlsListenerTest, AClassOf64BehindOneAddressMayKnockAtOnce) {
   EXPECT_TRUE(runUntil(context, [&] { return counters().half_open_ended == 1; }));
 }
 
-TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
+TEST_F(TlsListenerTest, TotalIdleConnectionsAreLimitedAndTimeOut) {
   tls.max_half_open = 8;
   tls.handshake_timeout = 100ms;
   listen();
@@ -203,7 +203,7 @@ TEST_F(TlsListenerTest, IdleConnectionsInAllAreLimitedAndTimeOut) {
   join();
 }
 
-TEST_F(TlsListenerTest, SilentConnectionsOfTheMostCrowdedPlaceMakeRoom) {
+TEST_F(TlsListenerTest, MostCrowdedPrefixLosesASilentConnection) {
   tls.max_half_open = 8;
   tls.handshake_timeout = 1h;
   listen();
@@ -218,7 +218,7 @@ TEST_F(TlsListenerTest, SilentConnectionsOfTheMostCrowdedPlaceMakeRoom) {
   for (std::size_t i = 0; i < flood.size(); ++i) EXPECT_EQ(isOver(flood[i]), i == 1) << i;
 }
 
-TEST_F(TlsListenerTest, AHandshakeWhoseHelloIsCompleteIsNotEndedForOthers) {
+TEST_F(TlsListenerTest, HandshakeWithACompleteHelloIsNotEvicted) {
   tls.max_half_open_per_prefix = 4;
   tls.handshake_timeout = 1h;
   listen();
@@ -233,7 +233,7 @@ TEST_F(TlsListenerTest, AHandshakeWhoseHelloIsCompleteIsNotEndedForOthers) {
   EXPECT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
 }
 
-TEST_F(TlsListenerTest, AHelloThatCameAndWasNotReadYetCounts) {
+TEST_F(TlsListenerTest, ReceivedButUnreadHelloPreventsEviction) {
   tls.max_half_open_per_prefix = 1;
   tls.handshake_timeout = 1h;
   listen();
@@ -247,7 +247,7 @@ TEST_F(TlsListenerTest, AHelloThatCameAndWasNotReadYetCounts) {
   EXPECT_EQ(counters().half_open_ended, 0u);
 }
 
-TEST_F(TlsListenerTest, HellosOfFewPlacesLeaveOthersRoom) {
+TEST_F(TlsListenerTest, HelloFloodOfFewPrefixesLeavesFreeSlots) {
   tls.max_half_open = 16;
   tls.handshake_timeout = 1h;
   listen();
@@ -281,7 +281,7 @@ std::vector<tcp::socket> finishHellosTogether(TlsFixture& t) {
   return flood;
 }
 
-TEST_F(TlsListenerTest, HellosThatFinishTogetherLeaveOthersRoom) {
+TEST_F(TlsListenerTest, SimultaneousHellosLeaveFreeSlots) {
   tls.max_half_open = 16;
   tls.handshake_timeout = 1h;
   listen();
@@ -292,7 +292,7 @@ TEST_F(TlsListenerTest, HellosThatFinishTogetherLeaveOthersRoom) {
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, HellosOfKnownPlacesThatFinishTogetherLeaveOtherKnownOnesRoom) {
+TEST_F(TlsListenerTest, SimultaneousHellosOfKnownPrefixesLeaveKnownSlots) {
   tls.max_half_open_known = 16;
   tls.handshake_timeout = 1h;
   tls.is_known = [](const AddressPrefix&) { return true; };
@@ -303,7 +303,7 @@ TEST_F(TlsListenerTest, HellosOfKnownPlacesThatFinishTogetherLeaveOtherKnownOnes
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, PlacesAreSetAsideForKnownPlaces) {
+TEST_F(TlsListenerTest, SlotsAreReservedForKnownPrefixes) {
   tls.max_half_open = 4;
   tls.handshake_timeout = 1h;
   const AddressPrefix own = AddressPrefix::of(asio::ip::make_address("127.0.0.1"));
@@ -327,7 +327,7 @@ std::function<bool(const AddressPrefix&)> atMost(int times, std::map<AddressPref
   return [times, &asked](const AddressPrefix& prefix) { return ++asked[prefix] <= times; };
 }
 
-TEST_F(TlsListenerTest, OnePlaceThatShakesHandsWithoutEndIsHungUpOnBeforeAnAnswerAndOthersAreNot) {
+TEST_F(TlsListenerTest, HandshakeFloodFromOneAddressIsDroppedEarly) {
   std::map<AddressPrefix, int> asked;
   tls.take_handshake = atMost(3, asked);
   listen();
@@ -350,7 +350,7 @@ TEST_F(TlsListenerTest, OnePlaceThatShakesHandsWithoutEndIsHungUpOnBeforeAnAnswe
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 0; }));
 }
 
-TEST_F(TlsListenerTest, AConnectionFromAPlaceWithoutHandshakesIsHungUpOnAtOnce) {
+TEST_F(TlsListenerTest, ConnectionWithoutHandshakeBudgetIsDroppedAtOnce) {
   const AddressPrefix limited = AddressPrefix::of(asio::ip::make_address("127.1.1.1"));
   tls.has_handshake = [limited](const AddressPrefix& prefix) { return prefix != limited; };
   tls.handshake_timeout = 1h;
@@ -364,7 +364,7 @@ TEST_F(TlsListenerTest, AConnectionFromAPlaceWithoutHandshakesIsHungUpOnAtOnce) 
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, ABannedAddressGetsNotAByte) {
+TEST_F(TlsListenerTest, BannedAddressGetsNoByte) {
   const auto banned = asio::ip::make_address("127.1.1.1");
   tls.is_banned = [banned](const asio::ip::address& address) { return address == banned; };
   tls.handshake_timeout = 1h;
@@ -388,7 +388,7 @@ TEST_F(TlsListenerTest, ABannedAddressGetsNotAByte) {
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, WhatSaysNoHelloOrHasNoPlaceIsNoHandshake) {
+TEST_F(TlsListenerTest, OnlyAdmittedHellosCountAsHandshakes) {
   std::map<AddressPrefix, int> asked;
   tls.take_handshake = atMost(1, asked);
   tls.max_half_open_per_prefix = 1;
@@ -407,7 +407,7 @@ TEST_F(TlsListenerTest, WhatSaysNoHelloOrHasNoPlaceIsNoHandshake) {
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, AHelloThatComesByteByByteIsAskedForOnce) {
+TEST_F(TlsListenerTest, ByteByByteHelloIsCountedOnce) {
   std::map<AddressPrefix, int> asked;
   tls.take_handshake = atMost(1, asked);
   listen();
@@ -422,7 +422,7 @@ TEST_F(TlsListenerTest, AHelloThatComesByteByByteIsAskedForOnce) {
   EXPECT_EQ(asked.begin()->second, 1);
 }
 
-TEST_F(TlsListenerTest, AboveHalfOfTheLimitThereIsLessPatience) {
+TEST_F(TlsListenerTest, HandshakeTimeoutsShrinkAboveHalfTheLimit) {
   tls.max_half_open = 8;
   tls.handshake_timeout = 2s;
   listen();
@@ -447,7 +447,7 @@ TEST_F(TlsListenerTest, AboveHalfOfTheLimitThereIsLessPatience) {
   ASSERT_TRUE(endsAt(8));
 }
 
-TEST_F(TlsListenerTest, ASilentConnectionWaitsInTheKernelFirst) {
+TEST_F(TlsListenerTest, SilentConnectionIsDeferredByTheKernel) {
   tls.defer_accept = TlsListening().defer_accept;
   ASSERT_GT(tls.defer_accept.count(), 0) << "as shipped";
   listen();
@@ -457,7 +457,7 @@ TEST_F(TlsListenerTest, ASilentConnectionWaitsInTheKernelFirst) {
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; })) << "but it is not forgotten";
 }
 
-TEST_F(TlsListenerTest, SlowHandshakesHoldUpNobody) {
+TEST_F(TlsListenerTest, SlowHandshakesDoNotBlockOthers) {
   tls.handshake_timeout = 1h;
   listen();
   auto slow = knockTimes(50);
@@ -467,7 +467,7 @@ TEST_F(TlsListenerTest, SlowHandshakesHoldUpNobody) {
   EXPECT_EQ(listener->halfOpen(), 50u);
 }
 
-TEST_F(TlsListenerTest, ClosingItBreaksHandshakesOff) {
+TEST_F(TlsListenerTest, ClosingTheListenerAbortsHandshakes) {
   tls.handshake_timeout = 1h;
   listen();
   tcp::socket socket = knock();

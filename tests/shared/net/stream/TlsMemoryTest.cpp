@@ -98,13 +98,13 @@ struct TlsMemoryTest : TlsFixture {
   std::vector<tcp::socket> sockets;
 };
 
-TEST_F(TlsMemoryTest, IdleConnection) {
+TEST_F(TlsMemoryTest, IdleConnectionUsesLittleMemory) {
   const Heap before;
   sendFromAll("");
   expectSmall("idle", before);
 }
 
-TEST_F(TlsMemoryTest, HelloThatIsNotFinished) {
+TEST_F(TlsMemoryTest, UnfinishedHelloUsesLittleMemory) {
   const Heap before;
   // The longest accepted hello without its last byte, in one record.
   const std::string start = "\x16\x03\x01\x10\x04\x01\x00\x10\x00"s;
@@ -112,13 +112,13 @@ TEST_F(TlsMemoryTest, HelloThatIsNotFinished) {
   expectSmall("within the hello", before);
 }
 
-TEST_F(TlsMemoryTest, HandshakeThatIsNotFinished) {
+TEST_F(TlsMemoryTest, UnfinishedHandshakeUsesLittleMemory) {
   const Heap before;
   sendFromAll(RawTls().advance());
   expectSmall("after the hello", before);
 }
 
-TEST_F(TlsMemoryTest, BeforeLogin) {
+TEST_F(TlsMemoryTest, ConnectionBeforeLoginUsesLittleMemory) {
   const Heap before;
   Recorder recorder;
   for (int i = 0; i < kConnections; ++i) {
@@ -129,7 +129,7 @@ TEST_F(TlsMemoryTest, BeforeLogin) {
   accepted.clear();
 }
 
-TEST_F(TlsMemoryTest, BeforeLoginWithARecordThatDoesNotEnd) {
+TEST_F(TlsMemoryTest, UnfinishedRecordBeforeLoginUsesLittleMemory) {
   const Heap before;
   Recorder recorder;
   for (int i = 0; i < kConnections; ++i) {

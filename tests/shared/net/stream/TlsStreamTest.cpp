@@ -51,7 +51,7 @@ struct TlsStreamTest : TlsFixture {
   tcp::socket socket{context};
 };
 
-TEST_F(TlsStreamTest, ForgedRecordBreaksTheProtocol) {
+TEST_F(TlsStreamTest, ForgedRecordIsAProtocolError) {
   clientSends("genuine");
   asio::write(socket, asio::buffer("\x17\x03\x03\x00\x20"s + std::string(32, 'x')));
   EXPECT_TRUE(runUntilClosed());
@@ -59,13 +59,13 @@ TEST_F(TlsStreamTest, ForgedRecordBreaksTheProtocol) {
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST_F(TlsStreamTest, PlainBytesAfterTheHandshakeBreakTheProtocol) {
+TEST_F(TlsStreamTest, PlainBytesAfterHandshakeAreAProtocolError) {
   asio::write(socket, asio::buffer("\x05\0hello"s));
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kProtocol);
 }
 
-TEST_F(TlsStreamTest, RecordThatComesInPartLeavesTheLoopAtRest) {
+TEST_F(TlsStreamTest, PartialRecordLeavesTheLoopIdle) {
   asio::write(socket, asio::buffer("\x17\x03\x03\x00\x20"s + std::string(10, 'x')));
   for (int i = 0; i < 5; ++i) runReady(context);  // would not return if the loop were busy
   context.restart();
@@ -84,7 +84,7 @@ TEST_F(TlsStreamTest, KeysMayBeUpdatedInBothDirections) {
   EXPECT_FALSE(recorder.closed);
 }
 
-TEST_F(TlsStreamTest, SecretIsTheOneThatOpenSslExports) {
+TEST_F(TlsStreamTest, SecretMatchesOpenSslExport) {
   std::string expected(40, '\0');
   ASSERT_EQ(SSL_export_keying_material(client.ssl(), reinterpret_cast<unsigned char*>(expected.data()),
                                        expected.size(), "EXPERIMENTAL-naiad", 18,
@@ -93,7 +93,7 @@ TEST_F(TlsStreamTest, SecretIsTheOneThatOpenSslExports) {
   EXPECT_EQ(accepted[0]->exportSecret("EXPERIMENTAL-naiad", "abc", 40), expected);
 }
 
-TEST_F(TlsStreamTest, CloseSaysCloseNotify) {
+TEST_F(TlsStreamTest, CloseSendsCloseNotify) {
   accepted[0]->send("bye");
   accepted[0]->close();
   EXPECT_EQ(clientReads(5), "\x03\0bye"s);

@@ -6,7 +6,7 @@
 namespace naiad {
 namespace {
 
-TEST(VisitorFacts, SayTheSameAddressInEachForm) {
+TEST(VisitorFacts, HaveTheSameAddressInEachForm) {
   for (const char* const text : {"192.0.2.7:50312", "[2001:db8::7]:50313"}) {
     const auto endpoint = *visitorFromText(text);
     const auto address = endpoint.address().is_v6()

@@ -22,7 +22,7 @@ std::string bytes(std::initializer_list<int> values) {
   return text;
 }
 
-TEST(VisitorHeader, IsThatOfTheProxyProtocol) {
+TEST(VisitorHeader, MatchesTheProxyProtocol) {
   // Section 2.2 of the PROXY protocol's specification: 192.0.2.7:50312, unknown destination.
   const std::string written =
       kSignature + bytes({0x21, 0x11, 0, 12, 192, 0, 2, 7, 0, 0, 0, 0, 0xc4, 0x88, 0, 0});
@@ -30,7 +30,7 @@ TEST(VisitorHeader, IsThatOfTheProxyProtocol) {
   EXPECT_EQ(readVisitorHeader(written), at("192.0.2.7", 50312));
 }
 
-TEST(VisitorHeader, AddressesComeBack) {
+TEST(VisitorHeader, AddressesSurviveTheRoundTrip) {
   for (const auto& visitor :
        {at("192.0.2.7", 1), at("127.0.0.1", 65535), at("2001:db8::7", 50312), at("::1", 2)}) {
     const std::string header = visitorHeader(visitor);
@@ -45,7 +45,7 @@ TEST(VisitorHeader, AddressesComeBack) {
   EXPECT_EQ(readVisitorHeader(header), at("192.0.2.7", 9));
 }
 
-TEST(VisitorHeader, WhatFollowsTheAddressesIsPassedOverUpToALimit) {
+TEST(VisitorHeader, ExtraBytesAreSkippedUpToALimit) {
   std::string header = visitorHeader(at("192.0.2.7", 9));
   header[15] = static_cast<char>(kMaxVisitorHeaderRest);
   header.resize(kVisitorHeaderBegin + kMaxVisitorHeaderRest, 'x');
@@ -57,7 +57,7 @@ TEST(VisitorHeader, WhatFollowsTheAddressesIsPassedOverUpToALimit) {
   EXPECT_FALSE(visitorHeaderRest(header.substr(0, kVisitorHeaderBegin)));
 }
 
-TEST(VisitorHeader, OtherFormsAreRefused) {
+TEST(VisitorHeader, OtherHeaderFormsAreRefused) {
   const std::string good = visitorHeader(at("192.0.2.7", 9));
   const auto with = [&good](std::size_t place, int value) {
     std::string changed = good;
@@ -79,13 +79,13 @@ TEST(VisitorHeader, OtherFormsAreRefused) {
   EXPECT_FALSE(readVisitorHeader(good + "x"));
 }
 
-TEST(VisitorHeader, AddressesThatNobodyHasAreRefused) {
+TEST(VisitorHeader, UnusableAddressesAreRefused) {
   for (const char* address : {"0.0.0.0", "255.255.255.255", "224.0.0.1", "::", "ff02::1"})
     EXPECT_FALSE(readVisitorHeader(visitorHeader(at(address, 9)))) << address;
   EXPECT_FALSE(readVisitorHeader(visitorHeader(at("192.0.2.7", 0))));
 }
 
-TEST(VisitorHeader, AnyBytesAreRefusedOrNameAnAddress) {
+TEST(VisitorHeader, MutatedHeadersAreRefusedOrValid) {
   std::mt19937 random(5);
   const std::string good = visitorHeader(at("2001:db8::7", 50312));
   int read = 0;
@@ -102,7 +102,7 @@ TEST(VisitorHeader, AnyBytesAreRefusedOrNameAnAddress) {
   EXPECT_GT(read, 4000);
 }
 
-TEST(VisitorHeader, TextsOfAddressesAreReadStrictly) {
+TEST(VisitorHeader, AddressTextIsParsedStrictly) {
   EXPECT_EQ(visitorFromText("192.0.2.7:50312"), at("192.0.2.7", 50312));
   EXPECT_EQ(visitorFromText("[2001:db8::7]:50312"), at("2001:db8::7", 50312));
   for (const char* text :

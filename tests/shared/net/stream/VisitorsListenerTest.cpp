@@ -78,7 +78,7 @@ class VisitorsListenerTest : public testing::Test {
   std::vector<tcp::endpoint> m_visitors;
 };
 
-TEST_F(VisitorsListenerTest, AVisitorComesWithTheirAddressAndNoByteOfTheirsIsRead) {
+TEST_F(VisitorsListenerTest, ConnectionArrivesWithItsAddressAndUnreadBytes) {
   listen();
   const auto door = say(visitorHeader(kVisitor) + "hello");
   ASSERT_TRUE(runUntil(m_context, [this] { return !m_sockets.empty(); }));
@@ -101,7 +101,7 @@ TEST_F(VisitorsListenerTest, AHeaderMayComeByteByByte) {
   EXPECT_EQ(m_visitors.front(), kVisitor);
 }
 
-TEST_F(VisitorsListenerTest, WhatIsNoHeaderIsHungUpOnWithoutAByte) {
+TEST_F(VisitorsListenerTest, InvalidHeaderIsDroppedWithoutAReply) {
   listen();
   std::string oversized = visitorHeader(kVisitor);
   oversized[14] = static_cast<char>(0xff);
@@ -116,13 +116,13 @@ TEST_F(VisitorsListenerTest, WhatIsNoHeaderIsHungUpOnWithoutAByte) {
   EXPECT_TRUE(m_sockets.empty());
 }
 
-TEST_F(VisitorsListenerTest, OneThatEndsInItsHeaderIsGone) {
+TEST_F(VisitorsListenerTest, ConnectionEndingWithinItsHeaderIsDropped) {
   listen();
   say(visitorHeader(kVisitor).substr(0, 20)).close();
   EXPECT_TRUE(waitFor(counters().bad_headers));
 }
 
-TEST_F(VisitorsListenerTest, ASlowHeaderIsHungUpOn) {
+TEST_F(VisitorsListenerTest, SlowHeaderIsDropped) {
   m_options.header_timeout = 50ms;
   listen();
   auto door = say(visitorHeader(kVisitor).substr(0, 20));
@@ -130,7 +130,7 @@ TEST_F(VisitorsListenerTest, ASlowHeaderIsHungUpOn) {
   EXPECT_EQ(counters().late_headers, 1u);
 }
 
-TEST_F(VisitorsListenerTest, FewMayWait) {
+TEST_F(VisitorsListenerTest, WaitingConnectionsAreLimited) {
   m_options.max_waiting = 2;
   listen();
   auto first = connect();
@@ -145,7 +145,7 @@ TEST_F(VisitorsListenerTest, FewMayWait) {
   EXPECT_TRUE(runUntil(m_context, [this] { return m_sockets.size() == 2; })) << "a place is free again";
 }
 
-TEST_F(VisitorsListenerTest, HeadersThatAreThereWaitForNothingHoweverManyComeAtOnce) {
+TEST_F(VisitorsListenerTest, CompleteHeadersAreAcceptedDespiteTheLimit) {
   m_options.max_waiting = 1;
   listen();
   const auto slow = connect();
@@ -157,7 +157,7 @@ TEST_F(VisitorsListenerTest, HeadersThatAreThereWaitForNothingHoweverManyComeAtO
   EXPECT_EQ(m_listener->waiting(), 1u);
 }
 
-TEST_F(VisitorsListenerTest, AProgramThatMayNotIsHungUpOn) {
+TEST_F(VisitorsListenerTest, ForbiddenProcessIsDropped) {
   pid_t asked = 0;
   m_options.is_refused = [&asked](pid_t process) {
     asked = process;
@@ -190,7 +190,7 @@ TEST_F(VisitorsListenerTest, OnlyUserAndGroupMayOpenIt) {
   EXPECT_EQ(facts.st_mode & 07777, 0660u);
 }
 
-TEST_F(VisitorsListenerTest, AStaleSocketIsReplacedAndALiveOneNever) {
+TEST_F(VisitorsListenerTest, StaleSocketIsReplacedButNotALiveOne) {
   { Local::acceptor killed(m_context, Local::endpoint(m_options.path.string())); }
   ASSERT_TRUE(fs::exists(m_options.path));
   listen();
@@ -202,7 +202,7 @@ TEST_F(VisitorsListenerTest, AStaleSocketIsReplacedAndALiveOneNever) {
   EXPECT_FALSE(fs::exists(m_options.path));
 }
 
-TEST_F(VisitorsListenerTest, WhatIsNoSocketIsNotReplaced) {
+TEST_F(VisitorsListenerTest, NonSocketFileIsNotReplaced) {
   std::ofstream(m_options.path) << "mine";
   EXPECT_EQ(failure(), std::errc::file_exists);
   EXPECT_TRUE(fs::is_regular_file(m_options.path));
@@ -215,7 +215,7 @@ TEST_F(VisitorsListenerTest, WhatIsNoSocketIsNotReplaced) {
   EXPECT_EQ(failure(), std::errc::no_such_file_or_directory);
 }
 
-TEST_F(VisitorsListenerTest, AnothersSocketIsNotRemovedAtTheEnd) {
+TEST_F(VisitorsListenerTest, AnotherProgramsSocketIsNotRemoved) {
   listen();
   fs::remove(m_options.path);
   const Local::acceptor other(m_context, Local::endpoint(m_options.path.string()));
@@ -224,7 +224,7 @@ TEST_F(VisitorsListenerTest, AnothersSocketIsNotRemovedAtTheEnd) {
 }
 
 /// A server skips snapshots while bytes are unsent, so these must be counted on such a socket, too.
-TEST(VisitorsChannel, BytesThatTheDoorHasNotReadAreUnsent) {
+TEST(VisitorsChannel, BytesUnreadByTheProxyCountAsUnsent) {
   asio::io_context context;
   Local::socket near(context);
   Local::socket far(context);
