@@ -1,6 +1,6 @@
 # All installed headers: those that games include, and in detail/ those that these need. A test compiles each of them
 # alone against the installed tree. For each public header the build generates a wrapper of that name with a few lines:
-# it undefines the game's one-letter macros (detail/LettersBegin.h), includes the header itself from text/, and restores
+# it undefines the game's one-letter macros (detail/MacrosPush.h), includes the header itself from text/, and restores
 # the macros.
 set(naiad_public_headers
   server/engine/effects/Debris.h
@@ -129,11 +129,11 @@ set(naiad_detail_headers
   server/engine/world/WorldScope.h
   server/engine/world/WorldState.h
   server/engine/world/WorldView.h
-  shared/values/Dialect.h)
+  shared/values/LanguageStandard.h)
 
 # Generated in detail/: the headers that undefine and restore one-letter macros.
-set(naiad_letter_headers
-  LettersBegin.h LettersEnd.h)
+set(naiad_macro_headers
+  MacrosPush.h MacrosPop.h)
 # Generated: each includes detail/EventNetworks.h.
 set(naiad_event_network_headers
   EventCustomNetwork.h EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h

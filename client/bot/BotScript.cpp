@@ -48,9 +48,9 @@ using namespace df::Keyboard;
 
 std::vector<BotAction> ScriptPlayer::tick() {
   std::vector<BotAction> out;
-  if (m_left > 0) {
-    --m_left;
-    if (m_left > 0) {
+  if (m_remaining > 0) {
+    --m_remaining;
+    if (m_remaining > 0) {
       if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
       return out;
     }
@@ -62,16 +62,16 @@ std::vector<BotAction> ScriptPlayer::tick() {
   skipLoops();
   if (m_at >= m_script.steps().size()) return out;
   const BotStep& step = m_script.steps()[m_at++];
-  m_left = 1;
+  m_remaining = 1;
   switch (step.kind) {
     case BotStep::Kind::kPress:
     case BotStep::Kind::kHold:
       m_down = step.key;
-      m_left = step.kind == BotStep::Kind::kHold ? step.count : 1;
+      m_remaining = step.kind == BotStep::Kind::kHold ? step.count : 1;
       out.push_back(KeyAction{step.key, df::KEY_PRESSED});
       break;
     case BotStep::Kind::kWait:
-      m_left = step.count;
+      m_remaining = step.count;
       break;
     case BotStep::Kind::kClick:
       out.push_back(BotClick{df::CLICKED, step.button, step.x, step.y});
@@ -123,7 +123,7 @@ std::vector<BotAction> RandomPlayer::tick() {
   static constexpr std::array<Key, 12> kKeys = {SPACE, SPACE, LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
                                                 W,     A,     S,         D,          RETURN,  SPACE};
   std::vector<BotAction> out;
-  if (m_left-- > 0) {
+  if (m_remaining-- > 0) {
     if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
     return out;
   }
@@ -131,7 +131,7 @@ std::vector<BotAction> RandomPlayer::tick() {
     out.push_back(KeyAction{m_down, df::KEY_RELEASED});
     m_down = UNDEFINED_KEY;
   }
-  m_left = 1 + below(12);
+  m_remaining = 1 + below(12);
   const int choice = below(10);
   if (choice < 6) {
     m_down = kKeys[static_cast<std::size_t>(below(static_cast<int>(kKeys.size())))];
@@ -142,7 +142,7 @@ std::vector<BotAction> RandomPlayer::tick() {
   return out;
 }
 
-std::optional<df::Keyboard::Key> keyNamed(const std::string& name) {
+std::optional<df::Keyboard::Key> keyByName(const std::string& name) {
   std::string upper;
   for (const char c : name) upper.push_back(static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
   if (upper.size() == 1 && upper[0] >= '0' && upper[0] <= '9') upper = std::string("NUM") + upper;
@@ -228,7 +228,7 @@ class BotScriptParser {
 
   df::Keyboard::Key key() {
     const std::string name = word();
-    const auto found = keyNamed(name);
+    const auto found = keyByName(name);
     if (!found)
       fail(name.empty() ? "the name of a key is missing" : std::string("there is no key ") + quoted(name));
     return found.value_or(df::Keyboard::UNDEFINED_KEY);

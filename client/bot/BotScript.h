@@ -21,7 +21,7 @@
 #include <variant>
 #include <vector>
 
-#include "client/terminal/HeldKeys.h"
+#include "client/terminal/KeyHoldTracker.h"
 #include "shared/values/Keyboard.h"
 
 namespace naiad {
@@ -58,7 +58,7 @@ class BotScript {
 };
 
 /// Returns the key with this name in scripts; nullopt for unknown names.
-std::optional<df::Keyboard::Key> keyNamed(const std::string& name);
+std::optional<df::Keyboard::Key> keyByName(const std::string& name);
 
 struct BotClick {
   df::EventMouseAction action = df::CLICKED;
@@ -87,7 +87,7 @@ class ScriptPlayer {
   BotScript m_script;
   std::size_t m_at = 0;
   std::vector<int> m_rounds;  ///< remaining rounds of the open loops, innermost last
-  int m_left = 0;             ///< remaining ticks of the current step
+  int m_remaining = 0;        ///< remaining ticks of the current step
   df::Keyboard::Key m_down = df::Keyboard::UNDEFINED_KEY;
 };
 
@@ -104,7 +104,7 @@ class RandomPlayer {
   std::mt19937_64 m_random;
   int m_width;
   int m_height;
-  int m_left = 0;
+  int m_remaining = 0;
   df::Keyboard::Key m_down = df::Keyboard::UNDEFINED_KEY;
 };
 

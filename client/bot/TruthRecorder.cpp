@@ -38,7 +38,7 @@ void TruthRecorder::record(const Replica& replica, std::uint32_t tick) {
     const auto [found, fresh] = m_tracks.try_emplace(id, Track{entry.generation, cell, false});
     Track& track = found->second;
     if (!fresh && track.generation != entry.generation) {
-      m_gone_moved += track.moved ? 1 : 0;
+      m_removed_moved += track.moved ? 1 : 0;
       track = {entry.generation, cell, false};
     }
     if (!(track.first == cell)) track.moved = true;
@@ -46,7 +46,7 @@ void TruthRecorder::record(const Replica& replica, std::uint32_t tick) {
 }
 
 std::size_t TruthRecorder::movingCount() const {
-  std::size_t count = m_gone_moved;
+  std::size_t count = m_removed_moved;
   for (const auto& [slot, track] : m_tracks) count += track.moved ? 1 : 0;
   return count;
 }

@@ -23,7 +23,7 @@ namespace naiad {
 ///
 /// A complete snapshot says that the server has nothing more to send. An earlier one may still be lost or
 /// late: a snapshot sent as a datagram can overtake one that was sent before it on the stream.
-class WholePicture {
+class CompletenessTracker {
  public:
   /// Call after a snapshot was applied. `acks`: the snapshots received, including this one. `before`:
   /// the number of the last snapshot before this session.
@@ -35,7 +35,7 @@ class WholePicture {
     m_whole = m_complete && hasAll(acks, before);
   }
   /// True if the newest snapshot was complete and no earlier one is missing.
-  bool isWhole() const { return m_whole; }
+  bool isComplete() const { return m_whole; }
   /// The tick of the snapshot with the highest number; snapshots that arrive late do not change it.
   std::uint32_t tick() const { return m_tick; }
 
@@ -64,8 +64,8 @@ class TruthRecorder {
 
   /// Call before a snapshot of `tick` is applied to `replica`: records the ticks before it.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
-  /// Call after a snapshot of `tick` was applied. `complete`: WholePicture::isWhole(). `skips`: the server
-  /// may skip ticks after this one.
+  /// Call after a snapshot of `tick` was applied. `complete`: CompletenessTracker::isComplete(). `skips`: the
+  /// server may skip ticks after this one.
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
   /// Records the tick of the newest snapshot. Call when no further snapshot comes.
   void finish(const Replica& replica);
@@ -104,7 +104,7 @@ class TruthRecorder {
   bool m_skips = false;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   std::unordered_map<std::uint32_t, Track> m_tracks;  ///< indexed by slot
-  std::size_t m_gone_moved = 0;                       ///< moved Objects whose slot was reused
+  std::size_t m_removed_moved = 0;                    ///< moved Objects whose slot was reused
 };
 
 }  // namespace naiad

@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 /// after each frame would cost the square of their number.
 constexpr std::chrono::milliseconds kTurn{5};
 /// A server sends a snapshot at least every kKeepAliveTicks, later if the connection is bad. If at the end of
-/// play no snapshot comes for kPatience longer than that, the server has crashed or hangs.
-constexpr std::chrono::seconds kPatience{5};
+/// play no snapshot comes for kSnapshotTimeout longer than that, the server has crashed or hangs.
+constexpr std::chrono::seconds kSnapshotTimeout{5};
 constexpr int kKeepAliveTicks = 5;
 
 constexpr const char* kScriptHelp =
@@ -71,13 +71,13 @@ class Bot {
         if (!m_first_tick) m_first_tick = tick;
         m_heard_at = Clock::now();
       });
-      m_picture = naiad::WholePicture();
-      session.onAfterSnapshot(
-          [this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
-            const auto before = session.welcome().continuation.value_or(naiad::Continuation());
-            m_picture.addSnapshot(header, acks, before.snapshot);
-            m_recorder.afterSnapshot(header.tick, m_picture.isWhole(), !session.hasDatagrams(Clock::now()));
-          });
+      m_picture = naiad::CompletenessTracker();
+      session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header,
+                                               const naiad::AckWindow& acks) {
+        const auto before = session.welcome().resume_state.value_or(naiad::ResumeState());
+        m_picture.addSnapshot(header, acks, before.snapshot);
+        m_recorder.afterSnapshot(header.tick, m_picture.isComplete(), !session.hasDatagrams(Clock::now()));
+      });
     });
     m_connection.start();
   }
@@ -115,12 +115,12 @@ class Bot {
   bool isSilent(Clock::time_point now) {
     const naiad::ClientSession* session = m_connection.session();
     if (session == nullptr) return false;
-    return now - m_heard_at > kPatience + 2 * kKeepAliveTicks * session->welcome().tick;
+    return now - m_heard_at > kSnapshotTimeout + 2 * kKeepAliveTicks * session->welcome().tick;
   }
   /// True if the stream broke and no datagrams arrive either.
   bool isCutOff(Clock::time_point now) {
     const naiad::ClientSession* session = m_connection.session();
-    return session != nullptr && session->isDetached() && !session->isHeard(now);
+    return session != nullptr && session->isDetached() && !session->isReceiving(now);
   }
 
  private:
@@ -158,7 +158,7 @@ class Bot {
   int m_index;
   naiad::Connection m_connection;
   naiad::TruthRecorder m_recorder;
-  naiad::WholePicture m_picture;
+  naiad::CompletenessTracker m_picture;
   std::optional<std::uint32_t> m_first_tick;
   int m_sessions = 0;
   Clock::time_point m_joined_at{};
@@ -175,8 +175,8 @@ std::string scriptText(const std::string& argument) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-int complain(naiad::ExitCode code, const std::string& sentence) {
-  std::fprintf(stderr, "dfbot: %s\n", sentence.c_str());
+int complain(naiad::ExitCode code, const std::string& message) {
+  std::fprintf(stderr, "dfbot: %s\n", message.c_str());
   return code;
 }
 
@@ -234,7 +234,7 @@ int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, C
                 static_cast<unsigned long long>(proof.compared.wrong), bots[0]->recorder().movingCount());
   }
   std::printf("\n");
-  return proof.fault.empty() ? naiad::kExitLeft : complain(naiad::kExitUnproven, proof.fault);
+  return proof.fault.empty() ? naiad::kExitLeft : complain(naiad::kExitTruthMismatch, proof.fault);
 }
 
 int run(const BotOptions& options) {
@@ -258,12 +258,12 @@ int run(const BotOptions& options) {
       const naiad::Connection& connection = bot->connection();
       switch (connection.state()) {
         case State::kUnreachable:
-          return complain(naiad::kExitUnreachable, connection.sentence());
+          return complain(naiad::kExitUnreachable, connection.message());
         case State::kRefused:
-          return complain(naiad::kExitRefused, connection.sentence());
+          return complain(naiad::kExitRefused, connection.message());
         case State::kEnded:
         case State::kLost:
-          return complain(naiad::kExitEnded, connection.sentence());
+          return complain(naiad::kExitEnded, connection.message());
         default:
           joined = joined && connection.state() == State::kJoined;
       }
@@ -336,7 +336,7 @@ int start(int argc, char** argv) {
   bool web = false;
   const naiad::Program program{"dfbot", "Join a Naiad server with scripted or random players and no screen.",
                                std::string(kScriptHelp) + naiad::kExitCodeHelp};
-  const naiad::Parsed parsed =
+  const naiad::ParseResult parsed =
       naiad::parseOptions(program, optionsOf(options, server, script, web), argc, argv);
   if (const auto code = naiad::exitCodeOf(parsed)) return *code;
 

@@ -46,14 +46,15 @@ std::string whyNot(int error) {
 }  // namespace
 
 ControlClient::ControlClient(const std::filesystem::path& path) : m_socket(connectTo(path)) {
-  if (m_socket < 0) throw NoServer("Cannot connect to " + path.string() + ": " + whyNot(errno) + ".");
+  if (m_socket < 0)
+    throw ServerUnreachable("Cannot connect to " + path.string() + ": " + whyNot(errno) + ".");
 }
 
 ControlClient::~ControlClient() {
   ::close(m_socket);
 }
 
-AdminAnswer ControlClient::ask(const AdminRequest& request) {
+AdminAnswer ControlClient::sendRequest(const AdminRequest& request) {
   const std::string line = requestLine(request);
   for (std::size_t sent = 0; sent < line.size();) {
     const ssize_t size = ::send(m_socket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
@@ -62,25 +63,26 @@ AdminAnswer ControlClient::ask(const AdminRequest& request) {
   }
   AnswerReader reader;
   const bool takes_long = request.of("when") == "keep";
-  for (std::string text; readLine(text, takes_long ? kLongPatience : kPatience);) {
-    const AnswerReader::Got got = reader.readLine(text);
-    if (got == AnswerReader::Got::kAnswer) return reader.answer();
-    if (got == AnswerReader::Got::kNonsense) throw NoServer("This is not a Naiad server's control socket.");
+  for (std::string text; readLine(text, takes_long ? kReplayTimeout : kResponseTimeout);) {
+    const AnswerReader::LineKind got = reader.readLine(text);
+    if (got == AnswerReader::LineKind::kAnswer) return reader.answer();
+    if (got == AnswerReader::LineKind::kMalformed)
+      throw ServerUnreachable("This is not a Naiad server's control socket.");
   }
-  throw NoServer("The server closed the connection.");
+  throw ServerUnreachable("The server closed the connection.");
 }
 
 void ControlClient::follow(const std::function<void(const std::string&)>& show) {
   AnswerReader reader;
   for (std::string text; readLine(text, std::chrono::milliseconds(-1));) {
-    const AnswerReader::Got got = reader.readLine(text);
-    if (got == AnswerReader::Got::kEvent) show(reader.event());
-    if (got == AnswerReader::Got::kDropped)
+    const AnswerReader::LineKind got = reader.readLine(text);
+    if (got == AnswerReader::LineKind::kEvent) show(reader.event());
+    if (got == AnswerReader::LineKind::kDropped)
       show("(" + std::to_string(reader.dropped()) + " lines were dropped)");
   }
 }
 
-bool ControlClient::readLine(std::string& line, std::chrono::milliseconds patience) {
+bool ControlClient::readLine(std::string& line, std::chrono::milliseconds timeout) {
   for (;;) {
     if (const std::size_t end = m_in.find('\n'); end != std::string::npos) {
       line = m_in.substr(0, end);
@@ -88,8 +90,8 @@ bool ControlClient::readLine(std::string& line, std::chrono::milliseconds patien
       return true;
     }
     pollfd ready{m_socket, POLLIN, 0};
-    const int count = ::poll(&ready, 1, static_cast<int>(patience.count()));
-    if (count == 0) throw NoServer("The server does not answer.");
+    const int count = ::poll(&ready, 1, static_cast<int>(timeout.count()));
+    if (count == 0) throw ServerUnreachable("The server does not answer.");
     if (count < 0 && errno == EINTR) continue;
     char piece[4096];
     const ssize_t size = ::recv(m_socket, piece, sizeof piece, 0);
@@ -99,7 +101,7 @@ bool ControlClient::readLine(std::string& line, std::chrono::milliseconds patien
   }
 }
 
-std::vector<std::filesystem::path> liveControls() {
+std::vector<std::filesystem::path> findControlSockets() {
   std::vector<std::filesystem::path> found;
   std::vector<std::filesystem::path> all = controlSockets(kSystemFolder);
   if (const auto folder = controlFolder()) {

@@ -14,7 +14,7 @@
 namespace naiad {
 
 /// Thrown if there is no server or it does not answer. what() is one sentence.
-class NoServer : public std::runtime_error {
+class ServerUnreachable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -23,25 +23,26 @@ class NoServer : public std::runtime_error {
 class ControlClient {
  public:
   /// Time limit for an answer: a server whose game hangs gives none.
-  static constexpr std::chrono::seconds kPatience{10};
+  static constexpr std::chrono::seconds kResponseTimeout{10};
   /// Time limit while rounds are replayed (restart keep): the server aborts a replay after an hour. A server
   /// that ends closes the connection.
-  static constexpr std::chrono::seconds kLongPatience{4000};
+  static constexpr std::chrono::seconds kReplayTimeout{4000};
 
-  /// Throws NoServer.
+  /// Throws ServerUnreachable.
   explicit ControlClient(const std::filesystem::path& path);
   ~ControlClient();
   ControlClient(const ControlClient&) = delete;
   ControlClient& operator=(const ControlClient&) = delete;
 
-  /// Throws NoServer.
-  AdminAnswer ask(const AdminRequest& request);
+  /// Throws ServerUnreachable.
+  AdminAnswer sendRequest(const AdminRequest& request);
   /// Call after "watch" was answered. Calls `show` for each line of the log until the server ends.
   void follow(const std::function<void(const std::string& line)>& show);
 
  private:
-  /// Returns false if the connection has ended. Throws NoServer after `patience`; negative: no time limit.
-  bool readLine(std::string& line, std::chrono::milliseconds patience);
+  /// Returns false if the connection has ended. Throws ServerUnreachable after `timeout`; negative: no time
+  /// limit.
+  bool readLine(std::string& line, std::chrono::milliseconds timeout);
 
   int m_socket;
   std::string m_in;
@@ -49,6 +50,6 @@ class ControlClient {
 
 /// Returns the control sockets of this user and of /run/naiad/admin on which a server listens, and those that
 /// this user may not open.
-std::vector<std::filesystem::path> liveControls();
+std::vector<std::filesystem::path> findControlSockets();
 
 }  // namespace naiad

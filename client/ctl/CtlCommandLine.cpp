@@ -11,7 +11,7 @@ namespace naiad {
 namespace {
 
 bool isOfCtl(const AdminCommand& command) {
-  return command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket);
+  return command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Frontend::kSocket);
 }
 
 std::string names() {
@@ -199,7 +199,7 @@ std::string ctlHelp() {
       "  --help          Print this and exit\n"
       "  --version       Print the version and exit\n\n"
       "Commands:\n";
-  for (const std::string& one : adminHelp(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket))
+  for (const std::string& one : adminHelp(AdminCommand::Level::kAdmin, AdminCommand::Frontend::kSocket))
     text += "  " + one + "\n";
   return text +
          "\nPLAYER is a name, the beginning of a name, or #ID as listed by who. SPAN is like 90s, 30m, 2h or "

@@ -54,9 +54,9 @@ void print(const naiad::AdminAnswer& answer, bool json) {
 
 std::string findControl(const std::string& given) {
   if (!given.empty()) return given;
-  const auto live = naiad::liveControls();
+  const auto live = naiad::findControlSockets();
   if (live.empty())
-    throw naiad::NoServer("No server of yours is running; specify another one with --control PATH.");
+    throw naiad::ServerUnreachable("No server of yours is running; specify another one with --control PATH.");
   if (live.size() == 1) return live.front().string();
   std::string sentence = "Several servers are running; choose one:";
   for (const auto& path : live) sentence += "\n  --control " + path.string();
@@ -67,10 +67,10 @@ int give(const naiad::CtlCommandLine& line) {
   std::vector<std::string> words = line.words;
   if (words == std::vector<std::string>{"password"}) words.push_back(readSecret());
   const naiad::AdminRequest request = naiad::readAdminRequest(words);
-  if (!request.command->isFor(naiad::AdminCommand::Level::kAdmin, naiad::AdminCommand::Place::kSocket))
+  if (!request.command->isFor(naiad::AdminCommand::Level::kAdmin, naiad::AdminCommand::Frontend::kSocket))
     throw naiad::AdminUsageError("\"" + request.command->name + "\" is only available in the chat.");
   naiad::ControlClient client(findControl(line.control));
-  const naiad::AdminAnswer answer = client.ask(request);
+  const naiad::AdminAnswer answer = client.sendRequest(request);
   if (request.command->name == "watch" && answer.ok) {
     client.follow([&line](const std::string& text) {
       std::cout << (line.json ? naiad::answerJson(naiad::AdminAnswer::done(text)) : naiad::oneLine(text))
@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
     return printPage(line.words.size() == 2 ? naiad::ctlCompletion(line.words[1]) : std::nullopt);
   } catch (const naiad::AdminUsageError& error) {
     return failUsage(error.what());
-  } catch (const naiad::NoServer& error) {
+  } catch (const naiad::ServerUnreachable& error) {
     std::cerr << "dfctl: " << error.what() << "\n";
     return kNoServer;
   }

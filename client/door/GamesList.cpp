@@ -16,8 +16,7 @@ std::string readWords(const std::vector<std::string>& words, std::optional<Offer
   if (words[0].size() > kMaxName || !isPlainName(words[0]))
     return "invalid name: expected at most 32 letters, digits, '-', '_' and '.'";
   const auto parsed = JoinLink::parse(words[1]);
-  if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
-    return "invalid link: " + p_problem->sentence;
+  if (const auto* p_problem = std::get_if<LinkError>(&parsed)) return "invalid link: " + p_problem->message;
   if (!words[2].starts_with('/')) return "the path of the visitors' socket does not begin with /";
   if (words.size() == 4 && words[3] != "password") return "the only option is \"password\"";
   game = OfferedGame{words[0], std::get<JoinLink>(parsed), words[2], words.size() == 4};

@@ -22,7 +22,7 @@ struct OfferedGame {
   std::string name;  ///< 1 to 32 letters, digits, '-', '_', '.'
   JoinLink link;
   std::string socket;  ///< absolute path
-  bool wants_password = false;
+  bool needs_password = false;
 };
 
 struct GamesList {

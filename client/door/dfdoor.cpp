@@ -21,12 +21,12 @@
 #include <thread>
 #include <vector>
 
-#include "client/door/DoorPlaces.h"
+#include "client/door/DoorSlots.h"
 #include "client/door/GamesList.h"
 #include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/ByteStream.h"
-#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/ProxyHeader.h"
 #include "shared/options/Options.h"
 
 namespace naiad {
@@ -63,12 +63,12 @@ std::optional<std::size_t> choiceOf(const std::string& answer, const std::vector
   return std::nullopt;
 }
 
-/// Prints `question` and reads a line. Nullopt if none comes within `patience`, the terminal is gone, or the
+/// Prints `question` and reads a line. Nullopt if none comes within `timeout`, the terminal is gone, or the
 /// line is longer than 200 bytes.
-std::optional<std::string> askLine(const std::string& question, std::chrono::seconds patience) {
+std::optional<std::string> promptLine(const std::string& question, std::chrono::seconds timeout) {
   std::fputs(question.c_str(), stdout);
   std::fflush(stdout);
-  const auto end = Clock::now() + patience;
+  const auto end = Clock::now() + timeout;
   std::string line;
   while (line.size() <= kMaxLine) {
     const auto byte = readByte(end);
@@ -79,11 +79,11 @@ std::optional<std::string> askLine(const std::string& question, std::chrono::sec
   return std::nullopt;
 }
 
-/// Asks for a game; returns its index. Nullopt like askLine(), or after three invalid answers.
-std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std::chrono::seconds patience) {
+/// Asks for a game; returns its index. Nullopt like promptLine(), or after three invalid answers.
+std::optional<std::size_t> promptChoice(const std::vector<std::string>& names, std::chrono::seconds timeout) {
   for (std::size_t i = 0; i < names.size(); ++i) std::printf("%3zu  %s\n", i + 1, names[i].c_str());
   for (int i = 0; i < kMaxTries; ++i) {
-    const auto answer = askLine("Which game? ", patience);
+    const auto answer = promptLine("Which game? ", timeout);
     if (!answer) return std::nullopt;
     if (const auto choice = choiceOf(*answer, names)) return choice;
     std::printf("Type a number from 1 to %zu.\n", names.size());
@@ -91,18 +91,18 @@ std::optional<std::size_t> askChoice(const std::vector<std::string>& names, std:
   return std::nullopt;
 }
 
-/// Asks for the player's name; an empty line means `known`. Nullopt like askLine().
-std::optional<std::string> askName(const std::string& known, std::chrono::seconds patience) {
-  const auto answer = askLine(known.empty() ? "Your name? " : "Your name? [" + known + "] ", patience);
+/// Asks for the player's name; an empty line means `known`. Nullopt like promptLine().
+std::optional<std::string> promptName(const std::string& known, std::chrono::seconds timeout) {
+  const auto answer = promptLine(known.empty() ? "Your name? " : "Your name? [" + known + "] ", timeout);
   if (!answer) return std::nullopt;
   const bool is_blank =
       std::all_of(answer->begin(), answer->end(), [](char c) { return c == ' ' || c == '\r'; });
   return is_blank && !known.empty() ? known : safeName(*answer);
 }
 
-/// Asks a question; the answer is yes unless it begins with n or N. Nullopt like askLine().
-std::optional<bool> askYes(const std::string& question, std::chrono::seconds patience) {
-  const auto answer = askLine(question + " [y] ", patience);
+/// Asks a question; the answer is yes unless it begins with n or N. Nullopt like promptLine().
+std::optional<bool> promptYes(const std::string& question, std::chrono::seconds timeout) {
+  const auto answer = promptLine(question + " [y] ", timeout);
   if (!answer) return std::nullopt;
   return !answer->starts_with('n') && !answer->starts_with('N');
 }
@@ -125,10 +125,10 @@ constexpr const char* kHelp =
     "Exit codes: 2 wrong usage, a command was requested, or games.list is invalid; 3 no free place;\n"
     "5 no terminal; else those of dfclient.\n";
 
-constexpr std::chrono::seconds kPatience{60};   // limit for an answer of the visitor
-constexpr std::chrono::seconds kTakeOver{10};   // limit for the end of the visitor's other client
-constexpr std::chrono::milliseconds kStep{50};  // interval between attempts to lock the folder
-constexpr std::size_t kMaxList = 65'536;        // bytes of games.list
+constexpr std::chrono::seconds kPromptTimeout{60};  // limit for an answer of the visitor
+constexpr std::chrono::seconds kTakeOver{10};       // limit for the end of the visitor's other client
+constexpr std::chrono::milliseconds kStep{50};      // interval between attempts to lock the folder
+constexpr std::size_t kMaxList = 65'536;            // bytes of games.list
 constexpr std::size_t kMaxTerm = 64;
 constexpr std::size_t kMaxAuthInfo = 65'536;
 
@@ -136,7 +136,7 @@ struct DoorOptions {
   fs::path games;
   fs::path state;
   std::string client;
-  naiad::DoorPlace::Limits limits;
+  naiad::DoorSlot::Limits limits;
   int idle_limit = 600;
 };
 
@@ -182,7 +182,7 @@ asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   const std::string address = connection.substr(0, blank);
   const std::string rest = blank == std::string::npos ? "" : connection.substr(blank + 1);
   const std::string port = rest.substr(0, rest.find(' '));
-  const auto visitor = naiad::visitorFromText(
+  const auto visitor = naiad::proxiedPeerFromText(
       (address.find(':') == std::string::npos ? address : "[" + address + "]") + ":" + port);
   if (!visitor) throw Refusal{kUsage, "This program must be started by sshd."};
   return *visitor;
@@ -206,11 +206,11 @@ naiad::GamesList readGames(const fs::path& path) {
   return list;
 }
 
-std::unique_ptr<naiad::DoorPlace> takePlace(const DoorOptions& options,
-                                            const asio::ip::tcp::endpoint& visitor) {
-  auto taken = naiad::DoorPlace::take(options.state / "places", naiad::peerName(visitor), options.limits);
+std::unique_ptr<naiad::DoorSlot> takePlace(const DoorOptions& options,
+                                           const asio::ip::tcp::endpoint& visitor) {
+  auto taken = naiad::DoorSlot::acquire(options.state / "places", naiad::peerName(visitor), options.limits);
   if (taken.place) return std::move(taken.place);
-  throw Refusal{kRefused, taken.refusal == naiad::DoorPlace::Refusal::kFull
+  throw Refusal{kRefused, taken.refusal == naiad::DoorSlot::Refusal::kFull
                               ? "All places are taken. Try again later."
                               : "Too many players from your address. Try again later."};
 }
@@ -218,14 +218,14 @@ std::unique_ptr<naiad::DoorPlace> takePlace(const DoorOptions& options,
 /// Asks a visitor already playing, perhaps on a dead connection, whether to continue here; ends that client.
 bool takeOver(naiad::VisitorFolder& folder) {
   const auto yes =
-      naiad::askYes("You are already playing here. Continue that game in this terminal?", kPatience);
+      naiad::promptYes("You are already playing here. Continue that game in this terminal?", kPromptTimeout);
   if (!yes) throw Refusal{kRefused, ""};
   const pid_t holder = folder.holder();
   if (!*yes || holder == 0) return false;
   ::kill(holder, SIGHUP);
   for (const auto end = std::chrono::steady_clock::now() + kTakeOver;
        std::chrono::steady_clock::now() < end;) {
-    if (folder.take()) return true;
+    if (folder.acquire()) return true;
     std::this_thread::sleep_for(kStep);
   }
   return false;
@@ -239,7 +239,7 @@ std::unique_ptr<naiad::VisitorFolder> folderOf(const DoorOptions& options) {
                         : naiad::keyFolderName(naiad::readSmallFile(auth_file, kMaxAuthInfo).value_or(""));
   if (!name) return nullptr;
   auto folder = naiad::VisitorFolder::open(options.state / "keys", *name);
-  if (folder && (folder->take() || takeOver(*folder))) return folder;
+  if (folder && (folder->acquire() || takeOver(*folder))) return folder;
   return nullptr;
 }
 
@@ -261,7 +261,7 @@ ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& ga
                  "--visitor=" + naiad::peerName(visitor),
                  "--known-servers=" + (folder / ("known-" + game.link.key.text())).string(),
                  "--idle-limit=" + std::to_string(options.idle_limit)};
-  if (game.wants_password) start.words.push_back("--ask-password");
+  if (game.needs_password) start.words.push_back("--ask-password");
   start.environment = {"PATH=/usr/bin:/bin", "LC_ALL=C.UTF-8", "TERM=" + terminalType(variable("TERM"))};
   for (const char* home : {"HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"})
     start.environment.push_back(std::string(home) + "=" + folder.string());
@@ -314,11 +314,12 @@ int serveVisitor(const DoorOptions& options) {
 
   std::vector<std::string> names;
   for (const naiad::OfferedGame& game : list.games) names.push_back(game.name);
-  const auto choice = names.size() == 1 ? std::optional<std::size_t>(0) : naiad::askChoice(names, kPatience);
-  const auto name = choice ? naiad::askName(folder ? folder->name() : "", kPatience) : std::nullopt;
+  const auto choice =
+      names.size() == 1 ? std::optional<std::size_t>(0) : naiad::promptChoice(names, kPromptTimeout);
+  const auto name = choice ? naiad::promptName(folder ? folder->name() : "", kPromptTimeout) : std::nullopt;
   if (!name) throw Refusal{kRefused, "Goodbye."};
   if (folder) {
-    folder->keepName(*name);
+    folder->saveName(*name);
   } else {
     folder = naiad::VisitorFolder::makeTemporary(options.state / "visits");
   }
@@ -338,7 +339,7 @@ std::vector<naiad::Option> optionsOf(DoorOptions& door) {
       naiad::typedOption("--client", "FILE", &door.client,
                          "The dfclient to run (default: the one in this program's folder)"),
       {.name = "--max-visitors",
-       .target = &door.limits.in_all,
+       .target = &door.limits.total,
        .help = "Maximum number of visitors at a time",
        .range = naiad::OptionRange{1, 1000},
        .shows_default = true},

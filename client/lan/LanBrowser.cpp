@@ -60,7 +60,7 @@ std::vector<int> LanBrowser::descriptors() const {
 void LanBrowser::update(Time now) {
   if (now < m_next_query) return;
   sendQueries();
-  m_next_query = now + (++m_sent == 1 ? kRepeat : kInterval);
+  m_next_query = now + (++m_sent == 1 ? kRetryDelay : kInterval);
 }
 
 void LanBrowser::restart() {
@@ -85,16 +85,16 @@ void LanBrowser::sendQueries() {
 bool LanBrowser::receiveAnswers() {
   bool changed = false;
   for (LanSocket& socket : m_sockets) {
-    for (int i = 0; i < kTurn; ++i) {
+    for (int i = 0; i < kMaxAnswersPerCall; ++i) {
       const auto packet = socket.receivePacket();
       if (!packet) break;
-      changed = takePacket(*packet) || changed;
+      changed = handlePacket(*packet) || changed;
     }
   }
   return changed;
 }
 
-bool LanBrowser::takePacket(const LanPacket& packet) {
+bool LanBrowser::handlePacket(const LanPacket& packet) {
   if (!isFromLink(packet, m_networks)) return false;
   const auto answer = readLanAnswer(packet.bytes);
   return answer && answer->nonce == m_nonce && m_servers.addAnswer(packet.source, *answer);

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "shared/net/lan/LanSocket.h"
 
 namespace naiad {
@@ -22,13 +22,14 @@ class LanBrowser {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// The first query is repeated after kRepeat, in case it was lost. The interval from then on is kInterval.
-  static constexpr std::chrono::milliseconds kRepeat{400};
+  /// The first query is repeated after kRetryDelay, in case it was lost. The interval from then on is
+  /// kInterval.
+  static constexpr std::chrono::milliseconds kRetryDelay{400};
   static constexpr std::chrono::milliseconds kInterval{3000};
   /// All servers of a quiet network have answered after this time.
-  static constexpr std::chrono::milliseconds kPatience{800};
+  static constexpr std::chrono::milliseconds kResponseTimeout{800};
   /// Maximum number of answers read from a socket in one call; the rest waits for the next call.
-  static constexpr int kTurn = 64;
+  static constexpr int kMaxAnswersPerCall = 64;
 
   /// Opens the sockets. If none can be opened, no server is found.
   LanBrowser();
@@ -44,16 +45,16 @@ class LanBrowser {
   /// Reads answers. Returns true if the list changed.
   bool receiveAnswers();
 
-  const FoundServers& servers() const { return m_servers; }
+  const DiscoveredServers& servers() const { return m_servers; }
 
  private:
   void sendQueries();
-  bool takePacket(const LanPacket& packet);
+  bool handlePacket(const LanPacket& packet);
 
   std::vector<LanSocket> m_sockets;
   std::vector<LanNetwork> m_networks;
   LanNonce m_nonce{};
-  FoundServers m_servers;
+  DiscoveredServers m_servers;
   int m_sent = 0;       ///< rounds of queries since the start
   Time m_next_query{};  ///< initially in the past: at once
 };

@@ -32,7 +32,7 @@ std::string inWords(const HttpExchange::Result& result) {
       return "host not found" + reason;
     case End::kUntrusted:
       return "no secure connection" + reason;
-    case End::kHungUp:
+    case End::kConnectionLost:
       return "the server closed the connection" + reason;
     case End::kTooLong:
       return "it is longer than 1 MiB";
@@ -45,7 +45,7 @@ std::string inWords(const HttpExchange::Result& result) {
   }
 }
 
-DownloadProblem problemOf(const std::string& what) {
+DownloadError problemOf(const std::string& what) {
   return {"Cannot load the server list: " + what + "."};
 }
 
@@ -104,9 +104,9 @@ std::string ListUrl::hostText() const {
   return LinkHost{host, port}.text(kHttpsPort);
 }
 
-std::variant<std::string, DownloadProblem> downloadList(const ListUrl& url) {
+std::variant<std::string, DownloadError> downloadList(const ListUrl& url) {
   const auto tls = TlsContext::forWebClient();
-  const auto end = Clock::now() + kListPatience;
+  const auto end = Clock::now() + kListTimeout;
   ListUrl next = url;
   for (int i = 0; i <= kMaxListRedirects; ++i) {
     auto download = std::make_unique<Download>(tls);

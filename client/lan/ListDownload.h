@@ -29,17 +29,17 @@ struct ListUrl {
   friend bool operator==(const ListUrl&, const ListUrl&) = default;
 };
 
-/// Reason of a failed download: a sentence for people. It contains no text from the other end.
-struct DownloadProblem {
-  std::string sentence;
+/// Reason of a failed download: a message for people. It contains no text from the other end.
+struct DownloadError {
+  std::string message;
 };
 
 inline constexpr std::size_t kMaxListBytes = std::size_t{1} << 20;
-inline constexpr std::chrono::seconds kListPatience{5};  ///< limit on the whole download, with redirects
+inline constexpr std::chrono::seconds kListTimeout{5};  ///< limit on the whole download, with redirects
 inline constexpr int kMaxListRedirects = 3;
 
-/// Downloads the list; blocks for up to kListPatience. The system's trust store must accept the certificate.
+/// Downloads the list; blocks for up to kListTimeout. The system's trust store must accept the certificate.
 /// Follows redirects that ListUrl::redirected() allows.
-std::variant<std::string, DownloadProblem> downloadList(const ListUrl& url);
+std::variant<std::string, DownloadError> downloadList(const ListUrl& url);
 
 }  // namespace naiad

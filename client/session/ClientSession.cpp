@@ -10,7 +10,7 @@ ClientSession::ClientSession(std::unique_ptr<ReliableChannel> channel, const Ses
 
 void ClientSession::receive(std::string_view frame, Time now) {
   if (isOver()) return;
-  m_liveness.noteHeard(now);
+  m_liveness.onReceived(now);
   m_counters.bytes_in += frame.size() + kFrameHeaderSize;
   const std::uint32_t newest = m_inbox.newestFrame();
   auto message = readServerMessage(frame);
@@ -18,7 +18,7 @@ void ClientSession::receive(std::string_view frame, Time now) {
   std::visit([this, now](auto& m) { handle(std::move(m), now); }, *message);
   ++m_revision;
   if (m_inbox.newestFrame() == newest || isOver()) return;
-  if (m_inbox.noteFrameSize(frame.size())) sendPing(now);
+  if (m_inbox.countFrame(frame.size())) sendPing(now);
 }
 
 void ClientSession::handle(WelcomeMessage&& message, Time now) {
@@ -29,66 +29,66 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
                   "This server has no rooms; cannot enter room \"" + m_link.options().room + "\".");
   }
   m_welcome = std::move(message);
-  const bool fresh = m_link.options().fresh;
-  if (!fresh) m_welcome.continuation.reset();
-  const Continuation from = m_welcome.continuation.value_or(Continuation{});
-  if (fresh && m_welcome.resumed) {
-    if (!m_welcome.continuation) return reject("a resumed session without its state");
+  const bool new_process = m_link.options().new_process;
+  if (!new_process) m_welcome.resume_state.reset();
+  const ResumeState from = m_welcome.resume_state.value_or(ResumeState{});
+  if (new_process && m_welcome.resumed) {
+    if (!m_welcome.resume_state) return reject("a resumed session without its state");
     m_inbox.addNotice("Session resumed.", now);
   }
   m_world.start(m_welcome, from);
   m_inputs.start(from.input, m_welcome.tick);
   m_state = State::kPlaying;
-  m_picture_wait.heard(now);
+  m_picture_wait.onActivity(now);
   m_liveness.startStream(now);
-  m_timing.noteAttached(now);
-  if (!m_welcome.resumed || m_welcome.continuation) openDatagrams(now);
+  m_timing.onAttached(now);
+  if (!m_welcome.resumed || m_welcome.resume_state) openDatagrams(now);
   const std::string wanted = m_link.options().stays_in_room ? "" : m_link.options().room;
-  if (fresh && m_welcome.resumed && !wanted.empty() && wanted != m_welcome.room) enterRoom(wanted);
+  if (new_process && m_welcome.resumed && !wanted.empty() && wanted != m_welcome.room) enterRoom(wanted);
   update(now);
 }
 
 void ClientSession::handle(RefusedMessage&& message, Time) {
   if (m_state != State::kGreeting) return reject("a refusal after the welcome");
   m_refusal = std::move(message);
-  finish(State::kRefused, m_refusal.sentence.empty() ? "The server refused." : m_refusal.sentence);
+  finish(State::kRefused, m_refusal.message.empty() ? "The server refused." : m_refusal.message);
 }
 
 void ClientSession::handle(GoodbyeMessage&& message, Time) {
-  m_returns_in = message.again;
-  finish(m_returns_in.count() > 0 ? State::kLost : State::kEnded,
-         message.sentence.empty() ? "The server ended the game." : std::move(message.sentence));
+  m_restart_delay = message.restart_time;
+  finish(m_restart_delay.count() > 0 ? State::kLost : State::kEnded,
+         message.message.empty() ? "The server ended the game." : std::move(message.message));
 }
 
 void ClientSession::handle(SnapshotMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("a snapshot before the welcome");
-  m_timing.noteStreamSnapshot(now);
-  if (!m_link.second().isRepeat(message.bytes)) applySnapshot(message.bytes, now);
+  m_timing.onStreamSnapshot(now);
+  if (!m_link.second().isDuplicate(message.bytes)) applySnapshot(message.bytes, now);
 }
 
 void ClientSession::handle(PlayersMessage&& message, Time) {
   if (m_state != State::kPlaying) return reject("players before the welcome");
-  m_inbox.takePlayers(std::move(message));
+  m_inbox.handlePlayers(std::move(message));
 }
 
 void ClientSession::handle(ChatMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("chat before the welcome");
-  m_inbox.takeChat(std::move(message), m_welcome, now);
+  m_inbox.handleChat(std::move(message), m_welcome, now);
 }
 
 void ClientSession::handle(SoundsMessage&& message, Time) {
   if (m_state != State::kPlaying) return reject("sounds before the welcome");
-  m_inbox.takeSounds(std::move(message));
+  m_inbox.handleSounds(std::move(message));
 }
 
 void ClientSession::handle(const PongMessage& message, Time now) {
   // Otherwise a server could postpone the greeting's timeout without end.
   if (m_state != State::kPlaying) return reject("a pong before the welcome");
-  m_link.acknowledgeReliable(message.received);
-  if (const auto sample = m_liveness.endPing(message.token, now)) m_world.noteRoundTrip(*sample);
+  m_link.acknowledgeReliable(message.last_frame);
+  if (const auto sample = m_liveness.endPing(message.token, now)) m_world.addRttSample(*sample);
 }
 
-void ClientSession::handle(EnteredMessage&& message, Time now) {
+void ClientSession::handle(RoomEnteredMessage&& message, Time now) {
   if (m_state != State::kPlaying) return reject("another room before the welcome");
   m_inbox.addNotice("You are now in room " + message.room + ", playing " + message.game + ".", now);
   m_welcome.player = message.player;
@@ -113,23 +113,23 @@ void ClientSession::openDatagrams(Time now) {
 
 void ClientSession::receiveDatagram(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
-  m_liveness.noteHeard(now);
-  m_timing.noteDatagram(now);
+  m_liveness.onReceived(now);
+  m_timing.onDatagram(now);
   m_counters.bytes_in += bytes.size();
   ++m_counters.datagrams_in;
-  if (const auto sample = m_link.takeRoundTrip()) {
-    m_liveness.noteRoundTrip(*sample, now);
-    m_world.noteRoundTrip(*sample);
+  if (const auto sample = m_link.popRoundTrip()) {
+    m_liveness.addRttSample(*sample, now);
+    m_world.addRttSample(*sample);
   }
   applySnapshot(bytes, now);
   ++m_revision;
 }
 
-bool ClientSession::wantsSecond(Time now) {
+bool ClientSession::shouldOpenSecondStream(Time now) {
   if (m_state != State::kPlaying || !m_link.hasStream() || !m_welcome.second_stream) return false;
   const bool no_datagrams =
       m_link.options().two_streams || (m_link.hasDatagrams() && m_timing.isOnStreamOnly(now));
-  return no_datagrams && m_link.second().takeAttempt(now);
+  return no_datagrams && m_link.second().tryBeginAttempt(now);
 }
 
 void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
@@ -142,15 +142,15 @@ void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
 void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
   m_counters.bytes_in += bytes.size() + kFrameHeaderSize;
-  m_timing.noteStreamSnapshot(now);
-  if (m_link.second().isRepeat(bytes)) return;
+  m_timing.onStreamSnapshot(now);
+  if (m_link.second().isDuplicate(bytes)) return;
   applySnapshot(bytes, now);
   ++m_revision;
 }
 
 void ClientSession::applySnapshot(std::string_view bytes, Time now) {
   const ReceivedWorld::Result result = m_world.applySnapshot(bytes, now, m_inputs, m_before_observer);
-  m_counters.resets = m_world.feed().resets();
+  m_counters.resets = m_world.worlds().resets();
   switch (result) {
     case ReceivedWorld::Result::kApplied:
     case ReceivedWorld::Result::kShown:
@@ -159,7 +159,7 @@ void ClientSession::applySnapshot(std::string_view bytes, Time now) {
       return;
     case ReceivedWorld::Result::kStale:
       ++m_counters.stale_snapshots;
-      if (m_world.feed().wantsResetNow()) sendUpdate(now);
+      if (m_world.worlds().shouldRequestReset()) sendUpdate(now);
       return;
     case ReceivedWorld::Result::kMalformed:
       return reject("a malformed snapshot");
@@ -167,23 +167,23 @@ void ClientSession::applySnapshot(std::string_view bytes, Time now) {
   ++m_counters.snapshots;
   if (m_after_observer) m_after_observer(m_world.header(), m_world.acks());
   const bool gap = m_world.hasGap() && m_counters.snapshots > 1;
-  if (m_timing.noteSnapshotApplied(gap, now)) sendUpdate(now);
+  if (m_timing.onSnapshotApplied(gap, now)) sendUpdate(now);
 }
 
 void ClientSession::adopt(ClientSession& other, Time now) {
   const WelcomeMessage& welcome = other.m_welcome;
   const bool same_id = welcome.connection_id == m_welcome.connection_id;
-  m_link.takeStream(other.m_link);
+  m_link.adoptStream(other.m_link);
   other.m_state = State::kLeft;
   m_welcome.resume_token = welcome.resume_token;
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
-  if (welcome.player != m_welcome.player) takeRoom(welcome);
+  if (welcome.player != m_welcome.player) updateRoom(welcome);
   m_world.resume(welcome.tick_now);
-  m_liveness.noteHeard(now);
+  m_liveness.onReceived(now);
   m_liveness.startStream(now);  // its first ping tells the server that the new token has arrived
-  m_timing.noteAttached(now);
+  m_timing.onAttached(now);
   m_inputs.restartStream();
   if (same_id) {
     m_link.renewDatagrams(m_welcome);
@@ -191,7 +191,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
     m_link.closeDatagrams();
     openDatagrams(now);
   }
-  m_link.acknowledgeReliable(welcome.received);
+  m_link.acknowledgeReliable(welcome.last_frame);
   m_link.resendReliable();
   ++m_revision;
   sendUpdate(now);
@@ -199,7 +199,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
 }
 
 // Needed if the stream broke before the message that the player has entered another room.
-void ClientSession::takeRoom(const WelcomeMessage& welcome) {
+void ClientSession::updateRoom(const WelcomeMessage& welcome) {
   m_welcome.player = welcome.player;
   m_welcome.room = welcome.room;
   m_welcome.game = welcome.game;
@@ -225,16 +225,16 @@ void ClientSession::closed(CloseReason reason) {
 
 void ClientSession::update(Time now) {
   if (isOver()) return;
-  m_liveness.listen(now);
+  m_liveness.poll(now);
   if (m_state == State::kGreeting) {
     if (m_liveness.silence(now) >= kGreetingTimeout) {
       finish(State::kLost, "The server accepted the connection but did not answer.");
     }
     return;
   }
-  m_picture_wait.listen(now);
-  if (pictureWait(now) >= kPictureTimeout) return giveUpPicture();
-  if (m_timing.takeRepeat(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
+  m_picture_wait.poll(now);
+  if (pictureWait(now) >= kPictureTimeout) return failWithoutPicture();
+  if (m_timing.popInputResend(now) && !m_inputs.isEmpty() && hasDatagrams(now)) sendUpdate(now);
   if (m_timing.isAckDue(now)) sendUpdate(now);
   if (m_link.hasDatagrams() && m_timing.isProbeDue(now, !m_link.hasStream())) sendProbe(now);
   m_link.second().update(now);
@@ -252,7 +252,7 @@ void ClientSession::updateStream(Time now) {
     return closed(CloseReason::kError);  // datagrams survive a change of address, streams do not
   }
   // Keys are derived from a stream, so new keys need another stream. Datagrams continue until then.
-  if (!m_welcome.resume_token.empty() && m_link.takeNewEpochDue()) return closed(CloseReason::kError);
+  if (!m_welcome.resume_token.empty() && m_link.popNewEpochDue()) return closed(CloseReason::kError);
   if (m_liveness.silence(now) >= kIdleTimeout) {
     if (m_welcome.resume_token.empty()) return finish(State::kLost, "The server stopped responding.");
     return closed(CloseReason::kError);  // the session waits for a new stream
@@ -262,11 +262,11 @@ void ClientSession::updateStream(Time now) {
 
 IdleTimer::Duration ClientSession::pictureWait(Time now) const {
   const bool waits = m_state == State::kPlaying && !hasPicture(now);
-  return waits ? m_picture_wait.at(now) : IdleTimer::Duration::zero();
+  return waits ? m_picture_wait.idleTime(now) : IdleTimer::Duration::zero();
 }
 
 // Leaves, so that the server does not keep a place for a client that will not return.
-void ClientSession::giveUpPicture() {
+void ClientSession::failWithoutPicture() {
   sendLeave();
   finish(State::kLost,
          "Joined, but the server sent no picture within " + std::to_string(kPictureTimeout.count()) + " s.");
@@ -277,9 +277,9 @@ void ClientSession::reject(const std::string& what) {
   finish(State::kEnded, std::string("Protocol error: the server sent ") + what + ". Disconnected.");
 }
 
-void ClientSession::finish(State state, std::string sentence) {
+void ClientSession::finish(State state, std::string message) {
   m_state = state;
-  m_sentence = std::move(sentence);
+  m_message = std::move(message);
   ++m_revision;
   m_link.closeStreams();
 }

@@ -67,14 +67,14 @@ class ClientSession {
   void adopt(ClientSession& other, Time now);
   /// True, once for each attempt, if datagrams do not pass and it is time to open a second stream for
   /// startSecond().
-  bool wantsSecond(Time now);
+  bool shouldOpenSecondStream(Time now);
   void startSecond(std::unique_ptr<ReliableChannel> channel);
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
   /// True if datagrams arrive from the server.
   bool hasDatagrams(Time now) const { return m_link.hasDatagrams() && m_timing.hasDatagrams(now); }
-  /// True if the server has sent anything in the last UpdateTiming::kPassing, on any path.
-  bool isHeard(Time now) const {
-    return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kPassing;
+  /// True if the server has sent anything in the last UpdateTiming::kDatagramTimeout, on any path.
+  bool isReceiving(Time now) const {
+    return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kDatagramTimeout;
   }
 
   /// Handles pings and timeouts. Call about ten times a second: longer pauses between calls do not count as
@@ -93,9 +93,9 @@ class ClientSession {
   /// the next one.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
-  /// Requests the list of rooms every kRoomsEvery. Call while the list is shown.
+  /// Requests the list of rooms every kRoomListInterval. Call while the list is shown.
   void refreshRooms(Time now);
-  static constexpr std::chrono::seconds kRoomsEvery{2};
+  static constexpr std::chrono::seconds kRoomListInterval{2};
   /// Asks the server to move the player to that room. Ignores invalid names.
   void enterRoom(const std::string& room);
   /// Leaves on purpose: sends a leave message, and closes the channel after everything queued is sent.
@@ -106,11 +106,11 @@ class ClientSession {
   /// After a refusal: the reason, and perhaps a link to another server. The link is unchecked.
   const RefusedMessage& refusal() const { return m_refusal; }
   /// After a loss: the server has announced to be back within this time; 0: it has announced nothing.
-  std::chrono::seconds returnsIn() const { return m_returns_in; }
+  std::chrono::seconds restartDelay() const { return m_restart_delay; }
   /// True if the session neither waits for the server nor plays any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
   /// Returns why the session is over, for people. Empty before its end and after leave().
-  const std::string& sentence() const { return m_sentence; }
+  const std::string& message() const { return m_message; }
   const WelcomeMessage& welcome() const { return m_welcome; }
   const SessionCounters& counters() const { return m_counters; }
   /// Smoothed round trip; zero before the first measurement.
@@ -124,13 +124,13 @@ class ClientSession {
   /// Newest answer to refreshRooms(); empty if there was none, or the server has no rooms.
   const std::vector<RoomLine>& rooms() const { return m_rooms; }
   /// Returns the sounds since the last call, oldest first, at most the newest ReliableInbox::kMaxSounds.
-  std::vector<SoundLine> takeSounds() { return m_inbox.fetchSounds(); }
+  std::vector<SoundLine> popSounds() { return m_inbox.popSounds(); }
   /// Returns the points of this player in the newest player list.
   std::int32_t score() const { return m_inbox.scoreOf(m_welcome.player); }
 
   // The world.
   /// True if there is a picture to show: the whole world, or what has arrived of it in half a second.
-  bool hasPicture(Time now) const { return m_world.feed().hasPicture(now); }
+  bool hasPicture(Time now) const { return m_world.worlds().hasPicture(now); }
   /// Returns how long the session has waited for a picture since the welcome; zero if there is one.
   IdleTimer::Duration pictureWait(Time now) const;
   const Replica& replica() const { return m_world.replica(); }
@@ -165,11 +165,11 @@ class ClientSession {
   void handle(ChatMessage&& message, Time now);
   void handle(SoundsMessage&& message, Time now);
   void handle(const PongMessage& message, Time now);
-  void handle(EnteredMessage&& message, Time now);
+  void handle(RoomEnteredMessage&& message, Time now);
   void handle(RoomsMessage&& message, Time now);
-  void takeRoom(const WelcomeMessage& welcome);
+  void updateRoom(const WelcomeMessage& welcome);
   void reject(const std::string& what);
-  void finish(State state, std::string sentence);
+  void finish(State state, std::string message);
   void openDatagrams(Time now);
   void receiveDatagram(std::string_view bytes, Time now);
   void receiveOnSecond(std::string_view bytes, Time now);
@@ -179,7 +179,7 @@ class ClientSession {
   void sendProbe(Time now);
   void sendPing(Time now);
   void sendLeave();
-  void giveUpPicture();
+  void failWithoutPicture();
   void updateStream(Time now);
   std::string nextUpdate(bool in_order, Time now);
 
@@ -196,8 +196,8 @@ class ClientSession {
   Time m_rooms_due{};
   State m_state = State::kGreeting;
   RefusedMessage m_refusal;
-  std::string m_sentence;
-  std::chrono::seconds m_returns_in{0};
+  std::string m_message;
+  std::chrono::seconds m_restart_delay{0};
   std::uint64_t m_revision = 0;
   std::function<void(std::uint32_t)> m_before_observer;
   std::function<void(const SnapshotHeader&, const AckWindow&)> m_after_observer;

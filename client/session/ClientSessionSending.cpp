@@ -9,11 +9,11 @@ namespace naiad {
 
 void ClientSession::sendPing(Time now) {
   if (!m_link.hasStream()) return;
-  m_inbox.noteAcknowledged();
+  m_inbox.onAcknowledged();
   wire::ClientMessage message;
   message.mutable_ping()->set_token(m_liveness.startPing(now));
   message.mutable_ping()->set_rtt_millis(static_cast<std::uint32_t>(roundTrip().count()));
-  message.mutable_ping()->set_received(m_inbox.newestFrame());
+  message.mutable_ping()->set_last_frame(m_inbox.newestFrame());
   m_link.send(message);
 }
 
@@ -38,7 +38,7 @@ bool ClientSession::sendMouse(df::EventMouseAction action, df::Mouse::Button but
 
 bool ClientSession::sendInput(Input input, bool urgent, Time now) {
   if (m_state != State::kPlaying) return false;
-  if (m_link.isStuck() || !m_inputs.admitInput(urgent, now)) {
+  if (m_link.isStalled() || !m_inputs.admitInput(urgent, now)) {
     ++m_counters.inputs_dropped;
     return false;
   }
@@ -50,24 +50,24 @@ bool ClientSession::sendInput(Input input, bool urgent, Time now) {
     m_world.predictInput(input);
     ++m_revision;
   }
-  m_timing.noteInput(now);
+  m_timing.onInput(now);
   sendUpdate(now);
   return true;
 }
 
 std::string ClientSession::nextUpdate(bool in_order, Time now) {
-  m_timing.noteUpdateSent();
+  m_timing.onUpdateSent();
   ClientUpdate update;
   update.acks = m_world.acks();
   // Unless each update arrives, in order, every one carries all unacknowledged inputs.
-  update.inputs = in_order ? m_inputs.takeForStream() : m_inputs.all();
-  update.wants_reset = m_world.feed().wantsReset();
-  update.checksum = m_world.takeChecksum(now);
+  update.inputs = in_order ? m_inputs.popForStream() : m_inputs.all();
+  update.needs_reset = m_world.worlds().needsReset();
+  update.checksum = m_world.pollChecksum(now);
   return writeUpdate(update);
 }
 
 void ClientSession::sendProbe(Time now) {
-  const bool ping = m_timing.noteDatagramSent(now);
+  const bool ping = m_timing.onDatagramSent(now);
   m_link.sendDatagram(nextUpdate(false, now), ping);
 }
 
@@ -77,7 +77,7 @@ void ClientSession::sendUpdate(Time now) {
     sendProbe(now);
     if (!m_timing.isUndecided(now)) return;
   }
-  if (!m_link.hasStream()) return m_timing.noteUpdateSent();  // no path: wait for the next snapshot
+  if (!m_link.hasStream()) return m_timing.onUpdateSent();  // no path: wait for the next snapshot
   m_link.sendUpdate(nextUpdate(!m_link.hasSecondStream(), now));
 }
 
@@ -95,7 +95,7 @@ void ClientSession::sendResize(int columns, int rows) {
 
 void ClientSession::refreshRooms(Time now) {
   if (m_state != State::kPlaying || m_welcome.room.empty() || now < m_rooms_due) return;
-  m_rooms_due = now + kRoomsEvery;
+  m_rooms_due = now + kRoomListInterval;
   wire::ClientMessage message;
   message.mutable_list_rooms();
   m_link.send(message);
@@ -104,7 +104,7 @@ void ClientSession::refreshRooms(Time now) {
 void ClientSession::enterRoom(const std::string& room) {
   if (m_state != State::kPlaying || m_welcome.room.empty() || !isRoomName(room)) return;
   wire::ClientMessage message;
-  message.mutable_enter()->set_room(room);
+  message.mutable_enter_room()->set_room(room);
   m_link.sendReliable(message);
 }
 

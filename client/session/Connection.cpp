@@ -19,8 +19,8 @@ void Connection::start() {
 void Connection::attempt() {
   m_next_attempt = Time::max();
   m_opener->open([this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
-    if (!channel) return attemptFailed(error);
-    const std::string refusal = m_opener->whyUntrusted();
+    if (!channel) return onAttemptFailed(error);
+    const std::string refusal = m_opener->trustError();
     if (refusal.empty()) return attach(std::move(channel));
     finish(State::kRefused, refusal);
   });
@@ -69,13 +69,13 @@ void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
     options.resume_token = m_token;
-    options.received = m_session->receivedFrames();
+    options.last_frame = m_session->receivedFrames();
   } else if (m_session && m_session->state() == ClientSession::State::kLost && m_token_key == m_key) {
     options.resume_token = m_token;
-    options.fresh = !m_token.empty();
+    options.new_process = !m_token.empty();
   } else if (!m_session && m_p_tokens != nullptr && m_key && options.resume_token.empty()) {
     options.resume_token = m_p_tokens->tokenFor(*m_key);
-    options.fresh = !options.resume_token.empty();
+    options.new_process = !options.resume_token.empty();
   }
 }
 
@@ -92,53 +92,55 @@ void Connection::saveToken(const ClientSession& session) {
                    std::chrono::system_clock::now());
 }
 
-void Connection::attemptFailed(const std::string& sentence) {
+void Connection::onAttemptFailed(const std::string& message) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !m_busy) {
-    if (isHungUpOn(now)) return tryLater(now);
-    if (!askFirstAgain()) finish(State::kUnreachable, sentence);
+    if (shouldRetryHandshake(now)) return scheduleAttempt(now);
+    if (!retryOriginal()) finish(State::kUnreachable, message);
     return;
   }
-  if (m_state == State::kSearching && m_other && (m_asks_first || isTimeToAskFirst(now))) {
+  if (m_state == State::kReconnecting && m_other && (m_trying_original || isOriginalRetryDue(now))) {
     swapServers();
-    m_ask_first_at = now + m_ask_again_after;
+    m_original_retry_at = now + m_original_retry_delay;
   }
-  m_put_off = false;
+  m_deferred = false;
   retryLater(now);
 }
 
-/// True if a lost redirect target did not answer for m_ask_again_after: the original server may know another.
-bool Connection::isTimeToAskFirst(Time now) const {
-  return m_redirected && now - m_lost_at >= m_ask_again_after && now >= m_ask_first_at;
+/// True if a lost redirect target did not answer for m_original_retry_delay: the original server may know
+/// another.
+bool Connection::isOriginalRetryDue(Time now) const {
+  return m_redirected && now - m_lost_at >= m_original_retry_delay && now >= m_original_retry_at;
 }
 
 /// True if a failed join should be retried: the server dropped the handshake, or it is a redirect target,
 /// which was there a moment ago. Only for a limited time after the first such failure.
-bool Connection::isHungUpOn(Time now) {
-  const bool was_there = m_redirected && !m_has_asked;
-  if (!m_opener->wasHungUpOn() && !was_there) return false;
-  m_hung_up_at = std::min(m_hung_up_at, now);
-  return now - m_hung_up_at < (was_there ? std::min<Clock::duration>(kHungUpPatience, m_ask_again_after)
-                                         : Clock::duration(kHungUpPatience));
+bool Connection::shouldRetryHandshake(Time now) {
+  const bool was_there = m_redirected && !m_original_retried;
+  if (!m_opener->closedDuringHandshake() && !was_there) return false;
+  m_handshake_closed_at = std::min(m_handshake_closed_at, now);
+  return now - m_handshake_closed_at <
+         (was_there ? std::min<Clock::duration>(kHandshakeRetryTimeout, m_original_retry_delay)
+                    : Clock::duration(kHandshakeRetryTimeout));
 }
 
 void Connection::retryLater(Time now) {
   if (isOver()) return;
-  if (now - m_lost_at >= m_give_up)
-    return finish(m_state == State::kJoining ? State::kRefused : State::kLost, m_sentence);
-  tryLater(now);
+  if (now - m_lost_at >= m_reconnect_timeout)
+    return finish(m_state == State::kJoining ? State::kRefused : State::kLost, m_message);
+  scheduleAttempt(now);
 }
 
-void Connection::tryLater(Time now) {
+void Connection::scheduleAttempt(Time now) {
   m_next_attempt = now + m_backoff;
-  m_backoff = std::min(m_backoff * 2, kLastBackoff);
+  m_backoff = std::min(m_backoff * 2, kMaxBackoff);
 }
 
 void Connection::update(Time now) {
   if (isOver()) return;
   if (m_session) m_session->update(now);
-  if (m_session && m_session->wantsSecond(now)) openSecond();
-  if (m_p_tokens != nullptr && m_session && m_session->isHeard(now)) {
+  if (m_session && m_session->shouldOpenSecondStream(now)) openSecond();
+  if (m_p_tokens != nullptr && m_session && m_session->isReceiving(now)) {
     m_p_tokens->refresh(std::chrono::system_clock::now());
   }
   if (m_pending) {
@@ -146,22 +148,24 @@ void Connection::update(Time now) {
     checkPending();
   }
   if (m_state == State::kJoined && m_session->isDetached() && m_rejoin)
-    search("The connection to the server was lost.", kGiveUp, now, now);
+    search("The connection to the server was lost.", kReconnectTimeout, now, now);
   if (m_state == State::kJoined && m_session->isOver()) {
     using S = ClientSession::State;
-    if (m_session->state() != S::kLost) return finish(State::kEnded, m_session->sentence());
-    if (!m_rejoin) return finish(State::kLost, m_session->sentence());
-    search(m_session->sentence(), std::max(kGiveUp, m_session->returnsIn()), now, now + kFirstBackoff);
+    if (m_session->state() != S::kLost) return finish(State::kEnded, m_session->message());
+    if (!m_rejoin) return finish(State::kLost, m_session->message());
+    search(m_session->message(), std::max(kReconnectTimeout, m_session->restartDelay()), now,
+           now + kFirstBackoff);
   }
   if (now >= m_next_attempt) attempt();
 }
 
-void Connection::search(const std::string& why, std::chrono::seconds give_up, Time now, Time first_attempt) {
-  m_state = State::kSearching;
-  m_sentence = why;
-  m_give_up = give_up;
+void Connection::search(const std::string& why, std::chrono::seconds reconnect_timeout, Time now,
+                        Time first_attempt) {
+  m_state = State::kReconnecting;
+  m_message = why;
+  m_reconnect_timeout = reconnect_timeout;
   m_lost_at = now;
-  m_put_off = false;
+  m_deferred = false;
   m_backoff = kFirstBackoff;
   m_next_attempt = first_attempt;
   ++m_revision;
@@ -173,30 +177,30 @@ void Connection::checkPending() {
       m_session->isDetached()) {
     m_session->adopt(*m_pending, Clock::now());
     m_pending.reset();
-    return noteJoined();
+    return onJoined();
   }
   if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
     m_session = std::move(m_pending);
     m_joined = m_address;
-    return noteJoined();
+    return onJoined();
   }
-  if (m_pending->isDetached() && !m_pending->isHeard(Clock::now())) {
+  if (m_pending->isDetached() && !m_pending->isReceiving(Clock::now())) {
     m_pending.reset();
-    return attemptFailed("The connection to the server was lost before its first picture.");
+    return onAttemptFailed("The connection to the server was lost before its first picture.");
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
   if (over->state() == S::kRefused) return checkRefusal(*over);
-  if (over->state() == S::kEnded) return finish(State::kEnded, over->sentence());
-  attemptFailed(over->sentence());
+  if (over->state() == S::kEnded) return finish(State::kEnded, over->message());
+  onAttemptFailed(over->message());
 }
 
-void Connection::noteJoined() {
+void Connection::onJoined() {
   m_state = State::kJoined;
-  m_put_off = false;
-  m_sentence.clear();
+  m_deferred = false;
+  m_message.clear();
   m_busy = false;
-  m_has_asked = false;
+  m_original_retried = false;
   if (std::exchange(m_resized, false)) m_session->sendResize(m_options.columns, m_options.rows);
   ++m_revision;
 }
@@ -204,34 +208,34 @@ void Connection::noteJoined() {
 void Connection::checkRefusal(const ClientSession& refused) {
   const RefusedMessage& why = refused.refusal();
   if (!why.redirect.empty() && followRedirect(why.redirect, why.redirect_room)) return;
-  if (m_asks_first && m_state == State::kSearching) return attemptFailed(refused.sentence());
-  if (why.for_now) return waitForServer(refused.sentence());
-  if (why.full && askFirstAgain()) return;
+  if (m_trying_original && m_state == State::kReconnecting) return onAttemptFailed(refused.message());
+  if (why.is_temporary) return waitForServer(refused.message());
+  if (why.full && retryOriginal()) return;
   // The player is asked for the password only of the server that they named.
   m_password_refused = why.password && !m_redirected;
-  finish(State::kRefused, refused.sentence());
+  finish(State::kRefused, refused.message());
 }
 
 // A redirect may be malicious: the target gets the player's name, but no password or token.
 bool Connection::followRedirect(const std::string& link, const std::string& room) {
-  if (m_state != State::kJoining && !m_asks_first) return false;
-  StreamOpener::Next next = m_opener->follow(link);
+  if (m_state != State::kJoining && !m_trying_original) return false;
+  StreamOpener::RedirectTarget next = m_opener->follow(link);
   if (!next.opener) return false;
   m_opener->cancel();
-  m_other =
-      std::make_unique<Place>(Place{std::move(m_opener), m_address, m_options.password, m_options.room});
+  m_other = std::make_unique<ServerTarget>(
+      ServerTarget{std::move(m_opener), m_address, m_options.password, m_options.room});
   m_opener = std::move(next.opener);
   m_address = std::move(next.address);
   m_redirected = true;
-  m_asks_first = false;
+  m_trying_original = false;
   m_options.password.clear();
   m_options.resume_token.clear();
-  m_options.fresh = false;
+  m_options.new_process = false;
   m_options.room = room;  // the target has rooms of its own
   m_p_tokens = nullptr;
   m_key.reset();
-  m_put_off = m_busy = false;
-  m_hung_up_at = Time::max();
+  m_deferred = m_busy = false;
+  m_handshake_closed_at = Time::max();
   m_backoff = kFirstBackoff;
   m_next_attempt = Clock::now() + next.wait;
   ++m_revision;
@@ -240,13 +244,13 @@ bool Connection::followRedirect(const std::string& link, const std::string& room
 
 // Tries the original server again when the redirect target is full or unreachable: it may know another one.
 // Only once until the client has joined: the original server may be malicious.
-bool Connection::askFirstAgain() {
-  if (!m_redirected || std::exchange(m_has_asked, true)) return false;
+bool Connection::retryOriginal() {
+  if (!m_redirected || std::exchange(m_original_retried, true)) return false;
   swapServers();
-  m_put_off = m_busy = false;
-  m_hung_up_at = Time::max();
+  m_deferred = m_busy = false;
+  m_handshake_closed_at = Time::max();
   m_backoff = kFirstBackoff;
-  tryLater(Clock::now());
+  scheduleAttempt(Clock::now());
   ++m_revision;
   return true;
 }
@@ -257,18 +261,18 @@ void Connection::swapServers() {
   std::swap(m_address, m_other->address);
   std::swap(m_options.password, m_other->password);
   std::swap(m_options.room, m_other->room);
-  m_asks_first = m_redirected;
+  m_trying_original = m_redirected;
   m_redirected = !m_redirected;
   m_key.reset();
 }
 
 // Retries later: the server is busy, or this client has reconnected too often.
-void Connection::waitForServer(const std::string& sentence) {
+void Connection::waitForServer(const std::string& message) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
-  if (m_state == State::kSearching) m_lost_at = now;  // it answers, so the time limit restarts
-  m_put_off = true;
-  m_sentence = sentence;
+  if (m_state == State::kReconnecting) m_lost_at = now;  // it answers, so the time limit restarts
+  m_deferred = true;
+  m_message = message;
   ++m_revision;
   retryLater(now);
 }
@@ -288,16 +292,16 @@ void Connection::resize(int columns, int rows) {
 }
 
 bool Connection::isOver() const {
-  return m_state != State::kJoining && m_state != State::kJoined && m_state != State::kSearching;
+  return m_state != State::kJoining && m_state != State::kJoined && m_state != State::kReconnecting;
 }
 
-void Connection::finish(State state, const std::string& sentence) {
+void Connection::finish(State state, const std::string& message) {
   // Keep the token otherwise: a lost session, or one of a server that refused, may still exist there.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
   m_opener->cancel();
   m_state = state;
-  m_sentence = sentence;
+  m_message = message;
   m_next_attempt = Time::max();
   ++m_revision;
 }

@@ -1,15 +1,14 @@
 // Joins a server and stays joined: connects, makes a ClientSession, and rejoins when that is lost.
 //
-//   kJoining --picture--> kJoined --lost--> kSearching --picture--> kJoined
+//   kJoining --picture--> kJoined --lost--> kReconnecting --picture--> kJoined
 //   kJoining --no answer; handshakes dropped for 4 s--> kUnreachable
 //   kJoining --Refused (BUSY)--> kJoining --60 s of such refusals--> kRefused
 //   kJoining --Refused with a redirect--> kJoining the redirect target (StreamOpener::follow()), once
 //   kJoining the target --Refused (FULL), no answer for 4 s--> kJoining the original server, once
-//   kSearching the target --no answer for 10 s--> kSearching, both in turn; the original may redirect again
-//   any --Refused--> kRefused
-//   any --Goodbye--> kEnded
-//   kJoined --Goodbye of a server that restarts--> kSearching
-//   kSearching --60 s without success, or longer if a restarting server announced it--> kLost; a BUSY server
+//   kReconnecting the target --no answer for 10 s--> kReconnecting, both in turn; the original may redirect
+//   again any --Refused--> kRefused any --Goodbye--> kEnded kJoined --Goodbye of a server that restarts-->
+//   kReconnecting kReconnecting --60 s without success, or longer if a restarting server announced it-->
+//   kLost; a BUSY server
 //     restarts this time limit
 //
 // While searching, session() is still the lost one, so that its last picture can stay on the screen under a
@@ -39,30 +38,31 @@ class Connection {
  public:
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
-  enum class State { kJoining, kJoined, kSearching, kUnreachable, kRefused, kEnded, kLost, kLeft };
+  enum class State { kJoining, kJoined, kReconnecting, kUnreachable, kRefused, kEnded, kLost, kLeft };
 
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
-  static constexpr std::chrono::milliseconds kLastBackoff{2000};
-  static constexpr std::chrono::seconds kGiveUp{60};
+  static constexpr std::chrono::milliseconds kMaxBackoff{2000};
+  static constexpr std::chrono::seconds kReconnectTimeout{60};
   /// Retry time of a joining client whose handshakes the server drops (too many from its address).
-  static constexpr std::chrono::seconds kHungUpPatience{4};
+  static constexpr std::chrono::seconds kHandshakeRetryTimeout{4};
   /// Retry time of a lost redirect target before the original server is also asked for another one:
   /// longer than a server needs to restart with its round.
-  static constexpr std::chrono::milliseconds kAskAgainAfter{10'000};
+  static constexpr std::chrono::milliseconds kOriginalRetryDelay{10'000};
 
   /// `rejoin`: search for a server that was lost. `address`: for messages. Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
              bool rejoin);
   /// Connects by TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway
-  /// (GatewayStreams.h). The context must outlive the Connection.
+  /// (GatewayStreamOpener.h). The context must outlive the Connection.
   Connection(asio::io_context& context, const ServerAddress& address, const SessionOptions& options,
              bool rejoin, const ServerTrust& trust = {});
 
   /// Saves the session's token in `tokens`, which must outlive the Connection, and resumes the session saved
   /// there. Call before start().
-  void keepIn(TokenStore& tokens) { m_p_tokens = &tokens; }
-  /// Replaces kAskAgainAfter, and for redirect targets kHungUpPatience if `time` is shorter. Before start().
-  void askAgainAfter(std::chrono::milliseconds time) { m_ask_again_after = time; }
+  void setTokenStore(TokenStore& tokens) { m_p_tokens = &tokens; }
+  /// Replaces kOriginalRetryDelay, and for redirect targets kHandshakeRetryTimeout if `time` is shorter.
+  /// Before start().
+  void setOriginalRetryDelay(std::chrono::milliseconds time) { m_original_retry_delay = time; }
   void start();
   /// Handles timeouts, pings and the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
@@ -77,10 +77,10 @@ class Connection {
   /// True in the final states.
   bool isOver() const;
   /// Reason for the state, for people: set in all final states but kLeft; while searching, why the server was
-  /// lost; while isPutOff(), the server's message.
-  const std::string& sentence() const { return m_sentence; }
+  /// lost; while isDeferred(), the server's message.
+  const std::string& message() const { return m_message; }
   /// True after a BUSY refusal; a retry is scheduled.
-  bool isPutOff() const { return m_put_off; }
+  bool isDeferred() const { return m_deferred; }
   /// True if the server refused because its password was missing or wrong.
   bool isPasswordRefused() const { return m_password_refused; }
   /// The key of the server on the newest stream; nullopt without TLS.
@@ -105,21 +105,21 @@ class Connection {
   void attach(std::unique_ptr<ReliableChannel> channel);
   void chooseToken(SessionOptions& options) const;
   void saveToken(const ClientSession& session);
-  void attemptFailed(const std::string& sentence);
-  bool isHungUpOn(Time now);
+  void onAttemptFailed(const std::string& message);
+  bool shouldRetryHandshake(Time now);
   void retryLater(Time now);
-  void tryLater(Time now);
+  void scheduleAttempt(Time now);
   /// Starts to search for the server of a lost session.
-  void search(const std::string& why, std::chrono::seconds give_up, Time now, Time first_attempt);
-  void noteJoined();
+  void search(const std::string& why, std::chrono::seconds reconnect_timeout, Time now, Time first_attempt);
+  void onJoined();
   void checkPending();
   void checkRefusal(const ClientSession& refused);
   bool followRedirect(const std::string& link, const std::string& room);
-  bool askFirstAgain();
+  bool retryOriginal();
   void swapServers();
-  bool isTimeToAskFirst(Time now) const;
-  void waitForServer(const std::string& sentence);
-  void finish(State state, const std::string& sentence);
+  bool isOriginalRetryDue(Time now) const;
+  void waitForServer(const std::string& message);
+  void finish(State state, const std::string& message);
 
   std::unique_ptr<StreamOpener> m_opener;
   ServerAddress m_address;
@@ -131,32 +131,32 @@ class Connection {
   std::string m_token;                     ///< newest token of the session
   bool m_resized = false;                  ///< after the pending session sent the terminal's size
   State m_state = State::kJoining;
-  std::string m_sentence;
+  std::string m_message;
   std::unique_ptr<ClientSession> m_session;  ///< shown
   std::unique_ptr<ClientSession> m_pending;  ///< greeting, or waiting for its first picture
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_hung_up_at = Time::max();  ///< while joining: first dropped handshake
-  Time m_lost_at{};                 ///< start of the time limit: loss, or first BUSY refusal
-  bool m_busy = false;              ///< while joining: the server has refused with BUSY
-  std::chrono::seconds m_give_up{kGiveUp};
-  bool m_put_off = false;
+  Time m_handshake_closed_at = Time::max();  ///< while joining: first dropped handshake
+  Time m_lost_at{};                          ///< start of the time limit: loss, or first BUSY refusal
+  bool m_busy = false;                       ///< while joining: the server has refused with BUSY
+  std::chrono::seconds m_reconnect_timeout{kReconnectTimeout};
+  bool m_deferred = false;
   bool m_password_refused = false;
   bool m_redirected = false;
   /// Data for joining the other server: the original one, or, while that is asked, the redirect target.
-  struct Place {
+  struct ServerTarget {
     std::unique_ptr<StreamOpener> opener;
     ServerAddress address;
     std::string password;
     std::string room;
   };
-  std::unique_ptr<Place> m_other;  ///< null without a redirect
-  ServerAddress m_joined;          ///< server of session()
-  bool m_asks_first = false;       ///< the original server is being asked
-  bool m_has_asked = false;        ///< it was asked again since the last join
-  std::chrono::milliseconds m_ask_again_after{kAskAgainAfter};
-  Time m_ask_first_at{};  ///< while searching: earliest time for that
+  std::unique_ptr<ServerTarget> m_other;  ///< null without a redirect
+  ServerAddress m_joined;                 ///< server of session()
+  bool m_trying_original = false;         ///< the original server is being asked
+  bool m_original_retried = false;        ///< it was asked again since the last join
+  std::chrono::milliseconds m_original_retry_delay{kOriginalRetryDelay};
+  Time m_original_retry_at{};  ///< while searching: earliest time for that
   std::uint64_t m_revision = 0;
 };
 

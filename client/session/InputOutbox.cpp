@@ -11,8 +11,8 @@ void InputOutbox::start(std::uint32_t id, std::chrono::microseconds tick) {
 
 bool InputOutbox::admitInput(bool urgent, TokenBucket::Time now) {
   if (isFull(urgent)) return false;
-  if (!urgent) return m_bucket.takeToken(m_rate, now);
-  m_bucket.forceToken(m_rate, now);
+  if (!urgent) return m_bucket.tryConsume(m_rate, now);
+  m_bucket.forceConsume(m_rate, now);
   return true;
 }
 
@@ -31,7 +31,7 @@ std::optional<Input> InputOutbox::removeUpTo(std::uint32_t id) {
   return found;
 }
 
-std::vector<Input> InputOutbox::takeForStream() {
+std::vector<Input> InputOutbox::popForStream() {
   std::vector<Input> unsent(m_inputs.begin() + static_cast<std::ptrdiff_t>(m_on_stream), m_inputs.end());
   m_on_stream = m_inputs.size();
   return unsent;

@@ -42,7 +42,7 @@ class InputOutbox {
   /// Returns all inputs that the game has not confirmed: for a datagram, which may be lost.
   std::vector<Input> all() const { return {m_inputs.begin(), m_inputs.end()}; }
   /// Returns the inputs that the stream, which loses nothing, has not carried yet.
-  std::vector<Input> takeForStream();
+  std::vector<Input> popForStream();
   /// Call for a new stream, which has carried no inputs.
   void restartStream() { m_on_stream = 0; }
 

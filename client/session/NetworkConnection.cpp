@@ -2,7 +2,7 @@
 #include <asio/io_context.hpp>
 
 #include "client/session/Connection.h"
-#include "client/session/GatewayStreams.h"
+#include "client/session/GatewayStreamOpener.h"
 #include "client/session/TcpStreamOpener.h"
 #include "shared/net/datagram/UdpSocket.h"
 
@@ -13,7 +13,7 @@ SessionOptions withDatagrams(asio::io_context& context, const SessionOptions& gi
                              const ServerTrust& trust) {
   SessionOptions options = given;
   options.two_streams = trust.gateway.has_value();
-  if (trust.insecure || trust.gateway || options.open_socket || options.visit) return options;
+  if (trust.insecure || trust.gateway || options.open_socket || options.proxy) return options;
   options.open_socket = [&context](const Endpoint& server) -> std::unique_ptr<DatagramSocket> {
     UdpOptions udp;
     udp.address = server.isIPv4() ? "0.0.0.0" : "::";
@@ -28,8 +28,8 @@ SessionOptions withDatagrams(asio::io_context& context, const SessionOptions& gi
 
 std::unique_ptr<StreamOpener> openerOf(asio::io_context& context, const ServerAddress& address,
                                        const SessionOptions& options, const ServerTrust& trust) {
-  if (trust.gateway) return std::make_unique<GatewayStreams>(context, *trust.gateway);
-  return std::make_unique<TcpStreamOpener>(context, address, trust, options.visit);
+  if (trust.gateway) return std::make_unique<GatewayStreamOpener>(context, *trust.gateway);
+  return std::make_unique<TcpStreamOpener>(context, address, trust, options.proxy);
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 #include "client/session/InputOutbox.h"
 #include "client/session/ServerMessages.h"
 #include "client/world/DisplayClock.h"
+#include "client/world/EpochReplicas.h"
 #include "client/world/InputTickEstimator.h"
 #include "client/world/Prediction.h"
-#include "client/world/WorldFeed.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {
@@ -20,14 +20,14 @@ namespace naiad {
 class ReceivedWorld {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  using Result = WorldFeed::Result;
+  using Result = EpochReplicas::Result;
 
-  static constexpr std::chrono::seconds kChecksumEvery{1};
+  static constexpr std::chrono::seconds kChecksumInterval{1};
 
   /// Call after the welcome. Snapshot numbers continue from `from`.
-  void start(const WelcomeMessage& welcome, const Continuation& from);
+  void start(const WelcomeMessage& welcome, const ResumeState& from);
   /// Call when the session was resumed in tick `tick_now`: the last snapshot may be much older.
-  void resume(std::uint32_t tick_now) { m_feed.noteTick(tick_now); }
+  void resume(std::uint32_t tick_now) { m_worlds.advanceTick(tick_now); }
 
   /// Call when the player moves to another world. Its snapshots have this epoch; its tick is near `tick_now`.
   void enter(std::uint8_t epoch, std::uint32_t tick_now, Time now);
@@ -39,15 +39,15 @@ class ReceivedWorld {
   /// True if the snapshot before the newest one is missing.
   bool hasGap() const { return (m_acks.mask & 1) == 0; }
 
-  const WorldFeed& feed() const { return m_feed; }
-  const Replica& replica() const { return m_feed.shown(); }
+  const EpochReplicas& worlds() const { return m_worlds; }
+  const Replica& replica() const { return m_worlds.shown(); }
   const AckWindow& acks() const { return m_acks; }
   /// Returns the replica's checksum for the server, if one is due.
-  std::optional<std::uint64_t> takeChecksum(Time now);
+  std::optional<std::uint64_t> pollChecksum(Time now);
 
   DisplayClock& clock() { return m_clock; }
   const DisplayClock& clock() const { return m_clock; }
-  void noteRoundTrip(InputTickEstimator::Millis sample);
+  void addRttSample(InputTickEstimator::Millis sample);
   const InputTickEstimator& inputTicks() const { return m_input_ticks; }
 
   /// Adds a key that was just sent to the prediction.
@@ -60,15 +60,15 @@ class ReceivedWorld {
  private:
   void applyControls();
   DisplayClock::Duration oneWayDelay() const;
-  void noteClock(Result result, Time now);
+  void updateClock(Result result, Time now);
 
-  WorldFeed m_feed;
+  EpochReplicas m_worlds;
   SnapshotHeader m_header;
   AckWindow m_acks;
   Time m_next_checksum{};
   std::chrono::microseconds m_tick{33333};
   DisplayClock m_clock{m_tick};
-  bool m_moving = false;  ///< another room's world is awaited; its ticks may be lower
+  bool m_changes_world = false;  ///< another room's world is awaited; its ticks may be lower
   InputTickEstimator m_input_ticks;
   Prediction m_prediction;
   std::uint32_t m_table_known = 0;    ///< snapshot that carried the newest control table applied

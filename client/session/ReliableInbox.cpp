@@ -3,16 +3,16 @@
 namespace naiad {
 
 bool ReliableInbox::isNew(std::uint32_t number) {
-  if (m_received.take(number)) return true;
+  if (m_received.accept(number)) return true;
   ++m_counters.repeated_frames;
   return false;
 }
 
-void ReliableInbox::takePlayers(PlayersMessage&& message) {
+void ReliableInbox::handlePlayers(PlayersMessage&& message) {
   if (isNew(message.number)) m_players = std::move(message.players);
 }
 
-void ReliableInbox::takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now) {
+void ReliableInbox::handleChat(ChatMessage&& message, const WelcomeMessage& self, Time now) {
   if (!isNew(message.number)) return;
   ChatEntry entry{"", df::COLOR_DEFAULT, std::move(message.text), now};
   if (message.player != 0) entry.name.assign(1, '?');  // has left already
@@ -34,7 +34,7 @@ void ReliableInbox::addLine(ChatEntry entry) {
   if (m_chat.size() > kMaxChat) m_chat.pop_front();
 }
 
-void ReliableInbox::takeSounds(SoundsMessage&& message) {
+void ReliableInbox::handleSounds(SoundsMessage&& message) {
   if (!isNew(message.number)) return;
   m_counters.sounds += message.sounds.size();
   for (SoundLine& sound : message.sounds) m_sounds.push_back(std::move(sound));
@@ -42,9 +42,9 @@ void ReliableInbox::takeSounds(SoundsMessage&& message) {
   m_sounds.erase(m_sounds.begin(), m_sounds.end() - static_cast<std::ptrdiff_t>(kMaxSounds));
 }
 
-bool ReliableInbox::noteFrameSize(std::size_t bytes) {
+bool ReliableInbox::countFrame(std::size_t bytes) {
   m_unacknowledged_bytes += bytes;
-  return m_unacknowledged_bytes >= kMuchKept;
+  return m_unacknowledged_bytes >= kAckThreshold;
 }
 
 std::int32_t ReliableInbox::scoreOf(std::uint32_t player) const {

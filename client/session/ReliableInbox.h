@@ -30,25 +30,25 @@ class ReliableInbox {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::size_t kMaxChat = 500;   ///< number of stored lines
-  static constexpr std::size_t kMaxSounds = 32;  ///< number of sounds stored for fetchSounds()
+  static constexpr std::size_t kMaxSounds = 32;  ///< number of sounds stored for popSounds()
   /// Unacknowledged bytes of reliable frames above which they are acknowledged before the next regular ping.
-  static constexpr std::size_t kMuchKept = std::size_t{8} * 1024;
+  static constexpr std::size_t kAckThreshold = std::size_t{8} * 1024;
 
   /// `counters` must outlive the inbox.
   explicit ReliableInbox(SessionCounters& counters) : m_counters(counters) {}
 
-  void takePlayers(PlayersMessage&& message);
-  void takeChat(ChatMessage&& message, const WelcomeMessage& self, Time now);
-  void takeSounds(SoundsMessage&& message);
+  void handlePlayers(PlayersMessage&& message);
+  void handleChat(ChatMessage&& message, const WelcomeMessage& self, Time now);
+  void handleSounds(SoundsMessage&& message);
   /// Adds a line from the client itself to the chat.
   void addNotice(std::string text, Time now) { addLine({"", df::COLOR_DEFAULT, std::move(text), now}); }
 
   /// Number of the newest reliable frame received; 0: none.
   std::uint32_t newestFrame() const { return m_received.newest(); }
   /// Counts a new reliable frame of this size. Returns true if the frames should be acknowledged now.
-  bool noteFrameSize(std::size_t bytes);
+  bool countFrame(std::size_t bytes);
   /// Call when all received frames have been acknowledged.
-  void noteAcknowledged() { m_unacknowledged_bytes = 0; }
+  void onAcknowledged() { m_unacknowledged_bytes = 0; }
 
   const std::vector<PlayerLine>& players() const { return m_players; }
   /// Returns the points of this player in the newest list.
@@ -56,14 +56,14 @@ class ReliableInbox {
   /// The newest lines, oldest first.
   const std::deque<ChatEntry>& chat() const { return m_chat; }
   /// Returns the sounds since the last call, oldest first, at most the newest kMaxSounds.
-  std::vector<SoundLine> fetchSounds() { return std::exchange(m_sounds, {}); }
+  std::vector<SoundLine> popSounds() { return std::exchange(m_sounds, {}); }
 
  private:
   bool isNew(std::uint32_t number);
   void addLine(ChatEntry entry);
 
   SessionCounters& m_counters;
-  ReliableFramesHeard m_received;
+  ReliableFrameReceiver m_received;
   std::size_t m_unacknowledged_bytes = 0;
   std::vector<PlayerLine> m_players;
   std::deque<ChatEntry> m_chat;

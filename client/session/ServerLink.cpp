@@ -11,10 +11,10 @@
 
 namespace naiad {
 
-bool SecondStream::takeAttempt(Time now) {
+bool SecondStream::tryBeginAttempt(Time now) {
   if (m_channel != nullptr || now < m_next_attempt) return false;
-  m_next_attempt = now + m_pause;
-  m_pause = std::min(m_pause * 2, kLastPause);
+  m_next_attempt = now + m_retry_delay;
+  m_retry_delay = std::min(m_retry_delay * 2, kMaxRetryDelay);
   return true;
 }
 
@@ -23,7 +23,7 @@ void SecondStream::start(std::unique_ptr<ReliableChannel> channel, const Session
   close();
   m_channel = std::move(channel);
   m_on_snapshot = std::move(on_snapshot);
-  m_started = m_last_heard = options.now();
+  m_started = m_last_received = options.now();
   m_channel->setReceiveLimit(kMaxServerFrame);
   m_channel->start({[this, now = options.now](std::string_view frame) { receive(frame, now()); },
                     [this](CloseReason) { close(); }});
@@ -31,12 +31,12 @@ void SecondStream::start(std::unique_ptr<ReliableChannel> channel, const Session
 }
 
 void SecondStream::update(Time now) {
-  if (now - m_last_heard >= kMaxSilence) close();
+  if (now - m_last_received >= kMaxSilence) close();
 }
 
 void SecondStream::receive(std::string_view frame, Time now) {
-  m_last_heard = now;
-  if (now - m_started > m_pause) m_pause = kFirstPause;
+  m_last_received = now;
+  if (now - m_started > m_retry_delay) m_retry_delay = kFirstRetryDelay;
   auto message = readServerMessage(frame);
   const auto* welcome = message ? std::get_if<WelcomeMessage>(&*message) : nullptr;
   if (!m_open && welcome != nullptr && welcome->second_stream) {
@@ -48,12 +48,12 @@ void SecondStream::receive(std::string_view frame, Time now) {
   m_on_snapshot(snapshot->bytes);
 }
 
-bool SecondStream::isRepeat(std::string_view snapshot) {
+bool SecondStream::isDuplicate(std::string_view snapshot) {
   const std::size_t hash = std::hash<std::string_view>()(snapshot);
-  const std::size_t kept = std::min(m_heard, m_hashes.size());
+  const std::size_t kept = std::min(m_snapshot_count, m_hashes.size());
   const auto end = m_hashes.begin() + static_cast<std::ptrdiff_t>(kept);
   if (std::find(m_hashes.begin(), end, hash) != end) return true;
-  m_hashes[m_heard++ % m_hashes.size()] = hash;
+  m_hashes[m_snapshot_count++ % m_hashes.size()] = hash;
   return false;
 }
 
@@ -85,9 +85,9 @@ bool SealedDatagrams::startEpoch(const KeyExporter& exporter, AeadId aead, Epoch
   }
 }
 
-bool SealedDatagrams::takeNewEpochDue() {
-  if (!m_link.wantsNewEpoch() || m_left_epoch == m_link.epoch()) return false;
-  m_left_epoch = m_link.epoch();
+bool SealedDatagrams::popNewEpochDue() {
+  if (!m_link.needsNewEpoch() || m_reported_epoch == m_link.epoch()) return false;
+  m_reported_epoch = m_link.epoch();
   return true;
 }
 
@@ -95,7 +95,7 @@ void SealedDatagrams::start(std::function<void(std::string_view packet)> on_pack
   m_socket->start([this, on_packet = std::move(on_packet)](const Path& path, std::string_view packet) {
     const auto payload = m_link.open(path, packet, m_now());
     if (!payload) return;
-    if (m_link.wantsToSend(m_now())) send({});  // the response to a challenge
+    if (m_link.needsToSend(m_now())) send({});  // the response to a challenge
     if (!payload->empty()) on_packet(*payload);
   });
 }
@@ -122,7 +122,7 @@ ServerLink::ServerLink(std::unique_ptr<ReliableChannel> channel, const SessionOp
   send(helloOf(options));
 }
 
-void ServerLink::takeStream(ServerLink& other) {
+void ServerLink::adoptStream(ServerLink& other) {
   m_second.close();
   m_channel = std::move(other.m_channel);
 }
@@ -150,7 +150,7 @@ void ServerLink::sendFrame(const std::string& frame) {
 bool ServerLink::sendReliable(wire::ClientMessage& message) {
   message.set_number(m_unacknowledged.next());
   const std::string frame = message.SerializeAsString();
-  if (!m_unacknowledged.keep(frame)) return false;
+  if (!m_unacknowledged.add(frame)) return false;
   sendFrame(frame);
   return true;
 }
@@ -174,7 +174,7 @@ void ServerLink::startSecond(std::unique_ptr<ReliableChannel> channel, const std
   SessionOptions options = m_options;
   options.password.clear();
   options.resume_token = resume_token;
-  options.fresh = false;
+  options.new_process = false;
   options.second_stream = true;
   m_second.start(std::move(channel), options, std::move(on_snapshot));
 }

@@ -34,9 +34,9 @@ class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// First pause before a retry; doubles up to kLastPause while streams fail early.
-  static constexpr std::chrono::seconds kFirstPause{2};
-  static constexpr std::chrono::seconds kLastPause{64};
+  /// First pause before a retry; doubles up to kMaxRetryDelay while streams fail early.
+  static constexpr std::chrono::seconds kFirstRetryDelay{2};
+  static constexpr std::chrono::seconds kMaxRetryDelay{64};
   /// Silence after which the stream is closed: without an answer to the hello, or later.
   static constexpr std::chrono::seconds kMaxSilence{5};
 
@@ -46,7 +46,7 @@ class SecondStream {
   SecondStream& operator=(const SecondStream&) = delete;
 
   /// Returns true, once for each attempt, if a stream may be opened now.
-  bool takeAttempt(Time now);
+  bool tryBeginAttempt(Time now);
   /// Sends the hello on `channel`. Once the server has accepted it, `on_snapshot` gets its snapshots. If the
   /// server sends anything else there, only this stream is closed.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
@@ -56,7 +56,7 @@ class SecondStream {
   /// True if the server has accepted the stream.
   bool isOpen() const { return m_open; }
   /// Call for each snapshot on either stream. True if it is among the last ones: it also came on the other.
-  bool isRepeat(std::string_view snapshot);
+  bool isDuplicate(std::string_view snapshot);
   /// Sends a frame if the stream is open and has nothing unsent.
   void send(std::string_view frame);
   /// Closes the stream; another one may be opened later.
@@ -70,11 +70,11 @@ class SecondStream {
   bool m_open = false;
   /// Hashes of the last snapshots. Fewer than 65,536, because snapshots that far apart may have equal bytes.
   std::array<std::size_t, 64> m_hashes{};
-  std::size_t m_heard = 0;
-  std::chrono::seconds m_pause = kFirstPause;
+  std::size_t m_snapshot_count = 0;
+  std::chrono::seconds m_retry_delay = kFirstRetryDelay;
   Time m_next_attempt{};
   Time m_started{};
-  Time m_last_heard{};
+  Time m_last_received{};
 };
 
 /// Client end of a session's datagrams: a socket, and the encryption of everything sent and received.
@@ -93,13 +93,13 @@ class SealedDatagrams : public DatagramChannel {
 
   void start(std::function<void(std::string_view packet)> on_packet) override;
   void send(std::string_view packet) override;
-  std::optional<std::size_t> room() const override { return m_link.room(); }
+  std::optional<std::size_t> payloadBudget() const override { return m_link.payloadBudget(); }
   std::string peerAddress() const override { return toString(m_server); }
-  /// Measures the round trip with the next packet; takeRoundTrip() returns the result.
+  /// Measures the round trip with the next packet; popRoundTrip() returns the result.
   void ping() { m_link.ping(); }
-  std::optional<LinkPing::Millis> takeRoundTrip() { return m_link.takeRoundTrip(); }
+  std::optional<LinkPing::Millis> popRoundTrip() { return m_link.popRoundTrip(); }
   /// Returns true, once for each epoch, when one of its keys nears its limit: another stream is needed.
-  bool takeNewEpochDue();
+  bool popNewEpochDue();
   /// Continues from another port, because the network may have changed.
   void reopen();
 
@@ -108,7 +108,7 @@ class SealedDatagrams : public DatagramChannel {
   Endpoint m_server;
   Now m_now;
   SealedLink m_link;
-  std::optional<Epoch> m_left_epoch;  ///< takeNewEpochDue() has returned true for it
+  std::optional<Epoch> m_reported_epoch;  ///< popNewEpochDue() has returned true for it
 };
 
 namespace wire {
@@ -135,12 +135,12 @@ class ServerLink {
   bool hasStream() const { return m_channel != nullptr; }
   bool ownsStream(const ReliableChannel* channel) const { return m_channel.get() == channel; }
   /// Takes over the stream of `other`; closes the second stream.
-  void takeStream(ServerLink& other);
+  void adoptStream(ServerLink& other);
   /// Call when the stream has ended by itself.
   void dropStream();
   /// Closes the streams; queued data is still sent.
   void closeStreams();
-  bool isStuck() const { return hasStream() && m_channel->unsentBytes() > kMaxUnsent; }
+  bool isStalled() const { return hasStream() && m_channel->unsentBytes() > kMaxUnsent; }
   /// Sends on the stream, if there is one.
   void send(const wire::ClientMessage& message);
   /// Sends on the stream, and again on later ones until acknowledged. False if too much is unacknowledged.
@@ -163,9 +163,9 @@ class ServerLink {
   void renewDatagrams(const WelcomeMessage& welcome);
   /// Requires hasDatagrams(). `ping`: measure the round trip with this datagram.
   void sendDatagram(const std::string& bytes, bool ping);
-  std::optional<LinkPing::Millis> takeRoundTrip() { return m_datagrams->takeRoundTrip(); }
-  /// Like SealedDatagrams::takeNewEpochDue(); false without datagrams.
-  bool takeNewEpochDue() { return m_datagrams != nullptr && m_datagrams->takeNewEpochDue(); }
+  std::optional<LinkPing::Millis> popRoundTrip() { return m_datagrams->popRoundTrip(); }
+  /// Like SealedDatagrams::popNewEpochDue(); false without datagrams.
+  bool popNewEpochDue() { return m_datagrams != nullptr && m_datagrams->popNewEpochDue(); }
 
  private:
   void sendFrame(const std::string& frame);
@@ -176,7 +176,7 @@ class ServerLink {
   std::unique_ptr<ReliableChannel> m_channel;
   SecondStream m_second;
   std::unique_ptr<SealedDatagrams> m_datagrams;
-  ReliableFrames m_unacknowledged;
+  ReliableFrameSender m_unacknowledged;
 };
 
 }  // namespace naiad

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
 constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
-constexpr std::uint32_t kMaxAgainSeconds = 600;
+constexpr std::uint32_t kMaxReconnectSeconds = 600;
 constexpr std::size_t kMaxRedirect = 512;  // bytes of a link
 
 bool isViewSize(std::uint32_t width, std::uint32_t height) {
@@ -44,12 +44,12 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
   message.resume_token = wire.resume_token();
   message.resumed = wire.resumed();
   message.grace = std::chrono::milliseconds(std::min(wire.grace_millis(), kMaxGraceMillis));
-  message.received = wire.received();
+  message.last_frame = wire.last_frame();
   message.second_stream = wire.second_stream();
-  if (wire.has_continuation()) {
-    const wire::Continuation& from = wire.continuation();
+  if (wire.has_resume_state()) {
+    const wire::ResumeState& from = wire.resume_state();
     if (from.world_epoch() > 3) return std::nullopt;
-    message.continuation = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
+    message.resume_state = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
   }
   message.room = safeText(wire.room(), kMaxRoomName);
   message.tick = std::chrono::microseconds(wire.tick_micros());
@@ -62,7 +62,7 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
 
 std::optional<ServerMessageValue> check(const wire::Refused& wire) {
   RefusedMessage message{wire.reason() == wire::Refused::BUSY, wire.reason() == wire::Refused::PASSWORD,
-                         safeText(wire.sentence(), kMaxSentenceLength)};
+                         safeText(wire.message(), kMaxMessageLength)};
   const bool may_redirect = wire.reason() == wire::Refused::FULL || wire.reason() == wire::Refused::REDIRECT;
   if (may_redirect && wire.redirect().size() <= kMaxRedirect) message.redirect = wire.redirect();
   if (isRoomName(wire.redirect_room())) message.redirect_room = wire.redirect_room();
@@ -70,17 +70,17 @@ std::optional<ServerMessageValue> check(const wire::Refused& wire) {
   return message;
 }
 
-std::optional<ServerMessageValue> check(const wire::Entered& wire) {
+std::optional<ServerMessageValue> check(const wire::RoomEntered& wire) {
   if (wire.player() == 0 || !isViewSize(wire.view_width(), wire.view_height()) || wire.world_epoch() > 3 ||
       wire.help_size() > static_cast<int>(kMaxHelpLines) || !isRoomName(wire.room()))
     return std::nullopt;
-  EnteredMessage message{.player = wire.player(),
-                         .room = wire.room(),
-                         .game = safeText(wire.game(), kMaxProgramLength),
-                         .view_width = static_cast<int>(wire.view_width()),
-                         .view_height = static_cast<int>(wire.view_height()),
-                         .tick_now = wire.tick(),
-                         .world_epoch = static_cast<std::uint8_t>(wire.world_epoch())};
+  RoomEnteredMessage message{.player = wire.player(),
+                             .room = wire.room(),
+                             .game = safeText(wire.game(), kMaxProgramLength),
+                             .view_width = static_cast<int>(wire.view_width()),
+                             .view_height = static_cast<int>(wire.view_height()),
+                             .tick_now = wire.tick(),
+                             .world_epoch = static_cast<std::uint8_t>(wire.world_epoch())};
   for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
   return message;
 }
@@ -128,7 +128,7 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
   if (frame.size() > kMaxServerFrame) return std::nullopt;
   wire::ServerMessage wire;
   if (!wire.ParseFromArray(frame.data(), static_cast<int>(frame.size()))) return std::nullopt;
-  switch (wire.what_case()) {
+  switch (wire.payload_case()) {
     case wire::ServerMessage::kWelcome:
       return check(wire.welcome());
     case wire::ServerMessage::kSnapshot:
@@ -138,19 +138,20 @@ std::optional<ServerMessageValue> readServerMessage(std::string_view frame) {
     case wire::ServerMessage::kRefused:
       return check(wire.refused());
     case wire::ServerMessage::kGoodbye:
-      return GoodbyeMessage{safeText(wire.goodbye().sentence(), kMaxSentenceLength),
-                            std::chrono::seconds(std::min(wire.goodbye().again_seconds(), kMaxAgainSeconds))};
+      return GoodbyeMessage{
+          safeText(wire.goodbye().message(), kMaxMessageLength),
+          std::chrono::seconds(std::min(wire.goodbye().reconnect_seconds(), kMaxReconnectSeconds))};
     case wire::ServerMessage::kChat:
       return ChatMessage{wire.chat().player(), safeText(wire.chat().text(), kMaxChatLength), wire.number()};
     case wire::ServerMessage::kSounds:
       return check(wire.sounds(), wire.number());
     case wire::ServerMessage::kPong:
-      return PongMessage{wire.pong().token(), wire.pong().received()};
+      return PongMessage{wire.pong().token(), wire.pong().last_frame()};
     case wire::ServerMessage::kEntered:
       return check(wire.entered());
     case wire::ServerMessage::kRooms:
       return check(wire.rooms());
-    case wire::ServerMessage::WHAT_NOT_SET:
+    case wire::ServerMessage::PAYLOAD_NOT_SET:
       return std::nullopt;
   }
   return std::nullopt;

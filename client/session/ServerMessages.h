@@ -18,7 +18,7 @@
 namespace naiad {
 
 /// State of a session that a new client process resumes.
-struct Continuation {
+struct ResumeState {
   std::uint32_t snapshot = 0;    ///< number of the newest snapshot
   std::uint8_t world_epoch = 0;  ///< 0 … 3
   std::uint32_t input = 0;       ///< id of the newest input
@@ -34,22 +34,22 @@ struct WelcomeMessage {
   int view_width = 80;
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;             ///< the game's own lines
-  std::uint32_t tick_now = 0;                ///< the world's approximate current tick
-  std::uint64_t connection_id = 0;           ///< connection id of datagrams
-  std::uint32_t aead = 0;                    ///< cipher of datagrams; 0: no datagrams
-  std::uint32_t epoch = 0;                   ///< key epoch of datagrams
-  std::string resume_token;                  ///< empty: the session ends with its stream
-  bool resumed = false;                      ///< an earlier session was resumed
-  std::chrono::milliseconds grace{0};        ///< how long the server keeps a session without a stream
-  std::optional<Continuation> continuation;  ///< set if the hello said `fresh`
-  std::uint32_t received = 0;                ///< otherwise: newest reliable frame that the server received
-  bool second_stream = false;                ///< the server accepts one; or: this is one
-  std::string room;                          ///< the player's room; empty: the server has no rooms
+  std::vector<std::string> help;            ///< the game's own lines
+  std::uint32_t tick_now = 0;               ///< the world's approximate current tick
+  std::uint64_t connection_id = 0;          ///< connection id of datagrams
+  std::uint32_t aead = 0;                   ///< cipher of datagrams; 0: no datagrams
+  std::uint32_t epoch = 0;                  ///< key epoch of datagrams
+  std::string resume_token;                 ///< empty: the session ends with its stream
+  bool resumed = false;                     ///< an earlier session was resumed
+  std::chrono::milliseconds grace{0};       ///< how long the server keeps a session without a stream
+  std::optional<ResumeState> resume_state;  ///< set if the hello said `new_process`
+  std::uint32_t last_frame = 0;             ///< otherwise: newest reliable frame that the server received
+  bool second_stream = false;               ///< the server accepts one; or: this is one
+  std::string room;                         ///< the player's room; empty: the server has no rooms
 };
 
 /// The player has entered another room.
-struct EnteredMessage {
+struct RoomEnteredMessage {
   std::uint32_t player = 0;  ///< this player's id in that room, never 0
   std::string room;
   std::string game;
@@ -74,9 +74,9 @@ struct RoomsMessage {
 };
 
 struct RefusedMessage {
-  bool for_now = false;   ///< a retry in a moment may succeed
-  bool password = false;  ///< the password was missing or wrong
-  std::string sentence;
+  bool is_temporary = false;  ///< a retry in a moment may succeed
+  bool password = false;      ///< the password was missing or wrong
+  std::string message;
   /// Link to another server with a free place (JoinLink.h), unchecked. Empty: none.
   std::string redirect = {};
   std::string redirect_room = {};  ///< room of that server; may be empty
@@ -84,8 +84,8 @@ struct RefusedMessage {
 };
 
 struct GoodbyeMessage {
-  std::string sentence;
-  std::chrono::seconds again{0};  ///< the server will be back within this time; 0: no restart
+  std::string message;
+  std::chrono::seconds restart_time{0};  ///< the server will be back within this time; 0: no restart
 };
 
 /// The bytes of a snapshot; only the replica can read them.
@@ -130,12 +130,12 @@ struct SoundsMessage {
 
 struct PongMessage {
   std::uint64_t token = 0;
-  std::uint32_t received = 0;  ///< newest reliable frame of the client that arrived
+  std::uint32_t last_frame = 0;  ///< newest reliable frame of the client that arrived
 };
 
 using ServerMessageValue =
     std::variant<WelcomeMessage, RefusedMessage, GoodbyeMessage, SnapshotMessage, PlayersMessage, ChatMessage,
-                 SoundsMessage, PongMessage, EnteredMessage, RoomsMessage>;
+                 SoundsMessage, PongMessage, RoomEnteredMessage, RoomsMessage>;
 
 /// Returns the message in a frame; nullopt if this version of the protocol does not allow it.
 std::optional<ServerMessageValue> readServerMessage(std::string_view frame);

@@ -30,8 +30,8 @@ wire::ClientMessage helloOf(const SessionOptions& options) {
   hello.set_rows(clampedCells(options.rows));
   hello.set_password(options.password);
   hello.set_resume_token(options.resume_token);
-  hello.set_fresh(options.fresh);
-  hello.set_received(options.received);
+  hello.set_new_process(options.new_process);
+  hello.set_last_frame(options.last_frame);
   hello.set_second_stream(options.second_stream);
   if (options.open_socket) {
     hello.add_aeads(static_cast<std::uint32_t>(AeadId::kAes128Gcm));

@@ -17,8 +17,8 @@ namespace wire {
 class ClientMessage;
 }
 
-/// Set if a program on the server's machine joins on behalf of a remote player (VisitorsListener.h).
-struct Visit {
+/// Set if a program on the server's machine joins on behalf of a remote player (ProxyListener.h).
+struct ProxyOptions {
   std::string socket;               ///< path of the visitors' socket
   asio::ip::tcp::endpoint visitor;  ///< address of the player
 };
@@ -31,13 +31,13 @@ struct SessionOptions {
   std::string program;          ///< name and version for the server's log: "dfclient 0.2.0"
   int columns = 0;              ///< terminal size in cells; 0: the whole view is needed
   int rows = 0;
-  std::string password;        ///< password of the server, if it needs one
-  std::string resume_token;    ///< token of an earlier welcome: resume that session
-  bool fresh = false;          ///< an earlier process had the session; only the token is known
-  std::uint32_t received = 0;  ///< otherwise: number of the newest reliable frame received
-  bool second_stream = false;  ///< this is a second stream of the token's session
-  bool two_streams = false;    ///< no datagrams: open a second stream immediately
-  std::optional<Visit> visit;  ///< set for a remote player; then there are no datagrams
+  std::string password;               ///< password of the server, if it needs one
+  std::string resume_token;           ///< token of an earlier welcome: resume that session
+  bool new_process = false;           ///< an earlier process had the session; only the token is known
+  std::uint32_t last_frame = 0;       ///< otherwise: number of the newest reliable frame received
+  bool second_stream = false;         ///< this is a second stream of the token's session
+  bool two_streams = false;           ///< no datagrams: open a second stream immediately
+  std::optional<ProxyOptions> proxy;  ///< set for a remote player; then there are no datagrams
   /// Makes a socket for datagrams to an endpoint; may return null. Empty: no datagrams. A Connection that
   /// encrypts sets it to UDP.
   std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> open_socket;

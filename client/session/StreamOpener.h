@@ -21,8 +21,8 @@ struct ServerTrust {
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if given by the player
   std::optional<ShortKey> link_key;        ///< the key in the link, if the player followed one
   std::filesystem::path known_servers;     ///< file with the keys of known servers; empty: the user's
-  bool pins = true;                        ///< store the keys of trusted servers there
-  bool stays = false;                      ///< ignore redirects
+  bool pin_new_keys = true;                ///< store the keys of trusted servers there
+  bool ignore_redirects = false;           ///< ignore redirects
   /// Maximum of the random wait before a redirect is followed. It spreads out the arrivals when many clients
   /// are redirected at once, as after the end of a server.
   std::chrono::milliseconds max_redirect_wait{1000};
@@ -53,20 +53,20 @@ class StreamOpener {
   virtual std::optional<Fingerprint> secondKey() const = 0;
   /// Returns why the server behind the newest stream of open() is not trusted, for people; empty if it is.
   /// Nothing may be sent to an untrusted server.
-  virtual std::string whyUntrusted() const = 0;
+  virtual std::string trustError() const = 0;
   /// Result of follow().
-  struct Next {
+  struct RedirectTarget {
     std::unique_ptr<StreamOpener> opener;  ///< null: the redirect is not followed
     ServerAddress address;
     std::chrono::milliseconds wait{0};  ///< wait before the first attempt
   };
   /// Returns how to reach the server of `link` (JoinLink.h; untrusted text), to which the newest stream's
   /// server has redirected the client. A redirect from there to a third server is not followed.
-  virtual Next follow(const std::string& /*link*/) { return {}; }
+  virtual RedirectTarget follow(const std::string& /*link*/) { return {}; }
 
   /// True if the newest attempt of open() was dropped in the handshake, e.g. at a per-address limit; a retry
   /// may succeed.
-  virtual bool wasHungUpOn() const = 0;
+  virtual bool closedDuringHandshake() const = 0;
 
  protected:
   /// Returns the constant that key() returns if a gateway is trusted in the server's place.

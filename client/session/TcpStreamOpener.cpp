@@ -23,11 +23,11 @@ const std::shared_ptr<const TlsContext>& clientContext() {
 }  // namespace
 
 TcpStreamOpener::TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
-                                 std::optional<Visit> visit)
+                                 std::optional<ProxyOptions> proxy)
     : m_address(std::move(address)),
       m_trust(std::move(trust)),
       m_context(context),
-      m_visit(std::move(visit)),
+      m_proxy(std::move(proxy)),
       m_connector(context, TcpOptions{.receive_limit = kMaxServerFrame},
                   m_trust.insecure ? nullptr : clientContext()),
       m_second_connector(context, TcpOptions{.receive_limit = kMaxServerFrame}, clientContext()) {}
@@ -40,20 +40,20 @@ void TcpStreamOpener::open(Done done) {
           });
 }
 
-StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
-  const bool may = !m_trust.stays && !m_trust.insecure && !m_visit && m_peer;
+StreamOpener::RedirectTarget TcpStreamOpener::follow(const std::string& link) {
+  const bool may = !m_trust.ignore_redirects && !m_trust.insecure && !m_proxy && m_peer;
   const auto parsed = JoinLink::parse(link);
   const auto* const p_link = std::get_if<JoinLink>(&parsed);
-  if (!may || p_link == nullptr || !p_link->room.empty() || p_link->where.port < kLeastFollowedPort)
+  if (!may || p_link == nullptr || !p_link->room.empty() || p_link->address.port < kMinRedirectPort)
     return {};
   ServerTrust trust;
   trust.link_key = p_link->key;
   trust.known_servers = m_trust.known_servers;
-  trust.pins = false;
-  trust.stays = true;
-  const ServerAddress address{p_link->where.host, p_link->where.port};
+  trust.pin_new_keys = false;
+  trust.ignore_redirects = true;
+  const ServerAddress address{p_link->address.host, p_link->address.port};
   auto opener = std::make_unique<TcpStreamOpener>(m_context, address, std::move(trust), std::nullopt);
-  const auto is_allowed = [from = *m_peer](const asio::ip::address& to) { return maySendTo(from, to); };
+  const auto is_allowed = [from = *m_peer](const asio::ip::address& to) { return mayRedirectTo(from, to); };
   opener->m_connector.restrict(is_allowed);
   opener->m_second_connector.restrict(is_allowed);
   std::random_device random;
@@ -62,8 +62,8 @@ StreamOpener::Next TcpStreamOpener::follow(const std::string& link) {
 }
 
 void TcpStreamOpener::connect(TcpConnector& connector, Done done) {
-  if (!m_visit) return connector.connect(m_address.host, m_address.port, kConnectTimeout, std::move(done));
-  connector.connectFor(m_visit->visitor, m_visit->socket, m_address.host, m_address.port, kConnectTimeout,
+  if (!m_proxy) return connector.connect(m_address.host, m_address.port, kConnectTimeout, std::move(done));
+  connector.connectFor(m_proxy->visitor, m_proxy->socket, m_address.host, m_address.port, kConnectTimeout,
                        std::move(done));
 }
 
@@ -73,20 +73,20 @@ void TcpStreamOpener::cancel() {
 }
 
 std::optional<Fingerprint> TcpStreamOpener::keyOf(const TcpConnector& connector) {
-  const auto& facts = connector.peerFacts();
+  const auto& facts = connector.peerIdentity();
   return facts ? std::optional(facts->key) : std::nullopt;
 }
 
-std::string TcpStreamOpener::whyUntrusted() const {
-  if (m_trust.insecure || !m_connector.peerFacts()) return {};
+std::string TcpStreamOpener::trustError() const {
+  if (m_trust.insecure || !m_connector.peerIdentity()) return {};
   try {
     const KnownServers known(m_trust.known_servers.empty() ? KnownServers::defaultPath()
                                                            : m_trust.known_servers);
-    const PeerFacts& facts = *m_connector.peerFacts();
-    const auto judgement = m_trust.pins ? &KnownServers::admit : &KnownServers::judge;
-    const Verdict verdict =
+    const PeerIdentity& facts = *m_connector.peerIdentity();
+    const auto judgement = m_trust.pin_new_keys ? &KnownServers::admit : &KnownServers::verify;
+    const TrustResult verdict =
         (known.*judgement)(m_address.host, m_address.port, facts, m_trust.fingerprint, m_trust.link_key);
-    return verdict.accepted() ? std::string() : verdict.sentence;
+    return verdict.accepted() ? std::string() : verdict.message;
   } catch (const KnownServersError& error) {
     return error.what();
   }

@@ -20,22 +20,22 @@ class TcpStreamOpener : public StreamOpener {
  public:
   static constexpr std::chrono::milliseconds kConnectTimeout{5000};
 
-  /// `visit`: connect through this socket for a remote player.
+  /// `proxy`: connect through this socket for a remote player.
   TcpStreamOpener(asio::io_context& context, ServerAddress address, ServerTrust trust,
-                  std::optional<Visit> visit);
+                  std::optional<ProxyOptions> proxy);
 
   void open(Done done) override;
   void openSecond(Done done) override { connect(m_second_connector, std::move(done)); }
   void cancel() override;
   std::optional<Fingerprint> key() const override { return keyOf(m_connector); }
   std::optional<Fingerprint> secondKey() const override { return keyOf(m_second_connector); }
-  std::string whyUntrusted() const override;
+  std::string trustError() const override;
   /// Refuses redirects for a visitor of a door, without TLS, after a redirect, and to ports below 1024. The
-  /// target's addresses must not have a narrower scope than this server's (maySendTo()).
-  Next follow(const std::string& link) override;
-  bool wasHungUpOn() const override { return m_connector.wasHungUpOn(); }
+  /// target's addresses must not have a narrower scope than this server's (mayRedirectTo()).
+  RedirectTarget follow(const std::string& link) override;
+  bool closedDuringHandshake() const override { return m_connector.closedDuringHandshake(); }
 
-  static constexpr std::uint16_t kLeastFollowedPort = 1024;
+  static constexpr std::uint16_t kMinRedirectPort = 1024;
 
  private:
   static std::optional<Fingerprint> keyOf(const TcpConnector& connector);
@@ -44,7 +44,7 @@ class TcpStreamOpener : public StreamOpener {
   ServerAddress m_address;
   ServerTrust m_trust;
   asio::io_context& m_context;
-  std::optional<Visit> m_visit;
+  std::optional<ProxyOptions> m_proxy;
   std::optional<asio::ip::address> m_peer;  ///< address of the newest stream of open()
   TcpConnector m_connector;
   TcpConnector m_second_connector;

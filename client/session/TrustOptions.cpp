@@ -5,7 +5,7 @@
 
 #include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
-#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/ProxyHeader.h"
 
 namespace naiad {
 namespace {
@@ -26,7 +26,7 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   if (namesAnotherKey(trust, link.key))
     return "--fingerprint (or NAIAD_FINGERPRINT) differs from the key in the link.";
   session.room = link.room;
-  address = {link.where.host, link.where.port};
+  address = {link.address.host, link.address.port};
   trust.link_key = link.key;
   return {};
 }
@@ -45,16 +45,17 @@ std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, Ses
   if (server.visitors.empty() || server.visitor.empty())
     return "--visitors and --visitor must be used together.";
   if (trust.insecure) return "--visitors cannot be used with --insecure.";
-  const auto visitor = visitorFromText(server.visitor);
+  const auto visitor = proxiedPeerFromText(server.visitor);
   if (!visitor) return quoted(server.visitor) + " is not a valid --visitor: expected ADDRESS:PORT.";
-  session.visit = Visit{server.visitors, *visitor};
+  session.proxy = ProxyOptions{server.visitors, *visitor};
   return {};
 }
 
 }  // namespace
 
 bool ServerChoice::dropsPassword() const {
-  return is_password_ambient && (list_key || JoinLink::isMeant(text) || GatewayAddress::isMeant(text));
+  return is_password_ambient &&
+         (list_key || JoinLink::looksLikeLink(text) || GatewayAddress::looksLikeLink(text));
 }
 
 Option serverOption(ServerChoice& server) {
@@ -81,7 +82,7 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
        "The server's password (other users can see the command line; NAIAD_PASSWORD is safer, but is not "
        "sent to servers from links, pages and lists)",
        "NAIAD_PASSWORD"},
-      {"--no-redirect", &trust.stays, "Do not follow redirects (from a lobby or a full server)",
+      {"--no-redirect", &trust.ignore_redirects, "Do not follow redirects (from a lobby or a full server)",
        "NAIAD_NO_REDIRECT"},
       {"--insecure", &trust.insecure,
        "Connect without encryption, only to a server on this machine (for tests)", "NAIAD_INSECURE"}};
@@ -100,8 +101,8 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
                           SessionOptions& session) {
   if (server.dropsPassword()) session.password.clear();
   if (std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
-  if (GatewayAddress::isMeant(server.text)) {
-    if (trust.insecure || trust.fingerprint || session.visit)
+  if (GatewayAddress::looksLikeLink(server.text)) {
+    if (trust.insecure || trust.fingerprint || session.proxy)
       return "--insecure, --fingerprint and --visitors cannot be used with a gateway (https://…).";
     trust.gateway = GatewayAddress::parse(server.text);
     if (!trust.gateway)
@@ -109,7 +110,7 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     address = {trust.gateway->host, trust.gateway->port};
     return {};
   }
-  if (!JoinLink::isMeant(server.text)) {
+  if (!JoinLink::looksLikeLink(server.text)) {
     const std::size_t slash = std::min(server.text.find('/'), server.text.size());
     const auto parsed = ServerAddress::parse(server.text.substr(0, slash));
     if (!parsed)
@@ -123,8 +124,8 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     return server.list_key ? followList(*server.list_key, trust) : "";
   }
   const auto parsed = JoinLink::parse(server.text);
-  if (const auto* p_problem = std::get_if<LinkProblem>(&parsed))
-    return quoted(server.text) + " is not a valid link: " + p_problem->sentence + ".";
+  if (const auto* p_problem = std::get_if<LinkError>(&parsed))
+    return quoted(server.text) + " is not a valid link: " + p_problem->message + ".";
   return followLink(std::get<JoinLink>(parsed), address, trust, session);
 }
 

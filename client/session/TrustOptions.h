@@ -13,13 +13,13 @@ namespace naiad {
 
 /// Exit codes of dfclient and dfbot. The numbers are documented in --help and used by scripts.
 enum ExitCode {
-  kExitLeft = 0,         ///< the player left, or the bot finished its task
-  kExitUnreachable = 1,  ///< no connection to the server
-  kExitUsage = 2,        ///< wrong command line or script; dfserver uses this code, too
-  kExitRefused = 3,      ///< the server refused; its sentence is on stderr
-  kExitEnded = 4,        ///< the server ended the game, or the search for a lost one failed
-  kExitNoTerminal = 5,   ///< standard input or output is not a usable terminal
-  kExitUnproven = 6,     ///< the bot's pictures differ from the truth file, or could not be compared
+  kExitLeft = 0,           ///< the player left, or the bot finished its task
+  kExitUnreachable = 1,    ///< no connection to the server
+  kExitUsage = 2,          ///< wrong command line or script; dfserver uses this code, too
+  kExitRefused = 3,        ///< the server refused; its sentence is on stderr
+  kExitEnded = 4,          ///< the server ended the game, or the search for a lost one failed
+  kExitNoTerminal = 5,     ///< standard input or output is not a usable terminal
+  kExitTruthMismatch = 6,  ///< the bot's pictures differ from the truth file, or could not be compared
 };
 
 /// The part of --help that both programs share.

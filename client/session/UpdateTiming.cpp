@@ -13,16 +13,16 @@ constexpr std::size_t kMaxPings = 20;  ///< unanswered ones
 
 void StreamLiveness::startStream(Time now) {
   forgetPings();
-  m_last_ping = now - kSeldomPing;
+  m_last_ping = now - kSlowPingInterval;
 }
 
 bool StreamLiveness::isStreamDead(Time now, bool has_datagrams) const {
-  return has_datagrams && !m_pings.empty() && now - m_pings.begin()->second >= kStreamSilence;
+  return has_datagrams && !m_pings.empty() && now - m_pings.begin()->second >= kStreamTimeout;
 }
 
 bool StreamLiveness::isPingDue(Time now, bool has_datagrams) const {
   const bool seldom = has_datagrams && m_stats.smoothed().count() > 0;
-  return now - m_last_ping >= (seldom ? kSeldomPing : kPingInterval);
+  return now - m_last_ping >= (seldom ? kSlowPingInterval : kPingInterval);
 }
 
 std::uint64_t StreamLiveness::startPing(Time now) {
@@ -46,34 +46,34 @@ std::chrono::milliseconds StreamLiveness::roundTrip() const {
   return std::min<std::chrono::milliseconds>(whole, std::chrono::milliseconds(99999));
 }
 
-bool UpdateTiming::noteDatagramSent(Time now) {
+bool UpdateTiming::onDatagramSent(Time now) {
   m_probe.probeSent(now);
-  if (now - m_last_ping < kPingEvery) return false;
+  if (now - m_last_ping < kDatagramPingInterval) return false;
   m_last_ping = now;
   return true;
 }
 
-void UpdateTiming::noteUpdateSent() {
+void UpdateTiming::onUpdateSent() {
   m_unacknowledged = 0;
   m_acknowledge_at.reset();
 }
 
-bool UpdateTiming::noteSnapshotApplied(bool gap, Time now) {
+bool UpdateTiming::onSnapshotApplied(bool gap, Time now) {
   ++m_unacknowledged;
-  if (m_unacknowledged >= kAckEvery || gap) return true;
+  if (m_unacknowledged >= kSnapshotsPerAck || gap) return true;
   m_acknowledge_at = now + kAckDelay;
   return false;
 }
 
-bool UpdateTiming::takeRepeat(Time now) {
-  if (!m_repeat_at || now < *m_repeat_at) return false;
-  m_repeat_at.reset();
+bool UpdateTiming::popInputResend(Time now) {
+  if (!m_resend_at || now < *m_resend_at) return false;
+  m_resend_at.reset();
   return true;
 }
 
 std::optional<UpdateTiming::Time> UpdateTiming::nextWake() const {
-  if (!m_repeat_at || !m_acknowledge_at) return m_repeat_at ? m_repeat_at : m_acknowledge_at;
-  return std::min(*m_repeat_at, *m_acknowledge_at);
+  if (!m_resend_at || !m_acknowledge_at) return m_resend_at ? m_resend_at : m_acknowledge_at;
+  return std::min(*m_resend_at, *m_acknowledge_at);
 }
 
 }  // namespace naiad

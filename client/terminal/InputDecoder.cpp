@@ -97,12 +97,12 @@ struct InputDecoder::Numbers {
 std::vector<TerminalEvent> InputDecoder::feed(std::string_view bytes, Time now) {
   Events out = flush(now);
   if (!bytes.empty()) m_last = now;
-  for (const char c : bytes) takeByte(static_cast<unsigned char>(c), out);
+  for (const char c : bytes) decodeByte(static_cast<unsigned char>(c), out);
   return out;
 }
 
 std::vector<TerminalEvent> InputDecoder::flush(Time now) {
-  Events out = m_spelled ? m_spelled->flush(now) : Events();
+  Events out = m_record_decoder ? m_record_decoder->flush(now) : Events();
   const auto due = ownDeadline();
   if (!due || now < *due) return out;
   if (m_state == State::kEscape && !m_pasting) {
@@ -117,7 +117,7 @@ std::vector<TerminalEvent> InputDecoder::flush(Time now) {
 
 std::optional<InputDecoder::Time> InputDecoder::deadline() const {
   const auto own = ownDeadline();
-  const auto spelled = m_spelled ? m_spelled->deadline() : std::nullopt;
+  const auto spelled = m_record_decoder ? m_record_decoder->deadline() : std::nullopt;
   return own && spelled ? std::min(own, spelled) : own ? own : spelled;
 }
 
@@ -136,19 +136,19 @@ void InputDecoder::enterState(State state) {
   if (state == State::kGround) m_meta = false;
 }
 
-void InputDecoder::takeByte(unsigned char byte, Events& out) {
+void InputDecoder::decodeByte(unsigned char byte, Events& out) {
   switch (m_state) {
     case State::kGround:
-      return takeGround(byte, out);
+      return decodeGround(byte, out);
     case State::kEscape:
-      return takeEscape(byte, out);
+      return decodeEscape(byte, out);
     case State::kCsi:
     case State::kSs3:
-      return takeSequence(byte, out);
+      return decodeSequence(byte, out);
     case State::kUtf8:
-      return takeUtf8(byte, out);
+      return decodeUtf8Byte(byte, out);
     case State::kX10Mouse:
-      return takeX10(byte, out);
+      return decodeX10(byte, out);
     case State::kLinuxFunction: {
       const bool known = byte >= 'A' && byte <= 'E';
       if (known) emitKey(out, {static_cast<df::Keyboard::Key>(df::Keyboard::F1 + (byte - 'A'))});
@@ -162,11 +162,11 @@ void InputDecoder::takeByte(unsigned char byte, Events& out) {
       // ST is ESC \; any other ESC ends the string and begins another sequence.
       if (byte == '\\') return enterState(State::kGround);
       enterState(State::kEscape);
-      return takeEscape(byte, out);
+      return decodeEscape(byte, out);
   }
 }
 
-void InputDecoder::takeGround(unsigned char byte, Events& out) {
+void InputDecoder::decodeGround(unsigned char byte, Events& out) {
   if (byte == 0x1B) return enterState(State::kEscape);
   if (m_pasting && byte < 0x80) return addPasted(byte);
   if (byte < 0x20 || byte == 0x7F) return emitKey(out, keyOfControl(byte));
@@ -177,10 +177,10 @@ void InputDecoder::takeGround(unsigned char byte, Events& out) {
   }
 }
 
-void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
+void InputDecoder::decodeUtf8Byte(unsigned char byte, Events& out) {
   if ((byte & 0xC0) != 0x80) {  // an invalid character; this byte may begin a valid one
     enterState(State::kGround);
-    return takeGround(byte, out);
+    return decodeGround(byte, out);
   }
   m_utf8.push_back(static_cast<char>(byte));
   const auto lead = static_cast<unsigned char>(m_utf8[0]);
@@ -194,7 +194,7 @@ void InputDecoder::takeUtf8(unsigned char byte, Events& out) {
   }
 }
 
-void InputDecoder::takeEscape(unsigned char byte, Events& out) {
+void InputDecoder::decodeEscape(unsigned char byte, Events& out) {
   switch (byte) {
     case 0x1B:
       if (m_meta) emitKey(out, keyOfControl(0x1B));
@@ -215,14 +215,14 @@ void InputDecoder::takeEscape(unsigned char byte, Events& out) {
   }
   if (m_meta) emitKey(out, keyOfControl(0x1B));
   enterState(State::kGround);
-  if (byte >= 0x80) return takeGround(byte, out);
+  if (byte >= 0x80) return decodeGround(byte, out);
   KeyEvent event = byte < 0x20 || byte == 0x7F ? keyOfControl(byte) : keyOfCharacter(byte);
   event.modifiers |= kAlt;
   event.ch = 0;
   emitKey(out, event);
 }
 
-void InputDecoder::takeSequence(unsigned char byte, Events& out) {
+void InputDecoder::decodeSequence(unsigned char byte, Events& out) {
   if (byte == 0x1B) {
     m_meta = false;
     return enterState(State::kEscape);
@@ -276,7 +276,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
     return enterState(State::kGround);
   }
   if (!ss3 && final == '_') {
-    takeKeyRecord(numbers, out);
+    decodeKeyRecord(numbers, out);
     return enterState(State::kGround);
   }
   KeyEvent event{keyOfFinal(static_cast<char>(final), ss3)};
@@ -308,12 +308,12 @@ void InputDecoder::finishTilde(Events& out) {
 }
 
 // Windows Terminal sends pastes, mouse reports and replies as one key record without a key for each byte, and
-// the text of a paste as records of the keys that type it. m_spelled decodes these bytes.
-void InputDecoder::takeKeyRecord(const Numbers& numbers, Events& out) {
-  if (m_is_spelled) return;
-  if (!m_spelled) {
-    m_spelled = std::make_unique<InputDecoder>();
-    m_spelled->m_is_spelled = true;
+// the text of a paste as records of the keys that type it. m_record_decoder decodes these bytes.
+void InputDecoder::decodeKeyRecord(const Numbers& numbers, Events& out) {
+  if (m_is_record_decoder) return;
+  if (!m_record_decoder) {
+    m_record_decoder = std::make_unique<InputDecoder>();
+    m_record_decoder->m_is_record_decoder = true;
   }
   const bool is_down = numbers.field[3][0] > 0;
   int ch = std::max(numbers.field[2][0], 0);
@@ -321,18 +321,18 @@ void InputDecoder::takeKeyRecord(const Numbers& numbers, Events& out) {
     ch = 0x10000 + (m_surrogate - 0xD800) * 0x400 + (ch - 0xDC00);
   m_surrogate = ch >= 0xD800 && ch <= 0xDBFF ? ch : 0;
   if (m_surrogate != 0 || m_pasting) return;
-  if (numbers.field[0][0] > 0 && !m_spelled->deadline()) {
+  if (numbers.field[0][0] > 0 && !m_record_decoder->deadline()) {
     const KeyEvent event = numbers.windowsKey(ch);
     if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) out.emplace_back(event);
   } else if (is_down && ch > 0 && ch <= 0x10FFFF) {
     std::string bytes;
     df::appendUtf8(bytes, static_cast<char32_t>(ch));
-    for (const char c : bytes) m_spelled->takeByte(static_cast<unsigned char>(c), out);
-    m_spelled->m_last = m_last;
+    for (const char c : bytes) m_record_decoder->decodeByte(static_cast<unsigned char>(c), out);
+    m_record_decoder->m_last = m_last;
   }
 }
 
-void InputDecoder::takeX10(unsigned char byte, Events& out) {
+void InputDecoder::decodeX10(unsigned char byte, Events& out) {
   m_parameters.push_back(static_cast<char>(byte));
   if (m_parameters.size() < 3) return;
   const auto value = [this](std::size_t i) { return static_cast<unsigned char>(m_parameters[i]) - 32; };

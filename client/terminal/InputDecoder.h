@@ -30,7 +30,7 @@ namespace naiad {
 enum Modifier : std::uint8_t { kShift = 1, kAlt = 2, kControl = 4, kSuper = 8 };
 
 /// A key, as reported by the terminal. Without the kitty protocol, terminals report only presses, and repeats
-/// as presses: HeldKeys guesses the rest.
+/// as presses: KeyHoldTracker guesses the rest.
 struct KeyEvent {
   enum class Action : std::uint8_t { kPress, kRepeat, kRelease };
   df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters without a key
@@ -85,10 +85,10 @@ class InputDecoder {
   std::optional<Time> deadline() const;
   /// Returns the number of bytes of an incomplete sequence; at most 128.
   std::size_t pendingBytes() const {
-    return m_parameters.size() + m_utf8.size() + (m_spelled ? m_spelled->pendingBytes() : 0);
+    return m_parameters.size() + m_utf8.size() + (m_record_decoder ? m_record_decoder->pendingBytes() : 0);
   }
   /// True once a key record of Windows Terminal was received: keys are reported with their releases.
-  bool hasKeyRecords() const { return m_spelled != nullptr; }
+  bool hasKeyRecords() const { return m_record_decoder != nullptr; }
 
  private:
   enum class State {
@@ -105,16 +105,16 @@ class InputDecoder {
   using Events = std::vector<TerminalEvent>;
 
   std::optional<Time> ownDeadline() const;
-  void takeByte(unsigned char byte, Events& out);
-  void takeGround(unsigned char byte, Events& out);
-  void takeEscape(unsigned char byte, Events& out);
-  void takeSequence(unsigned char byte, Events& out);
-  void takeUtf8(unsigned char byte, Events& out);
-  void takeX10(unsigned char byte, Events& out);
+  void decodeByte(unsigned char byte, Events& out);
+  void decodeGround(unsigned char byte, Events& out);
+  void decodeEscape(unsigned char byte, Events& out);
+  void decodeSequence(unsigned char byte, Events& out);
+  void decodeUtf8Byte(unsigned char byte, Events& out);
+  void decodeX10(unsigned char byte, Events& out);
   void finishSequence(unsigned char final, Events& out);
   void finishTilde(Events& out);
   struct Numbers;
-  void takeKeyRecord(const Numbers& numbers, Events& out);
+  void decodeKeyRecord(const Numbers& numbers, Events& out);
   void emitKey(Events& out, KeyEvent event);
   void addPasted(char32_t ch);
   void endPaste(Events& out);
@@ -130,9 +130,10 @@ class InputDecoder {
   std::string m_parameters;
   std::string m_utf8;
   Time m_last{};
-  std::unique_ptr<InputDecoder> m_spelled;  ///< decodes bytes in key records; null before the first record
-  bool m_is_spelled = false;                ///< this is m_spelled of another decoder: ignore key records
-  int m_surrogate = 0;                      ///< first half of a surrogate pair, from a record
+  std::unique_ptr<InputDecoder>
+      m_record_decoder;              ///< decodes bytes in key records; null before the first record
+  bool m_is_record_decoder = false;  ///< this is m_record_decoder of another decoder: ignore key records
+  int m_surrogate = 0;               ///< first half of a surrogate pair, from a record
 };
 
 }  // namespace naiad

@@ -118,7 +118,7 @@ bool Screen::readSize() {
   return true;
 }
 
-void Screen::show(const Picture& picture) {
+void Screen::show(const ScreenBuffer& picture) {
   setBackground(picture.background());
   const bool all =
       m_redraw || m_ended || picture.width() != m_shown.width() || picture.height() != m_shown.height();
@@ -128,7 +128,7 @@ void Screen::show(const Picture& picture) {
   }
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      const PictureCell cell = picture.at(x, y);
+      const ScreenCell cell = picture.at(x, y);
       if (all || !(cell == m_shown.at(x, y))) put(x, y, cell);
     }
   }
@@ -144,7 +144,7 @@ void Screen::ring() {
   if (!m_ended) beep();
 }
 
-void Screen::put(int x, int y, const PictureCell& cell) {
+void Screen::put(int x, int y, const ScreenCell& cell) {
   attr_t attributes = A_NORMAL;
   // Bold makes a colour bright if there are only eight.
   const bool is_dark = m_colors && COLORS < 16 && cell.color == df::BLUE && cell.background == df::BLACK;

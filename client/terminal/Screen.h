@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "client/terminal/Picture.h"
+#include "client/terminal/ScreenBuffer.h"
 #include "shared/values/Color.h"
 
 namespace naiad {
@@ -44,7 +44,7 @@ class Screen {
   int rows() const { return m_rows; }
 
   /// Shows the picture. Enters the alternate screen again after end().
-  void show(const Picture& picture);
+  void show(const ScreenBuffer& picture);
   /// Rings the terminal's bell.
   void ring();
   /// Reads the terminal's size. Returns true if it has changed.
@@ -56,7 +56,7 @@ class Screen {
 
  private:
   void setBackground(df::Color background);
-  void put(int x, int y, const PictureCell& cell);
+  void put(int x, int y, const ScreenCell& cell);
 
   bool m_ascii;
   bool m_colors;
@@ -65,7 +65,7 @@ class Screen {
   int m_columns = 0;
   int m_rows = 0;
   df::Color m_background = df::BLACK;  ///< background of colour pairs 9 to 16
-  Picture m_shown;
+  ScreenBuffer m_shown;
 };
 
 }  // namespace naiad

@@ -118,24 +118,24 @@ std::string warning(const std::string& server, const Fingerprint& expected, cons
          " has the old key " + expected.text() + ".)";
 }
 
-Verdict judgeBy(const PinLines& lines, const std::string& server, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link,
-                const fs::path& path) {
+TrustResult verifyWith(const PinLines& lines, const std::string& server, const PeerIdentity& facts,
+                       const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link,
+                       const fs::path& path) {
   if (link && *link != ShortKey::of(facts.key)) {
-    return {Trust::kLinkUnequal, server + " does not have the key in the link: its key is " +
-                                     ShortKey::of(facts.key).text() +
-                                     ". Not connected, and nothing was sent. Compare the end of the link "
-                                     "(after #) with the host's link."};
+    return {Trust::kLinkMismatch, server + " does not have the key in the link: its key is " +
+                                      ShortKey::of(facts.key).text() +
+                                      ". Not connected, and nothing was sent. Compare the end of the link "
+                                      "(after #) with the host's link."};
   }
-  if (given && *given == facts.key) return {Trust::kGivenEqual, server + " has the given key."};
+  if (given && *given == facts.key) return {Trust::kFingerprintMatch, server + " has the given key."};
   if (given) {
-    return {Trust::kGivenUnequal,
+    return {Trust::kFingerprintMismatch,
             server + " does not have the given key: its key is " + facts.key.text() +
                 ". Not connected. Compare the fingerprint with the one the host gave you."};
   }
   if (facts.chain_verifies) return {Trust::kChain, server + " has a valid certificate."};
   const auto pinned = lines.find(server);
-  if (!pinned && link) return {Trust::kLinkEqual, server + " has the key in the link."};
+  if (!pinned && link) return {Trust::kLinkMatch, server + " has the key in the link."};
   if (!pinned) {
     return {Trust::kFirstUse, "First visit to " + server + ": its key " + facts.key.text() +
                                   " is trusted from now on. (No valid certificate: " + facts.chain_problem +
@@ -162,25 +162,25 @@ fs::path KnownServers::defaultPath() {
   throw KnownServersError("Neither HOME nor XDG_DATA_HOME is set: specify --known-servers FILE.");
 }
 
-Verdict KnownServers::judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                            const std::optional<Fingerprint>& given,
-                            const std::optional<ShortKey>& link) const {
-  return inWords([&] { return judgeBy(readLines(path_), nameOf(host, port), facts, given, link, path_); });
+TrustResult KnownServers::verify(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
+                                 const std::optional<Fingerprint>& given,
+                                 const std::optional<ShortKey>& link) const {
+  return inWords([&] { return verifyWith(readLines(path_), nameOf(host, port), facts, given, link, path_); });
 }
 
-Verdict KnownServers::admit(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                            const std::optional<Fingerprint>& given,
-                            const std::optional<ShortKey>& link) const {
+TrustResult KnownServers::admit(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
+                                const std::optional<Fingerprint>& given,
+                                const std::optional<ShortKey>& link) const {
   return inWords([&] {
     const std::string server = nameOf(host, port);
     const PinLines seen = readLines(path_);
-    Verdict first = judgeBy(seen, server, facts, given, link, path_);
+    TrustResult first = verifyWith(seen, server, facts, given, link, path_);
     // Nothing to write, so no lock is taken, and a read-only home directory does not matter.
     if (!first.accepted() || seen.find(server) == facts.key) return first;
     if (path_.has_parent_path()) fs::create_directories(path_.parent_path());
     const FileLock lock(path_.string() + ".lock");
     PinLines lines = readLines(path_);
-    Verdict verdict = judgeBy(lines, server, facts, given, link, path_);
+    TrustResult verdict = verifyWith(lines, server, facts, given, link, path_);
     if (verdict.accepted() && lines.find(server) != facts.key) {
       lines.set(server, facts.key);
       replaceFile(path_, lines.content());

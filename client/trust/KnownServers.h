@@ -17,27 +17,27 @@ namespace naiad {
 
 /// Reason why a server is trusted or not.
 enum class Trust {
-  kChain,         ///< trusted: the certificate verifies for this host name
-  kPinned,        ///< trusted: the key was seen before
-  kFirstUse,      ///< trusted: never seen before
-  kChanged,       ///< refused: not the key seen before
-  kGivenEqual,    ///< trusted: the fingerprint that the player gave
-  kGivenUnequal,  ///< refused: not the fingerprint that the player gave
-  kLinkEqual,     ///< trusted: never seen before, and the key fits the link
-  kLinkUnequal,   ///< refused: the key does not fit the link
+  kChain,                ///< trusted: the certificate verifies for this host name
+  kPinned,               ///< trusted: the key was seen before
+  kFirstUse,             ///< trusted: never seen before
+  kChanged,              ///< refused: not the key seen before
+  kFingerprintMatch,     ///< trusted: the fingerprint that the player gave
+  kFingerprintMismatch,  ///< refused: not the fingerprint that the player gave
+  kLinkMatch,            ///< trusted: never seen before, and the key fits the link
+  kLinkMismatch,         ///< refused: the key does not fit the link
 };
 
-struct Verdict {
+struct TrustResult {
   Trust trust;
   /// Message for people. If the server is refused: the reason, and what to do.
-  std::string sentence;
+  std::string message;
 
   bool accepted() const {
-    return trust != Trust::kChanged && trust != Trust::kGivenUnequal && trust != Trust::kLinkUnequal;
+    return trust != Trust::kChanged && trust != Trust::kFingerprintMismatch && trust != Trust::kLinkMismatch;
   }
 };
 
-/// Thrown if the file cannot be read or written. what() is one sentence for people.
+/// Thrown if the file cannot be read or written. what() is one message for people.
 class KnownServersError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -58,13 +58,13 @@ class KnownServers {
   /// that the player gave, if any; it has priority over the certificate chain, and that over the pin. `link`:
   /// the key of the link that was followed, if any. It must always match, but does not replace a pin, because
   /// links come from strangers. Writes nothing.
-  Verdict judge(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
-  /// Like judge(), but pins the key if the server is accepted. Judging and pinning are one atomic step.
-  Verdict admit(const std::string& host, std::uint16_t port, const PeerFacts& facts,
-                const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
+  TrustResult verify(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
+                     const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
+  /// Like verify(), but pins the key if the server is accepted. Judging and pinning are one atomic step.
+  TrustResult admit(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
+                    const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
 
-  /// Returns a sentence for each line that is neither a pin nor a comment.
+  /// Returns a message for each line that is neither a pin nor a comment.
   std::vector<std::string> problems() const;
 
  private:

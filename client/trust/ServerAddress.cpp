@@ -13,19 +13,19 @@ constexpr std::string_view kEncrypted = "https://";
 
 }  // namespace
 
-bool GatewayAddress::isMeant(std::string_view text) {
+bool GatewayAddress::looksLikeLink(std::string_view text) {
   return text.starts_with(kPlain) || text.starts_with(kEncrypted);
 }
 
 std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
-  if (!isMeant(text)) return std::nullopt;
+  if (!looksLikeLink(text)) return std::nullopt;
   GatewayAddress address;
   address.encrypted = text.starts_with(kEncrypted);
   const std::string rest = text.substr((address.encrypted ? kEncrypted : kPlain).size());
   const std::size_t end = rest.find_first_of("/#");
   if (end != std::string::npos && rest[end] == '/' && end + 1 < rest.size() && rest[end + 1] != '#')
     return std::nullopt;
-  const auto where = LinkHost::parse(rest.substr(0, end), address.usualPort());
+  const auto where = LinkHost::parse(rest.substr(0, end), address.defaultPort());
   if (!where) return std::nullopt;
   address.host = where->host;
   address.port = where->port;
@@ -33,7 +33,7 @@ std::optional<GatewayAddress> GatewayAddress::parse(const std::string& text) {
 }
 
 std::string GatewayAddress::hostText() const {
-  return LinkHost{host, port}.text(usualPort());
+  return LinkHost{host, port}.text(defaultPort());
 }
 
 std::optional<ServerAddress> ServerAddress::parse(const std::string& text) {

@@ -17,7 +17,7 @@ struct GatewayAddress {
   std::uint16_t port = 80;
 
   /// True if the text begins with "http://" or "https://".
-  static bool isMeant(std::string_view text);
+  static bool looksLikeLink(std::string_view text);
   /// Parses an address. Nullopt if it is invalid, or of another page of the host.
   static std::optional<GatewayAddress> parse(const std::string& text);
   /// Returns the value of the header Host: "example.org:8080", "[::1]"; without the scheme's default port.
@@ -26,7 +26,7 @@ struct GatewayAddress {
   std::string origin() const { return (encrypted ? "https://" : "http://") + hostText(); }
 
  private:
-  std::uint16_t usualPort() const { return encrypted ? 443 : 80; }
+  std::uint16_t defaultPort() const { return encrypted ? 443 : 80; }
 };
 
 struct ServerAddress {

@@ -44,7 +44,7 @@ SessionFile::SessionFile(fs::path directory, std::string server, const std::opti
   try {
     findSession(name, now);
   } catch (const std::system_error& failure) {
-    complain(m_directory, std::string("cannot be used: ") + failure.what());
+    addProblem(m_directory, std::string("cannot be used: ") + failure.what());
   }
 }
 
@@ -66,7 +66,7 @@ void SessionFile::findSession(const std::optional<std::string>& name, Time now) 
 void SessionFile::consider(const fs::path& path, const std::optional<std::string>& name, Time now) {
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) {
-    if (errno != ENOENT) complain(path, "is ignored: " + describe(errno));
+    if (errno != ENOENT) addProblem(path, "is ignored: " + describe(errno));
     return;
   }
   const bool running = ::flock(file, LOCK_EX | LOCK_NB) != 0;
@@ -89,7 +89,7 @@ std::optional<SavedSession> SessionFile::readOpen(int file, const fs::path& path
   struct stat facts {};
   if (::fstat(file, &facts) != 0 || facts.st_nlink == 0) return std::nullopt;
   if (!S_ISREG(facts.st_mode) || isOthersToo(facts)) {
-    complain(path, "is ignored: expected a regular file of yours with mode 0600");
+    addProblem(path, "is ignored: expected a regular file of yours with mode 0600");
     return std::nullopt;
   }
   std::array<char, kSavedSessionSize + 1> bytes{};
@@ -97,7 +97,7 @@ std::optional<SavedSession> SessionFile::readOpen(int file, const fs::path& path
   auto saved = size < 0 ? std::nullopt : readSavedSession({bytes.data(), static_cast<std::size_t>(size)});
   if (!saved) {
     ::unlink(path.c_str());
-    complain(path, "was damaged and has been removed");
+    addProblem(path, "was damaged and has been removed");
   }
   return saved;
 }
@@ -105,9 +105,9 @@ std::optional<SavedSession> SessionFile::readOpen(int file, const fs::path& path
 bool SessionFile::isDirectoryOurs() {
   struct stat facts {};
   if (::lstat(m_directory.c_str(), &facts) != 0) {
-    complain(m_directory, "cannot be used: " + describe(errno));
+    addProblem(m_directory, "cannot be used: " + describe(errno));
   } else if (!S_ISDIR(facts.st_mode) || isOthersToo(facts)) {
-    complain(m_directory, "cannot be used: expected a directory of yours with mode 0700");
+    addProblem(m_directory, "cannot be used: expected a directory of yours with mode 0700");
   } else {
     return true;
   }
@@ -128,7 +128,7 @@ void SessionFile::save(SavedSession session, Time now) {
     if (m_file < 0) makeOwn();
     if (m_file >= 0) write(now);
   } catch (const std::system_error& failure) {
-    complain(m_directory, std::string("cannot be used: ") + failure.what());
+    addProblem(m_directory, std::string("cannot be used: ") + failure.what());
     m_off = true;
   }
 }
@@ -158,7 +158,7 @@ void SessionFile::write(Time now) {
   m_saved->alive = now;
   const auto text = writeSavedSession(*m_saved);
   if (text && ::pwrite(m_file, text->data(), text->size(), 0) == static_cast<ssize_t>(text->size())) return;
-  complain(m_path, text ? "cannot be written: " + describe(errno) : "would be too long");
+  addProblem(m_path, text ? "cannot be written: " + describe(errno) : "would be too long");
   remove();
   m_off = true;
 }
@@ -174,7 +174,7 @@ void SessionFile::closeFile() {
   m_file = -1;
 }
 
-void SessionFile::complain(const fs::path& path, const std::string& what) {
+void SessionFile::addProblem(const fs::path& path, const std::string& what) {
   m_problems.push_back(path.string() + " " + what + ".");
 }
 

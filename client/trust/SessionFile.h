@@ -50,7 +50,7 @@ class SessionFile : public TokenStore {
   void makeOwn();
   void write(Time now);
   void closeFile();
-  void complain(const std::filesystem::path& path, const std::string& what);
+  void addProblem(const std::filesystem::path& path, const std::string& what);
 
   std::filesystem::path m_directory;
   std::string m_server;

@@ -11,7 +11,7 @@
 
 #include "client/terminal/Screen.h"
 #include "client/terminal/TerminalGuard.h"
-#include "client/ui/EndSignals.h"
+#include "client/ui/EarlySignalWatcher.h"
 
 namespace naiad {
 namespace {
@@ -36,25 +36,25 @@ ClientApp::ClientApp(Options options)
       m_sounds(m_options.sound),
       m_player(m_connection),
       m_composer(m_connection, m_controls, m_sounds) {
-  if (m_options.p_tokens != nullptr) m_connection.keepIn(*m_options.p_tokens);
+  if (m_options.p_tokens != nullptr) m_connection.setTokenStore(*m_options.p_tokens);
 }
 
 ClientApp::~ClientApp() = default;
 
 ClientApp::Outcome ClientApp::run() {
   join();
-  if (m_leaving) sayFarewell();
+  if (m_leaving) leaveAndFlush();
   if (m_connection.isOver()) return outcome();
-  takeTerminal();
+  acquireTerminal();
   while (!m_leaving && !m_connection.isOver()) {
     // Run one handler: bytes of the player (readInput), a signal, or a frame of the server (ClientSession).
     // A ready handler runs even if the deadline has already passed, so that the player can always leave.
     if (m_context.run_one_until(nextDeadline(Clock::now())) == 0) m_context.poll_one();
     const Time now = Clock::now();
     m_connection.update(now);
-    takeEvents(m_decoder.flush(now), now);
+    handleEvents(m_decoder.flush(now), now);
     m_player.update(now);
-    noticeSounds(now);
+    handleSounds(now);
     if (m_controls.panel() == Panel::kRooms && m_connection.session() != nullptr)
       m_connection.session()->refreshRooms(now);
     m_was_idle = isIdle(now);
@@ -62,12 +62,12 @@ ClientApp::Outcome ClientApp::run() {
     m_dirty = m_dirty || m_composer.isStale(now);
     if (m_dirty && now >= m_next_frame && !m_leaving) drawFrame(now);
   }
-  return leaveTerminal();
+  return releaseTerminal();
 }
 
 /// Connects before the terminal is taken, so that an error is an ordinary line in the shell.
 void ClientApp::join() {
-  const EndSignals ends(m_context, [this](int signal) {
+  const EarlySignalWatcher ends(m_context, [this](int signal) {
     m_leaving = true;
     m_signal = signal;
   });
@@ -81,8 +81,8 @@ void ClientApp::join() {
     m_connection.update(now);
     if (m_connection.isRedirected() && !std::exchange(said_redirect, true))
       std::fprintf(stderr, "dfclient: Redirected to %s.\n", m_connection.address().text().c_str());
-    if (m_connection.isPutOff() && m_connection.sentence() != refusal) {
-      refusal = m_connection.sentence();
+    if (m_connection.isDeferred() && m_connection.message() != refusal) {
+      refusal = m_connection.message();
       std::fprintf(stderr, "dfclient: %s (Retrying; Ctrl-C quits.)\n", refusal.c_str());
     }
     if (m_connection.pictureWait(now) < kPictureNotice || std::exchange(said, true)) continue;
@@ -90,8 +90,8 @@ void ClientApp::join() {
   }
 }
 
-void ClientApp::takeTerminal() {
-  m_heard = Clock::now();
+void ClientApp::acquireTerminal() {
+  m_last_input = Clock::now();
   m_guard = std::make_unique<TerminalGuard>(TerminalGuard::Options{m_options.mouse});
   m_screen =
       std::make_unique<Screen>(Screen::Options{m_options.terminal.name, m_options.ascii, m_options.colors});
@@ -106,15 +106,15 @@ void ClientApp::takeTerminal() {
   waitForSignal();
 }
 
-ClientApp::Outcome ClientApp::leaveTerminal() {
+ClientApp::Outcome ClientApp::releaseTerminal() {
   m_guard->restore();
   m_input.close();
   m_signals.close();
-  if (m_leaving && !m_hung_up) sayFarewell();
+  if (m_leaving && !m_hung_up) leaveAndFlush();
   return outcome();
 }
 
-void ClientApp::sayFarewell() {
+void ClientApp::leaveAndFlush() {
   m_work.reset();
   m_connection.leave();
   m_context.restart();
@@ -123,16 +123,15 @@ void ClientApp::sayFarewell() {
 
 ClientApp::Outcome ClientApp::outcome() const {
   using S = Connection::State;
-  const std::string& sentence = m_connection.sentence();
+  const std::string& message = m_connection.message();
   switch (m_connection.state()) {
     case S::kUnreachable:
-      return {kExitUnreachable, sentence, 0, {}};
+      return {kExitUnreachable, message, 0, {}};
     case S::kRefused:
-      return {kExitRefused, sentence, 0,
-              m_connection.isPasswordRefused() ? m_connection.key() : std::nullopt};
+      return {kExitRefused, message, 0, m_connection.isPasswordRefused() ? m_connection.key() : std::nullopt};
     case S::kEnded:
     case S::kLost:
-      return {kExitEnded, sentence, 0, {}};
+      return {kExitEnded, message, 0, {}};
     default:
       return {kExitLeft, m_was_idle ? "You left: no input for too long (--idle-limit)." : "", m_signal, {}};
   }
@@ -149,7 +148,7 @@ void ClientApp::waitForInput() {
 void ClientApp::waitForSignal() {
   m_signals.async_wait(asio::posix::stream_descriptor::wait_read, [this](const std::error_code& error) {
     if (error) return;
-    takeSignals();
+    handleSignals();
     if (!m_leaving) waitForSignal();
   });
 }
@@ -160,15 +159,15 @@ void ClientApp::readInput() {
   const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (count <= 0) {
-    noteHangUp();
+    onHangUp();
     return;
   }
   const Time now = Clock::now();
-  m_heard = now;
-  takeEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
+  m_last_input = now;
+  handleEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
 }
 
-void ClientApp::takeSignals() {
+void ClientApp::handleSignals() {
   std::array<unsigned char, 64> signals{};
   const ssize_t count = read(m_guard->signalFd(), signals.data(), signals.size());
   for (ssize_t i = 0; i < count; ++i) {
@@ -177,32 +176,32 @@ void ClientApp::takeSignals() {
     if (signal == SIGCONT && !m_leaving) resume();
     if (signal == SIGWINCH) {
       if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
-      m_composer.noteResize(Clock::now());
+      m_composer.onResize(Clock::now());
       m_dirty = true;
     }
-    if (signal == SIGHUP) noteHangUp();
+    if (signal == SIGHUP) onHangUp();
     if (signal == SIGINT || signal == SIGTERM) m_leaving = true;
     if (signal == SIGTERM || signal == SIGHUP) m_signal = signal;
   }
 }
 
-void ClientApp::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
-  if (m_decoder.hasKeyRecords()) noteKeyReleases(now);
+void ClientApp::handleEvents(const std::vector<TerminalEvent>& events, Time now) {
+  if (m_decoder.hasKeyRecords()) onKeyReleases(now);
   for (const TerminalEvent& event : events) {
-    if (const auto* key = std::get_if<KeyEvent>(&event)) takeKey(*key, now);
+    if (const auto* key = std::get_if<KeyEvent>(&event)) handleKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
     if (const auto* paste = std::get_if<PasteEvent>(&event)) {
       m_dirty = m_controls.insertPasted(paste->text) || m_dirty;
     }
-    if (std::holds_alternative<KittyReply>(event) && noteKeyReleases(now)) {
+    if (std::holds_alternative<KittyReply>(event) && onKeyReleases(now)) {
       m_guard->pushKitty();
       m_dirty = true;
     }
   }
 }
 
-void ClientApp::takeKey(const KeyEvent& event, Time now) {
-  const ClientControls::Result result = m_controls.takeKey(event);
+void ClientApp::handleKey(const KeyEvent& event, Time now) {
+  const ClientControls::Result result = m_controls.handleKey(event);
   if (result == ClientControls::Result::kGame) return m_player.pressKey(event, now);
   m_dirty = true;
   switch (result) {
@@ -212,8 +211,8 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
       m_player.setRealReleases(false, now);
       if (m_guard->kittyPushed()) m_guard->popKitty();
       break;
-    case ClientControls::Result::kSay:
-      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.takeChat());
+    case ClientControls::Result::kSendChat:
+      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.popChat());
       [[fallthrough]];
     case ClientControls::Result::kClosed:
       m_guard->queryKitty();
@@ -232,35 +231,35 @@ void ClientApp::takeKey(const KeyEvent& event, Time now) {
   }
 }
 
-bool ClientApp::noteKeyReleases(Time now) {
-  if (m_controls.chatOpen()) return false;
+bool ClientApp::onKeyReleases(Time now) {
+  if (m_controls.isChatOpen()) return false;
   m_player.setRealReleases(true, now);
-  m_composer.noteKeyReleases(true);
+  m_composer.onKeyReleases(true);
   return true;
 }
 
-void ClientApp::noticeSounds(Time now) {
+void ClientApp::handleSounds(Time now) {
   ClientSession* session = m_connection.session();
   if (session == nullptr) return;
-  for (const SoundLine& sound : session->takeSounds())
+  for (const SoundLine& sound : session->popSounds())
     m_sounds.addSound(sound, session->welcome().player, now);
-  if (m_sounds.takeBell()) m_screen->ring();
+  if (m_sounds.popBell()) m_screen->ring();
 }
 
 /// Leaves after the terminal has gone: the player closed the window. A visitor's session is kept, because
 /// their connection may have broken and they may return.
-void ClientApp::noteHangUp() {
+void ClientApp::onHangUp() {
   m_leaving = true;
-  m_hung_up = m_options.session.visit.has_value();
+  m_hung_up = m_options.session.proxy.has_value();
 }
 
 bool ClientApp::isIdle(Time now) const {
-  return m_options.idle_limit.count() > 0 && now - m_heard > m_options.idle_limit;
+  return m_options.idle_limit.count() > 0 && now - m_last_input > m_options.idle_limit;
 }
 
 // A visitor of a door has no shell to resume from.
 void ClientApp::suspend() {
-  if (m_options.session.visit) return;
+  if (m_options.session.proxy) return;
   m_player.releaseKeys(Clock::now());
   m_guard->leaveModes();
   m_screen->end();
@@ -269,7 +268,7 @@ void ClientApp::suspend() {
     resume();
   } else {
     m_leaving = true;
-    takeSignals();
+    handleSignals();
   }
 }
 
@@ -278,7 +277,7 @@ void ClientApp::resume() {
   m_guard->setRaw();
   // Another terminal may have been attached, so enterModes() asks for its protocol again.
   m_player.setRealReleases(false, now);
-  m_composer.noteKeyReleases(false);
+  m_composer.onKeyReleases(false);
   if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
   m_screen->redrawAll();
   drawFrame(now);
@@ -287,9 +286,10 @@ void ClientApp::resume() {
 
 void ClientApp::drawFrame(Time now) {
   m_dirty = false;
-  const ScreenLayout layout = layOut(m_composer.composeFrame(now), m_screen->columns(), m_screen->rows());
+  const ScreenLayout layout =
+      composeScreen(m_composer.composeFrame(now), m_screen->columns(), m_screen->rows());
   m_placement = layout.placement;
-  m_controls.noteShown(layout.shown);
+  m_controls.onShown(layout.shown);
   m_screen->show(layout.picture);
   // Leave at least as much time for everything else as drawing took.
   const Time end = Clock::now();

@@ -20,7 +20,7 @@
 #include "client/ui/ClientControls.h"
 #include "client/ui/FrameComposer.h"
 #include "client/ui/PlayerInput.h"
-#include "client/ui/SoundNotes.h"
+#include "client/ui/SoundIndicator.h"
 
 namespace naiad {
 
@@ -44,10 +44,10 @@ class ClientApp {
   /// Result of run().
   struct Outcome {
     ExitCode code = kExitLeft;
-    std::string sentence;  ///< message for stderr after the terminal is restored; may be empty
-    int signal = 0;        ///< the signal that ended the client, to be raised again; 0: none
+    std::string message;  ///< message for stderr after the terminal is restored; may be empty
+    int signal = 0;       ///< the signal that ended the client, to be raised again; 0: none
     /// Set if the server with this key refused because the password was missing or wrong.
-    std::optional<Fingerprint> wants_password;
+    std::optional<Fingerprint> password_required_by;
   };
 
   explicit ClientApp(Options options);
@@ -61,22 +61,22 @@ class ClientApp {
   using Time = Clock::time_point;
 
   void join();
-  void takeTerminal();
-  Outcome leaveTerminal();
-  void sayFarewell();
+  void acquireTerminal();
+  Outcome releaseTerminal();
+  void leaveAndFlush();
   Outcome outcome() const;
   void waitForInput();
   void waitForSignal();
   void readInput();
-  void takeSignals();
-  void takeEvents(const std::vector<TerminalEvent>& events, Time now);
-  void takeKey(const KeyEvent& event, Time now);
+  void handleSignals();
+  void handleEvents(const std::vector<TerminalEvent>& events, Time now);
+  void handleKey(const KeyEvent& event, Time now);
   /// Call when the terminal reports key releases. Returns false and ignores them while a text line is open.
-  bool noteKeyReleases(Time now);
-  void noticeSounds(Time now);
+  bool onKeyReleases(Time now);
+  void handleSounds(Time now);
   void suspend();
   bool isIdle(Time now) const;
-  void noteHangUp();
+  void onHangUp();
   void resume();
   void drawFrame(Time now);
   Time nextDeadline(Time now);
@@ -92,13 +92,13 @@ class ClientApp {
   InputDecoder m_decoder;
   ClientControls m_controls;
   ViewPlacement m_placement;
-  SoundNotes m_sounds;
+  SoundIndicator m_sounds;
   PlayerInput m_player;
   FrameComposer m_composer;
 
   Time m_next_frame{};  ///< earliest time of the next frame
   bool m_dirty = true;
-  Time m_heard{};  ///< time of the player's last input
+  Time m_last_input{};  ///< time of the player's last input
   bool m_leaving = false;
   bool m_hung_up = false;  ///< a visitor's terminal is gone; their session is kept
   bool m_was_idle = false;

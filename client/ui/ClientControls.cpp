@@ -30,28 +30,28 @@ int linesDown(Key key, int page) {
 
 }  // namespace
 
-ClientControls::Result ClientControls::takeKey(const KeyEvent& event) {
+ClientControls::Result ClientControls::handleKey(const KeyEvent& event) {
   // The game ignores releases of keys that were not pressed in it, so it may get all releases.
   if (event.action == KeyEvent::Action::kRelease) return Result::kGame;
   if (isControl(event, C)) return Result::kLeave;
   if (isControl(event, Z)) return Result::kSuspend;
-  if (m_prefixed) return isModifierKey(event.key) ? Result::kHandled : takeCommand(event);
+  if (m_prefixed) return isModifierKey(event.key) ? Result::kHandled : handleCommand(event);
   if (isControl(event, RIGHTBRACKET) && event.action == KeyEvent::Action::kPress) {
     m_prefixed = true;
     return Result::kHandled;
   }
-  if (m_chat_open) return takeChatKey(event);
+  if (m_chat_open) return handleChatKey(event);
   if (m_panel != Panel::kNone && event.key == ESCAPE) {
     m_panel = Panel::kNone;
     return Result::kHandled;
   }
-  if (m_panel == Panel::kRooms) return takeRoomKey(event.key);
-  if (m_panel != Panel::kNone && takeScrollKey(event.key)) return Result::kHandled;
+  if (m_panel == Panel::kRooms) return handleRoomKey(event.key);
+  if (m_panel != Panel::kNone && handleScrollKey(event.key)) return Result::kHandled;
   return Result::kGame;
 }
 
 // While there is nothing to scroll, these keys belong to the game.
-bool ClientControls::takeScrollKey(Key key) {
+bool ClientControls::handleScrollKey(Key key) {
   const int step = linesDown(key, std::max(m_shown.page - 1, 1));
   if (m_shown.max_scroll <= 0 || (step == 0 && key != HOME && key != END)) return false;
   const int to = std::min(m_scroll, m_shown.max_scroll) + step;
@@ -60,7 +60,7 @@ bool ClientControls::takeScrollKey(Key key) {
 }
 
 // Keys that do not move the choice or enter a room belong to the game.
-ClientControls::Result ClientControls::takeRoomKey(Key key) {
+ClientControls::Result ClientControls::handleRoomKey(Key key) {
   const int last = std::max(m_shown.rooms - 1, 0);
   m_room_choice = std::clamp(m_room_choice, 0, last);
   if (key == RETURN) {
@@ -87,7 +87,7 @@ void ClientControls::setChatText(std::string_view text) {
   insertPasted(df::decodeUtf8(std::string(text)));
 }
 
-ClientControls::Result ClientControls::takeCommand(const KeyEvent& event) {
+ClientControls::Result ClientControls::handleCommand(const KeyEvent& event) {
   // A held Ctrl-] repeats; the repeats are not a command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
@@ -123,7 +123,7 @@ ClientControls::Result ClientControls::toggle(Panel panel) {
   return Result::kHandled;
 }
 
-bool ClientControls::takeHistoryKey(Key key) {
+bool ClientControls::handleHistoryKey(Key key) {
   const int step = linesDown(key, std::max(m_shown.chat_page - 1, 1));
   if (step == 0) return false;
   const int to = std::min(m_chat_scroll, m_shown.max_chat_scroll) - step;
@@ -131,12 +131,12 @@ bool ClientControls::takeHistoryKey(Key key) {
   return true;
 }
 
-ClientControls::Result ClientControls::takeChatKey(const KeyEvent& event) {
-  if (takeHistoryKey(event.key)) return Result::kHandled;
+ClientControls::Result ClientControls::handleChatKey(const KeyEvent& event) {
+  if (handleHistoryKey(event.key)) return Result::kHandled;
   if (event.key == ESCAPE || event.key == RETURN) {
     m_chat_open = false;
     m_chat_scroll = 0;
-    return event.key == RETURN && !m_text.empty() ? Result::kSay : Result::kClosed;
+    return event.key == RETURN && !m_text.empty() ? Result::kSendChat : Result::kClosed;
   }
   if (event.key == BACKSPACE) {
     if (!m_text.empty()) m_text.pop_back();
@@ -154,7 +154,7 @@ std::string ClientControls::chatText() const {
   return text;
 }
 
-std::string ClientControls::takeChat() {
+std::string ClientControls::popChat() {
   std::string text = chatText();
   m_text.clear();
   return text;

@@ -64,20 +64,20 @@ class ClientControls {
     kHandled,    ///< nothing, but the picture may have changed
     kOpened,     ///< a chat line was opened: release the game's keys, switch to text
     kClosed,     ///< the chat line was closed without text
-    kSay,        ///< the chat line was closed with Return: send takeChat()
+    kSendChat,   ///< the chat line was closed with Return: send popChat()
     kEnterRoom,  ///< the list of rooms was closed with Return: enter room roomChoice()
     kLeave,
     kSuspend,
   };
 
   /// Handles a key event.
-  Result takeKey(const KeyEvent& event);
+  Result handleKey(const KeyEvent& event);
   /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
   bool insertPasted(const std::u32string& text);
   /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text);
   /// Call when a picture was drawn.
-  void noteShown(const ShownControls& shown) { m_shown = shown; }
+  void onShown(const ShownControls& shown) { m_shown = shown; }
 
   Panel panel() const { return m_panel; }
   /// Number of lines scrolled out at the top of the panel.
@@ -87,20 +87,20 @@ class ClientControls {
   /// Number of rows scrolled out at the bottom of the chat.
   int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
-  bool chatOpen() const { return m_chat_open; }
+  bool isChatOpen() const { return m_chat_open; }
   /// True if Ctrl-] was typed, but not yet a command.
   bool prefixed() const { return m_prefixed; }
   /// Returns the text typed so far, in UTF-8.
   std::string chatText() const;
   /// Returns the finished chat line and empties it.
-  std::string takeChat();
+  std::string popChat();
 
  private:
-  Result takeChatKey(const KeyEvent& event);
-  Result takeCommand(const KeyEvent& event);
-  bool takeScrollKey(df::Keyboard::Key key);
-  Result takeRoomKey(df::Keyboard::Key key);
-  bool takeHistoryKey(df::Keyboard::Key key);
+  Result handleChatKey(const KeyEvent& event);
+  Result handleCommand(const KeyEvent& event);
+  bool handleScrollKey(df::Keyboard::Key key);
+  Result handleRoomKey(df::Keyboard::Key key);
+  bool handleHistoryKey(df::Keyboard::Key key);
   Result toggle(Panel panel);
 
   Panel m_panel = Panel::kNone;

@@ -35,21 +35,21 @@ FrameComposer::FrameState FrameComposer::currentState(Time now) {
   state.session = session->revision();
   state.tick = session->displayTick(now);
   if (session->isPredicting()) state.predicted = session->predictedTick(now);
-  const bool waiting = m_connection.state() == Connection::State::kSearching || session->isSilent(now);
+  const bool waiting = m_connection.state() == Connection::State::kReconnecting || session->isSilent(now);
   if (waiting) {
     state.silence = tenthsOfSilence(*session, now);
   }
   state.chat_lines = recentChat(now).size();
   state.note = m_sounds.shownNote(now);
   m_status.update(session->welcome().player, session->roundTrip(), now);
-  noteOwnObject(*session, now);
+  updatePointer(*session, now);
   state.pointer = now < m_point_until;
   state.status = m_controls.status() == StatusMode::kAlways || m_status.isShown(now);
   return state;
 }
 
 // The object may appear long after the player has joined, after a title screen.
-void FrameComposer::noteOwnObject(const ClientSession& session, Time now) {
+void FrameComposer::updatePointer(const ClientSession& session, Time now) {
   if (m_joined_as != session.welcome().player) m_pointed = false;
   m_joined_as = session.welcome().player;
   if (m_pointed || session.replica().control().generation == 0) return;
@@ -62,7 +62,7 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
   const ClientSession* session = m_connection.session();
   if (session == nullptr) return recent;
   for (const ChatEntry& entry : session->chat()) {
-    if (m_controls.chatOpen() || now - entry.at < kChatShown) recent.push_back(entry);
+    if (m_controls.isChatOpen() || now - entry.at < kChatShown) recent.push_back(entry);
   }
   if (!m_notice.text.empty() && now - m_notice.at < kChatShown) recent.push_back(m_notice);
   return recent;
@@ -71,16 +71,16 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
 std::string FrameComposer::banner(Time now) const {
   if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  r rooms  h help  s status  q leave";
   ClientSession* session = m_connection.session();
-  const bool searching = m_connection.state() == Connection::State::kSearching;
+  const bool searching = m_connection.state() == Connection::State::kReconnecting;
   // A session that continues by datagrams while it opens another stream needs no banner.
   if (session == nullptr || !(session->isSilent(now) || (searching && !session->hasDatagrams(now))))
     return "";
   const std::int64_t tenths = tenthsOfSilence(*session, now);
   char text[96];
   std::snprintf(text, sizeof text,
-                m_connection.isPutOff() ? "The server asks to wait, retrying: %lld.%lld s"
-                : searching             ? "Connection lost, reconnecting: %lld.%lld s"
-                                        : "No data from the server for %lld.%lld s",
+                m_connection.isDeferred() ? "The server asks to wait, retrying: %lld.%lld s"
+                : searching               ? "Connection lost, reconnecting: %lld.%lld s"
+                                          : "No data from the server for %lld.%lld s",
                 static_cast<long long>(tenths / 10), static_cast<long long>(tenths % 10));
   return text;
 }
@@ -125,7 +125,7 @@ ScreenModel FrameComposer::composeFrame(Time now) {
   model.scroll = m_controls.scroll();
   model.room_choice = m_controls.roomChoice();
   model.chat_scroll = m_controls.chatScroll();
-  model.chat_open = m_controls.chatOpen();
+  model.chat_open = m_controls.isChatOpen();
   model.chat_text = m_controls.chatText();
   return model;
 }

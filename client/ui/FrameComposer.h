@@ -11,7 +11,7 @@
 #include "client/session/Connection.h"
 #include "client/ui/ClientControls.h"
 #include "client/ui/ScreenLayout.h"
-#include "client/ui/SoundNotes.h"
+#include "client/ui/SoundIndicator.h"
 
 namespace naiad {
 
@@ -51,7 +51,7 @@ class FrameComposer {
   using Time = std::chrono::steady_clock::time_point;
 
   /// The arguments must outlive this.
-  FrameComposer(Connection& connection, const ClientControls& controls, const SoundNotes& sounds)
+  FrameComposer(Connection& connection, const ClientControls& controls, const SoundIndicator& sounds)
       : m_connection(connection), m_controls(controls), m_sounds(sounds) {}
 
   /// True if a frame composed now would differ from the last one. Ignores changes of the controls.
@@ -60,11 +60,11 @@ class FrameComposer {
   /// Shows a line of the client itself among the chat lines, for as long as those.
   void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
   /// Sets the line about key releases in the help. `reported`: the terminal reports them.
-  void noteKeyReleases(bool reported) { m_key_releases = reported; }
+  void onKeyReleases(bool reported) { m_key_releases = reported; }
   /// Call if a browser page shows the frames: it has buttons for the client's commands.
-  void noteBrowser() { m_browser = true; }
+  void setBrowser() { m_browser = true; }
   /// Call when the terminal's size has changed: shows the status for a moment.
-  void noteResize(Time now) { m_status.show(now); }
+  void onResize(Time now) { m_status.show(now); }
 
  private:
   /// State on which a frame depends.
@@ -84,11 +84,11 @@ class FrameComposer {
   FrameState currentState(Time now);
   std::vector<ChatEntry> recentChat(Time now) const;
   std::string banner(Time now) const;
-  void noteOwnObject(const ClientSession& session, Time now);
+  void updatePointer(const ClientSession& session, Time now);
 
   Connection& m_connection;
   const ClientControls& m_controls;
-  const SoundNotes& m_sounds;
+  const SoundIndicator& m_sounds;
   FrameState m_composed;
   ChatEntry m_notice;
   StatusTimer m_status;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "client/session/Connection.h"
-#include "client/terminal/HeldKeys.h"
 #include "client/terminal/InputDecoder.h"
+#include "client/terminal/KeyHoldTracker.h"
 #include "client/ui/ViewPlacement.h"
 
 namespace naiad {
@@ -22,7 +22,7 @@ class PlayerInput {
   /// `connection` must outlive this.
   explicit PlayerInput(Connection& connection) : m_connection(connection) {}
 
-  void pressKey(const KeyEvent& event, Time now) { sendKeys(m_held.takeKey(event, now), now); }
+  void pressKey(const KeyEvent& event, Time now) { sendKeys(m_held.handleKey(event, now), now); }
   void moveMouse(const MouseEvent& event, const ViewPlacement& placement, Time now);
   /// Releases all keys, e.g. before a chat line gets the keys.
   void releaseKeys(Time now) { sendKeys(m_held.releaseAll(), now); }
@@ -39,7 +39,7 @@ class PlayerInput {
   void sendMove(Time now);
 
   Connection& m_connection;
-  HeldKeys m_held;
+  KeyHoldTracker m_held;
   df::Mouse::Button m_button = df::Mouse::UNDEFINED_MOUSE_BUTTON;  ///< the button held down
   CellPosition m_pointer;                                          ///< the mouse, in view cells
   std::optional<CellPosition> m_move;                              ///< newest position, if not sent yet

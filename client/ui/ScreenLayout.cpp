@@ -59,12 +59,12 @@ void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_
 }
 
 /// Draws a heading and a line to the right edge.
-void drawHeading(Picture& picture, const std::string& title, int x, int y, int width) {
+void drawHeading(ScreenBuffer& picture, const std::string& title, int x, int y, int width) {
   int at = picture.write(x, y, title + " ", width, df::COLOR_DEFAULT, Style::kBold);
   for (; at < x + width; ++at) picture.put(at, y, {U'─'});
 }
 
-int drawPlayerRows(Picture& picture, const ScreenModel& model, int x, int y, int width, int most) {
+int drawPlayerRows(ScreenBuffer& picture, const ScreenModel& model, int x, int y, int width, int most) {
   const std::vector<PlayerLine> players = byScore(model.players);
   drawHeading(picture, "Players", x, y++, width);
   const int count = static_cast<int>(players.size());
@@ -81,7 +81,7 @@ int drawPlayerRows(Picture& picture, const ScreenModel& model, int x, int y, int
 }
 
 /// Draws the help with its last line in row `bottom`. Returns the last free row above it.
-int drawHelpRows(Picture& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
+int drawHelpRows(ScreenBuffer& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
   const std::string all = "Ctrl-] h   all keys";
@@ -115,7 +115,7 @@ std::vector<ChatRow> chatRows(const std::vector<ChatEntry>& chat, int width, int
   return rows;
 }
 
-void drawChatRow(Picture& picture, const ChatRow& row, int x, int y, int width) {
+void drawChatRow(ScreenBuffer& picture, const ChatRow& row, int x, int y, int width) {
   picture.write(x, y, row.text, width);
   if (!row.first) return;
   const std::string& name = row.p_entry->name;
@@ -133,7 +133,7 @@ int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
 
 /// Draws the side panel from column `x` to the right edge, rows 0 to `rows` - 1. Sets `max_scroll` to the
 /// number of chat rows that can be scrolled.
-void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, int& max_scroll) {
+void drawSidePanel(ScreenBuffer& picture, const ScreenModel& model, int x, int rows, int& max_scroll) {
   const int left = x + 1;
   const int width = picture.width() - left - 1;
   const int top = drawPlayerRows(picture, model, left, 0, width, rows / 3);
@@ -155,7 +155,7 @@ void drawSidePanel(Picture& picture, const ScreenModel& model, int x, int rows, 
 constexpr int kChatRows = 6;
 constexpr std::size_t kMaxOverlayNote = 20;
 
-void drawTooSmall(Picture& picture, bool browser) {
+void drawTooSmall(ScreenBuffer& picture, bool browser) {
   const std::string size = std::to_string(picture.width()) + "x" + std::to_string(picture.height());
   std::vector<std::string> lines = {"Terminal too small", size + ", needs 20x10", "Ctrl-C leaves"};
   if (browser) lines = {"Window too small", size + ", needs 20x10", ""};
@@ -166,7 +166,7 @@ void drawTooSmall(Picture& picture, bool browser) {
   }
 }
 
-void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& place) {
+void drawView(ScreenBuffer& picture, const ScreenModel& model, const ViewPlacement& place) {
   if (place.framed) picture.frame(place.left - 1, place.top - 1, place.width + 2, place.height + 2);
   for (int y = 0; y < place.height; ++y) {
     for (int x = 0; x < place.width; ++x) {
@@ -177,7 +177,7 @@ void drawView(Picture& picture, const ScreenModel& model, const ViewPlacement& p
 }
 
 /// "ann  42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
-void drawStatusRow(Picture& picture, const ScreenModel& model) {
+void drawStatusRow(ScreenBuffer& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
   const std::string help = model.browser ? "" : "Ctrl-] help";
@@ -209,7 +209,7 @@ void drawStatusRow(Picture& picture, const ScreenModel& model) {
 }
 
 /// Draws the status in the columns at the right of the view, from the top down.
-void drawStatusSide(Picture& picture, const ScreenModel& model) {
+void drawStatusSide(ScreenBuffer& picture, const ScreenModel& model) {
   const int x = picture.width() - kSideColumns + 1;
   const int width = kSideColumns - 1;
   const auto count = model.players.size();
@@ -230,7 +230,7 @@ void drawStatusSide(Picture& picture, const ScreenModel& model) {
 }
 
 /// True if the `width` cells from (x, y) to the right are blank.
-bool isBlank(const Picture& picture, int x, int y, int width) {
+bool isBlank(const ScreenBuffer& picture, int x, int y, int width) {
   for (int i = x; i < x + width; ++i) {
     if (picture.at(i, y).ch != U' ') return false;
   }
@@ -239,7 +239,7 @@ bool isBlank(const Picture& picture, int x, int y, int width) {
 
 /// Draws a text in a corner where the game shows nothing. If all corners are used, draws it in the lower
 /// right one if `must`. Returns true if it was drawn.
-bool drawInCorner(Picture& picture, const std::string& text, bool must) {
+bool drawInCorner(ScreenBuffer& picture, const std::string& text, bool must) {
   const int width = columnsIn(text);
   const int right = std::max(0, picture.width() - width);
   const int bottom = picture.height() - 1;
@@ -254,7 +254,7 @@ bool drawInCorner(Picture& picture, const std::string& text, bool must) {
 }
 
 /// Draws the status or the note if the game takes up the whole terminal. Returns true if the status is shown.
-bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
+bool drawStatusOverGame(ScreenBuffer& picture, const ScreenModel& model) {
   const std::string note = safeText(model.note, kMaxOverlayNote);
   if (!model.status_over_game) {
     if (!note.empty()) drawInCorner(picture, std::string(" ").append(note).append(" "), false);
@@ -267,7 +267,7 @@ bool drawStatusOverGame(Picture& picture, const ScreenModel& model) {
   return drawInCorner(picture, text, true);
 }
 
-void drawBanner(Picture& picture, const std::string& banner, int row) {
+void drawBanner(ScreenBuffer& picture, const std::string& banner, int row) {
   if (banner.empty()) return;
   const std::string text = std::string(" ").append(banner).append(" ");
   const int width = std::min(columnsIn(text), picture.width());
@@ -275,7 +275,7 @@ void drawBanner(Picture& picture, const std::string& banner, int row) {
 }
 
 /// Draws the chat line that is being typed; of a long one, the end.
-void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
+void drawChatLine(ScreenBuffer& picture, const ScreenModel& model, int y) {
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
   int x = picture.write(0, y, "say: ", picture.width(), df::COLOR_DEFAULT, Style::kReverse);
   std::u32string text = df::decodeUtf8(model.chat_text);
@@ -286,7 +286,7 @@ void drawChatLine(Picture& picture, const ScreenModel& model, int y) {
 }
 
 /// Draws chat lines over the game, the last one in row `bottom`. Sets the scroll limits in `shown`.
-void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownControls& shown) {
+void drawChatOver(ScreenBuffer& picture, const ScreenModel& model, int bottom, ShownControls& shown) {
   const std::vector<ChatRow> rows =
       chatRows(model.chat, picture.width() - 1, 3 * kChatRows + model.chat_scroll);
   const int count = static_cast<int>(rows.size());
@@ -303,7 +303,7 @@ void drawChatOver(Picture& picture, const ScreenModel& model, int bottom, ShownC
 }
 
 /// Draws a pointer to the player's own object, with their name if there is space.
-void drawSelf(Picture& picture, const ScreenModel& model, const ViewPlacement& place) {
+void drawSelf(ScreenBuffer& picture, const ScreenModel& model, const ViewPlacement& place) {
   if (!model.self_cell) return;
   const int x = model.self_cell->x - place.view_x;
   const int y = model.self_cell->y - place.view_y;
@@ -341,7 +341,7 @@ std::string panelKeys(bool scrolls, int room) {
 }
 
 /// Draws a framed box in the middle of the terminal. Sets the scroll limits in `shown`.
-void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownControls& shown) {
+void drawPanel(ScreenBuffer& picture, const PanelLines& lines, int scroll, ShownControls& shown) {
   const int width = std::min(std::max(lines.width, 12) + 4, picture.width());
   const int height = std::min(lines.count + 2, picture.height());
   const int x = (picture.width() - width) / 2;
@@ -360,7 +360,7 @@ void drawPanel(Picture& picture, const PanelLines& lines, int scroll, ShownContr
   picture.write(x + width - 2 - columnsIn(keys), y + height - 1, keys, width);
 }
 
-void drawPlayers(Picture& picture, const ScreenModel& model, ShownControls& shown) {
+void drawPlayers(ScreenBuffer& picture, const ScreenModel& model, ShownControls& shown) {
   const std::vector<PlayerLine> sorted = byScore(model.players);
   const auto draw = [&](int line, int x, int y, int width) {
     char text[64];
@@ -388,7 +388,7 @@ std::string roomText(const RoomLine& room, const std::string& own) {
   return text;
 }
 
-void drawRooms(Picture& picture, const ScreenModel& model, ShownControls& shown) {
+void drawRooms(ScreenBuffer& picture, const ScreenModel& model, ShownControls& shown) {
   const int count = static_cast<int>(model.rooms.size());
   shown.rooms = count;
   const int choice = std::clamp(model.room_choice, 0, std::max(count - 1, 0));
@@ -409,7 +409,7 @@ void drawRooms(Picture& picture, const ScreenModel& model, ShownControls& shown)
   drawPanel(picture, panel, choice + 4 - picture.height(), shown);
 }
 
-void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) {
+void drawHelp(ScreenBuffer& picture, const ScreenModel& model, ShownControls& shown) {
   std::vector<std::string> whole = model.help;
   if (!whole.empty()) whole.emplace_back();
   if (model.browser) {
@@ -432,9 +432,9 @@ void drawHelp(Picture& picture, const ScreenModel& model, ShownControls& shown) 
 
 }  // namespace
 
-ScreenLayout layOut(const ScreenModel& model, int columns, int rows) {
-  ScreenLayout layout{Picture(columns, rows), {}, {}};
-  Picture& picture = layout.picture;
+ScreenLayout composeScreen(const ScreenModel& model, int columns, int rows) {
+  ScreenLayout layout{ScreenBuffer(columns, rows), {}, {}};
+  ScreenBuffer& picture = layout.picture;
   if (columns < kMinColumns || rows < kMinRows) {
     drawTooSmall(picture, model.browser);
     return layout;

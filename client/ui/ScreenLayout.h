@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "client/session/ClientSession.h"
-#include "client/terminal/Picture.h"
+#include "client/terminal/ScreenBuffer.h"
 #include "client/ui/ClientControls.h"
 #include "client/ui/ViewPlacement.h"
 
@@ -55,12 +55,12 @@ struct ScreenModel {
 };
 
 struct ScreenLayout {
-  Picture picture;
+  ScreenBuffer picture;
   ViewPlacement placement;  ///< used for the mouse; default if no view is shown
   ShownControls shown;
 };
 
 /// Lays out `model` on a terminal of `columns` by `rows` cells.
-ScreenLayout layOut(const ScreenModel& model, int columns, int rows);
+ScreenLayout composeScreen(const ScreenModel& model, int columns, int rows);
 
 }  // namespace naiad

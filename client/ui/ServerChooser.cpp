@@ -34,7 +34,7 @@ ServerChooser::ServerChooser(Options options)
 ServerChooser::~ServerChooser() = default;
 
 ServerChooser::Outcome ServerChooser::run() {
-  takeTerminal();
+  acquireTerminal();
   refresh(std::chrono::steady_clock::now());
   while (!m_done) {
     if (m_browser) m_browser->update(std::chrono::steady_clock::now());
@@ -45,7 +45,7 @@ ServerChooser::Outcome ServerChooser::run() {
   return m_outcome;
 }
 
-void ServerChooser::takeTerminal() {
+void ServerChooser::acquireTerminal() {
   m_guard = std::make_unique<TerminalGuard>(TerminalGuard::Options{.mouse = false});
   m_screen =
       std::make_unique<Screen>(Screen::Options{m_options.terminal.name, m_options.ascii, m_options.colors});
@@ -62,13 +62,13 @@ void ServerChooser::wait() {
   if (m_browser) {
     for (const int descriptor : m_browser->descriptors()) waited.push_back({descriptor, POLLIN, 0});
     next = std::min(next.value_or(Time::max()), m_browser->nextQuery());
-    if (m_looking) next = std::min(*next, m_begun + LanBrowser::kPatience);
+    if (m_searching) next = std::min(*next, m_begun + LanBrowser::kResponseTimeout);
   }
   ::poll(waited.data(), waited.size(), next ? millisUntil(*next) : -1);
   const Time now = std::chrono::steady_clock::now();
-  if (waited[1].revents != 0) takeSignals();
+  if (waited[1].revents != 0) handleSignals();
   if (waited[0].revents != 0 && !m_done) readKeys(now);
-  takeEvents(m_decoder.flush(now), now);
+  handleEvents(m_decoder.flush(now), now);
   if (m_browser) receiveAnswers(now);
 }
 
@@ -77,9 +77,9 @@ void ServerChooser::receiveAnswers(Time now) {
     m_menu.setServers(m_browser->servers().sorted());
     m_dirty = true;
   }
-  if (!m_looking || now < m_begun + LanBrowser::kPatience) return;
-  m_looking = false;
-  m_menu.setLooking(false);
+  if (!m_searching || now < m_begun + LanBrowser::kResponseTimeout) return;
+  m_searching = false;
+  m_menu.setSearching(false);
   m_dirty = true;
 }
 
@@ -88,14 +88,14 @@ void ServerChooser::readKeys(Time now) {
   const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
   if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (count <= 0) m_done = true;  // the terminal is gone
-  if (count > 0) takeEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
+  if (count > 0) handleEvents(m_decoder.feed({bytes.data(), static_cast<std::size_t>(count)}, now), now);
 }
 
-void ServerChooser::takeEvents(const std::vector<TerminalEvent>& events, Time now) {
+void ServerChooser::handleEvents(const std::vector<TerminalEvent>& events, Time now) {
   for (const TerminalEvent& event : events) {
     const auto* p_key = std::get_if<KeyEvent>(&event);
     if (p_key == nullptr || m_done) continue;
-    switch (m_menu.takeKey(*p_key)) {
+    switch (m_menu.handleKey(*p_key)) {
       case ServerMenu::Result::kJoin:
         m_outcome.server = *m_menu.chosen();
         m_done = true;
@@ -118,7 +118,7 @@ void ServerChooser::takeEvents(const std::vector<TerminalEvent>& events, Time no
   }
 }
 
-void ServerChooser::takeSignals() {
+void ServerChooser::handleSignals() {
   std::array<unsigned char, 64> signals{};
   const ssize_t count = ::read(m_guard->signalFd(), signals.data(), signals.size());
   for (ssize_t i = 0; i < count; ++i) {
@@ -137,9 +137,9 @@ void ServerChooser::takeSignals() {
 
 void ServerChooser::refresh(Time now) {
   m_menu.setServers({});
-  m_menu.setLooking(true);
+  m_menu.setSearching(true);
   m_begun = now;
-  m_looking = true;
+  m_searching = true;
   m_dirty = true;
   m_browser ? m_browser->restart() : fetch();
 }
@@ -147,13 +147,13 @@ void ServerChooser::refresh(Time now) {
 void ServerChooser::fetch() {
   draw();
   const auto fetched = m_options.fetch();
-  if (const auto* p_problem = std::get_if<DownloadProblem>(&fetched)) {
-    m_menu.setEmpty({p_problem->sentence});
+  if (const auto* p_problem = std::get_if<DownloadError>(&fetched)) {
+    m_menu.setEmpty({p_problem->message});
   } else {
     m_menu.setEmpty({"The list has no servers."});
-    m_menu.setServers(std::get<FoundServers>(fetched).sorted());
+    m_menu.setServers(std::get<DiscoveredServers>(fetched).sorted());
   }
-  m_menu.setLooking(false);
+  m_menu.setSearching(false);
   m_dirty = true;
 }
 
@@ -163,7 +163,7 @@ void ServerChooser::suspend() {
   m_guard->setOriginal();
   if (!m_guard->stopProcess()) {
     m_done = true;
-    return takeSignals();
+    return handleSignals();
   }
   m_guard->setRaw();
   m_screen->readSize();

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "client/lan/LanBrowser.h"
 #include "client/lan/ListDownload.h"
 #include "client/terminal/InputDecoder.h"
@@ -28,11 +28,11 @@ class ServerChooser {
     bool ascii = false;
     bool colors = true;
     /// Fetches a list, while keys wait. Empty: show the servers of the local network.
-    std::function<std::variant<FoundServers, DownloadProblem>()> fetch{};
+    std::function<std::variant<DiscoveredServers, DownloadError>()> fetch{};
   };
   struct Outcome {
-    std::optional<FoundServer> server;  ///< nullopt: the player left
-    int signal = 0;                     ///< the signal that ended this, to be raised again; 0: none
+    std::optional<DiscoveredServer> server;  ///< nullopt: the player left
+    int signal = 0;                          ///< the signal that ended this, to be raised again; 0: none
   };
 
   explicit ServerChooser(Options options);
@@ -44,11 +44,11 @@ class ServerChooser {
  private:
   using Time = std::chrono::steady_clock::time_point;
 
-  void takeTerminal();
+  void acquireTerminal();
   void wait();
   void readKeys(Time now);
-  void takeEvents(const std::vector<TerminalEvent>& events, Time now);
-  void takeSignals();
+  void handleEvents(const std::vector<TerminalEvent>& events, Time now);
+  void handleSignals();
   void refresh(Time now);
   void fetch();
   void receiveAnswers(Time now);
@@ -63,7 +63,7 @@ class ServerChooser {
   std::unique_ptr<Screen> m_screen;
   Outcome m_outcome;
   Time m_begun{};  ///< start of the search
-  bool m_looking = true;
+  bool m_searching = true;
   bool m_dirty = true;
   bool m_done = false;
 };

@@ -28,7 +28,7 @@ Widths widthsFor(int columns) {
   return {texts * 4 / 7, texts * 3 / 7};
 }
 
-void writeColumns(Picture& picture, int y, const std::array<std::string, 4>& texts, df::Color color,
+void writeColumns(ScreenBuffer& picture, int y, const std::array<std::string, 4>& texts, df::Color color,
                   Style style) {
   const Widths widths = widthsFor(picture.width());
   int x = 2;
@@ -58,18 +58,18 @@ std::vector<std::string> wrapped(const std::string& text, int columns) {
 
 }  // namespace
 
-void ServerMenu::setServers(std::vector<FoundServer> servers) {
-  const FoundServer* p_before = chosen();
+void ServerMenu::setServers(std::vector<DiscoveredServer> servers) {
+  const DiscoveredServer* p_before = chosen();
   const auto key_before = p_before != nullptr ? std::optional(p_before->key) : std::nullopt;
   m_servers = std::move(servers);
   const auto found = std::find_if(
       m_servers.begin(), m_servers.end(),
-      [&key_before](const FoundServer& server) { return key_before && server.key == *key_before; });
+      [&key_before](const DiscoveredServer& server) { return key_before && server.key == *key_before; });
   if (found == m_servers.end()) m_message.clear();
   m_chosen = found == m_servers.end() ? 0 : static_cast<int>(found - m_servers.begin());
 }
 
-const FoundServer* ServerMenu::chosen() const {
+const DiscoveredServer* ServerMenu::chosen() const {
   return m_servers.empty() ? nullptr : &m_servers[static_cast<std::size_t>(m_chosen)];
 }
 
@@ -81,7 +81,7 @@ ServerMenu::Result ServerMenu::choose(int index) {
 }
 
 ServerMenu::Result ServerMenu::joinChosen() {
-  const FoundServer* p_server = chosen();
+  const DiscoveredServer* p_server = chosen();
   if (p_server == nullptr) return Result::kNone;
   if (p_server->isPlayable()) return Result::kJoin;
   m_message = "Incompatible: server protocol version " + std::to_string(p_server->protocol) +
@@ -89,7 +89,7 @@ ServerMenu::Result ServerMenu::joinChosen() {
   return Result::kRedraw;
 }
 
-ServerMenu::Result ServerMenu::takeKey(const KeyEvent& event) {
+ServerMenu::Result ServerMenu::handleKey(const KeyEvent& event) {
   if (event.action == KeyEvent::Action::kRelease) return Result::kNone;
   if ((event.modifiers & kControl) != 0) {
     if (event.key == key::C) return Result::kLeave;
@@ -122,18 +122,19 @@ ServerMenu::Result ServerMenu::takeKey(const KeyEvent& event) {
   }
 }
 
-void ServerMenu::writeRow(Picture& picture, int y, const FoundServer& server, bool is_chosen) const {
+void ServerMenu::writeRow(ScreenBuffer& picture, int y, const DiscoveredServer& server,
+                          bool is_chosen) const {
   const Style style = is_chosen ? Style::kReverse : Style::kPlain;
   if (is_chosen) {
     picture.fill(0, y, picture.width(), 1, style);
     picture.put(0, y, {U'>', df::COLOR_DEFAULT, style});
   }
-  writeColumns(picture, y, {server.name, server.game, placesOf(server), noteOf(server)}, df::COLOR_DEFAULT,
-               style);
+  writeColumns(picture, y, {server.name, server.game, occupancyText(server), restrictionsText(server)},
+               df::COLOR_DEFAULT, style);
 }
 
-void ServerMenu::writeEmpty(Picture& picture) const {
-  if (m_looking) {
+void ServerMenu::writeEmpty(ScreenBuffer& picture) const {
+  if (m_searching) {
     picture.write(2, kHeadRows - 1, "Looking ...", picture.width() - 2);
     return;
   }
@@ -145,8 +146,8 @@ void ServerMenu::writeEmpty(Picture& picture) const {
   }
 }
 
-Picture ServerMenu::compose(int columns, int rows) {
-  Picture picture(columns, rows);
+ScreenBuffer ServerMenu::compose(int columns, int rows) {
+  ScreenBuffer picture(columns, rows);
   picture.write(2, 0, m_title, columns - 2, df::COLOR_DEFAULT, Style::kBold);
   picture.write(2, rows - 1, kMenuKeys, columns - 2);
   if (m_servers.empty()) {
@@ -160,9 +161,9 @@ Picture ServerMenu::compose(int columns, int rows) {
   m_first = std::max(m_first, 0);
   for (int i = m_first; i < static_cast<int>(m_servers.size()) && i < m_first + m_page; ++i)
     writeRow(picture, kHeadRows + i - m_first, m_servers[static_cast<std::size_t>(i)], i == m_chosen);
-  const FoundServer& server = *chosen();
+  const DiscoveredServer& server = *chosen();
   const std::string below =
-      m_message.empty() ? server.where.text() + "   key " + server.key.text() : m_message;
+      m_message.empty() ? server.address.text() + "   key " + server.key.text() : m_message;
   if (rows >= kHeadRows + kFootRows) picture.write(2, rows - 2, below, columns - 2);
   return picture;
 }

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "client/terminal/InputDecoder.h"
-#include "client/terminal/Picture.h"
+#include "client/terminal/ScreenBuffer.h"
 
 namespace naiad {
 
@@ -25,30 +25,30 @@ class ServerMenu {
   /// Sets the sentences to show if there is no server.
   void setEmpty(std::vector<std::string> empty) { m_empty = std::move(empty); }
   /// Replaces the servers. The chosen one stays chosen if it is among them; otherwise the first is chosen.
-  void setServers(std::vector<FoundServer> servers);
-  /// `looking`: the search is not over, so an empty list shows "Looking ..." instead of the sentences.
-  void setLooking(bool looking) { m_looking = looking; }
+  void setServers(std::vector<DiscoveredServer> servers);
+  /// `searching`: the search is not over, so an empty list shows "Looking ..." instead of the sentences.
+  void setSearching(bool searching) { m_searching = searching; }
   /// Arrows (or j and k), Page Up and Down, Home and End choose; Enter joins, r refreshes, q, Esc and Ctrl-C
   /// leave.
-  Result takeKey(const KeyEvent& event);
+  Result handleKey(const KeyEvent& event);
   /// Returns the chosen server; null if the list is empty.
-  const FoundServer* chosen() const;
+  const DiscoveredServer* chosen() const;
   /// Draws the menu for a terminal of `columns` by `rows` cells.
-  Picture compose(int columns, int rows);
+  ScreenBuffer compose(int columns, int rows);
 
  private:
   Result choose(int index);
   Result joinChosen();
-  void writeRow(Picture& picture, int y, const FoundServer& server, bool is_chosen) const;
-  void writeEmpty(Picture& picture) const;
+  void writeRow(ScreenBuffer& picture, int y, const DiscoveredServer& server, bool is_chosen) const;
+  void writeEmpty(ScreenBuffer& picture) const;
 
   std::string m_title;
   std::vector<std::string> m_empty;
-  std::vector<FoundServer> m_servers;
+  std::vector<DiscoveredServer> m_servers;
   int m_chosen = 0;
   int m_first = 0;  ///< index of the server in the top row
   int m_page = 1;   ///< number of rows for servers in the last picture
-  bool m_looking = true;
+  bool m_searching = true;
   std::string m_message;  ///< why the chosen server cannot be joined; otherwise empty
 };
 

@@ -19,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "client/lan/LanBrowser.h"
 #include "client/lan/ListDownload.h"
 #include "client/session/TrustOptions.h"
@@ -133,8 +133,8 @@ std::string defaultName() {
   return naiad::safeName(user != nullptr ? user : "");
 }
 
-int complain(naiad::ExitCode code, const std::string& sentence) {
-  std::fprintf(stderr, "dfclient: %s\n", sentence.c_str());
+int complain(naiad::ExitCode code, const std::string& message) {
+  std::fprintf(stderr, "dfclient: %s\n", message.c_str());
   return code;
 }
 
@@ -164,13 +164,13 @@ bool usesColors() {
   return no_color == nullptr || *no_color == '\0';
 }
 
-/// Returns the servers of this network that answer within LanBrowser::kPatience.
-naiad::FoundServers findServers() {
+/// Returns the servers of this network that answer within LanBrowser::kResponseTimeout.
+naiad::DiscoveredServers findServers() {
   using Clock = std::chrono::steady_clock;
   naiad::LanBrowser browser;
   std::vector<pollfd> waited;
   for (const int descriptor : browser.descriptors()) waited.push_back({descriptor, POLLIN, 0});
-  const auto end = Clock::now() + naiad::LanBrowser::kPatience;
+  const auto end = Clock::now() + naiad::LanBrowser::kResponseTimeout;
   for (auto now = Clock::now(); now < end; now = Clock::now()) {
     browser.update(now);
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::min(end, browser.nextQuery()) - now);
@@ -180,22 +180,22 @@ naiad::FoundServers findServers() {
   return browser.servers();
 }
 
-std::variant<naiad::FoundServers, naiad::DownloadProblem> fetchServers(const naiad::ListUrl& url) {
+std::variant<naiad::DiscoveredServers, naiad::DownloadError> fetchServers(const naiad::ListUrl& url) {
   auto fetched = naiad::downloadList(url);
-  if (auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched)) return *p_problem;
+  if (auto* p_problem = std::get_if<naiad::DownloadError>(&fetched)) return *p_problem;
   auto servers = naiad::readServerList(std::get<std::string>(fetched));
-  if (!servers) return naiad::DownloadProblem{"The document is not a server list."};
+  if (!servers) return naiad::DownloadError{"The document is not a server list."};
   return *std::move(servers);
 }
 
 /// Implements --list: prints the servers of this network, or of --list-url.
 int printServers(const CommandLine& line) {
-  naiad::FoundServers found;
+  naiad::DiscoveredServers found;
   if (line.list_url) {
     auto fetched = fetchServers(*line.list_url);
-    if (const auto* p_problem = std::get_if<naiad::DownloadProblem>(&fetched))
-      return complain(naiad::kExitUnreachable, p_problem->sentence);
-    found = std::get<naiad::FoundServers>(std::move(fetched));
+    if (const auto* p_problem = std::get_if<naiad::DownloadError>(&fetched))
+      return complain(naiad::kExitUnreachable, p_problem->message);
+    found = std::get<naiad::DiscoveredServers>(std::move(fetched));
   } else {
     found = findServers();
   }
@@ -232,9 +232,9 @@ std::optional<int> chooseServer(CommandLine& line) {
   endBySignal(outcome.signal);
   if (!outcome.server) return naiad::kExitLeft;
   const std::string link = outcome.server->link();
-  line.server.text = link.empty() ? outcome.server->where.text() : link;
+  line.server.text = link.empty() ? outcome.server->address.text() : link;
   line.server.list_key = outcome.server->key;
-  line.ask_password = line.ask_password || outcome.server->asks_password;
+  line.ask_password = line.ask_password || outcome.server->requires_password;
   return std::nullopt;
 }
 
@@ -257,12 +257,12 @@ naiad::ClientApp::Outcome joinWithPassword(naiad::ClientApp::Options& options) {
       naiad::ClientApp app(options);
       outcome = app.run();
     }
-    if (!outcome.wants_password || options.session.visit || tried == kTries) return outcome;
+    if (!outcome.password_required_by || options.session.proxy || tried == kTries) return outcome;
     if (tried > 0) std::fputs("Wrong password, try again.\n", stderr);
     const auto password = naiad::askPassword(passwordQuestion(options.address));
     if (!password || password->empty()) return outcome;
     options.session.password = *password;
-    options.trust.fingerprint = outcome.wants_password;
+    options.trust.fingerprint = outcome.password_required_by;
   }
 }
 
@@ -281,7 +281,7 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
   endBySignal(outcome.signal);
   // The game runs in this terminal, so the player sees its end there.
   if (attached && outcome.code == naiad::kExitEnded) return outcome.code;
-  if (!outcome.sentence.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.sentence.c_str());
+  if (!outcome.message.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.message.c_str());
   return outcome.code;
 }
 

@@ -26,36 +26,36 @@ SessionOptions sessionOptions(const WebClient::Options& options) {
 
 }  // namespace
 
-TabTokens::TabTokens(WebPort& port, std::string_view kept)
+TabTokenStore::TabTokenStore(PageBridge& port, std::string_view kept)
     : m_port(port), m_token(kept.size() > 2 * kMaxToken ? "" : bytesOfHex(kept).value_or("")) {}
 
-void TabTokens::save(SavedSession session, Time) {
+void TabTokenStore::save(SavedSession session, Time) {
   m_token = session.token;
-  m_port.keepToken(hexText(m_token));
+  m_port.saveToken(hexText(m_token));
 }
 
-void TabTokens::remove() {
+void TabTokenStore::remove() {
   m_token.clear();
-  m_port.keepToken("");
+  m_port.saveToken("");
 }
 
-WebClient::WebClient(WebPort& port, const Options& options, Time now)
+WebClient::WebClient(PageBridge& port, const Options& options, Time now)
     : m_port(port),
       m_columns(options.columns),
       m_rows(options.rows),
       m_tokens(port, options.token),
-      m_p_streams(new WebStreams(port)),
+      m_p_streams(new WebStreamOpener(port)),
       m_connection(std::unique_ptr<StreamOpener>(m_p_streams), ServerAddress{options.server, 0},
                    sessionOptions(options), true) {
-  m_connection.keepIn(m_tokens);
-  m_composer.noteBrowser();
+  m_connection.setTokenStore(m_tokens);
+  m_composer.setBrowser();
   m_player.setRealReleases(true, now);
   m_connection.start();
 }
 
 void WebClient::pressKey(std::string_view key, std::string_view code, KeyEvent::Action action,
                          std::uint8_t modifiers, Time now) {
-  takeKey(m_keys.translate(key, code, action, modifiers), now);
+  handleKey(m_keys.translate(key, code, action, modifiers), now);
 }
 
 void WebClient::command(char32_t letter, Time now) {
@@ -65,13 +65,13 @@ void WebClient::command(char32_t letter, Time now) {
   KeyEvent event;
   event.ch = letter;
   event.key = static_cast<df::Keyboard::Key>(df::Keyboard::A + static_cast<int>(letter - U'a'));
-  takeKey(prefix, now);
-  takeKey(event, now);
+  handleKey(prefix, now);
+  handleKey(event, now);
 }
 
-void WebClient::takeKey(const KeyEvent& event, Time now) {
+void WebClient::handleKey(const KeyEvent& event, Time now) {
   using Result = ClientControls::Result;
-  const Result result = m_controls.takeKey(event);
+  const Result result = m_controls.handleKey(event);
   switch (result) {
     case Result::kGame:
     case Result::kSuspend:  // there is nothing to suspend in a page
@@ -79,8 +79,8 @@ void WebClient::takeKey(const KeyEvent& event, Time now) {
     case Result::kOpened:
       m_player.releaseKeys(now);
       break;
-    case Result::kSay:
-      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.takeChat());
+    case Result::kSendChat:
+      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.popChat());
       break;
     case Result::kEnterRoom:
       enterChosenRoom(m_connection.session(), m_controls.roomChoice());
@@ -117,7 +117,7 @@ void WebClient::update(Time now) {
   if (session == nullptr) return;
   if (m_controls.panel() == Panel::kRooms) session->refreshRooms(now);
   const std::uint32_t self = session->welcome().player;
-  for (const SoundLine& sound : session->takeSounds()) {
+  for (const SoundLine& sound : session->popSounds()) {
     m_sounds.addSound(sound, self, now);
     m_port.sound(sound, sound.player == 0 || sound.player == self);
   }
@@ -130,8 +130,8 @@ bool WebClient::compose(Time now) {
     m_view_width = model.view.width();
     m_view_height = model.view.height();
   }
-  m_layout = layOut(model, m_columns, m_rows);
-  m_controls.noteShown(m_layout.shown);
+  m_layout = composeScreen(model, m_columns, m_rows);
+  m_controls.onShown(m_layout.shown);
   return true;
 }
 
@@ -142,7 +142,7 @@ WebClient::State WebClient::state() const {
     case S::kJoining:
       return State::kJoining;
     case S::kJoined:
-    case S::kSearching:
+    case S::kReconnecting:
       return State::kPlaying;
     case S::kRefused:
       return State::kRefused;
@@ -153,9 +153,9 @@ WebClient::State WebClient::state() const {
   }
 }
 
-std::string WebClient::sentence() const {
+std::string WebClient::message() const {
   if (!m_p_streams->refusal().empty()) return m_p_streams->refusal();
-  return m_connection.sentence();
+  return m_connection.message();
 }
 
 }  // namespace naiad

@@ -16,18 +16,18 @@
 #include "client/ui/ClientControls.h"
 #include "client/ui/FrameComposer.h"
 #include "client/ui/PlayerInput.h"
-#include "client/ui/SoundNotes.h"
+#include "client/ui/SoundIndicator.h"
 #include "client/web/BrowserKeys.h"
-#include "client/web/WebStreams.h"
+#include "client/web/WebStreamOpener.h"
 
 namespace naiad {
 
 /// Stores the token of a browser tab's session in the page.
 /// The only server is the one behind the gateway, so keys are ignored. Not thread-safe.
-class TabTokens : public TokenStore {
+class TabTokenStore : public TokenStore {
  public:
   /// `kept`: the token that the page stored for this tab, hexadecimal; an invalid one counts as empty.
-  TabTokens(WebPort& port, std::string_view kept);
+  TabTokenStore(PageBridge& port, std::string_view kept);
 
   std::string tokenFor(const Fingerprint&) const override { return m_token; }
   void save(SavedSession session, Time now) override;
@@ -35,7 +35,7 @@ class TabTokens : public TokenStore {
   void remove() override;
 
  private:
-  WebPort& m_port;
+  PageBridge& m_port;
   std::string m_token;
 };
 
@@ -56,10 +56,10 @@ class WebClient {
   enum class State : int { kJoining, kPlaying, kRefused, kOver, kLeft };
 
   /// Joins immediately. `port` must outlive this.
-  WebClient(WebPort& port, const Options& options, Time now);
+  WebClient(PageBridge& port, const Options& options, Time now);
 
   /// The page reports events of streams to this.
-  WebStreams& streams() { return *m_p_streams; }
+  WebStreamOpener& streams() { return *m_p_streams; }
 
   void pressKey(std::string_view key, std::string_view code, KeyEvent::Action action, std::uint8_t modifiers,
                 Time now);
@@ -69,7 +69,7 @@ class WebClient {
   void command(char32_t letter, Time now);
   /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text) { m_controls.setChatText(text); }
-  bool isChatOpen() const { return m_controls.chatOpen(); }
+  bool isChatOpen() const { return m_controls.isChatOpen(); }
   /// Call when the page has lost the keyboard: releases all keys.
   void releaseKeys(Time now);
   /// Sets the size of the picture in cells, clamped to 1 … 400 by 1 … 150.
@@ -80,11 +80,11 @@ class WebClient {
   /// Composes the picture if it would differ from the last one. Returns true if it did.
   bool compose(Time now);
   /// Returns the newest picture.
-  const Picture& picture() const { return m_layout.picture; }
+  const ScreenBuffer& picture() const { return m_layout.picture; }
 
   State state() const;
   /// Returns why the client is not playing, for people; may be empty.
-  std::string sentence() const;
+  std::string message() const;
   /// Size of the game's view in cells; 80 by 24 before it is known.
   int viewWidth() const { return m_view_width; }
   int viewHeight() const { return m_view_height; }
@@ -92,17 +92,17 @@ class WebClient {
   Connection& connection() { return m_connection; }
 
  private:
-  void takeKey(const KeyEvent& event, Time now);
+  void handleKey(const KeyEvent& event, Time now);
 
-  WebPort& m_port;
+  PageBridge& m_port;
   int m_columns;
   int m_rows;
-  TabTokens m_tokens;
-  WebStreams* m_p_streams;  ///< owned by m_connection
+  TabTokenStore m_tokens;
+  WebStreamOpener* m_p_streams;  ///< owned by m_connection
   Connection m_connection;
   BrowserKeys m_keys;
   ClientControls m_controls;
-  SoundNotes m_sounds{SoundMode::kNote};
+  SoundIndicator m_sounds{SoundMode::kNote};
   PlayerInput m_player{m_connection};
   FrameComposer m_composer{m_connection, m_controls, m_sounds};
   ScreenLayout m_layout;

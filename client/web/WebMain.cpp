@@ -35,13 +35,13 @@ namespace {
 using naiad::WebClient;
 using Clock = std::chrono::steady_clock;
 
-class PagePort : public naiad::WebPort {
+class PagePort : public naiad::PageBridge {
  public:
   void open(int stream) override { pageOpen(stream); }
   void send(int stream, std::string_view frame) override { pageSend(stream, frame.data(), frame.size()); }
   std::size_t unsentBytes(int stream) override { return pageUnsent(stream); }
   void close(int stream) override { pageClose(stream); }
-  void keepToken(std::string_view token) override { pageKeep(token.data(), token.size()); }
+  void saveToken(std::string_view token) override { pageKeep(token.data(), token.size()); }
   void sound(const naiad::SoundLine& sound, bool own) override {
     pageSound(sound.label.data(), sound.label.size(), static_cast<int>(sound.action),
               (sound.music ? 1 : 0) | (sound.loop ? 2 : 0) | (own ? 4 : 0));
@@ -55,7 +55,7 @@ struct Module {
   std::array<char, 65536> in{};
   WebClient::Options options;
   std::vector<std::uint32_t> cells;
-  std::string sentence;
+  std::string message;
 };
 
 Module& module() {
@@ -69,12 +69,12 @@ std::string_view input(std::size_t from, std::size_t size) {
 }
 
 /// Packs a cell for the page: character (21 bits, lowest), colour (3), style (2), background (3).
-std::uint32_t packed(const naiad::PictureCell& cell) {
+std::uint32_t packed(const naiad::ScreenCell& cell) {
   return static_cast<std::uint32_t>(cell.ch) | static_cast<std::uint32_t>(cell.color & 7) << 21 |
          static_cast<std::uint32_t>(cell.style) << 24 | static_cast<std::uint32_t>(cell.background & 7) << 26;
 }
 
-void pack(const naiad::Picture& picture, std::vector<std::uint32_t>& cells) {
+void pack(const naiad::ScreenBuffer& picture, std::vector<std::uint32_t>& cells) {
   cells.clear();
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) cells.push_back(packed(picture.at(x, y)));
@@ -220,14 +220,14 @@ NAIAD_EXPORT(writing) int webWriting() {
   return module().client && module().client->isChatOpen() ? 1 : 0;
 }
 
-/// Updates the text that sentence() returns. Returns its size in bytes.
+/// Updates the text that message() returns. Returns its size in bytes.
 NAIAD_EXPORT(sentence_size) std::size_t webSentenceSize() {
-  module().sentence = module().client ? module().client->sentence() : "";
-  return module().sentence.size();
+  module().message = module().client ? module().client->message() : "";
+  return module().message.size();
 }
 
-NAIAD_EXPORT(sentence) const char* webSentence() {
-  return module().sentence.data();
+NAIAD_EXPORT(message) const char* webMessage() {
+  return module().message.data();
 }
 
 /// Returns the size of the game's view as height · 65536 + width.

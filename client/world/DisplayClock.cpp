@@ -13,7 +13,7 @@ DisplayClock::Duration DisplayClock::due(std::uint32_t tick) const {
   return m_length * distance(m_anchor, tick);
 }
 
-void DisplayClock::noteSnapshot(std::uint32_t tick, Time now) {
+void DisplayClock::onSnapshot(std::uint32_t tick, Time now) {
   m_last_arrival = now;
   if (!m_started) {
     m_started = true;

@@ -32,7 +32,7 @@ class DisplayClock {
   /// kMaxLead: beyond that, objects that change course make more cells wrong than the lead makes right.
   void setDelay(Duration delay) { m_lead = std::clamp<Duration>(delay, Duration::zero(), kMaxLead); }
   /// Call when a snapshot of `tick` arrives.
-  void noteSnapshot(std::uint32_t tick, Time now);
+  void onSnapshot(std::uint32_t tick, Time now);
   /// Returns the tick to draw: never lower than the last one returned, unless that is more than kMaxAhead
   /// beyond the newest snapshot.
   std::uint32_t displayTick(Time now);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "client/world/Surroundings.h"
+#include "client/world/ReplicaBarriers.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {
@@ -54,10 +54,10 @@ bool ExtrapolationClamp::addSolid(const ObjectState& object) {
   if (m_exhausted) return false;
   const auto along = boxAlong(object, m_known, last);
   if (!along) return true;
-  m_solids.push_back({&object, *along, cellsOf(*along), m_places.size(), moves});
+  m_solids.push_back({&object, *along, cellsOf(*along), m_boxes.size(), moves});
   // boxAlong() has checked that there is a box in all these ticks.
   for (std::uint32_t tick = m_known; tick != last + 1; ++tick) {
-    m_places.push_back(df::translate(object.body.box, positionAt(object.motion, tick)));
+    m_boxes.push_back(df::translate(object.body.box, positionAt(object.motion, tick)));
   }
   addToIndex(m_solids.back(), static_cast<std::uint32_t>(m_solids.size() - 1));
   return true;
@@ -90,7 +90,7 @@ void ExtrapolationClamp::clampAll() {
       first = firstTouch(mover, other, first);
     });
     if (first > m_ticks) continue;
-    m_held[mover.p_state] = positionAt(mover.p_state->motion, m_known + first - 1);
+    m_clamped[mover.p_state] = positionAt(mover.p_state->motion, m_known + first - 1);
   }
 }
 
@@ -134,20 +134,20 @@ void ExtrapolationClamp::forEachNear(const Solid& mover, std::size_t allowed, Vi
 /// turn. Returns `before` if there is no such tick before it, or if they already touch in m_known.
 std::uint32_t ExtrapolationClamp::firstTouch(const Solid& mover, const Solid& other, std::uint32_t before) {
   ++m_work;
-  if (df::intersects(placeOf(mover, 0), placeOf(other, 0))) return before;
+  if (df::intersects(boxOf(mover, 0), boxOf(other, 0))) return before;
   // At the mover's turn, objects created later have not moved yet.
   const std::uint32_t late = other.p_state->order < mover.p_state->order ? 0 : 1;
   for (std::uint32_t i = 1; i < before; ++i) {
     ++m_work;
-    if (df::intersects(placeOf(mover, i), placeOf(other, i - late))) return i;
+    if (df::intersects(boxOf(mover, i), boxOf(other, i - late))) return i;
   }
   return before;
 }
 
 df::FixedVector ExtrapolationClamp::positionOf(const ObjectState& object) const {
-  if (!m_held.empty()) {
-    const auto held = m_held.find(&object);
-    if (held != m_held.end()) return held->second;
+  if (!m_clamped.empty()) {
+    const auto held = m_clamped.find(&object);
+    if (held != m_clamped.end()) return held->second;
   }
   return positionAt(object.motion, m_drawn);
 }

@@ -51,8 +51,8 @@ class ExtrapolationClamp {
     const ObjectState* p_state;
     df::FixedBox along;  ///< around all its boxes from known to drawn
     Range range;
-    std::size_t places;  ///< index of its first box in m_places; one per tick from known to drawn
-    bool moves;          ///< false: there is only one box
+    std::size_t first_box;  ///< index of its first box in m_boxes; one per tick from known to drawn
+    bool moves;             ///< false: there is only one box
   };
   using Cell = std::uint64_t;
 
@@ -63,8 +63,8 @@ class ExtrapolationClamp {
   template <class Visit>
   void forEachNear(const Solid& mover, std::size_t allowed, Visit visit);
   std::uint32_t firstTouch(const Solid& mover, const Solid& other, std::uint32_t before);
-  const df::FixedBox& placeOf(const Solid& solid, std::uint32_t tick) const {
-    return m_places[solid.places + (solid.moves ? tick : 0)];
+  const df::FixedBox& boxOf(const Solid& solid, std::uint32_t tick) const {
+    return m_boxes[solid.first_box + (solid.moves ? tick : 0)];
   }
 
   std::uint32_t m_known;
@@ -72,11 +72,11 @@ class ExtrapolationClamp {
   std::uint32_t m_ticks = 0;  ///< number from known to drawn; 0: nothing is clamped
   std::size_t m_work = 0;
   bool m_exhausted = false;
-  std::vector<df::FixedBox> m_places;
+  std::vector<df::FixedBox> m_boxes;
   std::vector<Solid> m_solids;
   std::vector<std::pair<Cell, std::uint32_t>> m_cells;  ///< sorted; the number is an index into m_solids
   std::vector<std::uint32_t> m_large;                   ///< indices of solids in too many cells
-  std::unordered_map<const ObjectState*, df::FixedVector> m_held;  ///< positions of clamped objects
+  std::unordered_map<const ObjectState*, df::FixedVector> m_clamped;  ///< positions of clamped objects
 };
 
 /// Makes a clamp and returns where it draws `object`. For several objects, make one clamp instead.

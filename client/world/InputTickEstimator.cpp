@@ -5,7 +5,7 @@
 
 namespace naiad {
 
-void InputTickEstimator::noteRoundTrip(Millis sample) {
+void InputTickEstimator::addRttSample(Millis sample) {
   m_round_trips[m_count++ % m_round_trips.size()] = sample;
 }
 
@@ -16,7 +16,7 @@ InputTickEstimator::Millis InputTickEstimator::shortestRoundTrip() const {
   return shortest != end ? *shortest : Millis{0};
 }
 
-void InputTickEstimator::noteTaken(std::uint32_t asked, std::uint32_t taken) {
+void InputTickEstimator::onInputApplied(std::uint32_t asked, std::uint32_t taken) {
   const bool late = static_cast<std::int32_t>(taken - asked) > 0;
   m_margin = std::clamp(m_margin + (late ? kGrow : -kShrink), kMinMargin, kMaxMargin);
 }

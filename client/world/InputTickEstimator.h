@@ -25,9 +25,9 @@ class InputTickEstimator {
   static constexpr double kShrink = 0.004;
 
   /// Adds a sample. The shortest of the last eight counts, because longer ones include queueing.
-  void noteRoundTrip(Millis sample);
+  void addRttSample(Millis sample);
   /// Call when the server has applied an input in tick `taken` that requested tick `asked`.
-  void noteTaken(std::uint32_t asked, std::uint32_t taken);
+  void onInputApplied(std::uint32_t asked, std::uint32_t taken);
   /// Returns the estimated tick for a key pressed at `now`.
   std::uint32_t tickFor(const DisplayClock& clock, DisplayClock::Duration tick_length, Time now) const;
 

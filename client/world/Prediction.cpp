@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "client/world/Surroundings.h"
+#include "client/world/ReplicaBarriers.h"
 #include "shared/replica/Acks.h"
 #include "shared/replica/ViewFollow.h"
 
@@ -43,7 +43,7 @@ void Prediction::reset() {
 void Prediction::run(const Replica& replica, std::uint32_t tick) {
   m_active = false;
   if (!m_known || m_known->generation == 0 || m_table.rows.empty()) return;
-  const Replica::Entry* p_own = replica.find(m_known->slot);
+  const Replica::ReplicaObject* p_own = replica.find(m_known->slot);
   if (p_own == nullptr || p_own->generation != m_known->generation) return;
   m_active = true;
   m_order = p_own->state.order;
@@ -58,8 +58,8 @@ void Prediction::replay(const Replica& replica, const ObjectState& own, std::uin
   const std::uint32_t ticks = isNewer(tick, start.tick) ? tick - start.tick : 0;
 
   const df::FixedBox from = boxAt(own.body, start.position).value_or(df::FixedBox{});
-  const Surroundings surroundings(replica, own, from, reach(ticks), start.tick, start.tick + ticks);
-  SteeredCopy copy(start, m_table, &surroundings);
+  const ReplicaBarriers surroundings(replica, own, from, reach(ticks), start.tick, start.tick + ticks);
+  PredictedObject copy(start, m_table, &surroundings);
   auto input = m_inputs.begin();
   for (std::uint32_t i = 0; i < ticks; ++i) {
     copy.beginTick();

@@ -20,15 +20,15 @@
 #include <vector>
 
 #include "shared/replica/ControlCodec.h"
+#include "shared/replica/PredictedObject.h"
 #include "shared/replica/Replica.h"
-#include "shared/replica/SteeredCopy.h"
 #include "shared/replica/UpdateCodec.h"
 
 namespace naiad {
 
 class Prediction {
  public:
-  /// Limit on replayed ticks: kMaxCoasting and a round trip of two seconds.
+  /// Limit on replayed ticks: kMaxDeadReckoning and a round trip of two seconds.
   static constexpr std::uint32_t kMaxAhead = 90;
   /// Limit on pending inputs; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;

@@ -9,8 +9,8 @@ namespace {
 /// Calls `action` with the field's pointer to member.
 template <class Action>
 void withMember(const Field& field, Action action) {
-  const bool repeated = field.place == Place::kRepeated;
-  if (field.place == Place::kOneof) return action(field.member.oneof);
+  const bool repeated = field.cardinality == Cardinality::kRepeated;
+  if (field.cardinality == Cardinality::kOneof) return action(field.member.oneof);
   switch (field.type) {
     case Type::kString:
     case Type::kBytes:

@@ -91,7 +91,7 @@ class Oneof {
 
 /// A view of a repeated field's messages with their class, returned by getters. It refers to their message.
 template <class Element>
-class View {
+class RepeatedView {
  public:
   class Iterator {
    public:
@@ -116,7 +116,7 @@ class View {
     Children::const_iterator m_at;
   };
 
-  explicit View(const Children& children) : m_children(&children) {}
+  explicit RepeatedView(const Children& children) : m_children(&children) {}
   Iterator begin() const { return Iterator(m_children->begin()); }
   Iterator end() const { return Iterator(m_children->end()); }
   int size() const { return static_cast<int>(m_children->size()); }
@@ -141,7 +141,7 @@ enum class Type : std::uint8_t {
 };
 
 /// The cardinality of a field, which decides where it is stored.
-enum class Place : std::uint8_t { kSingle, kRepeated, kOneof };
+enum class Cardinality : std::uint8_t { kSingle, kRepeated, kOneof };
 
 /// One field of a class: a line of its table.
 struct Field {
@@ -176,32 +176,33 @@ struct Field {
   }
   template <class Owner>
   constexpr Field(std::uint32_t n, Type t, std::vector<std::uint32_t> Owner::*m)
-      : number(n), type(t), place(Place::kRepeated) {
+      : number(n), type(t), cardinality(Cardinality::kRepeated) {
     member.words = static_cast<std::vector<std::uint32_t> Message::*>(m);
   }
   template <class Owner>
   constexpr Field(std::uint32_t n, Type t, std::vector<std::string> Owner::*m)
-      : number(n), type(t), place(Place::kRepeated) {
+      : number(n), type(t), cardinality(Cardinality::kRepeated) {
     member.texts = static_cast<std::vector<std::string> Message::*>(m);
   }
   template <class Owner>
   constexpr Field(std::uint32_t n, Type t, Children Owner::*m, const FieldTable& f)
-      : number(n), type(t), place(Place::kRepeated), fields(&f) {
+      : number(n), type(t), cardinality(Cardinality::kRepeated), fields(&f) {
     member.children = static_cast<Children Message::*>(m);
   }
   template <class Owner>
-  constexpr Field(std::uint32_t n, Type t, Oneof Owner::*m) : number(n), type(t), place(Place::kOneof) {
+  constexpr Field(std::uint32_t n, Type t, Oneof Owner::*m)
+      : number(n), type(t), cardinality(Cardinality::kOneof) {
     member.oneof = static_cast<Oneof Message::*>(m);
   }
   template <class Owner>
   constexpr Field(std::uint32_t n, Type t, Oneof Owner::*m, const FieldTable& f)
-      : number(n), type(t), place(Place::kOneof), fields(&f) {
+      : number(n), type(t), cardinality(Cardinality::kOneof), fields(&f) {
     member.oneof = static_cast<Oneof Message::*>(m);
   }
 
   std::uint32_t number;
   Type type;
-  Place place = Place::kSingle;
+  Cardinality cardinality = Cardinality::kSingle;
   const FieldTable* fields = nullptr;  ///< the fields of a message's class
   Member member{};
 };

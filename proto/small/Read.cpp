@@ -137,10 +137,10 @@ std::uint64_t stored(Type type, std::uint64_t value) {
 bool readMessage(Input in, Message& message, int depth);
 
 std::string& textOf(Message& message, const Field& field) {
-  switch (field.place) {
-    case Place::kRepeated:
+  switch (field.cardinality) {
+    case Cardinality::kRepeated:
       return (message.*field.member.texts).emplace_back();
-    case Place::kOneof:
+    case Cardinality::kOneof:
       return (message.*field.member.oneof).mutableText(field.number);
     default:
       return message.*field.member.text;
@@ -149,9 +149,9 @@ std::string& textOf(Message& message, const Field& field) {
 
 /// Returns the message to read into: the existing one, to merge with it, or a new one in a repeated field.
 Message& childOf(Message& message, const Field& field) {
-  if (field.place == Place::kOneof)
+  if (field.cardinality == Cardinality::kOneof)
     return (message.*field.member.oneof).mutableChild(field.number, *field.fields);
-  const bool repeated = field.place == Place::kRepeated;
+  const bool repeated = field.cardinality == Cardinality::kRepeated;
   Child& child = repeated ? (message.*field.member.children).emplace_back() : message.*field.member.child;
   return mutableChild(child, *field.fields);
 }
@@ -160,7 +160,7 @@ bool readNumber(Input& in, Message& message, const Field& field) {
   std::uint64_t value = 0;
   if (!in.takeNumber(wireOf(field.type), value)) return false;
   value = stored(field.type, value);
-  if (field.place == Place::kRepeated) {
+  if (field.cardinality == Cardinality::kRepeated) {
     (message.*field.member.words).push_back(static_cast<std::uint32_t>(value));
   } else if (field.type == Type::kFixed64) {
     message.*field.member.wide = value;
@@ -201,7 +201,7 @@ bool readMessage(Input in, Message& message, int depth) {
     bool good = false;
     // Repeated numbers may be packed: many values in one field.
     if (field != nullptr && wire == kSized &&
-        (wireOf(field->type) == kSized || field->place == Place::kRepeated)) {
+        (wireOf(field->type) == kSized || field->cardinality == Cardinality::kRepeated)) {
       std::string_view bytes;
       good = in.takeSized(bytes) && readSized(bytes, message, *field, depth);
     } else if (field != nullptr && wire == wireOf(field->type)) {

@@ -89,14 +89,14 @@ void addSingle(std::string& out, const Field& field, const Message& message) {
 void writeMessage(std::string& out, const Message& message) {
   const FieldTable& fields = message.fieldTable();
   for (const Field* field = fields.begin; field != fields.end; ++field) {
-    switch (field->place) {
-      case Place::kSingle:
+    switch (field->cardinality) {
+      case Cardinality::kSingle:
         addSingle(out, *field, message);
         break;
-      case Place::kRepeated:
+      case Cardinality::kRepeated:
         addRepeated(out, *field, message);
         break;
-      case Place::kOneof:
+      case Cardinality::kOneof:
         addOneof(out, *field, message.*field->member.oneof);
         break;
     }

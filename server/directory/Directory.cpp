@@ -20,11 +20,11 @@
 namespace naiad {
 namespace {
 
-constexpr std::chrono::milliseconds kMaxTurn{250};
+constexpr std::chrono::milliseconds kMaxPollInterval{250};
 
 /// Returns the time between updates: several in each heartbeat interval, so that changes are noticed soon.
-std::chrono::milliseconds turnOf(const DirectorySettings& settings) {
-  return std::min(kMaxTurn, settings.interval / 4);
+std::chrono::milliseconds pollInterval(const DirectorySettings& settings) {
+  return std::min(kMaxPollInterval, settings.interval / 4);
 }
 
 BusSettings listening(BusSettings settings) {
@@ -76,13 +76,13 @@ class Directory::ListFile {
   }
 
   /// Returns a log line, once, if writing has begun to fail or works again; else empty. Any thread.
-  std::string takeNews() {
+  std::string popLogMessage() {
     const std::lock_guard lock(m_mutex);
-    return std::exchange(m_news, std::string());
+    return std::exchange(m_log_message, std::string());
   }
 
  private:
-  static constexpr std::chrono::seconds kAgain{2};  ///< retry interval after a failure
+  static constexpr std::chrono::seconds kRetryInterval{2};  ///< retry interval after a failure
 
   void run() {
     std::unique_lock lock(m_mutex);
@@ -94,10 +94,10 @@ class Directory::ListFile {
       lock.unlock();
       const std::string problem = writeProblem(text);
       lock.lock();
-      noteResult(problem);
+      updateFailing(problem);
       if (problem.empty()) continue;
       m_has_text = true;
-      m_wake.wait_for(lock, kAgain, [this] { return m_stopping; });
+      m_wake.wait_for(lock, kRetryInterval, [this] { return m_stopping; });
     }
   }
 
@@ -112,18 +112,18 @@ class Directory::ListFile {
   }
 
   // Reports a failure (like a full disk) once, and once when writing works again.
-  void noteResult(const std::string& problem) {
+  void updateFailing(const std::string& problem) {
     const bool failing = !problem.empty();
     if (std::exchange(m_failing, failing) == failing) return;
-    m_news = failing ? "warning: the list " + m_path + " cannot be written: " + problem
-                     : "the list " + m_path + " can be written again";
+    m_log_message = failing ? "warning: the list " + m_path + " cannot be written: " + problem
+                            : "the list " + m_path + " can be written again";
   }
 
   const std::string m_path;
   std::mutex m_mutex;
   std::condition_variable m_wake;
   std::string m_text;
-  std::string m_news;
+  std::string m_log_message;
   bool m_has_text = false;  ///< m_text is not written yet
   bool m_failing = false;
   bool m_stopping = false;
@@ -138,7 +138,7 @@ Directory::Directory(DirectorySettings settings, LogLine log)
           std::chrono::steady_clock::now(), m_settings.interval) {
   if (!m_settings.list.empty()) m_file = std::make_unique<ListFile>(m_settings.list, serverListText({}));
   openLobby();
-  awaitTurn();
+  schedulePoll();
 }
 
 void Directory::openLobby() {
@@ -163,43 +163,44 @@ void Directory::reload() {
   }
 }
 
-void Directory::awaitTurn() {
-  m_timer.expires_after(turnOf(m_settings));
+void Directory::schedulePoll() {
+  m_timer.expires_after(pollInterval(m_settings));
   m_timer.async_wait([this](const std::error_code& error) {
     if (error) return;
-    takeTurn(std::chrono::steady_clock::now());
-    awaitTurn();
+    poll(std::chrono::steady_clock::now());
+    schedulePoll();
   });
 }
 
-void Directory::takeTurn(Time now) {
+void Directory::poll(Time now) {
   m_fleet.update(now);
-  sendOn(now);
+  publishRedirects(now);
   if (!m_file) return;
   m_file->setText(serverListText(m_fleet.servers().servers()));
-  if (const std::string line = m_file->takeNews(); !line.empty()) m_log(line);
+  if (const std::string line = m_file->popLogMessage(); !line.empty()) m_log(line);
 }
 
 /// Tells servers that are nearly full to which server they can redirect players.
-void Directory::sendOn(Time now) {
-  if (now - m_said_room < m_settings.interval) return;
-  m_said_room = now;
-  for (const Presence& full : m_fleet.servers().crowded()) {
-    const FleetList::Place other = m_fleet.servers().roomiest({full.game, full.protocol, full.id});
+void Directory::publishRedirects(Time now) {
+  if (now - m_published_at < m_settings.interval) return;
+  m_published_at = now;
+  for (const Presence& full : m_fleet.servers().nearlyFull()) {
+    const FleetRegistry::Assignment other =
+        m_fleet.servers().leastLoaded({full.game, full.protocol, full.id});
     if (!other) continue;
     const auto link = JoinLink::parse(linkOf(*other.p_server, other.room));
     if (const auto* const p_link = std::get_if<JoinLink>(&link))
-      m_fleet.bus().publish({sendOnSubject(full.id), SendOn{other.p_server->id, *p_link}.payload()});
+      m_fleet.bus().publish({redirectSubject(full.id), Redirect{other.p_server->id, *p_link}.payload()});
   }
 }
 
-void Directory::heedSignals() {
+void Directory::installSignalHandlers() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) m_signals.add(signal);
   m_signals.async_wait([this](const std::error_code& error, int signal) {
     if (error) return;
     if (signal != SIGHUP) return stop();
     reload();
-    heedSignals();
+    installSignalHandlers();
   });
 }
 

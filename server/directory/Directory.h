@@ -1,6 +1,6 @@
 // The directory of a fleet: receives the servers' heartbeats from the bus, writes a list of servers for the
-// web (FleetList.h), redirects players to them (Lobby.h), and names other servers to those that are nearly
-// full (BusPayloads.h).
+// web (FleetRegistry.h), redirects players to them (Lobby.h), and names other servers to those that are
+// nearly full (BusPayloads.h).
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -14,7 +14,7 @@
 
 #include "host/auth/ServerIdentity.h"
 #include "host/fleet/Bus.h"
-#include "server/directory/FleetList.h"
+#include "server/directory/FleetRegistry.h"
 #include "server/directory/Lobby.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/Fingerprint.h"
@@ -36,7 +36,7 @@ struct DirectorySettings {
 class Directory {
  public:
   /// Throws std::runtime_error if the list cannot be written, ListenError, and TlsError for the lobby's key.
-  /// The bus settings must be valid (busComplaint()).
+  /// The bus settings must be valid (validateBusSettings()).
   Directory(DirectorySettings settings, LogLine log);
   ~Directory();
   Directory(const Directory&) = delete;
@@ -44,7 +44,7 @@ class Directory {
 
   /// Installs signal handlers: SIGINT and SIGTERM stop the directory, and a second one of them has its
   /// default effect. SIGHUP reopens the log and reloads the lobby's key.
-  void heedSignals();
+  void installSignalHandlers();
   /// Serves until a signal stops it.
   void run();
 
@@ -58,9 +58,9 @@ class Directory {
 
   void openLobby();
   void reload();
-  void takeTurn(Time now);
-  void sendOn(Time now);
-  void awaitTurn();
+  void poll(Time now);
+  void publishRedirects(Time now);
+  void schedulePoll();
   void stop();
   void logCounters();
 
@@ -70,10 +70,10 @@ class Directory {
   asio::steady_timer m_timer{m_context};
   asio::signal_set m_signals{m_context};
   std::unique_ptr<ListFile> m_file;
-  FleetWatch m_fleet;
+  FleetMonitor m_fleet;
   std::optional<ServerIdentity> m_identity;
   std::optional<Lobby> m_lobby;
-  Time m_said_room{};
+  Time m_published_at{};
 };
 
 }  // namespace naiad

@@ -14,26 +14,26 @@
 #include <string>
 #include <string_view>
 
-#include "server/directory/FleetList.h"
+#include "server/directory/FleetRegistry.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/net/stream/TlsContext.h"
 
 namespace naiad {
 
 /// The lobby's answer to a client.
-struct LobbyAnswer {
-  enum class Kind { kSentOn, kNoPlace, kNoGame };
+struct LobbyReply {
+  enum class Kind { kRedirected, kNoPlace, kNoGame };
   Kind kind;
   std::string frame;  ///< the message to the client
 };
 
 /// Answers a hello and reserves a place on the chosen server. Returns nullopt if the frame is not a hello.
-std::optional<LobbyAnswer> answerHello(std::string_view frame, FleetList& servers);
+std::optional<LobbyReply> replyToHello(std::string_view frame, FleetRegistry& servers);
 
 struct LobbySettings {
-  std::string address = "::";                   ///< numeric
-  std::uint16_t port = 0;                       ///< 0: any free one
-  std::chrono::milliseconds hello_time{5'000};  ///< timeout of a connection without a hello
+  std::string address = "::";                      ///< numeric
+  std::uint16_t port = 0;                          ///< 0: any free one
+  std::chrono::milliseconds hello_timeout{5'000};  ///< timeout of a connection without a hello
   int max_per_address = 64;  ///< simultaneous new players from one IPv4 address or IPv6 /64
 };
 
@@ -50,11 +50,11 @@ struct LobbyCounters {
 /// Thread: the one that runs the context. `context` and `servers` must outlive the Lobby.
 class Lobby {
  public:
-  static constexpr std::size_t kMaxGuests = 1024;  ///< maximum connections without a hello
+  static constexpr std::size_t kMaxPending = 1024;  ///< maximum connections without a hello
 
   /// Begins to listen. Throws ListenError.
   Lobby(asio::io_context& context, const LobbySettings& settings, std::shared_ptr<const TlsContext> tls,
-        FleetList& servers);
+        FleetRegistry& servers);
   ~Lobby();
   Lobby(const Lobby&) = delete;
   Lobby& operator=(const Lobby&) = delete;

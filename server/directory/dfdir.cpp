@@ -78,7 +78,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .help = "Heartbeat interval, ms; must equal the servers'",
        .environment = "NAIAD_BUS_INTERVAL",
        .range =
-           naiad::OptionRange{naiad::Presence::kLeastInterval.count(), naiad::Presence::kMaxInterval.count()},
+           naiad::OptionRange{naiad::Presence::kMinInterval.count(), naiad::Presence::kMaxInterval.count()},
        .shows_default = true},
       naiad::typedOption("--list", "FILE", &settings.list,
                          "Write the list of servers to this file, for a web server and dfclient --list-url"),
@@ -113,7 +113,7 @@ std::string problemOf(const naiad::DirectorySettings& settings) {
   if (settings.list.empty() && !settings.lobby) return "specify --list FILE, --listen ADDRESS:PORT or both";
   if (settings.certificate.empty() != settings.key.empty())
     return "--certificate and --key must be used together";
-  return naiad::busComplaint(settings.bus);
+  return naiad::validateBusSettings(settings.bus);
 }
 
 /// Returns the link to the lobby that is printed and logged.
@@ -140,9 +140,9 @@ void serve(CommandLine& line) {
   const naiad::LogLine log = [lines](const naiad::LogEvent& event) { (*lines)(event); };
   line.settings.interval = std::chrono::milliseconds(line.interval_ms);
   if (line.settings.lobby) line.settings.lobby->max_per_address = line.max_per_address;
-  naiad::allowOpenFiles(kOpenFiles);
+  naiad::raiseOpenFileLimit(kOpenFiles);
   naiad::Directory directory(line.settings, log);
-  directory.heedSignals();
+  directory.installSignalHandlers();
   log(std::string("dfdir ") + naiad::kVersion);
   announce(line, directory, log);
   directory.run();
@@ -157,7 +157,7 @@ int start(int argc, char** argv) {
     std::fprintf(stderr, "dfdir: %s\nRun dfdir --help for more information.\n", problem.c_str());
     return kUsage;
   }
-  naiad::surviveBrokenPipes();
+  naiad::ignoreBrokenPipes();
   serve(line);
   return 0;
 }

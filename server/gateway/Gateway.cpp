@@ -86,9 +86,9 @@ struct Gateway::Loop {
   void listen(tcp::endpoint& endpoint);
   void accept();
   void onAccepted(error_code error, Peer peer);
-  void meet(Peer peer);
+  void onConnection(Peer peer);
   void sweep();
-  void heedSignals();
+  void installSignalHandlers();
   void reloadCertificate();
   void stop();
   void logCounters() const;
@@ -113,7 +113,7 @@ Gateway::Loop::Loop(GatewaySettings settings, LogLine line) : log(std::move(line
     throw GatewayError(error.what());
   }
   listen(endpoint);
-  AllowedNames names;
+  AllowedOrigins names;
   for (const WebOrigin& origin : settings.origins) names.add(origin);
   for (const WebOrigin& origin : ownOrigins(endpoint, has_tls)) names.add(origin);
   if (names.isEmpty())
@@ -125,7 +125,7 @@ Gateway::Loop::Loop(GatewaySettings settings, LogLine line) : log(std::move(line
 }
 
 Gateway::Loop::~Loop() {
-  if (state) state->guests.hangUp();
+  if (state) state->connections.disconnect();
 }
 
 void Gateway::Loop::listen(tcp::endpoint& endpoint) {
@@ -150,7 +150,7 @@ void Gateway::Loop::accept() {
 
 void Gateway::Loop::onAccepted(error_code error, Peer peer) {
   if (!error) {
-    meet(std::move(peer));
+    onConnection(std::move(peer));
     return accept();
   }
   ++state->counters.failed_accepts;
@@ -160,20 +160,20 @@ void Gateway::Loop::onAccepted(error_code error, Peer peer) {
   });
 }
 
-void Gateway::Loop::meet(Peer peer) {
+void Gateway::Loop::onConnection(Peer peer) {
   error_code gone;
   const tcp::endpoint endpoint = peer.remote_endpoint(gone);
   if (gone) return;
   ++state->counters.connections;
-  VisitorFacts visitor = VisitorFacts::of(bytesOf(endpoint.address()), endpoint.port());
-  if (!state->arrivals.take(visitor.prefix, std::chrono::steady_clock::now())) {
+  ProxiedPeer visitor = ProxiedPeer::of(bytesOf(endpoint.address()), endpoint.port());
+  if (!state->arrivals.tryConsume(visitor.prefix, std::chrono::steady_clock::now())) {
     ++state->counters.too_often;
     return;
   }
   // The place is taken first, so that no memory is used for a connection that gets none.
   const auto slot = std::make_shared<std::weak_ptr<WebConnection>>();
-  auto place = state->newcomers.take(visitor.prefix, [slot] {
-    if (const auto connection = slot->lock()) connection->hangUp();
+  auto place = state->pending.acquire(visitor.prefix, [slot] {
+    if (const auto connection = slot->lock()) connection->disconnect();
   });
   if (!place) {
     ++state->counters.no_place;
@@ -187,14 +187,14 @@ void Gateway::Loop::meet(Peer peer) {
 
 void Gateway::Loop::sweep() {
   const auto now = std::chrono::steady_clock::now();
-  state->guests.sweep(now);
+  state->connections.sweep(now);
   state->log.update(now);
-  if (is_stopping && state->guests.count() == 0) return signals.clear();
+  if (is_stopping && state->connections.count() == 0) return signals.clear();
   sweeper.expires_after(kSweepTime);
   sweeper.async_wait([this](error_code) { sweep(); });
 }
 
-void Gateway::Loop::heedSignals() {
+void Gateway::Loop::installSignalHandlers() {
   signals.async_wait([this](error_code error, int signal) {
     if (error) return;
     if (signal != SIGHUP) {
@@ -203,7 +203,7 @@ void Gateway::Loop::heedSignals() {
     }
     LineLog::reopenAll();
     reloadCertificate();
-    heedSignals();
+    installSignalHandlers();
   });
 }
 
@@ -222,7 +222,7 @@ void Gateway::Loop::stop() {
   error_code ignored;
   acceptor.close(ignored);
   retry.cancel();
-  state->guests.endService();
+  state->connections.shutDown();
   state->log.finish();
   logCounters();
 }
@@ -237,7 +237,7 @@ void Gateway::Loop::logCounters() const {
                                                        {"late", c.late},
                                                        {"too_often", c.too_often},
                                                        {"no_place", c.no_place},
-                                                       {"ended_for_others", state->newcomers.ended()},
+                                                       {"ended_for_others", state->pending.evicted()},
                                                        {"failed_handshakes", c.failed_handshakes},
                                                        {"failed_accepts", c.failed_accepts},
                                                        {"websockets", c.websockets},
@@ -291,13 +291,13 @@ const GatewayCounters& Gateway::counters() const {
   return m_loop->state->counters;
 }
 
-std::size_t Gateway::guests() const {
-  return m_loop->state->guests.count();
+std::size_t Gateway::connections() const {
+  return m_loop->state->connections.count();
 }
 
-void Gateway::heedSignals() {
+void Gateway::installSignalHandlers() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) m_loop->signals.add(signal);
-  m_loop->heedSignals();
+  m_loop->installSignalHandlers();
 }
 
 void Gateway::run() {

@@ -41,11 +41,11 @@ class Gateway {
   std::vector<std::string> addresses() const;
   const GatewayCounters& counters() const;
   /// Number of current connections and WebSockets.
-  std::size_t guests() const;
+  std::size_t connections() const;
 
   /// Installs signal handlers: SIGINT and SIGTERM call stop(), and a second one of them has its default
   /// effect. SIGHUP reopens the log and reloads the certificate.
-  void heedSignals();
+  void installSignalHandlers();
   /// Serves until stop() was called and all connections have ended.
   void run();
   /// Calls `job` in run(). Any thread.

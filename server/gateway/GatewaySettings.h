@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "server/gateway/AllowedNames.h"
+#include "server/gateway/AllowedOrigins.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
@@ -30,17 +30,18 @@ struct GatewaySettings {
   std::size_t max_per_address = 64;  ///< maximum players from one IPv4 address or IPv6 /64
   /// Maximum connections that do not play yet, in all and per address: enough for a class that opens the page
   /// at once.
-  std::size_t max_newcomers = 1024;
-  std::size_t max_newcomers_per_address = 512;
+  std::size_t max_pending = 1024;
+  std::size_t max_pending_per_address = 512;
 
-  std::chrono::milliseconds head_time{5'000};    ///< timeout from accept to the end of the first request
-  std::chrono::milliseconds idle_time{15'000};   ///< timeout from an answer to the end of the next request
-  std::chrono::milliseconds hello_time{10'000};  ///< timeout from the upgrade to the first message
-  std::chrono::milliseconds open_time{5'000};    ///< timeout of connecting to the server and proof of its key
-  std::chrono::milliseconds stall_time{20'000};  ///< timeout of a browser that does not read its data
-  std::chrono::milliseconds close_time{3'000};   ///< timeout of a browser's answer to a close
+  std::chrono::milliseconds head_timeout{5'000};    ///< timeout from accept to the end of the first request
+  std::chrono::milliseconds idle_timeout{15'000};   ///< timeout from an answer to the end of the next request
+  std::chrono::milliseconds hello_timeout{10'000};  ///< timeout from the upgrade to the first message
+  std::chrono::milliseconds connect_timeout{
+      5'000};  ///< timeout of connecting to the server and proof of its key
+  std::chrono::milliseconds stall_timeout{20'000};  ///< timeout of a browser that does not read its data
+  std::chrono::milliseconds close_timeout{3'000};   ///< timeout of a browser's answer to a close
   /// Idle time before a ping; twice this disconnects the browser.
-  std::chrono::milliseconds ping_time{20'000};
+  std::chrono::milliseconds ping_interval{20'000};
 };
 
 /// Counters, logged when the gateway ends.

@@ -54,7 +54,7 @@ std::string tagOf(const std::string& content) {
 }
 
 /// Returns the content compressed with gzip; empty if that does not save space.
-std::string packed(const std::string& content) {
+std::string compressed(const std::string& content) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
     return {};
@@ -74,7 +74,7 @@ std::string packed(const std::string& content) {
 PageFile pageFile(std::string_view name, std::string content) {
   const TypeOfName& type = typeOf(name);
   PageFile file{std::string(type.type), tagOf(content), std::move(content), {}};
-  if (type.packs) file.packed = packed(file.content);
+  if (type.packs) file.compressed = compressed(file.content);
   return file;
 }
 

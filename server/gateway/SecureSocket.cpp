@@ -87,16 +87,16 @@ bool SecureSocket::flush() {
 }
 
 SecureSocket::Progress SecureSocket::tryFlush() {
-  while (keptBytes() > 0) {
-    const std::span<const char> left(m_kept.data() + m_kept_begin, std::min(keptBytes(), kFlatSize));
+  while (queuedBytes() > 0) {
+    const std::span<const char> left(m_queued.data() + m_queued_begin, std::min(queuedBytes(), kFlatSize));
     const Progress progress =
-        m_tls ? tryWriteTls(left) : judge(writePlain(net::const_buffer(left.data(), left.size())));
+        m_tls ? tryWriteTls(left) : toProgress(writePlain(net::const_buffer(left.data(), left.size())));
     if (progress.outcome != Outcome::kDone || progress.error) return progress;
-    m_kept_begin += progress.bytes;
+    m_queued_begin += progress.bytes;
   }
-  m_kept_begin = 0;
-  m_kept.clear();
-  if (m_kept.capacity() > kMaxIdle) std::string().swap(m_kept);
+  m_queued_begin = 0;
+  m_queued.clear();
+  if (m_queued.capacity() > kMaxIdle) std::string().swap(m_queued);
   return {};
 }
 
@@ -126,7 +126,7 @@ bool SecureSocket::holdsInput() const {
          SSL_has_pending(m_tls->ssl.get()) == 1;  // also for a partial record, which costs one vain attempt
 }
 
-SecureSocket::Progress SecureSocket::judge(std::pair<error_code, std::size_t> written) {
+SecureSocket::Progress SecureSocket::toProgress(std::pair<error_code, std::size_t> written) {
   const bool again = written.first == net::error::would_block || written.first == net::error::interrupted;
   return again ? Progress{Outcome::kWantsWrite} : Progress{Outcome::kDone, written.second, written.first};
 }
@@ -135,7 +135,7 @@ SecureSocket::Progress SecureSocket::tryHandshake() {
   ERR_clear_error();
   const int result = SSL_do_handshake(m_tls->ssl.get());
   if (result == 1) m_tls->bio.guard.reset();
-  return judgeTls(result, 0);
+  return toTlsProgress(result, 0);
 }
 
 SecureSocket::Progress SecureSocket::tryRead(std::span<char> into) {
@@ -144,7 +144,7 @@ SecureSocket::Progress SecureSocket::tryRead(std::span<char> into) {
     ERR_clear_error();
     std::size_t size = 0;
     const int result = SSL_read_ex(m_tls->ssl.get(), into.data(), into.size(), &size);
-    return judgeTls(result, size);
+    return toTlsProgress(result, size);
   }
   error_code error;
   const std::size_t size = m_socket.read_some(net::buffer(into.data(), into.size()), error);
@@ -158,7 +158,7 @@ SecureSocket::Progress SecureSocket::tryWriteTls(std::span<const char> bytes) {
   std::size_t size = 0;
   const int result = SSL_write_ex(m_tls->ssl.get(), bytes.data(), bytes.size(), &size);
   m_unsent_bound += bytes.size() + kRecordExtra;
-  return judgeTls(result, size);
+  return toTlsProgress(result, size);
 }
 
 /// Reads and discards raw bytes, below TLS.
@@ -171,7 +171,7 @@ SecureSocket::Progress SecureSocket::tryDrain(std::size_t& drained) {
   return {Outcome::kDone, 0, error == net::error::eof ? error_code() : error};
 }
 
-SecureSocket::Progress SecureSocket::judgeTls(int result, std::size_t bytes) {
+SecureSocket::Progress SecureSocket::toTlsProgress(int result, std::size_t bytes) {
   if (result == 1) return {Outcome::kDone, bytes};
   const int reason = SSL_get_error(m_tls->ssl.get(), result);
   ERR_clear_error();

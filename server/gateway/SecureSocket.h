@@ -62,9 +62,9 @@ class SecureSocket {
 
   /// Queues these bytes for the next flush(). They are sent after pending writes and before later ones, never
   /// in the middle of one, so other writes on this socket (Beast's control frames) stay intact.
-  void put(std::string_view bytes) { m_kept.append(bytes); }
+  void put(std::string_view bytes) { m_queued.append(bytes); }
   /// Number of queued bytes that the kernel does not have yet.
-  std::size_t keptBytes() const { return m_kept.size() - m_kept_begin; }
+  std::size_t queuedBytes() const { return m_queued.size() - m_queued_begin; }
   /// Sends the queued bytes as far as possible without waiting. The next write or flush() sends the rest.
   /// Returns false if the connection has ended.
   bool flush();
@@ -87,7 +87,7 @@ class SecureSocket {
   }
   /// Waits until the kernel accepts more data (TCP_NOTSENT_LOWAT). Signature of the token: void(error_code).
   template <class Token>
-  auto asyncWaitForRoom(Token&& token) {
+  auto asyncWaitWritable(Token&& token) {
     return m_socket.async_wait(Socket::wait_write, std::forward<Token>(token));
   }
   /// Like those of Asio's streams. A read ends with eof after an orderly shutdown by the peer, and with
@@ -153,7 +153,7 @@ class SecureSocket {
       return progress;
     }
     Progress write(SecureSocket& socket) {
-      if (!socket.hasTls()) return socket.judge(socket.writePlain(buffers));
+      if (!socket.hasTls()) return socket.toProgress(socket.writePlain(buffers));
       // Copies the buffers together, to make one record of them. A retry copies equal bytes, as OpenSSL
       // requires.
       const std::size_t size =
@@ -227,20 +227,20 @@ class SecureSocket {
 
   static std::span<char> flatBytes();
   bool holdsInput() const;
-  static Progress judge(std::pair<error_code, std::size_t> written);
+  static Progress toProgress(std::pair<error_code, std::size_t> written);
   Progress tryHandshake();
   Progress tryRead(std::span<char> into);
   Progress tryWriteTls(std::span<const char> bytes);
   Progress tryFlush();
   Progress tryDrain(std::size_t& drained);
-  Progress judgeTls(int result, std::size_t bytes);
+  Progress toTlsProgress(int result, std::size_t bytes);
 
   Socket m_socket;
   std::unique_ptr<Tls> m_tls;
   bool m_is_server = false;     // TLS server: wait for the client's hello before OpenSSL allocates memory
   bool m_is_mid_write = false;  // a part of a write was sent; the rest must come next
-  std::string m_kept;
-  std::size_t m_kept_begin = 0;              // bytes of m_kept that were sent
+  std::string m_queued;
+  std::size_t m_queued_begin = 0;            // bytes of m_queued that were sent
   std::size_t m_unsent_bound = kNeverAsked;  // upper bound of the kernel's unsent bytes
 };
 

@@ -7,7 +7,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <utility>
 
-#include "server/gateway/PlayStream.h"
+#include "server/gateway/WebSocketRelay.h"
 
 namespace naiad {
 namespace {
@@ -16,12 +16,12 @@ namespace http = boost::beast::http;
 
 constexpr std::uint32_t kMaxHead = 8 * 1024;  // bytes of a request's head
 constexpr int kMaxRequests = 100;             // requests on one connection
-/// Time for the browser to read an answer: kAnswerTime and 1 s per kAnswerRate bytes.
-constexpr std::chrono::seconds kAnswerTime{30};
-constexpr std::size_t kAnswerRate = std::size_t{16} * 1024;
+/// Time for the browser to read a response: kResponseTimeout and 1 s per kResponseRate bytes.
+constexpr std::chrono::seconds kResponseTimeout{30};
+constexpr std::size_t kResponseRate = std::size_t{16} * 1024;
 constexpr std::size_t kMaxQuoted = 100;  // maximum bytes of a header in the log
 
-bool isOfHttp(error_code error) {
+bool isHttpError(error_code error) {
   return error.category() == http::make_error_code(http::error::bad_method).category();
 }
 
@@ -32,23 +32,23 @@ std::string headerText(const WebRequest& request, http::field name) {
 
 }  // namespace
 
-WebConnection::WebConnection(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor)
-    : Guest(gateway.sharedGuests()),
+WebConnection::WebConnection(GatewayState& gateway, SecureSocket socket, ProxiedPeer visitor)
+    : GatewayConnection(gateway.sharedConnections()),
       m_gateway(gateway),
       m_socket(std::move(socket)),
       m_visitor(std::move(visitor)),
       m_buffer(kMaxHead + 1) {}
 
-void WebConnection::start(Newcomers::Place place) {
-  m_place = std::move(place);
-  setTime(m_gateway.settings.head_time);
+void WebConnection::start(PendingConnections::Slot slot) {
+  m_slot = std::move(slot);
+  setDeadline(m_gateway.settings.head_timeout);
   if (!m_gateway.tls) return readRequest();
-  if (!m_socket.startTls(m_gateway.tls->get(), SecureSocket::Role::kServer)) return hangUp();
+  if (!m_socket.startTls(m_gateway.tls->get(), SecureSocket::Role::kServer)) return disconnect();
   m_socket.asyncHandshake([self = sharedFrom(this)](error_code error) {
     if (self->m_is_over) return;
     if (!error) return self->readRequest();
     ++self->m_gateway.counters.failed_handshakes;
-    self->hangUp();
+    self->disconnect();
   });
 }
 
@@ -65,22 +65,22 @@ void WebConnection::readRequest() {
 void WebConnection::onRequest(error_code error) {
   if (error) return onBadRequest(error);
   ++m_gateway.counters.requests;
-  if (!m_place.setBusy()) {
+  if (!m_slot.setBusy()) {
     ++m_gateway.counters.no_place;
-    return hangUp();
+    return disconnect();
   }
   if (!m_parser->is_done()) return refuse(400, "Request bodies are not allowed.\n");
   const WebRequest& request = m_parser->get();
   if (boost::beast::websocket::is_upgrade(request)) return onUpgrade();
   if (++m_requests == kMaxRequests) m_parser->get().keep_alive(false);
-  send(m_gateway.answers.answer(request));
+  send(m_gateway.responses.response(request));
 }
 
 void WebConnection::onBadRequest(error_code error) {
   const bool is_end = error == http::error::end_of_stream || error == http::error::partial_message;
-  if (!isOfHttp(error) || is_end) return hangUp();
+  if (!isHttpError(error) || is_end) return disconnect();
   ++m_gateway.counters.bad_requests;
-  if (!m_place.setBusy()) return hangUp();
+  if (!m_slot.setBusy()) return disconnect();
   if (error == http::error::header_limit || error == http::error::buffer_overflow)
     return refuse(431, "The request header is longer than 8 KiB.\n");
   if (error == http::error::body_limit) return refuse(413, "Request bodies are not allowed.\n");
@@ -89,61 +89,61 @@ void WebConnection::onBadRequest(error_code error) {
 
 void WebConnection::onUpgrade() {
   const WebRequest& request = m_parser->get();
-  const auto* const refusal = m_gateway.answers.judgeUpgrade(request);
+  const auto* const refusal = m_gateway.responses.validateUpgrade(request);
   if (refusal) {
     ++m_gateway.counters.refused_upgrades;
     m_gateway.log.logRefusal(m_visitor.name,
                              "WebSocket from the page " + headerText(request, http::field::origin) +
                                  " to host " + headerText(request, http::field::host),
                              std::chrono::steady_clock::now());
-    return refuse(refusal->status, refusal->sentence);
+    return refuse(refusal->status, refusal->message);
   }
-  // A client must not send frames before the answer to its upgrade.
+  // A client must not send frames before the response to its upgrade.
   if (m_buffer.size() > 0) return refuse(400, "Data arrived before the WebSocket was open.\n");
   m_is_over = true;
-  m_place.setSilent();
-  const auto stream =
-      std::make_shared<PlayStream>(m_gateway, std::move(m_socket), std::move(m_visitor), std::move(m_place));
+  m_slot.setSilent();
+  const auto stream = std::make_shared<WebSocketRelay>(m_gateway, std::move(m_socket), std::move(m_visitor),
+                                                       std::move(m_slot));
   stream->accept(request);
 }
 
-void WebConnection::refuse(int status, std::string_view sentence) {
-  send(m_gateway.answers.refusal(status, sentence));
+void WebConnection::refuse(int status, std::string_view message) {
+  send(m_gateway.responses.refusal(status, message));
 }
 
-void WebConnection::send(HttpAnswer answer) {
-  m_answer = std::move(answer);
-  if (m_answer.is_refusal) ++m_gateway.counters.refused_requests;
-  setTime(kAnswerTime + std::chrono::seconds(m_answer.body().size() / kAnswerRate));
+void WebConnection::send(HttpResponse response) {
+  m_response = std::move(response);
+  if (m_response.is_refusal) ++m_gateway.counters.refused_requests;
+  setDeadline(kResponseTimeout + std::chrono::seconds(m_response.body().size() / kResponseRate));
   const std::array<boost::asio::const_buffer, 2> buffers{
-      boost::asio::buffer(m_answer.head),
-      boost::asio::buffer(m_answer.body().data(), m_answer.body().size())};
+      boost::asio::buffer(m_response.head),
+      boost::asio::buffer(m_response.body().data(), m_response.body().size())};
   boost::asio::async_write(m_socket, buffers, [self = sharedFrom(this)](error_code error, std::size_t) {
     if (!self->m_is_over) self->onSent(error);
   });
 }
 
 void WebConnection::onSent(error_code error) {
-  if (error) return hangUp();
-  if (m_answer.keeps_connection) {
-    m_place.setSilent();
-    setTime(m_gateway.settings.idle_time);
+  if (error) return disconnect();
+  if (m_response.keeps_connection) {
+    m_slot.setSilent();
+    setDeadline(m_gateway.settings.idle_timeout);
     return readRequest();
   }
-  setTime(m_gateway.settings.close_time);
-  m_socket.asyncDrain([self = sharedFrom(this)](error_code) { self->hangUp(); });
+  setDeadline(m_gateway.settings.close_timeout);
+  m_socket.asyncDrain([self = sharedFrom(this)](error_code) { self->disconnect(); });
 }
 
 void WebConnection::onDeadline() {
   ++m_gateway.counters.late;
-  hangUp();
+  disconnect();
 }
 
-void WebConnection::hangUp() {
+void WebConnection::disconnect() {
   m_is_over = true;
-  setNoTime();
+  clearDeadline();
   m_socket.close();
-  m_place = {};
+  m_slot = {};
 }
 
 }  // namespace naiad

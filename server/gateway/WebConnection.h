@@ -1,4 +1,4 @@
-// A browser's connection until it ends or becomes a WebSocket: TLS (if configured), requests and answers.
+// A browser's connection until it ends or becomes a WebSocket: TLS (if configured), requests and responses.
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
@@ -14,16 +14,16 @@ namespace naiad {
 
 /// Memory: at most 8 KiB for a request's head, and OpenSSL's for one connection.
 /// Thread: the gateway's.
-class WebConnection : public Guest {
+class WebConnection : public GatewayConnection {
  public:
-  WebConnection(GatewayState& gateway, SecureSocket socket, VisitorFacts visitor);
+  WebConnection(GatewayState& gateway, SecureSocket socket, ProxiedPeer visitor);
 
-  /// Begins to serve. `place`: the connection's place among the newcomers.
-  void start(Newcomers::Place place);
+  /// Begins to serve. `slot`: the connection's slot among the PendingConnections.
+  void start(PendingConnections::Slot slot);
 
   void onDeadline() override;
-  void endService() override { hangUp(); }
-  void hangUp() override;
+  void shutDown() override { disconnect(); }
+  void disconnect() override;
 
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
@@ -32,17 +32,17 @@ class WebConnection : public Guest {
   void onRequest(error_code error);
   void onBadRequest(error_code error);
   void onUpgrade();
-  void refuse(int status, std::string_view sentence);
-  void send(HttpAnswer answer);
+  void refuse(int status, std::string_view message);
+  void send(HttpResponse response);
   void onSent(error_code error);
 
   GatewayState& m_gateway;
   SecureSocket m_socket;
-  VisitorFacts m_visitor;
-  Newcomers::Place m_place;
+  ProxiedPeer m_visitor;
+  PendingConnections::Slot m_slot;
   boost::beast::flat_buffer m_buffer;
   std::optional<Parser> m_parser;
-  HttpAnswer m_answer;
+  HttpResponse m_response;
   int m_requests = 0;
   bool m_is_over = false;
 };

@@ -53,7 +53,7 @@ std::string storeOrigin(const std::string& text, naiad::GatewaySettings& setting
 
 std::string storeLink(const std::string& text, naiad::GatewaySettings& settings) {
   const auto parsed = naiad::JoinLink::parse(text);
-  if (const auto* const problem = std::get_if<naiad::LinkProblem>(&parsed)) return problem->sentence;
+  if (const auto* const problem = std::get_if<naiad::LinkError>(&parsed)) return problem->message;
   settings.link = std::get<naiad::JoinLink>(parsed);
   return settings.link->room.empty() ? "" : "dfweb requires a link without a room: remove what follows the /";
 }
@@ -120,8 +120,8 @@ std::string problemOf(const naiad::GatewaySettings& settings) {
 
 /// Raises the limit of open files: two for each WebSocket, one for each newcomer.
 void allowFiles(const naiad::GatewaySettings& settings, const naiad::LogLine& log) {
-  const std::size_t wanted = 4 * settings.max_visitors + settings.max_newcomers + kOwnFiles;
-  const std::size_t allowed = naiad::allowOpenFiles(wanted);
+  const std::size_t wanted = 4 * settings.max_visitors + settings.max_pending + kOwnFiles;
+  const std::size_t allowed = naiad::raiseOpenFileLimit(wanted);
   if (allowed < wanted)
     log("only " + std::to_string(allowed) + " of the " + std::to_string(wanted) +
         " open files that --max-visitors may require are allowed (ulimit -n)");
@@ -132,7 +132,7 @@ void serve(WebOptions& web) {
   const naiad::LogLine log = [lines](const std::string& line) { (*lines)(line); };
   allowFiles(web.settings, log);
   naiad::Gateway gateway(web.settings, log);
-  gateway.heedSignals();
+  gateway.installSignalHandlers();
   if (!web.port_file.empty()) naiad::publishFile(web.port_file, std::to_string(gateway.port()) + "\n");
   for (const std::string& address : gateway.addresses()) std::printf("Players open %s\n", address.c_str());
   std::fflush(stdout);
@@ -153,7 +153,7 @@ int start(int argc, char** argv) {
     std::fprintf(stderr, "dfweb: %s\nRun dfweb --help for more information.\n", problem.c_str());
     return kUsage;
   }
-  naiad::surviveBrokenPipes();
+  naiad::ignoreBrokenPipes();
   serve(web);
   return 0;
 }

@@ -128,7 +128,7 @@ std::uint64_t nanosOf(const timespec& time) {
   return static_cast<std::uint64_t>(time.tv_sec) * kSecond + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
-void notePath(const char* path) {
+void recordPath(const char* path) {
   Repeat& all = repeat();
   if (!all.on || !all.notes || path == nullptr || strchr(path, '\n') != nullptr) return;
   for (const char* p_system : {"/proc/", "/sys/", "/dev/", "/etc/", "/usr/", "/lib"})
@@ -145,13 +145,14 @@ bool reads(int flags) {
   return (flags & O_ACCMODE) == O_RDONLY && (flags & (O_DIRECTORY | O_CREAT)) == 0;
 }
 
-int noteOpen(int file, const char* path, int flags) {
-  if (file >= 0 && reads(flags)) notePath(path);
+int recordOpen(int file, const char* path, int flags) {
+  if (file >= 0 && reads(flags)) recordPath(path);
   return file;
 }
 
-FILE* noteOpen(FILE* p_file, const char* path, const char* mode) {
-  if (p_file != nullptr && mode != nullptr && mode[0] == 'r' && strchr(mode, '+') == nullptr) notePath(path);
+FILE* recordOpen(FILE* p_file, const char* path, const char* mode) {
+  if (p_file != nullptr && mode != nullptr && mode[0] == 'r' && strchr(mode, '+') == nullptr)
+    recordPath(path);
   return p_file;
 }
 
@@ -290,12 +291,12 @@ unsigned _ZNSt13random_device9_M_getvalEv(void* p_device) {
 
 FILE* fopen(const char* path, const char* mode) {
   static auto* const p_next = next(&fopen, "fopen");
-  return noteOpen(p_next(path, mode), path, mode);
+  return recordOpen(p_next(path, mode), path, mode);
 }
 
 FILE* fopen64(const char* path, const char* mode) {
   static auto* const p_next = next(&fopen64, "fopen64");
-  return noteOpen(p_next(path, mode), path, mode);
+  return recordOpen(p_next(path, mode), path, mode);
 }
 
 int open(const char* path, int flags, ...) {
@@ -304,7 +305,7 @@ int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = modeOf(arguments, flags);
   va_end(arguments);
-  return noteOpen(p_next(path, flags, mode), path, flags);
+  return recordOpen(p_next(path, flags, mode), path, flags);
 }
 
 int open64(const char* path, int flags, ...) {
@@ -313,7 +314,7 @@ int open64(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = modeOf(arguments, flags);
   va_end(arguments);
-  return noteOpen(p_next(path, flags, mode), path, flags);
+  return recordOpen(p_next(path, flags, mode), path, flags);
 }
 
 int openat(int folder, const char* path, int flags, ...) {
@@ -322,7 +323,7 @@ int openat(int folder, const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = modeOf(arguments, flags);
   va_end(arguments);
-  return noteOpen(p_next(folder, path, flags, mode), path, flags);
+  return recordOpen(p_next(folder, path, flags, mode), path, flags);
 }
 
 int openat64(int folder, const char* path, int flags, ...) {
@@ -331,7 +332,7 @@ int openat64(int folder, const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = modeOf(arguments, flags);
   va_end(arguments);
-  return noteOpen(p_next(folder, path, flags, mode), path, flags);
+  return recordOpen(p_next(folder, path, flags, mode), path, flags);
 }
 
 }  // extern "C"

@@ -28,7 +28,7 @@ constexpr const char* kDebugger = "gdb";
 constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
 
 /// Time limit of stopping the world, which is polled: only a child would report that it stopped.
-constexpr std::chrono::seconds kStopPatience{10};
+constexpr std::chrono::seconds kStopTimeout{10};
 
 /// Returns the state letter in /proc; 0: it has ended. The name before it may have any characters.
 char stateOf(pid_t process) {
@@ -40,7 +40,7 @@ char stateOf(pid_t process) {
 
 void stopWorld(pid_t world) {
   if (world <= 0 || kill(world, SIGSTOP) != 0) throw RoundError("Cannot stop the game's process.");
-  const auto end = std::chrono::steady_clock::now() + kStopPatience;
+  const auto end = std::chrono::steady_clock::now() + kStopTimeout;
   while (stateOf(world) != 'T') {
     if (std::chrono::steady_clock::now() >= end) throw RoundError("The game's process does not stop.");
     poll(nullptr, 0, 1);
@@ -48,14 +48,14 @@ void stopWorld(pid_t world) {
 }
 
 /// A descriptor that is closed at the end of its block.
-class WaitedFor {
+class ScopedDescriptor {
  public:
-  explicit WaitedFor(int number) : m_number(number) {
+  explicit ScopedDescriptor(int number) : m_number(number) {
     if (number < 0) throw std::system_error(errno, std::generic_category(), "waiting for the debugger");
   }
-  ~WaitedFor() { close(m_number); }
-  WaitedFor(const WaitedFor&) = delete;
-  WaitedFor& operator=(const WaitedFor&) = delete;
+  ~ScopedDescriptor() { close(m_number); }
+  ScopedDescriptor(const ScopedDescriptor&) = delete;
+  ScopedDescriptor& operator=(const ScopedDescriptor&) = delete;
   int get() const { return m_number; }
 
  private:
@@ -106,10 +106,10 @@ int watchSignals() {
 }
 
 /// Executes the remaining turns, until the world or the file ends, or `ended` is readable.
-void goOn(Replay& replay, int ended, std::ostream& out) {
-  replay.world().waitAlsoFor(ended);
+void resumeRound(Replay& replay, int ended, std::ostream& out) {
+  replay.world().setCancelDescriptor(ended);
   while (replay.step()) continue;
-  const auto status = replay.world().takeEnd();
+  const auto status = replay.world().popExitStatus();
   if (!status) return;
   out << "The world ended in tick " << replay.tick();
   if (WIFSIGNALED(*status)) out << ": SIG" << sigabbrev_np(WTERMSIG(*status));
@@ -128,9 +128,10 @@ void executeTo(Replay& replay, std::uint32_t tick) {
 
 }  // namespace
 
-void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32_t until, std::ostream& out) {
-  Replay replay(round, stage);
-  replay.keepDroppedKeys(until);
+void debugRound(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t until,
+                std::ostream& out) {
+  Replay replay(round, environment);
+  replay.restoreDroppedInputs(until);
   executeTo(replay, until);
   if (replay.firstDifference() != 0)
     out << "note: the replay differs from the recording since tick " << replay.firstDifference() << "\n";
@@ -140,15 +141,15 @@ void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32
                             std::to_string(until) + " of the round.";
   out << which << " `continue` executes that tick.\n" << std::flush;
   if (const pid_t debugger = startDebugger(world); debugger > 0) {
-    const WaitedFor ended(watchProcess(debugger));
-    goOn(replay, ended.get(), out);
+    const ScopedDescriptor ended(watchProcess(debugger));
+    resumeRound(replay, ended.get(), out);
     return waitForDebugger(debugger);
   }
   out << kDebugger << " is not installed. In another terminal: " << kDebugger << " -p " << world << " -ex '"
       << kNoStop << "' (or attach another debugger), then continue. Ctrl-C here ends the game.\n"
       << std::flush;
-  const WaitedFor ended(watchSignals());
-  goOn(replay, ended.get(), out);
+  const ScopedDescriptor ended(watchSignals());
+  resumeRound(replay, ended.get(), out);
 }
 
 }  // namespace naiad

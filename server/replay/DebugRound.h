@@ -16,6 +16,7 @@ namespace naiad {
 /// Debugs a round until the debugger ends; without gdb, until the world or the user (SIGINT, SIGTERM) ends
 /// it. `out` gets messages for the user. Throws RoundError if the round has no tick `until`, or if its world
 /// ends before it or cannot be stopped; std::system_error.
-void debugRound(const RecordedRound& round, const RoundStage& stage, std::uint32_t until, std::ostream& out);
+void debugRound(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t until,
+                std::ostream& out);
 
 }  // namespace naiad

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/rounds/Journals.h"
-#include "host/rounds/WorldSandbox.h"
-#include "host/rounds/Worlds.h"
+#include "host/rounds/RoundJournals.h"
+#include "host/rounds/SandboxPolicy.h"
+#include "host/rounds/WorldFactory.h"
 #include "host/settings/GameModule.h"
 #include "host/settings/HostOptions.h"
 #include "shared/net/base/SafeText.h"
@@ -78,22 +78,22 @@ std::unique_ptr<DfrReader> RecordedRound::read() const {
   return std::make_unique<DfrReader>(m_bytes);
 }
 
-std::vector<std::string> RecordedRound::doubts() const {
-  std::vector<std::string> doubts;
+std::vector<std::string> RecordedRound::warnings() const {
+  std::vector<std::string> warnings;
   if ((m_header.flags & kDfrInProcess) != 0)
-    doubts.emplace_back(
+    warnings.emplace_back(
         "the game ran in the server's process: its clocks, entropy and addresses are not repeatable");
   else if (fact(kFactClocks) != "repeatable")
-    doubts.emplace_back("the game's clocks and entropy are not repeatable");
+    warnings.emplace_back("the game's clocks and entropy are not repeatable");
   if ((m_header.flags & kDfrInProcess) == 0 && fact(kFactAddresses) != "fixed")
-    doubts.emplace_back("the game's memory addresses were random");
-  if ((m_header.flags & kDfrStopped) != 0) doubts.emplace_back("the recording ended before the round");
-  return doubts;
+    warnings.emplace_back("the game's memory addresses were random");
+  if ((m_header.flags & kDfrStopped) != 0) warnings.emplace_back("the recording ended before the round");
+  return warnings;
 }
 
 // ---- the game ---------------------------------------------------------------------------------------------
 
-RoundStage::RoundStage(const RecordedRound& round, const std::string& game) : m_round(round) {
+ReplayEnvironment::ReplayEnvironment(const RecordedRound& round, const std::string& game) : m_round(round) {
   const std::string module = findModule(game);
   std::string name = (std::filesystem::temp_directory_path() / "dfreplay-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
@@ -103,18 +103,18 @@ RoundStage::RoundStage(const RecordedRound& round, const std::string& game) : m_
   HostOptions options;
   options.players = choiceOf(round.fact(kFactPlayers), {"together", "first", "private"});
   options.on_game_over = choiceOf(round.fact(kFactGameOver), {"leave", "exit", "restart"});
-  m_launcher = launchAgain(options, module, (ownFolder() / "dfserver").string(), m_folder.string(),
-                           variablesOf(round.facts()));
+  m_launcher = launchReplay(options, module, (ownFolder() / "dfserver").string(), m_folder.string(),
+                            variablesOf(round.facts()));
   findDifferences();
 }
 
-RoundStage::~RoundStage() {
+ReplayEnvironment::~ReplayEnvironment() {
   m_launcher.reset();
   std::error_code ignored;
   fs::remove_all(m_folder, ignored);
 }
 
-std::string RoundStage::findModule(const std::string& game) {
+std::string ReplayEnvironment::findModule(const std::string& game) {
   const std::string recorded = m_round.fact(kFactModule);
   const std::string name = m_round.fact(kFactGame);
   if (game.empty() && !isGameName(name)) throw RoundError("The file names no valid game; use --game.");
@@ -131,21 +131,21 @@ std::string RoundStage::findModule(const std::string& game) {
   if (game.empty())
     throw RoundError("The installed game " + quoted(name) +
                      " differs from the recorded version; use --game to replay it anyway.");
-  m_doubts.push_back(module + " differs from the recorded game");
+  m_warnings.push_back(module + " differs from the recorded game");
   return module;
 }
 
-void RoundStage::findDifferences() {
+void ReplayEnvironment::findDifferences() {
   const DfrFacts here = factsOfMachine();
   for (const char* p_name : {"build libdragonfly.so", "build libc.so", "build libstdc++.so", "kernel"}) {
     const auto found = here.find(p_name);
     const std::string now = found != here.end() ? found->second : std::string();
-    if (now != m_round.fact(p_name)) m_doubts.push_back(std::string(p_name) + " is not the recorded one");
+    if (now != m_round.fact(p_name)) m_warnings.push_back(std::string(p_name) + " is not the recorded one");
   }
 }
 
-WorldOrder RoundStage::order() const {
-  WorldOrder order;
+WorldStartOptions ReplayEnvironment::order() const {
+  WorldStartOptions order;
   order.seed = m_round.header().seed;
   order.repeatable = true;
   order.again = true;

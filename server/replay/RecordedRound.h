@@ -31,7 +31,7 @@ class RecordedRound {
   /// Returns a reader at the beginning of the file. This must outlive it.
   std::unique_ptr<DfrReader> read() const;
   /// Returns warnings about the recording, as sentences, for example that its clocks were real.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
 
  private:
   std::string m_bytes;
@@ -40,19 +40,19 @@ class RecordedRound {
 };
 
 /// Replays the worlds of a round in a folder of their own, which is removed at the end.
-class RoundStage {
+class ReplayEnvironment {
  public:
   /// `game`: a name or path from the user; empty: the installed game that the file names, if its module is
   /// unchanged. Throws RoundError or std::system_error.
-  RoundStage(const RecordedRound& round, const std::string& game);
-  ~RoundStage();
-  RoundStage(const RoundStage&) = delete;
-  RoundStage& operator=(const RoundStage&) = delete;
+  ReplayEnvironment(const RecordedRound& round, const std::string& game);
+  ~ReplayEnvironment();
+  ReplayEnvironment(const ReplayEnvironment&) = delete;
+  ReplayEnvironment& operator=(const ReplayEnvironment&) = delete;
 
   const WorldLauncher& launcher() const { return *m_launcher; }
-  WorldOrder order() const;
+  WorldStartOptions order() const;
   /// Returns the differences of game and machine to the recorded ones, as sentences.
-  const std::vector<std::string>& doubts() const { return m_doubts; }
+  const std::vector<std::string>& warnings() const { return m_warnings; }
 
  private:
   std::string findModule(const std::string& game);
@@ -60,7 +60,7 @@ class RoundStage {
 
   const RecordedRound& m_round;
   std::filesystem::path m_folder;
-  std::vector<std::string> m_doubts;
+  std::vector<std::string> m_warnings;
   std::shared_ptr<const WorldLauncher> m_launcher;
 };
 

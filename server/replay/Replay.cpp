@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "host/rounds/Journals.h"
+#include "host/rounds/RoundJournals.h"
 #include "host/world/WorldFrame.h"
 #include "host/world/WorldProcess.h"
 #include "shared/net/base/SafeText.h"
@@ -21,23 +21,23 @@ constexpr std::size_t kMaxPrinted = 4096;
 
 constexpr const char* kEnded = "ended";
 
-/// Time limit for the keeper's report of the world's end; it first ends what the world has started.
-constexpr int kEndMillis = 2000;
+/// Time limit for the supervisor's report of the world's end; it first ends what the world has started.
+constexpr int kExitReportTimeoutMillis = 2000;
 
 }  // namespace
 
-ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order)
+ReplayWorld::ReplayWorld(const WorldLauncher& launcher, const WorldStartOptions& order)
     : m_started(launcher.start(order)) {
   if (receiveFrame()) m_ready = readReady(m_answer);
-  // The keeper sends this before the world's program is executed.
-  KeeperStart begun;
-  if (m_ready && recv(m_started.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
+  // The supervisor sends this before the world's program is executed.
+  WorldStartReport begun;
+  if (m_ready && recv(m_started.supervisor, &begun, sizeof begun, MSG_WAITALL) == sizeof begun)
     m_process = begun.process;
   if (!m_ready && m_failure.empty()) m_failure = "sent a malformed answer";
 }
 
 ReplayWorld::~ReplayWorld() {
-  for (const int one : {m_started.socket, m_started.keeper, m_started.output, m_started.page}) close(one);
+  for (const int one : {m_started.socket, m_started.supervisor, m_started.output, m_started.page}) close(one);
 }
 
 std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
@@ -52,12 +52,13 @@ std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
 
 // Also reads the world's output, because the world blocks when the pipe is full.
 bool ReplayWorld::wait(short events) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kResponseTimeout;
   while (true) {
-    pollfd any[3] = {{m_started.socket, events, 0}, {m_started.output, POLLIN, 0}, {m_also, POLLIN, 0}};
+    pollfd any[3] = {
+        {m_started.socket, events, 0}, {m_started.output, POLLIN, 0}, {m_cancel_descriptor, POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
-    if (m_also < 0 && left.count() <= 0) break;
-    if (poll(any, 3, m_also < 0 ? static_cast<int>(left.count()) : -1) < 0) continue;
+    if (m_cancel_descriptor < 0 && left.count() <= 0) break;
+    if (poll(any, 3, m_cancel_descriptor < 0 ? static_cast<int>(left.count()) : -1) < 0) continue;
     if (any[1].revents != 0) readOutput();
     if (any[0].revents != 0) return true;
     if (any[2].revents != 0) break;
@@ -66,11 +67,11 @@ bool ReplayWorld::wait(short events) {
   return false;
 }
 
-std::optional<int> ReplayWorld::takeEnd() {
-  pollfd keeper{m_started.keeper, POLLIN, 0};
-  KeeperEnd end;
-  if (m_failure != kEnded || poll(&keeper, 1, kEndMillis) <= 0) return std::nullopt;
-  if (recv(m_started.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
+std::optional<int> ReplayWorld::popExitStatus() {
+  pollfd supervisor{m_started.supervisor, POLLIN, 0};
+  WorldExitReport end;
+  if (m_failure != kEnded || poll(&supervisor, 1, kExitReportTimeoutMillis) <= 0) return std::nullopt;
+  if (recv(m_started.supervisor, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
   return end.status;
 }
 
@@ -131,8 +132,8 @@ bool ReplayWorld::receiveFrame() {
   return receive(m_answer.data(), size);
 }
 
-Replay::Replay(const RecordedRound& round, const RoundStage& stage)
-    : m_reader(round.read()), m_world(stage.launcher(), stage.order()) {
+Replay::Replay(const RecordedRound& round, const ReplayEnvironment& environment)
+    : m_reader(round.read()), m_world(environment.launcher(), environment.order()) {
   if (!m_world.ready())
     throw RoundError("The game " + m_world.failure() + " before it was ready. " +
                      safeText(m_world.printed(), 500));
@@ -145,14 +146,14 @@ void Replay::compareFiles(const RecordedRound& round) {
     const std::string recorded = round.fact(kFactFile + file.name);
     char now[17];
     std::snprintf(now, sizeof now, "%016llx", static_cast<unsigned long long>(file.hash));
-    if (recorded != now) m_other_files.push_back(file.name);
+    if (recorded != now) m_changed_files.push_back(file.name);
   }
 }
 
 // Skips sessions, which only a server that resumes the round needs.
 void Replay::readAhead() {
   do m_next = m_reader->next();
-  while (m_next && std::holds_alternative<KeptSession>(*m_next));
+  while (m_next && std::holds_alternative<PersistedSession>(*m_next));
 }
 
 bool Replay::nextTurn() {
@@ -161,7 +162,7 @@ bool Replay::nextTurn() {
   m_turn = std::get<WorldTurn>(std::move(*m_next));
   readAhead();
   if (m_next && std::holds_alternative<InputsDropped>(*m_next)) {
-    if (m_tick + 1 != m_kept_tick) dropKeys(m_turn);
+    if (m_tick + 1 != m_restored_tick) dropKeys(m_turn);
     readAhead();
   }
   return true;
@@ -174,22 +175,22 @@ bool Replay::step(bool pictures) {
   m_pictures.clear();
   m_scores.clear();
   m_recorded.reset();
-  const bool exact = !pictures || (m_turn.wants_truth && m_turn.pictured == 0);
+  const bool exact = !pictures || (m_turn.wants_truth && m_turn.rendered_player == 0);
   WorldTurn turn = m_turn;
   if (!exact) {
     turn.wants_truth = true;
-    turn.pictured = 0;
+    turn.rendered_player = 0;
   }
   const auto answer = m_world.step(turn);
   if (!answer) {
     // The recorded world ended here, too, if the file has no result of this turn.
     if (m_next) {
-      noteDifference("the world's end");
+      recordDifference("the world's end");
       m_failure = m_world.failure();
     }
     return false;
   }
-  takeRest(*answer, exact);
+  consumeTickRecords(*answer, exact);
   if (turn.wants_truth || m_reads_scores) {
     if (auto head = readAnswerHead(*answer)) {
       m_pictures = std::move(head->pictures);
@@ -200,7 +201,7 @@ bool Replay::step(bool pictures) {
 }
 
 /// Handles the other records of this tick: result and picture.
-void Replay::takeRest(std::string_view answer, bool exact) {
+void Replay::consumeTickRecords(std::string_view answer, bool exact) {
   for (; m_next && !std::holds_alternative<WorldTurn>(*m_next); readAhead()) {
     if (const auto* p_result = std::get_if<TickResult>(&*m_next)) compare(*p_result, answer, exact);
     if (auto* p_picture = std::get_if<RecordedPicture>(&*m_next)) m_recorded = std::move(*p_picture);
@@ -209,17 +210,17 @@ void Replay::takeRest(std::string_view answer, bool exact) {
 
 void Replay::compare(const TickResult& result, std::string_view answer, bool exact) {
   if (exact && result.has_check && checkOf(hashAnswer(answer)) != result.check)
-    noteDifference("the world's answer");
+    recordDifference("the world's answer");
   if (!result.state_hash) return;
   const auto head = readAnswerHead(answer);
-  if (!head || head->state_hash != result.state_hash) noteDifference("the state");
+  if (!head || head->state_hash != result.state_hash) recordDifference("the state");
 }
 
-void Replay::noteDifference(const char* what) {
+void Replay::recordDifference(const char* what) {
   m_differs = true;
   if (m_first_difference != 0) return;
   m_first_difference = m_tick;
-  m_what_differs = what;
+  m_difference_text = what;
 }
 
 }  // namespace naiad

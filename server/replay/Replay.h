@@ -19,10 +19,10 @@ namespace naiad {
 class ReplayWorld {
  public:
   /// Time limit for an answer; after it the world counts as hung.
-  static constexpr std::chrono::seconds kPatience{30};
+  static constexpr std::chrono::seconds kResponseTimeout{30};
 
   /// Starts the world, and waits until the game runs. Throws std::system_error.
-  ReplayWorld(const WorldLauncher& launcher, const WorldOrder& order);
+  ReplayWorld(const WorldLauncher& launcher, const WorldStartOptions& order);
   /// Ends the world.
   ~ReplayWorld();
   ReplayWorld(const ReplayWorld&) = delete;
@@ -38,9 +38,9 @@ class ReplayWorld {
   /// Returns the id of its process; -1: it never started.
   int process() const { return m_process; }
   /// Removes the time limit of answers. Instead, when this descriptor is readable, the world counts as hung.
-  void waitAlsoFor(int descriptor) { m_also = descriptor; }
+  void setCancelDescriptor(int descriptor) { m_cancel_descriptor = descriptor; }
   /// Returns the status of its process after a failure, as of waitpid(); nullopt if it has not ended.
-  std::optional<int> takeEnd();
+  std::optional<int> popExitStatus();
   /// Returns the end of what it printed.
   const std::string& printed() const { return m_printed; }
 
@@ -53,7 +53,7 @@ class ReplayWorld {
 
   StartedWorld m_started;
   int m_process = -1;
-  int m_also = -1;
+  int m_cancel_descriptor = -1;
   std::optional<WorldReady> m_ready;
   TurnRecordWriter m_turns;
   std::string m_answer;
@@ -64,7 +64,7 @@ class ReplayWorld {
 class Replay {
  public:
   /// Starts the world. Throws RoundError if the game does not run, or std::system_error.
-  Replay(const RecordedRound& round, const RoundStage& stage);
+  Replay(const RecordedRound& round, const ReplayEnvironment& environment);
 
   /// Executes the next recorded turn. `pictures`: requests the pictures of all players; if the turn did not
   /// ask for them, only the state is compared, because the answer is not the recorded one. Returns false if
@@ -73,7 +73,7 @@ class Replay {
   /// True if the file has a turn after those that were executed.
   bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
   /// Makes the world get the keys and clicks of this tick that were dropped after its crash.
-  void keepDroppedKeys(std::uint32_t tick) { m_kept_tick = tick; }
+  void restoreDroppedInputs(std::uint32_t tick) { m_restored_tick = tick; }
   /// Makes step() read the scores of each answer, too.
   void readScores() { m_reads_scores = true; }
   /// Returns the number of ticks executed so far.
@@ -94,30 +94,30 @@ class Replay {
   /// Returns the first tick that differed; 0: none so far.
   std::uint32_t firstDifference() const { return m_first_difference; }
   /// Returns what differed in it: "the world's answer", "the state".
-  const std::string& whatDiffers() const { return m_what_differs; }
+  const std::string& differenceText() const { return m_difference_text; }
   /// Returns how the world ended before its recorded end; empty if it did not.
   const std::string& failure() const { return m_failure; }
   /// Returns the files that the game reads and that have changed since the recording.
-  const std::vector<std::string>& otherFiles() const { return m_other_files; }
+  const std::vector<std::string>& changedFiles() const { return m_changed_files; }
   /// True if the world has its recorded addresses.
   bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }
   ReplayWorld& world() { return m_world; }
   DfrEnd end() const { return m_reader->end(); }
-  const std::string& why() const { return m_reader->why(); }
+  const std::string& endReason() const { return m_reader->endReason(); }
 
  private:
   void readAhead();
   bool nextTurn();
-  void takeRest(std::string_view answer, bool exact);
+  void consumeTickRecords(std::string_view answer, bool exact);
   void compare(const TickResult& result, std::string_view answer, bool exact);
-  void noteDifference(const char* what);
+  void recordDifference(const char* what);
   void compareFiles(const RecordedRound& round);
 
   std::unique_ptr<DfrReader> m_reader;
   ReplayWorld m_world;
   std::optional<TurnRecord> m_next;  ///< read ahead
   std::uint32_t m_tick = 0;
-  std::uint32_t m_kept_tick = 0;  ///< 0: none
+  std::uint32_t m_restored_tick = 0;  ///< 0: none
   WorldTurn m_turn;
   std::vector<WorldPicture> m_pictures;
   bool m_reads_scores = false;
@@ -125,9 +125,9 @@ class Replay {
   std::optional<RecordedPicture> m_recorded;
   bool m_differs = false;
   std::uint32_t m_first_difference = 0;
-  std::string m_what_differs;
+  std::string m_difference_text;
   std::string m_failure;
-  std::vector<std::string> m_other_files;
+  std::vector<std::string> m_changed_files;
 };
 
 }  // namespace naiad

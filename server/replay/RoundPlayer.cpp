@@ -36,28 +36,28 @@ std::uint32_t countTurns(const RecordedRound& round) {
 }
 
 /// Minimum interval of pictures: faster rounds skip some.
-constexpr std::chrono::milliseconds kBetweenFrames{16};
+constexpr std::chrono::milliseconds kFrameInterval{16};
 
 }  // namespace
 
-PictureReel::PictureReel(const RecordedRound& round, const RoundStage& stage)
+FrameHistory::FrameHistory(const RecordedRound& round, const ReplayEnvironment& environment)
     : m_round(round),
-      m_stage(stage),
-      m_replay(std::make_unique<Replay>(round, stage)),
+      m_environment(environment),
+      m_replay(std::make_unique<Replay>(round, environment)),
       m_count(countTurns(round)) {}
 
-const PictureReel::Frame* PictureReel::find(std::uint32_t tick) const {
+const FrameHistory::Frame* FrameHistory::find(std::uint32_t tick) const {
   if (m_frames.empty() || tick < m_frames.front().tick || tick > m_frames.back().tick) return nullptr;
   return &m_frames[tick - m_frames.front().tick];
 }
 
-const std::vector<WorldPicture>& PictureReel::pictures() const {
+const std::vector<WorldPicture>& FrameHistory::pictures() const {
   static const std::vector<WorldPicture> none;
   const Frame* p_frame = find(m_tick);
   return p_frame != nullptr ? p_frame->pictures : none;
 }
 
-std::uint32_t PictureReel::seek(std::uint32_t tick) {
+std::uint32_t FrameHistory::seek(std::uint32_t tick) {
   tick = std::max(tick, 1u);
   if (find(tick) == nullptr) executeTo(tick);
   if (find(tick) != nullptr) {
@@ -68,20 +68,20 @@ std::uint32_t PictureReel::seek(std::uint32_t tick) {
   return m_tick;
 }
 
-void PictureReel::executeTo(std::uint32_t tick) {
+void FrameHistory::executeTo(std::uint32_t tick) {
   if (tick <= m_replay->tick()) {
-    m_replay = std::make_unique<Replay>(m_round, m_stage);
+    m_replay = std::make_unique<Replay>(m_round, m_environment);
     m_frames.clear();
     m_cells = 0;
   }
   while (m_replay->tick() < tick) {
-    const bool wanted = m_replay->tick() + kLead >= tick || m_replay->tick() + kLead >= m_count;
+    const bool wanted = m_replay->tick() + kRewindTicks >= tick || m_replay->tick() + kRewindTicks >= m_count;
     if (!m_replay->step(wanted)) return;
-    if (wanted) keep();
+    if (wanted) storeFrame();
   }
 }
 
-void PictureReel::keep() {
+void FrameHistory::storeFrame() {
   if (!m_frames.empty() && m_frames.back().tick + 1 != m_replay->tick()) {
     m_frames.clear();
     m_cells = 0;
@@ -92,13 +92,13 @@ void PictureReel::keep() {
     m_cells -= cellsOf(m_frames.front().pictures);
 }
 
-RoundControls::RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now,
+RoundControls::RoundControls(FrameHistory& history, std::uint64_t frame_nanos, std::uint32_t player, Time now,
                              std::uint32_t from)
-    : m_reel(reel),
+    : m_history(history),
       m_frame_nanos(std::max<std::uint64_t>(frame_nanos, 1'000'000)),
       m_player(player),
       m_since(now) {
-  m_from = std::max(m_reel.seek(std::max(from, 1u)), 1u);
+  m_from = std::max(m_history.seek(std::max(from, 1u)), 1u);
 }
 
 double RoundControls::ticksPerNano() const {
@@ -110,28 +110,28 @@ bool RoundControls::update(Time now) {
   const std::chrono::nanoseconds passed = now - m_since;
   const auto wanted =
       m_from + static_cast<std::uint32_t>(static_cast<double>(passed.count()) * ticksPerNano());
-  if (wanted <= m_reel.tick()) return false;
-  const std::uint32_t before = m_reel.tick();
-  m_reel.seek(std::min(wanted, std::max(m_reel.count(), 1u)));
-  if (m_reel.tick() >= m_reel.count() || m_reel.tick() < wanted) m_paused = true;  // the end
-  return m_reel.tick() != before || m_paused;
+  if (wanted <= m_history.tick()) return false;
+  const std::uint32_t before = m_history.tick();
+  m_history.seek(std::min(wanted, std::max(m_history.count(), 1u)));
+  if (m_history.tick() >= m_history.count() || m_history.tick() < wanted) m_paused = true;  // the end
+  return m_history.tick() != before || m_paused;
 }
 
 RoundControls::Time RoundControls::deadline(Time now) const {
   if (m_paused) return now + std::chrono::hours(1);
-  const double ticks = m_reel.tick() + 1.0 - m_from;
+  const double ticks = m_history.tick() + 1.0 - m_from;
   const auto due = m_since + std::chrono::nanoseconds(static_cast<std::int64_t>(ticks / ticksPerNano()));
   return std::max(due, now + std::chrono::milliseconds(1));
 }
 
-bool RoundControls::takeKey(const KeyEvent& key, Time now) {
+bool RoundControls::handleKey(const KeyEvent& key, Time now) {
   if (key.action == KeyEvent::Action::kRelease) return true;
   const auto five = static_cast<std::int64_t>(kJumpNanos / m_frame_nanos);
   if (key.ch == U'q' || key.key == df::Keyboard::ESCAPE) return false;
   if (key.key == df::Keyboard::C && (key.modifiers & kControl) != 0) return false;
   if (key.key == df::Keyboard::SPACE || key.ch == U' ') {
     m_paused = !m_paused;
-    go(m_reel.tick(), now);
+    seekTo(m_history.tick(), now);
   } else if (key.key == df::Keyboard::LEFTARROW) {
     jump(-five, now);
   } else if (key.key == df::Keyboard::RIGHTARROW) {
@@ -144,37 +144,37 @@ bool RoundControls::takeKey(const KeyEvent& key, Time now) {
   } else if (key.ch == U'-') {
     changeSpeed(-1, now);
   } else if (key.key == df::Keyboard::TAB) {
-    changeEyes();
+    switchPlayer();
   }
   return true;
 }
 
 void RoundControls::jump(std::int64_t ticks, Time now) {
-  const std::int64_t last = std::max<std::int64_t>(m_reel.count(), 1);
-  go(static_cast<std::uint32_t>(std::clamp<std::int64_t>(m_reel.tick() + ticks, 1, last)), now);
+  const std::int64_t last = std::max<std::int64_t>(m_history.count(), 1);
+  seekTo(static_cast<std::uint32_t>(std::clamp<std::int64_t>(m_history.tick() + ticks, 1, last)), now);
 }
 
-void RoundControls::go(std::uint32_t tick, Time now) {
-  m_from = m_reel.seek(tick);
+void RoundControls::seekTo(std::uint32_t tick, Time now) {
+  m_from = m_history.seek(tick);
   m_since = now;
 }
 
 void RoundControls::changeSpeed(int by, Time now) {
-  m_speed = std::clamp(m_speed + by, kSlowest, kFastest);
-  m_from = m_reel.tick();
+  m_speed = std::clamp(m_speed + by, kMinSpeed, kMaxSpeed);
+  m_from = m_history.tick();
   m_since = now;
 }
 
-void RoundControls::changeEyes() {
+void RoundControls::switchPlayer() {
   const WorldPicture* p_shown = shown();
   if (p_shown == nullptr) return;
-  const std::vector<WorldPicture>& all = m_reel.pictures();
+  const std::vector<WorldPicture>& all = m_history.pictures();
   const auto at = static_cast<std::size_t>(p_shown - all.data());
   m_player = all[(at + 1) % all.size()].player;
 }
 
 const WorldPicture* RoundControls::shown() const {
-  const std::vector<WorldPicture>& all = m_reel.pictures();
+  const std::vector<WorldPicture>& all = m_history.pictures();
   for (const WorldPicture& picture : all) {
     if (picture.player == m_player) return &picture;
   }
@@ -182,20 +182,20 @@ const WorldPicture* RoundControls::shown() const {
 }
 
 std::string RoundControls::status() const {
-  const double seconds = static_cast<double>(m_frame_nanos) * m_reel.tick() / 1e9;
+  const double seconds = static_cast<double>(m_frame_nanos) * m_history.tick() / 1e9;
   const auto whole = static_cast<long>(seconds);
   char text[200];
   const WorldPicture* p_shown = shown();
   const std::string eyes = p_shown != nullptr ? "player " + std::to_string(p_shown->player) : "no player";
   const std::string speed = m_speed < 0 ? "1/" + std::to_string(1 << -m_speed) : std::to_string(1 << m_speed);
   std::snprintf(text, sizeof text, " %s  %ld:%02ld  tick %u of %u  x%s  %s%s", m_paused ? "paused" : "plays",
-                whole / 60, whole % 60, m_reel.tick(), m_reel.count(), speed.c_str(), eyes.c_str(),
-                m_reel.firstDifference() != 0 ? "  (not as recorded)" : "");
+                whole / 60, whole % 60, m_history.tick(), m_history.count(), speed.c_str(), eyes.c_str(),
+                m_history.firstDifference() != 0 ? "  (not as recorded)" : "");
   return text;
 }
 
-Picture RoundControls::compose(int columns, int rows) const {
-  Picture picture(columns, rows);
+ScreenBuffer RoundControls::compose(int columns, int rows) const {
+  ScreenBuffer picture(columns, rows);
   const int line = rows - 1;
   if (const WorldPicture* p_shown = shown()) {
     const df::Canvas& canvas = p_shown->canvas;
@@ -219,7 +219,7 @@ void RoundPlayer::run() {
   using Clock = std::chrono::steady_clock;
   setlocale(LC_CTYPE, "");
   const TerminalType type = chooseTerminalType(std::getenv("TERM"));
-  PictureReel reel(m_round, m_stage);
+  FrameHistory history(m_round, m_environment);
   TerminalGuard guard(TerminalGuard::Options{false});
   Screen screen(
       {type.name, std::strcmp(nl_langinfo(CODESET), "UTF-8") != 0, std::getenv("NO_COLOR") == nullptr});
@@ -227,20 +227,20 @@ void RoundPlayer::run() {
   guard.installHandlers();
   guard.enterModes();
   InputDecoder decoder;
-  RoundControls controls(reel, m_round.header().frame_nanos, m_player, Clock::now(), m_from);
+  RoundControls controls(history, m_round.header().frame_nanos, m_player, Clock::now(), m_from);
   Clock::time_point shown_at;
-  bool goes_on = true;
+  bool is_running = true;
   bool changed = true;
-  while (goes_on) {
+  while (is_running) {
     Clock::time_point now = Clock::now();
     changed = controls.update(now) || changed;
-    if (changed && now - shown_at >= kBetweenFrames) {
+    if (changed && now - shown_at >= kFrameInterval) {
       screen.show(controls.compose(screen.columns(), screen.rows()));
       shown_at = now;
       changed = false;
     }
     Clock::time_point until = controls.deadline(now);
-    if (changed) until = std::min(until, shown_at + kBetweenFrames);
+    if (changed) until = std::min(until, shown_at + kFrameInterval);
     if (const auto due = decoder.deadline()) until = std::min(until, *due);
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
     pollfd either[2] = {{STDIN_FILENO, POLLIN, 0}, {guard.signalFd(), POLLIN, 0}};
@@ -257,12 +257,12 @@ void RoundPlayer::run() {
     for (const TerminalEvent& event : events) {
       const auto* p_key = std::get_if<KeyEvent>(&event);
       if (p_key == nullptr) continue;
-      goes_on = goes_on && controls.takeKey(*p_key, now);
+      is_running = is_running && controls.handleKey(*p_key, now);
       changed = true;
     }
     if (either[1].revents != 0) {
       char signal = 0;
-      if (read(guard.signalFd(), &signal, 1) == 1) goes_on = goes_on && signal == SIGWINCH;
+      if (read(guard.signalFd(), &signal, 1) == 1) is_running = is_running && signal == SIGWINCH;
     }
     if (screen.readSize()) changed = true;
   }

@@ -9,22 +9,22 @@
 #include <vector>
 
 #include "client/terminal/InputDecoder.h"
-#include "client/terminal/Picture.h"
+#include "client/terminal/ScreenBuffer.h"
 #include "server/replay/Replay.h"
 
 namespace naiad {
 
 /// The pictures of a round by tick, in any order: those of about the last minute are kept, earlier ones are
 /// made again by replaying.
-class PictureReel {
+class FrameHistory {
  public:
   /// Maximum cells of all kept pictures: a minute and more of one player in 80 by 24.
   static constexpr std::size_t kMaxCells = std::size_t{4} << 20;
   /// Ticks before a requested one whose pictures are made as well, for going back.
-  static constexpr std::uint32_t kLead = 150;
+  static constexpr std::uint32_t kRewindTicks = 150;
 
   /// Both must outlive this. Throws like Replay.
-  PictureReel(const RecordedRound& round, const RoundStage& stage);
+  FrameHistory(const RecordedRound& round, const ReplayEnvironment& environment);
 
   /// Goes to this tick (from 1), or to the last one if the round ends before. Returns the tick reached; 0:
   /// the round has none. Going far back replays the round from its beginning.
@@ -44,10 +44,10 @@ class PictureReel {
   };
   const Frame* find(std::uint32_t tick) const;
   void executeTo(std::uint32_t tick);
-  void keep();
+  void storeFrame();
 
   const RecordedRound& m_round;
-  const RoundStage& m_stage;
+  const ReplayEnvironment& m_environment;
   std::unique_ptr<Replay> m_replay;
   std::deque<Frame> m_frames;  ///< without gaps
   std::size_t m_cells = 0;
@@ -60,17 +60,17 @@ class RoundControls {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr int kSlowest = -2;  ///< a quarter of the speed, as a power of two
-  static constexpr int kFastest = 6;   ///< 64 times
+  static constexpr int kMinSpeed = -2;  ///< a quarter of the speed, as a power of two
+  static constexpr int kMaxSpeed = 6;   ///< 64 times
   static constexpr std::uint64_t kJumpNanos = 5'000'000'000;
 
   /// `player`: whose picture is shown; 0: the first one's. Begins with tick `from`, or the last one before
   /// it.
-  RoundControls(PictureReel& reel, std::uint64_t frame_nanos, std::uint32_t player, Time now,
+  RoundControls(FrameHistory& history, std::uint64_t frame_nanos, std::uint32_t player, Time now,
                 std::uint32_t from = 1);
 
   /// Handles a key. Returns false if the user ends the player.
-  bool takeKey(const KeyEvent& key, Time now);
+  bool handleKey(const KeyEvent& key, Time now);
   /// Advances the round to this time. Returns true if the picture has changed.
   bool update(Time now);
   /// Returns when update() will next have something to do.
@@ -80,18 +80,18 @@ class RoundControls {
   int speed() const { return m_speed; }
   std::uint32_t player() const { return m_player; }
   /// Returns a picture of this size: the game, and a status line.
-  Picture compose(int columns, int rows) const;
+  ScreenBuffer compose(int columns, int rows) const;
 
  private:
   void jump(std::int64_t ticks, Time now);
-  void go(std::uint32_t tick, Time now);
+  void seekTo(std::uint32_t tick, Time now);
   void changeSpeed(int by, Time now);
-  void changeEyes();
+  void switchPlayer();
   const WorldPicture* shown() const;
   std::string status() const;
   double ticksPerNano() const;
 
-  PictureReel& m_reel;
+  FrameHistory& m_history;
   std::uint64_t m_frame_nanos;
   std::uint32_t m_player;
   bool m_paused = false;
@@ -103,8 +103,9 @@ class RoundControls {
 class RoundPlayer {
  public:
   /// Takes the parameters of RoundControls.
-  RoundPlayer(const RecordedRound& round, const RoundStage& stage, std::uint32_t player, std::uint32_t from)
-      : m_round(round), m_stage(stage), m_player(player), m_from(from) {}
+  RoundPlayer(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t player,
+              std::uint32_t from)
+      : m_round(round), m_environment(environment), m_player(player), m_from(from) {}
   /// Plays until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot
   /// show it.
   void run();
@@ -113,7 +114,7 @@ class RoundPlayer {
 
  private:
   const RecordedRound& m_round;
-  const RoundStage& m_stage;
+  const ReplayEnvironment& m_environment;
   std::uint32_t m_player;
   std::uint32_t m_from;
 };

@@ -62,8 +62,8 @@ void showDifference(Replay& replay, std::ostream& out) {
   out << "The file has no picture after this tick.\n";
 }
 
-void printDoubts(const std::vector<std::string>& doubts, std::ostream& out) {
-  for (const std::string& doubt : doubts) out << "note: " << safeText(doubt, 300) << "\n";
+void printWarnings(const std::vector<std::string>& warnings, std::ostream& out) {
+  for (const std::string& warning : warnings) out << "note: " << safeText(warning, 300) << "\n";
 }
 
 const char* endText(DfrEnd end) {
@@ -131,18 +131,18 @@ void printInput(const WorldInput& input, std::ostream& out) {
 
 }  // namespace
 
-bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostream& out) {
-  printDoubts(round.doubts(), out);
-  printDoubts(stage.doubts(), out);
-  Replay replay(round, stage);
-  for (const std::string& file : replay.otherFiles())
+bool verifyRound(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out) {
+  printWarnings(round.warnings(), out);
+  printWarnings(environment.warnings(), out);
+  Replay replay(round, environment);
+  for (const std::string& file : replay.changedFiles())
     out << "note: the file " << safeText(file, 300) << " is not the recorded one\n";
   if (!replay.hasFixedAddresses()) out << "note: memory addresses cannot be fixed on this machine\n";
   const auto begin = std::chrono::steady_clock::now();
   while (replay.firstDifference() == 0 && replay.step()) continue;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (replay.firstDifference() != 0) {
-    out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
+    out << "tick " << replay.firstDifference() << ": " << replay.differenceText()
         << " differs from the recording\n";
     if (!replay.failure().empty()) out << "the world " << replay.failure() << "\n";
     showDifference(replay, out);
@@ -152,7 +152,8 @@ bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostre
   out << "verified ticks=" << replay.tick() << " seconds=" << std::fixed << std::setprecision(1) << real
       << " took=" << std::setprecision(3) << took.count() << " times_real_time=" << std::setprecision(0)
       << (took.count() > 0 ? real / took.count() : 0) << " protocol=" << kProtocolVersion << " read "
-      << endText(replay.end()) << (replay.why().empty() ? "" : ": the game " + replay.why()) << "\n";
+      << endText(replay.end()) << (replay.endReason().empty() ? "" : ": the game " + replay.endReason())
+      << "\n";
   return true;
 }
 
@@ -171,11 +172,11 @@ void printInputs(const RecordedRound& round, std::ostream& out) {
     if (p_turn->ends_game) out << "tick=" << tick << " the host ends the game\n";
   }
   out << "ticks=" << tick << " read " << endText(reader->end())
-      << (reader->why().empty() ? "" : ": the game " + reader->why()) << "\n";
+      << (reader->endReason().empty() ? "" : ": the game " + reader->endReason()) << "\n";
 }
 
-bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostream& out) {
-  Replay replay(round, stage);
+bool printScores(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out) {
+  Replay replay(round, environment);
   replay.readScores();
   std::size_t count = 0;
   while (replay.firstDifference() == 0 && replay.step()) {
@@ -186,7 +187,7 @@ bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostre
     }
   }
   if (replay.firstDifference() != 0) {
-    out << "tick " << replay.firstDifference() << ": " << replay.whatDiffers()
+    out << "tick " << replay.firstDifference() << ": " << replay.differenceText()
         << " differs from the recording\n";
     return false;
   }
@@ -194,9 +195,9 @@ bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostre
   return true;
 }
 
-bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
+bool printPicture(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t tick,
                   std::uint32_t player, std::ostream& out) {
-  Replay replay(round, stage);
+  Replay replay(round, environment);
   while (replay.tick() + 1 < tick) {
     if (!replay.step()) return false;
   }

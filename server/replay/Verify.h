@@ -8,10 +8,10 @@
 namespace naiad {
 
 class RecordedRound;
-class RoundStage;
+class ReplayEnvironment;
 
 /// Replays the round, and prints the result. Returns true if it matches to the last whole turn of the file.
-bool verifyRound(const RecordedRound& round, const RoundStage& stage, std::ostream& out);
+bool verifyRound(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out);
 
 /// Prints one line for each input, and one for each end of the game by the host.
 void printInputs(const RecordedRound& round, std::ostream& out);
@@ -19,11 +19,11 @@ void printInputs(const RecordedRound& round, std::ostream& out);
 /// Replays the round, and prints one line for each score that the game adds: "tick=N number=N table=…
 /// name="…" points=N", which identify its row in the server's file of scores. Returns false if the round
 /// differs; then the last line says from which tick on.
-bool printScores(const RecordedRound& round, const RoundStage& stage, std::ostream& out);
+bool printScores(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out);
 
 /// Prints a player's picture after this tick; player 0: the first one. Returns false if the round has no such
 /// tick, or there is no such player.
-bool printPicture(const RecordedRound& round, const RoundStage& stage, std::uint32_t tick,
+bool printPicture(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t tick,
                   std::uint32_t player, std::ostream& out);
 
 }  // namespace naiad

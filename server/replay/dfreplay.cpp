@@ -103,28 +103,28 @@ int run(const ReplayOptions& replay) {
     naiad::printInputs(round, std::cout);
     return kOk;
   }
-  const naiad::RoundStage stage(round, replay.game);
+  const naiad::ReplayEnvironment environment(round, replay.game);
   const auto player = static_cast<std::uint32_t>(replay.player);
-  if (replay.verify) return naiad::verifyRound(round, stage, std::cout) ? kOk : kDiffers;
-  if (replay.scores) return naiad::printScores(round, stage, std::cout) ? kOk : kDiffers;
+  if (replay.verify) return naiad::verifyRound(round, environment, std::cout) ? kOk : kDiffers;
+  if (replay.scores) return naiad::printScores(round, environment, std::cout) ? kOk : kDiffers;
   if (replay.debug) {
-    naiad::debugRound(round, stage, static_cast<std::uint32_t>(replay.until), std::cout);
+    naiad::debugRound(round, environment, static_cast<std::uint32_t>(replay.until), std::cout);
     return kOk;
   }
   if (replay.text > 0) {
     const bool there =
-        naiad::printPicture(round, stage, static_cast<std::uint32_t>(replay.text), player, std::cout);
+        naiad::printPicture(round, environment, static_cast<std::uint32_t>(replay.text), player, std::cout);
     return there ? kOk : fail(kNoRound, "no picture of this player after this tick.");
   }
   if (!naiad::RoundPlayer::hasTerminal()) return fail(kNoTerminal, "playing a round requires a terminal.");
-  naiad::RoundPlayer(round, stage, player, static_cast<std::uint32_t>(replay.from)).run();
+  naiad::RoundPlayer(round, environment, player, static_cast<std::uint32_t>(replay.from)).run();
   return kOk;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  naiad::surviveBrokenPipes();
+  naiad::ignoreBrokenPipes();
   ReplayOptions replay;
   const naiad::Program program{"dfreplay", "Replays rounds that dfserver has recorded.", kHelp, false};
   const auto parsed = naiad::parseOptions(program, optionsOf(replay), argc, argv);

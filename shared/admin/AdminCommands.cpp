@@ -11,7 +11,7 @@ namespace {
 
 using Kind = AdminArgument::Kind;
 using Level = AdminCommand::Level;
-using Place = AdminCommand::Place;
+using Frontend = AdminCommand::Frontend;
 
 const AdminArgument kReason{"reason", Kind::kText, false, "Reason, shown to players"};
 const AdminArgument kOnePlayer{"player", Kind::kPlayer, true, "Name, beginning of a name, or #ID"};
@@ -20,63 +20,64 @@ using Arguments = std::vector<AdminArgument>;
 constexpr bool kOnlyReads = true;
 
 /// Makes a command that every player may give.
-AdminCommand ofPlayers(std::string name, Place place, std::string help, Arguments arguments = {},
+AdminCommand ofPlayers(std::string name, Frontend place, std::string help, Arguments arguments = {},
                        bool only_reads = false) {
   return {std::move(name), Level::kPlayer, place, std::move(help), std::move(arguments), only_reads};
 }
 
-AdminCommand ofAdmins(std::string name, Place place, std::string help, Arguments arguments = {},
+AdminCommand ofAdmins(std::string name, Frontend place, std::string help, Arguments arguments = {},
                       bool only_reads = false) {
   return {std::move(name), Level::kAdmin, place, std::move(help), std::move(arguments), only_reads};
 }
 
 std::vector<AdminCommand> tableOfCommands() {
   return {
-      ofPlayers("help", Place::kChat, "List the commands that you may give, or say how to use one",
+      ofPlayers("help", Frontend::kChat, "List the commands that you may give, or say how to use one",
                 {{"command", Kind::kWord, false, "Name of a command"}}),
-      ofPlayers("commands", Place::kChat, "Like help"),
-      ofPlayers("who", Place::kBoth, "List the players", {}, kOnlyReads),
-      ofPlayers("rooms", Place::kBoth, "List the server's rooms and the number of players in each", {},
+      ofPlayers("commands", Frontend::kChat, "Like help"),
+      ofPlayers("who", Frontend::kBoth, "List the players", {}, kOnlyReads),
+      ofPlayers("rooms", Frontend::kBoth, "List the server's rooms and the number of players in each", {},
                 kOnlyReads),
-      ofPlayers("tell", Place::kBoth, "Send a line to one player only",
+      ofPlayers("tell", Frontend::kBoth, "Send a line to one player only",
                 {kOnePlayer, {"text", Kind::kText, true, "The line"}}),
-      ofPlayers("vote", Place::kChat, "Start a vote to kick a player, or agree with the current vote",
+      ofPlayers("vote", Frontend::kChat, "Start a vote to kick a player, or agree with the current vote",
                 {{"what", Kind::kChoice, true, "Subject of the vote", {"kick"}}, kOnePlayer}),
-      ofPlayers("admin", Place::kChat, "Get an admin's rights until your connection ends",
+      ofPlayers("admin", Frontend::kChat, "Get an admin's rights until your connection ends",
                 {{"password", Kind::kSecret, true, "The server's --admin-password"}}),
-      ofAdmins("status", Place::kBoth, "Show the server's status", {}, kOnlyReads),
-      ofAdmins("say", Place::kBoth, "Send a line to all players", {{"text", Kind::kText, true, "The line"}}),
-      ofAdmins("kick", Place::kBoth, "End a player's session; they may join again", {kOnePlayer, kReason}),
-      ofAdmins("ban", Place::kBoth,
+      ofAdmins("status", Frontend::kBoth, "Show the server's status", {}, kOnlyReads),
+      ofAdmins("say", Frontend::kBoth, "Send a line to all players",
+               {{"text", Kind::kText, true, "The line"}}),
+      ofAdmins("kick", Frontend::kBoth, "End a player's session; they may join again", {kOnePlayer, kReason}),
+      ofAdmins("ban", Frontend::kBoth,
                "Ban a player (name and address), a name, an address or a range of addresses",
                {{"who", Kind::kTarget, true, "Player, name:NAME, address or ADDRESS/BITS"},
                 {"for", Kind::kSpan, false, "Duration, like 30m, 2h or 7d; default: forever"},
                 kReason}),
-      ofAdmins("allow", Place::kBoth, "Make an exception: bans do not apply to these addresses",
+      ofAdmins("allow", Frontend::kBoth, "Make an exception: bans do not apply to these addresses",
                {{"who", Kind::kTarget, true, "Address or ADDRESS/BITS"},
                 {"for", Kind::kSpan, false, "Duration; default: forever"},
                 kReason}),
       ofAdmins(
-          "unban", Place::kBoth, "Lift a ban or an exception",
+          "unban", Frontend::kBoth, "Lift a ban or an exception",
           {{"who", Kind::kTarget, true, "#NUMBER as listed by bans, name:NAME, address or ADDRESS/BITS"}}),
-      ofAdmins("bans", Place::kBoth, "List bans and exceptions", {}, kOnlyReads),
-      ofAdmins("scores", Place::kSocket, "List the best saved scores of one table or of all",
+      ofAdmins("bans", Frontend::kBoth, "List bans and exceptions", {}, kOnlyReads),
+      ofAdmins("scores", Frontend::kSocket, "List the best saved scores of one table or of all",
                {{"table", Kind::kWord, false, "Name of a table of the game"},
                 {"count", Kind::kWord, false, "Rows of a table, at most 10000; default: 10"},
                 {"room", Kind::kWord, false, "Only of the game in this room", {}, true},
                 {"game", Kind::kWord, false, "Only of this game, if the rooms run several", {}, true}},
                kOnlyReads),
-      ofAdmins("mute", Place::kBoth, "Block a player's chat and private lines", {kOnePlayer}),
-      ofAdmins("unmute", Place::kBoth, "Allow a muted player to chat again", {kOnePlayer}),
-      ofAdmins("password", Place::kBoth, "Change the password that players need; empty: no password",
+      ofAdmins("mute", Frontend::kBoth, "Block a player's chat and private lines", {kOnePlayer}),
+      ofAdmins("unmute", Frontend::kBoth, "Allow a muted player to chat again", {kOnePlayer}),
+      ofAdmins("password", Frontend::kBoth, "Change the password that players need; empty: no password",
                {{"password", Kind::kSecret, true,
                  "The new password (if left out, dfctl reads it from standard input)"}}),
-      ofAdmins("set", Place::kBoth,
+      ofAdmins("set", Frontend::kBoth,
                "Change an option of the running server, or list those that can be changed",
                {{"option", Kind::kWord, false, "Name of the option, without dashes"},
                 {"value", Kind::kText, false, "Its new value"}}),
-      ofAdmins("reload", Place::kBoth, "Reload options, certificate and bans"),
-      ofAdmins("restart", Place::kBoth, "Restart the server; players reconnect automatically",
+      ofAdmins("reload", Frontend::kBoth, "Reload options, certificate and bans"),
+      ofAdmins("restart", Frontend::kBoth, "Restart the server; players reconnect automatically",
                {{"when",
                  Kind::kChoice,
                  false,
@@ -84,12 +85,12 @@ std::vector<AdminCommand> tableOfCommands() {
                  "program, if that replays it identically",
                  {"now", "at-round-end", "in", "keep"}},
                 {"span", Kind::kSpan, false, "With in: time to wait"}}),
-      ofAdmins("drain", Place::kBoth, "Refuse new players, and stop the server when all players have left",
+      ofAdmins("drain", Frontend::kBoth, "Refuse new players, and stop the server when all players have left",
                {{"span", Kind::kSpan, false, "Maximum time to wait"}}),
-      ofAdmins("stop", Place::kBoth, "Stop the server now", {kReason}),
-      ofAdmins("cancel", Place::kBoth, "Cancel a restart or drain"),
-      ofAdmins("watch", Place::kSocket, "Print the server's log as it is written, until interrupted"),
-      ofAdmins("ping", Place::kSocket, "Ask whether the server answers", {}, kOnlyReads),
+      ofAdmins("stop", Frontend::kBoth, "Stop the server now", {kReason}),
+      ofAdmins("cancel", Frontend::kBoth, "Cancel a restart or drain"),
+      ofAdmins("watch", Frontend::kSocket, "Print the server's log as it is written, until interrupted"),
+      ofAdmins("ping", Frontend::kSocket, "Ask whether the server answers", {}, kOnlyReads),
   };
 }
 
@@ -108,9 +109,9 @@ std::string placeholder(const AdminArgument& argument) {
 }
 
 std::string whereGiven(const AdminCommand& command) {
-  if (command.place == Place::kSocket) return "dfctl";
+  if (command.place == Frontend::kSocket) return "dfctl";
   const std::string who = command.level == Level::kPlayer ? "every player" : "admins";
-  return command.place == Place::kChat ? "chat, " + who : "dfctl; chat, " + who;
+  return command.place == Frontend::kChat ? "chat, " + who : "dfctl; chat, " + who;
 }
 
 }  // namespace
@@ -136,7 +137,7 @@ std::string adminUsage(const AdminCommand& command) {
   return usage;
 }
 
-std::vector<std::string> adminHelp(Level level, Place place) {
+std::vector<std::string> adminHelp(Level level, Frontend place) {
   std::size_t width = 0;
   for (const AdminCommand& command : adminCommands()) {
     if (command.isFor(level, place)) width = std::max(width, adminUsage(command).size());
@@ -161,7 +162,7 @@ std::vector<std::string> adminHelp(const AdminCommand& command) {
 std::string adminManSection() {
   std::string text = ".SH COMMANDS\n";
   for (const AdminCommand& command : adminCommands()) {
-    if (command.place == Place::kChat) continue;
+    if (command.place == Frontend::kChat) continue;
     text += ".TP\n.B " + roff(adminUsage(command)) + "\n" + roff(command.help) + ".\n";
     for (const AdminArgument& argument : command.arguments)
       text += ".br\n\\fI" + roff(upper(argument.name)) + "\\fR: " + roff(argument.help) + ".\n";

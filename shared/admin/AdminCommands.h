@@ -30,17 +30,17 @@ struct AdminArgument {
 struct AdminCommand {
   /// The rank needed to give the command. Users of the control socket are admins.
   enum class Level { kPlayer, kAdmin };
-  enum class Place { kBoth, kSocket, kChat };
+  enum class Frontend { kBoth, kSocket, kChat };
 
   std::string name;
   Level level = Level::kAdmin;
-  Place place = Place::kBoth;
+  Frontend place = Frontend::kBoth;
   std::string help;
   std::vector<AdminArgument> arguments{};
   bool only_reads = false;  ///< changes nothing, so frequent calls by programs are not logged
 
-  bool isFor(Level who, Place where) const {
-    return level <= who && (place == Place::kBoth || place == where);
+  bool isFor(Level who, Frontend where) const {
+    return level <= who && (place == Frontend::kBoth || place == where);
   }
 };
 
@@ -52,7 +52,7 @@ const AdminCommand* findAdminCommand(std::string_view name);
 /// Returns, for example, "ban WHO [FOR] [REASON]".
 std::string adminUsage(const AdminCommand& command);
 /// Returns a line with usage and help, in two columns, for each command that this level has at this place.
-std::vector<std::string> adminHelp(AdminCommand::Level level, AdminCommand::Place place);
+std::vector<std::string> adminHelp(AdminCommand::Level level, AdminCommand::Frontend place);
 /// Returns the usage, help and arguments of one command.
 std::vector<std::string> adminHelp(const AdminCommand& command);
 /// Returns the COMMANDS section of dfctl(1), in man macros.

@@ -133,7 +133,7 @@ std::string droppedLine(std::uint64_t count) {
   return lineOf({{"dropped", count}});
 }
 
-AnswerReader::Got AnswerReader::readLine(std::string_view line) {
+AnswerReader::LineKind AnswerReader::readLine(std::string_view line) {
   const Json json = Json::parse(line, kMaxAnswerDepth, Json::Duplicates::kKeepLast).value_or(Json());
   if (const auto* p_rows = json["rows"].array()) {
     m_answer.is_list = true;
@@ -141,15 +141,15 @@ AnswerReader::Got AnswerReader::readLine(std::string_view line) {
   }
   if (json.find("event") != nullptr) {
     m_event = json["text"].textOrEmpty();
-    return Got::kEvent;
+    return LineKind::kEvent;
   }
   if (const auto dropped = json["dropped"].integer(); dropped && *dropped >= 0) {
     m_dropped = static_cast<std::uint64_t>(*dropped);
-    return Got::kDropped;
+    return LineKind::kDropped;
   }
-  if (json.find("more") != nullptr) return Got::kMore;
+  if (json.find("more") != nullptr) return LineKind::kMore;
   const auto* p_ok = json["ok"].boolean();
-  if (p_ok == nullptr) return Got::kNonsense;
+  if (p_ok == nullptr) return LineKind::kMalformed;
   m_answer.ok = *p_ok;
   m_answer.text = json[m_answer.ok ? "text" : "error"].textOrEmpty();
   if (const auto* p_facts = json.find("facts")) m_answer.facts = rowOf(*p_facts);
@@ -158,7 +158,7 @@ AnswerReader::Got AnswerReader::readLine(std::string_view line) {
       if (const auto* p_text = name.text()) m_answer.candidates.push_back(*p_text);
     }
   }
-  return Got::kAnswer;
+  return LineKind::kAnswer;
 }
 
 std::string answerJson(const AdminAnswer& answer) {

@@ -38,8 +38,8 @@ std::string droppedLine(std::uint64_t count);
 /// Reads the lines of an answer, for dfctl.
 class AnswerReader {
  public:
-  enum class Got { kMore, kAnswer, kEvent, kDropped, kNonsense };
-  Got readLine(std::string_view line);
+  enum class LineKind { kMore, kAnswer, kEvent, kDropped, kMalformed };
+  LineKind readLine(std::string_view line);
   /// The whole answer, after kAnswer.
   const AdminAnswer& answer() const { return m_answer; }
   /// The text of the event, after kEvent.

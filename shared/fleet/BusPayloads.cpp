@@ -32,7 +32,7 @@ bool isRound(const std::string& round) {
   return round.size() == kRoundDigits && round.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-constexpr std::int64_t kSendOnFormat = 1;
+constexpr std::int64_t kRedirectFormat = 1;
 constexpr std::size_t kMaxLink = 512;
 
 bool isGameWord(std::string_view game) {
@@ -72,7 +72,7 @@ bool isHost(const std::string& host) {
 
 }  // namespace
 
-std::string busComplaint(const BusSettings& settings) {
+std::string validateBusSettings(const BusSettings& settings) {
 #ifndef NAIAD_NATS
   return "--bus: this program was built without NATS (Debian: libnats-dev)";
 #endif
@@ -150,7 +150,7 @@ std::string resultSubject(std::string_view id) {
   return "naiad.results." + std::string(id);
 }
 
-std::string sendOnSubject(std::string_view id) {
+std::string redirectSubject(std::string_view id) {
   return "naiad.sendon." + std::string(id);
 }
 
@@ -186,20 +186,20 @@ std::optional<GameResult> GameResult::parse(std::string_view payload) {
   return good ? std::optional(result) : std::nullopt;
 }
 
-std::string SendOn::payload() const {
-  return Json{{"v", kSendOnFormat}, {"to", to}, {"link", link.text()}}.toString();
+std::string Redirect::payload() const {
+  return Json{{"v", kRedirectFormat}, {"to", to}, {"link", link.text()}}.toString();
 }
 
 // Refuses links that are not in the spelling that a directory writes.
-std::optional<SendOn> SendOn::parse(std::string_view payload) {
+std::optional<Redirect> Redirect::parse(std::string_view payload) {
   BusFields fields(payload);
-  fields.number("v", kSendOnFormat, kSendOnFormat);
+  fields.number("v", kRedirectFormat, kRedirectFormat);
   const std::string to = fields.word("to", kMaxServerId);
   const std::string text = fields.word("link", kMaxLink);
   const auto parsed = JoinLink::parse(text);
   const auto* const p_link = std::get_if<JoinLink>(&parsed);
   const bool good = fields.ok() && isServerId(to) && p_link != nullptr && p_link->text() == text;
-  return good ? std::optional(SendOn{to, *p_link}) : std::nullopt;
+  return good ? std::optional(Redirect{to, *p_link}) : std::nullopt;
 }
 
 std::string roomsText(const std::vector<PresenceRoom>& rooms) {
@@ -241,7 +241,7 @@ std::string Presence::payload() const {
            {"protocol", protocol},
            {"players", players},
            {"max_players", max_players},
-           {"password", asks_password},
+           {"password", requires_password},
            {"open", is_open}};
   if (const std::string text = roomsText(rooms); !text.empty()) all.set("rooms", text);
   return all.toString();
@@ -260,7 +260,7 @@ std::optional<Presence> Presence::parse(std::string_view payload) {
   presence.protocol = static_cast<std::uint32_t>(fields.number("protocol", 1, 65'535));
   presence.players = static_cast<std::uint32_t>(fields.number("players", 0, kMaxCounted));
   presence.max_players = static_cast<std::uint32_t>(fields.number("max_players", 0, kMaxCounted));
-  presence.asks_password = fields.flag("password");
+  presence.requires_password = fields.flag("password");
   presence.is_open = fields.flag("open");
   auto rooms =
       fields.has("rooms") ? readRooms(fields.line("rooms", kMaxRoomsText)) : std::vector<PresenceRoom>();

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shared/fleet/ServerFacts.h"
+#include "shared/fleet/ServerInfo.h"
 #include "shared/json/Json.h"
 #include "shared/net/stream/JoinLink.h"
 
@@ -27,7 +27,7 @@ struct BusSettings {
 };
 
 /// Returns why the settings are invalid, as a sentence; empty if they are valid. Does not connect.
-std::string busComplaint(const BusSettings& settings);
+std::string validateBusSettings(const BusSettings& settings);
 
 inline constexpr std::size_t kMaxBusPayload = 2048;
 
@@ -70,7 +70,7 @@ std::string serverIdOf(std::string_view text);
 /// Return "naiad.presence.ID", "naiad.results.ID" and "naiad.sendon.ID".
 std::string presenceSubject(std::string_view id);
 std::string resultSubject(std::string_view id);
-std::string sendOnSubject(std::string_view id);
+std::string redirectSubject(std::string_view id);
 
 /// A score on the bus (HighScores.h): a row of a table, with its origin.
 ///
@@ -106,16 +106,16 @@ struct GameResult {
 /// message.
 ///
 ///   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876/duel#…26 characters…"}
-struct SendOn {
+struct Redirect {
   std::string to;  ///< the other server: isServerId()
   JoinLink link;   ///< link to the server, and to one of its rooms if it has rooms
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
   /// Returns nullopt for a payload that no directory writes.
-  static std::optional<SendOn> parse(std::string_view payload);
+  static std::optional<Redirect> parse(std::string_view payload);
 
-  friend bool operator==(const SendOn&, const SendOn&) = default;
+  friend bool operator==(const Redirect&, const Redirect&) = default;
 };
 
 /// A room of a server in its Presence, whose `rooms` is a text with an entry per room, separated by blanks.
@@ -147,10 +147,10 @@ std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text);
 ///   {"v":1,"id":"berlin-9876","name":"Berlin","game":"tron","host":"192.0.2.7","port":9876,
 ///                       "key":"…64 hexadecimal digits…","protocol":4,"players":3,"max_players":64,
 ///                       "password":false,"open":true,"rooms":"lobby=lobby:3/64 duel=tron:0/2"}
-struct Presence : ServerFacts {
+struct Presence : ServerInfo {
   /// Heartbeat interval without --bus-interval; a server silent for three of them is removed.
   static constexpr std::chrono::milliseconds kInterval{2000};
-  static constexpr std::chrono::milliseconds kLeastInterval{50};  ///< limits a server's load on the directory
+  static constexpr std::chrono::milliseconds kMinInterval{50};  ///< limits a server's load on the directory
   /// Players are redirected to a dead server for up to three of these.
   static constexpr std::chrono::milliseconds kMaxInterval{60'000};
 

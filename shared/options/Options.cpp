@@ -60,8 +60,8 @@ CLI::Option* addTo(CLI::App& app, const Option& row) {
 /// Like CLI::Range, with one error message for all versions of CLI11.
 template <class Number>
 CLI::Validator within(const OptionRange& range) {
-  const auto least = static_cast<Number>(range.least);
-  const auto most = static_cast<Number>(range.most);
+  const auto least = static_cast<Number>(range.min);
+  const auto most = static_cast<Number>(range.max);
   const CLI::Range numbers(least, most);
   const auto check = [numbers, least, most](const std::string& value) {
     std::ostringstream wrong;
@@ -92,11 +92,11 @@ void describe(CLI::App& app, const Option& row, CLI::Option& option) {
 
 // ---- errors -----------------------------------------------------------------------------------------------
 
-Parsed complain(const Program& program, const std::string& sentence) {
+ParseResult reportUsageError(const Program& program, const std::string& sentence) {
   std::istringstream lines(sentence);
   for (std::string line; std::getline(lines, line);) std::cerr << program.name << ": " << line << "\n";
   std::cerr << "Run " << program.name << " --help for more information.\n";
-  return Parsed::kUsageError;
+  return ParseResult::kUsageError;
 }
 
 /// Returns the parser's message without the option's name in front.
@@ -173,7 +173,7 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
   const std::string before = found->joins ? currentValue(*found) : "";
   storeValue(*found, before.empty() ? *value : before + " " + *value, place + ": " + key);
   if (found->p_given != nullptr) *found->p_given = true;
-  if (found->p_place != nullptr) *found->p_place = place;
+  if (found->p_location != nullptr) *found->p_location = place;
 }
 
 /// Reads lines `name = value`; skips empty ones and # and ; comments. Throws OptionError: a line per error.
@@ -202,13 +202,13 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
 // ---- pages for the build ----------------------------------------------------------------------------------
 
 /// Handles `PROGRAM --option-page KIND`, which requires no other option or argument.
-std::optional<Parsed> printPage(const Program& program, const std::vector<Option>& options, int argc,
-                                const char* const* argv) {
+std::optional<ParseResult> printPage(const Program& program, const std::vector<Option>& options, int argc,
+                                     const char* const* argv) {
   if (argc != 3 || std::string_view(argv[1]) != "--option-page") return std::nullopt;
   const auto page = optionPage(argv[2], program, options);
-  if (!page) return complain(program, std::string("there is no page \"") + argv[2] + '"');
+  if (!page) return reportUsageError(program, std::string("there is no page \"") + argv[2] + '"');
   std::cout << *page;
-  return Parsed::kDone;
+  return ParseResult::kDone;
 }
 
 /// Empties a text or path, for a line without a value, which the parser would reject. False if it is neither.
@@ -279,9 +279,8 @@ std::string nearestName(const std::string& typed, const std::vector<std::string>
   return nearest;
 }
 
-std::vector<std::string> complainOfUnknownVariables(const char* const* p_environment,
-                                                    const std::string& prefix,
-                                                    const std::vector<std::string>& known) {
+std::vector<std::string> unknownVariableWarnings(const char* const* p_environment, const std::string& prefix,
+                                                 const std::vector<std::string>& known) {
   std::vector<std::string> sentences;
   for (; *p_environment != nullptr; ++p_environment) {
     const std::string_view entry(*p_environment);
@@ -294,13 +293,13 @@ std::vector<std::string> complainOfUnknownVariables(const char* const* p_environ
   return sentences;
 }
 
-Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
-                    const char* const* argv) {
+ParseResult parseOptions(const Program& program, const std::vector<Option>& options, int argc,
+                         const char* const* argv) {
   if (const auto printed = printPage(program, options, argc, argv)) return *printed;
   try {
-    return readAll(program, options, argc, argv) ? Parsed::kRun : Parsed::kDone;
+    return readAll(program, options, argc, argv) ? ParseResult::kRun : ParseResult::kDone;
   } catch (const OptionError& error) {
-    return complain(program, error.what());
+    return reportUsageError(program, error.what());
   }
 }
 
@@ -317,10 +316,10 @@ void copyValue(const Option& from, const Option& to) {
       from.target);
 }
 
-std::optional<int> exitCodeOf(Parsed parsed) {
+std::optional<int> exitCodeOf(ParseResult parsed) {
   constexpr int kWrongUsage = 2;
-  if (parsed == Parsed::kRun) return std::nullopt;
-  return parsed == Parsed::kDone ? 0 : kWrongUsage;
+  if (parsed == ParseResult::kRun) return std::nullopt;
+  return parsed == ParseResult::kDone ? 0 : kWrongUsage;
 }
 
 void storeValue(const Option& option, const std::string& value, const std::string& place) {

@@ -21,9 +21,8 @@ std::string nearestName(const std::string& typed, const std::vector<std::string>
 
 /// Returns a message, with the nearest known name, for each environment variable that begins with `prefix`
 /// and is not in `known`: it may be misspelt. `p_environment`: entries NAME=VALUE, then a null.
-std::vector<std::string> complainOfUnknownVariables(const char* const* p_environment,
-                                                    const std::string& prefix,
-                                                    const std::vector<std::string>& known);
+std::vector<std::string> unknownVariableWarnings(const char* const* p_environment, const std::string& prefix,
+                                                 const std::vector<std::string>& known);
 
 /// Stores a text; returns an error message, or "" if it is valid.
 using StoreText = std::function<std::string(const std::string& text)>;
@@ -35,8 +34,8 @@ using OptionTarget = std::variant<bool*, int*, std::int64_t*, double*, std::stri
 
 /// The range of a number; both ends are allowed.
 struct OptionRange {
-  double least = 0;
-  double most = 0;
+  double min = 0;
+  double max = 0;
 };
 
 struct Option {
@@ -56,7 +55,7 @@ struct Option {
   bool joins = false;                  ///< text that may be repeated; the values are joined with blanks
   bool* p_given = nullptr;             ///< becomes true if the option was given
   bool* p_from_environment = nullptr;  ///< becomes true if the variable gave it
-  std::string* p_place = nullptr;      ///< becomes "FILE:LINE" if the --config file gave it
+  std::string* p_location = nullptr;   ///< becomes "FILE:LINE" if the --config file gave it
 };
 
 /// Returns an option whose value has this type in --help: "FILE".
@@ -76,7 +75,7 @@ struct Program {
 /// The --help text of --config.
 inline constexpr const char* kConfigHelp = "Read options from this file (lines like: port = 9876)";
 
-enum class Parsed {
+enum class ParseResult {
   kRun,
   kDone,        ///< --help, --version or --option-page (OptionPages.h): printed
   kUsageError,  ///< wrong usage: printed
@@ -85,10 +84,10 @@ enum class Parsed {
 /// Stores the options from the command line, the environment and the --config file, in this order of
 /// precedence. Prints help, version and usage errors. Errors go to stderr, prefixed by the program's name,
 /// with the file and line of those in the file and the nearest name for an unknown one.
-Parsed parseOptions(const Program& program, const std::vector<Option>& options, int argc,
-                    const char* const* argv);
+ParseResult parseOptions(const Program& program, const std::vector<Option>& options, int argc,
+                         const char* const* argv);
 /// Returns the exit code after parsing: 0, or 2 for wrong usage; nullopt if the program is to run.
-std::optional<int> exitCodeOf(Parsed parsed);
+std::optional<int> exitCodeOf(ParseResult parsed);
 
 /// Like parseOptions(), but prints no errors: for a running program. Throws OptionError.
 void readOptions(const Program& program, const std::vector<Option>& options, int argc,

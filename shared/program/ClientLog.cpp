@@ -15,12 +15,14 @@ constexpr std::size_t kPrefixes = 1024;  ///< number of remembered address prefi
 
 ClientLog::ClientLog(LogLine log)
     : m_log(std::move(log)),
-      m_news{"lines about players", kNewsOfAPrefix, kNewsInAll, PerAddress<TokenBucket>(kPrefixes)},
-      m_refusals{"refusals", kRefusalsOfAPrefix, kRefusalsInAll, PerAddress<TokenBucket>(kPrefixes)} {}
+      m_events{"lines about players", kEventRatePerPrefix, kTotalEventRate,
+               PrefixLruMap<TokenBucket>(kPrefixes)},
+      m_refusals{"refusals", kRefusalRatePerPrefix, kTotalRefusalRate, PrefixLruMap<TokenBucket>(kPrefixes)} {
+}
 
-void ClientLog::logNews(const std::string& address, LogEvent event, Time now) {
+void ClientLog::logClientEvent(const std::string& address, LogEvent event, Time now) {
   event.text.insert(0, address + " ");
-  log(m_news, address, std::move(event), now);
+  log(m_events, address, std::move(event), now);
 }
 
 void ClientLog::logRefusal(const std::string& address, const std::string& sentence, Time now) {
@@ -31,27 +33,27 @@ void ClientLog::logRefusal(const std::string& address, const std::string& senten
 void ClientLog::log(Kind& kind, const std::string& address, LogEvent event, Time now) {
   const auto prefix = AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
   // Checks the prefix first: one over its limit uses no tokens of the others.
-  if (kind.prefixes.use(prefix).takeToken(kind.of_a_prefix, now) && kind.all.takeToken(kind.in_all, now)) {
+  if (kind.prefixes.use(prefix).tryConsume(kind.per_prefix, now) && kind.all.tryConsume(kind.total, now)) {
     event.fields.insert(event.fields.begin(), {"address", address});
     return m_log(event);
   }
-  if (kind.left_out++ == 0) kind.counted_at = now;
+  if (kind.suppressed++ == 0) kind.counted_at = now;
 }
 
 void ClientLog::update(Time now) {
-  for (Kind* p_kind : {&m_news, &m_refusals}) {
-    if (p_kind->left_out > 0 && now - p_kind->counted_at >= kCountTime) logCount(*p_kind);
+  for (Kind* p_kind : {&m_events, &m_refusals}) {
+    if (p_kind->suppressed > 0 && now - p_kind->counted_at >= kCountInterval) logCount(*p_kind);
   }
 }
 
 void ClientLog::finish() {
-  logCount(m_news);
+  logCount(m_events);
   logCount(m_refusals);
 }
 
 void ClientLog::logCount(Kind& kind) {
-  if (kind.left_out == 0) return;
-  m_log(std::to_string(std::exchange(kind.left_out, 0)) + " more " + kind.name + " were not logged");
+  if (kind.suppressed == 0) return;
+  m_log(std::to_string(std::exchange(kind.suppressed, 0)) + " more " + kind.name + " were not logged");
 }
 
 }  // namespace naiad

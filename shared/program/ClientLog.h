@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/PrefixLruMap.h"
 #include "shared/net/base/TokenBucket.h"
 #include "shared/program/LineLog.h"
 
@@ -20,19 +20,19 @@ class ClientLog {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Limit of refusals: rate per second and burst, per address prefix and in all.
-  static constexpr BucketRate kRefusalsOfAPrefix{1, 1};
-  static constexpr BucketRate kRefusalsInAll{20, 20};
+  static constexpr BucketRate kRefusalRatePerPrefix{1, 1};
+  static constexpr BucketRate kTotalRefusalRate{20, 20};
   /// Limit of other lines: players join, leave and return. A whole class may join and leave at once.
-  static constexpr BucketRate kNewsOfAPrefix{1, 128};
-  static constexpr BucketRate kNewsInAll{20, 512};
+  static constexpr BucketRate kEventRatePerPrefix{1, 128};
+  static constexpr BucketRate kTotalEventRate{20, 512};
   /// Interval between two lines with the count of one kind.
-  static constexpr std::chrono::seconds kCountTime{10};
+  static constexpr std::chrono::seconds kCountInterval{10};
 
   explicit ClientLog(LogLine log);
 
   /// Logs "ADDRESS TEXT"; the address becomes a field too. `address` is that of a TCP connection,
   /// "127.0.0.1:40000".
-  void logNews(const std::string& address, LogEvent event, Time now);
+  void logClientEvent(const std::string& address, LogEvent event, Time now);
   /// Logs `ADDRESS refused: "SENTENCE"`; the sentence becomes a field too.
   void logRefusal(const std::string& address, const std::string& sentence, Time now);
   /// Logs the counts that are due. Call once per tick.
@@ -43,18 +43,18 @@ class ClientLog {
  private:
   struct Kind {
     const char* name;
-    BucketRate of_a_prefix;
-    BucketRate in_all;
-    PerAddress<TokenBucket> prefixes;
+    BucketRate per_prefix;
+    BucketRate total;
+    PrefixLruMap<TokenBucket> prefixes;
     TokenBucket all{};
-    std::uint64_t left_out = 0;
+    std::uint64_t suppressed = 0;
     Time counted_at{};
   };
   void log(Kind& kind, const std::string& address, LogEvent event, Time now);
   void logCount(Kind& kind);
 
   LogLine m_log;
-  Kind m_news;
+  Kind m_events;
   Kind m_refusals;
 };
 

@@ -20,7 +20,7 @@ struct LogEvent {
 
   LogEvent(std::string sentence) : text(std::move(sentence)) {}  // NOLINT(google-explicit-constructor)
   LogEvent(const char* p_sentence) : text(p_sentence) {}         // NOLINT(google-explicit-constructor)
-  LogEvent(Level how_bad, std::string sentence) : level(how_bad), text(std::move(sentence)) {}
+  LogEvent(Level severity, std::string sentence) : level(severity), text(std::move(sentence)) {}
   /// `what`: a string literal, "joined". `sentence` contains the fields' values.
   LogEvent(const char* what, std::string sentence, Fields facts)
       : name(what), text(std::move(sentence)), fields(std::move(facts)) {}

@@ -10,7 +10,7 @@
 
 namespace naiad {
 
-std::size_t allowOpenFiles(std::size_t wanted) {
+std::size_t raiseOpenFileLimit(std::size_t wanted) {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
   if (limit.rlim_cur >= wanted) return limit.rlim_cur;
@@ -19,7 +19,7 @@ std::size_t allowOpenFiles(std::size_t wanted) {
   return setrlimit(RLIMIT_NOFILE, &more) == 0 ? more.rlim_cur : limit.rlim_cur;
 }
 
-void surviveBrokenPipes() {
+void ignoreBrokenPipes() {
   struct sigaction before {};
   if (sigaction(SIGPIPE, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
   // A handler instead of SIG_IGN: exec() resets handlers, but started programs inherit an ignored signal.

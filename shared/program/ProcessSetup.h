@@ -9,11 +9,11 @@ namespace naiad {
 
 /// Raises the limit of open files and sockets to `wanted`, or as far as the system allows; never lowers it.
 /// Returns the new limit, which may be lower.
-std::size_t allowOpenFiles(std::size_t wanted);
+std::size_t raiseOpenFileLimit(std::size_t wanted);
 
 /// Makes writes to a pipe without a reader fail with EPIPE, unless the process already handles SIGPIPE.
 /// Programs started by this process get the default.
-void surviveBrokenPipes();
+void ignoreBrokenPipes();
 
 /// Runs `job` on a new thread that blocks all signals, so that only other threads handle them. Throws
 /// std::system_error if no thread can be started.

@@ -13,7 +13,7 @@ constexpr bool isNewer(std::uint32_t a, std::uint32_t b) {
 }
 
 /// Returns the number with these 16 low bits that is nearest to `near`: correct if it is less than 2^15 away.
-constexpr std::uint32_t restored(std::uint64_t low, std::uint32_t near) {
+constexpr std::uint32_t expandSerial(std::uint64_t low, std::uint32_t near) {
   const auto apart =
       static_cast<std::int16_t>(static_cast<std::uint16_t>(low) - static_cast<std::uint16_t>(near));
   return near + static_cast<std::uint32_t>(std::int32_t{apart});

@@ -125,15 +125,15 @@ class BitReader {
 
   bool ok() const { return m_ok; }
   void fail() { m_ok = false; }
-  std::size_t bitsLeft() const { return m_bytes.size() * 8 - m_at; }
+  std::size_t remainingBits() const { return m_bytes.size() * 8 - m_at; }
   /// True if nothing is left but the padding of the last byte.
   bool atEnd() {
-    const int left = static_cast<int>(bitsLeft());
-    return m_ok && bitsLeft() < 8 && bits(left) == 0;
+    const int left = static_cast<int>(remainingBits());
+    return m_ok && remainingBits() < 8 && bits(left) == 0;
   }
 
   std::uint64_t bits(int count) {
-    if (!m_ok || static_cast<std::size_t>(count) > bitsLeft()) {
+    if (!m_ok || static_cast<std::size_t>(count) > remainingBits()) {
       m_ok = false;
       return 0;
     }

@@ -61,21 +61,22 @@ ControlRow readRow(ByteReader& in) {
   return row;
 }
 
-// A flag for the usual case: the lever's pull equals the object's velocity.
-void writeLever(BitWriter& out, const df::ControlLever& lever, df::Fixed velocity) {
-  out.flag(lever.let_go);
-  out.flag(lever.pull != 0);
-  if (lever.pull == 0) return;
-  out.flag(lever.pull == velocity);
-  if (lever.pull != velocity) out.signedGolomb(lever.pull, kPullOrder);
+// A flag for the usual case: the axis's target velocity equals the object's velocity.
+void writeLever(BitWriter& out, const df::ControlAxis& lever, df::Fixed velocity) {
+  out.flag(lever.is_released);
+  out.flag(lever.target_velocity != 0);
+  if (lever.target_velocity == 0) return;
+  out.flag(lever.target_velocity == velocity);
+  if (lever.target_velocity != velocity) out.signedGolomb(lever.target_velocity, kPullOrder);
 }
 
-df::ControlLever readLever(BitReader& in, df::Fixed velocity) {
-  df::ControlLever lever;
-  lever.let_go = in.flag();
+df::ControlAxis readLever(BitReader& in, df::Fixed velocity) {
+  df::ControlAxis lever;
+  lever.is_released = in.flag();
   if (!in.flag()) return lever;
-  lever.pull = in.flag() ? velocity : in.signedGolomb(kPullOrder, df::kMaxControlReach);
-  if (lever.pull > df::kMaxControlReach || lever.pull < -df::kMaxControlReach) in.fail();
+  lever.target_velocity = in.flag() ? velocity : in.signedGolomb(kPullOrder, df::kMaxControlReach);
+  if (lever.target_velocity > df::kMaxControlReach || lever.target_velocity < -df::kMaxControlReach)
+    in.fail();
   return lever;
 }
 

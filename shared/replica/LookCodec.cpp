@@ -242,7 +242,7 @@ void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t ti
     kind(Kind::kNamed);
     out.bits(form.id, kAppearanceIdBits);
   } else {
-    kind(Kind::kSpelled);
+    kind(Kind::kInline);
     out.flag(form.kind == LookForm::kDefined);
     if (form.kind == LookForm::kDefined) out.bits(form.id, kAppearanceIdBits);
     writeSequence(out, look.sequence);

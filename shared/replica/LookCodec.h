@@ -10,10 +10,10 @@
 
 namespace naiad {
 
-/// The encoding of a look's sequence: in full (kSpelled), as an id that the client knows (kNamed), or in full
+/// The encoding of a look's sequence: in full (kInline), as an id that the client knows (kNamed), or in full
 /// with a new id (kDefined).
 struct LookForm {
-  enum Kind : std::uint8_t { kSpelled, kNamed, kDefined } kind = kSpelled;
+  enum Kind : std::uint8_t { kInline, kNamed, kDefined } kind = kInline;
   std::uint32_t id = 0;
 };
 
@@ -51,7 +51,7 @@ std::size_t encodedBits(const Sequence& sequence);
 // ---- implementation ------------------------------------------------------------------------------------
 
 namespace look_codec {
-enum class Kind : std::uint8_t { kNothing, kCharacter, kSpelled, kNamed };
+enum class Kind : std::uint8_t { kNothing, kCharacter, kInline, kNamed };
 std::int32_t readAltitude(BitReader& in);
 Kind readKind(BitReader& in);
 Appearance readSingle(BitReader& in);
@@ -67,7 +67,7 @@ Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find_n
     case look_codec::Kind::kCharacter:
       look.sequence = {look_codec::readSingle(in)};
       return look;
-    case look_codec::Kind::kSpelled: {
+    case look_codec::Kind::kInline: {
       const bool defines = in.flag();
       const auto id = defines ? static_cast<std::uint32_t>(in.bits(kAppearanceIdBits)) : 0;
       look.sequence = readSequence(in);

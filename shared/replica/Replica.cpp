@@ -75,7 +75,7 @@ void Replica::apply(const Snapshot& snapshot) {
   const Records& records = snapshot.records;
   if (supersedes(number, m_context.number)) {
     m_context.number = number;
-    noteTick(tick);
+    advanceTick(tick);
   }
   if (snapshot.header.has_input && isNewer(snapshot.header.input, m_context.input)) {
     m_context.input = snapshot.header.input;
@@ -121,9 +121,9 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
       ++m_overflows;
       return;
     }
-    found = m_entries.emplace(record.id, Entry{}).first;
+    found = m_entries.emplace(record.id, ReplicaObject{}).first;
   }
-  Entry& entry = found->second;
+  ReplicaObject& entry = found->second;
   const bool fresh = supersedes(number, entry.newest[kLifeIndex]);
   if (record.groups == kDeath) {
     if (fresh) end(entry, number);
@@ -149,7 +149,7 @@ void Replica::applyObject(std::uint32_t number, const ObjectRecord& record) {
 }
 
 // Marks the object as dead since snapshot `number`.
-void Replica::end(Entry& entry, std::uint32_t number) {
+void Replica::end(ReplicaObject& entry, std::uint32_t number) {
   m_alive -= entry.alive ? 1 : 0;
   release(entry.state.look.sequence);
   entry.alive = false;
@@ -157,7 +157,7 @@ void Replica::end(Entry& entry, std::uint32_t number) {
   entry.newest.fill(number);
 }
 
-void Replica::setLook(Entry& entry, const Look& look) {
+void Replica::setLook(ReplicaObject& entry, const Look& look) {
   if (!look.sequence.isSharedWith(entry.state.look.sequence)) {
     const Sequence before = entry.state.look.sequence;
     if (!look.sequence.empty() && ++m_uses[look.sequence.identity()] == 1) m_glyphs += look.sequence.weight();
@@ -179,13 +179,13 @@ void Replica::release(const Sequence& sequence) {
   m_uses.erase(found);
 }
 
-const Replica::Entry* Replica::find(std::uint32_t id) const {
+const Replica::ReplicaObject* Replica::find(std::uint32_t id) const {
   const auto found = m_entries.find(id);
   return found != m_entries.end() && found->second.alive ? &found->second : nullptr;
 }
 
 const ObjectState* Replica::followed() const {
-  const Entry* entry = m_view.follows ? find(m_view.id) : nullptr;
+  const ReplicaObject* entry = m_view.follows ? find(m_view.id) : nullptr;
   return entry != nullptr && entry->generation == m_view.generation ? &entry->state : nullptr;
 }
 
@@ -214,7 +214,7 @@ CellPosition Replica::focus(std::uint32_t tick, const Placement* p_placement) co
 }
 
 std::optional<CellPosition> Replica::ownCell(std::uint32_t tick, const Placement* p_placement) const {
-  const Entry* p_entry = m_control.generation != 0 ? find(m_control.slot) : nullptr;
+  const ReplicaObject* p_entry = m_control.generation != 0 ? find(m_control.slot) : nullptr;
   if (p_entry == nullptr || p_entry->generation != m_control.generation) return std::nullopt;
   const CellPosition corner = viewCorner(tick, p_placement);
   const df::FixedVector at = placed(p_entry->state, tick, p_placement);

@@ -34,7 +34,7 @@ class Replica {
  public:
   /// One remembered object. Stores the newest applied number of each group; a death sets all of them, so that
   /// a late birth cannot revive the object.
-  struct Entry {
+  struct ReplicaObject {
     std::uint8_t generation = 0;
     bool alive = false;
     std::array<std::uint32_t, kGroupCount> newest{};
@@ -58,7 +58,7 @@ class Replica {
   void apply(const Snapshot& snapshot);
 
   /// Expects later snapshots near this tick, if it is newer than all applied ones.
-  void noteTick(std::uint32_t tick) {
+  void advanceTick(std::uint32_t tick) {
     if (isNewer(tick, m_context.tick)) m_context.tick = tick;
   }
 
@@ -91,12 +91,12 @@ class Replica {
   /// The colour behind all characters of the view.
   df::Color background() const { return m_world.background; }
   std::size_t aliveCount() const { return m_alive; }
-  /// The newest applied snapshot, tick and input, or the tick of noteTick().
+  /// The newest applied snapshot, tick and input, or the tick of advanceTick().
   const SnapshotContext& newest() const { return m_context; }
   /// Returns the live object with this id, or null.
-  const Entry* find(std::uint32_t id) const;
+  const ReplicaObject* find(std::uint32_t id) const;
   /// All objects by id. Dead ones are kept only to ignore late records.
-  const std::unordered_map<std::uint32_t, Entry>& entries() const { return m_entries; }
+  const std::unordered_map<std::uint32_t, ReplicaObject>& entries() const { return m_entries; }
   /// Returns a checksum of all objects, independent of the order of arrival (PROTOCOL.md, "Checksum").
   std::uint64_t checksum() const;
   /// The number of records ignored because the replica was full.
@@ -104,13 +104,13 @@ class Replica {
 
  private:
   void applyObject(std::uint32_t number, const ObjectRecord& record);
-  void end(Entry& entry, std::uint32_t number);
-  void setLook(Entry& entry, const Look& look);
+  void end(ReplicaObject& entry, std::uint32_t number);
+  void setLook(ReplicaObject& entry, const Look& look);
   void release(const Sequence& sequence);
 
   SnapshotContext m_context;
   SnapshotDictionary m_dictionary;
-  std::unordered_map<std::uint32_t, Entry> m_entries;
+  std::unordered_map<std::uint32_t, ReplicaObject> m_entries;
   std::map<std::uint32_t, TextRecord> m_texts;
   std::map<std::uint32_t, std::uint32_t> m_text_newest;
   WorldRecord m_world;

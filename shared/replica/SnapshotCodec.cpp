@@ -114,7 +114,7 @@ class ObjectReader {
       : m_in(in), m_header(header), m_origin(origin), m_dictionary(dictionary), m_records(records) {}
 
   void read() {
-    const std::uint64_t count = m_in.golomb(kObjectCountOrder, m_in.bitsLeft());
+    const std::uint64_t count = m_in.golomb(kObjectCountOrder, m_in.remainingBits());
     const int order = count > 0 ? static_cast<int>(m_in.bits(kIdOrderBits)) : 0;
     std::uint64_t next = 0;
     for (std::uint64_t i = 0; i < count && m_in.ok(); ++i) {
@@ -206,13 +206,13 @@ class ObjectReader {
 
 SnapshotHeader readHeader(BitReader& in, const SnapshotContext& context) {
   SnapshotHeader header;
-  header.number = restored(in.bits(kLowBits), context.number);
-  header.tick = restored(in.bits(kLowBits), context.tick);
+  header.number = expandSerial(in.bits(kLowBits), context.number);
+  header.tick = expandSerial(in.bits(kLowBits), context.tick);
   header.epoch = static_cast<std::uint8_t>(in.bits(2));
   header.complete = in.flag();
   header.has_input = in.flag();
   if (header.has_input) {
-    header.input = restored(in.bits(kLowBits), context.input);
+    header.input = expandSerial(in.bits(kLowBits), context.input);
     header.input_tick = header.tick - static_cast<std::uint32_t>(in.bits(kAgeBits));
   }
   if (header.number == 0) in.fail();
@@ -246,7 +246,8 @@ void readExtras(BitReader& in, const SnapshotContext& context, const Origin& ori
   if (in.flag()) readRareExtras(in, out.records);
   if (!in.flag()) return;
   const SnapshotHeader& header = out.header;
-  const std::uint32_t input = header.has_input ? header.input : restored(in.bits(kLowBits), context.input);
+  const std::uint32_t input =
+      header.has_input ? header.input : expandSerial(in.bits(kLowBits), context.input);
   out.records.controls.push_back(readControlRecord(in, header.tick, origin));
   out.records.controls.back().newest_input = input;
 }
@@ -392,7 +393,7 @@ void SnapshotWriter::encodeWith(BitWriter& out, std::uint8_t groups, std::uint8_
 
 void SnapshotWriter::object(std::uint32_t id, const BitWriter& bits) {
   m_encoded.append(bits);
-  keep(id);
+  commit(id);
 }
 
 std::size_t SnapshotWriter::stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
@@ -402,7 +403,7 @@ std::size_t SnapshotWriter::stage(std::uint8_t groups, std::uint8_t generation, 
   return m_encoded.bitCount() - m_kept;
 }
 
-void SnapshotWriter::keep(std::uint32_t id) {
+void SnapshotWriter::commit(std::uint32_t id) {
   const std::size_t bits = m_encoded.bitCount() - m_kept;
   m_objects.push_back({id, m_kept, bits});
   m_kept += bits;
@@ -411,7 +412,7 @@ void SnapshotWriter::keep(std::uint32_t id) {
 
 // n ids up to M in exp-Golomb codes of order k, which is about log2(M/n): k + 1 bits each, and two more for
 // each doubling of a gap beyond 2^k; the gaps add up to M, so there are fewer than 2n such doublings.
-bool SnapshotWriter::hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const {
+bool SnapshotWriter::hasSpace(std::size_t more, std::uint32_t last_id, std::size_t bytes) const {
   const std::size_t count = m_objects.size() + 1;
   const auto order = static_cast<std::size_t>(std::bit_width(last_id / count));
   return m_bits + more + count * (order + 5) <= 8 * bytes;

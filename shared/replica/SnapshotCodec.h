@@ -74,14 +74,14 @@ class SnapshotWriter {
   /// Adds an encoded record. Each id at most once.
   void object(std::uint32_t id, const BitWriter& bits);
 
-  /// Like encode() and object() without a copy: returns the record's bits; then call keep() or drop().
+  /// Like encode() and object() without a copy: returns the record's bits; then call commit() or drop().
   std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
                     const SharedMotion& motion, LookForm form = {});
-  void keep(std::uint32_t id);
+  void commit(std::uint32_t id);
   void drop() { m_encoded.truncate(m_kept); }
 
   /// True if one more object of `more` bits and any id up to `last_id` fits into `bytes`.
-  bool hasRoom(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
+  bool hasSpace(std::size_t more, std::uint32_t last_id, std::size_t bytes) const;
   bool isEmpty() const { return m_objects.empty() && m_bits == kHeaderBits; }
   /// Overrides SnapshotHeader::complete of beginSnapshot().
   void setComplete(bool complete) { m_header.complete = complete; }

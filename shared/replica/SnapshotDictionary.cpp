@@ -5,7 +5,7 @@
 namespace naiad {
 
 template <class Value>
-SnapshotDictionary::Find SnapshotDictionary::judge(const Named<Value>& named, std::uint32_t number) {
+SnapshotDictionary::Find SnapshotDictionary::classify(const Named<Value>& named, std::uint32_t number) {
   if (named.number == 0) return Find::kUnknown;
   return isNewer(number, named.number) ? Find::kFound : Find::kStale;
 }
@@ -14,7 +14,7 @@ SnapshotDictionary::Find SnapshotDictionary::find(std::uint32_t number, std::uin
                                                   Origin& out) const {
   if (slot > kOriginSlots) return Find::kUnknown;
   out = m_origins[slot].value;
-  return slot == 0 ? Find::kFound : judge(m_origins[slot], number);
+  return slot == 0 ? Find::kFound : classify(m_origins[slot], number);
 }
 
 SnapshotDictionary::Find SnapshotDictionary::find(std::uint32_t number, std::uint32_t id,
@@ -22,7 +22,7 @@ SnapshotDictionary::Find SnapshotDictionary::find(std::uint32_t number, std::uin
   const auto found = m_sequences.find(id);
   if (found == m_sequences.end()) return Find::kUnknown;
   out = &found->second.value;
-  return judge(found->second, number);
+  return classify(found->second, number);
 }
 
 void SnapshotDictionary::define(std::uint32_t number, const OriginRecord& record) {

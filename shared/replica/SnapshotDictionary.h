@@ -37,7 +37,7 @@ class SnapshotDictionary {
     Value value;
   };
   template <class Value>
-  static Find judge(const Named<Value>& named, std::uint32_t number);
+  static Find classify(const Named<Value>& named, std::uint32_t number);
 
   std::array<Named<Origin>, kOriginSlots + 1> m_origins;
   std::unordered_map<std::uint32_t, Named<Sequence>> m_sequences;

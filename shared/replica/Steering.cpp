@@ -6,8 +6,8 @@ namespace naiad {
 
 namespace {
 
+using df::ControlAxis;
 using df::ControlEffect;
-using df::ControlLever;
 using df::ControlRow;
 using df::ControlState;
 using df::ControlTable;
@@ -37,8 +37,8 @@ Fixed glide(Fixed position, Fixed velocity) {
   return std::abs(rest) < std::abs(velocity) ? rest : velocity;
 }
 
-Fixed drive(const ControlTable& table, const ControlLever& lever, Fixed position, Fixed velocity) {
-  if (lever.pull != 0) return lever.pull;
+Fixed drive(const ControlTable& table, const ControlAxis& lever, Fixed position, Fixed velocity) {
+  if (lever.target_velocity != 0) return lever.target_velocity;
   return table.whole_cells ? glide(position, velocity) : 0;
 }
 
@@ -52,7 +52,7 @@ bool isOutside(const ControlTable& table, df::FixedVector p) {
 }
 
 /// Sets the velocity of the drives. Any velocity, of a drive or not, ends at the bounds, axis by axis.
-void setOff(const ControlTable& table, const ControlState& state, Steered& object) {
+void setOff(const ControlTable& table, const ControlState& state, SteeringTarget& object) {
   const Axes axes = driven(table);
   const df::FixedVector at = object.position();
   const df::FixedVector before = object.velocity();
@@ -66,15 +66,15 @@ void setOff(const ControlTable& table, const ControlState& state, Steered& objec
   if (v != before) object.setVelocity(v);
 }
 
-void pull(ControlLever& lever, Fixed to, bool down) {
+void target_velocity(ControlAxis& lever, Fixed to, bool down) {
   if (down) {
     lever = {to, false};
-  } else if (lever.pull == to) {
-    lever.let_go = true;  // from the next tick on, so a key pressed and released in one tick still acts
+  } else if (lever.target_velocity == to) {
+    lever.is_released = true;  // from the next tick on, so a key pressed and released in one tick still acts
   }
 }
 
-void act(const ControlTable& table, const ControlRow& row, ControlState& state, Steered& object) {
+void act(const ControlTable& table, const ControlRow& row, ControlState& state, SteeringTarget& object) {
   if (state.wait[row.group] > 0) return;
   state.wait[row.group] = row.wait;
   if (row.effect == ControlEffect::kStep) {
@@ -90,10 +90,10 @@ void act(const ControlTable& table, const ControlRow& row, ControlState& state, 
 
 }  // namespace
 
-void beginControlTick(const ControlTable& table, ControlState& state, Steered& object) {
+void beginControlTick(const ControlTable& table, ControlState& state, SteeringTarget& object) {
   for (std::uint16_t& wait : state.wait) wait -= wait > 0 ? 1 : 0;
-  for (ControlLever* lever : {&state.x, &state.y}) {
-    if (lever->let_go) *lever = {};
+  for (ControlAxis* lever : {&state.x, &state.y}) {
+    if (lever->is_released) *lever = {};
   }
   if (table.patience > 0 && ++state.silence > table.patience) {
     state.x = state.y = {};
@@ -103,7 +103,7 @@ void beginControlTick(const ControlTable& table, ControlState& state, Steered& o
 }
 
 bool applyControlKey(const ControlTable& table, ControlState& state, df::Keyboard::Key key,
-                     df::EventKeyboardAction action, Steered& object) {
+                     df::EventKeyboardAction action, SteeringTarget& object) {
   const bool down = action != df::KEY_RELEASED;
   if (down) state.silence = 0;
   bool known = false;
@@ -112,8 +112,8 @@ bool applyControlKey(const ControlTable& table, ControlState& state, df::Keyboar
     if (row.key != key) continue;
     if (row.effect == ControlEffect::kDrive) {
       known = true;
-      if (row.x) pull(state.x, row.value.x, down);
-      if (row.y) pull(state.y, row.value.y, down);
+      if (row.x) target_velocity(state.x, row.value.x, down);
+      if (row.y) target_velocity(state.y, row.value.y, down);
     } else if (row.action == action) {
       known = true;
       turned |= row.effect == ControlEffect::kVelocity;

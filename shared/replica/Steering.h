@@ -10,9 +10,9 @@
 namespace naiad {
 
 /// The steered object: the engine's, or the client's predicted copy.
-class Steered {
+class SteeringTarget {
  public:
-  virtual ~Steered() = default;
+  virtual ~SteeringTarget() = default;
   virtual df::FixedVector position() const = 0;
   /// The change of the position per tick.
   virtual df::FixedVector velocity() const = 0;
@@ -21,13 +21,13 @@ class Steered {
   virtual void moveTo(df::FixedVector position) = 0;
 };
 
-/// Begins a tick: shortens waits, ends the pull of keys released in the last tick, and ends all drives if the
-/// keyboard was silent for too long. Then drives and bounds set the velocity.
-void beginControlTick(const df::ControlTable& table, df::ControlState& state, Steered& object);
+/// Begins a tick: shortens waits, stops the axes of keys released in the last tick, and ends all drives if
+/// the keyboard was silent for too long. Then drives and bounds set the velocity.
+void beginControlTick(const df::ControlTable& table, df::ControlState& state, SteeringTarget& object);
 
 /// Applies an action of a key. A drive acts immediately when its key is pressed, and with the next tick when
 /// the key is reported as held or released. Returns true if a row is for the key and an object is steered.
 bool applyControlKey(const df::ControlTable& table, df::ControlState& state, df::Keyboard::Key key,
-                     df::EventKeyboardAction action, Steered& object);
+                     df::EventKeyboardAction action, SteeringTarget& object);
 
 }  // namespace naiad

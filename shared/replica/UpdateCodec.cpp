@@ -75,13 +75,13 @@ void readWhat(BitReader& in, Input& input) {
 void readInputs(BitReader& in, const UpdateContext& context, ClientUpdate& update) {
   const std::uint64_t count = in.golomb(0, kMaxUpdateInputs);
   if (count == 0) return;
-  std::uint32_t id = restored(in.bits(kTickBits), context.input);
+  std::uint32_t id = expandSerial(in.bits(kTickBits), context.input);
   std::uint32_t tick = 0;
   for (std::uint64_t i = 0; i < count && in.ok(); ++i, ++id) {
     Input input;
     if (id == 0) return in.fail();
     input.id = id;
-    tick = i == 0 ? restored(in.bits(kTickBits), context.tick)
+    tick = i == 0 ? expandSerial(in.bits(kTickBits), context.tick)
                   : tick + static_cast<std::uint32_t>(in.signedGolomb(kTickOrder, kMaxTicksApart));
     input.tick = tick;
     input.snapshot = update.acks.newest - static_cast<std::uint32_t>(in.golomb(kSnapshotOrder, kOldestBase));
@@ -101,7 +101,7 @@ std::string writeUpdate(const ClientUpdate& update) {
   }
   out.flag(update.checksum.has_value());
   if (update.checksum) out.bits(*update.checksum, 64);
-  out.flag(update.wants_reset);
+  out.flag(update.needs_reset);
   const std::size_t count = std::min(update.inputs.size(), kMaxUpdateInputs);
   out.golomb(count, 0);
   if (count > 0) out.bits(update.inputs[0].id & 0xFFFF, kTickBits);
@@ -126,12 +126,12 @@ std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateConte
   BitReader in(bytes);
   ClientUpdate update;
   if (in.flag()) {
-    update.acks.newest = restored(in.bits(kTickBits), context.snapshot);
+    update.acks.newest = expandSerial(in.bits(kTickBits), context.snapshot);
     update.acks.mask = readMask(in);
     if (update.acks.newest == 0) in.fail();
   }
   if (in.flag()) update.checksum = in.bits(64);
-  update.wants_reset = in.flag();
+  update.needs_reset = in.flag();
   readInputs(in, context, update);
   if (!in.atEnd()) return std::nullopt;
   return update;

@@ -30,7 +30,7 @@ struct Input {
 struct ClientUpdate {
   AckWindow acks;                         ///< newest 0: nothing arrived yet
   std::optional<std::uint64_t> checksum;  ///< checksum of the replica with exactly the snapshots in `acks`
-  bool wants_reset = false;               ///< true if the replica is unusable: send the whole world again
+  bool needs_reset = false;               ///< true if the replica is unusable: send the whole world again
   std::vector<Input> inputs;              ///< unacknowledged inputs, with consecutive ids
 };
 

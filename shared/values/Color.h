@@ -1,7 +1,7 @@
 // The eight colours of a Dragonfly character (book, Listing 4.66).
 #pragma once
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace df {
 

@@ -66,21 +66,21 @@ struct ControlTable {
 bool isValid(const ControlTable& table);
 
 /// The state of an axis that keys drive.
-struct ControlLever {
-  Fixed pull = 0;       ///< velocity that the newest key asks for; 0: no key does
-  bool let_go = false;  ///< its key was released: the pull ends with the next tick
+struct ControlAxis {
+  Fixed target_velocity = 0;  ///< velocity that the newest key asks for; 0: no key does
+  bool is_released = false;   ///< its key was released: the target_velocity ends with the next tick
 
-  friend bool operator==(const ControlLever& a, const ControlLever& b) {
-    return a.pull == b.pull && a.let_go == b.let_go;
+  friend bool operator==(const ControlAxis& a, const ControlAxis& b) {
+    return a.target_velocity == b.target_velocity && a.is_released == b.is_released;
   }
-  friend bool operator!=(const ControlLever& a, const ControlLever& b) { return !(a == b); }
+  friend bool operator!=(const ControlAxis& a, const ControlAxis& b) { return !(a == b); }
 };
 
 /// The state of a table between ticks.
 struct ControlState {
   bool steering = false;  ///< keys have effects; otherwise they are only recorded
-  ControlLever x;
-  ControlLever y;
+  ControlAxis x;
+  ControlAxis y;
   std::uint16_t silence = 0;                         ///< ticks since the last key, if `patience` is set
   std::array<std::uint16_t, kControlGroups> wait{};  ///< ticks until the group may act again
 

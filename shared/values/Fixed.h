@@ -14,7 +14,7 @@
 #include <optional>
 #endif
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace df {
 

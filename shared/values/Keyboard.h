@@ -2,7 +2,7 @@
 // is int, so that any number can be cast to them and compared with the known ones.
 #pragma once
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace df {
 

@@ -131,7 +131,7 @@ class EngineTest(unittest.TestCase):
         ours = types.SimpleNamespace(published=("Object.h", "Event.h"))
         said = report.Report(place)
         one = game.Game(place + "/game", place, ours, said, folder.Limits())
-        one.take_in()
+        one.copy_in()
         self.assertEqual((one.engine.files, one.files), (["Event.h", "dragonfly/Object.h"], ["Base.h"]))
         self.assertIn(("Thing.h", "a link to a file that was left out"), [(row.where, row.text) for row in said.rows])
         verdicts.Verdicts(one, None)  # reads what an earlier run skipped

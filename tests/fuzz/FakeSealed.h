@@ -24,7 +24,7 @@ class FakeSealed : public SealedChannel {
     m_air.on_packet = std::move(on_packet);
   }
   void send(std::string_view) override {}
-  std::optional<std::size_t> room() const override { return kMaxDatagramSnapshot; }
+  std::optional<std::size_t> payloadBudget() const override { return kMaxDatagramSnapshot; }
   std::string peerAddress() const override { return "fake:1"; }
   std::uint64_t id() const override { return 1; }
   AeadId aead() const override { return AeadId::kAes128Gcm; }

@@ -61,7 +61,7 @@ void ScriptedLink::run(Script& script, int ticks) {
       case 4:
         if ((what & 0xF8) == 0xF8) reset();
         m_input += what >> 6;
-        m_sender.noteInput(m_input, m_publisher.tick());
+        m_sender.setNewestInput(m_input, m_publisher.tick());
         break;
       default:
         --ticks;
@@ -196,7 +196,7 @@ void ScriptedLink::requireSame() const {
   m_sender.known().forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
     ++alive;
     const Publisher::Model* model = m_publisher.find(known.slot);
-    const Replica::Entry* entry = m_replica.find(id);
+    const Replica::ReplicaObject* entry = m_replica.find(id);
     REQUIRE(model != nullptr && entry != nullptr);
     REQUIRE(known.generation == model->generation);
     REQUIRE(entry->state.order == model->state.order);

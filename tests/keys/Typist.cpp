@@ -57,7 +57,7 @@ void Typist::take(const std::vector<TerminalEvent>& events) {
   for (const TerminalEvent& event : events) {
     const auto* p_key = std::get_if<KeyEvent>(&event);
     if (p_key == nullptr || (m_method.tap_to_go && takeGo(*p_key))) continue;
-    send(m_held.takeKey(*p_key, m_now));
+    send(m_held.handleKey(*p_key, m_now));
   }
 }
 

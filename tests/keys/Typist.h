@@ -1,5 +1,5 @@
 // Simulates a person at a terminal, in virtual time. The keys pass through the client's own decoder and
-// HeldKeys into the world, tick by tick.
+// KeyHoldTracker into the world, tick by tick.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@
 
 #include "TypedKeyboard.h"
 #include "World.h"
-#include "client/terminal/HeldKeys.h"
 #include "client/terminal/InputDecoder.h"
+#include "client/terminal/KeyHoldTracker.h"
 
 namespace naiad {
 
@@ -56,7 +56,7 @@ class Typist {
   KeyMethod m_method;
   TypedKeyboard m_keyboard;
   InputDecoder m_decoder;
-  HeldKeys m_held;
+  KeyHoldTracker m_held;
   Time m_now = Time{} + Milliseconds(kBegin);
   std::optional<df::Keyboard::Key> m_going;
 };

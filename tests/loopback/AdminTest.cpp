@@ -79,7 +79,7 @@ TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
   }
   EXPECT_FALSE(server.truth(kicked + 2, player));
   ASSERT_TRUE(ends(ann));
-  EXPECT_TRUE(has(ann.connection().sentence(), "too loud"));
+  EXPECT_TRUE(has(ann.connection().message(), "too loud"));
   TestClient again(context, server.port(), setup);
   ASSERT_TRUE(joins(again)) << "a kick is no ban";
   EXPECT_NE(again.player(), player);
@@ -91,7 +91,7 @@ std::string bytesFor(const std::string& visitors, const std::string& address) {
   Local::socket socket(context);
   socket.connect(Local::endpoint(visitors));
   std::error_code error;
-  asio::write(socket, asio::buffer(visitorHeader(*visitorFromText(address))), error);
+  asio::write(socket, asio::buffer(proxyHeader(*proxiedPeerFromText(address))), error);
   std::string heard;
   while (!error) {
     char bytes[256];
@@ -123,15 +123,15 @@ TEST_F(AdminTest, BannedPlayerIsToldTheReasonAndEndTime) {
   ASSERT_TRUE(joins(bob));
   ASSERT_TRUE(does("ban", R"("who":"ann","for":"7d","reason":"spam")"));
   ASSERT_TRUE(ends(ann));
-  const std::string sentence = ann.connection().sentence();
-  EXPECT_TRUE(has(sentence, "banned"));
-  EXPECT_TRUE(has(sentence, "until 20"));
-  EXPECT_TRUE(has(sentence, "spam"));
+  const std::string message = ann.connection().message();
+  EXPECT_TRUE(has(message, "banned"));
+  EXPECT_TRUE(has(message, "until 20"));
+  EXPECT_TRUE(has(message, "spam"));
   EXPECT_TRUE(bob.joined());
   // A ban of the name, tried from another address, is refused with a message.
   TestClient again(context, server.port(), from("198.51.100.1:50000", "ann"));
   EXPECT_FALSE(joins(again));
-  EXPECT_TRUE(has(again.connection().sentence(), "banned"));
+  EXPECT_TRUE(has(again.connection().message(), "banned"));
   EXPECT_EQ(server.counters().refused_banned, 1u);
 }
 
@@ -143,7 +143,7 @@ TEST_F(AdminTest, ABanLastsBeyondARestart) {
   TestServer server(busyWorld(5), options);
   TestClient eve(context, server.port(), home.player("eve"));
   EXPECT_FALSE(joins(eve));
-  EXPECT_TRUE(has(eve.connection().sentence(), "banned"));
+  EXPECT_TRUE(has(eve.connection().message(), "banned"));
 }
 
 /// The real dfserver and dfctl. dfctl is not a descendant of the server, because those may not give commands.
@@ -211,7 +211,7 @@ TEST_F(CtlTest, StopsAServer) {
   const auto stop = ctl("stop maintenance until eight");
   EXPECT_EQ(stop.first, 0) << stop.second;
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
-  EXPECT_EQ(ann.connection().sentence(), "maintenance until eight");
+  EXPECT_EQ(ann.connection().message(), "maintenance until eight");
   const int status = server.wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
   EXPECT_EQ(ctl("ping").first, 3);
@@ -331,7 +331,7 @@ TEST_F(AdminTest, VoteKicksAndBansThePlayer) {
   ASSERT_TRUE(serveUntil(context, {&ann, &bob, &eve}, [&] { return hasRead(bob, "to kick eve"); }));
   bob.session().sendChat("/vote kick eve");
   ASSERT_TRUE(serveUntil(context, {&ann, &bob, &eve}, [&] { return eve.connection().isOver(); }));
-  EXPECT_TRUE(has(eve.connection().sentence(), "voted"));
+  EXPECT_TRUE(has(eve.connection().message(), "voted"));
   TestClient again(context, server.port(), from("192.0.2.4:1", "eve"));
   EXPECT_FALSE(joins(again));
 }
@@ -351,7 +351,7 @@ TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(reads(ann, "Press a key"));
   ASSERT_TRUE(ends(ann));
-  EXPECT_EQ(ann.connection().sentence(), "Disconnected: no input for 1s.");
+  EXPECT_EQ(ann.connection().message(), "Disconnected: no input for 1s.");
   EXPECT_EQ(server.counters().inactive, 1u);
 }
 

@@ -112,13 +112,13 @@ TEST_F(Company, RefusalsExplainTheirReason) {
   wire::ClientMessage hello = RawClient::hello("old");
   hello.mutable_hello()->set_protocol(kProtocolVersion - 1);
   EXPECT_EQ(refusalOf(server.port(), hello).reason(), Reason::VERSION);
-  EXPECT_TRUE(has(refusalOf(server.port(), hello).sentence(), "update the client"));
+  EXPECT_TRUE(has(refusalOf(server.port(), hello).message(), "update the client"));
   hello.mutable_hello()->set_protocol(kProtocolVersion + 1);
-  EXPECT_TRUE(has(refusalOf(server.port(), hello).sentence(), "update the server"));
+  EXPECT_TRUE(has(refusalOf(server.port(), hello).message(), "update the server"));
 
   hello = RawClient::hello("lost");
   hello.mutable_hello()->set_game("chess");
-  EXPECT_EQ(refusalOf(server.port(), hello).sentence(), "This server plays \"test\", not \"chess\".");
+  EXPECT_EQ(refusalOf(server.port(), hello).message(), "This server plays \"test\", not \"chess\".");
   EXPECT_EQ(refusalOf(server.port(), RawClient::hello("\x1b\n ")).reason(), Reason::NAME);
 
   TestClient ann(context, server.port(), "ann");
@@ -134,7 +134,7 @@ TEST_F(Company, PlayersGetAGoodbyeWhenTheServerEnds) {
   EXPECT_TRUE(ends(ann));
   stopper.join();
   EXPECT_EQ(ann.connection().state(), Connection::State::kEnded);
-  EXPECT_EQ(ann.connection().sentence(), "Closing time.");
+  EXPECT_EQ(ann.connection().message(), "Closing time.");
 }
 
 }  // namespace

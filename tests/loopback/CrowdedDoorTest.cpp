@@ -128,14 +128,14 @@ TEST_P(HalfOpenCrowd, DoesNotBlockOrDisconnectPlayers) {
     TestClient& cid = *newcomer->client;
     const auto took =
         timeUntil(context, {&ann, bob->client.get(), &cid}, [&] { return newcomer->isJudged(); });
-    ASSERT_TRUE(took && cid.joined()) << cid.connection().sentence();
+    ASSERT_TRUE(took && cid.joined()) << cid.connection().message();
     EXPECT_LT(*took, kSlowness * 1s);
 
     const std::uint64_t resumed = server.counters().resumed;
     bob->proxy.cut();
     const auto back = timeUntil(context, {&ann, bob->client.get(), &cid},
                                 [&] { return server.counters().resumed > resumed && bob->client->joined(); });
-    ASSERT_TRUE(back) << bob->client->connection().sentence();
+    ASSERT_TRUE(back) << bob->client->connection().message();
     EXPECT_LT(*back, kSlowness * 1s);
   }
   ASSERT_TRUE(serveUntil(context, all, [&] { return ann.newestTick() > began + 100; }));
@@ -296,7 +296,7 @@ TEST_F(CrowdedDoor, HandshakesOfOneAddressAreLimitedWithoutDelayingOthers) {
     newcomer->join(context, home.player("cid"));
     const auto took =
         timeUntil(context, {&ann, newcomer->client.get()}, [&] { return newcomer->isJudged(); });
-    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().sentence();
+    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().message();
     EXPECT_LT(*took, kSlowness * 1s);
   }
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 100; }));
@@ -327,7 +327,7 @@ TEST_F(CrowdedDoor, WrongPasswordsOf80AddressesDoNotBlockJoining) {
     const auto newcomer = visitor(server, "127.9." + std::to_string(i) + ".9");
     newcomer->join(context, player("ann"));
     const auto took = timeUntil(context, {newcomer->client.get()}, [&] { return newcomer->isJudged(); });
-    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().sentence();
+    ASSERT_TRUE(took && newcomer->client->joined()) << newcomer->client->connection().message();
     EXPECT_LT(*took, 10s);
   }
   EXPECT_EQ(server.counters().joined, 3u);

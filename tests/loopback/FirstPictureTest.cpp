@@ -51,7 +51,7 @@ TEST(FirstPicture, IsTheWholeWorld) {
   EXPECT_LT(at_first, kObjects);
   // The snapshots may take longer on a busy machine than the client waits for the rest of a picture. It waits
   // from the first snapshot, so not earlier than from its connection.
-  if (held < WorldFeed::kPatience) {
+  if (held < EpochReplicas::kIncompleteTimeout) {
     EXPECT_GE(frames, 3u);
     EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);
   }

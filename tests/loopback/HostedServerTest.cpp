@@ -25,7 +25,7 @@
 #include "RunCtl.h"
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
-#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/ProxyHeader.h"
 #include "tests/server/host/admin/Talk.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/net/HttpClient.h"
@@ -65,14 +65,14 @@ class HostedServer : public LoopbackFixture {
   TestClient& join(const ClientSetup& setup) {
     TestClient& joining = client(setup);
     EXPECT_TRUE(serve([&] { return joining.joined() || joining.connection().isOver(); }));
-    EXPECT_TRUE(joining.joined()) << joining.connection().sentence() << server->log();
+    EXPECT_TRUE(joining.joined()) << joining.connection().message() << server->log();
     return joining;
   }
   /// Returns the message with which a client is refused; empty if it joins.
   std::string refusal(const ClientSetup& setup) {
     TestClient& refused = client(setup);
     EXPECT_TRUE(serve([&] { return refused.joined() || refused.connection().isOver(); }));
-    return refused.joined() ? "" : refused.connection().sentence();
+    return refused.joined() ? "" : refused.connection().message();
   }
   bool serve(const std::function<bool()>& done) {
     const auto end = Clock::now() + kPatience;
@@ -104,9 +104,9 @@ class HostedServer : public LoopbackFixture {
       return false;
     });
   }
-  bool isDismissed(TestClient& playing, const std::string& sentence) {
+  bool isDismissed(TestClient& playing, const std::string& message) {
     return serve([&] { return playing.connection().state() == Connection::State::kEnded; }) &&
-           playing.connection().sentence() == sentence;
+           playing.connection().message() == message;
   }
   bool endsWell() const {
     const int status = server->wait();
@@ -335,15 +335,15 @@ TEST_F(HostedWorld, ClientsComeBackToAServerThatRestarts) {
   const std::uint16_t port = server->port();
   TestClient ann(context, port, home.player("ann"));
   ASSERT_TRUE(joins(ann));
-  server->end({.begins_again = true, .at = Clock::now()});
-  EXPECT_TRUE(
-      serveUntil(context, {&ann}, [&] { return ann.connection().state() == Connection::State::kSearching; }));
-  EXPECT_EQ(ann.connection().sentence(), "The server is restarting. Your client reconnects automatically.");
+  server->end({.is_restart = true, .at = Clock::now()});
+  EXPECT_TRUE(serveUntil(context, {&ann},
+                         [&] { return ann.connection().state() == Connection::State::kReconnecting; }));
+  EXPECT_EQ(ann.connection().message(), "The server is restarting. Your client reconnects automatically.");
   server.reset();
   HostOptions options = home.server();
   options.port = port;
   server = std::make_unique<TestServer>([](df::World&) {}, options);
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().sentence();
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); })) << ann.connection().message();
 }
 
 TEST_F(HostedWorld, DrainWaitsForADisconnectedPlayer) {
@@ -357,7 +357,7 @@ TEST_F(HostedWorld, DrainWaitsForADisconnectedPlayer) {
   server.end({.at = Clock::now() + std::chrono::hours(1), .when_empty = true});
   TestClient ann(context, server.port(), setup);
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined() || ann.connection().isOver(); }));
-  ASSERT_TRUE(ann.joined()) << ann.connection().sentence();
+  ASSERT_TRUE(ann.joined()) << ann.connection().message();
   EXPECT_TRUE(ann.session().isResumed());
 }
 
@@ -367,9 +367,9 @@ TEST_F(HostedWorld, ClientWithoutReconnectEndsAtARestart) {
   setup.rejoin = false;
   TestClient ann(context, server.port(), setup);
   ASSERT_TRUE(joins(ann));
-  server.end({.begins_again = true, .at = Clock::now()});
+  server.end({.is_restart = true, .at = Clock::now()});
   EXPECT_TRUE(ends(ann));
-  EXPECT_EQ(ann.connection().sentence(), "The server is restarting. Your client reconnects automatically.");
+  EXPECT_EQ(ann.connection().message(), "The server is restarting. Your client reconnects automatically.");
 }
 
 // ---- restart by dfctl -------------------------------------------------------------------------------------
@@ -393,8 +393,8 @@ TEST_P(Restarts, ServerRestartsOnItsPortAndPlayersReconnect) {
   const auto [code, text] = ctl("restart");
   EXPECT_EQ(code, 0);
   EXPECT_EQ(text, "The server restarts now.\n");
-  EXPECT_TRUE(serve([&] { return ann.connection().state() == Connection::State::kSearching; }));
-  EXPECT_TRUE(serve([&] { return ann.joined(); })) << ann.connection().sentence();
+  EXPECT_TRUE(serve([&] { return ann.connection().state() == Connection::State::kReconnecting; }));
+  EXPECT_TRUE(serve([&] { return ann.joined(); })) << ann.connection().message();
   EXPECT_EQ(begun(), 2u) << server->log();
   EXPECT_TRUE(ticks(ann));
   // The restarted server takes commands at the old path.
@@ -508,7 +508,7 @@ TEST_F(HostedServer, ConnectionDroppedBeforeTlsIsLogged) {
   start({{"NAIAD_VISITORS", home.identity("visitors")}});
   ASSERT_EQ(ctl("ban 192.0.2.0/24").first, 0);
   ClientSetup eve = home.player("eve");
-  eve.options.visit = Visit{home.identity("visitors"), *visitorFromText("192.0.2.7:50000")};
+  eve.options.proxy = ProxyOptions{home.identity("visitors"), *proxiedPeerFromText("192.0.2.7:50000")};
   EXPECT_NE(refusal(eve), "");
   EXPECT_TRUE(logs("192.0.2.7:50000 refused: \"This address is banned.\"")) << server->log();
 }

@@ -163,8 +163,8 @@ TEST_F(HostileGame, ReachesNoSocketAndNoOtherProcess) {
   start();
   expectRefused({"make readable the key", "socket", "local socket", "datagram sockets", "trace the front",
                  "read memory", "write memory", "limit the front", "slow down the front", "move the front",
-                 "outlive its keeper", "hide in /proc", "leave its process group", "kill the front",
-                 "kill its keeper"});
+                 "outlive its supervisor", "hide in /proc", "leave its process group", "kill the front",
+                 "kill its supervisor"});
   expectRefused({"bpf", "mount", "keyctl", "perf_event_open", "unshare", "userfaultfd", "io_uring_setup",
                  "a call of tomorrow"});
   expectRefused({"change the server's mode", "change the server's owner", "mark the server",
@@ -237,12 +237,12 @@ TEST_F(HostileGame, ChildrenEndWithTheirSupervisor) {
   start();
   ASSERT_EQ(worlds().size(), 2u);
   const std::vector<pid_t> of_ann = processesOf(worlds()[1]);
-  const pid_t keeper = factsOf(of_ann[0])->parent;
-  ASSERT_GT(keeper, 1);
-  kill(keeper, SIGKILL);
+  const pid_t supervisor = factsOf(of_ann[0])->parent;
+  ASSERT_GT(supervisor, 1);
+  kill(supervisor, SIGKILL);
   EXPECT_TRUE(serve([&] { return areGone(of_ann); }));
   EXPECT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; })) << game->log();
-  EXPECT_EQ(ann->connection().sentence(), "The game crashed (SIGKILL).");
+  EXPECT_EQ(ann->connection().message(), "The game crashed (SIGKILL).");
   expectTheOthersPlay();
 }
 

@@ -107,7 +107,7 @@ constexpr auto kTls = RawClient::Line::kTls;
 TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   HostOptions options = home.server();
   options.grace = 0.1;            // few attackers are detached at once, so each picture is kept
-  options.max_per_address = 500;  // twice as many may join in sequence (PrefixRates)
+  options.max_per_address = 500;  // twice as many may join in sequence (RateLimits)
   TestServer server(busyWorld(50), options);
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));

@@ -15,10 +15,10 @@ class HungUp : public LoopbackFixture {
  protected:
   /// Joins a server that drops the handshakes before the `first`-th and sends nothing itself.
   TestClient& joinWhereAnswered(int first) {
-    TlsListening tls;
+    TlsListenerOptions tls;
     tls.context =
         ServerIdentity::loadOrMake(home.identity("identity"), std::chrono::system_clock::now()).tls();
-    tls.take_handshake = [this, first](const AddressPrefix&) { return ++asked >= first; };
+    tls.try_handshake = [this, first](const AddressPrefix&) { return ++asked >= first; };
     listener = std::make_unique<TcpListener>(
         context, "127.0.0.1", 0, [this](auto channel) { accepted.push_back(std::move(channel)); },
         TcpOptions(), tls);
@@ -34,7 +34,7 @@ class HungUp : public LoopbackFixture {
 
 TEST_F(HungUp, ANewcomerTriesAgain) {
   TestClient& ann = joinWhereAnswered(3);
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return !accepted.empty(); })) << ann.connection().sentence();
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return !accepted.empty(); })) << ann.connection().message();
   EXPECT_EQ(asked, 3);
   EXPECT_EQ(ann.connection().state(), Connection::State::kJoining);
 }
@@ -43,7 +43,7 @@ TEST_F(HungUp, UnansweredClientGivesUpAfterAFewRetries) {
   TestClient& ann = joinWhereAnswered(1'000'000);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kUnreachable);
-  EXPECT_TRUE(has(ann.connection().sentence(), " does not answer as a Naiad server ("));
+  EXPECT_TRUE(has(ann.connection().message(), " does not answer as a Naiad server ("));
   EXPECT_GT(asked, 1);
   EXPECT_LE(asked, 6);
 }

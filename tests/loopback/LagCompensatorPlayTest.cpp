@@ -130,7 +130,7 @@ class LagCompensatorPlay : public testing::Test {
       : server(
             [populate](df::World&) {
               populate();
-              WM.setLookingBack();
+              WM.setLagCompensated();
             },
             options()),
         proxy(context, server.port()) {

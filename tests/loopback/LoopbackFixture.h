@@ -22,12 +22,12 @@ class LoopbackFixture : public testing::Test {
   testing::AssertionResult joins(TestClient& client) {
     if (isJudged(client) && client.joined()) return testing::AssertionSuccess();
     return testing::AssertionFailure() << "state " << static_cast<int>(client.connection().state()) << ": "
-                                       << client.connection().sentence();
+                                       << client.connection().message();
   }
   /// Returns the message with which a client is refused; empty if it joins.
   std::string refusal(TestClient& client) {
     EXPECT_TRUE(isJudged(client));
-    return client.joined() ? "" : client.connection().sentence();
+    return client.joined() ? "" : client.connection().message();
   }
   bool ends(TestClient& client) {
     return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });

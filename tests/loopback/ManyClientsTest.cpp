@@ -58,7 +58,7 @@ TEST_F(ManyClients, PlayersPerAddressAreLimited) {
   EXPECT_TRUE(answerTo(second).has_welcome());
   const wire::ServerMessage refusal = answerTo(third);
   EXPECT_EQ(refusal.refused().reason(), wire::Refused::FULL);
-  EXPECT_EQ(refusal.refused().sentence(), "Too many players from your address (limit 2). Try again later.");
+  EXPECT_EQ(refusal.refused().message(), "Too many players from your address (limit 2). Try again later.");
   EXPECT_EQ(server.counters().refused_address, 1u);
   wire::ClientMessage leave;
   leave.mutable_leave();
@@ -171,7 +171,7 @@ TEST_F(ManyClients, SpoofedAddressesDoNotLockPlayersOut) {
   spoofer.join();
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   EXPECT_EQ(server.counters().detached, 0u);
-  const DatagramGateCounters gate = server.datagrams();
+  const DatagramDemuxCounters gate = server.datagrams();
   EXPECT_GT(gate.unknown_id, 500u);
   EXPECT_GT(gate.claimed_flood, 500u) << "most of them met no cryptography";
 }

@@ -180,8 +180,8 @@ TEST_F(NamedRooms, RepeatedlyFailingGameClosesOnlyItsRoom) {
   })) << server->log();
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
   auto eve = connect("eve", "two");
-  EXPECT_TRUE(serve([&] { return eve->connection().isPutOff(); })) << "it tries again";
-  EXPECT_TRUE(has(eve->connection().sentence(), "closed for a moment"));
+  EXPECT_TRUE(serve([&] { return eve->connection().isDeferred(); })) << "it tries again";
+  EXPECT_TRUE(has(eve->connection().message(), "closed for a moment"));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@
 #include "client/bot/BotScript.h"
 #include "client/bot/TruthRecorder.h"
 #include "client/session/Connection.h"
-#include "host/journal/OpenRound.h"
-#include "host/rounds/Journals.h"
+#include "host/journal/UnfinishedRound.h"
+#include "host/rounds/RoundJournals.h"
 #include "host/scores/ScoreStore.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Replay.h"
@@ -58,12 +58,12 @@ class RecoveryClient {
     m_connection.onSession([this](ClientSession& session) {
       ++m_sessions;
       if (std::exchange(m_freezes, false)) freezeLastPicture();
-      m_whole = WholePicture();
+      m_whole = CompletenessTracker();
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (tick != m_whole.tick()) keepPicture(session);
       });
       session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
-        m_whole.addSnapshot(header, acks, session.welcome().continuation.value_or(Continuation()).snapshot);
+        m_whole.addSnapshot(header, acks, session.welcome().resume_state.value_or(ResumeState()).snapshot);
         const auto now = Clock::now();
         if (m_pictured_at) m_pause = std::max(m_pause, now - *m_pictured_at);
         m_pictured_at = now;
@@ -101,19 +101,19 @@ class RecoveryClient {
   /// Returns the longest time between two pictures since expectNextSession().
   Clock::duration pause() const { return m_pause; }
   bool isOver() const { return m_connection.isOver(); }
-  const std::string& sentence() const { return m_connection.sentence(); }
+  const std::string& message() const { return m_connection.message(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
   const ClientSession* session() { return m_connection.session(); }
   std::uint32_t newestTick() const { return m_whole.tick(); }
   /// True if it has had a picture since freezePicture().
-  bool hasPicture() const { return m_picture.has_value() || m_whole.isWhole(); }
+  bool hasPicture() const { return m_picture.has_value() || m_whole.isComplete(); }
   /// Returns the last picture before freezePicture().
   const std::optional<df::Canvas>& picture() const { return m_frozen; }
   std::uint32_t pictureTick() const { return m_frozen_tick; }
   void freezePicture() {
     if (const ClientSession* p_session = session()) keepPicture(*p_session);
     freezeLastPicture();
-    m_whole = WholePicture();
+    m_whole = CompletenessTracker();
   }
   /// Returns the newest tick at that time.
   std::uint32_t frozenAfter() const { return m_frozen_after; }
@@ -125,7 +125,7 @@ class RecoveryClient {
     m_frozen_after = m_whole.tick();
   }
   void keepPicture(const ClientSession& session) {
-    if (!m_whole.isWhole()) return;
+    if (!m_whole.isComplete()) return;
     m_picture = session.replica().render(m_whole.tick());
     m_picture_tick = m_whole.tick();
   }
@@ -133,7 +133,7 @@ class RecoveryClient {
   Connection m_connection;
   RandomPlayer m_player;
   Clock::time_point m_next_key;
-  WholePicture m_whole;
+  CompletenessTracker m_whole;
   std::optional<df::Canvas> m_picture;
   std::uint32_t m_picture_tick = 0;
   int m_sessions = 0;
@@ -167,7 +167,7 @@ void RecoveryRun::waitForFirstTick() {
   const auto end = Clock::now() + kPatience;
   while (m_first_tick == 0 && Clock::now() < end) {
     play(std::chrono::milliseconds(10));
-    const OpenRound so_far(round().string());
+    const UnfinishedRound so_far(round().string());
     m_first_tick = static_cast<std::uint32_t>(std::atoi(so_far.fact(kFactFirstTick).c_str()));
   }
 }
@@ -353,7 +353,7 @@ void RecoveryRun::judge(bool back, KillResult& result) {
     result.returned += same ? 1 : 0;
     if (!same && result.problem.empty())
       result.problem =
-          m_before[i].name + " is not back: " + client.sentence() + "\n" + m_log + m_server->log();
+          m_before[i].name + " is not back: " + client.message() + "\n" + m_log + m_server->log();
   }
   const std::string log = m_server->log();
   const std::uint32_t turns = recoveredTurns();
@@ -407,8 +407,8 @@ std::vector<pid_t> RecoveryRun::copies() const {
 // Replays the round's file, from which the world was recovered, and compares it with the last pictures.
 void RecoveryRun::compare(KillResult& result) {
   const RecordedRound recorded(round());
-  const RoundStage stage(recorded, replayedGame());
-  PictureReel reel(recorded, stage);
+  const ReplayEnvironment stage(recorded, replayedGame());
+  FrameHistory reel(recorded, stage);
   for (const auto& client : m_clients) {
     if (!client->picture()) continue;
     const std::uint32_t tick = client->pictureTick() + 1 - m_first_tick;
@@ -443,7 +443,7 @@ bool RecoveryRun::verify(std::string& said) {
   m_server->wait();
   m_log += m_server->log();
   const RecordedRound recorded(round());
-  const RoundStage stage(recorded, replayedGame());
+  const ReplayEnvironment stage(recorded, replayedGame());
   std::ostringstream out;
   const bool same = verifyRound(recorded, stage, out);
   said = out.str();
@@ -453,7 +453,7 @@ bool RecoveryRun::verify(std::string& said) {
 ScoreCheck RecoveryRun::checkScores() const {
   using Row = std::tuple<std::uint32_t, int, std::string, std::string, std::int64_t>;
   const RecordedRound recorded(round());
-  const RoundStage stage(recorded, replayedGame());
+  const ReplayEnvironment stage(recorded, replayedGame());
   Replay replay(recorded, stage);
   replay.readScores();
   std::set<Row> added;

@@ -14,7 +14,7 @@
 
 #include "RecoveryRun.h"
 #include "host/journal/DfrWriter.h"
-#include "host/rounds/Journals.h"
+#include "host/rounds/RoundJournals.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
@@ -123,8 +123,9 @@ TEST(Recovery, KilledWorldResumesFromACheckpoint) {
   for (const pid_t copy : copies) EXPECT_TRUE(isGone(copy)) << "it waits for a server that was killed";
   std::string said;
   EXPECT_TRUE(run.verify(said)) << said << run.log();
-  const bool by_copy = run.log().find("game recovered: a copy of its world replayed") != std::string::npos;
-  EXPECT_TRUE(by_copy) << run.log();
+  const bool by_checkpoint =
+      run.log().find("game recovered: a copy of its world replayed") != std::string::npos;
+  EXPECT_TRUE(by_checkpoint) << run.log();
 }
 
 TEST(Recovery, RoundThatKillsServersIsAbandoned) {
@@ -132,7 +133,7 @@ TEST(Recovery, RoundThatKillsServersIsAbandoned) {
   run.play(std::chrono::milliseconds(500));
   run.killServer();
   std::ofstream(run.round(), std::ios::binary | std::ios::app)
-      << spellDfrMeta({{kFactAttempts, "3 1000000"}});
+      << encodeDfrMeta({{kFactAttempts, "3 1000000"}});
   EXPECT_EQ(run.comeBack().returned, 0);
   std::string said;
   run.verify(said);

@@ -244,14 +244,14 @@ TEST_F(Resume, TemporarilyRefusedClientReconnectsByItself) {
   // Break each new stream at once, until the server asks the client to wait.
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
     if (ann.joined() && !ann.session().isDetached()) proxy->cut();
-    return ann.connection().isPutOff();
+    return ann.connection().isDeferred();
   }));
-  EXPECT_EQ(ann.connection().state(), Connection::State::kSearching);
-  EXPECT_TRUE(has(ann.connection().sentence(), "Too many reconnects"));
+  EXPECT_EQ(ann.connection().state(), Connection::State::kReconnecting);
+  EXPECT_TRUE(has(ann.connection().message(), "Too many reconnects"));
   const std::uint64_t resumed = server->counters().resumed;
   EXPECT_GE(resumed, 3u);
   ASSERT_TRUE(resumes(ann, resumed + 1));
-  EXPECT_FALSE(ann.connection().isPutOff());
+  EXPECT_FALSE(ann.connection().isDeferred());
   EXPECT_EQ(ann.player(), id);
   EXPECT_TRUE(keyWorks(ann));
   EXPECT_GE(server->counters().resumes_deferred, 1u);

@@ -205,7 +205,7 @@ TEST_F(Return, TemporarilyRefusedProcessRetriesByItself) {
     ann.reset();
     ann = client("ann");
     ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] {
-      put_off = put_off || ann->connection().isPutOff();
+      put_off = put_off || ann->connection().isDeferred();
       return ann->joined() || put_off;
     }));
   }
@@ -231,12 +231,12 @@ TEST_F(Return, SessionMovesToTheClientWithTheToken) {
   ClientSetup copy = player("copy");
   copy.sessions.clear();
   copy.options.resume_token = ann->session().welcome().resume_token;
-  copy.options.fresh = true;
+  copy.options.new_process = true;
   auto elsewhere = client(copy);
   ASSERT_TRUE(serveUntil(context, {ann.get(), elsewhere.get()},
                          [&] { return elsewhere->joined() && ann->connection().isOver(); }));
   EXPECT_EQ(ann->connection().state(), Connection::State::kEnded);
-  EXPECT_EQ(ann->connection().sentence(), kElsewhere);
+  EXPECT_EQ(ann->connection().message(), kElsewhere);
   EXPECT_TRUE(scores(*elsewhere, 2) && press(*elsewhere, 1));
   EXPECT_TRUE(playsOn(*elsewhere));
   expectNoJoinOrLeave();
@@ -256,7 +256,7 @@ TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
   copy.sessions.clear();
   copy.options.open_socket = nullptr;
   copy.options.resume_token = ann->session().welcome().resume_token;
-  copy.options.fresh = true;
+  copy.options.new_process = true;
   TestClient elsewhere(context, server->port(), copy);
   ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return elsewhere.joined(); }));
   const std::uint32_t heard = elsewhere.newestTick() + 30;
@@ -264,7 +264,7 @@ TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
   proxy->setOpen(true);
   ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return ann->connection().isOver(); }));
   EXPECT_EQ(ann->connection().state(), Connection::State::kRefused);
-  EXPECT_EQ(ann->connection().sentence(), kElsewhere);
+  EXPECT_EQ(ann->connection().message(), kElsewhere);
   EXPECT_EQ(server->counters().refused_elsewhere, 1u);
   EXPECT_TRUE(playsOn(elsewhere));
   expectNoJoinOrLeave();

@@ -13,8 +13,8 @@
 
 #include "LobbyFixture.h"
 #include "host/journal/DfrWriter.h"
-#include "host/journal/OpenRound.h"
-#include "host/rounds/Journals.h"
+#include "host/journal/UnfinishedRound.h"
+#include "host/rounds/RoundJournals.h"
 #include "tests/support/Processes.h"
 #include "tests/support/Text.h"
 
@@ -49,8 +49,8 @@ class RoomRecovery : public LobbyFixture {
     const std::vector<fs::path> files = roundsOf(room);
     if (files.empty()) return false;
     try {
-      return !OpenRound(files.front().string()).fact(kFactFirstTick).empty();
-    } catch (const OpenRoundError&) {  // the head of the file is incomplete
+      return !UnfinishedRound(files.front().string()).fact(kFactFirstTick).empty();
+    } catch (const UnfinishedRoundError&) {  // the head of the file is incomplete
       return false;
     }
   }
@@ -197,7 +197,7 @@ TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   kill();
   ASSERT_EQ(roundsOf("two").size(), 1u);
   std::ofstream(roundsOf("two").front(), std::ios::binary | std::ios::app)
-      << spellDfrMeta({{kFactAttempts, "3 1000000"}});
+      << encodeDfrMeta({{kFactAttempts, "3 1000000"}});
   startJournaled();
   ASSERT_TRUE(serveUntilBack()) << server->log();
   ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; })) << server->log();

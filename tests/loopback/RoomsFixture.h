@@ -61,7 +61,7 @@ class RoomsFixture : public testing::Test {
     auto client = connect("eve", room);
     EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));
     clients.pop_back();
-    return client->connection().sentence();
+    return client->connection().message();
   }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   static std::string row(TestClient& client, int y) {

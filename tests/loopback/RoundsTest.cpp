@@ -61,7 +61,7 @@ class Rounds : public LoopbackFixture {
   /// Returns the changes of the game's theme that the client heard: + started, - stopped.
   static std::string theme(TestClient& client) {
     std::string heard;
-    for (const SoundLine& sound : client.session().takeSounds()) {
+    for (const SoundLine& sound : client.session().popSounds()) {
       if (sound.label != "theme") continue;
       heard += sound.action == SoundLine::Action::kPlay ? '+' : '-';
     }
@@ -198,7 +198,7 @@ TEST_F(Rounds, ServerShutdownEndsItsWorld) {
   const int process = shown(*ann).process;
   game->signal(SIGTERM);
   ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; }));
-  EXPECT_EQ(ann->connection().sentence(), "The server is shutting down.");
+  EXPECT_EQ(ann->connection().message(), "The server is shutting down.");
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game->log();
   EXPECT_EQ(kill(process, 0), -1);
@@ -227,7 +227,7 @@ TEST_F(Rounds, PrivateWorldsCrashAlone) {
   bob->forgetPictures();
   press(*ann, df::Keyboard::C);
   ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kEnded; })) << game->log();
-  EXPECT_EQ(ann->connection().sentence(), "The game crashed (SIGABRT).");
+  EXPECT_EQ(ann->connection().message(), "The game crashed (SIGABRT).");
   // Another thread writes the log.
   const auto isLogged = [&] {
     return numberAfter(game->log(), "the game crashed (SIGABRT) in tick ").value_or(0) > 0;
@@ -253,7 +253,7 @@ TEST_F(Rounds, LeavingPlayerEndsTheirPrivateWorld) {
   EXPECT_TRUE(serve([&] { return kill(anns, 0) == -1; })) << game->log();
   press(*bob, df::Keyboard::Q);
   ASSERT_TRUE(serve([&] { return bob->connection().state() == Connection::State::kEnded; })) << game->log();
-  EXPECT_EQ(bob->connection().sentence(), "The game is over for you.");
+  EXPECT_EQ(bob->connection().message(), "The game is over for you.");
   EXPECT_TRUE(serve([&] { return kill(bobs, 0) == -1; })) << game->log();
   auto carl = join("carl");
   EXPECT_EQ(shown(*carl).steps, 0) << "the server stays";
@@ -302,7 +302,7 @@ TEST_F(Rounds, RestartAtRoundEndWaitsAndPlayersReconnect) {
   ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << "the round goes on";
   EXPECT_EQ(shown(*ann).process, process);
   press(*ann, df::Keyboard::X);
-  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kSearching; }));
+  ASSERT_TRUE(serve([&] { return ann->connection().state() == Connection::State::kReconnecting; }));
   EXPECT_TRUE(serve([&] { return ann->joined() && shown(*ann).steps == 0; })) << game->log();
   EXPECT_NE(shown(*ann).process, process);
 }
@@ -332,7 +332,7 @@ class Upgrade : public Rounds {
     write(m_code);
   }
   bool comesBack(TestClient& client) {
-    return serve([&] { return client.connection().state() == Connection::State::kSearching; }) &&
+    return serve([&] { return client.connection().state() == Connection::State::kReconnecting; }) &&
            serve([&] { return client.joined() && shown(client).steps >= 0; });
   }
   bool logs(const std::string& part) {
@@ -381,7 +381,7 @@ TEST_F(Upgrade, PrivateWorldsContinueUntilTheirPlayersLeave) {
   TestClient bob(context, game->port(), home.player("bob"));
   clients.push_back(&bob);
   EXPECT_TRUE(serve([&] { return bob.connection().isOver(); })) << game->log();
-  EXPECT_EQ(bob.connection().sentence(), "The server was upgraded. It restarts when all players have left.");
+  EXPECT_EQ(bob.connection().message(), "The server was upgraded. It restarts when all players have left.");
   EXPECT_TRUE(logs("; the server restarts when all players have left")) << game->log();
   press(*ann, df::Keyboard::RIGHTARROW);
   EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << game->log();

@@ -69,7 +69,7 @@ TEST(Settings, GameOverKeyEndsTheGameForOnePlayer) {
   bob.session().sendKey(df::Keyboard::Q, df::KEY_PRESSED, std::chrono::steady_clock::now());
   ASSERT_TRUE(serveUntil(context, {&ann, &bob},
                          [&] { return bob.connection().state() == Connection::State::kEnded; }));
-  EXPECT_EQ(bob.connection().sentence(), "The game is over for you.");
+  EXPECT_EQ(bob.connection().message(), "The game is over for you.");
   const std::uint32_t then = ann.newestTick();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > then + 20; }));
   EXPECT_EQ(server.inWorld([](df::World& world) { return world.views().getPlayers().size(); }), 1u);

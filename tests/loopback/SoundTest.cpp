@@ -35,7 +35,7 @@ struct Band : df::Object {
 
 /// Returns all sounds that a client has heard: "label" when one starts, "-label" when it stops.
 std::vector<std::string> heardBy(TestClient& client, std::vector<std::string>& heard) {
-  for (const SoundLine& sound : client.session().takeSounds())
+  for (const SoundLine& sound : client.session().popSounds())
     heard.push_back((sound.action == SoundLine::Action::kPlay ? "" : "-") + sound.label);
   return heard;
 }

@@ -20,15 +20,15 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
     : m_connection(context, ServerAddress{"127.0.0.1", port}, setup.options, setup.rejoin, setup.trust) {
   m_connection.onSession([this](ClientSession& session) {
     session.onBeforeSnapshot([this, &session](std::uint32_t tick) { record(session, tick); });
-    m_whole = WholePicture();
+    m_whole = CompletenessTracker();
     session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
-      m_whole.addSnapshot(header, acks, session.welcome().continuation.value_or(Continuation()).snapshot);
+      m_whole.addSnapshot(header, acks, session.welcome().resume_state.value_or(ResumeState()).snapshot);
     });
   });
   if (!setup.sessions.empty()) {
     m_file.emplace(setup.sessions, m_connection.address().canonicalText(), setup.options.name,
                    std::chrono::system_clock::now());
-    m_connection.keepIn(*m_file);
+    m_connection.setTokenStore(*m_file);
   }
   m_connection.start();
 }
@@ -39,7 +39,7 @@ void TestClient::record(ClientSession& session, std::uint32_t tick) {
   const std::uint32_t known = session.clock().newestTick();
   if (!m_keep || known == 0 || tick == known) return;
   if (m_only_whole) {
-    if (m_whole.isWhole()) m_pictures[m_whole.tick()] = session.replica().render(m_whole.tick());
+    if (m_whole.isComplete()) m_pictures[m_whole.tick()] = session.replica().render(m_whole.tick());
     return;
   }
   for (std::uint32_t t = std::max(m_recorded + 1, known); t < tick; ++t)

@@ -58,7 +58,7 @@ class TestClient {
   std::optional<SessionFile> m_file;
   Connection m_connection;
   std::map<std::uint32_t, df::Canvas> m_pictures;
-  WholePicture m_whole;
+  CompletenessTracker m_whole;
   std::uint32_t m_recorded = 0;  ///< newest tick recorded
   bool m_keep = true;
   bool m_only_whole = false;

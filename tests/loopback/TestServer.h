@@ -45,7 +45,7 @@ class TestServer {
     return inWorld([this](df::World&) { return m_host->context().counters; });
   }
   /// Returns counters of received datagrams and their fates.
-  DatagramGateCounters datagrams() {
+  DatagramDemuxCounters datagrams() {
     return inWorld([this](df::World&) { return m_host->endpoint().network().gateCounters(); });
   }
   /// Returns at how many ticks' ends the server knew that this player was not up to date.
@@ -57,7 +57,7 @@ class TestServer {
   /// Sets whether the truth is kept. With many players this takes longer than all else.
   void keepTruth(bool keep) { m_draws = keep; }
   /// Starts a shutdown by this plan and returns. The server runs until then.
-  void end(const Ending::Plan& plan) {
+  void end(const ShutdownScheduler::Plan& plan) {
     inWorld([&](df::World&) {
       m_host->controls().end(plan);
       return true;

@@ -93,7 +93,7 @@ class Trouble : public LoopbackFixture {
   }
   bool isDismissed(TestClient& client) {
     return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
-           client.connection().sentence() == kGoodbye;
+           client.connection().message() == kGoodbye;
   }
 
   std::unique_ptr<GameProgram> game;
@@ -187,7 +187,7 @@ TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
   EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   game->signal(SIGTERM);
-  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
+  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().message();
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << game->log();
   EXPECT_TRUE(logs("forced to exit: the game does not finish tick ")) << game->log();
@@ -209,7 +209,7 @@ TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
   ASSERT_TRUE(serve(stands));
   game->signal(SIGTERM);
   game->signal(SIGINT);  // another signal, because two equal ones may be delivered as one
-  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().sentence();
+  EXPECT_TRUE(isDismissed(*ann)) << ann->connection().message();
   const int status = game->wait();
   EXPECT_TRUE(WIFSIGNALED(status)) << status << game->log();
 }

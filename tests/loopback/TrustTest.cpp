@@ -13,9 +13,9 @@ namespace {
 class TrustTest : public LoopbackFixture {
  protected:
   std::string refusal(TestClient& client) {
-    const std::string sentence = LoopbackFixture::refusal(client);
+    const std::string message = LoopbackFixture::refusal(client);
     EXPECT_TRUE(client.joined() || client.connection().state() == Connection::State::kRefused);
-    return sentence;
+    return message;
   }
   std::string refusal(std::uint16_t port, const ClientSetup& setup) {
     TestClient client(context, port, setup);
@@ -79,9 +79,9 @@ TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   HostOptions other = home.server("another identity");
   other.port = port;
   server = std::make_unique<TestServer>(busyWorld(5), other);
-  const std::string sentence = refusal(port, home.player("ann"));
-  EXPECT_TRUE(has(sentence, "HAS CHANGED"));
-  EXPECT_TRUE(has(sentence, server->fingerprint()->text()));
+  const std::string message = refusal(port, home.player("ann"));
+  EXPECT_TRUE(has(message, "HAS CHANGED"));
+  EXPECT_TRUE(has(message, server->fingerprint()->text()));
   EXPECT_EQ(pins(), before);
   // The client has not sent a hello.
   EXPECT_EQ(server->counters().joined, 0u);
@@ -98,8 +98,8 @@ TEST_F(TrustTest, GivenFingerprintMustMatch) {
   ClientSetup setup = home.player("ann");
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
   ASSERT_TRUE(setup.trust.fingerprint);
-  const std::string sentence = refusal(server.port(), setup);
-  EXPECT_TRUE(has(sentence, "does not have the given key"));
+  const std::string message = refusal(server.port(), setup);
+  EXPECT_TRUE(has(message, "does not have the given key"));
   EXPECT_EQ(pins(), "");
   EXPECT_EQ(server.counters().joined, 0u);
   setup.trust.fingerprint = server.fingerprint();
@@ -120,8 +120,8 @@ TEST_F(TrustTest, ServerWithoutTheLinksKeyReceivesNoBytes) {
   setup.options.password = "xyzzy";
   setup.trust.link_key = ShortKey::of(*Fingerprint::parse(std::string(64, 'a')));
   TestClient client(context, impostor.port(), setup);
-  const std::string sentence = refusal(client);
-  EXPECT_TRUE(has(sentence, "does not have the key in the link"));
+  const std::string message = refusal(client);
+  EXPECT_TRUE(has(message, "does not have the key in the link"));
   ASSERT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "");
   EXPECT_EQ(pins(), "");
@@ -171,7 +171,7 @@ TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
   proxy.cut();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
   EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
-  EXPECT_TRUE(has(ann.connection().sentence(), "HAS CHANGED"));
+  EXPECT_TRUE(has(ann.connection().message(), "HAS CHANGED"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
   EXPECT_EQ(impostor.heard(), "") << "neither token nor password";
 }

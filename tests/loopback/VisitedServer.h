@@ -4,7 +4,7 @@
 #include <string>
 
 #include "LoopbackFixture.h"
-#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/ProxyHeader.h"
 
 namespace naiad::test {
 
@@ -17,7 +17,7 @@ class VisitedServer : public LoopbackFixture {
   /// Returns the setup of a client that uses the visitors' socket, for example from "192.0.2.7:50312".
   ClientSetup from(const std::string& address, const std::string& name) const {
     ClientSetup setup = home.player(name);
-    setup.options.visit = Visit{options.visitors, *visitorFromText(address)};
+    setup.options.proxy = ProxyOptions{options.visitors, *proxiedPeerFromText(address)};
     return setup;
   }
 

@@ -56,7 +56,7 @@ TEST_F(VisitorsTest, InvalidHeadersDoNotDisturbTheGame) {
   TestServer server(busyWorld(5), options);
   TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
   ASSERT_TRUE(joins(ann));
-  std::string oversized = visitorHeader({asio::ip::make_address("192.0.2.9"), 9});
+  std::string oversized = proxyHeader({asio::ip::make_address("192.0.2.9"), 9});
   oversized[14] = static_cast<char>(0xff);
   std::vector<Local::socket> doors;
   for (int i = 0; i < 200; ++i) {  // more than may wait
@@ -74,14 +74,14 @@ TEST_F(VisitorsTest, InvalidHeadersDoNotDisturbTheGame) {
   doors.clear();
   TestClient bob(context, server.port(), from("192.0.2.8:50312", "bob"));
   EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined() || bob.connection().isOver(); }));
-  EXPECT_TRUE(bob.joined()) << bob.connection().sentence();
+  EXPECT_TRUE(bob.joined()) << bob.connection().message();
 }
 
 TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   TestServer server(busyWorld(5), options);
   asio::ip::tcp::socket socket(context);
   socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
-  asio::write(socket, asio::buffer(visitorHeader({asio::ip::make_address("192.0.2.9"), 9})));
+  asio::write(socket, asio::buffer(proxyHeader({asio::ip::make_address("192.0.2.9"), 9})));
   // The server takes it for a broken TLS hello and closes the connection, after an alert at most.
   socket.non_blocking(true);
   std::string heard;
@@ -109,7 +109,7 @@ TEST_F(VisitorsTest, SessionResumesThroughTheVisitorSocket) {
     ASSERT_TRUE(joins(ann));
     player = ann.player();
   }
-  setup.options.visit->visitor.port(50400);
+  setup.options.proxy->visitor.port(50400);
   TestClient again(context, server.port(), setup);
   ASSERT_TRUE(joins(again));
   EXPECT_EQ(again.player(), player);
@@ -118,7 +118,7 @@ TEST_F(VisitorsTest, SessionResumesThroughTheVisitorSocket) {
 TEST_F(VisitorsTest, MissingVisitorSocketGivesAMessage) {
   TestServer server(busyWorld(5), home.server());
   TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
-  EXPECT_TRUE(has(refusal(ann), "Could not connect through")) << ann.connection().sentence();
+  EXPECT_TRUE(has(refusal(ann), "Could not connect through")) << ann.connection().message();
 }
 
 }  // namespace

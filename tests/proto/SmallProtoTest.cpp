@@ -351,7 +351,7 @@ TEST(SmallProtoFields, RepeatedFieldsStoreTheirElements) {
 TEST(SmallProtoFields, EnumsMatchProtobuf) {
   using Other = naiad::small_wire::Refused;
   using Known = naiad::wire::Refused;
-  static_assert(int{Other::ELSEWHERE} == int{Known::ELSEWHERE});
+  static_assert(int{Other::SESSION_MOVED} == int{Known::SESSION_MOVED});
   static_assert(int{Other::Reason_MIN} == int{Known::Reason_MIN} &&
                 int{Other::Reason_MAX} == int{Known::Reason_MAX});
   static_assert(int{naiad::small_wire::Refused_Reason_BUSY} == int{naiad::wire::Refused_Reason_BUSY});

@@ -20,7 +20,7 @@ UNITS = os.path.join(SOURCE, "deploy", "systemd")
 PATIENCE = 60  # timeout in seconds, for a busy machine
 TICK = "5000"  # microseconds
 ALPN = "naiad/1"  # kAlpn in shared/net/stream/TlsContext.h
-GAPS = r"this kernel has no .*"  # sandboxGaps() in server/host/world/Sandbox.cpp
+GAPS = r"this kernel has no .*"  # missingSandboxFeatures() in server/host/world/Sandbox.cpp
 
 
 def program(name):

@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds kFirstBackoff{250};
-constexpr std::chrono::milliseconds kLastBackoff{2000};
+constexpr std::chrono::milliseconds kMaxBackoff{2000};
 /// Time without news after which a client counts as stuck.
 constexpr std::chrono::seconds kStuck{3};
 /// Limit for a client without datagrams, because the stream first waits for its own timers.
@@ -51,7 +51,7 @@ void Bot::attempt() {
 
 void Bot::tryAgain() {
   m_next_attempt = now() + m_backoff;
-  m_backoff = std::min(m_backoff * 2, kLastBackoff);
+  m_backoff = std::min(m_backoff * 2, kMaxBackoff);
 }
 
 std::unique_ptr<ClientSession> Bot::makeSession(std::unique_ptr<ReliableChannel> channel, Seat& seat) {
@@ -60,7 +60,7 @@ std::unique_ptr<ClientSession> Bot::makeSession(std::unique_ptr<ReliableChannel>
   options.program = "soak";
   if (m_shown.session && m_shown.session->isDetached()) {
     options.resume_token = m_shown.session->welcome().resume_token;
-    options.received = m_shown.session->receivedFrames();
+    options.last_frame = m_shown.session->receivedFrames();
   }
   options.now = [this] { return now(); };
   auto opened = std::make_shared<const DatagramSocket*>(nullptr);
@@ -136,7 +136,7 @@ void Bot::checkPending() {
   if (!pending.isOver()) return;
   if (pending.state() != S::kLost) {
     ++m_place.tally.thrown_out;
-    std::fprintf(stderr, "bot %d not let in: %s\n", m_number, pending.sentence().c_str());
+    std::fprintf(stderr, "bot %d not let in: %s\n", m_number, pending.message().c_str());
   }
   m_pending = {};
   tryAgain();
@@ -150,7 +150,7 @@ void Bot::checkShown() {
   if (!shown.isOver() || shown.state() == S::kLost) return;
   ++m_place.tally.thrown_out;
   std::fprintf(stderr, "%.1f s: bot %d was thrown out: %s\n",
-               static_cast<double>(m_place.clock.now().count()) / 1e6, m_number, shown.sentence().c_str());
+               static_cast<double>(m_place.clock.now().count()) / 1e6, m_number, shown.message().c_str());
   quit(1s);
 }
 

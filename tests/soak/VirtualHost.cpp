@@ -8,7 +8,7 @@
 #include "engine/world/Player.h"
 #include "engine/world/Views.h"
 #include "engine/world/WorldStore.h"
-#include "host/session/Names.h"
+#include "host/session/NameSanitizer.h"
 #include "naiad.pb.h"
 
 namespace naiad::soak {
@@ -78,7 +78,7 @@ bool VirtualHost::resume(Session& session, const wire::Hello& hello) {
       welcome.set_epoch(epoch);
     }
   }
-  before.adopt(session, welcome, hello.received());
+  before.resumeOn(session, welcome, hello.last_frame());
   return true;
 }
 
@@ -114,7 +114,7 @@ void VirtualHost::chat(const Session& session, const std::string& text) {
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
-  forEachPlaying([&](Session& other) { other.sendKept(message); });
+  forEachPlaying([&](Session& other) { other.sendReliable(message); });
 }
 
 void VirtualHost::tick(const std::function<void()>& on_ticked) {
@@ -124,7 +124,7 @@ void VirtualHost::tick(const std::function<void()>& on_ticked) {
   m_world.store().setWatched(watched);
   for (const auto& session : m_sessions) {
     session->checkDeadlines(timeOf(m_clock));
-    if (session->takeProof()) m_tokens.confirm(session->id());
+    if (session->popWelcomeConfirmed()) m_tokens.confirm(session->id());
   }
   applyInputs();
   m_world.tick();
@@ -141,7 +141,7 @@ void VirtualHost::tick(const std::function<void()>& on_ticked) {
 void VirtualHost::applyInputs() {
   const std::uint32_t next = m_world.picture().view().tick + 1;
   forEachPlaying([this, next](Session& session) {
-    session.takeInputs(next, [&](const Input& input) {
+    session.drainInputs(next, [&](const Input& input) {
       if (input.is_mouse) {
         m_world.input().mouse(session.player(), static_cast<df::EventMouseAction>(input.action),
                               static_cast<df::Mouse::Button>(int{input.button} - 1), input.x, input.y);
@@ -175,7 +175,7 @@ void VirtualHost::sendPlayers() {
   std::string bytes = message.SerializeAsString();
   if (bytes == m_players_told) return;
   m_players_told = std::move(bytes);
-  forEachPlaying([&](Session& session) { session.sendKept(message); });
+  forEachPlaying([&](Session& session) { session.sendReliable(message); });
 }
 
 Session* VirtualHost::find(std::uint32_t player) const {

@@ -44,8 +44,8 @@ inline std::vector<wire::ServerMessage> serverMessages(const std::string& text,
   all[3].mutable_chat()->set_player(1);
   all[3].mutable_chat()->set_text(text);
   all[4].mutable_refused()->set_reason(wire::Refused::BUSY);
-  all[4].mutable_refused()->set_sentence(text);
-  all[5].mutable_goodbye()->set_sentence(text);
+  all[4].mutable_refused()->set_message(text);
+  all[5].mutable_goodbye()->set_message(text);
   all[6].mutable_pong()->set_token(9);
   for (std::size_t i = 0; i < std::min(texts, kMaxSounds); ++i) {
     wire::Sound& sound = *all[7].mutable_sounds()->add_sounds();
@@ -55,7 +55,7 @@ inline std::vector<wire::ServerMessage> serverMessages(const std::string& text,
     sound.set_loop(true);
     sound.set_player(3);
   }
-  wire::Entered& entered = *all[8].mutable_entered();
+  wire::RoomEntered& entered = *all[8].mutable_entered();
   entered.set_player(2);
   entered.set_room("arcade");
   entered.set_game(text);

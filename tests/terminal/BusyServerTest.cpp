@@ -17,7 +17,7 @@ class BusyServerTest : public FakeServerFixture {
     server.onWelcome([hellos = hellos, times, reason](wire::ServerMessage& message) {
       if (++*hellos > times) return;
       message.mutable_refused()->set_reason(reason);
-      message.mutable_refused()->set_sentence("Not now, please.");
+      message.mutable_refused()->set_message("Not now, please.");
     });
   }
   static int count(const std::string& text, const std::string& what) {

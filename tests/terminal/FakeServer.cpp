@@ -105,16 +105,18 @@ bool FakeServer::hasReceived(const std::function<bool(const wire::ClientMessage&
 
 bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
   return hasReceived([&wanted](const wire::ClientMessage& message) {
-    const auto update =
-        message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
+    const auto update = message.payload_case() == wire::ClientMessage::kUpdate
+                            ? readUpdate(message.update(), {})
+                            : std::nullopt;
     return update && std::ranges::any_of(update->inputs, wanted);
   });
 }
 
 bool FakeServer::heardAcknowledged(std::uint32_t number) {
   return hasReceived([number](const wire::ClientMessage& message) {
-    const auto update =
-        message.what_case() == wire::ClientMessage::kUpdate ? readUpdate(message.update(), {}) : std::nullopt;
+    const auto update = message.payload_case() == wire::ClientMessage::kUpdate
+                            ? readUpdate(message.update(), {})
+                            : std::nullopt;
     return update && update->acks.newest == number;
   });
 }

@@ -129,7 +129,7 @@ TEST_F(HostileTextTest, GoodbyesCannotControlTheTerminal) {
     PtyTerminal terminal(options());
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
     wire::ServerMessage goodbye;
-    goodbye.mutable_goodbye()->set_sentence("LAST" + hostile);
+    goodbye.mutable_goodbye()->set_message("LAST" + hostile);
     server.send(goodbye);
     EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 4) << terminal.newOutput();
     EXPECT_EQ(isUtf8(hostile), terminal.output().find("LAST") != std::string::npos);
@@ -158,7 +158,7 @@ TEST_F(HostileTextTest, WelcomesAndRefusalsCannotControlTheTerminal) {
 
     server.onWelcome([&hostile](wire::ServerMessage& message) {
       message.mutable_refused()->set_reason(wire::Refused::FULL);
-      message.mutable_refused()->set_sentence("NO " + hostile);
+      message.mutable_refused()->set_message("NO " + hostile);
     });
     PtyTerminal refused(options());
     EXPECT_NE(refused.waitForExit(), -1);

@@ -82,7 +82,7 @@ TEST_F(TerminalRestoreTest, GoodbyeRestoresTheTerminal) {
   PtyTerminal terminal(options());
   join(terminal);
   wire::ServerMessage goodbye;
-  goodbye.mutable_goodbye()->set_sentence("Closing time.");
+  goodbye.mutable_goodbye()->set_message("Closing time.");
   server.send(goodbye);
   EXPECT_TRUE(exits(terminal, 4));
   expectRestored(terminal);

@@ -100,9 +100,9 @@ export async function loadClient(source, page) {
     },
     state: () => ["joining", "playing", "refused", "over", "left"][exports.state()],
     writing: () => exports.writing() === 1,
-    sentence() {
+    message() {
       const size = exports.sentence_size();
-      return text(exports.sentence(), size);
+      return text(exports.message(), size);
     },
     view() {
       const packed = exports.view();

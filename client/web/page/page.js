@@ -107,25 +107,25 @@ function notice(state) {
     picture.canvas.focus({preventScroll: true});
   }
   if (state === "joining" || state === "playing") {
-    if (state === "joining") say(client.sentence() || "Joining …");
+    if (state === "joining") say(client.message() || "Joining …");
     return;
   }
-  const sentence = client.sentence();
+  const message = client.message();
   client = null;
   for (const stream of [...sockets.keys()]) port.close(stream);
   joined = false;
   sounds.stopAll();
   document.body.classList.remove("playing");
   picture.redraw();
-  if (state === "refused" && /password/i.test(sentence)) element("secret").hidden = false;
-  say(state === "left" ? "You left." : sentence);
+  if (state === "refused" && /password/i.test(message)) element("secret").hidden = false;
+  say(state === "left" ? "You left." : message);
   element("play").disabled = false;
   element("play").textContent = state === "left" ? "Play again" : "Try again";
   door.hidden = false;
 }
 
-function say(sentence) {
-  if (element("said").textContent !== sentence) element("said").textContent = sentence;
+function say(message) {
+  if (element("said").textContent !== message) element("said").textContent = message;
 }
 
 let wasm = null;

@@ -18,7 +18,7 @@ DatagramKeys deriveDatagramKeys(const KeyExporter&, AeadId, ConnectionId, Epoch)
 
 void detail::CipherContextDeleter::operator()(evp_cipher_ctx_st*) const {}
 
-std::uint64_t mostFailedOpens(AeadId) {
+std::uint64_t maxFailedOpens(AeadId) {
   return 0;
 }
 
@@ -28,7 +28,7 @@ std::size_t Sealer::seal(char*, std::size_t, std::size_t) {
   return 0;
 }
 
-Opener::Opener(const SealKey&, std::uint64_t most_failures) : iv_{}, most_failures_(most_failures) {}
+Opener::Opener(const SealKey&, std::uint64_t max_failures) : iv_{}, max_failures_(max_failures) {}
 
 OpenResult Opener::check(std::uint16_t) const {
   return OpenResult::kExhausted;

@@ -61,7 +61,7 @@ class Blame:
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
         if name and _WINDOWS_NAMES.match(name):
-            return SYSTEM, f"{name} exists only on Windows: {_instead(name)}"
+            return SYSTEM, f"{name} exists only on Windows: {_suggestion(name)}"
         if _WINDOWS_MAIN.search(line):
             return SYSTEM, _MAIN_ADVICE
         if self._is_gone_with_engine(unit, diagnostic):
@@ -128,7 +128,7 @@ class Blame:
         return THEIRS, f"{plain} is declared, but no source in the folder defines it: add the source, or write the function"
 
 
-def _instead(name):
+def _suggestion(name):
     if name.endswith("_s"):
         return f"use {name[:-2]}(), and adapt the arguments"
     if re.match(r"GetAsyncKeyState|_getch|_kbhit|VK_", name):

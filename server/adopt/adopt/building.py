@@ -44,7 +44,7 @@ class Building:
         self._compile(self.units)
         self._link()
         if self.broken:
-            self._leave_out_what_nothing_needs()
+            self._drop_unneeded_sources()
         for unit in self.units:
             if unit.name not in self._game.program.sources:
                 self._game.report.add("treated", unit.name, "added: it defines symbols that the listed sources use")
@@ -115,7 +115,7 @@ class Building:
             found += [name for name in others if name not in found and pattern.search(code[name])][:1]
         return found
 
-    def _leave_out_what_nothing_needs(self):
+    def _drop_unneeded_sources(self):
         """Drops the sources that do not compile, if the program links without them. Lists may name unused sources."""
         bad, all_units = self.broken, self.units
         if self.units[0] in bad:

@@ -27,7 +27,7 @@ class Game:
     def program_path(self):
         return os.path.join(self.tree, PROGRAM)
 
-    def take_in(self):
+    def copy_in(self):
         """Copies the folder and moves the files of an engine to `engine_tree`."""
         copy = copy_folder(self.folder, self.tree, self._limits)
         self._archives = [name for name, _ in copy.left_out if name.lower().endswith(ARCHIVES)]
@@ -39,7 +39,7 @@ class Game:
         copy.files = [name for name in copy.files if name not in gone]
         drop_broken_links(copy)  # links to the files just moved
         self.files = copy.files
-        self._say_left_out(copy.left_out)
+        self._report_left_out(copy.left_out)
         for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
             what = "the author's own engine" if self.engine.own else "a copy of the engine"
             self.report.add("left out", folder, f"{count} file{'s' * (count > 1)} of {what}: Naiad's are used instead")
@@ -47,7 +47,7 @@ class Game:
         for name in self.sources.recoded:
             self.report.add("treated", name, "converted from UTF-16 to UTF-8")
 
-    def _say_left_out(self, left_out):
+    def _report_left_out(self, left_out):
         """Reports files that were not copied: products of builds and systems in one row, others in a row each."""
         usual, rest = [], []
         for one in left_out:
@@ -77,10 +77,10 @@ class Game:
             self.report.fail("does not build", "no main()")
             return False
         self.program = found[0]
-        self._say_program(found)
+        self._report_program(found)
         return True
 
-    def _say_program(self, found):
+    def _report_program(self, found):
         program = self.program
         origin = f"listed in {program.source_list.file}" if program.source_list else "found in the folder"
         count = len(program.sources) - 1
@@ -89,11 +89,11 @@ class Game:
         for other in found[1:MAX_ROWS]:
             self.report.add("program", other.main, "another program, not built: use --main to choose it")
         if program.source_list:
-            self._say_list(program.source_list)
+            self._report_list(program.source_list)
         for name, reason in program.left_out[:MAX_ROWS]:
             self.report.add("left out", name, reason)
 
-    def _say_list(self, source_list):
+    def _report_list(self, source_list):
         if source_list.definitions:
             self.report.add("note", source_list.file, "compiled with " + " ".join(source_list.definitions) + ", as in this file")
         for call in source_list.unread[:3]:

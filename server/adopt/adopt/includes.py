@@ -3,7 +3,7 @@ import os
 import re
 
 from .folder import is_source
-from .programs import is_aside
+from .programs import is_secondary
 
 _INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
 MAX_FOLDERS = 200  # maximum folders to search for headers
@@ -42,7 +42,7 @@ class Includes:
         path = written.strip().replace("\\", "/")
         if mark == "<" and self._is_systems(os.path.dirname(name), path):
             return None
-        goal = self._goal(os.path.dirname(name), path)
+        goal = self._resolve(os.path.dirname(name), path)
         if goal is None:
             if os.path.basename(path).lower() in _DROPPED:
                 return f"//{begin}{mark}{written}{'>' if mark == '<' else mark}{rest}", "a header that only Visual Studio has"
@@ -64,15 +64,15 @@ class Includes:
         """Returns whether <path> needs no change: a system header, or Naiad's if the game has no file of that name."""
         if path.startswith("SFML/") or any(os.path.exists(os.path.join(folder, path)) for folder in self._system):
             return True
-        return path in self._naiad.headers and not any(place.lower() in self._by_lower for place in self._places(here, path))
+        return path in self._naiad.headers and not any(place.lower() in self._by_lower for place in self._candidates(here, path))
 
-    def _places(self, here, path):
+    def _candidates(self, here, path):
         return [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
 
-    def _goal(self, here, path):
+    def _resolve(self, here, path):
         """Returns (path to write, whether it is Naiad's header), or None if there is no such file. The game's files come first:
         a game with a Player.h of its own, in any case, does not mean Naiad's."""
-        places = self._places(here, path)
+        places = self._candidates(here, path)
         if any(place in self._names for place in places):
             return path, False
         for place in places:
@@ -115,4 +115,4 @@ def header_folders(sources, program):
     """Returns the folders with headers, the program's own first, those of tests and leftovers last."""
     home = os.path.dirname(program.main)
     folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
-    return sorted(folders, key=lambda folder: (folder != home, is_aside(folder), folder.count("/"), folder))[:MAX_FOLDERS]
+    return sorted(folders, key=lambda folder: (folder != home, is_secondary(folder), folder.count("/"), folder))[:MAX_FOLDERS]

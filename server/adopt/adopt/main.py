@@ -139,7 +139,7 @@ def _judge(game, compiler, options, say):
     """Builds and runs the game. Returns (folder of the copy to start it in, command), or None if it does not build."""
     bounded.phase("reading the folder", READ_SECONDS)
     say("copying")
-    game.take_in()
+    game.copy_in()
     if not game.choose_program(options.main):
         return None
     building = Building(game, compiler, say)

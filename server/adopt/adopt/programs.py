@@ -21,7 +21,7 @@ class Program:
         self.main, self.sources, self.source_list, self.left_out = main, sources, source_list, left_out
 
 
-def is_aside(name):
+def is_secondary(name):
     """Returns whether the name of a file or folder looks like a test, tutorial or leftover."""
     return _ASIDE.search(name) is not None
 
@@ -42,7 +42,7 @@ def programs(sources, lists, code, included=None):
     found = [_program(main, all_mains, sources, lists, included or {}) for main in all_mains[:MAX_PROGRAMS]]
 
     def order(program):
-        return (not has_run(program.sources, code), is_aside(program.main), "client" in program.main.lower(),
+        return (not has_run(program.sources, code), is_secondary(program.main), "client" in program.main.lower(),
                 program.source_list is None, not has_run([program.main], code), -len(program.sources),
                 program.main.count("/"), program.main)
 
@@ -77,7 +77,7 @@ def _around(main, others, sources, included):
         base, first = os.path.basename(name).lower(), _first_of(name)
         if any(folder in foreign for folder in _folders_above(name)):
             left_out.append((name, "in the folder of another program"))
-        elif is_aside(os.path.dirname(name)) and not is_aside(home):
+        elif is_secondary(os.path.dirname(name)) and not is_secondary(home):
             left_out.append((name, "in a folder of tests, examples or leftovers"))
         elif base in nearest:
             left_out.append((name, f"{nearest[base]}, of this name, is used"))
@@ -88,7 +88,7 @@ def _around(main, others, sources, included):
             taken.append(name)
     compiled = set(taken)
     for name in taken[:]:
-        by = [one for one in included.get(name, ()) if one in compiled or not (is_source(one) or is_aside(one))]
+        by = [one for one in included.get(name, ()) if one in compiled or not (is_source(one) or is_secondary(one))]
         if by and name != main:
             taken.remove(name)
             left_out.append((name, f"{by[0]} includes it"))

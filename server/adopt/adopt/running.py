@@ -28,12 +28,12 @@ class Running:
 
     def run(self):
         """Runs the game. Writes rows and the result into the report."""
-        self._say_missing()
+        self._report_missing()
         if self._options.seconds == 0:
             self._report.result = "builds; not run"
             return
         os.makedirs(self._root, exist_ok=True)
-        reason = None if self._options.unconfined else sandbox.why_unavailable(self._root)
+        reason = None if self._options.unconfined else sandbox.unavailable_reason(self._root)
         if reason:
             self._report.fail("builds", f"not run: no sandbox for this user on this kernel ({reason}); if you trust the game, "
                                         "use --unconfined")
@@ -47,11 +47,11 @@ class Running:
         except FAILURES as error:
             self._report.fail("builds", f"not run: {error}")
             return
-        self._say_outcome(outcome)
+        self._report_outcome(outcome)
         if not outcome.runs:
             self._explain(outcome, trial)
 
-    def _say_missing(self):
+    def _report_missing(self):
         if not has_run(self._names, self._game.sources.code):
             self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
                                   "call GM.run() between GM.startUp() and GM.shutDown()")
@@ -61,7 +61,7 @@ class Running:
                                   f"write {instead}" if instead else "add the file, or correct its name",
                                   self._game.sources.line(file, line))
 
-    def _say_outcome(self, outcome):
+    def _report_outcome(self, outcome):
         for file, line, text in refused_sprites(outcome.log, self.folder)[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, text, "correct this line of the sprite")
         seconds, rounds = self._options.seconds, f", {outcome.rounds} times" if outcome.rounds > 1 else ""
@@ -92,7 +92,7 @@ class Running:
                 self._report.add_left(main, faults.THEIRS, "main() returns before a game has run",
                                       "GM.startUp() must return 0, and GM.run() must be called; the game's output is below")
         elif outcome.state == "crashed":
-            self._say_crash(outcome, trial)
+            self._report_crash(outcome, trial)
         else:
             text = {"failed": "it ends with an error", "deaf": "it does not start", "over": "it ends at once",
                     "refused": "the player could not play"}.get(outcome.state, "a handler does not return")
@@ -101,9 +101,9 @@ class Running:
             for line in [line for line in said.splitlines() if line.strip()][-_NOTED_LINES:]:
                 self._report.add("note", name, line)
 
-    def _say_crash(self, outcome, trial):
+    def _report_crash(self, outcome, trial):
         """Reports the place of a crash, found by building and running the game with an address sanitizer."""
-        frame = self._crash_place(trial)
+        frame = self._crash_location(trial)
         if frame:
             place, what = frame
             file, _, line = place.rpartition(":")
@@ -113,7 +113,7 @@ class Running:
                                   f"it crashes{_signal_of(outcome.code)}; the line is unknown",
                                   "compile it with -g -fsanitize=address and run it")
 
-    def _crash_place(self, trial):
+    def _crash_location(self, trial):
         self._say("it crashed: building it again to find the line")
         program = self._game.program_path
         plain = program + ".plain"

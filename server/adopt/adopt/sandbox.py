@@ -2,7 +2,7 @@
 
 Processes in it see the system's programs and libraries and the given paths read-only, and a small file system in memory that is
 deleted at the end. The network is a private loopback. They have no capabilities and cannot get any. When the sandbox ends, all its
-processes end. It requires a kernel that lets users create namespaces (Debian 12 does): see why_unavailable().
+processes end. It requires a kernel that lets users create namespaces (Debian 12 does): see unavailable_reason().
 """
 import ctypes
 import json
@@ -125,7 +125,7 @@ def _change_root(root):
     os.chdir("/game")
 
 
-def _give_up_rights():
+def _drop_privileges():
     """Makes sure that programs executed from now on have no capabilities and cannot gain any."""
     for capability in range(64):
         _libc.prctl(_PR_CAPBSET_DROP, capability, 0, 0, 0)
@@ -194,7 +194,7 @@ def _first_process(function, root, shown, megabytes, reader, writer):
         _build_root(root, shown, megabytes)
         _loopback_up()
         _change_root(root)
-        _give_up_rights()
+        _drop_privileges()
         _send(writer, {"result": function()})
     except SandboxError as error:
         _send(writer, {"sandbox": str(error)})
@@ -232,7 +232,7 @@ def _answer(reader, timeout):
     return answer["result"]
 
 
-def why_unavailable(root):
+def unavailable_reason(root):
     """Returns why this user cannot have a sandbox, or None if it works."""
     if not sys.platform.startswith("linux"):
         return "it requires Linux"

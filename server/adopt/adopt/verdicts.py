@@ -23,15 +23,15 @@ class Verdicts:
 
     def say(self, built):
         """Writes the rows of a build. `built`: it succeeded."""
-        self._say_treated()
+        self._report_treated()
         broken, units = self._building.broken, self._building.units
         if not built:
             for unit in broken:
-                self._say_errors(unit)
+                self._report_errors(unit)
             if not broken:
-                self._say_link_errors(self._building.said)
-            self._say_namespace()
-        self._say_network()
+                self._report_link_errors(self._building.said)
+            self._report_namespace()
+        self._report_network()
         if built:
             self._report.add("built", "", f"{len(units)} source{'s' * (len(units) != 1)}, linked with Naiad")
             return
@@ -59,7 +59,7 @@ class Verdicts:
             return None
         return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, max(count, key=count.get)))
 
-    def _say_treated(self):
+    def _report_treated(self):
         for file, line, before, after, why in self._building.includes[:MAX_ROWS]:
             self._report.add("treated", f"{file}:{line}", why, line=before, change=after)
         for change in self._building.changes[:MAX_ROWS]:
@@ -76,7 +76,7 @@ class Verdicts:
                     self._report.add("treated", f"{one.file}:{one.line}", "compiled with -fpermissive, because only MSVC accepts it: " +
                                      one.text.replace(" [-fpermissive]", ""), line=self._game.sources.line(one.file, one.line))
 
-    def _say_errors(self, unit):
+    def _report_errors(self, unit):
         if unit.timed_out:
             self._report.add_left(unit.name, faults.THEIRS, "compiling it takes too long", "look for infinite template recursion")
             return
@@ -95,11 +95,11 @@ class Verdicts:
             whose, change = self._blame.error(unit, one, line)
             self._report.add_left(place, whose, one.text, change, line)
 
-    def _say_link_errors(self, said):
+    def _report_link_errors(self, said):
         symbols = undefined(said)
         for symbol, place in symbols[:MAX_ROWS]:
             whose, change = self._blame.symbol(symbol)
-            self._report.add_left(_place_of(place), whose, f"undefined reference to {symbol}", change)
+            self._report.add_left(_location_text(place), whose, f"undefined reference to {symbol}", change)
         twice = list(dict.fromkeys(re.findall(r"multiple definition of [`']([^']+)'", said)))
         for symbol in twice[:MAX_ROWS]:
             self._report.add_left("", faults.THEIRS, f"{symbol} is defined twice",
@@ -108,19 +108,19 @@ class Verdicts:
             last = said.strip().splitlines()
             self._report.add_left("", faults.THEIRS, last[-1] if last else "the linker failed", "")
 
-    def _say_namespace(self):
+    def _report_namespace(self):
         if self._game.engine.without_namespace:
             self._report.add_left("", faults.OTHER, "no df:: in the sources: they were written for an engine without that namespace",
                                   "write df:: before the engine's names, or `using namespace df;` after the includes")
 
-    def _say_network(self):
+    def _report_network(self):
         headers = [name for name in self._game.sources.files if not is_source(name)]
         found = faults.networks(self._game.sources, self._game.program.sources + headers)
         if found:
             self._report.add("note", ", ".join(f"{name}:{line}" for name, line in found[:4]), faults.NETWORK_SENTENCE)
 
 
-def _place_of(place):
+def _location_text(place):
     """Returns file:line of a place named by the linker; "" if it is not in a source of the game."""
     match = re.match(r"(?:.*/copy/|\./|/game/)?(.+?):(\d+)$", place)
     return f"{os.path.normpath(match.group(1))}:{match.group(2)}" if match and not match.group(1).endswith(".o") else ""

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <limits>
 
-#include "engine/collision/GridShade.h"
+#include "engine/collision/GridCoverageMask.h"
 
 namespace df {
 
@@ -54,7 +54,7 @@ void Grid::count(const Record& record, int by) {
   if (record.level > 0) {
     m_boxes_beside += by;
     m_large_boxes += record.area == 0 ? by : 0;
-    m_shaded_area += by * std::int64_t{record.area};
+    m_covered_area += by * std::int64_t{record.area};
   }
   if (record.character) {
     m_characters += by;
@@ -64,7 +64,7 @@ void Grid::count(const Record& record, int by) {
 }
 
 // Decides whether characters have a level of their own. It changes so rarely that moving them costs nothing.
-void Grid::weigh() {
+void Grid::chooseCharacterLevel() {
   const bool apart = m_characters_apart ? m_small_boxes <= 16 || m_characters * 4 >= m_small_boxes
                                         : m_characters > m_small_boxes;
   if (apart == m_characters_apart) return;
@@ -75,28 +75,28 @@ void Grid::weigh() {
 }
 
 // Decides whether the boxes of other levels cover so few cells that it pays to know which.
-void Grid::weighShade() {
+void Grid::updateCoverage() {
   const std::int64_t characters = m_levels[0].count;
-  if (m_boxes_beside == 0 || characters == 0) return m_p_shade.reset();
-  const bool was_exact = m_p_shade != nullptr && m_p_shade->isExact();
-  const int most = was_exact ? Shade::kMostCellsPerCharacter : Shade::kMostCellsPerCharacter / 2;
-  const bool is_exact = m_shaded_area <= most * characters;
-  if (m_p_shade == nullptr || is_exact != was_exact) remakeShade(is_exact);
-  m_p_shade->cover(m_large_boxes > 0);
+  if (m_boxes_beside == 0 || characters == 0) return m_p_coverage.reset();
+  const bool was_exact = m_p_coverage != nullptr && m_p_coverage->isExact();
+  const int most = was_exact ? CoverageMask::kMaxCellsPerCharacter : CoverageMask::kMaxCellsPerCharacter / 2;
+  const bool is_exact = m_covered_area <= most * characters;
+  if (m_p_coverage == nullptr || is_exact != was_exact) rebuildCoverage(is_exact);
+  m_p_coverage->cover(m_large_boxes > 0);
 }
 
-void Grid::remakeShade(bool is_exact) {
-  m_p_shade = std::make_unique<Shade>(m_levels[0], is_exact);
-  m_p_shade->cover(m_large_boxes > 0);
+void Grid::rebuildCoverage(bool is_exact) {
+  m_p_coverage = std::make_unique<CoverageMask>(m_levels[0], is_exact);
+  m_p_coverage->cover(m_large_boxes > 0);
   for (Slot s = 0; is_exact && s < m_records.size(); ++s) {
-    if (contains(s) && m_records[s].level > 0) shade(s);
+    if (contains(s) && m_records[s].level > 0) cover(s);
   }
 }
 
-void Grid::shade(Slot slot) {
-  if (!m_p_shade->isExact()) return;
-  if (m_records[slot].area == 0) return m_p_shade->remove(m_levels[0], slot);
-  m_p_shade->file(m_levels[0], slot, worldBox(slot));
+void Grid::cover(Slot slot) {
+  if (!m_p_coverage->isExact()) return;
+  if (m_records[slot].area == 0) return m_p_coverage->remove(m_levels[0], slot);
+  m_p_coverage->file(m_levels[0], slot, worldBox(slot));
 }
 
 int Grid::size() const {
@@ -106,7 +106,8 @@ int Grid::size() const {
 }
 
 std::size_t Grid::bytes() const {
-  std::size_t sum = m_records.capacity() * sizeof(Record) + (m_p_shade != nullptr ? m_p_shade->bytes() : 0);
+  std::size_t sum =
+      m_records.capacity() * sizeof(Record) + (m_p_coverage != nullptr ? m_p_coverage->bytes() : 0);
   for (const Level& level : m_levels) {
     const std::size_t cell = sizeof(Slot) + (level.spots != nullptr ? sizeof(Spot) : 0);
     sum += level.words.capacity() * (sizeof(std::uint64_t) + 64 * cell);
@@ -117,22 +118,22 @@ std::size_t Grid::bytes() const {
 void Grid::file(Slot slot) {
   if (slot >= m_records.size()) m_records.resize(std::max<std::size_t>(slot + 1, m_records.size() * 2));
   fileAt(slot, levelOf(m_boxes[slot]));
-  weigh();
-  weighShade();
+  chooseCharacterLevel();
+  updateCoverage();
 }
 
 void Grid::remove(Slot slot) {
   if (!contains(slot)) return;
   drop(slot);
-  weigh();
-  weighShade();
+  chooseCharacterLevel();
+  updateCoverage();
 }
 
 void Grid::fileAt(Slot slot, int number) {
   Level& level = m_levels[static_cast<std::size_t>(number)];
   Record& record = m_records[slot];
   const bool character = m_boxes[slot] == kCharacterBox;
-  const std::uint16_t area = number > 0 ? Shade::areaOf(m_boxes[slot]) : std::uint16_t{0};
+  const std::uint16_t area = number > 0 ? CoverageMask::areaOf(m_boxes[slot]) : std::uint16_t{0};
   if (record.level == number) {
     count(record, -1);
     record.character = character;
@@ -151,7 +152,7 @@ void Grid::fileAt(Slot slot, int number) {
   record.area = area;
   count(record, 1);
   link(slot, level, level.cellOf(anchor(slot, number)));
-  if (m_p_shade != nullptr && number > 0) shade(slot);
+  if (m_p_coverage != nullptr && number > 0) cover(slot);
 }
 
 void Grid::drop(Slot slot) {
@@ -159,7 +160,7 @@ void Grid::drop(Slot slot) {
   const int number = m_records[slot].level;
   Level& level = m_levels[static_cast<std::size_t>(number)];
   unlink(slot, level);
-  if (m_p_shade != nullptr && number > 0) m_p_shade->remove(m_levels[0], slot);
+  if (m_p_coverage != nullptr && number > 0) m_p_coverage->remove(m_levels[0], slot);
   count(m_records[slot], -1);
   m_records[slot].level = kNotFiled;
   if (--level.count == 0) m_occupied &= ~(1u << number);
@@ -217,7 +218,7 @@ void Grid::rebuild(int number, std::size_t word_count) {
   for (Slot s = 0; s < m_records.size(); ++s) {
     if (m_records[s].level == number) link(s, level, level.cellOf(anchor(s, number)));
   }
-  if (number == 0 && m_p_shade != nullptr) remakeShade(m_p_shade->isExact());
+  if (number == 0 && m_p_coverage != nullptr) rebuildCoverage(m_p_coverage->isExact());
 }
 
 void Grid::touching(const FixedBox& box, Slot self, std::vector<Slot>& out, std::size_t most) const {

@@ -17,7 +17,7 @@
 // allocated when something moves.
 //
 // A character that moves looks at the other levels only where a bit per cell of level 0 says that a box of
-// theirs may be (GridShade.h). The bits are kept while such boxes cover few cells per character.
+// theirs may be (GridCoverageMask.h). The bits are kept while such boxes cover few cells per character.
 //
 // The grid reads positions and boxes from the store's arrays; a slot is filed under their values at its last
 // file() or refile().
@@ -59,7 +59,7 @@ class Grid {
   /// Files `slot` again after a change of its position alone. It must be filed.
   void refile(Slot slot) {
     refile(slot, m_levels[m_records[slot].level]);
-    if (m_p_shade != nullptr && m_records[slot].level > 0) shade(slot);
+    if (m_p_coverage != nullptr && m_records[slot].level > 0) cover(slot);
   }
   /// Removes `slot`, if it was filed.
   void remove(Slot slot);
@@ -85,7 +85,7 @@ class Grid {
   static FixedVector largest(int level);
 
  private:
-  class Shade;
+  class CoverageMask;
   static constexpr Slot kNone = 0x7FFFFFFF;
   static constexpr Slot kMore = 0x80000000;        // in a cell's first slot: others follow
   static constexpr Spot kSeveral = 0x8000;         // in a cell's spot: it has several slots, anywhere
@@ -101,7 +101,7 @@ class Grid {
     Slot previous = kNone;
     std::uint8_t level = kNotFiled;
     bool character = false;
-    std::uint16_t area = 0;  // above level 0: area of its shade, in cells; 0: too large for one
+    std::uint16_t area = 0;  // above level 0: area of its cover, in cells; 0: too large for one
   };
 
   struct Level {
@@ -131,10 +131,10 @@ class Grid {
   int levelOf(const FixedBox& box) const;
   void count(const Record& record, int by);
   void drop(Slot slot);
-  void weigh();
-  void weighShade();
-  void remakeShade(bool is_exact);
-  void shade(Slot slot);
+  void chooseCharacterLevel();
+  void updateCoverage();
+  void rebuildCoverage(bool is_exact);
+  void cover(Slot slot);
   void fileAt(Slot slot, int number);
   void refile(Slot slot, Level& level);
   void link(Slot slot, Level& level, std::uint32_t cell);
@@ -152,12 +152,12 @@ class Grid {
   std::vector<Record> m_records;
   std::uint32_t m_occupied = 0;
   int m_characters = 0;
-  int m_small_boxes = 0;             // boxes of level 1 that are not characters
-  bool m_characters_apart = true;    // true: they are in level 0; else in level 1
-  int m_boxes_beside = 0;            // boxes of all levels but 0
-  int m_large_boxes = 0;             // those of them that are too large for a shade
-  std::int64_t m_shaded_area = 0;    // area of the others' shades, in cells
-  std::unique_ptr<Shade> m_p_shade;  // null: there are no characters, or only characters
+  int m_small_boxes = 0;                       // boxes of level 1 that are not characters
+  bool m_characters_apart = true;              // true: they are in level 0; else in level 1
+  int m_boxes_beside = 0;                      // boxes of all levels but 0
+  int m_large_boxes = 0;                       // those of them that are too large for a cover
+  std::int64_t m_covered_area = 0;             // area of the others' covers, in cells
+  std::unique_ptr<CoverageMask> m_p_coverage;  // null: there are no characters, or only characters
   MoverStats m_mover_stats;
   std::vector<Slot> m_found;  // found slots of Steps, if they are many
 };
@@ -233,7 +233,7 @@ inline void Grid::refile(Slot slot, Level& level) {
 template <class Visit>
 void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visit) const {
   const Level& level = m_levels[static_cast<std::size_t>(number)];
-  const auto goOn = [&](Slot s) {
+  const auto proceed = [&](Slot s) {
     if constexpr (std::is_void_v<decltype(visit(s))>) {
       visit(s);
       return true;
@@ -245,10 +245,10 @@ void Grid::visitCorners(int number, FixedVector from, FixedVector to, Visit visi
     for (; bits != 0; bits &= bits - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
       const Slot head = level.heads[index << 6 | bit];
-      if (!goOn(head & ~kMore)) return false;
+      if (!proceed(head & ~kMore)) return false;
       if ((head & kMore) == 0) continue;
       for (Slot s = m_records[head & ~kMore].next; s != kNone; s = m_records[s].next) {
-        if (!goOn(s)) return false;
+        if (!proceed(s)) return false;
       }
     }
     return true;

@@ -3,24 +3,24 @@
 namespace df {
 
 // Used if the nine cells lie in more than one block.
-bool Grid::Steps::lookAround(Slot s, FixedVector where) {
+bool Grid::Steps::findAround(Slot s, FixedVector where) {
   --m_nine_cells;
   ++m_grid.m_mover_stats.far_cells;
   const FixedVector corner = where + kCharacterBox.corner;
   const FixedVector one{kFixedOne, kFixedOne};
   m_grid.visitCorners(0, corner - one, corner + one, [&](Slot t) {
     if (t != s && touches(t, where - one)) found(t);
-    return m_count <= m_most;
+    return m_count <= m_limit;
   });
   if (m_others != 0) {
     const std::int64_t x = where.x >> kFixedBits;
     const std::uint32_t word = m_level.wordOf(x, where.y >> kFixedBits);
-    if (mayTouchOthers(word, static_cast<std::uint32_t>(x))) lookAtOthers(s, where);
+    if (mayTouchOthers(word, static_cast<std::uint32_t>(x))) findInOtherLevels(s, where);
   }
   return m_count == 0;
 }
 
-void Grid::Steps::lookAtOthers(Slot s, FixedVector where) {
+void Grid::Steps::findInOtherLevels(Slot s, FixedVector where) {
   const FixedBox box = translate(kCharacterBox, where);
   for (std::uint32_t left = m_others; left != 0; left &= left - 1) visit(std::countr_zero(left), s, box);
 }
@@ -60,12 +60,12 @@ bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
         if ((head & kMore) == 0) continue;
         for (Slot t = m_p_records[head & ~kMore].next; t != kNone; t = m_p_records[t].next) {
           test(t, s, box.corner, high);
-          if (m_count > m_most) return false;
+          if (m_count > m_limit) return false;
         }
       }
     }
   }
-  for (; others != 0 && m_count <= m_most; others &= others - 1) visit(std::countr_zero(others), s, box);
+  for (; others != 0 && m_count <= m_limit; others &= others - 1) visit(std::countr_zero(others), s, box);
   return m_count == 0;
 }
 
@@ -87,7 +87,7 @@ void Grid::Steps::visit(int level, Slot s, const FixedBox& box) {
   const FixedVector high = box.corner + box.size;
   m_grid.visitCorners(level, box.corner - largest(level), high, [&](Slot t) {
     test(t, s, box.corner, high);
-    return m_count <= m_most;
+    return m_count <= m_limit;
   });
 }
 

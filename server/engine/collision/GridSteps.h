@@ -14,7 +14,7 @@
 #endif
 
 #include "engine/collision/Grid.h"
-#include "engine/collision/GridShade.h"
+#include "engine/collision/GridCoverageMask.h"
 #include "shared/values/Fixed.h"
 
 namespace df {
@@ -45,20 +45,20 @@ class Grid::Steps {
   bool isCharacterFree(Slot s, FixedVector where);
   bool gather(Slot s, FixedVector where, unsigned near);
   bool isBoxFree(Slot s, const Record& own, FixedVector where);
-  bool lookAround(Slot s, FixedVector where);
+  bool findAround(Slot s, FixedVector where);
   /// True if a character in this cell of level 0, which is in that word, may touch boxes of other levels.
   bool mayTouchOthers(std::uint32_t word, std::uint32_t cell) const {
-    return m_others != 0 && (m_p_shade[word] >> (cell & 63) & 1) != 0;
+    return m_others != 0 && (m_p_coverage[word] >> (cell & 63) & 1) != 0;
   }
-  void lookAtOthers(Slot s, FixedVector where);
+  void findInOtherLevels(Slot s, FixedVector where);
   void visit(int level, Slot s, const FixedBox& box);
   void test(Slot t, Slot self, FixedVector low, FixedVector high);
   bool touches(Slot t, FixedVector corner) const;
-  void putBack(const Record& own);
+  void restoreCell(const Record& own);
   void found(Slot t);
 
   Grid& m_grid;
-  std::size_t m_most;
+  std::size_t m_limit;
   Level& m_level;
   const FixedVector* m_p_positions;
   const FixedBox* m_p_boxes;
@@ -69,7 +69,7 @@ class Grid::Steps {
   std::uint32_t m_word_mask;
   std::uint32_t m_cell_mask;
   std::uint32_t m_others;
-  const std::uint64_t* m_p_shade;  // null if there are no others
+  const std::uint64_t* m_p_coverage;  // null if there are no others
   std::uint64_t m_nine_cells = 0;
   // State of the last isFree().
   std::uint32_t m_cell = 0;
@@ -141,7 +141,7 @@ class Grid::Steps::Nine {
 
 inline Grid::Steps::Steps(Grid& grid, std::size_t most)
     : m_grid(grid),
-      m_most(most),
+      m_limit(most),
       m_level(grid.m_levels[0]),
       m_p_positions(grid.m_positions.data()),
       m_p_boxes(grid.m_boxes.data()),
@@ -152,7 +152,7 @@ inline Grid::Steps::Steps(Grid& grid, std::size_t most)
       m_word_mask(m_level.word_mask),
       m_cell_mask(m_level.word_mask << 6 | 63),
       m_others(grid.m_occupied & ~1u),
-      m_p_shade(grid.m_p_shade != nullptr ? grid.m_p_shade->words() : nullptr) {}
+      m_p_coverage(grid.m_p_coverage != nullptr ? grid.m_p_coverage->words() : nullptr) {}
 
 // A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
 // part of the block that it comes from, their numbers follow from its own.
@@ -169,7 +169,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   ++m_nine_cells;
   if (!(same_block & inner)) {
     m_lifted = m_plain = false;
-    return lookAround(s, where);
+    return findAround(s, where);
   }
   const auto step = static_cast<std::uint32_t>((x - own_x) + (y - own_y) * 64);
   m_cell = (own.cell + step) & m_cell_mask;
@@ -191,13 +191,13 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
       near &= Nine(m_p_spots + above, m_p_spots + before, m_p_spots + below, spotOf(where)).near();
     }
     if (near != 0 && !gather(s, where, near)) {
-      putBack(own);
-      return lookAround(s, where);
+      restoreCell(own);
+      return findAround(s, where);
     }
   }
-  if (mayTouchOthers(m_cell >> 6, m_cell)) lookAtOthers(s, where);
+  if (mayTouchOthers(m_cell >> 6, m_cell)) findInOtherLevels(s, where);
   if (m_count == 0) return true;
-  putBack(own);
+  restoreCell(own);
   return false;
 }
 
@@ -224,7 +224,7 @@ inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
   return true;
 }
 
-inline void Grid::Steps::putBack(const Record& own) {
+inline void Grid::Steps::restoreCell(const Record& own) {
   if (m_lifted) m_p_words[own.cell >> 6] |= std::uint64_t{1} << (own.cell & 63);
   m_lifted = m_plain = false;
 }
@@ -253,7 +253,7 @@ inline void Grid::Steps::fileAtTarget(Slot s) {
     if (m_p_spots != nullptr) m_p_spots[m_cell] = spotOf(m_p_positions[s]);
     return;
   }
-  putBack(m_p_records[s]);
+  restoreCell(m_p_records[s]);
   m_grid.refile(s);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace df {
 

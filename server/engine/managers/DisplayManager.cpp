@@ -93,8 +93,8 @@ void DisplayManager::shake(int scale_x, int scale_y, int duration, bool delta) {
     return std::clamp(static_cast<int>(std::lrint(static_cast<float>(pixels) / pixels_per_cell)), 0,
                       kMaxShake);
   };
-  Shaking& shake = World::current().extras().shake;
-  const Shaking before = delta ? shake : Shaking{};
+  ScreenShake& shake = World::current().extras().shake;
+  const ScreenShake before = delta ? shake : ScreenShake{};
   // The smallest shake that shows is one cell.
   const int x = scale_x > 0 ? std::max(1, cells(scale_x, charWidth())) : 0;
   const int y = scale_y > 0 ? std::max(1, cells(scale_y, charHeight())) : 0;

@@ -30,7 +30,7 @@ int ResourceManager::unloadSprite(const std::string& label) {
 }
 
 Sprite* ResourceManager::getSprite(const std::string& label) const {
-  return resources().spriteOrStandIn(label);
+  return resources().spriteOrPlaceholder(label);
 }
 
 int ResourceManager::loadSound(const std::string& filename, const std::string& label) {
@@ -42,7 +42,7 @@ int ResourceManager::unloadSound(const std::string& label) {
 }
 
 Sound* ResourceManager::getSound(const std::string& label) {
-  return resources().sounds().findOrStandIn(label);
+  return resources().sounds().findOrPlaceholder(label);
 }
 
 int ResourceManager::loadMusic(const std::string& filename, const std::string& label) {
@@ -54,7 +54,7 @@ int ResourceManager::unloadMusic(const std::string& label) {
 }
 
 Music* ResourceManager::getMusic(const std::string& label) {
-  return resources().musics().findOrStandIn(label);
+  return resources().musics().findOrPlaceholder(label);
 }
 
 }  // namespace df

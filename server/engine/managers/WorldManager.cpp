@@ -1,6 +1,6 @@
 #include "engine/managers/WorldManager.h"
 
-#include "engine/world/FreeRoom.h"
+#include "engine/world/FreeSpaceSearch.h"
 #include "engine/world/Geometry.h"
 #include "engine/world/InputQueue.h"
 #include "engine/world/Mover.h"
@@ -114,12 +114,12 @@ ObjectList WorldManager::objectsSeenAt(Vector cell) const {
   return World::current().input().objectsSeenAt(cell);
 }
 
-void WorldManager::setLookingBack(bool looking_back) {
-  World::current().input().setLookingBack(looking_back);
+void WorldManager::setLagCompensated(bool lag_compensated) {
+  World::current().input().setLagCompensated(lag_compensated);
 }
 
-bool WorldManager::isLookingBack() const {
-  return World::current().input().isLookingBack();
+bool WorldManager::isLagCompensated() const {
+  return World::current().input().isLagCompensated();
 }
 
 void WorldManager::setRunsEmpty(bool runs_empty) {
@@ -151,7 +151,7 @@ std::optional<Vector> WorldManager::findFree(Box box, Vector near) const {
     world.log().refuse("WorldManager", "findFree");
     return std::nullopt;
   }
-  FreeRoom room(world.store(), world.views().boundary(), translate(*place, *position));
+  FreeSpaceSearch room(world.store(), world.views().boundary(), translate(*place, *position));
   const std::optional<FixedVector> offset = room.nearest();
   if (!offset) return std::nullopt;
   return Vector::fromFixed(*position + *offset);

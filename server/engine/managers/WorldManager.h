@@ -78,13 +78,15 @@ class WorldManager : public Manager {
   /// Returns the active visible Objects whose boxes covered this cell (a world position, as in EventMouse) on
   /// the screen of the player whose input is being handled, at the moment of that input, in creation order.
   /// So a click hits what was clicked on, whatever the latency and the target's speed. It looks at most 8
-  /// ticks back (a quarter of a second). Outside a player's mouse input, and without setLookingBack(), it
+  /// ticks back (a quarter of a second). Outside a player's mouse input, and without setLagCompensated(), it
   /// uses the present positions.
   ObjectList objectsSeenAt(Vector cell) const;
   /// Makes the host keep where Objects were drawn, for objectsSeenAt(), and where players' views were: the
   /// position of an EventMouse is then what was under the pointer in that picture. Off by default.
-  void setLookingBack(bool looking_back = true);
-  bool isLookingBack() const;
+  void setLagCompensated(bool lag_compensated = true);
+  bool isLagCompensated() const;
+  [[deprecated("say setLagCompensated")]] void setLookingBack(bool on = true) { setLagCompensated(on); }
+  [[deprecated("say isLagCompensated")]] bool isLookingBack() const { return isLagCompensated(); }
 
   /// Whether a host ticks the world without players. Else it stops the world's time after a minute without
   /// players, until the next one joins. Call before GM.run(). Off by default; needs a host.

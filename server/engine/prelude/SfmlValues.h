@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace sf {
 

@@ -153,16 +153,16 @@ Connections& connections() {
 }
 
 // Logs once for each world. Returns -1.
-int sayInstead(const std::string& what) {
+int logUnsupportedOnce(const std::string& what) {
   World& world = World::current();
-  bool& said = world.extras().network_said;
+  bool& said = world.extras().network_logged;
   if (!said) world.log().write(what);
   said = true;
   return -1;
 }
 
 int refuse(const char* what) {
-  return sayInstead(
+  return logUnsupportedOnce(
       std::string("NetworkManager::") + what +
       ": games need no sockets here. The server runs the game, and all players join this world: handle "
       "EventKeyboard and EventMouse (getPlayer() returns the player), EventJoin and EventLeave. Of a game of "
@@ -207,7 +207,7 @@ int NetworkManager::connect(const std::string& /*host*/, const std::string& /*po
 
 int NetworkManager::send(const void* /*buffer*/, int /*bytes*/, int sock) {
   if (!connections().is_server) return refuse("send");
-  sayInstead(
+  logUnsupportedOnce(
       "NetworkManager: the game's own messages are not sent, because there is no client program; players "
       "send only keys and mouse");
   return sock < 0 || isConnected(sock) ? 0 : -1;

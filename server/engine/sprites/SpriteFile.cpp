@@ -13,7 +13,7 @@ namespace df {
 namespace {
 
 // An error in the file; caught in parseSprite().
-struct Trouble {
+struct ParseError {
   std::size_t line;
   std::string what;
 };
@@ -44,25 +44,25 @@ class Lines {
   }
   bool isBlank() const { return !isDone() && trimmed(m_lines[m_next]).empty(); }
   /// Returns the next line as it is.
-  const std::string& takeLine(const std::string& expected) {
-    if (isDone()) throw Trouble{m_lines.size(), "the file ends where " + expected + " should be"};
+  const std::string& nextLine(const std::string& expected) {
+    if (isDone()) throw ParseError{m_lines.size(), "the file ends where " + expected + " should be"};
     return m_lines[m_next++];
   }
   /// Returns the next line that is not blank, without blanks around it.
-  std::string takeWord(const std::string& expected) {
+  std::string nextWord(const std::string& expected) {
     skipBlank();
-    return trimmed(takeLine(expected));
+    return trimmed(nextLine(expected));
   }
   std::string peekWord() {
     skipBlank();
     return isDone() ? std::string() : trimmed(m_lines[m_next]);
   }
   void expect(const std::string& word) {
-    const std::string found = takeWord("\"" + word + "\"");
+    const std::string found = nextWord("\"" + word + "\"");
     if (found != word) fail("expected \"" + word + "\", not \"" + found + "\"");
   }
   /// Reports an error in the line taken last.
-  [[noreturn]] void fail(const std::string& what) const { throw Trouble{m_next, what}; }
+  [[noreturn]] void fail(const std::string& what) const { throw ParseError{m_next, what}; }
   /// Returns the number of the line taken last, and what is odd about it.
   std::string describe(const std::string& what) const { return std::to_string(m_next) + ": " + what; }
 
@@ -72,10 +72,10 @@ class Lines {
 };
 
 struct Header {
-  explicit Header(std::vector<std::string>* the_oddities)
-      : p_oddities(the_oddities), slowdown(the_oddities != nullptr ? 0 : 1) {}
+  explicit Header(std::vector<std::string>* warnings)
+      : p_warnings(warnings), slowdown(warnings != nullptr ? 0 : 1) {}
 
-  std::vector<std::string>* p_oddities;  // not null: takes what the published engine takes, and lists it here
+  std::vector<std::string>* p_warnings;  // not null: takes what the published engine takes, and lists it here
   std::optional<int> frames;
   std::optional<int> width;
   std::optional<int> height;
@@ -102,30 +102,30 @@ Color toColor(const Lines& lines, const std::string& text) {
   return color;
 }
 
-void takeSlowdown(const Lines& lines, Header& header, const std::string& text) {
-  constexpr int kMost = 1'000'000;
-  if (header.p_oddities == nullptr) {
-    header.slowdown = toNumber(lines, "slowdown", text, 0, kMost);
+void parseSlowdown(const Lines& lines, Header& header, const std::string& text) {
+  constexpr int kMaxSlowdown = 1'000'000;
+  if (header.p_warnings == nullptr) {
+    header.slowdown = toNumber(lines, "slowdown", text, 0, kMaxSlowdown);
     return;
   }
-  header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMost);
-  if (text.empty()) header.p_oddities->push_back(lines.describe("slowdown has no number, 0 is used"));
+  header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMaxSlowdown);
+  if (text.empty()) header.p_warnings->push_back(lines.describe("slowdown has no number, 0 is used"));
   if (header.slowdown < 0) {
-    header.p_oddities->push_back(
+    header.p_warnings->push_back(
         lines.describe("slowdown should be 0 to 1000000, not " + text + ", used as it is"));
   }
 }
 
-void takeTransparency(const Lines& lines, Header& header, const std::string& text) {
+void parseTransparency(const Lines& lines, Header& header, const std::string& text) {
   if (text.size() > 1) {
     const std::string trouble = "transparency should be one character, not \"" + text + "\"";
-    if (header.p_oddities == nullptr) lines.fail(trouble);
-    header.p_oddities->push_back(lines.describe(trouble + ", its first one is used"));
+    if (header.p_warnings == nullptr) lines.fail(trouble);
+    header.p_warnings->push_back(lines.describe(trouble + ", its first one is used"));
   }
   header.transparency = text.empty() ? ' ' : text[0];
 }
 
-void takeField(const Lines& lines, Header& header, const std::string& line) {
+void parseField(const Lines& lines, Header& header, const std::string& line) {
   const std::size_t gap = std::min(line.find_first_of(" \t"), line.size());
   const std::string key = line.substr(0, gap);
   const std::string value = trimmed(line.substr(gap));
@@ -138,9 +138,9 @@ void takeField(const Lines& lines, Header& header, const std::string& line) {
   } else if (key == "color") {
     header.color = toColor(lines, value);
   } else if (key == "slowdown") {
-    takeSlowdown(lines, header, value);
+    parseSlowdown(lines, header, value);
   } else if (key == "transparency") {
-    takeTransparency(lines, header, value);
+    parseTransparency(lines, header, value);
   } else {
     lines.fail("unknown field \"" + key + "\"");
   }
@@ -158,7 +158,7 @@ std::unique_ptr<Sprite> newSprite(const Header& header) {
   sprite->setHeight(*header.height);
   sprite->setColor(header.color);
   sprite->setSlowdown(header.slowdown);
-  sprite->setNeverStill(header.p_oddities != nullptr);
+  sprite->setNeverStill(header.p_warnings != nullptr);
   sprite->setTransparency(header.transparency);
   return sprite;
 }
@@ -167,7 +167,7 @@ void readFrame(Lines& lines, Sprite& sprite) {
   const auto width = static_cast<std::size_t>(sprite.getWidth());
   std::string characters;
   for (int y = 0; y < sprite.getHeight(); ++y) {
-    const std::string& row = lines.takeLine("a row of characters");
+    const std::string& row = lines.nextLine("a row of characters");
     if (row.size() != width) {
       lines.fail("the row has " + std::to_string(row.size()) + " characters instead of " +
                  std::to_string(width));
@@ -179,7 +179,7 @@ void readFrame(Lines& lines, Sprite& sprite) {
 
 std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
   lines.expect("<HEADER>");
-  while (lines.peekWord() != "</HEADER>") takeField(lines, header, lines.takeWord("\"</HEADER>\""));
+  while (lines.peekWord() != "</HEADER>") parseField(lines, header, lines.nextWord("\"</HEADER>\""));
   lines.expect("</HEADER>");
   expectSizes(lines, header);
   lines.expect("<BODY>");
@@ -191,7 +191,7 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
   lines.expect("</BODY>");
   if (lines.peekWord().empty()) return sprite;  // the footer holds nothing useful
   lines.expect("<FOOTER>");
-  while (lines.takeWord("\"</FOOTER>\"") != "</FOOTER>") {
+  while (lines.nextWord("\"</FOOTER>\"") != "</FOOTER>") {
   }
   return sprite;
 }
@@ -201,7 +201,7 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
   // that begins with one.
   constexpr std::array<const char*, 5> kFields{"frames", "width", "height", "color", "slowdown"};
   const auto isField = [&](const std::string& line) {
-    if (header.p_oddities != nullptr && line == "slowdown") return true;
+    if (header.p_warnings != nullptr && line == "slowdown") return true;
     return std::any_of(kFields.begin(), kFields.end(),
                        [&](const char* field) { return line.rfind(std::string(field) + " ", 0) == 0; });
   };
@@ -210,7 +210,7 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
     lines.skipBlank(static_cast<std::size_t>(*header.width));
     return lines.isBlank();
   };
-  while (!isBlankRow() && isField(lines.peekWord())) takeField(lines, header, lines.takeWord("a field"));
+  while (!isBlankRow() && isField(lines.peekWord())) parseField(lines, header, lines.nextWord("a field"));
   expectSizes(lines, header);
   auto sprite = newSprite(header);
   for (int i = 0; i < *header.frames; ++i) {
@@ -223,14 +223,14 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
 
 std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
   const auto number = [&](const char* key, int most) {
-    const std::string word = lines.takeWord(key);
+    const std::string word = lines.nextWord(key);
     return toNumber(lines, key, word, 1, most);
   };
   header.frames = number("frames", kMaxSpriteFrames);
   header.width = number("width", kMaxSpriteSide);
   header.height = number("height", kMaxSpriteSide);
-  takeSlowdown(lines, header, lines.takeWord("slowdown"));
-  header.color = toColor(lines, lines.takeWord("a color"));
+  parseSlowdown(lines, header, lines.nextWord("slowdown"));
+  header.color = toColor(lines, lines.nextWord("a color"));
   auto sprite = newSprite(header);
   for (int i = 0; i < *header.frames; ++i) readFrame(lines, *sprite);
   return sprite;
@@ -249,14 +249,14 @@ std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
              first.rfind("color", 0) == 0) {
     sprite = readOld(lines, header);
   } else {
-    lines.takeWord("\"<HEADER>\", \"frames\" or a number");
+    lines.nextWord("\"<HEADER>\", \"frames\" or a number");
     lines.fail("a sprite begins with \"<HEADER>\", \"frames\" or a number");
   }
   if (const std::string rest = lines.peekWord(); !rest.empty()) {
-    lines.takeWord("");
+    lines.nextWord("");
     const std::string trouble = "unexpected \"" + rest + "\" after the end of the sprite";
-    if (header.p_oddities == nullptr || !has_end_mark) lines.fail(trouble);
-    header.p_oddities->push_back(lines.describe(trouble + ", ignored together with the rest"));
+    if (header.p_warnings == nullptr || !has_end_mark) lines.fail(trouble);
+    header.p_warnings->push_back(lines.describe(trouble + ", ignored together with the rest"));
   }
   return sprite;
 }
@@ -273,13 +273,13 @@ Color colorOfName(const std::string& name) {
 }
 
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
-                                    std::vector<std::string>* p_oddities) {
+                                    std::vector<std::string>* p_warnings) {
   Lines lines(text);
   try {
-    auto sprite = readAny(lines, Header(p_oddities));
+    auto sprite = readAny(lines, Header(p_warnings));
     sprite->setLabel(label);
     return sprite;
-  } catch (const Trouble& trouble) {
+  } catch (const ParseError& trouble) {
     error = std::to_string(trouble.line) + ": " + trouble.what;
     return nullptr;
   }

@@ -25,12 +25,12 @@ inline constexpr int kMaxSpriteSide = 1024;
 
 /// Parses the sprite in `text` and gives it this label. On failure, returns null and sets `error` to the
 /// number of the line and the reason, as in "12: the row has 5 characters instead of 6".
-/// With `p_oddities` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
+/// With `p_warnings` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
 /// it, `transparency " "` (its first character counts) and text after `</FOOTER>` or `eof` (ignored) are
 /// accepted, and listed there like errors; a missing slowdown is 0, and the sprite never stands still
 /// (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
-                                    std::vector<std::string>* p_oddities = nullptr);
+                                    std::vector<std::string>* p_warnings = nullptr);
 
 /// Returns the colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
 Color colorOfName(const std::string& name);

@@ -76,7 +76,7 @@ class GameThread : private Runner {
   void finishRun() {
     std::unique_lock lock(m_mutex);
     m_in_run = false;
-    handTo(true, lock);
+    switchTo(true, lock);
   }
   /// Returns what main() threw; empty if nothing.
   const std::string& fault() const { return m_fault; }
@@ -87,10 +87,10 @@ class GameThread : private Runner {
     if (m_has_run) world.setGameOver(false);  // as in a program: after the title comes the game
     std::unique_lock lock(m_mutex);
     m_in_run = m_has_run = true;
-    handTo(false, lock);
+    switchTo(false, lock);
   }
   /// Lets the other side run, until it hands back control.
-  void handTo(bool game, std::unique_lock<std::mutex>& lock) {
+  void switchTo(bool game, std::unique_lock<std::mutex>& lock) {
     m_games_turn = game;
     m_turned.notify_all();
     m_turned.wait(lock, [&] { return m_games_turn != game || (game && m_main_ended); });
@@ -300,18 +300,18 @@ bool GameTest::isOver() const {
   return !m_p_game->isRunning();
 }
 
-void GameTest::keepScore(const std::string& table, const std::string& name, std::int64_t points) {
+void GameTest::addStoredScore(const std::string& table, const std::string& name, std::int64_t points) {
   m_p_game->world().input().push(
       {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
 }
 
-void GameTest::keepRoom(const GameRoom& room) {
+void GameTest::setRoom(const GameRoom& room) {
   m_p_game->world().input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
 }
 
 std::string GameTest::sentTo(std::uint32_t player) const {
   const std::uint32_t wanted = player != 0 ? player : m_p_game->first();
-  for (const SentPlayer& sent : m_p_game->world().extras().rooms.sent()) {
+  for (const RoomTransfer& sent : m_p_game->world().extras().rooms.sent()) {
     if (sent.player == wanted) return sent.room;
   }
   return {};

@@ -79,12 +79,17 @@ class GameTest {
 
   /// Adds a row to a table, as if a server had stored it. Call it before the first tick, for games that show
   /// the best rows from the start.
-  void keepScore(const std::string& table, const std::string& name, std::int64_t points);
+  void addStoredScore(const std::string& table, const std::string& name, std::int64_t points);
+  [[deprecated("say addStoredScore")]] void keepScore(const std::string& table, const std::string& name,
+                                                      std::int64_t points) {
+    addStoredScore(table, name, points);
+  }
 
   // Rooms (GameRooms.h).
 
   /// Adds a room to the server, or updates it.
-  void keepRoom(const GameRoom& room);
+  void setRoom(const GameRoom& room);
+  [[deprecated("say setRoom")]] void keepRoom(const GameRoom& room) { setRoom(room); }
   /// Returns the room to which the game sent this player in the last tick, or "". The player stays here.
   std::string sentTo(std::uint32_t player = 0) const;
 

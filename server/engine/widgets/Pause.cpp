@@ -17,7 +17,7 @@ constexpr int kVoteTicks = 300;
 /// Returns the players whose keys count, so that they can vote.
 std::vector<std::uint32_t> votersOf(const World& world) {
   const WorldExtras* p_extras = world.findExtras();
-  const std::uint32_t only = p_extras != nullptr ? p_extras->heard_player : 0;
+  const std::uint32_t only = p_extras != nullptr ? p_extras->input_player : 0;
   std::vector<std::uint32_t> voters;
   for (const Player* p_player : world.views().getPlayers()) {
     if (only == 0 || p_player->getId() == only) voters.push_back(p_player->getId());
@@ -31,7 +31,7 @@ Pause::Pause(int init_pause_key) : m_pause_key(init_pause_key) {
   Object::setType(World::current().compat() ? "Pause" : "df-pause");
   Object::setSolidness(SPECTRAL);
   setVisible(false);
-  hearWhilePaused();
+  receiveWhilePaused();
   registerInterest(KEYBOARD_EVENT);
   registerInterest(LEAVE_EVENT);
 }

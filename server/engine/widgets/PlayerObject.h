@@ -9,7 +9,7 @@
 //     void keyboard(const df::EventKeyboard& event) override;
 //   };
 //
-//   new df::Welcome<Ship>;  // before GM.run(): each player that joins gets one
+//   new df::JoinSpawner<Ship>;  // before GM.run(): each player that joins gets one
 //
 // It is the player's Object (Player::setObject) and is deleted when the player leaves.
 #pragma once
@@ -75,11 +75,11 @@ class PlayerObject : public Base {
   Color m_color;
 };
 
-/// Makes an Its(Player&) for each player that joins. A Welcome is invisible and collides with nothing.
+/// Makes an Its(Player&) for each player that joins. A JoinSpawner is invisible and collides with nothing.
 template <class Its>
-class Welcome : public Object {
+class JoinSpawner : public Object {
  public:
-  Welcome() {
+  JoinSpawner() {
     setSolidness(SPECTRAL);
     setVisible(false);
     registerInterest(JOIN_EVENT);
@@ -90,5 +90,7 @@ class Welcome : public Object {
     return 1;
   }
 };
+template <class Its>
+using Welcome [[deprecated("say JoinSpawner")]] = JoinSpawner<Its>;
 
 }  // namespace df

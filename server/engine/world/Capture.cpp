@@ -45,7 +45,7 @@ void Capture::clearPicture() {
 bool Capture::mayDraw(std::uint32_t slot) {
   WorldStore& store = m_store;
   if (!store.has(slot, WorldStore::kActive) || !store.has(slot, WorldStore::kVisible)) return false;
-  if (!store.has(slot, WorldStore::kTyped)) m_events.learnType(slot);
+  if (!store.has(slot, WorldStore::kClassified)) m_events.classifyObject(slot);
   constexpr std::uint32_t kShows = WorldStore::kFrames | WorldStore::kPainted;
   return !store.has(slot, WorldStore::kNeverDraws) || (store.flags(slot) & kShows) != 0;
 }
@@ -81,7 +81,7 @@ void Capture::drawOne(ObjectKey key) {
   const std::size_t entry = m_view.drawn.size();
   m_view.drawn.push_back({key, first, 0, store.has(key.slot, WorldStore::kOnView)});
 
-  if (store.has(key.slot, WorldStore::kLookKept) && !store.has(key.slot, WorldStore::kFrames)) {
+  if (store.has(key.slot, WorldStore::kLookCached) && !store.has(key.slot, WorldStore::kFrames)) {
     const std::vector<DrawCommand>& look = m_looks[key.slot];
     for (const DrawCommand& c : look) m_view.commands.push_back({position + c.position, c.ch, c.color});
     m_view.drawn[entry].count = static_cast<std::uint32_t>(look.size());
@@ -107,7 +107,7 @@ void Capture::drawOne(ObjectKey key) {
   publishLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   if (m_looks.size() <= key.slot) m_looks.resize(std::size_t{key.slot} + 1);
-  store.set(key.slot, WorldStore::kLookKept, true);
+  store.set(key.slot, WorldStore::kLookCached, true);
   std::vector<DrawCommand>& relative = m_looks[key.slot];
   relative.clear();
   for (std::uint32_t i = first; i < first + count; ++i) {

@@ -62,7 +62,7 @@ class Capture {
   WorldView m_view;
   ObjectKey m_drawing;  // the Object whose draw() is running; generation 0: none
   std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;  // scratch of drawAll()
-  std::vector<std::vector<DrawCommand>> m_looks;  // static looks, by slot; see WorldStore::kLookKept
+  std::vector<std::vector<DrawCommand>> m_looks;  // static looks, by slot; see WorldStore::kLookCached
 };
 
 }  // namespace df

@@ -24,9 +24,9 @@ class CollisionRule {
   /// Like blocks(), but false if the mover moves out of the other on this path (Object::setMayMoveOut).
   bool blocks(FixedVector from, FixedVector to) const { return blocks() && !movesOut(from, to); }
   /// Returns when they first collide on this path: by boxes or, if one of them is precise, by characters.
-  std::optional<Moment> firstMeeting(const Sweep& sweep) const { return firstMeeting(sweep, otherBox()); }
-  /// Like firstMeeting(sweep), given the other's box in world coordinates.
-  std::optional<Moment> firstMeeting(const Sweep& sweep, const FixedBox& box) const {
+  std::optional<Moment> firstCollision(const Sweep& sweep) const { return firstCollision(sweep, otherBox()); }
+  /// Like firstCollision(sweep), given the other's box in world coordinates.
+  std::optional<Moment> firstCollision(const Sweep& sweep, const FixedBox& box) const {
     if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
     return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
   }
@@ -50,8 +50,8 @@ class CollisionRule {
 };
 
 /// Removes from `others`, whose boxes touch `box`, the Objects that the mover does not collide with there.
-inline void keepCollisions(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
-                           std::vector<ObjectKey>& others) {
+inline void filterCollisions(const WorldStore& store, WorldStore::Slot mover, const FixedBox& box,
+                             std::vector<ObjectKey>& others) {
   if (!store.hasPrecise()) return;
   std::erase_if(others,
                 [&](ObjectKey other) { return !CollisionRule(store, mover, other.slot).collidesIn(box); });

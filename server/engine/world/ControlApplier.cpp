@@ -12,9 +12,9 @@ namespace df {
 
 /// Gives the functions shared with the client access to the Object that a player steers. One that is gone or
 /// inactive is not moved.
-class ControlApplier::Steered : public naiad::Steered {
+class ControlApplier::SteeringTarget : public naiad::SteeringTarget {
  public:
-  Steered(Mover& mover, Player& player) : m_mover(mover), m_object(player.m_object) {
+  SteeringTarget(Mover& mover, Player& player) : m_mover(mover), m_object(player.m_object) {
     player.m_control_state.steering = player.m_steers && isManned();
   }
 
@@ -44,7 +44,7 @@ class ControlApplier::Steered : public naiad::Steered {
 void ControlApplier::beginTick(Mover& mover) {
   for (const auto& [id, p_player] : mover.views().players()) {
     if (p_player->m_p_controls == nullptr) continue;
-    Steered steered(mover, *p_player);
+    SteeringTarget steered(mover, *p_player);
     naiad::beginControlTick(*p_player->m_p_controls, p_player->m_control_state, steered);
   }
 }
@@ -53,7 +53,7 @@ bool ControlApplier::handleKey(Mover& mover, Player& player, Keyboard::Key key, 
   // A reference of our own, because a handler that the move calls may declare other controls.
   const std::shared_ptr<const ControlTable> p_controls = player.m_p_controls;
   if (p_controls == nullptr) return false;
-  Steered steered(mover, player);
+  SteeringTarget steered(mover, player);
   return naiad::applyControlKey(*p_controls, player.m_control_state, key, action, steered);
 }
 

@@ -16,7 +16,7 @@ class ControlApplier {
   static bool handleKey(Mover& mover, Player& player, Keyboard::Key key, EventKeyboardAction action);
 
  private:
-  class Steered;
+  class SteeringTarget;
 };
 
 }  // namespace df

@@ -31,7 +31,7 @@ Controls& Controls::drive(double vx, double vy) {
 Controls& Controls::every(int ticks, int group) {
   if (m_table.rows.empty() || ticks < 0 || ticks > kMaxControlTicks || group < 0 ||
       group >= static_cast<int>(kControlGroups)) {
-    m_spoiled = true;
+    m_is_invalid = true;
     return *this;
   }
   m_table.rows.back().wait = static_cast<std::uint16_t>(ticks);
@@ -41,7 +41,7 @@ Controls& Controls::every(int ticks, int group) {
 
 Controls& Controls::within(const Box& box) {
   const auto bounds = toFixed(box);
-  m_spoiled |= !bounds;
+  m_is_invalid |= !bounds;
   m_table.bounded = true;
   m_table.bounds = bounds.value_or(FixedBox{});
   return *this;
@@ -52,21 +52,21 @@ Controls& Controls::toWholeCells() {
   return *this;
 }
 
-Controls& Controls::patience(int ticks) {
-  m_spoiled |= ticks < 0 || ticks > kMaxControlTicks;
-  if (!m_spoiled) m_table.patience = static_cast<std::uint16_t>(ticks);
+Controls& Controls::releaseAfter(int ticks) {
+  m_is_invalid |= ticks < 0 || ticks > kMaxControlTicks;
+  if (!m_is_invalid) m_table.patience = static_cast<std::uint16_t>(ticks);
   return *this;
 }
 
 std::optional<ControlTable> Controls::table() const {
-  if (m_spoiled || !isValid(m_table)) return std::nullopt;
+  if (m_is_invalid || !isValid(m_table)) return std::nullopt;
   return m_table;
 }
 
 Controls& Controls::add(ControlEffect effect, bool x, bool y, double vx, double vy) {
   const auto value = toFixed(Vector(vx, vy), toCells(kMaxControlReach));
-  m_spoiled |= !value || m_table.rows.size() == kMaxControlRows;
-  if (m_spoiled) return *this;
+  m_is_invalid |= !value || m_table.rows.size() == kMaxControlRows;
+  if (m_is_invalid) return *this;
   const EventKeyboardAction action = effect == ControlEffect::kDrive ? KEY_PRESSED : m_action;
   m_table.rows.push_back({m_key, action, effect, x, y, *value});
   return *this;

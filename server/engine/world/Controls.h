@@ -50,7 +50,8 @@ class Controls {
   Controls& toWholeCells();
   /// Releases drives when the player has sent no key for this many ticks (up to 9000; 0: never), for
   /// terminals that may miss a key going up.
-  Controls& patience(int ticks);
+  Controls& releaseAfter(int ticks);
+  [[deprecated("say releaseAfter")]] Controls& patience(int ticks) { return releaseAfter(ticks); }
 
   /// Returns the table; nullopt if a number was not finite or out of range, or there are too many rows.
   std::optional<ControlTable> table() const;
@@ -61,7 +62,7 @@ class Controls {
   ControlTable m_table;
   Keyboard::Key m_key = Keyboard::UNDEFINED_KEY;
   EventKeyboardAction m_action = KEY_PRESSED;
-  bool m_spoiled = false;
+  bool m_is_invalid = false;
 };
 
 }  // namespace df

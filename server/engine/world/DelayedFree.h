@@ -53,7 +53,7 @@ class PendingBlocks {
 class DelayedFree {
  public:
   /// Number of freed blocks that are kept.
-  static constexpr std::size_t kKept = 4096;
+  static constexpr std::size_t kMaxKept = 4096;
 
   DelayedFree() = default;
   DelayedFree(const DelayedFree&) = delete;
@@ -62,14 +62,14 @@ class DelayedFree {
     for (std::size_t i = 0; i < m_count; ++i) ::operator delete(m_blocks[i].p, m_blocks[i].align);
   }
 
-  /// Keeps this block, and frees the oldest one if kKept are kept already.
+  /// Keeps this block, and frees the oldest one if kMaxKept are kept already.
   void free(void* p, std::align_val_t align) noexcept {
-    if (m_count < kKept) {
+    if (m_count < kMaxKept) {
       m_blocks[m_count++] = {p, align};
       return;
     }
     const Block gone = std::exchange(m_blocks[m_oldest], {p, align});
-    m_oldest = (m_oldest + 1) % kKept;
+    m_oldest = (m_oldest + 1) % kMaxKept;
     ::operator delete(gone.p, gone.align);
   }
   /// Returns the number of blocks kept.
@@ -81,7 +81,7 @@ class DelayedFree {
     std::align_val_t align{};
   };
 
-  std::array<Block, kKept> m_blocks;  // a ring, once it is full
+  std::array<Block, kMaxKept> m_blocks;  // a ring, once it is full
   std::size_t m_count = 0;
   std::size_t m_oldest = 0;
 };

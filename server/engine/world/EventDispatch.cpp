@@ -38,7 +38,7 @@ int EventDispatch::send(const Event& event, bool is_paused) {
   int delivered = 0;
   m_interests.visit(event.getType(), [&](ObjectKey key) {
     const Object* p_object = is_paused ? m_store.find(key) : nullptr;
-    if (is_paused && (p_object == nullptr || !p_object->hearsWhilePaused())) return;
+    if (is_paused && (p_object == nullptr || !p_object->receivesWhilePaused())) return;
     delivered += deliver(key, event) ? 1 : 0;
   });
   return delivered;
@@ -47,7 +47,7 @@ int EventDispatch::send(const Event& event, bool is_paused) {
 bool EventDispatch::deliver(ObjectKey key, const Event& event) {
   constexpr std::uint32_t kThere = WorldStore::kInWorld | WorldStore::kActive;
   if (!m_store.isCurrent(key) || (m_store.flags(key.slot) & kThere) != kThere) return false;
-  if (m_store.hears(key.slot)) runHandler(key, *m_store.object(key.slot), event);
+  if (m_store.handlesEvents(key.slot)) runHandler(key, *m_store.object(key.slot), event);
   return true;
 }
 
@@ -60,19 +60,19 @@ void EventDispatch::quarantine(ObjectKey key, const std::string& why) {
   m_objects.markForDelete(p_o);
 }
 
-void EventDispatch::learnNewcomers() {
-  for (const ObjectKey key : m_store.takeNewcomers()) {
-    if (m_store.isCurrent(key)) learnType(key.slot);
+void EventDispatch::classifyNewObjects() {
+  for (const ObjectKey key : m_store.popNewObjects()) {
+    if (m_store.isCurrent(key)) classifyObject(key.slot);
   }
 }
 
-void EventDispatch::learnType(std::uint32_t slot) {
+void EventDispatch::classifyObject(std::uint32_t slot) {
   const Object& object = *m_store.object(slot);
   if (m_p_page != nullptr) nameClass(slot);
-  m_store.set(slot, WorldStore::kTyped, true);
+  m_store.set(slot, WorldStore::kClassified, true);
   m_store.set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
-  const bool deaf = object.isDeaf();
-  m_store.set(slot, WorldStore::kDeaf, deaf);
+  const bool deaf = object.hasNoEventHandler();
+  m_store.set(slot, WorldStore::kNoEventHandler, deaf);
   if (deaf && !m_store.profile(slot).interests.empty() && typeid(object) != typeid(Object)) {
     m_log.writeOnce(nameOf(object) +
                     " registers interest in events but has no matching eventHandler(): it must be declared "
@@ -87,7 +87,7 @@ void EventDispatch::setPage(ActivityPage* p_page) {
   if (p_page == nullptr) return;
   const WorldStore::Walk walk(m_store);
   for (std::size_t i = 0; i < walk.size(); ++i) {
-    if (walk[i] != WorldStore::kNoSlot && m_store.has(walk[i], WorldStore::kTyped)) nameClass(walk[i]);
+    if (walk[i] != WorldStore::kNoSlot && m_store.has(walk[i], WorldStore::kClassified)) nameClass(walk[i]);
   }
   // Events that are sent without onEvent().
   nameEvent(EventCollision());

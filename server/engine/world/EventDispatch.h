@@ -54,14 +54,14 @@ class EventDispatch {
   /// a handler. Both must be in the world. Returns whether the mover still is in the world.
   [[gnu::always_inline]] bool sendToBoth(ObjectKey mover, ObjectKey other, const EventCollision& event) {
     const WorldStore& store = m_store;
-    if (store.hears(mover.slot)) {
+    if (store.handlesEvents(mover.slot)) {
       runHandler(mover, *event.getObject1(), event);
-      if (!store.isStill(mover)) return false;
-      if (!store.isStill(other)) return true;
+      if (!store.isCurrentUnchecked(mover)) return false;
+      if (!store.isCurrentUnchecked(other)) return true;
     }
-    if (store.hears(other.slot)) {
+    if (store.handlesEvents(other.slot)) {
       runHandler(other, *event.getObject2(), event);
-      if (!store.isStill(mover)) return false;
+      if (!store.isCurrentUnchecked(mover)) return false;
     }
     return true;
   }
@@ -73,11 +73,11 @@ class EventDispatch {
   /// Makes a shutdown pending.
   void deferShutDown() { m_shutdown_pending = true; }
   /// Returns whether a shutdown was pending, and cancels it.
-  bool takeShutDown() { return std::exchange(m_shutdown_pending, false); }
+  bool popShutDown() { return std::exchange(m_shutdown_pending, false); }
 
   /// Records what the classes of new Objects override, which their constructors cannot know.
-  void learnNewcomers();
-  void learnType(std::uint32_t slot);
+  void classifyNewObjects();
+  void classifyObject(std::uint32_t slot);
 
   /// Records further events and handlers on this page (ActivityPage.h). Not owned; null for none.
   void setPage(ActivityPage* p_page);

@@ -144,8 +144,8 @@ class SweepSegments {
 // Among many Objects a hit is near, and among few an empty piece costs little. So the first piece is short,
 // and after each empty piece the next one is longer. Lengths in cells of the level.
 constexpr Fixed kFirstPiece = 4;
-constexpr Fixed kLongestPiece = 16;
-constexpr Fixed kLongestFlatPiece = 64;  // for a path that hardly changes its row
+constexpr Fixed kMaxPiece = 16;
+constexpr Fixed kMaxFlatPiece = 64;  // for a path that hardly changes its row
 constexpr double kFlat = 0.25;
 
 // Up to this many pieces are cheaper than testing all Objects, even if there are very few.
@@ -164,7 +164,7 @@ struct Front {
 class HitList::Search {
  public:
   Search(HitList& list, const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
-         Moment since, const KeySet* p_met)
+         Moment since, const ObjectKeySet* p_met)
       : m_list(list),
         m_store(store),
         m_mover(mover),
@@ -222,7 +222,7 @@ class HitList::Search {
     // Neighbouring pieces both contain what is within the mover's size: shorter ones would only repeat tests.
     const Fixed least = horizontal ? m_path.box().size.x : m_path.box().size.y;
     const bool flat = horizontal && pieces.slope() < kFlat;
-    const Fixed longest = (flat ? kLongestFlatPiece : kLongestPiece) * cell;
+    const Fixed longest = (flat ? kMaxFlatPiece : kMaxPiece) * cell;
     return {begin, static_cast<std::uint64_t>(std::max(first, least)), static_cast<std::uint64_t>(longest),
             level};
   }
@@ -276,7 +276,7 @@ class HitList::Search {
 
   void lookAt(Slot other, int level) {
     const CollisionRule pair(m_store, m_mover, other);
-    const std::optional<Moment> moment = pair.firstMeeting(m_path.sweep(), boxOf(other, level));
+    const std::optional<Moment> moment = pair.firstCollision(m_path.sweep(), boxOf(other, level));
     if (!moment || (m_list.m_end && *moment > *m_list.m_end)) return;
     if (m_since.numerator != 0 && *moment < m_since) return;
     if (m_p_met != nullptr && m_p_met->contains(m_store.key(other))) return;
@@ -294,14 +294,14 @@ class HitList::Search {
   const SweepPath& m_path;
   const End m_end;
   const Moment m_since;
-  const KeySet* const m_p_met;
+  const ObjectKeySet* const m_p_met;
   std::optional<SweepBounds> m_bounds;  // made when there are several candidates
   std::size_t m_count = 0;
   std::array<Slot, kBatch> m_near;
 };
 
 void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
-                   Moment since, const KeySet* p_met) {
+                   Moment since, const ObjectKeySet* p_met) {
   m_hits.clear();
   m_end.reset();
   Search(*this, store, mover, path, end, since, p_met).run();

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/collision/KeySet.h"
+#include "engine/collision/ObjectKeySet.h"
 #include "engine/collision/Sweep.h"
 #include "engine/collision/SweepPath.h"
 #include "engine/world/WorldStore.h"
@@ -28,7 +28,7 @@ class HitList {
 
   /// Lists what `mover`, in the world and solid, hits on `path` at `since` or later, except Objects in `met`.
   void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
-            Moment since = {}, const KeySet* p_met = nullptr);
+            Moment since = {}, const ObjectKeySet* p_met = nullptr);
 
   const std::vector<Hit>& hits() const { return m_hits; }
   /// Returns when the list ends; nullopt if it goes to the end of the path.

@@ -55,11 +55,11 @@ std::uint32_t InputQueue::push(Input input) {
   }
   const std::uint32_t player = input.player;
   if (input.kind == kScore) {
-    m_extras.get().scores.keep(input.table, input.name, input.points);
+    m_extras.get().scores.addStored(input.table, input.name, input.points);
     return player;
   }
   if (input.kind == kRoom) {
-    m_extras.get().rooms.keep(std::move(input.room));
+    m_extras.get().rooms.update(std::move(input.room));
     return player;
   }
   if (isPossible(input)) m_inputs.push_back(std::move(input));
@@ -88,10 +88,10 @@ bool InputQueue::isFiltered(const Event* p_event) {
 void InputQueue::clear() {
   m_inputs.clear();
   m_leavers.clear();
-  m_looking_back = false;
+  m_lag_compensated = false;
 }
 
-bool InputQueue::takeGameOver() {
+bool InputQueue::handleGameOver() {
   if (!m_game_over_leaves || m_player == 0) return false;
   m_leavers.push_back(m_player);
   return true;

@@ -73,7 +73,7 @@ class InputQueue {
 
   /// Sends the events of all waiting inputs. Inputs added during the call wait for the next one.
   void drain();
-  /// Removes the waiting inputs and the leavers, and resets setLookingBack().
+  /// Removes the waiting inputs and the leavers, and resets setLagCompensated().
   void clear();
 
   /// Returns the player whose join, leave, key or mouse is being handled; 0 outside that.
@@ -82,13 +82,13 @@ class InputQueue {
   /// wants to leave, and the host decides. clear() keeps the setting.
   void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
   /// Handles a game over. True if it only means that the player whose input is handled wants to leave.
-  bool takeGameOver();
+  bool handleGameOver();
   /// Returns the players that wanted to leave since the last call.
-  std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_leavers, {}); }
+  std::vector<std::uint32_t> popLeavers() { return std::exchange(m_leavers, {}); }
 
   /// Whether the game uses lag compensation. If so, the host should provide it; else it needs no history.
-  void setLookingBack(bool looking_back) { m_looking_back = looking_back; }
-  bool isLookingBack() const { return m_looking_back; }
+  void setLagCompensated(bool lag_compensated) { m_lag_compensated = lag_compensated; }
+  bool isLagCompensated() const { return m_lag_compensated; }
   /// Sets the source of what players saw. Not owned; null for none.
   void setLagCompensation(const LagCompensation* p_lag_compensation) {
     m_p_lag_compensation = p_lag_compensation;
@@ -116,7 +116,7 @@ class InputQueue {
   const LagCompensation* m_p_lag_compensation = nullptr;
   std::vector<std::uint32_t> m_leavers;
   bool m_game_over_leaves = false;
-  bool m_looking_back = false;
+  bool m_lag_compensated = false;
 };
 
 }  // namespace df

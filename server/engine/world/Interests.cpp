@@ -16,7 +16,7 @@ int Interests::add(ObjectKey key, ObjectProfile& profile, const std::string& typ
   if (std::find(mine.begin(), mine.end(), it->second) != mine.end()) return 0;
   mine.push_back(it->second);
   Table& table = m_tables[it->second];
-  tidy(table);
+  compact(table);
   table.entries.push_back(key);
   return 0;
 }
@@ -29,17 +29,17 @@ int Interests::remove(ObjectKey key, ObjectProfile& profile, const std::string& 
   assert(entry != table.entries.end());  // the Object lists only types for which it has an entry
   *entry = ObjectKey{};
   ++table.gone;
-  tidy(table);
+  compact(table);
   return 0;
 }
 
 // The entries need no search: the Object's generation ends, so they name no Object.
-void Interests::dropAll(ObjectProfile& profile) {
+void Interests::removeAll(ObjectProfile& profile) {
   for (std::uint32_t number : profile.interests) ++m_tables[number].gone;
   profile.interests.clear();
 }
 
-void Interests::tidy(Table& table) {
+void Interests::compact(Table& table) {
   if (table.walks > 0 || table.gone < 16 || table.gone * 2 < table.entries.size()) return;
   std::erase_if(table.entries, [this](ObjectKey key) { return !m_store.isCurrent(key); });
   table.gone = 0;

@@ -24,7 +24,7 @@ class Interests {
   /// Removes an interest. Returns 0, or -1 if it was not registered.
   int remove(ObjectKey key, ObjectProfile& profile, const std::string& type);
   /// Removes all interests of an Object that leaves the world.
-  void dropAll(ObjectProfile& profile);
+  void removeAll(ObjectProfile& profile);
 
   /// Calls visit(key) for the Objects that were registered for the type when the call began, in that order.
   /// Objects may register and leave during the call; the key of one that left names no Object.
@@ -37,7 +37,7 @@ class Interests {
     ++table.walks;
     for (std::size_t i = 0; i < count; ++i) visit(table.entries[i]);
     --table.walks;
-    tidy(table);
+    compact(table);
   }
 
  private:
@@ -47,7 +47,7 @@ class Interests {
     int walks = 0;         // in progress, during which no entry moves
   };
 
-  void tidy(Table& table);
+  void compact(Table& table);
 
   const WorldStore& m_store;
   std::unordered_map<std::string, std::uint32_t> m_numbers;

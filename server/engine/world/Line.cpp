@@ -8,10 +8,10 @@
 namespace df {
 
 void Line::draw() const {
-  constexpr double kLongest = 1000;
+  constexpr double kMaxLength = 1000;
   const Vector displacement = m_p2 - m_p1;
   const double length = std::max(std::fabs(displacement.x()), std::fabs(displacement.y()));
-  if (!(length <= kLongest)) return;
+  if (!(length <= kMaxLength)) return;
   const bool flat = std::fabs(displacement.y()) * 2 <= std::fabs(displacement.x());
   const bool steep = std::fabs(displacement.x()) * 2 <= std::fabs(displacement.y());
   const char ch = flat ? '-' : steep ? '|' : (displacement.x() > 0) == (displacement.y() > 0) ? '\\' : '/';

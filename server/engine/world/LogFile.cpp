@@ -57,7 +57,7 @@ void writeToLogFile(const std::string& filename, const std::string& line, bool f
   if (flush) std::fflush(entry.p_file);
 }
 
-void keepLogFiles() {
+void disableLogTruncation() {
   g_kept = true;
 }
 

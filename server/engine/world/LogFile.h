@@ -11,7 +11,7 @@ namespace df {
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
 /// Makes writeToLogFile() empty no files, because another process of this game writes to them. Any thread.
-void keepLogFiles();
+void disableLogTruncation();
 
 /// Appends a line to another file, which this process's first line empties. Returns false on failure. Any
 /// thread.

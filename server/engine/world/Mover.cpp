@@ -68,7 +68,7 @@ SweptMove::Verdict SweptMove::sendHits(EventDispatch& events, const WorldStore& 
   for (const Hit& hit : m_list.hits()) {
     if (verdict.outcome == Outcome::kBlocked && hit.moment > verdict.moment) break;
     if (!store.isCurrent(hit.key)) continue;
-    if (store.hears(mover.slot) || store.hears(hit.key.slot)) {
+    if (store.handlesEvents(mover.slot) || store.handlesEvents(hit.key.slot)) {
       event.setObject2(store.object(hit.key.slot));
       event.setPosition(Vector::fromFixed(path.sweep().before(hit.moment)));
       if (!events.sendToBoth(mover, hit.key, event)) return {Outcome::kGone, {}};
@@ -91,17 +91,18 @@ void Mover::moveAll() {
     // Objects that enter during the update wait for the next one.
     const std::size_t left = walk.size() - word * 64;
     std::uint64_t waiting = left < 64 ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
-    for (std::uint64_t turns = 0; (turns = store.turnBits().turns[word] & waiting) != 0;) {
+    for (std::uint64_t turns = 0; (turns = store.updateMasks().turns[word] & waiting) != 0;) {
       const int bit = std::countr_zero(turns);
       int next = bit + 1;
-      if ((store.turnBits().walkers[word] >> bit & 1) != 0 && m_depth < kMaxDepth) {
-        next = walkOn(word, turns);
-      } else if ((store.turnBits().fliers[word] >> bit & 1) != 0) {
-        next = bit + flyOn(walk[word * 64 + static_cast<std::size_t>(bit)],
-                           store.turnBits().fliers[word] & waiting, store.turnBits().sequels[word], bit);
+      if ((store.updateMasks().walkers[word] >> bit & 1) != 0 && m_depth < kMaxDepth) {
+        next = moveWalkers(word, turns);
+      } else if ((store.updateMasks().fliers[word] >> bit & 1) != 0) {
+        next = bit + moveFliers(walk[word * 64 + static_cast<std::size_t>(bit)],
+                                store.updateMasks().fliers[word] & waiting,
+                                store.updateMasks().consecutive[word], bit);
       } else {
         ++store.moverStats().special;
-        takeTurn(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
+        updateObject(store.key(walk[word * 64 + static_cast<std::size_t>(bit)]));
       }
       waiting &= next < 64 ? ~std::uint64_t{0} << next : 0;
     }
@@ -110,24 +111,24 @@ void Mover::moveAll() {
 
 // Moves all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn
 // it finishes too. Returns the bit after that of the last one.
-int Mover::walkOn(std::size_t word, std::uint64_t turns) {
+int Mover::moveWalkers(std::size_t word, std::uint64_t turns) {
   WorldStore& store = m_store;
-  const std::uint64_t others = turns & ~store.turnBits().walkers[word];
+  const std::uint64_t others = turns & ~store.updateMasks().walkers[word];
   const std::uint64_t run = turns & ((others & -others) - 1);
   const int last = 63 - std::countl_zero(run);
   std::vector<ObjectKey>& met = m_lists[m_depth];
   met.clear();
-  const std::uint64_t left = store.walk(word, run, roomToFly(), met);
+  const std::uint64_t left = store.walk(word, run, flightBounds(), met);
   if (left == 0) return last + 1;
   const int bit = std::countr_zero(left);
   const ObjectKey key = store.key(store.entry(word * 64 + static_cast<std::size_t>(bit)));
   if (store.hasPrecise()) {
-    keepCollisions(store, key.slot,
-                   store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)), met);
+    filterCollisions(store, key.slot,
+                     store.worldBox(key.slot, store.position(key.slot) + store.velocity(key.slot)), met);
   }
   if (met.empty()) {
     ++store.moverStats().deferred;
-    takeTurn(key);
+    updateObject(key);
   } else {
     ++store.moverStats().met;
     finishWalk(key, met);
@@ -144,23 +145,23 @@ void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
   const bool free = collide(key, where, others);
   if (free) place(key, where);
   --m_depth;
-  if (store.isCurrent(key)) endTurn(key, velocity, !free);
+  if (store.isCurrent(key)) finishUpdate(key, velocity, !free);
 }
 
 // Moves a run of fliers in consecutive slots. Returns how many turns were taken.
-int Mover::flyOn(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t sequels, int bit) {
-  const std::uint64_t run = (fliers >> bit) & (sequels >> bit | 1);
+int Mover::moveFliers(WorldStore::Slot first, std::uint64_t fliers, std::uint64_t consecutive, int bit) {
+  const std::uint64_t run = (fliers >> bit) & (consecutive >> bit | 1);
   const int count = std::countr_one(run);
   WorldStore& store = m_store;
-  const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), roomToFly()));
+  const auto done = static_cast<int>(store.fly(first, static_cast<std::size_t>(count), flightBounds()));
   store.moverStats().flown += static_cast<std::uint64_t>(done);
   if (done == count) return count;
   ++store.moverStats().deferred;
-  takeTurn(store.key(first + static_cast<WorldStore::Slot>(done)));
+  updateObject(store.key(first + static_cast<WorldStore::Slot>(done)));
   return done + 1;
 }
 
-void Mover::takeTurn(ObjectKey key) {
+void Mover::updateObject(ObjectKey key) {
   WorldStore& store = m_store;
   const WorldStore::Slot s = key.slot;
   const FixedVector velocity = store.velocity(s);
@@ -175,10 +176,10 @@ void Mover::takeTurn(ObjectKey key) {
     }
     if (!store.isCurrent(key)) return;
   }
-  endTurn(key, velocity, blocked);
+  finishUpdate(key, velocity, blocked);
 }
 
-void Mover::endTurn(ObjectKey key, FixedVector velocity, bool blocked) {
+void Mover::finishUpdate(ObjectKey key, FixedVector velocity, bool blocked) {
   WorldStore& store = m_store;
   const WorldStore::Slot s = key.slot;
   FixedVector next = store.velocity(s);
@@ -227,7 +228,7 @@ bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>
   const FixedBox box = store.worldBox(mover.slot, where);
   others.clear();
   if (const std::optional<bool> moves = store.touchingTarget(mover.slot, box, others)) return *moves;
-  keepCollisions(store, mover.slot, box, others);
+  filterCollisions(store, mover.slot, box, others);
   return others.empty() || collide(mover, where, others);
 }
 
@@ -237,10 +238,10 @@ bool Mover::collide(ObjectKey mover, FixedVector where, const std::vector<Object
   bool free = true;
   EventCollision event(store.object(mover.slot), nullptr, Vector::fromFixed(where));
   for (const ObjectKey other : others) {
-    if (!store.isStill(other)) continue;
+    if (!store.isCurrentUnchecked(other)) continue;
     event.setObject2(store.object(other.slot));
     if (!m_events.sendToBoth(mover, other, event)) return false;
-    if (!store.isStill(other)) continue;
+    if (!store.isCurrentUnchecked(other)) continue;
     if (CollisionRule(store, mover.slot, other.slot).blocks(from, where)) free = false;
   }
   return free;
@@ -261,7 +262,7 @@ bool Mover::isInWorld(std::uint32_t slot, FixedVector where) const {
 }
 
 // Returns bounds such that a move that ends inside them does not leave the world.
-FixedBox Mover::roomToFly() const {
+FixedBox Mover::flightBounds() const {
   const FixedBox& boundary = m_views.boundary();
   const bool anywhere = !m_state.compat || !m_store.hasBoxesOffPosition();
   return anywhere ? boundary : FixedBox{boundary.corner, {}};

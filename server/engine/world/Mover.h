@@ -25,7 +25,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/collision/KeySet.h"
+#include "engine/collision/ObjectKeySet.h"
 #include "engine/world/HitList.h"
 #include "shared/values/Fixed.h"
 #include "shared/values/Vector.h"
@@ -69,7 +69,7 @@ class SweptMove {
   Verdict sendHits(EventDispatch& events, const WorldStore& store, ObjectKey mover, const SweepPath& path);
 
   HitList m_list;
-  KeySet m_met;  // Objects hit in earlier stages
+  ObjectKeySet m_met;  // Objects hit in earlier stages
 };
 
 class Mover {
@@ -96,15 +96,15 @@ class Mover {
   void place(ObjectKey mover, FixedVector where);
 
  private:
-  int walkOn(std::size_t word, std::uint64_t turns);
-  int flyOn(std::uint32_t first, std::uint64_t fliers, std::uint64_t sequels, int bit);
+  int moveWalkers(std::size_t word, std::uint64_t turns);
+  int moveFliers(std::uint32_t first, std::uint64_t fliers, std::uint64_t consecutive, int bit);
   void finishWalk(ObjectKey key, std::vector<ObjectKey>& others);
-  void takeTurn(ObjectKey key);
-  void endTurn(ObjectKey key, FixedVector velocity, bool blocked);
+  void updateObject(ObjectKey key);
+  void finishUpdate(ObjectKey key, FixedVector velocity, bool blocked);
   bool collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others);
   bool collide(ObjectKey mover, FixedVector where, const std::vector<ObjectKey>& others);
   bool isInWorld(std::uint32_t slot, FixedVector where) const;
-  FixedBox roomToFly() const;
+  FixedBox flightBounds() const;
 
   WorldStore& m_store;
   ObjectRegistry& m_objects;

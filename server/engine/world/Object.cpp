@@ -123,7 +123,7 @@ void Object::operator delete(void* p, std::align_val_t align) noexcept {
 Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
   World& world = World::current();
   m_p_store = &world.store();
-  m_slot = m_p_store->takeSlot(this, t_pending.claim(this));
+  m_slot = m_p_store->allocateSlot(this, t_pending.claim(this));
   m_p_profile = &m_p_store->profile(m_slot);
   if (world.compat()) {
     m_p_store->setBox(m_slot, kCompatBox);
@@ -138,7 +138,7 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
 Object::~Object() {
   if (m_p_extras != nullptr) dropExtras();
   leaveWorld();
-  m_p_store->giveBackSlot(m_slot);
+  m_p_store->freeSlot(m_slot);
   // Calls on the deleted Object (DelayedFree.h) must find no extras, so the compiler must not drop this
   // store.
   m_p_extras.reset();
@@ -148,25 +148,25 @@ Object::~Object() {
 void Object::leaveWorld() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  p_world->interests().dropAll(*m_p_profile);
+  p_world->interests().removeAll(*m_p_profile);
   m_p_store->leave(m_slot);
 }
 
-bool Object::isDeaf() const {
+bool Object::hasNoEventHandler() const {
   return g_p_base_handler != nullptr && handlerOf(*this) == g_p_base_handler;
 }
 
 Object::Object(const Object& other) : Object() {
   leaveWorld();
-  resemble(other);
+  copyAttributes(other);
 }
 
 Object& Object::operator=(const Object& other) {
-  if (this != &other) resemble(other);
+  if (this != &other) copyAttributes(other);
   return *this;
 }
 
-void Object::resemble(const Object& other) {
+void Object::copyAttributes(const Object& other) {
   const WorldStore& from = *other.m_p_store;
   WorldStore& to = *m_p_store;
   const WorldStore::Slot source = other.m_slot;

@@ -309,13 +309,16 @@ class Object {
   /// Makes the position a cell of every view, and the Object always drawn (ViewObject.h).
   void showOnView();
   /// Makes events arrive while the game is paused, too (Pause.h).
-  void hearWhilePaused();
+  void receiveWhilePaused();
+  [[deprecated("say receiveWhilePaused")]] void hearWhilePaused() {
+    receiveWhilePaused();
+  }
 
  private:
   friend class Capture;
   friend class EventDispatch;
   friend class ObjectRegistry;
-  friend class Walkers;
+  friend class PathFollowers;
   friend const Mask* spriteMaskOf(const Object& object);
   friend class ObjectList;
   friend class ObjectLookAccess;
@@ -324,14 +327,14 @@ class Object {
   int applyVelocity(double speed, Vector direction);
   void deriveKinematics() const;
   int refuse(const char* what) const;
-  bool hearsWhilePaused() const;
-  bool isDeaf() const;  // true if its class does not override eventHandler()
-  void resemble(const Object& other);
+  bool receivesWhilePaused() const;
+  bool hasNoEventHandler() const;  // true if its class does not override eventHandler()
+  void copyAttributes(const Object& other);
   ObjectExtras& extras();
   void dropExtras();
   void leaveWorld();
   void animate();
-  void forgetLook();
+  void invalidateLook();
   void fitBox();
   std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;

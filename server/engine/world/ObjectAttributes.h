@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "detail/Dialect.h"
+#include "detail/LanguageStandard.h"
 
 namespace df {
 

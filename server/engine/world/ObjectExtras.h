@@ -26,7 +26,7 @@ struct ObjectExtras {
   std::optional<Shape> shape;
   std::optional<int> id;  ///< chosen by the game
   Path path;
-  bool hears_while_paused = false;
+  bool receives_while_paused = false;
   bool is_centered = true;
   bool follows_path = false;
   double path_speed = 0;  ///< speed at the start of the path; the last step to a node may be shorter

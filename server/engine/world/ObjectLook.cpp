@@ -90,12 +90,12 @@ ObjectExtras& Object::extras() {
   return *m_p_extras;
 }
 
-void Object::hearWhilePaused() {
-  extras().hears_while_paused = true;
+void Object::receiveWhilePaused() {
+  extras().receives_while_paused = true;
 }
 
-bool Object::hearsWhilePaused() const {
-  return m_p_extras != nullptr && m_p_extras->hears_while_paused;
+bool Object::receivesWhilePaused() const {
+  return m_p_extras != nullptr && m_p_extras->receives_while_paused;
 }
 
 // Removes the Object from the world's lists.
@@ -113,7 +113,7 @@ void Object::animate() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
   if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also for one made by the game
-  forgetLook();
+  invalidateLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
     p_world->extras().animations.add(m_slot, *m_p_extras);
   } else if (m_p_extras->animated != ObjectExtras::kNowhere) {
@@ -184,7 +184,7 @@ Animation Object::getAnimation() const {
 
 void Object::setSpriteIndex(int new_index) {
   extras().animation.setIndex(new_index);
-  forgetLook();
+  invalidateLook();
 }
 
 void Object::setSpriteSlowdown(int new_slowdown) {
@@ -202,7 +202,7 @@ void Object::setSpriteSlowdownCount(int new_slowdown_count) {
 
 void Object::setTransparency(char new_transparency) {
   if (Sprite* p_sprite = getSprite()) p_sprite->setTransparency(new_transparency);
-  forgetLook();
+  invalidateLook();
 }
 
 char Object::getTransparency() const {
@@ -257,13 +257,13 @@ const Mask* spriteMaskOf(const Object& object) {
 }
 
 // Makes a static look be drawn again.
-void Object::forgetLook() {
-  if (getWorld() != nullptr) m_p_store->set(m_slot, WorldStore::kLookKept, false);
+void Object::invalidateLook() {
+  if (getWorld() != nullptr) m_p_store->set(m_slot, WorldStore::kLookCached, false);
 }
 
 void Object::setStaticLook(bool static_look) {
   m_p_store->set(m_slot, WorldStore::kStaticLook, static_look);
-  forgetLook();
+  invalidateLook();
 }
 
 bool Object::hasStaticLook() const {
@@ -439,43 +439,43 @@ int Object::deserialize(std::stringstream* p_ss, unsigned int* p_a) {
   const std::string text = p_ss->str();
   unsigned mask = 0;
   int result = 0;
-  const auto noteApplied = [&](ObjectAttribute attribute, int outcome) {
+  const auto recordApplied = [&](ObjectAttribute attribute, int outcome) {
     mask |= static_cast<unsigned>(attribute);
     if (outcome != 0) result = -1;
   };
-  const auto takeNumber = [&](ObjectAttribute attribute, const char* key, auto apply) {
-    if (const auto value = numberOf(text, key)) noteApplied(attribute, apply(*value));
+  const auto parseNumber = [&](ObjectAttribute attribute, const char* key, auto apply) {
+    if (const auto value = numberOf(text, key)) recordApplied(attribute, apply(*value));
   };
-  const auto takeVector = [&](ObjectAttribute attribute, const char* key, auto apply) {
-    if (const auto value = vectorOf(text, key)) noteApplied(attribute, apply(*value));
+  const auto parseVector = [&](ObjectAttribute attribute, const char* key, auto apply) {
+    if (const auto value = vectorOf(text, key)) recordApplied(attribute, apply(*value));
   };
   const auto toInt = [](double value) {
     return value >= -2e9 && value <= 2e9 ? static_cast<int>(value) : -1;
   };
 
-  takeNumber(ObjectAttribute::ID, "id", [&](double v) { return setId(toInt(v)), 0; });
-  takeNumber(ObjectAttribute::ACTIVE, "active", [&](double v) { return setActive(v != 0); });
-  takeNumber(ObjectAttribute::VISIBLE, "visible", [&](double v) { return setVisible(v != 0); });
-  takeNumber(ObjectAttribute::NO_SOFT, "no_soft", [&](double v) { return setNoSoft(v != 0), 0; });
-  takeNumber(ObjectAttribute::ALTITUDE, "altitude", [&](double v) { return setAltitude(toInt(v)); });
-  takeNumber(ObjectAttribute::SOLIDNESS, "solidness",
-             [&](double v) { return setSolidness(static_cast<Solidness>(toInt(v) & 3)); });
+  parseNumber(ObjectAttribute::ID, "id", [&](double v) { return setId(toInt(v)), 0; });
+  parseNumber(ObjectAttribute::ACTIVE, "active", [&](double v) { return setActive(v != 0); });
+  parseNumber(ObjectAttribute::VISIBLE, "visible", [&](double v) { return setVisible(v != 0); });
+  parseNumber(ObjectAttribute::NO_SOFT, "no_soft", [&](double v) { return setNoSoft(v != 0), 0; });
+  parseNumber(ObjectAttribute::ALTITUDE, "altitude", [&](double v) { return setAltitude(toInt(v)); });
+  parseNumber(ObjectAttribute::SOLIDNESS, "solidness",
+              [&](double v) { return setSolidness(static_cast<Solidness>(toInt(v) & 3)); });
   if (const std::string type = valueOf(text, "type"); !type.empty()) {
     setType(type);
-    noteApplied(ObjectAttribute::TYPE, 0);
+    recordApplied(ObjectAttribute::TYPE, 0);
   }
   if (const std::string sprite = valueOf(text, "animation"); !sprite.empty()) {
-    noteApplied(ObjectAttribute::ANIMATION, getAnimation().getName() == sprite ? 0 : setSprite(sprite));
+    recordApplied(ObjectAttribute::ANIMATION, getAnimation().getName() == sprite ? 0 : setSprite(sprite));
     if (const auto index = numberOf(text, "animation-index")) setSpriteIndex(toInt(*index));
     if (const auto count = numberOf(text, "animation-count")) setSpriteSlowdownCount(toInt(*count));
   }
-  takeVector(ObjectAttribute::BOX, "box", [&](Vector corner) {
+  parseVector(ObjectAttribute::BOX, "box", [&](Vector corner) {
     return setBox(Box(corner, numberOf(text, "box-horizontal").value_or(getBox().width()),
                       numberOf(text, "box-vertical").value_or(getBox().height())));
   });
-  takeVector(ObjectAttribute::POSITION, "pos", [&](Vector v) { return setPosition(v); });
-  takeVector(ObjectAttribute::SPEED, "velocity", [&](Vector v) { return setVelocity(v); });
-  takeVector(ObjectAttribute::ACCELERATION, "acceleration", [&](Vector v) { return setAcceleration(v); });
+  parseVector(ObjectAttribute::POSITION, "pos", [&](Vector v) { return setPosition(v); });
+  parseVector(ObjectAttribute::SPEED, "velocity", [&](Vector v) { return setVelocity(v); });
+  parseVector(ObjectAttribute::ACCELERATION, "acceleration", [&](Vector v) { return setAcceleration(v); });
   if (p_a != nullptr) *p_a |= mask;
   return result;
 }

@@ -25,7 +25,7 @@ int ObjectRegistry::insertObject(Object* p_o) {
 
 int ObjectRegistry::removeObject(Object* p_o) {
   if (!owns(p_o)) return -1;
-  m_interests.dropAll(m_store.profile(p_o->m_slot));
+  m_interests.removeAll(m_store.profile(p_o->m_slot));
   m_store.leave(p_o->m_slot);
   return 0;
 }
@@ -89,12 +89,12 @@ ObjectList ObjectRegistry::getAllObjects(bool inactive) const {
 ObjectList ObjectRegistry::objectsOfType(const std::string& type) {
   ObjectList found = collect(
       [&](auto s) { return m_store.has(s, WorldStore::kActive) && m_store.object(s)->getType() == type; });
-  if (found.isEmpty()) explainMissing(type);
+  if (found.isEmpty()) logMissingType(type);
   return found;
 }
 
 // Done once for each type that was not found, because it looks at all Objects.
-void ObjectRegistry::explainMissing(const std::string& type) {
+void ObjectRegistry::logMissingType(const std::string& type) {
   constexpr std::size_t kMaxMissing = 100;
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;
   const auto isNamed = [this, &type](auto s) {
@@ -122,7 +122,7 @@ ObjectList ObjectRegistry::getCollisions(const Object* p_o, Vector where) const 
   std::vector<ObjectKey> keys;
   const FixedBox box = m_store.worldBox(p_o->m_slot, *target);
   m_store.touching(box, p_o->m_slot, keys);
-  keepCollisions(m_store, p_o->m_slot, box, keys);
+  filterCollisions(m_store, p_o->m_slot, box, keys);
   for (const ObjectKey key : keys) list.append(&m_store, key);
   return list;
 }

@@ -59,7 +59,7 @@ class ObjectRegistry {
   void clear();
 
  private:
-  void explainMissing(const std::string& type);
+  void logMissingType(const std::string& type);
 
   WorldStore& m_store;
   Interests& m_interests;

@@ -40,11 +40,11 @@ std::vector<fs::path> matches(const fs::path& folder, const std::string& name) {
 /// "; loaded: saucer, ship"
 template <class Labels>
 std::string loadedAre(const Labels& labels) {
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMaxShown = 12;
   std::string text;
   std::size_t count = 0;
   for (const std::string& label : labels) {
-    if (++count > kMost) return text + ", …";
+    if (++count > kMaxShown) return text + ", …";
     text += (text.empty() ? "; loaded: " : ", ") + label;
   }
   return text.empty() ? "; loaded: none" : text;
@@ -69,7 +69,7 @@ bool isFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string findLoosely(const std::string& folder, const std::string& name) {
+std::string findCaseInsensitive(const std::string& folder, const std::string& name) {
   std::string slashed = name;
   std::replace(slashed.begin(), slashed.end(), '\\', '/');
   std::vector<fs::path> candidates = {folder};
@@ -103,13 +103,13 @@ std::string Resources::locate(const std::string& filename) const {
     if (isFile(path)) return path.string();
   }
   // Games are written on systems where "Sprites\Ship.txt" finds sprites/ship.txt.
-  std::string found = findLoosely("", filename);
+  std::string found = findCaseInsensitive("", filename);
   for (std::size_t i = 0; i < m_folders.size() && found.empty(); ++i)
-    found = findLoosely(m_folders[i], filename);
+    found = findCaseInsensitive(m_folders[i], filename);
   return found.empty() ? filename : found;
 }
 
-std::string Resources::lookedIn(const std::string& filename) const {
+std::string Resources::searchedFolders(const std::string& filename) const {
   if (std::filesystem::path(filename).is_absolute()) return {};
   std::error_code error;
   std::string text = "; looked in " + std::filesystem::current_path(error).string();
@@ -144,7 +144,7 @@ int Resources::loadSprite(const std::string& filename, const std::string& label)
 std::unique_ptr<Sprite> Resources::readSprite(const std::string& filename, const std::string& label) {
   const std::optional<std::string> text = read(filename);
   if (!text) {
-    m_log.write("Sprite " + label + ": " + filename + ": cannot be read" + lookedIn(filename));
+    m_log.write("Sprite " + label + ": " + filename + ": cannot be read" + searchedFolders(filename));
     return nullptr;
   }
   std::string error;
@@ -180,11 +180,11 @@ std::string Resources::spriteLabels() const {
 
 // Games ask for a sprite to see whether it is still to be loaded, so null is not an error there. If a crash
 // follows, its report has the line.
-Sprite* Resources::spriteOrStandIn(const std::string& label) {
+Sprite* Resources::spriteOrPlaceholder(const std::string& label) {
   Sprite* p_sprite = sprite(label);
   if (p_sprite != nullptr || m_state.compat) return p_sprite;
   if (m_failed_sprites.contains(label)) return &missingSprite();
-  m_log.noteOnce(nothingLoaded("getSprite", label, spriteLabels()));
+  m_log.addActivityLineOnce(nothingLoaded("getSprite", label, spriteLabels()));
   return nullptr;
 }
 
@@ -227,7 +227,7 @@ T* SoundBank<T>::find(const std::string& label) {
 }
 
 template <class T>
-T* SoundBank<T>::findOrStandIn(const std::string& label) {
+T* SoundBank<T>::findOrPlaceholder(const std::string& label) {
   T* p_sound = find(label);
   // Games of the published engine test for null pointers.
   if (p_sound != nullptr || m_state.compat) return p_sound;

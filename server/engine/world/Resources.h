@@ -20,7 +20,7 @@ struct WorldState;
 /// Returns the file in `folder` (empty: the working directory) that `name` means on systems where a backslash
 /// separates folders and ASCII letters have no case. If there are several, the first by name; empty if there
 /// is none.
-std::string findLoosely(const std::string& folder, const std::string& name);
+std::string findCaseInsensitive(const std::string& folder, const std::string& name);
 
 /// The sounds, or the pieces of music, of one world.
 template <class T>
@@ -33,7 +33,7 @@ class SoundBank {
   int unload(const std::string& label);
   T* find(const std::string& label);
   /// Like find(). For an unknown label, logs a line and returns one that plays nothing (compat: null).
-  T* findOrStandIn(const std::string& label);
+  T* findOrPlaceholder(const std::string& label);
   void clear() { m_all.clear(); }
 
  private:
@@ -54,7 +54,7 @@ class Resources {
   Sprite* sprite(const std::string& label) const;
   /// Like sprite(). If the sprite's file could not be loaded, returns one that shows a '?'. If none was
   /// loaded under the label, returns null, which a crash report then mentions. Returns null in compat.
-  Sprite* spriteOrStandIn(const std::string& label);
+  Sprite* spriteOrPlaceholder(const std::string& label);
   /// Returns the sprite that shows a '?'.
   Sprite& missingSprite();
   /// Returns text for a log line: "; loaded: saucer, ship".
@@ -71,7 +71,7 @@ class Resources {
   std::optional<std::string> read(const std::string& filename) const;
   /// Returns text for a log line about a missing file: "; looked in /home/ann/game, /usr/…". Empty for an
   /// absolute name.
-  std::string lookedIn(const std::string& filename) const;
+  std::string searchedFolders(const std::string& filename) const;
   /// True if the file can be read.
   bool open(const std::string& filename) const;
 

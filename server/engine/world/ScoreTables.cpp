@@ -49,7 +49,7 @@ bool ScoreTables::insert(const std::string& table, HighScore score) {
   return true;
 }
 
-bool ScoreTables::keep(const std::string& table, const std::string& name, std::int64_t points) {
+bool ScoreTables::addStored(const std::string& table, const std::string& name, std::int64_t points) {
   return insert(table, {scoreName(name), points});
 }
 
@@ -67,7 +67,7 @@ const std::vector<HighScore>& ScoreTables::rows(const std::string& table) const 
   return found != m_tables.end() ? found->second : none;
 }
 
-std::vector<AddedScore> ScoreTables::takeAdded() {
+std::vector<AddedScore> ScoreTables::popAdded() {
   m_finished = 0;
   return std::exchange(m_added, {});
 }

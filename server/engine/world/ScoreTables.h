@@ -24,8 +24,8 @@ class ScoreTables {
   static constexpr int kMaxNumber = 255;  ///< limit of AddedScore::number
 
   /// Adds a row that was stored before. False without change if it is invalid or there are too many tables.
-  bool keep(const std::string& table, const std::string& name, std::int64_t points);
-  /// Adds a row of this tick. False as for keep(), or if there are too many in this tick.
+  bool addStored(const std::string& table, const std::string& name, std::int64_t points);
+  /// Adds a row of this tick. False as for addStored(), or if there are too many in this tick.
   bool add(const std::string& table, const std::string& name, std::int64_t points);
   /// Returns the rows of a table, best first.
   const std::vector<HighScore>& rows(const std::string& table) const;
@@ -33,7 +33,7 @@ class ScoreTables {
 
   /// Returns the rows added up to the end of the last tick, in that order. What is not taken before the next
   /// tick begins is forgotten.
-  std::vector<AddedScore> takeAdded();
+  std::vector<AddedScore> popAdded();
   void beginTick(std::uint32_t tick);
   void endTick() { m_finished = m_added.size(); }
 

@@ -12,8 +12,8 @@ void Sound::endLoop() {
   if (World::current().isPlaying(m_label, m_music)) stop();
 }
 
-void Sound::notePlayed(SoundPlayed::What what, bool loop) {
-  if (!m_silent) World::current().noteSound({m_label, what, m_music, loop});
+void Sound::recordSound(SoundPlayed::What what, bool loop) {
+  if (!m_silent) World::current().recordSound({m_label, what, m_music, loop});
 }
 
 }  // namespace df

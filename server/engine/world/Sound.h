@@ -24,11 +24,11 @@ class Sound {
   const std::string& getLabel() const { return m_label; }
 
   /// Plays from the beginning, or from where it paused; repeats if `loop`.
-  void play(bool loop = false) { notePlayed(SoundPlayed::kPlay, loop); }
+  void play(bool loop = false) { recordSound(SoundPlayed::kPlay, loop); }
   /// Stops; the next play() starts from the beginning.
-  void stop() { notePlayed(SoundPlayed::kStop, false); }
+  void stop() { recordSound(SoundPlayed::kStop, false); }
   /// Pauses; the next play() continues here.
-  void pause() { notePlayed(SoundPlayed::kPause, false); }
+  void pause() { recordSound(SoundPlayed::kPause, false); }
 
   /// Makes it play nothing, because it stands in for one that is missing.
   void silence() { m_silent = true; }
@@ -44,7 +44,7 @@ class Sound {
   explicit Sound(bool music) : m_music(music) {}
 
  private:
-  void notePlayed(SoundPlayed::What what, bool loop);
+  void recordSound(SoundPlayed::What what, bool loop);
 
   std::string m_label;
   bool m_music = false;

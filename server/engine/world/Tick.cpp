@@ -33,24 +33,24 @@ class During {
 
 }  // namespace
 
-Walkers::~Walkers() {
+PathFollowers::~PathFollowers() {
   for (Object* p_o : m_objects) p_o->m_p_extras->follows_path = false;
 }
 
-void Walkers::set(Object& object, bool walks) {
+void PathFollowers::set(Object& object, bool walks) {
   const auto place = std::find(m_objects.begin(), m_objects.end(), &object);
   if (walks && place == m_objects.end()) m_objects.push_back(&object);
   if (!walks && place != m_objects.end()) m_objects.erase(place);
 }
 
-void Walkers::step() {
+void PathFollowers::step() {
   const std::vector<Object*> walkers = m_objects;  // a copy: Objects that arrive remove themselves
   for (Object* p_o : walkers) turn(*p_o);
 }
 
 // If the next step would pass a node, a shorter step puts the Object exactly on it, so that it turns where
 // the path does.
-void Walkers::turn(Object& object) {
+void PathFollowers::turn(Object& object) {
   if (!object.m_p_store->has(object.m_slot, WorldStore::kInWorld) || !object.isActive()) return;
   ObjectExtras& extras = *object.m_p_extras;
   Path& path = extras.path;
@@ -87,13 +87,13 @@ void Tick::run() {
   m_state.begun = true;
   const During during(m_in_tick);
   ++m_state.step_count;
-  m_events.learnNewcomers();
+  m_events.classifyNewObjects();
   m_picture.clearPicture();
   if (WorldExtras* p_extras = m_extras.find()) p_extras->beginTick(m_state.step_count);
   if (!m_state.paused) {
     const EventStep step(m_state.compat ? m_state.step_count - 1 : m_state.step_count);
     m_events.onEvent(&step);
-    m_walkers.step();
+    m_path_followers.step();
   }
   if (!m_state.paused) ControlApplier::beginTick(m_mover);
   m_input.drain();
@@ -107,7 +107,7 @@ void Tick::update() {
   if (m_in_update) return;
   m_state.begun = true;
   const During during(m_in_update);
-  m_events.learnNewcomers();
+  m_events.classifyNewObjects();
   m_mover.moveAll();
   for (std::size_t i = 0; i < m_state.layers.size(); ++i) m_state.layers[i]->step(m_world);  // may add one
   m_objects.deleteMarked();

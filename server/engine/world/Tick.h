@@ -17,13 +17,13 @@ class World;
 struct WorldState;
 
 /// The Objects of a world that walk along paths.
-class Walkers {
+class PathFollowers {
  public:
-  Walkers() = default;
-  Walkers(const Walkers&) = delete;
-  Walkers& operator=(const Walkers&) = delete;
+  PathFollowers() = default;
+  PathFollowers(const PathFollowers&) = delete;
+  PathFollowers& operator=(const PathFollowers&) = delete;
   /// Ends all walks, because Objects may outlive their world.
-  ~Walkers();
+  ~PathFollowers();
 
   /// Adds or removes the Object.
   void set(Object& object, bool walks);
@@ -52,7 +52,7 @@ class Tick {
   /// True while a picture is being drawn.
   bool isDrawing() const { return m_in_draw; }
   /// Returns the Objects that are turned towards their next node after each step event.
-  Walkers& walkers() { return m_walkers; }
+  PathFollowers& pathFollowers() { return m_path_followers; }
 
  private:
   void drawObjects();
@@ -65,7 +65,7 @@ class Tick {
   InputQueue& m_input;
   LazyExtras& m_extras;
   WorldState& m_state;
-  Walkers m_walkers;
+  PathFollowers m_path_followers;
   bool m_in_tick = false;
   bool m_in_update = false;
   bool m_in_draw = false;

@@ -47,7 +47,7 @@ World::~World() {
     }
   }
   if (t_p_current == this) t_p_current = nullptr;
-  m_p_store->orphan();
+  m_p_store->detachWorld();
   m_p_store->release();
 }
 
@@ -88,7 +88,7 @@ void World::shutDown() {
 }
 
 void World::finishShutDown() {
-  if (isBusy() || !m_events->takeShutDown()) return;
+  if (isBusy() || !m_events->popShutDown()) return;
   shutDown();
   m_state.game_over = true;  // ends the running loop; GM.startUp() starts again
 }
@@ -139,7 +139,7 @@ running::Program* World::program() const {
 }
 
 void World::setGameOver(bool game_over) {
-  if (!game_over || !m_input->takeGameOver()) m_state.game_over = game_over;
+  if (!game_over || !m_input->handleGameOver()) m_state.game_over = game_over;
 }
 
 int World::drawCh(Vector world_pos, char32_t ch, Color color) {
@@ -176,12 +176,12 @@ void World::deliver(ObjectKey key, const Event& event) {
 }
 
 void World::setWalking(Object& object, bool walks) {
-  m_tick->walkers().set(object, walks);
+  m_tick->pathFollowers().set(object, walks);
 }
 
-void World::noteSound(SoundPlayed sound) {
+void World::recordSound(SoundPlayed sound) {
   sound.player = m_input->player();
-  extras().noteSound(std::move(sound));
+  extras().recordSound(std::move(sound));
 }
 
 bool World::isPlaying(const std::string& label, bool music) {
@@ -191,7 +191,7 @@ bool World::isPlaying(const std::string& label, bool music) {
 bool World::findFile(const std::string& kind, const std::string& filename) {
   const Resources& resources = extras().resources;
   if (resources.open(filename)) return true;
-  m_log->write(kind + ": " + filename + ": cannot be read" + resources.lookedIn(filename));
+  m_log->write(kind + ": " + filename + ": cannot be read" + resources.searchedFolders(filename));
   return false;
 }
 

@@ -170,7 +170,7 @@ class World {
   /// See Capture::addFrame().
   void drawFrame(std::uint32_t slot);
   /// Records that a sound was played; see WorldView.
-  void noteSound(SoundPlayed sound);
+  void recordSound(SoundPlayed sound);
   /// True if it was played in a loop and was neither stopped nor paused since.
   bool isPlaying(const std::string& label, bool music);
   /// True if the file of a sound or a piece of music can be read; logs a line if not.

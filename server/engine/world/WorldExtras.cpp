@@ -40,11 +40,11 @@ void Animations::advance() {
   constexpr std::uint32_t kShown = WorldStore::kInWorld | WorldStore::kActive | WorldStore::kVisible;
   for (const auto& [slot, p_extras] : m_entries) {
     if ((m_store.flags(slot) & kShown) != kShown) continue;
-    if (p_extras->animation.advance()) m_store.set(slot, WorldStore::kLookKept, false);
+    if (p_extras->animation.advance()) m_store.set(slot, WorldStore::kLookCached, false);
   }
 }
 
-void WorldExtras::noteSound(SoundPlayed sound) {
+void WorldExtras::recordSound(SoundPlayed sound) {
   std::erase_if(playing, [&sound](const SoundPlayed& other) { return isSame(sound, other); });
   if (sound.what == SoundPlayed::kPlay && sound.loop) {
     if (playing.size() == kMaxPlaying) playing.erase(playing.begin());

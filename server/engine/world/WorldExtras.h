@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/events/Event.h"
+#include "engine/world/GameRoomTable.h"
 #include "engine/world/Random.h"
 #include "engine/world/Resources.h"
-#include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/Settings.h"
 #include "engine/world/WorldView.h"
@@ -26,7 +26,7 @@ struct ObjectExtras;
 struct WorldState;
 
 /// The shaking of the window (DM.shake): by how many cells the picture is displaced in a tick.
-struct Shaking {
+struct ScreenShake {
   int scale_x = 0;  ///< limit to either side, in cells
   int scale_y = 0;
   int ticks = 0;  ///< remaining ticks
@@ -100,16 +100,16 @@ class Animations {
 /// The part that World::shutDown() resets.
 struct RoundExtras {
   ConfigSettings settings;
-  Shaking shake;
+  ScreenShake shake;
   std::vector<SoundPlayed> sounds;  ///< played in this tick
   std::uint32_t sounds_lost = 0;
   std::vector<SoundPlayed> playing;  ///< repeating sounds
   std::vector<std::string> notes;    ///< lines of this tick
   /// The only player whose input the host passes on; 0: it passes on all players' input.
-  std::uint32_t heard_player = 0;
+  std::uint32_t input_player = 0;
   Color background = BLACK;
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< stored only; has no effect
-  bool network_said = false;            ///< true once the log says that there are no sockets
+  bool network_logged = false;          ///< true once the log says that there are no sockets
   Connections connections;
   /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
   /// true to keep the event from the game.
@@ -125,7 +125,7 @@ struct WorldExtras : RoundExtras {
   /// Starts a tick.
   void beginTick(int step_count);
   /// Records that a sound or music began, paused or stopped.
-  void noteSound(SoundPlayed sound);
+  void recordSound(SoundPlayed sound);
   /// Adds a line for all players to read.
   void addNote(std::string line);
   /// True if this is repeating.
@@ -148,7 +148,7 @@ struct WorldExtras : RoundExtras {
   Resources resources;
   Animations animations;
   ScoreTables scores;
-  RoomTable rooms;
+  GameRoomTable rooms;
 };
 
 /// The WorldExtras of a world, made at first use.

@@ -52,7 +52,7 @@ void WorldLog::writeOnce(const std::string& line) {
   if (isNew(line)) write(line);
 }
 
-void WorldLog::noteOnce(const std::string& line) {
+void WorldLog::addActivityLineOnce(const std::string& line) {
   if (m_p_page != nullptr && isNew(line)) m_p_page->addLine(line);
 }
 

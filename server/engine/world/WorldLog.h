@@ -32,7 +32,7 @@ class WorldLog {
   /// Writes the line, unless it was written like this before. After 500 different lines it writes no more.
   void writeOnce(const std::string& line);
   /// Like writeOnce(), but only crash reports show the line.
-  void noteOnce(const std::string& line);
+  void addActivityLineOnce(const std::string& line);
   /// Counts a refused call. Writes the first one of its name for this type of Object, and which values are
   /// valid. Returns -1.
   int refuse(const std::string& type, const char* what);

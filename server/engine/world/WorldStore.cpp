@@ -8,7 +8,7 @@ namespace df {
 
 namespace {
 
-constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookKept |
+constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookCached |
                                         WorldStore::kReported | WorldStore::kFollowed;
 // With one of these flags, a turn is more than position += velocity.
 constexpr std::uint32_t kOptions =
@@ -17,9 +17,9 @@ constexpr std::uint32_t kSpecial = WorldStore::kFollowed | (WorldStore::kLayers 
 
 }  // namespace
 
-WorldStore::Slot WorldStore::takeSlot(Object* p_o, bool heap) {
+WorldStore::Slot WorldStore::allocateSlot(Object* p_o, bool heap) {
   Slot s = 0;
-  if (m_free.empty() || m_updates - m_free.front().since < kRest) {
+  if (m_free.empty() || m_updates - m_free.front().since < kSlotReuseDelay) {
     s = static_cast<Slot>(m_cards.size());
     m_positions.emplace_back();
     m_velocities.emplace_back();
@@ -45,7 +45,7 @@ WorldStore::Slot WorldStore::takeSlot(Object* p_o, bool heap) {
   return s;
 }
 
-void WorldStore::giveBackSlot(Slot s) {
+void WorldStore::freeSlot(Slot s) {
   if (++m_cards[s].generation == 0) m_cards[s].generation = 1;
   m_cards[s].p_object = nullptr;
   m_profiles[s] = {};
@@ -65,9 +65,9 @@ void WorldStore::enter(Slot s) {
   m_cards[s].index = static_cast<std::uint32_t>(index);
   m_order_list.push_back(s);
   m_bits.grow(index);
-  TurnBits::set(m_bits.sequels, index, index > 0 && m_order_list[index - 1] + 1 == s);
+  UpdateMasks::set(m_bits.consecutive, index, index > 0 && m_order_list[index - 1] + 1 == s);
   ++m_in_world;
-  m_newcomers.push_back(key(s));
+  m_new_objects.push_back(key(s));
   file(s);
   touch(s);
 }
@@ -96,15 +96,15 @@ void WorldStore::closeGaps() {
     const Slot s = m_order_list[i];
     const bool blocked = isBlocked(s);
     m_cards[s].index = static_cast<std::uint32_t>(i);
-    TurnBits::set(m_bits.blocked, i, blocked);
-    TurnBits::set(m_bits.sequels, i, i > 0 && m_order_list[i - 1] + 1 == s);
+    UpdateMasks::set(m_bits.blocked, i, blocked);
+    UpdateMasks::set(m_bits.consecutive, i, i > 0 && m_order_list[i - 1] + 1 == s);
     markSolid(s);
     classify(s);
   }
   for (std::size_t i = m_order_list.size(); i < size; ++i) {
     unmark(i);
     m_bits.clear(i);
-    TurnBits::set(m_bits.sequels, i, false);
+    UpdateMasks::set(m_bits.consecutive, i, false);
   }
   m_gaps = 0;
 }
@@ -120,16 +120,16 @@ void WorldStore::classify(Slot s) {
   const bool plain = turns && moves && !accelerates && (flags & kSpecial) == 0;
   const bool spectral = m_cards[s].solidness == SPECTRAL;
   const std::size_t i = m_cards[s].index;
-  mark(m_bits.hearers, m_hearers, i, hears(s) && !spectral);
-  TurnBits::set(m_bits.turns, i, turns);
+  mark(m_bits.handlers, m_handlers, i, handlesEvents(s) && !spectral);
+  UpdateMasks::set(m_bits.turns, i, turns);
   // A flier that was blocked is left out: its next turn has to clear that mark.
-  TurnBits::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
-  TurnBits::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
+  UpdateMasks::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
+  UpdateMasks::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
 }
 
-void WorldStore::mark(TurnBits::Words& row, int& count, std::size_t index, bool on) {
-  if (TurnBits::get(row, index) == on) return;
-  TurnBits::set(row, index, on);
+void WorldStore::mark(UpdateMasks::Words& row, int& count, std::size_t index, bool on) {
+  if (UpdateMasks::get(row, index) == on) return;
+  UpdateMasks::set(row, index, on);
   count += on ? 1 : -1;
 }
 
@@ -143,7 +143,7 @@ void WorldStore::markSolid(Slot s) {
 
 // Removes an entry that becomes a gap from the counted sets.
 void WorldStore::unmark(std::size_t index) {
-  mark(m_bits.hearers, m_hearers, index, false);
+  mark(m_bits.handlers, m_handlers, index, false);
   mark(m_bits.hards, m_hards, index, false);
   mark(m_bits.softs, m_softs, index, false);
 }
@@ -179,7 +179,7 @@ void WorldStore::setVelocity(Slot s, FixedVector velocity) {
   m_velocities[s] = velocity;
   // Whether the new one is blocked is not known yet.
   const bool was_blocked = has(s, kInWorld) && isBlocked(s);
-  if (was_blocked) TurnBits::set(m_bits.blocked, m_cards[s].index, false);
+  if (was_blocked) UpdateMasks::set(m_bits.blocked, m_cards[s].index, false);
   if (was_blocked || before == FixedVector{} || velocity == FixedVector{}) classify(s);
   touch(s);
 }
@@ -243,7 +243,7 @@ void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {
   const bool shows = was_blocked != blocked || (!blocked && m_velocities[s] != velocity);
   m_velocities[s] = velocity;
   if (was_blocked != blocked) {
-    TurnBits::set(m_bits.blocked, m_cards[s].index, blocked);
+    UpdateMasks::set(m_bits.blocked, m_cards[s].index, blocked);
     if (m_cards[s].solidness == SPECTRAL) classify(s);
   }
   if (shows) touch(s);
@@ -254,7 +254,7 @@ void WorldStore::set(Slot s, Flag flag, bool on) {
   m_cards[s].flags ^= flag;
   if (flag == kActive) file(s);
   if (flag == kPrecise) m_precise += on ? 1 : -1;
-  if ((flag & (kSpecial | kBody | kDeaf)) != 0) classify(s);
+  if ((flag & (kSpecial | kBody | kNoEventHandler)) != 0) classify(s);
   if ((flag & (kActive | kVisible | kNoSoft)) != 0) touch(s);
 }
 

@@ -48,17 +48,17 @@ struct ObjectFlags {
     kActive = 1 << 1,
     kVisible = 1 << 2,
     kNoSoft = 1 << 3,
-    kHeap = 1 << 4,      ///< made with `new`: the world deletes it
-    kMarked = 1 << 5,    ///< marked to be deleted after update
-    kLookKept = 1 << 6,  ///< its static look was drawn and is repeated
-    kDirty = 1 << 7,     ///< is in the list of changes
-    kReported = 1 << 8,  ///< the host knows its state
-    kDerive = 1 << 9,    ///< speed and direction follow from the velocity
+    kHeap = 1 << 4,        ///< made with `new`: the world deletes it
+    kMarked = 1 << 5,      ///< marked to be deleted after update
+    kLookCached = 1 << 6,  ///< its static look was drawn and is repeated
+    kDirty = 1 << 7,       ///< is in the list of changes
+    kReported = 1 << 8,    ///< the host knows its state
+    kDerive = 1 << 9,      ///< speed and direction follow from the velocity
     kStaticLook = 1 << 10,
-    kNeverDraws = 1 << 11,  ///< its dynamic type is Object itself
-    kTyped = 1 << 12,       ///< kNeverDraws and kDeaf are known
-    kFollowed = 1 << 13,    ///< a view follows it
-    kDeaf = 1 << 14,        ///< its class does not override eventHandler()
+    kNeverDraws = 1 << 11,      ///< its dynamic type is Object itself
+    kClassified = 1 << 12,      ///< kNeverDraws and kNoEventHandler are known
+    kFollowed = 1 << 13,        ///< a view follows it
+    kNoEventHandler = 1 << 14,  ///< its class does not override eventHandler()
     kSwept = 1 << 15,
     kPrecise = 1 << 16,
     kRestContacts = 1 << 17,
@@ -72,17 +72,17 @@ struct ObjectFlags {
 
 /// Kinds of turns that Objects take in update(), as bits by place in the creation order: entry i has bit i %
 /// 64 of word i / 64, so that 64 Objects are classified at a time.
-struct TurnBits {
+struct UpdateMasks {
   using Words = std::vector<std::uint64_t>;
 
-  Words turns;    ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
-  Words fliers;   ///< those of `turns` that are SPECTRAL and only add their velocity
-  Words walkers;  ///< those of `turns` that are solid and use only the book's test at the end of a move
-  Words sequels;  ///< its slot follows that of the entry before
-  Words blocked;  ///< its last move in update did not happen
-  Words hearers;  ///< solid, active, and its class overrides eventHandler(): gets collision events
-  Words hards;    ///< active and HARD
-  Words softs;    ///< active and SOFT
+  Words turns;        ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
+  Words fliers;       ///< those of `turns` that are SPECTRAL and only add their velocity
+  Words walkers;      ///< those of `turns` that are solid and use only the book's test at the end of a move
+  Words consecutive;  ///< its slot follows that of the entry before
+  Words blocked;      ///< its last move in update did not happen
+  Words handlers;     ///< solid, active, and its class overrides eventHandler(): gets collision events
+  Words hards;        ///< active and HARD
+  Words softs;        ///< active and SOFT
 
   static bool get(const Words& words, std::size_t i) { return (words[i / 64] >> (i % 64) & 1) != 0; }
   static void set(Words& words, std::size_t i, bool on) {
@@ -93,12 +93,12 @@ struct TurnBits {
   /// Makes room for entry i, the last one.
   void grow(std::size_t i) {
     if (i % 64 != 0) return;
-    for (Words* p_words : {&turns, &fliers, &walkers, &sequels, &blocked, &hearers, &hards, &softs})
+    for (Words* p_words : {&turns, &fliers, &walkers, &consecutive, &blocked, &handlers, &hards, &softs})
       p_words->resize(i / 64 + 1);
   }
   /// Clears the bits of entry i, now a gap. Its sequel bit stays, and means nothing without a turn.
   void clear(std::size_t i) {
-    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &hearers, &hards, &softs})
+    for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &handlers, &hards, &softs})
       set(*p_words, i, false);
   }
 };
@@ -112,7 +112,7 @@ class WorldStore : public ObjectFlags {
   using Slot = std::uint32_t;
   static constexpr Slot kNoSlot = UINT32_MAX;
   /// Number of updates for which a freed slot rests: two seconds, longer than any playable round trip.
-  static constexpr std::uint64_t kRest = 64;
+  static constexpr std::uint64_t kSlotReuseDelay = 64;
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
   WorldStore(const WorldStore&) = delete;
@@ -124,20 +124,21 @@ class WorldStore : public ObjectFlags {
   }
   /// Returns the world; null once it is gone.
   World* world() const { return m_p_world; }
-  void orphan() { m_p_world = nullptr; }
+  void detachWorld() { m_p_world = nullptr; }
 
   // Slots.
 
   /// Allocates a slot with an Object's default state, not in the world yet.
-  Slot takeSlot(Object* p_o, bool heap);
-  /// Frees the slot of a destroyed Object, which must have left the world. It rests for kRest updates.
-  void giveBackSlot(Slot s);
+  Slot allocateSlot(Object* p_o, bool heap);
+  /// Frees the slot of a destroyed Object, which must have left the world. It rests for kSlotReuseDelay
+  /// updates.
+  void freeSlot(Slot s);
   /// Counts an update.
   void age() { ++m_updates; }
   /// Adds the slot to the world, last in creation order.
   void enter(Slot s);
   /// Returns the Objects that have entered since the last call.
-  std::vector<ObjectKey> takeNewcomers() { return std::exchange(m_newcomers, {}); }
+  std::vector<ObjectKey> popNewObjects() { return std::exchange(m_new_objects, {}); }
   /// Removes the slot from the world.
   void leave(Slot s);
 
@@ -148,7 +149,7 @@ class WorldStore : public ObjectFlags {
     return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
   }
   /// Like isCurrent(), without the bounds check, for a key that was current in this store once.
-  bool isStill(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
+  bool isCurrentUnchecked(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
   Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
   Object* object(Slot s) const { return m_cards[s].p_object; }
   /// The reference stays valid until the slot is freed.
@@ -183,10 +184,10 @@ class WorldStore : public ObjectFlags {
            m_cards[s].solidness != SPECTRAL;
   }
   /// True if its last move in update() did not happen.
-  bool isBlocked(Slot s) const { return TurnBits::get(m_bits.blocked, m_cards[s].index); }
+  bool isBlocked(Slot s) const { return UpdateMasks::get(m_bits.blocked, m_cards[s].index); }
   /// True if it gets events: it is in the world, active, and of a class that overrides eventHandler().
-  bool hears(Slot s) const {
-    return (m_cards[s].flags & (kInWorld | kActive | kDeaf)) == (kInWorld | kActive);
+  bool handlesEvents(Slot s) const {
+    return (m_cards[s].flags & (kInWorld | kActive | kNoEventHandler)) == (kInWorld | kActive);
   }
   int countInWorld() const { return m_in_world; }
 
@@ -245,7 +246,7 @@ class WorldStore : public ObjectFlags {
 
   /// Returns entry i of the creation order; kNoSlot for a gap.
   Slot entry(std::size_t i) const { return m_order_list[i]; }
-  const TurnBits& turnBits() const { return m_bits; }
+  const UpdateMasks& updateMasks() const { return m_bits; }
   /// Sweeps the moves of all Objects, or only of those that ask for it.
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
@@ -315,20 +316,21 @@ class WorldStore : public ObjectFlags {
     return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;
   }
   void touch(Slot s) {
-    if (m_watched) noteChange(s);
+    if (m_watched) flagChanged(s);
   }
-  void noteChange(Slot s);
+  void flagChanged(Slot s);
   void settleChanged(Slot s, FixedVector velocity, bool blocked);
   void file(Slot s);
   void classify(Slot s);
   const Mask* spriteMask(Slot s) const;
-  static void mark(TurnBits::Words& row, int& count, std::size_t index, bool on);
+  static void mark(UpdateMasks::Words& row, int& count, std::size_t index, bool on);
   void markSolid(Slot s);
   void unmark(std::size_t index);
-  std::size_t crowd() const;
-  bool isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot self) const;
+  std::size_t crowdThreshold() const;
+  bool isAnyAt(const UpdateMasks::Words& row, const FixedBox& box, Slot self) const;
   bool isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const;
-  std::optional<bool> moveUnheard(Slot mover, const FixedBox& target, std::span<const Slot> some) const;
+  std::optional<bool> moveWithoutHandlers(Slot mover, const FixedBox& target,
+                                          std::span<const Slot> some) const;
   void list(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
   void listMany(std::span<const Slot> found, std::vector<ObjectKey>& out) const;
 
@@ -346,12 +348,12 @@ class WorldStore : public ObjectFlags {
   std::deque<Freed> m_free;           // longest free first
   std::uint64_t m_updates = 0;
   std::vector<Slot> m_order_list;  // slots in the world by creation order, with gaps
-  TurnBits m_bits;
+  UpdateMasks m_bits;
   std::size_t m_gaps = 0;
   mutable int m_walks = 0;  // in progress; gaps stay then
   int m_in_world = 0;
   std::uint64_t m_next_order = 1;
-  std::vector<ObjectKey> m_newcomers;
+  std::vector<ObjectKey> m_new_objects;
 
   bool m_watched = false;
   std::vector<Slot> m_dirty;
@@ -361,7 +363,7 @@ class WorldStore : public ObjectFlags {
   bool m_all_swept = false;
   bool m_boxes_off = false;  // see hasBoxesOffPosition()
   int m_precise = 0;         // number of precise Objects
-  int m_hearers = 0;         // number of bits in TurnBits::hearers, and so on
+  int m_handlers = 0;        // number of bits in UpdateMasks::handlers, and so on
   int m_hards = 0;
   int m_softs = 0;
   mutable std::vector<Slot> m_candidates;  // scratch of touching()

@@ -19,7 +19,7 @@ void WorldStore::setWatched(bool watched) {
   }
 }
 
-void WorldStore::noteChange(Slot s) {
+void WorldStore::flagChanged(Slot s) {
   if (has(s, kDirty)) return;
   m_cards[s].flags |= kDirty;
   m_dirty.push_back(s);

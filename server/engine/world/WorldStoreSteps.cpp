@@ -12,7 +12,7 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kManyFound = 12;  // too many to sort them one by one
+constexpr std::size_t kMaxSmallList = 12;  // too many to sort them one by one
 
 // Both coordinates in one register, if the processor has such (GCC and Clang know the notation).
 using Two = Fixed __attribute__((vector_size(16)));
@@ -49,7 +49,7 @@ std::size_t WorldStore::fly(Slot first, std::size_t count, const FixedBox& bound
     std::memcpy(static_cast<void*>(p_positions + done), &moved, sizeof moved);
   }
   if (m_watched) {
-    for (std::size_t i = 0; i < done; ++i) noteChange(first + static_cast<Slot>(i));
+    for (std::size_t i = 0; i < done; ++i) flagChanged(first + static_cast<Slot>(i));
   }
   return done;
 }
@@ -61,7 +61,7 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   const Slot* p_order = &m_order_list[word * 64];
   FixedVector* p_positions = m_positions.data();
   const FixedVector* p_velocities = m_velocities.data();
-  Grid::Steps steps(m_grid, crowd());
+  Grid::Steps steps(m_grid, crowdThreshold());
   std::uint64_t left = walkers;
   std::uint64_t walked = 0;
   std::uint64_t stopped = 0;
@@ -71,12 +71,12 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
     if (((where.x - low.x) | (high.x - where.x) | (where.y - low.y) | (high.y - where.y)) < 0) break;
     if (!steps.isFree(s, where)) {
       __builtin_prefetch(m_cards[s].p_object);
-      if (steps.found().size() <= crowd()) {
+      if (steps.found().size() <= crowdThreshold()) {
         list(steps.found(), met);
         break;
       }
       const FixedBox target = worldBox(s, where);
-      const std::optional<bool> moves = moveUnheard(s, target, steps.found());
+      const std::optional<bool> moves = moveWithoutHandlers(s, target, steps.found());
       if (!moves) {
         touching(target, s, met);
         break;
@@ -96,19 +96,19 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   moverStats().walked += walked;
   if (m_watched) {
     for (std::uint64_t done = walkers & ~left & ~still; done != 0; done &= done - 1)
-      noteChange(p_order[std::countr_zero(done)]);
+      flagChanged(p_order[std::countr_zero(done)]);
   }
   return left;
 }
 
 // Number of touched Objects from which it pays to ask first whether any of them has a handler.
-std::size_t WorldStore::crowd() const {
-  constexpr int kHearersPerOther = 16;  // hearers tested in the time that listing one Object takes
-  return static_cast<std::size_t>(std::max(32, m_hearers / kHearersPerOther));
+std::size_t WorldStore::crowdThreshold() const {
+  constexpr int kHandlersPerOther = 16;  // handlers tested in the time that listing one Object takes
+  return static_cast<std::size_t>(std::max(32, m_handlers / kHandlersPerOther));
 }
 
 // True if an Object of this set, except `self`, touches the box.
-bool WorldStore::isAnyAt(const TurnBits::Words& row, const FixedBox& box, Slot self) const {
+bool WorldStore::isAnyAt(const UpdateMasks::Words& row, const FixedBox& box, Slot self) const {
   for (std::size_t word = 0; word < row.size(); ++word) {
     for (std::uint64_t left = row[word]; left != 0; left &= left - 1) {
       const Slot t = m_order_list[word * 64 + static_cast<std::size_t>(std::countr_zero(left))];
@@ -140,20 +140,20 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
 
 // Returns whether a move happens, given some of those that it touches; nullopt if one may have a handler.
 // Without handlers nothing changes, so any one that blocks decides.
-std::optional<bool> WorldStore::moveUnheard(Slot mover, const FixedBox& target,
-                                            std::span<const Slot> some) const {
-  if (hears(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
-  if (m_hearers > 0 && isAnyAt(m_bits.hearers, target, mover)) return std::nullopt;
+std::optional<bool> WorldStore::moveWithoutHandlers(Slot mover, const FixedBox& target,
+                                                    std::span<const Slot> some) const {
+  if (handlesEvents(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
+  if (m_handlers > 0 && isAnyAt(m_bits.handlers, target, mover)) return std::nullopt;
   return !isBlockedAt(target, mover, some);
 }
 
 std::optional<bool> WorldStore::touchingTarget(Slot mover, const FixedBox& target,
                                                std::vector<ObjectKey>& out) const {
   m_candidates.clear();
-  const std::size_t most = hears(mover) ? Grid::kAll : crowd();
+  const std::size_t most = handlesEvents(mover) ? Grid::kAll : crowdThreshold();
   m_grid.touching(target, mover, m_candidates, most);
   if (m_candidates.size() > most) {
-    if (const std::optional<bool> moves = moveUnheard(mover, target, m_candidates)) return moves;
+    if (const std::optional<bool> moves = moveWithoutHandlers(mover, target, m_candidates)) return moves;
     m_candidates.clear();
     m_grid.touching(target, mover, m_candidates);
   }
@@ -176,9 +176,9 @@ void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) 
     out.push_back({found[0], card.generation});
     return;
   }
-  if (found.size() > kManyFound) return listMany(found, out);
-  std::array<std::uint64_t, kManyFound> orders;
-  std::array<Slot, kManyFound> slots;
+  if (found.size() > kMaxSmallList) return listMany(found, out);
+  std::array<std::uint64_t, kMaxSmallList> orders;
+  std::array<Slot, kMaxSmallList> slots;
   std::size_t count = 0;
   for (const Slot s : found) {
     const Card& card = p_cards[s];

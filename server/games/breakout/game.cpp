@@ -59,7 +59,7 @@ struct Guard : Object {
     const auto forth = lies ? std::array{RIGHTARROW, D} : std::array{DOWNARROW, S};
     for (const auto key : back) controls.onKey(key).drive(-way.x(), -way.y());
     for (const auto key : forth) controls.onKey(key).drive(way.x(), way.y());
-    its.setControls(controls.toWholeCells().within(Box(Vector(5, 1), 69, 22)).patience(40));
+    its.setControls(controls.toWholeCells().within(Box(Vector(5, 1), 69, 22)).releaseAfter(40));
   }
   /// From the middle of the side into the field.
   Vector inward() const { return std::array{Vector(0, -1), Vector(0, 1), Vector(1, 0), Vector(-1, 0)}[side]; }

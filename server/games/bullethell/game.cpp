@@ -60,7 +60,7 @@ struct Ship : Object {
     for (const auto key : {Keyboard::RIGHTARROW, Keyboard::D}) controls.onKey(key).drive(0.7, 0);
     for (const auto key : {Keyboard::UPARROW, Keyboard::W}) controls.onKey(key).drive(0, -0.35);
     for (const auto key : {Keyboard::DOWNARROW, Keyboard::S}) controls.onKey(key).drive(0, 0.35);
-    its.setControls(controls.toWholeCells().within(Box(Vector(0, 8), 79, 15)).patience(40));
+    its.setControls(controls.toWholeCells().within(Box(Vector(0, 8), 79, 15)).releaseAfter(40));
     begin(kLives);
   }
   void begin(int new_lives) {

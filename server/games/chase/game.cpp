@@ -64,7 +64,7 @@ struct Hare : Object {
     for (const auto key : {Keyboard::RIGHTARROW, Keyboard::D}) controls.onKey(key).drive(0.6, 0);
     for (const auto key : {Keyboard::UPARROW, Keyboard::W}) controls.onKey(key).drive(0, -0.3);
     for (const auto key : {Keyboard::DOWNARROW, Keyboard::S}) controls.onKey(key).drive(0, 0.3);
-    its.setControls(controls.toWholeCells().within(Box(Vector(0, 1), 79, 22)).patience(40));
+    its.setControls(controls.toWholeCells().within(Box(Vector(0, 1), 79, 22)).releaseAfter(40));
     start();
   }
   void start() {

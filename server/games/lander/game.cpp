@@ -18,7 +18,7 @@ int main() {
   });
   PM.setGravity(df::perSecondSquared(df::Vector(0, 2)));  // the moon's
   makeLandscape();
-  new df::Welcome<Ship>;
+  new df::JoinSpawner<Ship>;
   GM.run();
   GM.shutDown();
   return 0;

@@ -98,7 +98,7 @@ struct Runner : Object {
     Controls controls;  // running is the keys' affair; jumping needs ground, so it is the handler's
     for (const auto key : {Keyboard::LEFTARROW, Keyboard::A}) controls.onKey(key).drive(-kRun, 0);
     for (const auto key : {Keyboard::RIGHTARROW, Keyboard::D}) controls.onKey(key).drive(kRun, 0);
-    its.setControls(controls.within(Box(Vector(0, -100), kColumns - 1, 300)).patience(40));
+    its.setControls(controls.within(Box(Vector(0, -100), kColumns - 1, 300)).releaseAfter(40));
     start();
   }
   void start() {

@@ -95,7 +95,7 @@ int main() {
       "C, B, R, X     a crate, a ball, a ragdoll, a blob where you point",
       "G              vote: gravity turns when more than half want it",
   });
-  WM.setLookingBack();  // hands grab what they saw
+  WM.setLagCompensated();  // hands grab what they saw
   makeWall(df::Vector(0, 23), 80, 1);
   makeWall(df::Vector(0, 1), 1, 22);
   makeWall(df::Vector(79, 1), 1, 22);
@@ -114,7 +114,7 @@ int main() {
   makeBlob(df::Vector(25, 13), df::MAGENTA);
   makeFlag(df::Vector(2, 3), 7, 3);
   new Votes;
-  new df::Welcome<Hand>;
+  new df::JoinSpawner<Hand>;
   GM.run();
   GM.shutDown();
   return 0;

@@ -43,7 +43,7 @@ df::Controls flightControls() {
   for (const Key key : {DOWNARROW, S}) controls.onKey(key).drive(0, kSpeedDown);
   return controls.toWholeCells()
       .within(df::Box(df::Vector(3, topRow()), fieldWidth() - 7, bottomRow() - topRow()))
-      .patience(Trigger::kPatience);
+      .releaseAfter(Trigger::kPatience);
 }
 
 }  // namespace

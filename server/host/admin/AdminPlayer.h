@@ -12,7 +12,7 @@ namespace naiad {
 /// The caller of a command.
 struct AdminCaller {
   AdminCommand::Level level = AdminCommand::Level::kPlayer;
-  AdminCommand::Place place = AdminCommand::Place::kChat;
+  AdminCommand::Frontend place = AdminCommand::Frontend::kChat;
   std::string name;      ///< shown in the log: `user 1000, process 4711`, `player "Ann" at 192.0.2.7:50312`
   std::string player{};  ///< name of the player, for commands in the chat; empty: control socket
   std::uint64_t session = 0;  ///< session of the player, for commands in the chat

@@ -17,7 +17,7 @@ void AdminWorker::finish() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-bool AdminWorker::give(std::function<void()> job) {
+bool AdminWorker::enqueue(std::function<void()> job) {
   {
     const std::lock_guard lock(m_mutex);
     if (m_stopping || m_jobs.size() >= kMaxWaiting) return false;

@@ -20,7 +20,7 @@ class AdminWorker {
 
   /// Queues a job, which must not throw. Drops it and returns false if too many wait, or after finish(). Any
   /// thread; does not block.
-  bool give(std::function<void()> job);
+  bool enqueue(std::function<void()> job);
   /// Waits until all queued jobs have run, so that accepted changes are written. Do not call it from a job.
   void finish();
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "host/session/Names.h"
+#include "host/session/NameSanitizer.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/AddressPrefix.h"
 
@@ -81,7 +81,7 @@ bool names(const std::string& text, const Ban& ban) {
 BanStore::BanStore(std::filesystem::path file) : m_file(std::move(file), kFileOfBans) {}
 
 std::vector<Ban> BanStore::load() {
-  if (!m_file.openIfThere()) return {};
+  if (!m_file.openExisting()) return {};
   StateStatement statement =
       m_file.prepare("SELECT kind, target, reason, made_by, made, until FROM bans ORDER BY made, target");
   std::vector<Ban> bans;
@@ -95,7 +95,7 @@ std::vector<Ban> BanStore::load() {
 }
 
 void BanStore::save(const Ban& ban) {
-  m_file.openOrMake();
+  m_file.openOrCreate();
   StateStatement statement = m_file.prepare("INSERT OR REPLACE INTO bans VALUES(?, ?, ?, ?, ?, ?)");
   statement.bind(1, kindName(ban));
   statement.bind(2, storedTarget(ban));
@@ -108,7 +108,7 @@ void BanStore::save(const Ban& ban) {
 }
 
 void BanStore::erase(const Ban& ban) {
-  if (!m_file.isOpen() && !m_file.openIfThere()) return;
+  if (!m_file.isOpen() && !m_file.openExisting()) return;
   StateStatement statement = m_file.prepare("DELETE FROM bans WHERE kind = ? AND target = ?");
   statement.bind(1, kindName(ban));
   statement.bind(2, storedTarget(ban));
@@ -116,20 +116,20 @@ void BanStore::erase(const Ban& ban) {
   if (!statement.isDone()) m_file.fail("cannot be written");
 }
 
-std::string banSentence(const Ban& ban) {
+std::string banMessage(const Ban& ban) {
   std::string sentence = "You are banned from this server";
   if (ban.until) sentence += " until " + timeText(*ban.until);
   return sentence + (ban.reason.empty() ? "." : ": " + ban.reason);
 }
 
 void BanSet::Index::add(const AddressRange& range, std::size_t ban) {
-  places.push_back({range.length(), range.bytes(), ban});
+  keys.push_back({range.length(), range.bytes(), ban});
   if (std::find(lengths.begin(), lengths.end(), range.length()) == lengths.end())
     lengths.push_back(range.length());
 }
 
 void BanSet::Index::sort() {
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  std::sort(keys.begin(), keys.end(), [](const RangeKey& a, const RangeKey& b) {
     return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
   });
   std::sort(lengths.begin(), lengths.end());
@@ -141,41 +141,41 @@ BanSet::BanSet(std::vector<Ban> bans) : m_bans(std::move(bans)) {
     if (ban.kind == Ban::Kind::kRange) m_ranges.add(*ban.range, i);
     if (ban.kind == Ban::Kind::kException) m_exceptions.add(*ban.range, i);
     if (ban.kind != Ban::Kind::kName) continue;
-    for (std::string& shape : shapesOf(ban.name)) m_shapes.emplace_back(std::move(shape), i);
+    for (std::string& shape : nameSkeletons(ban.name)) m_skeletons.emplace_back(std::move(shape), i);
   }
   m_ranges.sort();
   m_exceptions.sort();
-  std::sort(m_shapes.begin(), m_shapes.end());
+  std::sort(m_skeletons.begin(), m_skeletons.end());
 }
 
 const Ban* BanSet::findIn(const Index& index, const asio::ip::address& address, Ban::Time now) const {
   const AddressRange::Bytes bytes = AddressRange::bytesOf(address);
   for (const int length : index.lengths) {
-    const Place wanted{length, AddressRange::masked(bytes, length), 0};
-    const auto found = std::lower_bound(index.places.begin(), index.places.end(), wanted,
-                                        [](const Place& a, const Place& b) {
+    const RangeKey wanted{length, AddressRange::masked(bytes, length), 0};
+    const auto found = std::lower_bound(index.keys.begin(), index.keys.end(), wanted,
+                                        [](const RangeKey& a, const RangeKey& b) {
                                           return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
                                         });
-    if (found == index.places.end() || found->length != length || found->bytes != wanted.bytes) continue;
+    if (found == index.keys.end() || found->length != length || found->bytes != wanted.bytes) continue;
     const Ban& ban = m_bans[found->ban];  // the only one of this range; longer prefixes may still match
-    if (!ban.isOver(now) && ban.range->contains(address)) return &ban;
+    if (!ban.isExpired(now) && ban.range->contains(address)) return &ban;
   }
   return nullptr;
 }
 
 const Ban* BanSet::find(const asio::ip::address& address, Ban::Time now) const {
   const asio::ip::address own = unmapped(address);
-  if (m_ranges.places.empty() || own.is_loopback()) return nullptr;
+  if (m_ranges.keys.empty() || own.is_loopback()) return nullptr;
   const Ban* const p_ban = findIn(m_ranges, own, now);
   if (p_ban == nullptr || findIn(m_exceptions, own, now) != nullptr) return nullptr;
   return p_ban;
 }
 
-const Ban* BanSet::findName(const std::vector<std::string>& shapes, Ban::Time now) const {
-  for (const std::string& shape : shapes) {
-    auto found = std::lower_bound(m_shapes.begin(), m_shapes.end(), std::pair(shape, std::size_t{0}));
-    for (; found != m_shapes.end() && found->first == shape; ++found) {
-      if (!m_bans[found->second].isOver(now)) return &m_bans[found->second];
+const Ban* BanSet::findName(const std::vector<std::string>& skeletons, Ban::Time now) const {
+  for (const std::string& shape : skeletons) {
+    auto found = std::lower_bound(m_skeletons.begin(), m_skeletons.end(), std::pair(shape, std::size_t{0}));
+    for (; found != m_skeletons.end() && found->first == shape; ++found) {
+      if (!m_bans[found->second].isExpired(now)) return &m_bans[found->second];
     }
   }
   return nullptr;
@@ -219,26 +219,26 @@ BanList::BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock
 BanList::~BanList() = default;
 
 bool BanList::isBanned(const asio::ip::address& address) const {
-  const bool banned = now()->find(address, m_clock()) != nullptr;
+  const bool banned = currentSet()->find(address, m_clock()) != nullptr;
   if (banned) ++m_hits;
   return banned;
 }
 
-std::shared_ptr<const BanSet> BanList::now() const {
+std::shared_ptr<const BanSet> BanList::currentSet() const {
   const std::lock_guard lock(m_mutex);
   return m_set;
 }
 
 std::string BanList::refusal(const asio::ip::address& address, const std::string& name) const {
-  const auto set = now();
+  const auto set = currentSet();
   const Ban* p_ban = set->find(address, m_clock());
-  if (p_ban == nullptr && !set->all().empty()) p_ban = set->findName(shapesOf(name), m_clock());
-  return p_ban != nullptr ? banSentence(*p_ban) : std::string();
+  if (p_ban == nullptr && !set->all().empty()) p_ban = set->findName(nameSkeletons(name), m_clock());
+  return p_ban != nullptr ? banMessage(*p_ban) : std::string();
 }
 
 void BanList::replace(std::vector<Ban> bans) {
   const Ban::Time present = m_clock();
-  std::erase_if(bans, [present](const Ban& ban) { return ban.isOver(present); });
+  std::erase_if(bans, [present](const Ban& ban) { return ban.isExpired(present); });
   for (Ban& ban : bans) {
     if (ban.number == 0) ban.number = ++m_newest;
   }
@@ -250,14 +250,14 @@ void BanList::replace(std::vector<Ban> bans) {
 // Expired bans are removed from memory only. In the file they stay until a new ban of their target replaces
 // them, which saves writes.
 bool BanList::add(Ban ban, Saved saved) {
-  std::vector<Ban> bans = now()->all();
+  std::vector<Ban> bans = currentSet()->all();
   std::erase_if(bans, [&ban, present = m_clock()](const Ban& other) {
-    return other.isSameTarget(ban) || other.isOver(present);
+    return other.isSameTarget(ban) || other.isExpired(present);
   });
   if (bans.size() >= kMaxBans) return false;
   bans.push_back(ban);
   replace(std::move(bans));
-  if (!ban.lasting) {
+  if (!ban.persistent) {
     saved("");
     return true;
   }
@@ -268,7 +268,7 @@ bool BanList::add(Ban ban, Saved saved) {
 std::size_t BanList::remove(const std::string& text, Saved saved) {
   std::vector<Ban> kept;
   std::vector<Ban> lifted;
-  for (const Ban& ban : now()->all()) (names(text, ban) ? lifted : kept).push_back(ban);
+  for (const Ban& ban : currentSet()->all()) (names(text, ban) ? lifted : kept).push_back(ban);
   if (lifted.empty()) return 0;
   const std::size_t count = lifted.size();
   replace(std::move(kept));
@@ -281,7 +281,7 @@ std::size_t BanList::remove(const std::string& text, Saved saved) {
 }
 
 bool BanList::reload(Loaded loaded) {
-  return m_file && m_worker.give([file = m_file, loaded = std::move(loaded)] {
+  return m_file && m_worker.enqueue([file = m_file, loaded = std::move(loaded)] {
     std::vector<Ban> bans;
     std::string problem;
     try {
@@ -293,16 +293,16 @@ bool BanList::reload(Loaded loaded) {
   });
 }
 
-void BanList::take(std::vector<Ban> bans) {
-  for (const Ban& ban : now()->all()) {
-    if (!ban.lasting) bans.push_back(ban);
+void BanList::replaceAll(std::vector<Ban> bans) {
+  for (const Ban& ban : currentSet()->all()) {
+    if (!ban.persistent) bans.push_back(ban);
   }
   replace(std::move(bans));
 }
 
 void BanList::save(std::function<void(File&)> change, Saved saved) {
   if (!m_file) return saved(kNoFile);
-  const bool given = m_worker.give([file = m_file, change = std::move(change), saved] {
+  const bool given = m_worker.enqueue([file = m_file, change = std::move(change), saved] {
     std::string problem;
     try {
       change(*file);

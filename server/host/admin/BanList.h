@@ -38,9 +38,9 @@ struct Ban {
   std::string by{};             ///< caller of the command
   Time made{};                  ///< whole seconds
   std::optional<Time> until{};  ///< nullopt: permanent
-  bool lasting = true;          ///< saved on disk
+  bool persistent = true;       ///< saved on disk
 
-  bool isOver(Time now) const { return until && *until <= now; }
+  bool isExpired(Time now) const { return until && *until <= now; }
   /// Returns "name:Ann" or "192.0.2.0/24". A new ban replaces an old one of its target.
   std::string target() const { return kind == Kind::kName ? "name:" + name : range->text(); }
   bool isSameTarget(const Ban& other) const {
@@ -50,7 +50,7 @@ struct Ban {
 
 /// Returns the message for the banned player: "You are banned from this server until 2026-11-25 19:01 UTC:
 /// spam".
-std::string banSentence(const Ban& ban);
+std::string banMessage(const Ban& ban);
 
 /// Thrown if the file exists and cannot be used. what() is a one-sentence message.
 using BanFileError = StateFileError;
@@ -86,19 +86,20 @@ class BanSet {
   /// Returns the ban that applies to this address now; null if none does. Loopback addresses are never
   /// banned, because the server's own doors and admins use them.
   const Ban* find(const asio::ip::address& address, Ban::Time now) const;
-  /// Returns the ban that applies to a name now; null if none does. `shapes`: shapesOf(name) (Names.h).
-  const Ban* findName(const std::vector<std::string>& shapes, Ban::Time now) const;
+  /// Returns the ban that applies to a name now; null if none does. `skeletons`: nameSkeletons(name)
+  /// (NameSanitizer.h).
+  const Ban* findName(const std::vector<std::string>& skeletons, Ban::Time now) const;
   const std::vector<Ban>& all() const { return m_bans; }
 
  private:
-  struct Place {
+  struct RangeKey {
     int length;
     AddressRange::Bytes bytes;
     std::size_t ban;
   };
   /// Ranges, sorted by length and first address.
   struct Index {
-    std::vector<Place> places;
+    std::vector<RangeKey> keys;
     std::vector<int> lengths;
     void add(const AddressRange& range, std::size_t ban);
     void sort();
@@ -108,11 +109,11 @@ class BanSet {
   std::vector<Ban> m_bans;
   Index m_ranges;
   Index m_exceptions;
-  std::vector<std::pair<std::string, std::size_t>> m_shapes;  ///< shapes of banned names, sorted
+  std::vector<std::pair<std::string, std::size_t>> m_skeletons;  ///< skeletons of banned names, sorted
 };
 
-/// The bans in force. isBanned(), now() and count() may be called from any thread, the rest from the host's
-/// thread. Only the worker accesses the disk.
+/// The bans in force. isBanned(), currentSet() and count() may be called from any thread, the rest from the
+/// host's thread. Only the worker accesses the disk.
 class BanList {
  public:
   /// Called on the worker's thread when a change was written: `problem` is empty, or one sentence that says
@@ -131,7 +132,7 @@ class BanList {
   /// True if a ban applies to this address now. Any thread; takes a microsecond.
   bool isBanned(const asio::ip::address& address) const;
   /// Returns the current bans. Any thread.
-  std::shared_ptr<const BanSet> now() const;
+  std::shared_ptr<const BanSet> currentSet() const;
   Ban::Time time() const { return m_clock(); }
   /// Returns why a client with this address and name may not play; empty if it may.
   std::string refusal(const asio::ip::address& address, const std::string& name) const;
@@ -147,7 +148,7 @@ class BanList {
   /// Retries failed writes and reads the file. False if there is no file or too many jobs wait for the disk.
   bool reload(Loaded loaded);
   /// Replaces the bans, keeping those held only in memory.
-  void take(std::vector<Ban> bans);
+  void replaceAll(std::vector<Ban> bans);
 
  private:
   /// Used by the worker's jobs.

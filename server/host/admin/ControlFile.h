@@ -22,7 +22,7 @@ class ControlFile {
 
   const std::filesystem::path& path() const { return m_path; }
   /// Returns the listening socket, which the caller must close.
-  int takeDescriptor() { return std::exchange(m_descriptor, -1); }
+  int releaseDescriptor() { return std::exchange(m_descriptor, -1); }
 
  private:
   void listenAt(const std::filesystem::path& path);

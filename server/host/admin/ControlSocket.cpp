@@ -22,7 +22,7 @@
 
 #include "host/admin/AdminPlayer.h"
 #include "host/admin/ControlFile.h"
-#include "host/process/WatchFeed.h"
+#include "host/process/EventFeed.h"
 #include "shared/admin/AdminJson.h"
 #include "shared/net/stream/TcpListener.h"
 #include "shared/program/ProcessSetup.h"
@@ -61,12 +61,12 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     read();
   }
   /// Writes an error and closes the connection.
-  void turnAway(const std::string& sentence) {
+  void reject(const std::string& sentence) {
     send(answerLines(AdminAnswer::refused(sentence)));
     finish();
   }
   /// Sends an event if this is a watcher. If too much is unsent, drops and counts it.
-  void sendEvent(const WatchEvent& event) {
+  void sendEvent(const FeedEvent& event) {
     if (!m_watching || m_closed) return;
     if (m_out.size() + m_writing.size() > ControlSocket::kMaxUnread) {
       ++m_dropped;
@@ -75,7 +75,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     if (m_dropped > 0) send(droppedLine(std::exchange(m_dropped, 0)));
     send(eventLine(event.kind, event.text));
   }
-  void noteDropped(std::uint64_t count) { m_dropped += m_watching ? count : 0; }
+  void countDropped(std::uint64_t count) { m_dropped += m_watching ? count : 0; }
   bool isWatching() const { return m_watching; }
   /// Closes the connection when all output is written.
   void finish() {
@@ -215,7 +215,7 @@ ucred peerOf(stream_protocol::socket& socket) {
 AdminCaller callerOf(const ucred& peer) {
   AdminCaller caller;
   caller.level = AdminCommand::Level::kAdmin;
-  caller.place = AdminCommand::Place::kSocket;
+  caller.place = AdminCommand::Frontend::kSocket;
   caller.name = "user " + std::to_string(peer.uid) + ", process " + std::to_string(peer.pid);
   return caller;
 }
@@ -223,27 +223,27 @@ AdminCaller callerOf(const ucred& peer) {
 }  // namespace
 
 struct ControlSocket::State : std::enable_shared_from_this<ControlSocket::State> {
-  State(ControlListening wanted, Execute callback, WatchFeed& with_feed, LogLine with_log)
+  State(ControlSocketOptions wanted, Execute callback, EventFeed& with_feed, LogLine with_log)
       : options(std::move(wanted)),
         execute(std::move(callback)),
         feed(with_feed),
         log(std::move(with_log)),
         file(options.path),
-        acceptor(context, stream_protocol(), file.takeDescriptor()),
+        acceptor(context, stream_protocol(), file.releaseDescriptor()),
         retry(context) {}
 
   void run();
   void accept();
-  void meet(stream_protocol::socket socket);
+  void onConnection(stream_protocol::socket socket);
   ControlConnection::Events eventsOf();
   void beginWatch();
-  void passEvents();
+  void sendEvents();
   void forget(ControlConnection& connection);
   void finish();
 
-  ControlListening options;
+  ControlSocketOptions options;
   Execute execute;
-  WatchFeed& feed;
+  EventFeed& feed;
   LogLine log;
   asio::io_context context{1};
   asio::executor_work_guard<asio::io_context::executor_type> work{context.get_executor()};
@@ -264,7 +264,7 @@ void ControlSocket::State::accept() {
   acceptor.async_accept([this](const std::error_code& error, stream_protocol::socket socket) {
     if (!acceptor.is_open()) return;
     if (!error) {
-      meet(std::move(socket));
+      onConnection(std::move(socket));
       return accept();
     }
     retry.expires_after(kRetry);
@@ -274,7 +274,7 @@ void ControlSocket::State::accept() {
   });
 }
 
-void ControlSocket::State::meet(stream_protocol::socket socket) {
+void ControlSocket::State::onConnection(stream_protocol::socket socket) {
   const ucred peer = peerOf(socket);
   AdminCaller caller = callerOf(peer);
   if (options.is_refused && options.is_refused(peer.pid)) {
@@ -286,7 +286,7 @@ void ControlSocket::State::meet(stream_protocol::socket socket) {
   const bool is_short = connections.size() + 1 >= options.max_connections;
   const auto connection =
       std::make_shared<ControlConnection>(std::move(socket), std::move(caller), is_short, eventsOf());
-  if (full) return connection->turnAway("Too many connections are open.");
+  if (full) return connection->reject("Too many connections are open.");
   connections.push_back(connection);
   connection->start(options.short_time);
 }
@@ -308,14 +308,14 @@ ControlConnection::Events ControlSocket::State::eventsOf() {
 
 void ControlSocket::State::beginWatch() {
   if (std::exchange(feeding, true)) return;
-  feed.begin([this] { asio::post(context, [this] { passEvents(); }); });
+  feed.begin([this] { asio::post(context, [this] { sendEvents(); }); });
 }
 
-void ControlSocket::State::passEvents() {
-  const WatchFeed::Taken taken = feed.take();
+void ControlSocket::State::sendEvents() {
+  const EventFeed::EventBatch batch = feed.popAll();
   for (const auto& connection : std::vector(connections)) {
-    connection->noteDropped(taken.dropped);
-    for (const WatchEvent& event : taken.events) connection->sendEvent(event);
+    connection->countDropped(batch.dropped);
+    for (const FeedEvent& event : batch.events) connection->sendEvent(event);
   }
 }
 
@@ -341,7 +341,7 @@ void ControlSocket::State::finish() {
   if (connections.empty()) context.stop();
 }
 
-ControlSocket::ControlSocket(ControlListening options, Execute execute, WatchFeed& feed, LogLine log)
+ControlSocket::ControlSocket(ControlSocketOptions options, Execute execute, EventFeed& feed, LogLine log)
     : m_state(std::make_shared<State>(std::move(options), std::move(execute), feed, std::move(log))) {
   m_state->thread = startWithoutSignals([this] { m_state->run(); });
 }

@@ -11,14 +11,14 @@
 #include <memory>
 
 #include "host/admin/AdminPlayer.h"
-#include "host/process/WatchFeed.h"
+#include "host/process/EventFeed.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminRequest.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
 
-struct ControlListening {
+struct ControlSocketOptions {
   std::filesystem::path path;  ///< path of the socket, at most 103 bytes
   /// Maximum number of connections. The last one is reserved for short commands: it cannot watch, and is
   /// closed after `short_time`.
@@ -39,7 +39,7 @@ class ControlSocket {
       std::function<void(AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done)>;
 
   /// Begins to listen. Throws ListenError (ControlFile.h). `feed`: events for watchers; must outlive this.
-  ControlSocket(ControlListening options, Execute execute, WatchFeed& feed, LogLine log);
+  ControlSocket(ControlSocketOptions options, Execute execute, EventFeed& feed, LogLine log);
   /// Writes the remaining answers (for 300 ms at most) and removes the file.
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;

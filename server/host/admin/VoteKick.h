@@ -12,7 +12,7 @@
 
 #include "host/admin/AdminPlayer.h"
 #include "shared/net/base/AddressPrefix.h"
-#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/PrefixLruMap.h"
 
 namespace naiad {
 
@@ -25,9 +25,9 @@ class VoteKick {
 
   static constexpr std::chrono::seconds kTime{30};
   /// Minimum time between votes begun by one voter.
-  static constexpr std::chrono::seconds kBetween{120};
+  static constexpr std::chrono::seconds kMinInterval{120};
   /// Ban time after a vote that passed.
-  static constexpr std::chrono::minutes kOut{5};
+  static constexpr std::chrono::minutes kBanTime{5};
 
   enum class Outcome {
     kBegun,    ///< the vote has begun
@@ -35,7 +35,7 @@ class VoteKick {
     kPassed,   ///< enough voters agree; the vote is over
     kAlready,  ///< this voter has already agreed
     kOther,    ///< a vote on another player is running
-    kTooSoon,  ///< this voter began a vote less than kBetween ago
+    kTooSoon,  ///< this voter began a vote less than kMinInterval ago
     kSelf,     ///< the target is at the voter's own address, or a player is gone
   };
 
@@ -49,31 +49,31 @@ class VoteKick {
     if (m_target && now >= m_ends) m_target.reset();
     const bool begins = !m_target;
     if (begins) {
-      Begun& begun = m_begun.use(voice);
-      if (begun.at && now - *begun.at < kBetween) return Outcome::kTooSoon;
+      LastVote& begun = m_last_votes.use(voice);
+      if (begun.at && now - *begun.at < kMinInterval) return Outcome::kTooSoon;
       begun.at = now;
       m_target = target;
       m_ends = now + kTime;
-      m_voices.clear();
+      m_votes.clear();
     }
     if (*m_target != target) return Outcome::kOther;
-    const bool is_new = m_voices.insert(voice).second;
+    const bool is_new = m_votes.insert(voice).second;
     count(players);
-    if (m_voices.size() >= m_needed) {
+    if (m_votes.size() >= m_needed) {
       m_target.reset();
       return Outcome::kPassed;
     }
     return begins ? Outcome::kBegun : is_new ? Outcome::kAgreed : Outcome::kAlready;
   }
   /// Returns, once, the target's session id if the vote has failed because its time is over.
-  std::optional<std::uint64_t> takeFailed(Time now) {
+  std::optional<std::uint64_t> popFailed(Time now) {
     if (!m_target || now < m_ends) return std::nullopt;
     const std::uint64_t target = *m_target;
     m_target.reset();
     return target;
   }
   /// Number of voters that agree, and the number needed, in the current vote or the one that just passed.
-  std::size_t voices() const { return m_voices.size(); }
+  std::size_t votes() const { return m_votes.size(); }
   std::size_t needed() const { return m_needed; }
 
  private:
@@ -92,18 +92,18 @@ class VoteKick {
     for (const AdminPlayer& player : players) {
       if (!player.detached) voters.insert(voterAt(player));
     }
-    std::erase_if(m_voices, [&voters](const AddressPrefix& voice) { return !voters.contains(voice); });
+    std::erase_if(m_votes, [&voters](const AddressPrefix& voice) { return !voters.contains(voice); });
     m_needed = std::max<std::size_t>(2, voters.size() / 2 + 1);
   }
 
   std::optional<std::uint64_t> m_target;
   Time m_ends{};
-  std::set<AddressPrefix> m_voices;
+  std::set<AddressPrefix> m_votes;
   std::size_t m_needed = 0;
-  struct Begun {
+  struct LastVote {
     std::optional<Time> at;
   };
-  PerAddress<Begun> m_begun{256};
+  PrefixLruMap<LastVote> m_last_votes{256};
 };
 
 }  // namespace naiad

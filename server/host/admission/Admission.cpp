@@ -7,7 +7,7 @@
 
 #include "engine/world/Views.h"
 #include "host/process/TickClock.h"
-#include "host/session/Names.h"
+#include "host/session/NameSanitizer.h"
 #include "naiad.pb.h"
 #include "shared/net/base/AddressRange.h"
 #include "shared/net/base/SafeText.h"
@@ -44,7 +44,7 @@ std::string versionSentence(std::uint32_t version) {
          (version < kProtocolVersion ? "client." : "server.");
 }
 
-KeptSession keptOf(const wire::Welcome& welcome, const ResumeTokens::Hashed& tokens, bool muted) {
+PersistedSession keptOf(const wire::Welcome& welcome, const ResumeTokens::Hashed& tokens, bool muted) {
   return {.player = welcome.player(),
           .muted = muted,
           .name = welcome.name(),
@@ -66,15 +66,15 @@ Admission::Admission(Setup setup)
     : m_setup(std::move(setup)),
       m_options(m_setup.context.options),
       m_counters(m_setup.context.counters),
-      m_joins(PrefixRates::joins(m_options.max_per_address)),
-      m_new_worlds(PrefixRates::worlds(m_options.max_per_address, m_options.max_players)),
-      m_door(m_setup.rooms, m_options.max_per_address) {
+      m_joins(RateLimits::joins(m_options.max_per_address)),
+      m_new_worlds(RateLimits::worlds(m_options.max_per_address, m_options.max_players)),
+      m_room_admission(m_setup.rooms, m_options.max_per_address) {
   const std::string& password = m_options.password;
   if (!password.empty()) changePassword(PasswordHash::fromText(password));
 }
 
 void Admission::log(const Session& session, LogEvent event) const {
-  m_setup.context.client_log.logNews(session.address(), std::move(event), session.now());
+  m_setup.context.client_log.logClientEvent(session.address(), std::move(event), session.now());
 }
 
 // Waiting guesses are compared with the new hash, or admitted if no password is needed any more.
@@ -85,7 +85,7 @@ void Admission::changePassword(std::optional<PasswordHash> hash) {
   m_password = std::make_unique<PasswordCheck>(m_setup.context.home.get_executor(), std::move(*hash));
 }
 
-void Admission::judgeHello(Session& session, const wire::Hello& hello) {
+void Admission::evaluateHello(Session& session, const wire::Hello& hello) {
   if (!checkHello(session, hello) || isBanned(session, cleanName(hello.player_name()))) return;
   if (waitsForRound(hello)) {
     m_waiting.push_back({session.id(), std::make_shared<wire::Hello>(hello), session.now()});
@@ -98,7 +98,7 @@ void Admission::judgeHello(Session& session, const wire::Hello& hello) {
 }
 
 // All hellos wait, but with named rooms only those that resume a session: it may be in a room still in
-// recovery. Such a room admits new players later (RoomDoor.h).
+// recovery. Such a room admits new players later (RoomAdmission.h).
 bool Admission::waitsForRound(const wire::Hello& hello) const {
   if (!m_setup.rooms.recovering()) return false;
   return !m_setup.rooms.isNamed() ||
@@ -112,7 +112,7 @@ bool Admission::isBanned(Session& session, const std::string& name) {
       m_find_ban ? m_find_ban(address.value_or(asio::ip::address()), name) : std::string();
   if (sentence.empty()) return false;
   ++m_counters.refused_banned;
-  session.refuse(wire::Refused::BAD_REQUEST, safeText(sentence, kMaxSentenceLength));
+  session.refuse(wire::Refused::BAD_REQUEST, safeText(sentence, kMaxMessageLength));
   return true;
 }
 
@@ -173,7 +173,7 @@ PasswordCheck::Counters Admission::passwordCounters() const {
 
 void Admission::forgetSession(const Session& session) {
   if (Room* p_room = m_setup.rooms.roomOf(session); p_room != nullptr && session.player() != 0)
-    p_room->round().noteSession({.player = session.player(), .over = true});
+    p_room->round().recordSession({.player = session.player(), .over = true});
   m_tokens.forget(session.id());
   m_setup.prefixes.forget(session.id());
 }
@@ -182,9 +182,9 @@ void Admission::forgetSession(const Session& session) {
 
 // False if the token belongs to no session that can be resumed.
 bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
-  if (m_tokens.isElsewhere(hello.resume_token())) {
+  if (m_tokens.isSuperseded(hello.resume_token())) {
     ++m_counters.refused_elsewhere;
-    session.refuse(wire::Refused::ELSEWHERE, "This session was resumed in another client.");
+    session.refuse(wire::Refused::SESSION_MOVED, "This session was resumed in another client.");
     return true;
   }
   const auto id = m_tokens.find(hello.resume_token());
@@ -200,7 +200,7 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   }
   m_tokens.redeem(hello.resume_token());
   if (p_before->isRestored()) {
-    takeOverSession(*p_before, session, hello);
+    replaceRestoredSession(*p_before, session, hello);
     return true;
   }
   wire::Welcome welcome = p_before->welcomed();
@@ -208,20 +208,20 @@ bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   if (const Room* p_room = m_setup.rooms.roomOf(*p_before)) welcome.set_tick(p_room->tick());
   welcome.set_resume_token(m_tokens.issue(p_before->id()));
   welcome.set_aead(0);
-  noteSession(*p_before);
-  m_setup.prefixes.note(p_before->id(), prefixOf(session));
-  hello.fresh() ? restartSession(*p_before, session, hello, welcome)
-                : continueSession(*p_before, session, hello, welcome);
+  recordSession(*p_before);
+  m_setup.prefixes.record(p_before->id(), prefixOf(session));
+  hello.new_process() ? restartSession(*p_before, session, hello, welcome)
+                      : continueSession(*p_before, session, hello, welcome);
   return true;
 }
 
 void Admission::restartSession(Session& before, Session& session, const wire::Hello& hello,
                                wire::Welcome& welcome) {
-  m_tokens.noteRestart(before.id());
+  m_tokens.markSuperseded(before.id());
   auto datagrams = openDatagrams(session, hello);
   describe(datagrams.get(), welcome);
   before.restart(session, welcome, std::move(datagrams));
-  m_setup.news.repeat();
+  m_setup.player_list.repeat();
   if (Room* p_room = m_setup.rooms.roomOf(before)) p_room->repeatSounds(before.player());
   log(before, newsOf("restarted", before.name(), "reconnected with a new client"));
 }
@@ -233,39 +233,39 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
     welcome.set_connection_id(p_datagrams->id());
     if (p_datagrams->renew(*session.stream(), epoch)) describe(p_datagrams, welcome);
   }
-  before.adopt(session, welcome, hello.received());
+  before.resumeOn(session, welcome, hello.last_frame());
   log(before, newsOf("resumed", before.name(), "reconnected"));
 }
 
 // Adds a second stream to a session that has its first one. Without such a session the client is refused: it
 // asked for a second stream, so it is not a new player.
 void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
-  const auto id = m_tokens.holderOf(hello.resume_token());
+  const auto id = m_tokens.findNewest(hello.resume_token());
   Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
   if (p_first == nullptr || p_first->state() != Session::State::kPlaying || p_first->isDetached()) {
     ++m_counters.unknown_tokens;
     return session.refuse(wire::Refused::BAD_REQUEST, "The session of this second stream is not connected.");
   }
   if (isBanned(session, p_first->name())) return;
-  if (!p_first->admitSecond()) {  // the token and the existing streams stay valid
+  if (!p_first->admitSecondStream()) {  // the token and the existing streams stay valid
     return session.refuse(wire::Refused::BUSY,
                           "Too many reconnects of the second stream. Try again in a moment.");
   }
   log(session, newsOf("second_stream", p_first->name(), "opened a second stream"));
-  p_first->accompany(session);
+  p_first->attachSecondStream(session);
 }
 
 // ---- sessions of a killed server --------------------------------------------------------------------------
 
 // Clients that reconnect retry after a moment, and show the sentence.
-void Admission::judgeWaiting() {
+void Admission::evaluateWaiting() {
   const int percent = m_setup.rooms.recovering().value_or(100);
   const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
   for (const WaitingHello& one : std::exchange(m_waiting, {})) {
     Session* p_session = m_setup.sessions.find(one.session);
     if (p_session == nullptr || p_session->state() != Session::State::kGreeting) continue;
     if (!waitsForRound(*one.hello)) {
-      judgeHello(*p_session, *one.hello);
+      evaluateHello(*p_session, *one.hello);
     } else if (p_session->now() - one.since < patience) {
       m_waiting.push_back(one);
     } else {
@@ -274,12 +274,12 @@ void Admission::judgeWaiting() {
   }
 }
 
-void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sessions) {
+void Admission::restoreSessions(Room& room, const std::vector<PersistedSession>& sessions) {
   if (!m_setup.restore_session) return;
-  for (const KeptSession& kept : sessions) {
+  for (const PersistedSession& kept : sessions) {
     Session& session = m_setup.restore_session(welcomeOf(room, kept.player, kept.name, kept.color));
     session.setGrace(graceTime());
-    session.standing().setMuted(kept.muted);
+    session.status().setMuted(kept.muted);
     m_tokens.restore(session.id(), {kept.newest, kept.redeemed});
     m_setup.rooms.add(room, session);
     m_next_player = std::max(m_next_player, kept.player + 1);
@@ -289,12 +289,12 @@ void Admission::restoreSessions(Room& room, const std::vector<KeptSession>& sess
 
 // The client's new stream belongs to a new session without state, like the client: the world is sent from the
 // beginning. The welcome may be lost, so the previous token stays valid until the client has read it.
-void Admission::takeOverSession(Session& before, Session& session, const wire::Hello& hello) {
+void Admission::replaceRestoredSession(Session& before, Session& session, const wire::Hello& hello) {
   Room* p_room = m_setup.rooms.roomOf(before);
   wire::Welcome welcome = before.welcomed();
   if (p_room != nullptr) welcome.set_tick(p_room->tick());
   welcome.clear_resumed();
-  welcome.clear_continuation();
+  welcome.clear_resume_state();
   std::unique_ptr<SealedChannel> datagrams = openDatagrams(session, hello);
   welcome.clear_connection_id();
   welcome.clear_aead();
@@ -303,17 +303,17 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
   m_tokens.move(before.id(), session.id());
   welcome.set_resume_token(m_tokens.issue(session.id()));
   m_setup.prefixes.forget(before.id());
-  m_setup.prefixes.note(session.id(), prefixOf(session));
+  m_setup.prefixes.record(session.id(), prefixOf(session));
   if (p_room != nullptr)
-    p_room->round().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), before.standing().isMuted()));
+    p_room->round().recordSession(keptOf(welcome, m_tokens.hashed(session.id()), before.status().isMuted()));
   session.setGrace(graceTime());
   session.welcome(welcome, std::move(datagrams));
-  session.takeOver(before);
+  session.replaceRestored(before);
   if (p_room != nullptr) {
     p_room->remove(before);
     m_setup.rooms.add(*p_room, session);
   }
-  m_setup.news.repeat();
+  m_setup.player_list.repeat();
   ++m_counters.returned;
   log(session, newsOf("resumed", session.name(), "reconnected to the recovered round"));
 }
@@ -321,20 +321,20 @@ void Admission::takeOverSession(Session& before, Session& session, const wire::H
 void Admission::confirmToken(Session& session) {
   session.confirm();
   m_tokens.confirm(session.id());
-  noteSession(session);
+  recordSession(session);
 }
 
-void Admission::noteSession(const Session& session) const {
+void Admission::recordSession(const Session& session) const {
   Room* p_room = m_setup.rooms.roomOf(session);
-  if (p_room != nullptr) p_room->round().noteSession(keptSession(session));
+  if (p_room != nullptr) p_room->round().recordSession(persistedSession(session));
 }
 
-void Admission::noteSessions(const Room& room) const {
-  room.forEachPlaying([this](const Session& session) { noteSession(session); });
+void Admission::recordSessions(const Room& room) const {
+  room.forEachPlaying([this](const Session& session) { recordSession(session); });
 }
 
-KeptSession Admission::keptSession(const Session& session) const {
-  return keptOf(session.welcomed(), m_tokens.hashed(session.id()), session.standing().isMuted());
+PersistedSession Admission::persistedSession(const Session& session) const {
+  return keptOf(session.welcomed(), m_tokens.hashed(session.id()), session.status().isMuted());
 }
 
 // ---- new players ------------------------------------------------------------------------------------------
@@ -354,18 +354,18 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   describe(datagrams.get(), welcome);
   session.setGrace(graceTime());
   if (m_options.grace > 0) welcome.set_resume_token(m_tokens.issue(session.id()));
-  m_setup.prefixes.note(session.id(), prefixOf(session));
-  p_room->round().noteSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
+  m_setup.prefixes.record(session.id(), prefixOf(session));
+  p_room->round().recordSession(keptOf(welcome, m_tokens.hashed(session.id()), false));
   session.welcome(welcome, std::move(datagrams));
   m_setup.rooms.add(*p_room, session);
-  m_setup.news.repeat();
+  m_setup.player_list.repeat();
   const std::string program = safeText(hello.program(), kMaxProgramLength);
   log(session, newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
 }
 
 // False if the session was refused.
 bool Admission::checkLimits(Session& session) {
-  if (!m_setup.context.ending.isOpen()) {
+  if (!m_setup.context.shutdown_scheduler.acceptsPlayers()) {
     ++m_counters.refused_closing;
     refuseFull(session, "The server is shutting down and accepts no new players.");
     return false;
@@ -389,24 +389,24 @@ bool Admission::checkLimits(Session& session) {
 
 // Adds a link if another server of the fleet has a free place.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
-  const auto link = m_find_other ? m_find_other() : std::nullopt;
+  const auto link = m_find_redirect ? m_find_redirect() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);
   ++m_counters.sent_on;
   const std::string said =
-      safeText(sentence + " Another server has free places: " + link->text(), kMaxSentenceLength);
-  session.refuse(wire::Refused::FULL, said, JoinLink{link->where, "", link->key}.text(), link->room);
+      safeText(sentence + " Another server has free places: " + link->text(), kMaxMessageLength);
+  session.refuse(wire::Refused::FULL, said, JoinLink{link->address, "", link->key}.text(), link->room);
 }
 
 // Null if the session was refused. Joins are limited per address, because rejoining resets other limits.
 Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   const AddressPrefix prefix = prefixOf(session);
   const Session::Clock::time_point now = session.now();
-  if (!m_joins.take(prefix, now)) {
+  if (!m_joins.tryConsume(prefix, now)) {
     refuseBusy(session, "Too many players have joined from your address. Try again in a moment.");
     return nullptr;
   }
   if (m_setup.rooms.isNamed()) return namedRoomFor(session, hello);
-  if (m_setup.rooms.isPrivate() && !m_new_worlds.take(prefix, now)) {
+  if (m_setup.rooms.isPrivate() && !m_new_worlds.tryConsume(prefix, now)) {
     refuseBusy(session, "Too many games started recently. Try again in a moment.");
     return nullptr;
   }
@@ -419,30 +419,30 @@ Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
 }
 
 Room* Admission::namedRoomFor(Session& session, const wire::Hello& hello) {
-  RoomDoor::Refusal refusal;
-  Room* p_room = m_door.findRoom(hello.room(), hello.game(), refusal);
+  RoomAdmission::Refusal refusal;
+  Room* p_room = m_room_admission.findRoom(hello.room(), hello.game(), refusal);
   if (p_room == nullptr) {
     refuseRoom(session, refusal);
-  } else if (const auto closed = m_door.open(*p_room, prefixOf(session), session.now())) {
+  } else if (const auto closed = m_room_admission.open(*p_room, prefixOf(session), session.now())) {
     refuseRoom(session, *closed);
     p_room = nullptr;
   }
   return p_room;
 }
 
-void Admission::refuseRoom(Session& session, const RoomDoor::Refusal& refusal) {
+void Admission::refuseRoom(Session& session, const RoomAdmission::Refusal& refusal) {
   if (!refusal.log.empty()) log(session, {LogEvent::Level::kError, "cannot join: " + refusal.log});
-  switch (refusal.why) {
-    case RoomDoor::Why::kUnknown:
+  switch (refusal.reason) {
+    case RoomAdmission::Reason::kUnknown:
       ++m_counters.refused_room;
-      return session.refuse(wire::Refused::GAME, safeText(refusal.sentence, kMaxSentenceLength));
-    case RoomDoor::Why::kGame:
+      return session.refuse(wire::Refused::GAME, safeText(refusal.sentence, kMaxMessageLength));
+    case RoomAdmission::Reason::kGame:
       ++m_counters.refused_game;
       return session.refuse(wire::Refused::GAME, refusal.sentence);
-    case RoomDoor::Why::kFull:
+    case RoomAdmission::Reason::kFull:
       ++m_counters.refused_full;
       return session.refuse(wire::Refused::FULL, refusal.sentence);
-    case RoomDoor::Why::kForNow:
+    case RoomAdmission::Reason::kTemporary:
       return refuseBusy(session, refusal.sentence);
   }
 }
@@ -452,15 +452,16 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
   if (room.empty()) return "Room name missing.";
   if (session.isDetached() && !led) return "Your connection is broken.";
-  if (!session.knowsRooms()) return "Your client is too old to change rooms: join with HOST/" + room + ".";
-  RoomDoor::Refusal refusal;
-  Room* const p_to = m_door.findRoom(room, "", refusal);
+  if (!session.supportsRooms()) return "Your client is too old to change rooms: join with HOST/" + room + ".";
+  RoomAdmission::Refusal refusal;
+  Room* const p_to = m_room_admission.findRoom(room, "", refusal);
   if (p_to == nullptr) return safeText(refusal.sentence, kMaxChatLength);
   const AddressPrefix prefix = prefixOf(session);
-  if (!led && !m_door.takeMove(prefix, session.now())) return "Too many room changes. Try again in a moment.";
-  if (const auto closed = m_door.open(*p_to, prefix, session.now())) return closed->sentence;
+  if (!led && !m_room_admission.tryMove(prefix, session.now()))
+    return "Too many room changes. Try again in a moment.";
+  if (const auto closed = m_room_admission.open(*p_to, prefix, session.now())) return closed->sentence;
   if (Room* const p_from = m_setup.rooms.roomOf(session))
-    p_from->round().noteSession({.player = session.player(), .over = true});
+    p_from->round().recordSession({.player = session.player(), .over = true});
   m_setup.rooms.leaveRoom(session);
   const auto color = static_cast<df::Color>(session.welcomed().color());
   wire::Welcome welcome = session.welcomed();
@@ -470,7 +471,7 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   describeRoom(*p_to, welcome);
   session.enterRoom(welcome);
   m_setup.rooms.add(*p_to, session);
-  noteSession(session);
+  recordSession(session);
   return {};
 }
 
@@ -500,7 +501,7 @@ std::chrono::milliseconds Admission::graceTime() const {
 
 // Sets the fields that depend on the room and its game.
 void Admission::describeRoom(const Room& room, wire::Welcome& welcome) const {
-  const RoomPlan* const p_plan = room.plan();
+  const RoomConfig* const p_plan = room.plan();
   welcome.set_tick(room.tick());
   welcome.set_game(p_plan != nullptr ? p_plan->game : m_setup.context.game);
   welcome.set_room(p_plan != nullptr ? p_plan->name : "");

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "engine/world/World.h"
-#include "host/admission/RoomDoor.h"
+#include "host/admission/RoomAdmission.h"
 #include "host/auth/PasswordCheck.h"
 #include "host/auth/ResumeTokens.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/net/SealedChannel.h"
-#include "host/rooms/Rooms.h"
+#include "host/rooms/RoomManager.h"
 #include "host/rooms/SessionTable.h"
-#include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/base/PrefixRateLimiter.h"
 #include "shared/net/stream/JoinLink.h"
 #include "shared/program/LineLog.h"
 
@@ -33,8 +33,8 @@ class Admission {
   struct Setup {
     HostContext& context;
     SessionTable& sessions;
-    Rooms& rooms;
-    PlayerNews& news;
+    RoomManager& rooms;
+    PlayerListBroadcaster& player_list;
     PlayerPrefixes& prefixes;
     /// Opens a datagram channel with keys from this stream; null if the server has no datagrams.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
@@ -47,8 +47,8 @@ class Admission {
   using FindBan = std::function<std::string(const asio::ip::address& address, const std::string& name)>;
   void setBans(FindBan find_ban) { m_find_ban = std::move(find_ban); }
   /// Returns a link to another server with free places, or to a room of it; nullopt if none is known.
-  using FindOther = std::function<std::optional<JoinLink>()>;
-  void setOthers(FindOther find_other) { m_find_other = std::move(find_other); }
+  using FindRedirect = std::function<std::optional<JoinLink>()>;
+  void setFindRedirect(FindRedirect find_redirect) { m_find_redirect = std::move(find_redirect); }
 
   /// Sets the world whose window and help go into welcomes. Call before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
@@ -56,24 +56,24 @@ class Admission {
   /// Time that a hello waits for a round in recovery before its client is told the progress.
   static constexpr std::chrono::milliseconds kRecoveryWait{1000};
   /// Longer wait once more than half of the round is replayed, because a refused client might retry only
-  /// after its end. Less than Session::kJudgeTimeout.
+  /// after its end. Less than Session::kAdmissionTimeout.
   static constexpr std::chrono::milliseconds kNearEndWait{3000};
 
   /// Refuses or welcomes the session that received this hello: at once, after its password check, or after
   /// the recovery of a killed server's round.
-  void judgeHello(Session& session, const wire::Hello& hello);
+  void evaluateHello(Session& session, const wire::Hello& hello);
   /// Makes new players get higher ids than this one.
   void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }
   /// Call once a tick: evaluates the hellos that wait for a round.
-  void judgeWaiting();
-  /// Call when the client has received its newest token (Session::takeProof).
+  void evaluateWaiting();
+  /// Call when the client has received its newest token (Session::popWelcomeConfirmed).
   void confirmToken(Session& session);
   /// Creates sessions for the players of a killed server, who were in this room and may return.
-  void restoreSessions(Room& room, const std::vector<KeptSession>& sessions);
+  void restoreSessions(Room& room, const std::vector<PersistedSession>& sessions);
   /// Records the sessions of all players in the journal of the room's world. Call when that world is new.
-  void noteSessions(const Room& room) const;
+  void recordSessions(const Room& room) const;
   /// Records a changed session in the journal of its world. Call before the client is told.
-  void noteSession(const Session& session) const;
+  void recordSession(const Session& session) const;
   /// Moves a playing session to the room of this name. Returns a refusal for its player, or "" on success.
   /// `led`: moved by the server, so it does not count for the rate limit.
   std::string moveSession(Session& session, const std::string& room, bool led);
@@ -95,14 +95,14 @@ class Admission {
   void restartSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
   void continueSession(Session& before, Session& session, const wire::Hello& hello, wire::Welcome& welcome);
   void addSecondStream(Session& session, const wire::Hello& hello);
-  void takeOverSession(Session& before, Session& session, const wire::Hello& hello);
+  void replaceRestoredSession(Session& before, Session& session, const wire::Hello& hello);
   struct WaitingHello {
     std::uint64_t session = 0;
     std::shared_ptr<const wire::Hello> hello;
     std::chrono::steady_clock::time_point since;
   };
   std::chrono::milliseconds graceTime() const;
-  KeptSession keptSession(const Session& session) const;
+  PersistedSession persistedSession(const Session& session) const;
   wire::Welcome welcomeOf(const Room& room, std::uint32_t player, const std::string& name,
                           df::Color color) const;
   void admitPlayer(Session& session, const wire::Hello& hello);
@@ -111,7 +111,7 @@ class Admission {
   void describeRoom(const Room& room, wire::Welcome& welcome) const;
   Room* roomFor(Session& session, const wire::Hello& hello);
   Room* namedRoomFor(Session& session, const wire::Hello& hello);
-  void refuseRoom(Session& session, const RoomDoor::Refusal& refusal);
+  void refuseRoom(Session& session, const RoomAdmission::Refusal& refusal);
   void refuseBusy(Session& session, const std::string& sentence);
   std::string freeName(const std::string& wanted) const;
   wire::Welcome welcomeTo(Room& room, const std::string& name);
@@ -122,13 +122,13 @@ class Admission {
   Setup m_setup;
   const HostOptions& m_options;
   Counters& m_counters;
-  FindBan m_find_ban;      ///< null: no bans
-  FindOther m_find_other;  ///< null: no other servers
+  FindBan m_find_ban;            ///< null: no bans
+  FindRedirect m_find_redirect;  ///< null: no other servers
   const df::World* m_p_world = nullptr;
   ResumeTokens m_tokens;
-  PrefixAllowance m_joins;
-  PrefixAllowance m_new_worlds;
-  RoomDoor m_door;
+  PrefixRateLimiter m_joins;
+  PrefixRateLimiter m_new_worlds;
+  RoomAdmission m_room_admission;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: no password was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/PrefixLruMap.h"
 
 namespace naiad {
 
@@ -17,63 +17,64 @@ class LoginRateLimit {
   enum class Answer { kAllowed, kTooMany, kWait };
 
   LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
-      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), given_up_(prefixes) {}
+      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), cancelled_(prefixes) {}
 
   /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: too many if those
   /// in progress are wrong.
   Answer beginTry(const AddressPrefix& from, Time now) {
-    Entry& entry = table_.use(from);
+    PrefixFailures& entry = table_.use(from);
     if (!entry.since || now - *entry.since >= window_) {
       entry.since = now;
       entry.wrong = 0;
     }
     if (entry.wrong >= wrong_per_window_) return Answer::kTooMany;
-    if (entry.wrong + entry.under_way >= wrong_per_window_) return Answer::kWait;
-    ++entry.under_way;
+    if (entry.wrong + entry.in_progress >= wrong_per_window_) return Answer::kWait;
+    ++entry.in_progress;
     return Answer::kAllowed;
   }
   void finishTry(const AddressPrefix& from, bool right) {
-    Entry* const entry = table_.find(from);
+    PrefixFailures* const entry = table_.find(from);
     if (entry == nullptr) return;  // evicted in the meantime
-    if (entry->under_way > 0) --entry->under_way;
+    if (entry->in_progress > 0) --entry->in_progress;
     if (!right) ++entry->wrong;
-    if (entry->under_way == 0 && entry->wrong == 0) table_.erase(from);
+    if (entry->in_progress == 0 && entry->wrong == 0) table_.erase(from);
   }
   /// Ends and counts a try that was not compared, because other guesses had priority.
-  void giveUpTry(const AddressPrefix& from, Time now) {
+  void cancelTry(const AddressPrefix& from, Time now) {
     finishTry(from, true);
-    GivenUp& tries = given_up_.use(from);
+    CancelledTries& tries = cancelled_.use(from);
     if (!tries.since || now - *tries.since >= window_) tries = {now, 0};
     ++tries.count;
   }
   /// Number of wrong tries in the present window; 0 for unknown prefixes.
   int wrong(const AddressPrefix& from) {
-    const Entry* const entry = table_.find(from);
+    const PrefixFailures* const entry = table_.find(from);
     return entry != nullptr ? entry->wrong : 0;
   }
   /// Number of given-up tries in the present window; 0 for unknown prefixes.
-  int givenUp(const AddressPrefix& from, Time now) {
-    const GivenUp* const tries = given_up_.find(from);
+  int cancelledTries(const AddressPrefix& from, Time now) {
+    const CancelledTries* const tries = cancelled_.find(from);
     return tries != nullptr && now - *tries->since < window_ ? tries->count : 0;
   }
   std::size_t size() const { return table_.size(); }
 
  private:
-  struct Entry {
+  struct PrefixFailures {
     std::optional<Time> since;  ///< first try of the window
     int wrong = 0;
-    int under_way = 0;
+    int in_progress = 0;
   };
 
-  struct GivenUp {
+  struct CancelledTries {
     std::optional<Time> since;
     int count = 0;
   };
 
   int wrong_per_window_;
   std::chrono::seconds window_;
-  PerAddress<Entry> table_;
-  PerAddress<GivenUp> given_up_;  ///< a separate table: giving up is free, and must not evict wrong tries
+  PrefixLruMap<PrefixFailures> table_;
+  PrefixLruMap<CancelledTries>
+      cancelled_;  ///< a separate table: giving up is free, and must not evict wrong tries
 };
 
 }  // namespace naiad

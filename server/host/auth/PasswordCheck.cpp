@@ -55,7 +55,7 @@ class PasswordCheck::Worker {
     const std::lock_guard lock(mutex_);
     hash_.swap(fresh);
   }
-  void give(Job job) {
+  void enqueue(Job job) {
     {
       const std::lock_guard lock(mutex_);
       jobs_.push_back(std::move(job));
@@ -137,27 +137,27 @@ void PasswordCheck::State::add(bool known, Guess guess, Time now) {
   const PasswordQueue::Id id = ++newest;
   const AddressPrefix from = guess.from;
   guesses.emplace(id, std::move(guess));
-  const auto loser = queue.add({id, from, known, tries.wrong(from), tries.givenUp(from, now)});
+  const auto loser = queue.add({id, from, known, tries.wrong(from), tries.cancelledTries(from, now)});
   if (!comparing) return compareNext();  // there was a free place
   if (!loser) return;
   Guess lost = std::move(guesses.extract(*loser).mapped());
-  tries.giveUpTry(lost.from, now);
+  tries.cancelTry(lost.from, now);
   ++counters.busy;
   answerLater(Answer::kBusy, std::move(lost.done));
 }
 
 void PasswordCheck::State::compareNext() {
-  const auto id = queue.takeNext();
+  const auto id = queue.popNext();
   comparing = id.has_value();
   if (!comparing) return;
   // Keeps the owner's loop running while an answer is still to come.
   auto executor = asio::prefer(owner, asio::execution::outstanding_work.tracked);
-  worker.give({std::move(guesses.at(*id).password),
-               [weak = weak_from_this(), id = *id, executor](std::optional<bool> right) {
-                 asio::post(executor, [weak, id, right] {
-                   if (const auto state = weak.lock()) state->onCompared(id, right);
-                 });
-               }});
+  worker.enqueue({std::move(guesses.at(*id).password),
+                  [weak = weak_from_this(), id = *id, executor](std::optional<bool> right) {
+                    asio::post(executor, [weak, id, right] {
+                      if (const auto state = weak.lock()) state->onCompared(id, right);
+                    });
+                  }});
 }
 
 void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> right) {

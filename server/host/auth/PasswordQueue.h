@@ -18,7 +18,7 @@
 
 namespace naiad {
 
-/// Not thread-safe. Uses no clock: older means added earlier. Work is at most quadratic in `places`.
+/// Not thread-safe. Uses no clock: older means added earlier. Work is at most quadratic in `capacity`.
 class PasswordQueue {
  public:
   using Id = std::uint64_t;
@@ -31,13 +31,13 @@ class PasswordQueue {
     int busy = 0;        ///< recent dropped guesses of the prefix
   };
 
-  /// `places`: maximum number of waiting guesses; at least one.
-  explicit PasswordQueue(std::size_t places) : m_places(places) {}
+  /// `capacity`: maximum number of waiting guesses; at least one.
+  explicit PasswordQueue(std::size_t capacity) : m_capacity(capacity) {}
 
   /// Adds a guess. Returns the guess that was dropped, if any; it may be the new one.
   std::optional<Id> add(const Guess& guess) {
     m_waiting.push_back(guess);
-    if (m_waiting.size() <= m_places) return std::nullopt;
+    if (m_waiting.size() <= m_capacity) return std::nullopt;
     // The newest of the worst guesses.
     const auto worst = std::min_element(m_waiting.rbegin(), m_waiting.rend(),
                                         [this](const Guess& a, const Guess& b) { return isBetter(b, a); });
@@ -46,7 +46,7 @@ class PasswordQueue {
     return id;
   }
   /// Removes and returns the next guess; nullopt if none waits.
-  std::optional<Id> takeNext() {
+  std::optional<Id> popNext() {
     // The oldest of the best guesses.
     const auto best = std::min_element(m_waiting.begin(), m_waiting.end(),
                                        [this](const Guess& a, const Guess& b) { return isBetter(a, b); });
@@ -71,7 +71,7 @@ class PasswordQueue {
     return rank(a) < rank(b);
   }
 
-  std::size_t m_places;
+  std::size_t m_capacity;
   std::vector<Guess> m_waiting;  ///< in order of arrival
 };
 

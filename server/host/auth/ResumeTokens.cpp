@@ -43,7 +43,7 @@ std::optional<std::uint64_t> ResumeTokens::find(const std::string& token) const 
   return sessionOf(hashOf(token));
 }
 
-std::optional<std::uint64_t> ResumeTokens::holderOf(const std::string& token) const {
+std::optional<std::uint64_t> ResumeTokens::findNewest(const std::string& token) const {
   const std::string hash = hashOf(token);
   const auto session = sessionOf(hash);
   return session && m_hashes.at(*session).newest == hash ? session : std::nullopt;
@@ -67,20 +67,20 @@ void ResumeTokens::confirm(std::uint64_t session) {
 
 void ResumeTokens::dropRedeemed(Hashes& hashes) {
   if (hashes.restarted) {
-    m_elsewhere.erase(hashes.elsewhere);
-    m_elsewhere.insert(hashes.elsewhere = hashes.redeemed);
+    m_superseded.erase(hashes.superseded);
+    m_superseded.insert(hashes.superseded = hashes.redeemed);
     hashes.restarted = false;
   }
   drop(hashes.redeemed);
 }
 
-void ResumeTokens::noteRestart(std::uint64_t session) {
+void ResumeTokens::markSuperseded(std::uint64_t session) {
   const auto found = m_hashes.find(session);
   if (found != m_hashes.end()) found->second.restarted = !found->second.redeemed.empty();
 }
 
-bool ResumeTokens::isElsewhere(const std::string& token) const {
-  return m_elsewhere.contains(hashOf(token));
+bool ResumeTokens::isSuperseded(const std::string& token) const {
+  return m_superseded.contains(hashOf(token));
 }
 
 ResumeTokens::Hashed ResumeTokens::hashed(std::uint64_t session) const {
@@ -108,7 +108,7 @@ void ResumeTokens::forget(std::uint64_t session) {
   if (found == m_hashes.end()) return;
   drop(found->second.newest);
   drop(found->second.redeemed);
-  m_elsewhere.erase(found->second.elsewhere);
+  m_superseded.erase(found->second.superseded);
   m_hashes.erase(found);
 }
 

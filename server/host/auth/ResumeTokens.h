@@ -24,14 +24,14 @@ class ResumeTokens {
   /// Like find(), and marks the token as redeemed.
   std::optional<std::uint64_t> redeem(const std::string& token);
   /// Like find(), but only for the session's newest token.
-  std::optional<std::uint64_t> holderOf(const std::string& token) const;
+  std::optional<std::uint64_t> findNewest(const std::string& token) const;
   /// Call when the client has received the newest token: the previous one becomes void.
   void confirm(std::uint64_t session);
-  /// Call when another process has redeemed the token. After confirm(), isElsewhere() is true for this token,
-  /// so the previous process learns why it is refused.
-  void noteRestart(std::uint64_t session);
+  /// Call when another process has redeemed the token. After confirm(), isSuperseded() is true for this
+  /// token, so the previous process learns why it is refused.
+  void markSuperseded(std::uint64_t session);
   /// True if this token is void and its session continues in another process.
-  bool isElsewhere(const std::string& token) const;
+  bool isSuperseded(const std::string& token) const;
   /// SHA-256 of a session's valid tokens: the newest, and the one redeemed last. Empty: no such token.
   struct Hashed {
     std::string newest;
@@ -49,7 +49,7 @@ class ResumeTokens {
   struct Hashes {
     std::string newest;
     std::string redeemed;    ///< empty: none, or void
-    std::string elsewhere;   ///< newest void token that another process had redeemed
+    std::string superseded;  ///< newest void token that another process had redeemed
     bool restarted = false;  ///< another process redeemed `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
@@ -58,7 +58,7 @@ class ResumeTokens {
 
   std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< keyed by hash
   std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< keyed by session
-  std::unordered_set<std::string> m_elsewhere;                ///< hashes, at most one per session
+  std::unordered_set<std::string> m_superseded;               ///< hashes, at most one per session
 };
 
 /// Returns unpredictable bits from the system.

@@ -60,7 +60,7 @@ constexpr std::size_t kMaxPem = 65'536;  // maximum size of a key or certificate
 std::string readKey(const fs::path& path) {
   const auto pem = readSmallFile(path, kMaxPem);
   if (!pem) throw TlsError("There is no key file " + path.string() + ".");
-  if (openToOthers(path)) {
+  if (isOpenToOthers(path)) {
     throw TlsError("The key file " + path.string() + " can be read by other users. Run: chmod 600 " +
                    path.string());
   }

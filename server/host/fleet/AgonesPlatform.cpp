@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "host/fleet/SidecarDuties.h"
+#include "host/fleet/AgonesRequestScheduler.h"
 #include "shared/net/http/HttpExchange.h"
 #include "shared/program/ProcessSetup.h"
 
@@ -53,7 +53,7 @@ class LineReader {
       m_on_line(m_text.substr(0, end));
       m_text.erase(0, end + 1);
     }
-    return m_text.size() <= GameServerFacts::kMaxBytes;
+    return m_text.size() <= GameServerInfo::kMaxBytes;
   }
 
  private:
@@ -68,17 +68,17 @@ struct AgonesPlatform::Loop {
   explicit Loop(std::uint16_t port);
   ~Loop();
 
-  void post(std::function<void(SidecarDuties&)> change);
+  void post(std::function<void(AgonesRequestScheduler&)> change);
   void work();
   void watch();
-  void takeFacts(const GameServerFacts& facts);
+  void handleFacts(const GameServerInfo& facts);
   void note(const std::string& line);
 
   asio::io_context context{1};  // one thread
   asio::steady_timer timer{context};
   asio::steady_timer watch_timer{context};
   StreamTarget sidecar;
-  SidecarDuties duties;
+  AgonesRequestScheduler duties;
   bool facts_said = false;
   std::string missing_said;
   std::uint64_t failed_before = 0;
@@ -108,7 +108,7 @@ AgonesPlatform::Loop::~Loop() {
   thread.join();
 }
 
-void AgonesPlatform::Loop::post(std::function<void(SidecarDuties&)> change) {
+void AgonesPlatform::Loop::post(std::function<void(AgonesRequestScheduler&)> change) {
   asio::post(context, [this, change = std::move(change)] {
     change(duties);
     work();
@@ -117,15 +117,15 @@ void AgonesPlatform::Loop::post(std::function<void(SidecarDuties&)> change) {
 
 // Sends the request that is due, or sets the timer for the next one.
 void AgonesPlatform::Loop::work() {
-  if (const Clock::rep last = ticked) duties.noteTick(Clock::time_point(Clock::duration(last)));
+  if (const Clock::rep last = ticked) duties.onTick(Clock::time_point(Clock::duration(last)));
   if (const auto request = duties.next(Clock::now())) {
     const auto exchange =
-        std::make_shared<HttpExchange>(context, HttpLimits{.body = GameServerFacts::kMaxBytes});
+        std::make_shared<HttpExchange>(context, HttpLimits{.body = GameServerInfo::kMaxBytes});
     const auto done = [this, &answer = exchange->answer()](const HttpExchange::Result& result) {
       const bool answered = result.end == HttpExchange::End::kAnswered;
-      duties.onAnswer(answered ? static_cast<int>(answer.status()) : 0, answered ? answer.body() : "",
-                      Clock::now());
-      if (duties.facts() && !std::exchange(facts_said, true)) takeFacts(*duties.facts());
+      duties.onResponse(answered ? static_cast<int>(answer.status()) : 0, answered ? answer.body() : "",
+                        Clock::now());
+      if (duties.facts() && !std::exchange(facts_said, true)) handleFacts(*duties.facts());
       if (std::exchange(missing_said, duties.missing()) != duties.missing())
         note("warning: Agones: the server's resource has no " + duties.missing());
       const bool failed =
@@ -141,7 +141,7 @@ void AgonesPlatform::Loop::work() {
       if (duties.isOver()) over.notify_all();
       work();
     };
-    exchange->run(sidecar, asHttp(*request), kPatience, done);
+    exchange->run(sidecar, asHttp(*request), kRequestTimeout, done);
     return;
   }
   timer.expires_at(duties.wake());
@@ -153,7 +153,7 @@ void AgonesPlatform::Loop::work() {
 /// Sends GET /watch/gameserver. The response is endless and has a line for each change.
 void AgonesPlatform::Loop::watch() {
   const auto lines = std::make_shared<LineReader>([this](const std::string& text) {
-    if (const auto facts = GameServerFacts::parse(text, true)) takeFacts(*facts);
+    if (const auto facts = GameServerInfo::parse(text, true)) handleFacts(*facts);
   });
   const auto end = [this](const HttpExchange::Result&) {
     watch_timer.expires_after(kWatchAgain);
@@ -163,10 +163,11 @@ void AgonesPlatform::Loop::watch() {
   };
   const HttpRequest request{.target = "/watch/gameserver", .host = "localhost"};
   std::make_shared<HttpExchange>(context, HttpLimits{.body = HttpLimits::kUnlimited})
-      ->run(sidecar, request, kPatience, end, [lines](std::string_view piece) { return lines->take(piece); });
+      ->run(sidecar, request, kRequestTimeout, end,
+            [lines](std::string_view piece) { return lines->take(piece); });
 }
 
-void AgonesPlatform::Loop::takeFacts(const GameServerFacts& facts) {
+void AgonesPlatform::Loop::handleFacts(const GameServerInfo& facts) {
   if (facts.state == "Shutdown") wants_end = true;
   if (facts.port == 0 || facts.address.empty()) return;
   {
@@ -187,11 +188,11 @@ AgonesPlatform::AgonesPlatform(std::uint16_t port) : m_loop(std::make_unique<Loo
 AgonesPlatform::~AgonesPlatform() = default;
 
 void AgonesPlatform::notifyReady() {
-  m_loop->post([](SidecarDuties& duties) { duties.setReady(); });
+  m_loop->post([](AgonesRequestScheduler& duties) { duties.setReady(); });
 }
 
 void AgonesPlatform::notifyPlayers(const PlatformPlayers& players) {
-  m_loop->post([players](SidecarDuties& duties) { duties.setPlayers(players); });
+  m_loop->post([players](AgonesRequestScheduler& duties) { duties.setPlayers(players); });
 }
 
 // Called in every tick, so it only stores the time.
@@ -199,10 +200,10 @@ void AgonesPlatform::notifyTick(Clock::time_point now) {
   m_loop->ticked = now.time_since_epoch().count();
 }
 
-void AgonesPlatform::finish(std::chrono::milliseconds patience) {
-  m_loop->post([](SidecarDuties& duties) { duties.setEnding(); });
+void AgonesPlatform::finish(std::chrono::milliseconds timeout) {
+  m_loop->post([](AgonesRequestScheduler& duties) { duties.setEnding(); });
   std::unique_lock lock(m_loop->mutex);
-  m_loop->over.wait_for(lock, patience, [this] { return m_loop->is_over; });
+  m_loop->over.wait_for(lock, timeout, [this] { return m_loop->is_over; });
 }
 
 std::optional<PlatformAddress> AgonesPlatform::address() const {
@@ -210,11 +211,11 @@ std::optional<PlatformAddress> AgonesPlatform::address() const {
   return m_loop->address;
 }
 
-bool AgonesPlatform::takeEnd() {
+bool AgonesPlatform::popShutdownRequest() {
   return m_loop->wants_end.exchange(false);
 }
 
-std::string AgonesPlatform::takeNews() {
+std::string AgonesPlatform::popLogMessage() {
   const std::lock_guard lock(m_loop->mutex);
   return std::exchange(m_loop->news, "");
 }

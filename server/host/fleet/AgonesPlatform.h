@@ -1,6 +1,6 @@
 // The Agones platform: talks to the server's sidecar over HTTP on loopback, on a thread of its own. The
-// requests are in SidecarDuties.h. If the sidecar is missing or answers nonsense, requests are retried;
-// players are not affected.
+// requests are in AgonesRequestScheduler.h. If the sidecar is missing or answers nonsense, requests are
+// retried; players are not affected.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "host/fleet/GameServerFacts.h"
+#include "host/fleet/GameServerInfo.h"
 #include "host/fleet/HostPlatform.h"
 
 namespace naiad {
@@ -18,7 +18,7 @@ class AgonesPlatform : public HostPlatform {
  public:
   static constexpr std::uint16_t kDefaultPort = 9358;
   /// Timeout of a request with its response. For the watch, only of connecting and sending the request.
-  static constexpr std::chrono::seconds kPatience{2};
+  static constexpr std::chrono::seconds kRequestTimeout{2};
 
   /// `port`: the sidecar's port on 127.0.0.1; 0: that of AGONES_SDK_HTTP_PORT, else kDefaultPort.
   explicit AgonesPlatform(std::uint16_t port);
@@ -28,11 +28,11 @@ class AgonesPlatform : public HostPlatform {
   void notifyTick(Clock::time_point now) override;
   void notifyPlayers(const PlatformPlayers& players) override;
   /// Tells the sidecar to shut the server down.
-  void finish(std::chrono::milliseconds patience) override;
+  void finish(std::chrono::milliseconds timeout) override;
   std::optional<PlatformAddress> address() const override;
   /// Returns true, once, if the watch reported that the server is being shut down.
-  bool takeEnd() override;
-  std::string takeNews() override;
+  bool popShutdownRequest() override;
+  std::string popLogMessage() override;
   PlatformCounters counters() const override;
 
  private:

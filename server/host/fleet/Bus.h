@@ -30,8 +30,8 @@ struct BusCounters {
 class Bus {
  public:
   /// Maximum numbers of reliable and of other messages waiting for the bus; then the oldest is dropped.
-  static constexpr std::size_t kMaxKept = 4096;
-  static constexpr std::size_t kMaxFleeting = 1024;
+  static constexpr std::size_t kMaxReliable = 4096;
+  static constexpr std::size_t kMaxBestEffort = 1024;
 
   virtual ~Bus() = default;
 
@@ -39,15 +39,15 @@ class Bus {
   virtual void publish(BusMessage message) = 0;
   virtual bool isConnected() const = 0;
   /// Returns the newest message of each subject since the last call (BusQueue.h). The contents are untrusted.
-  virtual std::vector<BusMessage> takeMessages() = 0;
-  /// Waits until all queued messages are sent or the bus is lost, for `patience` at most.
-  virtual void finish(std::chrono::milliseconds patience) = 0;
+  virtual std::vector<BusMessage> popMessages() = 0;
+  /// Waits until all queued messages are sent or the bus is lost, for `timeout` at most.
+  virtual void finish(std::chrono::milliseconds timeout) = 0;
   virtual BusCounters counters() const = 0;
   /// Returns a new log line, or "".
-  virtual std::string takeNews() = 0;
+  virtual std::string popLogMessage() = 0;
 };
 
-/// Connects to a NATS server with libnats. The settings must be valid (busComplaint()).
+/// Connects to a NATS server with libnats. The settings must be valid (validateBusSettings()).
 std::unique_ptr<Bus> connectBus(const BusSettings& settings);
 
 }  // namespace naiad

@@ -31,7 +31,7 @@ class BusInbox {
     m_newest.insert_or_assign(std::move(subject), std::move(payload));
   }
   /// Removes and returns the messages, sorted by subject.
-  std::vector<BusMessage> takeAll() {
+  std::vector<BusMessage> popAll() {
     std::vector<BusMessage> taken;
     taken.reserve(m_newest.size());
     for (auto& [subject, payload] : m_newest) taken.push_back({subject, std::move(payload)});
@@ -54,36 +54,36 @@ class BusQueue {
   /// Adds a message. One that may be lost replaces an older one of its subject.
   void push(BusMessage message) {
     if (!message.id.empty()) {
-      m_kept.push_back(std::move(message));
-      if (m_kept.size() <= Bus::kMaxKept) return;
-      m_kept.pop_front();
+      m_reliable.push_back(std::move(message));
+      if (m_reliable.size() <= Bus::kMaxReliable) return;
+      m_reliable.pop_front();
       ++m_dropped;
       return;
     }
-    std::erase_if(m_fleeting, [&](const BusMessage& other) { return other.subject == message.subject; });
-    m_fleeting.push_back(std::move(message));
-    if (m_fleeting.size() <= Bus::kMaxFleeting) return;
-    m_fleeting.pop_front();
+    std::erase_if(m_best_effort, [&](const BusMessage& other) { return other.subject == message.subject; });
+    m_best_effort.push_back(std::move(message));
+    if (m_best_effort.size() <= Bus::kMaxBestEffort) return;
+    m_best_effort.pop_front();
     ++m_dropped;
   }
-  bool hasFleeting() const { return !m_fleeting.empty(); }
-  bool hasKept() const { return !m_kept.empty(); }
-  BusMessage takeFleeting() {
-    BusMessage message = std::move(m_fleeting.front());
-    m_fleeting.pop_front();
+  bool hasBestEffort() const { return !m_best_effort.empty(); }
+  bool hasReliable() const { return !m_reliable.empty(); }
+  BusMessage popBestEffort() {
+    BusMessage message = std::move(m_best_effort.front());
+    m_best_effort.pop_front();
     return message;
   }
-  /// Returns the oldest reliable message. It stays until dropKept().
-  const BusMessage& firstKept() const { return m_kept.front(); }
+  /// Returns the oldest reliable message. It stays until ackReliable().
+  const BusMessage& frontReliable() const { return m_reliable.front(); }
   /// Removes the oldest reliable message if it has this id. It may have been dropped already.
-  void dropKept(const std::string& id) {
-    if (hasKept() && m_kept.front().id == id) m_kept.pop_front();
+  void ackReliable(const std::string& id) {
+    if (hasReliable() && m_reliable.front().id == id) m_reliable.pop_front();
   }
   std::uint64_t dropped() const { return m_dropped; }
 
  private:
-  std::deque<BusMessage> m_fleeting;
-  std::deque<BusMessage> m_kept;
+  std::deque<BusMessage> m_best_effort;
+  std::deque<BusMessage> m_reliable;
   std::uint64_t m_dropped = 0;
 };
 

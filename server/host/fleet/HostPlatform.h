@@ -47,15 +47,15 @@ class HostPlatform {
   virtual void notifyPlayers(const PlatformPlayers& players) = 0;
   /// Reports that the server accepts no more players and is about to end.
   virtual void notifyStopping() {}
-  /// Reports the end after the players' goodbyes. Waits for `patience` at most until it is sent. Any thread.
-  virtual void finish(std::chrono::milliseconds /*patience*/) {}
+  /// Reports the end after the players' goodbyes. Waits for `timeout` at most until it is sent. Any thread.
+  virtual void finish(std::chrono::milliseconds /*timeout*/) {}
 
   /// Returns nullopt if the platform does not know the address.
   virtual std::optional<PlatformAddress> address() const { return std::nullopt; }
   /// Returns true, once, if the platform asks the server to end.
-  virtual bool takeEnd() { return false; }
+  virtual bool popShutdownRequest() { return false; }
   /// Returns a new log line, or "".
-  virtual std::string takeNews() { return ""; }
+  virtual std::string popLogMessage() { return ""; }
   virtual PlatformCounters counters() const { return {}; }
 };
 

@@ -22,14 +22,15 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kLook{250};  ///< interval of checks for messages and a lost connection
-constexpr int kTimeoutMillis = 2000;             ///< timeout of connecting and of acknowledgements
+constexpr std::chrono::milliseconds kPollInterval{
+    250};                             ///< interval of checks for messages and a lost connection
+constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting and of acknowledgements
 constexpr int kPingMillis = 2000;
 constexpr int kMaxPings = 2;
 /// Limits of the library's queue for a subscription; it drops further messages.
 constexpr int kMaxPending = 8192;
 constexpr int kMaxPendingBytes = 8 << 20;
-constexpr int kReceivedAtOnce = 512;  ///< messages received from a subscription before sending again
+constexpr int kMaxReceiveBatch = 512;  ///< messages received from a subscription before sending again
 
 template <class T, void (*Destroy)(T*)>
 struct NatsDeleter {
@@ -88,14 +89,14 @@ class NatsBus : public Bus {
     const std::lock_guard lock(m_mutex);
     return m_connected;
   }
-  std::vector<BusMessage> takeMessages() override {
+  std::vector<BusMessage> popMessages() override {
     const std::lock_guard lock(m_mutex);
-    return m_inbox.takeAll();
+    return m_inbox.popAll();
   }
-  void finish(std::chrono::milliseconds patience) override {
+  void finish(std::chrono::milliseconds timeout) override {
     std::unique_lock lock(m_mutex);
-    m_sent.wait_for(lock, patience,
-                    [this] { return !m_connected || (!m_queue.hasKept() && !m_queue.hasFleeting()); });
+    m_sent.wait_for(lock, timeout,
+                    [this] { return !m_connected || (!m_queue.hasReliable() && !m_queue.hasBestEffort()); });
   }
   BusCounters counters() const override {
     const std::lock_guard lock(m_mutex);
@@ -105,9 +106,9 @@ class NatsBus : public Bus {
     counters.ignored = m_inbox.ignored();
     return counters;
   }
-  std::string takeNews() override {
+  std::string popLogMessage() override {
     const std::lock_guard lock(m_mutex);
-    return std::exchange(m_news, "");
+    return std::exchange(m_log_message, "");
   }
 
  private:
@@ -120,7 +121,7 @@ class NatsBus : public Bus {
       natsStatus status = NATS_ERR;
       const Connection connection = connect(status);
       lock.lock();
-      noteConnection(connection != nullptr, status);
+      onConnectionChange(connection != nullptr, status);
       if (connection) serve(*connection, lock);
       m_connected = false;
       m_sent.notify_all();
@@ -136,14 +137,14 @@ class NatsBus : public Bus {
   }
 
   /// Repeated messages are suppressed. The address is not logged, because it may contain a password.
-  void noteConnection(bool connected, natsStatus status) {
+  void onConnectionChange(bool connected, natsStatus status) {
     m_connected = connected;
     m_counters.connections += connected ? 1 : 0;
     m_counters.failures += connected ? 0 : 1;
     const std::string news = connected ? "the bus is connected"
                                        : std::string("warning: the bus cannot be reached (") +
                                              natsStatus_GetText(status) + "); trying again";
-    if (std::exchange(m_last_news, news) != news) m_news = news;
+    if (std::exchange(m_last_news, news) != news) m_log_message = news;
   }
 
   /// Sends and receives until the connection is lost or the bus stops.
@@ -155,25 +156,25 @@ class NatsBus : public Bus {
     auto not_before = std::chrono::steady_clock::now();
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
       receive(subscriptions);
-      const bool may_keep = stream && m_queue.hasKept() && std::chrono::steady_clock::now() >= not_before;
-      if (m_queue.hasFleeting()) {
-        const BusMessage message = m_queue.takeFleeting();
+      const bool may_keep = stream && m_queue.hasReliable() && std::chrono::steady_clock::now() >= not_before;
+      if (m_queue.hasBestEffort()) {
+        const BusMessage message = m_queue.popBestEffort();
         lock.unlock();
         const bool sent = natsConnection_Publish(&connection, message.subject.c_str(), message.payload.data(),
                                                  static_cast<int>(message.payload.size())) == NATS_OK;
         lock.lock();
         ++(sent ? m_counters.published : m_counters.failures);
       } else if (may_keep) {
-        const BusMessage message = m_queue.firstKept();
+        const BusMessage message = m_queue.frontReliable();
         lock.unlock();
         const bool arrived = keep(*stream, message);
         lock.lock();
         ++(arrived ? m_counters.published : m_counters.failures);
-        if (arrived) m_queue.dropKept(message.id);
+        if (arrived) m_queue.ackReliable(message.id);
         if (!arrived) not_before = std::chrono::steady_clock::now() + kConnectAgain;
       } else {
         m_sent.notify_all();
-        m_wake.wait_for(lock, kLook);
+        m_wake.wait_for(lock, kPollInterval);
       }
     }
   }
@@ -193,7 +194,7 @@ class NatsBus : public Bus {
   /// Moves received messages to the inbox. Called with the lock held.
   void receive(const std::vector<Subscription>& subscriptions) {
     for (const Subscription& subscription : subscriptions) {
-      for (int i = 0; i < kReceivedAtOnce; ++i) {
+      for (int i = 0; i < kMaxReceiveBatch; ++i) {
         natsMsg* p_taken = nullptr;
         const natsStatus status = natsSubscription_NextMsg(&p_taken, subscription.get(), 0);
         const Message message(p_taken);
@@ -227,7 +228,7 @@ class NatsBus : public Bus {
   bool m_stopping = false;
   BusCounters m_counters;
   std::string m_last_news;
-  std::string m_news;
+  std::string m_log_message;
   std::thread m_thread;
 };
 
@@ -240,7 +241,7 @@ std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
 #else
 
 std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
-  throw std::logic_error(busComplaint(settings));
+  throw std::logic_error(validateBusSettings(settings));
 }
 
 #endif

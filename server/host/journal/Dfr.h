@@ -68,7 +68,7 @@ inline constexpr std::size_t kMaxDfrValue = 16'384;
 /// A TURN chunk begins with the position of its first byte in the record stream, modulo 65,536 (2 bytes: a
 /// small game's chunk of a second is barely 100), and a varint: twice the number of unpacked bytes, plus the
 /// DfrPacking.
-inline constexpr std::size_t kDfrTurnPlace = 2;
+inline constexpr std::size_t kDfrTurnPositionSize = 2;
 
 /// Packing of turns in a TURN chunk.
 enum DfrPacking : std::uint8_t {

@@ -84,7 +84,7 @@ void DfrReader::skipToEnd() {
 
 bool DfrReader::readChunk() {
   const auto chunk = nextChunk();
-  if (chunk && !takeChunk(*chunk)) m_end = DfrEnd::kDamaged;
+  if (chunk && !handleChunk(*chunk)) m_end = DfrEnd::kDamaged;
   m_ended = m_ended || !chunk || m_end == DfrEnd::kDamaged;
   return !m_ended;
 }
@@ -109,13 +109,13 @@ std::optional<DfrReader::Chunk> DfrReader::nextChunk() {
   return Chunk{loadLittleEndian<std::uint32_t>(rest.data()), payload};
 }
 
-bool DfrReader::takeChunk(const Chunk& chunk) {
+bool DfrReader::handleChunk(const Chunk& chunk) {
   if (chunk.type == kDfrMeta) return readMeta(chunk.payload);
   if (chunk.type == kDfrTurn) return readTurns(chunk.payload);
   if (chunk.type != kDfrDone) return true;
   m_ended = true;
   m_end = DfrEnd::kDone;
-  m_why = safeText(std::string(chunk.payload.substr(0, kMaxDfrName)), kMaxDfrName);
+  m_end_reason = safeText(std::string(chunk.payload.substr(0, kMaxDfrName)), kMaxDfrName);
   return true;
 }
 
@@ -131,9 +131,9 @@ bool DfrReader::readMeta(std::string_view payload) {
 }
 
 bool DfrReader::readTurns(std::string_view payload) {
-  if (payload.size() < kDfrTurnPlace) return false;
+  if (payload.size() < kDfrTurnPositionSize) return false;
   if (loadLittleEndian<std::uint16_t>(payload.data()) != static_cast<std::uint16_t>(m_offset)) return false;
-  ByteReader head(payload.substr(kDfrTurnPlace));
+  ByteReader head(payload.substr(kDfrTurnPositionSize));
   const std::uint64_t what = head.upTo(2 * kMaxDfrPayload + 1);
   if (!head.ok()) return false;
   const auto packing = static_cast<DfrPacking>(what & 1);

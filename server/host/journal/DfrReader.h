@@ -52,9 +52,9 @@ class DfrReader {
   /// the middle of one. Call after next() has reached the end.
   std::size_t bytesOfWholeRecords() const { return m_whole_records; }
   /// Returns the state for writing chunks after those read. Nothing can be read afterwards.
-  JournalPlace takePlace() { return {DfrTurnPacker(m_unpacker.takeModel(), m_offset), m_offset}; }
+  JournalPosition releasePosition() { return {DfrTurnPacker(m_unpacker.releaseModel(), m_offset), m_offset}; }
   /// Returns how the round ended, if end() is DfrEnd::kDone.
-  const std::string& why() const { return m_why; }
+  const std::string& endReason() const { return m_end_reason; }
 
  private:
   struct Chunk {
@@ -64,7 +64,7 @@ class DfrReader {
   void readHeader();
   std::optional<Chunk> nextChunk();
   bool readChunk();
-  bool takeChunk(const Chunk& chunk);
+  bool handleChunk(const Chunk& chunk);
   bool readMeta(std::string_view payload);
   bool readTurns(std::string_view payload);
 
@@ -81,7 +81,7 @@ class DfrReader {
   bool m_skips = false;
   bool m_ended = false;
   DfrEnd m_end = DfrEnd::kTorn;
-  std::string m_why;
+  std::string m_end_reason;
   std::size_t m_whole_records = 0;
 };
 

@@ -29,7 +29,7 @@ std::string turnHead(std::uint64_t position, DfrPacking packing, std::size_t cou
 
 }  // namespace
 
-std::string spellDfrHeader(const DfrHeader& header) {
+std::string encodeDfrHeader(const DfrHeader& header) {
   std::string rest;
   for (const std::uint8_t byte : header.uuid) rest.push_back(static_cast<char>(byte));
   append(rest, header.frame_nanos);
@@ -43,7 +43,7 @@ std::string spellDfrHeader(const DfrHeader& header) {
   return bytes + rest;
 }
 
-std::string spellDfrChunk(std::uint32_t type, std::string_view payload) {
+std::string encodeDfrChunk(std::uint32_t type, std::string_view payload) {
   std::string head;
   append(head, type);
   append(head, static_cast<std::uint32_t>(payload.size()));
@@ -52,7 +52,7 @@ std::string spellDfrChunk(std::uint32_t type, std::string_view payload) {
   return bytes.append(payload);
 }
 
-std::string spellDfrMeta(const DfrFacts& facts) {
+std::string encodeDfrMeta(const DfrFacts& facts) {
   std::string payload;
   ByteWriter out(payload);
   out.varint(std::min(facts.size(), kMaxDfrFacts));
@@ -65,18 +65,18 @@ std::string spellDfrMeta(const DfrFacts& facts) {
       out.bytes(part);
     }
   }
-  return spellDfrChunk(kDfrMeta, std::string_view(payload).substr(0, kMaxDfrPayload));
+  return encodeDfrChunk(kDfrMeta, std::string_view(payload).substr(0, kMaxDfrPayload));
 }
 
-std::string spellDfrDone(std::string_view why) {
-  return spellDfrChunk(kDfrDone, why.substr(0, kMaxDfrValue));
+std::string encodeDfrDone(std::string_view why) {
+  return encodeDfrChunk(kDfrDone, why.substr(0, kMaxDfrValue));
 }
 
-std::string spellDfrTurns(std::string_view records, std::uint64_t position) {
+std::string encodeDfrTurns(std::string_view records, std::uint64_t position) {
   std::string chunks;
   while (!records.empty()) {
     const std::string_view part = records.substr(0, kMaxPacked);
-    chunks += spellDfrChunk(kDfrTurn, turnHead(position, kDfrRaw, part.size()).append(part));
+    chunks += encodeDfrChunk(kDfrTurn, turnHead(position, kDfrRaw, part.size()).append(part));
     position += part.size();
     records.remove_prefix(part.size());
   }
@@ -89,7 +89,7 @@ std::string DfrTurnPacker::pack(std::string_view records) {
     const std::string_view part = records.substr(0, kMaxPacked);
     std::string payload = turnHead(m_position, kDfrModelled, part.size());
     m_packer.pack(part, payload);
-    chunks += spellDfrChunk(kDfrTurn, payload);
+    chunks += encodeDfrChunk(kDfrTurn, payload);
     m_position += part.size();
     records.remove_prefix(part.size());
   }

@@ -10,19 +10,19 @@
 namespace naiad {
 
 /// Returns the 64 bytes of the header.
-std::string spellDfrHeader(const DfrHeader& header);
+std::string encodeDfrHeader(const DfrHeader& header);
 
 /// Returns one chunk. `payload` has at most kMaxDfrPayload bytes.
-std::string spellDfrChunk(std::uint32_t type, std::string_view payload);
+std::string encodeDfrChunk(std::uint32_t type, std::string_view payload);
 
 /// Returns a META chunk. Long names and values are truncated, facts beyond kMaxDfrFacts dropped.
-std::string spellDfrMeta(const DfrFacts& facts);
+std::string encodeDfrMeta(const DfrFacts& facts);
 
 /// Returns a DONE chunk. `why` says how the round ended.
-std::string spellDfrDone(std::string_view why);
+std::string encodeDfrDone(std::string_view why);
 
 /// Returns TURN chunks with these records, not packed, whose first byte in the stream is at `position`.
-std::string spellDfrTurns(std::string_view records, std::uint64_t position);
+std::string encodeDfrTurns(std::string_view records, std::uint64_t position);
 
 /// Packs the records of turns (TurnRecord.h). Each chunk can be read without those after it.
 class DfrTurnPacker {
@@ -41,7 +41,7 @@ class DfrTurnPacker {
 };
 
 /// State for appending to a file that another server began.
-struct JournalPlace {
+struct JournalPosition {
   DfrTurnPacker packer;
   std::uint64_t position = 0;  ///< position in the record stream
 };

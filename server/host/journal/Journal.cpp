@@ -15,19 +15,19 @@ constexpr const char* kOverflow = "the disk is too slow";
 }  // namespace
 
 Journal::Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts,
-                 std::size_t ring, bool shared, std::optional<JournalPlace> goes_on, std::uint64_t folder,
+                 std::size_t ring, bool shared, std::optional<JournalPosition> resumed, std::uint64_t folder,
                  const std::string& name)
     : m_header(header),
       m_ring(
-          ring, header.uuid, shared, goes_on ? goes_on->position : 0, folder,
-          name.empty() ? FileBeginning() : FileBeginning{name, spellDfrHeader(header) + spellDfrMeta(facts)}),
+          ring, header.uuid, shared, resumed ? resumed->position : 0, folder,
+          name.empty() ? FilePrologue() : FilePrologue{name, encodeDfrHeader(header) + encodeDfrMeta(facts)}),
       m_facts(facts),
       m_sink(std::move(sink)),
-      m_packer(goes_on ? std::move(goes_on->packer) : DfrTurnPacker()),
-      m_begun(goes_on.has_value()) {}
+      m_packer(resumed ? std::move(resumed->packer) : DfrTurnPacker()),
+      m_begun(resumed.has_value()) {}
 
 bool Journal::add(std::string_view record) {
-  if (m_left) return false;
+  if (m_suspended) return false;
   if (m_stopped.load(std::memory_order_relaxed) || m_overflowed.load(std::memory_order_relaxed)) return false;
   if (m_ring.store(record)) return true;
   const std::lock_guard lock(m_mutex);
@@ -42,7 +42,7 @@ void Journal::addFacts(DfrFacts facts) {
 }
 
 void Journal::finish(const std::string& why) {
-  if (m_left) return;
+  if (m_suspended) return;
   {
     const std::lock_guard lock(m_mutex);
     m_why = why;
@@ -50,12 +50,12 @@ void Journal::finish(const std::string& why) {
   m_finished = true;
 }
 
-void Journal::leaveOpen() {
-  m_left = true;
-  m_ring.leave();
+void Journal::suspend() {
+  m_suspended = true;
+  m_ring.handOver();
 }
 
-std::optional<std::string> Journal::takeProblem() {
+std::optional<std::string> Journal::popProblem() {
   const std::lock_guard lock(m_mutex);
   if (m_problem.empty()) return std::nullopt;
   return std::exchange(m_problem, {});
@@ -63,7 +63,7 @@ std::optional<std::string> Journal::takeProblem() {
 
 bool Journal::flush(bool at_once) {
   if (m_stopped) return false;
-  if (!at_once && mayWait()) return true;
+  if (!at_once && mayDefer()) return true;
   const bool last = m_finished;  // read before the ring, which has all records once this is set
   try {
     write();
@@ -75,7 +75,7 @@ bool Journal::flush(bool at_once) {
         const std::lock_guard lock(m_mutex);
         why = m_why;
       }
-      m_sink->write(spellDfrDone(why));
+      m_sink->write(encodeDfrDone(why));
       m_sink->sync();
       m_stopped = true;
     }
@@ -85,9 +85,9 @@ bool Journal::flush(bool at_once) {
   return !m_stopped;
 }
 
-bool Journal::mayWait() {
-  const bool waits =
-      m_calm && m_begun && !m_finished && !m_overflowed && !m_ring.isFilling() && ++m_skipped < kCalmTurns;
+bool Journal::mayDefer() {
+  const bool waits = m_idle && m_begun && !m_finished && !m_overflowed && !m_ring.isFilling() &&
+                     ++m_skipped < kIdleFlushInterval;
   const std::lock_guard lock(m_mutex);
   if (waits && m_facts.empty()) return true;
   m_skipped = 0;
@@ -106,8 +106,8 @@ void Journal::write() {
       facts.swap(m_facts);
     }
     std::string bytes;
-    if (!std::exchange(m_begun, true)) bytes = spellDfrHeader(m_header);
-    if (!facts.empty()) bytes += spellDfrMeta(facts);
+    if (!std::exchange(m_begun, true)) bytes = encodeDfrHeader(m_header);
+    if (!facts.empty()) bytes += encodeDfrMeta(facts);
     bytes += m_packer.pack(records);
     if (bytes.empty()) return;
     m_sink->write(bytes);

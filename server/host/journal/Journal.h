@@ -18,13 +18,13 @@ namespace naiad {
 
 class Journal {
  public:
-  /// Creates the journal of a round that begins, or of one that is resumed (`goes_on`): then the file has all
+  /// Creates the journal of a round that begins, or of one that is resumed (`resumed`): then the file has all
   /// earlier records. `facts`: known before the world begins. `ring`: bytes of records that may wait for the
   /// disk, in memory that survives a crash if `shared`. `folder`: hash of the file's folder (TurnRing.h).
   /// `name`: the file's name, so that the next server can create the file if this one is killed before the
   /// first write; empty: not needed. Throws std::system_error if there is no memory.
   Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts, std::size_t ring,
-          bool shared, std::optional<JournalPlace> goes_on = std::nullopt, std::uint64_t folder = 0,
+          bool shared, std::optional<JournalPosition> resumed = std::nullopt, std::uint64_t folder = 0,
           const std::string& name = {});
 
   const DfrHeader& header() const { return m_header; }
@@ -38,31 +38,31 @@ class Journal {
   void addFacts(DfrFacts facts);
   /// Ends the journal: the round is over. `why` says how it ended.
   void finish(const std::string& why);
-  /// Sets whether the world has no players; then flush() may write only every kCalmTurns-th time.
-  void setCalm(bool calm) { m_calm.store(calm, std::memory_order_relaxed); }
+  /// Sets whether the world has no players; then flush() may write only every kIdleFlushInterval-th time.
+  void setIdle(bool idle) { m_idle.store(idle, std::memory_order_relaxed); }
   /// Leaves the file to another program that resumes the round. Records added so far are still written, later
   /// ones are refused, and the file does not get an end.
-  void leaveOpen();
+  void suspend();
   /// True if the round is not over and all of it so far was recorded.
-  bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_left; }
+  bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_suspended; }
   /// True if the journal stopped before the round was over.
   bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// True if more than half of the ring is full, so that the writer should be woken.
   bool isFilling() const { return m_ring.isFilling(); }
   /// Returns why the journal stopped, once; nullopt while it has not.
-  std::optional<std::string> takeProblem();
+  std::optional<std::string> popProblem();
 
   // The writer's thread calls these.
 
   /// Calls of flush() per write without players: half a minute, so that an idle server does not write all
   /// day.
-  static constexpr int kCalmTurns = 33;
+  static constexpr int kIdleFlushInterval = 33;
 
   /// Writes all records to disk. `at_once`: even without players. Returns false if no more will come.
   bool flush(bool at_once = false);
 
  private:
-  bool mayWait();
+  bool mayDefer();
   void write();
   void stop(const std::string& problem);
 
@@ -71,7 +71,7 @@ class Journal {
   std::atomic<bool> m_stopped{false};
   std::atomic<bool> m_finished{false};
   std::atomic<bool> m_overflowed{false};
-  std::atomic<bool> m_calm{false};
+  std::atomic<bool> m_idle{false};
 
   std::mutex m_mutex;  ///< held while these are swapped, never while waiting for the disk
   DfrFacts m_facts;    ///< not yet written
@@ -84,7 +84,7 @@ class Journal {
   bool m_begun = false;
   int m_skipped = 0;  ///< calls of flush() since the last one that wrote
 
-  bool m_left = false;  ///< used by the tick thread alone
+  bool m_suspended = false;  ///< used by the tick thread alone
 };
 
 }  // namespace naiad

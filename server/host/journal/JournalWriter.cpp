@@ -10,8 +10,8 @@ namespace naiad {
 
 namespace {
 
-/// Part of kBetween that is left for the sync itself: records added after one sync has begun are safe when
-/// the next has ended.
+/// Part of kFlushInterval that is left for the sync itself: records added after one sync has begun are safe
+/// when the next has ended.
 constexpr std::chrono::milliseconds kForSync{100};
 
 }  // namespace
@@ -32,7 +32,7 @@ void JournalWriter::Shared::run() {
   std::unique_lock lock(mutex);
   auto began = std::chrono::steady_clock::now();
   while (true) {
-    wanted.wait_until(lock, began + kBetween - kForSync, [this] { return ends || asked > served; });
+    wanted.wait_until(lock, began + kFlushInterval - kForSync, [this] { return ends || asked > served; });
     began = std::chrono::steady_clock::now();
     const bool last = ends;
     const std::uint64_t serving = asked;
@@ -58,7 +58,7 @@ JournalWriter::JournalWriter() : m_shared(std::make_shared<Shared>()) {
 }
 
 JournalWriter::~JournalWriter() {
-  drain(kLastWait);
+  drain(kFinalFlushTimeout);
   const std::lock_guard lock(m_shared->mutex);
   m_shared->ends = true;
   m_shared->wanted.notify_all();

@@ -11,12 +11,12 @@ namespace naiad {
 class JournalWriter {
  public:
   /// Interval of writes and syncs: a power cut loses at most this much.
-  static constexpr std::chrono::milliseconds kBetween{1000};
+  static constexpr std::chrono::milliseconds kFlushInterval{1000};
   /// Time limit of the last write, if the disk stalls.
-  static constexpr std::chrono::milliseconds kLastWait{2000};
+  static constexpr std::chrono::milliseconds kFinalFlushTimeout{2000};
 
   JournalWriter();
-  /// Writes what is left, waiting at most kLastWait.
+  /// Writes what is left, waiting at most kFinalFlushTimeout.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;

@@ -70,7 +70,7 @@ class RecordUnpacker {
   /// Appends `count` unpacked bytes to `out`. Cannot fail: any input decodes to something.
   void unpack(std::string_view packed, std::size_t count, std::string& out);
   /// Returns the model, for a packer that continues. Nothing can be unpacked afterwards.
-  RecordModel takeModel() { return std::move(m_model); }
+  RecordModel releaseModel() { return std::move(m_model); }
 
  private:
   RecordModel m_model;

@@ -1,5 +1,6 @@
 // The records of a round, for the world that takes over after a crash: all of them, or those since the oldest
-// copy of the world (WorldProcess::keepCopy). Also the places of copies in them, and when the next is due.
+// copy of the world (WorldProcess::requestCheckpoint). Also the places of copies in them, and when the next
+// is due.
 #pragma once
 
 #include <chrono>
@@ -15,7 +16,7 @@
 namespace naiad {
 
 /// Place of a copy in the round.
-struct CopyMark {
+struct CheckpointMark {
   std::uint32_t ticks = 0;             ///< ticks that the world had had
   std::vector<std::uint32_t> players;  ///< players in the world, in the order in which they joined
   std::size_t records = 0;             ///< bytes of RoundHistory::records() up to the copy
@@ -27,20 +28,21 @@ class RoundHistory {
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
   /// Ticks between two copies: ten seconds of a usual game. A copy takes 0.4 to 1.5 ms of the world's time.
-  static constexpr std::uint32_t kTicks = 300;
+  static constexpr std::uint32_t kCheckpointInterval = 300;
   /// Ticks before the first copy: most games have started up then, and before that a new world is as fast.
-  static constexpr std::uint32_t kFirst = 30;
+  static constexpr std::uint32_t kFirstCheckpoint = 30;
   /// If ticks are slow, copies are made more often, so that the ticks since the newest copy can be replayed
-  /// fast: every kFewestTicks ticks a copy is due if the world has used kLongest of processor time.
-  static constexpr std::uint32_t kFewestTicks = 60;
-  static constexpr std::chrono::milliseconds kLongest{100};
+  /// fast: every kMinCheckpointInterval ticks a copy is due if the world has used kMaxReplayTime of processor
+  /// time.
+  static constexpr std::uint32_t kMinCheckpointInterval = 60;
+  static constexpr std::chrono::milliseconds kMaxReplayTime{100};
 
   /// `records`: those of a round that is resumed.
   explicit RoundHistory(std::string records = {}) : m_records(std::move(records)) {}
 
   /// Adds the next record. Returns false if the round is too long; then nothing of it is kept.
   bool add(std::string_view record) {
-    if (m_records.size() + record.size() > kMaxBytes && !forgetBeginning()) {
+    if (m_records.size() + record.size() > kMaxBytes && !dropOldRecords()) {
       *this = RoundHistory();
       return false;
     }
@@ -54,68 +56,72 @@ class RoundHistory {
   /// True if a copy is due in the tick that begins. `cpu_time` returns the processor time that the world's
   /// process has used; it is not called in every tick.
   template <class CpuTime>
-  bool isCopyDue(std::uint32_t ticks, CpuTime cpu_time) {
-    if (m_asked == 0 ? ticks < kFirst : (ticks - m_asked) % kFewestTicks != 0) return false;
+  bool isCheckpointDue(std::uint32_t ticks, CpuTime cpu_time) {
+    if (m_requested_tick == 0 ? ticks < kFirstCheckpoint
+                              : (ticks - m_requested_tick) % kMinCheckpointInterval != 0)
+      return false;
     return isDueNow(ticks, cpu_time());
   }
-  /// Call when a copy was ordered for the tick that begins. `is_kept`: false if the order failed.
-  void beginCopy(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_kept) {
-    m_asked = ticks;
-    if (is_kept) m_under_way = CopyMark{ticks, std::move(players), 0};
+  /// Call when a copy was ordered for the tick that begins. `is_requested`: false if the order failed.
+  void beginCheckpoint(std::uint32_t ticks, std::vector<std::uint32_t> players, bool is_requested) {
+    m_requested_tick = ticks;
+    if (is_requested) m_in_progress = CheckpointMark{ticks, std::move(players), 0};
   }
   /// Call when records() has the tick's result. Returns true if a copy was made after it.
   bool endTick() {
-    if (!m_under_way) return false;
-    m_under_way->records = m_records.size();
-    m_marks.push_back(*std::exchange(m_under_way, std::nullopt));
-    if (m_marks.size() > kMost) m_marks.pop_front();
-    if (!m_has_beginning) forgetBeginning();
+    if (!m_in_progress) return false;
+    m_in_progress->records = m_records.size();
+    m_marks.push_back(*std::exchange(m_in_progress, std::nullopt));
+    if (m_marks.size() > kMaxMarks) m_marks.pop_front();
+    if (!m_has_beginning) dropOldRecords();
     return true;
   }
   /// Returns the mark of the copy after `ticks` ticks, which takes over. Removes its mark and newer ones.
-  std::optional<CopyMark> takeCopy(std::uint32_t ticks) {
+  std::optional<CheckpointMark> popCheckpoint(std::uint32_t ticks) {
     // The next copy is due soon, because one fewer is left.
-    m_under_way.reset();
-    m_asked = 0;
+    m_in_progress.reset();
+    m_requested_tick = 0;
     while (!m_marks.empty() && m_marks.back().ticks > ticks) m_marks.pop_back();
     if (m_marks.empty() || m_marks.back().ticks != ticks) return std::nullopt;
-    CopyMark mark = std::move(m_marks.back());
+    CheckpointMark mark = std::move(m_marks.back());
     m_marks.pop_back();
     return mark;
   }
   /// Removes all marks.
-  void dropCopies() {
+  void dropCheckpoints() {
     m_marks.clear();
-    m_under_way.reset();
-    m_asked = 0;
+    m_in_progress.reset();
+    m_requested_tick = 0;
     m_cpu_time = {};
   }
 
  private:
   bool isDueNow(std::uint32_t ticks, std::chrono::nanoseconds cpu_time) {
-    const bool is_due = m_asked == 0 || ticks - m_asked >= kTicks || cpu_time - m_cpu_time >= kLongest;
+    const bool is_due = m_requested_tick == 0 || ticks - m_requested_tick >= kCheckpointInterval ||
+                        cpu_time - m_cpu_time >= kMaxReplayTime;
     if (is_due) m_cpu_time = cpu_time;
     return is_due;
   }
-  bool forgetBeginning() {
+  bool dropOldRecords() {
     const std::size_t forgotten = m_marks.empty() ? 0 : m_marks.front().records;
     if (forgotten == 0) return false;
-    for (CopyMark& mark : m_marks) mark.records -= forgotten;
+    for (CheckpointMark& mark : m_marks) mark.records -= forgotten;
     m_records.erase(0, forgotten);
     m_has_beginning = false;
     return true;
   }
 
-  static constexpr std::size_t kMost = 8;  ///< maximum marks; a world keeps fewer copies
+  static constexpr std::size_t kMaxMarks = 8;  ///< maximum marks; a world keeps fewer copies
 
   std::string m_records;
   bool m_has_beginning = true;
-  std::deque<CopyMark> m_marks;            ///< newest last
-  std::optional<CopyMark> m_under_way;     ///< the copy of the tick that has begun
-  std::uint32_t m_asked = 0;               ///< tick of the newest order; 0: none
-  std::chrono::nanoseconds m_cpu_time{0};  ///< at that order
+  std::deque<CheckpointMark> m_marks;           ///< newest last
+  std::optional<CheckpointMark> m_in_progress;  ///< the copy of the tick that has begun
+  std::uint32_t m_requested_tick = 0;           ///< tick of the newest order; 0: none
+  std::chrono::nanoseconds m_cpu_time{0};       ///< at that order
 };
 
-static_assert(RoundHistory::kTicks % RoundHistory::kFewestTicks == 0, "isCopyDue() looks every kFewestTicks");
+static_assert(RoundHistory::kCheckpointInterval % RoundHistory::kMinCheckpointInterval == 0,
+              "isCheckpointDue() looks every kMinCheckpointInterval");
 
 }  // namespace naiad

@@ -4,7 +4,7 @@
 
 namespace naiad {
 
-RoundRecovery::RoundRecovery(std::shared_ptr<const OpenRound> round) : m_round(std::move(round)) {
+RoundRecovery::RoundRecovery(std::shared_ptr<const UnfinishedRound> round) : m_round(std::move(round)) {
   m_records.add(m_round->records());
   m_writer.repeatFlags();  // a copy of a world has seen other turns before
 }
@@ -17,7 +17,8 @@ int RoundRecovery::percent() const {
 std::optional<TurnRecord> RoundRecovery::nextRecord() {
   if (m_ahead) return std::exchange(m_ahead, std::nullopt);
   while (auto record = m_records.next()) {
-    if (!std::holds_alternative<RecordedPicture>(*record) && !std::holds_alternative<KeptSession>(*record))
+    if (!std::holds_alternative<RecordedPicture>(*record) &&
+        !std::holds_alternative<PersistedSession>(*record))
       return record;
   }
   return std::nullopt;
@@ -68,12 +69,12 @@ WorldTurn RoundRecovery::closingTurn() const {
   WorldTurn turn;
   turn.inputs = m_round->closingInputs();
   turn.checked = true;
-  turn.heard_player = m_round->lastTurn().heard_player;
+  turn.input_player = m_round->lastTurn().input_player;
   return turn;
 }
 
-std::vector<KeptSession> RoundRecovery::sessions() const {
-  std::vector<KeptSession> sessions;
+std::vector<PersistedSession> RoundRecovery::sessions() const {
+  std::vector<PersistedSession> sessions;
   for (const auto& [player, session] : m_round->sessions()) sessions.push_back(session);
   return sessions;
 }

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "host/journal/OpenRound.h"
+#include "host/journal/UnfinishedRound.h"
 #include "host/world/TurnRecord.h"
 
 namespace naiad {
 
 class RoundRecovery {
  public:
-  explicit RoundRecovery(std::shared_ptr<const OpenRound> round);
+  explicit RoundRecovery(std::shared_ptr<const UnfinishedRound> round);
 
   /// True at the last turn, or after it, if the file lacks its result and all earlier results matched.
   bool isAtUnknownResult() const {
@@ -25,7 +25,7 @@ class RoundRecovery {
   /// True if the world has answered all turns.
   bool isAtEnd() const { return m_turns == m_round->turns(); }
 
-  const OpenRound& round() const { return *m_round; }
+  const UnfinishedRound& round() const { return *m_round; }
   /// Returns the progress in percent.
   int percent() const;
 
@@ -41,18 +41,18 @@ class RoundRecovery {
   /// Returns the number of turns that the world has answered.
   std::uint32_t turns() const { return m_turns; }
 
-  /// Returns the turn after all of the file (OpenRound::closingInputs). It is not watched, so that the next
-  /// watched turn reports every Object as changed.
+  /// Returns the turn after all of the file (UnfinishedRound::closingInputs). It is not watched, so that the
+  /// next watched turn reports every Object as changed.
   WorldTurn closingTurn() const;
   /// Returns the sessions of players that may reconnect.
-  std::vector<KeptSession> sessions() const;
+  std::vector<PersistedSession> sessions() const;
 
  private:
   static std::string findDifference(const TickResult& result, const WorldAnswer& answer);
   /// Returns the next record that belongs to a turn.
   std::optional<TurnRecord> nextRecord();
 
-  std::shared_ptr<const OpenRound> m_round;
+  std::shared_ptr<const UnfinishedRound> m_round;
   TurnRecordReader m_records;
   TurnRecordWriter m_writer;          ///< encodes turns for the world; no other records are sent to it
   std::optional<TurnRecord> m_ahead;  ///< read while looking for a result

@@ -35,7 +35,7 @@ std::optional<DfrHeader> headerOf(const fs::path& path) {
 }
 
 /// Appends the missing records. Returns the bytes added; nullopt if the file could not be written.
-std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) {
+std::optional<std::size_t> complete(const fs::path& path, const OrphanedRing& ring) {
   const std::string bytes = readFile(path);
   DfrReader reader(bytes);
   reader.skipToEnd();
@@ -47,7 +47,7 @@ std::optional<std::size_t> complete(const fs::path& path, const LeftRing& ring) 
   fs::resize_file(path, reader.wholeBytes(), error);
   if (error) return std::nullopt;
   std::ofstream file(path, std::ios::binary | std::ios::app);
-  file << spellDfrTurns(*rest, reader.streamBytes());
+  file << encodeDfrTurns(*rest, reader.streamBytes());
   file.close();
   fs::last_write_time(path, written_at, error);  // keep the round's time
   return file.good() ? std::optional(rest->size()) : std::nullopt;
@@ -61,7 +61,7 @@ bool isNameOfRound(const std::string& name) {
 
 /// Creates the files of servers that were killed before they could. Existing rounds are left alone.
 void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
-  for (const LeftRing& ring : LeftRing::findWithoutFile(ringFolder(folder), rounds)) {
+  for (const OrphanedRing& ring : OrphanedRing::findWithoutFile(ringFolder(folder), rounds)) {
     const auto beginning = ring.beginning();
     if (!beginning || !isNameOfRound(beginning->name)) continue;
     const fs::path path = folder / beginning->name;
@@ -105,7 +105,7 @@ std::vector<std::string> salvageRounds(const std::string& folder, const std::set
     const auto header = headerOf(path);
     if (header) rounds.insert(uuidText(header->uuid));
     if (entry.file_size(ignored) > kMaxSalvaged) continue;
-    const auto ring = header ? LeftRing::find(header->uuid) : std::nullopt;
+    const auto ring = header ? OrphanedRing::find(header->uuid) : std::nullopt;
     if (!ring) continue;
     const auto added = complete(path, *ring);
     if (!added) continue;  // retried at the next start

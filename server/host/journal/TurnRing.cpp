@@ -49,9 +49,9 @@ std::string uuidText(const std::array<std::uint8_t, 16>& uuid) {
 }
 
 TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-                   std::uint64_t position, std::uint64_t folder, const FileBeginning& beginning)
+                   std::uint64_t position, std::uint64_t folder, const FilePrologue& beginning)
     : m_capacity(capacity),
-      m_beginning(beginning.name.empty() ? 0 : beginning.name.size() + 1 + beginning.bytes.size()) {
+      m_prologue_size(beginning.name.empty() ? 0 : beginning.name.size() + 1 + beginning.bytes.size()) {
   if (!shared || !mapShared(uuid)) {
     void* p_memory = mmap(nullptr, size(), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (p_memory == MAP_FAILED)
@@ -63,8 +63,8 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
   m_p_head->capacity = m_capacity;
   m_p_head->stored = position;
   m_p_head->released = position;
-  m_p_head->beginning = m_beginning;
-  if (m_beginning > 0) {
+  m_p_head->beginning = m_prologue_size;
+  if (m_prologue_size > 0) {
     char* p_end = std::copy(beginning.name.begin(), beginning.name.end(), bytes() + m_capacity);
     *p_end++ = '\0';
     std::copy(beginning.bytes.begin(), beginning.bytes.end(), p_end);
@@ -75,7 +75,7 @@ TurnRing::TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uui
 
 TurnRing::~TurnRing() {
   munmap(m_p_head, size());
-  if (!m_path.empty() && !m_left) unlink(m_path.c_str());
+  if (!m_path.empty() && !m_handed_over) unlink(m_path.c_str());
   if (m_file >= 0) close(m_file);
 }
 
@@ -127,12 +127,12 @@ std::size_t TurnRing::peek(std::string& out, std::size_t most) const {
   return count;
 }
 
-std::optional<LeftRing> LeftRing::find(const std::array<std::uint8_t, 16>& uuid) {
+std::optional<OrphanedRing> OrphanedRing::find(const std::array<std::uint8_t, 16>& uuid) {
   return open(ringPath(uuid));
 }
 
-std::optional<LeftRing> LeftRing::open(std::string path) {
-  LeftRing ring;
+std::optional<OrphanedRing> OrphanedRing::open(std::string path) {
+  OrphanedRing ring;
   ring.m_path = std::move(path);
   const int file = ::open(ring.m_path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return std::nullopt;
@@ -149,7 +149,7 @@ std::optional<LeftRing> LeftRing::open(std::string path) {
   return good ? std::optional(std::move(ring)) : std::nullopt;
 }
 
-std::optional<FileBeginning> LeftRing::beginning() const {
+std::optional<FilePrologue> OrphanedRing::beginning() const {
   TurnRing::Head head{};
   std::memcpy(static_cast<void*>(&head), m_bytes.data(), sizeof head);
   if (head.released.load() != 0 || head.stored.load() == 0) return std::nullopt;
@@ -157,10 +157,10 @@ std::optional<FileBeginning> LeftRing::beginning() const {
       std::string_view(m_bytes).substr(sizeof head + static_cast<std::size_t>(head.capacity));
   const std::size_t zero = text.find('\0');
   if (zero == std::string_view::npos) return std::nullopt;
-  return FileBeginning{std::string(text.substr(0, zero)), std::string(text.substr(zero + 1))};
+  return FilePrologue{std::string(text.substr(0, zero)), std::string(text.substr(zero + 1))};
 }
 
-std::optional<std::string> LeftRing::bytesFrom(std::uint64_t position) const {
+std::optional<std::string> OrphanedRing::bytesFrom(std::uint64_t position) const {
   TurnRing::Head head{};
   std::memcpy(static_cast<void*>(&head), m_bytes.data(), sizeof head);
   const std::uint64_t stored = head.stored.load();
@@ -209,8 +209,9 @@ bool TurnRing::isRingOf(int file, std::uint64_t folder) {
          std::memcmp(p_head->magic, kRingMagic, sizeof p_head->magic) == 0 && p_head->folder == folder;
 }
 
-std::vector<LeftRing> LeftRing::findWithoutFile(std::uint64_t folder, const std::set<std::string>& known) {
-  std::vector<LeftRing> found;
+std::vector<OrphanedRing> OrphanedRing::findWithoutFile(std::uint64_t folder,
+                                                        const std::set<std::string>& known) {
+  std::vector<OrphanedRing> found;
   for (const std::string& path : ringsWithout(known)) {
     const int file = openRing(path);
     const bool is_of_folder = file >= 0 && TurnRing::isRingOf(file, folder);
@@ -233,7 +234,7 @@ std::size_t removeStrayRings(std::uint64_t folder, const std::set<std::string>& 
   return removed;
 }
 
-void LeftRing::remove() const {
+void OrphanedRing::remove() const {
   unlink(m_path.c_str());
 }
 

@@ -25,7 +25,7 @@
 namespace naiad {
 
 /// The beginning of a round's file.
-struct FileBeginning {
+struct FilePrologue {
   std::string name;   ///< name of the file, without its folder
   std::string bytes;  ///< header and facts
 };
@@ -37,8 +37,8 @@ class TurnRing {
   /// record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: that of a file that
   /// does not exist yet.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
-           std::uint64_t position = 0, std::uint64_t folder = 0, const FileBeginning& beginning = {});
-  /// Removes the shared memory, unless leave() was called.
+           std::uint64_t position = 0, std::uint64_t folder = 0, const FilePrologue& beginning = {});
+  /// Removes the shared memory, unless handOver() was called.
   ~TurnRing();
   TurnRing(const TurnRing&) = delete;
   TurnRing& operator=(const TurnRing&) = delete;
@@ -47,8 +47,8 @@ class TurnRing {
   /// Returns the path of the shared memory; empty if it is not shared.
   const std::string& path() const { return m_path; }
 
-  /// Leaves the shared memory to another process, which resumes the round from there (LeftRing).
-  void leave() { m_left = true; }
+  /// Leaves the shared memory to another process, which resumes the round from there (OrphanedRing).
+  void handOver() { m_handed_over = true; }
 
   /// Stores bytes. For one thread. Returns false, and stores none, if there is not enough space.
   bool store(std::string_view bytes);
@@ -77,33 +77,33 @@ class TurnRing {
   };
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
-  friend class LeftRing;
+  friend class OrphanedRing;
   bool mapShared(const std::array<std::uint8_t, 16>& uuid);
   char* bytes() const { return reinterpret_cast<char*>(m_p_head + 1); }
 
-  std::size_t size() const { return sizeof(Head) + m_capacity + m_beginning; }
+  std::size_t size() const { return sizeof(Head) + m_capacity + m_prologue_size; }
 
   std::size_t m_capacity;
-  std::size_t m_beginning;  ///< its size in bytes
+  std::size_t m_prologue_size;  ///< its size in bytes
   std::string m_path;
-  bool m_left = false;
+  bool m_handed_over = false;
   int m_file = -1;  ///< the shared memory, locked as long as this process lives
   Head* m_p_head = nullptr;
 };
 
 /// The ring of a killed process.
-class LeftRing {
+class OrphanedRing {
  public:
   /// Opens the ring of a round. Returns nullopt if there is none, it is malformed, or its process lives.
-  static std::optional<LeftRing> find(const std::array<std::uint8_t, 16>& uuid);
+  static std::optional<OrphanedRing> find(const std::array<std::uint8_t, 16>& uuid);
   /// Returns the rings of a folder whose rounds, by uuid, are not among `known`: their servers were killed
   /// before the file existed. Rings without a beginning() are omitted.
-  static std::vector<LeftRing> findWithoutFile(std::uint64_t folder, const std::set<std::string>& known);
-  LeftRing(LeftRing&&) = default;
-  LeftRing& operator=(LeftRing&&) = default;
+  static std::vector<OrphanedRing> findWithoutFile(std::uint64_t folder, const std::set<std::string>& known);
+  OrphanedRing(OrphanedRing&&) = default;
+  OrphanedRing& operator=(OrphanedRing&&) = default;
 
   /// Returns the beginning of the round's file; nullopt if the file existed, or if no turn was stored.
-  std::optional<FileBeginning> beginning() const;
+  std::optional<FilePrologue> beginning() const;
   /// Returns the bytes of the stream from this position on; nullopt if some of them were overwritten.
   std::optional<std::string> bytesFrom(std::uint64_t position) const;
   const std::string& path() const { return m_path; }
@@ -111,8 +111,8 @@ class LeftRing {
   void remove() const;
 
  private:
-  LeftRing() = default;
-  static std::optional<LeftRing> open(std::string path);
+  OrphanedRing() = default;
+  static std::optional<OrphanedRing> open(std::string path);
 
   std::string m_path;
   std::string m_bytes;  ///< the whole ring, including its head

@@ -37,9 +37,9 @@ constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::milliseconds kDrainStep{10};  ///< interval of checks for worlds that end
 constexpr double kFirstPlayerSeconds = 60;           ///< --exit-when-empty before the first player joins
 constexpr std::chrono::milliseconds kRestTime{400};  ///< between two ticks while no world ticks
-constexpr int kLongestFrameMillis = 1000;            ///< limit of --frame-time
+constexpr int kMaxFrameTimeMillis = 1000;            ///< limit of --frame-time
 constexpr int kExitHung = 1;                         ///< like a game that fails
-constexpr const char* kShuttingDown = "The server is shutting down.";  // like Ending's sentence
+constexpr const char* kShuttingDown = "The server is shutting down.";  // like ShutdownScheduler's sentence
 
 // Ends the process by the signal, with its default action, so the sender sees that it worked.
 void endBySignal(int signal) {
@@ -60,7 +60,7 @@ Host::Host(HostOptions options, std::string game, Log log)
       m_clients(std::make_unique<HostClients>(*m_context, *m_endpoint, [this] { flush(); })),
       m_controls(std::make_unique<HostControls>(*m_context, *m_endpoint, *m_clients)),
       m_empty_since(Clock::now()) {
-  surviveBrokenPipes();
+  ignoreBrokenPipes();
   for (const std::string& warning : m_context->options.warnings) m_context->log(LogEvent::warning(warning));
   m_parts = makeOperatorParts({*m_context, *m_endpoint, *m_clients, *m_controls});
 }
@@ -74,19 +74,19 @@ Host::~Host() {
 void Host::run(df::World& world) {
   beginGame(world);
   StopSignals signals;
-  SideLog side_log(m_context->log);
+  AsyncLog side_log(m_context->log);
   Watchdog watchdog(
       signals, [&side_log](const std::string& line) { side_log(line); },
-      [this, &side_log](const ForcedEnd& end) { endProcess(end, side_log); });
+      [this, &side_log](const ForcedExit& end) { endProcess(end, side_log); });
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
   const auto work = asio::make_work_guard(m_context->home);  // or run_until() would return at once
   m_endpoint->network().start();
   for (const auto& part : m_parts) part->begin();
   while (!isOver()) {
     serveUntil(schedule.deadline());
-    m_controls->heedSignals(signals);
+    m_controls->handleSignals(signals);
     if (isDue(schedule)) tick(watchdog);
-    if (rests()) schedule = rest();
+    if (isResting()) schedule = rest();
   }
   drain();
   endGame(world);
@@ -94,14 +94,14 @@ void Host::run(df::World& world) {
 
 // Runs on the watchdog's thread. The game may hold any lock of the process, including the log's. So nothing
 // is destroyed, and waiting for the log has a time limit.
-void Host::endProcess(const ForcedEnd& end, SideLog& log) {
+void Host::endProcess(const ForcedExit& end, AsyncLog& log) {
   log(end.hung ? "forced to exit: the game does not finish tick " + std::to_string(end.tick) +
                      crash::activity("handles")
                : std::string("stopped immediately by a second signal"));
   wire::ServerMessage message;
-  message.mutable_goodbye()->set_sentence(kShuttingDown);
-  m_endpoint->network().sendLast(message.SerializeAsString(), kDrainTime);
-  m_controls->announceForcedEnd(kDrainTime);
+  message.mutable_goodbye()->set_message(kShuttingDown);
+  m_endpoint->network().broadcastAndClose(message.SerializeAsString(), kDrainTime);
+  m_controls->reportForcedExit(kDrainTime);
   log.waitUntilLogged(kDrainTime);
   LineLog::waitUntilWritten(kDrainTime);
   if (!end.hung) endBySignal(end.signal);
@@ -111,7 +111,7 @@ void Host::endProcess(const ForcedEnd& end, SideLog& log) {
 void Host::beginGame(df::World& world) {
   m_p_world = &world;
   crash::setWorld(world);
-  adoptSettings(world);
+  applySettings(world);
   m_clients->admission().setWorld(world);
   m_clients->admission().reservePlayers(world.input().newestPlayer());
   m_clients->rooms().open(world);
@@ -126,11 +126,11 @@ void Host::endGame(df::World& world) {
 }
 
 // Applies the game's settings, unless an option overrides them.
-void Host::adoptSettings(df::World& world) {
+void Host::applySettings(df::World& world) {
   HostOptions& options = m_context->options;
   if (const df::WorldExtras* p_extras = world.findExtras()) {
     // The published engine uses 33 ms for 1/30 s.
-    const int millis = std::min(p_extras->settings.frame_time, kLongestFrameMillis);
+    const int millis = std::min(p_extras->settings.frame_time, kMaxFrameTimeMillis);
     if (options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT) options.frame_micros = millis * 1000;
   }
   world.input().setGameOverLeaves(options.on_game_over != "exit");
@@ -151,7 +151,7 @@ void Host::serveUntil(Clock::time_point deadline) {
   sweep();
 }
 
-bool Host::rests() const {
+bool Host::isResting() const {
   return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
 }
 
@@ -161,7 +161,7 @@ TickClock Host::rest() {
   const auto end = Clock::now() + std::min(kRestTime, heartbeat);
   do {
     m_context->home.restart();
-  } while (m_context->home.run_one_until(end) > 0 && rests());
+  } while (m_context->home.run_one_until(end) > 0 && isResting());
   return TickClock(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
 }
 
@@ -187,11 +187,11 @@ void Host::tick(Watchdog& watchdog) {
   m_clients->update(Clock::now());
   m_controls->update(m_tick_began);
   tickWorlds(watchdog);
-  stages.enter(Stage::kNews);
+  stages.enter(Stage::kBroadcasts);
   m_clients->sendPlayers();
   flush();
   for (const auto& part : m_parts) part->tick(m_tick_began);
-  stages.enter(Stage::kBetween);
+  stages.enter(Stage::kIdle);
   if (m_observer) m_observer(*m_p_world);
 }
 
@@ -199,9 +199,9 @@ void Host::tick(Watchdog& watchdog) {
 void Host::tickWorlds(Watchdog& watchdog) {
   const std::uint64_t number = m_p_world->picture().view().tick + 1;
   watchdog.beginTick(number);
-  crash::noteTick(number);
+  crash::setTick(number);
   m_clients->rooms().beginTicks();
-  crash::noteTick(0);
+  crash::setTick(0);
   watchdog.endTick();
 }
 
@@ -234,35 +234,35 @@ bool Host::isDeserted(Clock::time_point now) const {
 bool Host::isOver() const {
   const int ticks = m_context->options.ticks;
   const bool counted_out = ticks > 0 && m_context->counters.ticks >= static_cast<std::uint64_t>(ticks);
-  const Ending& ending = m_context->ending;
+  const ShutdownScheduler& scheduler = m_context->shutdown_scheduler;
   // A player whose connection broke may return, so they count as playing.
-  const bool is_due = ending.plan() && ending.isDue(Clock::now(), m_clients->sessions().playing() == 0);
+  const bool is_due = scheduler.plan() && scheduler.isDue(Clock::now(), m_clients->sessions().playing() == 0);
   return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(Clock::now());
 }
 
 // Players of a kept round just lose the connection, as if the server had been killed.
-void Host::sayGoodbye() {
-  if (m_controls->keepsRound()) return;
-  const Ending& ending = m_context->ending;
+void Host::sendGoodbyes() {
+  if (m_controls->handsOverRound()) return;
+  const ShutdownScheduler& scheduler = m_context->shutdown_scheduler;
   std::string sentence = m_clients->rooms().lastSentence();
-  if (sentence.empty() || ending.beginsAgain()) sentence = ending.sentence();
+  if (sentence.empty() || scheduler.isRestart()) sentence = scheduler.sentence();
   if (sentence.empty()) sentence = "The game is over.";
-  const auto again = ending.beginsAgain() ? Ending::kLookAgain : std::chrono::seconds(0);
-  m_clients->sessions().forEach([&](Session& session) { session.goodbye(sentence, again); });
+  const auto again = scheduler.isRestart() ? ShutdownScheduler::kReconnectWindow : std::chrono::seconds(0);
+  m_clients->sessions().forEach([&](Session& session) { session.sendGoodbye(sentence, again); });
 }
 
 void Host::drain() {
   NetworkThread& network = m_endpoint->network();
-  Rooms& rooms = m_clients->rooms();
+  RoomManager& rooms = m_clients->rooms();
   m_controls->beginDrain();
   for (const auto& part : m_parts) part->drain();
   network.closeListener();
-  sayGoodbye();
+  sendGoodbyes();
   rooms.closeWorlds();
   network.flush();
   const Clock::time_point end = Clock::now() + kDrainTime;
   const auto are_players_left = [this] {
-    return !m_controls->keepsRound() && !m_clients->sessions().isEmpty();
+    return !m_controls->handsOverRound() && !m_clients->sessions().isEmpty();
   };
   while ((are_players_left() || !rooms.isEmpty()) && Clock::now() < end) {
     m_context->home.restart();

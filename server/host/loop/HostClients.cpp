@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "host/admission/Places.h"
+#include "host/admission/CapacityLimits.h"
 #include "host/rooms/SessionTable.h"
-#include "host/session/Names.h"
+#include "host/session/NameSanitizer.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
 #include "shared/program/LogText.h"
@@ -29,7 +29,7 @@ HostClients::HostClients(HostContext& context, HostEndpoint& endpoint, std::func
       m_sessions(maxConnections(context.options), context.counters,
                  [this](Session& session) { m_rooms.removeSession(session); }),
       m_rooms(context, m_sessions, std::move(on_late_tick)),
-      m_admission({context, m_sessions, m_rooms, m_player_news, endpoint.prefixes(),
+      m_admission({context, m_sessions, m_rooms, m_player_list, endpoint.prefixes(),
                    [&endpoint](const auto& stream, AeadId aead) {
                      return endpoint.network().openDatagrams(stream, aead);
                    },
@@ -38,18 +38,18 @@ HostClients::HostClients(HostContext& context, HostEndpoint& endpoint, std::func
                      session.restore(welcome, sessionEvents());
                      return session;
                    }}),
-      m_room_moves(context, m_sessions, m_rooms, m_admission),
-      m_chat(PrefixRates::chat(context.options.max_per_address)) {
-  m_rooms.watchRounds([this](const Room& room) { m_admission.noteSessions(room); },
-                      [this](Room& room, const std::vector<KeptSession>& sessions) {
-                        m_admission.restoreSessions(room, sessions);
-                      });
-  m_rooms.watchSent(
-      [this](Session& session, const std::string& room) { m_room_moves.askByGame(session, room); });
-  m_rooms.watchClosed(
-      [this](const Room& room, const std::string& sentence) { m_room_moves.leadAway(room, sentence); });
-  shapesOf({});  // loads the tables now, not in the tick of the first join
-  makePlaces();
+      m_room_transfers(context, m_sessions, m_rooms, m_admission),
+      m_chat(RateLimits::chat(context.options.max_per_address)) {
+  m_rooms.setOnRound([this](const Room& room) { m_admission.recordSessions(room); },
+                     [this](Room& room, const std::vector<PersistedSession>& sessions) {
+                       m_admission.restoreSessions(room, sessions);
+                     });
+  m_rooms.setOnTransfer(
+      [this](Session& session, const std::string& room) { m_room_transfers.askByGame(session, room); });
+  m_rooms.setOnRoomClosed(
+      [this](const Room& room, const std::string& sentence) { m_room_transfers.evacuate(room, sentence); });
+  nameSkeletons({});  // loads the tables now, not in the tick of the first join
+  applyCapacityLimits();
 }
 
 void HostClients::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
@@ -57,29 +57,29 @@ void HostClients::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
   m_rooms.setWorlds(std::move(new_world));
 }
 
-void HostClients::setRooms(std::vector<RoomPlan> plans) {
-  for (const RoomPlan& plan : plans) m_admission.reservePlayers(plan.highest_player);
+void HostClients::setRooms(std::vector<RoomConfig> plans) {
+  for (const RoomConfig& plan : plans) m_admission.reservePlayers(plan.highest_player);
   m_rooms.setNamed(std::move(plans));
 }
 
-ServerFacts HostClients::facts() const {
+ServerInfo HostClients::facts() const {
   const HostOptions& options = m_context.options;
   return {.name = options.name,
           .game = m_context.game,
           .protocol = kProtocolVersion,
           .players = static_cast<std::uint32_t>(m_sessions.playing()),
           .max_players = static_cast<std::uint32_t>(options.max_players),
-          .asks_password = !options.password.empty()};
+          .requires_password = !options.password.empty()};
 }
 
 void HostClients::add(std::unique_ptr<ReliableChannel> channel) {
   m_sessions.add(std::move(channel), sessionEvents(), Clock::now());
 }
 
-void HostClients::makePlaces() {
-  m_sessions.setMost(maxConnections(m_context.options));
-  const std::size_t wanted = wantedFiles(m_context.options);
-  if (const std::size_t files = allowOpenFiles(wanted); files < wanted) {
+void HostClients::applyCapacityLimits() {
+  m_sessions.setMaxSessions(maxConnections(m_context.options));
+  const std::size_t wanted = requiredOpenFiles(m_context.options);
+  if (const std::size_t files = raiseOpenFileLimit(wanted); files < wanted) {
     m_context.log("the limit of open files is " + std::to_string(files) + " (ulimit -Hn): too few for " +
                   std::to_string(m_context.options.max_players) + " players and their reconnects");
   }
@@ -89,53 +89,53 @@ void HostClients::update(Clock::time_point now) {
   const std::chrono::seconds idle_limit(m_context.options.inactive_kick);
   m_sessions.forEach([&](Session& session) {
     session.checkDeadlines(now);
-    if (session.takeProof()) m_admission.confirmToken(session);
+    if (session.popWelcomeConfirmed()) m_admission.confirmToken(session);
     m_inactivity.check(session, idle_limit, m_context.counters, sendServerLine);
   });
   m_context.client_log.update(now);
   m_rooms.checkWorlds();
-  m_admission.judgeWaiting();
-  m_room_moves.update();
+  m_admission.evaluateWaiting();
+  m_room_transfers.update();
 }
 
 void HostClients::sendPlayers() {
   if (m_sessions.playing() == 0) return;
-  m_player_news.tick(
+  m_player_list.tick(
       static_cast<std::uint32_t>(m_context.counters.ticks), m_rooms.players(),
       [this](std::uint32_t player) {
         const Session* p_session = m_rooms.findPlayer(player);
         return p_session != nullptr ? p_session->rttMillis() : 0;
       },
       [this](std::uint32_t player, const wire::ServerMessage& message) {
-        if (Session* p_session = m_rooms.findPlayer(player)) p_session->sendKept(message);
+        if (Session* p_session = m_rooms.findPlayer(player)) p_session->sendReliable(message);
       });
 }
 
-void HostClients::say(const std::string& text) {
+void HostClients::broadcast(const std::string& text) {
   m_sessions.forEachPlaying([&text](Session& session) { sendServerLine(session, text); });
 }
 
 Session::Events HostClients::sessionEvents() {
-  return {[this](Session& session, const wire::Hello& hello) { m_admission.judgeHello(session, hello); },
-          [this](Session& session, const std::string& text) { takeChat(session, text); },
+  return {[this](Session& session, const wire::Hello& hello) { m_admission.evaluateHello(session, hello); },
+          [this](Session& session, const std::string& text) { handleChat(session, text); },
           [this](Session& session) { endSession(session); },
           [this] { return m_endpoint.network().now(); },
           [this](Session& session, const std::string& sentence) {
             m_context.client_log.logRefusal(session.address(), sentence, session.now());
           },
-          [this](Session& session) { m_room_moves.sendList(session); },
-          [this](Session& session, const std::string& room) { m_room_moves.ask(session, room); }};
+          [this](Session& session) { m_room_transfers.sendList(session); },
+          [this](Session& session, const std::string& room) { m_room_transfers.ask(session, room); }};
 }
 
 // Commands go only to the server, even if they fail.
-void HostClients::takeChat(Session& session, const std::string& text) {
+void HostClients::handleChat(Session& session, const std::string& text) {
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
-  if (!m_chat.take(prefix, session.now())) {
+  if (!m_chat.tryConsume(prefix, session.now())) {
     ++m_context.counters.chat_dropped;
   } else if (isCommand(text)) {
     m_serve_command ? m_serve_command(session, text)
                     : sendServerLine(session, "This server has no commands.");
-  } else if (session.standing().isMuted()) {
+  } else if (session.status().isMuted()) {
     ++m_context.counters.chat_muted;
     sendServerLine(session, "You are muted: other players do not see your lines.");
   } else {
@@ -146,16 +146,16 @@ void HostClients::takeChat(Session& session, const std::string& text) {
 void HostClients::sendChat(const Session& session, const std::string& text) {
   m_context.feed.publish("chat", inQuotes(session.name()) + ": " + text);
   if (m_context.options.log_chat) {
-    m_context.client_log.logNews(session.address(),
-                                 {"chat",
-                                  inQuotes(session.name()) + " says " + inQuotes(text),
-                                  {{"player", session.name()}, {"line", text}}},
-                                 session.now());
+    m_context.client_log.logClientEvent(session.address(),
+                                        {"chat",
+                                         inQuotes(session.name()) + " says " + inQuotes(text),
+                                         {{"player", session.name()}, {"line", text}}},
+                                        session.now());
   }
   wire::ServerMessage message;
   message.mutable_chat()->set_player(session.player());
   message.mutable_chat()->set_text(text);
-  m_sessions.forEachPlaying([&](Session& other) { other.sendKept(message); });
+  m_sessions.forEachPlaying([&](Session& other) { other.sendReliable(message); });
 }
 
 void HostClients::endSession(Session& session) {
@@ -163,9 +163,9 @@ void HostClients::endSession(Session& session) {
   m_inactivity.forget(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
-  m_context.client_log.logNews(session.address(),
-                               {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
-                               session.now());
+  m_context.client_log.logClientEvent(
+      session.address(), {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
+      session.now());
 }
 
 }  // namespace naiad

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "host/admission/Admission.h"
-#include "host/admission/RoomMoves.h"
+#include "host/admission/RoomTransfers.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/rooms/HostContext.h"
-#include "host/rooms/PlayerNews.h"
-#include "host/rooms/Rooms.h"
+#include "host/rooms/PlayerListBroadcaster.h"
+#include "host/rooms/RoomManager.h"
 #include "host/rooms/SessionTable.h"
 #include "host/session/Counters.h"
 #include "host/session/Session.h"
 #include "shared/admin/TimeSpan.h"
-#include "shared/fleet/ServerFacts.h"
-#include "shared/net/base/PrefixAllowance.h"
+#include "shared/fleet/ServerInfo.h"
+#include "shared/net/base/PrefixRateLimiter.h"
 
 namespace naiad {
 
@@ -36,7 +36,7 @@ class InactivityCheck {
   void check(Session& session, std::chrono::seconds limit, Counters& counters,
              const std::function<void(Session&, const std::string& line)>& tell) {
     if (limit.count() <= 0 || session.state() != Session::State::kPlaying || session.isDetached()) return;
-    const auto idle = session.now() - session.standing().acted();
+    const auto idle = session.now() - session.status().lastActivity();
     const std::chrono::duration<double> warned_at =
         std::max<std::chrono::duration<double>>(limit - kWarning, limit / 2.0);
     if (idle < warned_at) {
@@ -44,7 +44,7 @@ class InactivityCheck {
     } else if (idle >= limit) {
       m_warned.erase(session.id());
       ++counters.inactive;
-      session.goodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
+      session.sendGoodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
     } else if (m_warned.insert(session.id()).second) {
       tell(session, "Press a key, or you will be disconnected.");
     }
@@ -61,14 +61,14 @@ class HostClients {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `context` and `endpoint` must outlive this. `on_late_tick` is passed to Rooms. Throws PasswordError, or
-  /// std::runtime_error for a truth file that cannot be written.
+  /// `context` and `endpoint` must outlive this. `on_late_tick` is passed to RoomManager. Throws
+  /// PasswordError, or std::runtime_error for a truth file that cannot be written.
   HostClients(HostContext& context, HostEndpoint& endpoint, std::function<void()> on_late_tick);
 
   SessionTable& sessions() { return m_sessions; }
   const SessionTable& sessions() const { return m_sessions; }
-  Rooms& rooms() { return m_rooms; }
-  const Rooms& rooms() const { return m_rooms; }
+  RoomManager& rooms() { return m_rooms; }
+  const RoomManager& rooms() const { return m_rooms; }
   Admission& admission() { return m_admission; }
 
   /// Plays in these worlds instead of the one of Host::run(): one after the other, or one per player
@@ -76,7 +76,7 @@ class HostClients {
   /// ids above `highest_player`, because the first world may have used these. Call before run().
   void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
   /// Plays in these rooms instead; players start in the first. Call before run().
-  void setRooms(std::vector<RoomPlan> plans);
+  void setRooms(std::vector<RoomConfig> plans);
 
   /// Sets the handler of chat commands: lines that begin with "/". They are never sent to other players.
   void setCommands(std::function<void(Session& session, const std::string& line)> serve_command) {
@@ -84,33 +84,33 @@ class HostClients {
   }
 
   /// Returns the facts that server lists show.
-  ServerFacts facts() const;
+  ServerInfo facts() const;
 
   /// Call for each accepted connection.
   void add(std::unique_ptr<ReliableChannel> channel);
   /// Applies the player limit of the options in force. Logs a warning if too few files may be open for it.
-  void makePlaces();
+  void applyCapacityLimits();
   /// Call once a tick, before worlds tick: deadlines, waiting hellos, and moves between rooms.
   void update(Clock::time_point now);
   /// Call once a tick, after worlds tick: sends the list of players of all rooms.
   void sendPlayers();
   /// Sends a line from the server to all players.
-  void say(const std::string& text);
+  void broadcast(const std::string& text);
 
  private:
   Session::Events sessionEvents();
-  void takeChat(Session& session, const std::string& text);
+  void handleChat(Session& session, const std::string& text);
   void sendChat(const Session& session, const std::string& text);
   void endSession(Session& session);
 
   HostContext& m_context;
   HostEndpoint& m_endpoint;
   SessionTable m_sessions;
-  Rooms m_rooms;
-  PlayerNews m_player_news;
+  RoomManager m_rooms;
+  PlayerListBroadcaster m_player_list;
   Admission m_admission;
-  RoomMoves m_room_moves;
-  PrefixAllowance m_chat;
+  RoomTransfers m_room_transfers;
+  PrefixRateLimiter m_chat;
   InactivityCheck m_inactivity;
   std::function<void(Session&, const std::string&)> m_serve_command;  ///< null without commands
 };

@@ -16,8 +16,8 @@ namespace naiad {
 
 namespace {
 
-Reloaded readAgain(const Reload::ReadOptions& read, const HostOptions& now) {
-  Reloaded reloaded;
+ReloadResult readAgain(const Reload::ReadOptions& read, const HostOptions& now) {
+  ReloadResult reloaded;
   try {
     reloaded.options = read();
     const HostOptions& next = reloaded.options;
@@ -31,7 +31,7 @@ Reloaded readAgain(const Reload::ReadOptions& read, const HostOptions& now) {
   return reloaded;
 }
 
-const std::string kCannotBeKept = "Cannot keep the round: ";
+const std::string kCannotHandOver = "Cannot keep the round: ";
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Reload::~Reload() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-bool Reload::begin(const HostOptions& now, std::function<void(Reloaded)> done) {
+bool Reload::begin(const HostOptions& now, std::function<void(ReloadResult)> done) {
   if (m_reading.exchange(true)) return false;
   if (m_thread.joinable()) m_thread.join();
   m_thread = std::thread([this, now, done = std::move(done)] {
@@ -49,40 +49,41 @@ bool Reload::begin(const HostOptions& now, std::function<void(Reloaded)> done) {
   return true;
 }
 
-void HostControls::end(Ending::Plan plan) {
-  Rooms& rooms = m_clients.rooms();
+void HostControls::end(ShutdownScheduler::Plan plan) {
+  RoomManager& rooms = m_clients.rooms();
   if (plan.at_round_end && (rooms.isPrivate() || rooms.isNamed()))
     plan.at_round_end = !(plan.when_empty = true);
   rooms.setLastRound(plan.at_round_end);
-  m_keeps_round = false;
-  m_context.ending.setPlan(std::move(plan), Clock::now());
+  m_hands_over_round = false;
+  m_context.shutdown_scheduler.setPlan(std::move(plan), Clock::now());
 }
 
 void HostControls::endWhenEmpty(double seconds) {
-  const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  end({.at = Clock::now() + patience, .when_empty = true});
+  const auto timeout = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  end({.at = Clock::now() + timeout, .when_empty = true});
 }
 
 bool HostControls::cancelEnd() {
   m_clients.rooms().setLastRound(false);
   m_clients.rooms().forgetUpgrade();
-  m_keeps_round = false;
-  return m_context.ending.cancel();
+  m_hands_over_round = false;
+  return m_context.shutdown_scheduler.cancel();
 }
 
 void HostControls::update(Clock::time_point now) {
-  if (const auto news = m_context.ending.takeNews(now)) m_clients.say(*news);
-  heedUpgrade(now);
+  if (const auto news = m_context.shutdown_scheduler.popNotice(now)) m_clients.broadcast(*news);
+  restartForUpgrade(now);
 }
 
 // Present worlds continue; the next ones need a server of their own build.
-void HostControls::heedUpgrade(Clock::time_point now) {
-  const auto news = m_clients.rooms().takeUpgrade();
+void HostControls::restartForUpgrade(Clock::time_point now) {
+  const auto news = m_clients.rooms().popUpgradeMessage();
   if (!news) return;
   const bool waits = m_clients.rooms().isPrivate();
   m_context.log(LogEvent::warning(
       *news + (waits ? "; the server restarts when all players have left" : "; the server restarts now")));
-  Ending::Plan plan = m_context.ending.plan().value_or(Ending::Plan{.begins_again = true});
+  ShutdownScheduler::Plan plan =
+      m_context.shutdown_scheduler.plan().value_or(ShutdownScheduler::Plan{.is_restart = true});
   if (waits) {
     plan.when_empty = true;
   } else {
@@ -91,13 +92,13 @@ void HostControls::heedUpgrade(Clock::time_point now) {
   end(std::move(plan));
 }
 
-void HostControls::heedSignals(StopSignals& signals) {
-  if (signals.count() > std::exchange(m_heeded_signals, signals.count())) {
+void HostControls::handleSignals(StopSignals& signals) {
+  if (signals.count() > std::exchange(m_handled_signals, signals.count())) {
     const double drain_time = signals.signal() == SIGTERM ? m_context.options.drain_time : 0;
     endWhenEmpty(drain_time);
     if (drain_time > 0) m_context.log("SIGTERM: no new players; stopping when all players have left");
   }
-  if (!signals.takeHangUp()) return;
+  if (!signals.popHangup()) return;
   LineLog::reopenAll();
   m_context.log("SIGHUP: log reopened (the server has no terminal, so it keeps running)");
   if (!m_reload) return;
@@ -112,61 +113,61 @@ void HostControls::heedSignals(StopSignals& signals) {
 
 void HostControls::reload(Done done) {
   if (!m_reload) return done(false, "this server cannot reload its options");
-  const bool began = m_reload->begin(m_context.options, [this, done](Reloaded reloaded) {
-    asio::post(m_context.home, [this, done, reloaded = std::make_shared<Reloaded>(std::move(reloaded))] {
-      adoptReloaded(std::move(*reloaded), done);
+  const bool began = m_reload->begin(m_context.options, [this, done](ReloadResult reloaded) {
+    asio::post(m_context.home, [this, done, reloaded = std::make_shared<ReloadResult>(std::move(reloaded))] {
+      applyReloaded(std::move(*reloaded), done);
     });
   });
   if (!began) done(false, "a reload is already in progress");
 }
 
-void HostControls::adoptReloaded(Reloaded reloaded, const Done& done) {
+void HostControls::applyReloaded(ReloadResult reloaded, const Done& done) {
   if (!reloaded.problem.empty()) return done(false, "the options were not changed: " + reloaded.problem);
   if (reloaded.options.password != m_context.options.password)
     m_clients.admission().changePassword(std::move(reloaded.password));
-  const OptionChanges changes = adopt(reloaded.options);
+  const OptionChanges changes = applyOptions(reloaded.options);
   if (reloaded.identity) m_endpoint.setIdentity(*std::move(reloaded.identity));
   done(true, "options reloaded: " + changes.text());
 }
 
-OptionChanges HostControls::adopt(const HostOptions& options) {
-  OptionChanges changes = takeOver(options, m_context.options);
-  m_clients.makePlaces();
+OptionChanges HostControls::applyOptions(const HostOptions& options) {
+  OptionChanges changes = applyReloadable(options, m_context.options);
+  m_clients.applyCapacityLimits();
   return changes;
 }
 
 // ---- the round --------------------------------------------------------------------------------------------
 
-// A round in recovery cannot be kept: its file counts servers that ended in a recovery (Journals.h).
-std::string HostControls::whyNotKept() const {
+// A round in recovery cannot be kept: its file counts servers that ended in a recovery (RoundJournals.h).
+std::string HostControls::handoverBlocker() const {
   return m_clients.rooms().recovering() ? "it is still being recovered" : "";
 }
 
-void HostControls::keepRound(Done done) {
+void HostControls::handOverRound(Done done) {
   if (m_p_handover == nullptr)
     return done(false, "Cannot keep the round: this requires dfserver with --journal");
-  std::string why_not = m_p_handover->refusal();
-  if (why_not.empty()) why_not = whyNotKept();
-  if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
+  std::string why_not = m_p_handover->blocker();
+  if (why_not.empty()) why_not = handoverBlocker();
+  if (!why_not.empty()) return done(false, kCannotHandOver + why_not);
   m_context.log("replaying the round in the installed program while the game continues");
-  m_p_handover->prove([this, done = std::move(done)](const RoundHandover::Result& result) {
+  m_p_handover->verify([this, done = std::move(done)](const RoundHandover::Result& result) {
     asio::post(m_context.home, [this, done, result] {
-      if (!result.starts) return done(false, kCannotBeKept + result.problem);  // nor could it start later
-      finishProof(result.problem, done);
+      if (!result.starts) return done(false, kCannotHandOver + result.problem);  // nor could it start later
+      finishVerification(result.problem, done);
     });
   });
 }
 
-void HostControls::finishProof(const std::string& problem, const Done& done) {
+void HostControls::finishVerification(const std::string& problem, const Done& done) {
   if (m_is_draining) return done(false, "The server is shutting down");
   if (!problem.empty()) return endWithoutRound(problem, done);
-  std::string why_not = m_p_handover->changeSinceProof();
-  if (why_not.empty()) why_not = whyNotKept();
-  if (!why_not.empty()) return done(false, kCannotBeKept + why_not);
+  std::string why_not = m_p_handover->changeSinceVerification();
+  if (why_not.empty()) why_not = handoverBlocker();
+  if (!why_not.empty()) return done(false, kCannotHandOver + why_not);
   const std::string text = "The round resumes in the installed program";
   m_context.log("restart: " + text);
-  end({.begins_again = true, .at = Clock::time_point()});
-  m_keeps_round = true;
+  end({.is_restart = true, .at = Clock::time_point()});
+  m_hands_over_round = true;
   done(true, text);
 }
 
@@ -174,17 +175,17 @@ void HostControls::finishProof(const std::string& problem, const Done& done) {
 void HostControls::endWithoutRound(const std::string& problem, const Done& done) {
   const std::string text = "Cannot move the round to the installed program: " + problem;
   m_context.log(LogEvent::warning("restart: " + text + "; the server restarts when all players have left"));
-  end({.begins_again = true, .when_empty = true});
+  end({.is_restart = true, .when_empty = true});
   done(false, text + ". The server restarts when all players have left (unless \"cancel\" is given)");
 }
 
-bool HostControls::keepsRound() const {
-  return m_keeps_round && m_context.ending.beginsAgain();
+bool HostControls::handsOverRound() const {
+  return m_hands_over_round && m_context.shutdown_scheduler.isRestart();
 }
 
 void HostControls::beginDrain() {
   m_is_draining = true;
-  if (keepsRound()) m_p_handover->leaveOpen(m_endpoint.port());
+  if (handsOverRound()) m_p_handover->suspend(m_endpoint.port());
 }
 
 }  // namespace naiad

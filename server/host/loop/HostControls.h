@@ -11,7 +11,7 @@
 
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
-#include "host/process/Ending.h"
+#include "host/process/ShutdownScheduler.h"
 #include "host/process/StopSignals.h"
 #include "host/settings/HostOptions.h"
 
@@ -23,7 +23,7 @@ class HostEndpoint;
 class RoundHandover;
 
 /// Reloaded options, and what is slow to compute from them.
-struct Reloaded {
+struct ReloadResult {
   std::string problem;  ///< why they cannot be used; empty if they can
   HostOptions options;
   std::optional<PasswordHash> password;    ///< hash of a changed password
@@ -42,7 +42,7 @@ class Reload {
 
   /// Starts a reload from `now`, the options in force. Calls `done` once, on the reload thread. False if a
   /// reload is already running.
-  bool begin(const HostOptions& now, std::function<void(Reloaded)> done);
+  bool begin(const HostOptions& now, std::function<void(ReloadResult)> done);
 
  private:
   ReadOptions m_read;
@@ -63,7 +63,7 @@ class HostControls {
       : m_context(context), m_endpoint(endpoint), m_clients(clients) {}
 
   /// Plans the end of Host::run(). With private worlds or named rooms, at_round_end means when all have left.
-  void end(Ending::Plan plan);
+  void end(ShutdownScheduler::Plan plan);
   /// Plans the end when no players are left, or after this many seconds.
   void endWhenEmpty(double seconds);
   /// Cancels a planned end. False if none was planned.
@@ -72,43 +72,43 @@ class HostControls {
   void update(Clock::time_point now);
   /// Reacts to signals. The first SIGTERM gives players drain_time to finish; a second signal ends everything
   /// at once (Watchdog.h). SIGHUP without a terminal reloads the options.
-  void heedSignals(StopSignals& signals);
+  void handleSignals(StopSignals& signals);
 
   void setReload(Reload::ReadOptions read) { m_reload.emplace(std::move(read)); }
   /// Reads the options again and applies those that may change while the server runs. Reading and password
   /// hashing run on another thread. If the options are invalid or need a restart, the present values stay.
   void reload(Done done);
   /// Sets a function called when SIGHUP starts a reload (`is_done` false) and when it has finished (true).
-  void watchReloads(std::function<void(bool is_done, Clock::time_point now)> on_reload) {
+  void setOnReload(std::function<void(bool is_done, Clock::time_point now)> on_reload) {
     m_on_reload = std::move(on_reload);
   }
   /// Sets a function called before the process ends without the hung game. It runs on the watchdog's thread
-  /// and may block for `patience`. Call before Host::run().
-  void watchForcedEnd(std::function<void(std::chrono::milliseconds patience)> on_forced_end) {
-    m_on_forced_end = std::move(on_forced_end);
+  /// and may block for `timeout`. Call before Host::run().
+  void setOnForcedExit(std::function<void(std::chrono::milliseconds timeout)> on_forced_exit) {
+    m_on_forced_exit = std::move(on_forced_exit);
   }
-  void announceForcedEnd(std::chrono::milliseconds patience) const {
-    if (m_on_forced_end) m_on_forced_end(patience);
+  void reportForcedExit(std::chrono::milliseconds timeout) const {
+    if (m_on_forced_exit) m_on_forced_exit(timeout);
   }
-  /// Applies the changed options that may change while the server runs: takeOver() (HostOptions.h).
-  OptionChanges adopt(const HostOptions& options);
+  /// Applies the changed options that may change while the server runs: applyReloadable() (HostOptions.h).
+  OptionChanges applyOptions(const HostOptions& options);
 
-  /// Sets the object that keepRound() uses; it must outlive this.
+  /// Sets the object that handOverRound() uses; it must outlive this.
   void setHandover(RoundHandover& handover) { m_p_handover = &handover; }
   /// Restarts in the installed program, which continues the present round. `done` is called after a trial
   /// replay of the round. If the program cannot continue the round, the server restarts when all have left.
   /// If the trial cannot start, nothing changes.
-  void keepRound(Done done);
+  void handOverRound(Done done);
   /// True if Host::run() has ended, or is about to, so that another program continues the round.
-  bool keepsRound() const;
+  bool handsOverRound() const;
   /// Call after the last tick. Ignores a trial replay that still runs; stops writing a round that is kept.
   void beginDrain();
 
  private:
-  void heedUpgrade(Clock::time_point now);
-  void adoptReloaded(Reloaded reloaded, const Done& done);
-  std::string whyNotKept() const;
-  void finishProof(const std::string& problem, const Done& done);
+  void restartForUpgrade(Clock::time_point now);
+  void applyReloaded(ReloadResult reloaded, const Done& done);
+  std::string handoverBlocker() const;
+  void finishVerification(const std::string& problem, const Done& done);
   void endWithoutRound(const std::string& problem, const Done& done);
 
   HostContext& m_context;
@@ -116,11 +116,11 @@ class HostControls {
   HostClients& m_clients;
   std::optional<Reload> m_reload;
   std::function<void(bool, Clock::time_point)> m_on_reload;
-  std::function<void(std::chrono::milliseconds)> m_on_forced_end;
+  std::function<void(std::chrono::milliseconds)> m_on_forced_exit;
   RoundHandover* m_p_handover = nullptr;  ///< null: rounds cannot be kept
-  bool m_keeps_round = false;
+  bool m_hands_over_round = false;
   bool m_is_draining = false;
-  int m_heeded_signals = 0;
+  int m_handled_signals = 0;
 };
 
 }  // namespace naiad

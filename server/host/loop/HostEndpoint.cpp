@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "host/admission/Places.h"
+#include "host/admission/CapacityLimits.h"
 #include "host/world/Descendants.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/ByteStream.h"
@@ -49,9 +49,9 @@ std::optional<ServerIdentity> identityOf(const HostOptions& options) {
 
 }  // namespace
 
-void StreamRefusalLog::note(const asio::ip::tcp::endpoint& peer, StreamRefusal why) {
+void StreamRefusalLog::record(const asio::ip::tcp::endpoint& peer, StreamRefusal why) {
   const auto now = std::chrono::steady_clock::now();
-  if (!m_allowance.takeToken(ClientLog::kRefusalsInAll, now)) return;
+  if (!m_limit.tryConsume(ClientLog::kTotalRefusalRate, now)) return;
   asio::post(m_home, [this, now, address = peerName(peer), sentence = sentenceOf(why)] {
     m_log.logRefusal(address, sentence, now);
   });
@@ -60,7 +60,7 @@ void StreamRefusalLog::note(const asio::ip::tcp::endpoint& peer, StreamRefusal w
 HostEndpoint::HostEndpoint(HostContext& context, TcpListener::OnChannel on_channel)
     : m_context(context),
       m_identity(identityOf(context.options)),
-      m_handshakes(PrefixRates::handshakes(context.options.max_per_address)),
+      m_handshakes(RateLimits::handshakes(context.options.max_per_address)),
       m_refusals(context.home, context.client_log),
       m_network(context.home, context.options.address, static_cast<std::uint16_t>(context.options.port),
                 std::move(on_channel), channelOptions(), listening(), NetworkThread::Limits(), visitors(),
@@ -68,31 +68,31 @@ HostEndpoint::HostEndpoint(HostContext& context, TcpListener::OnChannel on_chann
   if (m_identity && !m_identity->warning().empty()) context.log(LogEvent::warning(m_identity->warning()));
 }
 
-TlsListening HostEndpoint::listening() {
-  TlsListening listening;
+TlsListenerOptions HostEndpoint::listening() {
+  TlsListenerOptions listening;
   if (!m_identity) return listening;
   listening.context = m_identity->tls();
-  const HalfOpenPlaces half_open = halfOpenPlaces(m_context.options);
-  listening.max_half_open = half_open.in_all;
+  const HalfOpenQuota half_open = halfOpenQuota(m_context.options);
+  listening.max_half_open = half_open.total;
   listening.max_half_open_known = half_open.known;
-  listening.max_half_open_per_prefix = half_open.of_a_prefix;
+  listening.max_half_open_per_prefix = half_open.per_prefix;
   listening.is_known = [this](const AddressPrefix& prefix) { return m_prefixes.count(prefix) > 0; };
-  listening.on_refused = [this](const auto& peer, StreamRefusal why) { m_refusals.note(peer, why); };
+  listening.on_refused = [this](const auto& peer, StreamRefusal why) { m_refusals.record(peer, why); };
   listening.is_banned = [this](const asio::ip::address& address) {
     return m_is_banned && m_is_banned(address);
   };
-  listening.take_handshake = [this](const AddressPrefix& prefix) {
-    return m_handshakes.take(prefix, Clock::now());
+  listening.try_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.tryConsume(prefix, Clock::now());
   };
-  listening.has_handshake = [this](const AddressPrefix& prefix) {
-    return m_handshakes.has(prefix, Clock::now());
+  listening.can_handshake = [this](const AddressPrefix& prefix) {
+    return m_handshakes.canConsume(prefix, Clock::now());
   };
   return listening;
 }
 
 // Refuses world processes: they may have this user's rights to the socket, and could claim any visitors.
-VisitorsListening HostEndpoint::visitors() const {
-  VisitorsListening visitors;
+ProxyListenerOptions HostEndpoint::visitors() const {
+  ProxyListenerOptions visitors;
   visitors.path = m_context.options.visitors;
   visitors.is_refused = [](pid_t process) { return isDescendant(process); };
   return visitors;

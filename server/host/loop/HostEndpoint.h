@@ -13,7 +13,7 @@
 #include "host/net/NetworkThread.h"
 #include "host/net/PlayerPrefixes.h"
 #include "host/rooms/HostContext.h"
-#include "shared/net/base/PrefixAllowance.h"
+#include "shared/net/base/PrefixRateLimiter.h"
 #include "shared/net/base/TokenBucket.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/net/stream/JoinLink.h"
@@ -30,12 +30,12 @@ class StreamRefusalLog {
   StreamRefusalLog(asio::io_context& home, ClientLog& log) : m_home(home), m_log(log) {}
 
   /// Call on the network thread.
-  void note(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
+  void record(const asio::ip::tcp::endpoint& peer, StreamRefusal why);
 
  private:
   asio::io_context& m_home;
   ClientLog& m_log;
-  TokenBucket m_allowance;  ///< used on the network thread
+  TokenBucket m_limit;  ///< used on the network thread
 };
 
 /// Thread: the host's.
@@ -69,14 +69,14 @@ class HostEndpoint {
   }
 
  private:
-  TlsListening listening();
-  VisitorsListening visitors() const;
+  TlsListenerOptions listening();
+  ProxyListenerOptions visitors() const;
   bool listensOnAll() const;
 
   HostContext& m_context;
   std::optional<ServerIdentity> m_identity;  ///< nullopt without encryption
   PlayerPrefixes m_prefixes;
-  PrefixAllowance m_handshakes;  ///< used on the network thread
+  PrefixRateLimiter m_handshakes;  ///< used on the network thread
   StreamRefusalLog m_refusals;
   std::function<bool(const asio::ip::address&)> m_is_banned;  ///< null: no bans
   NetworkThread m_network;

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "host/metrics/Exposition.h"
-#include "host/metrics/HostPulse.h"
+#include "host/metrics/HostHealth.h"
 #include "host/session/CounterTable.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
@@ -132,9 +132,9 @@ void writeCounters(Exposition& out, const Struct& counters) {
 
 }  // namespace
 
-ProcessFacts ProcessFacts::read() {
+ProcessInfo ProcessInfo::read() {
   static const double start_seconds = startTime();
-  ProcessFacts facts;
+  ProcessInfo facts;
   facts.start_seconds = start_seconds;
   timespec cpu{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
@@ -150,7 +150,7 @@ ProcessFacts ProcessFacts::read() {
   return facts;
 }
 
-void writeProcess(Exposition& out, const ProcessFacts& facts) {
+void writeProcess(Exposition& out, const ProcessInfo& facts) {
   out.begin("process_cpu_seconds_total", MetricType::kCounter, "CPU time of the process.");
   out.add("", facts.cpu_seconds);
   out.begin("process_resident_memory_bytes", MetricType::kGauge, "Resident memory of the process.");
@@ -166,7 +166,7 @@ void writeProcess(Exposition& out, const ProcessFacts& facts) {
   out.add("", facts.start_seconds);
 }
 
-std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process) {
+std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessInfo& process) {
   Exposition out;
   writeBuild(out);
   if (p_snapshot != nullptr) {

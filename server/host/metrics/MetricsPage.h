@@ -17,7 +17,7 @@ namespace naiad {
 class Exposition;
 
 /// The kernel's data about this process: the standard process_* metrics of Prometheus.
-struct ProcessFacts {
+struct ProcessInfo {
   double cpu_seconds = 0;      ///< user and system time of all threads
   double start_seconds = 0;    ///< seconds since 1970
   std::uint64_t resident = 0;  ///< bytes
@@ -26,11 +26,11 @@ struct ProcessFacts {
   std::uint64_t max_files = 0;
 
   /// Reads /proc. Values that cannot be read are 0.
-  static ProcessFacts read();
+  static ProcessInfo read();
 };
 
 /// Writes the process_* metrics.
-void writeProcess(Exposition& out, const ProcessFacts& facts);
+void writeProcess(Exposition& out, const ProcessInfo& facts);
 
 /// Upper bounds of buckets.
 inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.025, 0.05,
@@ -77,6 +77,6 @@ struct MetricsSnapshot {
 
 /// Returns the page in Prometheus' text format (Exposition.h). Without a snapshot (null) it has only the
 /// build and process metrics.
-std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessFacts& process);
+std::string renderMetrics(const MetricsSnapshot* p_snapshot, const ProcessInfo& process);
 
 }  // namespace naiad

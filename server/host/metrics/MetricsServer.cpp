@@ -28,7 +28,7 @@ constexpr std::chrono::milliseconds kRetryDelay{100};
 /// Maximum of bytes read after a request. Reading them prevents a TCP reset that could overtake the answer.
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
-MetricsServer::Answer badRequest() {
+MetricsServer::Response badRequest() {
   return {400, "Invalid request.\n"};
 }
 
@@ -52,7 +52,7 @@ std::string_view reasonOf(int status) {
   }
 }
 
-std::string headOf(const MetricsServer::Answer& answer) {
+std::string headOf(const MetricsServer::Response& answer) {
   std::string head = "HTTP/1.1 " + std::to_string(answer.status) + " ";
   head.append(reasonOf(answer.status));
   head.append("\r\nContent-Type: ").append(answer.type);
@@ -69,7 +69,7 @@ struct MetricsServer::Loop {
   void listen(const MetricsAddress& address);
   void accept();
   bool makeRoom();
-  Answer answer(const HttpHead& head) const;
+  Response answer(const HttpHead& head) const;
 
   asio::io_context context{1};  // one thread
   tcp::acceptor acceptor{context};
@@ -102,7 +102,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
 
  private:
   void limit() {
-    m_deadline.expires_after(kPatience);
+    m_deadline.expires_after(kRequestTimeout);
     m_deadline.async_wait([connection = weak_from_this()](error_code error) {
       const auto self = connection.lock();
       if (self && !error) self->hangUp();
@@ -124,7 +124,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
     send(is_broken ? badRequest() : m_loop.answer(m_request.head()));
   }
 
-  void send(Answer answer) {
+  void send(Response answer) {
     m_answer = std::move(answer);
     m_head = headOf(m_answer);
     limit();
@@ -151,7 +151,7 @@ class MetricsServer::Connection : public std::enable_shared_from_this<Connection
   tcp::socket m_socket;
   asio::steady_timer m_deadline;
   HttpHeadReader m_request{kMaxHead};
-  Answer m_answer;
+  Response m_answer;
   std::string m_head;
   std::array<char, 1024> m_piece;
   std::size_t m_drained = 0;
@@ -214,7 +214,7 @@ bool MetricsServer::Loop::makeRoom() {
   return true;
 }
 
-MetricsServer::Answer MetricsServer::Loop::answer(const HttpHead& head) const {
+MetricsServer::Response MetricsServer::Loop::answer(const HttpHead& head) const {
   const auto request = HttpRequestLine::parse(head.start_line);
   if (!request) return badRequest();
   if (head.count("host") != 1 || !hosts.allows(head.value("host")))

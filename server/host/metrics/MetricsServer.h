@@ -30,15 +30,15 @@ class MetricsServer {
   /// being answered, the new one is closed.
   static constexpr std::size_t kMaxConnections = 4;
   /// Timeout of receiving a request, and of sending its answer.
-  static constexpr std::chrono::seconds kPatience{5};
+  static constexpr std::chrono::seconds kRequestTimeout{5};
 
-  struct Answer {
+  struct Response {
     int status = 200;
     std::string body;
     std::string_view type = "text/plain; charset=utf-8";  ///< a constant
   };
   /// Returns the answer for a path, with status 404 for unknown paths. Called on the server's thread.
-  using Respond = std::function<Answer(std::string_view path)>;
+  using Respond = std::function<Response(std::string_view path)>;
 
   /// Begins to listen. Throws MetricsError.
   MetricsServer(const MetricsAddress& address, MetricsHosts hosts, Respond respond);

@@ -30,7 +30,7 @@ std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporte
   std::unique_ptr<Channel> channel(new Channel(*this, id, aead));
   if (!channel->renew(exporter, kFirstEpoch)) return nullptr;
   const auto deliver = [p_channel = channel.get()](std::string_view payload) {
-    p_channel->noteUnproven();
+    p_channel->markUnvalidated();
     p_channel->answerChallenges(p_channel->m_service.m_received);
     if (!payload.empty() && p_channel->m_on_packet) p_channel->m_on_packet(payload);
   };
@@ -39,10 +39,10 @@ std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporte
 }
 
 void DatagramService::flush() {
-  std::erase_if(m_unproven, [this](Channel* channel) {
+  std::erase_if(m_unvalidated, [this](Channel* channel) {
     channel->answerChallenges(m_now());
-    channel->m_unproven = !channel->m_link.isValidated(*channel->m_link.path());
-    return !channel->m_unproven;
+    channel->m_unvalidated = !channel->m_link.isValidated(*channel->m_link.path());
+    return !channel->m_unvalidated;
   });
   m_socket->flush();
 }
@@ -53,7 +53,7 @@ DatagramService::Channel::Channel(DatagramService& service, ConnectionId id, Aea
       m_link({SealedLink::Role::kServer, id, service.m_random, {}, service.m_scratch}) {}
 
 DatagramService::Channel::~Channel() {
-  if (m_unproven) std::erase(m_service.m_unproven, this);
+  if (m_unvalidated) std::erase(m_service.m_unvalidated, this);
   // An unregistered channel must not remove the session that already has its id.
   if (m_registered) m_service.m_gate.remove(m_link.id());
 }
@@ -87,14 +87,14 @@ void DatagramService::Channel::send(std::string_view packet) {
 
 // An address must be validated before much is sent to it.
 void DatagramService::Channel::answerChallenges(Time now) {
-  if (m_link.wantsToSend(now)) send({});
+  if (m_link.needsToSend(now)) send({});
 }
 
 // flush() handles a new address until it is validated.
-void DatagramService::Channel::noteUnproven() {
-  if (m_unproven || m_link.isValidated(*m_link.path())) return;
-  m_unproven = true;
-  m_service.m_unproven.push_back(this);
+void DatagramService::Channel::markUnvalidated() {
+  if (m_unvalidated || m_link.isValidated(*m_link.path())) return;
+  m_unvalidated = true;
+  m_service.m_unvalidated.push_back(this);
 }
 
 std::string DatagramService::Channel::peerAddress() const {

@@ -9,7 +9,7 @@
 
 #include "host/net/SealedChannel.h"
 #include "shared/net/base/Channel.h"
-#include "shared/net/datagram/DatagramGate.h"
+#include "shared/net/datagram/DatagramDemux.h"
 #include "shared/net/datagram/DatagramSocket.h"
 #include "shared/net/datagram/SealedLink.h"
 
@@ -32,7 +32,9 @@ class DatagramService {
     ~Channel() override;
     void start(std::function<void(std::string_view packet)> on_packet) override;
     void send(std::string_view packet) override;
-    std::optional<std::size_t> room() const override { return m_link.path() ? m_link.room() : std::nullopt; }
+    std::optional<std::size_t> payloadBudget() const override {
+      return m_link.path() ? m_link.payloadBudget() : std::nullopt;
+    }
     std::string peerAddress() const override;
 
     bool renew(const KeyExporter& exporter, Epoch epoch);
@@ -46,13 +48,13 @@ class DatagramService {
     friend class DatagramService;
     Channel(DatagramService& service, ConnectionId id, AeadId aead);
     void answerChallenges(Time now);
-    void noteUnproven();
+    void markUnvalidated();
 
     DatagramService& m_service;
     AeadId m_aead;
     SealedLink m_link;
-    bool m_registered = false;  ///< in the service's gate
-    bool m_unproven = false;    ///< in the service's m_unproven
+    bool m_registered = false;   ///< in the service's gate
+    bool m_unvalidated = false;  ///< in the service's m_unvalidated
     std::function<void(std::string_view)> m_on_packet;
   };
 
@@ -63,12 +65,12 @@ class DatagramService {
   /// Passes packets sent since the last call to the kernel, and sends the channels' own control packets.
   void flush();
   /// True while an address is being challenged. Then call flush() regularly even if nothing is sent.
-  bool isUnproven() const { return !m_unproven.empty(); }
+  bool hasUnvalidated() const { return !m_unvalidated.empty(); }
   /// When the packet now being delivered was received; for use in callbacks of channels.
   Time received() const { return m_received; }
   /// The bound port.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }
-  const DatagramGateCounters& counters() const { return m_gate.counters(); }
+  const DatagramDemuxCounters& counters() const { return m_gate.counters(); }
   /// Bytes of all packets received, including refused ones.
   std::uint64_t bytesReceived() const { return m_bytes_received; }
   std::uint64_t bytesSent() const { return m_bytes_sent; }
@@ -77,12 +79,12 @@ class DatagramService {
   std::unique_ptr<DatagramSocket> m_socket;
   Now m_now;
   Random m_random;
-  DatagramGate m_gate;
+  DatagramDemux m_gate;
   std::shared_ptr<SealScratch> m_scratch = std::make_shared<SealScratch>();
   Time m_received{};
   std::uint64_t m_bytes_received = 0;
   std::uint64_t m_bytes_sent = 0;
-  std::vector<Channel*> m_unproven;  ///< channels whose address has not been validated yet
+  std::vector<Channel*> m_unvalidated;  ///< channels whose address has not been validated yet
 };
 
 }  // namespace naiad

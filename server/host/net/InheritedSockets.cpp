@@ -67,7 +67,7 @@ void sort(int socket, InheritedSockets& sockets) {
   place = socket;
 }
 
-void noteAddress(InheritedSockets& sockets) {
+void setAddress(InheritedSockets& sockets) {
   const auto streams = endpointOf(sockets.streams);
   const auto datagrams = endpointOf(sockets.datagrams);
   if (streams != datagrams) refuse("they have different addresses or ports");
@@ -89,13 +89,14 @@ std::optional<InheritedSockets> readExported() {
     return std::nullopt;
   sort(first, sockets);
   sort(second, sockets);
-  noteAddress(sockets);
+  setAddress(sockets);
   return sockets;
 }
 
 }  // namespace
 
-std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Variable& variable, int first) {
+std::optional<InheritedSockets> InheritedSockets::importSockets(pid_t process, const Variable& variable,
+                                                                int first) {
   const char* p_count = variable("LISTEN_FDS");
   if (p_count == nullptr || numberIn(variable("LISTEN_PID")) != process) return std::nullopt;
   const auto count = numberIn(p_count);
@@ -105,12 +106,12 @@ std::optional<InheritedSockets> InheritedSockets::take(pid_t process, const Vari
     refuse("expected one for TCP and one for UDP, but their number is " + std::to_string(*count));
   InheritedSockets sockets;
   for (int socket = first; socket < first + kWanted; ++socket) sort(socket, sockets);
-  noteAddress(sockets);
+  setAddress(sockets);
   sockets.is_service = true;
   return sockets;
 }
 
-// kSpare is above the numbers that take() examines, which are in use.
+// kSpare is above the numbers that importSockets() examines, which are in use.
 InheritedSockets InheritedSockets::duplicate() const {
   InheritedSockets others = *this;
   for (int* const p_socket : {&others.streams, &others.datagrams}) {
@@ -131,9 +132,9 @@ void InheritedSockets::exportToExec() const {
   setenv(kExported, numbers.str().c_str(), 1);
 }
 
-std::optional<InheritedSockets> InheritedSockets::take() {
+std::optional<InheritedSockets> InheritedSockets::importSockets() {
   if (auto exported = readExported()) return exported;
-  return take(getpid(), [](const char* p_name) { return std::getenv(p_name); });
+  return importSockets(getpid(), [](const char* p_name) { return std::getenv(p_name); });
 }
 
 }  // namespace naiad

@@ -38,10 +38,11 @@ struct InheritedSockets {
   /// process. Child processes do not inherit the descriptors. Call once per process. `first`: the lowest
   /// descriptor. Throws ListenError (TcpListener.h) unless they are one listening TCP socket and one UDP
   /// socket, in any order, on one address and port.
-  static std::optional<InheritedSockets> take(pid_t process, const Variable& variable, int first = 3);
+  static std::optional<InheritedSockets> importSockets(pid_t process, const Variable& variable,
+                                                       int first = 3);
   /// Returns the sockets that exportToExec() left open for this program, and removes their numbers from the
-  /// environment. Otherwise calls take(process, variable) for this process and its environment.
-  static std::optional<InheritedSockets> take();
+  /// environment. Otherwise calls importSockets(process, variable) for this process and its environment.
+  static std::optional<InheritedSockets> importSockets();
 };
 
 }  // namespace naiad

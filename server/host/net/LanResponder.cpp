@@ -41,7 +41,7 @@ std::vector<LanNetwork> answeredNetworks(const std::vector<LanNetwork>& networks
   return answered;
 }
 
-const LanNetwork* LanQueryJudge::findNetwork(const LanPacket& packet) const {
+const LanNetwork* LanQueryFilter::findNetwork(const LanPacket& packet) const {
   const auto found = std::find_if(m_networks.begin(), m_networks.end(), [&packet](const LanNetwork& network) {
     return network.interface == packet.interface && network.contains(packet.source.address());
   });
@@ -49,8 +49,8 @@ const LanNetwork* LanQueryJudge::findNetwork(const LanPacket& packet) const {
 }
 
 // Cheap tests come first, and tests that a sender outside the link cannot pass.
-std::optional<LanQueryJudge::Reply> LanQueryJudge::judgePacket(const LanPacket& packet, std::size_t players,
-                                                               Time now) {
+std::optional<LanQueryFilter::Reply> LanQueryFilter::filter(const LanPacket& packet, std::size_t players,
+                                                            Time now) {
   if (packet.hop_limit != kLanHopLimit) {
     ++m_counters.routed;
     return std::nullopt;
@@ -67,19 +67,19 @@ std::optional<LanQueryJudge::Reply> LanQueryJudge::judgePacket(const LanPacket& 
   }
   // The common limit comes last, so a sender over its own limit does not use it up.
   TokenBucket& own = m_prefixes.use(AddressPrefix::of(packet.source.address()));
-  if (!own.takeToken(kOfAPrefix, now) || !m_all.takeToken(kInAll, now)) {
+  if (!own.tryConsume(kPrefixRate, now) || !m_all.tryConsume(kTotalRate, now)) {
     ++m_counters.too_often;
     return std::nullopt;
   }
   ++m_counters.answered;
   LanAnswer answer = m_facts;
   answer.nonce = *nonce;
-  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-  answer.players = static_cast<std::uint16_t>(std::min(players, kMost));
+  constexpr std::size_t kMaxCount = std::numeric_limits<std::uint16_t>::max();
+  answer.players = static_cast<std::uint16_t>(std::min(players, kMaxCount));
   return Reply{p_network, writeLanAnswer(answer)};
 }
 
-void LanQueryJudge::noteUnsent() {
+void LanQueryFilter::countUnsent() {
   --m_counters.answered;
   ++m_counters.unsent;
 }
@@ -87,7 +87,7 @@ void LanQueryJudge::noteUnsent() {
 LanResponder::LanResponder(LanAnswer facts, std::string address, LanMode mode)
     : m_address(std::move(address)),
       m_mode(mode),
-      m_judge(std::move(facts)),
+      m_filter(std::move(facts)),
       m_sockets(openLanSockets(&LanSocket::forServer)),
       m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   if (m_wake < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
@@ -117,18 +117,18 @@ void LanResponder::run() {
     const auto now = std::chrono::steady_clock::now();
     if (now >= next_refresh) {
       refresh();
-      next_refresh = now + kRefresh;
+      next_refresh = now + kRefreshInterval;
     }
     bool more = false;
     for (LanSocket& socket : m_sockets) more = serve(socket) || more;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(next_refresh - now);
-    more ? wait(false, kPause) : wait(true, left);
+    more ? wait(false, kPollInterval) : wait(true, left);
   }
 }
 
 void LanResponder::refresh() {
-  m_judge.setNetworks(answeredNetworks(lanNetworks(), m_address, m_mode));
-  for (const LanNetwork& network : m_judge.networks()) {
+  m_filter.setNetworks(answeredNetworks(lanNetworks(), m_address, m_mode));
+  for (const LanNetwork& network : m_filter.networks()) {
     for (LanSocket& socket : m_sockets) {
       const bool same = (socket.family() == LanSocket::Family::kIPv4) == network.address.is_v4();
       if (same) socket.joinGroup(network.interface);
@@ -138,12 +138,12 @@ void LanResponder::refresh() {
 
 /// Returns false when no packets are left.
 bool LanResponder::serve(LanSocket& socket) {
-  for (int i = 0; i < kTurn; ++i) {
+  for (int i = 0; i < kMaxPackets; ++i) {
     const auto packet = socket.receivePacket();
     if (!packet) return false;
-    const auto reply = m_judge.judgePacket(*packet, m_players.load(std::memory_order_relaxed),
-                                           std::chrono::steady_clock::now());
-    if (reply && !socket.sendAnswer(*reply->p_network, packet->source, reply->bytes)) m_judge.noteUnsent();
+    const auto reply =
+        m_filter.filter(*packet, m_players.load(std::memory_order_relaxed), std::chrono::steady_clock::now());
+    if (reply && !socket.sendAnswer(*reply->p_network, packet->source, reply->bytes)) m_filter.countUnsent();
   }
   return true;
 }

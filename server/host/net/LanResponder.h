@@ -1,7 +1,8 @@
 // Answers clients that search the local network for servers (LanMessage.h).
 //
 // It has its own thread and sockets, so LAN packets cost the game little processor time and nothing else: it
-// reads at most kTurn packets per kPause; the system drops the rest. It notices new networks within kRefresh.
+// reads at most kMaxPackets packets per kPollInterval; the system drops the rest. It notices new networks
+// within kRefreshInterval.
 #pragma once
 
 #include <atomic>
@@ -15,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "shared/net/base/PerAddress.h"
+#include "shared/net/base/PrefixLruMap.h"
 #include "shared/net/base/TokenBucket.h"
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/lan/LanSocket.h"
@@ -50,16 +51,16 @@ struct LanCounters {
 /// in an answered network of its interface, is a query, and is within the rate limits of its sender and of
 /// all senders. So answers never leave the link, and a forged query sends at most 370 bytes to its victim, a
 /// neighbour, per 512 bytes of the forger, a few times a second. Not thread-safe. Time is a parameter.
-class LanQueryJudge {
+class LanQueryFilter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// Rate limits of answers, in all and per address (IPv6: /64). A client asks twice at first, per family.
-  static constexpr BucketRate kInAll{10, 10};
-  static constexpr BucketRate kOfAPrefix{2, 4};
+  static constexpr BucketRate kTotalRate{10, 10};
+  static constexpr BucketRate kPrefixRate{2, 4};
 
   /// `facts`: everything except nonce and players.
-  explicit LanQueryJudge(LanAnswer facts) : m_facts(std::move(facts)) {}
+  explicit LanQueryFilter(LanAnswer facts) : m_facts(std::move(facts)) {}
 
   /// Sets the networks in which queries are answered: answeredNetworks().
   void setNetworks(std::vector<LanNetwork> networks) { m_networks = std::move(networks); }
@@ -70,9 +71,9 @@ class LanQueryJudge {
     std::string bytes;
   };
   /// Returns nullopt if the packet gets no answer; the reason is counted. `players`: number of players.
-  std::optional<Reply> judgePacket(const LanPacket& packet, std::size_t players, Time now);
+  std::optional<Reply> filter(const LanPacket& packet, std::size_t players, Time now);
   /// Call if the last reply could not be sent.
-  void noteUnsent();
+  void countUnsent();
 
   const LanCounters& counters() const { return m_counters; }
 
@@ -81,16 +82,16 @@ class LanQueryJudge {
 
   LanAnswer m_facts;
   std::vector<LanNetwork> m_networks;
-  PerAddress<TokenBucket> m_prefixes{256};
+  PrefixLruMap<TokenBucket> m_prefixes{256};
   TokenBucket m_all;
   LanCounters m_counters;
 };
 
 class LanResponder {
  public:
-  static constexpr int kTurn = 64;  ///< packets per address family
-  static constexpr std::chrono::milliseconds kPause{50};
-  static constexpr std::chrono::seconds kRefresh{5};
+  static constexpr int kMaxPackets = 64;  ///< packets per address family
+  static constexpr std::chrono::milliseconds kPollInterval{50};
+  static constexpr std::chrono::seconds kRefreshInterval{5};
 
   /// Opens the sockets. `facts`: everything except nonce and players. `address`: numeric, where the server
   /// listens. Throws std::system_error if no socket of either family can be opened.
@@ -105,7 +106,7 @@ class LanResponder {
   /// Sets the number of players. Any thread.
   void setPlayers(std::size_t players) { m_players.store(players, std::memory_order_relaxed); }
   /// Call before start() or after stop().
-  const LanCounters& counters() const { return m_judge.counters(); }
+  const LanCounters& counters() const { return m_filter.counters(); }
 
  private:
   void run();
@@ -115,7 +116,7 @@ class LanResponder {
 
   std::string m_address;
   LanMode m_mode;
-  LanQueryJudge m_judge;
+  LanQueryFilter m_filter;
   std::vector<LanSocket> m_sockets;
   std::atomic<std::size_t> m_players = 0;
   std::atomic<bool> m_stopping = false;

@@ -50,10 +50,10 @@ class Batch {
     std::uint32_t size;
   };
   /// Memory above this many bytes is released after a burst.
-  static constexpr std::size_t kKept = std::size_t{1} << 22;
+  static constexpr std::size_t kMaxIdleCapacity = std::size_t{1} << 22;
 
   void clear() {
-    const bool large = m_bytes.capacity() > kKept && m_bytes.size() < m_bytes.capacity() / 4;
+    const bool large = m_bytes.capacity() > kMaxIdleCapacity && m_bytes.size() < m_bytes.capacity() / 4;
     m_items.clear();
     m_bytes.clear();
     if (large) m_bytes.shrink_to_fit();
@@ -71,7 +71,7 @@ template <class Header>
 class Mailbox {
  public:
   /// Moves all of `batch` into the mailbox. `batch` is empty afterwards.
-  void putBatch(Batch<Header>& batch) {
+  void push(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     if (m_waiting.empty()) {
       std::swap(m_waiting, batch);
@@ -82,7 +82,7 @@ class Mailbox {
     m_size = m_waiting.size();
   }
   /// Moves everything in the mailbox to `batch`, which must be empty.
-  void takeBatch(Batch<Header>& batch) {
+  void popAll(Batch<Header>& batch) {
     const std::lock_guard lock(m_mutex);
     std::swap(m_waiting, batch);
     m_size = 0;

@@ -21,7 +21,7 @@ namespace naiad {
 namespace {
 
 /// Maximum number of event-loop handlers per turn; then the results are handed over.
-constexpr int kTurn = 64;
+constexpr int kMaxHandlers = 64;
 /// Overhead of a notice in addition to its frame, so that many small frames also reach a limit.
 constexpr std::size_t kNoticeBytes = 32;
 /// Minimum time between two counts of unsent bytes. A count takes one system call per stream. So with many
@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds kBusy{2};
 constexpr std::chrono::milliseconds kLongBusy{6};
 constexpr int kCounting = 20;
 /// Interval of challenges to unvalidated addresses.
-constexpr std::chrono::milliseconds kUnproven{50};
+constexpr std::chrono::milliseconds kUnvalidated{50};
 /// Time that the tick thread serves notices at once between two ticks.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kMinServed = 64;
@@ -38,10 +38,12 @@ constexpr int kMinServed = 64;
 }  // namespace
 
 NetworkThread::NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port,
-                             OnChannel on_channel, TcpOptions options, TlsListening tls, Limits limits,
-                             VisitorsListening visitors, const std::optional<InheritedSockets>& inherited)
+                             OnChannel on_channel, TcpOptions options, TlsListenerOptions tls, Limits limits,
+                             ProxyListenerOptions visitors, const std::optional<InheritedSockets>& inherited)
     : m_home(home), m_on_channel(std::move(on_channel)), m_limits(limits) {
-  const OnChannel meet = [this](std::unique_ptr<ReliableChannel> channel) { meetStream(std::move(channel)); };
+  const OnChannel meet = [this](std::unique_ptr<ReliableChannel> channel) {
+    registerStream(std::move(channel));
+  };
   m_port = inherited
                ? adoptServerPort(m_io, *inherited, meet, options, std::move(tls), std::move(visitors))
                : openServerPort(m_io, address, port, meet, options, std::move(tls), std::move(visitors));
@@ -49,7 +51,7 @@ NetworkThread::NetworkThread(asio::io_context& home, const std::string& address,
 
 NetworkThread::~NetworkThread() {
   stop();
-  assert(m_near_streams.empty() && m_free_places.size() == m_near_datagrams.size());
+  assert(m_relayed_streams.empty() && m_free_slots.size() == m_datagram_slots.size());
 }
 
 void NetworkThread::start() {
@@ -65,12 +67,12 @@ void NetworkThread::stop() {
     m_thread.join();
   }
   // Runs the remaining orders, so that the objects in them are stored or released. None is sent any more.
-  m_order_box.putBatch(m_orders);
-  obeyOrders();
+  m_command_mailbox.push(m_commands);
+  runCommands();
 }
 
 void NetworkThread::closeListener() {
-  giveOrder({.kind = Order::kCloseListener});
+  postCommand({.kind = Command::kCloseListener});
 }
 
 void NetworkThread::setTls(std::shared_ptr<const TlsContext> context) {
@@ -83,15 +85,15 @@ bool NetworkThread::serve(Clock::time_point enough) {
   m_home_woken = false;  // before taking the batch, so that later notices wake it again
   bool more = false;
   m_serving = true;
-  Notice notice;
+  Event notice;
   std::string_view bytes;
   for (int served = 1; !more; ++served) {
     if (!m_serving_batch.read(notice, bytes)) {
-      m_notice_box.takeBatch(m_serving_batch);
+      m_event_mailbox.popAll(m_serving_batch);
       if (!m_serving_batch.read(notice, bytes)) break;
     }
-    m_came = notice.came;
-    onNotice(notice, bytes);
+    m_received_at = notice.received_at;
+    onEvent(notice, bytes);
     more = served % kMinServed == 0 && Clock::now() >= enough;
   }
   m_serving = false;
@@ -99,32 +101,32 @@ bool NetworkThread::serve(Clock::time_point enough) {
   return !more;
 }
 
-void NetworkThread::onNotice(const Notice& notice, std::string_view bytes) {
-  if (notice.kind == Notice::kMet) {
-    --m_unmet;
+void NetworkThread::onEvent(const Event& notice, std::string_view bytes) {
+  if (notice.kind == Event::kAccepted) {
+    --m_unaccepted;
     return m_on_channel(std::make_unique<RelayedStream>(*this, *notice.stream));
   }
-  if (notice.kind == Notice::kDatagram) {
-    const NearDatagrams& near = m_near_datagrams[notice.place];
+  if (notice.kind == Event::kDatagram) {
+    const DatagramSlot& near = m_datagram_slots[notice.slot];
     if (near.id == notice.id && near.channel->m_on_packet) near.channel->m_on_packet(bytes);
     return;
   }
-  const auto found = m_near_streams.find(notice.id);
-  if (found == m_near_streams.end()) return;  // destroyed in the meantime
+  const auto found = m_relayed_streams.find(notice.id);
+  if (found == m_relayed_streams.end()) return;  // destroyed in the meantime
   RelayedStream& stream = *found->second;
-  if (notice.kind == Notice::kClosed) return stream.reportEnd(notice.reason);
+  if (notice.kind == Event::kClosed) return stream.reportEnd(notice.reason);
   stream.m_end.in -= bytes.size() + kNoticeBytes;
   stream.deliver(bytes);
 }
 
-void NetworkThread::sendOrders(std::optional<Clock::time_point> tick_began) {
-  if (m_orders.empty()) return;
+void NetworkThread::sendCommands(std::optional<Clock::time_point> tick_began) {
+  if (m_commands.empty()) return;
   if (tick_began) {
     const auto began = static_cast<std::uint64_t>(tick_began->time_since_epoch().count());
-    giveOrder({.kind = Order::kTickEnd, .number = began});
+    postCommand({.kind = Command::kTickEnd, .number = began});
   }
-  m_order_box.putBatch(m_orders);
-  if (!m_woken.exchange(true)) asio::post(m_io, [this] { obeyOrders(); });
+  m_command_mailbox.push(m_commands);
+  if (!m_woken.exchange(true)) asio::post(m_io, [this] { runCommands(); });
 }
 
 void NetworkThread::wakeHome() {
@@ -138,31 +140,31 @@ std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChanne
   const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
   if (!hasDatagrams() || relayed == nullptr) return nullptr;
   constexpr Epoch kFirstEpoch{1};
-  auto* const end = new DatagramsEnd;  // owned by m_datagrams once the order runs
+  auto* const end = new NetworkSideDatagrams;  // owned by m_datagrams once the order runs
   end->id = ++m_newest_datagrams;
-  if (m_free_places.empty()) {
-    m_free_places.push_back(static_cast<std::uint32_t>(m_near_datagrams.size()));
-    m_near_datagrams.emplace_back();
+  if (m_free_slots.empty()) {
+    m_free_slots.push_back(static_cast<std::uint32_t>(m_datagram_slots.size()));
+    m_datagram_slots.emplace_back();
   }
-  end->place = m_free_places.back();
-  m_free_places.pop_back();
+  end->slot = m_free_slots.back();
+  m_free_slots.pop_back();
   end->connection = randomBits();
   end->aead = aead;
-  giveOrder(
-      {.kind = Order::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
+  postCommand(
+      {.kind = Command::kOpenDatagrams, .stream = &relayed->m_end, .datagrams = end, .number = kFirstEpoch});
   return std::make_unique<RelayedDatagrams>(*this, *end, kFirstEpoch);
 }
 
-bool NetworkThread::renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch) {
+bool NetworkThread::renewDatagrams(NetworkSideDatagrams& end, const ReliableChannel& stream, Epoch epoch) {
   const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
   if (relayed == nullptr) return false;
-  giveOrder({.kind = Order::kRenew, .stream = &relayed->m_end, .datagrams = &end, .number = epoch});
+  postCommand({.kind = Command::kRenew, .stream = &relayed->m_end, .datagrams = &end, .number = epoch});
   return true;
 }
 
 // Data unsent at the deadline is lost. The posted jobs own what they use in addition to this object.
-void NetworkThread::sendLast(const std::string& frame, std::chrono::milliseconds patience) {
-  const auto end = Clock::now() + patience;
+void NetworkThread::broadcastAndClose(const std::string& frame, std::chrono::milliseconds timeout) {
+  const auto end = Clock::now() + timeout;
   asio::post(m_io, [this, frame] {
     for (const auto& [p_end, stream] : m_streams) {
       if (!stream->channel) continue;
@@ -207,7 +209,7 @@ std::chrono::nanoseconds NetworkThread::cpuTime() {
   return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
 }
 
-DatagramGateCounters NetworkThread::gateCounters() const {
+DatagramDemuxCounters NetworkThread::gateCounters() const {
   const std::lock_guard lock(m_gate_mutex);
   return m_gate_counters;
 }
@@ -219,35 +221,35 @@ void NetworkThread::run() {
   while (!m_stopping) {
     if (!m_busy.empty()) {
       m_io.run_one_for(kBusy);
-    } else if (m_port.datagrams && m_port.datagrams->isUnproven()) {
-      m_io.run_one_for(kUnproven);
+    } else if (m_port.datagrams && m_port.datagrams->hasUnvalidated()) {
+      m_io.run_one_for(kUnvalidated);
     } else {
       m_io.run_one();
     }
-    for (int i = 1; i < kTurn && m_io.poll_one() > 0; ++i) {
+    for (int i = 1; i < kMaxHandlers && m_io.poll_one() > 0; ++i) {
     }
-    endTurn();
+    endIteration();
   }
 }
 
-void NetworkThread::endTurn() {
+void NetworkThread::endIteration() {
   if (m_port.datagrams) {
     m_port.datagrams->flush();
     const std::lock_guard lock(m_gate_mutex);
     m_gate_counters = m_port.datagrams->counters();
   }
-  noteUnsent();
-  if (m_notices.empty()) return;
-  m_notice_box.putBatch(m_notices);
+  updateUnsent();
+  if (m_events.empty()) return;
+  m_event_mailbox.push(m_events);
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
 // Counts the unsent bytes of streams that had some at the last count or were sent more since. Not in every
 // turn, because after a tick all streams are busy for many turns.
-void NetworkThread::noteUnsent() {
+void NetworkThread::updateUnsent() {
   const Clock::time_point begin = Clock::now();
   if (m_busy.empty() || begin < m_count_at) return;
-  std::erase_if(m_busy, [](StreamEnd* end) {
+  std::erase_if(m_busy, [](NetworkSideStream* end) {
     end->unsent = end->channel ? end->channel->unsentBytes() : 0;
     end->busy = end->unsent > 0;
     return !end->busy;
@@ -262,25 +264,25 @@ bool NetworkThread::hasUnsent() const {
   });
 }
 
-void NetworkThread::obeyOrders() {
+void NetworkThread::runCommands() {
   m_woken = false;  // before taking the batch, so that later orders wake it again
-  m_order_box.takeBatch(m_taken);
-  Order order;
+  m_command_mailbox.popAll(m_running_commands);
+  Command order;
   std::string_view bytes;
-  while (m_taken.read(order, bytes)) {
-    obeyOrder(order, bytes);
+  while (m_running_commands.read(order, bytes)) {
+    runCommand(order, bytes);
   }
 }
 
-void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
-  StreamEnd* const stream = order.stream;
-  DatagramsEnd* const datagrams = order.datagrams;
+void NetworkThread::runCommand(const Command& order, std::string_view bytes) {
+  NetworkSideStream* const stream = order.stream;
+  NetworkSideDatagrams* const datagrams = order.datagrams;
   switch (order.kind) {
-    case Order::kSendDatagram:
+    case Command::kSendDatagram:
       if (!datagrams->channel) break;
       datagrams->channel->send(bytes);
-      return noteRoom(*datagrams);
-    case Order::kSendFrame:
+      return updatePayloadBudget(*datagrams);
+    case Command::kSendFrame:
       if (stream->channel) {
         stream->channel->send(bytes);
         ++m_traffic.frames_out;
@@ -290,40 +292,40 @@ void NetworkThread::obeyOrder(const Order& order, std::string_view bytes) {
       }
       stream->taken += kFrameHeaderSize + bytes.size();
       break;
-    case Order::kClose:
+    case Command::kClose:
       if (stream->channel) stream->channel->close();
       break;
-    case Order::kCut:
+    case Command::kCut:
       if (stream->channel) onClosed(*stream, CloseReason::kOverflow);
       break;
-    case Order::kReceiveLimit:
+    case Command::kReceiveLimit:
       if (stream->channel) stream->channel->setReceiveLimit(order.number);
       break;
-    case Order::kDropStream:
+    case Command::kDropStream:
       std::erase(m_busy, stream);
       m_streams.erase(stream);
       break;
-    case Order::kOpenDatagrams:
+    case Command::kOpenDatagrams:
       m_datagrams.emplace(datagrams, datagrams);
       openDatagrams(*datagrams, *stream);
       break;
-    case Order::kRenew:
+    case Command::kRenew:
       if (!datagrams->channel) break;
       if (!stream->channel || !datagrams->channel->renew(*stream->channel, static_cast<Epoch>(order.number)))
         ++m_counters.keyless;
       break;
-    case Order::kDropDatagrams:
+    case Command::kDropDatagrams:
       m_datagrams.erase(datagrams);
       break;
-    case Order::kCloseListener:
+    case Command::kCloseListener:
       if (m_port.visitors) m_port.visitors->close();
       m_port.streams->close();
       break;
-    case Order::kTickEnd:
+    case Command::kTickEnd:
       if (m_port.datagrams) m_port.datagrams->flush();
       m_tick_times.add(Clock::now().time_since_epoch() - Clock::duration(order.number));
       break;
-    case Order::kReportCounters:
+    case Command::kReportCounters:
       reportCounters();
       break;
   }
@@ -345,7 +347,7 @@ void NetworkThread::reportCounters() {
   m_reported = counters;
 }
 
-void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
+void NetworkThread::openDatagrams(NetworkSideDatagrams& end, const NetworkSideStream& stream) {
   if (stream.channel) {
     const KeyExporter exporter = [&](std::string_view label, std::string_view context, std::size_t bytes) {
       return stream.channel->exportSecret(label, context, bytes);
@@ -357,64 +359,65 @@ void NetworkThread::openDatagrams(DatagramsEnd& end, const StreamEnd& stream) {
     return;
   }
   end.channel->start([this, p_end = &end](std::string_view bytes) {
-    noteRoom(*p_end);
-    if (isInFull()) {
+    updatePayloadBudget(*p_end);
+    if (isEventMailboxFull()) {
       ++m_counters.datagrams_in_dropped;
       return;
     }
-    addNotice({.kind = Notice::kDatagram,
-               .place = p_end->place,
-               .id = p_end->id,
-               .came = m_port.datagrams->received()},
-              bytes);
+    addEvent({.kind = Event::kDatagram,
+              .slot = p_end->slot,
+              .id = p_end->id,
+              .received_at = m_port.datagrams->received()},
+             bytes);
   });
 }
 
-void NetworkThread::noteRoom(DatagramsEnd& end) {
-  const auto room = end.channel->room();
-  const std::int32_t now = room ? static_cast<std::int32_t>(*room) : -1;
+void NetworkThread::updatePayloadBudget(NetworkSideDatagrams& end) {
+  const auto payload_budget = end.channel->payloadBudget();
+  const std::int32_t now = payload_budget ? static_cast<std::int32_t>(*payload_budget) : -1;
   // Relaxed, because nothing else depends on it. Compared first, because it rarely changes.
-  if (end.room.load(std::memory_order_relaxed) != now) end.room.store(now, std::memory_order_relaxed);
+  if (end.payload_budget.load(std::memory_order_relaxed) != now)
+    end.payload_budget.store(now, std::memory_order_relaxed);
 }
 
-void NetworkThread::addNotice(const Notice& notice, std::string_view bytes) {
-  m_notices.add(notice, bytes);
-  m_urgent = m_urgent || notice.kind != Notice::kDatagram;
+void NetworkThread::addEvent(const Event& notice, std::string_view bytes) {
+  m_events.add(notice, bytes);
+  m_urgent = m_urgent || notice.kind != Event::kDatagram;
 }
 
-void NetworkThread::meetStream(std::unique_ptr<ReliableChannel> channel) {
-  if (m_unmet >= m_limits.unmet || isInFull()) {
+void NetworkThread::registerStream(std::unique_ptr<ReliableChannel> channel) {
+  if (m_unaccepted >= m_limits.unmet || isEventMailboxFull()) {
     ++m_counters.unmet;
     return;
   }
-  ++m_unmet;
-  auto end = std::make_unique<StreamEnd>();
-  StreamEnd* const p_end = end.get();
+  ++m_unaccepted;
+  auto end = std::make_unique<NetworkSideStream>();
+  NetworkSideStream* const p_end = end.get();
   end->id = ++m_newest_stream;
   end->peer = channel->peerAddress();
   end->channel = std::move(channel);
   m_streams.emplace(p_end, std::move(end));
-  addNotice({.kind = Notice::kMet, .id = p_end->id, .stream = p_end, .came = Clock::now()});
+  addEvent({.kind = Event::kAccepted, .id = p_end->id, .stream = p_end, .received_at = Clock::now()});
   p_end->channel->start({[this, p_end](std::string_view frame) { onFrame(*p_end, frame); },
                          [this, p_end](CloseReason reason) { onClosed(*p_end, reason); }});
 }
 
-void NetworkThread::onFrame(StreamEnd& end, std::string_view frame) {
+void NetworkThread::onFrame(NetworkSideStream& end, std::string_view frame) {
   const std::size_t bytes = frame.size() + kNoticeBytes;
-  if (end.in + bytes > m_limits.stream_in || isInFull()) {
+  if (end.in + bytes > m_limits.stream_in || isEventMailboxFull()) {
     ++m_counters.streams_overflowed;
     return onClosed(end, CloseReason::kOverflow);
   }
   end.in += bytes;
   ++m_traffic.frames_in;
   m_traffic.stream_bytes_in += kFrameHeaderSize + frame.size();
-  addNotice({.kind = Notice::kFrame, .id = end.id, .came = Clock::now()}, frame);
+  addEvent({.kind = Event::kFrame, .id = end.id, .received_at = Clock::now()}, frame);
 }
 
 // Call when the stream has ended, or to end it.
-void NetworkThread::onClosed(StreamEnd& end, CloseReason reason) {
+void NetworkThread::onClosed(NetworkSideStream& end, CloseReason reason) {
   end.channel.reset();
-  addNotice({.kind = Notice::kClosed, .reason = reason, .id = end.id, .came = Clock::now()});
+  addEvent({.kind = Event::kClosed, .reason = reason, .id = end.id, .received_at = Clock::now()});
 }
 
 }  // namespace naiad

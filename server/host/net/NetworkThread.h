@@ -2,8 +2,8 @@
 // opening, sendmmsg. The tick thread uses channels whose other ends are here (RelayedStream,
 // RelayedDatagrams). It never waits for a socket, a handshake, or a lock held across a system call.
 //
-//   network thread   sockets -> Batch<Notice>  --put--> Mailbox --take--> serve()   -> channels' callbacks
-//   tick thread      channels -> Batch<Order>  --put--> Mailbox --take--> the sockets, in order
+//   network thread   sockets -> Batch<Event>  --put--> Mailbox --take--> serve()   -> channels' callbacks
+//   tick thread      channels -> Batch<Command>  --put--> Mailbox --take--> the sockets, in order
 //
 // Frames of streams wake the tick thread. Datagrams wait for its next tick, but keep their arrival time.
 // Orders leave the tick thread with flush(): once per tick, and once for each serve() between ticks.
@@ -68,8 +68,8 @@ struct NetworkCounters {
   RelayCounters relay;
   TrafficCounters traffic;
   TcpListener::Counters streams;
-  VisitorsListener::Counters visitors;  ///< all zero without a visitors' socket
-  DatagramGateCounters gate;            ///< all zero without datagrams, like `udp`
+  ProxyListener::Counters visitors;  ///< all zero without a visitors' socket
+  DatagramDemuxCounters gate;        ///< all zero without datagrams, like `udp`
   UdpCounters udp;
 };
 
@@ -89,10 +89,10 @@ class NetworkThread {
   /// them and ignores `address` and `port`. `home` runs the tick thread's handlers, in which `on_channel` and
   /// the channels' callbacks are called. Throws ListenError.
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
-                TcpOptions options, TlsListening tls, Limits limits, VisitorsListening visitors = {},
+                TcpOptions options, TlsListenerOptions tls, Limits limits, ProxyListenerOptions visitors = {},
                 const std::optional<InheritedSockets>& inherited = std::nullopt);
   NetworkThread(asio::io_context& home, const std::string& address, std::uint16_t port, OnChannel on_channel,
-                TcpOptions options, TlsListening tls)
+                TcpOptions options, TlsListenerOptions tls)
       : NetworkThread(home, address, port, std::move(on_channel), options, std::move(tls), Limits{}) {}
   /// Channels must be destroyed before this; they may outlive the sockets.
   ~NetworkThread();
@@ -110,11 +110,11 @@ class NetworkThread {
   /// Calls back for received messages until `enough`, at least a minimum number. False if more are left.
   bool serve(Clock::time_point enough);
   /// Passes on everything sent since the last flush.
-  void flush() { sendOrders(std::nullopt); }
+  void flush() { sendCommands(std::nullopt); }
   /// Like flush(), at the end of a tick that began at `began`.
-  void flushTick(Clock::time_point began) { sendOrders(began); }
+  void flushTick(Clock::time_point began) { sendCommands(began); }
   /// When the message being served was received; outside serve(), the present time.
-  Clock::time_point now() const { return m_serving ? m_came : Clock::now(); }
+  Clock::time_point now() const { return m_serving ? m_received_at : Clock::now(); }
 
   /// True if there are datagrams in addition to streams.
   bool hasDatagrams() const { return m_port.datagrams != nullptr; }
@@ -125,17 +125,17 @@ class NetworkThread {
   std::uint16_t port() const { return m_port.streams->port(); }
   std::string address() const { return m_port.streams->address(); }
 
-  /// Sends `frame` on all streams, closes them, and waits until they are empty, at most `patience`. Call from
+  /// Sends `frame` on all streams, closes them, and waits until they are empty, at most `timeout`. Call from
   /// any thread but the network's, while that runs; for the case that the tick thread hangs.
-  void sendLast(const std::string& frame, std::chrono::milliseconds patience);
+  void broadcastAndClose(const std::string& frame, std::chrono::milliseconds timeout);
 
   /// Durations of ticks, from their start to the last datagram sent. Thread-safe.
   const TickTimes& tickTimes() const { return m_tick_times; }
   /// Counters of the gate as of the last turn of the thread; all zero without datagrams. Thread-safe.
-  DatagramGateCounters gateCounters() const;
+  DatagramDemuxCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
   /// Makes the thread copy its counters in its next turn; latestCounters() then returns them.
-  void askForCounters() { giveOrder({.kind = Order::kReportCounters}); }
+  void requestCounters() { postCommand({.kind = Command::kReportCounters}); }
   /// The counters of the last request; all zero before the first.
   NetworkCounters latestCounters() const;
   /// CPU time used by the thread; 0 while it does not run.
@@ -144,8 +144,8 @@ class NetworkThread {
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
   /// All zero without a visitors' socket.
-  VisitorsListener::Counters visitorCounters() const {
-    return m_port.visitors ? m_port.visitors->counters() : VisitorsListener::Counters();
+  ProxyListener::Counters visitorCounters() const {
+    return m_port.visitors ? m_port.visitors->counters() : ProxyListener::Counters();
   }
 
  private:
@@ -153,7 +153,7 @@ class NetworkThread {
   friend class RelayedStream;
 
   /// The network thread's end of a stream. Non-atomic members belong to that thread.
-  struct StreamEnd {
+  struct NetworkSideStream {
     std::uint64_t id = 0;
     std::string peer;  ///< never changes
     std::unique_ptr<ReliableChannel> channel;
@@ -163,25 +163,25 @@ class NetworkThread {
     std::atomic<std::size_t> in = 0;       ///< bytes in transit to the tick thread
   };
   /// The network thread's end of a session's datagrams.
-  struct DatagramsEnd {
+  struct NetworkSideDatagrams {
     std::uint64_t id = 0;
-    std::uint32_t place = 0;  ///< index in m_near_datagrams
+    std::uint32_t slot = 0;  ///< index in m_datagram_slots
     std::uint64_t connection = 0;
     AeadId aead = AeadId::kAes128Gcm;
     std::unique_ptr<DatagramService::Channel> channel;  ///< null without keys
-    std::atomic<std::int32_t> room = -1;                ///< SealedChannel::room(); negative: none
+    std::atomic<std::int32_t> payload_budget = -1;      ///< SealedChannel::payloadBudget(); negative: none
   };
   /// A message from the network thread.
-  struct Notice {
-    enum Kind : std::uint8_t { kMet, kFrame, kClosed, kDatagram } kind = kMet;
+  struct Event {
+    enum Kind : std::uint8_t { kAccepted, kFrame, kClosed, kDatagram } kind = kAccepted;
     CloseReason reason = CloseReason::kLocal;
-    std::uint32_t place = 0;  ///< place of the datagrams
+    std::uint32_t slot = 0;  ///< slot of the datagrams
     std::uint64_t id = 0;
-    StreamEnd* stream = nullptr;
-    Clock::time_point came{};
+    NetworkSideStream* stream = nullptr;
+    Clock::time_point received_at{};
   };
   /// A message from the tick thread.
-  struct Order {
+  struct Command {
     enum Kind : std::uint8_t {
       kSendFrame,
       kClose,
@@ -196,33 +196,35 @@ class NetworkThread {
       kTickEnd,
       kReportCounters,
     } kind = kSendFrame;
-    StreamEnd* stream = nullptr;
-    DatagramsEnd* datagrams = nullptr;
+    NetworkSideStream* stream = nullptr;
+    NetworkSideDatagrams* datagrams = nullptr;
     std::uint64_t number = 0;  ///< limit, epoch, or when the tick began
   };
 
   // Members used on the tick thread.
-  bool renewDatagrams(DatagramsEnd& end, const ReliableChannel& stream, Epoch epoch);
-  void giveOrder(const Order& order, std::string_view bytes = {}) { m_orders.add(order, bytes); }
-  bool isFull() const { return m_order_box.size() + m_orders.size() > m_limits.mailbox; }
-  void sendOrders(std::optional<Clock::time_point> tick_began);
-  void onNotice(const Notice& notice, std::string_view bytes);
+  bool renewDatagrams(NetworkSideDatagrams& end, const ReliableChannel& stream, Epoch epoch);
+  void postCommand(const Command& order, std::string_view bytes = {}) { m_commands.add(order, bytes); }
+  bool isCommandMailboxFull() const {
+    return m_command_mailbox.size() + m_commands.size() > m_limits.mailbox;
+  }
+  void sendCommands(std::optional<Clock::time_point> tick_began);
+  void onEvent(const Event& notice, std::string_view bytes);
   void wakeHome();
 
   // Members used on the network thread.
   void run();
-  void obeyOrders();
-  void obeyOrder(const Order& order, std::string_view bytes);
-  void endTurn();
-  void meetStream(std::unique_ptr<ReliableChannel> channel);
-  void onFrame(StreamEnd& end, std::string_view frame);
-  void onClosed(StreamEnd& end, CloseReason reason);
-  void openDatagrams(DatagramsEnd& end, const StreamEnd& stream);
-  void noteRoom(DatagramsEnd& end);
+  void runCommands();
+  void runCommand(const Command& order, std::string_view bytes);
+  void endIteration();
+  void registerStream(std::unique_ptr<ReliableChannel> channel);
+  void onFrame(NetworkSideStream& end, std::string_view frame);
+  void onClosed(NetworkSideStream& end, CloseReason reason);
+  void openDatagrams(NetworkSideDatagrams& end, const NetworkSideStream& stream);
+  void updatePayloadBudget(NetworkSideDatagrams& end);
   bool hasUnsent() const;
-  void addNotice(const Notice& notice, std::string_view bytes = {});
-  bool isInFull() const { return m_notice_box.size() + m_notices.size() > m_limits.mailbox; }
-  void noteUnsent();
+  void addEvent(const Event& notice, std::string_view bytes = {});
+  bool isEventMailboxFull() const { return m_event_mailbox.size() + m_events.size() > m_limits.mailbox; }
+  void updateUnsent();
   void reportCounters();
 
   asio::io_context& m_home;
@@ -233,43 +235,43 @@ class NetworkThread {
   asio::io_context m_io{1};
   asio::executor_work_guard<asio::io_context::executor_type> m_work{m_io.get_executor()};
   ServerPort m_port;
-  std::unordered_map<const StreamEnd*, std::unique_ptr<StreamEnd>> m_streams;
-  std::unordered_map<const DatagramsEnd*, std::unique_ptr<DatagramsEnd>> m_datagrams;
-  std::vector<StreamEnd*> m_busy;  ///< streams with unsent bytes at the last count
-  Clock::time_point m_count_at{};  ///< earliest time of the next count
-  Batch<Order> m_taken;
-  Batch<Notice> m_notices;
+  std::unordered_map<const NetworkSideStream*, std::unique_ptr<NetworkSideStream>> m_streams;
+  std::unordered_map<const NetworkSideDatagrams*, std::unique_ptr<NetworkSideDatagrams>> m_datagrams;
+  std::vector<NetworkSideStream*> m_busy;  ///< streams with unsent bytes at the last count
+  Clock::time_point m_count_at{};          ///< earliest time of the next count
+  Batch<Command> m_running_commands;
+  Batch<Event> m_events;
   std::uint64_t m_newest_stream = 0;
-  bool m_urgent = false;  ///< the tick thread must be woken for m_notices
+  bool m_urgent = false;  ///< the tick thread must be woken for m_events
   RelayCounters m_counters;
   TrafficCounters m_traffic;
 
   // Shared by both threads.
-  Mailbox<Notice> m_notice_box;
-  Mailbox<Order> m_order_box;
+  Mailbox<Event> m_event_mailbox;
+  Mailbox<Command> m_command_mailbox;
   std::atomic<bool> m_home_woken = false;
   std::atomic<bool> m_woken = false;
   std::atomic<bool> m_stopping = false;
-  std::atomic<std::size_t> m_unmet = 0;
+  std::atomic<std::size_t> m_unaccepted = 0;
   TickTimes m_tick_times;
   mutable std::mutex m_gate_mutex;
-  DatagramGateCounters m_gate_counters;  ///< a copy, for other threads
-  NetworkCounters m_reported;            ///< counters of the last request
+  DatagramDemuxCounters m_gate_counters;  ///< a copy, for other threads
+  NetworkCounters m_reported;             ///< counters of the last request
 
   // Owned by the tick thread.
-  Batch<Order> m_orders;
-  Batch<Notice> m_serving_batch;
-  std::unordered_map<std::uint64_t, RelayedStream*> m_near_streams;
+  Batch<Command> m_commands;
+  Batch<Event> m_serving_batch;
+  std::unordered_map<std::uint64_t, RelayedStream*> m_relayed_streams;
   /// Places are reused, ids are not: a notice in transit when its session ends reaches no channel.
-  struct NearDatagrams {
+  struct DatagramSlot {
     std::uint64_t id = 0;
     RelayedDatagrams* channel = nullptr;
   };
-  std::vector<NearDatagrams> m_near_datagrams;
-  std::vector<std::uint32_t> m_free_places;
+  std::vector<DatagramSlot> m_datagram_slots;
+  std::vector<std::uint32_t> m_free_slots;
   std::uint64_t m_newest_datagrams = 0;
   bool m_serving = false;
-  Clock::time_point m_came{};
+  Clock::time_point m_received_at{};
   std::uint64_t m_out_dropped = 0;
   std::uint64_t m_clogged = 0;
 

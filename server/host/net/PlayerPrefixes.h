@@ -19,7 +19,7 @@ namespace naiad {
 class PlayerPrefixes {
  public:
   /// Records a join from `prefix`. Later calls for this session record a move to `prefix`.
-  void note(std::uint64_t session, const AddressPrefix& prefix) {
+  void record(std::uint64_t session, const AddressPrefix& prefix) {
     const std::lock_guard lock(m_mutex);
     const auto [found, joined] = m_sessions.try_emplace(session, Places{prefix, prefix});
     Places& places = found->second;

@@ -13,15 +13,16 @@ constexpr std::size_t kMaxInTransit = TcpOptions{}.send_cap;
 
 }  // namespace
 
-RelayedDatagrams::RelayedDatagrams(NetworkThread& network, NetworkThread::DatagramsEnd& end, Epoch epoch)
+RelayedDatagrams::RelayedDatagrams(NetworkThread& network, NetworkThread::NetworkSideDatagrams& end,
+                                   Epoch epoch)
     : m_network(network), m_end(end), m_epoch(epoch) {
-  m_network.m_near_datagrams[m_end.place] = {m_end.id, this};
+  m_network.m_datagram_slots[m_end.slot] = {m_end.id, this};
 }
 
 RelayedDatagrams::~RelayedDatagrams() {
-  m_network.m_near_datagrams[m_end.place] = {};
-  m_network.m_free_places.push_back(m_end.place);
-  m_network.giveOrder({.kind = NetworkThread::Order::kDropDatagrams, .datagrams = &m_end});
+  m_network.m_datagram_slots[m_end.slot] = {};
+  m_network.m_free_slots.push_back(m_end.slot);
+  m_network.postCommand({.kind = NetworkThread::Command::kDropDatagrams, .datagrams = &m_end});
 }
 
 void RelayedDatagrams::start(std::function<void(std::string_view)> on_packet) {
@@ -29,16 +30,16 @@ void RelayedDatagrams::start(std::function<void(std::string_view)> on_packet) {
 }
 
 void RelayedDatagrams::send(std::string_view packet) {
-  if (m_network.isFull()) {
+  if (m_network.isCommandMailboxFull()) {
     ++m_network.m_out_dropped;
     return;
   }
-  m_network.giveOrder({.kind = NetworkThread::Order::kSendDatagram, .datagrams = &m_end}, packet);
+  m_network.postCommand({.kind = NetworkThread::Command::kSendDatagram, .datagrams = &m_end}, packet);
 }
 
-std::optional<std::size_t> RelayedDatagrams::room() const {
-  const std::int32_t room = m_end.room.load(std::memory_order_relaxed);
-  return room < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(room));
+std::optional<std::size_t> RelayedDatagrams::payloadBudget() const {
+  const std::int32_t payload_budget = m_end.payload_budget.load(std::memory_order_relaxed);
+  return payload_budget < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(payload_budget));
 }
 
 // Assumes that the epoch is in use, although the stream may just have ended. Then the next epoch skips a
@@ -49,14 +50,14 @@ bool RelayedDatagrams::renew(const ReliableChannel& stream, Epoch epoch) {
   return true;
 }
 
-RelayedStream::RelayedStream(NetworkThread& network, NetworkThread::StreamEnd& end)
+RelayedStream::RelayedStream(NetworkThread& network, NetworkThread::NetworkSideStream& end)
     : m_network(network), m_end(end) {
-  m_network.m_near_streams.emplace(m_end.id, this);
+  m_network.m_relayed_streams.emplace(m_end.id, this);
 }
 
 RelayedStream::~RelayedStream() {
-  m_network.m_near_streams.erase(m_end.id);
-  m_network.giveOrder({.kind = NetworkThread::Order::kDropStream, .stream = &m_end});
+  m_network.m_relayed_streams.erase(m_end.id);
+  m_network.postCommand({.kind = NetworkThread::Command::kDropStream, .stream = &m_end});
 }
 
 void RelayedStream::start(Callbacks callbacks) {
@@ -65,14 +66,14 @@ void RelayedStream::start(Callbacks callbacks) {
 
 void RelayedStream::send(std::string_view frame) {
   if (m_closed) return;
-  if (inTransit() + frame.size() > kMaxInTransit || m_network.isFull()) {
+  if (inTransit() + frame.size() > kMaxInTransit || m_network.isCommandMailboxFull()) {
     ++m_network.m_clogged;
     m_closed = true;
-    return m_network.giveOrder({.kind = NetworkThread::Order::kCut, .stream = &m_end});
+    return m_network.postCommand({.kind = NetworkThread::Command::kCut, .stream = &m_end});
   }
-  m_given += kFrameHeaderSize + frame.size();
+  m_bytes_passed += kFrameHeaderSize + frame.size();
   m_idle = false;
-  m_network.giveOrder({.kind = NetworkThread::Order::kSendFrame, .stream = &m_end}, frame);
+  m_network.postCommand({.kind = NetworkThread::Command::kSendFrame, .stream = &m_end}, frame);
 }
 
 std::size_t RelayedStream::unsentBytes() const {
@@ -86,11 +87,11 @@ std::size_t RelayedStream::unsentBytes() const {
 
 void RelayedStream::close() {
   if (std::exchange(m_closed, true)) return;
-  m_network.giveOrder({.kind = NetworkThread::Order::kClose, .stream = &m_end});
+  m_network.postCommand({.kind = NetworkThread::Command::kClose, .stream = &m_end});
 }
 
 void RelayedStream::setReceiveLimit(std::size_t bytes) {
-  m_network.giveOrder({.kind = NetworkThread::Order::kReceiveLimit, .stream = &m_end, .number = bytes});
+  m_network.postCommand({.kind = NetworkThread::Command::kReceiveLimit, .stream = &m_end, .number = bytes});
 }
 
 void RelayedStream::deliver(std::string_view frame) {

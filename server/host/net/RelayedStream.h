@@ -13,19 +13,19 @@
 namespace naiad {
 
 /// A session's datagrams as the tick thread sees them; keys and socket belong to the network thread. Thread:
-/// the one that ticks. Packets arrive in NetworkThread::serve() and leave with its flush(). room() is the
-/// value of the network thread's last packet. If a stream ends before it provides keys, the previous keys
-/// stay in use; without such keys there is never room.
+/// the one that ticks. Packets arrive in NetworkThread::serve() and leave with its flush(). payloadBudget()
+/// is the value of the network thread's last packet. If a stream ends before it provides keys, the previous
+/// keys stay in use; without such keys there is no budget.
 class RelayedDatagrams : public SealedChannel {
  public:
-  RelayedDatagrams(NetworkThread& network, NetworkThread::DatagramsEnd& end, Epoch epoch);
+  RelayedDatagrams(NetworkThread& network, NetworkThread::NetworkSideDatagrams& end, Epoch epoch);
   ~RelayedDatagrams() override;
   RelayedDatagrams(const RelayedDatagrams&) = delete;
   RelayedDatagrams& operator=(const RelayedDatagrams&) = delete;
 
   void start(std::function<void(std::string_view packet)> on_packet) override;
   void send(std::string_view packet) override;
-  std::optional<std::size_t> room() const override;
+  std::optional<std::size_t> payloadBudget() const override;
   /// Returns a label: the address may change with every packet, and only the network thread knows it.
   std::string peerAddress() const override { return "datagrams " + std::to_string(m_end.id); }
 
@@ -38,7 +38,7 @@ class RelayedDatagrams : public SealedChannel {
   friend class NetworkThread;
 
   NetworkThread& m_network;
-  NetworkThread::DatagramsEnd& m_end;
+  NetworkThread::NetworkSideDatagrams& m_end;
   Epoch m_epoch;
   std::function<void(std::string_view)> m_on_packet;
 };
@@ -49,7 +49,7 @@ class RelayedDatagrams : public SealedChannel {
 /// network thread makes the keys (NetworkThread::openDatagrams).
 class RelayedStream : public ReliableChannel {
  public:
-  RelayedStream(NetworkThread& network, NetworkThread::StreamEnd& end);
+  RelayedStream(NetworkThread& network, NetworkThread::NetworkSideStream& end);
   ~RelayedStream() override;
   RelayedStream(const RelayedStream&) = delete;
   RelayedStream& operator=(const RelayedStream&) = delete;
@@ -65,14 +65,14 @@ class RelayedStream : public ReliableChannel {
   friend class NetworkThread;
 
   /// Bytes that the network thread has not received yet.
-  std::size_t inTransit() const { return static_cast<std::size_t>(m_given - m_end.taken); }
+  std::size_t inTransit() const { return static_cast<std::size_t>(m_bytes_passed - m_end.taken); }
   void deliver(std::string_view frame);
   void reportEnd(CloseReason reason);
 
   NetworkThread& m_network;
-  NetworkThread::StreamEnd& m_end;
+  NetworkThread::NetworkSideStream& m_end;
   std::shared_ptr<Callbacks> m_callbacks;  ///< shared with a running callback
-  std::uint64_t m_given = 0;               ///< total bytes passed to the network thread
+  std::uint64_t m_bytes_passed = 0;        ///< total bytes passed to the network thread
   mutable bool m_idle = false;             ///< no bytes passed since there were no unsent ones
   bool m_closed = false;                   ///< by this end, or after an overflow
 };

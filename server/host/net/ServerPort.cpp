@@ -24,7 +24,7 @@ void addDatagrams(ServerPort& opened, asio::io_context& context, UdpOptions udp)
 
 ServerPort open(asio::io_context& context, const std::string& address, std::uint16_t port,
                 const TcpListener::OnChannel& on_channel, const TcpOptions& options,
-                const TlsListening& tls) {
+                const TlsListenerOptions& tls) {
   ServerPort opened;
   opened.streams = std::make_unique<TcpListener>(context, address, port, on_channel, options, tls);
   if (!tls.context) return opened;
@@ -34,7 +34,7 @@ ServerPort open(asio::io_context& context, const std::string& address, std::uint
 
 ServerPort openAny(asio::io_context& context, const std::string& address,
                    const TcpListener::OnChannel& on_channel, const TcpOptions& options,
-                   const TlsListening& tls) {
+                   const TlsListenerOptions& tls) {
   for (int i = 1; i < kPortsToTry; ++i) {
     try {
       return open(context, address, 0, on_channel, options, tls);
@@ -51,7 +51,7 @@ bool lacksIPv6(const std::error_code& code) {
 
 ServerPort openAddress(asio::io_context& context, const std::string& address, std::uint16_t port,
                        const TcpListener::OnChannel& on_channel, const TcpOptions& options,
-                       const TlsListening& tls) {
+                       const TlsListenerOptions& tls) {
   const auto attempt = [&](const std::string& where) {
     return port == 0 ? openAny(context, where, on_channel, options, tls)
                      : open(context, where, port, on_channel, options, tls);
@@ -64,9 +64,9 @@ ServerPort openAddress(asio::io_context& context, const std::string& address, st
   return attempt("0.0.0.0");
 }
 
-void addVisitors(ServerPort& opened, asio::io_context& context, VisitorsListening visitors) {
+void addVisitors(ServerPort& opened, asio::io_context& context, ProxyListenerOptions visitors) {
   if (visitors.path.empty()) return;
-  opened.visitors = std::make_unique<VisitorsListener>(
+  opened.visitors = std::make_unique<ProxyListener>(
       context, std::move(visitors),
       [p_streams = opened.streams.get()](asio::generic::stream_protocol::socket socket, const auto& visitor) {
         p_streams->adopt(std::move(socket), visitor);
@@ -76,16 +76,16 @@ void addVisitors(ServerPort& opened, asio::io_context& context, VisitorsListenin
 }  // namespace
 
 ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
-                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
-                          VisitorsListening visitors) {
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
+                          ProxyListenerOptions visitors) {
   ServerPort opened = openAddress(context, address, port, on_channel, options, tls);
   addVisitors(opened, context, std::move(visitors));
   return opened;
 }
 
 ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
-                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
-                           VisitorsListening visitors) {
+                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
+                           ProxyListenerOptions visitors) {
   if (!tls.context) {
     throw ListenError("Sockets from the service manager require encryption: remove --insecure.",
                       std::make_error_code(std::errc::invalid_argument));

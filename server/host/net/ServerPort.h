@@ -7,8 +7,8 @@
 
 #include "host/net/DatagramService.h"
 #include "host/net/InheritedSockets.h"
+#include "shared/net/stream/ProxyListener.h"
 #include "shared/net/stream/TcpListener.h"
-#include "shared/net/stream/VisitorsListener.h"
 
 namespace naiad {
 
@@ -16,7 +16,7 @@ class UdpSocket;
 
 struct ServerPort {
   std::unique_ptr<TcpListener> streams;
-  std::unique_ptr<VisitorsListener> visitors;  ///< null without a visitors' socket
+  std::unique_ptr<ProxyListener> visitors;     ///< null without a visitors' socket
   std::unique_ptr<DatagramService> datagrams;  ///< null without encryption
   const UdpSocket* p_socket = nullptr;         ///< the socket of `datagrams`
 };
@@ -25,13 +25,13 @@ struct ServerPort {
 /// chooses a port that is free for both. Without `tls`: loopback and streams only. Connections of the
 /// visitors' socket are treated like connections to the port. Throws ListenError.
 ServerPort openServerPort(asio::io_context& context, const std::string& address, std::uint16_t port,
-                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
-                          VisitorsListening visitors = {});
+                          TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
+                          ProxyListenerOptions visitors = {});
 
 /// Like openServerPort(), with sockets that the service manager has opened; they now belong to the port.
 /// Throws ListenError without `tls`.
 ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
-                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListening tls,
-                           VisitorsListening visitors = {});
+                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
+                           ProxyListenerOptions visitors = {});
 
 }  // namespace naiad

@@ -40,7 +40,7 @@ std::vector<AdminPlayer> thoseThat(const std::vector<AdminPlayer>& players, cons
   return found;
 }
 
-PlayerChoice oneOf(const std::vector<AdminPlayer>& found, const std::string& typed) {
+PlayerLookup oneOf(const std::vector<AdminPlayer>& found, const std::string& typed) {
   if (found.size() == 1) return {found.front()};
   AdminAnswer problem = AdminAnswer::refused("Several players match \"" + typed + "\":");
   for (const AdminPlayer& player : found)
@@ -114,7 +114,7 @@ BanPlan planName(Ban ban, const std::string& name) {
 
 // Bans only the name if the address is this machine's, or is shared with other players.
 BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
-  const PlayerChoice choice = choosePlayer(players, typed);
+  const PlayerLookup choice = resolvePlayer(players, typed);
   if (!choice.player) {
     AdminAnswer problem = choice.problem;
     if (problem.candidates.empty()) problem.text += " name:" + typed + " bans the name.";
@@ -153,7 +153,7 @@ BanPlan planBan(const Ban& ban, const std::vector<AdminPlayer>& players, const s
 
 }  // namespace
 
-PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::string& typed) {
+PlayerLookup resolvePlayer(const std::vector<AdminPlayer>& players, const std::string& typed) {
   std::vector<Fits> ways;
   if (const auto id = idOf(typed)) {
     ways = {[id](const AdminPlayer& player) { return player.id == *id; }};
@@ -181,14 +181,14 @@ void AdminConsole::execute(const AdminRequest& request, const AdminCaller& calle
     m_context.log("admin: " + caller.name + ": refused: " + request.redacted());
     return done(AdminAnswer::refused("You may not use the command \"" + command.name + "\" here."));
   }
-  const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Place::kSocket;
+  const bool by_admin = command.level == Level::kAdmin || caller.place == AdminCommand::Frontend::kSocket;
   if (by_admin && !command.only_reads) m_context.log("admin: " + caller.name + ": " + request.redacted());
   if (command.name == "ban" || command.name == "allow") return ban(request, caller, done);
   if (command.name == "unban") return unban(request, done);
   if (command.name == "password") return changePassword(request, std::move(done));
   if (command.name == "reload") return reload(std::move(done));
   if (command.name == "restart" && request.of("when") == "keep" && !request.has("span"))
-    return m_admin.keepRound(std::move(done));
+    return m_admin.handOverRound(std::move(done));
   if (command.name == "scores") return scores(request, std::move(done));
   done(answerNow(request, caller));
 }
@@ -209,7 +209,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
   if (name == "set") return set(request);
   if (name == "stop") return m_admin.stop(request.of("reason"));
   if (name == "say") {
-    m_admin.say(request.of("text"));
+    m_admin.broadcast(request.of("text"));
     return AdminAnswer::done("Sent to all players.");
   }
   return AdminAnswer::refused("\"" + name + "\" is not available here.");
@@ -230,7 +230,7 @@ AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& c
     return caller.session != 0 && player.session == caller.session;
   });
   if (sender != players.end() && sender->muted) return AdminAnswer::refused("You are muted.");
-  const PlayerChoice choice = choosePlayer(players, request.of("player"));
+  const PlayerLookup choice = resolvePlayer(players, request.of("player"));
   if (!choice.player) return choice.problem;
   const std::string from = caller.player.empty() ? "The server" : caller.player;
   m_admin.tell(choice.player->session, from + " tells you: " + request.of("text"));
@@ -238,15 +238,15 @@ AdminAnswer AdminConsole::tell(const AdminRequest& request, const AdminCaller& c
 }
 
 AdminAnswer AdminConsole::kick(const AdminRequest& request) {
-  const PlayerChoice choice = choosePlayer(m_admin.players(), request.of("player"));
+  const PlayerLookup choice = resolvePlayer(m_admin.players(), request.of("player"));
   if (!choice.player) return choice.problem;
-  m_admin.endPlayer(choice.player->session,
-                    withReason("You were removed from the game", request.of("reason")));
+  m_admin.kickPlayer(choice.player->session,
+                     withReason("You were removed from the game", request.of("reason")));
   return AdminAnswer::done(choice.player->name + " was removed.");
 }
 
 AdminAnswer AdminConsole::mute(const AdminRequest& request, bool muted) {
-  const PlayerChoice choice = choosePlayer(m_admin.players(), request.of("player"));
+  const PlayerLookup choice = resolvePlayer(m_admin.players(), request.of("player"));
   if (!choice.player) return choice.problem;
   m_admin.setMuted(choice.player->session, muted);
   return AdminAnswer::done(choice.player->name + (muted ? " is muted." : " is no longer muted."));
@@ -278,7 +278,7 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
       return done(
           AdminAnswer::refused("The ban list is full (" + std::to_string(BanList::kMaxBans) + " bans)."));
   }
-  endBanned();
+  kickBanned();
 }
 
 void AdminConsole::unban(const AdminRequest& request, const Done& done) {
@@ -298,19 +298,19 @@ void AdminConsole::answerSaved(const std::string& text, const std::string& probl
   });
 }
 
-void AdminConsole::endBanned() {
+void AdminConsole::kickBanned() {
   for (const AdminPlayer& player : m_admin.players()) {
     const auto address = endpointAddress(player.address);
     const std::string sentence = m_bans.refusal(address.value_or(asio::ip::address()), player.name);
-    if (!sentence.empty()) m_admin.endPlayer(player.session, sentence);
+    if (!sentence.empty()) m_admin.kickPlayer(player.session, sentence);
   }
 }
 
 AdminAnswer AdminConsole::listBans() const {
   std::vector<AdminRow> rows;
-  const auto set = m_bans.now();
+  const auto set = m_bans.currentSet();
   for (const Ban& ban : set->all()) {
-    if (ban.isOver(m_bans.time())) continue;
+    if (ban.isExpired(m_bans.time())) continue;
     rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
                     {"who", ban.target()},
                     {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
@@ -368,7 +368,7 @@ void AdminConsole::changePassword(const AdminRequest& request, Done done) {
       done(problem.empty() ? m_admin.changePassword(hash) : AdminAnswer::refused(problem));
     });
   };
-  const bool given = m_worker.give([password, finish] {
+  const bool given = m_worker.enqueue([password, finish] {
     try {
       finish(PasswordHash::fromText(password), "");
     } catch (const PasswordError& error) {
@@ -383,8 +383,8 @@ void AdminConsole::reload(Done done) {
   const auto loaded = [this, done](std::vector<Ban> bans, const std::string& problem) {
     post([this, done, bans = std::move(bans), problem] {
       if (problem.empty()) {
-        m_bans.take(bans);
-        endBanned();
+        m_bans.replaceAll(bans);
+        kickBanned();
       }
       m_admin.reload([done, problem](AdminAnswer answer) {
         if (!problem.empty()) answer = AdminAnswer::refused(problem + " " + answer.text);

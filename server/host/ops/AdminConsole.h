@@ -16,8 +16,8 @@
 
 namespace naiad {
 
-/// The result of choosePlayer().
-struct PlayerChoice {
+/// The result of resolvePlayer().
+struct PlayerLookup {
   std::optional<AdminPlayer> player;  ///< nullopt: `problem` has the reason
   AdminAnswer problem{};
 };
@@ -25,7 +25,7 @@ struct PlayerChoice {
 /// Finds the player meant by a typed #ID, name, or beginning of a name. Tries #ID only if the text has that
 /// form, so a player named "#7" cannot protect another one; else the exact name, the name ignoring case, then
 /// its beginning. If several players match equally well, the problem lists them.
-PlayerChoice choosePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
+PlayerLookup resolvePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
 
 /// Carries out commands on the host's thread. Logs each admin's command with its caller, passwords as "***".
 class AdminConsole {
@@ -54,7 +54,7 @@ class AdminConsole {
   void ban(const AdminRequest& request, const AdminCaller& caller, const Done& done);
   void unban(const AdminRequest& request, const Done& done);
   AdminAnswer listBans() const;
-  void endBanned();
+  void kickBanned();
 
   void post(std::function<void()> job);
 

@@ -15,12 +15,12 @@ namespace naiad {
 namespace {
 
 using Level = AdminCommand::Level;
-using Place = AdminCommand::Place;
+using Frontend = AdminCommand::Frontend;
 
 constexpr std::string_view kAdminCommand = "/admin ";
 
 Level levelOf(const Session& session) {
-  return session.standing().isAdmin() ? Level::kAdmin : Level::kPlayer;
+  return session.status().isAdmin() ? Level::kAdmin : Level::kPlayer;
 }
 
 }  // namespace
@@ -33,8 +33,8 @@ ChatCommands::ChatCommands(const HostAccess& access, HostAdmin& admin, AdminCons
         std::make_unique<PasswordCheck>(access.context.home.get_executor(), PasswordHash::fromText(password));
 }
 
-void ChatCommands::logNews(const Session& session, const std::string& text) {
-  m_access.context.client_log.logNews(session.address(), text, session.now());
+void ChatCommands::logClientEvent(const Session& session, const std::string& text) {
+  m_access.context.client_log.logClientEvent(session.address(), text, session.now());
 }
 
 void ChatCommands::refuse(Session& session, const std::string& sentence) {
@@ -54,7 +54,7 @@ void ChatCommands::serve(Session& session, const std::string& whole) {
 
 void ChatCommands::execute(Session& session, const AdminRequest& request) {
   const AdminCommand& command = *request.command;
-  if (!command.isFor(levelOf(session), Place::kChat))
+  if (!command.isFor(levelOf(session), Frontend::kChat))
     return reply(session, {"You may not use the command \"" + command.name + "\" here."});
   if (command.name == "help" || command.name == "commands") return help(session, request);
   if (command.name == "admin") return becomeAdmin(session, request.of("password"));
@@ -71,8 +71,8 @@ void ChatCommands::execute(Session& session, const AdminRequest& request) {
 
 void ChatCommands::help(Session& session, const AdminRequest& request) {
   const AdminCommand* const p_command = findAdminCommand(request.of("command"));
-  if (!request.has("command")) return reply(session, adminHelp(levelOf(session), Place::kChat));
-  if (p_command == nullptr || !p_command->isFor(levelOf(session), Place::kChat))
+  if (!request.has("command")) return reply(session, adminHelp(levelOf(session), Frontend::kChat));
+  if (p_command == nullptr || !p_command->isFor(levelOf(session), Frontend::kChat))
     return reply(session, {"Unknown command \"" + request.of("command") + "\", or you may not use it."});
   reply(session, adminHelp(*p_command));
 }
@@ -90,7 +90,7 @@ void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
   if (!m_password) return reply(session, {"This server does not allow admins in the chat."});
   const auto prefix = AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
   m_password->check(prefix, true, password, session.now(),
-                    [this, id = session.id(), streams = session.standing().streams()](auto answer) {
+                    [this, id = session.id(), streams = session.status().streams()](auto answer) {
                       onPassword(id, streams, answer);
                     });
 }
@@ -102,9 +102,9 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
   const std::string who = inQuotes(p_session->name());
   switch (answer) {
     case PasswordCheck::Answer::kRight:
-      if (p_session->standing().streams() != streams || p_session->isDetached()) return;
-      p_session->standing().setAdmin();
-      logNews(*p_session, who + " is an admin now");
+      if (p_session->status().streams() != streams || p_session->isDetached()) return;
+      p_session->status().setAdmin();
+      logClientEvent(*p_session, who + " is an admin now");
       return reply(*p_session, {"You are an admin until your connection ends."});
     case PasswordCheck::Answer::kWrong:
       refuse(*p_session, "That is not the admin password.");
@@ -122,21 +122,21 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
 void ChatCommands::vote(Session& session, const AdminRequest& request) {
   if (!m_access.context.options.vote_kick) return reply(session, {"This server does not allow votes."});
   const std::vector<AdminPlayer> players = m_admin.players();
-  const PlayerChoice choice = choosePlayer(players, request.of("player"));
+  const PlayerLookup choice = resolvePlayer(players, request.of("player"));
   if (!choice.player) return reply(session, answerText(choice.problem));
   const std::string& name = choice.player->name;
   const auto outcome = m_vote.vote(players, session.id(), choice.player->session, session.now());
   const std::string voices =
-      " (" + std::to_string(m_vote.voices()) + " of " + std::to_string(m_vote.needed()) + " votes)";
+      " (" + std::to_string(m_vote.votes()) + " of " + std::to_string(m_vote.needed()) + " votes)";
   switch (outcome) {
     case VoteKick::Outcome::kBegun:
-      logNews(session, inQuotes(session.name()) + " starts a vote to kick " + inQuotes(name));
-      return m_admin.say(session.name() + " starts a vote to kick " + name + ". /vote kick " + name +
-                         " agrees within 30 seconds" + voices + ".");
+      logClientEvent(session, inQuotes(session.name()) + " starts a vote to kick " + inQuotes(name));
+      return m_admin.broadcast(session.name() + " starts a vote to kick " + name + ". /vote kick " + name +
+                               " agrees within 30 seconds" + voices + ".");
     case VoteKick::Outcome::kAgreed:
-      return m_admin.say(session.name() + " agrees to vote " + name + " out" + voices + ".");
+      return m_admin.broadcast(session.name() + " agrees to vote " + name + " out" + voices + ".");
     case VoteKick::Outcome::kPassed:
-      return throwOut(*choice.player);
+      return kickByVote(*choice.player);
     case VoteKick::Outcome::kAlready:
       return reply(session, {"You have already agreed."});
     case VoteKick::Outcome::kOther:
@@ -149,17 +149,17 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
 }
 
 // Bans the name, and the address unless others play there. The ban is short, so it is not written to disk.
-void ChatCommands::throwOut(const AdminPlayer& player) {
+void ChatCommands::kickByVote(const AdminPlayer& player) {
   if (const Session* const p_session = m_access.clients.sessions().find(player.session))
-    logNews(*p_session, inQuotes(player.name) + " is kicked by a vote");
-  m_admin.say("The players have voted to kick " + player.name + " for five minutes.");
+    logClientEvent(*p_session, inQuotes(player.name) + " is kicked by a vote");
+  m_admin.broadcast("The players have voted to kick " + player.name + " for five minutes.");
   Ban ban;
   ban.name = player.name;
   ban.reason = "the players voted to kick you";
   ban.by = "a vote";
   ban.made = m_bans.time();
-  ban.until = ban.made + VoteKick::kOut;
-  ban.lasting = false;
+  ban.until = ban.made + VoteKick::kBanTime;
+  ban.persistent = false;
   const auto ignored = [](const std::string&) {};
   m_bans.add(ban, ignored);
   const std::vector<AdminPlayer> players = m_admin.players();
@@ -173,11 +173,11 @@ void ChatCommands::throwOut(const AdminPlayer& player) {
     ban.range = AddressRange::around(*address);
     m_bans.add(ban, ignored);
   }
-  m_admin.endPlayer(player.session, banSentence(ban));
+  m_admin.kickPlayer(player.session, banMessage(ban));
 }
 
 void ChatCommands::update(Session::Clock::time_point now) {
-  if (m_vote.takeFailed(now)) m_admin.say("The vote is over: too few agreed.");
+  if (m_vote.popFailed(now)) m_admin.broadcast("The vote is over: too few agreed.");
 }
 
 }  // namespace naiad

@@ -33,10 +33,10 @@ class ChatCommands {
   void becomeAdmin(Session& session, const std::string& password);
   void onPassword(std::uint64_t id, std::uint32_t streams, PasswordCheck::Answer answer);
   void vote(Session& session, const AdminRequest& request);
-  void throwOut(const AdminPlayer& player);
+  void kickByVote(const AdminPlayer& player);
   void reply(Session& session, const std::vector<std::string>& lines);
 
-  void logNews(const Session& session, const std::string& text);
+  void logClientEvent(const Session& session, const std::string& text);
   void refuse(Session& session, const std::string& sentence);
 
   HostAccess m_access;

@@ -8,7 +8,7 @@
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/rooms/SessionTable.h"
-#include "host/settings/RoomList.h"
+#include "host/settings/RoomOptions.h"
 #include "naiad.pb.h"
 #include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
@@ -38,12 +38,12 @@ AdminPlayer factsOf(const Session& session, Session::Clock::time_point now) {
   player.id = session.player();
   player.name = session.name();
   player.address = session.address();
-  player.connected = since(session.standing().joined(), now);
-  player.idle = since(session.standing().acted(), now);
+  player.connected = since(session.status().joined(), now);
+  player.idle = since(session.status().lastActivity(), now);
   player.rtt_millis = session.rttMillis();
   player.detached = session.isDetached();
-  player.muted = session.standing().isMuted();
-  player.admin = session.standing().isAdmin();
+  player.muted = session.status().isMuted();
+  player.admin = session.status().isAdmin();
   player.room = session.welcomed().room();
   return player;
 }
@@ -149,12 +149,13 @@ Session* HostAdmin::findPlaying(std::uint64_t session) const {
 }
 
 // Ending the session also invalidates its resume token (Admission::forgetSession).
-void HostAdmin::endPlayer(std::uint64_t session, const std::string& sentence) {
-  if (Session* p_session = findPlaying(session)) p_session->goodbye(safeText(sentence, kMaxSentenceLength));
+void HostAdmin::kickPlayer(std::uint64_t session, const std::string& sentence) {
+  if (Session* p_session = findPlaying(session))
+    p_session->sendGoodbye(safeText(sentence, kMaxMessageLength));
 }
 
-void HostAdmin::say(const std::string& text) {
-  m_access.clients.say(text);
+void HostAdmin::broadcast(const std::string& text) {
+  m_access.clients.broadcast(text);
 }
 
 void HostAdmin::tell(std::uint64_t session, const std::string& text) {
@@ -164,20 +165,20 @@ void HostAdmin::tell(std::uint64_t session, const std::string& text) {
 void HostAdmin::setMuted(std::uint64_t session, bool muted) {
   Session* p_session = findPlaying(session);
   if (p_session == nullptr) return;
-  p_session->standing().setMuted(muted);
-  m_access.clients.admission().noteSession(*p_session);
+  p_session->status().setMuted(muted);
+  m_access.clients.admission().recordSession(*p_session);
 }
 
 // ---- the server -------------------------------------------------------------------------------------------
 
 AdminAnswer HostAdmin::stop(const std::string& sentence) {
   m_access.controls.end(
-      {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxSentenceLength)});
+      {.at = Session::Clock::time_point(), .sentence = safeText(sentence, kMaxMessageLength)});
   return AdminAnswer::done("The server is stopping.");
 }
 
 AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
-  Ending::Plan plan{.begins_again = true};
+  ShutdownScheduler::Plan plan{.is_restart = true};
   std::string when = "now";
   switch (restart.when) {
     case AdminRestart::When::kNow:
@@ -196,13 +197,13 @@ AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
   return AdminAnswer::done("The server restarts " + when + ".");
 }
 
-void HostAdmin::keepRound(std::function<void(AdminAnswer)> done) {
-  m_access.controls.keepRound(answering(std::move(done)));
+void HostAdmin::handOverRound(std::function<void(AdminAnswer)> done) {
+  m_access.controls.handOverRound(answering(std::move(done)));
 }
 
 // The time limit is that of the command, else --drain-time. If both are absent, there is no limit.
 AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
-  Ending::Plan plan{.when_empty = true};
+  ShutdownScheduler::Plan plan{.when_empty = true};
   std::chrono::duration<double> patience(m_access.context.options.drain_time);
   if (most) patience = *most;
   std::string text = "Draining: no new players. The server stops when all players have left";
@@ -218,7 +219,7 @@ AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
 AdminAnswer HostAdmin::cancel() {
   if (!m_access.controls.cancelEnd())
     return AdminAnswer::refused("No shutdown, restart or drain is scheduled.");
-  say("The server stays up: its shutdown or restart was cancelled.");
+  broadcast("The server stays up: its shutdown or restart was cancelled.");
   return AdminAnswer::done("Cancelled: the server stays up.");
 }
 
@@ -237,7 +238,7 @@ std::vector<HostAdmin::Board> HostAdmin::boards() const {
   if (!m_access.clients.rooms().isNamed()) return {{m_access.context.game, {}}};
   std::vector<Board> boards;
   m_access.clients.rooms().forEachRoom([&boards](const Room& room) {
-    const RoomPlan& plan = *room.plan();
+    const RoomConfig& plan = *room.plan();
     auto board = std::find_if(boards.begin(), boards.end(),
                               [&plan](const Board& one) { return one.game == plan.game; });
     if (board == boards.end()) board = boards.insert(board, {plan.game, {}});
@@ -261,8 +262,8 @@ const HostAdmin::Board* HostAdmin::findBoard(const std::vector<Board>& boards, c
   if (!which.game.empty()) {
     refusal = AdminAnswer::refused(unknownGame(which.game, games));
   } else if (!which.room.empty()) {
-    refusal =
-        AdminAnswer::refused(rooms.empty() ? "This server has no rooms." : unknownRoom(which.room, rooms));
+    refusal = AdminAnswer::refused(rooms.empty() ? "This server has no rooms."
+                                                 : unknownRoomMessage(which.room, rooms));
   } else {
     refusal = AdminAnswer::refused("Each game has its own tables; choose one with --game or --room:");
     for (const Board& board : boards)
@@ -298,7 +299,7 @@ AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) 
   } catch (const OptionError& error) {
     return AdminAnswer::refused(error.what());
   }
-  m_access.controls.adopt(changed);
+  m_access.controls.applyOptions(changed);
   return AdminAnswer::done(option + " is " + hostOptionValue(m_access.context.options, option) + ".");
 }
 

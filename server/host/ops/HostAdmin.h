@@ -45,9 +45,9 @@ class HostAdmin {
   std::vector<AdminRow> rooms() const;
 
   /// Sends the player the sentence and ends their session and its token. Ignores sessions that do not play.
-  void endPlayer(std::uint64_t session, const std::string& sentence);
+  void kickPlayer(std::uint64_t session, const std::string& sentence);
   /// Sends a line from the server to all players, or to one. Truncates it to the length of a chat line.
-  void say(const std::string& text);
+  void broadcast(const std::string& text);
   void tell(std::uint64_t session, const std::string& text);
   void setMuted(std::uint64_t session, bool muted);
 
@@ -56,8 +56,8 @@ class HostAdmin {
 
   AdminAnswer stop(const std::string& sentence);
   AdminAnswer restart(const AdminRestart& restart);
-  /// Calls HostControls::keepRound().
-  void keepRound(std::function<void(AdminAnswer)> done);
+  /// Calls HostControls::handOverRound().
+  void handOverRound(std::function<void(AdminAnswer)> done);
   /// `most`: time limit; nullopt: --drain-time.
   AdminAnswer drain(std::optional<std::chrono::seconds> most);
   AdminAnswer cancel();

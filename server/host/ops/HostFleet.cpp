@@ -40,7 +40,7 @@ class SystemdPlatform : public HostPlatform {
 };
 
 constexpr std::chrono::seconds kSayPlayers{1};
-constexpr std::chrono::milliseconds kLastWord{1500};  ///< timeout of finish(), for bus and platform each
+constexpr std::chrono::milliseconds kFinishTimeout{1500};  ///< timeout of finish(), for bus and platform each
 
 BusSettings busSettings(const HostOptions& options) {
   return {options.bus, options.bus_credentials, options.bus_ca};
@@ -69,11 +69,11 @@ std::string busId(const HostOptions& options, std::uint16_t port) {
 }
 
 /// Returns the named rooms of a server.
-std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
+std::vector<PresenceRoom> presenceOfRooms(const RoomManager& rooms) {
   std::vector<PresenceRoom> all;
   if (!rooms.isNamed()) return all;
   rooms.forEachRoom([&all](const Room& room) {
-    const RoomPlan& plan = *room.plan();
+    const RoomConfig& plan = *room.plan();
     all.push_back({plan.name, plan.game, static_cast<std::uint32_t>(room.countPlaying()),
                    static_cast<std::uint32_t>(plan.max_players)});
   });
@@ -84,17 +84,16 @@ std::vector<PresenceRoom> presenceOfRooms(const Rooms& rooms) {
 
 HostFleet::HostFleet(const HostAccess& access, HostScores& scores)
     : m_access(access), m_platform(makePlatform(access.context.options)) {
-  access.controls.watchReloads([this](bool is_done, Clock::time_point now) {
+  access.controls.setOnReload([this](bool is_done, Clock::time_point now) {
     is_done ? m_platform->notifyReady() : m_platform->notifyReloading(now);
   });
-  access.controls.watchForcedEnd(
-      [this](std::chrono::milliseconds patience) { m_platform->finish(patience); });
+  access.controls.setOnForcedExit([this](std::chrono::milliseconds timeout) { m_platform->finish(timeout); });
   if (access.context.options.bus.empty()) return;
   m_id = busId(access.context.options, access.endpoint.port());
   BusSettings settings = busSettings(access.context.options);
-  settings.subjects = {sendOnSubject(m_id)};
+  settings.subjects = {redirectSubject(m_id)};
   m_bus = connectBus(settings);
-  access.clients.admission().setOthers([this] { return linkToOther(); });
+  access.clients.admission().setFindRedirect([this] { return redirectLink(); });
   scores.setObserver([this](const ScoreRow& row, const std::string& game) { publishScore(row, game); });
 }
 
@@ -106,39 +105,39 @@ void HostFleet::begin() {
 
 void HostFleet::tick(Clock::time_point now) {
   m_platform->notifyTick(now);
-  if (m_bus && now - m_present >= interval()) {
-    m_present = now;
+  if (m_bus && now - m_presence_sent_at >= interval()) {
+    m_presence_sent_at = now;
     m_bus->publish({presenceSubject(m_id), presence().payload()});
-    hearDirectory(now);
+    processRedirects(now);
   }
-  if (now - m_said < kSayPlayers) return;
-  m_said = now;
-  sayPlayers();
-  if (m_platform->takeEnd()) {
+  if (now - m_players_reported_at < kSayPlayers) return;
+  m_players_reported_at = now;
+  reportPlayers();
+  if (m_platform->popShutdownRequest()) {
     m_access.context.log("the platform requested a shutdown");
     m_access.controls.endWhenEmpty(m_access.context.options.drain_time);
   }
-  hearDirectory(now);
-  takeNews();
+  processRedirects(now);
+  popLogMessage();
 }
 
-// Ignores invalid messages. An earlier valid redirect expires by itself (linkToOther()).
-void HostFleet::hearDirectory(Clock::time_point now) {
+// Ignores invalid messages. An earlier valid redirect expires by itself (redirectLink()).
+void HostFleet::processRedirects(Clock::time_point now) {
   if (!m_bus) return;
-  for (const BusMessage& message : m_bus->takeMessages()) {
-    auto other = SendOn::parse(message.payload);
+  for (const BusMessage& message : m_bus->popMessages()) {
+    auto other = Redirect::parse(message.payload);
     if (!other || other->to == m_id) continue;
-    m_other = *std::move(other);
-    m_other_heard = now;
+    m_redirect = *std::move(other);
+    m_redirect_received_at = now;
   }
 }
 
-std::optional<JoinLink> HostFleet::linkToOther() const {
-  const bool holds = m_other && Clock::now() - m_other_heard < 3 * interval();
-  return holds ? std::optional(m_other->link) : std::nullopt;
+std::optional<JoinLink> HostFleet::redirectLink() const {
+  const bool holds = m_redirect && Clock::now() - m_redirect_received_at < 3 * interval();
+  return holds ? std::optional(m_redirect->link) : std::nullopt;
 }
 
-void HostFleet::sayPlayers() {
+void HostFleet::reportPlayers() {
   PlatformPlayers players;
   players.address = m_access.endpoint.address();
   players.most = static_cast<std::size_t>(m_access.context.options.max_players);
@@ -161,7 +160,7 @@ Presence HostFleet::presence() const {
   presence.port = link ? link->port : given ? given->port : port;
   const auto key = m_access.endpoint.fingerprint();
   presence.key = key ? key->text() : "";
-  presence.is_open = m_access.context.ending.isOpen();
+  presence.is_open = m_access.context.shutdown_scheduler.acceptsPlayers();
   presence.rooms = presenceOfRooms(m_access.clients.rooms());
   return presence;
 }
@@ -181,13 +180,15 @@ void HostFleet::publishScore(const ScoreRow& row, const std::string& game) {
   m_bus->publish({resultSubject(m_id), result.payload(), result.messageId()});
 }
 
-void HostFleet::takeNews() {
-  if (const std::string news = m_platform->takeNews(); !news.empty()) m_access.context.log(newsEvent(news));
+void HostFleet::popLogMessage() {
+  if (const std::string news = m_platform->popLogMessage(); !news.empty())
+    m_access.context.log(workerLogEvent(news));
   const PlatformCounters platform = m_platform->counters();
   m_access.context.counters.platform_requests = platform.requests;
   m_access.context.counters.platform_failures = platform.failures;
   if (!m_bus) return;
-  if (const std::string news = m_bus->takeNews(); !news.empty()) m_access.context.log(newsEvent(news));
+  if (const std::string news = m_bus->popLogMessage(); !news.empty())
+    m_access.context.log(workerLogEvent(news));
   const BusCounters bus = m_bus->counters();
   m_access.context.counters.bus_published = bus.published;
   m_access.context.counters.bus_dropped = bus.dropped;
@@ -205,9 +206,9 @@ void HostFleet::drain() {
 
 // The platform comes last, because it may remove the server as soon as it is told of the end.
 void HostFleet::finish() {
-  if (m_bus) m_bus->finish(kLastWord);
-  m_platform->finish(kLastWord);
-  takeNews();
+  if (m_bus) m_bus->finish(kFinishTimeout);
+  m_platform->finish(kFinishTimeout);
+  popLogMessage();
 }
 
 }  // namespace naiad

@@ -33,22 +33,22 @@ class HostFleet : public HostPart {
     return std::chrono::milliseconds(m_access.context.options.bus_interval_ms);
   }
   /// Returns a link to another server of the fleet with free places, named by the directory; nullopt: none.
-  std::optional<JoinLink> linkToOther() const;
+  std::optional<JoinLink> redirectLink() const;
   /// Publishes a score row that is about to be written. Called once per row.
   void publishScore(const ScoreRow& row, const std::string& game);
-  void sayPlayers();
+  void reportPlayers();
   Presence presence() const;
-  void hearDirectory(Clock::time_point now);
-  void takeNews();
+  void processRedirects(Clock::time_point now);
+  void popLogMessage();
 
   HostAccess m_access;
   std::unique_ptr<HostPlatform> m_platform;
-  std::unique_ptr<Bus> m_bus;  ///< null: none
-  std::string m_id;            ///< name on the bus
-  Clock::time_point m_said{};  ///< last report of players to the platform
-  Clock::time_point m_present{};
-  std::optional<SendOn> m_other;  ///< newest redirect from the directory
-  Clock::time_point m_other_heard{};
+  std::unique_ptr<Bus> m_bus;                 ///< null: none
+  std::string m_id;                           ///< name on the bus
+  Clock::time_point m_players_reported_at{};  ///< last report of players to the platform
+  Clock::time_point m_presence_sent_at{};
+  std::optional<Redirect> m_redirect;  ///< newest redirect from the directory
+  Clock::time_point m_redirect_received_at{};
 };
 
 }  // namespace naiad

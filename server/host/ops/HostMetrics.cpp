@@ -19,7 +19,7 @@ namespace naiad {
 
 namespace {
 
-constexpr std::chrono::seconds kMeasureEvery{1};
+constexpr std::chrono::seconds kMeasureInterval{1};
 
 std::chrono::nanoseconds cpuOf(clockid_t clock) {
   timespec spent{};
@@ -27,13 +27,13 @@ std::chrono::nanoseconds cpuOf(clockid_t clock) {
   return std::chrono::seconds(spent.tv_sec) + std::chrono::nanoseconds(spent.tv_nsec);
 }
 
-MetricsServer::Answer answerOf(const HostPulse::Verdict& verdict) {
+MetricsServer::Response answerOf(const HostHealth::Result& verdict) {
   return {verdict.is_good ? 200 : 503, verdict.sentence + "\n"};
 }
 
 }  // namespace
 
-HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(access.context.stages) {
+HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_health(access.context.stages) {
   const HostOptions& options = access.context.options;
   access.context.stages.start();
   const MetricsAddress address = *MetricsAddress::parse(options.metrics);
@@ -50,12 +50,12 @@ HostMetrics::HostMetrics(const HostAccess& access) : m_access(access), m_pulse(a
 HostMetrics::~HostMetrics() = default;
 
 // Runs on the thread of the MetricsServer.
-MetricsServer::Answer HostMetrics::answer(std::string_view path) {
+MetricsServer::Response HostMetrics::answer(std::string_view path) {
   if (path == "/metrics") {
-    return {200, renderMetrics(m_newest.takeLatest(), ProcessFacts::read()), kExpositionType};
+    return {200, renderMetrics(m_newest.readLatest(), ProcessInfo::read()), kExpositionType};
   }
-  if (path == "/healthz") return answerOf(m_pulse.health(Clock::now()));
-  if (path == "/readyz") return answerOf(m_pulse.readiness(Clock::now()));
+  if (path == "/healthz") return answerOf(m_health.health(Clock::now()));
+  if (path == "/readyz") return answerOf(m_health.readiness(Clock::now()));
   return {404, "Not found; there are /metrics, /healthz and /readyz.\n"};
 }
 
@@ -64,25 +64,25 @@ void HostMetrics::begin() {
   const auto tick = TickLength::fromMicros(options.frame_micros).times(1);
   m_next.tick_length = std::chrono::duration<double>(tick).count();
   m_measure_at = Clock::now();
-  m_pulse.begin(tick, m_measure_at);
+  m_health.begin(tick, m_measure_at);
   if (options.audit == "on")
     m_access.clients.rooms().startAudit(static_cast<std::uint32_t>(std::chrono::seconds(1) / tick));
 }
 
 void HostMetrics::tick(Clock::time_point now) {
-  m_access.context.ending.isOpen() ? m_pulse.cancelDrain() : m_pulse.beginDrain(true);
+  m_access.context.shutdown_scheduler.acceptsPlayers() ? m_health.cancelDrain() : m_health.beginDrain(true);
   if (now >= m_measure_at) measure(now);
 }
 
 void HostMetrics::measure(Clock::time_point now) {
-  m_measure_at = now + kMeasureEvery;
+  m_measure_at = now + kMeasureInterval;
   const HostContext& context = m_access.context;
   NetworkThread& network = m_access.endpoint.network();
   m_next.max_players = static_cast<std::uint64_t>(context.options.max_players);
   m_next.counters = context.counters;
   m_next.passwords = m_access.clients.admission().passwordCounters();
   m_next.network = network.latestCounters();
-  network.askForCounters();  // for the next call
+  network.requestCounters();  // for the next call
   m_next.stages = context.stages.spent();
   m_next.tick_lateness = context.stages.lateness();
   m_next.tick_durations = context.stages.durations();
@@ -91,13 +91,13 @@ void HostMetrics::measure(Clock::time_point now) {
   m_next.objects = m_access.clients.rooms().objects();
   measureSessions();
   measureCpu();
-  m_pulse.setFull(m_next.connected + m_next.detached >= m_next.max_players);
+  m_health.setFull(m_next.connected + m_next.detached >= m_next.max_players);
   m_newest.publish(std::make_unique<const MetricsSnapshot>(m_next));
 }
 
 void HostMetrics::measureRooms() {
   m_next.named_rooms.clear();
-  const Rooms& rooms = m_access.clients.rooms();
+  const RoomManager& rooms = m_access.clients.rooms();
   if (!rooms.isNamed()) return;
   rooms.forEachRoom([this](const Room& room) {
     m_next.named_rooms.push_back(

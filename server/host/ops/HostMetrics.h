@@ -11,14 +11,14 @@
 #include <string_view>
 
 #include "host/loop/HostPart.h"
-#include "host/metrics/HostPulse.h"
+#include "host/metrics/HostHealth.h"
 #include "host/metrics/MetricsPage.h"
 #include "host/metrics/MetricsServer.h"
 
 namespace naiad {
 
 /// Passes the newest value from one thread to another. Lock-free: neither thread ever waits.
-/// One thread calls publish(), another one takeLatest().
+/// One thread calls publish(), another one readLatest().
 template <class T>
 class LatestValue {
  public:
@@ -29,7 +29,7 @@ class LatestValue {
     delete m_newest.exchange(value.release(), std::memory_order_acq_rel);
   }
   /// Returns the newest value; null before the first. Valid until the next call.
-  const T* takeLatest() {
+  const T* readLatest() {
     if (const T* p_newest = m_newest.exchange(nullptr, std::memory_order_acq_rel)) m_taken.reset(p_newest);
     return m_taken.get();
   }
@@ -49,17 +49,17 @@ class HostMetrics : public HostPart {
   void begin() override;
   /// Measures once a second.
   void tick(Clock::time_point now) override;
-  void drain() override { m_pulse.beginDrain(false); }
+  void drain() override { m_health.beginDrain(false); }
 
  private:
-  MetricsServer::Answer answer(std::string_view path);
+  MetricsServer::Response answer(std::string_view path);
   void measure(Clock::time_point now);
   void measureRooms();
   void measureSessions();
   void measureCpu();
 
   HostAccess m_access;
-  HostPulse m_pulse;
+  HostHealth m_health;
   LatestValue<MetricsSnapshot> m_newest;
   MetricsSnapshot m_next;  ///< updated by each measurement; histograms accumulate
   Clock::time_point m_measure_at{};

@@ -11,7 +11,7 @@ HostScores::HostScores(const HostAccess& access) : m_access(access) {
 
 void HostScores::begin() {
   of(m_access.context.game);
-  const Rooms& rooms = m_access.clients.rooms();
+  const RoomManager& rooms = m_access.clients.rooms();
   if (rooms.isNamed()) rooms.forEachRoom([this](const Room& room) { of(room.plan()->game); });
 }
 
@@ -39,7 +39,8 @@ void HostScores::tick(Clock::time_point) {
     sum.refused += counters.refused;
     sum.written += counters.written;
     sum.dropped += counters.dropped;
-    if (const std::string news = keeper->takeNews(); !news.empty()) m_access.context.log(newsEvent(news));
+    if (const std::string news = keeper->popLogMessage(); !news.empty())
+      m_access.context.log(workerLogEvent(news));
   }
   m_access.context.counters.scores = sum.added;
   m_access.context.counters.scores_refused = sum.refused;

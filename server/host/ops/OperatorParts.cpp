@@ -68,7 +68,7 @@ class HostCommands : public HostPart {
   void listen() {
     const HostOptions& options = m_access.context.options;
     const bool by_default = options.control.empty() && options.control_by_port;
-    ControlListening where = listening(by_default);
+    ControlSocketOptions where = listening(by_default);
     if (where.path.empty()) return;
     try {
       m_control = std::make_unique<ControlSocket>(std::move(where), executor(), m_access.context.feed,
@@ -79,9 +79,9 @@ class HostCommands : public HostPart {
                                                            " dfctl cannot reach this server (--control)."});
     }
   }
-  ControlListening listening(bool by_default) const {
+  ControlSocketOptions listening(bool by_default) const {
     // Refuses worlds (descendants) and processes of PID namespaces that have no number in this one.
-    ControlListening listening;
+    ControlSocketOptions listening;
     listening.path = m_access.context.options.control;
     if (by_default) {
       listening.path = controlPath(m_access.endpoint.port()).value_or(std::filesystem::path());
@@ -127,7 +127,7 @@ class HostListing : public HostPart {
     if (m_lan) m_lan->setPlayers(playing);
     if (!m_status) return;
     m_status->setPlayers(static_cast<std::uint32_t>(playing));
-    if (const std::string news = m_status->takeNews(); !news.empty()) m_access.context.log(news);
+    if (const std::string news = m_status->popLogMessage(); !news.empty()) m_access.context.log(news);
   }
   /// Stops to answer queries and removes the status file.
   void drain() override {

@@ -12,14 +12,14 @@
 
 namespace naiad {
 
-std::string statusText(const ServerFacts& facts, const std::string& link) {
+std::string statusText(const ServerInfo& facts, const std::string& link) {
   Json status = jsonOf(facts);
   status.set("version", kVersion);
   if (!link.empty()) status.set("link", link);
   return status.toString(Json::Style::kAscii) + "\n";
 }
 
-StatusFile::StatusFile(std::string path, ServerFacts facts, std::string link)
+StatusFile::StatusFile(std::string path, ServerInfo facts, std::string link)
     : m_path(std::move(path)), m_link(std::move(link)), m_facts(std::move(facts)) {
   try {
     publishFile(m_path, statusText(m_facts, m_link));
@@ -44,15 +44,15 @@ void StatusFile::setPlayers(std::uint32_t players) {
   m_facts.players = players;
 }
 
-std::string StatusFile::takeNews() {
+std::string StatusFile::popLogMessage() {
   const std::lock_guard lock(m_mutex);
-  return std::exchange(m_news, std::string());
+  return std::exchange(m_log_message, std::string());
 }
 
 void StatusFile::run() {
   std::unique_lock lock(m_mutex);
   while (!m_stop.wait_for(lock, kInterval, [this] { return m_stopping; })) {
-    const ServerFacts facts = m_facts;
+    const ServerInfo facts = m_facts;
     lock.unlock();
     write(facts);
     lock.lock();
@@ -60,7 +60,7 @@ void StatusFile::run() {
 }
 
 // Reports a failure (like a full disk) once, and once when writing works again.
-void StatusFile::write(const ServerFacts& facts) {
+void StatusFile::write(const ServerInfo& facts) {
   std::string problem;
   try {
     publishFile(m_path, statusText(facts, m_link));
@@ -71,8 +71,8 @@ void StatusFile::write(const ServerFacts& facts) {
   const bool failing = !problem.empty();
   if (failing == m_failing) return;
   m_failing = failing;
-  m_news = failing ? "warning: the status file " + m_path + " cannot be written: " + problem
-                   : "the status file " + m_path + " can be written again";
+  m_log_message = failing ? "warning: the status file " + m_path + " cannot be written: " + problem
+                          : "the status file " + m_path + " can be written again";
 }
 
 }  // namespace naiad

@@ -216,7 +216,7 @@ std::string where() {
   return " in tick " + std::to_string(g_tick) + activity("handled");
 }
 
-void noteTick(std::uint64_t number) {
+void setTick(std::uint64_t number) {
   g_tick.store(number, std::memory_order_relaxed);
   if (number != 0) g_last_tick.store(number, std::memory_order_relaxed);
 }

@@ -40,6 +40,6 @@ bool inTick();
 std::string where();
 
 /// Call when tick `number` begins, and with 0 when one has ended, on the thread that ticks.
-void noteTick(std::uint64_t number);
+void setTick(std::uint64_t number);
 
 }  // namespace naiad::crash

@@ -43,15 +43,15 @@ class Histogram {
 };
 
 enum class Stage : std::uint8_t {
-  kBetween,    ///< between two ticks: serving streams, or idle
-  kReceive,    ///< reading the datagrams since the last tick
-  kSessions,   ///< deadlines of sessions; ends and starts of rounds
-  kInputs,     ///< passing keys and clicks to the worlds
-  kWorld,      ///< the game's code and the engine; sending the turn, for worlds in processes of their own
-  kPublish,    ///< comparing published models with the world
-  kSnapshots,  ///< writing snapshots for each player
-  kNews,       ///< sending sounds, lists of players, and lines
-  kFlush,      ///< handing everything to the network thread
+  kIdle,        ///< between two ticks: serving streams, or idle
+  kReceive,     ///< reading the datagrams since the last tick
+  kSessions,    ///< deadlines of sessions; ends and starts of rounds
+  kInputs,      ///< passing keys and clicks to the worlds
+  kWorld,       ///< the game's code and the engine; sending the turn, for worlds in processes of their own
+  kPublish,     ///< comparing published models with the world
+  kSnapshots,   ///< writing snapshots for each player
+  kBroadcasts,  ///< sending sounds, lists of players, and lines
+  kFlush,       ///< handing everything to the network thread
 };
 inline constexpr std::size_t kStages = 9;
 
@@ -73,7 +73,7 @@ class StageClock {
   }
   /// Enters a stage. Returns the one before.
   Stage enter(Stage stage) {
-    if (!m_on) return Stage::kBetween;
+    if (!m_on) return Stage::kIdle;
     const Stage before = m_current.load(std::memory_order_relaxed);
     const Clock::time_point now = Clock::now();
     m_spent[static_cast<std::size_t>(before)] += now - m_since;
@@ -112,7 +112,7 @@ class StageClock {
  private:
   bool m_on = false;
   bool m_in_tick = false;
-  std::atomic<Stage> m_current = Stage::kBetween;
+  std::atomic<Stage> m_current = Stage::kIdle;
   Clock::time_point m_since{};
   Seconds m_spent{};
   std::atomic<std::uint64_t> m_tick = 0;

@@ -20,7 +20,7 @@ void ask(int signal) {
   ++g_count;
 }
 
-void noteHangUp(int /*signal*/) {
+void onHangup(int /*signal*/) {
   g_hung_up = true;
 }
 
@@ -45,7 +45,7 @@ StopSignals::StopSignals() {
   g_hung_up = false;
   handle(SIGINT, ask, m_before_int);
   handle(SIGTERM, ask, m_before_term);
-  handle(SIGHUP, hasControllingTerminal() ? ask : noteHangUp, m_before_hup);
+  handle(SIGHUP, hasControllingTerminal() ? ask : onHangup, m_before_hup);
   if (m_before_hup.sa_handler == SIG_IGN) sigaction(SIGHUP, &m_before_hup, nullptr);
 }
 
@@ -63,7 +63,7 @@ int StopSignals::signal() const {
   return g_signal;
 }
 
-bool StopSignals::takeHangUp() {
+bool StopSignals::popHangup() {
   return g_hung_up.exchange(false);
 }
 

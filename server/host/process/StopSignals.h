@@ -7,7 +7,7 @@ namespace naiad {
 
 /// Handlers are installed while this exists; a signal counts for all objects. SIGHUP asks for the end like
 /// the others if the process has a controlling terminal when this is made: that terminal is gone. Without a
-/// terminal it is reported by takeHangUp(). If it is ignored (nohup), it stays so.
+/// terminal it is reported by popHangup(). If it is ignored (nohup), it stays so.
 class StopSignals {
  public:
   StopSignals();
@@ -17,11 +17,11 @@ class StopSignals {
 
   /// Returns the number of signals that have asked for the end since this was installed. Any thread.
   int count() const;
-  bool isAsked() const { return count() > 0; }
+  bool isStopRequested() const { return count() > 0; }
   /// Returns the last of these signals. Any thread.
   int signal() const;
   /// True, once, after a SIGHUP that does not ask for the end.
-  bool takeHangUp();
+  bool popHangup();
 
  private:
   struct sigaction m_before_int {};

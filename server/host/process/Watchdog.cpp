@@ -11,15 +11,15 @@ namespace naiad {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks{100};
+constexpr std::chrono::milliseconds kCheckInterval{100};
 
 }  // namespace
 
-SideLog::SideLog(LogLine log) : m_log(std::move(log)) {
+AsyncLog::AsyncLog(LogLine log) : m_log(std::move(log)) {
   m_thread = startWithoutSignals([this] { run(); });
 }
 
-SideLog::~SideLog() {
+AsyncLog::~AsyncLog() {
   {
     const std::lock_guard lock(m_mutex);
     m_stopping = true;
@@ -28,7 +28,7 @@ SideLog::~SideLog() {
   m_thread.join();
 }
 
-void SideLog::operator()(const std::string& line) {
+void AsyncLog::operator()(const std::string& line) {
   {
     const std::lock_guard lock(m_mutex);
     m_lines.push_back(line);
@@ -36,12 +36,12 @@ void SideLog::operator()(const std::string& line) {
   m_changed.notify_all();
 }
 
-void SideLog::waitUntilLogged(std::chrono::milliseconds most) {
+void AsyncLog::waitUntilLogged(std::chrono::milliseconds most) {
   std::unique_lock lock(m_mutex);
   m_changed.wait_for(lock, most, [this] { return m_lines.empty(); });
 }
 
-void SideLog::run() {
+void AsyncLog::run() {
   std::unique_lock lock(m_mutex);
   for (;;) {
     m_changed.wait(lock, [this] { return m_stopping || !m_lines.empty(); });
@@ -55,7 +55,7 @@ void SideLog::run() {
   }
 }
 
-Watchdog::Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedEnd&)> end)
+Watchdog::Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedExit&)> end)
     : m_signals(signals), m_log(std::move(log)), m_end(std::move(end)) {
   m_thread = startWithoutSignals([this] { run(); });
 }
@@ -75,26 +75,26 @@ void Watchdog::beginTick(std::uint64_t number) {
 }
 
 void Watchdog::run() {
-  HangWatch watch;
+  HangDetector watch;
   for (;;) {
     std::unique_lock lock(m_mutex);
-    if (m_changed.wait_for(lock, kBetweenLooks, [this] { return m_stopping; })) return;
+    if (m_changed.wait_for(lock, kCheckInterval, [this] { return m_stopping; })) return;
     lock.unlock();
     const Clock::rep since = m_since.load(std::memory_order_acquire);
     const std::uint64_t number = m_tick.load(std::memory_order_relaxed);
     const auto tick = since != 0 ? std::optional(number) : std::nullopt;
-    const HangWatch::Time began{Clock::duration(since)};
+    const HangDetector::Time began{Clock::duration(since)};
     switch (watch.check(tick, began, m_signals.count(), Clock::now())) {
-      case HangWatch::Step::kNothing:
+      case HangDetector::Step::kNothing:
         break;
-      case HangWatch::Step::kReport:
+      case HangDetector::Step::kReport:
         m_log("the game has not finished tick " + std::to_string(number) + " for " +
-              std::to_string(HangWatch::kHang.count()) + " s: it hangs, and all players wait" +
+              std::to_string(HangDetector::kHangTime.count()) + " s: it hangs, and all players wait" +
               crash::activity("handles"));
         break;
-      case HangWatch::Step::kEndHung:
-      case HangWatch::Step::kEndAtOnce:
-        m_end({.hung = tick && Clock::now() - began >= HangWatch::kHang,
+      case HangDetector::Step::kExitHung:
+      case HangDetector::Step::kExitNow:
+        m_end({.hung = tick && Clock::now() - began >= HangDetector::kHangTime,
                .tick = tick.value_or(0),
                .signal = m_signals.signal()});
     }

@@ -20,11 +20,11 @@ namespace naiad {
 
 /// A log for threads that must not wait, as when ending a server whose game may hold the log's lock. Passes
 /// lines on, in order, on a thread of its own, which is started in advance.
-class SideLog {
+class AsyncLog {
  public:
-  explicit SideLog(LogLine log);
+  explicit AsyncLog(LogLine log);
   /// Waits for all lines, however long they take.
-  ~SideLog();
+  ~AsyncLog();
 
   /// Adds a line, without waiting for the log. Any thread.
   void operator()(const std::string& line);
@@ -44,32 +44,32 @@ class SideLog {
 
 /// Decides, by the duration of the tick, whether the game hangs and whether the server must end without it.
 /// Single-threaded. Time is passed in.
-class HangWatch {
+class HangDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// Time in one tick after which the game counts as hanging.
-  static constexpr std::chrono::seconds kHang{1};
+  static constexpr std::chrono::seconds kHangTime{1};
   /// A server that was asked to end waits this long for a tick, and this long after the signal.
   static constexpr std::chrono::seconds kTickBeforeEnd{3};
   static constexpr std::chrono::seconds kSignalBeforeEnd{1};
 
   enum class Step {
     kNothing,
-    kReport,     ///< report that the game hangs: once for each tick
-    kEndHung,    ///< end without the game: an end was requested, and the tick does not finish
-    kEndAtOnce,  ///< end without the game: an end was requested twice
+    kReport,    ///< report that the game hangs: once for each tick
+    kExitHung,  ///< end without the game: an end was requested, and the tick does not finish
+    kExitNow,   ///< end without the game: an end was requested twice
   };
 
   /// Returns what to do. `tick` and `since`: number and begin of the running tick, if any. `stops`: number of
   /// signals so far that ask for the end.
   Step check(std::optional<std::uint64_t> tick, Time since, int stops, Time now) {
     if (stops > 0 && !m_asked_at) m_asked_at = now;
-    if (stops > 1) return Step::kEndAtOnce;
+    if (stops > 1) return Step::kExitNow;
     if (!tick) return Step::kNothing;
     if (m_asked_at && now - since >= kTickBeforeEnd && now - *m_asked_at >= kSignalBeforeEnd)
-      return Step::kEndHung;
-    if (now - since < kHang || m_reported == tick) return Step::kNothing;
+      return Step::kExitHung;
+    if (now - since < kHangTime || m_reported == tick) return Step::kNothing;
     m_reported = tick;
     return Step::kReport;
   }
@@ -80,7 +80,7 @@ class HangWatch {
 };
 
 /// The end of a server without its game.
-struct ForcedEnd {
+struct ForcedExit {
   bool hung = false;       ///< the tick did not finish; false: there was a second signal
   std::uint64_t tick = 0;  ///< the tick that did not finish; 0: none was running
   int signal = 0;          ///< signal that asked for it
@@ -90,8 +90,8 @@ class Watchdog {
  public:
   /// Watches `signals` and the ticks that are reported to it, until it is destroyed. `end` ends the process;
   /// it is called on the watching thread, and does not return. `log` is called there, too, and must not wait
-  /// for anything the game may hold (SideLog).
-  Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedEnd&)> end);
+  /// for anything the game may hold (AsyncLog).
+  Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedExit&)> end);
   ~Watchdog();
 
   /// Call these on the thread that ticks.
@@ -105,7 +105,7 @@ class Watchdog {
 
   const StopSignals& m_signals;
   LogLine m_log;
-  std::function<void(const ForcedEnd&)> m_end;
+  std::function<void(const ForcedExit&)> m_end;
   std::atomic<std::uint64_t> m_tick = 0;
   std::atomic<Clock::rep> m_since = 0;  ///< when the tick began; 0: none is running
   std::mutex m_mutex;

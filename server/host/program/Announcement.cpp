@@ -39,8 +39,8 @@ bool isHomeAlone(const std::string& address) {
 
 }  // namespace
 
-std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptions& options,
-                                   const Openness& openness) {
+std::vector<std::string> joinInstructions(const HostEndpoint& endpoint, const HostOptions& options,
+                                          const AccessHints& openness) {
   const auto local = endpoint.joinLink(false);
   std::vector<std::string> lines{"Join from this machine with: dfclient " +
                                  (local ? local->text() : endpoint.joinArguments())};
@@ -73,7 +73,7 @@ std::vector<std::string> qrLines(const HostOptions& options) {
   return {"No QR code: this program was built without libqrencode."};
 }
 
-void writeWhereabouts(const HostOptions& options, const HostEndpoint& endpoint) {
+void writeEndpointFiles(const HostOptions& options, const HostEndpoint& endpoint) {
   writeLine(options.port_file, "port", std::to_string(endpoint.port()));
   writeLine(options.join_file, "join", endpoint.joinArguments());
 }

@@ -10,18 +10,18 @@ class HostEndpoint;
 struct HostOptions;
 
 /// Hints which settings let more or fewer players in; one sentence each.
-struct Openness {
+struct AccessHints {
   std::string how_to_open;
   std::string how_to_restrict;
 };
 
 /// Returns lines for the player: "Join from this machine with: dfclient naiad://…", how to join from
 /// elsewhere, by ssh and in a browser as far as the options name these, and the address it listens on.
-std::vector<std::string> howToJoin(const HostEndpoint& endpoint, const HostOptions& options,
-                                   const Openness& openness);
+std::vector<std::string> joinInstructions(const HostEndpoint& endpoint, const HostOptions& options,
+                                          const AccessHints& openness);
 /// Returns the QR code if HostOptions::qr is set, or a line that says why there is none; otherwise empty.
 std::vector<std::string> qrLines(const HostOptions& options);
 /// Writes HostOptions::port_file and join_file, if set, each atomically. Throws std::runtime_error.
-void writeWhereabouts(const HostOptions& options, const HostEndpoint& endpoint);
+void writeEndpointFiles(const HostOptions& options, const HostEndpoint& endpoint);
 
 }  // namespace naiad

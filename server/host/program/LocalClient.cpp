@@ -18,7 +18,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "host/world/WordPointers.h"
+#include "host/world/ArgvPointers.h"
 
 namespace naiad {
 
@@ -42,7 +42,7 @@ int openOrNull(const std::string& path) {
   return ::open("/dev/null", O_WRONLY | O_CLOEXEC);
 }
 
-constexpr int kPatienceMillis = 2000;  // time for a client to end after the game's goodbye
+constexpr int kExitTimeoutMillis = 2000;  // time for a client to end after the game's goodbye
 
 bool isProgram(const fs::path& path) {
   std::error_code error;
@@ -145,8 +145,8 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
   }
   // The client must not inherit the game's sockets: it would keep the port in use as long as it lives.
   posix_spawn_file_actions_addclosefrom_np(&actions, 3);
-  const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, pointersTo(words).data(),
-                                  pointersTo(environment).data());
+  const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, argvPointers(words).data(),
+                                  argvPointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   if (problem == 0) return;
   m_process = -1;
@@ -158,7 +158,7 @@ LocalClient::~LocalClient() {
   // glibc 2.36 declares pidfd_open as a C++ function.
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, m_process, 0));
   pollfd ended{handle, POLLIN, 0};
-  if (handle < 0 || poll(&ended, 1, kPatienceMillis) <= 0) kill(m_process, SIGTERM);
+  if (handle < 0 || poll(&ended, 1, kExitTimeoutMillis) <= 0) kill(m_process, SIGTERM);
   if (handle >= 0) close(handle);
   int status = 0;
   while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) {

@@ -24,10 +24,10 @@
 #include "host/loop/HostClients.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/process/CrashReport.h"
-#include "host/process/Restart.h"
+#include "host/process/ReexecCommand.h"
 #include "host/program/Announcement.h"
 #include "host/program/LocalClient.h"
-#include "host/rounds/Worlds.h"
+#include "host/rounds/WorldFactory.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
 #include "proto/ParseErrors.h"
@@ -46,7 +46,7 @@ enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 
 constexpr std::chrono::seconds kLogTime{1};  ///< time to write log lines at the end
 
-const Openness kOpenness{
+const AccessHints kOpenness{
     "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, allows others.",
     "NAIAD_ADDRESS=127.0.0.1 in the environment restricts it to this machine."};
 
@@ -180,7 +180,7 @@ class TerminalPlayer {
 class WatchedLog {
  public:
   WatchedLog(df::World& world, Host& host) : m_world(world) {
-    const LogLine log = host.context().feed.watchedGame([&world](const std::string& line) {
+    const LogLine log = host.context().feed.publishingGame([&world](const std::string& line) {
       df::writeToLogFile(df::Config::getInstance().getLogFile(), line, world.log().flush());
     });
     world.log().setSink([log](const std::string& line) { log(line); });
@@ -199,7 +199,7 @@ class WatchedLog {
   host.reset();
   LineLog::waitUntilWritten(kLogTime);
   std::cout.flush();
-  StartCommand::ofProcess().run(port);
+  ReexecCommand::ofProcess().run(port);
 }
 
 /// Prints why the program ended without a proper end, so that beginners do not just see a silent shell.
@@ -232,10 +232,10 @@ void ProgramHost::startUp(df::World& world) {
     fail(kUsage, error.what());
   }
   if (m_given.count("password") > 0 && std::getenv("NAIAD_PASSWORD") == nullptr)
-    warnOfReaders(configFile(), m_options);
+    warnIfReadable(configFile(), m_options);
   if (const auto socket = takeWorldSocket()) {
     m_world_socket = socket;
-    df::keepLogFiles();
+    df::disableLogTruncation();
     world.setActivityPage(openWorldPage());
   } else {
     static const crash::Report crashes(programName(), -1);
@@ -243,7 +243,7 @@ void ProgramHost::startUp(df::World& world) {
     static const bool registered = std::atexit([] { reportEnd(); }) == 0;
     static_cast<void>(registered);
   }
-  if (!m_options.headless) surviveBrokenPipes();
+  if (!m_options.headless) ignoreBrokenPipes();
   addFolders(world);
   seed(world);
   world.log().write("Naiad " + std::string(kVersion) + ", compat " + (world.compat() ? "on" : "off") +
@@ -269,7 +269,7 @@ void ProgramHost::run(df::World& world) {
   if (m_stopped) return world.setGameOver();
   // A world process has one run: if its game calls run() again, the game is over.
   if (m_world_socket)
-    return WorldServer(std::exchange(*m_world_socket, -1), leavesAlone(m_options)).run(world);
+    return WorldServer(std::exchange(*m_world_socket, -1), isGameOverPerPlayer(m_options)).run(world);
   if (m_options.headless) return runHeadless(world);
   try {
     serve(world);
@@ -284,9 +284,9 @@ void ProgramHost::run(df::World& world) {
 
 void ProgramHost::runHeadless(df::World& world) {
   for (; !world.isGameOver() && (m_options.ticks == 0 || m_ticks < m_options.ticks); ++m_ticks) {
-    crash::noteTick(static_cast<std::uint64_t>(world.getStepCount()) + 1);
+    crash::setTick(static_cast<std::uint64_t>(world.getStepCount()) + 1);
     world.tick();
-    crash::noteTick(0);
+    crash::setTick(0);
   }
 }
 
@@ -298,14 +298,14 @@ void ProgramHost::serve(df::World& world) {
     lines ? (*lines)(event) : world.log().write(event.text);
   };
   std::shared_ptr<const WorldLauncher> launcher;
-  if (wantsWorlds(m_options))
+  if (usesWorldProcesses(m_options))
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
   const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
-  if (const auto sockets = InheritedSockets::take()) useSockets(*sockets, m_options);
+  if (const auto sockets = InheritedSockets::importSockets()) useSockets(*sockets, m_options);
   std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
-  writeWhereabouts(m_options, host->endpoint());
+  writeEndpointFiles(m_options, host->endpoint());
   log(programName() + " is a server on " + host->endpoint().address());
-  const std::vector<std::string> how = howToJoin(host->endpoint(), m_options, kOpenness);
+  const std::vector<std::string> how = joinInstructions(host->endpoint(), m_options, kOpenness);
   for (const std::string& line : how) std::cout << line << std::endl;
   for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
   std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
@@ -316,8 +316,8 @@ void ProgramHost::serve(df::World& world) {
   if (launcher != nullptr) {
     HostOptions journaled = m_options;
     journaled.port = host->endpoint().port();  // a round continues on the port that its players know
-    const auto journals = Journals::open(journaled, programName(), "", log);
-    host->clients().setWorlds(startWorlds(launcher, host->context().feed.watchedGame(printLine), journals),
+    const auto journals = RoundJournals::open(journaled, programName(), "", log);
+    host->clients().setWorlds(startWorlds(launcher, host->context().feed.publishingGame(printLine), journals),
                               journals ? journals->highestPlayer() : 0);
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
@@ -328,7 +328,7 @@ void ProgramHost::serve(df::World& world) {
     host->run(world);
   }
   world.setHelp(help);
-  if (host->context().ending.beginsAgain()) beginAgain(host);
+  if (host->context().shutdown_scheduler.isRestart()) beginAgain(host);
   if (!host->clients().rooms().failure().empty())
     fail(kGameFailed, "the game " + host->clients().rooms().failure());
 }

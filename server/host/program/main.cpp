@@ -23,12 +23,12 @@
 #include "host/loop/OperatorLibrary.h"
 #include "host/net/InheritedSockets.h"
 #include "host/process/CrashReport.h"
-#include "host/process/Restart.h"
+#include "host/process/ReexecCommand.h"
 #include "host/program/Announcement.h"
-#include "host/rounds/RoomLaunch.h"
+#include "host/rounds/RoomLauncher.h"
 #include "host/rounds/RoundHandover.h"
-#include "host/rounds/WorldSandbox.h"
-#include "host/rounds/Worlds.h"
+#include "host/rounds/SandboxPolicy.h"
+#include "host/rounds/WorldFactory.h"
 #include "host/settings/DefaultFolders.h"
 #include "host/settings/GameModule.h"
 #include "host/settings/HostOptions.h"
@@ -44,8 +44,8 @@ namespace {
 
 enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen = 4, kFile = 5 };
 
-const naiad::Openness kOpenness{"--address :: allows other machines.",
-                                "--address 127.0.0.1 restricts it to this machine."};
+const naiad::AccessHints kOpenness{"--address :: allows other machines.",
+                                   "--address 127.0.0.1 restricts it to this machine."};
 
 /// Connects games to the host. Undone however the game ends, because the game's statics outlive the host.
 struct Installed {
@@ -102,8 +102,8 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
 }
 
 void announce(const naiad::HostOptions& options, const naiad::Host& host) {
-  naiad::writeWhereabouts(options, host.endpoint());
-  for (const std::string& line : naiad::howToJoin(host.endpoint(), options, kOpenness))
+  naiad::writeEndpointFiles(options, host.endpoint());
+  for (const std::string& line : naiad::joinInstructions(host.endpoint(), options, kOpenness))
     std::cout << line << std::endl;
   for (const std::string& line : naiad::qrLines(options)) std::cout << line << std::endl;
 }
@@ -139,7 +139,7 @@ void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
 
 /// How this process was started, and how to restart it.
 struct Start {
-  naiad::StartCommand command;
+  naiad::ReexecCommand command;
   naiad::HostOptions options;
   std::string config;                                ///< argument of --config
   std::optional<std::uint16_t> again = {};           ///< port of the restart; nullopt: no restart
@@ -148,8 +148,8 @@ struct Start {
   std::optional<naiad::InheritedSockets> handed_over = {};
 };
 
-void takeSockets(Start& start) {
-  const auto sockets = naiad::InheritedSockets::take();
+void inheritSockets(Start& start) {
+  const auto sockets = naiad::InheritedSockets::importSockets();
   if (!sockets) return;
   naiad::useSockets(*sockets, start.options);
   if (sockets->is_service) start.kept = sockets->duplicate();
@@ -160,7 +160,7 @@ void takeSockets(Start& start) {
   start.command.run(*start.again);
 }
 
-void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) {
+void setOnReload(const Start& start, naiad::Host& host, naiad::LineLog& lines) {
   host.controls().setReload([&start, &lines] {
     naiad::HostOptions options = naiad::readHostOptions(start.command.argc(), start.command.argv().data());
     useLogOptions(options, lines);
@@ -169,16 +169,16 @@ void watchReloads(const Start& start, naiad::Host& host, naiad::LineLog& lines) 
   });
 }
 
-void noteEnd(const naiad::Host& host, Start& start) {
-  if (host.context().ending.beginsAgain()) start.again = host.endpoint().port();
+void recordEnd(const naiad::Host& host, Start& start) {
+  if (host.context().shutdown_scheduler.isRestart()) start.again = host.endpoint().port();
 }
 
-/// Like noteEnd(host, start), for a host that may hand over its rounds.
-void noteEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
-  noteEnd(host, start);
-  if (!host.controls().keepsRound()) return;
+/// Like recordEnd(host, start), for a host that may hand over its rounds.
+void recordEnd(const naiad::Host& host, const naiad::RoundHandover& handover, Start& start) {
+  recordEnd(host, start);
+  if (!host.controls().handsOverRound()) return;
   start.handed_over = handover.sockets();
-  handover.announce();
+  handover.exportRounds();
 }
 
 /// Only the worlds load the game: in this process, its code could read the server's key.
@@ -190,7 +190,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   const naiad::LogLine print = markedLog(lines);
   std::vector<std::string> said;
-  const naiad::Preview preview = naiad::previewWorld(*launcher, [&](const std::string& line) {
+  const naiad::GameProbe preview = naiad::probeGame(*launcher, [&](const std::string& line) {
     print(line);
     said.push_back(naiad::oneLine(line));
   });
@@ -205,10 +205,10 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   naiad::Host host(start.options, name, log);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.endpoint().port();  // a round continues on the port that its players know
-  const auto journals = naiad::Journals::open(journaled, name, module.string(), log);
-  host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.watchedGame(print), journals),
+  const auto journals = naiad::RoundJournals::open(journaled, name, module.string(), log);
+  host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.publishingGame(print), journals),
                            journals ? journals->highestPlayer() : 0);
-  watchReloads(start, host, lines);
+  setOnReload(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address() +
       ", in separate processes");
@@ -217,7 +217,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   naiad::RoundHandover handover(start.command, {{"", journals}});
   if (journals) host.controls().setHandover(handover);
   host.run(world);
-  noteEnd(host, handover, start);
+  recordEnd(host, handover, start);
   return host.clients().rooms().failure().empty() ? kOk : failGame(host.clients().rooms().failure());
 }
 
@@ -228,18 +228,18 @@ naiad::LogLine roomLog(naiad::LineLog& log, const std::string& room) {
   };
 }
 
-std::vector<naiad::RoomPlan> roomsOf(naiad::Host& host, const std::vector<naiad::LaunchedRoom>& launched,
-                                     const std::vector<std::shared_ptr<naiad::Journals>>& journals,
-                                     naiad::LineLog& lines) {
-  std::vector<naiad::RoomPlan> rooms;
+std::vector<naiad::RoomConfig> parseRooms(naiad::Host& host, const std::vector<naiad::LaunchedRoom>& launched,
+                                          const std::vector<std::shared_ptr<naiad::RoundJournals>>& journals,
+                                          naiad::LineLog& lines) {
+  std::vector<naiad::RoomConfig> rooms;
   rooms.reserve(launched.size());
   for (std::size_t i = 0; i < launched.size(); ++i) {
-    naiad::RoomPlan plan = launched[i].plan;
+    naiad::RoomConfig plan = launched[i].plan;
     if (journals[i] != nullptr) {
-      plan.goes_on = journals[i]->orderOfOpenRound().has_value();
+      plan.resumes_round = journals[i]->resumeOptions().has_value();
       plan.highest_player = journals[i]->highestPlayer();
     }
-    const naiad::LogLine print = host.context().feed.watchedGame(roomLog(lines, plan.name));
+    const naiad::LogLine print = host.context().feed.publishingGame(roomLog(lines, plan.name));
     plan.new_world = naiad::startWorlds(launched[i].launcher, print, journals[i]);
     rooms.push_back(std::move(plan));
   }
@@ -249,7 +249,7 @@ std::vector<naiad::RoomPlan> roomsOf(naiad::Host& host, const std::vector<naiad:
 /// Returns the rooms whose rounds are recorded.
 std::vector<naiad::RoundHandover::Room> keptRooms(
     const std::vector<naiad::LaunchedRoom>& launched,
-    const std::vector<std::shared_ptr<naiad::Journals>>& journals) {
+    const std::vector<std::shared_ptr<naiad::RoundJournals>>& journals) {
   std::vector<naiad::RoundHandover::Room> rooms;
   for (std::size_t i = 0; i < launched.size(); ++i) {
     if (journals[i] != nullptr) rooms.push_back({launched[i].plan.name, journals[i]});
@@ -266,17 +266,17 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(start.options, launched.front().plan.game, log);
   const auto journals = naiad::openRoomJournals(options, host.endpoint().port(), launched, log);
-  host.clients().setRooms(roomsOf(host, launched, journals, lines));
-  watchReloads(start, host, lines);
+  host.clients().setRooms(parseRooms(host, launched, journals, lines));
+  setOnReload(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
       " rooms on " + host.endpoint().address());
   df::World& world = df::World::current();
   setUp(world, launched.front().plan.ready);
   naiad::RoundHandover handover(start.command, keptRooms(launched, journals));
-  if (naiad::wantsJournal(options)) host.controls().setHandover(handover);
+  if (naiad::usesJournal(options)) host.controls().setHandover(handover);
   host.run(world);
-  noteEnd(host, handover, start);
+  recordEnd(host, handover, start);
   return kOk;
 }
 
@@ -285,7 +285,7 @@ int serve(Start& start) {
   if (const auto socket = naiad::takeWorldSocket()) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     df::World::current().setActivityPage(naiad::openWorldPage());
-    naiad::WorldServer world(*socket, naiad::leavesAlone(options));
+    naiad::WorldServer world(*socket, naiad::isGameOverPerPlayer(options));
     return play(naiad::GameModule(options.game), " in a separate process", world, options, log,
                 [&log](const naiad::LogEvent& event) { log(event); });  // the front process marks lines
   }
@@ -299,11 +299,11 @@ int serve(Start& start) {
   naiad::crash::setWorld(df::World::current());
   const naiad::GameModule game(options.game);
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
-  watchReloads(start, host, log);
+  setOnReload(start, host, log);
   announce(options, host);
   const ExitCode code = play(game, " on " + host.endpoint().address(), host, options, log,
-                             host.context().feed.watchedGame(markedLog(log)));
-  noteEnd(host, start);
+                             host.context().feed.publishingGame(markedLog(log)));
+  recordEnd(host, start);
   return host.clients().rooms().failure().empty() ? code : failGame(host.clients().rooms().failure());
 }
 
@@ -311,7 +311,7 @@ int serve(Start& start) {
 
 int main(int argc, char** argv) {
   naiad::silenceParseErrors();
-  naiad::surviveBrokenPipes();
+  naiad::ignoreBrokenPipes();
   naiad::HostOptions options;
   switch (naiad::parseHostOptions(argc, argv, options)) {
     case naiad::CommandLine::kDone:
@@ -324,10 +324,10 @@ int main(int argc, char** argv) {
     case naiad::CommandLine::kRun:
       break;
   }
-  Start start{naiad::StartCommand(argc, argv), options, naiad::configFileOf(argc, argv)};
+  Start start{naiad::ReexecCommand(argc, argv), options, naiad::configFileOf(argc, argv)};
   naiad::hidePassword(argc, argv);
   try {
-    takeSockets(start);
+    inheritSockets(start);
     const int code = serve(start);
     if (start.again) runAgain(start);
     return code;

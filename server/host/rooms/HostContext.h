@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "host/process/Ending.h"
+#include "host/process/EventFeed.h"
+#include "host/process/ShutdownScheduler.h"
 #include "host/process/StageClock.h"
-#include "host/process/WatchFeed.h"
 #include "host/session/Counters.h"
 #include "host/settings/HostOptions.h"
 #include "shared/program/ClientLog.h"
@@ -18,24 +18,24 @@ namespace naiad {
 // A worker thread's message as a log event.
 
 /// Returns an event of level warning if the message begins with "warning: ", else of level info.
-inline LogEvent newsEvent(const std::string& news) {
+inline LogEvent workerLogEvent(const std::string& news) {
   return {news.starts_with("warning: ") ? LogEvent::Level::kWarning : LogEvent::Level::kInfo, news};
 }
 
 /// Not thread-safe, except for `feed`, `log` and the atomics of `stages`.
 struct HostContext {
   HostContext(HostOptions in_force, std::string game_name, LogLine log_line)
-      : options(std::move(in_force)), game(std::move(game_name)), log(feed.watched(std::move(log_line))) {}
+      : options(std::move(in_force)), game(std::move(game_name)), log(feed.publishing(std::move(log_line))) {}
 
   HostOptions options;     ///< current values; some change while the server runs
   const std::string game;  ///< name of the game; with several rooms, of the first room's game
-  WatchFeed feed;
+  EventFeed feed;
   const LogLine log;  ///< its lines go to watchers of `feed`, too
   ClientLog client_log{log};
   Counters counters;
   asio::io_context home{1};  ///< runs the handlers of the host's thread; no sockets
   StageClock stages;
-  Ending ending;
+  ShutdownScheduler shutdown_scheduler;
 };
 
 }  // namespace naiad

@@ -40,12 +40,12 @@ bool isBefore(const Session* p_session, std::uint32_t player) {
 }  // namespace
 
 Room::Room(std::unique_ptr<Round> round, bool first_only, StageClock& stages)
-    : m_p_round(std::move(round)), m_stages(stages), m_turn(first_only) {}
+    : m_p_round(std::move(round)), m_stages(stages), m_input_focus(first_only) {}
 
 void Room::add(Session& session) {
   m_members.insert(std::lower_bound(m_members.begin(), m_members.end(), session.player(), isBefore),
                    &session);
-  announceTurn(session);
+  announceInputFocus(session);
 }
 
 void Room::remove(const Session& session) {
@@ -75,20 +75,20 @@ std::size_t Room::countPlaying() const {
   return count;
 }
 
-void Room::say(const std::string& text) const {
+void Room::broadcast(const std::string& text) const {
   const wire::ServerMessage message = line(text);
-  forEachPlaying([&message](Session& session) { session.sendKept(message); });
+  forEachPlaying([&message](Session& session) { session.sendReliable(message); });
 }
 
-void Room::dismiss(const std::string& sentence, std::chrono::seconds again) const {
-  forEachPlaying([&](Session& session) { session.goodbye(sentence, again); });
+void Room::disconnectAll(const std::string& sentence, std::chrono::seconds again) const {
+  forEachPlaying([&](Session& session) { session.sendGoodbye(sentence, again); });
 }
 
 // ---- ticks ------------------------------------------------------------------------------------------------
 
-bool Room::beginTick(bool truth, std::uint32_t pictured) {
+bool Room::beginTick(bool truth, std::uint32_t audited_player) {
   m_stages.enter(Stage::kInputs);
-  passTurn();
+  moveInputFocus();
   applyInputs();
   if (!m_p_round->isReady()) return false;
   const bool watched = !isEmpty();
@@ -96,16 +96,16 @@ bool Room::beginTick(bool truth, std::uint32_t pictured) {
   m_watched = watched;
   m_ticking = true;
   m_stages.enter(Stage::kWorld);
-  m_pictured = watched && pictured != 0 && find(pictured) != nullptr ? pictured : 0;
-  m_p_round->tick(watched, truth || m_pictured != 0, truth ? 0 : m_pictured);
+  m_audited_player = watched && audited_player != 0 && find(audited_player) != nullptr ? audited_player : 0;
+  m_p_round->tick(watched, truth || m_audited_player != 0, truth ? 0 : m_audited_player);
   return true;
 }
 
 void Room::applyInputs() {
   const std::uint32_t next = m_p_round->nextTick();
   forEachPlaying([this, next](Session& session) {
-    session.takeInputs(next, [&](const Input& input) {
-      if (m_turn.isHeard(session.player(), input)) m_p_round->addInput(inputOf(session, input));
+    session.drainInputs(next, [&](const Input& input) {
+      if (m_input_focus.accepts(session.player(), input)) m_p_round->addInput(inputOf(session, input));
     });
   });
 }
@@ -116,11 +116,11 @@ void Room::publish(TruthWriter* p_truth) {
   if (!m_watched) return;
   const Stage before = m_stages.enter(Stage::kPublish);
   m_publisher.update(m_p_round->view());
-  m_p_round->notePublished(m_publisher);
+  m_p_round->onPublished(m_publisher);
   m_stages.enter(Stage::kSnapshots);
   sendSnapshots(p_truth);
-  m_stages.enter(Stage::kNews);
-  m_sound_news.tick(m_p_round->view(), soundSender());
+  m_stages.enter(Stage::kBroadcasts);
+  m_sound_broadcaster.tick(m_p_round->view(), soundSender());
   sendNotes();
   m_stages.enter(before);
 }
@@ -129,32 +129,32 @@ void Room::sendSnapshots(TruthWriter* p_truth) {
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     // Written before the snapshot is sent, so a test that receives the snapshot finds its truth in the file.
     if (p_truth != nullptr) p_truth->write(m_publisher.tick(), facts.id, m_p_round->renderPlayer(facts.id));
-    if (facts.id == m_pictured && session.isAudited())
+    if (facts.id == m_audited_player && session.isAudited())
       session.recordTruth(m_publisher.tick(), m_p_round->renderPlayer(facts.id));
     session.setControls(facts.steering.p_table);
     session.sendTick(m_publisher, facts);
   });
 }
 
-SoundNews::Send Room::soundSender() const {
+SoundBroadcaster::Send Room::soundSender() const {
   return [this](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
     Session* p_session = find(player);
     if (p_session == nullptr) return false;
-    if (!lasts) return p_session->sendFleeting(message);
-    p_session->sendKept(message);
+    if (!lasts) return p_session->sendBestEffort(message);
+    p_session->sendReliable(message);
     return true;
   };
 }
 
 // Sends the engine's own lines to the players as chat.
 void Room::sendNotes() const {
-  for (const std::string& note : m_p_round->view().notes) say(safeText(note, kMaxChatLength));
+  for (const std::string& note : m_p_round->view().notes) broadcast(safeText(note, kMaxChatLength));
 }
 
 std::unique_ptr<Round> Room::changeRound(std::unique_ptr<Round> round) {
   std::swap(m_p_round, round);
   m_publisher = Publisher();
-  m_sound_news.changeWorld(soundSender());
+  m_sound_broadcaster.changeWorld(soundSender());
   m_watched = m_ticking = false;
   m_ticks = 0;
   forEachPlaying([this](Session& session) {
@@ -167,21 +167,21 @@ std::unique_ptr<Round> Room::changeRound(std::unique_ptr<Round> round) {
 // ---- whose input counts -----------------------------------------------------------------------------------
 
 // Gives the turn to the connected player with the lowest id.
-void Room::passTurn() {
-  if (!m_turn.isOneOnly()) return;
+void Room::moveInputFocus() {
+  if (!m_input_focus.isExclusive()) return;
   const Session* p_first = nullptr;
   forEachPlaying([&p_first](const Session& session) {
     if (p_first == nullptr && !session.isDetached()) p_first = &session;
   });
   const std::uint32_t turn = p_first != nullptr ? p_first->player() : 0;
-  m_p_round->setHeard(turn);
-  if (m_turn.passTo(turn)) say(p_first->name() + " plays now.");
+  m_p_round->setInputPlayer(turn);
+  if (m_input_focus.moveTo(turn)) broadcast(p_first->name() + " plays now.");
 }
 
-void Room::announceTurn(Session& session) const {
-  const Session* p_first = m_turn.player() != 0 ? find(m_turn.player()) : nullptr;
+void Room::announceInputFocus(Session& session) const {
+  const Session* p_first = m_input_focus.player() != 0 ? find(m_input_focus.player()) : nullptr;
   if (p_first != nullptr)
-    session.sendKept(line(p_first->name() + " plays; you watch until it is your turn."));
+    session.sendReliable(line(p_first->name() + " plays; you watch until it is your turn."));
 }
 
 }  // namespace naiad

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "host/process/StageClock.h"
-#include "host/rooms/SoundNews.h"
-#include "host/rounds/RoomPlan.h"
+#include "host/rooms/SoundBroadcaster.h"
+#include "host/rounds/RoomConfig.h"
 #include "host/rounds/Round.h"
 #include "host/session/Session.h"
 #include "host/snapshot/Publisher.h"
@@ -25,21 +25,21 @@
 namespace naiad {
 
 /// Selects the player whose input reaches the game, if only one player's does (HostOptions::players "first").
-class InputTurn {
+class InputFocus {
  public:
-  explicit InputTurn(bool first_only) : m_first_only(first_only) {}
+  explicit InputFocus(bool first_only) : m_first_only(first_only) {}
 
-  bool isOneOnly() const { return m_first_only; }
+  bool isExclusive() const { return m_first_only; }
   /// The player whose turn it is, or 0.
   std::uint32_t player() const { return m_player; }
   /// Gives the turn to this player (0: none). Returns true if it passed from one player to another.
-  bool passTo(std::uint32_t player) {
+  bool moveTo(std::uint32_t player) {
     if (player == m_player) return false;
     m_before = std::exchange(m_player, player);
     return player != 0 && m_before != 0;
   }
   /// True if this input may reach the game: the player has the turn, or had it before and releases a key.
-  bool isHeard(std::uint32_t player, const Input& input) const {
+  bool accepts(std::uint32_t player, const Input& input) const {
     if (!m_first_only || player == m_player) return true;
     return !input.is_mouse && input.action == df::KEY_RELEASED && player == m_before;
   }
@@ -58,20 +58,20 @@ class Room {
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
 
-  /// The current round. A sleeping room has one with a SleepingWorld.
+  /// The current round. A sleeping room has one with a NullWorld.
   Round& round() { return *m_p_round; }
   const Round& round() const { return *m_p_round; }
 
   // Named rooms.
 
   /// The room's name and settings; null if it has no name (--room was not given).
-  const RoomPlan* plan() const { return m_plan ? &*m_plan : nullptr; }
-  void setPlan(RoomPlan plan) { m_plan = std::move(plan); }
-  RoomSleep& sleep() { return m_sleep; }
-  const RoomSleep& sleep() const { return m_sleep; }
+  const RoomConfig* plan() const { return m_plan ? &*m_plan : nullptr; }
+  void setPlan(RoomConfig plan) { m_plan = std::move(plan); }
+  RoomSleepState& sleep() { return m_sleep; }
+  const RoomSleepState& sleep() const { return m_sleep; }
   bool isAsleep() const { return m_sleep.asleep; }
   /// True if the world must not tick: the room sleeps or stands still, or its round is being replayed.
-  bool rests() const { return m_sleep.asleep || m_sleep.still || m_p_round->recovering(); }
+  bool isPaused() const { return m_sleep.asleep || m_sleep.still || m_p_round->recovering(); }
 
   // Players.
 
@@ -88,7 +88,7 @@ class Room {
   /// Removes a session that is about to be destroyed, if it is in this room.
   void remove(const Session& session);
   /// Stops this room's music and loops at the client of a session that is about to move to another room.
-  void stopSounds(const Session& session) { m_sound_news.stopFor(session.player(), soundSender()); }
+  void stopSounds(const Session& session) { m_sound_broadcaster.stopFor(session.player(), soundSender()); }
   bool has(const Session& session) const;
   /// Returns null if the player does not play here.
   Session* find(std::uint32_t player) const;
@@ -113,18 +113,19 @@ class Room {
     });
   }
   /// Sends a chat line from the server to all players.
-  void say(const std::string& text) const;
+  void broadcast(const std::string& text) const;
   /// Sends the playing sounds again to a player whose client may have missed some.
-  void repeatSounds(std::uint32_t player) { m_sound_news.repeat(player); }
-  const SoundNews& sounds() const { return m_sound_news; }
+  void repeatSounds(std::uint32_t player) { m_sound_broadcaster.repeat(player); }
+  const SoundBroadcaster& sounds() const { return m_sound_broadcaster; }
   /// Ends all players' sessions. Their clients try to reconnect for the time `again`; 0: they exit.
-  void dismiss(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0)) const;
+  void disconnectAll(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0)) const;
 
   // Ticks.
 
   /// Passes the players' input to the world and begins a tick. Returns false if the world is not ready for
-  /// one. `truth`: publish() will have a TruthWriter. `pictured`: player whose picture is audited, or 0.
-  bool beginTick(bool truth, std::uint32_t pictured = 0);
+  /// one. `truth`: publish() will have a TruthWriter. `audited_player`: player whose picture is audited, or
+  /// 0.
+  bool beginTick(bool truth, std::uint32_t audited_player = 0);
   /// Sends snapshots, sounds and notes after the world's tick. Writes the truth to `p_truth` unless null.
   void publish(TruthWriter* p_truth);
   /// True while a tick is running.
@@ -134,7 +135,7 @@ class Room {
   /// Number of published Objects; 0 without players.
   std::size_t objects() const { return m_watched ? m_publisher.liveCount() : 0; }
   /// Counts a tick of the host for which the world was not ready.
-  void noteLate() { ++m_late_ticks; }
+  void countLateTick() { ++m_late_ticks; }
   std::uint64_t lateTicks() const { return m_late_ticks; }
   /// Number of ticks of the current world.
   std::uint64_t ticks() const { return m_ticks; }
@@ -146,26 +147,26 @@ class Room {
   std::unique_ptr<Round> changeRound(std::unique_ptr<Round> round);
 
  private:
-  void passTurn();
-  void announceTurn(Session& session) const;
+  void moveInputFocus();
+  void announceInputFocus(Session& session) const;
   void applyInputs();
   void sendSnapshots(TruthWriter* p_truth);
-  SoundNews::Send soundSender() const;
+  SoundBroadcaster::Send soundSender() const;
   void sendNotes() const;
 
   std::unique_ptr<Round> m_p_round;
   StageClock& m_stages;
   Publisher m_publisher;
-  SoundNews m_sound_news;
+  SoundBroadcaster m_sound_broadcaster;
   std::vector<Session*> m_members;  ///< sorted by player id; includes ending sessions
-  InputTurn m_turn;
-  std::uint32_t m_pictured = 0;  ///< player audited in the newest tick, or 0
+  InputFocus m_input_focus;
+  std::uint32_t m_audited_player = 0;  ///< player audited in the newest tick, or 0
   bool m_watched = false;
   bool m_ticking = false;
   std::uint64_t m_ticks = 0;
   std::uint64_t m_late_ticks = 0;
-  std::optional<RoomPlan> m_plan;
-  RoomSleep m_sleep;
+  std::optional<RoomConfig> m_plan;
+  RoomSleepState m_sleep;
   int m_short_rounds = 0;
 };
 

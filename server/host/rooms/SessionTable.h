@@ -34,13 +34,13 @@ class SessionTable {
   /// Adds a session without a stream, to be restored.
   Session& addDetached(Clock::time_point now);
   /// Sets the maximum. Existing sessions stay.
-  void setMost(std::size_t max_sessions) { m_max_sessions = max_sessions; }
+  void setMaxSessions(std::size_t max_sessions) { m_max_sessions = max_sessions; }
   /// Destroys the sessions that have ended.
   void sweep();
 
   /// Returns null if there is no session with this id.
   Session* find(std::uint64_t id) const;
-  bool isEmpty() const { return m_places.empty(); }
+  bool isEmpty() const { return m_slots.empty(); }
   /// Number of playing sessions, including those that lost their connection.
   std::size_t playing() const;
   /// Number of playing sessions that have a connection.
@@ -51,30 +51,30 @@ class SessionTable {
   /// Calls `visit(session)` for all sessions, by id.
   template <class Visit>
   void forEach(Visit visit) const {
-    for (const Place& place : m_places) visit(*place.session);
+    for (const SessionSlot& slot : m_slots) visit(*slot.session);
   }
   template <class Visit>
   void forEachPlaying(Visit visit) const {
-    for (const Place& place : m_places) {
-      if (place.session->state() == Session::State::kPlaying) visit(*place.session);
+    for (const SessionSlot& slot : m_slots) {
+      if (slot.session->state() == Session::State::kPlaying) visit(*slot.session);
     }
   }
 
  private:
-  struct Place {
+  struct SessionSlot {
     std::unique_ptr<Session> session;
     AddressPrefix prefix;  ///< network of the client's address
   };
-  using Places = std::vector<Place>;
+  using SessionSlots = std::vector<SessionSlot>;
 
-  bool makeRoom(const AddressPrefix& newcomer);
-  Places::iterator mostCrowding(const AddressPrefix& newcomer);
+  bool evictFor(const AddressPrefix& newcomer);
+  SessionSlots::iterator evictionCandidate(const AddressPrefix& newcomer);
 
   std::size_t m_max_sessions;
   Counters& m_counters;
   std::function<void(Session&)> m_on_remove;
   std::uint64_t m_next_id = 1;
-  Places m_places;  ///< sorted by id
+  SessionSlots m_slots;  ///< sorted by id
 };
 
 }  // namespace naiad

@@ -27,7 +27,7 @@ namespace naiad {
 
 class Journal;
 class JournalWriter;
-class RepeatCheck;
+class DeterminismCheck;
 class RoundRecovery;
 class WorldProcess;
 
@@ -38,9 +38,9 @@ struct RoundName {
 };
 
 /// Report of a world that took over from one that crashed or hung.
-struct TakeOver {
-  bool by_copy = false;     ///< a copy took over; false: a world that replayed the whole round
-  std::uint32_t ticks = 0;  ///< ticks that it replayed
+struct Failover {
+  bool by_checkpoint = false;  ///< a copy took over; false: a world that replayed the whole round
+  std::uint32_t ticks = 0;     ///< ticks that it replayed
 };
 
 class Round {
@@ -57,20 +57,20 @@ class Round {
   static constexpr std::uint32_t kFirstPicture = 300;
 
   /// A second crash or hang within this many ticks of the first one ends the round.
-  static constexpr std::uint32_t kSameDeath = 30;
+  static constexpr std::uint32_t kSameFailureTicks = 30;
 
   /// Maximum scores kept of a recovery's turns: earlier ones are in the server's file.
   static constexpr std::size_t kMaxScores = 4096;
 
   /// The journal and the callbacks of a round.
-  struct Book {
+  struct JournalBinding {
     std::shared_ptr<JournalWriter> writer = nullptr;
     std::shared_ptr<Journal> journal = nullptr;  ///< null: not recorded
     /// Returns more facts, once the world has begun; empty: none.
     std::function<DfrFacts()> late_facts = {};
     /// Called when the journal has stopped, with the reason; the game continues.
     std::function<void(const std::string& problem)> on_problem = {};
-    std::unique_ptr<RepeatCheck> check;       ///< checks whether the game is repeatable; null: unchecked
+    std::unique_ptr<DeterminismCheck> check;  ///< checks whether the game is repeatable; null: unchecked
     std::unique_ptr<RoundRecovery> recovery;  ///< null: a new round
     /// Returns, once a recovery's world has begun, why it is not the world of the file; empty if it is.
     std::function<std::string()> find_difference = {};
@@ -84,17 +84,17 @@ class Round {
     /// round ends with its world.
     std::function<std::unique_ptr<WorldProcess>()> new_world = {};
     /// Called when the world has crashed or hung in this tick. `goes_on`: another one takes over.
-    std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_death = {};
+    std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_failure = {};
     /// Called when another world has taken over, with the time that it took.
-    std::function<void(const TakeOver& done, std::chrono::milliseconds time)> on_taken_over = {};
+    std::function<void(const Failover& done, std::chrono::milliseconds time)> on_failover = {};
     /// Gets sentences about copies for the log.
     std::function<void(const std::string& sentence)> on_copies = {};
   };
 
   explicit Round(std::unique_ptr<WorldPort> world);
   explicit Round(std::unique_ptr<WorldProcess> world);
-  Round(std::unique_ptr<WorldPort> world, Book book);
-  Round(std::unique_ptr<WorldProcess> world, Book book);
+  Round(std::unique_ptr<WorldPort> world, JournalBinding book);
+  Round(std::unique_ptr<WorldProcess> world, JournalBinding book);
   /// A round that has not ended is recorded as stopped.
   ~Round();
 
@@ -109,46 +109,48 @@ class Round {
   /// Adds an input to the next turn. Drops keys and clicks beyond kMaxInputs.
   void addInput(df::InputQueue::Input input);
   /// Accepts only this player's input in the next tick; 0: all players'.
-  void setHeard(std::uint32_t player) { m_turn.heard_player = player; }
+  void setInputPlayer(std::uint32_t player) { m_turn.input_player = player; }
   /// Ends the game: at once if its world is in this process, else at the end of the next tick.
   void endGame();
 
   // Ticks.
 
   /// True if a tick may begin.
-  bool isReady() const { return !m_book.recovery && m_world->isReady(); }
+  bool isReady() const { return !m_binding.recovery && m_world->isReady(); }
   /// Begins a tick. `watched`: view() will be read; the first one has every Object as changed. `truth`:
-  /// renderPlayer() will be called, too, for all players or only for `pictured`.
-  void tick(bool watched, bool truth, std::uint32_t pictured = 0);
+  /// renderPlayer() will be called, too, for all players or only for `rendered_player`.
+  void tick(bool watched, bool truth, std::uint32_t rendered_player = 0);
   /// Returns the number of the next tick to begin, in the numbers of view().
-  std::uint32_t nextTick() const { return m_death ? m_death->next_tick : m_world->nextTick(); }
+  std::uint32_t nextTick() const { return m_failed_world ? m_failed_world->next_tick : m_world->nextTick(); }
   /// Returns what the last watched tick changed. Valid until the next one begins.
-  const df::WorldView& view() const { return m_death ? m_death->view : m_world->view(); }
+  const df::WorldView& view() const { return m_failed_world ? m_failed_world->view : m_world->view(); }
   /// Passes on the models published for the last tick, for games that use lag compensation.
-  void notePublished(const Publisher& publisher) { m_world->notePublished(publisher); }
+  void onPublished(const Publisher& publisher) { m_world->onPublished(publisher); }
   /// Removes and returns the players that asked to leave in the last tick.
-  std::vector<std::uint32_t> takeLeavers() { return std::exchange(m_world->answer().leavers, {}); }
+  std::vector<std::uint32_t> popLeavers() { return std::exchange(m_world->answer().leavers, {}); }
   /// Removes and returns the scores that the game added in the last tick, in order.
-  std::vector<df::AddedScore> takeScores();
+  std::vector<df::AddedScore> popScores();
   /// Removes and returns the players to be moved to other rooms, as the game asked in the last tick
   /// (WorldPort::answer).
-  std::vector<df::SentPlayer> takeSent() { return std::exchange(m_world->answer().sent, {}); }
+  std::vector<df::RoomTransfer> popSent() { return std::exchange(m_world->answer().sent, {}); }
   bool isGameOver() const { return m_world->answer().game_over; }
   /// Returns this player's picture, as the engine drew it in the last tick.
   df::Canvas renderPlayer(std::uint32_t player) const;
 
   /// Ends the world's copies before a long pause, unless only they could resume the round. The next tick
   /// makes one.
-  void dropCopies();
+  void dropCheckpoints();
 
   // Replay of a killed server's round.
 
   /// Returns its progress in percent; nullopt if there is none, or its sessions have been taken.
   std::optional<int> recovering() const;
   /// Returns the sessions of its players, once, when the replay has ended.
-  std::optional<std::vector<KeptSession>> takeSessions() { return std::exchange(m_sessions, std::nullopt); }
+  std::optional<std::vector<PersistedSession>> popSessions() {
+    return std::exchange(m_sessions, std::nullopt);
+  }
   /// Records a change of a player's session in the journal. Call before its client can know of it.
-  void noteSession(const KeptSession& session);
+  void recordSession(const PersistedSession& session);
 
   // The round's end.
 
@@ -158,11 +160,11 @@ class Round {
   /// Returns how it ended; nullopt while it continues.
   std::optional<WorldEnd> end() const { return m_unrecovered ? m_unrecovered : m_world->end(); }
   /// Returns a line for the log if the tick does not end, once.
-  std::optional<std::string> takeWarning();
+  std::optional<std::string> popWarning();
   /// Ends the world; end() says when it has ended.
   void close() { m_world->close(std::exchange(m_turn, WorldTurn())); }
   /// Returns the report of a world that has taken over, once.
-  std::optional<TakeOver> takeTakeOver() { return std::exchange(m_taken_over, std::nullopt); }
+  std::optional<Failover> popFailover() { return std::exchange(m_failover, std::nullopt); }
 
  private:
   /// Knowledge about ticks that seem to hang.
@@ -173,21 +175,21 @@ class Round {
     kReal,      ///< one did not end within the full limit
   };
   /// State of a dead world, while another one replays its turns.
-  struct Death {
+  struct FailedWorld {
     WorldEnd end;
     Clock::time_point at;
     std::uint32_t next_tick = 0;
     df::WorldView view;
   };
 
-  explicit Round(Book book);
+  explicit Round(JournalBinding book);
   void adopt(std::unique_ptr<WorldPort> world);
   void adopt(std::unique_ptr<WorldProcess> world);
   void begin();
   void endTick();
-  bool isImpatient() const;
-  void noteSlowTick();
-  void noteHang();
+  bool usesFastFailover() const;
+  void onSlowTick();
+  void onHang();
   void choosePicture();
   void sendTurn(WorldTurn turn);
   void storeResult();
@@ -196,32 +198,32 @@ class Round {
   void storeBytes(std::string_view records);
   void checkJournal();
   void finish(const std::string& why);
-  void notePlayers(const WorldTurn& turn);
-  void beginRepetition();
-  void repeatTurns();
+  void updatePlayers(const WorldTurn& turn);
+  void beginReplay();
+  void replayTurns();
   void closeRecovery();
-  void endRepeatedTick();
-  void keepRepeatedScores();
+  void endReplayedTick();
+  void collectReplayedScores();
   void endRecovery(const std::string& problem);
-  bool isTakingOver() const { return m_death.has_value(); }
+  bool isFailingOver() const { return m_failed_world.has_value(); }
   std::uint32_t currentTick() const;
-  bool takeOver(const WorldEnd& end);
-  bool beginAgain(bool drops_keys);
-  bool repeatByCopy();
-  bool repeatByAnother();
-  void prepareToRepeat(std::size_t records);
-  void orderCopy();
-  void say(const std::string& sentence_of_copies) const;
-  void endTakeOver(const std::string& problem);
+  bool startFailover(const WorldEnd& end);
+  bool replayFromStart(bool drops_keys);
+  bool replayFromCheckpoint();
+  bool replayInNewWorld();
+  void prepareReplay(std::size_t records);
+  void requestCheckpoint();
+  void logCheckpoints(const std::string& sentence_of_copies) const;
+  void finishFailover(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;
   WorldProcess* m_p_process = nullptr;  ///< the world, if it is a process; otherwise null
-  Book m_book;
+  JournalBinding m_binding;
   RoundName m_name;
   std::function<void()> m_on_tick;
-  bool m_goes_on;  ///< the journal is recording
+  bool m_is_recording;  ///< the journal is recording
   bool m_began = false;
-  std::uint32_t m_later = 0;             ///< the host's tick numbers minus the world's own
+  std::uint32_t m_tick_offset = 0;       ///< the host's tick numbers minus the world's own
   std::uint32_t m_ticks = 0;             ///< ticks begun by this world
   std::uint32_t m_recorded = 0;          ///< player whose picture the current tick records; 0: none
   std::vector<std::uint32_t> m_players;  ///< players in the world, in the order in which they joined
@@ -230,20 +232,20 @@ class Round {
   TurnRecordWriter m_writer;
 
   // Recovery.
-  bool m_repeating = false;  ///< the replay has begun
+  bool m_replaying = false;  ///< the replay has begun
   bool m_closing = false;    ///< the closing turn has been sent
-  std::optional<std::vector<KeptSession>> m_sessions;
+  std::optional<std::vector<PersistedSession>> m_sessions;
   std::vector<df::AddedScore> m_scores;  ///< scores of replayed turns, which the server may not know
   std::optional<WorldEnd> m_unrecovered;
 
   // Takeover by another world.
   RoundHistory m_history;
   bool m_in_tick = false;
-  bool m_by_copy = false;  ///< the world that replays is a copy
+  bool m_by_checkpoint = false;  ///< the world that replays is a copy
   Hangs m_hangs = Hangs::kUnknown;
-  std::optional<Death> m_death;            ///< state of the previous world
-  std::optional<std::uint32_t> m_died_at;  ///< tick of the newest death
-  std::optional<TakeOver> m_taken_over;
+  std::optional<FailedWorld> m_failed_world;  ///< state of the previous world
+  std::optional<std::uint32_t> m_failed_at;   ///< tick of the newest death
+  std::optional<Failover> m_failover;
 };
 
 }  // namespace naiad

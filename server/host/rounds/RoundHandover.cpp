@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "host/net/InheritedSockets.h"
-#include "host/rounds/WorldSandbox.h"
+#include "host/rounds/SandboxPolicy.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/program/ProcessSetup.h"
@@ -105,8 +105,8 @@ std::string lineWith(const std::string& text, std::string_view begin) {
 }
 
 /// Returns the last line, as the rest of a sentence.
-std::string lastWords(const std::string& printed) {
-  std::string last = lineWith(printed, "");
+std::string lastWords(const std::string& output_text) {
+  std::string last = lineWith(output_text, "");
   while (last.ends_with('.')) last.pop_back();
   return safeText(last, kMaxProblem);
 }
@@ -121,18 +121,18 @@ std::string protocolProblem(const std::string& verified) {
 }
 
 /// Describes an end without an exit code of the program's own; empty if it has one.
-std::string abruptEnd(const std::string& name, const ProgramEnd& end) {
-  if (end.is_late) return name + " timed out";
+std::string abruptEnd(const std::string& name, const ChildExit& end) {
+  if (end.timed_out) return name + " timed out";
   if (end.signal != 0) return name + " was killed by signal " + std::to_string(end.signal);
-  if (end.code == ProgramEnd::kNotStarted) return name + " cannot be started";
+  if (end.code == ChildExit::kNotStarted) return name + " cannot be started";
   return {};
 }
 
-std::chrono::milliseconds timeFor(const Journals::CurrentRound& round) {
+std::chrono::milliseconds timeFor(const RoundJournals::CurrentRound& round) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::chrono::nanoseconds played =
       std::max(std::chrono::nanoseconds(0), now - std::chrono::nanoseconds(round.start_nanos));
-  const auto time = RoundHandover::kLeastTime +
+  const auto time = RoundHandover::kMinTime +
                     std::chrono::duration_cast<std::chrono::seconds>(played / RoundHandover::kPartOfRound);
   return std::min<std::chrono::milliseconds>(time, RoundHandover::kMaxTime);
 }
@@ -144,16 +144,16 @@ std::string inRoom(const std::string& name, const std::string& why) {
 
 }  // namespace
 
-std::string readVerdict(const ProgramEnd& end) {
+std::string parseVerifyResult(const ChildExit& end) {
   if (std::string abrupt = abruptEnd("dfreplay", end); !abrupt.empty()) return abrupt;
-  if (end.code == 0) return protocolProblem(lineWith(end.printed, "verified "));
-  const std::string tick = end.code == 1 ? lineWith(end.printed, "tick ") : std::string();
+  if (end.code == 0) return protocolProblem(lineWith(end.output_text, "verified "));
+  const std::string tick = end.code == 1 ? lineWith(end.output_text, "tick ") : std::string();
   if (!tick.empty()) return safeText(tick, kMaxProblem);
-  const std::string last = lastWords(end.printed);
+  const std::string last = lastWords(end.output_text);
   return last.empty() ? "dfreplay ended with code " + std::to_string(end.code) : last;
 }
 
-RoundHandover::RoundHandover(const StartCommand& command, std::vector<Room> rooms)
+RoundHandover::RoundHandover(const ReexecCommand& command, std::vector<Room> rooms)
     : m_command(command), m_rooms(std::move(rooms)) {}
 
 RoundHandover::~RoundHandover() {
@@ -161,11 +161,11 @@ RoundHandover::~RoundHandover() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-std::string RoundHandover::refusal() const {
-  if (m_proving) return "a handover is already in progress";
+std::string RoundHandover::blocker() const {
+  if (m_verifying) return "a handover is already in progress";
   bool is_any = false;
   for (const Room& room : m_rooms) {
-    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+    if (const std::string why_not = room.journals->handoverBlocker(); !why_not.empty())
       return inRoom(room.name, why_not);
     is_any = is_any || room.journals->currentRound();
   }
@@ -173,23 +173,23 @@ std::string RoundHandover::refusal() const {
 }
 
 // Signals are handled on the thread that ticks.
-void RoundHandover::prove(std::function<void(const Result& result)> done) {
+void RoundHandover::verify(std::function<void(const Result& result)> done) {
   if (m_thread.joinable()) m_thread.join();  // it has done its work
-  m_proofs.clear();
+  m_verifications.clear();
   for (const Room& room : m_rooms) {
-    if (const auto round = room.journals->currentRound()) m_proofs.push_back({&room, *round});
+    if (const auto round = room.journals->currentRound()) m_verifications.push_back({&room, *round});
   }
-  m_proving = true;
+  m_verifying = true;
   m_thread = startWithoutSignals([this, done = std::move(done)] {
     const Result result = execute();
-    m_proving = false;
+    m_verifying = false;
     done(result);
   });
 }
 
 RoundHandover::Result RoundHandover::execute() {
   if (const std::string problem = problemOfProgram(); !problem.empty()) return {problem, false};
-  for (Proof& proof : m_proofs) {
+  for (Verification& proof : m_verifications) {
     if (const std::string problem = problemOf(proof); !problem.empty())
       return {inRoom(proof.p_room->name, problem)};
   }
@@ -200,49 +200,49 @@ RoundHandover::Result RoundHandover::execute() {
 std::string RoundHandover::problemOfProgram() {
   std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
   arguments.emplace_back("--check-config");
-  const ProgramEnd end = m_run.run(m_command.program(), arguments, kCheckTime);
+  const ChildExit end = m_run.run(m_command.program(), arguments, kCheckTime);
   if (std::string abrupt = abruptEnd("dfserver", end); !abrupt.empty()) return abrupt;
   if (end.code == 0) return {};
-  return "the installed dfserver rejects this server's options: " + safeText(end.printed, kMaxProblem);
+  return "the installed dfserver rejects this server's options: " + safeText(end.output_text, kMaxProblem);
 }
 
-std::string RoundHandover::problemOf(Proof& proof) {
-  Journals& journals = *proof.p_room->journals;
+std::string RoundHandover::problemOf(Verification& proof) {
+  RoundJournals& journals = *proof.p_room->journals;
   if (!journals.sync(kSyncTime)) return "the disk is too slow";
   proof.module_hash = hashOfModule(journals.module());
   const std::string replay = std::filesystem::path(m_command.program()).replace_filename("dfreplay").string();
-  return readVerdict(m_run.run(replay,
-                               {proof.round.file, "--verify", "--for-server", "--game", journals.module()},
-                               timeFor(proof.round)));
+  return parseVerifyResult(
+      m_run.run(replay, {proof.round.file, "--verify", "--for-server", "--game", journals.module()},
+                timeFor(proof.round)));
 }
 
-std::string RoundHandover::changeSinceProof() const {
+std::string RoundHandover::changeSinceVerification() const {
   for (const Room& room : m_rooms) {
-    if (const std::string why_not = room.journals->whyNotKept(); !why_not.empty())
+    if (const std::string why_not = room.journals->handoverBlocker(); !why_not.empty())
       return inRoom(room.name, why_not);
     const auto round = room.journals->currentRound();
     if (!round) continue;
-    const bool is_proven = std::any_of(m_proofs.begin(), m_proofs.end(), [&round](const Proof& proof) {
-      return proof.round.uuid == round->uuid;
-    });
+    const bool is_proven =
+        std::any_of(m_verifications.begin(), m_verifications.end(),
+                    [&round](const Verification& proof) { return proof.round.uuid == round->uuid; });
     if (!is_proven) return inRoom(room.name, "a new round began during the check");
   }
-  for (const Proof& proof : m_proofs) {
+  for (const Verification& proof : m_verifications) {
     if (hashOfModule(proof.p_room->journals->module()) != proof.module_hash)
       return inRoom(proof.p_room->name, "the game was replaced during the check");
   }
   return {};
 }
 
-void RoundHandover::leaveOpen(std::uint16_t port) {
+void RoundHandover::suspend(std::uint16_t port) {
   m_sockets = copyListeningSockets(port);
-  for (const Room& room : m_rooms) room.journals->leaveOpen();
+  for (const Room& room : m_rooms) room.journals->suspend();
 }
 
-void RoundHandover::announce() const {
-  KeptRounds rounds;
-  for (const Proof& proof : m_proofs) rounds[proof.round.uuid] = proof.module_hash;
-  Journals::announceKept(rounds);
+void RoundHandover::exportRounds() const {
+  HandedOverRounds rounds;
+  for (const Verification& proof : m_verifications) rounds[proof.round.uuid] = proof.module_hash;
+  RoundJournals::exportHandedOverRounds(rounds);
 }
 
 }  // namespace naiad

@@ -4,7 +4,7 @@
 // game continues, and compares every answer with the file. If all are equal and the network protocol is
 // unchanged, this process leaves the journals open, as if it had been killed, and executes the new program in
 // its own place, with its listening sockets. The new program resumes the rounds as after a crash
-// (Journals.h), and so players keep their sessions.
+// (RoundJournals.h), and so players keep their sessions.
 #pragma once
 
 #include <atomic>
@@ -18,24 +18,24 @@
 #include <vector>
 
 #include "host/net/InheritedSockets.h"
-#include "host/process/ProgramRun.h"
-#include "host/process/Restart.h"
-#include "host/rounds/Journals.h"
+#include "host/process/ChildProcess.h"
+#include "host/process/ReexecCommand.h"
+#include "host/rounds/RoundJournals.h"
 
 namespace naiad {
 
 class RoundHandover {
  public:
-  /// Time limit of dfreplay: kLeastTime + played time / kPartOfRound, at most kMaxTime. A replay is at least
+  /// Time limit of dfreplay: kMinTime + played time / kPartOfRound, at most kMaxTime. A replay is at least
   /// twenty times as fast as the round.
-  static constexpr std::chrono::seconds kLeastTime{60};
+  static constexpr std::chrono::seconds kMinTime{60};
   static constexpr int kPartOfRound = 4;
   static constexpr std::chrono::hours kMaxTime{1};
 
   /// A room, in which a round may be played.
   struct Room {
     std::string name;  ///< empty: the server has no rooms
-    std::shared_ptr<Journals> journals;
+    std::shared_ptr<RoundJournals> journals;
   };
 
   /// Result of a proof, that is, of replaying the rounds with the new program.
@@ -44,48 +44,48 @@ class RoundHandover {
     bool starts = true;   ///< the new program starts, so that it can be run after the rounds
   };
 
-  /// `command` runs dfserver again, and must outlive this. So must what `done` of prove() uses.
-  RoundHandover(const StartCommand& command, std::vector<Room> rooms);
+  /// `command` runs dfserver again, and must outlive this. So must what `done` of verify() uses.
+  RoundHandover(const ReexecCommand& command, std::vector<Room> rooms);
   /// Ends a running proof.
   ~RoundHandover();
 
   // Call these on the host's thread.
 
   /// Returns why no round can be handed over now, as the rest of a sentence; empty if one can.
-  std::string refusal() const;
+  std::string blocker() const;
   /// Replays the rounds. `done` is called once, on a thread of this, unless this is destroyed before. Call
-  /// only without a refusal().
-  void prove(std::function<void(const Result& result)> done);
+  /// only without a blocker().
+  void verify(std::function<void(const Result& result)> done);
   /// Returns what has changed since a successful proof and makes it invalid; empty if nothing has.
-  std::string changeSinceProof() const;
+  std::string changeSinceVerification() const;
   /// Stops recording, so that another program can resume the rounds. `port`: of the server.
-  void leaveOpen(std::uint16_t port);
-  /// Returns the sockets to hand over, after leaveOpen(); nullopt if the program must open its own.
+  void suspend(std::uint16_t port);
+  /// Returns the sockets to hand over, after suspend(); nullopt if the program must open its own.
   const std::optional<InheritedSockets>& sockets() const { return m_sockets; }
-  /// Tells the program that this process runs next which rounds were left open. Call after leaveOpen().
-  void announce() const;
+  /// Tells the program that this process runs next which rounds were left open. Call after suspend().
+  void exportRounds() const;
 
  private:
-  struct Proof {
+  struct Verification {
     const Room* p_room = nullptr;
-    Journals::CurrentRound round;
+    RoundJournals::CurrentRound round;
     std::string module_hash = {};  ///< hash of the game that replayed it with equal answers
   };
 
   Result execute();
   std::string problemOfProgram();
-  std::string problemOf(Proof& proof);
+  std::string problemOf(Verification& proof);
 
-  const StartCommand& m_command;
+  const ReexecCommand& m_command;
   const std::vector<Room> m_rooms;
-  std::vector<Proof> m_proofs;  ///< used by the thread during a proof
+  std::vector<Verification> m_verifications;  ///< used by the thread during a proof
   std::optional<InheritedSockets> m_sockets;
   std::thread m_thread;
-  std::atomic<bool> m_proving{false};
-  ProgramRun m_run;
+  std::atomic<bool> m_verifying{false};
+  ChildProcess m_run;
 };
 
 /// Returns why the round cannot be handed over, from the end of dfreplay --verify; empty if it can.
-std::string readVerdict(const ProgramEnd& end);
+std::string parseVerifyResult(const ChildExit& end);
 
 }  // namespace naiad

@@ -22,12 +22,12 @@ ScoreKeeper::ScoreKeeper(const std::filesystem::path& folder, std::string game, 
   m_store = std::make_unique<ScoreStore>(folder / kScoreFile, std::move(game));
   try {
     for (const ScoreRow& row : m_store->best("", df::HighScoreLimits::kMaxRows)) {
-      m_tables.keep(row.table, row.name, row.points);
+      m_tables.addStored(row.table, row.name, row.points);
       m_loaded.insert({row.round, row.tick, row.number});
     }
   } catch (const StateFileError& error) {
     m_store.reset();
-    note(std::string(error.what()) + " Scores are lost when the server stops.");
+    setProblem(std::string(error.what()) + " Scores are lost when the server stops.");
   }
 }
 
@@ -44,7 +44,7 @@ void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore
   std::vector<ScoreRow> rows;
   for (const df::AddedScore& added : scores) {
     if (m_loaded.contains({round, added.tick, added.number})) continue;
-    if (!m_tables.keep(added.table, added.score.name, added.score.points)) {
+    if (!m_tables.addStored(added.table, added.score.name, added.score.points)) {
       ++m_refused;
       continue;
     }
@@ -64,7 +64,7 @@ void ScoreKeeper::add(const std::string& round, const std::vector<df::AddedScore
       ++m_dropped;
     }
   }
-  if (!m_writing) m_writing = m_worker.give([this] { write(); });
+  if (!m_writing) m_writing = m_worker.enqueue([this] { write(); });
 }
 
 // Runs on the worker's thread. Continues with rows that were added while it wrote. Rows that could not be
@@ -81,7 +81,7 @@ void ScoreKeeper::write() {
     } catch (const StateFileError& error) {
       problem = error.what();
     }
-    note(problem);
+    setProblem(problem);
     lock.lock();
     if (problem.empty()) continue;
     m_waiting.insert(m_waiting.begin(), rows.begin(), rows.end());
@@ -92,7 +92,7 @@ void ScoreKeeper::write() {
 
 bool ScoreKeeper::read(const std::string& table, std::size_t count, Read done) {
   if (m_store == nullptr) return false;
-  return m_worker.give([this, table, count, done = std::move(done)] {
+  return m_worker.enqueue([this, table, count, done = std::move(done)] {
     write();
     try {
       done(m_store->best(table, count), "");
@@ -103,19 +103,19 @@ bool ScoreKeeper::read(const std::string& table, std::size_t count, Read done) {
 }
 
 // Ignores a problem that was already reported.
-void ScoreKeeper::note(std::string problem) {
+void ScoreKeeper::setProblem(std::string problem) {
   const std::lock_guard lock(m_mutex);
   if (problem == m_problem) return;
-  m_news = problem.empty() ? "scores can be written again" : "warning: " + problem;
+  m_log_message = problem.empty() ? "scores can be written again" : "warning: " + problem;
   m_problem = std::move(problem);
-  m_has_news = true;
+  m_has_log_message = true;
 }
 
-std::string ScoreKeeper::takeNews() {
-  if (!m_has_news) return "";
+std::string ScoreKeeper::popLogMessage() {
+  if (!m_has_log_message) return "";
   const std::lock_guard lock(m_mutex);
-  m_has_news = false;
-  return std::exchange(m_news, "");
+  m_has_log_message = false;
+  return std::exchange(m_log_message, "");
 }
 
 ScoreCounters ScoreKeeper::counters() const {
@@ -123,7 +123,7 @@ ScoreCounters ScoreKeeper::counters() const {
 }
 
 void ScoreKeeper::finish() {
-  if (m_store != nullptr) m_worker.give([this] { write(); });
+  if (m_store != nullptr) m_worker.enqueue([this] { write(); });
   m_worker.finish();
 }
 

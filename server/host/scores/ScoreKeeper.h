@@ -39,7 +39,7 @@ class ScoreKeeper {
   static constexpr std::size_t kMaxWaiting = 4096;
 
   /// Uses the file scores.sqlite3 in `folder`; empty: no file, scores end with the server. A file that cannot
-  /// be used is left unchanged, and takeNews() reports it.
+  /// be used is left unchanged, and popLogMessage() reports it.
   ScoreKeeper(const std::filesystem::path& folder, std::string game, Clock clock);
   ScoreKeeper(const std::filesystem::path& folder, std::string game);
   /// Calls finish().
@@ -64,13 +64,13 @@ class ScoreKeeper {
 
   ScoreCounters counters() const;
   /// Returns a log line, once, if the file cannot be used or can be used again; else "".
-  std::string takeNews();
+  std::string popLogMessage();
   /// Waits until all rows are on disk or cannot be written. Later rows are not saved.
   void finish();
 
  private:
   void write();
-  void note(std::string problem);
+  void setProblem(std::string problem);
 
   Clock m_clock;
   std::function<void(const ScoreRow&)> m_observer;
@@ -86,8 +86,8 @@ class ScoreKeeper {
   std::vector<ScoreRow> m_waiting;  ///< rows to write, oldest first
   bool m_writing = false;           ///< a job of the worker will write them
   std::string m_problem;            ///< current problem; empty: none
-  std::string m_news;
-  std::atomic<bool> m_has_news = false;
+  std::string m_log_message;
+  std::atomic<bool> m_has_log_message = false;
   AdminWorker m_worker;
 };
 

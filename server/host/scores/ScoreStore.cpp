@@ -57,7 +57,7 @@ std::vector<std::string> ScoreStore::tables() {
 }
 
 std::vector<ScoreRow> ScoreStore::best(const std::string& table, std::size_t count) {
-  if (!m_file.openIfThere()) return {};
+  if (!m_file.openExisting()) return {};
   std::vector<ScoreRow> rows;
   StateStatement statement = m_file.prepare(kBest);
   for (const std::string& name : table.empty() ? tables() : std::vector<std::string>{table}) {
@@ -72,7 +72,7 @@ std::vector<ScoreRow> ScoreStore::best(const std::string& table, std::size_t cou
 }
 
 void ScoreStore::save(const std::vector<ScoreRow>& rows) {
-  m_file.openOrMake();
+  m_file.openOrCreate();
   m_file.run("BEGIN IMMEDIATE");
   try {
     insert(rows);

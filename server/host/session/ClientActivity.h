@@ -15,7 +15,7 @@ class ClientActivity {
 
   /// Maximum burst of messages. An honest client that catches up after a stall sends fewer, because its
   /// replies are limited by what it received.
-  static constexpr int kMessagesAtOnce = 1024;
+  static constexpr int kMaxMessageBurst = 1024;
   /// Sustained rate of messages: the larger of the two limits. An honest client acknowledges each snapshot,
   /// on two streams, and sends a few inputs a tick. Messages at this rate cost about 1 % of a core.
   static constexpr int kMessagesPerTick = 64;
@@ -26,32 +26,32 @@ class ClientActivity {
   /// Counts a message. False if it is over the limit.
   bool countMessage() { return --m_messages >= 0; }
   /// Call for each message that came by datagram.
-  void noteDatagram() { m_spoke = true; }
+  void onDatagram() { m_has_received = true; }
   /// Call for each message that came on the first stream.
-  void noteFrame(Time now) {
-    m_spoke = true;
+  void onFrame(Time now) {
+    m_has_received = true;
     m_frame_at = now;
-    if (std::exchange(m_awaits_proof, false)) m_proved = true;
+    if (std::exchange(m_expects_confirmation, false)) m_welcome_confirmed = true;
   }
   /// Call when the client has reconnected on another stream.
-  void noteReturn(Time now) { m_idle.heard(now); }
+  void onReconnect(Time now) { m_idle.onActivity(now); }
   /// Call once a tick: updates the silence and refills the message limit.
   void endTick(Time now) {
-    if (m_spoke) m_idle.heard(now);
-    m_idle.listen(now);
-    m_spoke = false;
+    if (m_has_received) m_idle.onActivity(now);
+    m_idle.poll(now);
+    m_has_received = false;
     refill(now);
   }
 
   /// How long the client has been silent, accurate to a tick (IdleTimer).
-  auto silence(Time now) const { return m_idle.at(now); }
+  auto silence(Time now) const { return m_idle.idleTime(now); }
   /// When the newest frame came on the first stream.
   Time lastFrame() const { return m_frame_at; }
 
   /// Call when a welcome was sent: the next frame proves that the client has read it.
-  void awaitProof() { m_awaits_proof = true; }
+  void expectConfirmation() { m_expects_confirmation = true; }
   /// True once after that frame.
-  bool takeProof() { return std::exchange(m_proved, false); }
+  bool popWelcomeConfirmed() { return std::exchange(m_welcome_confirmed, false); }
 
  private:
   void refill(Time now) {
@@ -60,13 +60,13 @@ class ClientActivity {
         std::min<Time::duration>(now - m_refilled, kEnough));
     m_refilled = now;
     const int more = static_cast<int>(passed.count()) * kMessagesPerSecond / 1000;
-    m_messages = std::min(m_messages + std::max(more, kMessagesPerTick), kMessagesAtOnce);
+    m_messages = std::min(m_messages + std::max(more, kMessagesPerTick), kMaxMessageBurst);
   }
 
-  bool m_spoke = false;  ///< a message came since the last tick
-  bool m_awaits_proof = false;
-  bool m_proved = false;
-  int m_messages = kMessagesAtOnce;  ///< messages that may come now
+  bool m_has_received = false;  ///< a message came since the last tick
+  bool m_expects_confirmation = false;
+  bool m_welcome_confirmed = false;
+  int m_messages = kMaxMessageBurst;  ///< messages that may come now
   IdleTimer m_idle;
   Time m_frame_at;
   Time m_refilled;

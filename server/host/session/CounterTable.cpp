@@ -192,7 +192,7 @@ constexpr auto kStreamRows = std::to_array<CounterRow<S>>({
 });
 static_assert(hasAll(kStreamRows));
 
-using V = VisitorsListener::Counters;
+using V = ProxyListener::Counters;
 constexpr auto kVisitorRows = std::to_array<CounterRow<V>>({
     {FIELD(V, visitors), "naiad_visitors_total", "", "Connections from doors of this machine."},
     {FIELD(V, bad_headers), "naiad_visitors_refused_total", R"(reason="bad_header")",
@@ -220,7 +220,7 @@ constexpr auto kRelayRows = std::to_array<CounterRow<R>>({
 });
 static_assert(hasAll(kRelayRows));
 
-using G = DatagramGateCounters;
+using G = DatagramDemuxCounters;
 constexpr auto kGateRows = std::to_array<CounterRow<G>>({
     {FIELD(G, delivered), "naiad_datagrams_delivered_total", "", "Authentic datagrams received."},
     {FIELD(G, too_short), "naiad_datagrams_refused_total", R"(reason="too_short")",
@@ -274,13 +274,13 @@ std::vector<CounterSample> samplesOf(const PasswordCheck::Counters& counters) {
 std::vector<CounterSample> samplesOf(const TcpListener::Counters& counters) {
   return samples(counters, kStreamRows);
 }
-std::vector<CounterSample> samplesOf(const VisitorsListener::Counters& counters) {
+std::vector<CounterSample> samplesOf(const ProxyListener::Counters& counters) {
   return samples(counters, kVisitorRows);
 }
 std::vector<CounterSample> samplesOf(const RelayCounters& counters) {
   return samples(counters, kRelayRows);
 }
-std::vector<CounterSample> samplesOf(const DatagramGateCounters& counters) {
+std::vector<CounterSample> samplesOf(const DatagramDemuxCounters& counters) {
   return samples(counters, kGateRows);
 }
 std::vector<CounterSample> samplesOf(const UdpCounters& counters) {

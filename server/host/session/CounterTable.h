@@ -27,9 +27,9 @@ struct CounterSample {
 std::vector<CounterSample> samplesOf(const Counters& counters);
 std::vector<CounterSample> samplesOf(const PasswordCheck::Counters& counters);
 std::vector<CounterSample> samplesOf(const TcpListener::Counters& counters);
-std::vector<CounterSample> samplesOf(const VisitorsListener::Counters& counters);
+std::vector<CounterSample> samplesOf(const ProxyListener::Counters& counters);
 std::vector<CounterSample> samplesOf(const RelayCounters& counters);
-std::vector<CounterSample> samplesOf(const DatagramGateCounters& counters);
+std::vector<CounterSample> samplesOf(const DatagramDemuxCounters& counters);
 std::vector<CounterSample> samplesOf(const UdpCounters& counters);
 std::vector<CounterSample> samplesOf(const TrafficCounters& counters);
 

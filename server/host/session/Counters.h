@@ -98,7 +98,7 @@ struct Counters {
   std::uint64_t bus_dropped = 0;        ///< oldest messages of a full queue
   std::uint64_t bus_failures = 0;       ///< failed; retried
   std::uint64_t bus_connections = 0;    ///< more than one: the connection was lost and restored
-  std::uint64_t audited_pictures = 0;   ///< player pictures compared with the world's (PictureAudit.h)
+  std::uint64_t audited_pictures = 0;   ///< player pictures compared with the world's (ReplicaAudit.h)
   std::uint64_t audited_cells = 0;      ///< cells of audited_pictures
   std::uint64_t wrong_cells = 0;        ///< audited_cells that differed
 

@@ -24,7 +24,7 @@ namespace naiad {
 /// no releases, so the server creates them.
 class PressedKeys {
  public:
-  void noteInput(const Input& input) {
+  void recordInput(const Input& input) {
     if (!input.is_mouse) m_down.set(input.key, input.action != df::KEY_RELEASED);
   }
   /// Calls `release(input)` with a release of each key that is down, by key code; afterwards no key is down.
@@ -51,18 +51,18 @@ class ReceivedInputs {
   /// Ticks. An input for a tick further ahead than this is applied at once.
   static constexpr std::int32_t kMaxEarly = 8;
 
-  enum class Verdict { kQueued, kRepeated, kTooMany };
-  Verdict add(const Input& input) {
-    if (!isNewer(input.id, m_newest)) return Verdict::kRepeated;
-    if (m_queue.size() >= kMaxQueued) return Verdict::kTooMany;
+  enum class Result { kQueued, kRepeated, kTooMany };
+  Result add(const Input& input) {
+    if (!isNewer(input.id, m_newest)) return Result::kRepeated;
+    if (m_queue.size() >= kMaxQueued) return Result::kTooMany;
     m_newest = input.id;
     m_queue.push_back(input);
-    m_pressed.noteInput(input);
-    return Verdict::kQueued;
+    m_pressed.recordInput(input);
+    return Result::kQueued;
   }
   /// Calls `apply(input)` for up to kPerTick inputs that are due in `tick`, the world's next tick.
   template <class Apply>
-  void takeDue(std::uint32_t tick, Apply apply) {
+  void popDue(std::uint32_t tick, Apply apply) {
     for (int i = 0; i < kPerTick && !m_queue.empty() && !isTooEarly(m_queue.front(), tick); ++i) {
       apply(m_queue.front());
       m_queue.pop_front();

@@ -21,7 +21,7 @@ wire::ServerMessage noticeOf(std::uint64_t lines) {
 
 }  // namespace
 
-std::size_t ReliableOutbox::Kept::size() const {
+std::size_t ReliableOutbox::ReliableFrame::size() const {
   return frame.size() + kFrameHeaderSize;
 }
 
@@ -52,7 +52,7 @@ void ReliableOutbox::append(wire::ServerMessage message, Kind kind, std::string 
 // line that is always busy. A sent frame is removed, and the new one goes to the end.
 bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label) {
   if (kind == Kind::kChat) return false;
-  const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const Kept& kept) {
+  const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const ReliableFrame& kept) {
     return kept.kind == kind && kept.label == label;
   });
   if (before == m_kept.end()) return false;
@@ -68,18 +68,18 @@ bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, cons
 }
 
 void ReliableOutbox::limit() {
-  while (m_sound_bytes > kMaxSounds && leaveOutSound()) {
+  while (m_sound_bytes > kMaxSounds && dropOldestSound()) {
   }
-  while (m_bytes > kMax && leaveOutChat()) {
+  while (m_bytes > kMax && dropOldestChat()) {
   }
 }
 
-void ReliableOutbox::count(const Kept& kept) {
+void ReliableOutbox::count(const ReliableFrame& kept) {
   m_bytes += kept.size();
   if (kept.kind == Kind::kSound && !kept.sent) m_sound_bytes += kept.size();
 }
 
-void ReliableOutbox::discount(const Kept& kept) {
+void ReliableOutbox::discount(const ReliableFrame& kept) {
   m_bytes -= kept.size();
   if (kept.kind == Kind::kSound && !kept.sent) m_sound_bytes -= kept.size();
 }
@@ -96,20 +96,21 @@ void ReliableOutbox::erase(std::size_t index) {
 
 // Returns m_kept.size() if none.
 std::size_t ReliableOutbox::findUnsent(Kind kind) const {
-  const auto found = std::find_if(m_kept.begin(), m_kept.end(),
-                                  [kind](const Kept& kept) { return !kept.sent && kept.kind == kind; });
+  const auto found = std::find_if(m_kept.begin(), m_kept.end(), [kind](const ReliableFrame& kept) {
+    return !kept.sent && kept.kind == kind;
+  });
   return static_cast<std::size_t>(found - m_kept.begin());
 }
 
 // Replaces the oldest unsent line by a notice, which adds the count of an earlier unsent notice to its own.
-bool ReliableOutbox::leaveOutChat() {
+bool ReliableOutbox::dropOldestChat() {
   std::uint64_t lines = 1;
   if (findUnsent(Kind::kChat) == m_kept.size()) return false;
   if (const std::size_t before = findUnsent(Kind::kNotice); before < m_kept.size()) {
     lines += m_kept[before].lines;
     erase(before);
   }
-  Kept& line = m_kept[findUnsent(Kind::kChat)];
+  ReliableFrame& line = m_kept[findUnsent(Kind::kChat)];
   discount(line);
   wire::ServerMessage notice = noticeOf(lines);
   notice.set_number(line.number);
@@ -119,7 +120,7 @@ bool ReliableOutbox::leaveOutChat() {
   return true;
 }
 
-bool ReliableOutbox::leaveOutSound() {
+bool ReliableOutbox::dropOldestSound() {
   const std::size_t oldest = findUnsent(Kind::kSound);
   if (oldest == m_kept.size()) return false;
   erase(oldest);
@@ -148,8 +149,8 @@ const std::string* ReliableOutbox::next() const {
   return &m_kept[m_on_stream].frame;
 }
 
-void ReliableOutbox::noteSent() {
-  Kept& kept = m_kept[m_on_stream++];
+void ReliableOutbox::markSent() {
+  ReliableFrame& kept = m_kept[m_on_stream++];
   m_bytes_on_stream += kept.size();
   if (m_newest_sent == 0 || isNewer(kept.number, m_newest_sent)) m_newest_sent = kept.number;
   if (!std::exchange(kept.sent, true) && kept.kind == Kind::kSound) m_sound_bytes -= kept.size();

@@ -45,13 +45,13 @@ class ReliableOutbox {
   /// Returns the next frame to send on the stream; null if none waits or the window is full.
   const std::string* next() const;
   /// Call when the frame of next() was sent.
-  void noteSent();
+  void markSent();
 
   std::size_t bytes() const { return m_bytes; }
 
  private:
   enum class Kind : std::uint8_t { kChat, kNotice, kPlayers, kSound };
-  struct Kept {
+  struct ReliableFrame {
     std::uint32_t number = 0;
     Kind kind = Kind::kChat;
     bool sent = false;  ///< over any stream; sent frames come first
@@ -66,17 +66,17 @@ class ReliableOutbox {
   bool replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label);
   void erase(std::size_t index);
   void limit();
-  void count(const Kept& kept);
-  void discount(const Kept& kept);
-  bool leaveOutChat();
-  bool leaveOutSound();
+  void count(const ReliableFrame& kept);
+  void discount(const ReliableFrame& kept);
+  bool dropOldestChat();
+  bool dropOldestSound();
   std::size_t findUnsent(Kind kind) const;
 
   Counters& m_counters;
-  std::deque<Kept> m_kept;        ///< sorted by number
-  std::size_t m_bytes = 0;        ///< size of m_kept
-  std::size_t m_sound_bytes = 0;  ///< part of m_bytes: unsent sounds
-  std::size_t m_on_stream = 0;    ///< frames at the front of m_kept that this stream has carried
+  std::deque<ReliableFrame> m_kept;  ///< sorted by number
+  std::size_t m_bytes = 0;           ///< size of m_kept
+  std::size_t m_sound_bytes = 0;     ///< part of m_bytes: unsent sounds
+  std::size_t m_on_stream = 0;       ///< frames at the front of m_kept that this stream has carried
   std::size_t m_bytes_on_stream = 0;
   std::uint32_t m_next = 1;         ///< number of the next frame; never 0
   std::uint32_t m_newest_sent = 0;  ///< number of the newest frame sent; 0: none

@@ -36,7 +36,7 @@ void Session::refuse(wire::Refused_Reason reason, const std::string& sentence, c
   if (m_events.on_refused) m_events.on_refused(*this, sentence);
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(reason);
-  message.mutable_refused()->set_sentence(sentence);
+  message.mutable_refused()->set_message(sentence);
   message.mutable_refused()->set_redirect(redirect);
   message.mutable_refused()->set_redirect_room(room);
   send(message);
@@ -52,7 +52,7 @@ void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChanne
   m_player = welcome.player();
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
-  m_standing.begin(now());
+  m_status.begin(now());
   sendWelcome(welcome);
   startDatagrams(std::move(datagrams));
 }
@@ -69,7 +69,7 @@ void Session::sendWelcome(const wire::Welcome& welcome) {
   *message.mutable_welcome() = welcome;
   send(message);
   m_delivery.renewTransport(now());
-  m_activity.awaitProof();
+  m_activity.expectConfirmation();
 }
 
 void Session::restore(const wire::Welcome& welcome, Events events) {
@@ -78,14 +78,14 @@ void Session::restore(const wire::Welcome& welcome, Events events) {
   m_player = welcome.player();
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
-  m_greeted = m_restored = true;
-  m_activity.noteReturn(now());
-  m_standing.begin(now());
+  m_has_hello = m_restored = true;
+  m_activity.onReconnect(now());
+  m_status.begin(now());
 }
 
-void Session::takeOver(Session& restored) {
+void Session::replaceRestored(Session& restored) {
   m_restored = true;
-  m_standing.setMuted(restored.m_standing.isMuted());
+  m_status.setMuted(restored.m_status.isMuted());
   m_resumes = restored.m_resumes;
   restored.m_reported_gone = true;
   restored.stream() != nullptr ? restored.end() : static_cast<void>(restored.m_state = State::kGone);
@@ -95,37 +95,37 @@ void Session::takeOver(Session& restored) {
 
 // A refused attempt counts as activity: the grace time starts again.
 bool Session::admitResume() {
-  if (m_resumes.takeToken(kResumeRate, now())) return true;
-  m_activity.noteReturn(now());
+  if (m_resumes.tryConsume(kResumeRate, now())) return true;
+  m_activity.onReconnect(now());
   ++m_counters.resumes_deferred;
   return false;
 }
 
-void Session::adopt(Session& other, wire::Welcome welcome, std::uint32_t received) {
-  takeStream(other);
+void Session::resumeOn(Session& other, wire::Welcome welcome, std::uint32_t received) {
+  adoptStream(other);
   other.m_state = State::kGone;
-  m_delivery.loseStream();
+  m_delivery.onStreamLost();
   m_outbox.acknowledge(received);
   m_outbox.restartStream();
-  welcome.set_received(m_kept_heard.newest());
+  welcome.set_last_frame(m_reliable_received.newest());
   sendWelcome(welcome);
   sendWaiting();
 }
 
 void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams) {
-  takeStream(other);
+  adoptStream(other);
   if (other.stream() != nullptr) {
-    other.goodbye("This session was resumed in another client.");
+    other.sendGoodbye("This session was resumed in another client.");
   } else {
     other.m_state = State::kGone;
   }
   m_delivery.restart(now());
   startDatagrams(std::move(datagrams));
   m_outbox.clear();
-  m_kept_heard = {};
+  m_reliable_received = {};
   m_rtt_millis = 0;
   releaseKeys();
-  wire::Continuation& from = *welcome.mutable_continuation();
+  wire::ResumeState& from = *welcome.mutable_resume_state();
   from.set_snapshot(sender().newestNumber());
   from.set_world_epoch(sender().epoch());
   from.set_input(m_inputs.newest());
@@ -133,14 +133,14 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
   ++m_counters.restarted;
 }
 
-bool Session::admitSecond() {
-  if (m_seconds.takeToken(kSecondRate, now())) return true;
+bool Session::admitSecondStream() {
+  if (m_second_streams.tryConsume(kSecondStreamRate, now())) return true;
   ++m_counters.seconds_deferred;
   return false;
 }
 
-void Session::accompany(Session& other) {
-  m_streams.takeSecond(other.m_streams, kMaxClientFrame);
+void Session::attachSecondStream(Session& other) {
+  m_streams.adoptSecond(other.m_streams, kMaxClientFrame);
   other.m_reported_gone = true;
   other.m_state = State::kGone;
   ++m_counters.second_streams;
@@ -152,14 +152,14 @@ void Session::accompany(Session& other) {
 
 // Moves the first stream of `other` here. If this session still had one, `other` gets it and does not report
 // its end.
-void Session::takeStream(Session& other) {
-  m_knows_rooms = other.m_knows_rooms;
-  m_streams.takeFirst(other.m_streams);
+void Session::adoptStream(Session& other) {
+  m_supports_rooms = other.m_supports_rooms;
+  m_streams.adoptFirst(other.m_streams);
   other.m_reported_gone = true;
   const Clock::time_point present = now();
   m_chat.refillAfterSilence(m_activity.lastFrame(), present);
-  m_activity.noteReturn(present);
-  m_standing.changeStream(present);
+  m_activity.onReconnect(present);
+  m_status.changeStream(present);
   m_resize.continueFrom(other.m_resize);
   ++m_counters.resumed;
 }
@@ -170,10 +170,10 @@ void Session::onClosed(CloseReason reason) {
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   m_streams.dropSecond();
-  setLeave(lost                               ? &Counters::left_hung_up
-           : reason == CloseReason::kProtocol ? &Counters::left_malformed
-           : reason == CloseReason::kOverflow ? &Counters::left_stuck
-                                              : &Counters::left_dismissed);
+  setLeaveReason(lost                               ? &Counters::left_hung_up
+                 : reason == CloseReason::kProtocol ? &Counters::left_malformed
+                 : reason == CloseReason::kOverflow ? &Counters::left_stuck
+                                                    : &Counters::left_dismissed);
   reportGone();
 }
 
@@ -185,15 +185,15 @@ void Session::onSecondClosed(CloseReason reason) {
 void Session::detach(Clock::time_point now) {
   ++m_counters.detached;
   m_streams.detach();
-  m_delivery.loseStream();
+  m_delivery.onStreamLost();
   if (!m_delivery.usesDatagrams(now)) releaseKeys();
 }
 
-void Session::goodbye(const std::string& sentence, std::chrono::seconds again) {
+void Session::sendGoodbye(const std::string& sentence, std::chrono::seconds again) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
   wire::ServerMessage message;
-  message.mutable_goodbye()->set_sentence(sentence);
-  message.mutable_goodbye()->set_again_seconds(static_cast<std::uint32_t>(again.count()));
+  message.mutable_goodbye()->set_message(sentence);
+  message.mutable_goodbye()->set_reconnect_seconds(static_cast<std::uint32_t>(again.count()));
   send(message);
   end();
 }
@@ -221,38 +221,39 @@ void Session::checkDeadlines(Clock::time_point now) {
 }
 
 void Session::checkGreeting(Clock::time_point now) {
-  if (m_activity.silence(now) <= (m_greeted ? kJudgeTimeout : kLoginTimeout)) return;
+  if (m_activity.silence(now) <= (m_has_hello ? kAdmissionTimeout : kLoginTimeout)) return;
   ++m_counters.login_timeouts;
-  if (m_greeted) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
+  if (m_has_hello) return refuse(wire::Refused::BUSY, "The server is busy. Try again in a moment.");
   refuse(wire::Refused::BAD_REQUEST, "The client sent no hello in time.");
 }
 
 void Session::checkSilence(Clock::time_point now) {
   const auto silence = m_activity.silence(now);
-  if (isDetached() && silence > kSuspend) releaseKeys();
+  if (isDetached() && silence > kKeyReleaseDelay) releaseKeys();
   if (m_state == State::kGreeting) {
     checkGreeting(now);
   } else if (isDetached() && silence > m_grace) {
     ++m_counters.graces_expired;
-    setLeave(&Counters::left_silent);
+    setLeaveReason(&Counters::left_silent);
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // An outage often breaks the stream at neither end.
     if (m_grace.count() > 0) return detach(now);
-    setLeave(&Counters::left_silent);
-    goodbye("Disconnected: no data from your client.");
-  } else if (m_state == State::kPlaying && m_streams.isStalled(now) && silence < StallDetector::kPatience) {
+    setLeaveReason(&Counters::left_silent);
+    sendGoodbye("Disconnected: no data from your client.");
+  } else if (m_state == State::kPlaying && m_streams.isStalled(now) &&
+             silence < StallDetector::kStallTimeout) {
     // A client that is also silent has lost its connection: it is detached later and may reconnect.
     ++m_counters.stuck_streams;
-    setLeave(&Counters::left_stuck);
-    goodbye("Disconnected: your connection is too slow.");
+    setLeaveReason(&Counters::left_stuck);
+    sendGoodbye("Disconnected: your connection is too slow.");
   }
 }
 
 // A dropped input counts as received; otherwise the client would send it again.
 void Session::beginWorld() {
-  if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
+  if (const auto dropped = m_inputs.clear()) m_delivery.setNewestInput(*dropped, m_delivery.tick());
   m_delivery.reset();
 }
 
@@ -261,10 +262,10 @@ void Session::beginWorld() {
 void Session::enterRoom(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();
-  if (const auto dropped = m_inputs.clear()) m_delivery.noteInput(*dropped, m_delivery.tick());
+  if (const auto dropped = m_inputs.clear()) m_delivery.setNewestInput(*dropped, m_delivery.tick());
   m_delivery.restart(now());
   wire::ServerMessage message;
-  wire::Entered& entered = *message.mutable_entered();
+  wire::RoomEntered& entered = *message.mutable_entered();
   entered.set_player(welcome.player());
   entered.set_room(welcome.room());
   entered.set_game(welcome.game());
@@ -284,7 +285,7 @@ df::ViewedTick Session::viewedTick(const Input& input) const {
 
 void Session::sendTick(const Publisher& publisher, const df::PlayerFacts& player) {
   const Clock::time_point present = now();
-  if (const auto size = m_resize.takeDue(present)) m_delivery.setTerminal(size->columns, size->rows);
+  if (const auto size = m_resize.popDue(present)) m_delivery.setTerminal(size->columns, size->rows);
   m_delivery.sendTick(publisher, player, m_streams, present);
 }
 
@@ -295,7 +296,7 @@ void Session::send(const wire::ServerMessage& message) {
   m_streams.sendFirst(message.SerializeAsString());
 }
 
-void Session::sendKept(const wire::ServerMessage& message) {
+void Session::sendReliable(const wire::ServerMessage& message) {
   if (m_state != State::kPlaying) return;
   m_outbox.add(message);
   sendWaiting();
@@ -306,15 +307,15 @@ void Session::sendKept(const wire::ServerMessage& message) {
 void Session::sendWaiting() {
   if (m_state != State::kPlaying || stream() == nullptr) return;
   while (const std::string* p_frame = m_outbox.next()) {
-    if (m_delivery.isHeldUp() || stream()->unsentBytes() > kMaxBeforeFleeting) return;
+    if (m_delivery.isBlocked() || stream()->unsentBytes() > kMaxUnsentForBestEffort) return;
     m_streams.sendFirst(*p_frame);
-    m_outbox.noteSent();
+    m_outbox.markSent();
   }
 }
 
-bool Session::sendFleeting(const wire::ServerMessage& message) {
+bool Session::sendBestEffort(const wire::ServerMessage& message) {
   if (m_state != State::kPlaying || stream() == nullptr) return false;
-  if (stream()->unsentBytes() > kMaxBeforeFleeting) return false;
+  if (stream()->unsentBytes() > kMaxUnsentForBestEffort) return false;
   send(message);
   return true;
 }

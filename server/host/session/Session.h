@@ -1,7 +1,7 @@
 // The server's side of one client: its streams, its state (STATES.md), its inputs and its snapshots.
 //
 // A session outlives its stream. When the stream breaks, the session continues over datagrams, or waits until
-// the client reconnects and adopt() moves the new stream to it, or until the grace time ends.
+// the client reconnects and resumeOn() moves the new stream to it, or until the grace time ends.
 //
 // All input from the client is checked here; each rejection is counted. A client that breaks a rule ends only
 // its own session. Time is a parameter. Single-threaded: the host's event loop and tick share a thread.
@@ -41,29 +41,29 @@ class Welcome;
 
 /// Rate limit of a client's chat lines. It lasts for the whole session: only time refills it, not a new
 /// stream. Time is a parameter.
-class ChatAllowance {
+class ChatRateLimiter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr double kPerSecond = 3;
-  static constexpr double kAtOnce = 3;
+  static constexpr double kBurst = 3;
   /// Maximum after a reconnect: lines that the client may have queued during its silence.
-  static constexpr double kSaved = 30;
+  static constexpr double kMaxSaved = 30;
 
-  explicit ChatAllowance(Time now) : m_refilled(now) {}
+  explicit ChatRateLimiter(Time now) : m_refilled(now) {}
 
   /// Counts a line. False if it is over the limit.
-  bool takeLine(Time now) {
-    refill(now, kAtOnce);
+  bool tryConsume(Time now) {
+    refill(now, kBurst);
     if (m_lines < 1) return false;
     m_lines -= 1;
     return true;
   }
-  /// Call after a reconnect. Refills up to kSaved for the time since `silent_since`, because the lines typed
-  /// during the silence arrive at once.
+  /// Call after a reconnect. Refills up to kMaxSaved for the time since `silent_since`, because the lines
+  /// typed during the silence arrive at once.
   void refillAfterSilence(Time silent_since, Time now) {
-    refill(silent_since, kAtOnce);
-    refill(now, kSaved);
+    refill(silent_since, kBurst);
+    refill(now, kMaxSaved);
   }
 
  private:
@@ -75,12 +75,12 @@ class ChatAllowance {
     if (m_lines < most) m_lines = std::min(most, m_lines + seconds * kPerSecond);
   }
 
-  double m_lines = kAtOnce;
+  double m_lines = kBurst;
   Time m_refilled;
 };
 
-/// The terminal size that a client requested last. At most one size per kEvery is applied, because a new size
-/// may cause half a world to be sent.
+/// The terminal size that a client requested last. At most one size per kInterval is applied, because a new
+/// size may cause half a world to be sent.
 class ResizeRequest {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -89,15 +89,15 @@ class ResizeRequest {
     std::uint32_t rows = 0;
   };
 
-  static constexpr std::chrono::milliseconds kEvery{250};
+  static constexpr std::chrono::milliseconds kInterval{250};
 
   /// Replaces the pending size. True if there was one.
   bool request(Size size) { return std::exchange(m_wanted, size).has_value(); }
   /// Copies the pending size of `other`.
   void continueFrom(const ResizeRequest& other) { m_wanted = other.m_wanted; }
   /// Removes and returns the size to apply now; nullopt if none is due.
-  std::optional<Size> takeDue(Time now) {
-    if (!m_wanted || (m_applied && now - *m_applied < kEvery)) return std::nullopt;
+  std::optional<Size> popDue(Time now) {
+    if (!m_wanted || (m_applied && now - *m_applied < kInterval)) return std::nullopt;
     m_applied = now;
     return std::exchange(m_wanted, std::nullopt);
   }
@@ -108,24 +108,24 @@ class ResizeRequest {
 };
 
 /// A player's join time, last activity and rights, which the game does not need. Time is a parameter.
-class SessionStanding {
+class SessionStatus {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   /// Call when the client was welcomed.
-  void begin(Time now) { m_joined = m_acted = now; }
+  void begin(Time now) { m_joined = m_last_activity = now; }
   /// Call for each key, click or line of chat.
-  void noteAction(Time now) { m_acted = now; }
+  void onActivity(Time now) { m_last_activity = now; }
   /// Call when the session continues on another stream; counts as activity. Ends admin rights, because a
   /// resume token must not grant them.
   void changeStream(Time now) {
-    m_acted = now;
+    m_last_activity = now;
     m_admin = false;
     ++m_streams;
   }
 
   Time joined() const { return m_joined; }
-  Time acted() const { return m_acted; }
+  Time lastActivity() const { return m_last_activity; }
   bool isAdmin() const { return m_admin; }
   void setAdmin() { m_admin = true; }
   bool isMuted() const { return m_muted; }
@@ -135,7 +135,7 @@ class SessionStanding {
 
  private:
   Time m_joined{};
-  Time m_acted{};
+  Time m_last_activity{};
   std::uint32_t m_streams = 0;
   bool m_admin = false;
   bool m_muted = false;
@@ -145,8 +145,8 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Calls to the host, made from the event loop. A hello is answered within kJudgeTimeout: by refuse(),
-  /// welcome(), or another session's adopt(), restart() or accompany().
+  /// Calls to the host, made from the event loop. A hello is answered within kAdmissionTimeout: by refuse(),
+  /// welcome(), or another session's resumeOn(), restart() or attachSecondStream().
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
@@ -162,17 +162,18 @@ class Session {
 
   static constexpr std::chrono::seconds kLoginTimeout{5};
   /// Time limit for the answer to a hello; less than the 5 s that a client waits for it.
-  static constexpr std::chrono::seconds kJudgeTimeout{4};
+  static constexpr std::chrono::seconds kAdmissionTimeout{4};
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// After this much silence of a detached player, the keys they hold are released.
-  static constexpr std::chrono::seconds kSuspend{1};
+  static constexpr std::chrono::seconds kKeyReleaseDelay{1};
   /// Rate limit of resumes, on another stream or by another process. Players do not notice a line that breaks
   /// once a second, but each resume may send a world from the beginning.
   static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
   /// Rate limit of new second streams. Clients ask at most every two seconds.
-  static constexpr BucketRate kSecondRate{.per_second = 0.5, .burst = 4};
-  /// Above this number of unsent bytes, sendFleeting() drops its message and messages of sendKept() wait.
-  static constexpr std::size_t kMaxBeforeFleeting = std::size_t{4} * 1024;
+  static constexpr BucketRate kSecondStreamRate{.per_second = 0.5, .burst = 4};
+  /// Above this number of unsent bytes, sendBestEffort() drops its message and messages of sendReliable()
+  /// wait.
+  static constexpr std::size_t kMaxUnsentForBestEffort = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
   ~Session();
@@ -189,38 +190,38 @@ class Session {
   /// Answers the hello; the client now plays. `datagrams`: null if snapshots may use only the stream.
   void welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams = nullptr);
   /// Call instead of start(), for a session of a killed server. It has no stream, and its client knows only
-  /// the resume token. It waits until the client's new session replaces it: takeOver().
+  /// the resume token. It waits until the client's new session replaces it: replaceRestored().
   void restore(const wire::Welcome& welcome, Events events);
   /// True for a restored session, and for a session that replaced one until confirm(). Such a session cannot
-  /// be resumed by adopt() or restart(), because its client may not have read its welcome.
+  /// be resumed by resumeOn() or restart(), because its client may not have read its welcome.
   bool isRestored() const { return m_restored; }
   /// Call after welcome(): this session replaces `restored`, which ends. Keeps its mute and resume limit.
-  void takeOver(Session& restored);
-  /// Call once the client has proved that it read the welcome (takeProof()).
+  void replaceRestored(Session& restored);
+  /// Call once the client has proved that it read the welcome (popWelcomeConfirmed()).
   void confirm() { m_restored = false; }
   /// Counts a resume. False if it is over the limit (kResumeRate): then the session keeps waiting, and its
   /// grace time starts again.
   bool admitResume();
   /// Resumes after a reconnect: takes the stream on which `other` received its hello, answers the hello, and
   /// sends all reliable frames after number `received` again. `other` is kGone afterwards.
-  void adopt(Session& other, wire::Welcome welcome, std::uint32_t received);
-  /// Resumes in another client process, which has no state. Like adopt(), but the world is sent from the
+  void resumeOn(Session& other, wire::Welcome welcome, std::uint32_t received);
+  /// Resumes in another client process, which has no state. Like resumeOn(), but the world is sent from the
   /// beginning, with `datagrams` for the new process (may be null). An old process that is still connected
   /// gets a goodbye.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
-  /// Counts a second stream. False if it is over the limit (kSecondRate).
-  bool admitSecond();
+  /// Counts a second stream. False if it is over the limit (kSecondStreamRate).
+  bool admitSecondStream();
   /// Adds the stream on which `other` received its hello as second stream, for small snapshots and for
   /// updates from the client. Without datagrams, a lost packet then delays only one of the two streams.
   /// `other` is kGone afterwards. An earlier second stream is closed; this one ends with the first stream.
-  void accompany(Session& other);
+  void attachSecondStream(Session& other);
   bool hasSecondStream() const { return m_streams.hasSecond(); }
   /// Rate limit of requests for the room list or for another room.
   static constexpr BucketRate kRoomRate{.per_second = 2, .burst = 4};
   /// Counts a request by the client or its game. False if it is over the limit.
-  bool admitRoomRequest() { return m_room_requests.takeToken(kRoomRate, now()); }
+  bool admitRoomRequest() { return m_room_requests.tryConsume(kRoomRate, now()); }
   /// True if the client supports rooms, so it can be moved to another one.
-  bool knowsRooms() const { return m_knows_rooms; }
+  bool supportsRooms() const { return m_supports_rooms; }
   /// Moves the session, which must have a stream, to another room's world, described by `welcome`. The client
   /// is told before it is sent that world from the beginning.
   void enterRoom(const wire::Welcome& welcome);
@@ -232,7 +233,7 @@ class Session {
   bool isDetached() const { return m_state == State::kPlaying && m_streams.first() == nullptr; }
   /// True once for each welcome: the client has sent a frame on the first stream since, so it has read the
   /// welcome.
-  bool takeProof() { return m_activity.takeProof(); }
+  bool popWelcomeConfirmed() { return m_activity.popWelcomeConfirmed(); }
   /// The welcome without its resume token, because only the hash is stored (ResumeTokens).
   const wire::Welcome& welcomed() const { return *m_welcome; }
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
@@ -241,17 +242,17 @@ class Session {
   /// Returns keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
   /// Sends the reason and ends the session. `again`: the server will be back within this time; 0: never.
-  void goodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
+  void sendGoodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
   /// Enforces deadlines. Call once a tick. A long gap between two calls does not count as silence of the
   /// client (IdleTimer).
   void checkDeadlines(Clock::time_point now);
   /// Calls `apply(input)` for the inputs that are due in `tick`, the world's next tick.
   template <class Apply>
-  void takeInputs(std::uint32_t tick, Apply apply) {
-    m_inputs.takeDue(tick, [&](const Input& input) {
+  void drainInputs(std::uint32_t tick, Apply apply) {
+    m_inputs.popDue(tick, [&](const Input& input) {
       apply(input);
-      m_delivery.noteInput(input.id, tick);
+      m_delivery.setNewestInput(input.id, tick);
     });
   }
 
@@ -263,7 +264,7 @@ class Session {
     m_inputs.setControls(controls);
   }
 
-  /// Starts or stops the audit of the client's pictures (PictureAudit.h). It starts when a world is next sent
+  /// Starts or stops the audit of the client's pictures (ReplicaAudit.h). It starts when a world is next sent
   /// from the beginning.
   void setAudit(bool audit) { m_delivery.setAudit(audit); }
   bool isAudited() { return m_delivery.audit() != nullptr; }
@@ -277,15 +278,15 @@ class Session {
   void send(const wire::ServerMessage& message);
   /// Sends reliably, if needed on a later stream. Kept until the client acknowledges it, or dropped if too
   /// much is kept (ReliableOutbox.h). For chat, player lists and sounds.
-  void sendKept(const wire::ServerMessage& message);
+  void sendReliable(const wire::ServerMessage& message);
 
   /// Sends only if the message can arrive at once. Returns whether it was sent.
-  bool sendFleeting(const wire::ServerMessage& message);
+  bool sendBestEffort(const wire::ServerMessage& message);
 
   State state() const { return m_state; }
   /// The host's time (Events::now).
   Clock::time_point now() const { return m_events.now ? m_events.now() : Clock::now(); }
-  bool isGreeted() const { return m_greeted; }
+  bool hasHello() const { return m_has_hello; }
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
@@ -295,8 +296,8 @@ class Session {
   /// Newest round-trip time measured by the client, in milliseconds; 0 before the first.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
   /// Join time, last activity and rights of the player.
-  SessionStanding& standing() { return m_standing; }
-  const SessionStanding& standing() const { return m_standing; }
+  SessionStatus& status() { return m_status; }
+  const SessionStatus& status() const { return m_status; }
   const TransportSelector& transport() const { return m_delivery.transport(); }
   /// State of the client's snapshots.
   const SnapshotSender& sender() const { return m_delivery.sender(); }
@@ -305,7 +306,7 @@ class Session {
   /// Counter of the reason for which the player leaves.
   using Leave = std::uint64_t Counters::*;
   /// Sets the reason unless one was set before.
-  void setLeave(Leave leave) {
+  void setLeaveReason(Leave leave) {
     if (m_leave == &Counters::left_dismissed) m_leave = leave;
   }
   void onFrame(std::string_view frame);
@@ -314,7 +315,7 @@ class Session {
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
   void detach(Clock::time_point now);
-  void takeStream(Session& other);
+  void adoptStream(Session& other);
   void sendWelcome(const wire::Welcome& welcome);
   void sendWaiting();
   void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
@@ -323,12 +324,12 @@ class Session {
   void checkSilence(Clock::time_point now);
   bool acceptMessage();
   bool dispatch(const wire::ClientMessage& message);
-  bool takeUpdate(std::string_view bytes, bool by_datagram);
-  void takeInput(const Input& input);
-  void takeHello(const wire::Hello& hello);
-  void takeChat(const std::string& text);
-  void takeRoomRequest(const wire::ClientMessage& message);
-  void takePing(const wire::Ping& ping);
+  bool handleUpdate(std::string_view bytes, bool by_datagram);
+  void handleInput(const Input& input);
+  void handleHello(const wire::Hello& hello);
+  void handleChat(const std::string& text);
+  void handleRoomRequest(const wire::ClientMessage& message);
+  void handlePing(const wire::Ping& ping);
   void endMalformed();
   void reportGone();
   void end();
@@ -337,23 +338,23 @@ class Session {
   std::uint32_t m_player = 0;  ///< copy from m_welcome, which is rarely in the cache
   bool m_reported_gone = false;
   Leave m_leave = &Counters::left_dismissed;
-  bool m_greeted = false;  ///< the hello was received
+  bool m_has_hello = false;  ///< the hello was received
   bool m_restored = false;
-  bool m_knows_rooms = false;
+  bool m_supports_rooms = false;
   std::uint32_t m_rtt_millis = 0;
   Counters& m_counters;
   Events m_events;
   StreamPair m_streams;
   ClientActivity m_activity;
-  ChatAllowance m_chat;
-  SessionStanding m_standing;
+  ChatRateLimiter m_chat;
+  SessionStatus m_status;
   ResizeRequest m_resize;
   ReceivedInputs m_inputs;
   TokenBucket m_resumes;
-  TokenBucket m_seconds;
+  TokenBucket m_second_streams;
   TokenBucket m_room_requests;
   ReliableOutbox m_outbox;
-  ReliableFramesHeard m_kept_heard;
+  ReliableFrameReceiver m_reliable_received;
   SnapshotDelivery m_delivery;
   std::chrono::milliseconds m_grace{0};
   std::uint64_t m_id = 0;

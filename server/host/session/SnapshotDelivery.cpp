@@ -32,12 +32,12 @@ std::string frameOf(const SnapshotSender::Packet& packet) {
 void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFacts& player,
                                 StreamPair& streams, Time now) {
   m_tick = publisher.tick();
-  m_held_up = false;
+  m_blocked = false;
   settleAcks();
   m_sender.applyTick(publisher, player);
   if (m_audit) m_audit->beginTick(m_sender.newestNumber(), m_tick);
   if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
-  if (m_datagrams != nullptr && m_datagrams->room() &&
+  if (m_datagrams != nullptr && m_datagrams->payloadBudget() &&
       m_transport.wantsProbe(now, streams.first() == nullptr)) {
     sendProbe(publisher, now);
   }
@@ -46,19 +46,19 @@ void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFact
 
 void SnapshotDelivery::sendProbe(const Publisher& publisher, Time now) {
   const SnapshotSender::Packet probe = m_sender.probe(publisher);
-  noteSent(probe, true, now);
+  markSent(probe, true, now);
   m_datagrams->send(probe.bytes);
 }
 
 void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& streams, Time now) {
   const std::uint32_t interval = m_transport.interval(m_sender.loss(), now);
-  const auto room = m_datagrams->room();
-  if (publisher.tick() % interval != 0 || !room) return skipTick();
-  const std::size_t bytes = std::min(*room, kMaxDatagramSnapshot);
+  const auto payload_budget = m_datagrams->payloadBudget();
+  if (publisher.tick() % interval != 0 || !payload_budget) return skipTick();
+  const std::size_t bytes = std::min(*payload_budget, kMaxDatagramSnapshot);
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, {kDatagramsPerTick, bytes, streams.isFirstIdle()}, packets);
   for (const SnapshotSender::Packet& packet : packets) {
-    noteSent(packet, !packet.large, now);
+    markSent(packet, !packet.large, now);
     count(packet);
     if (!packet.large) countDatagram(packet);
     packet.large ? streams.sendFirst(frameOf(packet)) : m_datagrams->send(packet.bytes);
@@ -72,13 +72,13 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
   // on the first stream, and nothing may overtake it.
   const bool first = streams.isFirstIdle();
   const bool second = streams.isSecondIdle() && !m_sender.hasLargeInFlight();
-  m_held_up = !first && !second;
-  if (m_held_up) return skipTick();
+  m_blocked = !first && !second;
+  if (m_blocked) return skipTick();
   SnapshotSender::Packets& packets = packetsOfThread();
   m_sender.build(publisher, first ? kStreamRoom : kSecondRoom, packets);
   const bool small = packets.size() == 1 && packets.back().bytes.size() <= kMaxOnSecond;
   for (const SnapshotSender::Packet& packet : packets) {
-    noteSent(packet, false, now);
+    markSent(packet, false, now);
     count(packet);
     const std::string frame = frameOf(packet);
     if (first) streams.sendFirst(frame);
@@ -88,9 +88,9 @@ void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& str
   if (m_sender.isThrottled()) skipTick();
 }
 
-void SnapshotDelivery::noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
+void SnapshotDelivery::markSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now) {
   if (m_audit) m_audit->recordSent(packet);
-  m_transport.noteSent(packet.number, as_datagram, now);
+  m_transport.markSent(packet.number, as_datagram, now);
   m_ticks.recordSent(packet.number, packet.tick);
 }
 
@@ -123,7 +123,7 @@ void SnapshotDelivery::settleAcks() {
 }
 
 void SnapshotDelivery::compareChecksum(const AckWindow& acks, std::uint64_t checksum, Time now) {
-  if (m_last_checksum && now - *m_last_checksum < kChecksumEvery) {
+  if (m_last_checksum && now - *m_last_checksum < kChecksumInterval) {
     ++m_counters.checksums_dropped;
     return;
   }
@@ -135,7 +135,7 @@ void SnapshotDelivery::compareChecksum(const AckWindow& acks, std::uint64_t chec
 }
 
 void SnapshotDelivery::requestReset(Time now) {
-  if (m_last_reset && now - *m_last_reset < kResetEvery) {
+  if (m_last_reset && now - *m_last_reset < kResetInterval) {
     ++m_counters.resets_dropped;
     return;
   }
@@ -152,18 +152,18 @@ void SnapshotDelivery::reset() {
 
 // A client that was sent no snapshot yet is about to be sent a world from the beginning.
 void SnapshotDelivery::setAudit(bool audit) {
-  m_audit = audit ? std::make_unique<PictureAudit>(m_counters) : nullptr;
+  m_audit = audit ? std::make_unique<ReplicaAudit>(m_counters) : nullptr;
   if (m_audit && m_sender.newestNumber() == 0) m_audit->restart();
 }
 
-void SnapshotDelivery::loseStream() {
-  m_held_up = false;
+void SnapshotDelivery::onStreamLost() {
+  m_blocked = false;
   settleAcks();
   m_sender.requeueLarge();
 }
 
 void SnapshotDelivery::restart(Time now) {
-  m_held_up = false;
+  m_blocked = false;
   m_last_reset = now;
   reset();
   m_transport = TransportSelector(now);

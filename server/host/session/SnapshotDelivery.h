@@ -11,7 +11,7 @@
 
 #include "host/net/SealedChannel.h"
 #include "host/session/Counters.h"
-#include "host/session/PictureAudit.h"
+#include "host/session/ReplicaAudit.h"
 #include "host/session/StreamPair.h"
 #include "host/session/TransportSelector.h"
 #include "host/snapshot/LagCompensator.h"
@@ -23,9 +23,9 @@ class SnapshotDelivery {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::chrono::seconds kResetEvery{2};
+  static constexpr std::chrono::seconds kResetInterval{2};
   /// Minimum time between two checksums. Clients send one a second; a few may arrive together after a stall.
-  static constexpr std::chrono::milliseconds kChecksumEvery{250};
+  static constexpr std::chrono::milliseconds kChecksumInterval{250};
   /// Larger snapshots use the first stream only. Changes that gathered during a wait are small enough to
   /// send twice; a whole world would be too much for a slow line.
   static constexpr std::size_t kMaxOnSecond = std::size_t{4} * 1024;
@@ -39,31 +39,31 @@ class SnapshotDelivery {
   /// Sends pending changes of the published tick, unless the client or its line is busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player, StreamPair& streams, Time now);
   /// Sets the newest input that the world has applied, and the tick in which it did.
-  void noteInput(std::uint32_t id, std::uint32_t tick) { m_sender.noteInput(id, tick); }
+  void setNewestInput(std::uint32_t id, std::uint32_t tick) { m_sender.setNewestInput(id, tick); }
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_sender.setTerminal(columns, rows); }
 
-  /// Starts or stops the audit of the client's pictures (PictureAudit.h).
+  /// Starts or stops the audit of the client's pictures (ReplicaAudit.h).
   void setAudit(bool audit);
   /// Null if there is no audit.
-  PictureAudit* audit() { return m_audit.get(); }
+  ReplicaAudit* audit() { return m_audit.get(); }
 
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
   /// Resets the client's world if the checksum does not match what was sent.
   void compareChecksum(const AckWindow& acks, std::uint64_t checksum, Time now);
-  /// Sends the client's world again, at most once per kResetEvery.
+  /// Sends the client's world again, at most once per kResetInterval.
   void requestReset(Time now);
 
   /// Makes everything pending again, because the client starts from an empty world.
   void reset();
   /// Call when the first stream broke: snapshots in flight on it are lost.
-  void loseStream();
+  void onStreamLost();
   /// Call when the client is on another stream: probes again whether datagrams pass.
   void renewTransport(Time now) { m_transport.renew(now); }
   /// Call for another process of the client: forgets the transport state and sends the world, like a reset.
   void restart(Time now);
 
   /// True if earlier unsent bytes delayed the last snapshot, which was to use a stream.
-  bool isHeldUp() const { return m_held_up; }
+  bool isBlocked() const { return m_blocked; }
   bool usesDatagrams(Time now) const { return m_datagrams != nullptr && m_transport.isOpen(now); }
   /// The newest published tick.
   std::uint32_t tick() const { return m_tick; }
@@ -80,7 +80,7 @@ class SnapshotDelivery {
   void sendDatagrams(const Publisher& publisher, StreamPair& streams, Time now);
   void sendOnStreams(const Publisher& publisher, StreamPair& streams, Time now);
   void sendProbe(const Publisher& publisher, Time now);
-  void noteSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now);
+  void markSent(const SnapshotSender::Packet& packet, bool as_datagram, Time now);
   void count(const SnapshotSender::Packet& packet);
   void countDatagram(const SnapshotSender::Packet& packet);
   void skipTick();
@@ -91,10 +91,10 @@ class SnapshotDelivery {
   std::optional<AckWindow> m_acks;  ///< received, but not passed to m_sender yet
   std::uint64_t m_skipped_ticks = 0;
   SnapshotSender m_sender{Resend::kAhead};
-  std::unique_ptr<PictureAudit> m_audit;
+  std::unique_ptr<ReplicaAudit> m_audit;
   TransportSelector m_transport;
   SnapshotTicks m_ticks;
-  bool m_held_up = false;
+  bool m_blocked = false;
   std::optional<Time> m_last_reset;
   std::optional<Time> m_last_checksum;
 };

@@ -21,7 +21,7 @@ void StreamPair::start(Callbacks callbacks, std::size_t limit) {
                   }});
 }
 
-void StreamPair::takeFirst(StreamPair& other) {
+void StreamPair::adoptFirst(StreamPair& other) {
   dropSecond();
   if (m_first != nullptr) {  // this end has not noticed yet that the other one is gone
     std::swap(m_route, other.m_route);
@@ -35,7 +35,7 @@ void StreamPair::takeFirst(StreamPair& other) {
   m_stall.restart();
 }
 
-void StreamPair::takeSecond(StreamPair& other, std::size_t limit) {
+void StreamPair::adoptSecond(StreamPair& other, std::size_t limit) {
   dropSecond();
   m_second = std::move(other.m_first);
   const auto route = std::exchange(other.m_route, std::make_shared<Route>());

@@ -1,6 +1,6 @@
 // A session's two streams, and the callbacks from them to the session.
 //
-// A stream outlives the session that received its hello: takeFirst() and takeSecond() move it to another
+// A stream outlives the session that received its hello: adoptFirst() and adoptSecond() move it to another
 // pair, which then gets its callbacks.
 #pragma once
 
@@ -15,30 +15,31 @@
 
 namespace naiad {
 
-/// Detects a peer that no longer reads its stream. A stream is stuck if more than kMuch bytes are unsent and
-/// the number has not reached a new minimum for kPatience. A slow stream is not stuck: each new minimum
-/// restarts the time. Pure.
+/// Detects a peer that no longer reads its stream. A stream is stuck if more than kStallThreshold bytes are
+/// unsent and the number has not reached a new minimum for kStallTimeout. A slow stream is not stuck: each
+/// new minimum restarts the time. Pure.
 class StallDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kMuch = std::size_t{64} * 1024;  ///< bytes
-  static constexpr std::chrono::seconds kPatience{10};
+  static constexpr std::size_t kStallThreshold = std::size_t{64} * 1024;  ///< bytes
+  static constexpr std::chrono::seconds kStallTimeout{10};
 
   /// Records the number of unsent bytes; returns true if the stream is stuck.
   bool addSample(std::size_t unsent, Time now) {
-    if (unsent <= kMuch || m_least == 0 || unsent < m_least) {
-      m_least = unsent <= kMuch ? 0 : unsent;
+    if (unsent <= kStallThreshold || m_min_unsent == 0 || unsent < m_min_unsent) {
+      m_min_unsent = unsent <= kStallThreshold ? 0 : unsent;
       m_since = now;
       return false;
     }
-    return now - m_since >= kPatience;
+    return now - m_since >= kStallTimeout;
   }
   /// Call for another stream.
-  void restart() { m_least = 0; }
+  void restart() { m_min_unsent = 0; }
 
  private:
-  std::size_t m_least = 0;  ///< minimum since more than kMuch is unsent; 0: at most kMuch is unsent
+  std::size_t m_min_unsent =
+      0;  ///< minimum since more than kStallThreshold is unsent; 0: at most kStallThreshold is unsent
   Time m_since{};
 };
 
@@ -64,9 +65,9 @@ class StreamPair {
   void setReceiveLimit(std::size_t limit) { m_first->setReceiveLimit(limit); }
 
   /// Takes the first stream of `other`. If this pair still has one, `other` gets it in exchange.
-  void takeFirst(StreamPair& other);
+  void adoptFirst(StreamPair& other);
   /// Takes the first stream of `other` as the second one of this pair. An earlier second stream is closed.
-  void takeSecond(StreamPair& other, std::size_t limit);
+  void adoptSecond(StreamPair& other, std::size_t limit);
   void dropSecond();
   /// Drops both streams, because the first one broke.
   void detach();

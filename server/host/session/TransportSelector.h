@@ -23,10 +23,10 @@ class TransportSelector {
   using Time = std::chrono::steady_clock::time_point;
   using Millis = std::chrono::duration<double, std::milli>;
 
-  explicit TransportSelector(Time now) : m_probe(PathProbe::kOpenFor, now) {}
+  explicit TransportSelector(Time now) : m_probe(PathProbe::kOpenTime, now) {}
 
   /// Records that snapshot `number` was sent, as a datagram or on the stream.
-  void noteSent(std::uint32_t number, bool as_datagram, Time now) {
+  void markSent(std::uint32_t number, bool as_datagram, Time now) {
     m_sent[number % kKept] = {number, as_datagram, true, false, now};
     if (as_datagram && !isOpen(now)) m_probe.probeSent(now);
   }
@@ -41,10 +41,10 @@ class TransportSelector {
       fresh &= ~((ahead < 64 ? before.mask << ahead : 0) | std::uint64_t{1} << (ahead - 1));
     if (follows && ahead == 0) fresh &= ~before.mask;
     if (before.newest == 0 || !isNewer(before.newest, acks.newest)) before = acks;
-    noteArrival(acks.newest, true, by_datagram, now);
+    recordArrival(acks.newest, true, by_datagram, now);
     for (; fresh != 0; fresh &= fresh - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(fresh));
-      noteArrival(acks.newest - 1 - bit, false, by_datagram, now);
+      recordArrival(acks.newest - 1 - bit, false, by_datagram, now);
     }
   }
   /// Call for another address or stream: probes again soon.
@@ -63,7 +63,7 @@ class TransportSelector {
   /// Returns how many ticks apart snapshots are sent: 1, 2, 3 or 6. It grows while the line is overloaded
   /// (its queues grow, or it loses more than 15 %) and shrinks again after five good seconds.
   std::uint32_t interval(double loss, Time now) {
-    const bool bad = roundTrip() - shortestRoundTrip() > kFullQueue || loss > kMuchLoss;
+    const bool bad = roundTrip() - shortestRoundTrip() > kFullQueue || loss > kHighLoss;
     if (bad != m_bad) (bad ? m_bad_since : m_good_since) = now;
     m_bad = bad;
     if (bad && now - m_bad_since >= kBadFor && m_rung + 1 < kIntervals.size()) {
@@ -79,7 +79,7 @@ class TransportSelector {
 
  private:
   static constexpr Millis kFullQueue{50};
-  static constexpr double kMuchLoss = 0.15;
+  static constexpr double kHighLoss = 0.15;
   static constexpr std::chrono::seconds kBadFor{1};
   static constexpr std::chrono::seconds kGoodFor{5};
 
@@ -93,7 +93,7 @@ class TransportSelector {
   static constexpr std::size_t kKept = 128;
   static constexpr std::array<std::uint32_t, 4> kIntervals = {1, 2, 3, 6};
 
-  void noteArrival(std::uint32_t number, bool newest, bool by_datagram, Time now) {
+  void recordArrival(std::uint32_t number, bool newest, bool by_datagram, Time now) {
     Sent& sent = m_sent[number % kKept];
     if (sent.number != number || number == 0) return;
     if (sent.open && newest) m_stats.addSample(now - sent.at, now);
@@ -101,7 +101,7 @@ class TransportSelector {
     if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
     sent.confirmed = true;
     // An older datagram may predate an outage, so it says nothing about the path now.
-    if (now - sent.at < 2 * PathProbe::kOpenFor) m_probe.addEvidence(now);
+    if (now - sent.at < 2 * PathProbe::kOpenTime) m_probe.addEvidence(now);
   }
 
   std::array<Sent, kKept> m_sent{};

@@ -44,12 +44,12 @@ void useDefaultFolders(HostOptions& options) {
   useDefaultJournal(options);
 }
 
-void keepHome(HostOptions& options) {
+void defaultToLoopback(HostOptions& options) {
   if (options.insecure && options.address == HostOptions().address) options.address = "127.0.0.1";
 }
 
 HostOptions withUsableJournal(HostOptions options, const LogLine& log) {
-  if (!options.default_journal || !wantsJournal(options)) return options;
+  if (!options.default_journal || !usesJournal(options)) return options;
   const std::error_code error = makeFolder(options.journal);
   if (!error) return options;
   log(LogEvent::warning("not recording rounds, so none survives a server crash: " + options.journal + ": " +

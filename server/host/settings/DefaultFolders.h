@@ -15,7 +15,7 @@ inline constexpr std::string_view kOffWord = "off";
 void useDefaultFolders(HostOptions& options);
 
 /// Makes a server without encryption listen on loopback only, unless an address was given.
-void keepHome(HostOptions& options);
+void defaultToLoopback(HostOptions& options);
 
 /// Returns the options to start worlds with. If the default journal folder cannot be created or written, logs
 /// a warning and removes the journal. A folder given by an option stays, and fails where it is used.

@@ -13,7 +13,7 @@
 
 #include "host/settings/DefaultFolders.h"
 #include "host/settings/HostOptionsCheck.h"
-#include "host/settings/RoomList.h"
+#include "host/settings/RoomOptions.h"
 #include "shared/options/OptionPages.h"
 #include "shared/options/Options.h"
 
@@ -239,7 +239,7 @@ const char* typeOf(const std::string& name) {
 void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) {
   std::vector<std::string> known(std::begin(kOtherVariables), std::end(kOtherVariables));
   for (const Row& row : rows) known.push_back(row.option.environment);
-  for (const std::string& sentence : complainOfUnknownVariables(environ, "NAIAD_", known))
+  for (const std::string& sentence : unknownVariableWarnings(environ, "NAIAD_", known))
     options.warnings.push_back(sentence);
 }
 
@@ -303,7 +303,7 @@ struct Printing {
   bool markdown = false;
 };
 
-/// The "FILE:LINE" of passwords from a --config file (Option::p_place); empty: given elsewhere.
+/// The "FILE:LINE" of passwords from a --config file (Option::p_location); empty: given elsewhere.
 struct Places {
   std::string password;
   std::string admin_password;
@@ -319,9 +319,9 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
     Option& option = all.emplace_back(std::move(row.option));
     option.shows_default = true;
     if (option.type.empty()) option.type = typeOf(option.name);
-    if (option.name == "--password") option.p_place = &places.password;
-    if (option.name == "--admin-password") option.p_place = &places.admin_password;
-    option.is_secret = option.p_place != nullptr;
+    if (option.name == "--password") option.p_location = &places.password;
+    if (option.name == "--admin-password") option.p_location = &places.admin_password;
+    option.is_secret = option.p_location != nullptr;
   }
   all.push_back({"--list-games", &printing.games, "Print the names of the available games, and exit"});
   all.push_back({"--check-config", &printing.check,
@@ -356,7 +356,7 @@ void useSockets(const InheritedSockets& sockets, HostOptions& options) {
   options.port = sockets.port;
 }
 
-void warnOfReaders(const std::string& file, HostOptions& options) {
+void warnIfReadable(const std::string& file, HostOptions& options) {
   warnOfReadersOf(file, options.password, options);
 }
 
@@ -367,8 +367,8 @@ HostOptions readHostOptions(int argc, const char* const* argv) {
     if (row.used_by != UsedBy::kProgram) all.push_back(std::move(row.option));
   }
   readOptions(dfserver(), all, argc, argv);
-  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) throw OptionError(wrong);
-  keepHome(options);
+  if (const std::string wrong = validateHostOptions(options); !wrong.empty()) throw OptionError(wrong);
+  defaultToLoopback(options);
   useRooms(options);
   useDefaultFolders(options);
   return options;
@@ -379,21 +379,21 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   Places places;
   const std::vector<Option> all = commandLineOf(options, printing, places);
   switch (parseOptions(dfserver(), all, argc, argv)) {
-    case Parsed::kRun:
+    case ParseResult::kRun:
       break;
-    case Parsed::kDone:
+    case ParseResult::kDone:
       return CommandLine::kDone;
-    case Parsed::kUsageError:
+    case ParseResult::kUsageError:
       return CommandLine::kUsageError;
   }
-  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) {
+  if (const std::string wrong = validateHostOptions(options); !wrong.empty()) {
     std::cerr << "dfserver: " << wrong << "\nRun dfserver --help for more information.\n";
     return CommandLine::kUsageError;
   }
-  keepHome(options);
+  defaultToLoopback(options);
   useRooms(options);
   useDefaultFolders(options);
-  if (!places.password.empty()) warnOfReaders(fileAt(places.password), options);
+  if (!places.password.empty()) warnIfReadable(fileAt(places.password), options);
   if (!places.admin_password.empty())
     warnOfReadersOf(fileAt(places.admin_password), options.admin_password, options);
   if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
@@ -404,7 +404,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   return printing.games ? CommandLine::kListGames : CommandLine::kRun;
 }
 
-OptionChanges takeOver(const HostOptions& next, HostOptions& now) {
+OptionChanges applyReloadable(const HostOptions& next, HostOptions& now) {
   OptionChanges changes;
   HostOptions values = next;  // the table needs mutable targets
   std::vector<Row> rows = tableOf(now);
@@ -430,7 +430,7 @@ std::string OptionChanges::text() const {
 }
 
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
-                                         const ConfigPlace& place_of) {
+                                         const ConfigLocation& location_of) {
   std::set<std::string> given;
   const std::vector<Row> rows = tableOf(options);
   warnOfUnknownVariables(rows, options);
@@ -442,15 +442,15 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
     std::string place = row.option.environment;
     if (value.empty() && !key.empty()) {
       value = value_of(key);
-      place = value.empty() || !place_of ? key : place_of(key);
+      place = value.empty() || !location_of ? key : location_of(key);
     }
     if (value.empty()) continue;
     given.insert(row.option.name.substr(2));
     storeValue(row.option, value, place);
   }
   if (given.count("address") == 0 && !options.is_public) options.address = kLoopback;
-  if (const std::string wrong = optionsComplaint(options); !wrong.empty()) throw OptionError(wrong);
-  keepHome(options);
+  if (const std::string wrong = validateHostOptions(options); !wrong.empty()) throw OptionError(wrong);
+  defaultToLoopback(options);
   if (options.control == kOffWord) options.control.clear();
   if (options.journal == kOffWord) options.journal.clear();
   return given;

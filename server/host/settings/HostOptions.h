@@ -20,7 +20,7 @@ inline constexpr int kMaxServerPlayers = 20'000;
 
 struct HostOptions {
   std::string game = "saucershoot";  ///< name of a shipped game, or path of a module
-  std::string rooms;           ///< NAME=GAME[,KEY=VALUE…], separated by blanks (RoomList.h); empty: none
+  std::string rooms;           ///< NAME=GAME[,KEY=VALUE…], separated by blanks (RoomOptions.h); empty: none
   std::string address = "::";  ///< numeric address to listen on; "::": all addresses, including IPv4
   int port = kDefaultPort;     ///< 0: any free port
   int max_players = 64;
@@ -50,7 +50,7 @@ struct HostOptions {
   double grace = 60;                ///< seconds in which a player may reconnect after losing the connection
   double drain_time = 0;            ///< seconds after SIGTERM in which players may finish
   std::string join_file;            ///< file for dfclient's arguments (address, fingerprint) once listening
-  std::string visitors;             ///< path of the doors' socket (VisitorsListener.h); empty: none
+  std::string visitors;             ///< path of the doors' socket (ProxyListener.h); empty: none
   std::string link_host;            ///< public HOST[:PORT] in the printed link; empty: unknown
   std::string ssh_door;             ///< USER@HOST[:PORT] of a door to this server; empty: none
   std::string web_address;          ///< URL of a web page to play on; empty: none
@@ -90,14 +90,14 @@ struct HostOptions {
 };
 
 /// True if each round is recorded.
-inline bool wantsJournal(const HostOptions& options) {
+inline bool usesJournal(const HostOptions& options) {
   return !options.journal.empty() && options.journal != "off";
 }
 
 /// True if a game that is a program itself needs world processes: for further rounds, for private worlds, or
 /// for a journal.
-inline bool wantsWorlds(const HostOptions& options) {
-  return options.on_game_over == "restart" || options.players == "private" || wantsJournal(options);
+inline bool usesWorldProcesses(const HostOptions& options) {
+  return options.on_game_over == "restart" || options.players == "private" || usesJournal(options);
 }
 
 /// The action that the command line requests.
@@ -120,26 +120,26 @@ struct OptionChanges {
 
 /// Copies the values that may change while a server runs from `next` to `now`. The caller must still apply a
 /// new password, key or certificate.
-OptionChanges takeOver(const HostOptions& next, HostOptions& now);
+OptionChanges applyReloadable(const HostOptions& next, HostOptions& now);
 
 /// Returns the value of a key in df-config.txt; empty if the key is missing.
 using ConfigValue = std::function<std::string(const std::string& key)>;
 
 /// Returns the location of a key, like "df-config.txt:3: port".
-using ConfigPlace = std::function<std::string(const std::string& key)>;
+using ConfigLocation = std::function<std::string(const std::string& key)>;
 
 /// Fills `options` for a game that is a program itself, from the environment, else from df-config.txt.
 /// Returns the names of the options that were given, without dashes. Such a game listens on loopback by
-/// default. Throws OptionError, whose text begins with the variable or with place_of(key).
+/// default. Throws OptionError, whose text begins with the variable or with location_of(key).
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
-                                         const ConfigPlace& place_of = {});
+                                         const ConfigLocation& location_of = {});
 
 /// Makes the server use these sockets instead of opening its own. Adds a warning if an option gave another
 /// port.
 void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// Adds a warning to `options` if the password, read from `file`, is not a hash and every user can read it.
-void warnOfReaders(const std::string& file, HostOptions& options);
+void warnIfReadable(const std::string& file, HostOptions& options);
 
 /// Sets one option, named without dashes. Throws OptionError.
 void setHostOption(HostOptions& options, const std::string& name, const std::string& value);

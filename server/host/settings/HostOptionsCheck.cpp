@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "host/settings/MetricsAddress.h"
-#include "host/settings/RoomList.h"
+#include "host/settings/RoomOptions.h"
 #include "host/settings/SshDoor.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/JoinLink.h"
@@ -19,9 +19,9 @@ constexpr std::size_t kMaxWebAddress = 300;  // the QR code of a longer one does
 /// Returns why --in-process cannot be combined with another option; empty if it can.
 std::string inProcessComplaint(const HostOptions& options) {
   if (!options.in_process) return {};
-  if (wantsJournal(options))
+  if (usesJournal(options))
     return "--in-process cannot be used with --journal: only rounds of game processes are recorded";
-  if (options.rooms.empty() && !wantsWorlds(options)) return {};
+  if (options.rooms.empty() && !usesWorldProcesses(options)) return {};
   return "--in-process cannot be used with --room, --on-game-over restart or --players private: they require "
          "game processes";
 }
@@ -48,7 +48,7 @@ std::string fleetComplaint(const HostOptions& options) {
   }
   if (!options.bus_id.empty() && !isServerId(options.bus_id))
     return "--bus-id: expected 1 to " + std::to_string(kMaxServerId) + " characters of a-z, 0-9 and '-'";
-  return busComplaint({options.bus, options.bus_credentials, options.bus_ca});
+  return validateBusSettings({options.bus, options.bus_credentials, options.bus_ca});
 }
 
 bool isWebAddress(const std::string& text) {
@@ -71,7 +71,7 @@ std::string announcementComplaint(const HostOptions& options) {
 
 }  // namespace
 
-std::string optionsComplaint(const HostOptions& options) {
+std::string validateHostOptions(const HostOptions& options) {
   if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
     return "--frame-time: " + std::to_string(options.frame_micros) + " is too short: expected 0, or " +
            std::to_string(kMinFrameMicros) + " or more";
@@ -85,7 +85,7 @@ std::string optionsComplaint(const HostOptions& options) {
     return "--visitors requires encryption: it cannot be used with --insecure";
   if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
-  if (std::string wrong = roomsComplaint(options); !wrong.empty()) return wrong;
+  if (std::string wrong = validateRoomOptions(options); !wrong.empty()) return wrong;
   return announcementComplaint(options);
 }
 

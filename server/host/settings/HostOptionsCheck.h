@@ -8,6 +8,6 @@
 namespace naiad {
 
 /// Returns one sentence about the first problem of the options; empty if they are valid.
-std::string optionsComplaint(const HostOptions& options);
+std::string validateHostOptions(const HostOptions& options);
 
 }  // namespace naiad

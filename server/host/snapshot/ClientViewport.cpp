@@ -18,7 +18,7 @@ constexpr double kOffTicks = 12;
 /// Cells by which it may differ at once: a key may move the player in steps.
 constexpr std::int64_t kMinSpare = 6;
 /// Ticks after which a spare that is larger than needed shrinks by a cell.
-constexpr std::uint32_t kShrinkEvery = 8;
+constexpr std::uint32_t kShrinkInterval = 8;
 
 int clampedSize(std::uint32_t cells, int min_cells, int max_cells) {
   return cells == 0
@@ -34,10 +34,10 @@ void ClientViewport::setTerminal(std::uint32_t columns, std::uint32_t rows) {
 }
 
 // Grows at once but shrinks slowly, because the client learns late that a player has stopped.
-void ClientViewport::Axis::noteSpeed(double cells_per_tick, std::uint32_t tick) {
+void ClientViewport::Axis::updateSpare(double cells_per_tick, std::uint32_t tick) {
   const double max_cells = std::min(std::abs(cells_per_tick) * kOffTicks, double{kMaxViewWidth});
   const std::int64_t wanted = kMinSpare + static_cast<std::int64_t>(std::ceil(max_cells));
-  spare = std::max(wanted, spare - (tick % kShrinkEvery == 0 ? 1 : 0));
+  spare = std::max(wanted, spare - (tick % kShrinkInterval == 0 ? 1 : 0));
 }
 
 void ClientViewport::Axis::cover(std::int64_t corner, int extent, std::int64_t focus, std::int64_t& low,
@@ -72,8 +72,8 @@ CellRect ClientViewport::update(const Publisher& publisher, const df::PlayerFact
     cover(left, top, left + world.view_width / 2, top + world.view_height / 2);
   } else {
     const Motion& motion = followed->state.motion;
-    m_x.noteSpeed(df::toCells(motion.velocity.x), publisher.tick());
-    m_y.noteSpeed(df::toCells(motion.velocity.y), publisher.tick());
+    m_x.updateSpare(df::toCells(motion.velocity.x), publisher.tick());
+    m_y.updateSpare(df::toCells(motion.velocity.y), publisher.tick());
     const df::FixedVector now = positionAt(motion, publisher.tick());
     const df::FixedVector next = positionAt(motion, publisher.tick() + look_ahead);
     const ViewFrame frame{player.view_corner,

@@ -31,7 +31,7 @@ class ClientViewport {
   struct Axis {
     int cells = 0;           ///< size of the terminal
     std::int64_t spare = 0;  ///< extra cells on either side, because the client may see the player elsewhere
-    void noteSpeed(double cells_per_tick, std::uint32_t tick);
+    void updateSpare(double cells_per_tick, std::uint32_t tick);
     /// Extends low … high by the part of a view that is shown.
     void cover(std::int64_t corner, int extent, std::int64_t focus, std::int64_t& low,
                std::int64_t& high) const;

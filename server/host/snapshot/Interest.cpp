@@ -9,7 +9,7 @@ namespace naiad {
 namespace {
 
 /// Maximum number of ticks until a known object is examined again.
-constexpr std::uint32_t kLongest = 1u << 20;
+constexpr std::uint32_t kMaxTicks = 1u << 20;
 
 bool isDue(std::uint32_t due, std::uint32_t tick) {
   return static_cast<std::int32_t>(due - tick) <= 0;
@@ -42,13 +42,13 @@ CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
 std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low, std::int64_t high) {
   const std::int64_t cell = df::cellOf(position);
   if (cell < low || cell >= high) return 0;
-  if (velocity == 0) return kLongest;
+  if (velocity == 0) return kMaxTicks;
   const std::int64_t cells = velocity > 0 ? high - 1 - cell : cell - low;
   // One cell less: cells are shifted by half a cell, and the last one is left only beyond its end.
   if (cells <= 1 || velocity < -df::fromCells(1 << 20) || velocity > df::fromCells(1 << 20)) return 0;
   const std::uint64_t ticks = (static_cast<std::uint64_t>(cells - 1) << df::kFixedBits) /
                               static_cast<std::uint64_t>(std::abs(velocity));
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(ticks, kLongest));
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(ticks, kMaxTicks));
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ void Interest::update(const Publisher& publisher, const Focus& focus, KnownObjec
   m_tick = publisher.tick();
   m_focus = focus;
   m_window = CompactRect(focus.window);
-  noteChanges();
-  judgeCandidates();
+  processChanges();
+  checkCandidates();
   if (isSearchDue()) searchView();
   for (const df::ObjectKey own : focus.own) {
     const Publisher::Model* model = own.generation != 0 ? publisher.find(own.slot) : nullptr;
@@ -96,7 +96,7 @@ void Interest::removeObject(std::uint32_t id, std::uint32_t slot) {
   if (bitsAreExact()) m_known_bits.clear(slot);
 }
 
-void Interest::noteChanges() {
+void Interest::processChanges() {
   thread_local ChangeIndex::Marks marks;
   markChanges(marks);
   Changes changes;
@@ -105,28 +105,28 @@ void Interest::noteChanges() {
     const Publisher::Change& change = m_p_publisher->changes()[i];
     m_p_known->prefetchSlot(change.slot);
     changes[count++] = &change;
-    if (count == changes.size()) noteChanges(changes, std::exchange(count, 0));
+    if (count == changes.size()) processChanges(changes, std::exchange(count, 0));
   });
-  noteChanges(changes, count);
+  processChanges(changes, count);
 }
 
 // Prefetches for many changes at once, because what this client knows of them is no longer cached: with 1,500
 // clients, waiting for each took 3.5 % of the server's time.
-void Interest::noteChanges(const Changes& changes, std::size_t count) {
+void Interest::processChanges(const Changes& changes, std::size_t count) {
   std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t slot = changes[i]->slot;
     ids[i] = mayBeKnown(slot) ? m_p_known->find(slot) : KnownObjects::kNone;
     if (ids[i] != KnownObjects::kNone) m_p_known->prefetch(ids[i]);
   }
-  for (std::size_t i = 0; i < count; ++i) noteChange(*changes[i], ids[i]);
+  for (std::size_t i = 0; i < count; ++i) processChange(*changes[i], ids[i]);
 }
 
 // Marks the changes of objects that may be known or may enter the view.
 void Interest::markChanges(ChangeIndex::Marks& marks) const {
   const ChangeIndex& index = m_p_publisher->changeIndex();
   // The publisher has computed sweeps of kSweep ticks for all clients at once.
-  const bool sweeps_suffice = kGap + m_focus.look_ahead <= Publisher::kSweep;
+  const bool sweeps_suffice = kSearchInterval + m_focus.look_ahead <= Publisher::kSweep;
   index.markMeeting(sweeps_suffice ? CompactRect(m_covered) : CompactRect::everywhere(), marks);
   if (bitsAreExact()) return index.markShared(m_known_bits, marks);
   const std::vector<Publisher::Change>& changes = m_p_publisher->changes();
@@ -135,7 +135,7 @@ void Interest::markChanges(ChangeIndex::Marks& marks) const {
   }
 }
 
-void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
+void Interest::processChange(const Publisher::Change& change, std::uint32_t id) {
   if (id == KnownObjects::kNone) {
     if (change.groups != 0) considerObject(change.slot);
     return;
@@ -152,23 +152,24 @@ void Interest::noteChange(const Publisher::Change& change, std::uint32_t id) {
 
 // Adds an object unknown to the client if it is visible, or as a candidate if it may become visible.
 void Interest::considerObject(std::uint32_t slot) {
-  const Publisher::Outlook& outlook = this->outlook(slot);
-  if (!outlook.later.meets(CompactRect(m_covered))) return;
-  if (!outlook.soon.meets(m_window)) return m_candidates.push_back(slot);
-  addObject(slot, outlook.generation);
+  const Publisher::Forecast& forecast = this->forecast(slot);
+  if (!forecast.later.meets(CompactRect(m_covered))) return;
+  if (!forecast.soon.meets(m_window)) return m_candidates.push_back(slot);
+  addObject(slot, forecast.generation);
 }
 
-void Interest::judgeCandidates() {
+void Interest::checkCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
-    const Publisher::Outlook& outlook = this->outlook(slot);
-    if (!outlook.soon.meets(m_window)) return outlook.generation == 0;  // most candidates end here
-    if (outlook.generation != 0 && !isKnown(slot)) addObject(slot, outlook.generation);
+    const Publisher::Forecast& forecast = this->forecast(slot);
+    if (!forecast.soon.meets(m_window)) return forecast.generation == 0;  // most candidates end here
+    if (forecast.generation != 0 && !isKnown(slot)) addObject(slot, forecast.generation);
     return true;
   });
 }
 
 bool Interest::isSearchDue() const {
-  return !m_has_searched || (m_tick + m_focus.stagger) % kGap == 0 || !isInside(m_focus.window, m_covered);
+  return !m_has_searched || (m_tick + m_focus.stagger) % kSearchInterval == 0 ||
+         !isInside(m_focus.window, m_covered);
 }
 
 void Interest::searchView() {
@@ -179,13 +180,13 @@ void Interest::searchView() {
   }
   m_has_searched = true;
   m_searched = m_focus.window;
-  m_covered = m_focus.window.grownBy(moved ? kSpare : 0);
+  m_covered = m_focus.window.grownBy(moved ? kSearchMargin : 0);
   removeOutside(outer, moved);
   m_candidates.clear();
   const CompactRect covered(m_covered);
-  m_p_publisher->forEachNear(m_covered, kGap + m_focus.look_ahead, shared(m_last_window, m_focus.window),
-                             [this, &covered](std::uint32_t slot) {
-                               if (isKnown(slot) || !outlook(slot).later.meets(covered)) return;
+  m_p_publisher->forEachNear(m_covered, kSearchInterval + m_focus.look_ahead,
+                             shared(m_last_window, m_focus.window), [this, &covered](std::uint32_t slot) {
+                               if (isKnown(slot) || !forecast(slot).later.meets(covered)) return;
                                considerObject(slot);
                              });
 }
@@ -200,7 +201,7 @@ void Interest::removeOutside(const CellRect& outer, bool moves) {
     m_known_bits.set(stay.slot);
     if (!isDue(stay.until, m_tick)) continue;
     const bool own = isOwn(id, stay.slot);
-    if (own || outlook(stay.slot).soon.meets(around)) {
+    if (own || forecast(stay.slot).soon.meets(around)) {
       const bool again = own || moves;
       stay.until = m_tick + (again ? 0 : leavesAfter(*m_p_publisher->find(stay.slot), outer));
     } else {
@@ -216,7 +217,7 @@ bool Interest::isOwn(std::uint32_t id, std::uint32_t slot) const {
 }
 
 std::uint32_t Interest::leavesAfter(const Publisher::Model& model, const CellRect& outer) const {
-  if (model.reach > Publisher::Model::kWide) return kLongest;
+  if (model.reach > Publisher::Model::kWide) return kMaxTicks;
   const Motion& motion = model.state.motion;
   if (motion.acceleration != df::FixedVector{}) return 0;
   const CellRect rect = outer.grownBy(model.reach);

@@ -3,7 +3,8 @@
 // Objects are examined again only when they may have entered or left the view. The path of a model is known
 // until the model changes, so between changes:
 //
-//   enter   A changed object is checked at once. Every kGap ticks the blocks around the view are searched for
+//   enter   A changed object is checked at once. Every kSearchInterval ticks the blocks around the view are
+//   searched for
 //           candidates, which may enter it before the next search; only these few are checked in each tick.
 //           Blocks inside the view contain no unknown objects.
 //   leave   This search also examines the known objects whose straight path may have left the view. Removing
@@ -38,33 +39,33 @@ class Interest {
                         const CellRect& window);
 
   /// Ticks between two searches.
-  static constexpr std::uint32_t kGap = 8;
+  static constexpr std::uint32_t kSearchInterval = 8;
   /// Cells. An object is removed only this far outside the view, so that it does not flicker at the edge.
   static constexpr std::int64_t kHysteresis = 2;
 
  private:
   /// Cells searched in addition around a moving view.
-  static constexpr std::int64_t kSpare = 4;
+  static constexpr std::int64_t kSearchMargin = 4;
 
   using Changes = std::array<const Publisher::Change*, 32>;
-  void noteChanges();
+  void processChanges();
   void markChanges(ChangeIndex::Marks& marks) const;
-  void noteChanges(const Changes& changes, std::size_t count);
-  void noteChange(const Publisher::Change& change, std::uint32_t id);
+  void processChanges(const Changes& changes, std::size_t count);
+  void processChange(const Publisher::Change& change, std::uint32_t id);
   void considerObject(std::uint32_t slot);
-  void judgeCandidates();
+  void checkCandidates();
   bool isSearchDue() const;
   void searchView();
   void removeOutside(const CellRect& outer, bool moves);
   bool isOwn(std::uint32_t id, std::uint32_t slot) const;
   std::uint32_t leavesAfter(const Publisher::Model& model, const CellRect& outer) const;
   void addObject(std::uint32_t slot, std::uint32_t generation);
-  const Publisher::Outlook& outlook(std::uint32_t slot) const {
-    return m_p_publisher->outlook(slot, m_focus.look_ahead, kGap + m_focus.look_ahead);
+  const Publisher::Forecast& forecast(std::uint32_t slot) const {
+    return m_p_publisher->forecast(slot, m_focus.look_ahead, kSearchInterval + m_focus.look_ahead);
   }
   // Most changes in the world concern objects that the client does not know. These bits tell without a table
-  // lookup. They are exact in a world of fewer slots than bits; the last one belongs to kLooseSlot.
-  static_assert(kLooseSlot % SlotBits::kBits == SlotBits::kBits - 1);
+  // lookup. They are exact in a world of fewer slots than bits; the last one belongs to kFreeDrawSlot.
+  static_assert(kFreeDrawSlot % SlotBits::kBits == SlotBits::kBits - 1);
   bool bitsAreExact() const { return m_p_publisher->slotCount() < SlotBits::kBits; }
   bool mayBeKnown(std::uint32_t slot) const { return m_known_bits.has(slot); }
   bool isKnown(std::uint32_t slot) const {

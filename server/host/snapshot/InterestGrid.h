@@ -60,28 +60,28 @@ class InterestGrid {
  public:
   /// Stores `slot` at its present cell. Cheap if it has not left its block.
   void put(std::uint32_t slot, CellPosition cell) {
-    if (slot >= m_places.size()) m_places.resize(std::size_t{slot} + 1);
+    if (slot >= m_entries.size()) m_entries.resize(std::size_t{slot} + 1);
     const std::uint64_t key = keyOf(cell.x >> kColumnShift, cell.y >> kRowShift);
-    if (m_places[slot].filed && m_places[slot].key == key) return;
+    if (m_entries[slot].filed && m_entries[slot].key == key) return;
     remove(slot);
     Block& block = m_blocks[key];
     if (block.empty()) foundOf(key).valid = false;
-    m_places[slot] = {key, static_cast<std::uint32_t>(block.size()), true};
+    m_entries[slot] = {key, static_cast<std::uint32_t>(block.size()), true};
     block.push_back(slot);
   }
   void remove(std::uint32_t slot) {
-    if (slot >= m_places.size() || !m_places[slot].filed) return;
-    const Place place = m_places[slot];
+    if (slot >= m_entries.size() || !m_entries[slot].filed) return;
+    const BlockEntry place = m_entries[slot];
     const auto found = m_blocks.find(place.key);
     Block& block = found->second;
     block[place.index] = block.back();
-    m_places[block.back()].index = place.index;
+    m_entries[block.back()].index = place.index;
     block.pop_back();
     if (block.empty()) {
       foundOf(place.key).valid = false;
       m_blocks.erase(found);
     }
-    m_places[slot].filed = false;
+    m_entries[slot].filed = false;
   }
 
   /// Calls `visit(slot)` for every slot in a block that meets `rect`, except blocks inside `inner`. So it
@@ -120,7 +120,7 @@ class InterestGrid {
  private:
   static constexpr int kColumnShift = 4;
   static constexpr int kRowShift = 3;
-  struct Place {
+  struct BlockEntry {
     std::uint64_t key = 0;
     std::uint32_t index = 0;  ///< index in the block
     bool filed = false;
@@ -150,7 +150,7 @@ class InterestGrid {
 
   std::unordered_map<std::uint64_t, Block> m_blocks;
   mutable std::array<Found, kFound> m_found{};  ///< cache of find()
-  std::vector<Place> m_places;                  ///< indexed by slot
+  std::vector<BlockEntry> m_entries;            ///< indexed by slot
 };
 
 }  // namespace naiad

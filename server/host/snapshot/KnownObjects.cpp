@@ -57,7 +57,7 @@ void KnownObjects::addPending(std::uint32_t id, std::uint8_t groups, std::uint32
 }
 
 void KnownObjects::removeObject(std::uint32_t id, std::uint32_t tick) {
-  Entry& known = m_known[id];
+  KnownObject& known = m_known[id];
   m_ids.erase(known.slot);
   --m_alive;
   if (known.life == Life::kBorn && known.sent[kLifeIndex] == 0) return releaseId(id);
@@ -69,7 +69,7 @@ void KnownObjects::removeObject(std::uint32_t id, std::uint32_t tick) {
 }
 
 void KnownObjects::releaseId(std::uint32_t id) {
-  Entry& known = m_known[id];
+  KnownObject& known = m_known[id];
   known.life = Life::kFree;
   known.pending = 0;
   known.unconfirmed = 0;
@@ -91,7 +91,7 @@ std::uint8_t KnownObjects::groupsToSend(std::uint32_t id) const {
 
 KnownObjects::Sent KnownObjects::markSent(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state,
                                           const Motion& motion, std::uint32_t tick) {
-  Entry& known = m_known[id];
+  KnownObject& known = m_known[id];
   const std::uint8_t groups = groupsToSend(id);
   if (groups == kDeath) {
     for (std::uint64_t& sum : known.sums) m_checksum -= std::exchange(sum, 0);
@@ -108,7 +108,8 @@ KnownObjects::Sent KnownObjects::markSent(std::uint32_t id, std::uint32_t snapsh
 }
 
 // A group sent again unchanged is confirmed by any snapshot since the first that carried this content.
-void KnownObjects::recordSum(Entry& entry, std::size_t group, std::uint32_t snapshot, std::uint64_t sum) {
+void KnownObjects::recordSum(KnownObject& entry, std::size_t group, std::uint32_t snapshot,
+                             std::uint64_t sum) {
   constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none this old is in flight
   const bool first = entry.sent[group] == 0 || entry.sums[group] != sum;
   const std::uint32_t since =
@@ -129,7 +130,7 @@ void KnownObjects::trimPending() {
 }
 
 void KnownObjects::confirmArrival(const Sent& sent, std::uint32_t snapshot) {
-  Entry& known = m_known[sent.id];
+  KnownObject& known = m_known[sent.id];
   if (known.birth != sent.birth || known.life == Life::kFree) return;
   if (sent.groups == kDeath) {
     if (known.life == Life::kDying) releaseId(sent.id);
@@ -144,7 +145,7 @@ void KnownObjects::confirmArrival(const Sent& sent, std::uint32_t snapshot) {
 }
 
 bool KnownObjects::requeueLost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick) {
-  Entry& known = m_known[sent.id];
+  KnownObject& known = m_known[sent.id];
   if (known.birth != sent.birth || known.life == Life::kFree) return false;
   const bool dying = known.life == Life::kDying;
   if (dying != (sent.groups == kDeath)) return false;

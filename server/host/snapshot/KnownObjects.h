@@ -88,13 +88,13 @@ class KnownObjects {
  private:
   /// Known plus what was sent of it, in one cache line. Snapshot numbers are stored as brief(), which
   /// suffices because at most some hundred snapshots are in flight.
-  struct alignas(64) Entry : Known {
+  struct alignas(64) KnownObject : Known {
     std::array<std::uint16_t, kGroupCount> sent{};        ///< newest snapshot that carried the group; 0: none
     std::array<std::uint8_t, kGroupCount> since_first{};  ///< snapshots from the first with this content to
                                                           ///< `sent`
     std::array<std::uint64_t, kGroupCount> sums{};        ///< checksum parts of the content
   };
-  static_assert(sizeof(Entry) == 64);
+  static_assert(sizeof(KnownObject) == 64);
   static constexpr std::uint32_t kBriefs = 0xFFFF;
   static std::uint16_t brief(std::uint32_t snapshot) {
     return static_cast<std::uint16_t>(snapshot % kBriefs + 1);
@@ -104,9 +104,9 @@ class KnownObjects {
 
   void queueId(std::uint32_t id, std::uint32_t tick);
   void releaseId(std::uint32_t id);
-  void recordSum(Entry& entry, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
+  void recordSum(KnownObject& entry, std::size_t group, std::uint32_t snapshot, std::uint64_t sum);
 
-  std::vector<Entry> m_known;  ///< indexed by id
+  std::vector<KnownObject> m_known;  ///< indexed by id
   SlotMap m_ids;
   std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> m_free;
   std::vector<std::uint32_t> m_pending_ids;

@@ -45,7 +45,7 @@ void LagCompensator::recordViews(const Publisher& publisher, const df::WorldView
 }
 
 void LagCompensator::recordModel(std::uint32_t slot, const Publisher::Model& model, bool moved) {
-  if (slot == kLooseSlot) return;  // not an object
+  if (slot == kFreeDrawSlot) return;  // not an object
   if (slot >= m_histories.size()) m_histories.resize(std::size_t{slot} + 1);
   History& history = m_histories[slot];
   if (history.generation != model.generation) history = {model.generation, m_tick, {}};

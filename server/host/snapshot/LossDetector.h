@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "host/snapshot/Flight.h"
+#include "host/snapshot/InFlightSnapshots.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {
@@ -19,22 +19,22 @@ class LossEstimator {
     m_loss += (outcome - m_loss) / kShort;
     m_count = std::min(m_count + 1, kLong);
     m_usual_loss += (outcome - m_usual_loss) / std::max(m_count, kShort);
-    m_patience_left = std::max(m_patience_left - 1, 0);
+    m_reorder_remaining = std::max(m_reorder_remaining - 1, 0);
   }
   /// Call when a snapshot that counted as lost has arrived after all.
-  void addLateArrival() { m_patience_left = kRemembered; }
+  void addLateArrival() { m_reorder_remaining = kReorderMemory; }
 
   /// Mean loss over about the last 64 snapshots, 0 … 1.
   double loss() const { return m_loss; }
   /// Mean loss over about 512 snapshots, once there were this many, 0 … 1.
   double usualLoss() const { return m_usual_loss; }
   /// A snapshot counts as lost when this many newer ones were sent and the newest of them arrived. Most lines
-  /// keep the order, so the first gap means a loss. After a late arrival, patience() is higher for
-  /// kRemembered snapshots (as RFC 8985 does for TCP).
-  int patience() const { return m_patience_left > 0 ? kPatience : 1; }
+  /// keep the order, so the first gap means a loss. After a late arrival, reorderThreshold() is higher for
+  /// kReorderMemory snapshots (as RFC 8985 does for TCP).
+  int reorderThreshold() const { return m_reorder_remaining > 0 ? kReorderThreshold : 1; }
 
-  static constexpr int kPatience = 3;
-  static constexpr int kRemembered = 1024;  ///< snapshots
+  static constexpr int kReorderThreshold = 3;
+  static constexpr int kReorderMemory = 1024;  ///< snapshots
 
  private:
   static constexpr int kShort = 64;
@@ -43,19 +43,20 @@ class LossEstimator {
   double m_loss = 0;
   double m_usual_loss = 0;
   int m_count = 0;
-  int m_patience_left = 0;
+  int m_reorder_remaining = 0;
 };
 
 class LossDetector {
  public:
   /// True if the snapshot, not confirmed by `acks`, counts as lost. On a stream it may just be late.
-  bool isLost(const Flight::Snapshot& snapshot, const AckWindow& acks) const {
+  bool isLost(const InFlightSnapshots::Snapshot& snapshot, const AckWindow& acks) const {
     const auto behind = static_cast<std::int32_t>(acks.newest - snapshot.number);
-    const int patience = snapshot.large ? static_cast<int>(Flight::kMaxSnapshots) : m_estimator.patience();
-    return behind >= patience;
+    const int reorderThreshold =
+        snapshot.large ? static_cast<int>(InFlightSnapshots::kMaxSnapshots) : m_estimator.reorderThreshold();
+    return behind >= reorderThreshold;
   }
   /// Call when the snapshot arrived or counts as lost. Losses of probes do not count.
-  void recordOutcome(const Flight::Snapshot& snapshot, bool lost) {
+  void recordOutcome(const InFlightSnapshots::Snapshot& snapshot, bool lost) {
     if (lost) m_missing[snapshot.number % m_missing.size()] = snapshot.number;
     if (!snapshot.probe) m_estimator.addOutcome(lost);
   }

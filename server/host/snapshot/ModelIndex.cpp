@@ -24,21 +24,21 @@ bool isFast(const Motion& motion) {
 
 }  // namespace
 
-void ModelIndex::fileModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
-                           Membership& membership) {
-  const bool wide = model.alive && (slot == kLooseSlot || model.reach > PublishedModel::kWide);
+void ModelIndex::indexModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
+                            Membership& membership) {
+  const bool wide = model.alive && (slot == kFreeDrawSlot || model.reach > PublishedModel::kWide);
   setListed(m_wide, slot, membership.wide, wide);
-  if (slot == kLooseSlot) return;
+  if (slot == kFreeDrawSlot) return;
   if (wide || !model.alive) return m_grid.remove(slot);
   m_reach = std::max(m_reach, model.reach);
-  fileMove(slot, position, membership);
+  indexMove(slot, position, membership);
 }
 
-void ModelIndex::fileMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership) {
+void ModelIndex::indexMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership) {
   setListed(m_fast, slot, membership.fast, model.alive && isFast(model.state.motion));
 }
 
-void ModelIndex::noteSpeed(const PublishedModel& model, const Membership& membership) {
+void ModelIndex::updateMaxSpeed(const PublishedModel& model, const Membership& membership) {
   if (membership.fast) return;
   const df::FixedVector v = model.state.motion.velocity;
   m_speed = {std::max(m_speed.x, std::abs(v.x)), std::max(m_speed.y, std::abs(v.y))};

@@ -18,16 +18,16 @@ class ModelIndex {
   };
 
   /// Call when the model was born or died, or its reach changed. `position`: of its object.
-  void fileModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
-                 Membership& membership);
+  void indexModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
+                  Membership& membership);
   /// Call when the object has moved.
-  void fileMove(std::uint32_t slot, df::FixedVector position, const Membership& membership) {
+  void indexMove(std::uint32_t slot, df::FixedVector position, const Membership& membership) {
     if (!membership.wide) m_grid.put(slot, {df::cellOf(position.x), df::cellOf(position.y)});
   }
   /// Call when the model died or has another motion.
-  void fileMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership);
+  void indexMotion(std::uint32_t slot, const PublishedModel& model, Membership& membership);
   /// Updates the maximum speed of the models that are not fast. Call for each changed model.
-  void noteSpeed(const PublishedModel& model, const Membership& membership);
+  void updateMaxSpeed(const PublishedModel& model, const Membership& membership);
 
   /// Calls `visit(slot)` for every live model that may be drawn in `rect` within this many ticks, and for
   /// some others. May skip models well inside `inner`. Visits wide models and those faster than a cell per
@@ -49,7 +49,7 @@ class ModelIndex {
   }
 
   InterestGrid m_grid;                ///< models that are not wide
-  std::vector<std::uint32_t> m_wide;  ///< models with a reach above kWide, and kLooseSlot
+  std::vector<std::uint32_t> m_wide;  ///< models with a reach above kWide, and kFreeDrawSlot
   std::vector<std::uint32_t> m_fast;  ///< models that move by more than a cell per tick, or are accelerated
   std::int32_t m_reach = 0;           ///< highest reach so far of the models that are not wide
   df::FixedVector m_speed;            ///< highest speed so far on each axis of the models that are not fast

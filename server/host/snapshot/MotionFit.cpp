@@ -17,7 +17,7 @@ constexpr Fixed kHalf = df::kFixedOne / 2;
 constexpr Fixed kFastest = Fixed{4096} * df::kFixedOne;
 
 /// A tick, counted from the first, and the position of a character within its cell in that tick.
-struct Place {
+struct HullPoint {
   Fixed tick = 0;
   Fixed within = 0;
 };
@@ -29,14 +29,14 @@ class HalfHull {
   /// `side`: 1 for the lower half, −1 for the upper one.
   explicit HalfHull(Fixed side) : m_side(side) {}
 
-  void add(Place place) {
+  void add(HullPoint place) {
     while (m_places.size() >= 2 && isWithin(place)) m_places.pop_back();
     m_places.push_back(place);
   }
   /// The minimum of `within + tick · slope`; for the upper half, the maximum.
   Fixed extreme(Fixed slope) const {
     Fixed best = m_places.front().within;
-    for (const Place& place : m_places) {
+    for (const HullPoint& place : m_places) {
       const Fixed value = place.within + place.tick * slope;
       if ((best - value) * m_side > 0) best = value;
     }
@@ -45,9 +45,9 @@ class HalfHull {
 
  private:
   /// True if the last place lies inside the hull once `next` is added.
-  bool isWithin(Place next) const {
-    const Place& last = m_places.back();
-    const Place& before = m_places[m_places.size() - 2];
+  bool isWithin(HullPoint next) const {
+    const HullPoint& last = m_places.back();
+    const HullPoint& before = m_places[m_places.size() - 2];
     return ((last.within - before.within) * (next.tick - before.tick) -
             (next.within - before.within) * (last.tick - before.tick)) *
                m_side >=
@@ -55,7 +55,7 @@ class HalfHull {
   }
 
   Fixed m_side;
-  std::vector<Place> m_places;
+  std::vector<HullPoint> m_places;
 };
 
 /// One axis of a path, and the coarse pairs of position and velocity that draw it.
@@ -147,7 +147,7 @@ bool isFast(Fixed v) {
 Motion fitMotion(const Motion& truth, std::span<const df::FixedVector> offsets, std::uint32_t horizon) {
   const df::FixedVector zero;
   if (truth.acceleration != zero || isFast(truth.velocity.x) || isFast(truth.velocity.y) ||
-      horizon > kLongestHorizon) {
+      horizon > kMaxHorizon) {
     return truth;
   }
   const std::vector<Fixed> x_offsets = fractions(offsets, &df::FixedVector::x);

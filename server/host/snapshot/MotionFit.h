@@ -20,6 +20,6 @@ namespace naiad {
 Motion fitMotion(const Motion& truth, std::span<const df::FixedVector> offsets, std::uint32_t horizon);
 
 /// Longer horizons are not tried: fitMotion() returns `truth`.
-inline constexpr std::uint32_t kLongestHorizon = 2048;
+inline constexpr std::uint32_t kMaxHorizon = 2048;
 
 }  // namespace naiad

@@ -5,7 +5,7 @@
 
 #include "shared/replica/Acks.h"
 #include "shared/replica/Motion.h"
-#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/PredictedObject.h"
 #include "shared/replica/ViewFollow.h"
 
 namespace naiad {
@@ -58,17 +58,17 @@ void OriginChoice::confirmArrival(std::uint32_t slot) {
   if (slot == m_newest) m_slot = m_newest;
 }
 
-void AckedControl::setSent(const ControlRecord& record) {
+void ControlExtrapolator::setSent(const ControlRecord& record) {
   m_has_record = true;
   m_at_rest = false;
   m_coasted = 0;
   m_model = record;
 }
 
-bool AckedControl::implies(const ControlRecord& actual, const df::ControlTable& table) {
+bool ControlExtrapolator::implies(const ControlRecord& actual, const df::ControlTable& table) {
   if (!m_has_record) return false;
-  for (; m_coasted < kMaxCoasting && !m_at_rest && m_model.tick != actual.tick; ++m_coasted) {
-    SteeredCopy copy(m_model, table);
+  for (; m_coasted < kMaxDeadReckoning && !m_at_rest && m_model.tick != actual.tick; ++m_coasted) {
+    PredictedObject copy(m_model, table);
     copy.beginTick();
     copy.finishTick();
     ControlRecord next = copy.now();
@@ -145,7 +145,7 @@ void PerClientState::applyOrigin(const Publisher& publisher) {
   markPending(kOrigins + slot - 1);
 }
 
-void PerClientState::noteInput(std::uint32_t id, std::uint32_t tick) {
+void PerClientState::setNewestInput(std::uint32_t id, std::uint32_t tick) {
   if (id == m_input) return;
   m_input = id;
   m_input_tick = tick;
@@ -215,7 +215,7 @@ void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known)
     return;
   }
   m_control = controlNow(tick, known);
-  if (!m_acked_control.implies(m_control, *p_table)) markPending(kControl);
+  if (!m_control_extrapolator.implies(m_control, *p_table)) markPending(kControl);
 }
 
 // ---- sending ----------------------------------------------------------------------------------------------
@@ -234,7 +234,7 @@ bool PerClientState::write(SnapshotWriter& writer, std::uint32_t number, std::si
   for (std::uint32_t left = m_pending; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::size_t max_bits = i == kTable ? 8 * m_table.size() + 16 : kMaxBits;
-    if (!writer.hasRoom(max_bits, 0, limit)) continue;
+    if (!writer.hasSpace(max_bits, 0, limit)) continue;
     write(i, writer);
     markSent(i, number, repeats);
   }
@@ -247,7 +247,7 @@ void PerClientState::write(std::size_t part, SnapshotWriter& writer) {
   if (part == kTable) writer.writeTable(m_table);
   if (part == kControl) {
     writer.write(m_control);
-    m_acked_control.setSent(m_control);
+    m_control_extrapolator.setSent(m_control);
   }
   if (part >= kOrigins && part < kTexts) {
     const auto slot = static_cast<std::uint32_t>(part - kOrigins + 1);

@@ -40,8 +40,9 @@ class OriginChoice {
   std::uint32_t m_newest = 0;  ///< the slot set last
 };
 
-/// The steered object's state as a client computes it from its newest record: coast(), one tick at a time.
-class AckedControl {
+/// The steered object's state as a client computes it from its newest record: deadReckon(), one tick at a
+/// time.
+class ControlExtrapolator {
  public:
   /// Call when `record` was sent.
   void setSent(const ControlRecord& record);
@@ -60,7 +61,7 @@ class PerClientState {
   /// Updates the parts from one published tick and this player's facts.
   void applyTick(const Publisher& publisher, const df::PlayerFacts& player);
   /// Sets the newest input that the game has applied, and its tick.
-  void noteInput(std::uint32_t id, std::uint32_t tick);
+  void setNewestInput(std::uint32_t id, std::uint32_t tick);
   /// Marks as pending what this client cannot compute: its view and the state of the object that it steers.
   /// Call once a tick, before write() and after `known` was updated for the tick.
   void queueCorrections(const Publisher& publisher, const KnownObjects& known);
@@ -136,7 +137,7 @@ class PerClientState {
   std::array<df::PlayerText, kMaxTexts> m_texts;
   std::string m_table;      ///< the player's controls as last sent, encoded; empty: none
   ControlRecord m_control;  ///< the newest state, to be sent while pending
-  AckedControl m_acked_control;
+  ControlExtrapolator m_control_extrapolator;
 };
 
 }  // namespace naiad

@@ -45,14 +45,14 @@ CellRect sweepOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t 
       .grownBy(model.reach);
 }
 
-ModelOutlook outlookOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
-                       std::uint32_t later) {
-  ModelOutlook outlook;
-  outlook.generation = model.generation;
-  outlook.later = CompactRect(sweepOf(model, tick, later));
+DrawForecast forecastOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
+                        std::uint32_t later) {
+  DrawForecast forecast;
+  forecast.generation = model.generation;
+  forecast.later = CompactRect(sweepOf(model, tick, later));
   if (model.reach > PublishedModel::kWide) {
-    outlook.soon = outlook.later;
-    return outlook;
+    forecast.soon = forecast.later;
+    return forecast;
   }
   const Motion& motion = model.state.motion;
   const df::FixedVector now = positionAt(motion, tick);
@@ -61,8 +61,8 @@ ModelOutlook outlookOf(const PublishedModel& model, std::uint32_t tick, std::uin
   const std::int64_t top = std::min(df::cellOf(now.y), df::cellOf(end.y));
   const std::int64_t right = std::max(df::cellOf(now.x), df::cellOf(end.x));
   const std::int64_t bottom = std::max(df::cellOf(now.y), df::cellOf(end.y));
-  outlook.soon = CompactRect(CellRect{left, top, right + 1, bottom + 1}.grownBy(model.reach));
-  return outlook;
+  forecast.soon = CompactRect(CellRect{left, top, right + 1, bottom + 1}.grownBy(model.reach));
+  return forecast;
 }
 
 }  // namespace naiad

@@ -10,7 +10,7 @@
 namespace naiad {
 
 /// Slot of the published characters that were drawn outside any object's draw().
-inline constexpr std::uint32_t kLooseSlot = kMaxSlots - 1;
+inline constexpr std::uint32_t kFreeDrawSlot = kMaxSlots - 1;
 
 struct PublishedModel {
   /// Cells. A model with a greater reach is in every client's interest.
@@ -25,7 +25,7 @@ struct PublishedModel {
 };
 
 /// The cells in which any part of a model may be drawn.
-struct ModelOutlook {
+struct DrawForecast {
   std::uint32_t generation = 0;  ///< 0: the slot is empty
   CompactRect soon;              ///< now, or exactly `soon` ticks later
   CompactRect later;             ///< now and until `later` ticks later, and some more
@@ -35,8 +35,8 @@ struct ModelOutlook {
 std::int32_t reachOf(const PublishedModel& model);
 /// Returns cells that include all in which the model may be drawn from `tick` to `tick + ticks`.
 CellRect sweepOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t ticks);
-/// Computes the outlook. `soon`, `later`: in ticks from `tick`.
-ModelOutlook outlookOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
-                       std::uint32_t later);
+/// Computes the forecast. `soon`, `later`: in ticks from `tick`.
+DrawForecast forecastOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
+                        std::uint32_t later);
 
 }  // namespace naiad

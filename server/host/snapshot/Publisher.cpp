@@ -17,11 +17,11 @@ constexpr std::uint32_t kForgetAfter = 9'000;
 /// Shared sequences, including those that no object has any more.
 constexpr std::size_t kMaxShared = 2'048;
 
-/// Ticks. A path is fitted for at least kShortestHorizon, and after a turn for at most kHorizonAfterTurn.
-constexpr std::uint32_t kShortestHorizon = 64;
+/// Ticks. A path is fitted for at least kMinHorizon, and after a turn for at most kHorizonAfterTurn.
+constexpr std::uint32_t kMinHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
 /// A path that outlives its model's horizon is fitted again, for its age times this.
-constexpr std::uint32_t kPatience = 8;
+constexpr std::uint32_t kHorizonFactor = 8;
 /// With more distinct offsets, a fit is slow and rarely finds coarse numbers.
 constexpr std::size_t kMaxOffsets = 6;
 
@@ -52,12 +52,12 @@ void LookCatalogue::share(Sequence& sequence) {
 }
 
 const Publisher::Model* Publisher::find(std::uint32_t slot) const {
-  if (slot == kLooseSlot) return m_loose.model.alive ? &m_loose.model : nullptr;
+  if (slot == kFreeDrawSlot) return m_free_draw.model.alive ? &m_free_draw.model : nullptr;
   return slot < m_models.size() && m_models[slot].model.alive ? &m_models[slot].model : nullptr;
 }
 
 Publisher::Tracked* Publisher::track(std::uint32_t slot) {
-  if (slot >= kLooseSlot) {
+  if (slot >= kFreeDrawSlot) {
     ++m_refused;
     return nullptr;
   }
@@ -83,7 +83,7 @@ void Publisher::markChanged(std::uint32_t slot, Tracked& tracked, std::uint8_t g
 
 void Publisher::update(const df::WorldView& view) {
   m_tick = view.tick;
-  m_outlooks.clear();
+  m_forecasts.clear();
   m_motions.clear();
   const bool is_color = view.background >= df::BLACK && view.background <= df::WHITE;
   m_world = {view.boundary, view.view_width, view.view_height, is_color ? view.background : df::BLACK};
@@ -97,10 +97,10 @@ void Publisher::update(const df::WorldView& view) {
     const bool declares = declared != view.looks.end() && &view.drawn[declared->drawn] == &drawn;
     applyDrawing(view, drawn, declares ? (declared++)->p_look.get() : nullptr);
   }
-  applyLoose(view);
+  applyFreeDraw(view);
   correctUndrawn(view);
   if (controls) setExactSolids(true);
-  if (m_exact.takeNewSolids()) keepSolidsExact();
+  if (m_exact.popNewSolids()) keepSolidsExact();
   for (const df::ObjectKey key : m_exact.keys()) keepExact(key);
 
   m_change_index.clear();
@@ -111,15 +111,15 @@ void Publisher::update(const df::WorldView& view) {
 }
 
 void Publisher::finishChange(Change& change) {
-  Tracked& tracked = change.slot == kLooseSlot ? m_loose : m_models[change.slot];
+  Tracked& tracked = change.slot == kFreeDrawSlot ? m_free_draw : m_models[change.slot];
   change.groups = tracked.model.alive ? tracked.changed : 0;
-  if ((change.groups & (kMotion | kLook)) != 0) fileModel(change.slot, tracked);
+  if ((change.groups & (kMotion | kLook)) != 0) indexModel(change.slot, tracked);
   if ((change.groups & kMotion) != 0) fitModel(tracked);
   if ((change.groups & kLook) != 0) m_looks.enterLook(tracked.model, m_tick);
   if (change.groups == 0 || (change.groups & kMotion) != 0) {
-    m_index.fileMotion(change.slot, tracked.model, tracked.membership);
+    m_index.indexMotion(change.slot, tracked.model, tracked.membership);
   }
-  m_index.noteSpeed(tracked.model, tracked.membership);
+  m_index.updateMaxSpeed(tracked.model, tracked.membership);
   change.sweep = CompactRect(sweepOf(tracked.model, m_tick, kSweep));
   tracked.changed = 0;
   tracked.touched = false;
@@ -130,16 +130,16 @@ const SharedMotion& Publisher::shareMotionOf(std::uint32_t slot) const {
                        shareMotion(rebase(find(slot)->state.motion, m_tick)));
 }
 
-const Publisher::Outlook& Publisher::computeOutlook(std::uint32_t slot, std::uint32_t soon,
-                                                    std::uint32_t later) const {
+const Publisher::Forecast& Publisher::computeForecast(std::uint32_t slot, std::uint32_t soon,
+                                                      std::uint32_t later) const {
   if (soon != m_soon || later != m_later) {
-    m_outlooks.clear();
+    m_forecasts.clear();
     m_soon = soon;
     m_later = later;
   }
   const Model* model = find(slot);
-  return m_outlooks.put(cacheIndex(slot), m_models.size() + 1,
-                        model != nullptr ? outlookOf(*model, m_tick, soon, later) : Outlook{});
+  return m_forecasts.put(cacheIndex(slot), m_models.size() + 1,
+                         model != nullptr ? forecastOf(*model, m_tick, soon, later) : Forecast{});
 }
 
 void Publisher::removeObject(df::ObjectKey key) {
@@ -148,7 +148,7 @@ void Publisher::removeObject(df::ObjectKey key) {
   if (!tracked.model.alive || tracked.model.generation != key.generation) return;
   tracked.model.alive = false;
   --m_live;
-  fileModel(key.slot, tracked);
+  indexModel(key.slot, tracked);
   markChanged(key.slot, tracked, 0);
 }
 
@@ -190,7 +190,7 @@ void Publisher::keepSolidsExact() {
 
 // Finds coarser numbers for a motion that was just copied from the world.
 void Publisher::fitModel(Tracked& tracked) {
-  if (&tracked == &m_loose || isExact(tracked)) return;
+  if (&tracked == &m_free_draw || isExact(tracked)) return;
   const Sequence& sequence = tracked.model.state.look.sequence;
   std::array<df::FixedVector, kMaxOffsets> offsets{};  // starts with the position's own cell
   std::size_t count = 1;
@@ -215,16 +215,16 @@ void Publisher::fitModel(Tracked& tracked) {
     }
   }
   const std::uint32_t age = m_tick - tracked.path.tick;
-  const std::uint32_t horizon = age == 0 ? std::clamp(2 * tracked.run, kShortestHorizon, kHorizonAfterTurn)
-                                         : std::max(kPatience * age, kShortestHorizon);
+  const std::uint32_t horizon = age == 0 ? std::clamp(2 * tracked.run, kMinHorizon, kHorizonAfterTurn)
+                                         : std::max(kHorizonFactor * age, kMinHorizon);
   tracked.model.state.motion =
       fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
 }
 
 // Call when the object's reach or its place in the index may have changed.
-void Publisher::fileModel(std::uint32_t slot, Tracked& tracked) {
+void Publisher::indexModel(std::uint32_t slot, Tracked& tracked) {
   tracked.model.reach = reachOf(tracked.model);
-  m_index.fileModel(slot, tracked.model, tracked.truth.position, tracked.membership);
+  m_index.indexModel(slot, tracked.model, tracked.truth.position, tracked.membership);
 }
 
 void Publisher::applyFacts(const df::ObjectFacts& facts) {
@@ -246,14 +246,14 @@ void Publisher::applyFacts(const df::ObjectFacts& facts) {
     m_newest_order = std::max(m_newest_order, facts.order);
     tracked->path = truth;
     tracked->run = 0;
-    fileModel(facts.key.slot, *tracked);
+    indexModel(facts.key.slot, *tracked);
     markChanged(facts.key.slot, *tracked, kAllGroups);
     return;
   }
-  m_index.fileMove(facts.key.slot, truth.position, tracked->membership);
+  m_index.indexMove(facts.key.slot, truth.position, tracked->membership);
   if (model.state.body != body) {
     model.state.body = body;
-    fileModel(facts.key.slot, *tracked);  // it may have become a view object
+    indexModel(facts.key.slot, *tracked);  // it may have become a view object
     markChanged(facts.key.slot, *tracked, kBody);
   }
   if (model.state.look.altitude != facts.altitude) {

@@ -57,7 +57,7 @@ class ExactObjects {
   }
   bool hasSolids() const { return m_solids; }
   /// True once after setSolids(true) takes effect: the solids published before are still coarse.
-  bool takeNewSolids() { return std::exchange(m_solids_are_new, false); }
+  bool popNewSolids() { return std::exchange(m_solids_are_new, false); }
 
  private:
   static bool isBefore(df::ObjectKey a, df::ObjectKey b) { return a.slot < b.slot; }
@@ -98,11 +98,11 @@ class TickCache {
   }
 
  private:
-  struct Entry {
+  struct CachedValue {
     std::uint32_t round = 0;
     Value value;
   };
-  std::vector<Entry> m_entries;
+  std::vector<CachedValue> m_entries;
   std::uint32_t m_round = 1;
 };
 
@@ -133,7 +133,7 @@ class ViewMoves {
 class Publisher {
  public:
   using Model = PublishedModel;
-  using Outlook = ModelOutlook;
+  using Forecast = DrawForecast;
   /// A slot that an update changed. groups 0: the object is gone.
   struct Change {
     std::uint32_t slot = 0;
@@ -157,13 +157,14 @@ class Publisher {
     for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
       if (m_models[slot].model.alive) visit(slot, m_models[slot].model);
     }
-    if (m_loose.model.alive) visit(kLooseSlot, m_loose.model);
+    if (m_free_draw.model.alive) visit(kFreeDrawSlot, m_free_draw.model);
   }
   /// Returns where the model in `slot` may be drawn: now, in `soon` ticks, and up to `later` ticks. Cached
-  /// for the last pair of numbers. The reference is valid until the next update() or outlook().
-  const Outlook& outlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
-    const Outlook* cached = soon == m_soon && later == m_later ? m_outlooks.find(cacheIndex(slot)) : nullptr;
-    return cached != nullptr ? *cached : computeOutlook(slot, soon, later);
+  /// for the last pair of numbers. The reference is valid until the next update() or forecast().
+  const Forecast& forecast(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const {
+    const Forecast* cached =
+        soon == m_soon && later == m_later ? m_forecasts.find(cacheIndex(slot)) : nullptr;
+    return cached != nullptr ? *cached : computeForecast(slot, soon, later);
   }
   /// Returns the encoded motion, at tick(), of the live model in `slot`. Valid until the next call.
   const SharedMotion& sharedMotion(std::uint32_t slot) const {
@@ -177,7 +178,7 @@ class Publisher {
     m_index.forEachNear(rect, ticks, inner, visit);
   }
 
-  /// An upper bound: all slots except kLooseSlot are below this.
+  /// An upper bound: all slots except kFreeDrawSlot are below this.
   std::size_t slotCount() const { return m_models.size(); }
   /// Number of live models.
   std::size_t liveCount() const { return m_live; }
@@ -207,10 +208,10 @@ class Publisher {
     bool touched = false;  ///< already in m_changes
   };
 
-  /// Index in the caches; kLooseSlot is the last.
+  /// Index in the caches; kFreeDrawSlot is the last.
   std::size_t cacheIndex(std::uint32_t slot) const { return std::min<std::size_t>(slot, m_models.size()); }
   const SharedMotion& shareMotionOf(std::uint32_t slot) const;
-  const Outlook& computeOutlook(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
+  const Forecast& computeForecast(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
   Tracked* track(std::uint32_t slot);
   Motion truthNow(const Tracked& tracked) const;
   void markChanged(std::uint32_t slot, Tracked& tracked, std::uint8_t groups);
@@ -219,7 +220,7 @@ class Publisher {
   void applyDrawing(const df::WorldView& view, const df::DrawnObject& drawn, const Look* declared);
   std::span<const df::DrawCommand> relativeToView(std::span<const df::DrawCommand> drawn,
                                                   df::FixedVector corner);
-  void applyLoose(const df::WorldView& view);
+  void applyFreeDraw(const df::WorldView& view);
   void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
                    const Look* declared);
   void captureLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
@@ -229,14 +230,14 @@ class Publisher {
   void keepSolidsExact();
   void keepExact(df::ObjectKey key);
   void fitModel(Tracked& tracked);
-  void fileModel(std::uint32_t slot, Tracked& tracked);
+  void indexModel(std::uint32_t slot, Tracked& tracked);
   bool isExact(const Tracked& tracked) const;
   void finishChange(Change& change);
 
   std::vector<Tracked> m_models;
   std::vector<std::uint32_t> m_examine_at;  ///< tick of the next correctUndrawn() of each slot
   ViewMoves m_views;
-  Tracked m_loose;
+  Tracked m_free_draw;
   std::vector<df::DrawCommand> m_off_view;  ///< scratch
   std::vector<Change> m_changes;
   ChangeIndex m_change_index;
@@ -245,9 +246,9 @@ class Publisher {
   ExactObjects m_exact;
   std::uint64_t m_newest_order = 0;
   std::size_t m_live = 0;
-  mutable TickCache<Outlook> m_outlooks;
+  mutable TickCache<Forecast> m_forecasts;
   mutable TickCache<SharedMotion> m_motions;
-  mutable std::uint32_t m_soon = 0;  ///< argument of m_outlooks
+  mutable std::uint32_t m_soon = 0;  ///< argument of m_forecasts
   mutable std::uint32_t m_later = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;

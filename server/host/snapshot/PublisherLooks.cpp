@@ -116,22 +116,22 @@ void Publisher::captureLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   state.look.sequence = fitToRecord(std::move(appearance));
 }
 
-void Publisher::applyLoose(const df::WorldView& view) {
+void Publisher::applyFreeDraw(const df::WorldView& view) {
   std::vector<df::DrawCommand> loose;
   for (const df::DrawnObject& drawn : view.drawn) {
     if (drawn.key.generation != 0) continue;
     loose.insert(loose.end(), view.commands.begin() + drawn.first,
                  view.commands.begin() + drawn.first + drawn.count);
   }
-  if (loose.empty() && !m_loose.model.alive) return;
-  if (!m_loose.model.alive) {
+  if (loose.empty() && !m_free_draw.model.alive) return;
+  if (!m_free_draw.model.alive) {
     // Below all objects and motionless: each glyph's offset is its position.
-    m_loose.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
-    m_loose.model.state.body.solidness = df::SPECTRAL;
-    m_loose.truth = m_loose.model.state.motion;
-    markChanged(kLooseSlot, m_loose, kAllGroups);
+    m_free_draw.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
+    m_free_draw.model.state.body.solidness = df::SPECTRAL;
+    m_free_draw.truth = m_free_draw.model.state.motion;
+    markChanged(kFreeDrawSlot, m_free_draw, kAllGroups);
   }
-  correctLook(kLooseSlot, m_loose, loose, nullptr);
+  correctLook(kFreeDrawSlot, m_free_draw, loose, nullptr);
 }
 
 void Publisher::correctUndrawn(const df::WorldView& view) {

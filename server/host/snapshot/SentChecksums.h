@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/snapshot/Flight.h"
+#include "host/snapshot/InFlightSnapshots.h"
 #include "shared/replica/Acks.h"
 
 namespace naiad {
@@ -27,7 +27,7 @@ class SentChecksums {
   void removeNewest(std::uint32_t number) { at(number) = {}; }
   /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest snapshot's
   /// number.
-  void recordLost(const Flight::Snapshot& snapshot, bool pending, std::uint32_t newest) {
+  void recordLost(const InFlightSnapshots::Snapshot& snapshot, bool pending, std::uint32_t newest) {
     m_repairing = m_repairing || pending;
     // If nothing is pending, newer snapshots have already carried the contents.
     if (!snapshot.empty && isNewer(newest, m_clean_from)) m_clean_from = newest;
@@ -46,7 +46,8 @@ class SentChecksums {
     for (const Moment& moment : m_moments) {
       const std::uint32_t behind = number - moment.number;
       if (behind == 0 && moment.number != 0) acknowledged = &moment;
-      if (moment.number == 0 || behind == 0 || behind > Flight::kMaxSnapshots || acks.has(moment.number))
+      if (moment.number == 0 || behind == 0 || behind > InFlightSnapshots::kMaxSnapshots ||
+          acks.has(moment.number))
         continue;
       if (moment.fate == Moment::kNotMissed) continue;
       if (moment.fate != Moment::kRepaired || !isNewer(m_clean_from, moment.number)) return std::nullopt;
@@ -56,7 +57,7 @@ class SentChecksums {
   }
 
  private:
-  static constexpr std::size_t kMaxMoments = 2 * Flight::kMaxSnapshots;
+  static constexpr std::size_t kMaxMoments = 2 * InFlightSnapshots::kMaxSnapshots;
   /// The state of the replica after a snapshot.
   struct Moment {
     std::uint32_t number = 0;

@@ -47,22 +47,22 @@ class SlotMap {
   }
 
  private:
-  struct Entry {
+  struct Bucket {
     std::uint32_t slot = kNone;
     std::uint32_t id = kNone;
   };
   std::size_t home(std::uint32_t slot) const { return (slot * 0x9E3779B1u >> 7) & (m_entries.size() - 1); }
   std::size_t next(std::size_t i) const { return (i + 1) & (m_entries.size() - 1); }
   void grow() {
-    std::vector<Entry> old(m_entries.empty() ? 16 : 2 * m_entries.size());
+    std::vector<Bucket> old(m_entries.empty() ? 16 : 2 * m_entries.size());
     old.swap(m_entries);
     m_count = 0;
-    for (const Entry& entry : old) {
+    for (const Bucket& entry : old) {
       if (entry.slot != kNone) insert(entry.slot, entry.id);
     }
   }
 
-  std::vector<Entry> m_entries;
+  std::vector<Bucket> m_entries;
   std::size_t m_count = 0;
 };
 

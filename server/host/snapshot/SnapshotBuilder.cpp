@@ -52,7 +52,7 @@ class Urgency {
     return waited - std::sqrt(dx * dx + dy * dy);
   }
   /// Urgency of repeating the record before a loss is known: a fast object is soon wrong.
-  double ofRepeating(std::uint32_t id) const {
+  double ofResend(std::uint32_t id) const {
     const KnownObjects::Known& known = m_replica.objects.at(id);
     if (known.life == KnownObjects::Life::kDying) return of(id);
     const df::FixedVector v = m_publisher.find(known.slot)->state.motion.velocity;
@@ -142,7 +142,7 @@ SnapshotBuilder& SnapshotBuilder::ofThread() {
 }
 
 void SnapshotBuilder::beginSnapshot(const SnapshotHeader& header, ClientReplica& replica,
-                                    Flight::Snapshot& flight, RedundantResend* redundancy) {
+                                    InFlightSnapshots::Snapshot& flight, RedundantResend* redundancy) {
   m_header = header;
   m_p_replica = &replica;
   m_p_flight = &flight;
@@ -164,7 +164,7 @@ void SnapshotBuilder::writeObjects(const Publisher& publisher, const PacketLimit
       continue;
     }
     const Record record = stageRecord(id, publisher);
-    if (!m_writer.hasRoom(record.bits, last_id, limits.bytes)) {
+    if (!m_writer.hasSpace(record.bits, last_id, limits.bytes)) {
       const bool too_large = isTooLarge(record.bits, limits.bytes);
       m_p_flight->large = too_large && limits.large && m_writer.isEmpty();
       if (!m_p_flight->large) {
@@ -176,7 +176,7 @@ void SnapshotBuilder::writeObjects(const Publisher& publisher, const PacketLimit
       }
     }
     m_queue.pop();
-    keepRecord(record, publisher);
+    commitRecord(record, publisher);
   }
   m_queue.restoreDeferred();
   objects.trimPending();
@@ -203,9 +203,9 @@ SnapshotBuilder::Record SnapshotBuilder::stageRecord(std::uint32_t id, const Pub
   return record;
 }
 
-void SnapshotBuilder::keepRecord(const Record& record, const Publisher& publisher) {
+void SnapshotBuilder::commitRecord(const Record& record, const Publisher& publisher) {
   m_p_flight->empty = false;
-  if (record.form.kind != LookForm::kSpelled) {
+  if (record.form.kind != LookForm::kInline) {
     m_p_replica->names.markUsed(record.p_model->look_sum, m_header.number);
     if (record.form.kind == LookForm::kDefined) {
       m_p_flight->names.emplace_back(record.form.id, record.p_model->look_sum);
@@ -215,10 +215,10 @@ void SnapshotBuilder::keepRecord(const Record& record, const Publisher& publishe
   const Motion& motion = record.p_motion != nullptr ? record.p_motion->motion : kNoMotion.motion;
   m_p_flight->objects.push_back(
       m_p_replica->objects.markSent(record.id, m_header.number, state, motion, m_header.tick));
-  m_writer.keep(record.id);
+  m_writer.commit(record.id);
   if (m_p_redundancy == nullptr) return;
   m_p_redundancy->addRecord(m_p_flight->objects.back(), record.bits,
-                            Urgency(*m_p_replica, publisher).ofRepeating(record.id));
+                            Urgency(*m_p_replica, publisher).ofResend(record.id));
 }
 
 void SnapshotBuilder::finish(bool complete, std::string& bytes) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/snapshot/ClientReplica.h"
-#include "host/snapshot/Flight.h"
+#include "host/snapshot/InFlightSnapshots.h"
 #include "host/snapshot/KnownObjects.h"
 #include "host/snapshot/Publisher.h"
 #include "host/snapshot/SnapshotPackets.h"
@@ -77,8 +77,8 @@ class SnapshotBuilder {
   }
   /// Starts a snapshot. Everything written is marked as sent in `replica` and listed in `flight`; both must
   /// outlive the snapshot. Records to repeat go to `redundancy`, unless it is null.
-  void beginSnapshot(const SnapshotHeader& header, ClientReplica& replica, Flight::Snapshot& flight,
-                     RedundantResend* redundancy = nullptr);
+  void beginSnapshot(const SnapshotHeader& header, ClientReplica& replica,
+                     InFlightSnapshots::Snapshot& flight, RedundantResend* redundancy = nullptr);
   /// Writes the pending state other than objects, as far as it fits into `limit` bytes.
   void writeState(std::size_t limit);
   /// Writes queued objects until the snapshot is full.
@@ -95,13 +95,13 @@ class SnapshotBuilder {
     LookForm form;
   };
   Record stageRecord(std::uint32_t id, const Publisher& publisher);
-  void keepRecord(const Record& record, const Publisher& publisher);
+  void commitRecord(const Record& record, const Publisher& publisher);
 
   SnapshotWriter m_writer;
   PendingQueue m_queue;
   SnapshotHeader m_header;
   ClientReplica* m_p_replica = nullptr;  ///< this and the next two belong to the snapshot being written
-  Flight::Snapshot* m_p_flight = nullptr;
+  InFlightSnapshots::Snapshot* m_p_flight = nullptr;
   RedundantResend* m_p_redundancy = nullptr;
 };
 

@@ -34,7 +34,9 @@ void SnapshotSender::build(const Publisher& publisher, PacketLimits limits, Pack
   m_throttled = m_replica.hasPending();
   if (!m_throttled && !due) return;
   // If the window is full, only a keep-alive is sent; so no snapshot in flight counts as lost.
-  const std::size_t window = m_flight.size() < kMaxInFlight ? kMaxInFlight - m_flight.size() : due ? 1 : 0;
+  const std::size_t window = m_in_flight.size() < kMaxInFlight ? kMaxInFlight - m_in_flight.size()
+                             : due                             ? 1
+                                                               : 0;
   limits.packets = std::min(limits.packets, window);
   if (limits.packets > 0) SnapshotBuilder::ofThread().queueObjects(m_replica, publisher, limits.bytes);
 
@@ -65,7 +67,7 @@ bool SnapshotSender::isKeepAliveDue() const {
 
 // Fills one snapshot. False if it carries nothing; then another one would not either.
 bool SnapshotSender::writeSnapshot(const Publisher& publisher, const PacketLimits& limits, Packet& packet) {
-  Flight::Snapshot& flight = m_flight.add(m_next_number);
+  InFlightSnapshots::Snapshot& flight = m_in_flight.add(m_next_number);
   SnapshotBuilder& builder = SnapshotBuilder::ofThread();
   SnapshotHeader header{m_next_number, m_tick, m_epoch, false, false, 0, 0};
   m_replica.state.writeInput(header);
@@ -89,9 +91,9 @@ void SnapshotSender::finishSnapshot(Packet& packet) {
 }
 
 void SnapshotSender::settleOldest() {
-  if (m_flight.size() <= kMaxInFlight) return;
+  if (m_in_flight.size() <= kMaxInFlight) return;
   bool oldest = true;
-  m_flight.removeIf([&](const Flight::Snapshot& snapshot) {
+  m_in_flight.removeIf([&](const InFlightSnapshots::Snapshot& snapshot) {
     if (!std::exchange(oldest, false)) return false;
     requeueLost(snapshot);
     return true;
@@ -100,14 +102,14 @@ void SnapshotSender::settleOldest() {
 
 // Withdraws the snapshot just written, which carries nothing.
 void SnapshotSender::removeNewest() {
-  m_next_number = m_flight.newest().number;
-  m_flight.removeNewest();
+  m_next_number = m_in_flight.newest().number;
+  m_in_flight.removeNewest();
   m_checksums.removeNewest(m_next_number);
 }
 
 SnapshotSender::Packet SnapshotSender::probe(const Publisher& publisher) {
   m_tick = publisher.tick();
-  Flight::Snapshot& flight = m_flight.add(m_next_number);
+  InFlightSnapshots::Snapshot& flight = m_in_flight.add(m_next_number);
   flight.probe = true;
   SnapshotBuilder::ofThread().beginSnapshot({m_next_number, m_tick, m_epoch, false, false, 0, 0}, m_replica,
                                             flight);
@@ -126,7 +128,7 @@ RedundantResend* SnapshotSender::redundancy() {
 void SnapshotSender::acknowledge(const AckWindow& acks) {
   // A number that was never sent is forged; accepting it would drop pending state.
   if (isNewer(acks.newest, m_next_number - 1)) return;
-  m_flight.removeIf([&](const Flight::Snapshot& snapshot) {
+  m_in_flight.removeIf([&](const InFlightSnapshots::Snapshot& snapshot) {
     const bool arrived = acks.has(snapshot.number);
     if (!arrived && !m_losses.isLost(snapshot, acks)) return false;
     arrived ? m_replica.confirmArrival(snapshot) : requeueLost(snapshot);
@@ -136,7 +138,7 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
   m_losses.recordLateArrivals(acks);
 }
 
-void SnapshotSender::requeueLost(const Flight::Snapshot& snapshot) {
+void SnapshotSender::requeueLost(const InFlightSnapshots::Snapshot& snapshot) {
   const ClientReplica::Requeued requeued = m_replica.requeueLost(snapshot, m_tick);
   m_resent += requeued.objects;
   // State that changed or died since was already pending; until it is sent, the client lacks what was lost.
@@ -145,7 +147,7 @@ void SnapshotSender::requeueLost(const Flight::Snapshot& snapshot) {
 }
 
 void SnapshotSender::requeueLarge() {
-  m_flight.removeIf([this](const Flight::Snapshot& snapshot) {
+  m_in_flight.removeIf([this](const InFlightSnapshots::Snapshot& snapshot) {
     if (snapshot.large) requeueLost(snapshot);
     return snapshot.large;
   });
@@ -159,7 +161,7 @@ void SnapshotSender::reset() {
   next.m_next_number = m_next_number;
   next.m_checksums = SentChecksums(m_next_number);
   // A client that has not received the newest input waits for it before it sends more.
-  next.noteInput(m_replica.state.input(), m_replica.state.inputTick());
+  next.setNewestInput(m_replica.state.input(), m_replica.state.inputTick());
   *this = std::move(next);
 }
 

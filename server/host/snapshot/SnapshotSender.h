@@ -2,8 +2,8 @@
 //
 // A client receives the objects in its view, objects about to enter it, and the object that the view follows.
 // In each tick, Interest decides which objects the client knows, and SnapshotBuilder writes what is pending
-// in ClientReplica, most urgent first. Acknowledgements remove snapshots from Flight. Nothing here depends on
-// the channel, except that a snapshot may be too large for a datagram.
+// in ClientReplica, most urgent first. Acknowledgements remove snapshots from InFlightSnapshots. Nothing here
+// depends on the channel, except that a snapshot may be too large for a datagram.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 #include "host/snapshot/ClientReplica.h"
 #include "host/snapshot/ClientViewport.h"
-#include "host/snapshot/Flight.h"
+#include "host/snapshot/InFlightSnapshots.h"
 #include "host/snapshot/Interest.h"
 #include "host/snapshot/LossDetector.h"
 #include "host/snapshot/Publisher.h"
@@ -41,7 +41,7 @@ class SnapshotSender {
   /// client is connected. The first call makes everything pending that the client sees.
   void applyTick(const Publisher& publisher, const df::PlayerFacts& player);
   /// Sets the newest input that the game has applied, and its tick. Call before the build() of that tick.
-  void noteInput(std::uint32_t id, std::uint32_t tick) { m_replica.state.noteInput(id, tick); }
+  void setNewestInput(std::uint32_t id, std::uint32_t tick) { m_replica.state.setNewestInput(id, tick); }
   /// Sets the size of the client's terminal, in cells; 0: unknown.
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_viewport.setTerminal(columns, rows); }
   /// True if the client is sent the whole of a view of this size, not only the part that fits its terminal.
@@ -65,9 +65,9 @@ class SnapshotSender {
   /// Processes an acknowledgement. LossEstimator decides when unconfirmed snapshots count as lost.
   void acknowledge(const AckWindow& acks);
   /// Marks a snapshot, just built, that uses a stream: it may be late but is not lost.
-  void markLarge(std::uint32_t number) { m_flight.markLarge(number); }
+  void markLarge(std::uint32_t number) { m_in_flight.markLarge(number); }
   /// True if a large snapshot is unacknowledged. Overtaking it would show a world without its contents.
-  bool hasLargeInFlight() const { return m_flight.hasLarge(); }
+  bool hasLargeInFlight() const { return m_in_flight.hasLarge(); }
   /// Call when the stream broke: everything it carried is pending again.
   void requeueLarge();
 
@@ -82,7 +82,7 @@ class SnapshotSender {
   /// True if something was pending at the last build() that could not be sent.
   bool isThrottled() const { return m_throttled; }
   /// True if nothing is pending and no unacknowledged snapshot carries anything.
-  bool isSettled() const { return !m_flight.hasContent() && !m_replica.hasPending(); }
+  bool isSettled() const { return !m_in_flight.hasContent() && !m_replica.hasPending(); }
   /// Share of the last snapshots that were lost, 0 … 1, smoothed.
   double loss() const { return m_losses.estimator().loss(); }
   /// Number of objects sent again because a snapshot was lost.
@@ -95,7 +95,7 @@ class SnapshotSender {
 
   static constexpr std::uint32_t kKeepAlive = 5;
   /// Maximum number of unacknowledged snapshots. If one more is sent, the oldest counts as lost.
-  static constexpr std::size_t kMaxInFlight = Flight::kMaxSnapshots;
+  static constexpr std::size_t kMaxInFlight = InFlightSnapshots::kMaxSnapshots;
 
  private:
   void queueRecords(const Publisher& publisher);
@@ -104,14 +104,14 @@ class SnapshotSender {
   void finishSnapshot(Packet& packet);
   void removeNewest();
   void settleOldest();
-  void requeueLost(const Flight::Snapshot& snapshot);
+  void requeueLost(const InFlightSnapshots::Snapshot& snapshot);
   RedundantResend* redundancy();
 
   Resend m_resend;
   ClientReplica m_replica;
   ClientViewport m_viewport;
   Interest m_interest;
-  Flight m_flight;
+  InFlightSnapshots m_in_flight;
   SentChecksums m_checksums;
   LossDetector m_losses;
   RedundantResend m_redundancy;

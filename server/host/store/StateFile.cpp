@@ -18,7 +18,7 @@ constexpr int kBusyMillis = 2000;  ///< how long SQLite waits while another serv
 
 std::int64_t numberOf(sqlite3* p_database, const char* p_query) {
   StateStatement statement(p_database, p_query);
-  return statement.isGood() && statement.step() ? statement.number(0) : -1;
+  return statement.isValid() && statement.step() ? statement.number(0) : -1;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ void StateFile::check() {
   if (numberOf(m_database.get(), "PRAGMA user_version") != m_kind.format)
     fail("was written by another version of this program");
   StateStatement statement(m_database.get(), "PRAGMA quick_check(1)");
-  if (!statement.isGood() || !statement.step() || statement.text(0) != "ok")
+  if (!statement.isValid() || !statement.step() || statement.text(0) != "ok")
     fail("is damaged; restore it or move it away");
 }
 
@@ -159,11 +159,11 @@ void StateFile::run(const char* p_statements) {
 
 StateStatement StateFile::prepare(const char* p_text) {
   StateStatement statement(m_database.get(), p_text);
-  if (!statement.isGood()) fail("cannot be used");
+  if (!statement.isValid()) fail("cannot be used");
   return statement;
 }
 
-bool StateFile::openIfThere() {
+bool StateFile::openExisting() {
   std::error_code error;
   const fs::file_status status = fs::status(m_file, error);
   if (status.type() == fs::file_type::not_found) return false;
@@ -175,7 +175,7 @@ bool StateFile::openIfThere() {
   return true;
 }
 
-void StateFile::openOrMake() {
+void StateFile::openOrCreate() {
   make();
   open();
 }

@@ -23,7 +23,7 @@ class StateStatement {
  public:
   StateStatement(sqlite3* p_database, const char* p_text);
   /// True if the statement was prepared without an error.
-  bool isGood() const { return m_statement != nullptr; }
+  bool isValid() const { return m_statement != nullptr; }
 
   /// Binds a parameter. Copies the text.
   void bind(int place, const std::string& text) const;
@@ -65,9 +65,9 @@ class StateFile {
   // of another kind.
 
   /// Opens the file unless it is open, and checks it. Returns false if it does not exist.
-  bool openIfThere();
-  /// Creates the file (0600) and its folder if necessary, and opens it like openIfThere().
-  void openOrMake();
+  bool openExisting();
+  /// Creates the file (0600) and its folder if necessary, and opens it like openExisting().
+  void openOrCreate();
   /// Prepares a statement; the file must be open. Executing it waits for the disk if it writes.
   StateStatement prepare(const char* p_text);
   /// Executes statements. When it returns, changes survive a power failure.

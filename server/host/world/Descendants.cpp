@@ -24,8 +24,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kNapMillis = 2;
-constexpr std::chrono::seconds kLongest{20};  ///< limit: one that waits for a dead disk cannot be ended
-constexpr std::chrono::milliseconds kLongestOthers{500};  ///< players are waiting
+constexpr std::chrono::seconds kKillTimeout{20};  ///< limit: one that waits for a dead disk cannot be ended
+constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< players are waiting
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -110,12 +110,12 @@ std::vector<pid_t> findChildren() {
 }
 
 // The group may have processes that the child has started since.
-void endChild(pid_t child) {
+void killChild(pid_t child) {
   kill(child, SIGKILL);
   kill(-child, SIGKILL);
 }
 
-int endDescendants(pid_t leader) {
+int killDescendants(pid_t leader) {
   int status = SIGKILL;
   if (leader > 0) {
     kill(-leader, SIGKILL);  // the whole group at once, so that none can fork on
@@ -123,7 +123,7 @@ int endDescendants(pid_t leader) {
   }
   std::set<pid_t> ended;
   bool naps = false;
-  for (const auto end = Clock::now() + kLongest; Clock::now() < end;) {
+  for (const auto end = Clock::now() + kKillTimeout; Clock::now() < end;) {
     int how = 0;
     pid_t child = 0;
     while ((child = waitpid(-1, &how, WNOHANG)) > 0) {
@@ -134,7 +134,7 @@ int endDescendants(pid_t leader) {
     bool news = false;
     for (const pid_t one : findChildren()) {
       if (!ended.insert(one).second) continue;
-      endChild(one);
+      killChild(one);
       news = true;
     }
     if (news) continue;  // a process that forks and ends may have forked again
@@ -145,8 +145,8 @@ int endDescendants(pid_t leader) {
   return status;
 }
 
-bool endOthers(const std::set<pid_t>& kept) {
-  for (const auto end = Clock::now() + kLongestOthers; Clock::now() < end;) {
+bool killOthers(const std::set<pid_t>& kept) {
+  for (const auto end = Clock::now() + kKillOthersTimeout; Clock::now() < end;) {
     std::set<pid_t> others;
     for (const pid_t child : findChildren()) others.insert(child);
     for (const Descendant& one : findDescendants()) {

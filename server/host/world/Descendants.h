@@ -24,16 +24,16 @@ bool isDescendant(pid_t process);
 std::vector<pid_t> findChildren();
 
 /// Sends SIGKILL to this child, which has not been waited for, and to its process group, if it leads one.
-void endChild(pid_t child);
+void killChild(pid_t child);
 
 /// Sends SIGKILL to all descendants, and to the process group of `leader`, until none is left. For a process
 /// without threads that is a child subreaper (PR_SET_CHILD_SUBREAPER): a descendant whose parent has ended
 /// becomes its child, whatever its group or session, so it cannot escape by forking. Returns the status of
 /// `leader`, a child that has not been waited for; that of a SIGKILL if it cannot be had. `leader` 0: none.
-int endDescendants(pid_t leader);
+int killDescendants(pid_t leader);
 
-/// Like endDescendants(), except for these children and their descendants. Returns false if that takes too
+/// Like killDescendants(), except for these children and their descendants. Returns false if that takes too
 /// long; then all must be ended.
-bool endOthers(const std::set<pid_t>& kept);
+bool killOthers(const std::set<pid_t>& kept);
 
 }  // namespace naiad

@@ -18,7 +18,7 @@ constexpr std::size_t kRightsSize = kMaxPassed * sizeof(int);
 using RightsRoom = std::array<char, CMSG_SPACE(kRightsSize)>;
 
 /// Collects all descriptors of a message, expected or not.
-std::size_t takeRights(msghdr& message, std::array<int, kMaxPassed>& found) {
+std::size_t extractRights(msghdr& message, std::array<int, kMaxPassed>& found) {
   std::size_t count = 0;
   for (cmsghdr* p = CMSG_FIRSTHDR(&message); p != nullptr; p = CMSG_NXTHDR(&message, p)) {
     if (p->cmsg_level != SOL_SOCKET || p->cmsg_type != SCM_RIGHTS) continue;
@@ -64,7 +64,7 @@ int receiveDescriptors(int socket, void* p_bytes, std::size_t size, std::span<in
   while ((got = recvmsg(socket, &message, MSG_CMSG_CLOEXEC | flags)) < 0 && errno == EINTR) continue;
   if (got < 0) return -1;
   std::array<int, kMaxPassed> found{};
-  const std::size_t count = takeRights(message, found);
+  const std::size_t count = extractRights(message, found);
   const bool is_whole =
       got == static_cast<ssize_t>(size) && (message.msg_flags & (MSG_CTRUNC | MSG_TRUNC)) == 0;
   if (is_whole && count <= room.size()) {

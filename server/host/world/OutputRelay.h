@@ -48,7 +48,7 @@ class OutputRelay {
       const ssize_t got = ::read(m_pipe, piece, sizeof piece);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) return;
-      takePiece({piece, static_cast<std::size_t>(got)}, now);
+      handlePiece({piece, static_cast<std::size_t>(got)}, now);
       done += static_cast<std::size_t>(got);
     }
   }
@@ -60,7 +60,7 @@ class OutputRelay {
   }
 
  private:
-  void takePiece(std::string_view piece, Clock::time_point now) {
+  void handlePiece(std::string_view piece, Clock::time_point now) {
     while (!piece.empty()) {
       const std::size_t end = std::min(piece.find('\n'), piece.size());
       m_text += piece.substr(0, end).substr(0, kMaxLine - std::min(m_text.size(), kMaxLine));
@@ -71,7 +71,7 @@ class OutputRelay {
   }
   void endLine(Clock::time_point now) {
     const std::string line = std::exchange(m_text, {});
-    if (!m_bucket.takeToken(kRate, now)) {
+    if (!m_bucket.tryConsume(kRate, now)) {
       ++m_dropped;
       return;
     }

@@ -249,7 +249,7 @@ SandboxSupport findSandboxSupport() {
   return {findInTrial(tryLandlock), findInTrial(tryFilter), 0};
 }
 
-std::string sandboxGaps(const SandboxSupport& support) {
+std::string missingSandboxFeatures(const SandboxSupport& support) {
   const std::string files = "Landlock: game processes can open every file that this user can";
   const std::string calls =
       "system call filter: game processes can open connections, and reach this user's other processes";
@@ -272,7 +272,7 @@ int enterSandbox(const Sandbox& sandbox, const SandboxSupport& support) {
   return support.filter != 0 ? filterCalls(support.landlock) : 0;
 }
 
-void hideProcess() {
+void makeUndumpable() {
   if (!kSanitized) prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
 }
 

@@ -22,14 +22,14 @@ struct Sandbox {
 struct SandboxSupport {
   std::int32_t landlock = 0;   ///< version of Landlock; 0: none
   std::int32_t filter = 0;     ///< 1: seccomp
-  std::int32_t addresses = 0;  ///< 1: addresses can be fixed (FixedStart.h)
+  std::int32_t addresses = 0;  ///< 1: addresses can be fixed (FixedAddresses.h)
 };
 
 /// Tries the features out in short-lived processes. For a process without threads.
 SandboxSupport findSandboxSupport();
 
 /// Returns a sentence for the log if something is missing; otherwise empty.
-std::string sandboxGaps(const SandboxSupport& support);
+std::string missingSandboxFeatures(const SandboxSupport& support);
 
 /// Enters the sandbox, permanently. For a process without threads that is about to execute a program. Returns
 /// errno, or 0; after an error the process must not continue.
@@ -37,7 +37,7 @@ int enterSandbox(const Sandbox& sandbox, const SandboxSupport& support);
 
 /// Hides this process's memory, environment and descriptors from its worlds: only root can read them. It also
 /// dumps no core. Does nothing with a sanitizer, which traces its own process.
-void hideProcess();
+void makeUndumpable();
 
 /// Returns the system folders that every world may read.
 const std::vector<std::string>& systemFolders();

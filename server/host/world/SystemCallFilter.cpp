@@ -215,7 +215,7 @@ class FilterWriter {
     m_code[jump].jf = static_cast<std::uint8_t>(m_code.size() - jump - 1);
   }
 
-  std::vector<sock_filter> takeCode() { return std::move(m_code); }
+  std::vector<sock_filter> releaseCode() { return std::move(m_code); }
 
  private:
   void when(std::uint16_t comparison, std::uint32_t value, std::uint32_t verdict) {
@@ -314,7 +314,7 @@ void limitArguments(FilterWriter& out) {
     out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
     out.ifEqual(F_SETLEASE, fails(EPERM));
   });
-  // The world must end with its keeper, and must not hide from it.
+  // The world must end with its supervisor, and must not hide from it.
   out.forCall(__NR_prctl, kAllow, [&] {
     out.loadArgument(0);
     out.forCall(PR_SET_PDEATHSIG, fails(EPERM), [&] {
@@ -360,7 +360,7 @@ std::vector<sock_filter> makeSystemCallFilter(const FilterScene& scene) {
   if (!scene.signals_scoped) limitSignals(out, scene.self);
   if (!scene.truncation_held) limitTruncation(out);
   out.end(kAllow);
-  return out.takeCode();
+  return out.releaseCode();
 }
 
 #else

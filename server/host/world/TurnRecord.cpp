@@ -67,8 +67,8 @@ void visitHead(F& f, T& turn) {
   f.flag(turn.wants_truth);
   f.flag(turn.ends_game);
   f.flag(turn.checked);
-  f.number(turn.heard_player);
-  f.number(turn.pictured);
+  f.number(turn.input_player);
+  f.number(turn.rendered_player);
 }
 
 template <class F, class T>
@@ -98,14 +98,14 @@ void visitSession(F& f, T& session) {
   f.flag(session.over);
   if (session.over) return;
   f.flag(session.muted);
-  f.text(session.name, kMaxKeptName);
+  f.text(session.name, kMaxPersistedName);
   f.number(session.color, df::BLACK, df::WHITE);
-  for (auto* p_hash : {&session.newest, &session.redeemed}) f.text(*p_hash, kKeptHash);
+  for (auto* p_hash : {&session.newest, &session.redeemed}) f.text(*p_hash, kPersistedHashSize);
 }
 
 bool hasSameHead(const WorldTurn& a, const WorldTurn& b) {
   return a.watched == b.watched && a.wants_truth == b.wants_truth && a.ends_game == b.ends_game &&
-         a.checked == b.checked && a.heard_player == b.heard_player && a.pictured == b.pictured;
+         a.checked == b.checked && a.input_player == b.input_player && a.rendered_player == b.rendered_player;
 }
 
 void copyHead(const WorldTurn& from, WorldTurn& to) {
@@ -113,8 +113,8 @@ void copyHead(const WorldTurn& from, WorldTurn& to) {
   to.wants_truth = from.wants_truth;
   to.ends_game = from.ends_game;
   to.checked = from.checked;
-  to.heard_player = from.heard_player;
-  to.pictured = from.pictured;
+  to.input_player = from.input_player;
+  to.rendered_player = from.rendered_player;
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ void TurnRecordWriter::write(const RecordedPicture& picture, std::string& out) {
   append(out);
 }
 
-void TurnRecordWriter::write(const KeptSession& session, std::string& out) {
+void TurnRecordWriter::write(const PersistedSession& session, std::string& out) {
   FieldWriter fields(m_fields);
   fields.number(kRecordedSession, 0, 255);
   visitSession(fields, session);
@@ -239,7 +239,7 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
     visitPicture(in, picture.canvas);
     found = std::move(picture);
   } else if (kind == kRecordedSession) {
-    KeptSession session;
+    PersistedSession session;
     visitSession(in, session);
     found = std::move(session);
   } else if (kind == kRecordedDrop) {

@@ -24,17 +24,17 @@ namespace naiad {
 
 /// A player's session in the journal, so that the player can reconnect after the server was killed. Of a
 /// token only its SHA-256 is stored (ResumeTokens.h); addresses and rights of admins are not stored.
-struct KeptSession {
+struct PersistedSession {
   std::uint32_t player = 0;
   bool over = false;  ///< the player has left; the fields below are unused
   bool muted = false;
-  std::string name = {};  ///< at most kMaxKeptName bytes
+  std::string name = {};  ///< at most kMaxPersistedName bytes
   df::Color color = df::COLOR_DEFAULT;
   std::string newest = {};    ///< hash of the token issued last; empty: none
   std::string redeemed = {};  ///< hash of the token before, if it is still valid
 };
-inline constexpr std::size_t kMaxKeptName = 256;
-inline constexpr std::size_t kKeptHash = 32;  ///< bytes of a token's hash
+inline constexpr std::size_t kMaxPersistedName = 256;
+inline constexpr std::size_t kPersistedHashSize = 32;  ///< bytes of a token's hash
 
 /// The inputs of a tick, and what its answer must have.
 struct WorldTurn {
@@ -42,9 +42,9 @@ struct WorldTurn {
   bool watched = false;                       ///< the answer must have a view
   bool wants_truth = false;                   ///< the answer of a watched turn must have pictures
   bool ends_game = false;
-  bool checked = false;            ///< the answer must have a hash of the state
-  std::uint32_t heard_player = 0;  ///< only this player's input is used; 0: all players'
-  std::uint32_t pictured = 0;      ///< only this player's picture is rendered; 0: all players'
+  bool checked = false;               ///< the answer must have a hash of the state
+  std::uint32_t input_player = 0;     ///< only this player's input is used; 0: all players'
+  std::uint32_t rendered_player = 0;  ///< only this player's picture is rendered; 0: all players'
 };
 
 /// A turn as it is sent to a world.
@@ -75,7 +75,7 @@ struct InputsDropped {};
 /// Removes keys and clicks from a turn. Joins and leaves stay.
 void dropKeys(WorldTurn& turn);
 
-using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, KeptSession, InputsDropped>;
+using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, PersistedSession, InputsDropped>;
 
 /// Returns the highest eight bits of an answer's hash.
 std::uint8_t checkOf(std::uint64_t answer_hash);
@@ -92,7 +92,7 @@ class TurnRecordWriter {
   void repeatFlags() { m_repeats_flags = true; }
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
-  void write(const KeptSession& session, std::string& out);
+  void write(const PersistedSession& session, std::string& out);
   void write(const InputsDropped& dropped, std::string& out);
 
  private:
@@ -129,7 +129,7 @@ class TurnRecordReader {
 };
 
 /// Appends a message to a world's process to `out`: a turn's record, and whether a copy is to be made after
-/// its tick (WorldCopies.h).
+/// its tick (WorldCheckpoints.h).
 void appendTurnMessage(std::string_view record, bool copied, std::string& out);
 /// Reads the fields of such a message, after all earlier turns. Returns nullopt if they are malformed.
 std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied);

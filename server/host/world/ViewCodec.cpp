@@ -130,8 +130,8 @@ struct ViewFields {
   }
   template <class F, class T>
   static void lever(F& f, T& lever) {
-    f.fixed(lever.pull, df::kMaxControlReach);
-    f.flag(lever.let_go);
+    f.fixed(lever.target_velocity, df::kMaxControlReach);
+    f.flag(lever.is_released);
   }
   template <class F, class T>
   static void control(F& f, T& state) {
@@ -265,7 +265,7 @@ struct ViewFields {
       selector(f, look.selector);
       sequence(f, known, look.sequence);
       f.require(look.selector.fits(look.sequence.size()));
-      look.selector = delayed(look.selector, known.m_later);
+      look.selector = delayed(look.selector, known.m_tick_offset);
       published.p_look = std::make_shared<const Look>(std::move(look));
     });
   }
@@ -298,11 +298,11 @@ void ViewWriter::write(FieldWriter& out, const df::WorldView& view) {
 void ViewReader::read(FieldReader& in, df::WorldView& view) {
   bool forgets = false;
   in.flag(forgets);
-  if (forgets) *this = ViewReader(m_later);
+  if (forgets) *this = ViewReader(m_tick_offset);
   in.require(m_sequences.size() <= kMaxViewNumbers && m_tables.size() <= kMaxViewNumbers);
   ViewFields::view(in, *this, view);
   if (in.ok()) in.require(ViewFields::fits(view));
-  view.tick += m_later;
+  view.tick += m_tick_offset;
 }
 
 }  // namespace naiad

@@ -37,13 +37,13 @@ class ViewWriter {
 class ViewReader {
  public:
   /// `later` is added to the tick numbers of views.
-  explicit ViewReader(std::uint32_t later = 0) : m_later(later) {}
+  explicit ViewReader(std::uint32_t later = 0) : m_tick_offset(later) {}
   /// Makes `in` fail if anything is wrong; `view` and this must not be used then.
   void read(FieldReader& in, df::WorldView& view);
 
  private:
   friend struct ViewFields;
-  std::uint32_t m_later;
+  std::uint32_t m_tick_offset;
   std::vector<Sequence> m_sequences;
   std::vector<std::shared_ptr<const df::ControlTable>> m_tables;
 };

@@ -52,7 +52,7 @@ class FieldWriter {
   }
 
   void flag(bool value) {
-    *room(1) = value ? 1 : 0;
+    *reserve(1) = value ? 1 : 0;
     ++m_p_next;
   }
   /// Writes an integer or enumeration, clamped to `least` to `most`.
@@ -63,14 +63,14 @@ class FieldWriter {
   void number(std::uint32_t value) { varint(value); }
   /// Writes 64 bits, clamped to ±`most`.
   void fixed(df::Fixed value, df::Fixed most) {
-    storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), room(8));
+    storeLittleEndian(static_cast<std::uint64_t>(std::clamp(value, -most, most)), reserve(8));
     m_p_next += 8;
   }
   /// Writes a text, truncated to `most` bytes.
   void text(std::string_view value, std::size_t most) {
     value = value.substr(0, most);
     varint(value.size());
-    m_p_next = std::copy(value.begin(), value.end(), room(value.size()));
+    m_p_next = std::copy(value.begin(), value.end(), reserve(value.size()));
   }
   /// Writes the first `most` elements, each by `visit(*this, element)`.
   template <class T, class Visit>
@@ -87,7 +87,7 @@ class FieldWriter {
 
   std::size_t size() const { return static_cast<std::size_t>(m_p_next - m_out.data()); }
   /// Returns the place of the next `count` bytes.
-  char* room(std::size_t count) {
+  char* reserve(std::size_t count) {
     if (static_cast<std::size_t>(m_p_end - m_p_next) < count) grow(count);
     return m_p_next;
   }
@@ -99,7 +99,7 @@ class FieldWriter {
     m_p_end = m_out.data() + m_out.size();
   }
   void varint(std::uint64_t value) {
-    char* p = room(kMaxVarint);
+    char* p = reserve(kMaxVarint);
     if (value < 0x80) {  // most are
       *p = static_cast<char>(value);
       m_p_next = p + 1;

@@ -20,25 +20,25 @@ void applyInputs(const WorldTurn& turn, df::World& world) {
 
 void applyTurn(const WorldTurn& turn, df::World& world) {
   applyInputs(turn, world);
-  if (turn.heard_player != 0 || world.findExtras() != nullptr) {
-    world.extras().heard_player = turn.heard_player;
+  if (turn.input_player != 0 || world.findExtras() != nullptr) {
+    world.extras().input_player = turn.input_player;
   }
   world.store().setWatched(turn.watched);
 }
 
-WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world) {
+WorldAnswer popAnswer(const WorldTurn& turn, df::World& world) {
   WorldAnswer answer;
   answer.game_over = world.isGameOver();
-  answer.leavers = world.input().takeLeavers();
+  answer.leavers = world.input().popLeavers();
   answer.has_view = turn.watched;
   if (df::WorldExtras* p_extras = world.findExtras()) {
-    answer.scores = p_extras->scores.takeAdded();
-    answer.sent = p_extras->rooms.takeSent();
+    answer.scores = p_extras->scores.popAdded();
+    answer.sent = p_extras->rooms.popSent();
   }
   if (turn.checked) answer.state_hash = df::hashState(world);
   if (turn.watched && turn.wants_truth) {
     for (const df::PlayerFacts& player : world.picture().view().players) {
-      if (turn.pictured != 0 && turn.pictured != player.id) continue;
+      if (turn.rendered_player != 0 && turn.rendered_player != player.id) continue;
       answer.pictures.push_back({player.id, world.picture().renderPlayer(player.id)});
     }
   }
@@ -52,7 +52,7 @@ WorldInProcess::~WorldInProcess() {
 void WorldInProcess::tick(const SentTurn& turn) {
   applyTurn(turn.turn, m_world);
   m_world.tick();
-  m_answer = takeAnswer(turn.turn, m_world);
+  m_answer = popAnswer(turn.turn, m_world);
   reportTick();
 }
 
@@ -66,10 +66,10 @@ const df::WorldView& WorldInProcess::view() const {
 }
 
 // A game that does not use lag compensation needs no memory for it.
-void WorldInProcess::notePublished(const Publisher& publisher) {
-  if (m_world.input().isLookingBack() != m_lag_compensator.has_value()) {
-    m_world.input().isLookingBack() ? static_cast<void>(m_lag_compensator.emplace())
-                                    : m_lag_compensator.reset();
+void WorldInProcess::onPublished(const Publisher& publisher) {
+  if (m_world.input().isLagCompensated() != m_lag_compensator.has_value()) {
+    m_world.input().isLagCompensated() ? static_cast<void>(m_lag_compensator.emplace())
+                                       : m_lag_compensator.reset();
     m_world.input().setLagCompensation(m_lag_compensator ? &*m_lag_compensator : nullptr);
   }
   if (m_lag_compensator) m_lag_compensator->recordTick(publisher, m_world.picture().view());

@@ -15,7 +15,7 @@ namespace naiad {
 /// Passes the inputs and flags of a turn to the world.
 void applyTurn(const WorldTurn& turn, df::World& world);
 /// Returns the results of the tick that followed, and removes them from the world.
-WorldAnswer takeAnswer(const WorldTurn& turn, df::World& world);
+WorldAnswer popAnswer(const WorldTurn& turn, df::World& world);
 
 class WorldInProcess : public WorldPort {
  public:
@@ -30,7 +30,7 @@ class WorldInProcess : public WorldPort {
   std::uint32_t nextTick() const override;
   std::uint32_t ticksBefore() const override { return 0; }
   const df::WorldView& view() const override;
-  void notePublished(const Publisher& publisher) override;
+  void onPublished(const Publisher& publisher) override;
   void close(const WorldTurn& rest) override;
 
  private:

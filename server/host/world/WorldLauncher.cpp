@@ -16,7 +16,7 @@
 
 #include "engine/world/ActivityPage.h"
 #include "host/world/DescriptorMessage.h"
-#include "host/world/WorldKeeper.h"
+#include "host/world/WorldSupervisor.h"
 
 namespace naiad {
 
@@ -72,7 +72,7 @@ Descriptor sharedPage(const char* what) {
   return page;
 }
 
-bool sendOrder(int to, const WorldOrder& order, const WorldDescriptors& descriptors) {
+bool sendOrder(int to, const WorldStartOptions& order, const WorldDescriptors& descriptors) {
   const WorldDescriptors::List list = descriptors.list();
   return sendDescriptors(to, &order, sizeof order, std::span(list).first(descriptors.count()));
 }
@@ -111,7 +111,7 @@ WorldLauncher::~WorldLauncher() {
   while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-StartedWorld WorldLauncher::start(const WorldOrder& order) const {
+StartedWorld WorldLauncher::start(const WorldStartOptions& order) const {
   constexpr const char* kWhat = "cannot start a game process";
   auto [our_world, their_world] = socketPair(SOCK_STREAM, kWhat);
   auto [our_keeper, their_keeper] = socketPair(SOCK_STREAM, kWhat);

@@ -1,15 +1,15 @@
 // Starts the processes of worlds, and makes sure that all their descendants end with them.
 //
-//   front ── launcher ── keeper ── world ── what the world starts
+//   front ── launcher ── supervisor ── world ── what the world starts
 //
 // The front is the server's process. The launcher is forked from it before it has keys, passwords of players
-// or threads, and forks a keeper for each world. The keeper starts the world in its sandbox, and is the
-// subreaper of its descendants. When the world has ended, or when the front closes or shuts down its end of
-// the keeper's socket, by whatever death, the keeper ends all of them, including those that left the world's
-// process group. Worlds cannot signal or trace any of the three.
+// or threads, and forks a supervisor for each world. The supervisor starts the world in its sandbox, and is
+// the subreaper of its descendants. When the world has ended, or when the front closes or shuts down its end
+// of the supervisor's socket, by whatever death, the supervisor ends all of them, including those that left
+// the world's process group. Worlds cannot signal or trace any of the three.
 //
-// On the keeper's socket the front reads KeeperStart, then one KeeperEnd. If the world makes copies
-// (WorldOrder::copies), there are two more for each world that ends and is replaced by a copy.
+// On the supervisor's socket the front reads WorldStartReport, then one WorldExitReport. If the world makes
+// copies (WorldStartOptions::copies), there are two more for each world that ends and is replaced by a copy.
 #pragma once
 
 #include <sys/types.h>
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "host/world/Repeatable.h"
+#include "host/world/Determinism.h"
 #include "host/world/Sandbox.h"
 
 namespace naiad {
@@ -32,43 +32,43 @@ struct WorldProgram {
   std::vector<std::string> environment;  ///< "NAME=value"; the socket is added (WorldStart.h)
   std::string directory;
   Sandbox sandbox;
-  std::string preload = {};  ///< LD_PRELOAD of worlds that are to be repeatable (Repeatable.h)
+  std::string preload = {};  ///< LD_PRELOAD of worlds that are to be repeatable (Determinism.h)
   std::chrono::milliseconds hang_time{1000};  ///< limit of a tick; after it the game hangs (WorldProcess.h)
   int nice = 0;                               ///< added to the nice value of this process
 };
 
 struct StartedWorld {
-  int socket = -1;  ///< our end of the world's socket
-  int keeper = -1;  ///< our end of the keeper's socket; closing it ends the world
-  int output = -1;  ///< pipe of its output, for an OutputRelay
-  int page = -1;    ///< shared memory with an ActivityPage
-  int copies = -1;  ///< socket for orders of copies (WorldCopies.h); -1: it makes none
+  int socket = -1;      ///< our end of the world's socket
+  int supervisor = -1;  ///< our end of the supervisor's socket; closing it ends the world
+  int output = -1;      ///< pipe of its output, for an OutputRelay
+  int page = -1;        ///< shared memory with an ActivityPage
+  int copies = -1;      ///< socket for orders of copies (WorldCheckpoints.h); -1: it makes none
   std::chrono::milliseconds hang_time{1000};  ///< as in WorldProgram
   bool hashes = false;                        ///< hash its answers, because it is repeatable
   bool repeats = false;                       ///< a replay: its output was printed before
 };
 
 /// Sent when the world's program was executed, or could not be.
-struct KeeperStart {
+struct WorldStartReport {
   std::int32_t error = 0;  ///< errno; if not 0, nothing was started
   std::int32_t process = -1;
 };
 
-struct KeeperEnd {
+struct WorldExitReport {
   enum Kind : std::int32_t {
-    kAll,    ///< all descendants of the world have ended, and the keeper ends
-    kWorld,  ///< the world has ended; the keeper waits for a KeeperOrder with its successor
+    kAll,    ///< all descendants of the world have ended, and the supervisor ends
+    kWorld,  ///< the world has ended; the supervisor waits for a SupervisorCommand with its successor
     kRest,   ///< the copy of that order runs, and nothing of the old world is left
   };
   std::int32_t status = 0;  ///< status of the world that ended last, as of waitpid()
   std::int32_t kind = kAll;
 };
 
-/// An order to the keeper of a world that makes copies.
-struct KeeperOrder {
+/// An order to the supervisor of a world that makes copies.
+struct SupervisorCommand {
   enum Kind : std::int32_t {
     kEndWorld,  ///< end only the world's process: it hangs
-    kGoOn,      ///< the world has ended: `process` replaces it, and all but `kept` end
+    kResume,    ///< the world has ended: `process` replaces it, and all but `kept` end
   } kind = kEndWorld;
   std::int32_t process = 0;
   std::array<std::int32_t, 3> kept{};  ///< other copies; 0: none
@@ -85,9 +85,9 @@ class WorldLauncher {
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
   /// Starts a world with an empty standard input, a pipe as its output, and a session of its own, so that
-  /// Ctrl-C in the terminal reaches only the front. Does not wait: the keeper reports the result. Throws
+  /// Ctrl-C in the terminal reaches only the front. Does not wait: the supervisor reports the result. Throws
   /// std::system_error if the launcher has gone.
-  StartedWorld start(const WorldOrder& order = {}) const;
+  StartedWorld start(const WorldStartOptions& order = {}) const;
   /// Returns the features that the launcher found. Without a sandbox only `addresses` is set.
   const SandboxSupport& support() const { return m_support; }
 

@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/world/GameRoomTable.h"
 #include "engine/world/HighScores.h"
-#include "engine/world/RoomTable.h"
 #include "engine/world/ScoreTables.h"
 #include "engine/world/WorldView.h"
-#include "host/world/Repeatable.h"
+#include "host/world/Determinism.h"
 #include "host/world/ViewCodec.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
@@ -32,7 +32,7 @@ struct WorldReady {
   bool compat = false;
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
   std::vector<ReadFile> files;    ///< files read by the game so far, if it is to be repeatable
-  bool fixed_addresses = false;   ///< this process has fixed addresses (FixedStart.h)
+  bool fixed_addresses = false;   ///< this process has fixed addresses (FixedAddresses.h)
   bool runs_empty = false;        ///< the world ticks without players, too
 };
 inline constexpr int kMaxFrameMillis = 1000;
@@ -51,7 +51,7 @@ struct WorldAnswer {
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
   std::vector<WorldPicture> pictures;       ///< sorted by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
-  std::vector<df::SentPlayer> sent = {};    ///< at most GameRoomLimits::kMaxSentInTick
+  std::vector<df::RoomTransfer> sent = {};  ///< at most GameRoomLimits::kMaxSentInTick
   std::uint64_t hash = 0;                   ///< hash of its bytes, set by the reader; 0: none
 };
 

@@ -62,7 +62,7 @@ class WorldPort {
   WorldAnswer& answer() { return m_answer; }
   const WorldAnswer& answer() const { return m_answer; }
   /// Passes on the models published for the tick, for games that use lag compensation.
-  virtual void notePublished(const Publisher& /*publisher*/) {}
+  virtual void onPublished(const Publisher& /*publisher*/) {}
 
   // The world's end.
 

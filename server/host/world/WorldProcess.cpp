@@ -31,7 +31,7 @@ constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 /// The game called exit() in a handler, instead of GM.setGameOver().
 constexpr const char* kExited = "called exit()";
 
-/// Time limit for a keeper to end a world and its descendants.
+/// Time limit for a supervisor to end a world and its descendants.
 constexpr int kKillMillis = 5'000;
 
 std::string nameOf(int signal) {
@@ -64,7 +64,7 @@ std::uint64_t hashAnswer(std::string_view fields) {
 
 WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print)
     : m_socket(home, asio::local::stream_protocol(), started.socket),
-      m_keeper(started.keeper),
+      m_supervisor(started.supervisor),
       m_print(std::move(print)),
       m_output(started.output,
                [this](const std::string& line) {
@@ -74,61 +74,61 @@ WorldProcess::WorldProcess(asio::io_context& home, const StartedWorld& started, 
       m_hang_time(started.hang_time),
       m_checked_at(Clock::now()),
       m_hashes(started.hashes),
-      m_copies(started.copies),
+      m_checkpoints(started.copies),
       m_repeats(started.repeats) {
   readHead();
 }
 
 WorldProcess::~WorldProcess() {
-  waitForKeeper();
-  ::close(m_keeper);
+  waitForSupervisor();
+  ::close(m_supervisor);
   if (m_p_page != nullptr) munmap(const_cast<df::ActivityPage*>(m_p_page), sizeof *m_p_page);
 }
 
-// The keeper handles this like the end of the host.
+// The supervisor handles this like the end of the host.
 void WorldProcess::kill() {
-  ::shutdown(m_keeper, SHUT_WR);
+  ::shutdown(m_supervisor, SHUT_WR);
 }
 
-/// Returns nullopt if nothing has come, or if the keeper has ended: without it a world does not live.
+/// Returns nullopt if nothing has come, or if the supervisor has ended: without it a world does not live.
 template <class Message>
-std::optional<Message> WorldProcess::takeFromKeeper(int patience_millis) {
-  pollfd readable{m_keeper, POLLIN, 0};
-  if (::poll(&readable, 1, patience_millis) <= 0) return std::nullopt;
+std::optional<Message> WorldProcess::receiveFromSupervisor(int timeout_millis) {
+  pollfd readable{m_supervisor, POLLIN, 0};
+  if (::poll(&readable, 1, timeout_millis) <= 0) return std::nullopt;
   Message message;
-  if (::recv(m_keeper, &message, sizeof message, MSG_DONTWAIT) == sizeof message) return message;
+  if (::recv(m_supervisor, &message, sizeof message, MSG_DONTWAIT) == sizeof message) return message;
   if (!m_status) m_status = SIGKILL;  // as if it had been killed
-  m_keeper_is = Keeper::kEnded;
+  m_supervisor_state = SupervisorState::kEnded;
   return std::nullopt;
 }
 
-void WorldProcess::readKeeper(int patience_millis) {
-  if (m_keeper_is == Keeper::kStarting) {
-    const auto start = takeFromKeeper<KeeperStart>(patience_millis);
+void WorldProcess::readSupervisor(int timeout_millis) {
+  if (m_supervisor_state == SupervisorState::kStarting) {
+    const auto start = receiveFromSupervisor<WorldStartReport>(timeout_millis);
     if (!start) return;
-    m_keeper_is = Keeper::kWatching;
+    m_supervisor_state = SupervisorState::kWatching;
     m_process = start->process;
     if (start->error != 0) {
       m_failure = WorldEnd{WorldEnd::kCrashed,
                            "could not be started: " + std::generic_category().message(start->error)};
     }
   }
-  if (m_keeper_is == Keeper::kEnded) return;
-  const auto end = takeFromKeeper<KeeperEnd>(patience_millis);
+  if (m_supervisor_state == SupervisorState::kEnded) return;
+  const auto end = receiveFromSupervisor<WorldExitReport>(timeout_millis);
   if (!end) return;
-  if (end->kind == KeeperEnd::kRest) {
-    m_keeper_is = Keeper::kWatching;
+  if (end->kind == WorldExitReport::kRest) {
+    m_supervisor_state = SupervisorState::kWatching;
     return;
   }
   if (!m_status) m_status = end->status;
-  if (end->kind == KeeperEnd::kAll) m_keeper_is = Keeper::kEnded;
+  if (end->kind == WorldExitReport::kAll) m_supervisor_state = SupervisorState::kEnded;
 }
 
-void WorldProcess::waitForKeeper() {
-  if (m_keeper_is == Keeper::kEnded) return;
+void WorldProcess::waitForSupervisor() {
+  if (m_supervisor_state == SupervisorState::kEnded) return;
   kill();
   const auto end = Clock::now() + std::chrono::milliseconds(kKillMillis);
-  while (m_keeper_is != Keeper::kEnded && Clock::now() < end) readKeeper(kKillMillis);
+  while (m_supervisor_state != SupervisorState::kEnded && Clock::now() < end) readSupervisor(kKillMillis);
 }
 
 // ---- sending turns ----------------------------------------------------------------------------------------
@@ -136,8 +136,8 @@ void WorldProcess::waitForKeeper() {
 void WorldProcess::tick(const SentTurn& turn) {
   if (m_state >= State::kEnding) return;  // a turn sent ahead has failed
   if (!std::exchange(m_began, true)) {
-    m_later = m_next_tick - 1;
-    m_views.emplace(m_later);
+    m_tick_offset = m_next_tick - 1;
+    m_views.emplace(m_tick_offset);
   }
   ++m_next_tick;
   if (turn.record.empty()) return fail(WorldEnd::kBroken, "was sent too many inputs in one tick");
@@ -149,7 +149,7 @@ void WorldProcess::tick(const SentTurn& turn) {
 void WorldProcess::beginTick() {
   m_state = State::kTicking;
   m_waited = {};
-  m_effort.restart();
+  m_stall.restart();
   m_warned = m_stop_noted = false;
 }
 
@@ -179,7 +179,7 @@ void WorldProcess::readHead() {
                    [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
                      const auto p_self = self.lock();
                      if (p_self == nullptr) return;
-                     error ? (*p_self)->hangUp() : (*p_self)->readFields();
+                     error ? (*p_self)->closeSocket() : (*p_self)->readFields();
                    });
 }
 
@@ -191,7 +191,7 @@ void WorldProcess::readFields() {
                    [self = std::weak_ptr(m_self)](const asio::error_code& error, std::size_t) {
                      const auto p_self = self.lock();
                      if (p_self == nullptr) return;
-                     error ? (*p_self)->hangUp() : (*p_self)->onFrame();
+                     error ? (*p_self)->closeSocket() : (*p_self)->onFrame();
                    });
 }
 
@@ -200,14 +200,14 @@ void WorldProcess::onFrame() {
   const bool starts = m_state == State::kStarting;
   if (m_state == State::kReady) return fail(WorldEnd::kBroken, "sent an unexpected frame");
   if (starts) {
-    takeReady();
+    handleReady();
     if (!m_ready) return;
   } else {
     auto answer = readAnswer(m_in, *m_views, m_view);
     if (!answer) return fail(WorldEnd::kBroken, "sent a malformed answer");
     m_answer = *std::move(answer);
     m_answer.hash = m_hashes ? hashAnswer(m_in) : 0;
-    if (std::exchange(m_copied, false)) m_copies.add({currentTick() + 1, *m_views, m_view});
+    if (std::exchange(m_copied, false)) m_checkpoints.add({currentTick() + 1, *m_views, m_view});
     --m_unanswered;
   }
   m_state = State::kReady;
@@ -223,7 +223,7 @@ void WorldProcess::onFrame() {
 }
 
 // After an upgrade, new worlds start from the new files, but this process still runs the old build.
-void WorldProcess::takeReady() {
+void WorldProcess::handleReady() {
   const auto build = readBuild(m_in);
   if (build && *build != ownBuildId())
     return fail(WorldEnd::kForeign, "has another build (" + build->substr(0, kShownBuildId) + ")");
@@ -235,10 +235,10 @@ void WorldProcess::takeReady() {
 
 void WorldProcess::close(const WorldTurn& /*rest*/) {
   m_expected = true;
-  hangUp();
+  closeSocket();
 }
 
-void WorldProcess::hangUp() {
+void WorldProcess::closeSocket() {
   if (m_state >= State::kEnding) return;
   m_state = State::kEnding;
   m_waited = {};
@@ -248,19 +248,19 @@ void WorldProcess::hangUp() {
 
 void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
   if (!m_failure) m_failure = WorldEnd{why, text};
-  hangUp();
+  closeSocket();
   killWorld();
 }
 
 // Keeps the copies, if there are any, because one may take over.
 void WorldProcess::killWorld() {
-  if (!m_copies.isOn()) return kill();
-  const KeeperOrder order{KeeperOrder::kEndWorld};
-  ::send(m_keeper, &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (!m_checkpoints.isOn()) return kill();
+  const SupervisorCommand request{SupervisorCommand::kEndWorld};
+  ::send(m_supervisor, &request, sizeof request, MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-std::chrono::nanoseconds WorldProcess::patience() const {
-  const std::chrono::nanoseconds most = m_hang_time * kPatience;
+std::chrono::nanoseconds WorldProcess::answerTimeout() const {
+  const std::chrono::nanoseconds most = m_hang_time * kAnswerTimeoutFactor;
   switch (m_state) {
     case State::kStarting:
       return kStartTime;
@@ -269,7 +269,7 @@ std::chrono::nanoseconds WorldProcess::patience() const {
     case State::kEnding:
       return kEndTime;
     case State::kReady:
-      if (m_keeper_is == Keeper::kStarting) return kStartTime;
+      if (m_supervisor_state == SupervisorState::kStarting) return kStartTime;
       break;
     case State::kEnded:
       break;
@@ -277,9 +277,9 @@ std::chrono::nanoseconds WorldProcess::patience() const {
   return std::chrono::nanoseconds::max();
 }
 
-bool WorldProcess::isGivenUpEarly() const {
-  return m_state == State::kTicking && m_impatient && !isInFirstTick() && m_effort.own() > m_hang_time &&
-         m_copies.hasCopy();
+bool WorldProcess::isFailedEarly() const {
+  return m_state == State::kTicking && m_fast_failover && !isInFirstTick() && m_stall.own() > m_hang_time &&
+         m_checkpoints.hasCheckpoint();
 }
 
 void WorldProcess::checkProcess(std::uint32_t tick) {
@@ -288,17 +288,17 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
   const Clock::time_point now = Clock::now();
   m_output.update(now);
   countTime(now);
-  if (m_copies.isOn()) m_copies.update();
+  if (m_checkpoints.isOn()) m_checkpoints.update();
   if (!m_status) {
-    readKeeper(0);
+    readSupervisor(0);
     if (m_status) m_waited = {};
   }
   // Its last frames are read first.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   warnOfHang();
-  if (isGivenUpEarly())
+  if (isFailedEarly())
     return fail(WorldEnd::kHung, "did not answer within " + secondsText(m_hang_time) + " s");
-  if (m_waited <= patience()) return;
+  if (m_waited <= answerTimeout()) return;
   if (m_state == State::kEnding) return kill();
   fail(WorldEnd::kHung, m_state == State::kStarting ? "did not start" : "did not answer in time");
 }
@@ -310,14 +310,14 @@ void WorldProcess::countTime(Clock::time_point now) {
     m_waited += passed;
     return;
   }
-  m_effort.add(passed, [this] { return lookAtProcess(m_process); });
-  m_waited = m_effort.counted();
+  m_stall.add(passed, [this] { return readProcessRunState(m_process); });
+  m_waited = m_stall.counted();
 }
 
 void WorldProcess::warnOfHang() {
   if (m_state != State::kTicking) return;
   const std::string tick = "tick " + std::to_string(currentTick());
-  if (m_effort.stopped() >= m_hang_time && !std::exchange(m_stop_noted, true))
+  if (m_stall.stopped() >= m_hang_time && !std::exchange(m_stop_noted, true))
     m_warning = "the game is stopped in " + tick + ", by a debugger or a signal, and all players wait";
   if (m_waited < m_hang_time || std::exchange(m_warned, true)) return;
   m_warning = "the game has not finished " + tick + " for " + secondsText(m_hang_time) +
@@ -330,7 +330,7 @@ void WorldProcess::finish(int status) {
   asio::error_code ignored;
   m_socket.close(ignored);
   m_end = m_failure ? *m_failure : endOf(status);
-  if (m_end->why != WorldEnd::kCrashed && m_end->why != WorldEnd::kHung) waitForKeeper();
+  if (m_end->why != WorldEnd::kCrashed && m_end->why != WorldEnd::kHung) waitForSupervisor();
   if (m_end->why == WorldEnd::kGameOver || m_end->why == WorldEnd::kForeign) return;
   m_end->when = when();
   m_end->last_lines = lastLines();
@@ -338,46 +338,47 @@ void WorldProcess::finish(int status) {
 
 // ---- copies -----------------------------------------------------------------------------------------------
 
-bool WorldProcess::keepCopy() {
-  m_copied = m_state == State::kReady && canKeepCopy() && m_copies.order(m_process);
+bool WorldProcess::requestCheckpoint() {
+  m_copied = m_state == State::kReady && canRequestCheckpoint() && m_checkpoints.request(m_process);
   return m_copied;
 }
 
 std::chrono::nanoseconds WorldProcess::cpuTime() const {
-  const auto look = lookAtProcess(m_process);
+  const auto look = readProcessRunState(m_process);
   return look ? look->cpu : std::chrono::nanoseconds(0);
 }
 
-// The keeper waits only a second for this, so the host must not sleep before it.
-std::optional<std::uint32_t> WorldProcess::goOnWithCopy() {
+// The supervisor waits only a second for this, so the host must not sleep before it.
+std::optional<std::uint32_t> WorldProcess::resumeFromCheckpoint() {
   if (m_state != State::kEnded) return std::nullopt;
-  readKeeper(0);  // the keeper may have given up waiting
-  while (auto copy = m_keeper_is == Keeper::kEnded ? std::nullopt : m_copies.takeNewest()) {
-    if (!orderToGoOn(*copy)) {
+  readSupervisor(0);  // the supervisor may have given up waiting
+  while (auto copy =
+             m_supervisor_state == SupervisorState::kEnded ? std::nullopt : m_checkpoints.popNewest()) {
+    if (!commandResume(*copy)) {
       ::close(copy->socket);
       continue;
     }
-    become(*std::move(copy));
-    return m_next_tick - 1 - m_later;
+    switchTo(*std::move(copy));
+    return m_next_tick - 1 - m_tick_offset;
   }
-  waitForKeeper();
+  waitForSupervisor();
   return std::nullopt;
 }
 
-bool WorldProcess::orderToGoOn(const WorldCopy& copy) {
-  KeeperOrder order{KeeperOrder::kGoOn, copy.process};
+bool WorldProcess::commandResume(const WorldCheckpoint& copy) {
+  SupervisorCommand request{SupervisorCommand::kResume, copy.process};
   std::size_t at = 0;
-  for (const pid_t other : m_copies.processes()) {
-    if (at < order.kept.size()) order.kept[at++] = other;
+  for (const pid_t other : m_checkpoints.processes()) {
+    if (at < request.kept.size()) request.kept[at++] = other;
   }
-  return ::send(m_keeper, &order, sizeof order, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof order;
+  return ::send(m_supervisor, &request, sizeof request, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof request;
 }
 
-void WorldProcess::become(WorldCopy copy) {
+void WorldProcess::switchTo(WorldCheckpoint copy) {
   m_self = std::make_shared<WorldProcess*>(this);  // ignores handlers of the old socket
   m_socket.assign(asio::local::stream_protocol(), copy.socket);
   m_process = copy.process;
-  m_keeper_is = Keeper::kClearing;
+  m_supervisor_state = SupervisorState::kClearing;
   m_next_tick = copy.state.next_tick;
   m_views = std::move(copy.state.views);
   m_view = std::move(copy.state.view);
@@ -386,7 +387,7 @@ void WorldProcess::become(WorldCopy copy) {
   m_failure.reset();
   m_end.reset();
   m_warning.reset();
-  m_expected = m_copied = m_sending = m_impatient = false;
+  m_expected = m_copied = m_sending = m_fast_failover = false;
   m_unanswered = 0;
   m_unsent.clear();
   m_repeats = true;
@@ -395,7 +396,7 @@ void WorldProcess::become(WorldCopy copy) {
   readHead();
 }
 
-void WorldProcess::endRepetition() {
+void WorldProcess::endReplay() {
   m_output.update(Clock::now());
   m_repeats = false;
 }

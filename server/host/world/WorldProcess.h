@@ -1,8 +1,8 @@
 // A world in a process of its own, over a Unix socket (WorldMessages.h). The other end is a WorldServer.
 //
 // A world that does not answer in time, or sends a malformed frame, is killed; the host continues without it.
-// Only the time of a tick that the world itself caused counts (TickEffort.h): a loaded machine or a debugger
-// does not make a game hang.
+// Only the time of a tick that the world itself caused counts (TickStallMeter.h): a loaded machine or a
+// debugger does not make a game hang.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -16,8 +16,8 @@
 
 #include "engine/world/ActivityPage.h"
 #include "host/world/OutputRelay.h"
-#include "host/world/TickEffort.h"
-#include "host/world/WorldCopies.h"
+#include "host/world/TickStallMeter.h"
+#include "host/world/WorldCheckpoints.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldMessages.h"
 #include "host/world/WorldPort.h"
@@ -32,10 +32,10 @@ class WorldProcess : public WorldPort {
   using Clock = std::chrono::steady_clock;
 
   /// Time limit of an answer, in multiples of StartedWorld::hang_time; it is generous because games load
-  /// files in handlers. After one hang_time takeWarning() reports a hang. If setImpatient() is set, a copy is
-  /// ready, and all of that time is certainly the world's own (TickEffort::own()), the world is killed then
-  /// already.
-  static constexpr int kPatience = 5;
+  /// files in handlers. After one hang_time popWarning() reports a hang. If setFastFailover() is set, a copy
+  /// is ready, and all of that time is certainly the world's own (TickStallMeter::own()), the world is killed
+  /// then already.
+  static constexpr int kAnswerTimeoutFactor = 5;
   /// Time limit from the start of the process to GM.run(), and minimum limit of the first tick.
   static constexpr std::chrono::seconds kStartTime{30};
   /// Time limit from the end of the game to that of its process, for what main() does after GM.run().
@@ -51,7 +51,9 @@ class WorldProcess : public WorldPort {
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
 
-  bool isReady() const override { return m_state == State::kReady && m_keeper_is != Keeper::kStarting; }
+  bool isReady() const override {
+    return m_state == State::kReady && m_supervisor_state != SupervisorState::kStarting;
+  }
   void tick(const SentTurn& turn) override;
   /// Returns the host's tick number before the first tick. From there on the world counts its own ticks.
   std::uint32_t nextTick() const override { return m_next_tick; }
@@ -62,32 +64,32 @@ class WorldProcess : public WorldPort {
   void close(const WorldTurn& rest = {}) override;
 
   /// Returns a line for the log if the tick does not end, once.
-  std::optional<std::string> takeWarning() { return std::exchange(m_warning, std::nullopt); }
+  std::optional<std::string> popWarning() { return std::exchange(m_warning, std::nullopt); }
   /// Sets whether a tick that seems to hang is ended early if a copy is ready.
-  void setImpatient(bool impatient) { m_impatient = impatient; }
+  void setFastFailover(bool impatient) { m_fast_failover = impatient; }
   /// True if the last tick seemed to hang, but ended.
-  bool wasSlow() const { return m_was_slow; }
+  bool wasTickSlow() const { return m_was_slow; }
   /// Returns the processor time of its process; 0: unknown.
   std::chrono::nanoseconds cpuTime() const;
   /// Ends a replay: from now on its output is printed.
-  void endRepetition();
+  void endReplay();
   /// Ends the world as if it had crashed.
-  void giveUp(const std::string& why) { fail(WorldEnd::kCrashed, why); }
+  void markFailed(const std::string& why) { fail(WorldEnd::kCrashed, why); }
 
   // Copies of its process: one takes over if the world has crashed or hangs.
 
   /// Orders a copy of the world after the next tick, in addition to the last one. False: there will be none.
-  bool keepCopy();
-  /// True if a copy may be ordered: not while the keeper ends the rest of a world, and the copy with it.
-  bool canKeepCopy() const { return m_keeper_is == Keeper::kWatching; }
+  bool requestCheckpoint();
+  /// True if a copy may be ordered: not while the supervisor ends the rest of a world, and the copy with it.
+  bool canRequestCheckpoint() const { return m_supervisor_state == SupervisorState::kWatching; }
   /// Ends all copies.
-  void dropCopies() { m_copies.clear(); }
+  void dropCheckpoints() { m_checkpoints.clear(); }
   /// Returns why there are no copies any more, once, in words.
-  std::optional<std::string> takeCopyProblem() { return m_copies.takeProblem(); }
+  std::optional<std::string> popCheckpointProblem() { return m_checkpoints.popProblem(); }
   /// Makes the newest copy the world, as it was after its tick. Call after end(). Returns how many ticks it
   /// has had since the world's first; nullopt if no copy, and no process of the world, is left. Its output is
-  /// dropped until endRepetition().
-  std::optional<std::uint32_t> goOnWithCopy();
+  /// dropped until endReplay().
+  std::optional<std::uint32_t> resumeFromCheckpoint();
 
   /// Returns the game's settings; nullopt before GM.run().
   const std::optional<WorldReady>& ready() const { return m_ready; }
@@ -100,7 +102,7 @@ class WorldProcess : public WorldPort {
     kEnding,  ///< the socket is closed, or will be, and the process is ending
     kEnded,
   };
-  enum class Keeper : std::uint8_t {
+  enum class SupervisorState : std::uint8_t {
     kStarting,
     kWatching,
     kClearing,  ///< ends the rest of the previous world
@@ -112,38 +114,38 @@ class WorldProcess : public WorldPort {
   void readHead();
   void readFields();
   void onFrame();
-  void takeReady();
-  void hangUp();
+  void handleReady();
+  void closeSocket();
   void fail(WorldEnd::Why why, const std::string& text);
   void finish(int status);
   WorldEnd endOf(int status) const;
   std::string when() const;
   std::string activity(std::string_view verb) const;
   std::vector<std::string> lastLines() const;
-  void readKeeper(int patience_millis);
+  void readSupervisor(int timeout_millis);
   template <class Message>
-  std::optional<Message> takeFromKeeper(int patience_millis);
-  std::chrono::nanoseconds patience() const;
-  bool isGivenUpEarly() const;
-  bool isInFirstTick() const { return currentTick() == m_later + 1; }
+  std::optional<Message> receiveFromSupervisor(int timeout_millis);
+  std::chrono::nanoseconds answerTimeout() const;
+  bool isFailedEarly() const;
+  bool isInFirstTick() const { return currentTick() == m_tick_offset + 1; }
   /// Returns the tick that the world is in, or was in last.
   std::uint32_t currentTick() const;
   void countTime(Clock::time_point now);
   void warnOfHang();
   void kill();
   void killWorld();
-  void waitForKeeper();
-  bool orderToGoOn(const WorldCopy& copy);
-  void become(WorldCopy copy);
+  void waitForSupervisor();
+  bool commandResume(const WorldCheckpoint& copy);
+  void switchTo(WorldCheckpoint copy);
 
   asio::local::stream_protocol::socket m_socket;
-  int m_keeper;  ///< the socket of its keeper
+  int m_supervisor;  ///< the socket of its supervisor
   OutputRelay::Line m_print;
   OutputRelay m_output;
   const df::ActivityPage* m_p_page = nullptr;  ///< null: none
   const std::chrono::nanoseconds m_hang_time;
-  Keeper m_keeper_is = Keeper::kStarting;
-  pid_t m_process = -1;  ///< as reported by the keeper
+  SupervisorState m_supervisor_state = SupervisorState::kStarting;
+  pid_t m_process = -1;  ///< as reported by the supervisor
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
   std::optional<int> m_status;        ///< as of waitpid(), once it has ended
@@ -151,11 +153,11 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
   std::chrono::nanoseconds m_waited{0};  ///< time in this state; checks add a limited time each
-  TickEffort m_effort;                   ///< effort of the current tick
+  TickStallMeter m_stall;                ///< effort of the current tick
   std::uint32_t m_next_tick = 1;
-  std::uint32_t m_later = 0;  ///< the host's tick numbers minus the world's own
+  std::uint32_t m_tick_offset = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
-  bool m_impatient = false;
+  bool m_fast_failover = false;
   bool m_warned = false;      ///< a hang of this tick was reported
   bool m_was_slow = false;    ///< a hang of the tick before was reported
   bool m_stop_noted = false;  ///< a stop in this tick was reported
@@ -169,7 +171,7 @@ class WorldProcess : public WorldPort {
   std::string m_in;
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
-  WorldCopies m_copies;
+  WorldCheckpoints m_checkpoints;
   bool m_copied = false;  ///< a copy is made after the next turn, or the current one
   bool m_repeats;         ///< a replay: its output was printed before
   std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may run later

@@ -20,8 +20,8 @@
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "host/world/DescriptorMessage.h"
-#include "host/world/FixedStart.h"
-#include "host/world/Repeatable.h"
+#include "host/world/Determinism.h"
+#include "host/world/FixedAddresses.h"
 #include "host/world/WorldInProcess.h"
 #include "host/world/WorldStart.h"
 
@@ -56,13 +56,13 @@ bool waitForTurn(int socket) {
   return got == 1;
 }
 
-void beCopy(int socket, int world_socket, pid_t keeper) {
-  constexpr std::size_t kLongestName = 16;
-  char name[kLongestName] = {};
+void beCopy(int socket, int world_socket, pid_t supervisor) {
+  constexpr std::size_t kMaxNameSize = 16;
+  char name[kMaxNameSize] = {};
   prctl(PR_GET_NAME, name);
   prctl(PR_SET_NAME, "df-copy");  // shown in lists of processes
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != keeper) _exit(0);
+  if (getppid() != supervisor) _exit(0);
   // Copies survive the end of the world's process group, except in a sandbox, which refuses setsid().
   setsid();
   close(world_socket);
@@ -92,37 +92,37 @@ WorldReady readyOf(const df::World& world) {
   }
   ready.compat = world.compat();
   ready.help = world.getHelp();
-  ready.files = takeReadFiles();
+  ready.files = popReadFiles();
   ready.fixed_addresses = hasFixedAddresses();
   return ready;
 }
 
 }  // namespace
 
-CopyMaker::CopyMaker() {
-  if (isSocket(kWorldCopies)) m_orders = kWorldCopies;
+CheckpointForker::CheckpointForker() {
+  if (isSocket(kWorldCheckpoints)) m_request_socket = kWorldCheckpoints;
 }
 
-CopyMaker::~CopyMaker() {
-  if (m_orders >= 0) close(m_orders);
+CheckpointForker::~CheckpointForker() {
+  if (m_request_socket >= 0) close(m_request_socket);
 }
 
 // A world that died before it made the copy left its order to its successor, so the newest order counts.
-int CopyMaker::takeOrder() const {
+int CheckpointForker::receiveRequest() const {
   int newest = -1;
-  for (int next = 0; (next = receiveDescriptor(m_orders)) >= 0;) {
+  for (int next = 0; (next = receiveDescriptor(m_request_socket)) >= 0;) {
     if (newest >= 0) close(newest);
     newest = next;
   }
   return newest;
 }
 
-std::optional<int> CopyMaker::makeCopy(int world_socket) const {
-  const int socket = m_orders >= 0 ? takeOrder() : -1;
+std::optional<int> CheckpointForker::makeCopy(int world_socket) const {
+  const int socket = m_request_socket >= 0 ? receiveRequest() : -1;
   if (socket < 0) return std::nullopt;
-  const pid_t keeper = getppid();
+  const pid_t supervisor = getppid();
   if (forkBesideItself() == 0) {
-    beCopy(socket, world_socket, keeper);
+    beCopy(socket, world_socket, supervisor);
     return socket;
   }
   close(socket);  // if there is no copy, the front sees that its end is closed
@@ -169,7 +169,7 @@ void WorldServer::run(df::World& world) {
       break;
     }
     updateLagCompensation(*turn, world);
-    setRepeatTick(static_cast<std::uint32_t>(world.getStepCount()) + 1);
+    setDeterminismTick(static_cast<std::uint32_t>(world.getStepCount()) + 1);
     applyTurn(*turn, world);
     world.tick();
     goes_on = sendAnswer(*turn, world) && !world.isGameOver();
@@ -182,11 +182,11 @@ void WorldServer::run(df::World& world) {
 
 // The copy returns here when it takes over, with another socket.
 void WorldServer::makeCopy() {
-  if (const auto socket = m_copies.makeCopy(m_socket)) m_socket = *socket;
+  if (const auto socket = m_checkpoints.makeCopy(m_socket)) m_socket = *socket;
 }
 
 void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world) {
-  const bool wanted = turn.watched && world.input().isLookingBack();
+  const bool wanted = turn.watched && world.input().isLagCompensated();
   if (wanted == m_publisher.has_value()) return;
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
   m_lag_compensator = LagCompensator();
@@ -199,7 +199,7 @@ bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {
     m_publisher->update(world.picture().view());
     m_lag_compensator.recordTick(*m_publisher, world.picture().view());
   }
-  if (!writeAnswer(takeAnswer(turn, world), turn.watched ? &world.picture().view() : nullptr, m_views,
+  if (!writeAnswer(popAnswer(turn, world), turn.watched ? &world.picture().view() : nullptr, m_views,
                    m_frame)) {
     world.log().write("The world does not fit in a frame of " + std::to_string(kMaxWorldFrame) +
                       " bytes; the game is over. dfserver --in-process has no such limit.");

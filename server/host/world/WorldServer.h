@@ -11,18 +11,18 @@
 
 namespace naiad {
 
-/// Makes copies of a world's process when the front orders them (WorldCopies.h).
+/// Makes copies of a world's process when the front orders them (WorldCheckpoints.h).
 ///
 /// A copy waits on a socket of its own until the front lets it replace the world, and ends when that socket
-/// closes. It is a child of the world's keeper, not of the world: the game's own wait() never sees it, and it
-/// ends with the keeper as the world does.
-class CopyMaker {
+/// closes. It is a child of the world's supervisor, not of the world: the game's own wait() never sees it,
+/// and it ends with the supervisor as the world does.
+class CheckpointForker {
  public:
-  /// Takes over kWorldCopies, if this process has it; otherwise no copies are made.
-  CopyMaker();
-  ~CopyMaker();
-  CopyMaker(const CopyMaker&) = delete;
-  CopyMaker& operator=(const CopyMaker&) = delete;
+  /// Takes over kWorldCheckpoints, if this process has it; otherwise no copies are made.
+  CheckpointForker();
+  ~CheckpointForker();
+  CheckpointForker(const CheckpointForker&) = delete;
+  CheckpointForker& operator=(const CheckpointForker&) = delete;
 
   /// Makes the copy that was ordered last. Call between two turns, in a process without threads. In the
   /// world, returns nullopt at once, whether or not there is a copy. In the copy, returns its end of the
@@ -30,9 +30,9 @@ class CopyMaker {
   std::optional<int> makeCopy(int world_socket) const;
 
  private:
-  int takeOrder() const;
+  int receiveRequest() const;
 
-  int m_orders = -1;
+  int m_request_socket = -1;
 };
 
 class WorldServer : public df::Runner {
@@ -58,7 +58,7 @@ class WorldServer : public df::Runner {
   int m_socket;
   bool m_leaves;
   TurnRecordReader m_turns;
-  CopyMaker m_copies;
+  CheckpointForker m_checkpoints;
   ViewWriter m_views;
   std::string m_frame;
   // Lag compensation is needed in the middle of a tick, so the published models are computed here, too.

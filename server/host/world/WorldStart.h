@@ -18,9 +18,9 @@ inline constexpr int kWorldSocket = STDERR_FILENO + 1;
 /// Descriptor of the memory shared with the host: an ActivityPage.
 inline constexpr int kWorldPage = kWorldSocket + 1;
 
-/// Descriptor of the socket for orders of copies (CopyMaker), if there are any. It is high, so that the
-/// descriptors that a game opens have equal numbers with and without it.
-inline constexpr int kWorldCopies = 100;
+/// Descriptor of the socket for orders of copies (CheckpointForker), if there are any. It is high, so that
+/// the descriptors that a game opens have equal numbers with and without it.
+inline constexpr int kWorldCheckpoints = 100;
 
 /// Returns the environment entry for takeWorldSocket().
 std::string worldSocketEntry();

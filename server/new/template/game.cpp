@@ -5,7 +5,7 @@
 int main() {
   if (GM.startUp() != 0) return 1;
   GM.setHelp({"@NAME@: every player is an @", "", "arrows   fly"});
-  new df::Welcome<Ship>;  // makes a Ship for each player that joins
+  new df::JoinSpawner<Ship>;  // makes a Ship for each player that joins
   GM.run();
   GM.shutDown();
   return 0;

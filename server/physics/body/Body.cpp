@@ -46,15 +46,15 @@ int Body::refuseAs(const char* what) const {
   return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
-void Body::absorb() const {
+void Body::syncFromStore() const {
   if (World* p_world = getWorld()) {  // its own numbers, for a Vector has not all their digits far away
     const std::uint32_t slot = key().slot;
-    return m_table->absorb(m_index, p_world->store().position(slot), p_world->store().velocity(slot));
+    return m_table->syncFromStore(m_index, p_world->store().position(slot), p_world->store().velocity(slot));
   }
   const auto position = toFixed(Object::getPosition());
   const auto velocity = toFixed(Object::getVelocity(), kMaxVelocityCells);
-  m_table->absorb(m_index, position.value_or(row().published_position),
-                  velocity.value_or(row().published_velocity));
+  m_table->syncFromStore(m_index, position.value_or(row().published_position),
+                         velocity.value_or(row().published_velocity));
 }
 
 int Body::setMass(double mass) {
@@ -127,13 +127,13 @@ int Body::setPosition(Vector position) {
 }
 
 Vector Body::getPosition() const {
-  absorb();
+  syncFromStore();
   return m_table->metric.cellsOf(row().place);
 }
 
 Vector Body::getDisplacementFrom(Vector point) const {
   if (!toFixed(point)) return {};
-  absorb();
+  syncFromStore();
   return m_table->metric.toCells(row().place - m_table->metric.placeAtCells(point));
 }
 
@@ -147,7 +147,7 @@ int Body::setVelocity(Vector velocity) {
 }
 
 Vector Body::getVelocity() const {
-  absorb();
+  syncFromStore();
   return m_table->metric.toCells(row().velocity);
 }
 
@@ -159,7 +159,7 @@ int Body::applyForce(Vector force) {
 }
 
 int Body::applyImpulse(Vector impulse) {
-  absorb();
+  syncFromStore();
   const Vector change = m_table->metric.toCells(row().inverse_mass * m_table->metric.fromCells(impulse));
   const Vector velocity = getVelocity() + change;
   if (!isUsable(impulse) || !toFixed(velocity, kMaxVelocityCells)) return refuseAs("applyImpulse");
@@ -195,7 +195,7 @@ int Body::setField(const Field* p_field, Vector origin) {
 }
 
 bool Body::isFrozen() const {
-  absorb();
+  syncFromStore();
   return row().frozen;
 }
 

@@ -28,7 +28,7 @@
 namespace naiad::physics {
 class BodyLook;
 class BodyTable;
-struct BodyForm;
+struct BodyGeometry;
 struct BodyRow;
 }  // namespace naiad::physics
 
@@ -159,12 +159,12 @@ class Body : public Object {
   friend class PhysicsManager;
 
   naiad::physics::BodyRow& row() const;
-  naiad::physics::BodyForm& form() const;
+  naiad::physics::BodyGeometry& form() const;
   int setShapes(std::vector<naiad::physics::ConvexShape> shapes);
   int addShape(const naiad::physics::ConvexShape& shape);
   void fitBox();
   int refuseAs(const char* what) const;
-  void absorb() const;
+  void syncFromStore() const;
   naiad::physics::BodyLook& look();
 
   std::shared_ptr<naiad::physics::BodyTable> m_table;

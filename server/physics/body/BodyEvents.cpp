@@ -15,7 +15,7 @@ namespace naiad::physics {
 namespace {
 
 bool hearsEnds(const WorldStore& store, ObjectKey key) {
-  if (!store.hears(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
+  if (!store.handlesEvents(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
   const Object* p_object = store.object(key.slot);
   if (const auto* p_body = dynamic_cast<const df::Body*>(p_object)) return p_body->hasContactEnds();
   const auto* p_soft = dynamic_cast<const df::SoftBody*>(p_object);
@@ -28,7 +28,7 @@ void sendContactEnd(World& world, const BodyContact& contact) {
   world.events().nameClassOf(event);
   if (hearsEnds(store, contact.first)) {
     world.events().runHandler(contact.first, *event.getObject1(), event);
-    if (!store.isStill(contact.first) || !store.isStill(contact.second)) return;
+    if (!store.isCurrentUnchecked(contact.first) || !store.isCurrentUnchecked(contact.second)) return;
   }
   if (hearsEnds(store, contact.second)) world.events().runHandler(contact.second, *event.getObject2(), event);
 }

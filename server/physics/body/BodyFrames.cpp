@@ -96,7 +96,7 @@ class Drawing {
 
   void cover() {
     std::vector<CellSpan> spans;
-    for (const TurnedShape& shape : m_shapes) {
+    for (const RotatedShape& shape : m_shapes) {
       rasterise(shape, place(), m_aspect, spans, kFarthest);
       for (const CellSpan& span : spans) {
         for (std::int32_t column = span.first; column <= span.last; ++column)
@@ -107,7 +107,7 @@ class Drawing {
 
   void fill() {
     m_picture = m_covered;
-    for (const TurnedShape& shape : m_shapes) coreLine(shape, true);
+    for (const RotatedShape& shape : m_shapes) coreLine(shape, true);
     if (m_picture.empty()) m_picture[{0, 0}] = U'#';
     for (auto& [cell, ch] : m_picture) ch = m_style.ch != 0 ? m_style.ch : U'#';
   }
@@ -118,9 +118,9 @@ class Drawing {
                          covers({cell.row, cell.column - 1}) && covers({cell.row, cell.column + 1});
       if (!inner) m_picture[cell] = edgeAt(cell);
     }
-    for (const TurnedShape& shape : m_shapes) coreLine(shape, false);
+    for (const RotatedShape& shape : m_shapes) coreLine(shape, false);
     if (m_style.spoke) {
-      for (const TurnedShape& shape : m_shapes) {
+      for (const RotatedShape& shape : m_shapes) {
         if (shape.count == 1 && m_covered.size() > 4) spoke(shape);
       }
     }
@@ -148,7 +148,7 @@ class Drawing {
   }
 
   // How far the edge of the shape passes the point, and in which direction.
-  Nearest nearest(const TurnedShape& shape, std::int32_t i, Vec2 p) const {
+  Nearest nearest(const RotatedShape& shape, std::int32_t i, Vec2 p) const {
     const Vec2 a = shape.vertices[at(i)];
     if (shape.count == 1)
       return {inCells(std::abs(length(p - a) - shape.radius), p - a), {a.y - p.y, p.x - a.x}};
@@ -164,7 +164,7 @@ class Drawing {
 
   char32_t edgeAt(Cell cell) const {
     Nearest best, second;
-    for (const TurnedShape& shape : m_shapes) {
+    for (const RotatedShape& shape : m_shapes) {
       for (std::int32_t i = 0; i < shape.count; ++i) {
         const Nearest here = nearest(shape, i, middleOf(cell));
         if (here.distance < best.distance) {
@@ -185,7 +185,7 @@ class Drawing {
   }
 
   // A line through the middle of what is thin. Over what is there, or in gaps alone.
-  void coreLine(const TurnedShape& shape, bool gaps) {
+  void coreLine(const RotatedShape& shape, bool gaps) {
     if (shape.count == 1) return;
     double width = 1e300;
     Vec2 normal;
@@ -217,7 +217,7 @@ class Drawing {
     line(middle - half * along, middle + half * along);
   }
 
-  void removeCovered(const TurnedShape& shape) {
+  void removeCovered(const RotatedShape& shape) {
     std::vector<CellSpan> spans;
     rasterise(shape, place(), m_aspect, spans, kFarthest);
     for (const CellSpan& span : spans) {
@@ -226,7 +226,7 @@ class Drawing {
     }
   }
 
-  void spoke(const TurnedShape& shape) {
+  void spoke(const RotatedShape& shape) {
     const Vec2 centre = shape.vertices[0];
     const Vec2 out = m_rotation * Vec2{1, 0};
     const double cell = 1 + (m_aspect - 1) * std::abs(out.y);
@@ -270,7 +270,7 @@ class Drawing {
   const FrameStyle& m_style;
   Rotation m_rotation;
   Vec2 m_half;  ///< the middle of cell (0, 0), from the body's place, in cells
-  std::vector<TurnedShape> m_shapes;
+  std::vector<RotatedShape> m_shapes;
   Picture m_covered;
   Picture m_picture;
 };

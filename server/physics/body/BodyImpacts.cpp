@@ -27,8 +27,8 @@ bool isUpright(const ConvexShape& shape, Vec2& half) {
 
 }  // namespace
 
-bool BodyImpacts::canHave(const BodyForm& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
-                          Vec2& offset) {
+bool BodyImpacts::canHave(const BodyGeometry& form, const Metric& metric, const FixedBox& box,
+                          ImpactBody& body, Vec2& offset) {
   offset = {};
   const bool is_round =
       form.shapes.size() == 1 && form.shapes[0].count == 1 && form.shapes[0].vertices[0] == Vec2{};

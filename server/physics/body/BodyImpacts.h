@@ -20,7 +20,7 @@ class BodyImpacts {
 
   /// True if an ImpactWorld can move a body of this form and Object box. Then sets the shape of `body`, and
   /// `offset` to its centre relative to the body's place.
-  static bool canHave(const BodyForm& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
+  static bool canHave(const BodyGeometry& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
                       Vec2& offset);
 
   /// Begins a tick without bodies; add() adds them.

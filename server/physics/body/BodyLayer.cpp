@@ -82,9 +82,9 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   const WorldStore& store = world.store();
   if (!store.isCurrent(row.key)) row.key = row.p_object->key();  // removed; perhaps inserted again
   if (!takesPart(store, row.key)) return;
-  m_table->absorb(index, store.position(row.key.slot), store.velocity(row.key.slot));
+  m_table->syncFromStore(index, store.position(row.key.slot), store.velocity(row.key.slot));
   if (row.frozen) return;
-  const BodyForm& form = std::as_const(*m_table).form(index);
+  const BodyGeometry& form = std::as_const(*m_table).form(index);
   State& state = m_states.emplace_back();
   state.index = index;
   state.key = row.key;
@@ -210,7 +210,7 @@ Vec2 BodyLayer::swingOf(const State& state) const {
 // Is it one for an ImpactWorld, and how far does it reach?
 void BodyLayer::measure(const WorldStore& store, State& state) {
   constexpr double kRoom = 0.25;  // metric cells around what it reaches on its own
-  const BodyForm& form = std::as_const(*m_table).form(state.index);
+  const BodyGeometry& form = std::as_const(*m_table).form(state.index);
   const FixedBox box = store.box(state.key.slot);
   Vec2 offset;
   if (!m_table->settings.is_fast) {
@@ -300,7 +300,7 @@ void BodyLayer::assignSolver(const WorldStore& store, State& state) {
 
 // Turns a body that no contact or joint turns.
 void BodyLayer::turnByTorque(State& state) {
-  const BodyForm& form = std::as_const(*m_table).form(state.index);
+  const BodyGeometry& form = std::as_const(*m_table).form(state.index);
   if (form.spin == 0 && form.torque == 0) return;
   const auto at = static_cast<std::size_t>(&state - m_states.data());
   const double unit_inertia = m_unit_inertias[at];
@@ -346,9 +346,9 @@ void BodyLayer::settle(World& world, State& state) {
   BodyRow& row = m_table->row(state.index);
   row.place = state.place;
   row.velocity = state.velocity;
-  const BodyForm& known = std::as_const(*m_table).form(state.index);
+  const BodyGeometry& known = std::as_const(*m_table).form(state.index);
   if (known.spin != state.spin || known.torque != 0 || known.rotation != state.rotation) {
-    BodyForm& form = m_table->form(state.index);
+    BodyGeometry& form = m_table->form(state.index);
     form.rotation = state.rotation;
     form.spin = state.spin;
     form.torque = 0;

@@ -180,7 +180,7 @@ void BodyLinks::load(const BodyTable& table, const std::vector<BodyState>& state
     JointBody& body = m_bodies[i];
     const auto index = static_cast<BodyTable::Index>(m_row_of[i]);
     const BodyRow& row = table.row(index);
-    const BodyForm& form = table.form(index);
+    const BodyGeometry& form = table.form(index);
     JointBody next;
     next.place = row.place;
     next.rotation = form.rotation;

@@ -39,13 +39,13 @@ void BodyLook::restyle(FrameStyle style) {
   m_made = false;
 }
 
-bool BodyLook::isUpToDate(const BodyForm& form, const df::FixedBox& box, double aspect) const {
+bool BodyLook::isUpToDate(const BodyGeometry& form, const df::FixedBox& box, double aspect) const {
   if (!m_made || aspect != m_aspect) return false;
   if (form.shapes.empty() && !(box == m_box)) return false;
   return std::equal(form.shapes.begin(), form.shapes.end(), m_shapes.begin(), m_shapes.end(), isEqual);
 }
 
-void BodyLook::update(const BodyForm& form, const df::FixedBox& box, double aspect, std::uint32_t tick) {
+void BodyLook::update(const BodyGeometry& form, const df::FixedBox& box, double aspect, std::uint32_t tick) {
   m_new_frames = m_new_selector = false;
   // Most bodies never turn: one picture is enough for them. Whoever turns once may do so again.
   const bool turns =
@@ -57,7 +57,7 @@ void BodyLook::update(const BodyForm& form, const df::FixedBox& box, double aspe
   if (m_turn.frames.size() > 1) choose(form, tick);
 }
 
-void BodyLook::redraw(const BodyForm& form, const df::FixedBox& box, double aspect) {
+void BodyLook::redraw(const BodyGeometry& form, const df::FixedBox& box, double aspect) {
   m_made = m_new_frames = true;
   m_shapes = form.shapes;
   m_box = box;
@@ -76,7 +76,7 @@ void BodyLook::redraw(const BodyForm& form, const df::FixedBox& box, double aspe
 
 // The angle is published with as few bits as its error allows, but the spin exactly: what turns freely may do
 // so for ever.
-void BodyLook::choose(const BodyForm& form, std::uint32_t tick) {
+void BodyLook::choose(const BodyGeometry& form, std::uint32_t tick) {
   const std::uint32_t angle = m_turn.repeats * integerAngle(angleOf(form.rotation));
   const auto width = static_cast<std::uint32_t>((std::uint64_t{1} << 32) / m_turn.frames.size());
   const auto off = static_cast<std::int32_t>(angle - m_selector.angleAt(tick));

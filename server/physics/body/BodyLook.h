@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "physics/body/BodyForm.h"
 #include "physics/body/BodyFrames.h"
+#include "physics/body/BodyGeometry.h"
 #include "shared/replica/Look.h"
 #include "shared/values/Fixed.h"
 
@@ -23,7 +23,7 @@ class BodyLook {
 
   /// Updates frames and selector from the body's state in this tick. `box` is the Object's, used as shape if
   /// the form has none.
-  void update(const BodyForm& form, const df::FixedBox& box, double aspect, std::uint32_t tick);
+  void update(const BodyGeometry& form, const df::FixedBox& box, double aspect, std::uint32_t tick);
   const Sequence& frames() const { return m_turn.frames; }
   const Selector& selector() const { return m_selector; }
   /// True if the last update() made new frames; true if it chose a new selector.
@@ -31,9 +31,9 @@ class BodyLook {
   bool hasNewSelector() const { return m_new_selector; }
 
  private:
-  bool isUpToDate(const BodyForm& form, const df::FixedBox& box, double aspect) const;
-  void redraw(const BodyForm& form, const df::FixedBox& box, double aspect);
-  void choose(const BodyForm& form, std::uint32_t tick);
+  bool isUpToDate(const BodyGeometry& form, const df::FixedBox& box, double aspect) const;
+  void redraw(const BodyGeometry& form, const df::FixedBox& box, double aspect);
+  void choose(const BodyGeometry& form, std::uint32_t tick);
 
   FrameStyle m_style;
   TurnFrames m_turn;

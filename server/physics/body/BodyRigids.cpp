@@ -46,7 +46,7 @@ void BodyRigids::identify(int id, ObjectKey key, std::uint64_t order, int state)
 // Its shapes for the others: none, unless it is HARD.
 void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
                        const RigidBody& body) {
-  const BodyForm& form = table.form(state.index);
+  const BodyGeometry& form = table.form(state.index);
   const bool is_box = form.shapes.empty();
   const std::uint32_t version = state.is_hard ? form.version + 1 : 0;
   if (proxy.id >= 0 && proxy.version == version && (!is_box || proxy.box == box)) return;
@@ -101,7 +101,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
                    std::max(m_fastest.y, std::fabs(state.start_velocity.y))};
     }
     const BodyRow& row = table.row(state.index);
-    const BodyForm& form = table.form(state.index);
+    const BodyGeometry& form = table.form(state.index);
     RigidBody body;
     body.place = row.place;
     body.velocity = row.velocity;

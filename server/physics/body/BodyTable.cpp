@@ -6,7 +6,7 @@
 namespace naiad::physics {
 
 const BodyMedium BodyTable::kNoMedium;
-const BodyForm BodyTable::kNoForm;
+const BodyGeometry BodyTable::kNoForm;
 
 BodyTable::Index BodyTable::add(const Object* p_object, ObjectKey key) {
   Index index = 0;
@@ -44,18 +44,18 @@ BodyMedium& BodyTable::medium(Index index) {
   return m_media[index];
 }
 
-BodyForm& BodyTable::form(Index index) {
+BodyGeometry& BodyTable::form(Index index) {
   if (index >= m_forms.size()) m_forms.resize(index + 1);
   return m_forms[index];
 }
 
 double BodyTable::unitInertia(Index index, const FixedBox& box) const {
-  const BodyForm& its = form(index);
+  const BodyGeometry& its = form(index);
   if (!its.shapes.empty()) return its.unit_inertia;
   return lengthSquared(metric.fromCells(Vector::fromFixed(box.size))) / 12;
 }
 
-void BodyTable::absorb(Index index, FixedVector position, FixedVector velocity) {
+void BodyTable::syncFromStore(Index index, FixedVector position, FixedVector velocity) {
   BodyRow& row = m_rows[index];
   if (position != row.published_position) {
     row.place = metric.placeOf(position);

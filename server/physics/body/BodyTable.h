@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/body/BodyForm.h"
+#include "physics/body/BodyGeometry.h"
 #include "physics/body/BodyJoints.h"
 #include "physics/body/Metric.h"
 #include "physics/body/WorldNames.h"
@@ -95,13 +95,13 @@ class BodyTable {
   BodyMedium& medium(Index index);
   const BodyMedium& medium(Index index) const { return index < m_media.size() ? m_media[index] : kNoMedium; }
   /// Creates the entry if needed.
-  BodyForm& form(Index index);
-  const BodyForm& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
+  BodyGeometry& form(Index index);
+  const BodyGeometry& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
   /// Returns the moment of inertia per mass; `box` is the Object's box, used if the body has no other shape.
   double unitInertia(Index index, const FixedBox& box) const;
   /// Takes over changes that the game made to position and velocity since the last step by the Object's own
   /// setters. The arguments are the store's present values.
-  void absorb(Index index, FixedVector position, FixedVector velocity);
+  void syncFromStore(Index index, FixedVector position, FixedVector velocity);
   /// Sets the body's FlightKind from its medium.
   void classify(Index index);
 
@@ -117,11 +117,11 @@ class BodyTable {
 
  private:
   static const BodyMedium kNoMedium;
-  static const BodyForm kNoForm;
+  static const BodyGeometry kNoForm;
 
   std::vector<BodyRow> m_rows;
-  std::vector<BodyMedium> m_media;  ///< index of the row; may be shorter than m_rows
-  std::vector<BodyForm> m_forms;    ///< index of the row; may be shorter than m_rows
+  std::vector<BodyMedium> m_media;    ///< index of the row; may be shorter than m_rows
+  std::vector<BodyGeometry> m_forms;  ///< index of the row; may be shorter than m_rows
   std::vector<Index> m_free;
   std::vector<Index> m_order;
   std::uint64_t m_next_order = 1;

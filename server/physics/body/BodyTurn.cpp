@@ -14,7 +14,7 @@ namespace df {
 
 namespace {
 
-using naiad::physics::BodyForm;
+using naiad::physics::BodyGeometry;
 using naiad::physics::Mass;
 using naiad::physics::Rotation;
 using Part = naiad::physics::ConvexShape;  // df::Shape is what spriteless Objects look like
@@ -25,17 +25,17 @@ constexpr double kMaxAngle = 1e6;  // rad: a double still resolves 1e-10
 
 }  // namespace
 
-BodyForm& Body::form() const {
+BodyGeometry& Body::form() const {
   return m_table->form(m_index);
 }
 
 // The Object's box goes around the shape at any angle.
 void Body::fitBox() {
-  const BodyForm& its = form();
+  const BodyGeometry& its = form();
   if (its.shapes.empty()) return;
   Vec2 lower = {kMaxBodyNumber, kMaxBodyNumber}, upper = {-kMaxBodyNumber, -kMaxBodyNumber};
   for (const Part& shape : its.shapes) {
-    naiad::physics::TurnedShape turned;
+    naiad::physics::RotatedShape turned;
     turn(shape, its.rotation, turned);
     naiad::physics::Bounds bounds = boundsOf(turned);
     if (its.is_turning) {
@@ -54,7 +54,7 @@ int Body::setShapes(std::vector<Part> shapes) {
   Mass mass = massOf(shapes, densities);
   if (!(mass.mass > 0 && mass.inertia > 0)) return -1;
   recentre(shapes, mass);
-  BodyForm& its = form();
+  BodyGeometry& its = form();
   its.shapes = std::move(shapes);
   its.reach = 0;
   for (const Part& shape : its.shapes) its.reach = std::max(its.reach, shape.reach + shape.radius);
@@ -184,7 +184,7 @@ int Body::applyTorque(double torque) {
 
 int Body::applyImpulseAt(Vector impulse, Vector where) {
   if (!toFixed(where)) return refuseAs("applyImpulseAt");
-  absorb();
+  syncFromStore();
   const Vec2 arm = m_table->metric.placeAtCells(where) - row().place;
   const bool turns = isTurning() && !row().is_kinematic;
   const double inertia = getInertia();

@@ -55,7 +55,7 @@ Joint PhysicsManager::add(const char* what, RawJoint joint, Body* p_a, Body* p_b
       world = at;
       return;
     }
-    p_body->absorb();
+    p_body->syncFromStore();
     row = static_cast<int>(p_body->m_index);
     turned = std::as_const(*table).form(p_body->m_index).rotation;
     anchor = inverse(turned) * (at - p_body->row().place);

@@ -142,7 +142,7 @@ void SoftLayer::prepare(const World& world, int id) {
   const WorldStore& store = world.store();
   if (!store.isCurrent(entry.key)) entry.key = entry.p_object->key();  // removed; perhaps inserted again
   if (!takesPart(store, entry.key)) return;
-  m_table->absorb(id, store.position(entry.key.slot), store.velocity(entry.key.slot));
+  m_table->syncFromStore(id, store.position(entry.key.slot), store.velocity(entry.key.slot));
   std::erase_if(entry.attached_nodes, [&](const SoftAttachedNode& attached) {
     if (store.isCurrent(attached.key)) return false;
     m_table->world().detach(attached.attachment);

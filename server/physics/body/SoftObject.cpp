@@ -81,17 +81,17 @@ int SoftBody::refuseAs(const char* what) const {
   return p_world != nullptr ? p_world->log().refuse(nameOf(*this), what) : -1;
 }
 
-void SoftBody::absorb() const {
+void SoftBody::syncFromStore() const {
   const World* p_world = getWorld();
   if (m_id < 0 || p_world == nullptr) return;
   const WorldStore& store = p_world->store();
-  m_table->absorb(m_id, store.position(key().slot), store.velocity(key().slot));
+  m_table->syncFromStore(m_id, store.position(key().slot), store.velocity(key().slot));
 }
 
 template <class Change>
 int SoftBody::change(Change change) {
   if (m_id < 0) return -1;
-  absorb();
+  syncFromStore();
   naiad::physics::SoftBody changed = body();
   change(changed);
   return m_table->set(m_id, changed) ? 0 : -1;
@@ -120,7 +120,7 @@ int SoftBody::setDrag(double drag) {
 
 int SoftBody::applyImpulse(Vector impulse) {
   if (m_id < 0 || !isUsableForce(impulse)) return refuseAs("applyImpulse");
-  absorb();
+  syncFromStore();
   if (entry().is_frozen) return 0;
   const Vec2 velocity = entry().velocity + m_table->metric().fromCells(impulse) / entry().mass;
   if (!toFixed(m_table->metric().toCells(velocity), kMaxVelocityCells)) return refuseAs("applyImpulse");
@@ -130,7 +130,7 @@ int SoftBody::applyImpulse(Vector impulse) {
 
 int SoftBody::applyImpulse(int node, Vector impulse) {
   if (!hasNode(node) || !isUsableForce(impulse)) return refuseAs("applyImpulse");
-  absorb();
+  syncFromStore();
   if (!m_table->world().applyImpulse(m_id, node, m_table->metric().fromCells(impulse))) {
     return refuseAs("applyImpulse");
   }
@@ -165,19 +165,19 @@ int SoftBody::getNodeCount() const {
 
 Vector SoftBody::getNodePosition(int node) const {
   if (!hasNode(node)) return {};
-  absorb();
+  syncFromStore();
   return m_table->metric().cellsOf(body().place + body().nodes[at(node)].offset);
 }
 
 Vector SoftBody::getNodeVelocity(int node) const {
   if (!hasNode(node)) return {};
-  absorb();
+  syncFromStore();
   return m_table->metric().toCells(body().nodes[at(node)].velocity);
 }
 
 int SoftBody::getNearestNode(Vector where) const {
   if (m_id < 0 || !toFixed(where)) return -1;
-  absorb();
+  syncFromStore();
   const Vec2 offset = m_table->metric().placeAtCells(where) - body().place;
   int nearest = 0;
   for (int node = 1; node < getNodeCount(); ++node) {
@@ -190,7 +190,7 @@ int SoftBody::getNearestNode(Vector where) const {
 int SoftBody::pin(int node, bool pinned) {
   if (!hasNode(node)) return refuseAs("pin");
   if (isPinned(node) == pinned) return 0;
-  absorb();
+  syncFromStore();
   return m_table->pin(m_id, node, pinned) ? 0 : -1;
 }
 
@@ -203,7 +203,7 @@ int SoftBody::attach(int node, Body* p_body) {
   if (!hasNode(node) || p_body == nullptr || p_world == nullptr || p_body->getWorld() != p_world) {
     return refuseAs("attach");
   }
-  absorb();
+  syncFromStore();
   detach(node);
   const naiad::physics::Metric& metric = m_table->metric();
   const Vec2 body_offset = metric.fromCells(p_body->getDisplacementFrom(metric.cellsOf(body().place)));
@@ -264,12 +264,12 @@ bool SoftBody::isGrabbed() const {
 }
 
 bool SoftBody::isFrozen() const {
-  absorb();
+  syncFromStore();
   return m_id >= 0 && entry().is_frozen;
 }
 
 bool SoftBody::isAsleep() const {
-  absorb();
+  syncFromStore();
   return m_id >= 0 && entry().is_asleep;
 }
 
@@ -286,7 +286,7 @@ int SoftBody::setDrawing(BodyDrawing drawing, char32_t ch, Color color) {
 
 int SoftBody::draw() {
   if (m_id < 0) return -1;
-  absorb();
+  syncFromStore();
   naiad::physics::redraw(*m_drawn, body(), m_table->metric());
   return naiad::physics::put(*m_drawn);
 }

@@ -121,7 +121,7 @@ class SoftBody : public Object {
   const naiad::physics::SoftBody& body() const;
   template <class Change>
   int change(Change change);
-  void absorb() const;
+  void syncFromStore() const;
   int refuseAs(const char* what) const;
 
   std::shared_ptr<naiad::physics::SoftTable> m_table;

@@ -101,7 +101,7 @@ void SoftObstacles::addBody(const World& world, const BodyLayer& bodies, const B
   const WorldStore& store = world.store();
   if (!isThere(store, table, its)) return;
   const BodyRow& row = table.row(its.index);
-  const BodyForm& form = table.form(its.index);
+  const BodyGeometry& form = table.form(its.index);
   const FixedBox box = store.box(its.key.slot);
   sum(its.key, store.position(its.key.slot), box);
   if (row.velocity != Vec2{} || form.spin != 0) m_is_lively = true;
@@ -138,7 +138,7 @@ void SoftObstacles::addBody(const World& world, const BodyLayer& bodies, const B
 bool SoftObstacles::setShape(const WorldStore& store, const BodyTable& table, const BodyState& state,
                              SoftObstacle& obstacle, Source& source) {
   if (store.solidness(state.key.slot) != HARD) return true;  // it is only held
-  const BodyForm& form = table.form(state.index);
+  const BodyGeometry& form = table.form(state.index);
   if (!form.shapes.empty()) {
     obstacle.shapes = form.shapes;
     return true;
@@ -246,7 +246,7 @@ void SoftObstacles::push(World& world, const BodyLayer& bodies, BodyTable& table
   row.force += expected;
   row.touches_soft = true;
   if (obstacle.inverse_inertia > 0) {
-    BodyForm& form = table.form(index);
+    BodyGeometry& form = table.form(index);
     form.spin = spin;
     form.rotation = turned(obstacle.rotation, obstacle.turn - kAhead * spin);
     form.torque += expected_turn;

@@ -90,7 +90,7 @@ void SoftTable::setVelocity(int id, Vec2 velocity) {
   measure(id);
 }
 
-void SoftTable::absorb(int id, FixedVector position, FixedVector velocity) {
+void SoftTable::syncFromStore(int id, FixedVector position, FixedVector velocity) {
   SoftEntry& its = entry(id);
   if (position != its.published_position) moveTo(id, metric().placeOf(position));
   if (velocity != its.published_velocity) setVelocity(id, metric().fromCells(Vector::fromFixed(velocity)));

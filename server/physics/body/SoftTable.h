@@ -79,7 +79,7 @@ class SoftTable {
   void moveTo(int id, const Place& centre);
   void setVelocity(int id, Vec2 velocity);
   /// Takes over changes by the Object's setters. The arguments are the store's present values.
-  void absorb(int id, FixedVector position, FixedVector velocity);
+  void syncFromStore(int id, FixedVector position, FixedVector velocity);
   void wake(int id) {
     entry(id).is_asleep = false;
     entry(id).still = 0;

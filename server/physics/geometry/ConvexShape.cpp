@@ -25,10 +25,10 @@ ShapeStatus finish(ConvexShape& made, ConvexShape& shape) {
   for (int i = 0; i < made.count; ++i) {
     const Vec2 v = made.vertices[at(i)];
     if (!isFinite(v)) return ShapeStatus::kNotFinite;
-    if (std::max(std::fabs(v.x), std::fabs(v.y)) > kLargestShape) return ShapeStatus::kTooLarge;
+    if (std::max(std::fabs(v.x), std::fabs(v.y)) > kMaxShapeExtent) return ShapeStatus::kTooLarge;
     reach = std::max(reach, length(v));
   }
-  if (reach + made.radius > kLargestShape) return ShapeStatus::kTooLarge;
+  if (reach + made.radius > kMaxShapeExtent) return ShapeStatus::kTooLarge;
   for (int i = 0; i < made.count && made.count > 1; ++i) {
     made.normals[at(i)] = outward(made.vertices[at(following(i, made.count))] - made.vertices[at(i)]);
   }
@@ -40,7 +40,7 @@ ShapeStatus finish(ConvexShape& made, ConvexShape& shape) {
 ShapeStatus checkRadius(double radius, double least) {
   if (!isFinite(radius)) return ShapeStatus::kNotFinite;
   if (radius < least) return ShapeStatus::kTooSmall;
-  return radius > kLargestShape ? ShapeStatus::kTooLarge : ShapeStatus::kOk;
+  return radius > kMaxShapeExtent ? ShapeStatus::kTooLarge : ShapeStatus::kOk;
 }
 
 double sizeOf(std::span<const Vec2> points) {
@@ -67,7 +67,7 @@ double height(Vec2 a, Vec2 b, Vec2 c) {
 }  // namespace
 
 ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape) {
-  if (const ShapeStatus status = checkRadius(radius, kSmallestShape); status != ShapeStatus::kOk)
+  if (const ShapeStatus status = checkRadius(radius, kMinShapeWidth); status != ShapeStatus::kOk)
     return status;
   ConvexShape made;
   made.count = 1;
@@ -77,10 +77,10 @@ ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape) {
 }
 
 ShapeStatus makeCapsule(Vec2 a, Vec2 b, double radius, ConvexShape& shape) {
-  if (const ShapeStatus status = checkRadius(radius, kSmallestShape); status != ShapeStatus::kOk)
+  if (const ShapeStatus status = checkRadius(radius, kMinShapeWidth); status != ShapeStatus::kOk)
     return status;
   if (!isFinite(a) || !isFinite(b)) return ShapeStatus::kNotFinite;
-  if (std::max(std::fabs(b.x - a.x), std::fabs(b.y - a.y)) < kSmallestShape) return ShapeStatus::kTooSmall;
+  if (std::max(std::fabs(b.x - a.x), std::fabs(b.y - a.y)) < kMinShapeWidth) return ShapeStatus::kTooSmall;
   ConvexShape made;
   made.count = 2;
   made.radius = radius;
@@ -93,8 +93,8 @@ ShapeStatus makeBox(double half_width, double half_height, Vec2 centre, Rotation
                     ConvexShape& shape) {
   const double w = half_width, h = half_height;
   if (!isFinite(w) || !isFinite(h) || !isFinite({rotation.c, rotation.s})) return ShapeStatus::kNotFinite;
-  if (w < kSmallestShape / 2 || h < kSmallestShape / 2) return ShapeStatus::kTooSmall;
-  if (w > kLargestShape || h > kLargestShape) return ShapeStatus::kTooLarge;
+  if (w < kMinShapeWidth / 2 || h < kMinShapeWidth / 2) return ShapeStatus::kTooSmall;
+  if (w > kMaxShapeExtent || h > kMaxShapeExtent) return ShapeStatus::kTooLarge;
   if (std::fabs(rotation.c * rotation.c + rotation.s * rotation.s - 1) > 1e-9) return ShapeStatus::kNotFinite;
   if (const ShapeStatus status = checkRadius(radius, 0); status != ShapeStatus::kOk) return status;
   ConvexShape made;
@@ -111,25 +111,25 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
   if (const ShapeStatus status = checkRadius(radius, 0); status != ShapeStatus::kOk) return status;
   for (const Vec2 p : points) {
     if (!isFinite(p)) return ShapeStatus::kNotFinite;
-    if (std::max(std::fabs(p.x), std::fabs(p.y)) > kLargestShape) return ShapeStatus::kTooLarge;
+    if (std::max(std::fabs(p.x), std::fabs(p.y)) > kMaxShapeExtent) return ShapeStatus::kTooLarge;
   }
   const double size = sizeOf(points), area = signedArea(points);
-  if (size < kSmallestShape ||
-      std::fabs(area) < size * std::max(kSmallestShape, kSmallestCorner * size) / 2) {
+  if (size < kMinShapeWidth ||
+      std::fabs(area) < size * std::max(kMinShapeWidth, kMinCornerHeight * size) / 2) {
     return ShapeStatus::kTooSmall;
   }
   if (area < 0) return ShapeStatus::kClockwise;
   // Every point lies on the inner side of every edge, by more than nothing: that refuses stars, too.
   const std::size_t count = points.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (length(points[(i + 1) % count] - points[i]) < kSmallestCorner * size) return ShapeStatus::kTooSmall;
+    if (length(points[(i + 1) % count] - points[i]) < kMinCornerHeight * size) return ShapeStatus::kTooSmall;
   }
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 a = points[i], b = points[(i + 1) % count];
     for (std::size_t k = 2; k < count; ++k) {
       if (!(cross(b - a, points[(i + k) % count] - a) > 0)) return ShapeStatus::kNotConvex;
     }
-    if (!(height(a, b, points[(i + 2) % count]) > kSmallestCorner * size)) return ShapeStatus::kNotConvex;
+    if (!(height(a, b, points[(i + 2) % count]) > kMinCornerHeight * size)) return ShapeStatus::kNotConvex;
   }
   ConvexShape made;
   made.count = static_cast<std::int32_t>(count);
@@ -158,7 +158,7 @@ ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by) {
   return result;
 }
 
-void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned) {
+void turn(const ConvexShape& shape, Rotation rotation, RotatedShape& turned) {
   turned.count = shape.count;
   turned.radius = shape.radius;
   turned.reach = shape.reach;
@@ -176,11 +176,11 @@ void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners) 
   }
 }
 
-TurnedView turnedView(const ConvexShape& shape, std::span<const Vec2> corners) {
+RotatedView rotatedView(const ConvexShape& shape, std::span<const Vec2> corners) {
   return {shape.count, shape.radius, shape.reach, corners.data(), corners.data() + shape.count};
 }
 
-Bounds boundsOf(const TurnedView& shape) {
+Bounds boundsOf(const RotatedView& shape) {
   Bounds bounds = {shape.vertices[0], shape.vertices[0]};
   for (int i = 1; i < shape.count; ++i) {
     const Vec2 v = shape.vertices[at(i)];
@@ -193,7 +193,7 @@ Bounds boundsOf(const TurnedView& shape) {
 
 double thicknessOf(const ConvexShape& shape) {
   if (shape.count < 3) return shape.radius;
-  double least = kLargestShape;
+  double least = kMaxShapeExtent;
   for (int i = 0; i < shape.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double face = dot(shape.normals[k], shape.vertices[k]);

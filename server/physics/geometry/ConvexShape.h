@@ -17,10 +17,10 @@ namespace naiad::physics {
 inline constexpr int kMaxVertices = 16;  ///< enough for a polygon that looks round; circles use the radius
 /// Metric cells: minimum width of a shape, and maximum distance from its body's origin. They are 13 of a
 /// double's 16 digits apart.
-inline constexpr double kSmallestShape = 1e-6;
-inline constexpr double kLargestShape = 1e7;
+inline constexpr double kMinShapeWidth = 1e-6;
+inline constexpr double kMaxShapeExtent = 1e7;
 /// Minimum height of a corner above the line between its neighbours, as a part of the polygon's size.
-inline constexpr double kSmallestCorner = 1e-6;
+inline constexpr double kMinCornerHeight = 1e-6;
 
 /// Plain data. Points are relative to the body's origin, in the body's axes. Create shapes only with the
 /// functions below, which check them. Entries of `vertices` and `normals` from `count` on are undefined.
@@ -38,7 +38,7 @@ enum class ShapeStatus : std::uint8_t {
   kTooFew,     ///< fewer than three points
   kTooMany,    ///< more than kMaxVertices
   kTooSmall,   ///< almost no area, equal points, or a negative radius
-  kTooLarge,   ///< beyond kLargestShape
+  kTooLarge,   ///< beyond kMaxShapeExtent
   kNotConvex,  ///< a corner turns inward or is flat, or edges cross
   kClockwise,  ///< the points run from y to x
 };
@@ -59,7 +59,7 @@ bool isEqual(const ConvexShape& a, const ConvexShape& b);
 ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by);
 
 /// A shape in world axes, relative to the body's origin, for pair tests. It does not own its points.
-struct TurnedView {
+struct RotatedView {
   std::int32_t count;
   double radius;
   double reach;
@@ -67,21 +67,21 @@ struct TurnedView {
   const Vec2* normals;
 };
 
-/// Like TurnedView, with its own points. Made once per body and step; the first `count` entries are valid.
-struct TurnedShape {
+/// Like RotatedView, with its own points. Made once per body and step; the first `count` entries are valid.
+struct RotatedShape {
   std::int32_t count;
   double radius;
   double reach;
   std::array<Vec2, kMaxVertices> vertices;
   std::array<Vec2, kMaxVertices> normals;
 
-  operator TurnedView() const { return {count, radius, reach, vertices.data(), normals.data()}; }
+  operator RotatedView() const { return {count, radius, reach, vertices.data(), normals.data()}; }
 };
-void turn(const ConvexShape& shape, Rotation rotation, TurnedShape& turned);
+void turn(const ConvexShape& shape, Rotation rotation, RotatedShape& turned);
 /// Writes to `corners`, which has two entries per point: first all points, then all normals.
 void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners);
 /// Returns a view of what turn() wrote to `corners`.
-TurnedView turnedView(const ConvexShape& shape, std::span<const Vec2> corners);
+RotatedView rotatedView(const ConvexShape& shape, std::span<const Vec2> corners);
 
 /// Half of the minimum width, rounding included. An object that penetrates deeper comes out on the far side.
 double thicknessOf(const ConvexShape& shape);
@@ -91,7 +91,7 @@ struct Bounds {
   Vec2 lower;
   Vec2 upper;
 };
-Bounds boundsOf(const TurnedView& shape);
+Bounds boundsOf(const RotatedView& shape);
 
 constexpr int following(int index, int count) {
   return index + 1 < count ? index + 1 : 0;

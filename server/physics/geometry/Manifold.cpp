@@ -16,7 +16,7 @@ std::uint32_t idOf(std::int32_t vertex_a, std::int32_t vertex_b) {
 }
 
 // The point of a contact where a corner of one of the shapes decides: one of two corners, or a circle.
-void onePoint(const TurnedView& a, const TurnedView& b, Vec2 offset, const Separation& s,
+void onePoint(const RotatedView& a, const RotatedView& b, Vec2 offset, const Separation& s,
               Manifold& manifold) {
   const double gap = s.distance - (a.radius + b.radius);
   manifold.normal = s.normal;
@@ -50,7 +50,7 @@ End cutAt(double along, const End& near, const End& far) {
 }
 
 // The part of the other shape's edge that faces the reference edge.
-bool facePoints(const TurnedView& owner, const TurnedView& other, Vec2 offset, const FaceSeparation& face,
+bool facePoints(const RotatedView& owner, const RotatedView& other, Vec2 offset, const FaceSeparation& face,
                 bool owner_is_a, double speculative, Manifold& manifold) {
   const Vec2 n = owner.normals[at(face.edge)], tangent = perpendicular(n);
   const std::int32_t next = following(face.edge, owner.count), before = preceding(face.support, other.count);
@@ -96,8 +96,8 @@ bool facePoints(const TurnedView& owner, const TurnedView& other, Vec2 offset, c
 }
 
 // Is the kept edge still the one to use? Fills `face` if so.
-bool stillGood(const TurnedView& owner, const TurnedView& other, Vec2 offset, std::uint8_t edge, double best,
-               FaceSeparation& face) {
+bool stillGood(const RotatedView& owner, const RotatedView& other, Vec2 offset, std::uint8_t edge,
+               double best, FaceSeparation& face) {
   if (edge >= owner.count) return false;
   face = faceSeparation(owner, edge, other, offset);
   if (face.distance < best - kFaceHysteresis * std::min(owner.reach, other.reach)) return false;
@@ -111,7 +111,7 @@ bool stillGood(const TurnedView& owner, const TurnedView& other, Vec2 offset, st
 
 }  // namespace
 
-bool collide(const TurnedView& a, const TurnedView& b, Vec2 offset, double speculative, ReferenceFace kept,
+bool collide(const RotatedView& a, const RotatedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces) {
   const double enough = a.radius + b.radius + speculative;
   manifold.count = 0;
@@ -149,7 +149,7 @@ bool collide(const TurnedView& a, const TurnedView& b, Vec2 offset, double specu
 
 bool collide(const ConvexShape& a, Rotation rotation_a, const ConvexShape& b, Rotation rotation_b,
              Vec2 offset, double speculative, Manifold& manifold) {
-  TurnedShape turned_a, turned_b;
+  RotatedShape turned_a, turned_b;
   turn(a, rotation_a, turned_a);
   turn(b, rotation_b, turned_b);
   return collide(turned_a, turned_b, offset, speculative, {}, manifold);

@@ -45,7 +45,7 @@ struct Manifold {
 /// hysteresis with it. Returns true if there is a point; otherwise sets only the count of `manifold`.
 /// `prefers_faces` concerns two polygons with corners as nearest points, one of which has an edge in front of
 /// the other's: they get the two points of these edges, because another corner may be nearest when they meet.
-bool collide(const TurnedView& a, const TurnedView& b, Vec2 offset, double speculative, ReferenceFace kept,
+bool collide(const RotatedView& a, const RotatedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces = false);
 
 /// Rotates the shapes first; for pairs that are tested once.

@@ -44,7 +44,7 @@ Nearest pointToEdge(Vec2 point, std::int32_t index, Vec2 from, Vec2 to, std::int
 }
 
 // The distance between one edge of each, by their four ends.
-Nearest betweenEdges(const TurnedView& a, std::int32_t edge_a, const TurnedView& b, std::int32_t edge_b,
+Nearest betweenEdges(const RotatedView& a, std::int32_t edge_a, const RotatedView& b, std::int32_t edge_b,
                      Vec2 offset) {
   const std::int32_t next_a = following(edge_a, a.count), next_b = following(edge_b, b.count);
   const Vec2 a1 = a.vertices[at(edge_a)], a2 = a.vertices[at(next_a)];
@@ -56,14 +56,14 @@ Nearest betweenEdges(const TurnedView& a, std::int32_t edge_a, const TurnedView&
   return best;
 }
 
-Separation fromFace(const FaceSeparation& face, const TurnedView& owner, bool of_a) {
+Separation fromFace(const FaceSeparation& face, const RotatedView& owner, bool of_a) {
   const Vec2 n = owner.normals[at(face.edge)];
   if (of_a) return {face.distance, n, Feature::kFaceA, face.edge, face.support};
   return {face.distance, -n, Feature::kFaceB, face.support, face.edge};
 }
 
 // A capsule's only edge has two sides.
-FaceSeparation facing(const TurnedView& shape, std::int32_t edge, const TurnedView& other, Vec2 offset) {
+FaceSeparation facing(const RotatedView& shape, std::int32_t edge, const RotatedView& other, Vec2 offset) {
   if (shape.count > 2) return faceSeparation(shape, edge, other, offset);
   return bestFace(shape, other, offset, std::numeric_limits<double>::infinity());
 }
@@ -91,7 +91,7 @@ double leastAlong(Vec2 n, const Vec2* p_corners, std::int32_t count) {
 
 }  // namespace
 
-FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
+FaceSeparation faceSeparation(const RotatedView& shape, std::int32_t edge, const RotatedView& other,
                               Vec2 offset) {
   const Vec2 n = shape.normals[at(edge)];
   const Vec2* const p_corners = other.vertices;
@@ -106,7 +106,7 @@ FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const 
   return {dot(n, offset) + (least - dot(n, shape.vertices[at(edge)])), edge, support};
 }
 
-FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough) {
+FaceSeparation bestFace(const RotatedView& shape, const RotatedView& other, Vec2 offset, double enough) {
   const std::int32_t edges = shape.count;
   if (edges == 1) return {};
   // Which corner it is costs more than how far; it is asked for the best edge alone.
@@ -125,7 +125,7 @@ FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 o
   return faceSeparation(shape, best, other, offset);
 }
 
-double faceGap(const TurnedView& shape, Vec2 centre, double radius) {
+double faceGap(const RotatedView& shape, Vec2 centre, double radius) {
   double most = -std::numeric_limits<double>::infinity();
   for (std::int32_t i = 0; i < shape.count && shape.count > 2; ++i) {
     most = std::max(most, dot(shape.normals[i], centre - shape.vertices[i]) - shape.radius - radius);
@@ -133,13 +133,13 @@ double faceGap(const TurnedView& shape, Vec2 centre, double radius) {
   return most;
 }
 
-Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
-                          const FaceSeparation& face_b) {
+Separation separationFrom(const RotatedView& a, const RotatedView& b, Vec2 offset,
+                          const FaceSeparation& face_a, const FaceSeparation& face_b) {
   if (a.count == 1 && b.count == 1) return fromVertices(offset + (b.vertices[0] - a.vertices[0]), 0, 0);
   const bool of_a = face_a.distance >= face_b.distance;
   const FaceSeparation& face = of_a ? face_a : face_b;
-  const TurnedView& owner = of_a ? a : b;
-  const TurnedView& other = of_a ? b : a;
+  const RotatedView& owner = of_a ? a : b;
+  const RotatedView& other = of_a ? b : a;
   const Vec2 to_other = of_a ? offset : -offset;
   // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with;
   // if they cross, the best edge has the other's nearest end in front of it.
@@ -170,7 +170,7 @@ Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset,
   return fromVertices(apart, best.index_a, best.index_b);
 }
 
-Separation separation(const TurnedView& a, const TurnedView& b, Vec2 offset, double enough) {
+Separation separation(const RotatedView& a, const RotatedView& b, Vec2 offset, double enough) {
   const FaceSeparation face_a = bestFace(a, b, offset, enough);
   if (face_a.distance > enough) return fromFace(face_a, a, true);
   const FaceSeparation face_b = bestFace(b, a, -offset, enough);

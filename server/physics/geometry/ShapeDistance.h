@@ -31,22 +31,22 @@ struct FaceSeparation {
 
 /// Compares one edge of `shape` with all of `other`, whose origin is `offset` from the shape's. The supports
 /// are compared before the bodies' offset is added, so that equal sizes cancel exactly.
-FaceSeparation faceSeparation(const TurnedView& shape, std::int32_t edge, const TurnedView& other,
+FaceSeparation faceSeparation(const RotatedView& shape, std::int32_t edge, const RotatedView& other,
                               Vec2 offset);
 /// Returns the best edge, or the first found with more than `enough`. −∞ for a shape without edges.
-FaceSeparation bestFace(const TurnedView& shape, const TurnedView& other, Vec2 offset, double enough);
+FaceSeparation bestFace(const RotatedView& shape, const RotatedView& other, Vec2 offset, double enough);
 /// Returns a lower bound of the distance of a circle about `centre` to the shape, by the shape's faces alone;
 /// −∞ for a shape without faces.
-double faceGap(const TurnedView& shape, Vec2 centre, double radius);
+double faceGap(const RotatedView& shape, Vec2 centre, double radius);
 
 /// `offset` is from A's origin to B's. Exact but for rounding, by separating axes and, if the nearest
 /// features are both corners, by the distance between edges that these axes determine. Not iterative. If the
 /// distance exceeds `enough`, the result may be any lower bound above it, with its axis.
-Separation separation(const TurnedView& a, const TurnedView& b, Vec2 offset,
+Separation separation(const RotatedView& a, const RotatedView& b, Vec2 offset,
                       double enough = std::numeric_limits<double>::infinity());
 
 /// Like separation(), with `face_a` and `face_b` already known.
-Separation separationFrom(const TurnedView& a, const TurnedView& b, Vec2 offset, const FaceSeparation& face_a,
-                          const FaceSeparation& face_b);
+Separation separationFrom(const RotatedView& a, const RotatedView& b, Vec2 offset,
+                          const FaceSeparation& face_a, const FaceSeparation& face_b);
 
 }  // namespace naiad::physics

@@ -24,7 +24,7 @@ struct Crossing {
   }
 };
 
-Crossing crossingOf(const TurnedShape& shape, double y) {
+Crossing crossingOf(const RotatedShape& shape, double y) {
   Crossing crossing;
   for (std::int32_t i = 0; i < shape.count; ++i) {
     const Vec2 corner = shape.vertices[at(i)];
@@ -49,7 +49,7 @@ Crossing crossingOf(const TurnedShape& shape, double y) {
 
 }  // namespace
 
-void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
+void rasterise(const RotatedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
                std::int32_t furthest) {
   spans.clear();
   const double most = furthest;

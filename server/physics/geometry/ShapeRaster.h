@@ -21,7 +21,7 @@ struct CellSpan {
 /// any cell near it. A cell is 1 wide and `aspect` > 0 high. Replaces `spans` by the non-empty rows from top
 /// to bottom; a row between two others can only be missing if the shape is thinner than a cell there.
 /// Examines nothing beyond `furthest` cells.
-void rasterise(const TurnedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
+void rasterise(const RotatedShape& shape, Vec2 centre, double aspect, std::vector<CellSpan>& spans,
                std::int32_t furthest = 4096);
 
 }  // namespace naiad::physics

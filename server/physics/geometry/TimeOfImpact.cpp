@@ -31,7 +31,7 @@ struct Corners {
   std::array<double, kMaxVertices> place;
   std::array<double, kMaxVertices> speed;
 
-  Corners(const TurnedShape& shape, Vec2 axis, double spin) : count(shape.count) {
+  Corners(const RotatedShape& shape, Vec2 axis, double spin) : count(shape.count) {
     const Vec2 across = perpendicular(axis);
     for (std::int32_t i = 0; i < count; ++i) {
       place[at(i)] = dot(axis, shape.vertices[at(i)]);
@@ -86,7 +86,7 @@ constexpr double kFastTurn = 6.3;
 // Both at one time.
 struct View {
   const RigidMotion &motion_a, &motion_b;
-  const TurnedShape &a, &b;
+  const RotatedShape &a, &b;
   Vec2 apart, displacement;
   double radii, level, farthest, speed, left;
 
@@ -107,8 +107,8 @@ struct View {
 };
 
 // As far as everything reaches that turns about the origin.
-TurnedShape discAround(double reach) {
-  TurnedShape disc;
+RotatedShape discAround(double reach) {
+  RotatedShape disc;
   disc.count = 1;
   disc.radius = disc.reach = reach;
   disc.vertices[0] = disc.normals[0] = {};
@@ -138,7 +138,7 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
   const bool is_uneven = std::max(size_a, size_b) > kFarLarger * std::min(size_a, size_b);
   const double turn_most = std::max(std::fabs(motion_a.turn), std::fabs(motion_b.turn));
   const bool a_turns_more = std::fabs(motion_a.turn) == turn_most;
-  TurnedShape turned_a, turned_b;
+  RotatedShape turned_a, turned_b;
   double level = target, time = span.from;
   for (result.iterations = 1; result.iterations <= kImpactIterations; ++result.iterations) {
     const bool first = result.iterations == 1;

@@ -17,7 +17,7 @@ constexpr double kLinger = 0.01;  // a larger gap ends a contact
 constexpr double kLarge = 2;      // times the size of another body: its shapes are mostly far from it
 constexpr double kSlide = 0.25;   // of the reference face, in a step: farther, and its points are left behind
 
-double edgeLength(const TurnedView& shape, std::int32_t edge) {
+double edgeLength(const RotatedView& shape, std::int32_t edge) {
   return length(shape.vertices[following(edge, shape.count)] - shape.vertices[edge]);
 }
 
@@ -29,12 +29,12 @@ bool isFloor(const RigidBody& body) {
 // The points of a contact lie on the edge that faces the reference, and stay there for the step. On a longer
 // edge, such as a floor's, they are left behind by what slides over it, and hold it no more. Then the longer
 // one is the better reference: the points go with what slides. `path`: of B against A, in the step.
-bool slidesAway(const TurnedView& a, const TurnedView& b, Vec2 offset, Vec2 path, const Manifold& manifold,
+bool slidesAway(const RotatedView& a, const RotatedView& b, Vec2 offset, Vec2 path, const Manifold& manifold,
                 ReferenceFace& better) {
   using Owner = ReferenceFace::Owner;
   if (manifold.reference.owner == Owner::kNone) return false;
   const bool is_of_a = manifold.reference.owner == Owner::kA;
-  const TurnedView &owner = is_of_a ? a : b, &other = is_of_a ? b : a;
+  const RotatedView &owner = is_of_a ? a : b, &other = is_of_a ? b : a;
   const double face = edgeLength(owner, manifold.reference.edge);
   if (std::fabs(cross(manifold.normal, path)) <= kSlide * face) return false;
   const FaceSeparation facing = bestFace(other, owner, is_of_a ? -offset : offset, kNoLimit);

@@ -177,7 +177,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
 
 }  // namespace
 
-void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, const Manifold& manifold,
+void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, const Manifold& manifold,
                      ContactConstraint& c) {
   c.count = manifold.count;
   c.normal = c.first_normal = manifold.normal;

@@ -13,7 +13,7 @@ namespace naiad::physics {
 
 /// Call at the start of a step: sets everything except body indices, material and impulses. `offset` is from
 /// A's origin to B's.
-void beginConstraint(const TurnedShape& a, const TurnedShape& b, Vec2 offset, const Manifold& manifold,
+void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, const Manifold& manifold,
                      ContactConstraint& constraint);
 
 /// Converts a constraint that was found within the step to the coordinates of the start of the step, when B

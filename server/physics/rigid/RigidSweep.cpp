@@ -184,7 +184,7 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   }
   const RigidState &one = m_states[at(a)], &other = m_states[at(b)];
   const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
-  TurnedShape turned_a, turned_b;
+  RotatedShape turned_a, turned_b;
   turn(of_a.shapes[at(impact.shape_a)], one.turn * m_bodies[at(a)].rotation, turned_a);
   turn(of_b.shapes[at(impact.shape_b)], other.turn * m_bodies[at(b)].rotation, turned_b);
   const Vec2 start = m_bodies[at(b)].place - m_bodies[at(a)].place,

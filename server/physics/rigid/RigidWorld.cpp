@@ -89,7 +89,7 @@ void RigidWorld::measure(int id) {
   Extra& extra = m_extras[at(id)];
   extra.turned.resize(extra.shapes.size());
   extra.reach = 0;
-  extra.thickness = extra.shapes.empty() ? 0 : kLargestShape;
+  extra.thickness = extra.shapes.empty() ? 0 : kMaxShapeExtent;
   for (const ConvexShape& shape : extra.shapes) {
     extra.reach = std::max(extra.reach, shape.reach + shape.radius);
     extra.thickness = std::min(extra.thickness, thicknessOf(shape));

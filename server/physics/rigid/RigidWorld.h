@@ -99,7 +99,7 @@ class RigidWorld final : public RigidStepper {
 
   struct Extra {
     std::vector<ConvexShape> shapes;
-    std::vector<TurnedShape> turned;
+    std::vector<RotatedShape> turned;
     double reach = 0;         // of all shapes, from the centre
     double margin = 0;        // distance to which contacts were searched in this step
     double thickness = 0;     // smallest half width of a shape

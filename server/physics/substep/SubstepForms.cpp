@@ -28,7 +28,7 @@ std::int32_t SubstepForms::take(std::span<const ConvexShape> shapes) {
   SubstepForm& made = m_forms[at(form)];
   made = {};
   made.shapes.assign(shapes.begin(), shapes.end());
-  made.thickness = shapes.empty() ? 0 : kLargestShape;
+  made.thickness = shapes.empty() ? 0 : kMaxShapeExtent;
   made.users = 1;
   for (const ConvexShape& shape : shapes) {
     made.reach = std::max(made.reach, shape.reach + shape.radius);

@@ -63,7 +63,7 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
   std::span<Vec2> corners = b.turned;
   for (const ConvexShape& shape : m_forms[b.form].shapes) {
     turn(shape, b.body.rotation, corners);
-    const Bounds own = boundsOf(turnedView(shape, corners));
+    const Bounds own = boundsOf(rotatedView(shape, corners));
     b.bounds.lower = {std::min(b.bounds.lower.x, own.lower.x), std::min(b.bounds.lower.y, own.lower.y)};
     b.bounds.upper = {std::max(b.bounds.upper.x, own.upper.x), std::max(b.bounds.upper.y, own.upper.y)};
     corners = corners.subspan(2 * at(shape.count));
@@ -71,7 +71,7 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
 }
 
 // As turnShapes() made it last.
-TurnedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
+RotatedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
   const ConvexShape* const p_shapes = m_forms[b.form].shapes.data();
   const Vec2* p_corners = b.turned.data();
   for (std::int32_t i = 0; i < number; ++i) p_corners += std::ptrdiff_t{2} * p_shapes[i].count;

@@ -157,7 +157,7 @@ class SubstepWorld final : public RigidStepper {
   // SubstepWorld.cpp
   void measure(SubstepBody& body);
   void turnShapes(SubstepBody& body);
-  TurnedView turnedShape(const SubstepBody& body, std::int32_t number) const;
+  RotatedView turnedShape(const SubstepBody& body, std::int32_t number) const;
   void boundNow(SubstepBody& body);
   void enter(int id);
   void leave(int id);

@@ -12,7 +12,7 @@ namespace naiad {
 
 /// The scope in which an address can be reached, narrowest first. A distant server must not redirect a client
 /// to a machine in the client's own network.
-enum class AddressReach {
+enum class AddressScope {
   kNone,     ///< not one machine: multicast, broadcast, reserved
   kSelf,     ///< this machine: 127/8, 0/8, ::1, ::
   kPrivate,  ///< a private network: RFC 1918, 6598 (100.64/10), 3927 (169.254/16), 4193 (fc00::/7), fe80::/10
@@ -21,11 +21,11 @@ enum class AddressReach {
 
 /// Returns the scope of an address. IPv6 that carries an IPv4 address (mapped, NAT64 64:ff9b::/96, 6to4
 /// 2002::/16) has the scope of that address.
-AddressReach reachOf(const asio::ip::address& address);
+AddressScope scopeOf(const asio::ip::address& address);
 
 /// True if a server at `from` may redirect a client to `to`: the scope of `to` must not be narrower.
-inline bool maySendTo(const asio::ip::address& from, const asio::ip::address& to) {
-  return reachOf(to) != AddressReach::kNone && reachOf(to) >= reachOf(from);
+inline bool mayRedirectTo(const asio::ip::address& from, const asio::ip::address& to) {
+  return scopeOf(to) != AddressScope::kNone && scopeOf(to) >= scopeOf(from);
 }
 
 /// The addresses of one family that begin with given bits.

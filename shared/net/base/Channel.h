@@ -64,7 +64,7 @@ class DatagramChannel {
   /// Sends one packet (<= 1200 bytes); it may be lost.
   virtual void send(std::string_view packet) = 0;
   /// The largest packet in bytes that may be sent now; nullopt while the other end's address is unknown.
-  virtual std::optional<std::size_t> room() const { return 1200; }
+  virtual std::optional<std::size_t> payloadBudget() const { return 1200; }
   /// "127.0.0.1:40000", for logs.
   virtual std::string peerAddress() const = 0;
 };

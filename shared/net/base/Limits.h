@@ -21,7 +21,7 @@ inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
 inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< bytes of a name in UTF-8
 /// Longest message for people (refusals, goodbyes) and longest name of a game or program, in characters.
-inline constexpr std::size_t kMaxSentenceLength = 300;
+inline constexpr std::size_t kMaxMessageLength = 300;
 inline constexpr std::size_t kMaxProgramLength = 40;
 /// Number and length, in characters, of the game's lines on the help screen.
 inline constexpr std::size_t kMaxHelpLines = 24;

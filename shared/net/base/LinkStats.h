@@ -16,14 +16,14 @@ class PathProbe {
   using Time = std::chrono::steady_clock::time_point;
   using Millis = std::chrono::milliseconds;
 
-  static constexpr Millis kOpenFor{1000};     ///< time for which the path counts as open after evidence
-  static constexpr Millis kProbeEvery{1000};  ///< interval while datagrams do not pass
-  static constexpr Millis kFirstProbes{100};  ///< interval while open, and in a session's or path's first
-                                              ///< second
-  /// Interval for kEagerFor after the last evidence, or always if there is no other way. On a line that loses
-  /// most packets, one probe a second rarely results in an acknowledgement.
-  static constexpr Millis kEagerProbes{250};
-  static constexpr std::chrono::seconds kEagerFor{10};
+  static constexpr Millis kOpenTime{1000};          ///< time for which the path counts as open after evidence
+  static constexpr Millis kProbeInterval{1000};     ///< interval while datagrams do not pass
+  static constexpr Millis kFastProbeInterval{100};  ///< interval while open, and in a session's or path's
+                                                    ///< first second
+  /// Interval for kEagerTime after the last evidence, or always if there is no other way. On a line that
+  /// loses most packets, one probe a second rarely results in an acknowledgement.
+  static constexpr Millis kEagerProbeInterval{250};
+  static constexpr std::chrono::seconds kEagerTime{10};
 
   /// Probes are due after `quiet` without evidence.
   explicit PathProbe(Millis quiet, Time now = {}) : m_quiet(quiet), m_began(now) {}
@@ -36,7 +36,7 @@ class PathProbe {
   }
   void probeSent(Time now) { m_last_probe = now; }
 
-  bool isOpen(Time now) const { return m_passed && now - m_last_evidence < kOpenFor; }
+  bool isOpen(Time now) const { return m_passed && now - m_last_evidence < kOpenTime; }
   /// True if a probe is due. `only`: datagrams are the only way to the other end.
   bool isDue(Time now, bool only) const {
     const bool quiet = !m_passed || now - m_last_evidence >= m_quiet;
@@ -47,8 +47,8 @@ class PathProbe {
 
  private:
   Millis interval(Time now, bool only) const {
-    if (now - m_began < kOpenFor || isOpen(now)) return kFirstProbes;
-    return only || (m_passed && now - m_last_evidence < kEagerFor) ? kEagerProbes : kProbeEvery;
+    if (now - m_began < kOpenTime || isOpen(now)) return kFastProbeInterval;
+    return only || (m_passed && now - m_last_evidence < kEagerTime) ? kEagerProbeInterval : kProbeInterval;
   }
 
   Millis m_quiet;
@@ -61,31 +61,31 @@ class PathProbe {
 /// Measures how long the other end of a line has been silent while this end listened.
 ///
 /// A process that gets no CPU time receives nothing, and afterwards the bytes that arrived still wait to be
-/// read. Therefore time counts as silence only while this end calls listen().
+/// read. Therefore time counts as silence only while this end calls poll().
 class IdleTimer {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Duration = Time::duration;
 
-  /// At most this much of the time between two listen() calls counts as silence.
+  /// At most this much of the time between two poll() calls counts as silence.
   static constexpr std::chrono::milliseconds kMaxAtOnce{500};
 
-  explicit IdleTimer(Time now) : m_since(now), m_listened(now) {}
+  explicit IdleTimer(Time now) : m_since(now), m_polled(now) {}
 
   /// Records that something was received.
-  void heard(Time now) { m_since = now; }
+  void onActivity(Time now) { m_since = now; }
   /// Call before checking deadlines, a few times a second.
-  void listen(Time now) {
-    const Duration away = now - m_listened - kMaxAtOnce;
+  void poll(Time now) {
+    const Duration away = now - m_polled - kMaxAtOnce;
     if (away > Duration::zero()) m_since = std::min(m_since + away, now);
-    m_listened = std::max(m_listened, now);
+    m_polled = std::max(m_polled, now);
   }
   /// The length of the silence.
-  Duration at(Time now) const { return now - m_since; }
+  Duration idleTime(Time now) const { return now - m_since; }
 
  private:
   Time m_since;
-  Time m_listened;
+  Time m_polled;
 };
 
 /// The round-trip time: smoothed, and the shortest recent one.

@@ -161,7 +161,7 @@ void requireRegular(const fs::path& path) {
   if (fs::exists(status) && !fs::is_regular_file(status)) refuseKind(path);
 }
 
-bool openToOthers(const fs::path& path) {
+bool isOpenToOthers(const fs::path& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) fail(path);
   return (facts.st_mode & (S_IRWXG | S_IRWXO)) != 0;

@@ -28,7 +28,7 @@ bool makeFile(const std::filesystem::path& path, std::string_view content);
 void requireRegular(const std::filesystem::path& path);
 
 /// True if the file's group or others may read or write it.
-bool openToOthers(const std::filesystem::path& path);
+bool isOpenToOthers(const std::filesystem::path& path);
 
 /// A lock on a file (created if missing, 0600), held while this object lives, against other processes and
 /// threads. The constructor waits for it.

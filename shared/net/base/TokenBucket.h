@@ -17,18 +17,18 @@ class TokenBucket {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Takes one token if there is one. `now` may be earlier than in the last call; then no tokens are added.
-  bool takeToken(const BucketRate& rate, Time now) {
-    if (!hasToken(rate, now)) return false;
+  bool tryConsume(const BucketRate& rate, Time now) {
+    if (!canConsume(rate, now)) return false;
     tokens_ -= 1;
     return true;
   }
   /// True if there is a token to take.
-  bool hasToken(const BucketRate& rate, Time now) {
+  bool canConsume(const BucketRate& rate, Time now) {
     refill(rate, now);
     return tokens_ >= 1;
   }
   /// Takes one token even from an empty bucket. The debt is at most `burst`.
-  void forceToken(const BucketRate& rate, Time now) {
+  void forceConsume(const BucketRate& rate, Time now) {
     refill(rate, now);
     tokens_ = std::max(tokens_ - 1, -rate.burst);
   }

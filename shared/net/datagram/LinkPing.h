@@ -24,25 +24,25 @@ class LinkPing {
   };
 
   /// Requests a ping in the next packet.
-  void ask() { m_asked = true; }
-  bool isAsked() const { return m_asked; }
+  void request() { m_requested = true; }
+  bool isRequested() const { return m_requested; }
   /// Returns the ping's token for a packet that is sent now.
-  std::uint8_t sent(Time now) {
-    m_asked = false;
+  std::uint8_t onSent(Time now) {
+    m_requested = false;
     m_sent = now;
     return ++m_token;
   }
   /// Records an echo. Ignores those of older pings and duplicates.
-  void answered(const Echo& echo, Time now) {
+  void onEcho(const Echo& echo, Time now) {
     if (!m_sent || echo.token != m_token) return;
     const Millis held(echo.held_millis);
     m_round_trip = std::max(Millis(now - *std::exchange(m_sent, std::nullopt)) - held, Millis(0));
   }
   /// Returns and clears the round trip; nullopt if none was measured since the last call.
-  std::optional<Millis> takeRoundTrip() { return std::exchange(m_round_trip, std::nullopt); }
+  std::optional<Millis> popRoundTrip() { return std::exchange(m_round_trip, std::nullopt); }
 
  private:
-  bool m_asked = false;
+  bool m_requested = false;
   std::uint8_t m_token = 0;
   std::optional<Time> m_sent;  ///< time of the newest ping, until it is answered
   std::optional<Millis> m_round_trip;
@@ -56,9 +56,9 @@ class LinkEcho {
   /// Pings held longer than this are not answered.
   static constexpr std::chrono::milliseconds kMaxHeld{255};
 
-  void notePing(std::uint8_t token, Time now) { m_waiting = {token, now}; }
+  void onPing(std::uint8_t token, Time now) { m_waiting = {token, now}; }
   /// Returns the echo for a packet that is sent now; nullopt if no ping waits.
-  std::optional<LinkPing::Echo> takeEcho(Time now) {
+  std::optional<LinkPing::Echo> popEcho(Time now) {
     const auto waiting = std::exchange(m_waiting, std::nullopt);
     if (!waiting || now - waiting->second > kMaxHeld) return std::nullopt;
     const auto held = std::chrono::floor<std::chrono::milliseconds>(now - waiting->second);

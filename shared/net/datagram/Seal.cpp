@@ -45,7 +45,7 @@ unsigned char* bytes(char* text) {
 
 }  // namespace
 
-std::uint64_t restoreSequence(std::uint64_t expected, std::uint16_t wire) {
+std::uint64_t expandSequence(std::uint64_t expected, std::uint16_t wire) {
   constexpr std::uint64_t kWindow = 1u << 16;
   constexpr std::uint64_t kHalf = kWindow / 2;
   const std::uint64_t candidate = (expected & ~(kWindow - 1)) | wire;
@@ -56,10 +56,10 @@ std::uint64_t restoreSequence(std::uint64_t expected, std::uint16_t wire) {
   return candidate;
 }
 
-ReplayWindow::Verdict ReplayWindow::check(std::uint64_t sequence) const {
-  if (sequence >= expected_) return Verdict::kNew;
-  if (expected_ - sequence > kSize) return Verdict::kTooOld;
-  return word(sequence) >> (sequence % 64) & 1 ? Verdict::kSeen : Verdict::kNew;
+ReplayWindow::Result ReplayWindow::check(std::uint64_t sequence) const {
+  if (sequence >= expected_) return Result::kNew;
+  if (expected_ - sequence > kSize) return Result::kTooOld;
+  return word(sequence) >> (sequence % 64) & 1 ? Result::kSeen : Result::kNew;
 }
 
 void ReplayWindow::mark(std::uint64_t sequence) {
@@ -77,7 +77,7 @@ void ReplayWindow::mark(std::uint64_t sequence) {
   seen_[(sequence / 64) % seen_.size()] |= std::uint64_t{1} << (sequence % 64);
 }
 
-std::uint64_t mostFailedOpens(AeadId aead) {
+std::uint64_t maxFailedOpens(AeadId aead) {
   return std::uint64_t{1} << (aead == AeadId::kAes128Gcm ? 52 : 36);
 }
 
@@ -109,17 +109,17 @@ std::size_t Sealer::seal(char* packet, std::size_t prefix, std::size_t size) {
   return done ? header + size + kSealTagSize : 0;
 }
 
-Opener::Opener(const SealKey& key, std::uint64_t most_failures)
-    : context_(makeContext(key, Mode::kOpen)), iv_(key.iv), most_failures_(most_failures) {}
+Opener::Opener(const SealKey& key, std::uint64_t max_failures)
+    : context_(makeContext(key, Mode::kOpen)), iv_(key.iv), max_failures_(max_failures) {}
 
 OpenResult Opener::check(std::uint16_t wire_sequence) const {
   if (exhausted()) return OpenResult::kExhausted;
-  switch (window_.check(restoreSequence(window_.expected(), wire_sequence))) {
-    case ReplayWindow::Verdict::kNew:
+  switch (window_.check(expandSequence(window_.expected(), wire_sequence))) {
+    case ReplayWindow::Result::kNew:
       return OpenResult::kOpened;
-    case ReplayWindow::Verdict::kSeen:
+    case ReplayWindow::Result::kSeen:
       return OpenResult::kReplayed;
-    case ReplayWindow::Verdict::kTooOld:
+    case ReplayWindow::Result::kTooOld:
       break;
   }
   return OpenResult::kTooOld;
@@ -130,7 +130,7 @@ OpenResult Opener::open(std::string_view packet, std::size_t header, char* paylo
   const auto wire = loadLittleEndian<std::uint16_t>(packet.data() + header - 2);
   const OpenResult checked = check(wire);
   if (checked != OpenResult::kOpened) return checked;
-  sequence = restoreSequence(window_.expected(), wire);
+  sequence = expandSequence(window_.expected(), wire);
   if (!decrypt(packet, header, payload, sequence)) {
     ++failures_;
     return OpenResult::kForged;

@@ -19,7 +19,7 @@ namespace naiad {
 
 /// Returns the full number whose low 16 bits are `wire` and that is nearest to the next expected one (RFC
 /// 9000, appendix A.3). Correct if it is less than 2¹⁵ away.
-std::uint64_t restoreSequence(std::uint64_t expected, std::uint16_t wire);
+std::uint64_t expandSequence(std::uint64_t expected, std::uint16_t wire);
 
 /// The set of sequence numbers seen: the newest one, and a bit for each of the numbers just before it. Try to
 /// open a packet whose number is kNew, and mark the number only if the packet is authentic: otherwise forged
@@ -29,10 +29,10 @@ class ReplayWindow {
   /// Size of the window, including the newest number.
   static constexpr std::uint64_t kSize = 1024;
 
-  enum class Verdict : std::uint8_t { kNew, kSeen, kTooOld };
+  enum class Result : std::uint8_t { kNew, kSeen, kTooOld };
 
   /// Tells whether the number is new. Changes nothing.
-  Verdict check(std::uint64_t sequence) const;
+  Result check(std::uint64_t sequence) const;
   /// Marks a number that was kNew as seen. Call after its packet was authenticated.
   void mark(std::uint64_t sequence);
 
@@ -50,11 +50,11 @@ class ReplayWindow {
 /// 9001, 6.6 and appendix B: 2²³ AES-GCM packets of any size, 2²⁸ of at most 2 KiB.
 struct SealLimits {
   std::uint64_t new_epoch_after = std::uint64_t{1} << 23;
-  std::uint64_t most = std::uint64_t{1} << 28;
+  std::uint64_t max = std::uint64_t{1} << 28;
 };
 
 /// Returns the number of failed opens after which a key must not be used (RFC 9001, 6.6): 2⁵² or 2³⁶.
-std::uint64_t mostFailedOpens(AeadId aead);
+std::uint64_t maxFailedOpens(AeadId aead);
 
 namespace detail {
 
@@ -76,13 +76,13 @@ class Sealer {
 
   /// Seals `size` bytes in place. `packet` holds `prefix` header bytes, two bytes that this fills with the
   /// sequence number, the payload, and space for the tag. Returns the size of the whole packet, or 0 (and
-  /// leaves the payload unchanged) after `limits.most` packets.
+  /// leaves the payload unchanged) after `limits.max` packets.
   std::size_t seal(char* packet, std::size_t prefix, std::size_t size);
 
   /// True if a new epoch should start.
-  bool wantsNewEpoch() const { return next_ >= limits_.new_epoch_after; }
+  bool needsNewEpoch() const { return next_ >= limits_.new_epoch_after; }
   /// True if no more packets can be sealed.
-  bool exhausted() const { return next_ >= limits_.most; }
+  bool exhausted() const { return next_ >= limits_.max; }
   /// The number of packets sealed, which is the next sequence number.
   std::uint64_t sealed() const { return next_; }
 
@@ -106,8 +106,8 @@ enum class OpenResult : std::uint8_t {
 class Opener {
  public:
   /// Throws std::bad_alloc.
-  explicit Opener(const SealKey& key) : Opener(key, mostFailedOpens(key.aead)) {}
-  Opener(const SealKey& key, std::uint64_t most_failures);
+  explicit Opener(const SealKey& key) : Opener(key, maxFailedOpens(key.aead)) {}
+  Opener(const SealKey& key, std::uint64_t max_failures);
   Opener(Opener&&) noexcept = default;
   Opener& operator=(Opener&&) noexcept = default;
 
@@ -119,7 +119,7 @@ class Opener {
   OpenResult open(std::string_view packet, std::size_t header, char* payload, std::uint64_t& sequence);
 
   /// True if no more packets can be opened.
-  bool exhausted() const { return failures_ >= most_failures_; }
+  bool exhausted() const { return failures_ >= max_failures_; }
   /// One more than the newest opened sequence number: the other end has sealed at least this many packets.
   std::uint64_t expected() const { return window_.expected(); }
   /// The number of forged packets.
@@ -131,7 +131,7 @@ class Opener {
   detail::CipherContext context_;
   std::array<unsigned char, kAeadIvSize> iv_;
   ReplayWindow window_;
-  std::uint64_t most_failures_;
+  std::uint64_t max_failures_;
   std::uint64_t failures_ = 0;
 };
 

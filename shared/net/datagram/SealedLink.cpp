@@ -22,27 +22,27 @@ std::optional<PathChallenge> takeField(std::string_view& text) {
   return value;
 }
 
-std::optional<std::uint8_t> takeByte(std::string_view& text) {
+std::optional<std::uint8_t> readByte(std::string_view& text) {
   if (text.empty()) return std::nullopt;
   const auto byte = static_cast<std::uint8_t>(text[0]);
   text.remove_prefix(1);
   return byte;
 }
 
-std::optional<LinkPing::Echo> takeEcho(std::string_view& text) {
-  const auto token = takeByte(text);
-  const auto held = takeByte(text);
+std::optional<LinkPing::Echo> popEcho(std::string_view& text) {
+  const auto token = readByte(text);
+  const auto held = readByte(text);
   if (!token || !held) return std::nullopt;
   return LinkPing::Echo{*token, *held};
 }
 
 }  // namespace
 
-bool PathGuard::arrived(const Path& path, std::size_t bytes, PathChallenge challenge) {
+bool PathValidator::onPacket(const Path& path, std::size_t bytes, PathChallenge challenge) {
   const bool moved = current_ != path;
   if (moved) {
     current_ = path;
-    validated_ = current_ == proven_;
+    validated_ = current_ == validated_path_;
     challenge_ = challenge;
     bytes_in_ = bytes_out_ = 0;
     challenged_.reset();
@@ -51,35 +51,35 @@ bool PathGuard::arrived(const Path& path, std::size_t bytes, PathChallenge chall
   return moved;
 }
 
-void PathGuard::arrivedLate(const Path& path, std::size_t bytes) {
+void PathValidator::onLatePacket(const Path& path, std::size_t bytes) {
   if (current_ == path) bytes_in_ += bytes;
 }
 
-bool PathGuard::answered(PathChallenge answer) {
+bool PathValidator::onResponse(PathChallenge answer) {
   if (!current_ || validated() || !challenged_ || answer != challenge_) return false;
-  proven_ = current_;
+  validated_path_ = current_;
   validated_ = true;
   return true;
 }
 
-void PathGuard::trust(const Path& path) {
-  current_ = proven_ = path;
+void PathValidator::setUnvalidated(const Path& path) {
+  current_ = validated_path_ = path;
   validated_ = true;
 }
 
-std::size_t PathGuard::budget() const {
+std::size_t PathValidator::budget() const {
   if (validated()) return std::numeric_limits<std::size_t>::max();
   const std::uint64_t allowed = kAmplification * bytes_in_;
   return allowed > bytes_out_ ? allowed - bytes_out_ : 0;
 }
 
-void PathGuard::sent(std::size_t bytes, Time now) {
+void PathValidator::onSent(std::size_t bytes, Time now) {
   if (validated()) return;
   bytes_out_ += bytes;
   challenged_ = now;
 }
 
-bool PathGuard::wantsChallenge(Time now) const {
+bool PathValidator::needsChallenge(Time now) const {
   return current_ && !validated() && (!challenged_ || now - *challenged_ >= kChallengeInterval);
 }
 
@@ -124,7 +124,7 @@ SealedLink::Keys* SealedLink::findKeys(Epoch epoch_bits) {
 
 // Receiving.
 
-bool SealedLink::plausible(std::string_view packet, Time now) {
+bool SealedLink::isPlausible(std::string_view packet, Time now) {
   return admit(packet, now) != nullptr;
 }
 
@@ -192,11 +192,11 @@ std::optional<std::string_view> SealedLink::open(const Path& path, std::string_v
   }
   ++counters_.opened;
   if (keys == &*newest_) confirmed_ = true;
-  if (isServer()) notePath(path, packet.size(), {keys->epoch, sequence});
-  if (fields->answer) noteAnswer(*fields->answer);
+  if (isServer()) onPath(path, packet.size(), {keys->epoch, sequence});
+  if (fields->answer) onChallengeResponse(*fields->answer);
   if (fields->challenge) pending_answer_ = fields->challenge;
-  if (fields->ping) echo_.notePing(*fields->ping, now);
-  if (fields->echo) ping_.answered(*fields->echo, now);
+  if (fields->ping) echo_.onPing(*fields->ping, now);
+  if (fields->echo) ping_.onEcho(*fields->echo, now);
   return fields->payload;
 }
 
@@ -208,26 +208,26 @@ std::optional<SealedLink::Fields> SealedLink::readFields(std::string_view text) 
   Fields fields;
   if (flags & kHasChallenge && !(fields.challenge = takeField(text))) return std::nullopt;
   if (flags & kHasAnswer && !(fields.answer = takeField(text))) return std::nullopt;
-  if (flags & kHasPing && !(fields.ping = takeByte(text))) return std::nullopt;
-  if (flags & kHasEcho && !(fields.echo = takeEcho(text))) return std::nullopt;
+  if (flags & kHasPing && !(fields.ping = readByte(text))) return std::nullopt;
+  if (flags & kHasEcho && !(fields.echo = popEcho(text))) return std::nullopt;
   fields.payload = text;
   return fields;
 }
 
-void SealedLink::notePath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number) {
-  if (newest_number_ && number < *newest_number_) return guard_.arrivedLate(path, bytes);
+void SealedLink::onPath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number) {
+  if (newest_number_ && number < *newest_number_) return validator_.onLatePacket(path, bytes);
   newest_number_ = number;
-  const bool moves = guard_.current() != path;
-  if (guard_.arrived(path, bytes, moves ? options_.random() : 0)) ++counters_.path_changes;
+  const bool moves = validator_.current() != path;
+  if (validator_.onPacket(path, bytes, moves ? options_.random() : 0)) ++counters_.path_changes;
 }
 
-void SealedLink::noteAnswer(PathChallenge answer) {
-  ++(guard_.answered(answer) ? counters_.paths_validated : counters_.wrong_answers);
+void SealedLink::onChallengeResponse(PathChallenge answer) {
+  ++(validator_.onResponse(answer) ? counters_.paths_validated : counters_.wrong_answers);
 }
 
 void SealedLink::setServerPath(const Path& path) {
   assert(!isServer());
-  guard_.trust(path);
+  validator_.setUnvalidated(path);
 }
 
 // Sending.
@@ -238,24 +238,24 @@ std::size_t SealedLink::maxPayload() const {
 
 /// Returns the bytes of the next packet that are not payload.
 std::size_t SealedLink::overhead() const {
-  const bool field = isServer() ? !guard_.validated() : pending_answer_.has_value();
+  const bool field = isServer() ? !validator_.validated() : pending_answer_.has_value();
   return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);
 }
 
-std::optional<std::size_t> SealedLink::room() const {
-  if (!guard_.current() || !sendingKeys() || guard_.budget() < overhead()) return std::nullopt;
-  return std::min(maxPayload(), guard_.budget() - overhead());
+std::optional<std::size_t> SealedLink::payloadBudget() const {
+  if (!validator_.current() || !sendingKeys() || validator_.budget() < overhead()) return std::nullopt;
+  return std::min(maxPayload(), validator_.budget() - overhead());
 }
 
-bool SealedLink::wantsToSend(Time now) const {
-  const bool due = isServer() ? guard_.wantsChallenge(now) : pending_answer_.has_value();
-  return due && room().has_value();
+bool SealedLink::needsToSend(Time now) const {
+  const bool due = isServer() ? validator_.needsChallenge(now) : pending_answer_.has_value();
+  return due && payloadBudget().has_value();
 }
 
 std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, Time now, char* memory) {
   assert(payload.size() <= maxPayload());
   expire(now);
-  if (!guard_.current()) {
+  if (!validator_.current()) {
     ++counters_.no_path;
     return std::nullopt;
   }
@@ -264,7 +264,7 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
     ++counters_.no_key;
     return std::nullopt;
   }
-  if (payload.size() + overhead() > guard_.budget()) {
+  if (payload.size() + overhead() > validator_.budget()) {
     ++counters_.over_budget;
     return std::nullopt;
   }
@@ -272,21 +272,21 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
   const std::size_t prefix = writeSealedPrefix(sends(), keys->epoch, options_.id, sealed);
   char* const text = sealed + prefix + 2;
   const std::size_t least = payload.size() + overhead();
-  const std::size_t fields = writeFields(text, std::min(kMaxDatagram, guard_.budget()) - least, now);
+  const std::size_t fields = writeFields(text, std::min(kMaxDatagram, validator_.budget()) - least, now);
   std::copy(payload.begin(), payload.end(), text + fields);
   const std::size_t size = keys->sealer.seal(sealed, prefix, fields + payload.size());
-  guard_.sent(size, now);
+  validator_.onSent(size, now);
   ++counters_.sealed;
-  return Outgoing{*guard_.current(), {sealed, size}};
+  return Outgoing{*validator_.current(), {sealed, size}};
 }
 
 /// Writes flags and fields, returns their size. `spare`: bytes left for a ping or echo.
 std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
   std::size_t size = 1;
   out[0] = 0;
-  if (isServer() && !guard_.validated()) {
+  if (isServer() && !validator_.validated()) {
     out[0] = kHasChallenge;
-    storeLittleEndian(guard_.challenge(), out + size);
+    storeLittleEndian(validator_.challenge(), out + size);
     size += kFieldSize;
   } else if (!isServer() && pending_answer_) {
     out[0] = kHasAnswer;
@@ -297,12 +297,12 @@ std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
 }
 
 std::size_t SealedLink::writePing(char* flags, char* out, std::size_t spare, Time now) {
-  if (!isServer() && spare >= 1 && ping_.isAsked()) {
+  if (!isServer() && spare >= 1 && ping_.isRequested()) {
     *flags = static_cast<char>(*flags | kHasPing);
-    out[0] = static_cast<char>(ping_.sent(now));
+    out[0] = static_cast<char>(ping_.onSent(now));
     return 1;
   }
-  const auto echo = isServer() && spare >= 2 ? echo_.takeEcho(now) : std::nullopt;
+  const auto echo = isServer() && spare >= 2 ? echo_.popEcho(now) : std::nullopt;
   if (!echo) return 0;
   *flags = static_cast<char>(*flags | kHasEcho);
   out[0] = static_cast<char>(echo->token);

@@ -38,7 +38,7 @@ using PathChallenge = std::uint64_t;
 /// it (RFC 9000, 8.1, 8.2 and 9.3). The budget grows with received bytes, not with time. The last validated
 /// path is remembered: a copy that overtakes its original moves the session for one packet only, and
 /// returning needs no new challenge.
-class PathGuard {
+class PathValidator {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
@@ -49,14 +49,14 @@ class PathGuard {
 
   /// Records the newest authentic packet, received on `path`. Returns true if that changes the path;
   /// `challenge` is then stored for it.
-  bool arrived(const Path& path, std::size_t bytes, PathChallenge challenge);
+  bool onPacket(const Path& path, std::size_t bytes, PathChallenge challenge);
   /// Records an authentic packet that is not the newest: only its bytes count.
-  void arrivedLate(const Path& path, std::size_t bytes);
+  void onLatePacket(const Path& path, std::size_t bytes);
   /// Checks an answer, received on any path. Returns true if it proves the current path.
-  bool answered(PathChallenge answer);
+  bool onResponse(PathChallenge answer);
 
   /// Makes `path` the current one, without proof.
-  void trust(const Path& path);
+  void setUnvalidated(const Path& path);
 
   /// The current path; nullopt before the first packet.
   const std::optional<Path>& current() const { return current_; }
@@ -67,14 +67,14 @@ class PathGuard {
   /// The number of bytes that may be sent now; unlimited once validated.
   std::size_t budget() const;
   /// Subtracts this many bytes from the budget, if there is one.
-  void sent(std::size_t bytes, Time now);
+  void onSent(std::size_t bytes, Time now);
   /// True if a challenge is due, even with an empty payload.
-  bool wantsChallenge(Time now) const;
+  bool needsChallenge(Time now) const;
 
  private:
   std::optional<Path> current_;
-  std::optional<Path> proven_;
-  bool validated_ = false;  // current_ and proven_ are equal
+  std::optional<Path> validated_path_;
+  bool validated_ = false;  // current_ and validated_path_ are equal
   PathChallenge challenge_ = 0;
   std::uint64_t bytes_in_ = 0;  // since this path became current
   std::uint64_t bytes_out_ = 0;
@@ -114,7 +114,7 @@ struct SealScratch {
 /// Not thread-safe. All times come from one monotonic clock. Keeps at most two epochs.
 class SealedLink {
  public:
-  using Time = PathGuard::Time;
+  using Time = PathValidator::Time;
   enum class Role : std::uint8_t { kClient, kServer };
 
   /// Time for which packets of the previous epoch are accepted.
@@ -144,7 +144,7 @@ class SealedLink {
   /// the newest packet; a client accepts authentic packets from any address.
   std::optional<std::string_view> open(const Path& path, std::string_view packet, Time now);
   /// True if open() would decrypt the packet. Otherwise the refusal is counted.
-  bool plausible(std::string_view packet, Time now);
+  bool isPlausible(std::string_view packet, Time now);
 
   struct Outgoing {
     Path path;
@@ -154,29 +154,29 @@ class SealedLink {
   /// `memory`: buffer for the packet, kMaxDatagram bytes that do not overlap the payload; null: the scratch.
   std::optional<Outgoing> seal(std::string_view payload, Time now, char* memory = nullptr);
   /// Measures the round trip with the next packet that has a byte to spare; only for clients.
-  void ping() { ping_.ask(); }
+  void ping() { ping_.request(); }
   /// Returns the round trip measured since the last call, without the time that the server held the ping.
-  std::optional<LinkPing::Millis> takeRoundTrip() { return ping_.takeRoundTrip(); }
+  std::optional<LinkPing::Millis> popRoundTrip() { return ping_.popRoundTrip(); }
   /// True if a challenge or an answer is due: seal an empty payload if there is no other.
-  bool wantsToSend(Time now) const;
+  bool needsToSend(Time now) const;
 
   /// The largest payload that always fits a packet: 1164 bytes for clients, 1172 for servers.
   std::size_t maxPayload() const;
   /// Returns the largest payload that seal() accepts now: less than maxPayload() until a new address is
   /// validated; nullopt if not even an empty one.
-  std::optional<std::size_t> room() const;
+  std::optional<std::size_t> payloadBudget() const;
 
   /// True if a key of either direction nears its limit: start a new epoch. It is enough that one end asks.
-  bool wantsNewEpoch() const {
-    return newest_ && (newest_->sealer.wantsNewEpoch() || newest_->opener.exhausted() ||
+  bool needsNewEpoch() const {
+    return newest_ && (newest_->sealer.needsNewEpoch() || newest_->opener.exhausted() ||
                        newest_->opener.expected() >= options_.limits.new_epoch_after);
   }
   /// Returns the newest started epoch.
   std::optional<Epoch> epoch() const;
   /// Returns the path of sent packets; nullopt on a server before the first authentic packet.
-  std::optional<Path> path() const { return guard_.current(); }
+  std::optional<Path> path() const { return validator_.current(); }
   /// True if `path` is this session's validated path.
-  bool isValidated(const Path& path) const { return guard_.validated() && guard_.current() == path; }
+  bool isValidated(const Path& path) const { return validator_.validated() && validator_.current() == path; }
   ConnectionId id() const { return options_.id; }
   const SealedLinkCounters& counters() const { return counters_; }
 
@@ -208,8 +208,8 @@ class SealedLink {
   Keys* admit(std::string_view packet, Time now);
   bool accept(OpenResult result);
   std::optional<Fields> readFields(std::string_view text) const;
-  void notePath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number);
-  void noteAnswer(PathChallenge answer);
+  void onPath(const Path& path, std::size_t bytes, std::pair<Epoch, std::uint64_t> number);
+  void onChallengeResponse(PathChallenge answer);
   std::size_t overhead() const;
   std::size_t writeFields(char* out, std::size_t spare, Time now);
   std::size_t writePing(char* flags, char* out, std::size_t spare, Time now);
@@ -219,7 +219,7 @@ class SealedLink {
   Time previous_until_ = Time::max();
   bool confirmed_ = false;                                        // true if the other end has the newest keys
   std::optional<std::pair<Epoch, std::uint64_t>> newest_number_;  // epoch and number of the newest packet
-  PathGuard guard_;
+  PathValidator validator_;
   std::optional<PathChallenge> pending_answer_;
   LinkPing ping_;
   LinkEcho echo_;

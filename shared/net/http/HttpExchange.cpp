@@ -81,7 +81,7 @@ void HttpExchange::write() {
     const auto [outcome, size] = m_stream->write(std::string_view(m_request).substr(m_written));
     if (outcome == Outcome::kWantsRead || outcome == Outcome::kWantsWrite)
       return await(outcome, &HttpExchange::write);
-    if (outcome != Outcome::kDone) return finish(End::kHungUp);
+    if (outcome != Outcome::kDone) return finish(End::kConnectionLost);
     m_written += size;
   }
   if (m_on_body) m_timer.cancel();
@@ -93,12 +93,12 @@ void HttpExchange::read() {
   const auto [outcome, size] = m_stream->read(buffer);
   if (outcome == Outcome::kWantsRead || outcome == Outcome::kWantsWrite)
     return await(outcome, &HttpExchange::read);
-  if (outcome == Outcome::kDone) return takeBytes({buffer.data(), size});
+  if (outcome == Outcome::kDone) return handleBytes({buffer.data(), size});
   m_reader.feedEnd(outcome == Outcome::kEnd);
-  judge();
+  checkProgress();
 }
 
-void HttpExchange::takeBytes(std::string_view bytes) {
+void HttpExchange::handleBytes(std::string_view bytes) {
   m_reader.feed(bytes);
   if (m_reader.isDone()) m_behind = bytes;
   if (m_on_body && m_reader.hasHead()) {
@@ -106,11 +106,11 @@ void HttpExchange::takeBytes(std::string_view bytes) {
     if (status != kOk) return finish(End::kBadAnswer, "status " + std::to_string(status));
     if (!m_on_body(m_reader.popBody())) return finish(End::kStopped);
   }
-  judge();
+  checkProgress();
 }
 
 /// Continues to read, unless the answer is complete or refused.
-void HttpExchange::judge() {
+void HttpExchange::checkProgress() {
   const HttpError error = m_reader.error();
   if (error == HttpError::kBodyTooLong) return finish(End::kTooLong);
   if (error != HttpError::kNone) return finish(End::kBadAnswer, inWords(error));
@@ -123,7 +123,7 @@ void HttpExchange::await(Outcome wish, void (HttpExchange::*step)()) {
   auto resume = [self = shared_from_this(), step](const std::error_code&) {
     if (self->m_done) (*self.*step)();
   };
-  if (wish == Outcome::kWantsRead && m_stream->holdsInput()) {
+  if (wish == Outcome::kWantsRead && m_stream->hasBufferedInput()) {
     asio::post(m_context, [resume = std::move(resume)] { resume({}); });
   } else {
     m_stream->socket().async_wait(

@@ -12,7 +12,7 @@
 
 #include "shared/net/http/HttpResponseReader.h"
 #include "shared/net/stream/ByteStream.h"
-#include "shared/net/stream/PatientTimer.h"
+#include "shared/net/stream/StallTolerantTimer.h"
 #include "shared/net/stream/StreamAttempt.h"
 
 namespace naiad {
@@ -42,11 +42,11 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
     kNotFound,      ///< The host has no address.
     kOtherMachine,  ///< The host is not this machine, and there is no TLS.
     kUnreachable,
-    kUntrusted,  ///< The TLS handshake failed, for example because of an invalid certificate.
-    kHungUp,     ///< The connection broke while the request was sent.
-    kBadAnswer,  ///< The answer is truncated or not HTTP/1.1.
-    kTooLong,    ///< The body has more bytes than allowed.
-    kStopped,    ///< The body's handler returned false.
+    kUntrusted,       ///< The TLS handshake failed, for example because of an invalid certificate.
+    kConnectionLost,  ///< The connection broke while the request was sent.
+    kBadAnswer,       ///< The answer is truncated or not HTTP/1.1.
+    kTooLong,         ///< The body has more bytes than allowed.
+    kStopped,         ///< The body's handler returned false.
     kTimedOut,
   };
   struct Result {
@@ -79,15 +79,15 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   void onStream(StreamResult result);
   void write();
   void read();
-  void takeBytes(std::string_view bytes);
-  void judge();
+  void handleBytes(std::string_view bytes);
+  void checkProgress();
   void await(Outcome wish, void (HttpExchange::*step)());
   void finish(End end, const std::string& detail = {});
   void stop();
 
   asio::io_context& m_context;
   HttpResponseReader m_reader;
-  PatientTimer m_timer;
+  StallTolerantTimer m_timer;
   std::shared_ptr<StreamAttempt> m_attempt;
   std::unique_ptr<ByteStream> m_stream;
   std::string m_request;

@@ -108,11 +108,11 @@ void HttpHeadReader::feed(std::string_view& bytes) {
     const auto line = m_lines.next(bytes);
     m_error = m_lines.error();
     if (!line) return;
-    takeLine(*line);
+    handleLine(*line);
   }
 }
 
-void HttpHeadReader::takeLine(std::string_view line) {
+void HttpHeadReader::handleLine(std::string_view line) {
   if (!std::exchange(m_has_start, true)) {
     m_head.start_line = line;
     if (line.empty()) m_error = HttpError::kMalformed;

@@ -73,7 +73,7 @@ class HttpHeadReader {
   const HttpHead& head() const { return m_head; }
 
  private:
-  void takeLine(std::string_view line);
+  void handleLine(std::string_view line);
 
   HttpLines m_lines;
   HttpHead m_head;

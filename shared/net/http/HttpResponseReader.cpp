@@ -50,13 +50,13 @@ void HttpResponseReader::step(std::string_view& bytes) {
     case State::kLength:
     case State::kToEnd:
     case State::kChunk:
-      return takeBody(bytes);
+      return readBody(bytes);
     default:
       break;
   }
   const auto line = m_lines.next(bytes);
   fail(m_lines.error());
-  if (line) takeLine(*line);
+  if (line) handleLine(*line);
 }
 
 void HttpResponseReader::readHead(std::string_view& bytes) {
@@ -94,7 +94,7 @@ void HttpResponseReader::chooseFraming(bool is_1_0) {
     begin(*length);
   } else {
     m_state = State::kToEnd;
-    m_left = m_limits.body;
+    m_remaining = m_limits.body;
   }
 }
 
@@ -103,26 +103,26 @@ void HttpResponseReader::begin(std::uint64_t bytes) {
   if (bytes > m_limits.body - m_total && m_limits.body != HttpLimits::kUnlimited)
     return fail(HttpError::kBodyTooLong);
   m_total += bytes;
-  m_left = bytes;
+  m_remaining = bytes;
 }
 
-void HttpResponseReader::takeBody(std::string_view& bytes) {
-  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(m_left, bytes.size()));
+void HttpResponseReader::readBody(std::string_view& bytes) {
+  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(m_remaining, bytes.size()));
   m_body.append(bytes.substr(0, size));
   bytes.remove_prefix(size);
-  if (m_left != HttpLimits::kUnlimited) m_left -= size;
+  if (m_remaining != HttpLimits::kUnlimited) m_remaining -= size;
   if (m_state == State::kToEnd) {
     if (!bytes.empty()) fail(HttpError::kBodyTooLong);
-  } else if (m_left == 0) {
+  } else if (m_remaining == 0) {
     m_state = m_state == State::kChunk ? State::kChunkEnd : State::kDone;
     m_lines.restart();
   }
 }
 
 /// Handles a line of a chunked body (RFC 9112 7.1). Chunk extensions and trailers are ignored.
-void HttpResponseReader::takeLine(std::string_view line) {
+void HttpResponseReader::handleLine(std::string_view line) {
   if (m_state == State::kChunkSize) {
-    takeChunkSize(line);
+    readChunkSize(line);
   } else if (m_state == State::kChunkEnd) {
     line.empty() ? static_cast<void>(m_state = State::kChunkSize) : fail(HttpError::kMalformed);
   } else if (line.empty()) {
@@ -132,7 +132,7 @@ void HttpResponseReader::takeLine(std::string_view line) {
   }
 }
 
-void HttpResponseReader::takeChunkSize(std::string_view line) {
+void HttpResponseReader::readChunkSize(std::string_view line) {
   std::string_view digits = line.substr(0, std::min(line.find(';'), line.size()));
   while (digits.ends_with(' ') || digits.ends_with('\t')) digits.remove_suffix(1);
   const auto size = parseNumber(digits, 16);

@@ -64,19 +64,19 @@ class HttpResponseReader {
   void step(std::string_view& bytes);
   void readHead(std::string_view& bytes);
   void chooseFraming(bool is_1_0);
-  void takeBody(std::string_view& bytes);
-  void takeChunkSize(std::string_view line);
-  void takeLine(std::string_view line);
+  void readBody(std::string_view& bytes);
+  void readChunkSize(std::string_view line);
+  void handleLine(std::string_view line);
   void begin(std::uint64_t bytes);
   void fail(HttpError error) { m_error = error; }
 
   HttpLimits m_limits;
   HttpHeadReader m_head;
 
-  HttpLines m_lines;          // lines of a chunked body
-  std::size_t m_interim = 0;  // bytes of interim heads
-  std::uint64_t m_left = 0;   // bytes of this body or chunk that are still missing
-  std::uint64_t m_total = 0;  // bytes of the body so far, including the announced chunk
+  HttpLines m_lines;              // lines of a chunked body
+  std::size_t m_interim = 0;      // bytes of interim heads
+  std::uint64_t m_remaining = 0;  // bytes of this body or chunk that are still missing
+  std::uint64_t m_total = 0;      // bytes of the body so far, including the announced chunk
   unsigned m_status = 0;
   State m_state = State::kHead;
   HttpError m_error = HttpError::kNone;

@@ -60,7 +60,7 @@ std::optional<std::string_view> WebSocketFraming::next() {
         std::string_view(m_bytes).substr(m_at + header->size, static_cast<std::size_t>(header->length));
     m_at += header->size + payload.size();
     if (isControl(header->opcode)) {
-      takeControl(*header, payload);
+      handleControl(*header, payload);
       continue;
     }
     const bool is_whole = header->is_last && !m_in_message;
@@ -116,12 +116,12 @@ bool WebSocketFraming::accept(const Header& header) {
   return !m_error;
 }
 
-void WebSocketFraming::takeControl(const Header& header, std::string_view payload) {
+void WebSocketFraming::handleControl(const Header& header, std::string_view payload) {
   if (header.opcode == kPing) m_pong = payload;
-  if (header.opcode == kClose) takeClose(payload);
+  if (header.opcode == kClose) handleClose(payload);
 }
 
-void WebSocketFraming::takeClose(std::string_view payload) {
+void WebSocketFraming::handleClose(std::string_view payload) {
   if (payload.empty()) {
     m_close_code = static_cast<std::uint16_t>(WebSocketClose::kNoCode);
     return;

@@ -75,8 +75,8 @@ class WebSocketFraming : public StreamFraming {
 
   std::optional<Header> readHeader();
   bool accept(const Header& header);
-  void takeControl(const Header& header, std::string_view payload);
-  void takeClose(std::string_view payload);
+  void handleControl(const Header& header, std::string_view payload);
+  void handleClose(std::string_view payload);
   void appendFrame(std::string& out, unsigned opcode, std::string_view payload);
   void fail(WebSocketClose why);
 

@@ -89,7 +89,7 @@ std::string writeLanAnswer(const LanAnswer& answer) {
   appendNumber(bytes, answer.protocol);
   appendBytes(bytes, answer.nonce);
   appendNumber(bytes, answer.port);
-  bytes += {answer.asks_password ? kPasswordFlag : '\0', '\0'};
+  bytes += {answer.requires_password ? kPasswordFlag : '\0', '\0'};
   appendNumber(bytes, answer.players);
   appendNumber(bytes, answer.max_players);
   appendBytes(bytes, answer.key.bytes());
@@ -107,7 +107,7 @@ std::optional<LanAnswer> readLanAnswer(std::string_view bytes) {
   answer.port = loadLittleEndian<std::uint16_t>(&bytes[24]);
   const bool known_flags = (bytes[26] & ~kPasswordFlag) == 0 && bytes[27] == 0;
   if (answer.port == 0 || !known_flags) return std::nullopt;
-  answer.asks_password = bytes[26] == kPasswordFlag;
+  answer.requires_password = bytes[26] == kPasswordFlag;
   answer.players = loadLittleEndian<std::uint16_t>(&bytes[28]);
   answer.max_players = loadLittleEndian<std::uint16_t>(&bytes[30]);
   answer.key = ShortKey::ofBytes(bytesAt<16>(bytes, 32));

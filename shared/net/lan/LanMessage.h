@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-#include "shared/fleet/ServerFacts.h"
+#include "shared/fleet/ServerInfo.h"
 #include "shared/net/stream/Fingerprint.h"
 
 namespace naiad {
@@ -40,7 +40,7 @@ using LanNonce = std::array<std::uint8_t, 16>;
 
 /// A server's description of itself, unverified. Numbers have 16 bits on the wire. Name and game are drawable
 /// (SafeText.h) and have at most kMaxLanText characters.
-struct LanAnswer : ServerFacts {
+struct LanAnswer : ServerInfo {
   LanNonce nonce{};
   std::uint16_t port = 0;  ///< port of the game, TCP and UDP; never 0
   ShortKey key = ShortKey::ofBytes({});

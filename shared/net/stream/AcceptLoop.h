@@ -18,7 +18,7 @@ inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 ///
 /// `State` is owned by std::shared_ptr; pending operations keep it alive. It has
 ///
-///   void meet(Socket socket);         called for each connection; may close the acceptor
+///   void onConnection(Socket socket);         called for each connection; may close the acceptor
 ///   … counters.failed_accepts         counts attempts that will be retried
 ///
 /// Thread: the one that runs `context`, which must outlive it.
@@ -49,7 +49,7 @@ class AcceptLoop : public std::enable_shared_from_this<State> {
     if (!acceptor.is_open()) return;
     State& state = static_cast<State&>(*this);
     if (!error) {
-      state.meet(std::move(socket));
+      state.onConnection(std::move(socket));
       if (acceptor.is_open()) accept();
       return;
     }

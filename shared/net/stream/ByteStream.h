@@ -17,13 +17,13 @@ class ByteStream {
  public:
   enum class Outcome {
     kDone,
-    kWantsRead,       ///< Retry when the socket is readable.
-    kWantsWrite,      ///< Retry when the socket is writable.
-    kWantsJudgement,  ///< A server has the client's whole hello; retry to continue (TlsStream::handshake).
-    kEnd,             ///< The peer marked the end of the stream.
-    kTruncated,       ///< The connection ended without the peer's mark.
-    kBroken,          ///< The connection failed (reset, unreachable), or the peer ended it with an alert.
-    kGarbage,         ///< The peer's bytes are not TLS, or were modified on the way.
+    kWantsRead,      ///< Retry when the socket is readable.
+    kWantsWrite,     ///< Retry when the socket is writable.
+    kWantsApproval,  ///< A server has the client's whole hello; retry to continue (TlsStream::handshake).
+    kEnd,            ///< The peer marked the end of the stream.
+    kTruncated,      ///< The connection ended without the peer's mark.
+    kBroken,         ///< The connection failed (reset, unreachable), or the peer ended it with an alert.
+    kGarbage,        ///< The peer's bytes are not TLS, or were modified on the way.
   };
   struct Progress {
     Outcome outcome;
@@ -47,7 +47,7 @@ class ByteStream {
   /// Tells the peer that nothing more follows. read() still works. May be called again.
   virtual Outcome end() = 0;
   /// True if read() may return bytes although the socket is not readable.
-  virtual bool holdsInput() const { return false; }
+  virtual bool hasBufferedInput() const { return false; }
   /// See ReliableChannel::exportSecret().
   virtual std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
 

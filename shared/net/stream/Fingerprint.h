@@ -63,7 +63,7 @@ class ShortKey {
 };
 
 /// The facts that a TLS handshake proved about the server. The client decides whether they are enough.
-struct PeerFacts {
+struct PeerIdentity {
   Fingerprint key;              ///< fingerprint of the key that the server proved to have
   bool chain_verifies = false;  ///< the certificate is valid for this host name and from an authority trusted
                                 ///< here

@@ -8,23 +8,23 @@ std::array<AddressPrefix, 3> HalfOpenLimit::widthsOf(const AddressPrefix& prefix
   return {prefix, prefix.wide(), prefix.widest()};
 }
 
-HalfOpenLimit::Verdict HalfOpenLimit::judge(const AddressPrefix& prefix) const {
-  using Kind = Verdict::Kind;
-  if (greeted_ >= limits_.in_all) return {Kind::kFull};
+HalfOpenLimit::Result HalfOpenLimit::check(const AddressPrefix& prefix) const {
+  using Kind = Result::Kind;
+  if (greeted_ >= limits_.total) return {Kind::kFull};
   if (exceedsShare(prefix)) return {Kind::kFullForPrefix};
   const auto own = groups_[0].find(prefix);
   if (own != groups_[0].end() && own->second.silent + own->second.greeted >= limits_.per_prefix) {
     const auto oldest = oldestSilent(prefix);
-    return oldest ? Verdict{Kind::kEndFirst, *oldest} : Verdict{Kind::kFullForPrefix};
+    return oldest ? Result{Kind::kEvictFirst, *oldest} : Result{Kind::kFullForPrefix};
   }
-  if (count() < limits_.in_all) return {};
-  return {Kind::kEndFirst, *oldestOfMostCrowded()};  // there is a silent one, otherwise kFull was returned
+  if (count() < limits_.total) return {};
+  return {Kind::kEvictFirst, *oldestOfMostCrowded()};  // there is a silent one, otherwise kFull was returned
 }
 
 // Tests only the widest prefix, which has at least as many connections as those in it.
 bool HalfOpenLimit::exceedsShare(const AddressPrefix& prefix) const {
   const auto group = groups_.back().find(prefix.widest());
-  return group != groups_.back().end() && group->second.greeted >= limits_.in_all - greeted_;
+  return group != groups_.back().end() && group->second.greeted >= limits_.total - greeted_;
 }
 
 std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestSilent(const AddressPrefix& prefix) const {
@@ -51,7 +51,7 @@ std::optional<HalfOpenLimit::Id> HalfOpenLimit::oldestOfMostCrowded() const {
 }
 
 void HalfOpenLimit::admit(Id id, const AddressPrefix& prefix) {
-  Entry entry{.prefix = prefix, .groups = {}};
+  HalfOpenConnection entry{.prefix = prefix, .groups = {}};
   const auto widths = widthsOf(prefix);
   for (std::size_t width = 0; width < widths.size(); ++width) {
     entry.groups[width] = groups_[width].try_emplace(widths[width]).first;
@@ -60,8 +60,8 @@ void HalfOpenLimit::admit(Id id, const AddressPrefix& prefix) {
   by_id_.emplace_hint(by_id_.end(), id, entry);
 }
 
-bool HalfOpenLimit::noteHello(Id id) {
-  Entry& entry = by_id_.at(id);
+bool HalfOpenLimit::onHello(Id id) {
+  HalfOpenConnection& entry = by_id_.at(id);
   if (entry.greeted) return true;
   if (exceedsShare(entry.prefix)) return false;
   entry.greeted = true;
@@ -74,7 +74,7 @@ bool HalfOpenLimit::noteHello(Id id) {
 }
 
 void HalfOpenLimit::release(Id id) {
-  const Entry& entry = by_id_.at(id);
+  const HalfOpenConnection& entry = by_id_.at(id);
   if (entry.greeted) --greeted_;
   for (std::size_t width = 0; width < entry.groups.size(); ++width) {
     Group& group = entry.groups[width]->second;

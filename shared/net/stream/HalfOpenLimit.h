@@ -28,14 +28,14 @@ class HalfOpenLimit {
   using Id = std::uint64_t;
 
   struct Limits {
-    std::size_t in_all = 256;     ///< simultaneous connections
+    std::size_t total = 256;      ///< simultaneous connections
     std::size_t per_prefix = 64;  ///< connections from one IPv4 address or IPv6 /64
   };
   /// The result for a connection from some prefix.
-  struct Verdict {
+  struct Result {
     enum class Kind {
       kFits,
-      kEndFirst,       ///< It fits after the silent connection `id` was ended. Call judge() again then.
+      kEvictFirst,     ///< It fits after the silent connection `id` was ended. Call check() again then.
       kFull,           ///< Refuse it: all places belong to connections that have greeted.
       kFullForPrefix,  ///< Refuse it: its prefix uses its share of the places.
     } kind = Kind::kFits;
@@ -45,12 +45,12 @@ class HalfOpenLimit {
   explicit HalfOpenLimit(Limits limits) : limits_(limits) {}
 
   /// Decides about one more connection from `prefix`. Changes nothing.
-  Verdict judge(const AddressPrefix& prefix) const;
+  Result check(const AddressPrefix& prefix) const;
   /// Counts a connection until release(). `id` must be greater than all earlier ones.
   void admit(Id id, const AddressPrefix& prefix);
   /// Records that the connection's client hello is complete. Returns false if its prefix uses its share of
   /// the places: close it; it counts as silent until release(). Throws std::out_of_range if not admitted.
-  [[nodiscard]] bool noteHello(Id id);
+  [[nodiscard]] bool onHello(Id id);
   /// Removes an admitted connection; throws std::out_of_range if it is not admitted.
   void release(Id id);
 
@@ -58,7 +58,7 @@ class HalfOpenLimit {
   bool isSilent(Id id) const;
   std::size_t count() const { return by_id_.size(); }
   /// True if more than half of the places are taken: use shorter timeouts.
-  bool isCrowded() const { return 2 * count() > limits_.in_all; }
+  bool isCrowded() const { return 2 * count() > limits_.total; }
 
  private:
   /// Connections of one prefix, in one width.
@@ -67,7 +67,7 @@ class HalfOpenLimit {
     std::size_t greeted = 0;
   };
   using Groups = std::map<AddressPrefix, Group>;  // none is empty
-  struct Entry {
+  struct HalfOpenConnection {
     AddressPrefix prefix;
     bool greeted = false;
     std::array<Groups::iterator, 3> groups;  ///< its groups, narrowest width first
@@ -80,7 +80,7 @@ class HalfOpenLimit {
 
   Limits limits_;
   std::size_t greeted_ = 0;
-  std::map<Id, Entry> by_id_;  // oldest first
+  std::map<Id, HalfOpenConnection> by_id_;  // oldest first
   std::array<Groups, 3> groups_;
 };
 

@@ -89,43 +89,42 @@ std::string LinkHost::text(std::uint16_t default_port) const {
   return port == default_port ? shown : shown + ":" + std::to_string(port);
 }
 
-bool JoinLink::isMeant(std::string_view text) {
+bool JoinLink::looksLikeLink(std::string_view text) {
   return lowerCase(text.substr(0, kScheme.size())) == kScheme;
 }
 
-std::variant<JoinLink, LinkProblem> JoinLink::parse(std::string_view text) {
-  if (text.size() > kMaxLink) return LinkProblem{"it is longer than 512 characters"};
+std::variant<JoinLink, LinkError> JoinLink::parse(std::string_view text) {
+  if (text.size() > kMaxLink) return LinkError{"it is longer than 512 characters"};
   if (!std::all_of(text.begin(), text.end(), isGraphic))
-    return LinkProblem{"it contains a space or a non-ASCII character"};
-  if (!isMeant(text) || !text.substr(kScheme.size()).starts_with("//"))
-    return LinkProblem{"it does not begin with naiad://"};
+    return LinkError{"it contains a space or a non-ASCII character"};
+  if (!looksLikeLink(text) || !text.substr(kScheme.size()).starts_with("//"))
+    return LinkError{"it does not begin with naiad://"};
   text.remove_prefix(kScheme.size() + 2);
 
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos || hash + 1 == text.size())
-    return LinkProblem{"it has no key (#…) at its end; it may be truncated"};
+    return LinkError{"it has no key (#…) at its end; it may be truncated"};
   const auto key_text = decoded(text.substr(hash + 1));
   const auto key = key_text ? ShortKey::parse(*key_text) : std::nullopt;
   if (!key)
-    return LinkProblem{"the key after the # must be 26 letters and digits 2 to 7, as dfserver prints it"};
+    return LinkError{"the key after the # must be 26 letters and digits 2 to 7, as dfserver prints it"};
   text = text.substr(0, hash);
 
-  if (text.find('?') != std::string_view::npos) return LinkProblem{"it contains a ?, which is not allowed"};
+  if (text.find('?') != std::string_view::npos) return LinkError{"it contains a ?, which is not allowed"};
   const std::size_t slash = std::min(text.find('/'), text.size());
   const auto authority = decoded(text.substr(0, slash));
   const auto room = decoded(text.substr(std::min(slash + 1, text.size())));
-  if (!authority || !room) return LinkProblem{"it contains a % that does not encode a printable character"};
+  if (!authority || !room) return LinkError{"it contains a % that does not encode a printable character"};
   if (authority->find('@') != std::string::npos)
-    return LinkProblem{"it contains a user name, which is not allowed"};
+    return LinkError{"it contains a user name, which is not allowed"};
   const auto where = LinkHost::parse(*authority);
-  if (!where) return LinkProblem{"expected HOST or HOST:PORT after naiad://"};
-  if (!room->empty() && !isRoomName(*room))
-    return LinkProblem{"the part after the / is not a valid room name"};
+  if (!where) return LinkError{"expected HOST or HOST:PORT after naiad://"};
+  if (!room->empty() && !isRoomName(*room)) return LinkError{"the part after the / is not a valid room name"};
   return JoinLink{*where, *room, *key};
 }
 
 std::string JoinLink::text() const {
-  return "naiad://" + where.text() + (room.empty() ? "" : "/" + room) + "#" + key.text();
+  return "naiad://" + address.text() + (room.empty() ? "" : "/" + room) + "#" + key.text();
 }
 
 }  // namespace naiad

@@ -16,9 +16,9 @@
 
 namespace naiad {
 
-/// The reason why a text is not a valid link: the end of a sentence, without text of the link.
-struct LinkProblem {
-  std::string sentence;
+/// The reason why a text is not a valid link: the end of a message, without text of the link.
+struct LinkError {
+  std::string message;
 };
 
 /// HOST or HOST:PORT.
@@ -37,13 +37,13 @@ struct LinkHost {
 };
 
 struct JoinLink {
-  LinkHost where;
+  LinkHost address;
   std::string room;  ///< empty, or a name that isRoomName() accepts
   ShortKey key;
 
   /// True if the text begins with "naiad:", in any case: parse it as a link.
-  static bool isMeant(std::string_view text);
-  static std::variant<JoinLink, LinkProblem> parse(std::string_view text);
+  static bool looksLikeLink(std::string_view text);
+  static std::variant<JoinLink, LinkError> parse(std::string_view text);
   std::string text() const;
 
   friend bool operator==(const JoinLink&, const JoinLink&) = default;

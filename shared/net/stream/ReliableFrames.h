@@ -14,7 +14,7 @@
 namespace naiad {
 
 /// The sending end of a client. Not thread-safe.
-class ReliableFrames {
+class ReliableFrameSender {
  public:
   /// Limit of the kept frames, in bytes with their headers.
   static constexpr std::size_t kMax = std::size_t{64} * 1024;
@@ -22,34 +22,34 @@ class ReliableFrames {
   /// The number of the next frame; never 0.
   std::uint32_t next() const { return m_next; }
   /// Keeps this frame under the number next(). Returns false, and keeps nothing, if that exceeds kMax.
-  bool keep(std::string frame);
+  bool add(std::string frame);
   /// Drops the frames up to `number`, which the other end has received. Ignores numbers that were never sent.
   void acknowledge(std::uint32_t number);
   /// Calls `send(frame)` for all kept frames, in order.
   template <class Send>
   void forEach(Send send) const {
-    for (const Kept& kept : m_kept) send(kept.frame);
+    for (const Unacknowledged& kept : m_unacknowledged) send(kept.frame);
   }
 
   std::size_t bytes() const { return m_bytes; }
 
  private:
-  struct Kept {
+  struct Unacknowledged {
     std::uint32_t number = 0;
     std::string frame;
     std::size_t size() const;
   };
 
-  std::deque<Kept> m_kept;  ///< kept frames, by number
+  std::deque<Unacknowledged> m_unacknowledged;  ///< kept frames, by number
   std::size_t m_bytes = 0;
   std::uint32_t m_next = 1;
 };
 
 /// The receiving end.
-class ReliableFramesHeard {
+class ReliableFrameReceiver {
  public:
   /// Returns true if the frame is new, once per number. `number` 0 (a frame that is not kept) is always new.
-  bool take(std::uint32_t number);
+  bool accept(std::uint32_t number);
   /// The newest received number; 0: none.
   std::uint32_t newest() const { return m_newest; }
 

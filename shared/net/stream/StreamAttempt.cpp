@@ -7,8 +7,8 @@
 #include <asio/write.hpp>
 #include <utility>
 
+#include "shared/net/stream/ProxyHeader.h"
 #include "shared/net/stream/TcpChannel.h"
-#include "shared/net/stream/VisitorHeader.h"
 
 namespace naiad {
 
@@ -26,7 +26,7 @@ StreamAttempt::StreamAttempt(asio::io_context& context, StreamTarget target,
       done_(std::move(done)),
       resolver_(context),
       socket_(context),
-      door_(context),
+      proxy_socket_(context),
       timer_(context),
       share_(context) {}
 
@@ -51,16 +51,16 @@ void StreamAttempt::connect(const std::vector<tcp::endpoint>& endpoints) {
   });
 }
 
-void StreamAttempt::enter(const std::string& path, const tcp::endpoint& visitor) {
+void StreamAttempt::connectThroughProxy(const std::string& path, const tcp::endpoint& visitor) {
   limit();
   asio::post(context_, [self = shared_from_this(), path, visitor] {
     if (!self->done_) return;
     if (path.size() >= sizeof(sockaddr_un::sun_path))
       return self->fail(End::kUnusable, path + " is too long for the path of a socket.");
-    self->door_.async_connect(asio::local::stream_protocol::endpoint(path),
-                              [self, path, visitor](const std::error_code& error) {
-                                if (self->done_) self->onEntered(error, path, visitor);
-                              });
+    self->proxy_socket_.async_connect(asio::local::stream_protocol::endpoint(path),
+                                      [self, path, visitor](const std::error_code& error) {
+                                        if (self->done_) self->onProxyConnected(error, path, visitor);
+                                      });
   });
 }
 
@@ -112,24 +112,24 @@ void StreamAttempt::onConnected(const std::error_code& error) {
     last_detail_ = refused ? "connection refused" : error.message();
     tryNext();
   } else if (target_.tls) {
-    shakeHands(std::move(socket_));
+    startHandshake(std::move(socket_));
   } else {
     finish({.stream = std::make_unique<PlainStream>(std::move(socket_))});
   }
 }
 
-void StreamAttempt::onEntered(const std::error_code& error, const std::string& path,
-                              const tcp::endpoint& visitor) {
+void StreamAttempt::onProxyConnected(const std::error_code& error, const std::string& path,
+                                     const tcp::endpoint& visitor) {
   std::error_code failed = error;
-  const std::string header = visitorHeader(visitor);
+  const std::string header = proxyHeader(visitor);
   // The header fits into the socket's empty buffer.
-  if (!failed) asio::write(door_, asio::buffer(header), failed);
-  if (!failed) return shakeHands(std::move(door_));
+  if (!failed) asio::write(proxy_socket_, asio::buffer(header), failed);
+  if (!failed) return startHandshake(std::move(proxy_socket_));
   fail(End::kUnusable, "Could not connect through " + path + " (" + failed.message() + ").",
        failed == asio::error::try_again || failed == asio::error::broken_pipe);
 }
 
-void StreamAttempt::shakeHands(ByteStream::Socket connected) {
+void StreamAttempt::startHandshake(ByteStream::Socket connected) {
   try {
     handshake_ = std::make_shared<TlsHandshake>(
         std::make_unique<TlsStream>(std::move(connected), target_.tls, target_.host));
@@ -146,9 +146,9 @@ void StreamAttempt::shakeHands(ByteStream::Socket connected) {
 void StreamAttempt::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream,
                                 const std::string& problem) {
   if (!done_ || end == TlsHandshake::End::kTimedOut) return;  // the attempt's own timer reports it
-  auto facts = stream ? stream->peerFacts() : std::nullopt;
-  if (!facts) return fail(End::kHandshake, problem, end == TlsHandshake::End::kHungUp);
-  finish({.stream = std::move(stream), .peer_facts = std::move(facts)});
+  auto facts = stream ? stream->peerIdentity() : std::nullopt;
+  if (!facts) return fail(End::kHandshake, problem, end == TlsHandshake::End::kDisconnected);
+  finish({.stream = std::move(stream), .peer_identity = std::move(facts)});
 }
 
 void StreamAttempt::finish(StreamResult result) {
@@ -158,8 +158,8 @@ void StreamAttempt::finish(StreamResult result) {
   call(std::move(result));
 }
 
-void StreamAttempt::fail(End end, const std::string& detail, bool hung_up) {
-  finish({.end = end, .detail = detail, .hung_up = hung_up});
+void StreamAttempt::fail(End end, const std::string& detail, bool closed_in_handshake) {
+  finish({.end = end, .detail = detail, .closed_in_handshake = closed_in_handshake});
 }
 
 void StreamAttempt::disconnect() {
@@ -167,7 +167,7 @@ void StreamAttempt::disconnect() {
   if (const auto old = std::exchange(handshake_, nullptr)) old->cancel();
   std::error_code ignored;
   socket_.close(ignored);
-  door_.close(ignored);
+  proxy_socket_.close(ignored);
 }
 
 void StreamAttempt::cancel() {

@@ -15,7 +15,7 @@
 
 #include "shared/net/stream/ByteStream.h"
 #include "shared/net/stream/Fingerprint.h"
-#include "shared/net/stream/PatientTimer.h"
+#include "shared/net/stream/StallTolerantTimer.h"
 #include "shared/net/stream/TlsContext.h"
 #include "shared/net/stream/TlsStream.h"
 
@@ -35,10 +35,10 @@ struct StreamResult {
     kUnusable,  ///< The host's name or the path of the socket cannot be used. `detail`: one sentence.
   };
   End end = End::kOpen;
-  std::string detail = {};                   ///< the reason, usually the end of a sentence
-  bool hung_up = false;                      ///< the server closed the connection during the handshake
-  std::unique_ptr<ByteStream> stream = {};   ///< set with kOpen
-  std::optional<PeerFacts> peer_facts = {};  ///< set with kOpen and TLS
+  std::string detail = {};                         ///< the reason, usually the end of a sentence
+  bool closed_in_handshake = false;                ///< the server closed the connection during the handshake
+  std::unique_ptr<ByteStream> stream = {};         ///< set with kOpen
+  std::optional<PeerIdentity> peer_identity = {};  ///< set with kOpen and TLS
 };
 
 struct StreamTarget {
@@ -66,13 +66,14 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   /// `done` is called once, from the event loop, unless the attempt is cancelled.
   StreamAttempt(asio::io_context& context, StreamTarget target, std::chrono::milliseconds timeout, Done done);
 
-  /// Resolves the host's name and connects. Call exactly one of resolve(), connect() and enter(), once.
+  /// Resolves the host's name and connects. Call exactly one of resolve(), connect() and
+  /// connectThroughProxy(), once.
 
   void resolve();
   /// Skips the resolver: `endpoints` are the addresses of the host.
   void connect(const std::vector<asio::ip::tcp::endpoint>& endpoints);
-  /// Connects through a visitors' socket (VisitorsListener.h) for a player at `visitor`. Only with TLS.
-  void enter(const std::string& path, const asio::ip::tcp::endpoint& visitor);
+  /// Connects through a visitors' socket (ProxyListener.h) for a player at `visitor`. Only with TLS.
+  void connectThroughProxy(const std::string& path, const asio::ip::tcp::endpoint& visitor);
 
   /// Gives up; `done` will not be called.
   void cancel();
@@ -85,12 +86,12 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   void choose(const std::vector<asio::ip::tcp::endpoint>& addresses);
   void tryNext();
   void onConnected(const std::error_code& error);
-  void onEntered(const std::error_code& error, const std::string& path,
-                 const asio::ip::tcp::endpoint& visitor);
-  void shakeHands(ByteStream::Socket connected);
+  void onProxyConnected(const std::error_code& error, const std::string& path,
+                        const asio::ip::tcp::endpoint& visitor);
+  void startHandshake(ByteStream::Socket connected);
   void onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream, const std::string& problem);
   void finish(StreamResult result);
-  void fail(End end, const std::string& detail, bool hung_up = false);
+  void fail(End end, const std::string& detail, bool closed_in_handshake = false);
   void disconnect();
 
   asio::io_context& context_;
@@ -99,9 +100,9 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   Done done_;  // empty: this attempt is over
   asio::ip::tcp::resolver resolver_;
   asio::ip::tcp::socket socket_;
-  asio::local::stream_protocol::socket door_;  // used by enter() instead of `socket_`
-  PatientTimer timer_;
-  PatientTimer share_;  // ends the turn of the current address
+  asio::local::stream_protocol::socket proxy_socket_;  // used by connectThroughProxy() instead of `socket_`
+  StallTolerantTimer timer_;
+  StallTolerantTimer share_;  // ends the turn of the current address
   std::shared_ptr<TlsHandshake> handshake_;
   std::vector<asio::ip::tcp::endpoint> endpoints_;
   std::size_t turn_ = 0;  // endpoints_[turn_ - 1] is being tried

@@ -113,7 +113,7 @@ void StreamConnection::awaitInput(Outcome wish) {
     self->reading_ = false;
     if (self->phase_ != Phase::kClosed) self->onInput();
   };
-  if (stream_->holdsInput() && wish == Outcome::kWantsRead) {
+  if (stream_->hasBufferedInput() && wish == Outcome::kWantsRead) {
     asio::post(stream_->socket().get_executor(), [go_on = std::move(go_on)] { go_on({}); });
   } else {
     stream_->socket().async_wait(waitFor(wish), std::move(go_on));

@@ -14,8 +14,8 @@ std::string inWords(std::chrono::milliseconds time) {
 }
 
 /// Returns why there is no channel to `target`, for people.
-std::string sentence(const StreamResult& result, const StreamTarget& target,
-                     std::chrono::milliseconds timeout) {
+std::string errorText(const StreamResult& result, const StreamTarget& target,
+                      std::chrono::milliseconds timeout) {
   const std::string where = target.text();
   const std::string& host = target.host;
   const std::string& detail = result.detail;
@@ -67,7 +67,7 @@ void TcpConnector::connect(const std::string& host, const std::vector<tcp::endpo
 void TcpConnector::connectFor(const tcp::endpoint& visitor, const std::string& socket,
                               const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout,
                               Done done) {
-  begin(host, port, timeout, std::move(done)).enter(socket, visitor);
+  begin(host, port, timeout, std::move(done)).connectThroughProxy(socket, visitor);
 }
 
 StreamAttempt& TcpConnector::begin(const std::string& host, std::uint16_t port,
@@ -76,10 +76,10 @@ StreamAttempt& TcpConnector::begin(const std::string& host, std::uint16_t port,
   const StreamTarget target{host, port, tls_, is_allowed_};
   attempt_ = std::make_shared<StreamAttempt>(
       context_, target, timeout, [this, target, timeout, done = std::move(done)](StreamResult result) {
-        peer_facts_ = std::move(result.peer_facts);
-        was_hung_up_on_ = result.hung_up;
+        peer_identity_ = std::move(result.peer_identity);
+        closed_during_handshake_ = result.closed_in_handshake;
         auto channel = result.stream ? makeTcpChannel(std::move(result.stream), options_) : nullptr;
-        done(std::move(channel), sentence(result, target, timeout));
+        done(std::move(channel), errorText(result, target, timeout));
       });
   return *attempt_;
 }
@@ -87,8 +87,8 @@ StreamAttempt& TcpConnector::begin(const std::string& host, std::uint16_t port,
 void TcpConnector::cancel() {
   if (attempt_) attempt_->cancel();
   attempt_.reset();
-  peer_facts_.reset();
-  was_hung_up_on_ = false;
+  peer_identity_.reset();
+  closed_during_handshake_ = false;
 }
 
 }  // namespace naiad

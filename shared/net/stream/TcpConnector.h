@@ -26,7 +26,7 @@ class StreamAttempt;
 ///   TcpConnector connector(context, {.receive_limit = kMaxServerFrame});
 ///   connector.connect("localhost", kDefaultPort, 5s, [&](auto channel, const std::string& error) { … });
 ///
-/// With TLS it accepts any server that supports the protocol. In `done`, the caller must check peerFacts()
+/// With TLS it accepts any server that supports the protocol. In `done`, the caller must check peerIdentity()
 /// before it starts the channel or sends on it.
 ///
 /// Thread: the one that runs `context`, which must outlive the connector. The connector may be destroyed at
@@ -52,7 +52,7 @@ class TcpConnector {
   void connect(const std::string& host, const std::vector<asio::ip::tcp::endpoint>& endpoints,
                std::chrono::milliseconds timeout, Done done);
 
-  /// Like connect(), through a visitors' socket of this machine (VisitorsListener.h), for a player at
+  /// Like connect(), through a visitors' socket of this machine (ProxyListener.h), for a player at
   /// `visitor`. `host` and `port` are the server's public address. Only with TLS.
   void connectFor(const asio::ip::tcp::endpoint& visitor, const std::string& socket, const std::string& host,
                   std::uint16_t port, std::chrono::milliseconds timeout, Done done);
@@ -65,11 +65,11 @@ class TcpConnector {
 
   /// Facts about the server of the newest channel, valid from the call of `done` to the next connect() or
   /// cancel(). nullopt without TLS.
-  const std::optional<PeerFacts>& peerFacts() const { return peer_facts_; }
+  const std::optional<PeerIdentity>& peerIdentity() const { return peer_identity_; }
 
   /// True if, in the newest attempt, the server closed the connection or it broke during the handshake.
   /// Servers do this if too many come from one address; a retry may succeed.
-  bool wasHungUpOn() const { return was_hung_up_on_; }
+  bool closedDuringHandshake() const { return closed_during_handshake_; }
 
   /// Gives up; `done` will not be called. Has no effect without an attempt. (A name look-up continues on its
   /// own thread until the resolver's timeout; the io_context's destructor waits for it.)
@@ -80,8 +80,8 @@ class TcpConnector {
   TcpOptions options_;
   std::shared_ptr<const TlsContext> tls_;
   std::shared_ptr<StreamAttempt> attempt_;
-  std::optional<PeerFacts> peer_facts_;
-  bool was_hung_up_on_ = false;
+  std::optional<PeerIdentity> peer_identity_;
+  bool closed_during_handshake_ = false;
   std::function<bool(const asio::ip::address& address)> is_allowed_;
 
   StreamAttempt& begin(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout,

@@ -21,7 +21,7 @@ using asio::ip::tcp;
 
 struct TcpListener::State : AcceptLoop<State, tcp> {
   State(asio::io_context& context, OnChannel callback, const TcpOptions& tcp_options,
-        TlsListening tls_listening)
+        TlsListenerOptions tls_listening)
       : AcceptLoop(context),
         on_channel(std::move(callback)),
         options(tcp_options),
@@ -33,8 +33,8 @@ struct TcpListener::State : AcceptLoop<State, tcp> {
   void adoptListening(int socket);
   void requireEncryption(const asio::ip::address& address) const;
   void deferAccepts();
-  void meet(tcp::socket socket);
-  void shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer);
+  void onConnection(tcp::socket socket);
+  void startHandshake(ByteStream::Socket socket, const tcp::endpoint& peer);
   void refuse(const tcp::endpoint& peer, StreamRefusal why);
   bool makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer);
   bool judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer);
@@ -45,9 +45,9 @@ struct TcpListener::State : AcceptLoop<State, tcp> {
   tcp::endpoint endpoint;
   OnChannel on_channel;  // stored here because a callback may destroy the listener
   TcpOptions options;
-  TlsListening tls;
+  TlsListenerOptions tls;
   HalfOpenLimit strangers;
-  HalfOpenLimit known;  // connections for which TlsListening::is_known is true
+  HalfOpenLimit known;  // connections for which TlsListenerOptions::is_known is true
   std::map<HalfOpenLimit::Id, std::shared_ptr<TlsHandshake>> handshakes;
   HalfOpenLimit::Id newest = 0;
   Counters counters;
@@ -109,18 +109,18 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
   throw ListenError("Cannot listen on " + where + " (" + error.message() + ").", error);
 }
 
-void TcpListener::State::meet(tcp::socket socket) {
+void TcpListener::State::onConnection(tcp::socket socket) {
   if (!tls.context) return on_channel(makeTcpChannel(std::move(socket), options));
   std::error_code gone;
   const tcp::endpoint peer = socket.remote_endpoint(gone);
-  if (!gone) return shakeHands(std::move(socket), peer);
+  if (!gone) return startHandshake(std::move(socket), peer);
   ++counters.handshakes_failed;
 }
 
-void TcpListener::State::shakeHands(ByteStream::Socket socket, const tcp::endpoint& peer) {
+void TcpListener::State::startHandshake(ByteStream::Socket socket, const tcp::endpoint& peer) {
   if (tls.is_banned && tls.is_banned(peer.address())) return refuse(peer, StreamRefusal::kBanned);
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
-  if (tls.has_handshake && !tls.has_handshake(prefix))  // refused early to save OpenSSL's memory
+  if (tls.can_handshake && !tls.can_handshake(prefix))  // refused early to save OpenSSL's memory
     return refuse(peer, StreamRefusal::kTooOften);
   HalfOpenLimit& places = tls.is_known && tls.is_known(prefix) ? known : strangers;
   if (!makeRoom(places, peer)) return;
@@ -170,11 +170,11 @@ void TcpListener::State::refuse(const tcp::endpoint& peer, StreamRefusal why) {
 
 // Checks the place first: a connection without a place does not count as a handshake.
 bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id, const tcp::endpoint& peer) {
-  if (!places.noteHello(id)) {
+  if (!places.onHello(id)) {
     refuse(peer, StreamRefusal::kPrefixFull);
     return false;
   }
-  if (!tls.take_handshake || tls.take_handshake(AddressPrefix::of(peer.address()))) return true;
+  if (!tls.try_handshake || tls.try_handshake(AddressPrefix::of(peer.address()))) return true;
   refuse(peer, StreamRefusal::kTooOften);
   return false;
 }
@@ -188,12 +188,12 @@ void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
 // Frees a place for a connection of this prefix if needed; false if that fails. Each iteration ends a silent
 // connection, or finds that it has greeted or is gone.
 bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& peer) {
-  using Kind = HalfOpenLimit::Verdict::Kind;
+  using Kind = HalfOpenLimit::Result::Kind;
   const AddressPrefix prefix = AddressPrefix::of(peer.address());
   for (;;) {
-    const HalfOpenLimit::Verdict verdict = places.judge(prefix);
+    const HalfOpenLimit::Result verdict = places.check(prefix);
     if (verdict.kind == Kind::kFits) return acceptor.is_open();
-    if (verdict.kind != Kind::kEndFirst) {
+    if (verdict.kind != Kind::kEvictFirst) {
       refuse(peer, verdict.kind == Kind::kFull ? StreamRefusal::kFull : StreamRefusal::kPrefixFull);
       return false;
     }
@@ -222,14 +222,14 @@ void TcpListener::State::close() {
 }
 
 TcpListener::TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port,
-                         OnChannel on_channel, TcpOptions options, TlsListening tls)
+                         OnChannel on_channel, TcpOptions options, TlsListenerOptions tls)
     : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
   state_->listen(address, port);
   state_->accept();
 }
 
 TcpListener::TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel,
-                         TcpOptions options, TlsListening tls)
+                         TcpOptions options, TlsListenerOptions tls)
     : state_(std::make_shared<State>(context, std::move(on_channel), options, std::move(tls))) {
   state_->adoptListening(listening_socket);
   state_->accept();
@@ -258,7 +258,7 @@ std::size_t TcpListener::halfOpen() const {
 }
 
 void TcpListener::adopt(asio::generic::stream_protocol::socket socket, const tcp::endpoint& peer) {
-  if (state_->acceptor.is_open() && state_->tls.context) state_->shakeHands(std::move(socket), peer);
+  if (state_->acceptor.is_open() && state_->tls.context) state_->startHandshake(std::move(socket), peer);
 }
 
 void TcpListener::setTls(std::shared_ptr<const TlsContext> context) {

@@ -24,13 +24,13 @@ namespace naiad {
 /// The reason why a connection was dropped before TLS.
 enum class StreamRefusal {
   kBanned,      ///< is_banned() refused it
-  kTooOften,    ///< take_handshake() or has_handshake() refused it
+  kTooOften,    ///< try_handshake() or can_handshake() refused it
   kFull,        ///< no free place, and none of the connections was silent
   kPrefixFull,  ///< the prefix uses its share of the places
 };
 
 /// The TLS options of a listener. Its functions may be empty, and are called from the listener's event loop.
-struct TlsListening {
+struct TlsListenerOptions {
   std::shared_ptr<const TlsContext> context;  ///< TlsContext::forServer()
   /// Time limit from accepting a connection to the end of its handshake. While more than half of the places
   /// are taken, new connections get a quarter of it until their hello is complete, then half of it.
@@ -45,9 +45,9 @@ struct TlsListening {
   std::size_t max_half_open_known = 256;
   /// Returns true, and counts it, if a connection of this prefix may have an answer to its complete hello,
   /// which costs a signature. Called once per connection that has a place.
-  std::function<bool(const AddressPrefix& prefix)> take_handshake = nullptr;
-  /// Returns the value that take_handshake() would return now, without counting. Called once per connection.
-  std::function<bool(const AddressPrefix& prefix)> has_handshake = nullptr;
+  std::function<bool(const AddressPrefix& prefix)> try_handshake = nullptr;
+  /// Returns the value that try_handshake() would return now, without counting. Called once per connection.
+  std::function<bool(const AddressPrefix& prefix)> can_handshake = nullptr;
   /// True for addresses whose connections are dropped at once, without sending them a byte. Called once per
   /// connection.
   std::function<bool(const asio::ip::address& address)> is_banned = nullptr;
@@ -90,7 +90,7 @@ class TcpListener {
     std::uint64_t half_open_ended = 0;      ///< TLS: silent ones, ended because another one needed the place
     std::uint64_t refused_half_open = 0;    ///< TLS: no free place, and none of the connections was silent
     std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix uses its share of the places
-    std::uint64_t refused_too_often = 0;    ///< TLS: take_handshake() or has_handshake() refused it
+    std::uint64_t refused_too_often = 0;    ///< TLS: try_handshake() or can_handshake() refused it
     std::uint64_t refused_banned = 0;       ///< TLS: is_banned() refused it
   };
 
@@ -98,10 +98,10 @@ class TcpListener {
   /// loopback without `tls` ("127.0.0.1", "::1"). "::" also listens on IPv4. `port`: 0 takes any free one.
   /// Sets SO_REUSEADDR, so a restart need not wait until old connections time out. Throws ListenError.
   TcpListener(asio::io_context& context, const std::string& address, std::uint16_t port, OnChannel on_channel,
-              TcpOptions options = {}, TlsListening tls = {});
+              TcpOptions options = {}, TlsListenerOptions tls = {});
   /// Like the other constructor, with a TCP socket that already listens; the listener takes ownership.
   TcpListener(asio::io_context& context, int listening_socket, OnChannel on_channel, TcpOptions options,
-              TlsListening tls);
+              TlsListenerOptions tls);
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
@@ -116,7 +116,7 @@ class TcpListener {
   /// The number of running handshakes.
   std::size_t halfOpen() const;
 
-  /// Handles a connection from elsewhere (VisitorsListener.h) like one accepted here from `peer`. Only with
+  /// Handles a connection from elsewhere (ProxyListener.h) like one accepted here from `peer`. Only with
   /// TLS; ignored after close().
   void adopt(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& peer);
 

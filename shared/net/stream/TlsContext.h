@@ -36,7 +36,7 @@ class TlsContext {
   /// may name none.
   static std::shared_ptr<const TlsContext> forWebServer(const std::string& certificate_pem,
                                                         const std::string& key_pem);
-  /// Accepts any server and collects facts about it (PeerFacts). Chains are checked against the system's
+  /// Accepts any server and collects facts about it (PeerIdentity). Chains are checked against the system's
   /// trust store, or the PEM file `trust_file`. Throws TlsError if that file is unusable.
   static std::shared_ptr<const TlsContext> forClient(const std::string& trust_file = {});
   /// Returns a context for clients of web servers: TLS 1.2 or 1.3, ALPN "http/1.1", which a server need not

@@ -55,7 +55,7 @@ void TlsHandshake::run(std::chrono::milliseconds timeout, Done done, std::functi
   on_hello_ = std::move(on_hello);
   setTimeout(timeout);
   // OpenSSL's first call allocates memory: wait until an idle client has sent something.
-  await(stream_->speaksFirst() ? tcp::socket::wait_write : tcp::socket::wait_read);
+  await(stream_->isClient() ? tcp::socket::wait_write : tcp::socket::wait_read);
 }
 
 void TlsHandshake::setTimeout(std::chrono::milliseconds timeout) {
@@ -74,14 +74,14 @@ void TlsHandshake::step() {
   if (!done_) return;
   const auto self = shared_from_this();  // a callback may drop the last reference
   auto outcome = stream_->handshake();
-  if (outcome == ByteStream::Outcome::kWantsJudgement) {
+  if (outcome == ByteStream::Outcome::kWantsApproval) {
     if (on_hello_) std::exchange(on_hello_, nullptr)();
     if (!done_) return;
     outcome = stream_->handshake();
   }
   if (outcome == ByteStream::Outcome::kDone) return finish(End::kDone);
   if (outcome != ByteStream::Outcome::kWantsRead && outcome != ByteStream::Outcome::kWantsWrite) {
-    return finish(stream_->isHungUp() ? End::kHungUp : End::kFailed);
+    return finish(stream_->isDisconnected() ? End::kDisconnected : End::kFailed);
   }
   await(outcome == ByteStream::Outcome::kWantsWrite ? tcp::socket::wait_write : tcp::socket::wait_read);
 }
@@ -127,7 +127,7 @@ TlsStream::TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, c
   SSL_set_bio(ssl_.get(), bio, bio);  // takes ownership
   if (context_->isServer()) {
     bio_.guard.emplace();
-    SSL_set_app_data(ssl_.get(), &hello_judged_);  // TlsContext's judgeHello()
+    SSL_set_app_data(ssl_.get(), &hello_approved_);  // TlsContext's judgeHello()
     SSL_set_accept_state(ssl_.get());
   } else {
     SSL_set_connect_state(ssl_.get());
@@ -159,13 +159,13 @@ ByteStream::Outcome TlsStream::handshake() {
   return Outcome::kGarbage;
 }
 
-std::optional<PeerFacts> TlsStream::peerFacts() const {
+std::optional<PeerIdentity> TlsStream::peerIdentity() const {
   const X509* const certificate = SSL_get0_peer_certificate(ssl_.get());
   if (context_->isServer() || !certificate) return std::nullopt;
   const long verdict = SSL_get_verify_result(ssl_.get());
   const bool verifies = verdict == X509_V_OK;
-  return PeerFacts{Fingerprint::of(*certificate), verifies,
-                   verifies ? "" : X509_verify_cert_error_string(verdict)};
+  return PeerIdentity{Fingerprint::of(*certificate), verifies,
+                      verifies ? "" : X509_verify_cert_error_string(verdict)};
 }
 
 ByteStream::Progress TlsStream::read(std::span<char> into) {
@@ -196,7 +196,7 @@ ByteStream::Outcome TlsStream::end() {
   return error ? Outcome::kBroken : Outcome::kDone;
 }
 
-bool TlsStream::holdsInput() const {
+bool TlsStream::hasBufferedInput() const {
   return SSL_pending(ssl_.get()) > 0;  // not SSL_has_pending(), which counts incomplete records
 }
 
@@ -216,7 +216,7 @@ ByteStream::Outcome TlsStream::outcomeOf(int result) {
     case SSL_ERROR_WANT_WRITE:
       return Outcome::kWantsWrite;
     case SSL_ERROR_WANT_CLIENT_HELLO_CB:
-      return Outcome::kWantsJudgement;
+      return Outcome::kWantsApproval;
     case SSL_ERROR_ZERO_RETURN:
       return Outcome::kEnd;
     default:

@@ -14,8 +14,8 @@
 
 #include "shared/net/stream/ByteStream.h"
 #include "shared/net/stream/Fingerprint.h"
-#include "shared/net/stream/PatientTimer.h"
 #include "shared/net/stream/SocketBio.h"
+#include "shared/net/stream/StallTolerantTimer.h"
 #include "shared/net/stream/TlsContext.h"
 
 struct ssl_st;
@@ -32,23 +32,23 @@ class TlsStream : public ByteStream {
   ~TlsStream() override;
 
   /// Continues the handshake; returns kDone when it is complete. Before that, nothing else may be called. A
-  /// server stops once with kWantsJudgement when it has the client's whole hello, before it computes the
+  /// server stops once with kWantsApproval when it has the client's whole hello, before it computes the
   /// answer, which takes a signature. The next call continues.
   Outcome handshake();
   /// True for a client.
-  bool speaksFirst() const { return !context_->isServer(); }
+  bool isClient() const { return !context_->isServer(); }
   /// The reason for a failed handshake, as the end of a sentence ("it does not speak TLS").
   const std::string& problem() const { return problem_; }
   /// True if the peer closed the connection, or it broke.
-  bool isHungUp() const { return bio_.ended || bio_.failed; }
+  bool isDisconnected() const { return bio_.ended || bio_.failed; }
   /// Returns the facts that the handshake proved about the server; only for clients.
-  std::optional<PeerFacts> peerFacts() const;
+  std::optional<PeerIdentity> peerIdentity() const;
 
   Progress read(std::span<char> into) override;
   Progress write(std::string_view bytes) override;
   /// Sends close_notify and the end of the TCP stream.
   Outcome end() override;
-  bool holdsInput() const override;
+  bool hasBufferedInput() const override;
   std::string exportSecret(std::string_view label, std::string_view context,
                            std::size_t bytes) const override;
 
@@ -64,7 +64,7 @@ class TlsStream : public ByteStream {
   SocketBio bio_;
   std::unique_ptr<ssl_st, Free> ssl_;
   std::string problem_;
-  bool hello_judged_ = false;
+  bool hello_approved_ = false;
   bool end_sent_ = false;
 };
 
@@ -79,10 +79,11 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
   enum class End {
     kDone,
     kTimedOut,
-    kHungUp,  ///< the other end disconnected, or the connection broke
-    kFailed,  ///< no TLS 1.3, no common protocol …
+    kDisconnected,  ///< the other end disconnected, or the connection broke
+    kFailed,        ///< no TLS 1.3, no common protocol …
   };
-  /// `stream`: only with kDone. `problem`: with kHungUp and kFailed, the reason as the end of a sentence.
+  /// `stream`: only with kDone. `problem`: with kDisconnected and kFailed, the reason as the end of a
+  /// sentence.
   using Done = std::function<void(End end, std::unique_ptr<TlsStream> stream, const std::string& problem)>;
 
   explicit TlsHandshake(std::unique_ptr<TlsStream> stream);
@@ -104,7 +105,7 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
   void finish(End end);
 
   std::unique_ptr<TlsStream> stream_;
-  PatientTimer timer_;
+  StallTolerantTimer timer_;
   Done done_;                       // empty: the handshake is over
   std::function<void()> on_hello_;  // empty: already called, or none was given
   std::uint64_t waits_ = 0;         // number of waits; only the newest continues the handshake

@@ -28,7 +28,7 @@ struct ContactBody {
   double drag = 0;  ///< 1/s
   double friction = 0;
   std::vector<naiad::physics::ConvexShape> shapes;
-  std::vector<naiad::physics::TurnedShape> turned;
+  std::vector<naiad::physics::RotatedShape> turned;
   Vec2 lower, upper;  ///< bounds, enlarged for the step
   double room = 0;    ///< largest distance it may move in the step
 

@@ -96,7 +96,7 @@ class ChatResume : public Attack {
     hello.set_player_name("loud");
     hello.set_program("naiad_attack");
     hello.set_resume_token(m_token);
-    hello.set_received(m_received);
+    hello.set_last_frame(m_received);
     m_used.back()->channel->send(message.SerializeAsString());
   }
 
@@ -113,7 +113,7 @@ class ChatResume : public Attack {
     m_token = message.welcome().resume_token();
     if (message.welcome().resumed()) {
       ++m_resumes;
-      m_sent = message.welcome().received();
+      m_sent = message.welcome().last_frame();
     } else {
       m_received = 0;
       m_sent = 0;

@@ -69,7 +69,7 @@ void Guest::update(Time now) {
       m_state = m_session->isDetached() ? State::kLost : State::kPlaying;
       return;
     case naiad::ClientSession::State::kRefused:
-      m_state = m_session->refusal().for_now ? State::kRefusedForNow : State::kRefused;
+      m_state = m_session->refusal().is_temporary ? State::kRefusedForNow : State::kRefused;
       return;
     default:
       m_state = State::kLost;

@@ -72,7 +72,7 @@ class PileServer {
     TcpOptions options;
     options.send_cap = kSendCap;
     options.receive_limit = kMaxClientFrame;
-    TlsListening tls;
+    TlsListenerOptions tls;
     tls.context = identity.tls();
     m_listener = std::make_unique<TcpListener>(
         m_context, "127.0.0.1", 0,
@@ -149,11 +149,11 @@ class PileServer {
       const std::uint32_t id = m_sent + 1;
       const ObjectState object = objectOf(id, m_tick);
       const std::size_t bits = out.stage(kAllGroups, 1, object, shareMotion(object.motion));
-      if (!out.hasRoom(bits, kObjects, kMaxSnapshot)) {
+      if (!out.hasSpace(bits, kObjects, kMaxSnapshot)) {
         out.drop();
         break;
       }
-      out.keep(id);
+      out.commit(id);
     }
     out.setComplete(m_sent == kObjects);
     wire::ServerMessage message;

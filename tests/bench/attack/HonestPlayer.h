@@ -40,7 +40,7 @@ class HonestPlayer {
   /// True if the connection is over, or continues as another player.
   bool isThrownOut();
   /// Returns the reason, for people.
-  const std::string& sentence() const { return m_connection->sentence(); }
+  const std::string& message() const { return m_connection->message(); }
   /// Measures pauses from now on.
   void watchPauses(Time now);
   /// Returns the longest time without a new tick until now, in milliseconds.
@@ -60,7 +60,7 @@ class HonestPlayer {
   std::unique_ptr<Relay> m_relay;
   std::unique_ptr<naiad::Connection> m_connection;
   naiad::TruthRecorder m_recorder;
-  naiad::WholePicture m_picture;
+  naiad::CompletenessTracker m_picture;
   bool m_observed = false;
   std::uint32_t m_player = 0;  ///< 0: has not joined yet
   bool m_thrown_out = false;

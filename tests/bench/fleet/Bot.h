@@ -48,7 +48,7 @@ class Bot {
   }
   bool isPlaying() const { return m_connection.state() == naiad::Connection::State::kJoined; }
   bool isOver() const { return m_connection.isOver(); }
-  const std::string& sentence() const { return m_connection.sentence(); }
+  const std::string& message() const { return m_connection.message(); }
   std::uint16_t port() const { return m_connection.address().port; }
   std::uint32_t player() { return m_connection.session()->welcome().player; }
   void leave() { m_connection.leave(); }

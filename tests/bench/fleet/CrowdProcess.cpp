@@ -27,7 +27,7 @@ class Players {
     const auto parsed = naiad::JoinLink::parse(link);
     const auto* const p_link = std::get_if<naiad::JoinLink>(&parsed);
     if (p_link == nullptr) throw std::runtime_error("the directory has no link: " + link);
-    m_directory = {p_link->where.host, p_link->where.port};
+    m_directory = {p_link->address.host, p_link->address.port};
     m_trust.link_key = p_link->key;
     m_trust.known_servers = known_servers;
   }
@@ -73,7 +73,7 @@ class Players {
   std::string state() {
     m_have_come = m_have_come || playing() == m_count;
     const auto over = std::ranges::find_if(m_bots, &Bot::isOver);
-    if (!m_have_come && over != m_bots.end()) return "problem " + over->sentence();
+    if (!m_have_come && over != m_bots.end()) return "problem " + over->message();
     int losses = 0;
     for (const Bot& bot : m_bots) losses += bot.losses();
     return std::to_string(playing()) + " " + std::to_string(losses);

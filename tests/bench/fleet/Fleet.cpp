@@ -158,10 +158,10 @@ void Fleet::killServer(std::size_t number) {
   Server& server = m_servers.at(number);
   try {
     naiad::ControlClient control(server.folder / "control.sock");
-    const naiad::AdminAnswer status = control.ask(naiad::readAdminRequest({"status"}));
+    const naiad::AdminAnswer status = control.sendRequest(naiad::readAdminRequest({"status"}));
     m_ticks.all += fact(status, "ticks");
     m_ticks.late += fact(status, "late_ticks");
-  } catch (const naiad::NoServer& error) {
+  } catch (const naiad::ServerUnreachable& error) {
     std::fprintf(stderr, "naiad_fleet: %s\n", error.what());
   }
   server.process->kill();

@@ -133,8 +133,8 @@ int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time
 /// Runs a process of players, started by the main process.
 int serve(const std::vector<std::string>& words) {
   const int count = std::atoi(words[4].c_str());
-  naiad::surviveBrokenPipes();
-  naiad::allowOpenFiles(static_cast<std::size_t>(4 * count + 256));
+  naiad::ignoreBrokenPipes();
+  naiad::raiseOpenFileLimit(static_cast<std::size_t>(4 * count + 256));
   try {
     bench::serveCrowd(words[1], words[2], std::atoi(words[3].c_str()), count);
     return 0;
@@ -159,8 +159,8 @@ int main(int argc, char** argv) {
   if (words.size() == 5) setup.servers = std::atoi(words[4].c_str());
   // A quarter of the slots stays free, so that players fit when servers are killed.
   setup.max_players = setup.bots / setup.servers * 4 / 3 + 4;
-  naiad::surviveBrokenPipes();
-  naiad::allowOpenFiles(static_cast<std::size_t>(4 * setup.bots + 256));
+  naiad::ignoreBrokenPipes();
+  naiad::raiseOpenFileLimit(static_cast<std::size_t>(4 * setup.bots + 256));
   try {
     return run(setup, std::atoi(words[1].c_str()), std::chrono::seconds(std::atoi(words[2].c_str())));
   } catch (const std::exception& error) {

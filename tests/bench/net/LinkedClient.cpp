@@ -52,7 +52,7 @@ void LinkedClient::clientHears(std::string_view bytes) {
   if (on_snapshot) on_snapshot(snapshot);
   m_replica.apply(snapshot);
   m_acks.addReceived(snapshot.header.number);
-  m_display.noteSnapshot(snapshot.header.tick, now());
+  m_display.onSnapshot(snapshot.header.tick, now());
   ClientUpdate update;
   update.acks = m_acks;
   const std::string answer = writeUpdate(update);

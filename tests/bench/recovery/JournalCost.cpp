@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"
-#include "host/journal/RepeatCheck.h"
 #include "host/journal/RoundRecovery.h"
 #include "host/rounds/Round.h"
 #include "host/world/WorldProcess.h"
@@ -71,7 +71,7 @@ double plain(int players) {
 }
 
 double journaled(int players) {
-  Round::Book book;
+  Round::JournalBinding book;
   book.writer = std::make_shared<naiad::JournalWriter>();
   book.journal = std::make_shared<Journal>(std::make_unique<Nowhere>(), naiad::DfrHeader(), naiad::DfrFacts(),
                                            std::size_t{4} << 20, false);

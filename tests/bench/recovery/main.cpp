@@ -40,7 +40,7 @@ constexpr milliseconds kMaxPlay{1500};
 /// The ticks of ten minutes, which take 2 ms each here.
 constexpr std::uint32_t kLongTurns = 18'000;
 constexpr std::chrono::microseconds kShortFrame{2'000};
-constexpr std::chrono::seconds kLongPatience{300};
+constexpr std::chrono::seconds kReplayTimeout{300};
 /// Two deaths of a world within a second would end the round.
 constexpr milliseconds kBetweenDeaths{1500};
 constexpr milliseconds kBetweenCopies{10'000};
@@ -115,7 +115,7 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
 Total runLongRound(const std::string& game, int kills, std::uint64_t seed) {
   Total total;
   RecoveryRun run(game, kPlayers, seed, kShortFrame);
-  if (!run.playUntilTurn(kLongTurns, kLongPatience)) throw std::runtime_error("the round does not get on");
+  if (!run.playUntilTurn(kLongTurns, kReplayTimeout)) throw std::runtime_error("the round does not get on");
   for (int i = 0; i < kills; ++i) {
     run.play(milliseconds(300));
     add(run.kill(), total);
@@ -202,7 +202,7 @@ int journal(const std::string& game, std::uint32_t ticks) {
   std::printf("journal game=%s players=%d bytes_per_hour=%.0f ns_per_tick=%.0f\n", game.c_str(), kPlayers,
               static_cast<double>(std::filesystem::file_size(file)) / hours, bench::journalNanos(kPlayers));
   const naiad::RecordedRound round(file);
-  const naiad::RoundStage stage(round, "");
+  const naiad::ReplayEnvironment stage(round, "");
   std::ostringstream said;
   const auto began = std::chrono::steady_clock::now();
   const bool same = naiad::verifyRound(round, stage, said);

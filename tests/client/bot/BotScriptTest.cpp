@@ -57,13 +57,13 @@ TEST(BotScript, IgnoresCommentsAndBlanks) {
 }
 
 TEST(BotScript, FindsKeysByNameInAnyCase) {
-  EXPECT_EQ(keyNamed("space"), SPACE);
-  EXPECT_EQ(keyNamed("F12"), F12);
-  EXPECT_EQ(keyNamed("Z"), Z);
-  EXPECT_EQ(keyNamed("0"), NUM0);
-  EXPECT_EQ(keyNamed("backspace"), BACKSPACE);
-  EXPECT_EQ(keyNamed("PAGEDOWN"), PAGEDOWN);
-  EXPECT_EQ(keyNamed("ENTER"), std::nullopt);
+  EXPECT_EQ(keyByName("space"), SPACE);
+  EXPECT_EQ(keyByName("F12"), F12);
+  EXPECT_EQ(keyByName("Z"), Z);
+  EXPECT_EQ(keyByName("0"), NUM0);
+  EXPECT_EQ(keyByName("backspace"), BACKSPACE);
+  EXPECT_EQ(keyByName("PAGEDOWN"), PAGEDOWN);
+  EXPECT_EQ(keyByName("ENTER"), std::nullopt);
 }
 
 struct BadScript {

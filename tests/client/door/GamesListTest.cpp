@@ -15,8 +15,8 @@ TEST(GamesList, HasOneGamePerLine) {
   EXPECT_EQ(list.games[0].name, "saucers");
   EXPECT_EQ(list.games[0].link.text(), kLink);
   EXPECT_EQ(list.games[0].socket, "/run/a.visitors");
-  EXPECT_FALSE(list.games[0].wants_password);
-  EXPECT_TRUE(list.games[1].wants_password);
+  EXPECT_FALSE(list.games[0].needs_password);
+  EXPECT_TRUE(list.games[1].needs_password);
 }
 
 TEST(GamesList, InvalidLineIsReportedAndNoGamesAreListed) {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "../../support/HostileTexts.h"
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "client/lan/ListDownload.h"
 #include "shared/json/Json.h"
 #include "shared/net/base/Limits.h"
@@ -14,10 +14,10 @@ namespace {
 const std::string kListKey = "abcdefghijklmnopqrstuvwxya";
 const std::string kListLink = "naiad://game.example:9877#" + kListKey;
 
-std::vector<FoundServer> serversOf(const std::string& json) {
+std::vector<DiscoveredServer> serversOf(const std::string& json) {
   const auto servers = readServerList(json);
   EXPECT_TRUE(servers) << json;
-  return servers ? servers->sorted() : std::vector<FoundServer>{};
+  return servers ? servers->sorted() : std::vector<DiscoveredServer>{};
 }
 
 TEST(ServerListJson, ReadsOneServerOrAnArray) {
@@ -32,7 +32,7 @@ TEST(ServerListJson, ReadsOneServerOrAnArray) {
     EXPECT_EQ(servers[0].game, "hello");
     EXPECT_EQ(servers[0].players, 3);
     EXPECT_EQ(servers[0].max_players, 16);
-    EXPECT_TRUE(servers[0].asks_password);
+    EXPECT_TRUE(servers[0].requires_password);
     EXPECT_EQ(servers[0].protocol, 4u);
     EXPECT_EQ(servers[0].link(), kListLink);
   }
@@ -52,7 +52,7 @@ TEST(ServerListJson, UnknownOrMistypedMembersAreIgnored) {
   ASSERT_EQ(servers.size(), 1u);
   EXPECT_EQ(servers[0].name, "");
   EXPECT_EQ(servers[0].players, 0);
-  EXPECT_FALSE(servers[0].asks_password);
+  EXPECT_FALSE(servers[0].requires_password);
   EXPECT_TRUE(servers[0].isPlayable()) << "no protocol is said";
 }
 
@@ -108,7 +108,7 @@ TEST(ServerListJson, ListLengthIsLimited) {
     key[2] = static_cast<char>('a' + i / 676);
     json += (i > 0 ? "," : "") + ("{\"link\": \"naiad://host" + std::to_string(i) + "#" + key + "\"}");
   }
-  EXPECT_EQ(serversOf(json + "]").size(), FoundServers::kMax);
+  EXPECT_EQ(serversOf(json + "]").size(), DiscoveredServers::kMax);
 }
 
 TEST(ServerListJson, MutatedListsAreRejectedOrSafe) {
@@ -122,7 +122,7 @@ TEST(ServerListJson, MutatedListsAreRejectedOrSafe) {
       other[random.below(other.size())] = static_cast<char>(random.next());
     const auto servers = readServerList(other);
     if (!servers) continue;
-    for (const FoundServer& server : servers->sorted()) {
+    for (const DiscoveredServer& server : servers->sorted()) {
       ASSERT_EQ(safeText(server.name, kMaxLanText), server.name);
       ASSERT_NE(server.link(), "");
     }

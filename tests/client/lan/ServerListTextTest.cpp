@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "shared/net/base/Limits.h"
 
 namespace naiad {
 namespace {
 
-FoundServer listed(const std::string& name) {
-  FoundServer server;
+DiscoveredServer listed(const std::string& name) {
+  DiscoveredServer server;
   server.name = name;
   server.game = "hello";
-  server.where = {"192.168.1.5", 9877};
+  server.address = {"192.168.1.5", 9877};
   server.protocol = kProtocolVersion;
   server.players = 3;
   server.max_players = 16;
@@ -18,7 +18,7 @@ FoundServer listed(const std::string& name) {
 }
 
 TEST(ServerListText, TextHasColumnsAndALink) {
-  FoundServer full = listed("b");
+  DiscoveredServer full = listed("b");
   full.players = 16;
   const std::string key = full.key.text();
   EXPECT_EQ(serversAsText({listed("Ann's"), full}),
@@ -38,20 +38,20 @@ TEST(ServerListText, AnEmptyListSaysWhatToDo) {
 }
 
 TEST(ServerListText, NotesShowPasswordFullAndOtherVersion) {
-  FoundServer server = listed("a");
-  EXPECT_EQ(noteOf(server), "");
-  server.asks_password = true;
-  EXPECT_EQ(noteOf(server), "password");
+  DiscoveredServer server = listed("a");
+  EXPECT_EQ(restrictionsText(server), "");
+  server.requires_password = true;
+  EXPECT_EQ(restrictionsText(server), "password");
   server.players = server.max_players;
-  EXPECT_EQ(noteOf(server), "full");
+  EXPECT_EQ(restrictionsText(server), "full");
   server.protocol = kProtocolVersion + 1;
-  EXPECT_EQ(noteOf(server), "version " + std::to_string(kProtocolVersion + 1));
+  EXPECT_EQ(restrictionsText(server), "version " + std::to_string(kProtocolVersion + 1));
 }
 
 TEST(ServerListText, JsonHasEveryField) {
-  FoundServer zoned = listed("b");
-  zoned.where = {"fe80::5%eth0", 9876};
-  zoned.asks_password = true;
+  DiscoveredServer zoned = listed("b");
+  zoned.address = {"fe80::5%eth0", 9876};
+  zoned.requires_password = true;
   const std::string key = zoned.key.text();
   EXPECT_EQ(
       serversAsJson({listed("a\"\\"), zoned}),

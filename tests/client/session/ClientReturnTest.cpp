@@ -11,17 +11,17 @@ class ClientReturn : public ClientSessionFixture {
   /// Starts the session in a new process that has only the token.
   void beginFresh() {
     SessionOptions options = optionsWith("0123456789abcdef");
-    options.fresh = true;
+    options.new_process = true;
     session = std::make_unique<ClientSession>(std::make_unique<FakeChannel>(log), options, now);
   }
   /// Starts a new process, and the server resumes the session.
-  void restart(const std::optional<Continuation>& from) {
+  void restart(const std::optional<ResumeState>& from) {
     beginFresh();
     wire::ServerMessage message = welcomeMessage();
     message.mutable_welcome()->set_resumed(true);
     message.mutable_welcome()->set_resume_token("fedcba9876543210");
     if (from) {
-      wire::Continuation& wire = *message.mutable_welcome()->mutable_continuation();
+      wire::ResumeState& wire = *message.mutable_welcome()->mutable_resume_state();
       wire.set_snapshot(from->snapshot);
       wire.set_world_epoch(from->world_epoch);
       wire.set_input(from->input);
@@ -51,7 +51,7 @@ class ClientReturn : public ClientSessionFixture {
   /// `welcome`.
   void resumeOn(MessageLine<wire::ClientMessage>& next) {
     SessionOptions options = optionsWith("token");
-    options.received = session->receivedFrames();
+    options.last_frame = session->receivedFrames();
     ClientSession pending(std::make_unique<FakeChannel>(next), options, now);
     welcome.mutable_welcome()->set_resumed(true);
     pending.receive(welcome.SerializeAsString(), now);
@@ -79,15 +79,15 @@ class ClientReturn : public ClientSessionFixture {
 };
 
 TEST_F(ClientReturn, HelloOfANewProcessIsMarkedFresh) {
-  restart(Continuation{});
+  restart(ResumeState{});
   const auto& hello = log.sent[log.sent.size() - 2].has_hello() ? log.sent[log.sent.size() - 2] : log.sent[1];
-  EXPECT_TRUE(hello.hello().fresh());
+  EXPECT_TRUE(hello.hello().new_process());
   EXPECT_EQ(hello.hello().resume_token(), "0123456789abcdef");
   EXPECT_EQ(heard(), std::vector<std::string>{"Session resumed."});
 }
 
 TEST_F(ClientReturn, DisconnectedClientStopsSchedulingAcknowledgements) {
-  restart(Continuation{});
+  restart(ResumeState{});
   receive(emptySnapshot(1, 0));
   session->closed(CloseReason::kPeer);
   ASSERT_EQ(session->state(), ClientSession::State::kPlaying) << "it waits for another stream";
@@ -98,7 +98,7 @@ TEST_F(ClientReturn, DisconnectedClientStopsSchedulingAcknowledgements) {
 
 TEST_F(ClientReturn, NumbersContinueFromTheWelcome) {
   for (const std::uint32_t at : {70'000u, 0x80000005u, 0xFFFF0000u}) {
-    restart(Continuation{at, 2, at + 9});
+    restart(ResumeState{at, 2, at + 9});
     ASSERT_EQ(session->state(), ClientSession::State::kPlaying);
     receive(emptySnapshot(at + 1, 2));
     EXPECT_TRUE(session->hasPicture(now));
@@ -139,21 +139,21 @@ TEST_F(ClientReturn, ReliableFramesAreDeduplicatedAndAcknowledged) {
   now += 1s;
   session->update(now);
   ASSERT_NE(lastPing(), nullptr);
-  EXPECT_EQ(lastPing()->received(), 2u);
+  EXPECT_EQ(lastPing()->last_frame(), 2u);
 }
 
 TEST_F(ClientReturn, LargeAmountsAreAcknowledgedImmediately) {
   join();
   const std::size_t before = log.sent.size();
   std::uint32_t number = 0;
-  for (std::size_t bytes = 0; bytes < ReliableInbox::kMuchKept;) {
+  for (std::size_t bytes = 0; bytes < ReliableInbox::kAckThreshold;) {
     EXPECT_EQ(log.sent.size(), before);
     const wire::ServerMessage message = line(std::string(200, 'x'), ++number);
     bytes += message.ByteSizeLong();
     receive(message);
   }
   ASSERT_EQ(log.sent.size(), before + 1);
-  EXPECT_EQ(lastPing()->received(), session->receivedFrames());
+  EXPECT_EQ(lastPing()->last_frame(), session->receivedFrames());
 }
 
 TEST_F(ClientReturn, UnacknowledgedChatIsResentOnTheNextStream) {
@@ -162,14 +162,14 @@ TEST_F(ClientReturn, UnacknowledgedChatIsResentOnTheNextStream) {
   EXPECT_EQ(last().number(), 1u);
   session->sendChat("two");
   wire::ServerMessage pong;
-  pong.mutable_pong()->set_received(1);
+  pong.mutable_pong()->set_last_frame(1);
   receive(pong);
   session->closed(CloseReason::kError);
   ASSERT_TRUE(session->isDetached());
   session->sendChat("three");
 
   MessageLine<wire::ClientMessage> next;
-  welcome.mutable_welcome()->set_received(1);
+  welcome.mutable_welcome()->set_last_frame(1);
   resumeOn(next);
   std::vector<std::string> said;
   for (const wire::ClientMessage& message : next.sent) {

@@ -84,7 +84,7 @@ class ClientSessionFixture : public testing::Test {
 
   void expectRejected() {
     EXPECT_EQ(session->state(), ClientSession::State::kEnded);
-    EXPECT_FALSE(session->sentence().empty());
+    EXPECT_FALSE(session->message().empty());
     EXPECT_EQ(session->counters().bad_messages, 1u);
     EXPECT_TRUE(log.closed);
   }
@@ -92,7 +92,7 @@ class ClientSessionFixture : public testing::Test {
   const wire::ClientMessage& last() const { return log.sent.back(); }
   /// Returns the last message, which must be an update.
   ClientUpdate lastUpdate() const {
-    EXPECT_EQ(last().what_case(), wire::ClientMessage::kUpdate);
+    EXPECT_EQ(last().payload_case(), wire::ClientMessage::kUpdate);
     const SnapshotContext& newest = session->replica().newest();
     const auto update = readUpdate(last().update(), {newest.number, newest.tick, newest.input});
     EXPECT_TRUE(update);

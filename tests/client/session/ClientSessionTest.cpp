@@ -59,7 +59,7 @@ TEST_F(ClientSessionTest, MissingFirstPictureEndsTheSessionWithAMessage) {
   now = end;
   session->update(now);
   EXPECT_EQ(session->state(), State::kLost);
-  EXPECT_EQ(session->sentence(), "Joined, but the server sent no picture within 45 s.");
+  EXPECT_EQ(session->message(), "Joined, but the server sent no picture within 45 s.");
   EXPECT_TRUE(last().has_leave()) << "it keeps no place";
   EXPECT_TRUE(log.closed);
 }
@@ -67,7 +67,7 @@ TEST_F(ClientSessionTest, MissingFirstPictureEndsTheSessionWithAMessage) {
 TEST_F(ClientSessionTest, FirstPictureDisablesThePictureTimeout) {
   join();
   snapshot(1, 10);
-  now += WorldFeed::kPatience;
+  now += EpochReplicas::kIncompleteTimeout;
   EXPECT_EQ(session->pictureWait(now), 0s);
   wire::ServerMessage pong;
   pong.mutable_pong()->set_token(12345);
@@ -81,20 +81,20 @@ TEST_F(ClientSessionTest, FirstPictureDisablesThePictureTimeout) {
 TEST_F(ClientSessionTest, RefusalKeepsItsMessage) {
   wire::ServerMessage message;
   message.mutable_refused()->set_reason(wire::Refused::FULL);
-  message.mutable_refused()->set_sentence("The server is full (4 players).");
+  message.mutable_refused()->set_message("The server is full (4 players).");
   receive(message);
   EXPECT_EQ(session->state(), State::kRefused);
-  EXPECT_EQ(session->sentence(), "The server is full (4 players).");
+  EXPECT_EQ(session->message(), "The server is full (4 players).");
   EXPECT_TRUE(log.closed);
 }
 
 TEST_F(ClientSessionTest, GoodbyeKeepsItsSanitizedMessage) {
   join();
   wire::ServerMessage message;
-  message.mutable_goodbye()->set_sentence("Maintenance\033[31m at nine.");
+  message.mutable_goodbye()->set_message("Maintenance\033[31m at nine.");
   receive(message);
   EXPECT_EQ(session->state(), State::kEnded);
-  EXPECT_EQ(session->sentence(), "Maintenance?[31m at nine.") << "no escape sequence reaches a terminal";
+  EXPECT_EQ(session->message(), "Maintenance?[31m at nine.") << "no escape sequence reaches a terminal";
   EXPECT_EQ(session->counters().bad_messages, 0u);
 }
 
@@ -269,16 +269,16 @@ TEST_F(ClientSessionTest, GreetingTimesOutAfterFiveSeconds) {
   EXPECT_EQ(session->state(), State::kGreeting);
   listenUntil(now + 5s);
   EXPECT_EQ(session->state(), State::kLost);
-  EXPECT_FALSE(session->sentence().empty());
+  EXPECT_FALSE(session->message().empty());
 }
 
 TEST_F(ClientSessionTest, TimeoutIgnoresTimeWhileTheProcessWasSuspended) {
   session->update(now);
   session->update(now += 20s);  // the answer has arrived and is read next
-  EXPECT_EQ(session->state(), State::kGreeting) << session->sentence();
+  EXPECT_EQ(session->state(), State::kGreeting) << session->message();
   receive(welcomeMessage());
   session->update(now += 60s);
-  EXPECT_EQ(session->state(), State::kPlaying) << session->sentence();
+  EXPECT_EQ(session->state(), State::kPlaying) << session->message();
 }
 
 TEST_F(ClientSessionTest, SilentGameTimesOutAfterFifteenSeconds) {
@@ -301,7 +301,7 @@ TEST_F(ClientSessionTest, ResumableSessionWaitsSixtySecondsForTheServer) {
   EXPECT_EQ(session->state(), State::kPlaying);
   listenUntil(now + 60s);
   EXPECT_EQ(session->state(), State::kLost);
-  EXPECT_FALSE(session->sentence().empty());
+  EXPECT_FALSE(session->message().empty());
 }
 
 TEST_F(ClientSessionTest, ResentWorldContinuesTheNumbering) {
@@ -404,14 +404,14 @@ TEST_F(ClientSessionTest, SoundsAreDeliveredOnce) {
   message.set_number(1);
   receive(message);
   receive(message);  // a retransmission
-  const auto heard = session->takeSounds();
+  const auto heard = session->popSounds();
   ASSERT_EQ(heard.size(), 1u);
   EXPECT_EQ(heard[0], (SoundLine{"?[2Jfire", SoundLine::Action::kPlay, false, false, 3}));
-  EXPECT_TRUE(session->takeSounds().empty());
+  EXPECT_TRUE(session->popSounds().empty());
   EXPECT_EQ(session->counters().repeated_frames, 1u);
   message.clear_number();
   for (int i = 0; i < 100; ++i) receive(message);
-  EXPECT_EQ(session->takeSounds().size(), ReliableInbox::kMaxSounds);
+  EXPECT_EQ(session->popSounds().size(), ReliableInbox::kMaxSounds);
   EXPECT_EQ(session->counters().sounds, 101u);
 }
 

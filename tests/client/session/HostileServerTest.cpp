@@ -111,7 +111,7 @@ TEST_F(HostileServerTest, EndsOnAWelcomeOutOfRange) {
       [](wire::Welcome& w) { w.set_view_width(100000); },
       [](wire::Welcome& w) { w.set_view_height(4000000000u); },
       [](wire::Welcome& w) { w.set_color(8); },
-      [](wire::Welcome& w) { w.mutable_continuation()->set_world_epoch(4); },
+      [](wire::Welcome& w) { w.mutable_resume_state()->set_world_epoch(4); },
       [](wire::Welcome& w) {
         for (int i = 0; i < 1000; ++i) w.add_help(std::string(3, 'x'));
       },
@@ -143,8 +143,8 @@ TEST_F(HostileServerTest, SurvivesMutatedMessages) {
   chat.mutable_chat()->set_text("hello");
   sounds.mutable_sounds()->add_sounds()->set_label("fire");
   pong.mutable_pong()->set_token(1);
-  refused.mutable_refused()->set_sentence("no");
-  goodbye.mutable_goodbye()->set_sentence("bye");
+  refused.mutable_refused()->set_message("no");
+  goodbye.mutable_goodbye()->set_message("bye");
   const wire::ServerMessage seeds[] = {
       welcomeMessage(), snapshotMessage(2, 101), players, chat, sounds, pong, refused, goodbye};
   int played_on = 0, rejected = 0, dismissed = 0, changed = 0;
@@ -166,12 +166,12 @@ TEST_F(HostileServerTest, SurvivesMutatedMessages) {
         ++played_on;
         EXPECT_EQ(counters.bad_messages, 0u);
         EXPECT_FALSE(log.closed);
-        EXPECT_TRUE(session->sentence().empty());
+        EXPECT_TRUE(session->message().empty());
         break;
       case State::kEnded:
         EXPECT_TRUE(log.closed);
-        EXPECT_FALSE(session->sentence().empty());
-        EXPECT_LE(df::decodeUtf8(session->sentence()).size(), kMaxSentenceLength);
+        EXPECT_FALSE(session->message().empty());
+        EXPECT_LE(df::decodeUtf8(session->message()).size(), kMaxMessageLength);
         ++(counters.bad_messages == 1 ? rejected : dismissed);
         EXPECT_LE(counters.bad_messages, 1u);
         heard = session->revision();
@@ -185,7 +185,7 @@ TEST_F(HostileServerTest, SurvivesMutatedMessages) {
     EXPECT_GE(session->replica().aliveCount(), session->counters().bad_messages == 1 ? 1u : 0u);
     EXPECT_LE(session->chat().size(), 1u);
     EXPECT_LE(session->players().size(), 1u);
-    EXPECT_LE(session->takeSounds().size(), 1u);
+    EXPECT_LE(session->popSounds().size(), 1u);
     EXPECT_EQ(session->welcome().player, 3u);
     EXPECT_EQ(session->welcome().view_width, 80);
     const df::Canvas picture = session->replica().render(session->displayTick(now + 1s));

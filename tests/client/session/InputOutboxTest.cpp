@@ -26,13 +26,13 @@ TEST(InputOutbox, SendsEachInputOncePerStream) {
   InputOutbox outbox;
   outbox.add({});
   outbox.add({});
-  EXPECT_EQ(ids(outbox.takeForStream()), (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(ids(outbox.popForStream()), (std::vector<std::uint32_t>{1, 2}));
   outbox.add({});
   outbox.removeUpTo(1);
-  EXPECT_EQ(ids(outbox.takeForStream()), std::vector<std::uint32_t>{3});
-  EXPECT_TRUE(outbox.takeForStream().empty());
+  EXPECT_EQ(ids(outbox.popForStream()), std::vector<std::uint32_t>{3});
+  EXPECT_TRUE(outbox.popForStream().empty());
   outbox.restartStream();
-  EXPECT_EQ(ids(outbox.takeForStream()), (std::vector<std::uint32_t>{2, 3}));
+  EXPECT_EQ(ids(outbox.popForStream()), (std::vector<std::uint32_t>{2, 3}));
 }
 
 TEST(InputOutbox, ContinuesTheIdsOfAnotherProcess) {
@@ -40,7 +40,7 @@ TEST(InputOutbox, ContinuesTheIdsOfAnotherProcess) {
   outbox.start(0xFFFFFFF0, std::chrono::milliseconds(33));
   outbox.add({});
   EXPECT_EQ(ids(outbox.all()), std::vector<std::uint32_t>{0xFFFFFFF1});
-  EXPECT_EQ(ids(outbox.takeForStream()), std::vector<std::uint32_t>{0xFFFFFFF1});
+  EXPECT_EQ(ids(outbox.popForStream()), std::vector<std::uint32_t>{0xFFFFFFF1});
   EXPECT_TRUE(outbox.removeUpTo(0xFFFFFFF1));
 }
 

@@ -60,7 +60,7 @@ TEST_F(SecondStreamTest, OnlySnapshotsAreAcceptedOnIt) {
                  [this](std::string_view bytes) { snapshots.emplace_back(bytes); });
     if (!message.has_snapshot()) other.receive(yes());
     other.receive(message);
-    EXPECT_FALSE(second.isOpen()) << message.what_case();
+    EXPECT_FALSE(second.isOpen()) << message.payload_case();
     EXPECT_TRUE(other.destroyed);
   }
   EXPECT_TRUE(snapshots.empty()) << "none before the yes";
@@ -89,16 +89,16 @@ TEST_F(SecondStreamTest, FailedAttemptsBackOffExponentially) {
   SecondStream closed;
   int attempts = 0;
   Time time{1h};
-  for (int i = 0; i < 600; ++i, time += 1s) attempts += closed.takeAttempt(time) ? 1 : 0;
+  for (int i = 0; i < 600; ++i, time += 1s) attempts += closed.tryBeginAttempt(time) ? 1 : 0;
   EXPECT_NEAR(attempts, 13, 2) << "2, 4, … 64 s, and then every 64 s";
-  EXPECT_FALSE(stream.takeAttempt(time)) << "there is one";
+  EXPECT_FALSE(stream.tryBeginAttempt(time)) << "there is one";
 }
 
 TEST_F(SecondStreamTest, LongLivedStreamResetsTheRetryDelay) {
   for (const auto& [lasts, attempts_then] : {std::pair{1s, 1}, {100s, 4}}) {
     MessageLine<wire::ClientMessage> other;
     SecondStream again;
-    for (int i = 0; i < 600; ++i, now += 1s) again.takeAttempt(now);
+    for (int i = 0; i < 600; ++i, now += 1s) again.tryBeginAttempt(now);
     SessionOptions options;
     options.now = [this] { return now; };
     again.start(std::make_unique<FakeChannel>(other), options, [](std::string_view) {});
@@ -107,9 +107,9 @@ TEST_F(SecondStreamTest, LongLivedStreamResetsTheRetryDelay) {
     other.receive(snapshotMessage(1, 1));
     EXPECT_TRUE(again.isOpen());
     again.close();
-    now += SecondStream::kLastPause;
+    now += SecondStream::kMaxRetryDelay;
     int attempts = 0;
-    for (int i = 0; i < 20; ++i, now += 1s) attempts += again.takeAttempt(now) ? 1 : 0;
+    for (int i = 0; i < 20; ++i, now += 1s) attempts += again.tryBeginAttempt(now) ? 1 : 0;
     EXPECT_EQ(attempts, attempts_then) << lasts.count() << " s";
   }
 }
@@ -132,11 +132,11 @@ TEST_F(SecondStreamTest, SilentStreamTimesOut) {
 }
 
 TEST_F(SecondStreamTest, RecognisesRepeatedSnapshots) {
-  EXPECT_FALSE(stream.isRepeat("0"));
-  for (int i = 1; i < 64; ++i) EXPECT_FALSE(stream.isRepeat(std::to_string(i)));
-  for (int i = 0; i < 64; ++i) EXPECT_TRUE(stream.isRepeat(std::to_string(i)));
-  EXPECT_FALSE(stream.isRepeat("64"));
-  EXPECT_FALSE(stream.isRepeat("0")) << "long ago";
+  EXPECT_FALSE(stream.isDuplicate("0"));
+  for (int i = 1; i < 64; ++i) EXPECT_FALSE(stream.isDuplicate(std::to_string(i)));
+  for (int i = 0; i < 64; ++i) EXPECT_TRUE(stream.isDuplicate(std::to_string(i)));
+  EXPECT_FALSE(stream.isDuplicate("64"));
+  EXPECT_FALSE(stream.isDuplicate("0")) << "long ago";
 }
 
 TEST_F(SecondStreamTest, SessionWithoutDatagramKeysWantsNoSecondStream) {
@@ -145,7 +145,7 @@ TEST_F(SecondStreamTest, SessionWithoutDatagramKeysWantsNoSecondStream) {
   receive(message);
   for (std::uint32_t i = 1; i < 300; ++i, now += 33ms) {
     snapshot(i, i);
-    ASSERT_FALSE(session->wantsSecond(now));
+    ASSERT_FALSE(session->shouldOpenSecondStream(now));
   }
 }
 

@@ -59,10 +59,10 @@ void expectGood(const ChatMessage& chat) {
   expectSafe(chat.text, kMaxChatLength);
 }
 void expectGood(const RefusedMessage& refused) {
-  expectSafe(refused.sentence, kMaxSentenceLength);
+  expectSafe(refused.message, kMaxMessageLength);
 }
 void expectGood(const GoodbyeMessage& goodbye) {
-  expectSafe(goodbye.sentence, kMaxSentenceLength);
+  expectSafe(goodbye.message, kMaxMessageLength);
 }
 void expectGood(const SoundsMessage& message) {
   EXPECT_LE(message.sounds.size(), kMaxSounds);
@@ -71,7 +71,7 @@ void expectGood(const SoundsMessage& message) {
     EXPECT_LE(sound.action, SoundLine::Action::kStop);
   }
 }
-void expectGood(const EnteredMessage& entered) {
+void expectGood(const RoomEnteredMessage& entered) {
   EXPECT_NE(entered.player, 0u);
   EXPECT_TRUE(isRoomName(entered.room));
   expectSafe(entered.game, kMaxProgramLength);
@@ -98,18 +98,18 @@ void expectGood(const ServerMessageValue& value) {
 }
 
 TEST(ServerMessages, InvalidRoomMessagesAreRejected) {
-  const auto reads = [](const std::function<void(wire::Entered&)>& change) {
+  const auto reads = [](const std::function<void(wire::RoomEntered&)>& change) {
     wire::ServerMessage message = test::serverMessages("Ann")[8];
     change(*message.mutable_entered());
     return readServerMessage(message.SerializeAsString()).has_value();
   };
-  EXPECT_TRUE(reads([](wire::Entered&) {}));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_player(0); }));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_room("a b"); }));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_room(""); }));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_world_epoch(4); }));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_view_width(0); }));
-  EXPECT_FALSE(reads([](wire::Entered& entered) { entered.set_view_height(kMaxViewHeight + 1); }));
+  EXPECT_TRUE(reads([](wire::RoomEntered&) {}));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_player(0); }));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_room("a b"); }));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_room(""); }));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_world_epoch(4); }));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_view_width(0); }));
+  EXPECT_FALSE(reads([](wire::RoomEntered& entered) { entered.set_view_height(kMaxViewHeight + 1); }));
   wire::ServerMessage rooms = test::serverMessages("Ann")[9];
   *rooms.mutable_rooms()->add_rooms() = rooms.rooms().rooms(0);
   EXPECT_FALSE(readServerMessage(rooms.SerializeAsString()));
@@ -117,7 +117,7 @@ TEST(ServerMessages, InvalidRoomMessagesAreRejected) {
 
 TEST(ServerMessages, ValidMessagesAreRead) {
   for (const wire::ServerMessage& message : test::serverMessages("Ann"))
-    EXPECT_TRUE(readServerMessage(message.SerializeAsString())) << message.what_case();
+    EXPECT_TRUE(readServerMessage(message.SerializeAsString())) << message.payload_case();
 }
 
 TEST(ServerMessages, MutatedMessagesAreRefusedOrValid) {
@@ -215,8 +215,8 @@ TEST(ServerMessages, NumbersOutOfRangeAreRejectedOrClamped) {
          std::pair{100'000u, 99'999u}, std::pair{kLast, 99'999u});
   fields.push_back({"epoch",
                     0,
-                    [](auto& m, auto n) { m.mutable_welcome()->mutable_continuation()->set_world_epoch(n); },
-                    [](auto& v) { return std::get<WelcomeMessage>(v).continuation.value().world_epoch; },
+                    [](auto& m, auto n) { m.mutable_welcome()->mutable_resume_state()->set_world_epoch(n); },
+                    [](auto& v) { return std::get<WelcomeMessage>(v).resume_state.value().world_epoch; },
                     {0, 3},
                     {4, 256, kLast},
                     {}});

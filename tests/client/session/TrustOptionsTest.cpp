@@ -105,7 +105,7 @@ TEST(TrustOptions, VisitNeedsASocketAndAnAddress) {
     SessionOptions session;
     const ServerChoice choice{.text = "127.0.0.1", .visitors = visitors, .visitor = visitor};
     const std::string wrong = resolveServer(choice, address, trust, session);
-    EXPECT_EQ(wrong.empty() && !visitors.empty(), session.visit.has_value());
+    EXPECT_EQ(wrong.empty() && !visitors.empty(), session.proxy.has_value());
     return wrong;
   };
   EXPECT_EQ(problem("", ""), "");

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "client/session/GatewayStreams.h"
+#include "client/session/GatewayStreamOpener.h"
 #include "tests/shared/net/Loopback.h"
 #include "tests/shared/net/Recorder.h"
 #include "tests/support/RunProgram.h"
@@ -36,10 +36,10 @@ class WebSocketPeer : public testing::Test {
     origin = scheme + "://localhost:" + std::to_string(std::stoi(peer->printed().substr(5)));
   }
   void open() {
-    GatewayStreams streams(context, *GatewayAddress::parse(origin));
-    streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
+    GatewayStreamOpener streams(context, *GatewayAddress::parse(origin));
+    streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& message) {
       channel = std::move(made);
-      error = sentence;
+      error = message;
     });
     ASSERT_TRUE(runUntil(context, [&] { return error.has_value(); }));
     if (channel) channel->start(recorder.callbacks());

@@ -21,16 +21,16 @@ Fingerprint key(char digit) {
   return *Fingerprint::parse(std::string(64, digit));
 }
 
-PeerFacts selfSigned(char digit) {
+PeerIdentity selfSigned(char digit) {
   return {key(digit), false, "self-signed certificate"};
 }
 
-PeerFacts verified(char digit) {
+PeerIdentity verified(char digit) {
   return {key(digit), true, ""};
 }
 
 struct KnownServersTest : testing::Test {
-  Trust admit(const PeerFacts& facts, const std::optional<Fingerprint>& given = {},
+  Trust admit(const PeerIdentity& facts, const std::optional<Fingerprint>& given = {},
               const std::string& host = "game.test") {
     return servers.admit(host, 9876, facts, given).trust;
   }
@@ -58,56 +58,57 @@ TEST_F(KnownServersTest, FirstUsePinsKeyPrivatelyAndTrustsItLater) {
 TEST_F(KnownServersTest, ChangedKeyIsAlwaysRefusedWithAWarning) {
   admit(selfSigned('a'));
   for (int i = 0; i < 2; ++i) {
-    const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {});
+    const TrustResult verdict = servers.admit("game.test", 9876, selfSigned('b'), {});
     EXPECT_EQ(verdict.trust, Trust::kChanged);
     EXPECT_FALSE(verdict.accepted());
-    EXPECT_NE(verdict.sentence.find("THE KEY OF game.test:9876 HAS CHANGED"), std::string::npos);
-    EXPECT_NE(verdict.sentence.find("--fingerprint " + std::string(64, 'b')), std::string::npos);
+    EXPECT_NE(verdict.message.find("THE KEY OF game.test:9876 HAS CHANGED"), std::string::npos);
+    EXPECT_NE(verdict.message.find("--fingerprint " + std::string(64, 'b')), std::string::npos);
   }
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
 }
 
 TEST_F(KnownServersTest, JudgingWritesNothing) {
-  EXPECT_EQ(servers.judge("game.test", 9876, selfSigned('a'), {}).trust, Trust::kFirstUse);
+  EXPECT_EQ(servers.verify("game.test", 9876, selfSigned('a'), {}).trust, Trust::kFirstUse);
   EXPECT_EQ(content(), "(missing)");
 }
 
 TEST_F(KnownServersTest, GivenFingerprintOverridesTheChainAndThePin) {
-  EXPECT_EQ(admit(selfSigned('a'), key('b')), Trust::kGivenUnequal);
-  EXPECT_EQ(admit(verified('a'), key('b')), Trust::kGivenUnequal);
+  EXPECT_EQ(admit(selfSigned('a'), key('b')), Trust::kFingerprintMismatch);
+  EXPECT_EQ(admit(verified('a'), key('b')), Trust::kFingerprintMismatch);
   EXPECT_EQ(content(), "(missing)");
   admit(selfSigned('a'));
-  EXPECT_EQ(admit(selfSigned('b'), key('b')), Trust::kGivenEqual);
+  EXPECT_EQ(admit(selfSigned('b'), key('b')), Trust::kFingerprintMatch);
   EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kChanged);
 }
 
 TEST_F(KnownServersTest, MatchingLinkKeyPinsTheFullKey) {
-  const auto admitBy = [this](const PeerFacts& facts, char digit) {
+  const auto admitBy = [this](const PeerIdentity& facts, char digit) {
     return servers.admit("game.test", 9876, facts, {}, ShortKey::of(key(digit)));
   };
-  EXPECT_EQ(admitBy(selfSigned('a'), 'b').trust, Trust::kLinkUnequal);
-  EXPECT_EQ(admitBy(verified('a'), 'b').trust, Trust::kLinkUnequal);
+  EXPECT_EQ(admitBy(selfSigned('a'), 'b').trust, Trust::kLinkMismatch);
+  EXPECT_EQ(admitBy(verified('a'), 'b').trust, Trust::kLinkMismatch);
   EXPECT_FALSE(admitBy(selfSigned('a'), 'b').accepted());
   EXPECT_EQ(content(), "(missing)");
-  EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kLinkEqual);
+  EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kLinkMatch);
   EXPECT_EQ(content(), "game.test:9876 " + std::string(64, 'a') + "\n");
   EXPECT_EQ(admitBy(selfSigned('a'), 'a').trust, Trust::kPinned);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
   // The second half of the key is in the pin but not in the link.
-  const PeerFacts twin{*Fingerprint::parse(std::string(32, 'a') + std::string(32, 'b')), false,
-                       "self-signed"};
+  const PeerIdentity twin{*Fingerprint::parse(std::string(32, 'a') + std::string(32, 'b')), false,
+                          "self-signed"};
   EXPECT_EQ(admitBy(twin, 'a').trust, Trust::kChanged);
 }
 
 TEST_F(KnownServersTest, FingerprintReplacesThePinButLinkDoesNot) {
   admit(selfSigned('a'));
   const auto link = ShortKey::of(key('b'));
-  const Verdict verdict = servers.admit("game.test", 9876, selfSigned('b'), {}, link);
+  const TrustResult verdict = servers.admit("game.test", 9876, selfSigned('b'), {}, link);
   EXPECT_EQ(verdict.trust, Trust::kChanged);
-  EXPECT_NE(verdict.sentence.find("HAS CHANGED"), std::string::npos);
+  EXPECT_NE(verdict.message.find("HAS CHANGED"), std::string::npos);
   EXPECT_EQ(admit(selfSigned('a')), Trust::kPinned);
-  EXPECT_EQ(servers.admit("game.test", 9876, selfSigned('b'), key('b'), link).trust, Trust::kGivenEqual);
+  EXPECT_EQ(servers.admit("game.test", 9876, selfSigned('b'), key('b'), link).trust,
+            Trust::kFingerprintMatch);
   EXPECT_EQ(admit(selfSigned('b')), Trust::kPinned);
 }
 

@@ -17,22 +17,22 @@ KeyEvent typed(Key key, char32_t ch) {
 
 /// Types the prefix key and this key.
 Result command(ClientControls& controls, Key key, char32_t ch) {
-  controls.takeKey(kPrefix);
-  return controls.takeKey(typed(key, ch));
+  controls.handleKey(kPrefix);
+  return controls.handleKey(typed(key, ch));
 }
 
 TEST(ClientControls, OrdinaryKeysGoToTheGame) {
   ClientControls controls;
-  EXPECT_EQ(controls.takeKey(typed(Q, U'q')), Result::kGame);
-  EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kGame);
-  EXPECT_EQ(controls.takeKey(typed(RIGHTBRACKET, U']')), Result::kGame);
+  EXPECT_EQ(controls.handleKey(typed(Q, U'q')), Result::kGame);
+  EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kGame);
+  EXPECT_EQ(controls.handleKey(typed(RIGHTBRACKET, U']')), Result::kGame);
 }
 
 TEST(ClientControls, PrefixOpensCommands) {
   ClientControls controls;
-  EXPECT_EQ(controls.takeKey(kPrefix), Result::kHandled);
+  EXPECT_EQ(controls.handleKey(kPrefix), Result::kHandled);
   EXPECT_TRUE(controls.prefixed());
-  EXPECT_EQ(controls.takeKey(typed(P, U'p')), Result::kHandled);
+  EXPECT_EQ(controls.handleKey(typed(P, U'p')), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kPlayers);
   command(controls, SLASH, U'?');
@@ -51,58 +51,58 @@ TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
     return controls.status();
   };
   EXPECT_EQ(controls.status(), StatusMode::kAuto);
-  controls.noteShown({.status = false});  // no space for it, and its time is over
+  controls.onShown({.status = false});  // no space for it, and its time is over
   EXPECT_EQ(press(), StatusMode::kAlways);
-  controls.noteShown({.status = true});
+  controls.onShown({.status = true});
   EXPECT_EQ(press(), StatusMode::kNever);
 }
 
 TEST(ClientControls, KeysScrollAPanelThatDoesNotFit) {
   ClientControls controls;
-  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
+  EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame);
   command(controls, H, U'h');
-  controls.noteShown({.status = true, .max_scroll = 0, .page = 20});
-  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame) << "all of it is seen";
-  controls.noteShown({.status = true, .max_scroll = 30, .page = 20});
-  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  controls.onShown({.status = true, .max_scroll = 0, .page = 20});
+  EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame) << "all of it is seen";
+  controls.onShown({.status = true, .max_scroll = 30, .page = 20});
+  EXPECT_EQ(controls.handleKey({UPARROW}), Result::kHandled);
   EXPECT_EQ(controls.scroll(), 0);
-  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kHandled);
+  EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kHandled);
   EXPECT_EQ(controls.scroll(), 1);
-  controls.takeKey({PAGEDOWN});
+  controls.handleKey({PAGEDOWN});
   EXPECT_EQ(controls.scroll(), 20);
-  controls.takeKey({PAGEDOWN});
+  controls.handleKey({PAGEDOWN});
   EXPECT_EQ(controls.scroll(), 30);
-  controls.takeKey({PAGEUP});
+  controls.handleKey({PAGEUP});
   EXPECT_EQ(controls.scroll(), 11);
-  controls.takeKey({END});
+  controls.handleKey({END});
   EXPECT_EQ(controls.scroll(), 30);
-  controls.takeKey({HOME});
+  controls.handleKey({HOME});
   EXPECT_EQ(controls.scroll(), 0);
-  EXPECT_EQ(controls.takeKey(typed(A, U'a')), Result::kGame);
-  EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kHandled);
-  EXPECT_EQ(controls.takeKey({DOWNARROW}), Result::kGame);
+  EXPECT_EQ(controls.handleKey(typed(A, U'a')), Result::kGame);
+  EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kHandled);
+  EXPECT_EQ(controls.handleKey({DOWNARROW}), Result::kGame);
 }
 
 TEST(ClientControls, ArrowsChooseARoomAndReturnEntersIt) {
   ClientControls controls;
   EXPECT_EQ(command(controls, R, U'r'), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kRooms);
-  controls.noteShown({.rooms = 3});
-  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  controls.onShown({.rooms = 3});
+  EXPECT_EQ(controls.handleKey({UPARROW}), Result::kHandled);
   EXPECT_EQ(controls.roomChoice(), 0);
-  for (int i = 0; i < 5; ++i) controls.takeKey({DOWNARROW});
+  for (int i = 0; i < 5; ++i) controls.handleKey({DOWNARROW});
   EXPECT_EQ(controls.roomChoice(), 2);
-  EXPECT_EQ(controls.takeKey(typed(A, U'a')), Result::kGame);
-  EXPECT_EQ(controls.takeKey({RETURN}), Result::kEnterRoom);
+  EXPECT_EQ(controls.handleKey(typed(A, U'a')), Result::kGame);
+  EXPECT_EQ(controls.handleKey({RETURN}), Result::kEnterRoom);
   EXPECT_EQ(controls.panel(), Panel::kNone);
-  EXPECT_EQ(controls.takeKey({RETURN}), Result::kGame);
+  EXPECT_EQ(controls.handleKey({RETURN}), Result::kGame);
 }
 
 TEST(ClientControls, ReturnClosesAnEmptyRoomList) {
   ClientControls controls;
   command(controls, R, U'r');
-  controls.noteShown({.rooms = 0});
-  EXPECT_EQ(controls.takeKey({RETURN}), Result::kHandled);
+  controls.onShown({.rooms = 0});
+  EXPECT_EQ(controls.handleKey({RETURN}), Result::kHandled);
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }
 
@@ -111,87 +111,87 @@ TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   EXPECT_FALSE(controls.insertPasted(U"secret"));
   command(controls, T, U't');
   EXPECT_EQ(controls.chatText(), "");
-  controls.takeKey(typed(X, U'x'));
+  controls.handleKey(typed(X, U'x'));
   EXPECT_TRUE(controls.insertPasted(U"y\x202Ez ü"));
   EXPECT_EQ(controls.chatText(), "xyz ü");
   controls.insertPasted(std::u32string(1000, U'n'));
   EXPECT_EQ(df::decodeUtf8(controls.chatText()).size(), kMaxChatLength);
-  EXPECT_TRUE(controls.chatOpen()) << "it sends nothing";
+  EXPECT_TRUE(controls.isChatOpen()) << "it sends nothing";
 }
 
 TEST(ClientControls, PrefixTwiceClosesEverything) {
   ClientControls controls;
   command(controls, P, U'p');
-  controls.takeKey(kPrefix);
-  EXPECT_EQ(controls.takeKey(kPrefix), Result::kHandled);
+  controls.handleKey(kPrefix);
+  EXPECT_EQ(controls.handleKey(kPrefix), Result::kHandled);
   EXPECT_FALSE(controls.prefixed());
   EXPECT_EQ(controls.panel(), Panel::kNone);
 }
 
 TEST(ClientControls, ModifiersAndRepeatsDoNotEndThePrefix) {
   ClientControls controls;
-  controls.takeKey(kPrefix);
-  controls.takeKey({RIGHTBRACKET, 0, KeyEvent::Action::kRepeat, kControl});
-  controls.takeKey({RIGHTBRACKET, 0, KeyEvent::Action::kRelease, kControl});
-  controls.takeKey({LEFTSHIFT, 0, KeyEvent::Action::kPress, kShift});
+  controls.handleKey(kPrefix);
+  controls.handleKey({RIGHTBRACKET, 0, KeyEvent::Action::kRepeat, kControl});
+  controls.handleKey({RIGHTBRACKET, 0, KeyEvent::Action::kRelease, kControl});
+  controls.handleKey({LEFTSHIFT, 0, KeyEvent::Action::kPress, kShift});
   EXPECT_TRUE(controls.prefixed());
-  controls.takeKey(typed(SLASH, U'?'));
+  controls.handleKey(typed(SLASH, U'?'));
   EXPECT_EQ(controls.panel(), Panel::kHelp);
 }
 
 TEST(ClientControls, ControlCLeavesAndControlZSuspendsAlways) {
   ClientControls controls;
-  EXPECT_EQ(controls.takeKey({Z, 0, KeyEvent::Action::kPress, kControl}), Result::kSuspend);
+  EXPECT_EQ(controls.handleKey({Z, 0, KeyEvent::Action::kPress, kControl}), Result::kSuspend);
   command(controls, T, U't');
-  EXPECT_EQ(controls.takeKey({C, 0, KeyEvent::Action::kPress, kControl}), Result::kLeave);
+  EXPECT_EQ(controls.handleKey({C, 0, KeyEvent::Action::kPress, kControl}), Result::kLeave);
 }
 
 TEST(ClientControls, ChatLineTakesText) {
   ClientControls controls;
   EXPECT_EQ(command(controls, T, U't'), Result::kOpened);
-  EXPECT_TRUE(controls.chatOpen());
-  for (const char32_t ch : std::u32string(U"hüx")) controls.takeKey({UNDEFINED_KEY, ch});
-  controls.takeKey({BACKSPACE});
-  controls.takeKey({UNDEFINED_KEY, U'\x202E'});
+  EXPECT_TRUE(controls.isChatOpen());
+  for (const char32_t ch : std::u32string(U"hüx")) controls.handleKey({UNDEFINED_KEY, ch});
+  controls.handleKey({BACKSPACE});
+  controls.handleKey({UNDEFINED_KEY, U'\x202E'});
   EXPECT_EQ(controls.chatText(), "hü");
-  EXPECT_EQ(controls.takeKey({RETURN}), Result::kSay);
-  EXPECT_EQ(controls.takeChat(), "hü");
-  EXPECT_FALSE(controls.chatOpen());
+  EXPECT_EQ(controls.handleKey({RETURN}), Result::kSendChat);
+  EXPECT_EQ(controls.popChat(), "hü");
+  EXPECT_FALSE(controls.isChatOpen());
 }
 
 TEST(ClientControls, EmptyOrCancelledChatSendsNothing) {
   ClientControls controls;
   command(controls, C, U'c');
-  EXPECT_EQ(controls.takeKey({RETURN}), Result::kClosed);
+  EXPECT_EQ(controls.handleKey({RETURN}), Result::kClosed);
   command(controls, C, U'c');
-  controls.takeKey(typed(X, U'x'));
-  EXPECT_EQ(controls.takeKey({ESCAPE}), Result::kClosed);
+  controls.handleKey(typed(X, U'x'));
+  EXPECT_EQ(controls.handleKey({ESCAPE}), Result::kClosed);
 }
 
 TEST(ClientControls, ChatIsBounded) {
   ClientControls controls;
   command(controls, T, U't');
-  for (int i = 0; i < 1000; ++i) controls.takeKey(typed(X, U'x'));
+  for (int i = 0; i < 1000; ++i) controls.handleKey(typed(X, U'x'));
   EXPECT_EQ(controls.chatText().size(), kMaxChatLength);
 }
 
 TEST(ClientControls, KeysScrollTheChatWhileItsLineIsOpen) {
   ClientControls controls;
-  controls.noteShown({.max_chat_scroll = 20, .chat_page = 6});
-  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kGame);
+  controls.onShown({.max_chat_scroll = 20, .chat_page = 6});
+  EXPECT_EQ(controls.handleKey({UPARROW}), Result::kGame);
   command(controls, T, U't');
-  EXPECT_EQ(controls.takeKey({UPARROW}), Result::kHandled);
+  EXPECT_EQ(controls.handleKey({UPARROW}), Result::kHandled);
   EXPECT_EQ(controls.chatScroll(), 1);
-  controls.takeKey({PAGEUP});
+  controls.handleKey({PAGEUP});
   EXPECT_EQ(controls.chatScroll(), 6);
-  for (int i = 0; i < 9; ++i) controls.takeKey({PAGEUP});
+  for (int i = 0; i < 9; ++i) controls.handleKey({PAGEUP});
   EXPECT_EQ(controls.chatScroll(), 20);
-  controls.takeKey({DOWNARROW});
+  controls.handleKey({DOWNARROW});
   EXPECT_EQ(controls.chatScroll(), 19);
-  for (int i = 0; i < 9; ++i) controls.takeKey({PAGEDOWN});
+  for (int i = 0; i < 9; ++i) controls.handleKey({PAGEDOWN});
   EXPECT_EQ(controls.chatScroll(), 0);
-  controls.takeKey({UPARROW});
-  controls.takeKey({ESCAPE});
+  controls.handleKey({UPARROW});
+  controls.handleKey({ESCAPE});
   EXPECT_EQ(controls.chatScroll(), 0) << "the newest again";
 }
 

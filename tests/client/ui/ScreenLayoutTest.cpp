@@ -31,14 +31,14 @@ ScreenModel modelWith(Panel panel) {
 }
 
 /// Returns the first row with this text; −1 if missing.
-int rowWith(const Picture& picture, const std::string& text) {
+int rowWith(const ScreenBuffer& picture, const std::string& text) {
   for (int y = 0; y < picture.height(); ++y) {
     if (picture.rowText(y).find(text) != std::string::npos) return y;
   }
   return -1;
 }
 
-bool contains(const Picture& picture, const std::string& text) {
+bool contains(const ScreenBuffer& picture, const std::string& text) {
   return rowWith(picture, text) >= 0;
 }
 
@@ -47,7 +47,7 @@ TEST(ScreenLayout, RoomListShowsPlayersAndHighlightsTheChosenRoom) {
   m.room = "lobby";
   m.rooms = {{"lobby", "lobby", 2, 64, false}, {"arcade", "saucershoot", 0, 8, true}};
   m.room_choice = 1;
-  const ScreenLayout layout = layOut(m, 80, 24);
+  const ScreenLayout layout = composeScreen(m, 80, 24);
   EXPECT_EQ(layout.shown.rooms, 2);
   EXPECT_TRUE(contains(layout.picture, "* lobby "));
   EXPECT_TRUE(contains(layout.picture, "arcade           saucershoot         0/8    asleep"));
@@ -64,16 +64,16 @@ TEST(ScreenLayout, MoreRoomsThanFitShowTheChosenOne) {
   for (int i = 0; i < 64; ++i) m.rooms.push_back({"room-" + std::to_string(i), "hello", 0, 8, false});
   for (int choice = 0; choice < 64; ++choice) {
     m.room_choice = choice;
-    EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "room-" + std::to_string(choice) + " ")) << choice;
+    EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, "room-" + std::to_string(choice) + " ")) << choice;
   }
 }
 
 TEST(ScreenLayout, PanelSaysThatTheServerHasNoRooms) {
-  EXPECT_TRUE(contains(layOut(modelWith(Panel::kRooms), 80, 24).picture, "This server has no rooms."));
+  EXPECT_TRUE(contains(composeScreen(modelWith(Panel::kRooms), 80, 24).picture, "This server has no rooms."));
 }
 
 TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
-  const ScreenLayout layout = layOut(model(), 100, 30);
+  const ScreenLayout layout = composeScreen(model(), 100, 30);
   const ViewPlacement& place = layout.placement;
   EXPECT_TRUE(place.framed);
   EXPECT_TRUE(place.status_row);
@@ -89,7 +89,7 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
 
 TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
   ScreenModel m = model();
-  const ScreenLayout layout = layOut(m, 80, 24);
+  const ScreenLayout layout = composeScreen(m, 80, 24);
   EXPECT_FALSE(layout.placement.framed);
   EXPECT_FALSE(layout.placement.status_row);
   EXPECT_TRUE(layout.shown.status);
@@ -97,29 +97,29 @@ TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z') << "a corner that the game uses is the game's";
   EXPECT_NE(layout.picture.rowText(0).find(" 42 ms  2 players  Ctrl-] help "), std::string::npos);
   m.view.put(79, 0, {U'Y', df::BLUE});
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(23).find(" 42 ms  2 players"), std::string::npos);
-  EXPECT_EQ(layOut(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
+  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(23).find(" 42 ms  2 players"), std::string::npos);
+  EXPECT_EQ(composeScreen(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
 }
 
 TEST(ScreenLayout, StatusOverlayIsTemporaryButStatusRowStays) {
   ScreenModel m = model();
   m.status_over_game = false;
-  const ScreenLayout layout = layOut(m, 80, 24);
+  const ScreenLayout layout = composeScreen(m, 80, 24);
   EXPECT_FALSE(layout.shown.status);
   EXPECT_FALSE(contains(layout.picture, "42 ms"));
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 80; ++x) EXPECT_EQ(layout.picture.at(x, y).ch, m.view.at(x, y).ch) << x << ' ' << y;
   }
-  EXPECT_TRUE(contains(layOut(m, 80, 25).picture, "42 ms")) << "where it covers nothing it stays";
+  EXPECT_TRUE(contains(composeScreen(m, 80, 25).picture, "42 ms")) << "where it covers nothing it stays";
   m.status_shown = false;
-  EXPECT_FALSE(contains(layOut(m, 80, 25).picture, "42 ms"));
+  EXPECT_FALSE(contains(composeScreen(m, 80, 25).picture, "42 ms"));
 }
 
 TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   ScreenModel m = model();
   m.status_over_game = false;
   m.note = "sound: fire";
-  const ScreenLayout layout = layOut(m, 92, 24);
+  const ScreenLayout layout = composeScreen(m, 92, 24);
   EXPECT_TRUE(layout.placement.status_side);
   EXPECT_TRUE(layout.shown.status);
   EXPECT_EQ(layout.placement.width, 80);
@@ -127,11 +127,11 @@ TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
   for (const char* text : {"42 ms", "2 players", "0 pts", "Ctrl-] h", "sound: fir"})
     EXPECT_TRUE(contains(layout.picture, text)) << text;
-  EXPECT_FALSE(layOut(m, 90, 24).placement.status_side);
+  EXPECT_FALSE(composeScreen(m, 90, 24).placement.status_side);
 }
 
 TEST(ScreenLayout, OneExtraRowBecomesTheStatusLine) {
-  const ScreenLayout layout = layOut(model(), 80, 25);
+  const ScreenLayout layout = composeScreen(model(), 80, 25);
   EXPECT_TRUE(layout.placement.status_row);
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
 }
@@ -139,52 +139,52 @@ TEST(ScreenLayout, OneExtraRowBecomesTheStatusLine) {
 TEST(ScreenLayout, ANoteIsInTheStatusLine) {
   ScreenModel m = model();
   m.note = "sound: fire";
-  const std::string row = layOut(m, 80, 25).picture.rowText(24);
+  const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
   EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
   EXPECT_NE(row.find("42 ms   tick 1200   2 players   0 points"), std::string::npos) << row;
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
+  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
   m.note = "music: " + std::string(40, 'x');
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"),
+  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"),
             std::string::npos)
       << "it stays short";
   m.status_over_game = false;
-  EXPECT_NE(layOut(m, 80, 24).picture.rowText(0).find(" music: xxx"), std::string::npos)
+  EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" music: xxx"), std::string::npos)
       << "where the game shows nothing";
   for (int x = 0; x < 80; ++x) {
     m.view.put(x, 0, {U'=', df::RED});
     m.view.put(x, 23, {U'=', df::RED});
   }
-  EXPECT_FALSE(contains(layOut(m, 80, 24).picture, "music")) << "it must not cover the game";
+  EXPECT_FALSE(contains(composeScreen(m, 80, 24).picture, "music")) << "it must not cover the game";
   m.status_shown = false;
-  EXPECT_FALSE(contains(layOut(m, 100, 30).picture, "music"));
+  EXPECT_FALSE(contains(composeScreen(m, 100, 30).picture, "music"));
 }
 
 TEST(ScreenLayout, TheBackgroundIsBehindTheViewAndNowhereElse) {
   ScreenModel m = model();
   m.background = df::BLUE;
-  const Picture picture = layOut(m, 100, 30).picture;
+  const ScreenBuffer picture = composeScreen(m, 100, 30).picture;
   EXPECT_EQ(picture.background(), df::BLUE);
   EXPECT_EQ(picture.at(10, 2).background, df::BLUE) << "behind a character";
   EXPECT_EQ(picture.at(50, 12).background, df::BLUE) << "and behind none";
   EXPECT_EQ(picture.at(9, 1).background, df::BLACK) << "not behind the frame";
   EXPECT_EQ(picture.at(0, 0).background, df::BLACK);
   EXPECT_EQ(picture.at(3, 29).background, df::BLACK) << "nor behind the status line";
-  EXPECT_EQ(layOut(model(), 100, 30).picture.background(), df::BLACK);
+  EXPECT_EQ(composeScreen(model(), 100, 30).picture.background(), df::BLACK);
 }
 
 TEST(ScreenLayout, SmallTerminalCropsTheViewAroundTheFocus) {
   ScreenModel m = model();
   m.focus = {70, 20};
-  const ScreenLayout layout = layOut(m, 40, 12);
+  const ScreenLayout layout = composeScreen(m, 40, 12);
   EXPECT_EQ(layout.placement.view_x, 40);
   EXPECT_EQ(layout.placement.view_y, 12);
   EXPECT_EQ(layout.placement.toView(0, 0), (CellPosition{40, 12}));
   m.focus = {0, 0};
-  EXPECT_EQ(layOut(m, 40, 12).placement.toView(3, 4), (CellPosition{3, 4}));
+  EXPECT_EQ(composeScreen(m, 40, 12).placement.toView(3, 4), (CellPosition{3, 4}));
 }
 
 TEST(ScreenLayout, MouseBesideTheViewHitsNothing) {
-  const ViewPlacement place = layOut(model(), 100, 30).placement;
+  const ViewPlacement place = composeScreen(model(), 100, 30).placement;
   EXPECT_EQ(place.toView(9, 5), std::nullopt);
   EXPECT_EQ(place.toView(10, 2), (CellPosition{0, 0}));
   EXPECT_EQ(place.toView(89, 25), (CellPosition{79, 23}));
@@ -192,10 +192,11 @@ TEST(ScreenLayout, MouseBesideTheViewHitsNothing) {
 }
 
 TEST(ScreenLayout, TooSmallTerminalSaysSo) {
-  EXPECT_TRUE(contains(layOut(model(), 19, 10).picture, "Terminal too small"));
-  EXPECT_TRUE(contains(layOut(model(), 80, 9).picture, "80x9, needs 20x10"));
-  EXPECT_TRUE(contains(layOut(model(), 10, 3).picture, "too small")) << "in few words where there is no room";
-  EXPECT_FALSE(contains(layOut(model(), 20, 10).picture, "small"));
+  EXPECT_TRUE(contains(composeScreen(model(), 19, 10).picture, "Terminal too small"));
+  EXPECT_TRUE(contains(composeScreen(model(), 80, 9).picture, "80x9, needs 20x10"));
+  EXPECT_TRUE(contains(composeScreen(model(), 10, 3).picture, "too small"))
+      << "in few words where there is no room";
+  EXPECT_FALSE(contains(composeScreen(model(), 20, 10).picture, "small"));
 }
 
 TEST(ScreenLayout, AnySizeIsSafe) {
@@ -211,7 +212,7 @@ TEST(ScreenLayout, AnySizeIsSafe) {
       m.chat_open = chat;
       for (int columns = 0; columns < 120; columns += 7) {
         for (int rows = 0; rows < 40; rows += 3) {
-          const ScreenLayout layout = layOut(m, columns, rows);
+          const ScreenLayout layout = composeScreen(m, columns, rows);
           EXPECT_EQ(layout.picture.width(), columns);
           if (layout.picture.cursor) {
             EXPECT_LT(layout.picture.cursor->x, columns);
@@ -223,7 +224,7 @@ TEST(ScreenLayout, AnySizeIsSafe) {
 }
 
 TEST(ScreenLayout, PlayersAreListedByScore) {
-  const Picture picture = layOut(modelWith(Panel::kPlayers), 100, 30).picture;
+  const ScreenBuffer picture = composeScreen(modelWith(Panel::kPlayers), 100, 30).picture;
   const int bob = rowWith(picture, "Bob");
   EXPECT_GE(bob, 0);
   EXPECT_EQ(rowWith(picture, "Ada"), bob + 1);
@@ -233,11 +234,11 @@ TEST(ScreenLayout, PlayersAreListedByScore) {
 TEST(ScreenLayout, HelpShowsGameLinesClientKeysAndReleaseReporting) {
   ScreenModel m = modelWith(Panel::kHelp);
   m.help = {"Space fires."};
-  const Picture picture = layOut(m, 80, 24).picture;
+  const ScreenBuffer picture = composeScreen(m, 80, 24).picture;
   for (const char* text : {"Space fires.", "leave the game", "guessed"})
     EXPECT_TRUE(contains(picture, text)) << text;
   m.key_releases = true;
-  EXPECT_TRUE(contains(layOut(m, 80, 24).picture, "exact"));
+  EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, "exact"));
 }
 
 TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
@@ -246,7 +247,7 @@ TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
   m.help = {"This line of the game is as long as any can be, and here is its very end: END",
             "arrows or WASD   move the paddle, which is yours alone, and hold it where you want"};
   for (const int columns : {80, 76, 60, 40}) {
-    const ScreenLayout layout = layOut(m, columns, 40);
+    const ScreenLayout layout = composeScreen(m, columns, 40);
     EXPECT_EQ(layout.shown.max_scroll, 0) << columns;
     for (const char* text : {"END", "want", "Esc closes", "close the help"})
       EXPECT_TRUE(contains(layout.picture, text)) << columns << text;
@@ -254,7 +255,7 @@ TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
 }
 
 TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
-  const Picture picture = layOut(modelWith(Panel::kHelp), 50, 40).picture;
+  const ScreenBuffer picture = composeScreen(modelWith(Panel::kHelp), 50, 40).picture;
   // "Ctrl-] t   say something to all players (or Ctrl-] c)"
   const int row = rowWith(picture, "say something");
   ASSERT_TRUE(row >= 0 && row < 39);
@@ -266,7 +267,7 @@ TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
 TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   ScreenModel m = modelWith(Panel::kHelp);
   for (int i = 0; i < 24; ++i) m.help.push_back("line " + std::to_string(i) + ".");
-  ScreenLayout layout = layOut(m, 76, 24);
+  ScreenLayout layout = composeScreen(m, 76, 24);
   EXPECT_TRUE(contains(layout.picture, "line 0."));
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
@@ -274,23 +275,23 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 10 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
-  layout = layOut(m, 76, 24);
+  layout = composeScreen(m, 76, 24);
   EXPECT_FALSE(contains(layout.picture, "line 0."));
   EXPECT_TRUE(contains(layout.picture, "close the help"));
   m.scroll = 1000;  // from a smaller terminal
-  EXPECT_TRUE(contains(layOut(m, 76, 24).picture, "close the help"));
-  EXPECT_TRUE(contains(layOut(m, 20, 10).picture, "Down"));
+  EXPECT_TRUE(contains(composeScreen(m, 76, 24).picture, "close the help"));
+  EXPECT_TRUE(contains(composeScreen(m, 20, 10).picture, "Down"));
 }
 
 TEST(ScreenLayout, PlayerListScrollsUnderItsHeader) {
   ScreenModel m = modelWith(Panel::kPlayers);
   for (std::uint32_t i = 0; i < 64; ++i)
     m.players.push_back({10 + i, "p" + std::to_string(i), df::RED, -1, 5});
-  ScreenLayout layout = layOut(m, 80, 24);
+  ScreenLayout layout = composeScreen(m, 80, 24);
   EXPECT_FALSE(contains(layout.picture, "p63"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
   m.scroll = layout.shown.max_scroll;
-  layout = layOut(m, 80, 24);
+  layout = composeScreen(m, 80, 24);
   EXPECT_TRUE(contains(layout.picture, "p63"));
   EXPECT_TRUE(contains(layout.picture, "points"));
   EXPECT_FALSE(contains(layout.picture, "Bob"));
@@ -301,7 +302,7 @@ TEST(ScreenLayout, ChatLineShowsTheEndOfALongText) {
   m.chat_open = true;
   m.chat_text = std::string(100, 'a') + "END";
   m.chat = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
-  const ScreenLayout layout = layOut(m, 80, 25);
+  const ScreenLayout layout = composeScreen(m, 80, 25);
   EXPECT_NE(layout.picture.rowText(23).find("aEND"), std::string::npos);
   EXPECT_EQ(layout.picture.cursor, (CellPosition{79, 23}));
   EXPECT_EQ(layout.picture.rowText(22).substr(0, 12), "* Ada joined");
@@ -321,10 +322,10 @@ TEST(AsciiFallback, MapsACharacterToASimilarOne) {
 }
 
 /// True if the text is there in this colour and style.
-bool containsIn(const Picture& picture, const std::string& text, df::Color color, Style style) {
+bool containsIn(const ScreenBuffer& picture, const std::string& text, df::Color color, Style style) {
   const int y = rowWith(picture, text);
   if (y < 0) return false;
-  const PictureCell cell = picture.at(static_cast<int>(picture.rowText(y).find(text)), y);
+  const ScreenCell cell = picture.at(static_cast<int>(picture.rowText(y).find(text)), y);
   return cell.color == color && cell.style == style;
 }
 
@@ -332,11 +333,12 @@ TEST(ScreenLayout, StatusLineBeginsWithTheColouredPlayerName) {
   ScreenModel m = model();
   m.self_name = "Ada";
   m.self_color = df::CYAN;
-  const Picture picture = layOut(m, 100, 30).picture;
+  const ScreenBuffer picture = composeScreen(m, 100, 30).picture;
   EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   tick 1200", 0), 0u) << picture.rowText(29);
   EXPECT_EQ(picture.at(2, 29).color, df::CYAN);
   EXPECT_EQ(picture.at(2, 29).style, Style::kReverse);
-  EXPECT_TRUE(containsIn(layOut(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold)) << "beside the view";
+  EXPECT_TRUE(containsIn(composeScreen(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold))
+      << "beside the view";
 }
 
 TEST(ScreenLayout, APointerShowsThePlayersOwnObject) {
@@ -344,19 +346,19 @@ TEST(ScreenLayout, APointerShowsThePlayersOwnObject) {
   m.self_name = "Ada";
   m.self_color = df::CYAN;
   m.self_cell = CellPosition{40, 12};
-  Picture picture = layOut(m, 80, 24).picture;
+  ScreenBuffer picture = composeScreen(m, 80, 24).picture;
   EXPECT_EQ(picture.at(40, 10).ch, U'▼');
   EXPECT_EQ(picture.at(40, 12).ch, U' ') << "the object itself is not covered";
   EXPECT_TRUE(containsIn(picture, " you: Ada ", df::CYAN, Style::kReverse));
   m.self_cell = CellPosition{0, 0};
-  picture = layOut(m, 80, 24).picture;
+  picture = composeScreen(m, 80, 24).picture;
   EXPECT_EQ(picture.at(0, 2).ch, U'▲');
   EXPECT_EQ(picture.rowText(3).rfind(" you: Ada ", 0), 0u);
   for (const int x : {-1, 0, 79, 80}) {
     for (const int y : {-1, 0, 1, 22, 23, 24}) {
       m.self_cell = CellPosition{x, y};
-      layOut(m, 20, 10);
-      layOut(m, 200, 60);
+      composeScreen(m, 20, 10);
+      composeScreen(m, 200, 60);
     }
   }
 }
@@ -366,7 +368,7 @@ TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
   m.help = {"Arrows   fly", "Space    shoot"};
   m.history = {{"Bob", df::GREEN, "hi there", {}}, {"", df::WHITE, "Ada joined", {}}};
   m.chat = m.history;
-  const ScreenLayout layout = layOut(m, 140, 40);
+  const ScreenLayout layout = composeScreen(m, 140, 40);
   EXPECT_EQ(layout.placement.width, 80);
   EXPECT_EQ(layout.placement.height, 24);
   EXPECT_TRUE(layout.placement.framed);
@@ -378,9 +380,9 @@ TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
   EXPECT_TRUE(contains(layout.picture, "Bob: hi there"));
   EXPECT_EQ(layout.picture.rowText(38).find("Ada joined"), std::string::npos) << "not over the game as well";
   m.status_shown = false;
-  EXPECT_FALSE(contains(layOut(m, 140, 40).picture, "Chat ─")) << "s takes it away, too";
+  EXPECT_FALSE(contains(composeScreen(m, 140, 40).picture, "Chat ─")) << "s takes it away, too";
   m.status_shown = true;
-  EXPECT_FALSE(contains(layOut(m, 107, 40).picture, "Chat ─")) << "no room";
+  EXPECT_FALSE(contains(composeScreen(m, 107, 40).picture, "Chat ─")) << "no room";
 }
 
 TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
@@ -390,12 +392,12 @@ TEST(ScreenLayout, ChatScrollsBackOverTheGameAndBesideIt) {
   m.history = m.chat;
   for (const int columns : {80, 140}) {
     m.chat_scroll = 0;
-    ScreenLayout layout = layOut(m, columns, 40);
+    ScreenLayout layout = composeScreen(m, columns, 40);
     EXPECT_TRUE(contains(layout.picture, "line 99.")) << columns;
     EXPECT_FALSE(contains(layout.picture, "line 50.")) << columns;
     while (m.chat_scroll < layout.shown.max_chat_scroll) {
       m.chat_scroll = layout.shown.max_chat_scroll;
-      layout = layOut(m, columns, 40);
+      layout = composeScreen(m, columns, 40);
     }
     EXPECT_TRUE(contains(layout.picture, "line 0.")) << columns;
     EXPECT_FALSE(contains(layout.picture, "line 99.")) << columns;
@@ -413,7 +415,7 @@ TEST(ScreenLayout, ManyPlayersAndLongTextsFitTheSidePanel) {
   for (const int rows : {20, 24, 25, 60, 150}) {
     for (const bool open : {false, true}) {
       m.chat_open = open;
-      const Picture picture = layOut(m, 130, rows).picture;
+      const ScreenBuffer picture = composeScreen(m, 130, rows).picture;
       EXPECT_EQ(picture.height(), rows);
       if (rows > 24) {
         EXPECT_TRUE(contains(picture, "player200")) << rows;

@@ -9,11 +9,11 @@ namespace {
 namespace key = df::Keyboard;
 using MenuResult = ServerMenu::Result;
 
-FoundServer menuServer(unsigned number, const std::string& name) {
-  FoundServer server;
+DiscoveredServer menuServer(unsigned number, const std::string& name) {
+  DiscoveredServer server;
   server.name = name;
   server.game = "hello";
-  server.where = {"192.168.1." + std::to_string(number), 9876};
+  server.address = {"192.168.1." + std::to_string(number), 9876};
   ShortKey::Bytes bytes{};
   bytes[0] = static_cast<std::uint8_t>(number);
   server.key = ShortKey::ofBytes(bytes);
@@ -22,13 +22,13 @@ FoundServer menuServer(unsigned number, const std::string& name) {
   return server;
 }
 
-std::vector<FoundServer> menuServers(unsigned count) {
-  std::vector<FoundServer> servers;
+std::vector<DiscoveredServer> menuServers(unsigned count) {
+  std::vector<DiscoveredServer> servers;
   for (unsigned i = 1; i <= count; ++i) servers.push_back(menuServer(i, "server " + std::to_string(i)));
   return servers;
 }
 
-std::string textOf(const Picture& picture) {
+std::string textOf(const ScreenBuffer& picture) {
   std::string text;
   for (int y = 0; y < picture.height(); ++y) text += picture.rowText(y) + "\n";
   return text;
@@ -42,14 +42,14 @@ MenuResult press(ServerMenu& menu, key::Key which, std::uint8_t modifiers = 0) {
   KeyEvent event;
   event.key = which;
   event.modifiers = modifiers;
-  return menu.takeKey(event);
+  return menu.handleKey(event);
 }
 
-ServerMenu menuOf(std::vector<FoundServer> servers) {
+ServerMenu menuOf(std::vector<DiscoveredServer> servers) {
   ServerMenu menu("Servers in this network");
   menu.setEmpty({"No server answered.", "Start one."});
   menu.setServers(std::move(servers));
-  menu.setLooking(false);
+  menu.setSearching(false);
   return menu;
 }
 
@@ -84,7 +84,7 @@ TEST(ServerMenu, OtherKeysRefreshAndLeave) {
   KeyEvent release;
   release.key = key::RETURN;
   release.action = KeyEvent::Action::kRelease;
-  EXPECT_EQ(menu.takeKey(release), MenuResult::kNone);
+  EXPECT_EQ(menu.handleKey(release), MenuResult::kNone);
 }
 
 TEST(ServerMenu, SelectionFollowsItsServerWhenTheListChanges) {
@@ -105,13 +105,13 @@ TEST(ServerMenu, EmptyListSaysWhatToDoAfterTheSearch) {
   ServerMenu menu = menuOf({});
   EXPECT_TRUE(shows(menu, "No server answered."));
   EXPECT_TRUE(shows(menu, "Start one."));
-  menu.setLooking(true);
+  menu.setSearching(true);
   EXPECT_TRUE(shows(menu, "Looking"));
   EXPECT_FALSE(shows(menu, "No server answered."));
 }
 
 TEST(ServerMenu, AServerOfAnotherVersionIsNotJoined) {
-  FoundServer other = menuServer(1, "old");
+  DiscoveredServer other = menuServer(1, "old");
   other.protocol = kProtocolVersion + 1;
   ServerMenu menu = menuOf({other});
   EXPECT_EQ(press(menu, key::RETURN), MenuResult::kRedraw);

@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "client/web/WebStreams.h"
+#include "client/web/WebStreamOpener.h"
 #include "naiad.pb.h"
 
 namespace naiad::test {
 
-class FakePage : public WebPort {
+class FakePage : public PageBridge {
  public:
   struct Stream {
     bool closed = false;
@@ -33,7 +33,7 @@ class FakePage : public WebPort {
   }
   std::size_t unsentBytes(int) override { return unsent; }
   void close(int stream) override { streams[stream].closed = true; }
-  void keepToken(std::string_view kept) override { token = kept; }
+  void saveToken(std::string_view kept) override { token = kept; }
   void sound(const SoundLine& sound, bool own) override { sounds.push_back({sound, own}); }
 
   /// Returns the messages sent over the newest stream.

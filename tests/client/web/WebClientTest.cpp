@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "client/web/WebClient.h"
-#include "shared/net/base/WebDoor.h"
+#include "shared/net/base/WebSocketProtocol.h"
 #include "shared/replica/SnapshotCodec.h"
 #include "shared/replica/UpdateCodec.h"
 #include "tests/client/web/FakePage.h"
@@ -47,7 +47,7 @@ class WebClientTest : public testing::Test {
     welcome.set_color(df::CYAN);
     welcome.set_resume_token("\x01\xab");
     welcome.set_resumed(resumed);
-    if (resumed) welcome.mutable_continuation()->set_snapshot(1);
+    if (resumed) welcome.mutable_resume_state()->set_snapshot(1);
     welcome.set_second_stream(true);
     receive(message);
   }
@@ -76,7 +76,7 @@ class WebClientTest : public testing::Test {
   std::vector<Input> inputs() {
     std::vector<Input> all;
     for (const wire::ClientMessage& message : page.streams[first].sent) {
-      if (message.what_case() != wire::ClientMessage::kUpdate) continue;
+      if (message.payload_case() != wire::ClientMessage::kUpdate) continue;
       const auto update = readUpdate(message.update(), {1, 1, 0});
       if (!update) continue;
       for (const Input& input : update->inputs) {
@@ -182,14 +182,14 @@ TEST_F(WebClientTest, TheTokenIsKeptUntilThePlayerLeaves) {
   client->command(U'q', now);
   EXPECT_EQ(page.token, "");
   EXPECT_EQ(client->state(), WebClient::State::kLeft);
-  EXPECT_EQ(page.streams[first].sent.back().what_case(), wire::ClientMessage::kLeave);
+  EXPECT_EQ(page.streams[first].sent.back().payload_case(), wire::ClientMessage::kLeave);
 }
 
 TEST_F(WebClientTest, AReloadedPageAsksForItsSession) {
   make("01ab");
   open();
   const wire::Hello& hello = page.streams[first].sent.front().hello();
-  EXPECT_TRUE(hello.fresh());
+  EXPECT_TRUE(hello.new_process());
   EXPECT_EQ(hello.resume_token(), "\x01\xab");
   welcome(true);
   snapshot(2);
@@ -203,7 +203,7 @@ TEST_F(WebClientTest, MalformedTokenStartsNoResume) {
        {std::string("0"), std::string("zz"), std::string(1000, 'a'), std::string("01AB")}) {
     make(kept);
     open();
-    EXPECT_FALSE(page.streams[first].sent.front().hello().fresh()) << kept;
+    EXPECT_FALSE(page.streams[first].sent.front().hello().new_process()) << kept;
   }
 }
 
@@ -217,13 +217,13 @@ TEST_F(WebClientTest, LostStreamIsReopenedToResumeTheSession) {
   client->streams().opened(second);
   ASSERT_FALSE(page.streams[second].sent.empty());
   EXPECT_EQ(page.streams[second].sent.front().hello().resume_token(), "\x01\xab");
-  EXPECT_FALSE(page.streams[second].sent.front().hello().fresh());
+  EXPECT_FALSE(page.streams[second].sent.front().hello().new_process());
 }
 
 TEST_F(WebClientTest, WrongServerKeyIsFinal) {
-  client->streams().closed(page.newest, static_cast<int>(PlayClose::kWrongKey), "It has another key.");
+  client->streams().closed(page.newest, static_cast<int>(GatewayCloseCode::kWrongKey), "It has another key.");
   EXPECT_EQ(client->state(), WebClient::State::kRefused);
-  EXPECT_EQ(client->sentence(), "It has another key.");
+  EXPECT_EQ(client->message(), "It has another key.");
 }
 
 TEST_F(WebClientTest, SoundsGoToThePage) {

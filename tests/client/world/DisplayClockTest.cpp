@@ -15,7 +15,7 @@ constexpr auto kTick = std::chrono::microseconds(33333);
 
 TEST(DisplayClock, ExtrapolatesTheTickForAtMost250Milliseconds) {
   DisplayClock clock(kTick);
-  clock.noteSnapshot(100, kStart);
+  clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.displayTick(kStart), 100u);
   EXPECT_EQ(clock.displayTick(kStart + kTick - 1us), 100u);
   EXPECT_EQ(clock.displayTick(kStart + kTick), 101u);
@@ -32,7 +32,7 @@ TEST(DisplayClock, NeverRunsBackwardsUnderJitter) {
   for (std::uint32_t tick = 1; tick < 3000; ++tick) {
     const Time arrival = kStart + tick * kTick + std::chrono::microseconds(random() % 60000);
     now = std::max(now, arrival);
-    clock.noteSnapshot(tick, now);
+    clock.onSnapshot(tick, now);
     const std::uint32_t next = clock.displayTick(now);
     EXPECT_GE(next, shown);
     EXPECT_GE(next, tick);
@@ -47,7 +47,7 @@ TEST(DisplayClock, LateSnapshotsDoNotDelayTheClock) {
   for (std::uint32_t tick = 0; tick < 100; ++tick) {
     const Time due = kStart + tick * kTick;
     const Time arrival = due + (tick % 2 == 1 ? 20ms : 0ms);
-    clock.noteSnapshot(tick, arrival);
+    clock.onSnapshot(tick, arrival);
     if (tick > 4 && tick % 2 == 1) {
       EXPECT_EQ(clock.displayTick(due + kTick + 2ms), tick + 1) << "late by 2 ms, not by 20";
     }
@@ -56,49 +56,49 @@ TEST(DisplayClock, LateSnapshotsDoNotDelayTheClock) {
 
 TEST(DisplayClock, FollowsAServerThatFallsBehind) {
   DisplayClock clock(kTick);
-  clock.noteSnapshot(100, kStart);
+  clock.onSnapshot(100, kStart);
   // All later snapshots are 150 ms late.
   std::uint32_t tick = 101;
   Time now = kStart;
   for (int i = 0; i < 300; ++i, ++tick) {
     now = kStart + (tick - 100) * kTick + 150ms;
-    clock.noteSnapshot(tick, now);
+    clock.onSnapshot(tick, now);
   }
   EXPECT_EQ(clock.displayTick(now), tick - 1) << "no longer ahead";
 }
 
 TEST(DisplayClock, RestartsAfterAJump) {
   DisplayClock clock(kTick);
-  clock.noteSnapshot(100, kStart);
+  clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.displayTick(kStart + 5s), 107u);
-  clock.noteSnapshot(101, kStart + 5s);
+  clock.onSnapshot(101, kStart + 5s);
   EXPECT_EQ(clock.displayTick(kStart + 5s), 107u) << "already shown, so not taken back";
   EXPECT_EQ(clock.displayTick(kStart + 5s + 7 * kTick), 108u);
-  clock.noteSnapshot(5000, kStart + 6s);
+  clock.onSnapshot(5000, kStart + 6s);
   EXPECT_EQ(clock.displayTick(kStart + 6s), 5000u);
 }
 
 TEST(DisplayClock, LateAndRepeatedTicksChangeNothing) {
   DisplayClock clock(kTick);
-  clock.noteSnapshot(100, kStart);
-  clock.noteSnapshot(100, kStart + 20ms);
-  clock.noteSnapshot(90, kStart + 25ms);
+  clock.onSnapshot(100, kStart);
+  clock.onSnapshot(100, kStart + 20ms);
+  clock.onSnapshot(90, kStart + 25ms);
   EXPECT_EQ(clock.newestTick(), 100u);
   EXPECT_EQ(clock.displayTick(kStart + kTick), 101u);
 }
 
 TEST(DisplayClock, TicksWrapAround) {
   DisplayClock clock(kTick);
-  clock.noteSnapshot(0xFFFFFFFF, kStart);
+  clock.onSnapshot(0xFFFFFFFF, kStart);
   EXPECT_EQ(clock.displayTick(kStart + 2 * kTick), 1u);
-  clock.noteSnapshot(2, kStart + 3 * kTick);
+  clock.onSnapshot(2, kStart + 3 * kTick);
   EXPECT_EQ(clock.displayTick(kStart + 3 * kTick), 2u);
 }
 
 TEST(DisplayClock, NextTickIsInTheFuture) {
   DisplayClock clock(kTick);
   EXPECT_GT(clock.nextTick(kStart), kStart);
-  clock.noteSnapshot(100, kStart);
+  clock.onSnapshot(100, kStart);
   EXPECT_EQ(clock.nextTick(kStart), kStart + kTick);
   EXPECT_EQ(clock.nextTick(kStart + kTick), kStart + 2 * kTick);
   EXPECT_GT(clock.nextTick(kStart + 1h), kStart + 1h);

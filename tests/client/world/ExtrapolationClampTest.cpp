@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "client/world/ExtrapolationClamp.h"
-#include "client/world/Surroundings.h"
+#include "client/world/ReplicaBarriers.h"
 #include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
 #include "tests/support/CellsAt.h"

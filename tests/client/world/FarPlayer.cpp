@@ -54,7 +54,7 @@ void FarPlayer::takeInputs() {
     world.input().key(m_player, static_cast<df::Keyboard::Key>(next->second.key),
                       static_cast<df::EventKeyboardAction>(next->second.action));
     late_inputs += next->second.tick < now ? 1 : 0;
-    m_sender.noteInput(++m_applied, now);
+    m_sender.setNewestInput(++m_applied, now);
     m_waiting.erase(next);
   }
 }

@@ -2,7 +2,7 @@
 
 #include "client/world/DrawnPlacement.h"
 #include "client/world/Prediction.h"
-#include "client/world/Surroundings.h"
+#include "client/world/ReplicaBarriers.h"
 
 namespace naiad {
 namespace {
@@ -254,11 +254,11 @@ TEST_F(PredictionTest, WorkIsLimitedForAnyNumberOfObstacles) {
   applyRecords(objects(pile));
   const ObjectState& own = replica.find(kOwnSlot)->state;
   const df::FixedBox from = *boxAt(own.body, cells(10, 10));
-  const Surroundings surroundings(replica, own, from, cells(5, 5), kFirstTick, kFirstTick + 90);
-  EXPECT_LE(surroundings.work(), Surroundings::kMaxWork);
-  EXPECT_TRUE(surroundings.block(cells(12, 10), kFirstTick + 1, true)) << "those in its room still block";
-  for (int i = 0; i < 2'000; ++i) (void)surroundings.block(cells(10, 10), kFirstTick + 1, false);
-  EXPECT_LE(surroundings.work(), Surroundings::kMaxWork + 2'100);
+  const ReplicaBarriers surroundings(replica, own, from, cells(5, 5), kFirstTick, kFirstTick + 90);
+  EXPECT_LE(surroundings.work(), ReplicaBarriers::kMaxWork);
+  EXPECT_TRUE(surroundings.isBlocked(cells(12, 10), kFirstTick + 1, true)) << "those in its room still block";
+  for (int i = 0; i < 2'000; ++i) (void)surroundings.isBlocked(cells(10, 10), kFirstTick + 1, false);
+  EXPECT_LE(surroundings.work(), ReplicaBarriers::kMaxWork + 2'100);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ Controls anyControls(SplitMix64& rng) {
     if (kind == 2) controls.drive(dx, rng.below(2) == 0 ? 0 : dy / 3);
   }
   if (rng.below(2) == 0) controls.toWholeCells();
-  if (rng.below(2) == 0) controls.patience(5 + static_cast<int>(rng.below(30)));
+  if (rng.below(2) == 0) controls.releaseAfter(5 + static_cast<int>(rng.below(30)));
   if (rng.below(2) == 0) controls.within(Box(Vector(20, 10), 160, 40));
   return controls;
 }

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "Target.h"
-#include "host/fleet/GameServerFacts.h"
-#include "server/directory/FleetList.h"
+#include "host/fleet/GameServerInfo.h"
+#include "server/directory/FleetRegistry.h"
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeText.h"
 
@@ -46,16 +46,16 @@ void requireResult(const std::string& text) {
   REQUIRE(GameResult::parse(result->payload()) == result);
 }
 
-void requireSendOn(const std::string& text) {
-  const auto send_on = SendOn::parse(text);
+void requireRedirect(const std::string& text) {
+  const auto send_on = Redirect::parse(text);
   if (!send_on) return;
   REQUIRE(isServerId(send_on->to));
-  const auto again = SendOn::parse(send_on->payload());
+  const auto again = Redirect::parse(send_on->payload());
   REQUIRE(again && again->to == send_on->to && again->link == send_on->link);
 }
 
 void requireFacts(const std::string& text, bool is_line) {
-  const auto facts = GameServerFacts::parse(text, is_line);
+  const auto facts = GameServerInfo::parse(text, is_line);
   if (!facts) return;
   REQUIRE(facts->health_seconds >= 0 && facts->health_seconds <= 3600);
   for (const std::string* p_text : {&facts->name, &facts->state, &facts->address}) {
@@ -65,7 +65,7 @@ void requireFacts(const std::string& text, bool is_line) {
 }
 
 /// Requires that the room is one of the server's own, with a free place.
-void requirePlace(const FleetList::Place& place) {
+void requirePlace(const FleetRegistry::Assignment& place) {
   REQUIRE(place.room.empty() == place.p_server->rooms.empty());
   if (place.room.empty()) return;
   REQUIRE(std::ranges::any_of(place.p_server->rooms, [&](const PresenceRoom& room) {
@@ -76,37 +76,37 @@ void requirePlace(const FleetList::Place& place) {
 
 /// Requires, whatever servers claim, that all listed ones have sent a presence, and that players are sent
 /// only to servers where they can play.
-void requireList(FleetList& list) {
+void requireList(FleetRegistry& list) {
   for (const Presence& one : list.servers()) REQUIRE(Presence::parse(one.payload()) == one);
   const std::string text = serverListText(list.servers());
   REQUIRE(std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
   for (int i = 0; i < 3; ++i) {
-    const FleetList::Place place = list.choose({"", 4});
+    const FleetRegistry::Assignment place = list.choose({"", 4});
     const Presence* const p_chosen = place.p_server;
     if (p_chosen == nullptr) break;
     requirePlace(place);
-    REQUIRE(p_chosen->is_open && !p_chosen->asks_password && p_chosen->players < p_chosen->max_players);
-    REQUIRE(p_chosen->port >= kLeastFleetPort && p_chosen->protocol == 4 && !linkOf(*p_chosen).empty());
+    REQUIRE(p_chosen->is_open && !p_chosen->requires_password && p_chosen->players < p_chosen->max_players);
+    REQUIRE(p_chosen->port >= kMinFleetPort && p_chosen->protocol == 4 && !linkOf(*p_chosen).empty());
   }
 }
 
 void requireDirectory(std::string_view text) {
-  FleetList list;
-  FleetList::Time now{};
+  FleetRegistry list;
+  FleetRegistry::Time now{};
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     const std::size_t blank = std::min(line.find(' '), line.size());
     const std::string subject(line.substr(0, blank));
     const std::size_t before = list.size();
-    const bool is_new = list.put(subject, line.substr(std::min(blank + 1, line.size())), now);
+    const bool is_new = list.handleHeartbeat(subject, line.substr(std::min(blank + 1, line.size())), now);
     REQUIRE(list.size() == before + (is_new ? 1 : 0));
     if (is_new)
       REQUIRE(std::ranges::any_of(list.servers(),
                                   [&](const Presence& one) { return presenceSubject(one.id) == subject; }));
     now += std::chrono::seconds(1);
     const std::size_t there = list.size();
-    REQUIRE(list.removeSilent(now).size() == there - list.size());
+    REQUIRE(list.removeExpired(now).size() == there - list.size());
   }
   REQUIRE(list.size() <= 6);
   requireList(list);
@@ -124,7 +124,7 @@ void tryInput(Script script) {
       break;
     case 1:
       requireResult(text);
-      requireSendOn(text);
+      requireRedirect(text);
       REQUIRE(isServerId(serverIdOf(text)));
       break;
     case 4:

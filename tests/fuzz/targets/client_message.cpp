@@ -94,7 +94,7 @@ class Play {
     if (what == 2) {
       for (int i = 0; i < 100; ++i) hear(std::string(m_last));
     }
-    if (what == 3 && m_session.state() == Session::State::kPlaying) m_session.goodbye("Bye.");
+    if (what == 3 && m_session.state() == Session::State::kPlaying) m_session.sendGoodbye("Bye.");
     if (what == kSecond) openSecond();
     if (what == kOther) m_on_second = !m_on_second;
     if (what == kClosed && m_session.hasSecondStream()) {
@@ -112,7 +112,7 @@ class Play {
     m_publisher.update(m_view);
     if (m_session.state() != Session::State::kPlaying) return;
     if (std::exchange(m_moves, false)) move();
-    m_session.takeInputs(m_view.tick, [this](const Input& input) {
+    m_session.drainInputs(m_view.tick, [this](const Input& input) {
       REQUIRE(m_input == 0 || isNewer(input.id, m_input));
       REQUIRE(input.key < df::Keyboard::kKeyCount && input.x < kMaxViewWidth && input.y < kMaxViewHeight);
       m_input = input.id;
@@ -134,7 +134,7 @@ class Play {
   void openSecond() {
     if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
     Session other(std::make_unique<FakeChannel>(m_second), m_counters, m_now);
-    other.start({[this](Session& session, const wire::Hello&) { m_session.accompany(session); },
+    other.start({[this](Session& session, const wire::Hello&) { m_session.attachSecondStream(session); },
                  [](Session&, const std::string&) {}, [](Session&) { REQUIRE(false); },
                  [this] { return m_now; }});
     wire::ClientMessage message;

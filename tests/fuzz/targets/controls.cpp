@@ -24,8 +24,8 @@ void tryRecord(std::string_view bytes, std::uint32_t tick) {
   REQUIRE(record->tick == tick && record->slot < kMaxSlots);
   REQUIRE(record->state.silence <= df::kMaxControlTicks);
   for (const std::uint16_t wait : record->state.wait) REQUIRE(wait <= df::kMaxControlTicks);
-  for (const df::Fixed pull : {record->state.x.pull, record->state.y.pull})
-    REQUIRE(pull >= -df::kMaxControlReach && pull <= df::kMaxControlReach);
+  for (const df::Fixed target_velocity : {record->state.x.target_velocity, record->state.y.target_velocity})
+    REQUIRE(target_velocity >= -df::kMaxControlReach && target_velocity <= df::kMaxControlReach);
   std::string written;
   writeControlRecord(written, *record);
   REQUIRE(written.size() <= kMaxControlRecordBytes);

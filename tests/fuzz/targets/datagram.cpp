@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "Target.h"
-#include "shared/net/datagram/DatagramGate.h"
+#include "shared/net/datagram/DatagramDemux.h"
 #include "shared/net/datagram/Seal.h"
 #include "shared/net/datagram/SealedLink.h"
 #include "shared/values/LittleEndian.h"
@@ -61,7 +61,7 @@ class Play {
 
   void run() {
     for (int steps = 0; steps < 200 && !m_script.atEnd(); ++steps) step();
-    const DatagramGateCounters& gate = m_gate.counters();
+    const DatagramDemuxCounters& gate = m_gate.counters();
     const std::uint64_t counted = gate.delivered + gate.too_short + gate.too_long + gate.bad_kind +
                                   gate.unknown_id + gate.session_flood + gate.claimed_flood +
                                   gate.prefix_flood + gate.stranger_flood + gate.refused;
@@ -74,9 +74,9 @@ class Play {
  private:
   void step() {
     const std::uint8_t what = m_script.byte();
-    m_client.wantsToSend(m_now);
-    m_server.wantsToSend(m_now);
-    m_client.wantsNewEpoch();
+    m_client.needsToSend(m_now);
+    m_server.needsToSend(m_now);
+    m_client.needsNewEpoch();
     switch (what % 9) {
       case 0:
         return say(m_client, pathOf(what / 9));
@@ -113,7 +113,7 @@ class Play {
   void say(SealedLink& link, const Path& path) {
     const bool up = &link == &m_client;
     const std::string payload = m_script.bytes(m_script.byte() * std::size_t{5});
-    const std::size_t most = std::min(link.maxPayload(), link.room().value_or(link.maxPayload()));
+    const std::size_t most = std::min(link.maxPayload(), link.payloadBudget().value_or(link.maxPayload()));
     const auto outgoing = link.seal(std::string_view(payload).substr(0, most), m_now);
     if (!outgoing) return;
     REQUIRE(outgoing->packet.size() <= kMaxDatagram);
@@ -199,7 +199,7 @@ class Play {
   std::uint64_t m_challenge = 0;
   SealedLink m_client;
   SealedLink m_server;
-  DatagramGate m_gate;
+  DatagramDemux m_gate;
   SealedLink::Time m_now{1h};
   Epoch m_epoch = 0;
   std::vector<Sealer> m_sealers;  ///< server to client, then client to server

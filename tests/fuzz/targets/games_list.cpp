@@ -35,7 +35,7 @@ void requireGame(const OfferedGame& game) {
 
 bool isSame(const OfferedGame& one, const OfferedGame& other) {
   return one.name == other.name && one.link == other.link && one.socket == other.socket &&
-         one.wants_password == other.wants_password;
+         one.needs_password == other.needs_password;
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void tryInput(Script script) {
   for (const OfferedGame& game : list.games) {
     requireGame(game);
     written +=
-        game.name + " " + game.link.text() + " " + game.socket + (game.wants_password ? " password\n" : "\n");
+        game.name + " " + game.link.text() + " " + game.socket + (game.needs_password ? " password\n" : "\n");
   }
   const GamesList again = GamesList::parse(written);
   REQUIRE(std::ranges::equal(again.games, list.games, isSame));

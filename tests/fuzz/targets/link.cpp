@@ -25,14 +25,14 @@ void requireHost(const std::string& host) {
 
 void readLink(std::string_view text) {
   const auto parsed = JoinLink::parse(text);
-  if (const auto* const problem = std::get_if<LinkProblem>(&parsed)) {
-    REQUIRE(!problem->sentence.empty());
+  if (const auto* const problem = std::get_if<LinkError>(&parsed)) {
+    REQUIRE(!problem->message.empty());
     return;
   }
   const JoinLink& link = std::get<JoinLink>(parsed);
-  REQUIRE(JoinLink::isMeant(text));
-  requireHost(link.where.host);
-  REQUIRE(link.where.port != 0);
+  REQUIRE(JoinLink::looksLikeLink(text));
+  requireHost(link.address.host);
+  REQUIRE(link.address.port != 0);
   REQUIRE(link.room.size() <= 32 && link.room.find_first_of("/#?@%:") == std::string::npos);
   REQUIRE(isGraphicText(link.text()));
   const auto again = JoinLink::parse(link.text());
@@ -52,7 +52,7 @@ void readKey(std::string_view text) {
 void readPage(const std::string& text) {
   const auto address = GatewayAddress::parse(text);
   if (!address) return;
-  REQUIRE(GatewayAddress::isMeant(text));
+  REQUIRE(GatewayAddress::looksLikeLink(text));
   requireHost(address->host);
   REQUIRE(text.starts_with(address->encrypted ? "https://" : "http://"));
   const std::string behind =

@@ -39,15 +39,15 @@ void tryFile(std::string_view bytes) {
   }
   REQUIRE(!reader.next());
   REQUIRE(reader.facts().size() <= kMaxDfrFacts);
-  REQUIRE(reader.end() == DfrEnd::kDone || reader.why().empty());
+  REQUIRE(reader.end() == DfrEnd::kDone || reader.endReason().empty());
 }
 
 std::string chunksOf(Script& script) {
   constexpr std::uint32_t kTypes[] = {kDfrMeta, kDfrTurn, kDfrDone, dfrType("VIEW")};
-  std::string bytes = spellDfrHeader({});
+  std::string bytes = encodeDfrHeader({});
   while (!script.atEnd()) {
     const std::uint32_t type = kTypes[script.below(4)];
-    bytes += spellDfrChunk(type, script.bytes(script.number<std::uint16_t>()));
+    bytes += encodeDfrChunk(type, script.bytes(script.number<std::uint16_t>()));
   }
   return bytes;
 }
@@ -55,9 +55,9 @@ std::string chunksOf(Script& script) {
 std::string turnsOf(Script& script) {
   const std::uint64_t packing = script.byte() & 1;
   const std::string records = script.rest();
-  std::string payload(kDfrTurnPlace, '\0');
+  std::string payload(kDfrTurnPositionSize, '\0');
   ByteWriter(payload).varint(records.size() * (packing == kDfrModelled ? 4 : 1) << 1 | packing);
-  return spellDfrHeader({}) + spellDfrChunk(kDfrTurn, payload + records);
+  return encodeDfrHeader({}) + encodeDfrChunk(kDfrTurn, payload + records);
 }
 
 }  // namespace

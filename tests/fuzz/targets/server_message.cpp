@@ -38,10 +38,10 @@ void requireGood(const WelcomeMessage& message) {
   for (const std::string& line : message.help) requireText(line, kMaxHelpLength);
 }
 void requireGood(const RefusedMessage& message) {
-  requireText(message.sentence, kMaxSentenceLength);
+  requireText(message.message, kMaxMessageLength);
 }
 void requireGood(const GoodbyeMessage& message) {
-  requireText(message.sentence, kMaxSentenceLength);
+  requireText(message.message, kMaxMessageLength);
 }
 void requireGood(const PlayersMessage& message) {
   REQUIRE(message.players.size() <= kMaxPlayers);

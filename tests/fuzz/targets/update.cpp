@@ -24,7 +24,7 @@ void requireGood(const ClientUpdate& update) {
 
 bool same(const ClientUpdate& a, const ClientUpdate& b) {
   return a.acks.newest == b.acks.newest && a.acks.mask == b.acks.mask && a.checksum == b.checksum &&
-         a.wants_reset == b.wants_reset && a.inputs == b.inputs;
+         a.needs_reset == b.needs_reset && a.inputs == b.inputs;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 //   input   a header; also read as a text like "192.0.2.7:50312", which other doors pass on
 #include "Target.h"
-#include "shared/net/stream/VisitorHeader.h"
+#include "shared/net/stream/ProxyHeader.h"
 
 namespace naiad::fuzz {
 namespace {
@@ -19,28 +19,28 @@ void requireVisitor(const tcp::endpoint& visitor) {
 }
 
 void readHeader(std::string_view bytes) {
-  const Exactly begin(bytes.substr(0, kVisitorHeaderBegin));
-  const auto rest = visitorHeaderRest(begin.view());
-  if (rest) REQUIRE(*rest >= 12 && *rest <= kMaxVisitorHeaderRest);
-  const auto visitor = readVisitorHeader(bytes);
+  const Exactly begin(bytes.substr(0, kProxyHeaderBegin));
+  const auto rest = proxyHeaderRest(begin.view());
+  if (rest) REQUIRE(*rest >= 12 && *rest <= kMaxProxyHeaderRest);
+  const auto visitor = readProxyHeader(bytes);
   // A listener reads exactly this many bytes.
-  const Exactly whole(bytes.substr(0, kVisitorHeaderBegin + rest.value_or(0)));
-  const auto cut = readVisitorHeader(whole.view());
-  if (visitor) REQUIRE(rest && bytes.size() == kVisitorHeaderBegin + *rest && cut == visitor);
+  const Exactly whole(bytes.substr(0, kProxyHeaderBegin + rest.value_or(0)));
+  const auto cut = readProxyHeader(whole.view());
+  if (visitor) REQUIRE(rest && bytes.size() == kProxyHeaderBegin + *rest && cut == visitor);
   if (!cut) return;
   REQUIRE(rest);
   requireVisitor(*cut);
-  REQUIRE(readVisitorHeader(visitorHeader(*cut)) == cut);
+  REQUIRE(readProxyHeader(proxyHeader(*cut)) == cut);
 }
 
 void readText(std::string_view text) {
-  const auto visitor = visitorFromText(text);
+  const auto visitor = proxiedPeerFromText(text);
   if (!visitor) return;
   requireVisitor(*visitor);
   const std::string address = visitor->address().to_string();
   const std::string again =
       (visitor->address().is_v4() ? address : "[" + address + "]") + ":" + std::to_string(visitor->port());
-  REQUIRE(visitorFromText(again) == visitor);
+  REQUIRE(proxiedPeerFromText(again) == visitor);
 }
 
 }  // namespace

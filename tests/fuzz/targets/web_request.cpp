@@ -1,5 +1,5 @@
-// Requests to the gateway for browsers: each answer is one of the gateway's own, with the headers that guard
-// the page, and only its own page can open a WebSocket.
+// Requests to the gateway for browsers: each response is one of the gateway's own, with the headers that
+// guard the page, and only its own page can open a WebSocket.
 //
 //   input   0 | address of an origin        a program's own list of names
 //           1 | text                        as a string of JSON
@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "Target.h"
-#include "server/gateway/HttpAnswer.h"
+#include "server/gateway/HttpResponse.h"
 #include "shared/json/Json.h"
 
 namespace naiad::fuzz {
@@ -38,8 +38,8 @@ PageFiles smallPage() {
 
 struct Site {
   PageFiles page = smallPage();
-  AllowedNames names;
-  HttpAnswers answers{page, names, kJson, true};
+  AllowedOrigins names;
+  HttpResponses responses{page, names, kJson, true};
   Site() { names.add(*WebOrigin::parse(kOrigin)); }
 };
 
@@ -68,23 +68,25 @@ void requireHead(const std::string& head) {
     if (is_end) ++i;
     REQUIRE(is_end || (head[i] >= ' ' && head[i] < 0x7f));
   }
-  for (const auto& [name, value] : site().answers.commonHeaders())
+  for (const auto& [name, value] : site().responses.commonHeaders())
     REQUIRE(head.find("\r\n" + std::string(name) + ": " + std::string(value) + "\r\n") != std::string::npos);
 }
 
-void requireAnswer(const HttpAnswer& answer) {
-  requireHead(answer.head);
-  const std::string status = answer.head.substr(9, 3);
-  REQUIRE(answer.is_refusal == (status >= "400"));
-  if (!answer.content.empty()) {
+void requireResponse(const HttpResponse& response) {
+  requireHead(response.head);
+  const std::string status = response.head.substr(9, 3);
+  REQUIRE(response.is_refusal == (status >= "400"));
+  if (!response.content.empty()) {
     const PageFile& index = *site().page.find("/");
     const PageFile& font = *site().page.find("/font.woff2");
-    REQUIRE(answer.content == index.content || answer.content == index.packed ||
-            answer.content == font.content);
+    REQUIRE(response.content == index.content || response.content == index.compressed ||
+            response.content == font.content);
   }
-  const std::size_t length = answer.head.find("Content-Length: ");
-  if (!answer.body().empty()) REQUIRE(std::stoul(answer.head.substr(length + 16)) == answer.body().size());
-  REQUIRE(answer.keeps_connection == (answer.head.find("\r\nConnection: close\r\n") == std::string::npos));
+  const std::size_t length = response.head.find("Content-Length: ");
+  if (!response.body().empty())
+    REQUIRE(std::stoul(response.head.substr(length + 16)) == response.body().size());
+  REQUIRE(response.keeps_connection ==
+          (response.head.find("\r\nConnection: close\r\n") == std::string::npos));
 }
 
 void requireOwnPage(const WebRequest& request) {
@@ -103,15 +105,15 @@ void serve(const std::string& bytes) {
   parser.body_limit(0);
   boost::beast::error_code error;
   parser.put(boost::asio::buffer(bytes), error);
-  if (error || !parser.is_done()) return requireAnswer(site().answers.refusal(400, "No.\n"));
+  if (error || !parser.is_done()) return requireResponse(site().responses.refusal(400, "No.\n"));
   const WebRequest& request = parser.get();
   if (boost::beast::websocket::is_upgrade(request)) {
-    const auto* const refusal = site().answers.judgeUpgrade(request);
+    const auto* const refusal = site().responses.validateUpgrade(request);
     if (!refusal) return requireOwnPage(request);
     REQUIRE(refusal->status >= 400);
-    return requireAnswer(site().answers.refusal(refusal->status, refusal->sentence));
+    return requireResponse(site().responses.refusal(refusal->status, refusal->message));
   }
-  requireAnswer(site().answers.answer(request));
+  requireResponse(site().responses.response(request));
 }
 
 void readOrigin(const std::string& text) {
@@ -121,7 +123,7 @@ void readOrigin(const std::string& text) {
   REQUIRE(origin->text().find_first_of(" /?#@\\", 8) == std::string::npos);
   const auto again = WebOrigin::parse(origin->text());
   REQUIRE(again && again->text() == origin->text() && again->port == origin->port);
-  AllowedNames names;
+  AllowedOrigins names;
   names.add(*origin);
   REQUIRE(names.allowsOrigin(origin->text()) && names.allowsHost(origin->hostText()));
   REQUIRE(!names.allowsOrigin(kOrigin) || origin->text() == kOrigin);

@@ -89,7 +89,7 @@ void attackCalls(pid_t front) {
   CPU_ZERO(&first);
   CPU_SET(0, &first);
   attempt("move the front", sched_setaffinity(front, sizeof first, &first));
-  attempt("outlive its keeper", prctl(PR_SET_PDEATHSIG, 0));
+  attempt("outlive its supervisor", prctl(PR_SET_PDEATHSIG, 0));
   attempt("hide in /proc", prctl(PR_SET_DUMPABLE, 0));
   const pid_t child = fork();
   if (child == 0) _exit(setsid() < 0 && errno == EPERM && setpgid(0, 0) < 0 && errno == EPERM ? 1 : 0);
@@ -139,7 +139,7 @@ void attackLog() {
 
 void attackProcesses(pid_t front) {
   attempt("kill the front", kill(front, SIGKILL));
-  attempt("kill its keeper", kill(getppid(), SIGKILL));
+  attempt("kill its supervisor", kill(getppid(), SIGKILL));
 }
 
 void useRuntime() {

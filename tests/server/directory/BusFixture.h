@@ -14,7 +14,7 @@ namespace naiad::test {
 class BusFixture : public testing::Test {
  protected:
   void SetUp() override {
-    if (!busComplaint({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
+    if (!validateBusSettings({"nats://127.0.0.1:1", "", ""}).empty()) GTEST_SKIP() << "built without libnats";
     if (!NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
   }
 

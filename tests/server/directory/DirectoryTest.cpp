@@ -10,7 +10,7 @@
 
 #include "BusFixture.h"
 #include "QuickInterval.h"
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "host/fleet/Bus.h"
 #include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
@@ -22,9 +22,9 @@ namespace {
 class DirectoryTest : public BusFixture {
  protected:
   std::string listText() const { return contentOf(folder / "servers.json"); }
-  std::vector<FoundServer> listed() const {
+  std::vector<DiscoveredServer> listed() const {
     const auto read = readServerList(listText());
-    return read ? read->sorted() : std::vector<FoundServer>();
+    return read ? read->sorted() : std::vector<DiscoveredServer>();
   }
   std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
     return std::make_unique<RunningProgram>(std::vector<std::string>{
@@ -45,11 +45,11 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   auto paris = std::make_unique<GameProgram>("dfserver", serverOf(bus, "paris"));
   ASSERT_NE(berlin.port(), 0) << berlin.log();
   ASSERT_TRUE(waitUntil([&] { return listed().size() == 2; })) << listText() << directory->printed();
-  const FoundServer first = listed().front();
+  const DiscoveredServer first = listed().front();
   EXPECT_EQ(first.name, "berlin");
   EXPECT_EQ(first.game, "hello");
-  EXPECT_EQ(first.where.host, "127.0.0.1");
-  EXPECT_EQ(first.where.port, berlin.port());
+  EXPECT_EQ(first.address.host, "127.0.0.1");
+  EXPECT_EQ(first.address.port, berlin.port());
   EXPECT_NE(berlin.log().find(first.key.text()), std::string::npos) << "the link that dfserver prints";
   paris->signal(SIGKILL);
   paris.reset();

@@ -13,10 +13,10 @@ class FakeBus : public Bus {
  public:
   void publish(BusMessage message) override { published.push_back(std::move(message)); }
   bool isConnected() const override { return connected; }
-  std::vector<BusMessage> takeMessages() override { return std::exchange(heard, {}); }
+  std::vector<BusMessage> popMessages() override { return std::exchange(heard, {}); }
   void finish(std::chrono::milliseconds /*patience*/) override {}
   BusCounters counters() const override { return {}; }
-  std::string takeNews() override { return std::exchange(news, ""); }
+  std::string popLogMessage() override { return std::exchange(news, ""); }
 
   std::vector<BusMessage> published;
   std::vector<BusMessage> heard;

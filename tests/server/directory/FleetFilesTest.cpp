@@ -74,27 +74,27 @@ TEST_F(FleetFilesTest, SecretFilesAreReadableByTheOwnerOnly) {
 
 TEST_F(FleetFilesTest, EachServerUsesOnlyItsOwnBusSubjects) {
   const auto directory = connect("directory/dfdir.env", {"naiad.presence.*"});
-  const auto tron = connect("servers/tron-1.conf", {sendOnSubject("tron-1"), sendOnSubject("maze-1")});
+  const auto tron = connect("servers/tron-1.conf", {redirectSubject("tron-1"), redirectSubject("maze-1")});
   ASSERT_TRUE(waitUntil([&] { return directory->isConnected() && tron->isConnected(); }))
-      << directory->takeNews() << nats->log();
+      << directory->popLogMessage() << nats->log();
   std::vector<BusMessage> heard;
   EXPECT_TRUE(waitUntil([&] {
     tron->publish({presenceSubject("maze-1"), "a lie"});
-    tron->publish({sendOnSubject("tron-2"), "a lie"});
+    tron->publish({redirectSubject("tron-2"), "a lie"});
     tron->publish({presenceSubject("tron-1"), "here"});
-    for (BusMessage& one : directory->takeMessages()) heard.push_back(std::move(one));
+    for (BusMessage& one : directory->popMessages()) heard.push_back(std::move(one));
     return !heard.empty();
   }));
   for (const BusMessage& one : heard) EXPECT_EQ(one.subject, presenceSubject("tron-1"));
   heard.clear();
   EXPECT_TRUE(waitUntil([&] {
     directory->publish({presenceSubject("tron-2"), "a lie"});
-    directory->publish({sendOnSubject("maze-1"), "for another"});
-    directory->publish({sendOnSubject("tron-1"), "for it"});
-    for (BusMessage& one : tron->takeMessages()) heard.push_back(std::move(one));
+    directory->publish({redirectSubject("maze-1"), "for another"});
+    directory->publish({redirectSubject("tron-1"), "for it"});
+    for (BusMessage& one : tron->popMessages()) heard.push_back(std::move(one));
     return !heard.empty();
   }));
-  for (const BusMessage& one : heard) EXPECT_EQ(one.subject, sendOnSubject("tron-1"));
+  for (const BusMessage& one : heard) EXPECT_EQ(one.subject, redirectSubject("tron-1"));
   for (const char* said : {"Publish Violation", "Subscription Violation"})
     EXPECT_TRUE(waitUntil([&] { return nats->log().find(said) != std::string::npos; }))
         << said << nats->log();

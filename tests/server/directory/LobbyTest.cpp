@@ -61,7 +61,7 @@ class LobbyTest : public BusFixture {
     const std::size_t begin = text.find("naiad://");
     const auto link = JoinLink::parse(text.substr(begin, text.find('\'', begin) - begin));
     ASSERT_TRUE(std::holds_alternative<JoinLink>(link)) << text;
-    lobby = std::get<JoinLink>(link).where.port;
+    lobby = std::get<JoinLink>(link).address.port;
   }
   std::unique_ptr<TestClient> join(std::uint16_t port, const std::string& name, const std::string& game = "",
                                    const std::string& room = "") {
@@ -90,12 +90,12 @@ TEST_F(LobbyTest, PlayersAreSentToAServerOfTheirGame) {
   ASSERT_NO_FATAL_FAILURE(startDirectory(2));
   const auto ann = join(lobby, "ann", "maze");
   const auto bob = join(lobby, "bob", "hello");
-  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().sentence() << bob->connection().sentence();
+  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().message() << bob->connection().message();
   EXPECT_EQ(ann->session().welcome().game, "maze");
   EXPECT_EQ(bob->session().welcome().game, "hello");
   EXPECT_EQ(ann->connection().address().port, maze->port());
   const auto eve = join(lobby, "eve", "chess");
-  EXPECT_TRUE(has(eve->connection().sentence(), "chess"));
+  EXPECT_TRUE(has(eve->connection().message(), "chess"));
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0);
   EXPECT_TRUE(has(directory->printed(), " hellos=3 sent_on=2 no_game=1"));
@@ -112,12 +112,12 @@ TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
   ASSERT_NO_FATAL_FAILURE(startDirectory(1));
   const auto ann = join(lobby, "ann", "", "small");
   const auto bob = join(lobby, "bob", "maze");
-  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().sentence() << bob->connection().sentence();
+  ASSERT_TRUE(ann->joined() && bob->joined()) << ann->connection().message() << bob->connection().message();
   EXPECT_EQ(ann->session().welcome().room, "small");
   EXPECT_EQ(bob->session().welcome().room, "large") << "the other one is full";
   EXPECT_EQ(bob->session().welcome().game, "maze");
   const auto eve = join(lobby, "eve");
-  ASSERT_TRUE(eve->joined()) << eve->connection().sentence();
+  ASSERT_TRUE(eve->joined()) << eve->connection().message();
   EXPECT_EQ(eve->session().welcome().room, "hall") << "the first";
 }
 
@@ -136,7 +136,7 @@ TEST_F(LobbyTest, FullServerRedirectsToAServerWithFreeSlots) {
       return std::chrono::steady_clock::now() > end;
     });
   }
-  ASSERT_TRUE(bob->joined()) << bob->connection().sentence();
+  ASSERT_TRUE(bob->joined()) << bob->connection().message();
   EXPECT_EQ(bob->connection().address().port, large->port());
   EXPECT_EQ(ann->connection().address().port, small->port());
 }
@@ -147,7 +147,7 @@ TEST_F(LobbyTest, LobbyRedirectsDuringABusOutage) {
   bus.kill();
   ASSERT_TRUE(directory->prints("the bus cannot be reached"));
   const auto ann = join(lobby, "ann");
-  EXPECT_TRUE(ann->joined()) << ann->connection().sentence();
+  EXPECT_TRUE(ann->joined()) << ann->connection().message();
 }
 
 /// A lobby on its own thread that knows one server.
@@ -156,7 +156,7 @@ class RunningLobby {
   RunningLobby(const std::filesystem::path& identity, const LobbySettings& settings, const Presence& server)
       : m_identity(ServerIdentity::loadOrMake(identity, std::chrono::system_clock::now())),
         m_lobby(m_context, settings, m_identity.tls(), m_servers) {
-    m_servers.put(presenceSubject(server.id), server.payload(), std::chrono::steady_clock::now());
+    m_servers.handleHeartbeat(presenceSubject(server.id), server.payload(), std::chrono::steady_clock::now());
     m_thread = std::thread([this] { m_context.run(); });
   }
   ~RunningLobby() { end(); }
@@ -172,14 +172,14 @@ class RunningLobby {
 
  private:
   asio::io_context m_context;
-  FleetList m_servers;
+  FleetRegistry m_servers;
   ServerIdentity m_identity;
   Lobby m_lobby;
   std::thread m_thread;
 };
 
 TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
-  EXPECT_EQ(LobbySettings().hello_time, 5s);
+  EXPECT_EQ(LobbySettings().hello_timeout, 5s);
   TestServer server(busyWorld(5), home.server());
   Presence presence;
   presence.id = "berlin";
@@ -188,7 +188,7 @@ TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
   presence.key = server.fingerprint()->text();
   presence.protocol = kProtocolVersion;
   presence.max_players = 8;
-  RunningLobby running(home.identity("lobby"), {.address = "127.0.0.1", .hello_time = 1s}, presence);
+  RunningLobby running(home.identity("lobby"), {.address = "127.0.0.1", .hello_timeout = 1s}, presence);
   RawClient silent(running.port(), RawClient::Line::kTls);
   EXPECT_TRUE(silent.waitForHangup());
   RawClient garbage(running.port(), RawClient::Line::kTls);

@@ -28,7 +28,7 @@ class LyingServer {
   void answer(wire::Refused_Reason reason, const std::string& sentence, const std::string& redirect,
               const std::string& room = "") {
     m_answer.mutable_refused()->set_reason(reason);
-    m_answer.mutable_refused()->set_sentence(sentence);
+    m_answer.mutable_refused()->set_message(sentence);
     m_answer.mutable_refused()->set_redirect(redirect);
     m_answer.mutable_refused()->set_redirect_room(room);
   }

@@ -32,7 +32,7 @@ class RedirectTest : public LoopbackFixture {
   }
   std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
   void pin(std::uint16_t port, const Fingerprint& key) const {
-    const PeerFacts facts{.key = key, .chain_verifies = false, .chain_problem = {}};
+    const PeerIdentity facts{.key = key, .chain_verifies = false, .chain_problem = {}};
     KnownServers(home.knownServers()).admit("127.0.0.1", port, facts, key);
   }
 
@@ -121,7 +121,7 @@ TEST_F(RedirectTest, RedirectTargetWithAWrongKeyReceivesNothing) {
   RecordingServer other(home.identity("other"));
   liar.sendTo(other.port(), liar.key());
   TestClient client(context, liar.port(), home.player("ann"));
-  EXPECT_NE(refusal(client).find("link"), std::string::npos) << client.connection().sentence();
+  EXPECT_NE(refusal(client).find("link"), std::string::npos) << client.connection().message();
   EXPECT_EQ(client.connection().state(), State::kRefused);
   EXPECT_EQ(other.heard(), "");
 }
@@ -185,7 +185,7 @@ TEST_F(RedirectTest, ClientRetriesTheOriginalServerAfterTargetIsKilled) {
   TestServer server(busyWorld(5), home.server());
   liar.sendTo(killed.port(), key);
   TestClient client(context, liar.port(), home.player("ann"));
-  client.connection().askAgainAfter(std::chrono::milliseconds(100));
+  client.connection().setOriginalRetryDelay(std::chrono::milliseconds(100));
   ASSERT_EQ(refusal(client), "");
   const std::uint16_t before = client.connection().address().port;
   liar.sendTo(server.port(), *server.fingerprint());
@@ -193,7 +193,7 @@ TEST_F(RedirectTest, ClientRetriesTheOriginalServerAfterTargetIsKilled) {
   killed.wait();
   EXPECT_TRUE(serve(client, [&] {
     return client.joined() && client.connection().address().port == server.port();
-  })) << client.connection().sentence();
+  })) << client.connection().message();
   EXPECT_EQ(before, killed.port());
   EXPECT_EQ(client.session().welcome().name, "ann");
 }
@@ -219,9 +219,9 @@ TEST_F(RedirectTest, NoRedirectOptionAndDoorsIgnoreRedirects) {
   RecordingServer other(home.identity("other"));
   liar.sendTo(other.port(), other.fingerprint());
   ClientSetup stays = home.player("ann");
-  stays.trust.stays = true;
+  stays.trust.ignore_redirects = true;
   EXPECT_EQ(refusal(stays), "Go on.");
-  TcpStreamOpener visitor(context, ServerAddress{"127.0.0.1", liar.port()}, {}, Visit{"socket", {}});
+  TcpStreamOpener visitor(context, ServerAddress{"127.0.0.1", liar.port()}, {}, ProxyOptions{"socket", {}});
   const std::string link = LyingServer::linkTo("127.0.0.1", other.port(), other.fingerprint());
   EXPECT_EQ(visitor.follow(link).opener, nullptr) << "through a door";
   EXPECT_EQ(other.heard(), "");
@@ -277,7 +277,7 @@ TEST_F(RedirectTest, LanServerCannotRedirectToTheClientsLoopback) {
   neighbour.sendTo(local.port(), local.fingerprint());
   const ClientSetup setup = home.player("ann");
   Connection client(context, ServerAddress{address, neighbour.port()}, setup.options, true, setup.trust);
-  client.askAgainAfter(std::chrono::milliseconds(100));
+  client.setOriginalRetryDelay(std::chrono::milliseconds(100));
   client.start();
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!client.isOver() && std::chrono::steady_clock::now() < end) {
@@ -286,7 +286,7 @@ TEST_F(RedirectTest, LanServerCannotRedirectToTheClientsLoopback) {
     client.update(std::chrono::steady_clock::now());
   }
   EXPECT_EQ(neighbour.hellos(), 2u) << "asked for another once";
-  EXPECT_NE(client.sentence().find("more private network"), std::string::npos) << client.sentence();
+  EXPECT_NE(client.message().find("more private network"), std::string::npos) << client.message();
   EXPECT_EQ(local.heard(), "");
 }
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "client/lan/FoundServers.h"
+#include "client/lan/DiscoveredServers.h"
 #include "client/lan/ListDownload.h"
-#include "server/directory/FleetList.h"
+#include "server/directory/FleetRegistry.h"
 #include "tests/support/Text.h"
 
 namespace naiad {
@@ -22,7 +22,7 @@ Presence listedServer(const std::string& id, char key = 'a') {
   presence.protocol = 4;
   presence.players = 3;
   presence.max_players = 16;
-  presence.asks_password = true;
+  presence.requires_password = true;
   return presence;
 }
 
@@ -30,16 +30,16 @@ TEST(ServerListTest, ClientReadsEveryWrittenField) {
   const Presence server = listedServer("a");
   const auto read = readServerList(serverListText({server}));
   ASSERT_TRUE(read && read->size() == 1) << serverListText({server});
-  const FoundServer found = read->sorted().front();
+  const DiscoveredServer found = read->sorted().front();
   EXPECT_EQ(found.name, server.name);
   EXPECT_EQ(found.game, "tron");
-  EXPECT_EQ(found.where.host, "2001:db8::7");
-  EXPECT_EQ(found.where.port, 9877);
+  EXPECT_EQ(found.address.host, "2001:db8::7");
+  EXPECT_EQ(found.address.port, 9877);
   EXPECT_EQ(found.key, ShortKey::of(*Fingerprint::parse(server.key)));
   EXPECT_EQ(found.protocol, 4u);
   EXPECT_EQ(found.players, 3);
   EXPECT_EQ(found.max_players, 16);
-  EXPECT_TRUE(found.asks_password);
+  EXPECT_TRUE(found.requires_password);
 }
 
 TEST(ServerListTest, RoomsAreListedWithinTheClientsSizeLimit) {

@@ -18,7 +18,7 @@ void keep(World& world, const GameRoom& room) {
 
 /// Where the game has sent the player in the last tick; empty: nowhere.
 std::string sentTo(World& world, std::uint32_t player) {
-  for (const SentPlayer& sent : world.extras().rooms.sent()) {
+  for (const RoomTransfer& sent : world.extras().rooms.sent()) {
     if (sent.player == player) return sent.room;
   }
   return {};

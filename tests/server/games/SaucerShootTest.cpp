@@ -7,7 +7,7 @@
 #include "HostedGame.h"
 #include "ViewObject.h"
 #include "detail/WorldView.h"
-#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/PredictedObject.h"
 
 namespace naiad {
 namespace {
@@ -242,7 +242,7 @@ TEST(SaucerShoot, ControlsPredictTheShipsPath) {
       const std::uint32_t player = joinAndWait(world);
       const df::ControlTable table = *world.views().player(player)->facts().steering.p_table;
       for (int t = 0; t < 500; ++t) {
-        SteeredCopy copy(recordOf(world, player), table);
+        PredictedObject copy(recordOf(world, player), table);
         copy.beginTick();
         for (int k = random.below(3); k > 0; --k) {
           static constexpr Key kKeys[] = {df::Keyboard::W, df::Keyboard::LEFTARROW, df::Keyboard::S,

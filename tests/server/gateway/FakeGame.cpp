@@ -15,9 +15,9 @@ FakeGame::FakeGame(const std::filesystem::path& identity, const std::filesystem:
       m_on_frame(std::move(on_frame)) {
   if (!m_on_frame)
     m_on_frame = [](ReliableChannel& channel, const std::string& frame) { channel.send(frame); };
-  VisitorsListening listening;
+  ProxyListenerOptions listening;
   listening.path = socket;
-  m_listener = std::make_unique<VisitorsListener>(
+  m_listener = std::make_unique<ProxyListener>(
       m_context, listening, [this](auto visitor, const auto& address) { meet(std::move(visitor), address); });
   m_thread = std::thread([this] { m_context.run(); });
 }

@@ -20,8 +20,8 @@
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/base/Channel.h"
 #include "shared/net/stream/Fingerprint.h"
+#include "shared/net/stream/ProxyListener.h"
 #include "shared/net/stream/TlsStream.h"
-#include "shared/net/stream/VisitorsListener.h"
 
 namespace naiad::test {
 
@@ -92,7 +92,7 @@ class FakeGame {
   int m_newest = 0;
   std::size_t m_handshakes = 0;
   int m_unwanted = 0;
-  std::unique_ptr<VisitorsListener> m_listener;
+  std::unique_ptr<ProxyListener> m_listener;
   std::thread m_thread;
 };
 

@@ -49,8 +49,8 @@ class GatewayRun {
   GatewayCounters counters() {
     return onThread([this] { return m_gateway.counters(); });
   }
-  std::size_t guests() {
-    return onThread([this] { return m_gateway.guests(); });
+  std::size_t connections() {
+    return onThread([this] { return m_gateway.connections(); });
   }
   void stop() {
     onThread([this] {

@@ -214,7 +214,7 @@ TEST_F(GatewayPage, RequestBodyIsRejected) {
 }
 
 TEST_F(GatewayPage, SlowRequestHeadTimesOut) {
-  settings.head_time = std::chrono::milliseconds(300);
+  settings.head_timeout = std::chrono::milliseconds(300);
   GatewayRun gateway(settings);
   WebClient silent(gateway.port());
   WebClient slow(gateway.port());
@@ -251,7 +251,7 @@ TEST_F(GatewayPage, GatewayWithoutCertificateMustListenOnLoopback) {
 }
 
 TEST_F(GatewayPage, HttpsUsesHttp11Tls13AndReloadableCertificate) {
-  settings.head_time = std::chrono::seconds(30);  // a handshake in an instrumented build is slow
+  settings.head_timeout = std::chrono::seconds(30);  // a handshake in an instrumented build is slow
   const std::string key = makeKeyPem();
   settings.certificate = home.path("web.pem");
   settings.key = home.path("web.key");

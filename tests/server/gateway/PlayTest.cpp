@@ -169,7 +169,7 @@ TEST_F(GatewayPlay, GatewayRetriesWhenTheServerDropsConnections) {
 }
 
 TEST_F(GatewayPlay, CloseCodeTellsHowTheServerEnded) {
-  start({}, [](GatewaySettings& settings) { settings.open_time = std::chrono::seconds(2); });
+  start({}, [](GatewaySettings& settings) { settings.connect_timeout = std::chrono::seconds(2); });
   WebClient before(gateway->port());
   ASSERT_TRUE(before.play() && echoes(before, "hello"));
   game->endAll(false);
@@ -197,7 +197,7 @@ TEST_F(GatewayPlay, ASilentServerIsGivenUp) {
   asio::local::stream_protocol::acceptor silent(
       context, asio::local::stream_protocol::endpoint(home.path("visitors").string()));
   auto settings = home.settings(*ShortKey::parse("aaaaaaaaaaaaaaaaaaaaaaaaaa"));
-  settings.open_time = std::chrono::milliseconds(200);
+  settings.connect_timeout = std::chrono::milliseconds(200);
   gateway = std::make_unique<GatewayRun>(settings);
   EXPECT_EQ(codeAfter(gateway->port(), false, [](WebClient& b) { b.sendFrame(2, "hello"); }), 4000);
 }
@@ -216,13 +216,13 @@ TEST_F(GatewayPlay, WhenTheGatewayEndsPlayersAreTold) {
 }
 
 TEST_F(GatewayPlay, AWebSocketWithoutAHelloEnds) {
-  start({}, [](GatewaySettings& settings) { settings.hello_time = std::chrono::milliseconds(200); });
+  start({}, [](GatewaySettings& settings) { settings.hello_timeout = std::chrono::milliseconds(200); });
   EXPECT_EQ(codeAfter(gateway->port(), false, [](WebClient&) {}), 1008);
   EXPECT_EQ(game->handshakes(), 0u);
 }
 
 TEST_F(GatewayPlay, SilentBrowserIsPingedAndDeadOneIsDisconnected) {
-  start({}, [](GatewaySettings& settings) { settings.ping_time = std::chrono::milliseconds(200); });
+  start({}, [](GatewaySettings& settings) { settings.ping_interval = std::chrono::milliseconds(200); });
   WebClient alive(gateway->port());
   WebClient dead(gateway->port());
   ASSERT_TRUE(alive.play() && echoes(alive, "hello"));
@@ -282,7 +282,7 @@ TEST_F(GatewayPlay, PlacesAreLimitedForOneAddressAndInAll) {
 
 TEST_F(GatewayPlay, ThousandHalfOpenConnectionsDoNotBlockNewPlayers) {
   constexpr int kStrangers = 1200;
-  if (allowOpenFiles(3 * kStrangers) < 3 * kStrangers) GTEST_SKIP() << "too few open files are allowed";
+  if (raiseOpenFileLimit(3 * kStrangers) < 3 * kStrangers) GTEST_SKIP() << "too few open files are allowed";
   start();
   WebClient ann(gateway->port(), "127.0.9.1");
   ASSERT_TRUE(ann.play() && echoes(ann, "hello"));
@@ -297,7 +297,7 @@ TEST_F(GatewayPlay, ThousandHalfOpenConnectionsDoNotBlockNewPlayers) {
     }
   }
   EXPECT_TRUE(waitUntil([&] { return gateway->counters().connections > kStrangers; }));
-  EXPECT_LE(gateway->guests(), home.settings(game->key()).max_newcomers + 1);
+  EXPECT_LE(gateway->connections(), home.settings(game->key()).max_pending + 1);
   WebClient bob(gateway->port(), "127.0.8.1");
   EXPECT_EQ(bob.ask("/")->status, 200);
   WebClient bobs_game(gateway->port(), "127.0.8.1");
@@ -399,7 +399,7 @@ TEST_F(GatewayPlay, SlowLineGetsFreshPicturesWithoutABacklog) {
 }
 
 TEST_F(GatewayPlay, BrowserThatReadsNothingIsDisconnected) {
-  start(ignore, [](GatewaySettings& settings) { settings.stall_time = std::chrono::milliseconds(300); });
+  start(ignore, [](GatewaySettings& settings) { settings.stall_timeout = std::chrono::milliseconds(300); });
   WebClient stuck(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(stuck.play());
   stuck.sendFrame(2, "hello");
@@ -407,7 +407,7 @@ TEST_F(GatewayPlay, BrowserThatReadsNothingIsDisconnected) {
     if (channel.unsentBytes() == 0) channel.send(std::string(10'000, 'p'));
   });
   EXPECT_TRUE(waitUntil([&] { return gateway->counters().too_slow == 1; }));
-  EXPECT_TRUE(waitUntil([&] { return gateway->guests() == 0; })) << "though it never answers the close";
+  EXPECT_TRUE(waitUntil([&] { return gateway->connections() == 0; })) << "though it never answers the close";
 }
 
 TEST_F(GatewayPlay, GatewayStopsReadingWhileTheServerIsSlow) {

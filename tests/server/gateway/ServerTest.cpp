@@ -103,7 +103,7 @@ TEST_F(GatewayServer, ReloadedPageResumesItsSession) {
   ASSERT_TRUE(again.play());
   auto hello = WebClient::hello("ann");
   hello.mutable_hello()->set_resume_token(welcome.resume_token());
-  hello.mutable_hello()->set_fresh(true);
+  hello.mutable_hello()->set_new_process(true);
   again.sendMessage(hello);
   const auto answer = again.message();
   ASSERT_TRUE(answer && answer->has_welcome());

@@ -1,5 +1,5 @@
-// Copies of a world's process (WorldCopies.h): one resumes where the world crashed or hung, and none is left
-// over.
+// Copies of a world's process (WorldCheckpoints.h): one resumes where the world crashed or hung, and none is
+// left over.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "host/journal/RoundHistory.h"
-#include "host/world/WorldCopies.h"
+#include "host/world/WorldCheckpoints.h"
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/Processes.h"
 #include "tests/support/Sanitizers.h"
@@ -23,7 +23,7 @@ namespace naiad {
 namespace {
 
 constexpr const char* kCopy = "df-copy";
-constexpr const char* kKeeper = "df-keeper";
+constexpr const char* kSupervisor = "df-supervisor";
 constexpr const char* kWorld = "dfserver";
 constexpr const char* kByCopy = "game recovered: a copy of its world replayed ";
 constexpr const char* kByAnother = "game recovered: a new world replayed ";
@@ -32,8 +32,8 @@ bool isAlive(pid_t process) {
   return kill(process, 0) == 0;
 }
 
-/// Rounds shorter than RepeatCheck::kDelay ticks have one world; longer ones have a second, which is compared
-/// with it.
+/// Rounds shorter than DeterminismCheck::kDelay ticks have one world; longer ones have a second, which is
+/// compared with it.
 class CopiesTest : public FrailRound {
  protected:
   void SetUp() override {
@@ -51,17 +51,18 @@ class CopiesTest : public FrailRound {
     FrailRound::play(ticks);
     EXPECT_TRUE(test::waitUntil(isSettled));
   }
-  // A copy has a world's name until it takes its own, and a keeper has one world. Worlds are listed first, so
-  // that each copy is found under one of its names.
+  // A copy has a world's name until it takes its own, and a supervisor has one world. Worlds are listed
+  // first, so that each copy is found under one of its names.
   static bool isSettled() {
-    std::set<pid_t> keepers;
+    std::set<pid_t> supervisors;
     for (const pid_t one : find(kWorld)) {
       const auto facts = test::factsOf(one);
-      if (!facts || !keepers.insert(facts->parent).second) return false;
+      if (!facts || !supervisors.insert(facts->parent).second) return false;
     }
     return std::ranges::all_of(find(kCopy), [](pid_t copy) { return test::stateOf(copy) == 'S'; });
   }
-  /// Plays until there is a copy. After a failover this takes until the keeper has ended the other processes.
+  /// Plays until there is a copy. After a failover this takes until the supervisor has ended the other
+  /// processes.
   void playToACopy() {
     for (int i = 0; i < 1000 && find(kCopy).empty(); ++i) play(1);
     EXPECT_FALSE(find(kCopy).empty());
@@ -70,10 +71,10 @@ class CopiesTest : public FrailRound {
     for (const pid_t one : processes)
       EXPECT_TRUE(test::waitUntil([one] { return !isAlive(one); })) << test::factsOf(one)->name;
   }
-  /// Returns the processes of worlds, keepers and copies.
+  /// Returns the processes of worlds, supervisors and copies.
   static std::vector<pid_t> findAll() {
     std::vector<pid_t> all;
-    for (const char* name : {kCopy, kWorld, kKeeper}) {
+    for (const char* name : {kCopy, kWorld, kSupervisor}) {
       const std::vector<pid_t> found = find(name);
       all.insert(all.end(), found.begin(), found.end());
     }
@@ -91,9 +92,9 @@ class CopiesTest : public FrailRound {
     press(key);
     ASSERT_TRUE(tick()) << log;
     EXPECT_EQ(world->nextTick(), next + 1);
-    const auto done = world->takeTakeOver();
+    const auto done = world->popFailover();
     ASSERT_TRUE(done);
-    EXPECT_EQ(world->takeTakeOver().has_value(), false);
+    EXPECT_EQ(world->popFailover().has_value(), false);
   }
 };
 
@@ -148,7 +149,7 @@ TEST_F(SlowGameTest, LosesOneKeyAndContinues) {
     play(50);
     press(df::Keyboard::S);
     ASSERT_TRUE(tick()) << log;
-    EXPECT_FALSE(world->takeTakeOver()) << log;
+    EXPECT_FALSE(world->popFailover()) << log;
   }
   EXPECT_EQ(count("; recovering it without"), 1u) << log;
   EXPECT_EQ(count("finished: from now on"), 1u) << log;
@@ -168,7 +169,7 @@ TEST_F(CopiesTest, HungWorldIsKilledAndRecovered) {
 TEST_F(CopiesTest, EachCrashIsRecoveredFromANewerCheckpoint) {
   for (int death = 0; death < 3; ++death) {
     playToACopy();
-    play(static_cast<int>(Round::kSameDeath));
+    play(static_cast<int>(Round::kSameFailureTicks));
     survive(df::Keyboard::Q);
   }
   EXPECT_EQ(count(kByCopy), 3u) << log;
@@ -177,18 +178,18 @@ TEST_F(CopiesTest, EachCrashIsRecoveredFromANewerCheckpoint) {
 }
 
 TEST_F(CopiesTest, SlowSupervisorEndsNoCheckpointOfTheNewWorld) {
-  const std::vector<pid_t> keeper = find(kKeeper);
-  ASSERT_EQ(keeper.size(), 1u);
+  const std::vector<pid_t> supervisor = find(kSupervisor);
+  ASSERT_EQ(supervisor.size(), 1u);
   constexpr std::size_t kDeaths = 8;
   for (std::size_t death = 0; death < kDeaths; ++death) {
     playToACopy();
     press(df::Keyboard::Q);
     world->tick(true, false);
     serveUntil([&] { return count("; recovering it") > death; });
-    kill(keeper.front(), SIGSTOP);
+    kill(supervisor.front(), SIGSTOP);
     serveUntil([this] { return world->isReady(); });
-    FrailRound::play(static_cast<int>(Round::kSameDeath));
-    kill(keeper.front(), SIGCONT);
+    FrailRound::play(static_cast<int>(Round::kSameFailureTicks));
+    kill(supervisor.front(), SIGCONT);
   }
   EXPECT_EQ(count(kByCopy), kDeaths) << log;
   EXPECT_EQ(verify(), "");
@@ -207,9 +208,9 @@ TEST_F(CopiesTest, SecondCrashAtTheSamePlaceEndsAllProcesses) {
 }
 
 TEST_F(CopiesTest, OlderCheckpointIsUsedIfTheNewerIsGone) {
-  play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
+  play(static_cast<int>(RoundHistory::kCheckpointInterval + RoundHistory::kFirstCheckpoint) + 50);
   const std::vector<pid_t> copies = find(kCopy);
-  ASSERT_EQ(copies.size(), WorldCopies::kKept);
+  ASSERT_EQ(copies.size(), WorldCheckpoints::kMaxCheckpoints);
   kill(copies.back(), SIGKILL);
   survive(df::Keyboard::Q);
   EXPECT_TRUE(logs(kByCopy)) << log;
@@ -231,9 +232,9 @@ TEST_F(CopiesTest, RoundIsReplayedFromTheStartWithoutCheckpoints) {
 
 // Kills the world and then the copy that takes over, while it replays its turns.
 TEST_F(CopiesTest, CheckpointDyingDuringReplayIsReplacedByTheNext) {
-  play(static_cast<int>(RoundHistory::kTicks + RoundHistory::kFirst) + 50);
+  play(static_cast<int>(RoundHistory::kCheckpointInterval + RoundHistory::kFirstCheckpoint) + 50);
   const std::vector<pid_t> copies = find(kCopy);
-  ASSERT_EQ(copies.size(), WorldCopies::kKept);
+  ASSERT_EQ(copies.size(), WorldCheckpoints::kMaxCheckpoints);
   kill(copies.back(), SIGSTOP);
   press(df::Keyboard::Q);
   world->tick(true, false);
@@ -262,22 +263,24 @@ TEST_F(CopiesTest, CheckpointWithDifferentAnswersEndsTheRound) {
 }
 
 TEST_F(CopiesTest, AtMostTwoCheckpointsAreKept) {
-  play(static_cast<int>(RoundHistory::kFirst + 2 * RoundHistory::kTicks));
-  EXPECT_LE(find(kCopy).size(), WorldCopies::kKept + 1);
+  play(static_cast<int>(RoundHistory::kFirstCheckpoint + 2 * RoundHistory::kCheckpointInterval));
+  EXPECT_LE(find(kCopy).size(), WorldCheckpoints::kMaxCheckpoints + 1);
   // A surplus copy ends by itself, but late on a busy machine.
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  for (int i = 0; find(kCopy).size() != WorldCopies::kKept && std::chrono::steady_clock::now() < end; ++i) {
+  for (int i = 0;
+       find(kCopy).size() != WorldCheckpoints::kMaxCheckpoints && std::chrono::steady_clock::now() < end;
+       ++i) {
     if (i < 50) play(1);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before the next count
   }
-  EXPECT_EQ(find(kCopy).size(), WorldCopies::kKept);
+  EXPECT_EQ(find(kCopy).size(), WorldCheckpoints::kMaxCheckpoints);
 }
 
 TEST_F(CopiesTest, PausedWorldHasNoCheckpointUntilItsNextTick) {
   play(400);
   const std::vector<pid_t> copies = find(kCopy);
   ASSERT_EQ(copies.size(), 2u);
-  world->dropCopies();
+  world->dropCheckpoints();
   waitUntilGone(copies);
   play(2);  // the world forks after its answer, so the copy exists once it answers again
   EXPECT_EQ(find(kCopy).size(), 1u);
@@ -288,7 +291,7 @@ TEST_F(CopiesTest, PausedWorldHasNoCheckpointUntilItsNextTick) {
 
 TEST_F(CopiesTest, CrashAfterAPauseReplaysFromTheStart) {
   play(400);
-  world->dropCopies();
+  world->dropCheckpoints();
   survive(df::Keyboard::Q);
   EXPECT_EQ(count(kByAnother), 1u) << log;
   EXPECT_EQ(verify(), "");
@@ -298,7 +301,7 @@ TEST_F(CopiesTest, GameWithThreadsHasNoCheckpoints) {
   play(60);
   EXPECT_EQ(find(kCopy).size(), 1u);
   press(df::Keyboard::T);
-  play(static_cast<int>(RoundHistory::kTicks));
+  play(static_cast<int>(RoundHistory::kCheckpointInterval));
   EXPECT_TRUE(find(kCopy).empty());
   EXPECT_EQ(count("no copies are kept: it has threads"), 1u) << log;
 }
@@ -314,7 +317,7 @@ TEST_F(CopiesTest, NoProcessIsLeftWhenTheRoundEnds) {
 TEST_F(CopiesTest, NoProcessIsLeftWhenTheSupervisorIsKilled) {
   play(50);
   const std::vector<pid_t> all = findAll();
-  for (const pid_t keeper : find(kKeeper)) kill(keeper, SIGKILL);
+  for (const pid_t supervisor : find(kSupervisor)) kill(supervisor, SIGKILL);
   waitUntilGone(all);
   ASSERT_TRUE(tick()) << log;
   EXPECT_TRUE(logs(kByAnother)) << log;
@@ -332,7 +335,7 @@ TEST_F(CopiesTest, PrivateWorldsHaveNoCheckpoints) {
   HostOptions options;
   options.journal = (recorder.folder() / "others").string();
   const auto order = [&] {
-    return Journals::open(options, "frail", module, [](const LogEvent&) {})->makeOrder();
+    return RoundJournals::open(options, "frail", module, [](const LogEvent&) {})->makeStartOptions();
   };
   EXPECT_TRUE(order().copies);
   options.players = "private";

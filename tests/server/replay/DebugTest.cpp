@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "host/rounds/Journals.h"
+#include "host/rounds/RoundJournals.h"
 #include "tests/server/replay/FrailRound.h"
 #include "tests/support/RunProgram.h"
 #include "tests/support/Sanitizers.h"

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "host/rounds/Journals.h"
-#include "host/rounds/Worlds.h"
+#include "host/rounds/RoundJournals.h"
+#include "host/rounds/WorldFactory.h"
 #include "host/settings/GameModule.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
@@ -30,9 +30,9 @@ class FrailRound : public testing::Test {
     options.journal = rounds.string();
     options.seed = 1;
     options.hang_time = hang_time;
-    launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
-    journals = Journals::open(options, GameModule::nameOf(module), module,
-                              [this](const LogEvent& event) { log += event.text + "\n"; });
+    launcher = launchReplay(options, module, NAIAD_BINARY_DIR "/dfserver", recorder.folder().string(), {});
+    journals = RoundJournals::open(options, GameModule::nameOf(module), module,
+                                   [this](const LogEvent& event) { log += event.text + "\n"; });
     world = startWorlds(
         launcher, [](const LogEvent& /*event*/) {}, journals)(home);
     world->setOnTick([this] { ++ended; });
@@ -76,7 +76,7 @@ class FrailRound : public testing::Test {
   std::string verify() {
     const std::filesystem::path file = endRound();
     const RecordedRound round(file);
-    const RoundStage stage(round, module);
+    const ReplayEnvironment stage(round, module);
     std::ostringstream out;
     return verifyRound(round, stage, out) ? "" : out.str();
   }
@@ -89,7 +89,7 @@ class FrailRound : public testing::Test {
   std::string log;
   asio::io_context home;
   std::shared_ptr<const WorldLauncher> launcher;
-  std::shared_ptr<Journals> journals;
+  std::shared_ptr<RoundJournals> journals;
   std::unique_ptr<Round> world;
   int ended = 0;
 };

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "host/rounds/RoundHandover.h"
-#include "host/world/WorldCopies.h"
+#include "host/world/WorldCheckpoints.h"
 #include "shared/net/base/Limits.h"
 #include "tests/server/replay/ServerFixture.h"
 #include "tests/support/Processes.h"
@@ -255,8 +255,10 @@ TEST_F(KeepTest, PlayersStayInTheRoundAndPortsStayOpen) {
   EXPECT_TRUE(test::has(log(), "replaying the round that was handed over: "));
   EXPECT_FALSE(test::has(log(), "server was killed"));
   // Each waiting copy of the world has a descriptor here; the first may have been made since.
-  EXPECT_TRUE(waitUntil([&] { return descriptorsOf(server).size() <= open_before + WorldCopies::kKept + 1; }))
-      << open_before << ", and then " << descriptorsOf(server).size();
+  EXPECT_TRUE(waitUntil([&] {
+    return descriptorsOf(server).size() <= open_before + WorldCheckpoints::kMaxCheckpoints + 1;
+  })) << open_before
+      << ", and then " << descriptorsOf(server).size();
   for (const pid_t process : test::processesBelow(server)) EXPECT_NE(test::stateOf(process), 'Z') << process;
   expectOneWholeRound();
 }
@@ -376,24 +378,24 @@ TEST_F(KeepTest, ProgramRejectingTheOptionsIsRefused) {
   EXPECT_TRUE(lives());
 }
 
-ProgramEnd ended(int code, const std::string& printed) {
-  return {.code = code, .printed = printed};
+ChildExit ended(int code, const std::string& output_text) {
+  return {.code = code, .output_text = output_text};
 }
 
 TEST(RoundHandoverTest, VerdictFollowsDfreplaysOutput) {
   const std::string good = "note: x\nverified ticks=9 times_real_time=9 protocol=";
   const std::string ours = std::to_string(kProtocolVersion);
-  EXPECT_EQ(readVerdict(ended(0, good + ours + " read to its end\n")), "");
-  EXPECT_EQ(readVerdict(ended(0, good + "9000 read to its end\n")),
+  EXPECT_EQ(parseVerifyResult(ended(0, good + ours + " read to its end\n")), "");
+  EXPECT_EQ(parseVerifyResult(ended(0, good + "9000 read to its end\n")),
             "it uses protocol 9000, but the players' clients use " + ours);
-  EXPECT_EQ(readVerdict(ended(0, "verified ticks=9\n")), "it does not report its protocol version");
-  EXPECT_EQ(
-      readVerdict(ended(1, "note: x\ntick 51: the state differs from the recording\nPicture of player 1\n")),
-      "tick 51: the state differs from the recording");
-  EXPECT_EQ(readVerdict(ended(3, "dfreplay: the file is damaged.\n")), "dfreplay: the file is damaged");
-  EXPECT_EQ(readVerdict(ended(3, "")), "dfreplay ended with code 3");
-  EXPECT_EQ(readVerdict(ended(ProgramEnd::kNotStarted, "")), "dfreplay cannot be started");
-  EXPECT_EQ(readVerdict({.is_late = true, .printed = {}}), "dfreplay timed out");
+  EXPECT_EQ(parseVerifyResult(ended(0, "verified ticks=9\n")), "it does not report its protocol version");
+  EXPECT_EQ(parseVerifyResult(
+                ended(1, "note: x\ntick 51: the state differs from the recording\nPicture of player 1\n")),
+            "tick 51: the state differs from the recording");
+  EXPECT_EQ(parseVerifyResult(ended(3, "dfreplay: the file is damaged.\n")), "dfreplay: the file is damaged");
+  EXPECT_EQ(parseVerifyResult(ended(3, "")), "dfreplay ended with code 3");
+  EXPECT_EQ(parseVerifyResult(ended(ChildExit::kNotStarted, "")), "dfreplay cannot be started");
+  EXPECT_EQ(parseVerifyResult({.timed_out = true, .output_text = {}}), "dfreplay timed out");
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "host/journal/DfrReader.h"
-#include "host/rounds/Journals.h"
-#include "host/rounds/Worlds.h"
+#include "host/rounds/RoundJournals.h"
+#include "host/rounds/WorldFactory.h"
 #include "host/settings/GameModule.h"
 #include "shared/values/SplitMix64.h"
 
@@ -102,10 +102,10 @@ fs::path Recorder::record(const Recording& what) {
   HostOptions options;
   options.journal = rounds.string();
   options.seed = static_cast<std::int64_t>(what.seed);
-  const auto launcher = launchAgain(options, module, NAIAD_BINARY_DIR "/dfserver", m_folder.string(), {});
+  const auto launcher = launchReplay(options, module, NAIAD_BINARY_DIR "/dfserver", m_folder.string(), {});
   {
     const auto journals =
-        Journals::open(options, GameModule::nameOf(module), module, [](const LogEvent& /*event*/) {});
+        RoundJournals::open(options, GameModule::nameOf(module), module, [](const LogEvent& /*event*/) {});
     asio::io_context home;
     const auto world = startWorlds(
         launcher, [](const LogEvent& /*event*/) {}, journals)(home);

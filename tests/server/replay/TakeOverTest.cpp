@@ -58,7 +58,7 @@ TEST_F(TakeOverTest, SecondCrashAtTheSamePlaceEndsTheRound) {
 
 TEST_F(TakeOverTest, LaterCrashIsRecoveredAgain) {
   for (int death = 0; death < 3; ++death) {
-    play(static_cast<int>(Round::kSameDeath) + 10);
+    play(static_cast<int>(Round::kSameFailureTicks) + 10);
     press(df::Keyboard::Q);
     ASSERT_TRUE(tick()) << death << ": " << log;
   }

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
-#include "host/rounds/Journals.h"
+#include "host/rounds/RoundJournals.h"
 #include "host/settings/GameModule.h"
-#include "host/world/FixedStart.h"
+#include "host/world/FixedAddresses.h"
 #include "server/replay/Replay.h"
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
@@ -34,7 +34,7 @@ std::string unsteady(const fs::path& folder, const std::string& way) {
 std::string verify(const fs::path& file, const std::string& game, bool& same) {
   std::ostringstream out;
   const RecordedRound round(file);
-  const RoundStage stage(round, game);
+  const ReplayEnvironment stage(round, game);
   same = verifyRound(round, stage, out);
   return out.str();
 }
@@ -67,7 +67,7 @@ TEST_P(UnsteadyGameTest, DifferenceIsFoundAtItsTick) {
   const fs::path file = recorder.record({.game = module, .ticks = 400, .players = 1});
   std::ofstream(file_for_it) << 2;
   const RecordedRound round(file);
-  const RoundStage stage(round, module);
+  const ReplayEnvironment stage(round, module);
   Replay replay(round, stage);
   while (replay.firstDifference() == 0 && replay.step()) continue;
   // A check has eight bits, so one wrong tick in 256 is not noticed.
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, UnsteadyGameTest,
 class CuredGameTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(CuredGameTest, ReplaysIdentically) {
-  if (GetParam() == "pointers" && !canFixAddresses()) GTEST_SKIP() << "addresses cannot be fixed here";
+  if (GetParam() == "pointers" && !canDisableAslr()) GTEST_SKIP() << "addresses cannot be fixed here";
   Recorder recorder;
   const std::string module = unsteady(recorder.folder(), GetParam());
   const fs::path file = recorder.record({.game = module, .ticks = 100, .players = 1});
@@ -161,13 +161,13 @@ TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
   // The facts appear again with another hash; later facts replace earlier ones.
   const fs::path other = recorder.folder() / "other.dfr";
   const std::size_t after_header = kDfrHeaderSize;
-  const std::string chunk = spellDfrMeta({{kFactModule, std::string(64, '0')}, {kFactGame, "hello"}});
+  const std::string chunk = encodeDfrMeta({{kFactModule, std::string(64, '0')}, {kFactGame, "hello"}});
   DfrFacts facts = RecordedRound(file).facts();
   facts[kFactModule] = std::string(64, '0');
-  std::ofstream(other, std::ios::binary) << bytes.substr(0, after_header) << spellDfrMeta(facts);
+  std::ofstream(other, std::ios::binary) << bytes.substr(0, after_header) << encodeDfrMeta(facts);
   const RecordedRound round(other);
   try {
-    const RoundStage stage(round, "");
+    const ReplayEnvironment stage(round, "");
     FAIL() << "it was taken";
   } catch (const RoundError& error) {
     EXPECT_TRUE(test::has(std::string(error.what()), "differs from the recorded version"));
@@ -180,16 +180,16 @@ TEST_F(RoundTest, AFileThatNamesAPathLoadsNothing) {
        {path, std::string("../games/hello"), std::string("."), std::string("a/b")}) {
     const fs::path other = recorder.folder() / "other.dfr";
     std::ofstream(other, std::ios::binary)
-        << spellDfrHeader({}) << spellDfrMeta({{kFactGame, name}, {kFactModule, hashOfModule(path)}});
+        << encodeDfrHeader({}) << encodeDfrMeta({{kFactGame, name}, {kFactModule, hashOfModule(path)}});
     const RecordedRound round(other);
-    EXPECT_THROW(RoundStage(round, ""), RoundError) << name;
+    EXPECT_THROW(ReplayEnvironment(round, ""), RoundError) << name;
   }
 }
 
 TEST_F(RoundTest, ReplaySeeksForwardAndBackward) {
   const RecordedRound round(file);
-  const RoundStage stage(round, "");
-  PictureReel reel(round, stage);
+  const ReplayEnvironment stage(round, "");
+  FrameHistory reel(round, stage);
   EXPECT_EQ(reel.count(), 400u);
   const auto textAt = [&reel](std::uint32_t tick) {
     EXPECT_EQ(reel.seek(tick), tick);
@@ -210,12 +210,12 @@ TEST_F(RoundTest, KeysControlThePlayback) {
   using Time = RoundControls::Time;
   using std::chrono::milliseconds;
   const RecordedRound round(file);
-  const RoundStage stage(round, "");
-  PictureReel reel(round, stage);
+  const ReplayEnvironment stage(round, "");
+  FrameHistory reel(round, stage);
   Time now{};
   RoundControls controls(reel, round.header().frame_nanos, 0, now);
   const auto press = [&](df::Keyboard::Key key, char32_t ch = 0) {
-    return controls.takeKey({.key = key, .ch = ch}, now);
+    return controls.handleKey({.key = key, .ch = ch}, now);
   };
   const auto at = [&](milliseconds later) {
     now += later;
@@ -235,14 +235,14 @@ TEST_F(RoundTest, KeysControlThePlayback) {
   EXPECT_EQ(reel.tick(), paused + 1);
   press(df::Keyboard::SPACE, U' ');
   for (int i = 0; i < 10; ++i) press(df::Keyboard::UNDEFINED_KEY, U'-');
-  EXPECT_EQ(controls.speed(), RoundControls::kSlowest);
+  EXPECT_EQ(controls.speed(), RoundControls::kMinSpeed);
   const std::uint32_t slow = reel.tick();
   EXPECT_NEAR(at(milliseconds(2000)), slow + 15, 1) << "a quarter";
   for (int i = 0; i < 20; ++i) press(df::Keyboard::UNDEFINED_KEY, U'+');
-  EXPECT_EQ(controls.speed(), RoundControls::kFastest);
+  EXPECT_EQ(controls.speed(), RoundControls::kMaxSpeed);
   EXPECT_EQ(at(milliseconds(1000)), 400u) << "64 times: to the end";
   EXPECT_TRUE(controls.isPaused());
-  const Picture picture = controls.compose(80, 25);
+  const ScreenBuffer picture = controls.compose(80, 25);
   EXPECT_TRUE(test::has(picture.rowText(24), "paused  0:13  tick 400 of 400  x64  player "));
   const std::uint32_t eyes = controls.player();
   press(df::Keyboard::TAB);
@@ -252,8 +252,8 @@ TEST_F(RoundTest, KeysControlThePlayback) {
 
 TEST_F(RoundTest, ARoundIsPlayedFromAnyTick) {
   const RecordedRound round(file);
-  const RoundStage stage(round, "");
-  PictureReel reel(round, stage);
+  const ReplayEnvironment stage(round, "");
+  FrameHistory reel(round, stage);
   RoundControls::Time now{};
   RoundControls controls(reel, round.header().frame_nanos, 0, now, 100);
   EXPECT_EQ(reel.tick(), 100u);

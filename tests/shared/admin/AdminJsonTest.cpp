@@ -21,7 +21,8 @@ AdminAnswer readAll(const std::string& text) {
   const auto lines = linesOf(text);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const bool is_last = i + 1 == lines.size();
-    EXPECT_EQ(reader.readLine(lines[i]), is_last ? AnswerReader::Got::kAnswer : AnswerReader::Got::kMore);
+    EXPECT_EQ(reader.readLine(lines[i]),
+              is_last ? AnswerReader::LineKind::kAnswer : AnswerReader::LineKind::kMore);
   }
   return reader.answer();
 }
@@ -106,13 +107,13 @@ TEST(AdminJson, HostileTextStaysWithinOneLine) {
   AnswerReader reader;
   std::string line = eventLine("log", "a\nb");
   line.pop_back();
-  ASSERT_EQ(reader.readLine(line), AnswerReader::Got::kEvent);
+  ASSERT_EQ(reader.readLine(line), AnswerReader::LineKind::kEvent);
   EXPECT_EQ(reader.event(), "a\nb");
   line = droppedLine(12);
   line.pop_back();
-  ASSERT_EQ(reader.readLine(line), AnswerReader::Got::kDropped);
+  ASSERT_EQ(reader.readLine(line), AnswerReader::LineKind::kDropped);
   EXPECT_EQ(reader.dropped(), 12u);
-  EXPECT_EQ(reader.readLine("SSH-2.0-OpenSSH"), AnswerReader::Got::kNonsense);
+  EXPECT_EQ(reader.readLine("SSH-2.0-OpenSSH"), AnswerReader::LineKind::kMalformed);
 }
 
 TEST(AdminText, RowsAlignInColumnsAndControlCharactersAreEscaped) {

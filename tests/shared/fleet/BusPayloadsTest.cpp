@@ -22,7 +22,7 @@ Presence fullPresence() {
   presence.protocol = 4;
   presence.players = 3;
   presence.max_players = 64;
-  presence.asks_password = true;
+  presence.requires_password = true;
   presence.is_open = false;
   presence.rooms = {{"lobby", "lobby", 3, 64}, {"duel.2", "my_game-1.x", 0, 1'000'000}};
   return presence;

@@ -33,7 +33,7 @@ class OptionsTest : public testing::Test {
          .p_from_environment = &from_environment},
         {.name = "--max-players", .target = &players, .help = ""},
         {.name = "--thing", .target = &things, .help = "", .joins = true},
-        {.name = "--server-name", .target = &name, .help = "", .p_place = &place},
+        {.name = "--server-name", .target = &name, .help = "", .p_location = &place},
         {.name = "--quiet", .target = &quiet, .help = "", .p_given = &given},
         {.name = "--secret", .target = &secret, .help = "", .hidden = true}};
     testing::internal::CaptureStderr();
@@ -56,7 +56,7 @@ class OptionsTest : public testing::Test {
 
   test::TempFolder base;
   const std::filesystem::path config = base / "naiad.conf";
-  Parsed result = Parsed::kDone;
+  ParseResult result = ParseResult::kDone;
   int port = 1;
   int players = 2;
   std::string name;
@@ -102,7 +102,7 @@ TEST_F(OptionsTest, JoiningOptionMayBeGivenSeveralTimes) {
 TEST_F(OptionsTest, UnknownOptionSuggestsTheNearestOne) {
   EXPECT_EQ(parse({"--max-player", "3"}),
             said("there is no option --max-player; did you mean --max-players?"));
-  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(result, ParseResult::kUsageError);
   EXPECT_EQ(parse({"--maxplayers=3"}), said("there is no option --maxplayers; did you mean --max-players?"));
   EXPECT_EQ(parse({"--config-file=x"}), said("there is no option --config-file"));
   EXPECT_EQ(parse({"--secre"}), said("there is no option --secre")) << "hidden";
@@ -110,23 +110,23 @@ TEST_F(OptionsTest, UnknownOptionSuggestsTheNearestOne) {
 }
 
 TEST_F(OptionsTest, UsageErrorExitsWith2HelpWith0) {
-  EXPECT_EQ(exitCodeOf(Parsed::kRun), std::nullopt);
-  EXPECT_EQ(exitCodeOf(Parsed::kDone), 0);
-  EXPECT_EQ(exitCodeOf(Parsed::kUsageError), 2);
+  EXPECT_EQ(exitCodeOf(ParseResult::kRun), std::nullopt);
+  EXPECT_EQ(exitCodeOf(ParseResult::kDone), 0);
+  EXPECT_EQ(exitCodeOf(ParseResult::kUsageError), 2);
 }
 
 TEST_F(OptionsTest, OutOfRangeValueErrorNamesItsOption) {
   EXPECT_EQ(parse({"--port", "70000"}), said("--port: Value 70000 not in range 0 to 65535"));
   setenv("OPTIONS_TEST_PORT", "70000", 1);
   EXPECT_EQ(parse({}), said("OPTIONS_TEST_PORT: Value 70000 not in range 0 to 65535"));
-  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(result, ParseResult::kUsageError);
 }
 
 TEST_F(OptionsTest, ConfigFileIsReadLineByLine) {
   EXPECT_EQ(parseFile("# a comment\n\n; another\r\n port= 70 # seventy\nmax-players =\"3\"\n"
                       "server-name = 'a \"b\" # c' # d\r\nquiet\n"),
             "");
-  EXPECT_EQ(result, Parsed::kRun);
+  EXPECT_EQ(result, ParseResult::kRun);
   EXPECT_EQ(port, 70);
   EXPECT_EQ(players, 3);
   EXPECT_EQ(name, "a \"b\" # c");
@@ -143,7 +143,7 @@ TEST_F(OptionsTest, EveryWrongConfigLineIsReported) {
             said(file + ":1: there is no option \"prot\"; did you mean port?\ndfthing: " + file +
                  ":3: port: Value 70000 not in range 0 to 65535\ndfthing: " + file +
                  ":5: there is no option \"quite\"; did you mean quiet?"));
-  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(result, ParseResult::kUsageError);
 }
 
 TEST_F(OptionsTest, TextSettingWithoutValueIsEmpty) {
@@ -156,7 +156,7 @@ TEST_F(OptionsTest, TextSettingWithoutValueIsEmpty) {
 TEST_F(OptionsTest, OptionPageIsPrintedInsteadOfRunning) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(parse({"--option-page", "bash"}), "");
-  EXPECT_EQ(result, Parsed::kDone);
+  EXPECT_EQ(result, ParseResult::kDone);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("complete -F _dfthing dfthing"), std::string::npos);
   EXPECT_EQ(parse({"--option-page", "pdf"}), said("there is no page \"pdf\""));
 }
@@ -182,7 +182,7 @@ TEST_F(OptionsTest, EnvironmentOriginOfAValueIsReported) {
 TEST_F(OptionsTest, ConfigErrorNamesFileAndLine) {
   EXPECT_EQ(parseFile("port = 70\n\nmax-player = 3\n"),
             ofLine(3, "there is no option \"max-player\"; did you mean max-players?"));
-  EXPECT_EQ(result, Parsed::kUsageError);
+  EXPECT_EQ(result, ParseResult::kUsageError);
   EXPECT_EQ(parseFile("# x\nport = 70000\n"), ofLine(2, "port: Value 70000 not in range 0 to 65535"));
   EXPECT_EQ(parseFile("[section]\n"), ofLine(1, "there is no option \"[section]\""));
   EXPECT_EQ(parseFile("port\n"), ofLine(1, "expected \"port = …\""));

@@ -29,7 +29,7 @@ class ClientLogTest : public testing::Test {
 };
 
 TEST_F(ClientLogTest, AddressComesFirstAndRefusalIsQuoted) {
-  log.logNews("192.0.2.1:4000", "\"Ann\" joined", now);
+  log.logClientEvent("192.0.2.1:4000", "\"Ann\" joined", now);
   log.logRefusal("[2001:db8::1]:4000", "This server plays \"maze\".", now);
   const std::vector<std::string> expected{R"(192.0.2.1:4000 "Ann" joined)",
                                           R"([2001:db8::1]:4000 refused: "This server plays \"maze\".")"};
@@ -39,7 +39,7 @@ TEST_F(ClientLogTest, AddressComesFirstAndRefusalIsQuoted) {
 TEST_F(ClientLogTest, AddressAndMessageAreFields) {
   LogEvent::Fields facts;
   ClientLog keeper([&facts](const LogEvent& event) { facts = event.fields; });
-  keeper.logNews("192.0.2.1:4000", {"joined", "\"Ann\" joined", {{"player", "Ann"}}}, now);
+  keeper.logClientEvent("192.0.2.1:4000", {"joined", "\"Ann\" joined", {{"player", "Ann"}}}, now);
   EXPECT_EQ(facts, (LogEvent::Fields{{"address", "192.0.2.1:4000"}, {"player", "Ann"}}));
   keeper.logRefusal("192.0.2.1:4000", "No.", now);
   EXPECT_EQ(facts, (LogEvent::Fields{{"address", "192.0.2.1:4000"}, {"sentence", "No."}}));
@@ -69,18 +69,18 @@ TEST_F(ClientLogTest, TotalRefusalsLogTwentyLinesPerSecond) {
 
 TEST_F(ClientLogTest, RepeatedReturnsLogOneLinePerSecond) {
   for (int i = 0; i < 60'000; ++i) {
-    log.logNews("192.0.2.1:4000", "\"Ann\" is back", now);
+    log.logClientEvent("192.0.2.1:4000", "\"Ann\" is back", now);
     now += 1ms;
     log.update(now);
   }
   EXPECT_LE(count("is back"), 128u + 60u);
-  log.logNews("192.0.2.2:4000", "\"Bob\" joined", now);
+  log.logClientEvent("192.0.2.2:4000", "\"Bob\" joined", now);
   EXPECT_EQ(count("Bob"), 1u) << "others have lines of their own";
 }
 
 TEST_F(ClientLogTest, JoinsAndLeavesOfAClassAreAllLogged) {
-  for (int i = 0; i < 64; ++i) log.logNews("192.0.2.1:4000", "joined", now);
-  for (int i = 0; i < 64; ++i) log.logNews("192.0.2.1:4000", "left", now);
+  for (int i = 0; i < 64; ++i) log.logClientEvent("192.0.2.1:4000", "joined", now);
+  for (int i = 0; i < 64; ++i) log.logClientEvent("192.0.2.1:4000", "left", now);
   EXPECT_EQ(lines.size(), 128u);
   log.finish();
   EXPECT_EQ(lines.size(), 128u) << "nothing was left out";

@@ -141,7 +141,7 @@ TEST(Bits, ReaderFailsWhenBitsAreMissing) {
   const std::string bytes = "\xFF\xFF";
   BitReader in(bytes);
   EXPECT_EQ(in.bits(15), 0x7FFFu);
-  EXPECT_EQ(in.bitsLeft(), 1u);
+  EXPECT_EQ(in.remainingBits(), 1u);
   EXPECT_EQ(in.bits(2), 0u);
   EXPECT_FALSE(in.ok());
 }

@@ -221,7 +221,7 @@ TEST(ProtocolBytes, LimitsMatchTheDocument) {
       {"kMaxDatagramSnapshot", kMaxDatagramSnapshot},
       {"kMaxNameLength", kMaxNameLength},
       {"kMaxChatLength", kMaxChatLength},
-      {"kMaxSentenceLength", kMaxSentenceLength},
+      {"kMaxMessageLength", kMaxMessageLength},
       {"kMaxProgramLength", kMaxProgramLength},
       {"kMaxHelpLines", kMaxHelpLines},
       {"kMaxHelpLength", kMaxHelpLength},

@@ -416,7 +416,7 @@ void expectSameState(const Replica& a, const Replica& b, std::uint32_t tick) {
   ASSERT_EQ(a.newest().number, b.newest().number);
   ASSERT_EQ(a.newest().tick, b.newest().tick);
   for (const auto& [id, entry] : a.entries()) {
-    const Replica::Entry* other = b.find(id);
+    const Replica::ReplicaObject* other = b.find(id);
     ASSERT_EQ(entry.alive, other != nullptr) << "id " << id;
     if (!entry.alive) continue;
     ASSERT_EQ(entry.generation, other->generation);

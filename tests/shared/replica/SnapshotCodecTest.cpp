@@ -334,13 +334,13 @@ TEST(SnapshotCodec, RecordsAcceptedByHasRoomFit) {
     out.beginSnapshot(head, 0, {});
     if (random.chance(0.3)) out.write(random.view());
     if (random.chance(0.3)) out.write(random.text());
-    if (!out.hasRoom(0, last, bytes)) continue;
+    if (!out.hasSpace(0, last, bytes)) continue;
     bool refused = false;
     for (std::size_t i = 0; i < ids.size() && !refused; ++i) {
       BitWriter bits;
       const std::uint8_t groups = random.chance(0.5) ? kDeath : +kBody;
       out.encode(bits, groups, 0, random.state(head.tick), {});
-      refused = !out.hasRoom(bits.bitCount(), last, bytes);
+      refused = !out.hasSpace(bits.bitCount(), last, bytes);
       if (!refused) out.object(ids[i], std::move(bits));
     }
     const std::string snapshot = out.finish();
@@ -371,7 +371,7 @@ TEST(SnapshotCodec, MostExpensiveIdsFitWhenHasRoomAccepts) {
         BitWriter bits;
         out.encode(bits, kDeath, 0, {}, {});
         bytes = 1;
-        while (!out.hasRoom(bits.bitCount(), id, bytes)) ++bytes;
+        while (!out.hasSpace(bits.bitCount(), id, bytes)) ++bytes;
         out.object(id++, std::move(bits));
       }
       ASSERT_LE(out.finish().size(), bytes) << count << " ids, order " << order;

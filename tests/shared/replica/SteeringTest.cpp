@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/PredictedObject.h"
 
 namespace naiad {
 namespace {
@@ -24,7 +24,7 @@ FixedVector cells(int x, int y) {
 
 class Wall : public Barriers {
  public:
-  bool block(FixedVector to, std::uint32_t, bool) const override { return to.x >= fromCells(14); }
+  bool isBlocked(FixedVector to, std::uint32_t, bool) const override { return to.x >= fromCells(14); }
 };
 
 /// A ship at (10,10) and its control table.
@@ -37,19 +37,20 @@ class Steering : public testing::Test {
   void drive(df::Keyboard::Key key, FixedVector value) {
     table.rows.push_back({key, KEY_PRESSED, ControlEffect::kDrive, value.x != 0, value.y != 0, value});
   }
-  SteeredCopy ship(const Barriers* p_barriers = nullptr) {
+  PredictedObject ship(const Barriers* p_barriers = nullptr) {
     ControlRecord start;
     start.position = cells(10, 10);
     start.state.steering = steering;
     start.velocity = velocity;
-    return SteeredCopy(start, table, p_barriers);
+    return PredictedObject(start, table, p_barriers);
   }
-  static void press(SteeredCopy& copy, df::Keyboard::Key key, df::EventKeyboardAction action = KEY_PRESSED) {
+  static void press(PredictedObject& copy, df::Keyboard::Key key,
+                    df::EventKeyboardAction action = KEY_PRESSED) {
     copy.beginTick();
     copy.applyKey(key, action);
     copy.finishTick();
   }
-  static void pass(SteeredCopy& copy, int ticks) {
+  static void pass(PredictedObject& copy, int ticks) {
     for (int i = 0; i < ticks; ++i) {
       copy.beginTick();
       copy.finishTick();
@@ -63,7 +64,7 @@ class Steering : public testing::Test {
 
 TEST_F(Steering, EachStepKeyMovesOnceInItsTick) {
   row(A, ControlEffect::kStep, cells(1, 0));
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   copy.beginTick();
   copy.applyKey(A, KEY_PRESSED);
   EXPECT_EQ(copy.position(), cells(11, 10));
@@ -78,7 +79,7 @@ TEST_F(Steering, RowsWaitOnlyForTheirOwnGroup) {
   row(A, ControlEffect::kStep, cells(1, 0), 3, 1);
   row(B, ControlEffect::kStep, cells(0, 1), 3, 1);
   row(C, ControlEffect::kStep, cells(0, 1), 3, 2);
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   for (int tick = 0; tick < 7; ++tick) press(copy, A);  // takes effect in the first, fourth and seventh tick
   EXPECT_EQ(copy.position(), cells(13, 10));
   press(copy, B);
@@ -90,7 +91,7 @@ TEST_F(Steering, RowsWaitOnlyForTheirOwnGroup) {
 TEST_F(Steering, BlockedStepStaysButStartsTheWait) {
   row(A, ControlEffect::kStep, cells(5, 0), 2);
   const Wall wall;
-  SteeredCopy copy = ship(&wall);
+  PredictedObject copy = ship(&wall);
   press(copy, A);
   EXPECT_EQ(copy.position(), cells(10, 10));
   EXPECT_EQ(copy.now().state.wait[0], 2);
@@ -99,7 +100,7 @@ TEST_F(Steering, BlockedStepStaysButStartsTheWait) {
 TEST_F(Steering, VelocityKeyPersistsAndKeepsTheOtherAxis) {
   velocity = {0, kFixedOne / 4};
   table.rows.push_back({A, KEY_PRESSED, ControlEffect::kVelocity, true, false, {kFixedOne, 0}, 0, 0});
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   pass(copy, 3);
   EXPECT_EQ(copy.position(), cells(14, 11));
@@ -108,7 +109,7 @@ TEST_F(Steering, VelocityKeyPersistsAndKeepsTheOtherAxis) {
 TEST_F(Steering, BlockedVelocityIsRetriedEachTick) {
   velocity = {kFixedOne, 0};
   const Wall wall;
-  SteeredCopy copy = ship(&wall);
+  PredictedObject copy = ship(&wall);
   pass(copy, 10);
   EXPECT_EQ(copy.position(), cells(13, 10));
   EXPECT_EQ(copy.velocity(), velocity);
@@ -116,7 +117,7 @@ TEST_F(Steering, BlockedVelocityIsRetriedEachTick) {
 
 TEST_F(Steering, ADriveLastsAsLongAsItsKey) {
   drive(A, {kFixedOne / 2, 0});
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   pass(copy, 4);
   press(copy, A, KEY_RELEASED);
@@ -127,7 +128,7 @@ TEST_F(Steering, ADriveLastsAsLongAsItsKey) {
 
 TEST_F(Steering, KeyTappedWithinOneTickCountsInIt) {
   drive(A, {kFixedOne / 2, 0});
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   copy.beginTick();
   copy.applyKey(A, KEY_PRESSED);
   copy.applyKey(A, KEY_RELEASED);
@@ -139,7 +140,7 @@ TEST_F(Steering, KeyTappedWithinOneTickCountsInIt) {
 TEST_F(Steering, LastPressedKeyOfAnAxisWins) {
   drive(A, {-kFixedOne, 0});
   drive(B, {kFixedOne, 0});
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   press(copy, B);
   press(copy, A, KEY_RELEASED);
@@ -153,7 +154,7 @@ TEST_F(Steering, ReleasedDriveStopsAtTheNextWholeCell) {
     for (const int sign : {1, -1}) {
       table.rows.clear();
       drive(A, {sign * speed, 0});
-      SteeredCopy copy = ship();
+      PredictedObject copy = ship();
       press(copy, A);
       press(copy, A, KEY_RELEASED);
       pass(copy, 10);
@@ -171,14 +172,14 @@ TEST_F(Steering, KeysCannotLeaveTheBounds) {
   drive(A, cells(1, 0));
   row(B, ControlEffect::kStep, cells(0, -1));
   row(C, ControlEffect::kVelocity, cells(-3, 1));
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   pass(copy, 5);
   EXPECT_EQ(copy.position(), cells(12, 10));
   for (int i = 0; i < 5; ++i) press(copy, B);
   EXPECT_EQ(copy.position(), cells(12, 8));
   table.rows.erase(table.rows.begin());  // without drives, a velocity lasts
-  SteeredCopy other = ship();
+  PredictedObject other = ship();
   press(other, C);
   pass(other, 5);
   EXPECT_EQ(other.position(), cells(10, 12));  // axes are checked separately: 3 to the left would be outside
@@ -187,7 +188,7 @@ TEST_F(Steering, KeysCannotLeaveTheBounds) {
 TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
   table.patience = 4;
   drive(A, cells(1, 0));
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   pass(copy, 3);
   press(copy, B, KEY_DOWN);  // any key is a sign of life
@@ -203,21 +204,21 @@ TEST_F(Steering, HeldKeysAreRememberedWithoutSteering) {
   steering = false;
   drive(A, cells(1, 0));
   row(B, ControlEffect::kStep, cells(0, 1), 5);
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   press(copy, A);
   press(copy, B);
   EXPECT_EQ(copy.position(), cells(10, 10));
   EXPECT_EQ(copy.now().state.wait[0], 0);
   ControlRecord known = copy.now();
   known.state.steering = true;
-  EXPECT_EQ(coast(known, table, known.tick + 3).position, cells(13, 10));
+  EXPECT_EQ(deadReckon(known, table, known.tick + 3).position, cells(13, 10));
 }
 
 TEST_F(Steering, KeysWithoutARowAreNotHandled) {
   row(A, ControlEffect::kStep, cells(1, 0));
   drive(B, cells(1, 0));
   df::ControlState state;
-  SteeredCopy copy = ship();
+  PredictedObject copy = ship();
   EXPECT_FALSE(applyControlKey(table, state, A, KEY_PRESSED, copy));  // steers no object
   state.steering = true;
   EXPECT_TRUE(applyControlKey(table, state, A, KEY_PRESSED, copy));

@@ -35,7 +35,7 @@ ClientUpdate randomUpdate(SplitMix64& rng, std::size_t most_inputs) {
     update.acks.mask = rng.below(2) == 0 ? ~std::uint64_t{0} : rng.next();
   }
   if (rng.below(2) == 0) update.checksum = rng.next();
-  update.wants_reset = rng.below(2) == 0;
+  update.needs_reset = rng.below(2) == 0;
   auto id = static_cast<std::uint32_t>(1 + rng.below(0xFFFFFF00));
   auto tick = static_cast<std::uint32_t>(rng.next());
   for (auto n = rng.below(most_inputs + 1); n > 0; --n) {
@@ -55,7 +55,7 @@ void expectSame(const ClientUpdate& a, const ClientUpdate& b) {
   ASSERT_EQ(a.acks.newest, b.acks.newest);
   ASSERT_EQ(a.acks.mask, b.acks.mask);
   ASSERT_EQ(a.checksum, b.checksum);
-  ASSERT_EQ(a.wants_reset, b.wants_reset);
+  ASSERT_EQ(a.needs_reset, b.needs_reset);
   ASSERT_EQ(a.inputs, b.inputs);
 }
 

@@ -10,13 +10,13 @@
 #include <optional>
 #include <string>
 
+#include "client/world/EpochReplicas.h"
 #include "client/world/Prediction.h"
-#include "client/world/WorldFeed.h"
 #include "shared/math/Elementary.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/Checksum.h"
 #include "shared/replica/ControlCodec.h"
-#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/PredictedObject.h"
 #include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/shared/replica/RandomControls.h"
@@ -123,7 +123,7 @@ Hash snapshots() {
 /// A client's replica: its state and its picture.
 Hash replica() {
   test::RandomRecords random(21);
-  WorldFeed feed({0, 1000, 0});
+  EpochReplicas feed({0, 1000, 0});
   Hash hash;
   for (std::uint32_t i = 1; i <= 1500; ++i) {
     SnapshotHeader header;
@@ -131,8 +131,8 @@ Hash replica() {
     header.tick = 1000 + i;
     SnapshotHeader seen;
     const std::string bytes = test::writeSnapshot(header, random.records(header.tick));
-    const auto result = feed.applySnapshot(bytes, WorldFeed::Time(), seen, [](std::uint32_t) {});
-    require(result == WorldFeed::Result::kApplied || result == WorldFeed::Result::kShown,
+    const auto result = feed.applySnapshot(bytes, EpochReplicas::Time(), seen, [](std::uint32_t) {});
+    require(result == EpochReplicas::Result::kApplied || result == EpochReplicas::Result::kShown,
             "a snapshot is applied");
     hash.add(feed.shown().checksum());
     if (i % 30 != 0) continue;
@@ -175,7 +175,7 @@ Hash controls() {
     writeControlTable(bytes, table);
     writeControlRecord(bytes, record);
     hash.add(std::string_view(bytes));
-    SteeredCopy copy(record, table);
+    PredictedObject copy(record, table);
     for (int tick = 0; tick < 20; ++tick) {
       copy.beginTick();
       const auto key = table.rows.empty() ? df::Keyboard::A : table.rows[random.below(table.rows.size())].key;

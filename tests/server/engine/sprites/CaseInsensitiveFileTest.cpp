@@ -42,19 +42,20 @@ TEST_F(CaseInsensitiveFile, BackslashesSeparateFoldersAndCaseIsIgnored) {
   for (const char* name : {"sprites\\Walls\\Brick.txt", "Sprites/walls/brick.TXT",
                            "./SPRITES\\.\\walls/BRICK.txt", "sprites/../sprites/walls/brick.txt"}) {
     std::error_code error;
-    EXPECT_TRUE(fs::equivalent(findLoosely(folder.string(), name), brick, error)) << name;
+    EXPECT_TRUE(fs::equivalent(findCaseInsensitive(folder.string(), name), brick, error)) << name;
   }
 }
 
 TEST_F(CaseInsensitiveFile, MissingFilesAndFoldersAreNotFound) {
-  EXPECT_EQ(findLoosely(folder.string(), "sprites/none.txt"), "");
-  EXPECT_EQ(findLoosely(folder.string(), "sprites\\walls"), "");
-  EXPECT_EQ(findLoosely((folder / "nowhere").string(), "ship.txt"), "");
-  EXPECT_EQ(findLoosely(folder.string(), ""), "");
+  EXPECT_EQ(findCaseInsensitive(folder.string(), "sprites/none.txt"), "");
+  EXPECT_EQ(findCaseInsensitive(folder.string(), "sprites\\walls"), "");
+  EXPECT_EQ(findCaseInsensitive((folder / "nowhere").string(), "ship.txt"), "");
+  EXPECT_EQ(findCaseInsensitive(folder.string(), ""), "");
 }
 
 TEST_F(CaseInsensitiveFile, SeveralMatchesReturnTheFirstByName) {
-  EXPECT_EQ(findLoosely(folder.string(), "sprites/Ship.txt"), (folder / "sprites" / "SHIP.txt").string());
+  EXPECT_EQ(findCaseInsensitive(folder.string(), "sprites/Ship.txt"),
+            (folder / "sprites" / "SHIP.txt").string());
 }
 
 TEST_F(CaseInsensitiveFile, SpriteFilesAreFoundInAnyCase) {

@@ -41,7 +41,7 @@ class Walker : public PlayerObject<> {
 
 int walkerMain() {
   GM.startUp();
-  new Welcome<Walker>;
+  new JoinSpawner<Walker>;
   GM.run();
   ++g_runs_ended;
   GM.shutDown();
@@ -51,7 +51,7 @@ int walkerMain() {
 
 int twoRunsMain() {
   GM.startUp();
-  new Welcome<Walker>;
+  new JoinSpawner<Walker>;
   GM.run();
   ++g_runs_ended;
   GM.run();

@@ -119,11 +119,11 @@ TEST_F(PauseTest, GameResumesWhenTheLastPlayerLeaves) {
 
 TEST_F(PauseTest, OnlyPlayersWithInputFocusCanVote) {
   join(3);
-  world.extras().heard_player = players[1];
+  world.extras().input_player = players[1];
   press({1});
   EXPECT_TRUE(world.isPaused());
   EXPECT_EQ(notes(), Notes{});
-  world.extras().heard_player = 0;
+  world.extras().input_player = 0;
   press({1});
   EXPECT_TRUE(world.isPaused());
 }

@@ -29,7 +29,7 @@ struct Ferry : PlayerObject<Boat> {
 
 class PlayerObjects : public test::WorldTest {
  protected:
-  PlayerObjects() { new Welcome<Ferry>; }
+  PlayerObjects() { new JoinSpawner<Ferry>; }
   Ferry* ferryOf(std::uint32_t player) {
     return static_cast<Ferry*>(world.views().player(player)->getObject());
   }

@@ -139,8 +139,8 @@ TEST_F(WorldTest, GameOverForOnePlayerLeavesOthersPlaying) {
   world.input().key(bob, Keyboard::Q, KEY_PRESSED);
   world.tick();
   EXPECT_FALSE(world.isGameOver());
-  EXPECT_EQ(world.input().takeLeavers(), std::vector<std::uint32_t>{bob});
-  EXPECT_TRUE(world.input().takeLeavers().empty());
+  EXPECT_EQ(world.input().popLeavers(), std::vector<std::uint32_t>{bob});
+  EXPECT_TRUE(world.input().popLeavers().empty());
   GM.setGameOver();  // outside any player's input
   EXPECT_TRUE(world.isGameOver());
   GM.setGameOver(false);

@@ -188,7 +188,7 @@ TEST_F(DeclaredControls, InvalidControlTablesAreRefusedAndCounted) {
   for (const Controls& bad :
        {Controls().onKey(A).step(NAN, 0), Controls().onKey(A).drive(0, 1025), Controls().every(3),
         Controls().onKey(A).step(1, 0).every(-1), Controls().onKey(A).step(1, 0).every(1, 8),
-        Controls().onKey(A).step(1, 0).every(9001), Controls().patience(-1), Controls().step(1, 0),
+        Controls().onKey(A).step(1, 0).every(9001), Controls().releaseAfter(-1), Controls().step(1, 0),
         Controls().onKey(static_cast<Key>(kKeyCount)).step(1, 0), Controls().within(Box(Vector(), -1, 1)),
         Controls().onKey(A, UNDEFINED_KEYBOARD_ACTION).step(1, 0), Controls().onKey(A).drive(1, 0).every(2),
         many}) {

@@ -33,10 +33,10 @@ TEST(DelayedFree, KeepsALimitedNumberOfBlocks) {
   const auto p_freed = std::make_unique<DelayedFree>();
   DelayedFree& freed = *p_freed;
   std::vector<void*> blocks;
-  for (std::size_t i = 0; i < DelayedFree::kKept + 10; ++i) {
+  for (std::size_t i = 0; i < DelayedFree::kMaxKept + 10; ++i) {
     blocks.push_back(::operator new(200, kAlign));
     freed.free(blocks.back(), kAlign);
-    EXPECT_EQ(freed.size(), std::min(i + 1, DelayedFree::kKept));
+    EXPECT_EQ(freed.size(), std::min(i + 1, DelayedFree::kMaxKept));
   }
   // A new allocation must not reuse a block that is kept.
   void* const p_fresh = ::operator new(200, kAlign);

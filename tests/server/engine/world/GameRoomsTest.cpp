@@ -40,7 +40,7 @@ TEST_F(GameRoomsTest, PlayersAreSentOnlyToOtherRooms) {
   EXPECT_EQ(rooms.send(ann, "here"), -1);
   EXPECT_EQ(rooms.send(ann + 1, "there"), -1) << "no such player";
   EXPECT_EQ(rooms.send(ann, "there"), 0);
-  const auto sent = world.extras().rooms.takeSent();
+  const auto sent = world.extras().rooms.popSent();
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].player, ann);
   EXPECT_EQ(sent[0].room, "there");
@@ -54,7 +54,7 @@ TEST_F(GameRoomsTest, TransfersAreLimitedPerTickThenForgotten) {
   for (std::size_t i = 0; i < GameRooms::kMaxSentInTick; ++i) EXPECT_EQ(rooms.send(ann, "there"), 0);
   EXPECT_EQ(rooms.send(ann, "there"), -1);
   world.tick();
-  EXPECT_TRUE(world.extras().rooms.takeSent().empty());
+  EXPECT_TRUE(world.extras().rooms.popSent().empty());
 }
 
 }  // namespace

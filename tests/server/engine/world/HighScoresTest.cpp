@@ -14,7 +14,7 @@ class HighScoresTest : public test::WorldTest {
     world.input().push(
         {.kind = InputQueue::kScore, .player = 0, .name = name, .table = table, .points = points});
   }
-  std::vector<AddedScore> taken() { return world.extras().scores.takeAdded(); }
+  std::vector<AddedScore> taken() { return world.extras().scores.popAdded(); }
 
   HighScores scores{"arcade"};
 };
@@ -127,7 +127,7 @@ int watchingMain();
 
 TEST(HighScoresInGameTest, GameTestAddsAndReadsStoredScores) {
   GameTest game(watchingMain);
-  game.keepScore("arcade", "old", 500);
+  game.addStoredScore("arcade", "old", 500);
   game.join("ann");
   EXPECT_TRUE(game.shows("best old 500")) << game.picture();
   HighScores("arcade").add("ann", 501);

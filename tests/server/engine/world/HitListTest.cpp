@@ -33,7 +33,7 @@ class Hits : public WorldTest {
   }
 
   std::vector<Hit> lookAtAll(const Object& mover, const SweepPath& path, HitList::End end, Moment since,
-                             const KeySet& met) const {
+                             const ObjectKeySet& met) const {
     const WorldStore& store = world.store();
     std::vector<Hit> hits;
     std::optional<Moment> last;
@@ -41,7 +41,7 @@ class Hits : public WorldTest {
       const ObjectKey key = p->key();
       if (p == &mover || !store.collides(key.slot) || met.contains(key)) continue;
       const CollisionRule pair(store, mover.key().slot, key.slot);
-      const auto moment = pair.firstMeeting(path.sweep());
+      const auto moment = pair.firstCollision(path.sweep());
       if (!moment || *moment < since) continue;
       hits.push_back({*moment, store.order(key.slot), key});
       const bool ends = end == HitList::kFirst || pair.blocks(path.from(), path.to());
@@ -59,7 +59,7 @@ class Hits : public WorldTest {
     const ObjectKey key = mover.key();
     const SweepPath path(store.box(key.slot), store.position(key.slot), to);
     Moment since;
-    KeySet met;
+    ObjectKeySet met;
     for (int stage = 0; stage < 4; ++stage) {
       const std::vector<Hit> expected = lookAtAll(mover, path, end, since, met);
       list.fill(store, key.slot, path, end, since, &met);

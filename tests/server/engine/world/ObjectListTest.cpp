@@ -48,7 +48,7 @@ TEST_F(ObjectListTest, DeletedObjectsReadAsNullDespiteSlotReuse) {
   for (const auto& p : objects) list.insert(p.get());
   const std::uint32_t slot = objects[0]->key().slot;
   objects[0].reset();
-  for (std::uint64_t i = 0; i < WorldStore::kRest; ++i) WM.update();
+  for (std::uint64_t i = 0; i < WorldStore::kSlotReuseDelay; ++i) WM.update();
   const auto successors = make(3);
   ASSERT_EQ(successors[0]->key().slot, slot);
   EXPECT_EQ(list.getCount(), 2);

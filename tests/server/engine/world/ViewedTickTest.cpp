@@ -108,11 +108,11 @@ TEST_F(SeenAt, ClickUsesTheViewThePlayerSaw) {
 }
 
 TEST_F(SeenAt, LookingBackIsOffUntilTheGameEnablesIt) {
-  EXPECT_FALSE(world.input().isLookingBack());
-  WM.setLookingBack();
-  EXPECT_TRUE(world.input().isLookingBack());
+  EXPECT_FALSE(world.input().isLagCompensated());
+  WM.setLagCompensated();
+  EXPECT_TRUE(world.input().isLagCompensated());
   world.shutDown();
-  EXPECT_FALSE(WM.isLookingBack());
+  EXPECT_FALSE(WM.isLagCompensated());
 }
 
 }  // namespace

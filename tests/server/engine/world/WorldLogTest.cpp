@@ -44,7 +44,7 @@ TEST_F(Log, DifferentLinesAreBounded) {
 }
 
 TEST_F(Log, NotedLineWithoutAPageIsDropped) {
-  log.noteOnce("line");
+  log.addActivityLineOnce("line");
   log.writeOnce("line");
   EXPECT_EQ(lines, std::vector<std::string>{"line"});
 }

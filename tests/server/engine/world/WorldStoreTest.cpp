@@ -12,7 +12,7 @@ TEST_F(Store, FreedSlotIsReusedOnlyAfterARest) {
   auto first = std::make_unique<Object>();
   const ObjectKey dead = first->key();
   first.reset();
-  for (std::uint64_t i = 1; i < WorldStore::kRest; ++i) WM.update();
+  for (std::uint64_t i = 1; i < WorldStore::kSlotReuseDelay; ++i) WM.update();
   const Object early;
   EXPECT_NE(early.key().slot, dead.slot);
   WM.update();
@@ -29,7 +29,7 @@ TEST_F(Store, ChurnDoesNotGrowTheStore) {
     WM.markForDelete(p_o);
     WM.update();
   }
-  EXPECT_LE(highest, WorldStore::kRest + 1);
+  EXPECT_LE(highest, WorldStore::kSlotReuseDelay + 1);
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ TEST_F(BanListTest, UnsavedBanAppliesReportsErrorAndReloadSavesIt) {
     EXPECT_EQ(problem, "");
     loaded.set_value(std::move(bans));
   }));
-  list.take(loaded.get_future().get());
+  list.replaceAll(loaded.get_future().get());
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
   AdminWorker other;
   EXPECT_TRUE(BanList(other, blocked, clock()).isBanned(at("192.0.2.7")));
@@ -239,7 +239,7 @@ TEST_F(BanListTest, BanBeyondTheLimitIsRefused) {
   std::vector<Ban> bans;
   for (std::uint32_t i = 0; i < BanList::kMaxBans; ++i)
     bans.push_back(ofRange(asio::ip::make_address_v4(0x0a000000 + i).to_string()));
-  list.take(std::move(bans));
+  list.replaceAll(std::move(bans));
   EXPECT_FALSE(list.add(ofRange("192.0.2.7"), [](const std::string&) {}));
   EXPECT_TRUE(list.isBanned(at("10.0.1.1")));
   EXPECT_FALSE(list.isBanned(at("11.0.1.1")));

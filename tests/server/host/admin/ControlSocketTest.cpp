@@ -65,8 +65,8 @@ class ControlSocketTest : public testing::Test {
   bool exists() const { return fs::exists(fs::symlink_status(options.path)); }
 
   const test::TempFolder folder;
-  ControlListening options;
-  WatchFeed feed;
+  ControlSocketOptions options;
+  EventFeed feed;
   std::mutex mutex;
   bool held = false;
   std::vector<std::function<void(AdminAnswer)>> waiting;
@@ -277,8 +277,8 @@ TEST_F(ControlSocketTest, StalledWatcherLosesEventsAndLearnsTheCount) {
     ASSERT_TRUE(line) << seen << " seen, " << dropped << " dropped";
     AnswerReader reader;
     const auto got = reader.readLine(*line);
-    if (got == AnswerReader::Got::kEvent) ++seen;
-    if (got == AnswerReader::Got::kDropped) dropped += reader.dropped();
+    if (got == AnswerReader::LineKind::kEvent) ++seen;
+    if (got == AnswerReader::LineKind::kDropped) dropped += reader.dropped();
   }
   EXPECT_EQ(seen + dropped, static_cast<std::uint64_t>(kEvents));
   EXPECT_GT(dropped, 0u);

@@ -58,10 +58,10 @@ TEST_F(VoteKickTest, OnlyOneVoteRunsAndItTimesOut) {
   addPlayers(5);
   EXPECT_EQ(vote(0, 4), Outcome::kBegun);
   EXPECT_EQ(vote(1, 3), Outcome::kOther);
-  EXPECT_FALSE(votes.takeFailed(now));
+  EXPECT_FALSE(votes.popFailed(now));
   now += VoteKick::kTime;
-  EXPECT_EQ(votes.takeFailed(now), std::optional(target.all[4].session));
-  EXPECT_FALSE(votes.takeFailed(now)) << "once";
+  EXPECT_EQ(votes.popFailed(now), std::optional(target.all[4].session));
+  EXPECT_FALSE(votes.popFailed(now)) << "once";
   EXPECT_EQ(vote(1, 4), Outcome::kBegun) << "the voices of before are gone";
 }
 
@@ -70,7 +70,7 @@ TEST_F(VoteKickTest, VoterStartsOneVoteInTwoMinutes) {
   EXPECT_EQ(vote(0, 3), Outcome::kBegun);
   now += VoteKick::kTime;
   EXPECT_EQ(vote(0, 2), Outcome::kTooSoon);
-  now += VoteKick::kBetween;
+  now += VoteKick::kMinInterval;
   EXPECT_EQ(vote(0, 2), Outcome::kBegun);
 }
 
@@ -80,7 +80,7 @@ TEST_F(VoteKickTest, VotesOfDisconnectedPlayersDoNotCount) {
   EXPECT_EQ(vote(1, 4), Outcome::kAgreed);
   target.all[0].detached = true;
   EXPECT_EQ(vote(2, 4), Outcome::kAgreed);
-  EXPECT_EQ(votes.voices(), 2u);
+  EXPECT_EQ(votes.votes(), 2u);
 }
 
 }  // namespace

@@ -16,8 +16,8 @@
 #include "engine/world/WorldLog.h"
 #include "host/admission/Admission.h"
 #include "host/auth/PasswordHash.h"
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"
-#include "host/journal/RepeatCheck.h"
 #include "host/journal/RoundRecovery.h"
 #include "naiad.pb.h"
 #include "tests/server/host/rooms/Clients.h"
@@ -137,11 +137,12 @@ class AdmissionTest : public testing::Test {
       std::string records;
       TurnRecordWriter writer;
       for (int i = 0; i < kTurns; ++i) writer.write(WorldTurn(), records);
-      Round::Book book;
+      Round::JournalBinding book;
       book.writer = std::make_shared<JournalWriter>();
       book.journal =
           std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 16, false);
-      book.recovery = std::make_unique<RoundRecovery>(std::make_shared<OpenRound>(DfrHeader(), records));
+      book.recovery =
+          std::make_unique<RoundRecovery>(std::make_shared<UnfinishedRound>(DfrHeader(), records));
       return std::make_unique<Round>(std::move(fake), std::move(book));
     });
     admission();
@@ -154,14 +155,14 @@ class AdmissionTest : public testing::Test {
   }
   bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
     now += time;
-    admission().judgeWaiting();
+    admission().evaluateWaiting();
     return !client.isWelcome() && !client.isRefused();
   }
   /// True if the list of players, which never changes here, is sent.
   bool sendsList() {
     bool sent = false;
     news.tick(
-        PlayerNews::kEvery, {{.id = 1, .name = "Ann"}}, [](std::uint32_t) { return 0u; },
+        PlayerListBroadcaster::kInterval, {{.id = 1, .name = "Ann"}}, [](std::uint32_t) { return 0u; },
         [&sent](std::uint32_t, const wire::ServerMessage&) { sent = true; });
     return sent;
   }
@@ -185,18 +186,19 @@ class AdmissionTest : public testing::Test {
   int worlds = 0;
   bool worlds_end = true;
   SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
-  Rooms rooms{context, sessions, [] {}};
-  PlayerNews news;
+  RoomManager rooms{context, sessions, [] {}};
+  PlayerListBroadcaster news;
 
  private:
   Session::Events events() {
-    return {[this](Session& session, const wire::Hello& hello) { m_admission->judgeHello(session, hello); },
-            [](Session&, const std::string&) {},
-            [this](Session& session) {
-              m_admission->forgetSession(session);
-              if (session.player() != 0) rooms.leave(session);
-            },
-            [this] { return now; }};
+    return {
+        [this](Session& session, const wire::Hello& hello) { m_admission->evaluateHello(session, hello); },
+        [](Session&, const std::string&) {},
+        [this](Session& session) {
+          m_admission->forgetSession(session);
+          if (session.player() != 0) rooms.leave(session);
+        },
+        [this] { return now; }};
   }
 
   std::optional<Admission> m_admission;
@@ -332,10 +334,10 @@ TEST_F(AdmissionTest, TokenResumesItsSessionOnAnotherStream) {
 TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
   Client* p_ann = &greet(helloOf("Ann"));
   const std::uint32_t player = p_ann->welcome().player();
-  const auto comeBack = [&](bool fresh) {
+  const auto comeBack = [&](bool new_process) {
     p_ann->drop();
     wire::Hello hello = returning(*p_ann);
-    hello.set_fresh(fresh);
+    hello.set_new_process(new_process);
     Client& back = greet(hello);
     if (back.isWelcome()) p_ann = &back;
     return back.isWelcome();
@@ -344,7 +346,7 @@ TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
   wire::Hello hello = returning(*p_ann);
   p_ann->drop();
   for (int i = 0; i < 10; ++i) {
-    hello.set_fresh(i % 2 == 0);
+    hello.set_new_process(i % 2 == 0);
     EXPECT_EQ(greet(hello).refusal(), wire::Refused::BUSY);
     sessions.sweep();
   }
@@ -352,7 +354,7 @@ TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
   EXPECT_EQ(counters.unknown_tokens, 0u);
   EXPECT_TRUE(sessionOf(1).isDetached());
   now += 1s;
-  hello.set_fresh(false);
+  hello.set_new_process(false);
   const Client& back = greet(hello);
   ASSERT_TRUE(back.isWelcome());
   EXPECT_EQ(back.welcome().player(), player);
@@ -373,13 +375,13 @@ TEST_F(AdmissionTest, OldTokenIsInvalidOnceTheNextIsConfirmed) {
 TEST_F(AdmissionTest, ClientIsRefusedAfterItsSessionResumedElsewhere) {
   Client& ann = greet(helloOf("Ann"));
   ASSERT_TRUE(sendsList());
-  wire::Hello fresh = returning(ann);
-  fresh.set_fresh(true);
-  const Client& other = greet(fresh);
+  wire::Hello new_process = returning(ann);
+  new_process.set_new_process(true);
+  const Client& other = greet(new_process);
   ASSERT_TRUE(other.isWelcome());
   EXPECT_TRUE(sendsList()) << "the new process has none";
   admission().confirmToken(sessionOf(1));
-  EXPECT_EQ(greet(returning(ann)).refusal(), wire::Refused::ELSEWHERE);
+  EXPECT_EQ(greet(returning(ann)).refusal(), wire::Refused::SESSION_MOVED);
   EXPECT_EQ(counters.refused_elsewhere, 1u);
 }
 

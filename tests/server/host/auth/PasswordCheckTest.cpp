@@ -240,11 +240,11 @@ TEST(LoginRateLimit, AbandonedTriesAreNotCountedAsWrong) {
   Time now{};
   for (int i = 1; i <= 1000; ++i) {
     EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
-    limit.giveUpTry(prefix(1), now);
-    EXPECT_EQ(limit.givenUp(prefix(1), now), i);
+    limit.cancelTry(prefix(1), now);
+    EXPECT_EQ(limit.cancelledTries(prefix(1), now), i);
   }
   EXPECT_EQ(limit.wrong(prefix(1)), 0);
-  EXPECT_EQ(limit.givenUp(prefix(1), now + 60s), 0);
+  EXPECT_EQ(limit.cancelledTries(prefix(1), now + 60s), 0);
   EXPECT_EQ(limit.size(), 0u) << "and evict none that were";
 }
 

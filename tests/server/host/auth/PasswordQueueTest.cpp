@@ -20,7 +20,7 @@ class PasswordQueueTest : public testing::Test {
   }
   std::vector<PasswordQueue::Id> takeAll() {
     std::vector<PasswordQueue::Id> all;
-    while (const auto next = queue.takeNext()) all.push_back(*next);
+    while (const auto next = queue.popNext()) all.push_back(*next);
     return all;
   }
   using Ids = std::vector<PasswordQueue::Id>;
@@ -33,7 +33,7 @@ TEST_F(PasswordQueueTest, EqualEntriesAreServedInArrivalOrder) {
   for (int i = 1; i <= 4; ++i) EXPECT_EQ(add("198.51." + std::to_string(i) + ".1"), 0u);
   EXPECT_EQ(add("198.51.5.1"), 5u) << "there is no place";
   EXPECT_EQ(takeAll(), (Ids{1, 2, 3, 4}));
-  EXPECT_FALSE(queue.takeNext());
+  EXPECT_FALSE(queue.popNext());
   EXPECT_EQ(queue.size(), 0u);
 }
 
@@ -50,7 +50,7 @@ TEST_F(PasswordQueueTest, MostCrowdedAddressLosesItsNewestEntry) {
 TEST_F(PasswordQueueTest, AddressesOfOneNetworkCountTogether) {
   for (int i = 1; i <= 4; ++i) add("198.51.100." + std::to_string(i));
   EXPECT_EQ(add("192.0.2.1"), 4u);
-  EXPECT_EQ(queue.takeNext(), 5u) << "it shares with no other one";
+  EXPECT_EQ(queue.popNext(), 5u) << "it shares with no other one";
 }
 
 TEST_F(PasswordQueueTest, NetworksOfOneCustomerCountTogether) {

@@ -18,13 +18,13 @@ TEST(ResumeTokens, NameTheSessionTheyWereIssuedFor) {
 TEST(ResumeTokens, HolderLookupAcceptsOnlyNewestAndConsumesNothing) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.holderOf(first), 5u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(tokens.findNewest(first), 5u);
   EXPECT_EQ(tokens.redeem(first), 5u);
   const std::string second = tokens.issue(5);
-  EXPECT_EQ(tokens.holderOf(first), std::nullopt) << "though it could be redeemed again";
-  EXPECT_EQ(tokens.holderOf(second), 5u);
+  EXPECT_EQ(tokens.findNewest(first), std::nullopt) << "though it could be redeemed again";
+  EXPECT_EQ(tokens.findNewest(second), 5u);
   EXPECT_EQ(tokens.redeem(first), 5u);
-  EXPECT_EQ(tokens.holderOf(""), std::nullopt);
+  EXPECT_EQ(tokens.findNewest(""), std::nullopt);
 }
 
 TEST(ResumeTokens, RemainValidUntilTheNextIsConfirmed) {
@@ -64,7 +64,7 @@ TEST(ResumeTokens, StayValidAfterRestoringTheirHashes) {
   tokens.restore(1, killed.hashed(5));
   EXPECT_EQ(tokens.find(first), 1u) << "the answer with the second may be lost";
   EXPECT_EQ(tokens.find(second), 1u);
-  EXPECT_EQ(tokens.holderOf(second), 1u);
+  EXPECT_EQ(tokens.findNewest(second), 1u);
   EXPECT_EQ(tokens.find(other), std::nullopt);
   tokens.confirm(1);
   EXPECT_EQ(tokens.find(first), std::nullopt);
@@ -89,22 +89,22 @@ TEST(ResumeTokens, ReportSessionsResumedElsewhere) {
   ResumeTokens tokens;
   const std::string first = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(first), 5u);
-  tokens.noteRestart(5);
+  tokens.markSuperseded(5);
   const std::string second = tokens.issue(5);
-  EXPECT_FALSE(tokens.isElsewhere(first)) << "the other process may not have got its answer";
+  EXPECT_FALSE(tokens.isSuperseded(first)) << "the other process may not have got its answer";
   tokens.confirm(5);
-  EXPECT_TRUE(tokens.isElsewhere(first));
-  EXPECT_FALSE(tokens.isElsewhere(second));
+  EXPECT_TRUE(tokens.isSuperseded(first));
+  EXPECT_FALSE(tokens.isSuperseded(second));
   EXPECT_EQ(tokens.redeem(first), std::nullopt);
   // An ordinary resume does not supersede the old token.
   ASSERT_EQ(tokens.redeem(second), 5u);
   const std::string third = tokens.issue(5);
   tokens.confirm(5);
-  EXPECT_FALSE(tokens.isElsewhere(second));
-  EXPECT_TRUE(tokens.isElsewhere(first));
+  EXPECT_FALSE(tokens.isSuperseded(second));
+  EXPECT_TRUE(tokens.isSuperseded(first));
   ASSERT_EQ(tokens.redeem(third), 5u);
   tokens.forget(5);
-  EXPECT_FALSE(tokens.isElsewhere(first));
+  EXPECT_FALSE(tokens.isSuperseded(first));
 }
 
 TEST(ResumeTokens, ClientRestartMayBeRetriedAfterALostAnswer) {
@@ -112,12 +112,12 @@ TEST(ResumeTokens, ClientRestartMayBeRetriedAfterALostAnswer) {
   const std::string first = tokens.issue(5);
   for (int i = 0; i < 3; ++i) {
     ASSERT_EQ(tokens.redeem(first), 5u);
-    tokens.noteRestart(5);
+    tokens.markSuperseded(5);
     tokens.issue(5);
   }
   const std::string last = tokens.issue(5);
   ASSERT_EQ(tokens.redeem(last), 5u) << "the other process comes back with its own";
-  EXPECT_TRUE(tokens.isElsewhere(first));
+  EXPECT_TRUE(tokens.isSuperseded(first));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(AgonesPlatform, RetriesUntilALateAndBusySidecarAnswers) {
   AgonesPlatform platform(sidecar.port());
   platform.notifyReady();
   std::string news;
-  while (news.empty()) news = platform.takeNews();  // the connection was refused at least once
+  while (news.empty()) news = platform.popLogMessage();  // the connection was refused at least once
   EXPECT_EQ(news, "warning: Agones: the sidecar does not answer; trying again");
   std::atomic<int> asked = 0;
   sidecar.start([&](const std::string& request) {
@@ -52,7 +52,7 @@ TEST(AgonesPlatform, RetriesUntilALateAndBusySidecarAnswers) {
   EXPECT_TRUE(sidecar.waitFor("POST /ready {}", 3));
   EXPECT_TRUE(sidecar.waitFor("GET /gameserver"));
   news.clear();
-  while (news.find("players reach") == std::string::npos) news += platform.takeNews();
+  while (news.find("players reach") == std::string::npos) news += platform.popLogMessage();
   ASSERT_TRUE(platform.address());
   EXPECT_EQ(platform.address()->host, "192.0.2.7");
   EXPECT_EQ(platform.address()->port, 7012);
@@ -101,15 +101,15 @@ TEST(AgonesPlatform, WatchReportsShutdownAfterReconnectAndInPieces) {
   ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
   sidecar.push("{\"result\":" + kServer + "}\n", 7);
   sidecar.push("nonsense\n");
-  EXPECT_FALSE(platform.takeEnd());
+  EXPECT_FALSE(platform.popShutdownRequest());
   sidecar.endWatches();
   ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver", 2));
   sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
                "\n",
                5);
-  while (!platform.takeEnd()) {
+  while (!platform.popShutdownRequest()) {
   }
-  EXPECT_FALSE(platform.takeEnd()) << "once";
+  EXPECT_FALSE(platform.popShutdownRequest()) << "once";
 }
 
 TEST(AgonesPlatform, OversizedAnswerIsRequestedAgain) {
@@ -117,7 +117,7 @@ TEST(AgonesPlatform, OversizedAnswerIsRequestedAgain) {
   std::atomic<int> asked = 0;
   sidecar.start([&](const std::string& request) {
     if (request == "GET /gameserver" && asked++ == 0)
-      return std::pair<int, std::string>{200, "{" + std::string(GameServerFacts::kMaxBytes, ' ') + "}"};
+      return std::pair<int, std::string>{200, "{" + std::string(GameServerInfo::kMaxBytes, ' ') + "}"};
     return well(request);
   });
   AgonesPlatform platform(sidecar.port());
@@ -134,7 +134,7 @@ TEST(AgonesPlatform, WatchWithOversizedLineIsReconnected) {
   sidecar.start(well);
   AgonesPlatform platform(sidecar.port());
   ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
-  sidecar.push(std::string(GameServerFacts::kMaxBytes + 1, 'x'), 60'000);
+  sidecar.push(std::string(GameServerInfo::kMaxBytes + 1, 'x'), 60'000);
   EXPECT_TRUE(sidecar.waitFor("GET /watch/gameserver", 2));
 }
 

@@ -29,18 +29,19 @@ BusMessage kept(int number) {
 TEST(BusQueue, DropsTheOldestAndKeepsOnlyNewestPresence) {
   BusQueue queue;
   for (int i = 0; i < 100; ++i) queue.push({"naiad.presence.a", std::to_string(i)});
-  ASSERT_TRUE(queue.hasFleeting());
-  EXPECT_EQ(queue.takeFleeting().payload, "99");
-  EXPECT_FALSE(queue.hasFleeting());
+  ASSERT_TRUE(queue.hasBestEffort());
+  EXPECT_EQ(queue.popBestEffort().payload, "99");
+  EXPECT_FALSE(queue.hasBestEffort());
   for (int i = 0; i < 2000; ++i) queue.push({"naiad.presence." + std::to_string(i), ""});
-  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxFleeting);
+  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxBestEffort);
   for (int i = 0; i < 5000; ++i) queue.push(kept(i));
-  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxFleeting + 5000 - Bus::kMaxKept);
-  EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id);
-  queue.dropKept("round-0-0");
-  EXPECT_EQ(queue.firstKept().id, kept(5000 - Bus::kMaxKept).id) << "it was dropped while it was on its way";
-  queue.dropKept(queue.firstKept().id);
-  EXPECT_EQ(queue.firstKept().id, kept(5001 - Bus::kMaxKept).id);
+  EXPECT_EQ(queue.dropped(), 2000 - Bus::kMaxBestEffort + 5000 - Bus::kMaxReliable);
+  EXPECT_EQ(queue.frontReliable().id, kept(5000 - Bus::kMaxReliable).id);
+  queue.ackReliable("round-0-0");
+  EXPECT_EQ(queue.frontReliable().id, kept(5000 - Bus::kMaxReliable).id)
+      << "it was dropped while it was on its way";
+  queue.ackReliable(queue.frontReliable().id);
+  EXPECT_EQ(queue.frontReliable().id, kept(5001 - Bus::kMaxReliable).id);
 }
 
 TEST(BusInbox, KeepsNewestPerSubjectAndIgnoresOversizedMessages) {
@@ -49,11 +50,11 @@ TEST(BusInbox, KeepsNewestPerSubjectAndIgnoresOversizedMessages) {
   inbox.put("naiad.presence.quiet", "here");
   inbox.put("naiad.presence.long", std::string(kMaxBusPayload + 1, 'x'));
   inbox.put(std::string(BusInbox::kMaxSubject + 1, 'x'), "");
-  const std::vector<BusMessage> taken = inbox.takeAll();
+  const std::vector<BusMessage> taken = inbox.popAll();
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].payload, "999");
   EXPECT_EQ(taken[1].payload, "here");
-  EXPECT_TRUE(inbox.takeAll().empty());
+  EXPECT_TRUE(inbox.popAll().empty());
   EXPECT_EQ(inbox.received(), 1003u);
   EXPECT_EQ(inbox.ignored(), 2u);
 }
@@ -64,19 +65,19 @@ TEST(BusInbox, FloodOfSubjectsDoesNotEvictExistingOnes) {
   for (std::size_t i = 0; i < 2 * BusInbox::kMaxSubjects; ++i) inbox.put(std::to_string(i), "");
   inbox.put("honest", "new");
   EXPECT_EQ(inbox.ignored(), BusInbox::kMaxSubjects + 1);
-  const std::vector<BusMessage> taken = inbox.takeAll();
+  const std::vector<BusMessage> taken = inbox.popAll();
   EXPECT_EQ(taken.size(), BusInbox::kMaxSubjects);
   EXPECT_EQ(taken.back().payload, "new");
 }
 
 TEST(BusSettings, InvalidAddressesAreRejected) {
 #ifdef NAIAD_NATS
-  EXPECT_EQ(busComplaint({"nats://127.0.0.1:4222", "", ""}), "");
-  EXPECT_EQ(busComplaint({"tls://bus.example", "file", "ca.pem"}), "");
-  EXPECT_NE(busComplaint({"nats://bus", "", "ca.pem"}), "");
+  EXPECT_EQ(validateBusSettings({"nats://127.0.0.1:4222", "", ""}), "");
+  EXPECT_EQ(validateBusSettings({"tls://bus.example", "file", "ca.pem"}), "");
+  EXPECT_NE(validateBusSettings({"nats://bus", "", "ca.pem"}), "");
 #endif
   for (const std::string url : {"nats://", "bus.example", "http://bus.example", "tls:/bus"})
-    EXPECT_NE(busComplaint({url, "", ""}), "") << url;
+    EXPECT_NE(validateBusSettings({url, "", ""}), "") << url;
 }
 
 #ifdef NAIAD_NATS
@@ -152,8 +153,8 @@ TEST_F(NatsBusTest, PresenceArrives) {
   bus->publish({"naiad.presence.a", "here"});
   EXPECT_EQ(listener.next(), "naiad.presence.a here");
   EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1; }));
-  EXPECT_EQ(bus->takeNews(), "the bus is connected");
-  EXPECT_EQ(bus->takeNews(), "");
+  EXPECT_EQ(bus->popLogMessage(), "the bus is connected");
+  EXPECT_EQ(bus->popLogMessage(), "");
 }
 
 TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
@@ -189,13 +190,13 @@ TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
   const auto begin = std::chrono::steady_clock::now();
   for (int number = 1; number <= 4200; ++number) bus->publish(kept(number));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s) << "nothing waits";
-  EXPECT_EQ(bus->counters().dropped, 4200u - Bus::kMaxKept);
+  EXPECT_EQ(bus->counters().dropped, 4200u - Bus::kMaxReliable);
   EXPECT_TRUE(
-      test::waitUntil([&] { return bus->takeNews().find("cannot be reached") != std::string::npos; }));
+      test::waitUntil([&] { return bus->popLogMessage().find("cannot be reached") != std::string::npos; }));
   ASSERT_TRUE(server.start()) << server.log();
-  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1 + Bus::kMaxKept; }));
+  EXPECT_TRUE(test::waitUntil([&] { return bus->counters().published == 1 + Bus::kMaxReliable; }));
   EXPECT_EQ(bus->counters().connections, 2u);
-  EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxKept);
+  EXPECT_EQ(Listener(server.url()).results(), 1 + Bus::kMaxReliable);
 }
 
 TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
@@ -210,7 +211,7 @@ TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
     EXPECT_TRUE(test::waitUntil([&] {
       mouth->publish({"naiad.other.a", "none of its"});
       mouth->publish({"naiad.presence.a", text});
-      heard = ear->takeMessages();
+      heard = ear->popMessages();
       return !heard.empty();
     }));
     ASSERT_EQ(heard.size(), 1u);
@@ -219,7 +220,7 @@ TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
     if (text == "back") break;
     server.kill();
     ASSERT_TRUE(test::waitUntil([&] { return !ear->isConnected() && !mouth->isConnected(); }));
-    ear->takeMessages();
+    ear->popMessages();
     ASSERT_TRUE(server.start()) << server.log();
   }
 }
@@ -239,7 +240,7 @@ TEST_F(NatsBusTest, ServerMayPublishOnlyItsOwnPresence) {
   EXPECT_EQ(listener.next(), "naiad.presence.a here") << "nats-server refused the other";
   const auto stranger = connect(server.url("a:wrong"));
   EXPECT_TRUE(test::waitUntil([&] { return stranger->counters().failures > 0; }));
-  const std::string news = stranger->takeNews();
+  const std::string news = stranger->popLogMessage();
   EXPECT_NE(news.find("cannot be reached"), std::string::npos) << news;
   EXPECT_EQ(news.find("wrong"), std::string::npos) << "no password in the log";
 }

@@ -19,7 +19,7 @@ WorldTurn randomTurn(SplitMix64& random) {
   WorldTurn turn;
   turn.watched = random.below(10) != 0;
   turn.checked = random.below(30) == 0;
-  turn.pictured = random.below(50) == 0 ? 3 : 0;
+  turn.rendered_player = random.below(50) == 0 ? 3 : 0;
   for (std::uint64_t i = random.below(4); i > 0; --i) {
     df::InputQueue::Input input{df::InputQueue::kKey, static_cast<std::uint32_t>(1 + random.below(4))};
     input.key = static_cast<df::Keyboard::Key>(random.below(40));
@@ -46,8 +46,8 @@ struct SmallFile {
     header.seed = 42;
     header.frame_nanos = 33'333'333;
     header.start_nanos = 1'700'000'000'000'000'000;
-    bytes = spellDfrHeader(header);
-    bytes += spellDfrMeta({{"game", "hello"}, {"players", "together"}});
+    bytes = encodeDfrHeader(header);
+    bytes += encodeDfrMeta({{"game", "hello"}, {"players", "together"}});
     SplitMix64 random(5);
     DfrTurnPacker packer;
     TurnRecordWriter writer;
@@ -65,10 +65,10 @@ struct SmallFile {
       }
       bytes += packer.pack(records);
       records_at.emplace_back(bytes.size(), count);
-      if (i == 1) bytes += spellDfrChunk(dfrType("MARK"), "something of a later version");
-      if (i == 2) bytes += spellDfrMeta({{"file sprites/ship.txt", "1234"}});
+      if (i == 1) bytes += encodeDfrChunk(dfrType("MARK"), "something of a later version");
+      if (i == 2) bytes += encodeDfrMeta({{"file sprites/ship.txt", "1234"}});
     }
-    bytes += spellDfrDone("is over");
+    bytes += encodeDfrDone("is over");
     done_at = bytes.size();
   }
   std::size_t recordsBefore(std::size_t place) const {
@@ -115,7 +115,7 @@ TEST(DfrTest, WrittenFileIsReadBackUnchanged) {
   }
   EXPECT_FALSE(reader.next());
   EXPECT_EQ(reader.end(), DfrEnd::kDone);
-  EXPECT_EQ(reader.why(), "is over");
+  EXPECT_EQ(reader.endReason(), "is over");
   EXPECT_EQ(reader.facts().at("file sprites/ship.txt"), "1234");
 }
 
@@ -217,7 +217,7 @@ TEST(DfrTest, RecordsBeyondOneChunkAreReadBack) {
     writer.write(turn, records);
   }
   DfrTurnPacker packer;
-  const std::string bytes = spellDfrHeader({}) + packer.pack(records);
+  const std::string bytes = encodeDfrHeader({}) + packer.pack(records);
   DfrReader reader(bytes);
   EXPECT_EQ(countRecords(reader), count);
   EXPECT_EQ(reader.end(), DfrEnd::kTorn);
@@ -258,7 +258,7 @@ TEST(DfrTest, DecompressionBombIsReportedAsDamaged) {
         "\x04\x63"
         "aaa",
         5);
-  std::string bytes = spellDfrHeader({});
+  std::string bytes = encodeDfrHeader({});
   for (int i = 0; i < 6; ++i) bytes += packer.pack(records);
   ASSERT_LT(bytes.size(), 20'000u);
   DfrReader reader(bytes);

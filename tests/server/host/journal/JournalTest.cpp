@@ -109,8 +109,8 @@ TEST_F(JournalTest, AddedRecordsAreOnDiskAfterDraining) {
   DfrReader reader(disk.bytes);
   while (reader.next()) continue;
   EXPECT_EQ(reader.end(), DfrEnd::kDone);
-  EXPECT_EQ(reader.why(), "is over");
-  EXPECT_EQ(journal->takeProblem(), std::nullopt);
+  EXPECT_EQ(reader.endReason(), "is over");
+  EXPECT_EQ(journal->popProblem(), std::nullopt);
 }
 
 // A reader gets the facts before the first turn, even if they came while the header was written.
@@ -149,11 +149,11 @@ TEST_F(JournalTest, DiskTooSlowForTheRingStopsTheJournal) {
   std::size_t added = 0;
   while (journal->add(turnRecord())) ++added;
   EXPECT_LE(added, kRing);
-  EXPECT_EQ(journal->takeProblem(), "the disk is too slow");
+  EXPECT_EQ(journal->popProblem(), "the disk is too slow");
   disk.setStalled(false);
   ASSERT_TRUE(drains());
   EXPECT_EQ(disk.flags, kDfrStopped);
-  EXPECT_EQ(journal->takeProblem(), std::nullopt) << "it is said once";
+  EXPECT_EQ(journal->popProblem(), std::nullopt) << "it is said once";
 }
 
 TEST_F(JournalTest, FullDiskStopsTheJournalAndIsReportedOnce) {
@@ -167,37 +167,38 @@ TEST_F(JournalTest, FullDiskStopsTheJournalAndIsReportedOnce) {
   ASSERT_TRUE(journal->add(turnRecord()));
   ASSERT_TRUE(drains());
   EXPECT_FALSE(journal->add(turnRecord()));
-  EXPECT_EQ(journal->takeProblem(), "disk: No space left on device");
-  EXPECT_EQ(journal->takeProblem(), std::nullopt);
+  EXPECT_EQ(journal->popProblem(), "disk: No space left on device");
+  EXPECT_EQ(journal->popProblem(), std::nullopt);
   EXPECT_EQ(disk.flags, kDfrStopped) << "nothing can go on from it";
   EXPECT_EQ(countTurns(disk.bytes), 1u);
 }
 
 TEST_F(JournalTest, JournalWithoutPlayersSkipsMostFlushes) {
   journal = journalOn(disk);
-  journal->setCalm(true);
+  journal->setIdle(true);
   ASSERT_TRUE(journal->flush());
   EXPECT_FALSE(disk.bytes.empty()) << "the file is begun at once";
   journal->addFacts({{"first_tick", "1"}});
   ASSERT_TRUE(journal->add(turnRecord()));
   ASSERT_TRUE(journal->flush());
   EXPECT_EQ(countTurns(disk.bytes), 1u) << "what is known of the round does not wait";
-  for (int i = 1; i < Journal::kCalmTurns; ++i) {
+  for (int i = 1; i < Journal::kIdleFlushInterval; ++i) {
     ASSERT_TRUE(journal->add(turnRecord()));
     ASSERT_TRUE(journal->flush());
     ASSERT_EQ(countTurns(disk.bytes), 1u) << i;
   }
   ASSERT_TRUE(journal->flush());
-  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns));
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kIdleFlushInterval));
   ASSERT_TRUE(journal->add(turnRecord()));
-  journal->setCalm(false);
+  journal->setIdle(false);
   ASSERT_TRUE(journal->flush());
-  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns) + 1) << "a player came";
-  journal->setCalm(true);
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kIdleFlushInterval) + 1)
+      << "a player came";
+  journal->setIdle(true);
   ASSERT_TRUE(journal->add(turnRecord()));
   journal->finish("is over");
   EXPECT_FALSE(journal->flush());
-  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kCalmTurns) + 2);
+  EXPECT_EQ(countTurns(disk.bytes), static_cast<std::size_t>(Journal::kIdleFlushInterval) + 2);
 }
 
 class JournalFileTest : public testing::Test {
@@ -216,7 +217,7 @@ class JournalFileTest : public testing::Test {
 TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   const fs::path path = folder / "rounds" / "hello.dfr";
   JournalFileSink sink(path.string());
-  sink.write(spellDfrHeader({}));
+  sink.write(encodeDfrHeader({}));
   sink.sync();
   sink.setFlags(kDfrStopped);
   struct stat facts {};

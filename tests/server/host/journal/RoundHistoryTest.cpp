@@ -12,8 +12,8 @@ constexpr std::size_t kRecord = 10;  ///< bytes per tick
 
 /// Plays a tick of length `time`, with a copy if one is due. Returns whether one was due.
 bool play(RoundHistory& round, std::uint32_t tick, milliseconds time = milliseconds(0)) {
-  const bool due = round.isCopyDue(tick, [&] { return tick * time; });
-  if (due) round.beginCopy(tick, {tick}, true);
+  const bool due = round.isCheckpointDue(tick, [&] { return tick * time; });
+  if (due) round.beginCheckpoint(tick, {tick}, true);
   EXPECT_TRUE(round.add(std::string(kRecord, 'x')));
   EXPECT_EQ(round.endTick(), due);
   return due;
@@ -40,13 +40,13 @@ TEST(RoundHistory, SlowTicksShortenTheCheckpointInterval) {
 TEST(RoundHistory, TakingACheckpointKeepsEarlierAndDropsLaterOnes) {
   RoundHistory round;
   for (std::uint32_t tick = 1; tick <= 700; ++tick) play(round, tick);
-  const auto mark = round.takeCopy(330);
+  const auto mark = round.popCheckpoint(330);
   ASSERT_TRUE(mark);
   EXPECT_EQ(mark->records, 3300u);
   EXPECT_EQ(mark->players, std::vector<std::uint32_t>{330});
-  EXPECT_FALSE(round.takeCopy(630)) << "what was after it has not been";
-  EXPECT_TRUE(round.takeCopy(30));
-  EXPECT_FALSE(round.takeCopy(30));
+  EXPECT_FALSE(round.popCheckpoint(630)) << "what was after it has not been";
+  EXPECT_TRUE(round.popCheckpoint(30));
+  EXPECT_FALSE(round.popCheckpoint(30));
 }
 
 TEST(RoundHistory, LongRoundKeepsRecordsSinceOldestCheckpoint) {
@@ -56,8 +56,8 @@ TEST(RoundHistory, LongRoundKeepsRecordsSinceOldestCheckpoint) {
   EXPECT_TRUE(round.add(std::string(RoundHistory::kMaxBytes - 7000, 'y')));
   EXPECT_FALSE(round.hasBeginning());
   EXPECT_EQ(round.records().size(), RoundHistory::kMaxBytes + 10 - 310);
-  EXPECT_EQ(round.takeCopy(630)->records, 6000u);
-  EXPECT_EQ(round.takeCopy(30)->records, 0u);
+  EXPECT_EQ(round.popCheckpoint(630)->records, 6000u);
+  EXPECT_EQ(round.popCheckpoint(30)->records, 0u);
 }
 
 TEST(RoundHistory, LongRoundWithoutCheckpointsKeepsNothing) {
@@ -69,11 +69,11 @@ TEST(RoundHistory, LongRoundWithoutCheckpointsKeepsNothing) {
 
 TEST(RoundHistory, UnfinishedOrFailedCheckpointIsNotKept) {
   RoundHistory round;
-  round.beginCopy(30, {}, true);
-  EXPECT_FALSE(round.takeCopy(30));
-  round.beginCopy(60, {}, false);
+  round.beginCheckpoint(30, {}, true);
+  EXPECT_FALSE(round.popCheckpoint(30));
+  round.beginCheckpoint(60, {}, false);
   EXPECT_FALSE(round.endTick());
-  EXPECT_FALSE(round.takeCopy(60));
+  EXPECT_FALSE(round.popCheckpoint(60));
 }
 
 }  // namespace

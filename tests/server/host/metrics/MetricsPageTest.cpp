@@ -23,7 +23,7 @@ std::string written(const std::vector<std::uint64_t>& values, Struct& (*part)(Me
   static_assert(std::is_trivially_copyable_v<Struct>);
   MetricsSnapshot snapshot;
   std::memcpy(&part(snapshot), values.data(), sizeof(Struct));
-  return renderMetrics(&snapshot, ProcessFacts());
+  return renderMetrics(&snapshot, ProcessInfo());
 }
 
 /// Checks that a change of any single counter changes the page.
@@ -51,7 +51,7 @@ TEST(CounterFamilies, PartialCountersAreSubtractedFromTheTotal) {
   MetricsSnapshot snapshot;
   snapshot.counters.snapshots = 10;
   snapshot.counters.datagram_snapshots = 7;
-  const std::string page = renderMetrics(&snapshot, ProcessFacts());
+  const std::string page = renderMetrics(&snapshot, ProcessInfo());
   EXPECT_EQ(test::metricOf(page, R"(naiad_snapshots_total{path="stream"})"), 3);
   EXPECT_EQ(test::metricOf(page, R"(naiad_snapshots_total{path="datagram"})"), 7);
 }
@@ -77,7 +77,7 @@ std::string fullPage() {
   snapshot.losses.add(0);
   snapshot.connected = 2;
   snapshot.stages[static_cast<std::size_t>(Stage::kWorld)] = std::chrono::milliseconds(1500);
-  return renderMetrics(&snapshot, ProcessFacts::read());
+  return renderMetrics(&snapshot, ProcessInfo::read());
 }
 
 TEST(MetricsPage, HasTheValues) {
@@ -120,7 +120,7 @@ TEST(MetricsPage, FamiliesAreContiguousAndSamplesUnique) {
 }
 
 TEST(MetricsPage, ShowsProcessMetricsBeforeTheFirstSnapshot) {
-  const std::string page = renderMetrics(nullptr, ProcessFacts::read());
+  const std::string page = renderMetrics(nullptr, ProcessInfo::read());
   EXPECT_NE(page.find("\nnaiad_build_info{version=\""), std::string::npos);
   EXPECT_EQ(page.find("naiad_ticks_total"), std::string::npos);
   EXPECT_GT(test::metricOf(page, "process_resident_memory_bytes"), 1e6);

@@ -16,7 +16,7 @@ namespace {
 class MetricsServerTest : public testing::Test {
  protected:
   MetricsServer server{*MetricsAddress::parse("127.0.0.1:0"), *MetricsHosts::parse("game.internal"),
-                       [](std::string_view path) -> MetricsServer::Answer {
+                       [](std::string_view path) -> MetricsServer::Response {
                          if (path == "/metrics") return {200, "n 1\n", "text/x-test"};
                          if (path == "/big") return {200, std::string(1 << 20, 'x')};
                          return {404, "nothing\n"};
@@ -120,14 +120,15 @@ TEST_F(MetricsServerTest, UnfinishedRequestHeadTimesOut) {
   const auto began = std::chrono::steady_clock::now();
   EXPECT_EQ(client.readAll(), "");
   EXPECT_TRUE(client.isHungUp());
-  EXPECT_GE(std::chrono::steady_clock::now() - began, MetricsServer::kPatience - std::chrono::seconds(1));
+  EXPECT_GE(std::chrono::steady_clock::now() - began,
+            MetricsServer::kRequestTimeout - std::chrono::seconds(1));
 }
 
 TEST_F(MetricsServerTest, PortInUseErrorNamesThePort) {
   const std::string taken = "127.0.0.1:" + std::to_string(server.port());
   try {
     const MetricsServer other(*MetricsAddress::parse(taken), *MetricsHosts::parse(""),
-                              [](std::string_view) { return MetricsServer::Answer{}; });
+                              [](std::string_view) { return MetricsServer::Response{}; });
     FAIL() << "two servers have one port";
   } catch (const MetricsError& error) {
     EXPECT_NE(std::string(error.what()).find(std::to_string(server.port())), std::string::npos)

@@ -72,7 +72,7 @@ class DatagramServiceTest : public testing::Test {
       socket->start([this](const Path& path, std::string_view packet) {
         const auto payload = link.open(path, packet, test.now());
         if (!payload) return;
-        if (link.wantsToSend(test.now())) send("");
+        if (link.needsToSend(test.now())) send("");
         if (!payload->empty()) heard.emplace_back(*payload);
       });
     }
@@ -118,7 +118,7 @@ class DatagramServiceTest : public testing::Test {
 TEST_F(DatagramServiceTest, SendsNothingBeforeHearingFromTheClient) {
   const auto channel = open(1, one);
   ASSERT_TRUE(channel);
-  EXPECT_EQ(channel->room(), std::nullopt);
+  EXPECT_EQ(channel->payloadBudget(), std::nullopt);
   EXPECT_EQ(channel->peerAddress(), "nowhere");
   say(*channel, "hello?");
   pass(1s);
@@ -138,7 +138,7 @@ TEST_F(DatagramServiceTest, CarriesPayloadsBothWaysWithBothCiphers) {
     pass(100ms);
     EXPECT_EQ(ann.heard, Heard{"down"});
     EXPECT_EQ(channel->peerAddress(), toString(ann.socket->localEndpoint()));
-    EXPECT_TRUE(channel->room());
+    EXPECT_TRUE(channel->payloadBudget());
   }
 }
 
@@ -223,16 +223,16 @@ TEST_F(DatagramServiceTest, FollowsAddressChangeWithLimitedBudgetUntilValidated)
   ann.send("from home");
   pass(1s);
   ASSERT_EQ(channel->counters().paths_validated, 1u);
-  const auto unlimited = channel->room();
+  const auto unlimited = channel->payloadBudget();
 
   network.rebind(*ann.socket, at("10.0.0.9", 4000));
   ann.send("on the road");
   clock.advanceBy(10ms);
   EXPECT_EQ(channel->counters().path_changes, 2u);
-  EXPECT_LT(channel->room().value_or(0), *unlimited) << "three times what came from there";
+  EXPECT_LT(channel->payloadBudget().value_or(0), *unlimited) << "three times what came from there";
   pass(1s);
   EXPECT_EQ(channel->counters().paths_validated, 2u);
-  EXPECT_EQ(channel->room(), unlimited);
+  EXPECT_EQ(channel->payloadBudget(), unlimited);
   say(*channel, "there you are");
   EXPECT_EQ(last_to, at("10.0.0.9", 4000));
   pass(100ms);

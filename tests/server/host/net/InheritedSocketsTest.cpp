@@ -48,8 +48,8 @@ class InheritedSocketsTest : public WithIdentity {
     }
   }
   static void put(int socket, int place) { ASSERT_EQ(::dup2(socket, kFirst + place), kFirst + place); }
-  std::optional<InheritedSockets> take() {
-    return InheritedSockets::take(
+  std::optional<InheritedSockets> importSockets() {
+    return InheritedSockets::importSockets(
         1234,
         [this](const char* p_name) {
           const auto found = variables.find(p_name);
@@ -57,10 +57,10 @@ class InheritedSocketsTest : public WithIdentity {
         },
         kFirst);
   }
-  /// Returns the error message of take().
+  /// Returns the error message of importSockets().
   std::string complaint() {
     try {
-      take();
+      importSockets();
     } catch (const ListenError& error) {
       EXPECT_EQ(error.code(), std::errc::invalid_argument);
       return error.what();
@@ -77,7 +77,7 @@ class InheritedSocketsTest : public WithIdentity {
 
 TEST_F(InheritedSocketsTest, AreFoundByKindAndMadeCloseOnExec) {
   const std::uint16_t port = openBoth();
-  const auto sockets = take();
+  const auto sockets = importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_EQ(sockets->streams, kFirst + 1);
   EXPECT_EQ(sockets->datagrams, kFirst);
@@ -89,15 +89,15 @@ TEST_F(InheritedSocketsTest, AreFoundByKindAndMadeCloseOnExec) {
 TEST_F(InheritedSocketsTest, AreIgnoredForOtherProcessesOrWithoutCount) {
   openBoth();
   variables["LISTEN_PID"] = "12345";
-  EXPECT_FALSE(take());
+  EXPECT_FALSE(importSockets());
   variables["LISTEN_PID"] = "1234x";
-  EXPECT_FALSE(take());
+  EXPECT_FALSE(importSockets());
   variables.erase("LISTEN_PID");
-  EXPECT_FALSE(take());
+  EXPECT_FALSE(importSockets());
   variables = {{"LISTEN_PID", "1234"}};
-  EXPECT_FALSE(take());
+  EXPECT_FALSE(importSockets());
   variables["LISTEN_FDS"] = "0";
-  EXPECT_FALSE(take());
+  EXPECT_FALSE(importSockets());
   EXPECT_EQ(::fcntl(kFirst, F_GETFD), 0) << "untouched";
 }
 
@@ -141,7 +141,7 @@ TEST_F(InheritedSocketsTest, DifferentOrMissingAddressesAreRefused) {
 TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
   for (const char* address : {"127.0.0.1", "::"}) {
     const std::uint16_t port = openBoth(address);
-    const auto sockets = take();
+    const auto sockets = importSockets();
     ASSERT_TRUE(sockets);
     EXPECT_EQ(sockets->address, address);
     const ServerPort opened =
@@ -167,7 +167,7 @@ TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
 
 TEST_F(InheritedSocketsTest, WithoutEncryptionTheyAreRefused) {
   openBoth();
-  const auto sockets = take();
+  const auto sockets = importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_THROW(adoptServerPort(context, *sockets, [](auto) {}, {}, {}), ListenError);
 }
@@ -191,19 +191,19 @@ constexpr const char* kExpected = "NAIAD_TEST_EXPECTED";  ///< port and is_servi
 }
 
 void checkNextProgram(const std::string& expected) {
-  const auto sockets = InheritedSockets::take();
+  const auto sockets = InheritedSockets::importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_EQ(std::to_string(sockets->port) + ' ' + std::to_string(sockets->is_service), expected);
   EXPECT_GE(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
   EXPECT_GE(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
-  EXPECT_FALSE(InheritedSockets::take()) << "only once";
+  EXPECT_FALSE(InheritedSockets::importSockets()) << "only once";
 }
 
 // Threads of the log and the journal open and close files until exec.
 TEST_F(InheritedSocketsTest, SurviveExecWhileThreadsOpenAndCloseFiles) {
   if (const char* p_expected = std::getenv(kExpected)) return checkNextProgram(p_expected);
   openBoth();
-  auto sockets = take();
+  auto sockets = importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_TRUE(sockets->is_service);
   for (int i = 0; i < 20; ++i) {

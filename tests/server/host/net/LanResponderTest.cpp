@@ -35,13 +35,13 @@ ShortKey responderKey(std::uint8_t key) {
   return ShortKey::ofBytes(bytes);
 }
 
-LanAnswer responderFacts(std::uint8_t key, bool asks_password = false) {
+LanAnswer responderFacts(std::uint8_t key, bool requires_password = false) {
   LanAnswer facts;
   facts.protocol = 4;
   facts.port = 9876;
   facts.max_players = 16;
   facts.name = "responder";
-  facts.asks_password = asks_password;
+  facts.requires_password = requires_password;
   facts.key = responderKey(key);
   return facts;
 }
@@ -135,7 +135,7 @@ TEST_P(LanResponderTest, QueryFloodIsAnsweredAtTheLimitedRate) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   // Other tests on this machine may query at this time, from its other addresses.
   EXPECT_LE(static_cast<double>(responder->counters().answered),
-            LanQueryJudge::kInAll.burst + LanQueryJudge::kInAll.per_second * took.count());
+            LanQueryFilter::kTotalRate.burst + LanQueryFilter::kTotalRate.per_second * took.count());
   EXPECT_GT(responder->counters().too_often, 0u);
 }
 

@@ -17,13 +17,13 @@ TEST(MailboxTest, KeepsOrderAndBytes) {
   EXPECT_FALSE(out.read(header, bytes));
   in.add(1, "one");
   in.add(2);
-  box.putBatch(in);
+  box.push(in);
   EXPECT_TRUE(in.empty());
   in.add(3, std::string(1000, 'x'));
   EXPECT_GT(in.size(), 1000u);
-  box.putBatch(in);
+  box.push(in);
   EXPECT_GT(box.size(), 1000u);
-  box.takeBatch(out);
+  box.popAll(out);
   EXPECT_EQ(box.size(), 0u);
   ASSERT_TRUE(out.read(header, bytes));
   EXPECT_EQ(header, 1);
@@ -45,9 +45,9 @@ TEST(MailboxTest, NothingIsLostBetweenTwoThreads) {
     Batch<int> batch;
     for (int i = 0; i < kCount; ++i) {
       batch.add(i, std::to_string(i));
-      if (i % 7 == 0) box.putBatch(batch);
+      if (i % 7 == 0) box.push(batch);
     }
-    box.putBatch(batch);
+    box.push(batch);
   });
   Batch<int> batch;
   int next = 0;
@@ -59,7 +59,7 @@ TEST(MailboxTest, NothingIsLostBetweenTwoThreads) {
       ASSERT_EQ(bytes, std::to_string(next));
       ++next;
     }
-    box.takeBatch(batch);
+    box.popAll(batch);
   }
   writer.join();
   EXPECT_EQ(box.size(), 0u);

@@ -35,8 +35,8 @@ class NetworkThreadTest : public WithIdentity {
           near.back()->start({[this](std::string_view frame) { heard.emplace_back(frame); },
                               [this](CloseReason reason) { closed.push_back(reason); }});
         },
-        TcpOptions{.receive_limit = kMaxClientFrame}, TlsListening{encrypted ? identity->tls() : nullptr},
-        limits);
+        TcpOptions{.receive_limit = kMaxClientFrame},
+        TlsListenerOptions{encrypted ? identity->tls() : nullptr}, limits);
     network->start();
   }
   /// Runs the client and, unless `deaf`, the tick thread until `done` is true. False after 30 s.
@@ -191,7 +191,7 @@ struct FarDatagrams {
     socket.start([this](const Path& path, std::string_view packet) {
       const auto payload = link.open(path, packet, Clock::now());
       if (!payload) return;
-      if (link.wantsToSend(Clock::now())) send({});
+      if (link.needsToSend(Clock::now())) send({});
       if (!payload->empty()) heard.emplace_back(*payload);
     });
   }
@@ -222,7 +222,7 @@ TEST_F(NetworkThreadTest, DatagramsTakeKeysFromTheirStreamAndItsSuccessor) {
   ASSERT_NE(datagrams, nullptr);
   std::vector<std::string> came;
   datagrams->start([&](std::string_view bytes) { came.emplace_back(bytes); });
-  EXPECT_FALSE(datagrams->room()) << "no address is known yet";
+  EXPECT_FALSE(datagrams->payloadBudget()) << "no address is known yet";
   network->flush();
 
   FarDatagrams client_end(client, network->port(), datagrams->id());
@@ -234,7 +234,8 @@ TEST_F(NetworkThreadTest, DatagramsTakeKeysFromTheirStreamAndItsSuccessor) {
     });
   };
   ASSERT_TRUE(says("hello"));
-  EXPECT_TRUE(runUntil([&] { return datagrams->room() == 1172u; })) << "once the address has proved itself";
+  EXPECT_TRUE(runUntil([&] { return datagrams->payloadBudget() == 1172u; }))
+      << "once the address has proved itself";
   const auto answers = [&](const std::string& what) {
     datagrams->send(what);
     network->flushTick(Clock::now());
@@ -266,7 +267,7 @@ TEST_F(NetworkThreadTest, AStreamThatIsGoneGivesNoKeys) {
   datagrams->send("to no receiver");
   network->flush();
   network->stop();
-  EXPECT_FALSE(datagrams->room());
+  EXPECT_FALSE(datagrams->payloadBudget());
   EXPECT_EQ(network->counters().keyless, 1u);
 }
 
@@ -284,7 +285,7 @@ TEST_F(NetworkThreadTest, FullMailboxDropsAndCountsDatagrams) {
   client_end.key(*far->channel, datagrams->epoch());
   ASSERT_TRUE(runUntil([&] {
     client_end.send("hello");
-    return came > 0 && datagrams->room() == 1172u;
+    return came > 0 && datagrams->payloadBudget() == 1172u;
   }));
   for (int i = 0; i < 30; ++i) datagrams->send(std::string(1000, 'x'));  // without flush()
   network->stop();

@@ -13,9 +13,9 @@ AddressPrefix of(const char* text) {
 
 TEST(PlayerPrefixes, CountSessionsFromTheirBeginningToTheirEnd) {
   PlayerPrefixes prefixes;
-  prefixes.note(1, of("192.0.2.1"));
-  prefixes.note(2, of("192.0.2.1"));
-  prefixes.note(3, of("192.0.2.3"));
+  prefixes.record(1, of("192.0.2.1"));
+  prefixes.record(2, of("192.0.2.1"));
+  prefixes.record(3, of("192.0.2.3"));
   EXPECT_EQ(prefixes.count(of("192.0.2.1")), 2u);
   EXPECT_EQ(prefixes.count(of("192.0.2.3")), 1u);
   EXPECT_EQ(prefixes.count(of("192.0.2.2")), 0u);
@@ -33,17 +33,17 @@ TEST(PlayerPrefixes, MovedSessionCountsAtFirstAndCurrentPrefix) {
     return std::array{prefixes.count(of("192.0.2.1")), prefixes.count(of("192.0.2.2")),
                       prefixes.count(of("192.0.2.3"))};
   };
-  prefixes.note(1, of("192.0.2.1"));
-  prefixes.note(1, of("192.0.2.1"));
+  prefixes.record(1, of("192.0.2.1"));
+  prefixes.record(1, of("192.0.2.1"));
   EXPECT_EQ(counts(), (std::array<std::size_t, 3>{1, 0, 0}));
-  prefixes.note(1, of("192.0.2.2"));
-  prefixes.note(1, of("192.0.2.2"));
+  prefixes.record(1, of("192.0.2.2"));
+  prefixes.record(1, of("192.0.2.2"));
   EXPECT_EQ(counts(), (std::array<std::size_t, 3>{1, 1, 0}));
-  prefixes.note(1, of("192.0.2.3"));
+  prefixes.record(1, of("192.0.2.3"));
   EXPECT_EQ(counts(), (std::array<std::size_t, 3>{1, 0, 1}));
-  prefixes.note(1, of("192.0.2.1"));
+  prefixes.record(1, of("192.0.2.1"));
   EXPECT_EQ(counts(), (std::array<std::size_t, 3>{1, 0, 0}));
-  prefixes.note(1, of("192.0.2.2"));
+  prefixes.record(1, of("192.0.2.2"));
   prefixes.forget(1);
   EXPECT_EQ(counts(), (std::array<std::size_t, 3>{0, 0, 0}));
 }

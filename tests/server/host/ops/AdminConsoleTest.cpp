@@ -27,7 +27,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using Level = AdminCommand::Level;
-using Place = AdminCommand::Place;
+using Frontend = AdminCommand::Frontend;
 
 /// The parts of a host, with clients on fake channels. The host does not run.
 class AdminConsoleTest : public testing::Test {
@@ -37,9 +37,9 @@ class AdminConsoleTest : public testing::Test {
   }
   ~AdminConsoleTest() override { worker.finish(); }
 
-  static AdminCaller socket() { return {Level::kAdmin, Place::kSocket, "user 0, process 1"}; }
+  static AdminCaller socket() { return {Level::kAdmin, Frontend::kSocket, "user 0, process 1"}; }
   static AdminCaller player(const std::string& name, std::uint64_t session, Level level = Level::kPlayer) {
-    return {level, Place::kChat, "player " + name, name, session};
+    return {level, Frontend::kChat, "player " + name, name, session};
   }
   /// Executes a command and waits for its answer.
   AdminAnswer give(const std::vector<std::string>& words, const AdminCaller& caller = socket()) {
@@ -82,9 +82,9 @@ class AdminConsoleTest : public testing::Test {
     return p_found;
   }
   bool has(const std::string& name) const { return find(name) != nullptr; }
-  /// Returns the sentence of the client's goodbye; "" if that was not the last message.
+  /// Returns the message of the client's goodbye; "" if that was not the last message.
   static std::string goodbye(const test::Client& client) {
-    return client.sent.empty() ? "" : client.sent.back().goodbye().sentence();
+    return client.sent.empty() ? "" : client.sent.back().goodbye().message();
   }
   /// Returns the log lines of the admin commands.
   std::vector<std::string> adminLog() const {
@@ -107,7 +107,7 @@ class AdminConsoleTest : public testing::Test {
   const test::TempFolder folder;
   std::vector<std::string> log;
   std::deque<test::Client> lines;
-  std::vector<RoomPlan> plans;
+  std::vector<RoomConfig> plans;
   bool is_open = false;
   df::World world;
   const df::World::Scope scope{world};
@@ -180,7 +180,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
     given.insert(words.front());
   }
   for (const AdminCommand& command : adminCommands()) {
-    EXPECT_TRUE(command.place == Place::kChat || given.contains(command.name)) << command.name;
+    EXPECT_TRUE(command.place == Frontend::kChat || given.contains(command.name)) << command.name;
   }
 }
 
@@ -214,7 +214,7 @@ TEST_F(AdminConsoleTest, PlayersCannotUseAdminCommands) {
     EXPECT_FALSE(answer->ok) << command.name;
   }
   EXPECT_TRUE(has("Ann"));
-  EXPECT_FALSE(context.ending.plan());
+  EXPECT_FALSE(context.shutdown_scheduler.plan());
   EXPECT_TRUE(give({"who"}, player("Eve", 7)).ok);
 }
 
@@ -284,7 +284,7 @@ TEST_F(AdminConsoleTest, LoopbackAndHugeRangesCannotBeBanned) {
     EXPECT_FALSE(give({"ban", who}).ok) << who;
   EXPECT_TRUE(give({"ban", "Ann"}).ok);
   EXPECT_FALSE(has("Ann")) << "by name";
-  EXPECT_EQ(bans.now()->all().size(), 1u);
+  EXPECT_EQ(bans.currentSet()->all().size(), 1u);
 }
 
 TEST_F(AdminConsoleTest, UnknownNameIsBannedOnlyWithNamePrefix) {
@@ -329,21 +329,21 @@ TEST_F(AdminConsoleTest, MutedPlayerCannotSendPrivateMessages) {
 
 TEST_F(AdminConsoleTest, RestartIsScheduledReplacedAndCancelled) {
   open();
-  const auto soon = Ending::Time::clock::now() + 61s;
+  const auto soon = ShutdownScheduler::Time::clock::now() + 61s;
   EXPECT_TRUE(give({"restart", "--in", "60s"}).ok);
-  ASSERT_TRUE(context.ending.plan());
-  EXPECT_TRUE(context.ending.beginsAgain());
-  EXPECT_LT(context.ending.plan()->at, soon);
-  EXPECT_GT(context.ending.plan()->at, soon - 2s);
+  ASSERT_TRUE(context.shutdown_scheduler.plan());
+  EXPECT_TRUE(context.shutdown_scheduler.isRestart());
+  EXPECT_LT(context.shutdown_scheduler.plan()->at, soon);
+  EXPECT_GT(context.shutdown_scheduler.plan()->at, soon - 2s);
   EXPECT_TRUE(give({"restart", "--at-round-end"}).ok);
-  EXPECT_TRUE(context.ending.plan()->at_round_end);
+  EXPECT_TRUE(context.shutdown_scheduler.plan()->at_round_end);
   EXPECT_NE(give({"restart", "--keep"}).text.find("requires dfserver with --journal"), std::string::npos);
-  EXPECT_TRUE(context.ending.plan()->at_round_end) << "as before";
+  EXPECT_TRUE(context.shutdown_scheduler.plan()->at_round_end) << "as before";
   EXPECT_FALSE(give({"restart", "keep", "5s"}).ok);
   EXPECT_FALSE(give({"restart", "in"}).ok);
   EXPECT_FALSE(give({"restart", "now", "60s"}).ok);
   EXPECT_TRUE(give({"cancel"}).ok);
-  EXPECT_FALSE(context.ending.plan());
+  EXPECT_FALSE(context.shutdown_scheduler.plan());
   EXPECT_FALSE(give({"cancel"}).ok);
 }
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLink = "naiad://game.example#abcdefghijklmnopqrstuvwxya";
 
-ServerFacts statusFacts() {
+ServerInfo statusFacts() {
   return {"Ann's \"own\"", "hello", kProtocolVersion, 3, 16, true};
 }
 
@@ -33,7 +33,7 @@ TEST(StatusFile, TextOmitsAnEmptyLink) {
 }
 
 TEST(StatusFile, HostileNameIsEscapedInJson) {
-  ServerFacts facts = statusFacts();
+  ServerInfo facts = statusFacts();
   facts.name = "a\n\033[2J\"}";
   EXPECT_NE(statusText(facts, kLink).find("\"a ?[2J\\\"}\""), std::string::npos) << statusText(facts, kLink);
 }

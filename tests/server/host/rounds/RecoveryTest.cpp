@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"
-#include "host/journal/RepeatCheck.h"
 #include "host/journal/RoundRecovery.h"
 #include "host/journal/TurnRing.h"
 #include "host/rounds/Round.h"
@@ -35,12 +35,12 @@ Input keyOf(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction
   return input;
 }
 
-KeptSession sessionOf(std::uint32_t player) {
+PersistedSession sessionOf(std::uint32_t player) {
   return {.player = player,
           .muted = player == 2,
           .name = "Ann",
           .color = df::RED,
-          .newest = std::string(kKeptHash, static_cast<char>(player)),
+          .newest = std::string(kPersistedHashSize, static_cast<char>(player)),
           .redeemed = {}};
 }
 
@@ -90,7 +90,7 @@ class RecoveryTest : public testing::Test {
  protected:
   void SetUp() override {
     path = (folder / "hello.dfr").string();
-    packed = spellDfrHeader({}) + spellDfrMeta({{"game", "hello"}});
+    packed = encodeDfrHeader({}) + encodeDfrMeta({{"game", "hello"}});
   }
 
   /// Writes a turn and EchoWorld's answer to it.
@@ -110,12 +110,12 @@ class RecoveryTest : public testing::Test {
     result.check = check;
     writer.write(result, records);
   }
-  void session(const KeptSession& one) { writer.write(one, records); }
+  void session(const PersistedSession& one) { writer.write(one, records); }
   void flush() { packed += packer.pack(std::exchange(records, {})); }
-  OpenRound& open() {
+  UnfinishedRound& open() {
     flush();
     std::ofstream(path, std::ios::binary) << packed;
-    return *(round = std::make_shared<OpenRound>(path));
+    return *(round = std::make_shared<UnfinishedRound>(path));
   }
   /// Writes a round of two players, the first of whom holds a key. The last turn has no result.
   void play() {
@@ -131,10 +131,11 @@ class RecoveryTest : public testing::Test {
     open();
     auto echo = std::make_unique<EchoWorld>();
     p_echo = echo.get();
-    Round::Book book;
+    Round::JournalBinding book;
     book.writer = std::make_shared<JournalWriter>();
-    book.journal = std::make_shared<Journal>(std::make_unique<JournalFileSink>(path, round->wholeBytes()),
-                                             round->header(), DfrFacts(), 1 << 20, false, round->takePlace());
+    book.journal =
+        std::make_shared<Journal>(std::make_unique<JournalFileSink>(path, round->wholeBytes()),
+                                  round->header(), DfrFacts(), 1 << 20, false, round->releasePosition());
     book.recovery = std::make_unique<RoundRecovery>(round);
     book.on_recovered = [this](std::uint32_t ticks, const std::string& problem) {
       recovered = ticks;
@@ -171,7 +172,7 @@ class RecoveryTest : public testing::Test {
   TurnRecordWriter writer;
   DfrTurnPacker packer;
   std::uint32_t count = 0;
-  std::shared_ptr<OpenRound> round;
+  std::shared_ptr<UnfinishedRound> round;
   EchoWorld* p_echo = nullptr;
   std::shared_ptr<JournalWriter> disk;
   std::unique_ptr<Round> world;
@@ -184,12 +185,12 @@ TEST_F(RecoveryTest, FileTellsPlayersSessionsAndPressedKeys) {
   play();
   session({.player = 2, .over = true});
   session(sessionOf(3));  // welcomed, but not yet known to the world
-  const OpenRound& found = open();
+  const UnfinishedRound& found = open();
   EXPECT_FALSE(found.isOver());
   EXPECT_EQ(found.turns(), 53u);
   EXPECT_EQ(found.players(), (std::vector<std::uint32_t>{1, 2}));
   ASSERT_EQ(found.sessions().size(), 2u);
-  EXPECT_EQ(found.sessions().at(1).newest, std::string(kKeptHash, '\1'));
+  EXPECT_EQ(found.sessions().at(1).newest, std::string(kPersistedHashSize, '\1'));
   const std::vector<Input> inputs = found.closingInputs();
   ASSERT_EQ(inputs.size(), 3u);
   EXPECT_EQ(inputs[0].kind, df::InputQueue::kKey);
@@ -212,13 +213,13 @@ TEST_F(RecoveryTest, FileTruncatedAnywhereCanBeContinued) {
   flush();
   for (std::size_t size = kDfrHeaderSize; size <= packed.size(); ++size) {
     std::ofstream(path, std::ios::binary) << packed.substr(0, size);
-    OpenRound torn(path);
+    UnfinishedRound torn(path);
     ASSERT_LE(torn.wholeBytes(), size);
-    JournalPlace place = torn.takePlace();
+    JournalPosition place = torn.releasePosition();
     std::string more;
     TurnRecordWriter next(torn.lastTurn());
     WorldTurn turn;
-    turn.heard_player = 77;
+    turn.input_player = 77;
     next.write(turn, more);
     const std::string bytes = packed.substr(0, torn.wholeBytes()) + place.packer.pack(more);
     DfrReader reader(bytes);
@@ -227,7 +228,7 @@ TEST_F(RecoveryTest, FileTruncatedAnywhereCanBeContinued) {
     while (const auto record = reader.next()) {
       const auto* p_turn = std::get_if<WorldTurn>(&*record);
       turns += p_turn != nullptr ? 1 : 0;
-      if (p_turn != nullptr) heard = p_turn->heard_player;
+      if (p_turn != nullptr) heard = p_turn->input_player;
     }
     ASSERT_EQ(reader.end(), DfrEnd::kTorn) << size;
     ASSERT_EQ(reader.bytesOfWholeRecords(), bytes.size()) << size;
@@ -242,10 +243,10 @@ TEST_F(RecoveryTest, ReplayReportsAllScoresAgain) {
   EXPECT_EQ(world->name().id, uuidText(round->header().uuid));
   executeAgain();
   ASSERT_EQ(recovered, 53u);
-  const std::vector<df::AddedScore> scores = world->takeScores();
+  const std::vector<df::AddedScore> scores = world->popScores();
   ASSERT_EQ(scores.size(), 54u) << "that of the closing turn, too";
   for (std::size_t i = 0; i < scores.size(); ++i) EXPECT_EQ(scores[i].tick, i + 1);
-  EXPECT_TRUE(world->takeScores().empty());
+  EXPECT_TRUE(world->popScores().empty());
 }
 
 TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
@@ -256,7 +257,7 @@ TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
   p_echo->ready = true;
   world->checkProcess(2);
   EXPECT_FALSE(world->isReady());
-  EXPECT_EQ(world->takeSessions(), std::nullopt);
+  EXPECT_EQ(world->popSessions(), std::nullopt);
   p_echo->answer();
   EXPECT_EQ(recovered, 53u);
   EXPECT_EQ(said, "");
@@ -267,11 +268,11 @@ TEST_F(RecoveryTest, WorldIsReadyAfterAllTurnsAreReplayed) {
   EXPECT_FALSE(p_echo->watched.back()) << "so that the next view has all";
   ASSERT_EQ(p_echo->turns.back().size(), 1u);
   EXPECT_EQ(p_echo->turns.back()[0].key_action, df::KEY_RELEASED);
-  const auto sessions = world->takeSessions();
+  const auto sessions = world->popSessions();
   ASSERT_TRUE(sessions);
   ASSERT_EQ(sessions->size(), 2u);
   EXPECT_TRUE((*sessions)[1].muted);
-  EXPECT_EQ(world->takeSessions(), std::nullopt);
+  EXPECT_EQ(world->popSessions(), std::nullopt);
   EXPECT_EQ(world->recovering(), std::nullopt);
 }
 
@@ -324,7 +325,7 @@ TEST_F(RecoveryTest, FirstReplayedTurnStatesAllFlags) {
   std::string before;
   TurnRecordWriter().write(watched, before);
   TurnRecordWriter().write(WorldTurn(), records);
-  RoundRecovery recovery(std::make_shared<OpenRound>(DfrHeader(), records));
+  RoundRecovery recovery(std::make_shared<UnfinishedRound>(DfrHeader(), records));
   const auto turn = recovery.nextTurn();
   ASSERT_TRUE(turn);
   TurnRecordReader reader;
@@ -362,7 +363,7 @@ TEST_F(RecoveryTest, RecoveryFailsIfTheWorldAnswersDifferently) {
   EXPECT_FALSE(said.empty());
   ASSERT_TRUE(world->end());
   EXPECT_EQ(world->end()->why, WorldEnd::kNotRecovered);
-  EXPECT_TRUE(world->takeSessions()) << "its players are in the next round";
+  EXPECT_TRUE(world->popSessions()) << "its players are in the next round";
 }
 
 TEST_F(RecoveryTest, RecoveryFailsIfTheWorldCrashesDuringReplay) {

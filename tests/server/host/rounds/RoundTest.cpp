@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"
-#include "host/journal/RepeatCheck.h"
 #include "host/journal/RoundRecovery.h"
 #include "host/rounds/Round.h"
 
@@ -31,8 +31,8 @@ class FakeWorld : public WorldPort {
     m_answer.hash = 0xAB00000000000000u + ticks;
     if (turn.turn.checked) m_answer.state_hash = ticks;
     df::Canvas canvas(20, 10);
-    canvas.put(0, 0, {static_cast<char32_t>(U'A' + turn.turn.pictured), df::RED});
-    m_answer.pictures.push_back({turn.turn.pictured, canvas});
+    canvas.put(0, 0, {static_cast<char32_t>(U'A' + turn.turn.rendered_player), df::RED});
+    m_answer.pictures.push_back({turn.turn.rendered_player, canvas});
     reportTick();
   }
   std::uint32_t nextTick() const override { return first + ticks; }
@@ -55,7 +55,7 @@ class RoundTest : public testing::Test {
     p_fake = fake.get();
     journal = std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 20, false);
     p_fake->p_journal = journal.get();
-    Round::Book book;
+    Round::JournalBinding book;
     book.writer =
         std::make_shared<JournalWriter>();  // does not have the journal, so all records stay in the ring
     book.journal = journal;
@@ -130,7 +130,7 @@ TEST_F(RoundTest, RecordsPicturesOfTheLongestPresentPlayer) {
     round->tick(true, false);
     const WorldTurn& turn = p_fake->turns.back().turn;
     EXPECT_EQ(turn.wants_truth, i == Round::kFirstPicture) << i;
-    EXPECT_EQ(turn.pictured, i == Round::kFirstPicture ? 1u : 0u) << i;
+    EXPECT_EQ(turn.rendered_player, i == Round::kFirstPicture ? 1u : 0u) << i;
   }
   std::vector<RecordedPicture> pictures;
   for (const TurnRecord& record : records()) {

@@ -132,9 +132,9 @@ TEST_F(ScoreKeeperTest, UnusableFileIsReportedOnceAndLeftUnchanged) {
   for (const std::string& bytes : {std::string("no database"), std::string()}) {
     std::ofstream(folder / "scores.sqlite3", std::ios::binary) << bytes;
     ScoreKeeper keeper(folder, "game");
-    const std::string news = keeper.takeNews();
+    const std::string news = keeper.popLogMessage();
     EXPECT_TRUE(test::has(news, "warning: The score file"));
-    EXPECT_EQ(keeper.takeNews(), "");
+    EXPECT_EQ(keeper.popLogMessage(), "");
     EXPECT_FALSE(keeper.hasFile());
     EXPECT_FALSE(keeper.read("", 10, [](const auto&, const auto&) { FAIL(); }));
     addAll(keeper, "round", 1, {of("ann", 5)});
@@ -148,7 +148,7 @@ TEST_F(ScoreKeeperTest, ScoresWithoutAFolderStayInMemory) {
   ScoreKeeper keeper({}, "game");
   addAll(keeper, "round", 1, {of("ann", 5)});
   EXPECT_EQ(keeper.tables().at("arcade").size(), 1u);
-  EXPECT_EQ(keeper.takeNews(), "");
+  EXPECT_EQ(keeper.popLogMessage(), "");
 }
 
 /// Another program that locks the file.
@@ -190,13 +190,13 @@ TEST_F(ScoreKeeperTest, LockedFileQueuesScoresUntilItIsFree) {
     for (std::uint32_t t = 1; t <= 5000; ++t) addAll(keeper, "round", t, {of("ann", t)});
     sync();  // a write was tried
     EXPECT_EQ(keeper.counters().written, 1u);
-    EXPECT_TRUE(test::has(keeper.takeNews(), "cannot be written"));
+    EXPECT_TRUE(test::has(keeper.popLogMessage(), "cannot be written"));
     EXPECT_EQ(problem, "") << "readers do not wait for writers";
   }
   const std::uint64_t dropped = keeper.counters().dropped;
   EXPECT_LE(dropped, 5000u - ScoreKeeper::kMaxWaiting) << "some may have been with the writer";
   sync();
-  EXPECT_EQ(keeper.takeNews(), "scores can be written again");
+  EXPECT_EQ(keeper.popLogMessage(), "scores can be written again");
   EXPECT_EQ(keeper.counters().written, 5001u - dropped);
   keeper.finish();
   EXPECT_EQ(stored().size(), 5001u - dropped);

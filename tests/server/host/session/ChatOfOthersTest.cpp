@@ -25,7 +25,7 @@ struct Listener {
 
   /// Reads all messages that have arrived and sends what is due.
   void serve(Time now, Time::duration delay, bool acknowledges) {
-    for (; read < line.sent.size() && sent_at(read) + delay <= now; ++read) take(line.sent[read]);
+    for (; read < line.sent.size() && sent_at(read) + delay <= now; ++read) accept(line.sent[read]);
     if (now - last_ping >= 1s || unacknowledged >= kMuch) {
       last_ping = now;
       unacknowledged = 0;
@@ -33,12 +33,12 @@ struct Listener {
     }
     for (; !under_way.empty() && under_way.front().first <= now; under_way.pop_front()) {
       wire::ClientMessage ping;
-      ping.mutable_ping()->set_received(under_way.front().second);
+      ping.mutable_ping()->set_last_frame(under_way.front().second);
       line.receive(ping);
     }
   }
-  void take(const wire::ServerMessage& message) {
-    if (!message.has_chat() || !heard.take(message.number())) return;
+  void accept(const wire::ServerMessage& message) {
+    if (!message.has_chat() || !heard.accept(message.number())) return;
     unacknowledged += message.ByteSizeLong();
     if (message.chat().player() == 0) {
       left_out += std::stoull(message.chat().text());
@@ -52,7 +52,7 @@ struct Listener {
   }
 
   test::MessageLine<wire::ServerMessage> line;
-  ReliableFramesHeard heard;
+  ReliableFrameReceiver heard;
   std::uint64_t lines = 0;
   std::uint64_t left_out = 0;
   std::size_t read = 0;
@@ -68,7 +68,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   std::unique_ptr<Session> make(test::MessageLine<wire::ServerMessage>& line, bool returns = false) {
     auto made = std::make_unique<Session>(std::make_unique<test::FakeChannel>(line), counters, now);
     made->start({[this, returns](Session& s, const wire::Hello& hello) {
-                   if (returns) return away->adopt(s, away->welcomed(), hello.received());
+                   if (returns) return away->resumeOn(s, away->welcomed(), hello.last_frame());
                    wire::Welcome welcome;
                    welcome.set_player(++players);
                    s.welcome(welcome);
@@ -82,7 +82,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   static void greet(test::MessageLine<wire::ServerMessage>& line, std::uint32_t received) {
     wire::ClientMessage hello;
     hello.mutable_hello()->set_magic(kHelloMagic);
-    hello.mutable_hello()->set_received(received);
+    hello.mutable_hello()->set_last_frame(received);
     line.receive(hello);
   }
   /// Like Host::sendChat().
@@ -91,7 +91,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
     wire::ServerMessage message;
     message.mutable_chat()->set_player(99);
     message.mutable_chat()->set_text(text);
-    for (Session* p_session : {far.get(), away.get(), mute.get()}) p_session->sendKept(message);
+    for (Session* p_session : {far.get(), away.get(), mute.get()}) p_session->sendReliable(message);
   }
   void tick(const wire::ClientMessage& line) {
     for (auto& chatter : lines) {

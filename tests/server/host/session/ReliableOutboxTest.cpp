@@ -44,7 +44,7 @@ wire::ServerMessage soundOf(const std::string& label, wire::Sound::Action action
 
 /// A client's state, read from the frames that reach it.
 struct Reader {
-  ReliableFramesHeard heard;
+  ReliableFrameReceiver heard;
   std::vector<std::string> lines;  ///< chat of players
   std::uint64_t left_out = 0;      ///< reported by the server
   std::vector<std::uint64_t> notices;
@@ -55,7 +55,7 @@ struct Reader {
     wire::ServerMessage message;
     ASSERT_TRUE(message.ParseFromString(frame));
     ASSERT_NE(message.number(), 0u);
-    if (!heard.take(message.number())) return;
+    if (!heard.accept(message.number())) return;
     if (message.has_players()) list = static_cast<std::uint32_t>(message.players().players(0).score());
     for (const wire::Sound& sound : message.sounds().sounds()) sounds[sound.label()] = sound.action();
     if (!message.has_chat()) return;
@@ -71,7 +71,7 @@ class ReliableOutboxTest : public testing::Test {
   void deliver() {
     while (const std::string* p_frame = outbox.next()) {
       reader.read(*p_frame);
-      outbox.noteSent();
+      outbox.markSent();
     }
   }
   void deliverAll() {
@@ -108,7 +108,7 @@ TEST_F(ReliableOutboxTest, AnAcknowledgementCountsOnTheNextStreamToo) {
   for (const char* text : {"a", "b", "c"}) outbox.add(chatOf(text));
   deliver();
   outbox.restartStream();
-  outbox.noteSent();
+  outbox.markSent();
   outbox.acknowledge(3);  // all arrived on the earlier stream
   EXPECT_EQ(outbox.bytes(), 0u);
 }
@@ -157,7 +157,7 @@ TEST_F(ReliableOutboxTest, FullOutboxDropsOldestChatAndReportsTheCount) {
 TEST_F(ReliableOutboxTest, NoMoreThanAWindowIsUnacknowledged) {
   for (int i = 0; i < 200; ++i) outbox.add(chatOf(std::string(100, 'x')));
   std::size_t bytes = 0;
-  for (; const std::string* p_frame = outbox.next(); outbox.noteSent()) bytes += p_frame->size();
+  for (; const std::string* p_frame = outbox.next(); outbox.markSent()) bytes += p_frame->size();
   EXPECT_LT(bytes, ReliableOutbox::kWindow + 200);
   EXPECT_GT(bytes, ReliableOutbox::kWindow / 2) << "a client acknowledges after 8 KiB";
   outbox.acknowledge(80);
@@ -173,7 +173,7 @@ TEST_F(ReliableOutboxTest, ConstantlyChangingListIsStillSent) {
     EXPECT_LE(outbox.bytes(), ReliableOutbox::kMax);
     if (const std::string* p_frame = outbox.next()) {  // sends one of every two lines
       reader.read(*p_frame);
-      outbox.noteSent();
+      outbox.markSent();
       outbox.acknowledge(reader.heard.newest());
     }
   }
@@ -218,7 +218,7 @@ TEST_F(ReliableOutboxTest, EveryLineArrivesOnceOrIsCountedOnce) {
       } else if (kind < 80) {
         if (const std::string* p_frame = one.next()) {
           under_way.push_back(*p_frame);
-          one.noteSent();
+          one.markSent();
         }
       } else if (kind < 95) {
         if (!under_way.empty()) {
@@ -239,7 +239,7 @@ TEST_F(ReliableOutboxTest, EveryLineArrivesOnceOrIsCountedOnce) {
     one.acknowledge(client.heard.newest());
     one.restartStream();
     while (one.bytes() > 0) {
-      for (; const std::string* p_frame = one.next(); one.noteSent()) client.read(*p_frame);
+      for (; const std::string* p_frame = one.next(); one.markSent()) client.read(*p_frame);
       one.acknowledge(client.heard.newest());
     }
     EXPECT_EQ(client.lines.size() + client.left_out, said) << "seed " << seed;

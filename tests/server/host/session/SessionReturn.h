@@ -45,29 +45,29 @@ class SessionReturn : public testing::Test {
     wire::Welcome welcome = session->welcomed();
     welcome.set_resumed(true);
     if (hello.second_stream()) {
-      session->accompany(other);
-    } else if (hello.fresh()) {
+      session->attachSecondStream(other);
+    } else if (hello.new_process()) {
       session->restart(other, welcome, nullptr);
     } else {
-      session->adopt(other, welcome, hello.received());
+      session->resumeOn(other, welcome, hello.last_frame());
     }
   }
   static void say(Wire& line, const wire::ClientMessage& message) {
     line.callbacks.on_frame(message.SerializeAsString());
   }
-  static void greet(Wire& line, const std::string& token = "", bool fresh = false,
+  static void greet(Wire& line, const std::string& token = "", bool new_process = false,
                     std::uint32_t received = 0) {
     wire::ClientMessage message;
     message.mutable_hello()->set_magic(kHelloMagic);
     message.mutable_hello()->set_resume_token(token);
-    message.mutable_hello()->set_fresh(fresh);
-    message.mutable_hello()->set_received(received);
+    message.mutable_hello()->set_new_process(new_process);
+    message.mutable_hello()->set_last_frame(received);
     say(line, message);
   }
   static void ping(Wire& line, std::uint32_t received) {
     wire::ClientMessage message;
     message.mutable_ping()->set_token(1);
-    message.mutable_ping()->set_received(received);
+    message.mutable_ping()->set_last_frame(received);
     say(line, message);
   }
   static void chatLine(Wire& line, const std::string& text, std::uint32_t number) {
@@ -90,7 +90,7 @@ class SessionReturn : public testing::Test {
   void sendChat(const std::string& text) {
     wire::ServerMessage message;
     message.mutable_chat()->set_text(text);
-    session->sendKept(message);
+    session->sendReliable(message);
   }
   static std::vector<std::string> chatOf(const Wire& line) {
     std::vector<std::string> texts;
@@ -102,7 +102,7 @@ class SessionReturn : public testing::Test {
   /// Returns the inputs taken, as "key action", in order.
   std::vector<std::string> taken() {
     std::vector<std::string> inputs;
-    session->takeInputs(1, [&](const Input& input) {
+    session->drainInputs(1, [&](const Input& input) {
       inputs.push_back(std::to_string(input.key) + (input.action == df::KEY_RELEASED ? " up" : " down"));
     });
     return inputs;

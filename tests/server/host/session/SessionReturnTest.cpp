@@ -25,20 +25,20 @@ TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
   greet(second, "token", false, 2);
   EXPECT_EQ(chatOf(second), (std::vector<std::string>{"c", "d"}))
       << "b had arrived; its acknowledgement came with the hello";
-  EXPECT_EQ(second.sent[0].what_case(), wire::ServerMessage::kWelcome) << "the answer first";
+  EXPECT_EQ(second.sent[0].payload_case(), wire::ServerMessage::kWelcome) << "the answer first";
   EXPECT_EQ(second.sent[1].number(), 3u);
 }
 
 TEST_F(SessionReturn, BestEffortMessagesAreSentNowOrDropped) {
   wire::ServerMessage sound;
   sound.mutable_sounds()->add_sounds()->set_label("fire");
-  EXPECT_TRUE(session->sendFleeting(sound));
+  EXPECT_TRUE(session->sendBestEffort(sound));
   EXPECT_TRUE(first.sent.back().has_sounds());
   EXPECT_EQ(first.sent.back().number(), 0u) << "not kept";
-  first.unsent = Session::kMaxBeforeFleeting + 1;
-  EXPECT_FALSE(session->sendFleeting(sound));
+  first.unsent = Session::kMaxUnsentForBestEffort + 1;
+  EXPECT_FALSE(session->sendBestEffort(sound));
   breakStream(first);
-  EXPECT_FALSE(session->sendFleeting(sound));
+  EXPECT_FALSE(session->sendBestEffort(sound));
   const auto other = make(second);
   greet(second, "token");
   EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
@@ -48,7 +48,7 @@ TEST_F(SessionReturn, OnlyTheNewestPlayerListIsResent) {
   for (const std::uint32_t player : {1u, 2u}) {
     wire::ServerMessage list;
     list.mutable_players()->add_players()->set_player(player);
-    session->sendKept(list);
+    session->sendReliable(list);
     sendChat("line");
   }
   breakStream(first);
@@ -65,13 +65,13 @@ TEST_F(SessionReturn, DuplicateFramesAreIgnored) {
   breakStream(first);
   const auto other = make(second);
   greet(second, "token");
-  EXPECT_EQ(second.sent[0].welcome().received(), 2u);
+  EXPECT_EQ(second.sent[0].welcome().last_frame(), 2u);
   chatLine(second, "two", 2);
   chatLine(second, "three", 3);
   EXPECT_EQ(chat, (std::vector<std::string>{"one", "two", "three"}));
   EXPECT_EQ(counters.repeated_frames, 1u);
   ping(second, 0);
-  EXPECT_EQ(second.sent.back().pong().received(), 3u);
+  EXPECT_EQ(second.sent.back().pong().last_frame(), 3u);
 }
 
 TEST_F(SessionReturn, ChatQueuedWhileDisconnectedMayArriveAtOnce) {
@@ -156,7 +156,7 @@ TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   first.on_send = [&, keep = first.on_send](std::string_view frame) {
     keep(frame);
     first.unsent += frame.size();
-    pictures += first.sent.back().what_case() == wire::ServerMessage::kSnapshot ? 1 : 0;
+    pictures += first.sent.back().payload_case() == wire::ServerMessage::kSnapshot ? 1 : 0;
   };
   for (int tick = 0; tick < 1'800; ++tick, now += 33ms) {
     for (int i = 0; i < 6; ++i) sendChat(std::string(200, 'x'));  // chat of 64 players at their limit
@@ -202,7 +202,7 @@ TEST_F(SessionReturn, DeferredResumeExtendsTheGracePeriod) {
 
 TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   ClientUpdate update;
-  update.wants_reset = true;
+  update.needs_reset = true;
   wire::ClientMessage wants;
   wants.set_update(writeUpdate(update));
   now += 10s;
@@ -256,7 +256,7 @@ TEST_F(SessionReturn, ClientThatSendsButNeverReadsIsDisconnected) {
   }
   EXPECT_EQ(session->state(), Session::State::kEnding);
   EXPECT_EQ(counters.stuck_streams, 1u);
-  EXPECT_EQ(first.sent.back().goodbye().sentence(), "Disconnected: your connection is too slow.");
+  EXPECT_EQ(first.sent.back().goodbye().message(), "Disconnected: your connection is too slow.");
 }
 
 TEST_F(SessionReturn, SilentClientWithAStuckStreamMayResume) {
@@ -281,9 +281,9 @@ TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
   EXPECT_TRUE(welcome.resumed());
   EXPECT_EQ(welcome.player(), 7u);
   EXPECT_EQ(welcome.name(), "Ann");
-  EXPECT_EQ(welcome.continuation().input(), 2u);
-  EXPECT_EQ(welcome.continuation().world_epoch(), 1u);
-  EXPECT_EQ(welcome.received(), 0u);
+  EXPECT_EQ(welcome.resume_state().input(), 2u);
+  EXPECT_EQ(welcome.resume_state().world_epoch(), 1u);
+  EXPECT_EQ(welcome.last_frame(), 0u);
   chatLine(second, "a new process counts from 1", 1);
   EXPECT_EQ(chat.size(), 2u);
   sendChat("new");
@@ -296,9 +296,9 @@ TEST_F(SessionReturn, ResumeInAnotherProcessTellsWhereToContinue) {
 TEST_F(SessionReturn, ReplacedProcessGetsAGoodbye) {
   const auto other = make(second);
   greet(second, "token", true);
-  EXPECT_EQ(first.sent.back().goodbye().sentence(), "This session was resumed in another client.");
+  EXPECT_EQ(first.sent.back().goodbye().message(), "This session was resumed in another client.");
   EXPECT_TRUE(first.closed);
-  EXPECT_FALSE(first.destroyed) << "the sentence is on its way";
+  EXPECT_FALSE(first.destroyed) << "the message is on its way";
   chatLine(first, "still here", 1);
   EXPECT_TRUE(chat.empty());
   chatLine(second, "here", 1);

@@ -94,9 +94,9 @@ class SessionTest : public testing::Test {
     message.mutable_chat()->set_text(text);
     return message;
   }
-  std::vector<std::uint32_t> takeInputs(std::uint32_t tick = 1) {
+  std::vector<std::uint32_t> drainInputs(std::uint32_t tick = 1) {
     std::vector<std::uint32_t> ids;
-    session.takeInputs(tick, [&ids](const Input& input) { ids.push_back(input.id); });
+    session.drainInputs(tick, [&ids](const Input& input) { ids.push_back(input.id); });
     return ids;
   }
   wire::ServerMessage lastSent() const {
@@ -129,7 +129,7 @@ TEST_F(SessionTest, RefusalHasAMessageAndEndsTheSession) {
   EXPECT_TRUE(ended());
   ASSERT_EQ(line.sent.size(), 1u);
   EXPECT_EQ(lastSent().refused().reason(), wire::Refused::VERSION);
-  EXPECT_EQ(lastSent().refused().sentence(), "Please update the client.");
+  EXPECT_EQ(lastSent().refused().message(), "Please update the client.");
   EXPECT_EQ(counters.malformed_messages, 0u);
 }
 
@@ -164,7 +164,7 @@ TEST_F(SessionTest, CountsABadFrameAndIsGone) {
   EXPECT_EQ(counters.malformed_frames, 1u);
   EXPECT_EQ(gone, 1);
   const std::size_t sent = line.sent.size();
-  session.goodbye("too late");
+  session.sendGoodbye("too late");
   EXPECT_EQ(line.sent.size(), sent);
 }
 
@@ -173,17 +173,17 @@ TEST_F(SessionTest, InputsComeInOrderAtMost16ATick) {
   for (std::uint32_t id = 1; id <= 20; ++id) hear(key(id));
   std::vector<std::uint32_t> first16(16);
   std::iota(first16.begin(), first16.end(), 1u);
-  EXPECT_EQ(takeInputs(), first16);
-  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{17, 18, 19, 20}));
-  EXPECT_TRUE(takeInputs().empty());
+  EXPECT_EQ(drainInputs(), first16);
+  EXPECT_EQ(drainInputs(), (std::vector<std::uint32_t>{17, 18, 19, 20}));
+  EXPECT_TRUE(drainInputs().empty());
 }
 
 TEST_F(SessionTest, ARepeatedOrLateInputIsIgnoredAndCounted) {
   greet();
   for (const std::uint32_t id : {1u, 2u, 2u, 5u, 3u}) hear(key(id));
-  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{1, 2, 5}));
+  EXPECT_EQ(drainInputs(), (std::vector<std::uint32_t>{1, 2, 5}));
   hear(key(5));
-  EXPECT_TRUE(takeInputs().empty());
+  EXPECT_TRUE(drainInputs().empty());
   EXPECT_EQ(counters.repeated_inputs, 3u);
   EXPECT_EQ(session.state(), Session::State::kPlaying);
 }
@@ -194,7 +194,7 @@ TEST_F(SessionTest, EndsAtMoreInputsThanTheQueueHolds) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   hear(key(ReceivedInputs::kMaxQueued + 1));
   EXPECT_TRUE(ended());
-  EXPECT_EQ(lastSent().goodbye().sentence(), "Disconnected: too many keys at once.");
+  EXPECT_EQ(lastSent().goodbye().message(), "Disconnected: too many keys at once.");
   EXPECT_EQ(counters.input_floods, 1u);
 }
 
@@ -202,14 +202,14 @@ TEST_F(SessionTest, InputsOfEveryKindAreTaken) {
   greet();
   hear(inputs({keyInput(1, df::Keyboard::kKeyCount - 1, df::KEY_DOWN),
                mouseInput(2, df::MOVED, df::Mouse::MIDDLE + 1, kMaxViewWidth - 1, kMaxViewHeight - 1)}));
-  EXPECT_EQ(takeInputs().size(), 2u);
+  EXPECT_EQ(drainInputs().size(), 2u);
 }
 
 TEST_F(SessionTest, InputsResentWithLaterOnesAreTakenOnce) {
   greet();
   hear(inputs({keyInput(1), keyInput(2)}));
   hear(inputs({keyInput(1), keyInput(2), keyInput(3)}));
-  EXPECT_EQ(takeInputs(), (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(drainInputs(), (std::vector<std::uint32_t>{1, 2, 3}));
   EXPECT_EQ(counters.repeated_inputs, 2u);
 }
 
@@ -217,7 +217,7 @@ TEST_F(SessionTest, PartlyInvalidUpdateIsRejectedEntirely) {
   greet();
   hear(inputs({keyInput(1), keyInput(2, 127)}));
   EXPECT_TRUE(ended());
-  EXPECT_TRUE(takeInputs().empty());
+  EXPECT_TRUE(drainInputs().empty());
 }
 
 class BadInput : public SessionTest, public testing::WithParamInterface<int> {};
@@ -253,7 +253,7 @@ TEST_P(BadInput, EndsTheSession) {
   EXPECT_EQ(counters.malformed_messages, 1u);
   hear(says("still there?"));
   EXPECT_TRUE(chat.empty()) << "nothing is heard any more";
-  EXPECT_TRUE(takeInputs().empty());
+  EXPECT_TRUE(drainInputs().empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Session, BadInput, testing::Range(-1, 13));
@@ -283,7 +283,7 @@ TEST_F(SessionTest, MutatedMessagesEndTheSessionOrAreLegal) {
         bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
       own.callbacks.on_frame(bytes);
     }
-    one.takeInputs(1, [&](const Input& input) {
+    one.drainInputs(1, [&](const Input& input) {
       ++inputs_taken;
       EXPECT_LT(input.key, df::Keyboard::kKeyCount);
       EXPECT_LE(input.action, df::KEY_DOWN);
@@ -324,7 +324,7 @@ TEST_F(SessionTest, ChatIsSanitizedAndLimitedToThreeASecond) {
 TEST_F(SessionTest, WorldResetsAreLimitedToOncePerTwoSeconds) {
   greet();
   ClientUpdate update;
-  update.wants_reset = true;
+  update.needs_reset = true;
   for (int i = 0; i < 100; ++i) hear(updateOf(update));
   EXPECT_EQ(counters.resets, 1u);
   EXPECT_EQ(counters.resets_dropped, 99u);
@@ -369,7 +369,7 @@ TEST_F(SessionTest, SustainedMessageFloodEndsTheSession) {
   }
   EXPECT_TRUE(ended());
   EXPECT_NEAR(ticks, 16, 4) << "those at once";
-  EXPECT_EQ(lastSent().goodbye().sentence(), "Disconnected: too many messages at once.");
+  EXPECT_EQ(lastSent().goodbye().message(), "Disconnected: too many messages at once.");
   EXPECT_EQ(counters.message_floods, 1u);
 }
 
@@ -399,7 +399,7 @@ TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
   leave.mutable_leave();
   hear(leave);
   EXPECT_TRUE(ended());
-  EXPECT_EQ(lastSent().goodbye().sentence(), "You left the game.");
+  EXPECT_EQ(lastSent().goodbye().message(), "You left the game.");
   EXPECT_EQ(gone, 1) << "at once";
   line.callbacks.on_closed(CloseReason::kLocal);
   EXPECT_EQ(gone, 1);
@@ -459,9 +459,9 @@ TEST_F(SessionTest, HelloNotEvaluatedInTimeIsRefusedAsBusy) {
   waiting_line.receive(hello());
   ASSERT_EQ(hellos, 1);
   listenUntil(waiting, 0s);  // restarts the clock: the hello came before
-  listenUntil(waiting, Session::kJudgeTimeout);
+  listenUntil(waiting, Session::kAdmissionTimeout);
   EXPECT_EQ(waiting.state(), Session::State::kGreeting);
-  listenUntil(waiting, Session::kJudgeTimeout + 1ms);
+  listenUntil(waiting, Session::kAdmissionTimeout + 1ms);
   EXPECT_TRUE(waiting_line.closed);
   ASSERT_EQ(waiting_line.sent.size(), 1u);
   EXPECT_EQ(waiting_line.sent[0].refused().reason(), wire::Refused::BUSY);
@@ -479,7 +479,7 @@ TEST_F(SessionTest, EndsAfterFifteenSecondsOfSilence) {
   listenUntil(session, 30s + 1ms);
   EXPECT_TRUE(ended());
   EXPECT_EQ(counters.idle_timeouts, 1u);
-  EXPECT_FALSE(lastSent().goodbye().sentence().empty());
+  EXPECT_FALSE(lastSent().goodbye().message().empty());
   session.checkDeadlines(now + 99s);
   EXPECT_EQ(counters.idle_timeouts, 1u);
 }
@@ -516,7 +516,7 @@ TEST_F(SessionTest, SkipsTicksWhileBytesAreUnsentThenCatchesUp) {
   const auto receive = [&] {
     for (; read < line.sent.size(); ++read) {
       const wire::ServerMessage& message = line.sent[read];
-      ASSERT_EQ(message.what_case(), wire::ServerMessage::kSnapshot);
+      ASSERT_EQ(message.payload_case(), wire::ServerMessage::kSnapshot);
       Snapshot snapshot;
       ASSERT_EQ(replica.read(message.snapshot(), snapshot), ReadResult::kOk);
       replica.apply(snapshot);
@@ -555,7 +555,7 @@ TEST_F(SessionTest, SnapshotsNameTheNewestInputThatReachedTheGame) {
   Publisher publisher;
   hear(key(1));
   hear(key(4));
-  takeInputs(world.tickNumber() + 1);
+  drainInputs(world.tickNumber() + 1);
   hear(key(5));
   world.tick();
   publisher.update(world.view());

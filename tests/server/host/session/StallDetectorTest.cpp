@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kPile = StallDetector::kMuch + 1000;
+constexpr std::size_t kPile = StallDetector::kStallThreshold + 1000;
 
 TEST(StallDetector, StreamIsStuckAfterTenSecondsWithoutProgress) {
   StallDetector detector;
@@ -29,7 +29,8 @@ TEST(StallDetector, SlowStreamIsNotStuck) {
 TEST(StallDetector, SmallBacklogIsNeverStuck) {
   StallDetector detector;
   StallDetector::Time now{1h};
-  for (int i = 0; i < 100; ++i, now += 1s) ASSERT_FALSE(detector.addSample(StallDetector::kMuch, now));
+  for (int i = 0; i < 100; ++i, now += 1s)
+    ASSERT_FALSE(detector.addSample(StallDetector::kStallThreshold, now));
 }
 
 TEST(StallDetector, EachNewBacklogRestartsTheTimeout) {

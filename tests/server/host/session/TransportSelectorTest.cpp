@@ -12,7 +12,7 @@ class TransportSelectorTest : public testing::Test {
   TransportSelectorTest() : selector(now) {}
 
   std::uint32_t send(bool as_datagram) {
-    selector.noteSent(++number, as_datagram, now);
+    selector.markSent(++number, as_datagram, now);
     return number;
   }
   void hear(std::uint32_t newest, std::uint64_t mask = 0) { selector.acknowledge({newest, mask}, true, now); }
@@ -91,7 +91,7 @@ TEST_F(TransportSelectorTest, ClosesAfterASecondWithoutAcknowledgement) {
   EXPECT_TRUE(selector.wantsProbe(now));
   send(true);
   EXPECT_FALSE(selector.wantsProbe(now));
-  now += PathProbe::kEagerProbes - 1ms;
+  now += PathProbe::kEagerProbeInterval - 1ms;
   EXPECT_FALSE(selector.wantsProbe(now));
   now += 1ms;
   EXPECT_TRUE(selector.wantsProbe(now));
@@ -128,7 +128,7 @@ TEST_F(TransportSelectorTest, NewStreamTriggersAProbe) {
 
 TEST_F(TransportSelectorTest, ProbesEagerlyForAWhileAfterItWasOpen) {
   open();
-  now += PathProbe::kOpenFor;
+  now += PathProbe::kOpenTime;
   int eager = 0;
   int late = 0;
   for (int ms = 1000; ms < 20'000; ms += 10, now += 10ms) {

@@ -26,7 +26,7 @@ class DefaultFoldersTest : public testing::Test {
     EXPECT_EQ(parseHostOptions(static_cast<int>(words.size()), words.data(), options), CommandLine::kRun);
     return options;
   }
-  bool journals(const std::vector<std::string>& arguments) const { return wantsJournal(parse(arguments)); }
+  bool journals(const std::vector<std::string>& arguments) const { return usesJournal(parse(arguments)); }
   LogLine log() {
     return [this](const LogEvent& event) { lines.push_back(event.text); };
   }
@@ -50,14 +50,14 @@ TEST_F(DefaultFoldersTest, RoundsAreRecordedUnlessAnOptionPreventsIt) {
 TEST_F(DefaultFoldersTest, GameProgramsRecordNoRoundsByDefault) {
   HostOptions options;
   readProgramOptions([](const std::string&) { return std::string(); }, options);
-  EXPECT_FALSE(wantsJournal(options));
+  EXPECT_FALSE(usesJournal(options));
   readProgramOptions([](const std::string& key) { return key == "journal" ? "off" : ""; }, options);
-  EXPECT_FALSE(wantsJournal(options));
+  EXPECT_FALSE(usesJournal(options));
   EXPECT_EQ(options.journal, "");
 }
 
 TEST_F(DefaultFoldersTest, TheFolderIsMadeForThisUserAlone) {
-  EXPECT_TRUE(wantsJournal(withUsableJournal(parse({}), log())));
+  EXPECT_TRUE(usesJournal(withUsableJournal(parse({}), log())));
   EXPECT_TRUE(lines.empty());
   struct stat facts {};
   ASSERT_EQ(stat((folder / "state" / "rounds").c_str(), &facts), 0);
@@ -66,13 +66,13 @@ TEST_F(DefaultFoldersTest, TheFolderIsMadeForThisUserAlone) {
 
 TEST_F(DefaultFoldersTest, UncreatableFolderIsLoggedAndDisablesTheJournal) {
   std::ofstream(folder / "state") << "a file";
-  EXPECT_FALSE(wantsJournal(withUsableJournal(parse({}), log())));
+  EXPECT_FALSE(usesJournal(withUsableJournal(parse({}), log())));
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_NE(lines[0].find("not recording rounds"), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find((folder / "state" / "rounds").string()), std::string::npos) << lines[0];
   EXPECT_NE(lines[0].find("Not a directory"), std::string::npos) << lines[0];
   lines.clear();
-  EXPECT_TRUE(wantsJournal(withUsableJournal(parse({"--journal", (folder / "state").string()}), log())))
+  EXPECT_TRUE(usesJournal(withUsableJournal(parse({"--journal", (folder / "state").string()}), log())))
       << "what was asked for fails where it is used";
   EXPECT_TRUE(lines.empty());
 }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "host/settings/HostOptions.h"
-#include "host/settings/RoomList.h"
+#include "host/settings/RoomOptions.h"
 #include "shared/options/Options.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
@@ -59,12 +59,12 @@ TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
 TEST(HostOptions, ReloadAppliesChangeableOptions) {
   HostOptions now;
   HostOptions next;
-  EXPECT_EQ(takeOver(next, now).text(), "no changes");
+  EXPECT_EQ(applyReloadable(next, now).text(), "no changes");
   next.max_players = 7;
   next.password = "xyzzy";
   next.grace = 12.5;
   next.log_chat = true;
-  EXPECT_EQ(takeOver(next, now).text(), "max-players, password, grace and log-chat have changed");
+  EXPECT_EQ(applyReloadable(next, now).text(), "max-players, password, grace and log-chat have changed");
   EXPECT_EQ(now.max_players, 7);
   EXPECT_EQ(now.password, "xyzzy");
   EXPECT_EQ(now.grace, 12.5);
@@ -76,10 +76,10 @@ TEST(HostOptions, ReloadNamesOptionsThatNeedARestart) {
   HostOptions next;
   next.port = 1;
   next.max_players = 7;
-  EXPECT_EQ(takeOver(next, now).text(), "max-players has changed; port needs a restart");
+  EXPECT_EQ(applyReloadable(next, now).text(), "max-players has changed; port needs a restart");
   EXPECT_EQ(now.port, HostOptions().port);
   next.game = "tron";
-  EXPECT_EQ(takeOver(next, now).text(), "no changes; game and port need a restart");
+  EXPECT_EQ(applyReloadable(next, now).text(), "no changes; game and port need a restart");
 }
 
 /// While this exists, the games hello and tron are found, but cannot be loaded.
@@ -115,7 +115,7 @@ TEST(HostOptions, RoomsAreReadInTheirOrder) {
              "--max-players", "40", "--room-sleep", "2.5"},
             options),
       CommandLine::kRun);
-  const std::vector<RoomOptions> rooms = roomsOf(options);
+  const std::vector<RoomOptions> rooms = parseRooms(options);
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].name, "first");
   EXPECT_EQ(rooms[0].game, "hello");
@@ -127,7 +127,7 @@ TEST(HostOptions, RoomsAreReadInTheirOrder) {
   EXPECT_EQ(rooms[1].players, "first");
   EXPECT_EQ(options.game, "hello") << "where players begin";
   EXPECT_EQ(options.room_sleep, 2.5);
-  EXPECT_TRUE(roomsOf(HostOptions()).empty());
+  EXPECT_TRUE(parseRooms(HostOptions()).empty());
 }
 
 TEST(HostOptions, InvalidRoomIsRejectedWithTheNearestMatch) {
@@ -169,9 +169,10 @@ TEST(HostOptions, OptionsIncompatibleWithRoomsAreErrors) {
 }
 
 TEST(HostOptions, UnknownRoomMessageSuggestsTheNearest) {
-  EXPECT_EQ(unknownRoom("tronn", {"lobby", "tron"}), "There is no room \"tronn\"; did you mean \"tron\"?");
-  EXPECT_FALSE(test::has(unknownRoom("x\033[2J", {"lobby", "tron"}), "\033"));
-  EXPECT_EQ(unknownRoom("", {"lobby", "tron"}), "There is no room \"\". Rooms: lobby, tron.");
+  EXPECT_EQ(unknownRoomMessage("tronn", {"lobby", "tron"}),
+            "There is no room \"tronn\"; did you mean \"tron\"?");
+  EXPECT_FALSE(test::has(unknownRoomMessage("x\033[2J", {"lobby", "tron"}), "\033"));
+  EXPECT_EQ(unknownRoomMessage("", {"lobby", "tron"}), "There is no room \"\". Rooms: lobby, tron.");
 }
 
 TEST(HostOptions, FrameTimeBelow1000MicrosecondsIsAnError) {

@@ -37,7 +37,7 @@ class Window {
 };
 
 // Checks in every tick: an object that the plain rule admits is known, and an object that the rule has not
-// admitted for more than kGap ticks is not known.
+// admitted for more than kSearchInterval ticks is not known.
 void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& compared) {
   SplitMix64 rng(seed);
   test::SimulatedWorld world(config, seed);
@@ -65,7 +65,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
       if (is_own || Interest::isVisible(model, tick, 4, rect.grownBy(Interest::kHysteresis))) last = tick;
       if (is_known) {
         ++compared;
-        ASSERT_LE(tick - last, Interest::kGap) << "tick " << tick << ", slot " << slot;
+        ASSERT_LE(tick - last, Interest::kSearchInterval) << "tick " << tick << ", slot " << slot;
       }
     });
     known.forEachAlive([&](std::uint32_t, const KnownObjects::Known& one) {

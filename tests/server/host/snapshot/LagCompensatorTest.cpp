@@ -42,7 +42,7 @@ TEST_F(LagCompensatorTest, ReturnsThePositionTheClientDrew) {
     tick();
     if (i < 40) continue;
     for (const auto& [slot, model] : published[world.tickNumber()]) {
-      if (slot == kLooseSlot) continue;
+      if (slot == kFreeDrawSlot) continue;
       const df::ViewedTick picture =
           seen(static_cast<std::uint32_t>(rng.below(LagCompensator::kTicks)),
                static_cast<std::uint32_t>(rng.below(LagCompensator::kMaxBehind + 1)));
@@ -69,7 +69,7 @@ TEST_F(LagCompensatorTest, OldAndFutureTicksAreClamped) {
   for (int i = 0; i < 200; ++i) tick();
   int objects = 0;
   publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
-    if (slot == kLooseSlot) return;
+    if (slot == kFreeDrawSlot) return;
     const df::ObjectKey key{slot, model.generation};
     const auto same = [&](const df::ViewedTick& a, const df::ViewedTick& b) {
       EXPECT_EQ(compensator.positionOf(key, a), compensator.positionOf(key, b));
@@ -90,7 +90,7 @@ TEST_F(LagCompensatorTest, UnknownTickOrObjectHasNoPosition) {
   for (int i = 0; i < 300; ++i) tick();
   int gone = 0;
   for (const auto& [slot, model] : before) {
-    if (slot == kLooseSlot) continue;
+    if (slot == kFreeDrawSlot) continue;
     const Publisher::Model* p_now = publisher.find(slot);
     if (p_now != nullptr && p_now->generation == model.generation) {
       EXPECT_FALSE(compensator.positionOf({slot, model.generation}, {}));
@@ -109,7 +109,7 @@ TEST_F(LagCompensatorTest, AGapBetweenTicksClearsTheHistory) {
   publisher.update(world.view());
   tick();
   publisher.forEach([&](std::uint32_t slot, const Publisher::Model& model) {
-    if (slot == kLooseSlot) return;
+    if (slot == kFreeDrawSlot) return;
     EXPECT_EQ(compensator.positionOf({slot, model.generation}, seen(0, 0)),
               positionAt(model.state.motion, world.tickNumber()));
     EXPECT_FALSE(compensator.positionOf({slot, model.generation}, seen(1, 0)));

@@ -5,8 +5,8 @@
 namespace naiad {
 namespace {
 
-Flight::Snapshot snapshotOf(std::uint32_t number, bool large = false, bool probe = false) {
-  Flight::Snapshot snapshot;
+InFlightSnapshots::Snapshot snapshotOf(std::uint32_t number, bool large = false, bool probe = false) {
+  InFlightSnapshots::Snapshot snapshot;
   snapshot.number = number;
   snapshot.large = large;
   snapshot.probe = probe;
@@ -21,19 +21,19 @@ TEST(LossDetector, TheFirstGapMeansALoss) {
 
 TEST(LossDetector, ALargeSnapshotIsLateRatherThanLost) {
   const LossDetector losses;
-  EXPECT_FALSE(losses.isLost(snapshotOf(5, true), {4 + Flight::kMaxSnapshots, 0}));
-  EXPECT_TRUE(losses.isLost(snapshotOf(5, true), {5 + Flight::kMaxSnapshots, 0}));
+  EXPECT_FALSE(losses.isLost(snapshotOf(5, true), {4 + InFlightSnapshots::kMaxSnapshots, 0}));
+  EXPECT_TRUE(losses.isLost(snapshotOf(5, true), {5 + InFlightSnapshots::kMaxSnapshots, 0}));
 }
 
 TEST(LossDetector, ALateArrivalMakesItPatient) {
   LossDetector losses;
   losses.recordOutcome(snapshotOf(5), true);
   losses.recordLateArrivals({7, 0b01});
-  EXPECT_EQ(losses.estimator().patience(), 1) << "5 is still missing";
+  EXPECT_EQ(losses.estimator().reorderThreshold(), 1) << "5 is still missing";
   losses.recordLateArrivals({7, 0b11});
-  EXPECT_EQ(losses.estimator().patience(), LossEstimator::kPatience);
+  EXPECT_EQ(losses.estimator().reorderThreshold(), LossEstimator::kReorderThreshold);
   EXPECT_FALSE(losses.isLost(snapshotOf(8), {9, 0}));
-  EXPECT_TRUE(losses.isLost(snapshotOf(8), {8 + LossEstimator::kPatience, 0}));
+  EXPECT_TRUE(losses.isLost(snapshotOf(8), {8 + LossEstimator::kReorderThreshold, 0}));
 }
 
 TEST(LossDetector, LostProbeDoesNotCountAsLoss) {

@@ -26,13 +26,13 @@ TEST(LossEstimator, TheFirstLossCountsAtOnce) {
 
 TEST(LossEstimator, PatienceFollowsALateArrival) {
   LossEstimator line;
-  EXPECT_EQ(line.patience(), 1);
+  EXPECT_EQ(line.reorderThreshold(), 1);
   line.addLateArrival();
-  EXPECT_EQ(line.patience(), LossEstimator::kPatience);
-  for (int i = 0; i < LossEstimator::kRemembered - 1; ++i) line.addOutcome(false);
-  EXPECT_EQ(line.patience(), LossEstimator::kPatience);
+  EXPECT_EQ(line.reorderThreshold(), LossEstimator::kReorderThreshold);
+  for (int i = 0; i < LossEstimator::kReorderMemory - 1; ++i) line.addOutcome(false);
+  EXPECT_EQ(line.reorderThreshold(), LossEstimator::kReorderThreshold);
   line.addOutcome(false);
-  EXPECT_EQ(line.patience(), 1);
+  EXPECT_EQ(line.reorderThreshold(), 1);
 }
 
 }  // namespace

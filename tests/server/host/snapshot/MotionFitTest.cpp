@@ -80,7 +80,7 @@ TEST(MotionFit, DrawsTheSameCellsWithoutMoreBits) {
   for (int i = 0; i < 6000; ++i) {
     const Motion truth = random.motion();
     const Offsets offsets = random.offsets();
-    const auto horizon = static_cast<std::uint32_t>(random.below(i % 20 == 0 ? kLongestHorizon + 1 : 150));
+    const auto horizon = static_cast<std::uint32_t>(random.below(i % 20 == 0 ? kMaxHorizon + 1 : 150));
     const Motion fitted = fitMotion(truth, offsets, horizon);
     ASSERT_EQ(fitted.tick, truth.tick);
     ASSERT_EQ(fitted.acceleration, df::FixedVector{});
@@ -123,8 +123,8 @@ TEST(MotionFit, FractionalGlyphOffsetsAreRespected) {
 TEST(MotionFit, UnfittableMotionIsReturnedUnchanged) {
   const Offsets offsets(1);
   const Motion odd{10, {12345, 67}, {891, 23}, {}};
-  EXPECT_NE(fitMotion(odd, offsets, kLongestHorizon), odd);
-  EXPECT_EQ(fitMotion(odd, offsets, kLongestHorizon + 1), odd);
+  EXPECT_NE(fitMotion(odd, offsets, kMaxHorizon), odd);
+  EXPECT_EQ(fitMotion(odd, offsets, kMaxHorizon + 1), odd);
   Motion accelerated = odd;
   accelerated.acceleration = {0, 1};
   EXPECT_EQ(fitMotion(accelerated, offsets, 64), accelerated);

@@ -6,7 +6,7 @@
 
 #include "DirectSender.h"
 #include "host/snapshot/PerClientState.h"
-#include "shared/replica/SteeredCopy.h"
+#include "shared/replica/PredictedObject.h"
 #include "shared/replica/ViewFollow.h"
 #include "tests/support/CellsAt.h"
 
@@ -113,7 +113,7 @@ TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
   Alone scene;
   scene.tick();
   EXPECT_FALSE(scene.has_input);
-  scene.state.noteInput(7, 2);
+  scene.state.setNewestInput(7, 2);
   for (int i = 0; i < 3; ++i) {
     scene.tick();
     EXPECT_TRUE(scene.has_input);
@@ -246,7 +246,7 @@ class Steering {
     direct.view().changed.push_back(m_facts);
     steering().position = m_facts.position;
     steering().velocity = velocity;
-    steering().state.x.pull = velocity.x;
+    steering().state.x.target_velocity = velocity.x;
     bool sent = false;
     for (const SnapshotSender::Packet& packet : direct.tick()) {
       sent = sent || !direct.decoded(packet).controls.empty();
@@ -261,11 +261,11 @@ class Steering {
   /// Checks that the client computes the server's control state.
   void expectKnown() {
     const std::uint32_t now = direct.publisher.tick();
-    const ControlRecord known = coast(replica.control(), replica.controlTable(), now);
+    const ControlRecord known = deadReckon(replica.control(), replica.controlTable(), now);
     EXPECT_EQ(known.position, steering().position);
     EXPECT_EQ(known.velocity, steering().velocity);
     EXPECT_EQ(known.state, steering().state);
-    const Replica::Entry* entry = replica.find(known.slot);
+    const Replica::ReplicaObject* entry = replica.find(known.slot);
     ASSERT_NE(entry, nullptr);
     EXPECT_EQ(entry->generation, known.generation);
     EXPECT_EQ(entry->state.order, 1u);
@@ -299,7 +299,7 @@ TEST(PerClientState, ControlStateIsSentOnlyWhenUnpredictable) {
 TEST(PerClientState, AnInputThatChangedNothingIsConfirmedToo) {
   Steering scene;
   scene.tick({});
-  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  scene.direct.sender.setNewestInput(7, scene.direct.publisher.tick() + 1);
   EXPECT_TRUE(scene.tick({}));
   EXPECT_EQ(scene.replica.control().newest_input, 7u);
   EXPECT_FALSE(scene.tick({}));
@@ -329,7 +329,7 @@ TEST(PerClientState, ControlRecordOfAMoveFitsIn8Bytes) {
   Steering scene;
   scene.tick({});
   for (int i = 0; i < 10; ++i) scene.tick({});
-  scene.direct.sender.noteInput(7, scene.direct.publisher.tick() + 1);
+  scene.direct.sender.setNewestInput(7, scene.direct.publisher.tick() + 1);
   const std::uint32_t before = scene.replica.controlNumber();
   BitWriter bits;
   ASSERT_TRUE(scene.tick(cellsAt(1, 0)));

@@ -342,13 +342,13 @@ TEST_F(PublisherTest, SlotReuseInOneTickIsOneChange) {
 TEST_F(PublisherTest, CharactersDrawnOutsideObjectsShareOneObject) {
   drew({}, {{cellsAt(5, 5), U'x', df::RED}});
   drew({}, {{cellsAt(60, 20), U'y', df::RED}});
-  EXPECT_EQ(groupsOf(publish(), kLooseSlot), kAllGroups);
-  const ObjectState& state = publisher.find(kLooseSlot)->state;
+  EXPECT_EQ(groupsOf(publish(), kFreeDrawSlot), kAllGroups);
+  const ObjectState& state = publisher.find(kFreeDrawSlot)->state;
   ASSERT_EQ(state.look.sequence[0].size(), 2u);
   EXPECT_EQ(glyphCell(state.motion.position, state.look.sequence[0][1]), (CellPosition{60, 20}));
   EXPECT_EQ(state.look.altitude, 0);
   EXPECT_EQ(state.order, 0u);
-  EXPECT_EQ(groupsOf(publish(), kLooseSlot), kLook) << "nothing drawn: nothing shown";
+  EXPECT_EQ(groupsOf(publish(), kFreeDrawSlot), kLook) << "nothing drawn: nothing shown";
   EXPECT_TRUE(publish().empty());
 }
 
@@ -364,10 +364,10 @@ TEST_F(PublisherTest, ADrawingTooLargeToDescribeIsSentOnce) {
 }
 
 TEST_F(PublisherTest, SlotsBeyondTheLastAreRefusedAndCounted) {
-  changed(kLooseSlot, cellsAt(5, 5));
+  changed(kFreeDrawSlot, cellsAt(5, 5));
   EXPECT_TRUE(publish().empty());
   EXPECT_EQ(publisher.refusedCount(), 1u);
-  EXPECT_EQ(publisher.find(kLooseSlot), nullptr);
+  EXPECT_EQ(publisher.find(kFreeDrawSlot), nullptr);
 }
 
 // Tests the whole chain: in every tick, a client draws exactly the world's cells.

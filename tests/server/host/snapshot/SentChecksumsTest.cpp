@@ -22,8 +22,8 @@ class SentChecksumsTest : public testing::Test {
     }
     return acks;
   }
-  static Flight::Snapshot snapshot(std::uint32_t number, bool empty) {
-    Flight::Snapshot lost;
+  static InFlightSnapshots::Snapshot snapshot(std::uint32_t number, bool empty) {
+    InFlightSnapshots::Snapshot lost;
     lost.number = number;
     lost.empty = empty;
     return lost;

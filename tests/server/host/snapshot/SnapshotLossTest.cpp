@@ -67,7 +67,7 @@ class LossyPair {
     sender.known().forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
       ++alive;
       const Publisher::Model& model = *m_publisher.find(known.slot);
-      const Replica::Entry* entry = replica.find(id);
+      const Replica::ReplicaObject* entry = replica.find(id);
       ASSERT_NE(entry, nullptr) << "object " << id << " is missing";
       ASSERT_EQ(known.generation, model.generation) << "object " << id;
       EXPECT_EQ(entry->state.order, model.state.order);

@@ -199,7 +199,7 @@ TEST(SnapshotSender, LossOfPendingChangesIsNotADivergence) {
 
 TEST(SnapshotSender, AResetNamesTheNewestInputAgain) {
   DirectSender direct(1);
-  direct.sender.noteInput(7, 1);
+  direct.sender.setNewestInput(7, 1);
   direct.tick();
   direct.sender.reset();
   direct.skip();

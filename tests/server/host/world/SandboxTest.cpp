@@ -17,11 +17,11 @@ namespace naiad {
 namespace {
 
 TEST(Sandbox, SaysWhatTheKernelLacks) {
-  EXPECT_EQ(sandboxGaps({7, 1}), "");
-  EXPECT_NE(sandboxGaps({0, 1}).find("Landlock"), std::string::npos);
-  EXPECT_NE(sandboxGaps({1, 0}).find("system call filter"), std::string::npos);
-  EXPECT_NE(sandboxGaps({0, 0}).find("Landlock"), std::string::npos);
-  EXPECT_NE(sandboxGaps({0, 0}).find("system call filter"), std::string::npos);
+  EXPECT_EQ(missingSandboxFeatures({7, 1}), "");
+  EXPECT_NE(missingSandboxFeatures({0, 1}).find("Landlock"), std::string::npos);
+  EXPECT_NE(missingSandboxFeatures({1, 0}).find("system call filter"), std::string::npos);
+  EXPECT_NE(missingSandboxFeatures({0, 0}).find("Landlock"), std::string::npos);
+  EXPECT_NE(missingSandboxFeatures({0, 0}).find("system call filter"), std::string::npos);
 }
 
 // Like a systemd service whose allowed system calls do not include Landlock's and seccomp().

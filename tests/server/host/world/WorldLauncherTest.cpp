@@ -68,26 +68,26 @@ std::string readLine(int socket) {
 
 /// Waits for the world's process id; -1 if it was not started.
 pid_t waitForStart(const StartedWorld& world) {
-  pollfd readable{world.keeper, POLLIN, 0};
-  KeeperStart begun;
+  pollfd readable{world.supervisor, POLLIN, 0};
+  WorldStartReport begun;
   if (poll(&readable, 1, kPatienceMillis) <= 0) return -1;
-  return recv(world.keeper, &begun, sizeof begun, MSG_WAITALL) == sizeof begun && begun.error == 0
+  return recv(world.supervisor, &begun, sizeof begun, MSG_WAITALL) == sizeof begun && begun.error == 0
              ? begun.process
              : -1;
 }
 
 /// Waits until the world and its descendants have ended. Returns its status; nullopt after a timeout.
 std::optional<int> waitForEnd(const StartedWorld& world) {
-  pollfd readable{world.keeper, POLLIN, 0};
-  KeeperEnd end;
+  pollfd readable{world.supervisor, POLLIN, 0};
+  WorldExitReport end;
   if (poll(&readable, 1, kPatienceMillis) <= 0) return std::nullopt;
-  if (recv(world.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
+  if (recv(world.supervisor, &end, sizeof end, MSG_WAITALL) != sizeof end) return std::nullopt;
   return end.status;
 }
 
 void closeBoth(const StartedWorld& world) {
   close(world.socket);
-  close(world.keeper);
+  close(world.supervisor);
   close(world.output);
 }
 
@@ -134,7 +134,7 @@ TEST(WorldLauncher, ClosingTheSupervisorSocketEndsTheWorld) {
   ASSERT_GT(process, 1);
   const pid_t of_closed = std::stoi(readLine(closed.socket));
 
-  shutdown(shut.keeper, SHUT_WR);
+  shutdown(shut.supervisor, SHUT_WR);
   EXPECT_GT(waitForStart(shut), 1);
   EXPECT_EQ(waitForEnd(shut), SIGKILL);
   EXPECT_EQ(kill(of_shut, 0), -1);
@@ -155,7 +155,7 @@ TEST(WorldLauncher, EndlesslyForkingGameIsEnded) {
   const WorldLauncher launcher(program);
   const StartedWorld world = launcher.start();
   while (readLine(world.socket) != "7") continue;  // then most of the 255 have begun
-  shutdown(world.keeper, SHUT_WR);
+  shutdown(world.supervisor, SHUT_WR);
   EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), SIGKILL);
   while (!readLine(world.socket).empty()) continue;
@@ -177,7 +177,7 @@ TEST(WorldLauncher, GameHoppingBetweenProcessesIsEnded) {
   const WorldLauncher launcher(program);
   const StartedWorld world = launcher.start();
   EXPECT_EQ(readLine(world.socket), "hops");
-  shutdown(world.keeper, SHUT_WR);
+  shutdown(world.supervisor, SHUT_WR);
   EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), SIGKILL);
   char byte = 0;
@@ -203,7 +203,7 @@ TEST(Descendants, ChildIsFoundAndEnded) {
     GTEST_SKIP() << "this kernel keeps no list of children";
   }
   EXPECT_EQ(found, std::vector<pid_t>{child});
-  endChild(child);
+  killChild(child);
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFSIGNALED(status));
@@ -246,11 +246,11 @@ TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
   closeBoth(world);
 }
 
-/// A world that ends and leaves two processes, which the keeper takes for its copies.
+/// A world that ends and leaves two processes, which the supervisor takes for its copies.
 class LeftCopies : public testing::Test {
  protected:
   LeftCopies() {
-    WorldOrder order;
+    WorldStartOptions order;
     order.copies = true;
     world = launcher.start(order);
     EXPECT_GT(waitForStart(world), 1);
@@ -263,18 +263,18 @@ class LeftCopies : public testing::Test {
     close(world.copies);
   }
   std::string waitForReport() const {
-    pollfd readable{world.keeper, POLLIN, 0};
+    pollfd readable{world.supervisor, POLLIN, 0};
     constexpr const char* kKinds[] = {", all have ended", ", copies are there", ", one goes on"};
-    KeeperEnd end;
+    WorldExitReport end;
     if (poll(&readable, 1, kPatienceMillis) <= 0 ||
-        recv(world.keeper, &end, sizeof end, MSG_WAITALL) != sizeof end)
+        recv(world.supervisor, &end, sizeof end, MSG_WAITALL) != sizeof end)
       return "nothing";
     return (WIFEXITED(end.status) ? "exit " + std::to_string(WEXITSTATUS(end.status))
                                   : "signal " + std::to_string(WTERMSIG(end.status))) +
            kKinds[end.kind];
   }
-  void order(const KeeperOrder& order) const {
-    EXPECT_EQ(send(world.keeper, &order, sizeof order, MSG_NOSIGNAL), static_cast<ssize_t>(sizeof order));
+  void order(const SupervisorCommand& order) const {
+    EXPECT_EQ(send(world.supervisor, &order, sizeof order, MSG_NOSIGNAL), static_cast<ssize_t>(sizeof order));
   }
 
   const WorldLauncher launcher{
@@ -284,22 +284,22 @@ class LeftCopies : public testing::Test {
 };
 
 TEST_F(LeftCopies, ChosenCheckpointResumesAndUnlistedOnesEnd) {
-  order({KeeperOrder::kGoOn, left[0], {left[1], 0, 0}});
+  order({SupervisorCommand::kResume, left[0], {left[1], 0, 0}});
   EXPECT_EQ(waitForReport(), "exit 7, one goes on");
   EXPECT_EQ(kill(left[2], 0), -1);
   EXPECT_EQ(kill(left[0], 0), 0);
   EXPECT_EQ(kill(left[1], 0), 0);
-  order({KeeperOrder::kEndWorld, 0, {}});
+  order({SupervisorCommand::kEndWorld, 0, {}});
   EXPECT_EQ(waitForReport(), "signal 9, copies are there");
-  order({KeeperOrder::kGoOn, left[1], {}});
+  order({SupervisorCommand::kResume, left[1], {}});
   EXPECT_EQ(waitForReport(), "signal 9, one goes on");
-  shutdown(world.keeper, SHUT_WR);
+  shutdown(world.supervisor, SHUT_WR);
   EXPECT_EQ(waitForReport(), "signal 9, all have ended");
   EXPECT_EQ(kill(left[1], 0), -1);
 }
 
 TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
-  order({KeeperOrder::kGoOn, getpid(), {left[0], left[1], left[2]}});
+  order({SupervisorCommand::kResume, getpid(), {left[0], left[1], left[2]}});
   EXPECT_EQ(waitForReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
@@ -313,7 +313,7 @@ TEST(WorldLauncher, OnlyCheckpointingWorldHasACheckpointSocket) {
   const WorldLauncher launcher(shell(
       "for n in 0 1 2 3 4 5 6 99 100 101; do test -e /proc/$$/fd/$n && set -- $* $n; done; echo $* >&3"));
   for (const bool copies : {false, true}) {
-    WorldOrder order;
+    WorldStartOptions order;
     order.copies = copies;
     const StartedWorld world = launcher.start(order);
     EXPECT_EQ(world.copies >= 0, copies);

@@ -265,7 +265,7 @@ TEST(WorldMessages, AnswersArriveUnchanged) {
 WorldTurn fullTurn() {
   using Queue = df::InputQueue;
   WorldTurn turn{{}, true, true, true};
-  turn.pictured = 5;
+  turn.rendered_player = 5;
   turn.inputs.push_back({.kind = Queue::kJoin, .player = 4, .name = "bob", .color = df::GREEN});
   turn.inputs.push_back(
       {.kind = Queue::kKey, .player = 4, .key = df::Keyboard::PAGEDOWN, .key_action = df::KEY_DOWN});
@@ -309,7 +309,7 @@ TEST(WorldMessages, TurnsArriveUnchanged) {
   const auto turn = readTurn(fieldsOf(message), &copied);
   ASSERT_TRUE(turn);
   EXPECT_TRUE(turn->watched && turn->wants_truth && turn->ends_game && copied && !turn->checked);
-  EXPECT_EQ(turn->pictured, 5u);
+  EXPECT_EQ(turn->rendered_player, 5u);
   ASSERT_EQ(turn->inputs.size(), sent.inputs.size());
   for (std::size_t i = 0; i < sent.inputs.size(); ++i) {
     const auto& a = sent.inputs[i];

@@ -54,7 +54,7 @@ class WorldProcessTest : public testing::Test {
       m_io.restart();
       m_io.run_one_for(std::chrono::milliseconds(5));
       world.checkProcess(1);
-      if (auto warning = world.takeWarning()) warnings.push_back(*std::move(warning));
+      if (auto warning = world.popWarning()) warnings.push_back(*std::move(warning));
       for (int i = 0; i < ahead && (i > 0 || world.isReady()); ++i) world.tick({WorldTurn(), "abc"});
     }
     return world.end().value_or(WorldEnd{WorldEnd::kHung, "is still there", 0, {}, {}});
@@ -165,13 +165,13 @@ TEST_F(WorldProcessTest, WorldThatClosesItsSocketIsKilled) {
 // The host needs the process id to watch and copy the process.
 TEST_F(WorldProcessTest, IsReadyOnceTheSupervisorReportsItsProcessId) {
   int world_ends[2];
-  int keeper_ends[2];
+  int supervisor_ends[2];
   ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, world_ends), 0);
-  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, keeper_ends), 0);
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, supervisor_ends), 0);
   asio::io_context io;
   StartedWorld started;
   started.socket = world_ends[0];
-  started.keeper = keeper_ends[0];
+  started.supervisor = supervisor_ends[0];
   WorldProcess world(io, started);
   const auto look = [&] {
     io.restart();
@@ -182,15 +182,15 @@ TEST_F(WorldProcessTest, IsReadyOnceTheSupervisorReportsItsProcessId) {
   const std::string frame = readyFrame();
   ASSERT_EQ(write(world_ends[1], frame.data(), frame.size()), static_cast<ssize_t>(frame.size()));
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(look());
-  const KeeperStart start{0, getpid()};
-  ASSERT_EQ(write(keeper_ends[1], &start, sizeof start), static_cast<ssize_t>(sizeof start));
+  const WorldStartReport start{0, getpid()};
+  ASSERT_EQ(write(supervisor_ends[1], &start, sizeof start), static_cast<ssize_t>(sizeof start));
   bool ready = false;
   for (int i = 0; i < 1000 && !ready; ++i) ready = look();
   EXPECT_TRUE(ready);
-  const KeeperEnd end;  // sent by the keeper when all have ended
-  EXPECT_EQ(write(keeper_ends[1], &end, sizeof end), static_cast<ssize_t>(sizeof end));
+  const WorldExitReport end;  // sent by the supervisor when all have ended
+  EXPECT_EQ(write(supervisor_ends[1], &end, sizeof end), static_cast<ssize_t>(sizeof end));
   close(world_ends[1]);
-  close(keeper_ends[1]);
+  close(supervisor_ends[1]);
 }
 
 TEST_F(WorldProcessTest, AProgramThatIsNotThereIsAnError) {
@@ -238,7 +238,7 @@ class HangingWorldTest : public WorldProcessTest {
 TEST_F(HangingWorldTest, EndlessLoopIsReportedAndThenEnded) {
   const auto began = std::chrono::steady_clock::now();
   const WorldEnd end = play(hangs("while :; do :; done"));
-  EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kPatience - 1));
+  EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kAnswerTimeoutFactor - 1));
   EXPECT_EQ(end.why, WorldEnd::kHung);
   EXPECT_EQ(warnings, (std::vector<std::string>{
                           "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));

@@ -57,7 +57,7 @@ class WorldServerTest : public testing::Test {
       df::World world;
       world.log().setSink([](const std::string&) {});
       const df::World::Scope scope(world);
-      world.input().setLookingBack(true);
+      world.input().setLagCompensated(true);
       world.setHelp({"fly"});
       world.views().setWindow(80, 30);
       auto* p_flyer = new Flyer(hits);

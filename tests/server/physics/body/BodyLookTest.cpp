@@ -124,8 +124,8 @@ TEST(BodyLook, EveryTurnFitsThePublishingLimits) {
   }
 }
 
-BodyForm form(const ConvexShape& shape, double angle, double spin) {
-  BodyForm its;
+BodyGeometry form(const ConvexShape& shape, double angle, double spin) {
+  BodyGeometry its;
   its.shapes = {shape};
   its.rotation = rotationBy(angle);
   its.spin = spin;

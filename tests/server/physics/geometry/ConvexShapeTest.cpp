@@ -229,7 +229,7 @@ TEST(ShapeRaster, CoversCellsWithTheirCentreInside) {
     shape.radius *= size;
     const Rotation q = anyRotation(random);
     const Vec2 centre = anyVec(random, 3);
-    TurnedShape placed;
+    RotatedShape placed;
     turn(shape, q, placed);
     rasterise(placed, centre, aspect, spans);
     for (int row = -40; row <= 40; ++row) {
@@ -249,7 +249,7 @@ TEST(ShapeRaster, CoversCellsWithTheirCentreInside) {
 }
 
 TEST(ShapeRaster, HugeShapeIsClippedToTheLimit) {
-  TurnedShape placed;
+  RotatedShape placed;
   turn(test::boxShape(1e6, 1e6), {}, placed);
   std::vector<CellSpan> spans;
   rasterise(placed, {}, 1, spans, 100);

@@ -35,7 +35,7 @@ TEST(Manifold, GeometryHashIsTheSameOnEveryPlatform) {
     hash.add(impact.time), hash.add(impact.gap), hash.add(impact.normal);
     const RayHit hit = castRay(a, offset, motion_a.displacement);
     hash.add(hit.fraction), hash.add(hit.normal);
-    TurnedShape placed;
+    RotatedShape placed;
     turn(a, motion_a.start, placed);
     broad.add(i, gridBounds(placeAt(10 * offset), boundsOf(placed), 0.1), true);
   }

@@ -27,7 +27,7 @@ TEST(ShapeDistance, MatchesBruteForceCornerEdgeDistances) {
     const ConvexShape a = anyShape(random), b = anyShape(random);
     const Rotation qa = anyRotation(random), qb = anyRotation(random);
     const Vec2 offset = anyVec(random, 3);
-    TurnedShape ta, tb;
+    RotatedShape ta, tb;
     turn(a, qa, ta);
     turn(b, qb, tb);
     const double truth = test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, offset));
@@ -71,7 +71,7 @@ TEST(ShapeDistance, IsExactForParallelEdgesAndCollinearPoints) {
     }
     const Rotation q = random.unit() < 0.3 ? Rotation{} : anyRotation(random);
     const Vec2 displacement = q * Vec2{coarse(3), coarse(3)};
-    TurnedShape a, b;
+    RotatedShape a, b;
     turn(shapes[0], q, a);
     turn(shapes[1], q, b);
     const double truth =
@@ -94,7 +94,7 @@ TEST(ShapeDistance, LongCapsulesThatCrossOverlap) {
     ASSERT_EQ(makeCapsule({-3, 0}, {between(random, 0.1, 3), 0}, 0.1, b), ShapeStatus::kOk);
     const Rotation qa = anyRotation(random), qb = turned(qa, between(random, -0.3, 0.3));
     const Vec2 offset = anyVec(random, 1);
-    TurnedShape ta, tb;
+    RotatedShape ta, tb;
     turn(a, qa, ta);
     turn(b, qb, tb);
     const Separation s = separation(ta, tb, offset);
@@ -249,7 +249,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
   for (int i = 0; i < 10000; ++i) {
     const Rotation qa = rotationBy(between(random, -1e-5, 1e-5)),
                    qb = rotationBy(between(random, -1e-5, 1e-5));
-    TurnedShape a, b;
+    RotatedShape a, b;
     turn(below, qa, a);
     turn(above, qb, b);
     Manifold m;
@@ -270,7 +270,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
 
 TEST(Manifold, WrongCachedFaceDoesNoHarm) {
   const ConvexShape a = boxShape(0.5, 0.5), b = boxShape(0.5, 0.5);
-  TurnedShape ta, tb;
+  RotatedShape ta, tb;
   turn(a, {}, ta);
   turn(b, {}, tb);
   for (const auto owner : {ReferenceFace::Owner::kA, ReferenceFace::Owner::kB}) {

@@ -169,7 +169,7 @@ TEST(TimeOfImpact, TouchingPairsNeverPenetrateBeforeTheHit) {
   int hits = 0, late = 0, apart = 0;
   for (int i = 0; i < 20000 / kShare; ++i) {
     Scene s = anyScene(random, 1, 3);
-    TurnedShape a, b;
+    RotatedShape a, b;
     turn(s.a, s.motion_a.start, a);
     turn(s.b, s.motion_b.start, b);
     s.offset = anyVec(random, 3);

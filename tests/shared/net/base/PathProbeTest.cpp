@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 constexpr PathProbe::Time kProbed{1h};
 
 TEST(PathProbe, IsOpenForASecondAfterEvidence) {
-  PathProbe probe(PathProbe::kOpenFor, kProbed);
+  PathProbe probe(PathProbe::kOpenTime, kProbed);
   EXPECT_FALSE(probe.isOpen(kProbed));
   probe.addEvidence(kProbed);
   EXPECT_TRUE(probe.isOpen(kProbed + 999ms));

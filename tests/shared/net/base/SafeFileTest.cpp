@@ -27,10 +27,10 @@ struct SafeFileTest : testing::Test {
 TEST_F(SafeFileTest, ReplacedFileIsCompleteAndOwnerOnly) {
   std::ofstream(path) << "something longer, open to all";
   fs::permissions(path, fs::perms::owner_all | fs::perms::others_read);
-  EXPECT_TRUE(openToOthers(path));
+  EXPECT_TRUE(isOpenToOthers(path));
   replaceFile(path, "new");
   EXPECT_EQ(readSmallFile(path, 3), "new");
-  EXPECT_FALSE(openToOthers(path));
+  EXPECT_FALSE(isOpenToOthers(path));
   EXPECT_EQ(filesThere(), 1);
 }
 
@@ -47,7 +47,7 @@ TEST_F(SafeFileTest, SystemErrorsAreThrown) {
   EXPECT_THROW(readSmallFile(path, 3), std::system_error);
   EXPECT_THROW(readSmallFile(base, 100), std::system_error);
   EXPECT_THROW(replaceFile(base / "none" / "file", "x"), std::system_error);
-  EXPECT_THROW(openToOthers(base / "none"), std::system_error);
+  EXPECT_THROW(isOpenToOthers(base / "none"), std::system_error);
 }
 
 TEST_F(SafeFileTest, PipesAreRefusedWithoutBlocking) {

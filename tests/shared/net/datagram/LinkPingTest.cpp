@@ -12,7 +12,7 @@ using Millis = LinkPing::Millis;
 TEST(LinkPing, MeasuresRoundTripWithoutServerDelay) {
   LinkPair pair;
   pair.settle(pair.home);
-  EXPECT_FALSE(pair.client.takeRoundTrip());
+  EXPECT_FALSE(pair.client.popRoundTrip());
   const std::size_t before = pair.fromClient("key").size();
   pair.client.ping();
   const std::string ping = pair.fromClient("key");
@@ -25,8 +25,8 @@ TEST(LinkPing, MeasuresRoundTripWithoutServerDelay) {
   EXPECT_EQ(pair.fromServer("world").size(), echo.size() - 2) << "once";
   pair.now += 60ms;
   EXPECT_EQ(pair.toClient(echo), "world");
-  EXPECT_EQ(pair.client.takeRoundTrip(), Millis(100));
-  EXPECT_FALSE(pair.client.takeRoundTrip());
+  EXPECT_EQ(pair.client.popRoundTrip(), Millis(100));
+  EXPECT_FALSE(pair.client.popRoundTrip());
 }
 
 TEST(LinkPing, LateOrLongHeldPingsAreIgnored) {
@@ -39,29 +39,29 @@ TEST(LinkPing, LateOrLongHeldPingsAreIgnored) {
   pair.client.ping();
   const std::string second = pair.fromClient("");
   pair.toClient(late);
-  EXPECT_FALSE(pair.client.takeRoundTrip()) << "of the ping before";
+  EXPECT_FALSE(pair.client.popRoundTrip()) << "of the ping before";
   pair.toServer(second);
   pair.now += 256ms;
   pair.toClient(pair.fromServer("held too long"));
-  EXPECT_FALSE(pair.client.takeRoundTrip());
+  EXPECT_FALSE(pair.client.popRoundTrip());
   pair.client.ping();
   pair.toServer(pair.fromClient(""));
   pair.now += 255ms;
   pair.toClient(pair.fromServer(""));
-  EXPECT_EQ(pair.client.takeRoundTrip(), Millis(0));
+  EXPECT_EQ(pair.client.popRoundTrip(), Millis(0));
 }
 
 TEST(LinkPing, HoldTimeAboveTheRoundTripGivesZero) {
   LinkPing ping;
   const LinkPing::Time now{1h};
-  ping.ask();
-  const std::uint8_t token = ping.sent(now);
-  ping.answered({static_cast<std::uint8_t>(token + 1), 0}, now + 9ms);
-  EXPECT_FALSE(ping.takeRoundTrip());
-  ping.answered({token, 200}, now + 10ms);
-  EXPECT_EQ(ping.takeRoundTrip(), Millis(0));
-  ping.answered({token, 0}, now + 20ms);
-  EXPECT_FALSE(ping.takeRoundTrip()) << "a second answer";
+  ping.request();
+  const std::uint8_t token = ping.onSent(now);
+  ping.onEcho({static_cast<std::uint8_t>(token + 1), 0}, now + 9ms);
+  EXPECT_FALSE(ping.popRoundTrip());
+  ping.onEcho({token, 200}, now + 10ms);
+  EXPECT_EQ(ping.popRoundTrip(), Millis(0));
+  ping.onEcho({token, 0}, now + 20ms);
+  EXPECT_FALSE(ping.popRoundTrip()) << "a second answer";
 }
 
 TEST(LinkPing, WaitsForAPacketWithFreeSpace) {
@@ -75,7 +75,7 @@ TEST(LinkPing, WaitsForAPacketWithFreeSpace) {
   EXPECT_LE(ping.size(), kMaxDatagram);
   pair.toServer(ping);
   pair.toClient(pair.fromServer(""));
-  EXPECT_TRUE(pair.client.takeRoundTrip());
+  EXPECT_TRUE(pair.client.popRoundTrip());
 }
 
 TEST(LinkPing, PingDoesNotRaiseAnUnprovenAddressesLimit) {

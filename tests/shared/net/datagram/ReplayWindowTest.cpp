@@ -8,14 +8,14 @@
 namespace naiad {
 namespace {
 
-using Verdict = ReplayWindow::Verdict;
+using Result = ReplayWindow::Result;
 
 /// Computes the expected verdict from all marked numbers.
-Verdict plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
+Result plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
   if (marked.contains(sequence))
-    return *marked.rbegin() - sequence < ReplayWindow::kSize ? Verdict::kSeen : Verdict::kTooOld;
+    return *marked.rbegin() - sequence < ReplayWindow::kSize ? Result::kSeen : Result::kTooOld;
   const bool old = !marked.empty() && *marked.rbegin() >= sequence + ReplayWindow::kSize;
-  return old ? Verdict::kTooOld : Verdict::kNew;
+  return old ? Result::kTooOld : Result::kNew;
 }
 
 TEST(ReplayWindow, MatchesASetOfAllNumbers) {
@@ -30,9 +30,9 @@ TEST(ReplayWindow, MatchesASetOfAllNumbers) {
       around += jump;
       const std::uint64_t back = rng.below(spread);
       const std::uint64_t sequence = around > back ? around - back : 0;
-      const Verdict verdict = window.check(sequence);
+      const Result verdict = window.check(sequence);
       ASSERT_EQ(verdict, plainly(marked, sequence)) << "round " << round << ", number " << sequence;
-      if (verdict != Verdict::kNew || rng.below(4) == 0) continue;  // some are not marked, like forged ones
+      if (verdict != Result::kNew || rng.below(4) == 0) continue;  // some are not marked, like forged ones
       window.mark(sequence);
       marked.insert(sequence);
       ASSERT_EQ(window.expected(), *marked.rbegin() + 1);
@@ -45,14 +45,14 @@ TEST(ReplayWindow, EverySlotInTheWindowIsIndependent) {
     ReplayWindow window;
     window.mark(newest);
     for (std::uint64_t i = 1; i < ReplayWindow::kSize; ++i) {
-      ASSERT_EQ(window.check(newest - i), Verdict::kNew);
+      ASSERT_EQ(window.check(newest - i), Result::kNew);
       window.mark(newest - i);
-      ASSERT_EQ(window.check(newest - i), Verdict::kSeen);
+      ASSERT_EQ(window.check(newest - i), Result::kSeen);
     }
     if (newest >= ReplayWindow::kSize) {
-      EXPECT_EQ(window.check(newest - ReplayWindow::kSize), Verdict::kTooOld);
+      EXPECT_EQ(window.check(newest - ReplayWindow::kSize), Result::kTooOld);
     }
-    EXPECT_EQ(window.check(newest + 1), Verdict::kNew);
+    EXPECT_EQ(window.check(newest + 1), Result::kNew);
   }
 }
 
@@ -63,16 +63,16 @@ TEST(ReplayWindow, JumpForgetsOnlyNumbersOutsideTheWindow) {
     const std::uint64_t newest = ReplayWindow::kSize - 1 + jump;
     window.mark(newest);
     for (std::uint64_t i = 0; i < newest; i += 1 + jump % 7) {
-      const Verdict expected = newest - i >= ReplayWindow::kSize ? Verdict::kTooOld
-                               : i < ReplayWindow::kSize         ? Verdict::kSeen
-                                                                 : Verdict::kNew;
+      const Result expected = newest - i >= ReplayWindow::kSize ? Result::kTooOld
+                              : i < ReplayWindow::kSize         ? Result::kSeen
+                                                                : Result::kNew;
       ASSERT_EQ(window.check(i), expected) << "jump " << jump << ", number " << i;
     }
   }
 }
 
 TEST(RestoreSequence, MatchesTheRfcExample) {
-  EXPECT_EQ(restoreSequence(0xa82f30ea + 1, 0x9b32), 0xa82f9b32u);  // RFC 9000, A.3
+  EXPECT_EQ(expandSequence(0xa82f30ea + 1, 0x9b32), 0xa82f9b32u);  // RFC 9000, A.3
 }
 
 TEST(RestoreSequence, NearbyNumbersAreRestored) {
@@ -83,13 +83,13 @@ TEST(RestoreSequence, NearbyNumbersAreRestored) {
     if (expected + offset < 0x7fff) continue;
     const std::uint64_t truth = expected + offset - 0x7fff;
     if (truth >= std::uint64_t{1} << 62) continue;
-    ASSERT_EQ(restoreSequence(expected, static_cast<std::uint16_t>(truth)), truth) << expected;
+    ASSERT_EQ(expandSequence(expected, static_cast<std::uint16_t>(truth)), truth) << expected;
   }
 }
 
 TEST(RestoreSequence, IsNeverBelowZero) {
   for (std::uint32_t wire = 0; wire <= 0xffff; ++wire)
-    ASSERT_EQ(restoreSequence(0, static_cast<std::uint16_t>(wire)), wire);
+    ASSERT_EQ(expandSequence(0, static_cast<std::uint16_t>(wire)), wire);
 }
 
 }  // namespace

@@ -226,9 +226,9 @@ TEST(Seal, PacketsBehindTheWindowAreTooOld) {
 
 TEST(Seal, SealingStopsAtTheKeyLimit) {
   const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
-  Sealer sealer(keys.client, {.new_epoch_after = 3, .most = 5});
+  Sealer sealer(keys.client, {.new_epoch_after = 3, .max = 5});
   for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(sealer.wantsNewEpoch(), i >= 3);
+    EXPECT_EQ(sealer.needsNewEpoch(), i >= 3);
     EXPECT_FALSE(sealer.exhausted());
     EXPECT_EQ(sealWith(sealer, "x").size(), kHeader + 17);
   }
@@ -239,8 +239,8 @@ TEST(Seal, SealingStopsAtTheKeyLimit) {
 }
 
 TEST(Seal, KeyWithTooManyForgeriesOpensNothing) {
-  EXPECT_EQ(mostFailedOpens(AeadId::kAes128Gcm), std::uint64_t{1} << 52);
-  EXPECT_EQ(mostFailedOpens(AeadId::kChaCha20Poly1305), std::uint64_t{1} << 36);
+  EXPECT_EQ(maxFailedOpens(AeadId::kAes128Gcm), std::uint64_t{1} << 52);
+  EXPECT_EQ(maxFailedOpens(AeadId::kChaCha20Poly1305), std::uint64_t{1} << 36);
   const DatagramKeys keys = knownKeys(AeadId::kChaCha20Poly1305);
   Sealer sealer(keys.client);
   Opener opener(keys.client, 3);

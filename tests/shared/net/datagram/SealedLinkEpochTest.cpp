@@ -91,30 +91,30 @@ TEST(SealedLinkEpoch, EpochsAdvanceOnlyByALimitedStep) {
 }
 
 TEST(SealedLinkEpoch, KeyLimitIsReportedAndEnforced) {
-  LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 8});
+  LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .max = 8});
   for (int i = 0; i < 8; ++i) {
-    EXPECT_EQ(pair.client.wantsNewEpoch(), i >= 5);
+    EXPECT_EQ(pair.client.needsNewEpoch(), i >= 5);
     EXPECT_TRUE(pair.seal(pair.client, "x"));
   }
   EXPECT_FALSE(pair.seal(pair.client, "x"));
-  EXPECT_FALSE(pair.client.room());
+  EXPECT_FALSE(pair.client.payloadBudget());
   EXPECT_EQ(pair.client.counters().no_key, 1u);
   pair.startEpoch(1);
-  EXPECT_FALSE(pair.client.wantsNewEpoch());
+  EXPECT_FALSE(pair.client.needsNewEpoch());
   EXPECT_EQ(pair.toServer(pair.fromClient("on we go")), "on we go");
 }
 
 // Only the client makes new streams, so it also watches the limit of the server's key.
 TEST(SealedLinkEpoch, ClientWatchesTheServersKeyLimit) {
-  LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .most = 100});
+  LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .max = 100});
   pair.settle(pair.home);  // otherwise the server may send only three times the bytes received
   for (int i = 1; i < 5; ++i) {
-    EXPECT_FALSE(pair.client.wantsNewEpoch()) << i;
+    EXPECT_FALSE(pair.client.needsNewEpoch()) << i;
     EXPECT_EQ(pair.toClient(pair.fromServer("news")), "news");
   }
-  EXPECT_TRUE(pair.client.wantsNewEpoch());
+  EXPECT_TRUE(pair.client.needsNewEpoch());
   pair.startEpoch(1);
-  EXPECT_FALSE(pair.client.wantsNewEpoch());
+  EXPECT_FALSE(pair.client.needsNewEpoch());
 }
 
 }  // namespace

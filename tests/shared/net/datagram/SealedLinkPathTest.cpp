@@ -57,10 +57,10 @@ TEST(SealedLinkPath, UnprovenAddressGetsAtMostThreeTimesItsBytes) {
       in += packet.size();
       pair.toServer(packet, victim);
       for (int i = 0; i < 200; ++i) {
-        const auto room = pair.server.room();
-        const auto sent = pair.seal(pair.server, std::string(i % 2 ? 300 : room.value_or(0), 'y'));
+        const auto payload_budget = pair.server.payloadBudget();
+        const auto sent = pair.seal(pair.server, std::string(i % 2 ? 300 : payload_budget.value_or(0), 'y'));
         if (i % 2 == 0) {
-          EXPECT_EQ(sent.has_value(), room.has_value());
+          EXPECT_EQ(sent.has_value(), payload_budget.has_value());
         }
         if (!sent) continue;
         EXPECT_EQ(sent->path, victim);
@@ -78,15 +78,15 @@ TEST(SealedLinkPath, AnsweredChallengeLiftsTheLimit) {
   LinkPair pair;
   pair.toServer(pair.fromClient("hello"));
   EXPECT_FALSE(pair.server.isValidated(pair.home));
-  EXPECT_TRUE(pair.server.wantsToSend(pair.now));
-  EXPECT_FALSE(pair.client.wantsToSend(pair.now));
+  EXPECT_TRUE(pair.server.needsToSend(pair.now));
+  EXPECT_FALSE(pair.client.needsToSend(pair.now));
   EXPECT_EQ(pair.toClient(pair.fromServer("")), "");
-  EXPECT_TRUE(pair.client.wantsToSend(pair.now));
+  EXPECT_TRUE(pair.client.needsToSend(pair.now));
   EXPECT_EQ(pair.toServer(pair.fromClient("with the answer")), "with the answer");
-  EXPECT_FALSE(pair.client.wantsToSend(pair.now));
+  EXPECT_FALSE(pair.client.needsToSend(pair.now));
   EXPECT_TRUE(pair.server.isValidated(pair.home));
-  EXPECT_FALSE(pair.server.wantsToSend(pair.now));
-  EXPECT_EQ(pair.server.room(), pair.server.maxPayload());
+  EXPECT_FALSE(pair.server.needsToSend(pair.now));
+  EXPECT_EQ(pair.server.payloadBudget(), pair.server.maxPayload());
   for (int i = 0; i < 100; ++i) EXPECT_TRUE(pair.seal(pair.server, std::string(1172, 'x')));
   EXPECT_EQ(pair.server.counters().paths_validated, 1u);
 }
@@ -95,15 +95,15 @@ TEST(SealedLinkPath, LostChallengesAndAnswersAreRepeated) {
   LinkPair pair;
   pair.toServer(pair.fromClient(std::string(500, 'x')));
   pair.fromServer("lost");
-  EXPECT_FALSE(pair.server.wantsToSend(pair.now));
+  EXPECT_FALSE(pair.server.needsToSend(pair.now));
   pair.now += 249ms;
-  EXPECT_FALSE(pair.server.wantsToSend(pair.now));
+  EXPECT_FALSE(pair.server.needsToSend(pair.now));
   pair.now += 1ms;
-  EXPECT_TRUE(pair.server.wantsToSend(pair.now));
+  EXPECT_TRUE(pair.server.needsToSend(pair.now));
   pair.toClient(pair.fromServer(""));
   pair.fromClient("answer, lost");
   pair.now += 250ms;
-  ASSERT_TRUE(pair.server.wantsToSend(pair.now));
+  ASSERT_TRUE(pair.server.needsToSend(pair.now));
   pair.toClient(pair.fromServer(""));
   pair.toServer(pair.fromClient("answer"));
   EXPECT_TRUE(pair.server.isValidated(pair.home));
@@ -144,7 +144,7 @@ TEST(SealedLinkPath, ReturnToAProvenAddressNeedsNoChallenge) {
   EXPECT_EQ(pair.toServer(copied), "<refused>");
   pair.toServer(pair.fromClient("next"));
   EXPECT_TRUE(pair.server.isValidated(pair.home));
-  EXPECT_EQ(pair.server.room(), pair.server.maxPayload());
+  EXPECT_EQ(pair.server.payloadBudget(), pair.server.maxPayload());
 }
 
 TEST(SealedLinkPath, OtherLocalAddressIsAnotherPath) {

@@ -25,8 +25,8 @@ TEST(SealedLink, CarriesPayloadsBothWays) {
 TEST(SealedLink, ServerIsSilentBeforeTheClientsFirstAuthenticPacket) {
   LinkPair pair;
   EXPECT_FALSE(pair.seal(pair.server, "eager"));
-  EXPECT_FALSE(pair.server.wantsToSend(pair.now));
-  EXPECT_FALSE(pair.server.room());
+  EXPECT_FALSE(pair.server.needsToSend(pair.now));
+  EXPECT_FALSE(pair.server.payloadBudget());
   std::string forged = pair.fromClient("x");
   forged.back() = static_cast<char>(forged.back() ^ 1);
   EXPECT_EQ(pair.toServer(forged), "<refused>");

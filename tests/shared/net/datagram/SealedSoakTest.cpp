@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "LinkPair.h"
-#include "shared/net/datagram/DatagramGate.h"
+#include "shared/net/datagram/DatagramDemux.h"
 #include "tests/support/net/VirtualNetwork.h"
 
 namespace naiad::test {
@@ -25,7 +25,7 @@ SealedLink::Time timeOf(const VirtualClock& clock) {
 
 /// Both ends of a session. Each sends a numbered message per tick and checks that none arrives twice.
 struct Player {
-  Player(VirtualNetwork& network, VirtualClock& virtual_clock, DatagramGate& gate,
+  Player(VirtualNetwork& network, VirtualClock& virtual_clock, DatagramDemux& gate,
          DatagramSocket& server_socket, std::uint64_t number)
       : clock(virtual_clock),
         random(number),
@@ -41,7 +41,7 @@ struct Player {
     EXPECT_TRUE(gate.add(server, [this](std::string_view payload) { hear(payload, heard_up, "up"); }));
     socket->start([this](const Path& path, std::string_view packet) {
       if (const auto payload = client.open(path, packet, timeOf(clock))) hear(*payload, heard_down, "down");
-      if (client.wantsToSend(timeOf(clock))) say(client, *socket, "");
+      if (client.needsToSend(timeOf(clock))) say(client, *socket, "");
     });
   }
   void startEpoch(Epoch number) {
@@ -59,8 +59,8 @@ struct Player {
   }
   void tick() {
     say(client, *socket, "up" + std::to_string(said) + std::string(random.below(60), ' '));
-    if (server.wantsToSend(timeOf(clock))) say(server, at_server, "");
-    const std::size_t size = std::min<std::size_t>(server.room().value_or(0), random.below(1000));
+    if (server.needsToSend(timeOf(clock))) say(server, at_server, "");
+    const std::size_t size = std::min<std::size_t>(server.payloadBudget().value_or(0), random.below(1000));
     std::string down = "down" + std::to_string(said);
     if (down.size() <= size) down.resize(size, ' ');
     say(server, at_server, down);
@@ -117,7 +117,7 @@ struct World {
   VirtualClock clock;
   VirtualNetwork network;
   std::unique_ptr<DatagramSocket> socket;
-  DatagramGate gate;
+  DatagramDemux gate;
   Ledger ledger;
   std::vector<std::unique_ptr<Player>> players;
 };

@@ -20,7 +20,7 @@ LanAnswer sample() {
   answer.protocol = 0x0104;
   answer.nonce = nonceOf(0x40);
   answer.port = 9876;
-  answer.asks_password = true;
+  answer.requires_password = true;
   answer.players = 3;
   answer.max_players = 64;
   ShortKey::Bytes key{};
@@ -77,7 +77,7 @@ TEST(LanMessage, AnswersSurviveTheRoundTrip) {
     answer.protocol = static_cast<std::uint32_t>(random.below(65536));
     answer.players = static_cast<std::uint16_t>(random.next());
     answer.max_players = static_cast<std::uint16_t>(random.next());
-    answer.asks_password = random.below(2) == 0;
+    answer.requires_password = random.below(2) == 0;
     for (std::uint8_t& byte : answer.nonce) byte = static_cast<std::uint8_t>(random.next());
     answer.name.assign(random.below(kMaxLanText + 1), 'n');
     answer.game.clear();

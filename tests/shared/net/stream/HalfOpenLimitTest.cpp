@@ -13,7 +13,7 @@ namespace naiad {
 namespace {
 
 using Id = HalfOpenLimit::Id;
-using Kind = HalfOpenLimit::Verdict::Kind;
+using Kind = HalfOpenLimit::Result::Kind;
 
 AddressPrefix of(const std::string& text) {
   return AddressPrefix::of(asio::ip::make_address(text));
@@ -30,21 +30,21 @@ class HalfOpenLimitTest : public testing::Test {
  protected:
   /// Admits a connection like a listener. Returns the id of the one ended for it; 0: none.
   Id come(const AddressPrefix& prefix) {
-    auto verdict = limit.judge(prefix);
-    const Id ended = verdict.kind == Kind::kEndFirst ? verdict.id : 0;
+    auto verdict = limit.check(prefix);
+    const Id ended = verdict.kind == Kind::kEvictFirst ? verdict.id : 0;
     if (ended != 0) limit.release(ended);
-    verdict = limit.judge(prefix);
+    verdict = limit.check(prefix);
     EXPECT_EQ(verdict.kind, Kind::kFits);
     limit.admit(++newest, prefix);
     return ended;
   }
   /// Admits a connection together with its ClientHello. False if it is refused.
   bool comeWithHello(const AddressPrefix& prefix) {
-    const auto verdict = limit.judge(prefix);
-    if (verdict.kind == Kind::kEndFirst) limit.release(verdict.id);
+    const auto verdict = limit.check(prefix);
+    if (verdict.kind == Kind::kEvictFirst) limit.release(verdict.id);
     if (verdict.kind == Kind::kFull || verdict.kind == Kind::kFullForPrefix) return false;
     limit.admit(++newest, prefix);
-    EXPECT_TRUE(limit.noteHello(newest)) << "judged the same when it came";
+    EXPECT_TRUE(limit.onHello(newest)) << "judged the same when it came";
     return true;
   }
   /// Fills all slots with connections in their ClientHellos. Completes these in order, releasing refused
@@ -52,7 +52,7 @@ class HalfOpenLimitTest : public testing::Test {
   void beginAndFinishTogether(const std::vector<AddressPrefix>& prefixes) {
     for (std::size_t i = 0; limit.count() < 256; ++i) come(prefixes[i % prefixes.size()]);
     for (Id id = 1; id <= newest; ++id) {
-      if (!limit.noteHello(id)) limit.release(id);
+      if (!limit.onHello(id)) limit.release(id);
     }
   }
   /// Admits `times` connections from each of `prefixes` in turn. Returns how many succeed.
@@ -142,7 +142,7 @@ TEST_F(HalfOpenLimitTest, HelloFloodOfFourCustomersLeavesFreeSlots) {
 
 TEST_F(HalfOpenLimitTest, NineNetworksInTurnTakeAllSlots) {
   int networks = 0;
-  for (; limit.judge(of("203.0.113.1")).kind == Kind::kFits; ++networks) {
+  for (; limit.check(of("203.0.113.1")).kind == Kind::kFits; ++networks) {
     std::vector<AddressPrefix> network;
     for (int host = 0; host < 200; ++host)
       network.push_back(of("198.51." + std::to_string(networks) + "." + std::to_string(host)));
@@ -168,8 +168,8 @@ TEST_F(HalfOpenLimitTest, SimultaneousHellosOfFourNetworksLeaveFreeSlots) {
 TEST_F(HalfOpenLimitTest, RefusedHelloFreesItsSlot) {
   beginAndFinishTogether({of("198.51.100.1"), of("198.51.100.2"), of("198.51.100.3"), of("198.51.100.4")});
   come(of("192.0.2.1"));
-  EXPECT_TRUE(limit.noteHello(newest)) << "of another network";
-  EXPECT_TRUE(limit.noteHello(newest)) << "asked again, it is what it was";
+  EXPECT_TRUE(limit.onHello(newest)) << "of another network";
+  EXPECT_TRUE(limit.onHello(newest)) << "asked again, it is what it was";
   EXPECT_EQ(limit.count(), 129u);
 }
 
@@ -187,7 +187,7 @@ TEST_F(HalfOpenLimitTest, ManyMachinesOfOneNetworkFit) {
 
 TEST_F(HalfOpenLimitTest, IsFullWhenEveryConnectionSentItsHello) {
   expectRoomFor(256);
-  EXPECT_EQ(limit.judge(of("203.0.113.1")).kind, Kind::kFull);
+  EXPECT_EQ(limit.check(of("203.0.113.1")).kind, Kind::kFull);
   limit.release(7);
   EXPECT_TRUE(comeWithHello(of("203.0.113.1")));
 }
@@ -206,7 +206,7 @@ TEST_F(HalfOpenLimitTest, OnlyAdmittedConnectionsCanBeReleased) {
   limit.release(1);
   EXPECT_EQ(limit.count(), 0u);
   EXPECT_THROW(limit.release(1), std::out_of_range);
-  EXPECT_THROW((void)limit.noteHello(1), std::out_of_range);
+  EXPECT_THROW((void)limit.onHello(1), std::out_of_range);
   EXPECT_FALSE(limit.isSilent(1));
 }
 
@@ -221,20 +221,20 @@ class NaiveLimit {
 
   explicit NaiveLimit(HalfOpenLimit::Limits limits) : m_limits(limits) {}
 
-  HalfOpenLimit::Verdict judge(const AddressPrefix& prefix) const {
+  HalfOpenLimit::Result check(const AddressPrefix& prefix) const {
     const auto all = [](const Entry&) { return true; };
     const std::size_t greeted = count(true, all);
-    if (greeted >= m_limits.in_all) return {Kind::kFull};
+    if (greeted >= m_limits.total) return {Kind::kFull};
     const auto same = [&](const Entry& e) { return e.prefix == prefix; };
     if (hasItsShare(prefix)) return {Kind::kFullForPrefix};
     if (count(true, same) + count(false, same) >= m_limits.per_prefix) {
       for (const Entry& e : entries) {
-        if (!e.greeted && same(e)) return {Kind::kEndFirst, e.id};
+        if (!e.greeted && same(e)) return {Kind::kEvictFirst, e.id};
       }
       return {Kind::kFullForPrefix};
     }
-    if (entries.size() < m_limits.in_all) return {Kind::kFits};
-    HalfOpenLimit::Verdict worst{Kind::kEndFirst};
+    if (entries.size() < m_limits.total) return {Kind::kFits};
+    HalfOpenLimit::Result worst{Kind::kEvictFirst};
     std::array<std::size_t, 3> most{};
     for (const Entry& e : entries) {
       if (e.greeted) continue;
@@ -251,7 +251,7 @@ class NaiveLimit {
   }
 
   bool hasItsShare(const AddressPrefix& prefix) const {
-    const std::size_t free = m_limits.in_all - count(true, [](const Entry&) { return true; });
+    const std::size_t free = m_limits.total - count(true, [](const Entry&) { return true; });
     return count(true, [&](const Entry& e) { return e.prefix.widest() == prefix.widest(); }) >= free;
   }
 
@@ -291,20 +291,20 @@ TEST_F(HalfOpenLimitTest, MatchesANaiveRecount) {
       if (what == 1 && !naive.entries.empty()) {
         NaiveLimit::Entry& entry = naive.entries[some];
         entry.greeted = entry.greeted || !naive.hasItsShare(entry.prefix);
-        ASSERT_EQ(tested.noteHello(entry.id), entry.greeted) << round << " " << step;
+        ASSERT_EQ(tested.onHello(entry.id), entry.greeted) << round << " " << step;
       }
       const AddressPrefix prefix = randomPrefix(random);
-      const auto verdict = tested.judge(prefix);
-      const auto expected = naive.judge(prefix);
+      const auto verdict = tested.check(prefix);
+      const auto expected = naive.check(prefix);
       ASSERT_EQ(verdict.kind, expected.kind) << round << " " << step;
       ASSERT_EQ(verdict.id, expected.id) << round << " " << step;
-      if (verdict.kind == Kind::kEndFirst) {
+      if (verdict.kind == Kind::kEvictFirst) {
         ++ended;
         drop(static_cast<std::size_t>(std::find_if(naive.entries.begin(), naive.entries.end(),
                                                    [&](const auto& e) { return e.id == verdict.id; }) -
                                       naive.entries.begin()));
       }
-      if (verdict.kind == Kind::kFits || verdict.kind == Kind::kEndFirst) {
+      if (verdict.kind == Kind::kFits || verdict.kind == Kind::kEvictFirst) {
         tested.admit(++newest, prefix);
         naive.entries.push_back({newest, prefix, false});
       } else {

@@ -19,8 +19,8 @@ std::optional<JoinLink> parse(const std::string& text) {
 
 std::string problem(const std::string& text) {
   const auto parsed = JoinLink::parse(text);
-  const auto* p_problem = std::get_if<LinkProblem>(&parsed);
-  return p_problem != nullptr ? p_problem->sentence : "";
+  const auto* p_problem = std::get_if<LinkError>(&parsed);
+  return p_problem != nullptr ? p_problem->message : "";
 }
 
 TEST(ShortKey, IsTheFirst128BitsInBase32) {
@@ -77,8 +77,8 @@ TEST(JoinLink, AcceptsPrintedAndEscapedLinks) {
   for (const auto& g : good) {
     const auto link = parse(g.text);
     ASSERT_TRUE(link) << g.text << ": " << problem(g.text);
-    EXPECT_EQ(link->where.host, g.host);
-    EXPECT_EQ(link->where.port, g.port);
+    EXPECT_EQ(link->address.host, g.host);
+    EXPECT_EQ(link->address.port, g.port);
     EXPECT_EQ(link->room, g.room);
     EXPECT_EQ(link->key.text(), kKey);
     EXPECT_EQ(parse(link->text()), link);

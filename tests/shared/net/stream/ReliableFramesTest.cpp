@@ -7,16 +7,16 @@
 namespace naiad {
 namespace {
 
-std::vector<std::string> all(const ReliableFrames& frames) {
+std::vector<std::string> all(const ReliableFrameSender& frames) {
   std::vector<std::string> found;
   frames.forEach([&found](const std::string& frame) { found.push_back(frame); });
   return found;
 }
 
-TEST(ReliableFrames, AreKeptUntilAcknowledgedInOrder) {
-  ReliableFrames frames;
+TEST(ReliableFrameSender, AreKeptUntilAcknowledgedInOrder) {
+  ReliableFrameSender frames;
   EXPECT_EQ(frames.next(), 1u);
-  for (const char* text : {"a", "b", "c"}) ASSERT_TRUE(frames.keep(text));
+  for (const char* text : {"a", "b", "c"}) ASSERT_TRUE(frames.add(text));
   EXPECT_EQ(frames.next(), 4u);
   EXPECT_EQ(all(frames), (std::vector<std::string>{"a", "b", "c"}));
   frames.acknowledge(2);
@@ -31,32 +31,32 @@ TEST(ReliableFrames, AreKeptUntilAcknowledgedInOrder) {
   EXPECT_EQ(frames.bytes(), 0u);
 }
 
-TEST(ReliableFrames, KeepAtMost64KiB) {
-  ReliableFrames frames;
+TEST(ReliableFrameSender, KeepAtMost64KiB) {
+  ReliableFrameSender frames;
   const std::string frame(1022, 'x');
-  for (int i = 0; i < 64; ++i) ASSERT_TRUE(frames.keep(frame));
-  EXPECT_EQ(frames.bytes(), ReliableFrames::kMax);
-  EXPECT_FALSE(frames.keep("y"));
+  for (int i = 0; i < 64; ++i) ASSERT_TRUE(frames.add(frame));
+  EXPECT_EQ(frames.bytes(), ReliableFrameSender::kMax);
+  EXPECT_FALSE(frames.add("y"));
   EXPECT_EQ(frames.next(), 65u) << "it has no number";
   EXPECT_EQ(all(frames).size(), 64u);
   frames.acknowledge(1);
-  EXPECT_TRUE(frames.keep("y"));
+  EXPECT_TRUE(frames.add("y"));
 }
 
-TEST(ReliableFrames, AreAcceptedOnce) {
-  ReliableFramesHeard heard;
-  EXPECT_TRUE(heard.take(0)) << "it is not kept";
+TEST(ReliableFrameSender, AreAcceptedOnce) {
+  ReliableFrameReceiver heard;
+  EXPECT_TRUE(heard.accept(0)) << "it is not kept";
   EXPECT_EQ(heard.newest(), 0u);
-  EXPECT_TRUE(heard.take(7)) << "the first may be any";
-  EXPECT_FALSE(heard.take(7));
-  EXPECT_FALSE(heard.take(6));
-  EXPECT_TRUE(heard.take(9)) << "one that was replaced leaves a gap";
-  EXPECT_FALSE(heard.take(8));
+  EXPECT_TRUE(heard.accept(7)) << "the first may be any";
+  EXPECT_FALSE(heard.accept(7));
+  EXPECT_FALSE(heard.accept(6));
+  EXPECT_TRUE(heard.accept(9)) << "one that was replaced leaves a gap";
+  EXPECT_FALSE(heard.accept(8));
   EXPECT_EQ(heard.newest(), 9u);
-  ReliableFramesHeard late;
-  EXPECT_TRUE(late.take(0xFFFFFFFF));
-  EXPECT_TRUE(late.take(1)) << "after the last number comes 1";
-  EXPECT_FALSE(late.take(0xFFFFFFFF));
+  ReliableFrameReceiver late;
+  EXPECT_TRUE(late.accept(0xFFFFFFFF));
+  EXPECT_TRUE(late.accept(1)) << "after the last number comes 1";
+  EXPECT_FALSE(late.accept(0xFFFFFFFF));
 }
 
 }  // namespace

@@ -27,14 +27,14 @@ struct TlsConnectorTest : TlsFixture {
 TEST_F(TlsConnectorTest, LearnsTheKeyOfASelfSignedServer) {
   listen();
   join();
-  ASSERT_TRUE(connector.peerFacts());
-  EXPECT_FALSE(connector.peerFacts()->chain_verifies);
-  EXPECT_EQ(connector.peerFacts()->chain_problem, "self-signed certificate");
-  const auto facts = connector.peerFacts();
+  ASSERT_TRUE(connector.peerIdentity());
+  EXPECT_FALSE(connector.peerIdentity()->chain_verifies);
+  EXPECT_EQ(connector.peerIdentity()->chain_problem, "self-signed certificate");
+  const auto facts = connector.peerIdentity();
   join();
-  EXPECT_EQ(connector.peerFacts()->key, facts->key);
+  EXPECT_EQ(connector.peerIdentity()->key, facts->key);
   connector.cancel();
-  EXPECT_FALSE(connector.peerFacts());
+  EXPECT_FALSE(connector.peerIdentity());
 }
 
 TEST_F(TlsConnectorTest, ChainVerifiesOnlyForItsOwnName) {
@@ -48,12 +48,12 @@ TEST_F(TlsConnectorTest, ChainVerifiesOnlyForItsOwnName) {
   for (const auto& [host, verifies] : {std::pair("game.test", true), std::pair("GAME.test.", true),
                                        std::pair("other.test", false), std::pair("127.0.0.1", false)}) {
     joinAs(host, trusting);
-    ASSERT_TRUE(trusting.peerFacts()) << error;
-    EXPECT_EQ(trusting.peerFacts()->chain_verifies, verifies) << host;
-    EXPECT_EQ(trusting.peerFacts()->chain_problem.empty(), verifies) << host;
+    ASSERT_TRUE(trusting.peerIdentity()) << error;
+    EXPECT_EQ(trusting.peerIdentity()->chain_verifies, verifies) << host;
+    EXPECT_EQ(trusting.peerIdentity()->chain_problem.empty(), verifies) << host;
   }
   joinAs("game.test", connector);  // this client does not trust the authority
-  EXPECT_FALSE(connector.peerFacts()->chain_verifies);
+  EXPECT_FALSE(connector.peerIdentity()->chain_verifies);
 }
 
 TEST_F(TlsConnectorTest, SniHasHostNamesButNoAddresses) {
@@ -84,7 +84,7 @@ TEST_F(TlsConnectorTest, PlaintextServerGivesAClearError) {
   EXPECT_FALSE(channel);
   EXPECT_EQ(error, "127.0.0.1:" + std::to_string(plain.port()) +
                        " does not answer as a Naiad server (it does not speak TLS).");
-  EXPECT_FALSE(connector.peerFacts());
+  EXPECT_FALSE(connector.peerIdentity());
 }
 
 TEST_F(TlsConnectorTest, ServerWithoutOurAlpnIsRefused) {

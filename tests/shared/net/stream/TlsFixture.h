@@ -80,7 +80,7 @@ struct TlsFixture : ConnectFixture {
   }
   const TcpListener::Counters& counters() const { return listener->counters(); }
 
-  TlsListening tls;
+  TlsListenerOptions tls;
   std::unique_ptr<TcpListener> listener;
   std::vector<std::unique_ptr<ReliableChannel>> accepted;
   TcpConnector connector{context, {.receive_limit = kMaxServerFrame}, testClientContext()};

@@ -329,7 +329,7 @@ std::function<bool(const AddressPrefix&)> atMost(int times, std::map<AddressPref
 
 TEST_F(TlsListenerTest, HandshakeFloodFromOneAddressIsDroppedEarly) {
   std::map<AddressPrefix, int> asked;
-  tls.take_handshake = atMost(3, asked);
+  tls.try_handshake = atMost(3, asked);
   listen();
   const std::string hello = RawTls().advance();
   for (std::size_t i = 0; i < 40; ++i) {
@@ -352,7 +352,7 @@ TEST_F(TlsListenerTest, HandshakeFloodFromOneAddressIsDroppedEarly) {
 
 TEST_F(TlsListenerTest, ConnectionWithoutHandshakeBudgetIsDroppedAtOnce) {
   const AddressPrefix limited = AddressPrefix::of(asio::ip::make_address("127.1.1.1"));
-  tls.has_handshake = [limited](const AddressPrefix& prefix) { return prefix != limited; };
+  tls.can_handshake = [limited](const AddressPrefix& prefix) { return prefix != limited; };
   tls.handshake_timeout = 1h;
   listen();
   std::vector<tcp::socket> flood;
@@ -390,7 +390,7 @@ TEST_F(TlsListenerTest, BannedAddressGetsNoByte) {
 
 TEST_F(TlsListenerTest, OnlyAdmittedHellosCountAsHandshakes) {
   std::map<AddressPrefix, int> asked;
-  tls.take_handshake = atMost(1, asked);
+  tls.try_handshake = atMost(1, asked);
   tls.max_half_open_per_prefix = 1;
   tls.handshake_timeout = 1h;
   listen();
@@ -409,7 +409,7 @@ TEST_F(TlsListenerTest, OnlyAdmittedHellosCountAsHandshakes) {
 
 TEST_F(TlsListenerTest, ByteByByteHelloIsCountedOnce) {
   std::map<AddressPrefix, int> asked;
-  tls.take_handshake = atMost(1, asked);
+  tls.try_handshake = atMost(1, asked);
   listen();
   tcp::socket socket = knock();
   RawTls client;
@@ -448,7 +448,7 @@ TEST_F(TlsListenerTest, HandshakeTimeoutsShrinkAboveHalfTheLimit) {
 }
 
 TEST_F(TlsListenerTest, SilentConnectionIsDeferredByTheKernel) {
-  tls.defer_accept = TlsListening().defer_accept;
+  tls.defer_accept = TlsListenerOptions().defer_accept;
   ASSERT_GT(tls.defer_accept.count(), 0) << "as shipped";
   listen();
   tcp::socket silent = knock();

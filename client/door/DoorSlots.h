@@ -1,0 +1,86 @@
+// Visitors' folders of an ssh door, and the limits on concurrent visitors, in total and per address. Each
+// visitor holds a locked file; the kernel unlocks it when the process ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace naiad {
+
+/// Returns the folder name of the first key in `auth_info` (sshd's ExposeAuthInfo: lines "publickey TYPE
+/// BASE64"): its SHA-256 as 64 hexadecimal digits. Nullopt if there is no key, or more than 16,384 bytes.
+std::optional<std::string> keyFolderName(std::string_view auth_info);
+
+/// Folder with a visitor's data: the name they played under, and the files with which dfclient resumes a
+/// session. There is one for each SSH key, so visitors with a key are recognised on their next visit. One
+/// process at a time can lock it.
+///
+/// Anyone can make keys, so the number of folders is limited. At the limit, those unused for 30 days go.
+class VisitorFolder {
+ public:
+  static constexpr std::size_t kMaxFolders = 10'000;
+
+  /// Opens the folder in `folder` for the key of this name, and creates it with mode 0700 if it does not
+  /// exist. Returns null if there are already `max_folders`. Throws std::system_error.
+  static std::unique_ptr<VisitorFolder> open(const std::filesystem::path& folder, const std::string& name,
+                                             std::size_t max_folders = kMaxFolders);
+  /// Makes a folder for a visitor without a key. The destructor removes it.
+  static std::unique_ptr<VisitorFolder> makeTemporary(const std::filesystem::path& folder);
+  ~VisitorFolder();
+  VisitorFolder(const VisitorFolder&) = delete;
+  VisitorFolder& operator=(const VisitorFolder&) = delete;
+
+  /// Returns the path of this visitor's folder.
+  const std::filesystem::path& path() const { return m_path; }
+  /// Locks the folder for the lifetime of this object. Returns false if another process has locked it.
+  bool acquire();
+  /// Returns the process that last locked the folder, as acquire() recorded it; 0 if unknown.
+  pid_t holder() const;
+  /// Returns the name that the visitor played under; empty for a new visitor.
+  std::string name() const;
+  /// Stores the name that name() returns. Throws std::system_error.
+  void saveName(const std::string& name) const;
+
+ private:
+  explicit VisitorFolder(std::filesystem::path path, bool temporary)
+      : m_path(std::move(path)), m_temporary(temporary) {}
+
+  std::filesystem::path m_path;
+  bool m_temporary;
+  int m_lock = -1;
+};
+
+/// A visitor's place, held for the lifetime of this object. Programs started by this one do not hold it.
+class DoorSlot {
+ public:
+  struct Limits {
+    int total = 64;
+    int per_prefix = 8;  ///< maximum from one IPv4 address or IPv6 /64
+  };
+  enum class Refusal { kNone, kFull, kFullForPrefix };
+  struct AcquireResult {
+    std::unique_ptr<DoorSlot> place;  ///< null: refused
+    Refusal refusal = Refusal::kNone;
+  };
+
+  /// Takes a place for the visitor at this address, "192.0.2.7:50312" or "[2001:db8::7]:50312". Creates
+  /// `folder` with mode 0700 if it is missing. Waits briefly while other processes acquire places.
+  /// Throws std::system_error.
+  static AcquireResult acquire(const std::filesystem::path& folder, const std::string& visitor,
+                               const Limits& limits);
+
+  ~DoorSlot();
+  DoorSlot(const DoorSlot&) = delete;
+  DoorSlot& operator=(const DoorSlot&) = delete;
+
+ private:
+  explicit DoorSlot(int file) : m_file(file) {}
+  int m_file;
+};
+
+}  // namespace naiad

@@ -1,0 +1,117 @@
+// Converts a terminal's key presses to the book's three actions: pressed, held down, released.
+//
+// Most terminals report only that a key typed a character; a held key repeats it after a pause of 0.25 to
+// 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real releases arrive,
+// and nothing is guessed. docs/terminals.md has the rules that were compared.
+//
+// The repeat interval and the pause belong to the keyboard, so they are learned from all keys together. Time
+// is a parameter.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "client/terminal/InputDecoder.h"
+
+namespace naiad {
+
+/// A key's action, as the game receives it.
+struct KeyAction {
+  df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;
+  df::EventKeyboardAction action = df::UNDEFINED_KEYBOARD_ACTION;
+  friend bool operator==(const KeyAction&, const KeyAction&) = default;
+};
+
+/// Rule by which releases are guessed that the terminal does not report. The default plays best in the games;
+/// the other values exist for comparison.
+struct HoldRule {
+  /// Long enough to keep running over a gap, too short to run far when both keys were released.
+  static constexpr std::chrono::milliseconds kCompanion{300};
+
+  /// Meaning of the first press of a direction key (arrows, WASD). Other keys are taps.
+  enum class First : std::uint8_t {
+    kTap,      ///< released after the release delay; the first repeat is a new press
+    kUsual,    ///< held for kUsualPause, unless another key comes
+    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; until a pause was
+    ///< seen, a tap
+  };
+  First first = First::kTap;
+  /// Time a repeating key stays down after another key was pressed, which silences it: keyboards repeat
+  /// only the key pressed last. Zero: it is released like any silent key.
+  std::chrono::milliseconds companion{kCompanion};
+  /// If true, a direction key is released when the opposite one is pressed.
+  bool opposites = true;
+};
+
+class KeyHoldTracker {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Duration = std::chrono::steady_clock::duration;
+
+  /// Minimum silence after a key's last byte before a release is guessed.
+  static constexpr std::chrono::milliseconds kMinRelease{80};
+  /// Maximum silence before a release is guessed, even if the repeats are slow.
+  static constexpr std::chrono::milliseconds kMaxRelease{250};
+  /// Pause of most keyboards before the first repeat.
+  static constexpr std::chrono::milliseconds kUsualPause{500};
+  /// Limits of pauses that are learned.
+  static constexpr std::chrono::milliseconds kMinPause{150};
+  static constexpr std::chrono::milliseconds kMaxPause{1000};
+  /// Limit on keys that report KEY_DOWN in one tick; further keys still report presses and releases.
+  static constexpr std::size_t kMaxHeld = 6;
+
+  KeyHoldTracker() = default;
+  explicit KeyHoldTracker(const HoldRule& rule) : m_rule(rule) {}
+
+  /// `real`: the terminal reports releases (kitty), so nothing is guessed. Releases all keys if this changes.
+  std::vector<KeyAction> setRealReleases(bool real);
+
+  /// Converts a key event decoded at `now`. Events without a key yield only releases that are due.
+  std::vector<KeyAction> handleKey(const KeyEvent& event, Time now);
+  /// Returns the guessed releases that are due. Call at deadline().
+  std::vector<KeyAction> expire(Time now);
+  /// Returns when expire() will have something to do; Time::max() if never.
+  Time deadline() const;
+  /// Returns the KEY_DOWN actions of one tick. Call once per tick.
+  std::vector<KeyAction> tick() const;
+  /// Releases all keys, e.g. when a text line opens or the program is suspended.
+  std::vector<KeyAction> releaseAll();
+
+  /// Returns the silence after which a repeating key counts as released.
+  Duration releaseDelay() const;
+  /// Returns the keyboard's pause before the first repeat; zero until one was seen.
+  Duration pause() const { return m_pause; }
+
+ private:
+  struct Held {
+    Time last;
+    Time until;              ///< time of its release, if it types nothing more
+    bool repeating = false;  ///< reports KEY_DOWN
+    bool bridging = false;   ///< held during the pause before the first repeat
+    bool silenced = false;   ///< another key was pressed after its last repeat
+  };
+  std::vector<KeyAction> handleTyped(df::Keyboard::Key key, Time now);
+  void pressFirst(df::Keyboard::Key key, Held& held, Time now);
+  void handleRepeat(Held& held, Time now);
+  void pressBeside(df::Keyboard::Key key, Time now, std::vector<KeyAction>& out);
+  void learnInterval(Duration gap);
+  void learnPause(df::Keyboard::Key key, Time now);
+  Duration bridge(df::Keyboard::Key key) const;
+
+  HoldRule m_rule;
+  bool m_real = false;
+  Duration m_interval = std::chrono::milliseconds(35);
+  Duration m_pause{};
+  std::map<df::Keyboard::Key, Held> m_held;
+  /// Times at which a key typed last.
+  struct Past {
+    Time first;  ///< last time but one
+    Time last;
+  };
+  std::map<df::Keyboard::Key, Past> m_past;
+};
+
+}  // namespace naiad

@@ -1,0 +1,91 @@
+// The client's world, as snapshots describe it. Each epoch has a replica; this chooses the replica for each
+// snapshot and the one to show.
+//
+// The first world is not shown before it is complete: its objects may take several snapshots, and some time
+// on a slow connection. A snapshot of the next epoch starts another world in a second replica, while the old
+// one is shown. Either is shown incomplete after kIncompleteTimeout.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "shared/replica/Acks.h"
+#include "shared/replica/Replica.h"
+
+namespace naiad {
+
+class EpochReplicas {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// Time after which an incomplete world is shown.
+  static constexpr std::chrono::milliseconds kIncompleteTimeout{500};
+  /// Number of consecutive stale snapshots after which the client requests the world again.
+  static constexpr int kMaxStale = 30;
+
+  /// `near`: numbers from which the next snapshots continue. `epoch`: their epoch.
+  explicit EpochReplicas(const SnapshotContext& near = {}, std::uint8_t epoch = 0)
+      : m_replica(Replica::continuing(near)),
+        m_epoch(epoch),
+        m_before(near.number),
+        m_complete(near.number) {}
+
+  /// Result of applySnapshot().
+  enum class Result {
+    kApplied,
+    kShown,      ///< applied, and another world is shown from now on
+    kIgnored,    ///< it belongs to a past epoch
+    kStale,      ///< it uses an origin or a name that a newer snapshot has replaced
+    kMalformed,  ///< not a valid snapshot: the server is broken
+  };
+  /// Reads and applies a snapshot; sets `header` to its header. `before` is called just before it is applied.
+  Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
+                       const std::function<void(std::uint32_t tick)>& before);
+
+  /// Call when another world will follow. Its snapshots have this epoch; its tick is now near `tick`, which
+  /// may be lower than that of the present world.
+  void expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now);
+  /// Call when the server's tick is known to be at least `tick`: snapshots carry only the low bits of a tick,
+  /// which are completed near it.
+  void advanceTick(std::uint32_t tick);
+
+  /// Returns the replica to show.
+  const Replica& shown() const { return m_replica; }
+  /// True if the first world is complete or has been awaited for kIncompleteTimeout. Once true, it stays
+  /// true.
+  bool hasPicture(Time now) const {
+    return m_first_complete || (m_first_at && now - *m_first_at >= kIncompleteTimeout);
+  }
+  /// True if another replica is about to replace the shown one.
+  bool isChanging() const { return m_next.has_value(); }
+  /// True if kMaxStale or more consecutive snapshots were stale, so that the world should be sent again.
+  bool needsReset() const { return m_stale_in_a_row >= kMaxStale; }
+  /// True if the number of stale snapshots is just a multiple of kMaxStale: request the world now.
+  bool shouldRequestReset() const { return needsReset() && m_stale_in_a_row % kMaxStale == 0; }
+  /// Returns the number of worlds after the first.
+  std::uint64_t resets() const { return m_resets; }
+
+ private:
+  Replica* replicaFor(std::string_view bytes, Time now);
+  void trackFirstWorld(const SnapshotHeader& header, Time now);
+
+  Replica m_replica;
+  std::uint8_t m_epoch;
+  std::optional<Replica> m_next;
+  std::uint8_t m_next_epoch = 0;
+  Time m_reset_at{};
+  std::uint64_t m_resets = 0;
+  int m_stale_in_a_row = 0;
+
+  // State of the first world only.
+  std::uint32_t m_before;          ///< number of the last snapshot sent before this world's
+  std::uint32_t m_complete;        ///< newest complete snapshot; m_before: none yet
+  AckWindow m_arrived;             ///< snapshots of this world
+  std::optional<Time> m_first_at;  ///< arrival of the first
+  bool m_first_complete = false;
+};
+
+}  // namespace naiad

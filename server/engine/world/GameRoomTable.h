@@ -1,0 +1,56 @@
+// The server's rooms as a world knows them, and the players that its game sends there (GameRooms.h).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/world/GameRoom.h"
+
+namespace df {
+
+/// A player that the game sends to another room.
+struct RoomTransfer {
+  std::uint32_t player = 0;
+  std::string room;
+};
+
+class GameRoomTable {
+ public:
+  /// Adds a room behind the others, or updates it. Ignores invalid and surplus rooms.
+  void update(GameRoom room) {
+    if (room.name.empty() || room.name.size() > GameRoomLimits::kMaxName) return;
+    if (GameRoom* p_room = find(room.name)) {
+      *p_room = std::move(room);
+    } else if (m_rooms.size() < GameRoomLimits::kMaxRooms) {
+      m_rooms.push_back(std::move(room));
+    }
+  }
+  const std::vector<GameRoom>& rooms() const { return m_rooms; }
+  /// Sends a player to a room. False if there is no such room to send to, or too many were sent in this tick.
+  bool send(std::uint32_t player, const std::string& room) {
+    const GameRoom* p_room = find(room);
+    const bool is_full = m_sent.size() >= GameRoomLimits::kMaxSentInTick;
+    if (p_room == nullptr || p_room->is_this_one || is_full) return false;
+    m_sent.push_back({player, room});
+    return true;
+  }
+  /// Returns the players sent in the last tick. Those not taken before the next one begins are forgotten.
+  std::vector<RoomTransfer> popSent() { return std::exchange(m_sent, {}); }
+  const std::vector<RoomTransfer>& sent() const { return m_sent; }
+  void beginTick() { m_sent.clear(); }
+
+ private:
+  GameRoom* find(const std::string& name) {
+    const auto is_named = [&name](const GameRoom& room) { return room.name == name; };
+    const auto found = std::find_if(m_rooms.begin(), m_rooms.end(), is_named);
+    return found != m_rooms.end() ? &*found : nullptr;
+  }
+
+  std::vector<GameRoom> m_rooms;
+  std::vector<RoomTransfer> m_sent;
+};
+
+}  // namespace df

@@ -1,0 +1,43 @@
+// Decides whether a player may enter a named room, and wakes the room if it sleeps.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "host/rooms/RoomManager.h"
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/PrefixRateLimiter.h"
+
+namespace naiad {
+
+/// Not thread-safe.
+class RoomAdmission {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  enum class Reason { kUnknown, kGame, kFull, kTemporary };
+  struct Refusal {
+    Reason reason = Reason::kUnknown;
+    std::string sentence;  ///< message for the player
+    std::string log;       ///< additional text for the server's log; may be empty
+  };
+
+  RoomAdmission(RoomManager& rooms, int max_per_address)
+      : m_rooms(rooms), m_wakes(RateLimits::wakes()), m_moves(RateLimits::moves(max_per_address)) {}
+
+  /// Finds a room by name; otherwise by game, preferring rooms with a free place and awake ones; otherwise
+  /// the first. Null if none matches; `refusal` then says why.
+  Room* findRoom(const std::string& name, const std::string& game, Refusal& refusal) const;
+  /// Wakes the room if it sleeps. Returns why a player from `prefix` may not enter it; nullopt if they may.
+  std::optional<Refusal> open(Room& room, const AddressPrefix& prefix, Time now);
+  /// Counts a room change by a player from `prefix`. False if it is over the limit.
+  bool tryMove(const AddressPrefix& prefix, Time now) { return m_moves.tryConsume(prefix, now); }
+
+ private:
+  RoomManager& m_rooms;
+  PrefixRateLimiter m_wakes;  ///< rate limit, because each wake starts a process
+  PrefixRateLimiter m_moves;  ///< rate limit, because each move sends a world from the beginning
+};
+
+}  // namespace naiad

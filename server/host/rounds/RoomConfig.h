@@ -1,0 +1,43 @@
+// Settings and sleep of a named room (--room), with or without a world.
+#pragma once
+
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/world/WorldMessages.h"
+
+namespace naiad {
+
+class Round;
+
+/// Begins a round in a new world. `home` runs the handlers of the host's thread, and outlives the round.
+/// Throws std::system_error on failure.
+using NewWorld = std::function<std::unique_ptr<Round>(asio::io_context& home)>;
+
+struct RoomConfig {
+  std::string name;         ///< valid by isRoomName()
+  std::string game;         ///< the name of its module
+  int max_players = 0;      ///< maximum at a time
+  bool first_only = false;  ///< only the first player's input is used
+  WorldReady ready;         ///< settings of the game, for the players that will join
+  NewWorld new_world;
+  /// Its first world resumes the round of a killed server: it does not wait for players.
+  bool resumes_round = false;
+  std::uint32_t highest_player = 0;  ///< highest player id of that round
+};
+
+/// State of a room that is asleep (without a world) or still (its world exists and does not tick).
+struct RoomSleepState {
+  using Time = std::chrono::steady_clock::time_point;
+  bool asleep = false;
+  bool still = false;
+  std::optional<Time> empty_since;  ///< nullopt: it has players
+  Time closed_until{};              ///< its game failed repeatedly: it is not woken before
+};
+
+}  // namespace naiad

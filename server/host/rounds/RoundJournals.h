@@ -1,0 +1,159 @@
+// Writes the file and facts of each round of a server's worlds, and recovers a killed server's round.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "host/journal/DeterminismCheck.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/UnfinishedRound.h"
+#include "host/rounds/Round.h"
+#include "host/settings/HostOptions.h"
+#include "host/world/Determinism.h"
+#include "host/world/WorldProcess.h"
+#include "shared/program/LineLog.h"
+
+namespace naiad {
+
+// Help for the authors of games that crashed.
+
+/// Returns the command "dfreplay FILE --until TICK --debug", with --game if `game` is not the name of an
+/// installed game, or names another one than `module` (both as of GameModule).
+std::string debugCommand(const std::string& file, std::uint32_t tick, const std::string& game,
+                         const std::filesystem::path& module);
+
+/// Returns `text` quoted as one word of a shell command.
+std::string shellWord(const std::string& text);
+
+/// Rounds that the previous program of this process left open for this one: the uuid of each, and the hash of
+/// the module that replayed it with equal answers.
+using HandedOverRounds = std::map<std::string, std::string>;
+
+/// Returns what RoundJournals::exportHandedOverRounds() has announced, once.
+HandedOverRounds importHandedOverRounds();
+
+/// State shared by the journals of a server's rooms (openRoomJournals).
+struct SharedJournals {
+  std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
+  std::set<std::string> checked = {};  ///< games that were, or are being, checked
+  HandedOverRounds kept = importHandedOverRounds();
+};
+
+class RoundJournals {
+ public:
+  /// Returns null if the options disable journals. `module`: the game's path; empty if this program is the
+  /// game.
+  static std::shared_ptr<RoundJournals> open(const HostOptions& options, const std::string& game,
+                                             const std::string& module, const LogLine& log);
+
+  using NewWorld = std::function<std::unique_ptr<WorldProcess>()>;
+
+  /// `p_shared`: state shared with the journals of other rooms; null: there are no others.
+  RoundJournals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
+                std::shared_ptr<SharedJournals> p_shared = nullptr);
+
+  /// Returns the order for a world of a new round.
+  WorldStartOptions makeStartOptions() const;
+  /// Returns the order for a world that resumes a killed server's round; nullopt if none is left.
+  std::optional<WorldStartOptions> resumeOptions() const;
+  /// Returns the highest player id of that round (UnfinishedRound::highestPlayer()); 0 without one.
+  std::uint32_t highestPlayer() const;
+  /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded.
+  /// `another` starts a world that takes over from one that crashed or hangs.
+  std::unique_ptr<Round> resumeRound(std::unique_ptr<WorldProcess> world, NewWorld another);
+  /// Returns a new round of `world`, recorded unless that fails, which the log says. `again` starts a second
+  /// world from `order`, with which the first round of each game is compared. `another` starts a world that
+  /// takes over from one that crashed or hangs.
+  std::unique_ptr<Round> recordWorld(std::unique_ptr<WorldProcess> world, const WorldStartOptions& order,
+                                     DeterminismCheck::NewWorld again = {}, NewWorld another = {});
+
+  // Handover of the round to another program (RoundHandover.h).
+
+  /// A round that is being played and recorded.
+  struct CurrentRound {
+    std::string uuid;
+    std::string file;
+    std::uint64_t start_nanos = 0;  ///< since 1970 in UTC
+  };
+  /// Returns the current round; nullopt if none is being recorded.
+  std::optional<CurrentRound> currentRound() const;
+  /// Returns why its rounds cannot be handed over, as the rest of a sentence; empty if nothing prevents it.
+  std::string handoverBlocker() const;
+  /// Returns the path of the game's module; empty: the game is a program of its own.
+  const std::string& module() const { return m_module; }
+  /// Waits until everything added is on the disk, at most `most`. Returns true if it is. Any thread.
+  bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
+  /// Leaves the journal as a killed server would. From now on nothing is recorded.
+  void suspend();
+  /// Tells the program that this process runs next, in its environment, that modules with these hashes
+  /// (hashOfModule) replayed these rounds with equal answers, and may therefore resume them.
+  static void exportHandedOverRounds(const HandedOverRounds& rounds);
+
+ private:
+  bool isHandedOver(const UnfinishedRound& round) const;
+  void setCurrentRound(const std::shared_ptr<Journal>& journal, const std::string& file);
+  void findRound(const HostOptions& options);
+  std::string pathOf(const DfrHeader& header) const;
+  std::shared_ptr<Journal> resumeJournal(UnfinishedRound& round) const;
+  Round::JournalBinding makeBinding(const std::string& path, const WorldProcess& world) const;
+
+  const std::string m_folder;
+  const bool m_of_room;  ///< the folder is a room's, in that of --journal
+  const std::string m_game;
+  const std::string m_module;  ///< path; empty: a game that is a program
+  const std::int64_t m_seed;
+  const std::uint64_t m_frame_nanos;
+  const std::size_t m_ring;
+  const bool m_checkpoints;  ///< worlds make copies; too many processes if each player has a world
+  DfrFacts m_facts;
+  LogLine m_log;
+  std::weak_ptr<Journal> m_current;
+  std::string m_current_file;
+  bool m_is_private = false;  ///< each player has a round of their own
+  bool m_recovers = true;
+  /// False once the current round was found not to be repeatable.
+  std::shared_ptr<bool> m_is_deterministic = std::make_shared<bool>(true);
+  std::unique_ptr<UnfinishedRound> m_open;  ///< the round to resume
+  std::shared_ptr<SharedJournals> m_shared;
+};
+
+/// Returns the round that a server of this folder was killed in, if this server can resume it: game, settings
+/// and port are as in `expected`. Otherwise returns null; `said` has the reason if there is such a round.
+/// `kept`: rounds that another version of the game may have begun.
+std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
+                                                     std::uint64_t frame_nanos, std::string& said,
+                                                     const HandedOverRounds& kept = {});
+
+/// Returns the hash of a file by which a round identifies its game; empty if the file cannot be read.
+std::string hashOfModule(const std::string& path);
+
+/// Returns the kernel version and the build ids of libraries, which decide where memory lies.
+DfrFacts factsOfMachine();
+
+/// Maximum bytes of the game's settings; a longer file is not recorded.
+inline constexpr std::size_t kMaxSettings = kMaxDfrValue;
+
+// Names of facts.
+inline constexpr const char* kFactGame = "game";
+inline constexpr const char* kFactModule = "module_sha256";  ///< missing: the game was a program
+inline constexpr const char* kFactVersion = "naiad";
+inline constexpr const char* kFactPlayers = "players";
+inline constexpr const char* kFactGameOver = "on_game_over";
+inline constexpr const char* kFactAddresses = "addresses";    ///< "fixed" or "random"
+inline constexpr const char* kFactClocks = "clocks";          ///< "repeatable" or "real"
+inline constexpr const char* kFactSettings = "settings";      ///< the text of df-config.txt
+inline constexpr const char* kFactPort = "port";              ///< port by which players joined
+inline constexpr const char* kFactFirstTick = "first_tick";   ///< its number in the server's log
+inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered differently
+inline constexpr const char* kFactAttempts = "attempts";      ///< attempts to resume it, and its turns then
+inline constexpr const char* kFactFile = "file ";  ///< followed by a file's name: the hash of that file
+inline constexpr const char* kFactVariable = "variable ";  ///< followed by a variable's name: its value
+
+}  // namespace naiad

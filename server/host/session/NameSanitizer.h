@@ -1,0 +1,28 @@
+// Cleans player names and chat lines, which come from strangers and appear in other players' terminals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace naiad {
+
+// Detection of names that differ in bytes but look alike: Cyrillic "Аnn" and Latin "Ann", "Ilse" and "llse".
+
+/// Returns the skeletons of `name` (UTF-8): two names look alike if they share a shape. Shapes are the
+/// skeletons of Unicode's confusable characters (UTS #39, section 4) of the name with and without its upper
+/// case, because "I" looks like "l" only in upper case. Takes some microseconds. The first call loads ICU's
+/// tables (a few milliseconds), so a server makes one at its start. Any thread.
+std::vector<std::string> nameSkeletons(const std::string& name);
+
+/// Returns `wanted` with blanks trimmed and collapsed, without characters that no terminal draws in one cell,
+/// cut to kMaxNameLength characters. Empty if nothing is left.
+std::string cleanName(const std::string& wanted);
+
+/// Returns `name` if no name in `taken` equals it or looks like it (nameSkeletons()). Otherwise appends the
+/// lowest free number from 2 on, and shortens the name if needed.
+std::string uniqueName(const std::string& name, const std::vector<std::string>& taken);
+
+/// Returns a chat line, cleaned like a name and cut to kMaxChatLength characters.
+std::string cleanChat(const std::string& text);
+
+}  // namespace naiad

@@ -1,0 +1,26 @@
+// Gives a process equal addresses in each run. Without randomisation they still depend on two sizes: the
+// start of the stack on the size of arguments and environment, and the place of libraries on the limit of the
+// stack.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace naiad {
+
+/// Pads the environment, so that it and the arguments together have a fixed number of entries and, with the
+/// program, of bytes.
+void padEnvironment(const std::string& program, const std::vector<std::string>& arguments,
+                    std::vector<std::string>& environment);
+
+/// True if disableAslr() works. Tries it in a process that then ends.
+bool canDisableAslr();
+
+/// True if the addresses of this process are fixed.
+bool hasFixedAddresses();
+
+/// Fixes the addresses of the program that this process is about to execute. Returns false if the kernel, or
+/// a filter that the server was started with, does not allow it.
+bool disableAslr();
+
+}  // namespace naiad

@@ -1,0 +1,90 @@
+// Rate limits for an address and for its network.
+//
+// Per-connection limits restart when a client reconnects; these belong to the address. A client with many
+// addresses shares the limits of its network.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/PrefixLruMap.h"
+#include "shared/net/base/TokenBucket.h"
+
+namespace naiad {
+
+/// Not thread-safe. Time is passed in. Bounded: only the last used prefixes and networks are remembered.
+class PrefixRateLimiter {
+ public:
+  using Time = TokenBucket::Time;
+
+  struct Rates {
+    BucketRate per_prefix;            ///< an IPv4 address or an IPv6 /64
+    BucketRate per_network;           ///< the /24 or /48 that contains it
+    std::optional<BucketRate> total;  ///< nullopt: no limit
+  };
+  static constexpr std::size_t kPrefixes = 1024;  ///< remembered prefixes; as many networks are remembered
+
+  explicit PrefixRateLimiter(const Rates& rates) : m_rates(rates) {}
+
+  /// Counts one more event and returns true, or returns false if that is over a limit.
+  bool tryConsume(const AddressPrefix& prefix, Time now) {
+    // Narrowest first: an event over its own limit does not consume tokens of the wider ones.
+    return m_prefixes.use(prefix).tryConsume(m_rates.per_prefix, now) &&
+           m_networks.use(prefix.widest()).tryConsume(m_rates.per_network, now) &&
+           (!m_rates.total || m_all.tryConsume(*m_rates.total, now));
+  }
+
+  /// Returns the value that tryConsume() would return now, without counting.
+  bool canConsume(const AddressPrefix& prefix, Time now) {
+    TokenBucket* const p_prefix = m_prefixes.find(prefix);
+    TokenBucket* const p_network = m_networks.find(prefix.widest());
+    return (p_prefix == nullptr || p_prefix->canConsume(m_rates.per_prefix, now)) &&
+           (p_network == nullptr || p_network->canConsume(m_rates.per_network, now)) &&
+           (!m_rates.total || m_all.canConsume(*m_rates.total, now));
+  }
+
+ private:
+  Rates m_rates;
+  PrefixLruMap<TokenBucket> m_prefixes{kPrefixes};
+  PrefixLruMap<TokenBucket> m_networks{kPrefixes};
+  TokenBucket m_all;
+};
+
+/// The rates of a server that accepts `max_per_address` players per address. A class is this many players, at
+/// least 64, behind one address.
+struct RateLimits {
+  /// TLS handshakes. Burst: a class connects twice, with second streams. Then one per player in 8 seconds.
+  static PrefixRateLimiter::Rates handshakes(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 8, 4 * crowd}, {crowd / 2, 16 * crowd}, std::nullopt};
+  }
+  /// Joins. Burst: a class joins, leaves and joins again. Then two a second.
+  static PrefixRateLimiter::Rates joins(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{2, 2 * crowd}, {8, 8 * crowd}, std::nullopt};
+  }
+  /// Private worlds, each a new process. Burst: two per player of a class. Then one a second.
+  static PrefixRateLimiter::Rates worlds(int max_per_address, int max_players) {
+    const double crowd = classSize(max_per_address);
+    return {{1, 2 * crowd}, {4, 8 * crowd}, BucketRate{8, 2.0 * max_players}};
+  }
+  /// Wake-ups of rooms, each a new process. Burst: four. Then one a second.
+  static PrefixRateLimiter::Rates wakes() { return {{1, 4}, {4, 16}, BucketRate{8, 64}}; }
+  /// Moves to another room, each of which sends a world. Burst: three per player of a class, through one
+  /// door. Then one per player in four seconds.
+  static PrefixRateLimiter::Rates moves(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
+  }
+  /// Chat lines. Burst: three per player of a class. Then one per player in four seconds.
+  static PrefixRateLimiter::Rates chat(int max_per_address) {
+    const double crowd = classSize(max_per_address);
+    return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
+  }
+
+ private:
+  static double classSize(int max_per_address) { return max_per_address > 64 ? max_per_address : 64; }
+};
+
+}  // namespace naiad

@@ -1,0 +1,83 @@
+// A server list that follows the bus, and its behaviour without a bus.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "FakeBus.h"
+#include "server/directory/FleetRegistry.h"
+#include "shared/fleet/BusPayloads.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+class FleetMonitorTest : public testing::Test {
+ protected:
+  void hear(const std::string& id) {
+    Presence presence;
+    presence.id = id;
+    presence.port = 9876;
+    presence.protocol = 4;
+    bus.heard.push_back({presenceSubject(id), presence.payload()});
+  }
+  void update(FleetMonitor::Time::duration at) { watch.update(FleetMonitor::Time{} + at); }
+
+  std::vector<std::string> lines;
+  test::FakeBus* p_bus = new test::FakeBus();
+  test::FakeBus& bus = *p_bus;
+  FleetMonitor watch{
+      std::unique_ptr<Bus>(p_bus), [this](const std::string& line) { lines.push_back(line); }, {}};
+};
+
+TEST_F(FleetMonitorTest, SaysWhichServersComeAndGo) {
+  bus.news = "the bus is connected";
+  hear("a");
+  update(0s);
+  hear("a");
+  update(2s);
+  update(8s);
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{"the bus is connected", "a joined the fleet", "a left the fleet"}));
+}
+
+TEST_F(FleetMonitorTest, WithoutABusTheListStaysForTenMinutes) {
+  hear("a");
+  update(1s);
+  bus.connected = false;
+  for (auto at = 2s; at < 600s; at += 1s) update(at);
+  EXPECT_EQ(watch.servers().size(), 1u);
+  for (auto at = 600s; at < 610s; at += 1s) update(at);
+  EXPECT_EQ(watch.servers().size(), 0u);
+}
+
+TEST_F(FleetMonitorTest, ServersGetAFullTimeoutAfterABusOutage) {
+  hear("a");
+  hear("b");
+  update(1s);
+  bus.connected = false;
+  for (auto at = 2s; at < 60s; at += 1s) update(at);
+  bus.connected = true;
+  update(60s);
+  hear("a");
+  update(64s);
+  EXPECT_EQ(watch.servers().size(), 2u);
+  update(65s);
+  EXPECT_EQ(watch.servers().size(), 1u) << "b was not heard";
+}
+
+TEST_F(FleetMonitorTest, ServerFloodDoesNotFillTheLog) {
+  for (int i = 0; i < 1000; ++i) hear("x" + std::to_string(i));
+  update(0s);
+  EXPECT_EQ(lines.size(), 100u);
+  hear("y");
+  update(1s);
+  EXPECT_EQ(lines.at(100), "900 more servers joined or left");
+  EXPECT_EQ(lines.at(101), "y joined the fleet");
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "host/metrics/HostHealth.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+
+const HostHealth::Clock::time_point kStart{1h};
+
+TEST(HostHealth, IsHealthyButNotReadyBeforeListening) {
+  const StageClock stages;
+  const HostHealth pulse(stages);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_EQ(pulse.readiness(kStart).sentence, "starting");
+}
+
+TEST(HostHealth, NoTickForOverOneSecondIsAHang) {
+  StageClock stages;
+  stages.start();
+  HostHealth pulse(stages);
+  pulse.begin(33ms, kStart);
+  stages.beginTick(17, kStart + 500ms, kStart + 500ms);
+  EXPECT_TRUE(pulse.health(kStart + 1500ms).is_good);
+  EXPECT_TRUE(pulse.readiness(kStart + 1500ms).is_good);
+  stages.enter(Stage::kWorld);
+  const HostHealth::Result verdict = pulse.health(kStart + 1501ms);
+  EXPECT_FALSE(verdict.is_good);
+  EXPECT_EQ(verdict.sentence, "no tick has begun for 1.0 s; since tick 17 the stage is: world");
+  EXPECT_FALSE(pulse.readiness(kStart + 1501ms).is_good);
+  stages.beginTick(18, kStart + 2s, kStart + 2s);
+  EXPECT_TRUE(pulse.health(kStart + 2s).is_good);
+}
+
+TEST(HostHealth, HangBeforeFirstTickIsTimedFromTheStart) {
+  const StageClock stages;
+  HostHealth pulse(stages);
+  pulse.begin(33ms, kStart);
+  EXPECT_TRUE(pulse.health(kStart + 1s).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 1001ms).is_good);
+}
+
+TEST(HostHealth, LongTicksHangAfterTenTickLengths) {
+  StageClock stages;
+  stages.start();
+  HostHealth pulse(stages);
+  pulse.begin(1s, kStart);
+  stages.beginTick(1, kStart, kStart);
+  EXPECT_TRUE(pulse.health(kStart + 10s).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 10'001ms).is_good);
+}
+
+TEST(HostHealth, IsNotReadyWhileFull) {
+  const StageClock stages;
+  HostHealth pulse(stages);
+  pulse.begin(33ms, kStart);
+  pulse.setFull(true);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_EQ(pulse.readiness(kStart).sentence, "full");
+  pulse.setFull(false);
+  EXPECT_TRUE(pulse.readiness(kStart).is_good);
+}
+
+TEST(HostHealth, DrainingIsNotReadyAndHangsOnlyWhileTicking) {
+  const StageClock stages;
+  HostHealth pulse(stages);
+  pulse.begin(33ms, kStart);
+  pulse.beginDrain(true);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_TRUE(pulse.health(kStart).is_good);
+  EXPECT_FALSE(pulse.health(kStart + 2s).is_good);
+  pulse.beginDrain(false);
+  EXPECT_FALSE(pulse.readiness(kStart).is_good);
+  EXPECT_TRUE(pulse.health(kStart + 1h).is_good);
+}
+
+TEST(StageClock, TimeBelongsToTheStageInWhichItPassed) {
+  StageClock clock;
+  clock.start();
+  EXPECT_EQ(clock.enter(Stage::kWorld), Stage::kIdle);
+  const auto began = StageClock::Clock::now();
+  while (StageClock::Clock::now() - began < 2ms) {
+  }
+  EXPECT_EQ(clock.enter(Stage::kFlush), Stage::kWorld);
+  EXPECT_EQ(clock.current(), Stage::kFlush);
+  const auto& spent = clock.spent();
+  EXPECT_GE(spent[static_cast<std::size_t>(Stage::kWorld)], 2ms);
+  EXPECT_EQ(spent[static_cast<std::size_t>(Stage::kFlush)], 0ms);
+}
+
+TEST(StageClock, CountsEachTickOnceHoweverOftenItEnds) {
+  StageClock clock;
+  clock.start();
+  const auto now = StageClock::Clock::now();
+  clock.beginTick(7, now - 3ms, now);
+  clock.endTick();
+  clock.endTick();
+  EXPECT_EQ(clock.tick(), 7u);
+  EXPECT_EQ(clock.tickBegan(), now);
+  EXPECT_DOUBLE_EQ(clock.lateness().sum(), 0.003);
+  std::uint64_t ended = 0;
+  for (std::size_t i = 0; i <= kTickBounds.size(); ++i) ended += clock.durations().count(i);
+  EXPECT_EQ(ended, 1u);
+}
+
+TEST(StageClock, MeasuresNothingBeforeItIsStarted) {
+  StageClock clock;
+  clock.beginTick(1, kStart, kStart + 1s);
+  clock.endTick();
+  EXPECT_EQ(clock.tick(), 0u);
+  EXPECT_EQ(clock.lateness().sum(), 0);
+  clock.enter(Stage::kWorld);
+  clock.enter(Stage::kFlush);
+  for (const auto spent : clock.spent()) EXPECT_EQ(spent, 0ms);
+}
+
+TEST(StageClock, EveryStageHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < kStages; ++i) names.insert(nameOf(static_cast<Stage>(i)));
+  EXPECT_EQ(names.size(), kStages);
+  EXPECT_EQ(names.count("unknown"), 0u);
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,260 @@
+// The parts of a world's report that reach the players of other worlds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Clients.h"
+#include "engine/managers/WorldManager.h"
+#include "engine/world/World.h"
+#include "host/admission/Admission.h"
+#include "host/rooms/PlayerListBroadcaster.h"
+#include "naiad.pb.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::helloOf;
+
+/// A world that reports what the test sets.
+class ScriptedPort : public WorldPort {
+ public:
+  bool isReady() const override { return true; }
+  void tick(const SentTurn& turn) override {
+    rendered_player.push_back(turn.turn.wants_truth ? turn.turn.rendered_player : 0);
+    ++m_view.tick;
+    m_view.players = players;
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_view.tick + 1; }
+  const df::WorldView& view() const override { return m_view; }
+
+  std::vector<df::PlayerFacts> players;
+  std::vector<std::uint32_t> rendered_player;  ///< per tick: player whose picture was requested, or 0
+
+ private:
+  df::WorldView m_view;
+};
+
+df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
+  df::PlayerFacts facts;
+  facts.id = id;
+  facts.name = name;
+  facts.score = score;
+  return facts;
+}
+
+/// Players in worlds of their own, unless the constructor is told otherwise.
+class RoomManagerTest : public testing::Test {
+ protected:
+  explicit RoomManagerTest(const std::string& players = "private") {
+    options.players = players;
+    rooms.setWorlds([this](asio::io_context&) {
+      auto port = std::make_unique<ScriptedPort>();
+      ports.push_back(port.get());
+      return std::make_unique<Round>(std::move(port));
+    });
+    rooms.open(world);
+    admission.setWorld(world);
+  }
+
+  Client& join(const std::string& name) {
+    Client& client = clients.emplace_back();
+    sessions.add(
+        std::make_unique<test::FakeChannel>(client),
+        {[this](Session& session, const wire::Hello& hello) { admission.evaluateHello(session, hello); },
+         [](Session&, const std::string&) {}, [this](Session& session) { admission.forgetSession(session); },
+         [this] { return now; }},
+        now);
+    client.greet(helloOf(name));
+    EXPECT_TRUE(client.isWelcome());
+    return client;
+  }
+  /// Sends the list, as a host does at the end of a tick in which it is due.
+  void sendList() {
+    rooms.beginTicks();
+    news.tick(
+        0, rooms.players(), [](std::uint32_t) { return 0u; },
+        [this](std::uint32_t player, const wire::ServerMessage& message) {
+          EXPECT_LE(message.ByteSizeLong(), kMaxServerFrame);
+          if (Session* p_session = rooms.findPlayer(player)) p_session->sendReliable(message);
+        });
+  }
+  /// Returns the newest list that arrived, as "name=score" lines; empty if none did.
+  static std::vector<std::string> listOf(const Client& client) {
+    std::vector<std::string> lines;
+    for (const wire::ServerMessage& message : client.sent) {
+      if (!message.has_players()) continue;
+      lines.clear();
+      for (const wire::PlayerEntry& entry : message.players().players())
+        lines.push_back(entry.name() + "=" + std::to_string(entry.score()));
+    }
+    return lines;
+  }
+
+  HostContext context{{}, "maze", [](const LogEvent&) {}};
+  HostOptions& options = context.options;
+  Counters& counters = context.counters;
+  SessionTable::Clock::time_point now = SessionTable::Clock::now();
+  df::World world;
+  const df::World::Scope scope{world};
+  PlayerPrefixes prefixes;
+  std::deque<Client> clients;
+  std::vector<ScriptedPort*> ports;
+  SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
+  RoomManager rooms{context, sessions, [] {}};
+  PlayerListBroadcaster news;
+  Admission admission{
+      {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
+};
+
+// ---- worlds without players -------------------------------------------------------------------------------
+
+class EmptyWorldTest : public RoomManagerTest {
+ protected:
+  EmptyWorldTest() : RoomManagerTest("together") {}
+
+  /// True if the world ticks in a tick of the host at `now` + `after`.
+  bool ticks(std::chrono::seconds after) {
+    const std::size_t before = ports[0]->rendered_player.size();
+    rooms.checkWorlds(now + after);
+    rooms.beginTicks();
+    return ports[0]->rendered_player.size() > before;
+  }
+};
+
+TEST_F(EmptyWorldTest, PausesAfterAMinuteUntilAPlayerJoins) {
+  options.grace = 0;
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(59s));
+  EXPECT_FALSE(rooms.rest());
+  EXPECT_FALSE(ticks(60s));
+  EXPECT_TRUE(rooms.rest());
+  Client& ann = join("ann");
+  EXPECT_TRUE(ticks(3600s));
+  EXPECT_FALSE(rooms.rest());
+  EXPECT_TRUE(ticks(7200s)) << "ann is there";
+  ann.drop();
+  ASSERT_EQ(sessions.playing(), 0u);
+  EXPECT_TRUE(ticks(7201s)) << "the minute begins when she has left";
+  EXPECT_TRUE(ticks(7260s));
+  EXPECT_FALSE(ticks(7261s));
+}
+
+TEST_F(EmptyWorldTest, DisconnectedPlayerKeepsTheWorldRunning) {
+  options.grace = 1000;
+  join("ann").drop();
+  ASSERT_EQ(sessions.playing(), 1u);
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(900s));
+}
+
+TEST_F(EmptyWorldTest, KeepsRunningIfTheGameRequestsIt) {
+  WM.setRunsEmpty();
+  EXPECT_TRUE(ticks(0s));
+  EXPECT_TRUE(ticks(3600s));
+  WM.setRunsEmpty(false);
+  EXPECT_FALSE(ticks(3601s));
+}
+
+TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
+  EXPECT_TRUE(ticks(0s));
+  options.ticks = 10'000;
+  EXPECT_TRUE(ticks(3600s));
+  options.ticks = 0;
+  EXPECT_FALSE(ticks(3601s));
+  rooms.setLastRound(true);
+  EXPECT_TRUE(ticks(3602s)) << "the server ends with the round";
+}
+
+// ---- the audit of pictures --------------------------------------------------------------------------------
+
+constexpr std::uint32_t kTicksPerSecond = 2;
+
+class AuditTurnsTest : public RoomManagerTest {
+ protected:
+  void tick(int count) {
+    for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
+  }
+  /// Returns in how many ticks the world's own player was rendered; checks that no other player was.
+  std::size_t wanted(std::size_t number, const Client& client) const {
+    const std::vector<std::uint32_t>& all = ports[number]->rendered_player;
+    const auto own = std::ranges::count(all, client.welcome().player());
+    EXPECT_EQ(own + std::ranges::count(all, 0u), static_cast<std::ptrdiff_t>(all.size()));
+    return static_cast<std::size_t>(own);
+  }
+};
+
+TEST_F(AuditTurnsTest, NoPictureIsRequestedWithoutAnAudit) {
+  const Client& ann = join("Ann");
+  tick(40);
+  EXPECT_EQ(wanted(0, ann), 0u);
+}
+
+TEST_F(AuditTurnsTest, OnePlayersPictureIsRequestedOneSecondInTen) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  tick(2 * AuditScheduler::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), 2 * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), 0u);
+}
+
+TEST_F(AuditTurnsTest, AuditMovesToANewPlayerAfterTenSeconds) {
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(AuditScheduler::kPeriod * kTicksPerSecond);
+  const Client& bob = join("Bob");
+  const Client& cal = join("Cal");
+  tick(AuditScheduler::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(0, ann), kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+  EXPECT_EQ(wanted(2, cal), 0u);
+}
+
+TEST_F(AuditTurnsTest, AuditMovesToTheNextPlayerAfterALeave) {
+  options.grace = 0;
+  rooms.startAudit(kTicksPerSecond);
+  const Client& ann = join("Ann");
+  tick(1);
+  ann.drop();
+  sessions.sweep();
+  const Client& bob = join("Bob");
+  tick(AuditScheduler::kPeriod * kTicksPerSecond);
+  EXPECT_EQ(wanted(1, bob), kTicksPerSecond);
+}
+
+TEST_F(RoomManagerTest, LyingWorldAffectsOnlyScoresOfItsPlayers) {
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  const std::uint32_t of_ann = ann.welcome().player();
+  const std::uint32_t of_bob = bob.welcome().player();
+  ports[0]->players = {factsOf(of_ann, "Ann", 3)};
+  ports[1]->players = {factsOf(of_ann, "Cheat", -100), factsOf(of_bob, "\xff", 7)};
+  for (std::uint32_t id = 1000; id < 1200; ++id)
+    ports[1]->players.push_back(factsOf(id, std::string(64, 'x'), 9));
+  sendList();
+  const std::vector<std::string> honest{"Ann=3", "Bob=7"};
+  EXPECT_EQ(listOf(ann), honest);
+  EXPECT_EQ(listOf(bob), honest);
+}
+
+TEST_F(RoomManagerTest, PlayersAreListedOnceTheirWorldHasThem) {
+  const Client& ann = join("Ann");
+  const Client& bob = join("Bob");
+  ports[0]->players = {factsOf(ann.welcome().player(), "Ann", 0)};
+  sendList();
+  EXPECT_EQ(listOf(ann), std::vector<std::string>{"Ann=0"});
+  EXPECT_TRUE(listOf(bob).empty());
+}
+
+}  // namespace
+}  // namespace naiad

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/rooms/SoundBroadcaster.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
+#include "shared/net/stream/ReliableFrames.h"
+
+namespace naiad {
+namespace {
+
+using Labels = std::vector<std::string>;
+
+class SoundBroadcasterTest : public testing::Test {
+ protected:
+  void SetUp() override { play(2); }
+  void play(std::uint32_t players) {
+    view.players.clear();
+    for (std::uint32_t id = 1; id <= players; ++id) view.players.emplace_back().id = id;
+  }
+  void sound(const std::string& label, std::uint32_t player = 0) {
+    view.sounds.push_back({label, df::SoundPlayed::kPlay, false, false, player});
+  }
+  /// Runs one tick with the sounds added before.
+  void tick() {
+    ++view.tick;
+    once.clear();
+    lasting.clear();
+    news.tick(view, [&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+      for (const wire::Sound& heard : message.sounds().sounds())
+        (lasts ? lasting : once)[player].push_back(heard.label());
+      return take(message);
+    });
+    view.sounds.clear();
+  }
+  /// Ends the world. Labels start with "-" for a stop and "+" for a sound that plays.
+  void changeWorld() {
+    once.clear();
+    lasting.clear();
+    news.changeWorld([&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+      for (const wire::Sound& heard : message.sounds().sounds())
+        (lasts ? lasting : once)[player].push_back((heard.action() == wire::Sound::STOP ? "-" : "+") +
+                                                   heard.label());
+      return take(message);
+    });
+  }
+  bool take(const wire::ServerMessage& message) {
+    EXPECT_LE(message.sounds().sounds_size(), static_cast<int>(kMaxSounds));
+    last = message;
+    return sends;
+  }
+
+  SoundBroadcaster news;
+  df::WorldView view;
+  std::map<std::uint32_t, Labels> once, lasting;  ///< labels sent in the last tick
+  wire::ServerMessage last;
+  bool sends = true;
+};
+
+TEST_F(SoundBroadcasterTest, AllPlayersGetASoundInItsTick) {
+  tick();
+  sound("fire", 2);
+  tick();
+  EXPECT_EQ(once, (std::map<std::uint32_t, Labels>{{1, {"fire"}}, {2, {"fire"}}}));
+  EXPECT_TRUE(lasting.empty());
+  EXPECT_EQ(last.sounds().sounds(0).player(), 2u);
+  tick();
+  EXPECT_TRUE(once.empty());
+  EXPECT_EQ(news.sent(), 2u);
+  EXPECT_EQ(news.dropped(), 0u);
+}
+
+TEST_F(SoundBroadcasterTest, MusicLoopsPausesAndStopsMustArrive) {
+  tick();
+  view.sounds = {{"theme", df::SoundPlayed::kPlay, true, false, 0},
+                 {"siren", df::SoundPlayed::kPlay, false, true, 0},
+                 {"fire", df::SoundPlayed::kPlay, false, false, 0},
+                 {"fire", df::SoundPlayed::kStop, false, false, 0}};
+  tick();
+  EXPECT_EQ(lasting[1], (Labels{"theme", "siren", "fire"}));
+  EXPECT_EQ(once[1], (Labels{"fire"}));
+  view.tick += 100;
+  view.sounds = {{"theme", df::SoundPlayed::kPause, true, false, 0}};
+  tick();
+  EXPECT_EQ(last.sounds().sounds(0).action(), wire::Sound::PAUSE);
+  EXPECT_TRUE(last.sounds().sounds(0).music());
+}
+
+TEST_F(SoundBroadcasterTest, RepeatedSoundInATickIsSentOnce) {
+  for (int i = 0; i < 20; ++i) sound("boom");
+  tick();
+  EXPECT_EQ(once[1], Labels{"boom"});
+  EXPECT_EQ(news.dropped(), 0u);
+}
+
+TEST_F(SoundBroadcasterTest, ExcessSoundsOfATickAreDroppedByPriority) {
+  tick();
+  for (int i = 0; i < 3; ++i) sound("theirs " + std::to_string(i), 2);
+  sound("no player's");
+  sound("mine", 1);
+  view.sounds.push_back({"theme", df::SoundPlayed::kPlay, true, true, 2});
+  tick();
+  EXPECT_EQ(lasting[1], Labels{"theme"});
+  EXPECT_EQ(once[1], (Labels{"theirs 0", "no player's", "mine"})) << "in the order in which they were";
+  EXPECT_EQ(once[2], (Labels{"theirs 0", "theirs 1", "theirs 2"}));
+  EXPECT_EQ(news.dropped(), 4u);
+}
+
+TEST_F(SoundBroadcasterTest, TenSoundsASecondAreSentAndExcessCounted) {
+  play(1);
+  std::size_t heard = 0;
+  for (int i = 0; i < 300; ++i) {
+    sound("a");
+    sound("b");
+    tick();
+    heard += once[1].size();
+  }
+  EXPECT_EQ(heard, SoundBroadcaster::kBurst + 299 / SoundBroadcaster::kTicksPerSound);
+  EXPECT_EQ(news.sent(), heard);
+  EXPECT_EQ(news.sent() + news.dropped(), 600u);
+}
+
+// A player who is disconnected for a minute must not lose the session because of a noisy game.
+TEST_F(SoundBroadcasterTest, MinuteOfSoundsFillsUnderHalfTheOutbox) {
+  play(1);
+  std::size_t bytes = 0;
+  for (int i = 0; i < 60 * 30; ++i) {
+    std::string label;
+    while (label.size() < 3 * kMaxSoundLabel) label += "\u2588";  // three bytes each
+    view.sounds.push_back({label, df::SoundPlayed::kPlay, true, i % 2 == 0, 1});
+    tick();
+    if (!lasting.empty()) bytes += last.SerializeAsString().size() + 10;
+  }
+  EXPECT_GT(bytes, 10'000u);
+  EXPECT_LT(bytes, ReliableFrameSender::kMax / 2);
+}
+
+TEST_F(SoundBroadcasterTest, ANewPlayerGetsWhatIsPlaying) {
+  const df::SoundPlayed theme{"theme", df::SoundPlayed::kPlay, true, true, 0};
+  view.playing = {theme};
+  view.sounds = {theme, {"jingle", df::SoundPlayed::kPlay, true, false, 0}};
+  tick();
+  EXPECT_EQ(lasting[1], (Labels{"theme", "jingle"})) << "once, though it began in this tick";
+  play(3);
+  tick();
+  EXPECT_EQ(lasting, (std::map<std::uint32_t, Labels>{{3, {"theme"}}}));
+  news.repeat(2);
+  tick();
+  EXPECT_EQ(lasting, (std::map<std::uint32_t, Labels>{{2, {"theme"}}}));
+  view.players.erase(view.players.begin());
+  tick();
+  EXPECT_TRUE(lasting.empty());
+}
+
+TEST_F(SoundBroadcasterTest, WorldChangeStopsLastingSounds) {
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  tick();
+  view.playing.push_back({"siren", df::SoundPlayed::kPlay, false, true, 2});
+  view.sounds = {{"siren", df::SoundPlayed::kPlay, false, true, 2},
+                 {"fire", df::SoundPlayed::kPlay, false, false, 2},
+                 {"jingle", df::SoundPlayed::kPlay, true, false, 0},
+                 {"storm", df::SoundPlayed::kPlay, false, true, 0}};
+  tick();
+  view.tick += 100;
+  view.sounds = {{"storm", df::SoundPlayed::kStop, false, true, 0},
+                 {"theme", df::SoundPlayed::kPause, true, true, 0}};
+  tick();
+  changeWorld();
+  EXPECT_EQ(lasting, (std::map<std::uint32_t, Labels>{{1, {"-siren", "-jingle", "-theme"}},
+                                                      {2, {"-siren", "-jingle", "-theme"}}}));
+  EXPECT_TRUE(once.empty());
+  EXPECT_FALSE(last.sounds().sounds(0).music());
+  EXPECT_TRUE(last.sounds().sounds(0).loop());
+  EXPECT_EQ(last.sounds().sounds(0).player(), 0u) << "no player caused it";
+  EXPECT_TRUE(last.sounds().sounds(1).music());
+
+  changeWorld();
+  EXPECT_TRUE(lasting.empty()) << "once";
+  view.playing = {{"theme", df::SoundPlayed::kPlay, true, true, 0}};
+  tick();
+  EXPECT_EQ(lasting[1], Labels{"theme"}) << "what goes on in the next world is new to all";
+}
+
+TEST_F(SoundBroadcasterTest, LoopsAreStoppedEvenAfter100LaterTunes) {
+  play(1);
+  tick();
+  view.sounds = {{"siren", df::SoundPlayed::kPlay, false, true, 0}};
+  tick();
+  for (int i = 0; i < 100; ++i) {
+    view.sounds = {{"tune " + std::to_string(i), df::SoundPlayed::kPlay, true, false, 0}};
+    tick();
+  }
+  changeWorld();
+  ASSERT_EQ(lasting[1].size(), kMaxSounds);
+  EXPECT_EQ(lasting[1].front(), "-siren");
+  EXPECT_EQ(lasting[1].back(), "-tune 99");
+}
+
+TEST_F(SoundBroadcasterTest, SoundLabelsAreTruncatedAndSanitized) {
+  sound(std::string(100, 'x') + "\x1b");
+  sound("\xff\x1b[2J");
+  tick();
+  ASSERT_EQ(once[1].size(), 2u);
+  EXPECT_EQ(once[1][0], std::string(kMaxSoundLabel, 'x'));
+  EXPECT_EQ(once[1][1], "??[2J");
+}
+
+TEST_F(SoundBroadcasterTest, WhatCannotBeSentIsCounted) {
+  sends = false;
+  sound("fire");
+  tick();
+  EXPECT_EQ(news.sent(), 0u);
+  EXPECT_EQ(news.dropped(), 2u);
+}
+
+TEST_F(SoundBroadcasterTest, SoundsOverThePerTickLimitAreCounted) {
+  play(1);
+  for (int i = 0; i < 200; ++i) sound(std::to_string(i));
+  view.sounds_lost = 7;
+  tick();
+  EXPECT_EQ(once[1].size(), SoundBroadcaster::kPerTick);
+  EXPECT_EQ(news.dropped(), 200u - SoundBroadcaster::kPerTick + 7u);
+}
+
+}  // namespace
+}  // namespace naiad

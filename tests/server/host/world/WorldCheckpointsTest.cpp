@@ -1,0 +1,145 @@
+// WorldCheckpoints with sockets in place of a world and its copies.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "host/world/WorldCheckpoints.h"
+
+namespace naiad {
+namespace {
+
+class WorldCheckpointsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "its runtime gives what is forked a thread";
+#endif
+    int ends[2];
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends), 0);
+    world = ends[1];
+    copies.emplace(ends[0]);
+    process = fork();
+    if (process == 0) pause();  // waits to be killed
+  }
+  void TearDown() override {
+    if (process > 0) {
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+    }
+    for (const int socket : sockets) close(socket);
+    if (world >= 0) close(world);
+  }
+  /// Receives the socket that is sent to the world; -1 if none was sent.
+  int receiveRequest() {
+    char byte = 0;
+    iovec data{&byte, 1};
+    int number = -1;
+    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof number)> room{};
+    msghdr message{};
+    message.msg_iov = &data;
+    message.msg_iovlen = 1;
+    message.msg_control = room.data();
+    message.msg_controllen = room.size();
+    if (recvmsg(world, &message, MSG_DONTWAIT) != 1 || CMSG_FIRSTHDR(&message) == nullptr) return -1;
+    std::memcpy(&number, CMSG_DATA(CMSG_FIRSTHDR(&message)), sizeof number);
+    sockets.push_back(number);
+    return number;
+  }
+  /// Orders a copy, which reports itself as process `number` (0: no report). Returns its socket.
+  int make(std::int32_t number, std::uint32_t tick) {
+    EXPECT_TRUE(copies->request(process));
+    const int socket = receiveRequest();
+    copies->add({tick, ViewReader(), {}});
+    if (number != 0) {
+      EXPECT_EQ(send(socket, &number, sizeof number, 0), static_cast<ssize_t>(sizeof number));
+    }
+    copies->update();
+    return socket;
+  }
+  static bool isClosed(int socket) {
+    char byte = 0;
+    return recv(socket, &byte, 1, MSG_DONTWAIT) == 0;
+  }
+
+  int world = -1;
+  pid_t process = -1;  ///< stands for the world; has one thread
+  std::vector<int> sockets;
+  std::optional<WorldCheckpoints> copies;
+};
+
+TEST_F(WorldCheckpointsTest, NewestTwoReportedCheckpointsAreKept) {
+  const int first = make(11, 10);
+  const int second = make(12, 20);
+  const int third = make(0, 30);
+  EXPECT_FALSE(isClosed(first)) << "the third may never come";
+  const std::int32_t number = 13;
+  ASSERT_EQ(send(third, &number, sizeof number, 0), static_cast<ssize_t>(sizeof number));
+  copies->update();
+  EXPECT_TRUE(isClosed(first));
+  EXPECT_EQ(copies->processes(), (std::vector<pid_t>{12, 13}));
+  const auto newest = copies->popNewest();
+  ASSERT_TRUE(newest);
+  EXPECT_EQ(newest->process, 13);
+  EXPECT_EQ(newest->state.next_tick, 30u);
+  close(newest->socket);
+  EXPECT_FALSE(isClosed(second));
+}
+
+TEST_F(WorldCheckpointsTest, EndedOrUnreportedCheckpointIsNotUsed) {
+  make(11, 10);
+  const int second = make(12, 20);
+  make(0, 30);
+  shutdown(second, SHUT_RDWR);
+  const auto newest = copies->popNewest();
+  ASSERT_TRUE(newest);
+  EXPECT_EQ(newest->process, 11);
+  close(newest->socket);
+  EXPECT_FALSE(copies->popNewest());
+}
+
+TEST_F(WorldCheckpointsTest, CheckpointThatSpeaksTooEarlyIsNotUsed) {
+  const int copy = make(11, 10);
+  ASSERT_EQ(send(copy, "x", 1, 0), 1);
+  EXPECT_FALSE(copies->popNewest());
+}
+
+TEST_F(WorldCheckpointsTest, RepeatedFailuresTurnCheckpointsOff) {
+  for (int i = 0; i < WorldCheckpoints::kMaxFailures; ++i) make(0, 10);
+  EXPECT_FALSE(copies->request(process));
+  EXPECT_FALSE(copies->isOn());
+  EXPECT_EQ(copies->popProblem(), "creating them fails");
+  EXPECT_FALSE(copies->popProblem());
+  for (const int socket : sockets) EXPECT_TRUE(isClosed(socket));
+}
+
+TEST_F(WorldCheckpointsTest, UnansweredTurnGivesNoCheckpoint) {
+  ASSERT_TRUE(copies->request(process));
+  const int socket = receiveRequest();
+  EXPECT_FALSE(copies->popNewest());
+  EXPECT_TRUE(isClosed(socket));
+}
+
+TEST_F(WorldCheckpointsTest, CheckpointsEndWithTheirOwner) {
+  const int first = make(11, 10);
+  const int second = make(12, 20);
+  copies.reset();
+  EXPECT_TRUE(isClosed(first));
+  EXPECT_TRUE(isClosed(second));
+}
+
+TEST(WorldCheckpoints, CheckpointsAreOffWithoutAnOrderSocket) {
+  WorldCheckpoints none(-1);
+  EXPECT_FALSE(none.isOn());
+  EXPECT_FALSE(none.request(getpid()));
+  EXPECT_FALSE(none.popProblem());
+}
+
+}  // namespace
+}  // namespace naiad
