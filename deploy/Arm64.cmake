@@ -1,5 +1,5 @@
-# Toolchain for 64-bit ARM: Debian's cross compiler, and that architecture's library packages, unpacked in NAIAD_ARM64_ROOT
-# (deploy/static-client --arm64). project() includes it again, to override the platform's settings.
+# Toolchain for 64-bit ARM: Debian's cross compiler, and the library packages of that architecture, which deploy/static-client
+# --arm64 unpacks in NAIAD_ARM64_ROOT. project() includes this file again, to override the platform's settings.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
@@ -11,9 +11,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)  # protoc runs on the build machine
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# Only archives: the packages with the shared libraries are not unpacked.
+# Finds only archives, because the packages with the shared libraries are not unpacked.
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
-# Searched after the compiler's own folders, which have the C library.
+# The compiler searches these folders after its own ones, which have the C library.
 set(CMAKE_CXX_FLAGS_INIT "-idirafter ${NAIAD_ARM64_ROOT}/usr/include -idirafter ${NAIAD_ARM64_ROOT}/usr/include/aarch64-linux-gnu")
-# Dependencies that shared libraries would bring along, for the plain dfclient, which shares its objects with the static one.
+# Archives on which other archives depend; shared libraries would name them. The plain dfclient needs them, whose objects the
+# static dfclient uses.
 set(CMAKE_CXX_STANDARD_LIBRARIES "${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libtinfo.a ${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libz.a")

@@ -1,7 +1,7 @@
-# Four Debian packages, made by CPack and built by deploy/package. COMPONENT at each install() says which package a file
-# belongs to; this file has the rest of the packages.
+# Settings with which deploy/package and CPack make four Debian packages. COMPONENT at each install() names the package of a
+# file; this file has the files that only packages need, and the descriptions and dependencies of the packages.
 set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
-# Lower than -1, the revision of an official Debian package. The package for the next Debian is newer than that for this one.
+# This revision sorts before 1, that of an official Debian package. Packages for a newer Debian sort after those for an older.
 set(revision 0naiad1)
 file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
 if(NOT first MATCHES "^naiad \\(${PROJECT_VERSION}-${revision}\\)")
@@ -12,7 +12,7 @@ string(APPEND revision "+deb${debian_version}")
 set(version ${PROJECT_VERSION}-${revision})
 set(triplet ${CMAKE_LIBRARY_ARCHITECTURE})
 
-# Units, users and settings.
+# Installs systemd's units and the files for its users, folders and settings.
 set(systemd ${CMAKE_CURRENT_SOURCE_DIR}/systemd)
 install(FILES ${systemd}/dfserver@.service ${systemd}/dfserver@.socket ${systemd}/dfweb.service ${systemd}/dfdir.service
   DESTINATION /lib/systemd/system COMPONENT server)
@@ -20,7 +20,7 @@ install(FILES ${systemd}/sysusers.conf DESTINATION lib/sysusers.d RENAME naiad-s
 install(FILES ${systemd}/tmpfiles.conf DESTINATION lib/tmpfiles.d RENAME naiad-server.conf COMPONENT server)
 install(FILES ${pages}/default.conf ${systemd}/dfweb.env ${systemd}/dfdir.env DESTINATION /etc/naiad COMPONENT server)
 
-# Changelog, licence and lintian overrides.
+# Makes and installs the changelog, the licence and the lintian overrides.
 set(changelog ${pages}/changelog.Debian.gz)
 add_custom_command(OUTPUT ${changelog}
   COMMAND gzip -9nc ${debian}/changelog > ${changelog} DEPENDS ${debian}/changelog)
@@ -55,7 +55,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${revision})
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-# Programs and games are linked with the library of this build, so its dependencies are looked up in the build folder.
+# Programs and games are linked with libdragonfly of this build, so dpkg-shlibdeps also searches the build folder.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 
 set(CPACK_DEBIAN_SERVER_PACKAGE_NAME naiad-server)
@@ -89,7 +89,8 @@ tests (dfbot).")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdragonfly0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-# Packages of games linked with it depend on exactly this version. CPack itself would list game modules as libraries, too.
+# Packages of games that are linked with libdragonfly depend on exactly this version. Written here, because CPack's own list
+# would contain game modules, too.
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/shlibs "libdragonfly 0 libdragonfly0 (= ${version})\nlibdragonfly-physics 0 libdragonfly0 (= ${version})\nlibdragonfly-ops 0 libdragonfly0 (= ${version})\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${debian}/libdragonfly0/triggers ${CMAKE_CURRENT_BINARY_DIR}/shlibs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "engine, physics and hosting for networked text games

@@ -1,5 +1,5 @@
-# Shared by the scripts in this folder: paths, and the installation of packages.
-# Sourced by bash with `set -euo pipefail` in force.
+# Functions and variables that the scripts in this folder share, for example to install packages and to build.
+# The scripts source this file in bash after `set -euo pipefail`.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -9,7 +9,8 @@ fail() {
   exit "${2:-1}"
 }
 
-# wrong_option TYPED KNOWN...: reports an unknown option, suggests the known one that begins most alike, exits with 2.
+# wrong_option TYPED KNOWN...: reports an unknown option, suggests the KNOWN one with the longest common beginning, and exits
+# with 2.
 wrong_option() {
   local typed=$1 known near="" length=2 same
   shift
@@ -27,7 +28,7 @@ package_check_packages="lintian mmdebstrap systemd man-db groff zsh fish"
 
 # Packages for building and running, and for the tests. The names are those of Debian 12 and 13.
 build_packages="g++ cmake ninja-build ccache libasio-dev libprotobuf-dev protobuf-compiler libncurses-dev libcli11-dev libssl-dev libargon2-dev libicu-dev libqrencode-dev libboost-dev zlib1g-dev libsqlite3-dev libnats-dev nlohmann-json3-dev"
-# Also needed by a dfclient that is a single file: Debian 13's libcrypto.a calls it.
+# Also needed by the static dfclient, because Debian 13's libcrypto.a calls functions of libzstd.
 static_packages="libzstd-dev"
 # Packages that make and test the page for browsers.
 page_packages="emscripten python3-fonttools python3-brotli python3-protobuf fonts-dejavu-core"
@@ -48,7 +49,7 @@ lab_packages="$build_packages libbox2d-dev libchipmunk-dev libsundials-dev libgt
 # Packages that report how much of a decoder the fuzzing reached.
 fuzz_packages="llvm"
 
-# missing_packages "a b c": prints the packages that are not installed, each after a blank.
+# missing_packages "a b c": prints those of these packages that are not installed, each after a blank.
 missing_packages() {
   local package
   for package in $1; do
@@ -57,7 +58,7 @@ missing_packages() {
 }
 has_packages() { [ -z "$(missing_packages "$1")" ]; }
 
-# need_packages "a b c": installs missing packages. Calls apt only if there are any.
+# need_packages "a b c": installs those of these packages that are missing. Calls apt only if any is missing.
 need_packages() {
   local missing
   missing=$(missing_packages "$1")
@@ -85,14 +86,15 @@ need_packages() {
   rm -f "$log"
 }
 
-# build PRESET TARGET...: configures and builds, without output unless it fails. Builds all if no target is given.
+# build PRESET TARGET...: configures and builds the targets (none: all). Prints the output only if that fails.
 build() {
   local preset=$1 log options=()
   shift
   # GCC writes addresses of its own memory into precompiled headers. Without address randomisation the bytes of a header
   # never change, so ccache still finds objects compiled with an earlier build of it.
   command -v ccache >/dev/null && options=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
-  # All scripts share the objects of `release`. Only deploy/check builds its tests; the others keep that setting.
+  # All scripts use the same build folder for the preset `release`. Only deploy/check turns its tests on; other scripts leave
+  # the setting as it is.
   if [ "$preset" = release ] && [ "$(basename "$0")" = check ]; then
     options+=(-DNAIAD_TESTS=ON)
   elif [ "$preset" = release ] && [ ! -e "$root/build/release/CMakeCache.txt" ]; then
@@ -112,7 +114,7 @@ build() {
   rm -f "$log"
 }
 
-# On a terminal, shows ninja's progress line.
+# build_targets PRESET TARGET...: builds the targets. On a terminal, shows the numbers of done and of all steps.
 build_targets() {
   local preset=$1
   shift

@@ -1,7 +1,7 @@
-# All installed headers: those that games include, and in detail/ those that these need. A test compiles each of them
-# alone against the installed tree. For each public header the build generates a wrapper of that name with a few lines:
-# it undefines the game's one-letter macros (detail/MacrosPush.h), includes the header itself from text/, and restores
-# the macros.
+# All installed headers: those that games include, and in detail/ the headers that they need. A test compiles each of them
+# alone against the installed tree. For each public header the build generates a short wrapper with the header's name. It
+# undefines the game's one-letter macros (detail/MacrosPush.h), includes the header itself from text/, and restores the
+# macros.
 set(naiad_public_headers
   server/engine/effects/Debris.h
   server/engine/effects/Fader.h
@@ -89,8 +89,8 @@ set(naiad_public_headers
   shared/values/Solidness.h
   shared/values/Vector.h
   shared/values/Version.h)
-# The physics headers are in a folder that comes later in the search order, because games may have headers with their
-# names, like Field.h.
+# The physics headers. Compilers search their folder last, because games may have headers with the names of these, like
+# Field.h.
 set(naiad_physics_headers
   server/physics/body/Body.h
   server/physics/body/BodyDrawing.h
@@ -131,14 +131,14 @@ set(naiad_detail_headers
   server/engine/world/WorldView.h
   shared/values/LanguageStandard.h)
 
-# Generated in detail/: the headers that undefine and restore one-letter macros.
+# Headers generated in detail/, which undefine and restore one-letter macros.
 set(naiad_macro_headers
   MacrosPush.h MacrosPop.h)
-# Generated: each includes detail/EventNetworks.h.
+# Generated headers, each of which includes detail/EventNetworks.h.
 set(naiad_event_network_headers
   EventCustomNetwork.h EventKeyboardNetwork.h EventMouseNetwork.h EventNetworkAccept.h EventNetworkClose.h EventNetworkConnect.h
   EventNetworkCreate.h EventNetworkCustom.h EventNetworkDelete.h EventNetworkGameOver.h EventNetworkSync.h)
-# Generated in SFML/: each includes Sfml.h.
+# Headers generated in SFML/, each of which includes Sfml.h.
 set(naiad_sfml_headers
   Audio.hpp Graphics.hpp System.hpp Window.hpp
   Audio/Music.hpp Audio/Sound.hpp Audio/SoundBuffer.hpp Audio/SoundSource.hpp

@@ -88,7 +88,8 @@ std::vector<BotAction> ScriptPlayer::tick() {
   return out;
 }
 
-/// Advances to the next step that takes time. Ends, because every loop and every script contains one.
+/// Advances to the next step that takes time. Terminates, because every loop and every script contains such a
+/// step.
 void ScriptPlayer::skipLoops() {
   const auto& steps = m_script.steps();
   while (m_at < steps.size()) {
@@ -114,7 +115,7 @@ void ScriptPlayer::skipLoops() {
 RandomPlayer::RandomPlayer(std::uint64_t seed, int view_width, int view_height)
     : m_random(seed), m_width(std::max(view_width, 1)), m_height(std::max(view_height, 1)) {}
 
-// Not std::uniform_int_distribution: its results differ between standard libraries.
+// Does not use std::uniform_int_distribution, because its results differ between standard libraries.
 int RandomPlayer::below(int limit) {
   return static_cast<int>(m_random() % static_cast<std::uint64_t>(limit));
 }
@@ -185,7 +186,7 @@ class BotScriptParser {
     m_word_column = m_column;
   }
 
-  /// Records an error at the last marked word, unless there is one already.
+  /// Records an error at the last marked word, unless an error was recorded already.
   void fail(const std::string& message) {
     if (!m_error) m_error = ScriptError{m_word_line, m_word_column, message};
   }

@@ -4,9 +4,9 @@
 //   hold KEY TICKS         press, keep down for TICKS ticks, release
 //   wait TICKS
 //   click X Y [BUTTON]     at a cell of the view; BUTTON: left (default), right, middle
-//   move X Y               move the mouse there
-//   chat TEXT              up to the end of the statement
-//   repeat N { … }         N times (1 to 1000000)
+//   move X Y               move the mouse to a cell of the view
+//   chat TEXT              say TEXT, which extends to the end of the statement
+//   repeat N { … }         run the statements N times (1 to 1000000)
 //   repeat                 restart the script, without end; only as the last statement
 //
 // Statements are separated by ';' or line ends; '#' begins a comment. KEY is a name of df::Keyboard::Key
@@ -76,7 +76,7 @@ class ScriptPlayer {
  public:
   explicit ScriptPlayer(BotScript script) : m_script(std::move(script)) {}
 
-  /// Advances the script by one tick. Returns the actions to send in it.
+  /// Advances the script by one tick. Returns the actions to send in this tick.
   std::vector<BotAction> tick();
   /// True if all steps have run and no key is down.
   bool isDone() const { return m_at >= m_script.steps().size() && m_down == df::Keyboard::UNDEFINED_KEY; }

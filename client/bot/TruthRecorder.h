@@ -1,10 +1,11 @@
 // Records a bot's picture of every tick, to be compared with the server's truth file afterwards.
 //
 // Several snapshots may share a tick, so a tick's picture is final only when a later tick's first snapshot
-// comes, or at the end. It is recorded only if the last of them was complete; otherwise the server has more
-// to send. A tick without a snapshot has the picture that the replica extrapolates, because the server relies
-// on that; on the stream, where the server skips ticks while earlier data waits, such ticks are not recorded.
-// Recording stops when a limit of ticks or cells is reached.
+// arrives, or at the end. It is recorded only if the last of these snapshots was complete; otherwise the
+// server has more to send. For a tick without a snapshot, the extrapolated picture is recorded, because the
+// server relies on the client to extrapolate. On the stream, the server also skips ticks while earlier data
+// waits, so ticks without a snapshot are not recorded there. Recording stops when a limit of ticks or cells
+// is reached.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ namespace naiad {
 /// Finds out whether a client shows everything that the server has sent it. Only then may its picture be
 /// compared with the world's.
 ///
-/// A complete snapshot says that the server has nothing more to send. An earlier one may still be lost or
-/// late: a snapshot sent as a datagram can overtake one that was sent before it on the stream.
+/// A complete snapshot says that the server has nothing more to send. An earlier snapshot may still be lost
+/// or late, because a snapshot sent as a datagram can overtake one that was sent before it on the stream.
 class CompletenessTracker {
  public:
   /// Call after a snapshot was applied. `acks`: the snapshots received, including this one. `before`:
@@ -40,8 +41,8 @@ class CompletenessTracker {
   std::uint32_t tick() const { return m_tick; }
 
  private:
-  /// Snapshots older than the window count as received: before it marks a snapshot as complete, the sender
-  /// treats them as lost and sends their contents again.
+  /// Snapshots older than the window count as received, because the sender treats them as lost and sends
+  /// their contents again before it marks a snapshot as complete.
   static bool hasAll(const AckWindow& acks, std::uint32_t before) {
     const auto between = static_cast<std::int32_t>(acks.newest - before) - 1;
     if (between <= 0) return between == 0;
@@ -62,12 +63,13 @@ class TruthRecorder {
 
   explicit TruthRecorder(std::size_t max_cells = kMaxCells) : m_max_cells(max_cells) {}
 
-  /// Call before a snapshot of `tick` is applied to `replica`: records the ticks before it.
+  /// Call before a snapshot of `tick` is applied to `replica`: records the pictures of the ticks before
+  /// `tick`.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
   /// Call after a snapshot of `tick` was applied. `complete`: CompletenessTracker::isComplete(). `skips`: the
   /// server may skip ticks after this one.
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
-  /// Records the tick of the newest snapshot. Call when no further snapshot comes.
+  /// Records the tick of the newest snapshot. Call when no further snapshot will come.
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }
@@ -100,11 +102,11 @@ class TruthRecorder {
   bool m_full = false;
   bool m_started = false;
   std::uint32_t m_tick = 0;  ///< tick of the newest applied snapshot
-  bool m_complete = false;   ///< the picture was whole after it
+  bool m_complete = false;   ///< the picture was complete after that snapshot
   bool m_skips = false;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   std::unordered_map<std::uint32_t, Track> m_tracks;  ///< indexed by slot
-  std::size_t m_removed_moved = 0;                    ///< moved Objects whose slot was reused
+  std::size_t m_removed_moved = 0;                    ///< number of moved Objects whose slot was reused
 };
 
 }  // namespace naiad

@@ -25,8 +25,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Length of a turn: frames are handled as they arrive, then each bot is updated once. Updating all bots
-/// after each frame would cost the square of their number.
+/// Length of a turn, in which frames are handled as they arrive, and at its end each bot is updated once.
+/// Updating all bots after each frame would cost the square of their number.
 constexpr std::chrono::milliseconds kTurn{5};
 /// A server sends a snapshot at least every kKeepAliveTicks, later if the connection is bad. If at the end of
 /// play no snapshot comes for kSnapshotTimeout longer than that, the server has crashed or hangs.
@@ -89,12 +89,12 @@ class Bot {
     if (m_script == nullptr && m_random == nullptr) startPlaying(*session, now);
     while (now >= m_next_tick) {
       m_next_tick += session->welcome().tick;
-      if (now - m_next_tick > std::chrono::milliseconds(250)) m_next_tick = now;  // no catching up
+      if (now - m_next_tick > std::chrono::milliseconds(250)) m_next_tick = now;  // skip missed ticks
       play(*session, now);
     }
   }
 
-  /// Returns the server's ticks since the first picture.
+  /// Returns the number of the server's ticks since the first picture.
   std::uint32_t ticks() {
     naiad::ClientSession* session = m_connection.session();
     return session != nullptr && m_first_tick ? session->clock().newestTick() - *m_first_tick : 0;
@@ -244,7 +244,8 @@ int run(const BotOptions& options) {
   bots.reserve(static_cast<std::size_t>(options.clients));
   for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
-  // Sockets to a gateway belong to another thread. Without this, run_for() would not wait in an idle turn.
+  // Sockets to a gateway belong to another thread, so without this guard run_for() would not wait in an idle
+  // turn.
   auto work = asio::make_work_guard(context);
   std::optional<Clock::time_point> all_joined;
   std::optional<Clock::time_point> played_at;
@@ -320,9 +321,9 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
   for (naiad::Option& option : naiad::trustOptions(server, bot.trust, bot.session)) options.push_back(option);
   options.push_back(
       {"--game", &bot.game, "Game to play; refused if the server does not run it", "NAIAD_GAME"});
-  options.push_back(
-      naiad::typedOption("--truth", "FILE", &bot.truth_file,
-                         "Compare each received picture with this file, written by dfserver --truth FILE"));
+  options.push_back(naiad::typedOption(
+      "--truth-file", "FILE", &bot.truth_file,
+      "Compare each received picture with this file, written by dfserver --truth-file FILE"));
   options.push_back(
       {"--rejoin", &bot.rejoin, "Reconnect when the connection is lost, like dfclient, instead of exiting"});
   options.push_back({"--quiet", &bot.quiet, "Do not print the last screen"});

@@ -58,7 +58,7 @@ AdminAnswer ControlClient::sendRequest(const AdminRequest& request) {
   const std::string line = requestLine(request);
   for (std::size_t sent = 0; sent < line.size();) {
     const ssize_t size = ::send(m_socket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
-    if (size < 0 && errno != EINTR) break;  // the server's reason may still be readable
+    if (size < 0 && errno != EINTR) break;  // the reason that the server sent may still be readable
     if (size > 0) sent += static_cast<std::size_t>(size);
   }
   AnswerReader reader;

@@ -22,10 +22,10 @@ class ServerUnreachable : public std::runtime_error {
 /// A connection to a server's control socket. All calls block.
 class ControlClient {
  public:
-  /// Time limit for an answer: a server whose game hangs gives none.
+  /// Time limit for an answer, because a server whose game hangs sends none.
   static constexpr std::chrono::seconds kResponseTimeout{10};
-  /// Time limit while rounds are replayed (restart keep): the server aborts a replay after an hour. A server
-  /// that ends closes the connection.
+  /// Time limit for the answer to a "restart keep", before which the server replays its rounds. It aborts a
+  /// replay after an hour. If the server ends, it closes the connection, so the limit is not reached.
   static constexpr std::chrono::seconds kReplayTimeout{4000};
 
   /// Throws ServerUnreachable.

@@ -17,13 +17,13 @@ std::string ctlManSections();
 std::optional<std::string> ctlPage(const std::string& kind);
 
 struct CtlCommandLine {
-  std::string control;  ///< path of the socket; empty: the only server's
+  std::string control;  ///< path of the socket; empty: that of the only server
   bool json = false;
   std::vector<std::string> words;  ///< the command and its arguments
 };
 
-/// Parses dfctl's arguments. Its own options come before the command; --json may also be the last word.
-/// Without --control, the socket is NAIAD_CONTROL. Throws AdminUsageError (AdminRequest.h).
+/// Parses dfctl's arguments. dfctl's own options come before the command; --json may also be the last word.
+/// Without --control, `control` is the value of NAIAD_CONTROL. Throws AdminUsageError (AdminRequest.h).
 CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words);
 
 /// Returns the text of --help.

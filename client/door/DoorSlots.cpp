@@ -49,7 +49,7 @@ void makeFolder(const fs::path& path) {
   fs::permissions(path, fs::perms::owner_all);
 }
 
-constexpr std::size_t kMaxAddress = 64;  // bytes of "[IPv6]:PORT"
+constexpr std::size_t kMaxAddress = 64;  // maximum bytes of "[IPv6]:PORT"
 
 /// An open file. The destructor closes it, which also unlocks it.
 class Open {
@@ -77,7 +77,8 @@ class Open {
     const bool written = ::ftruncate(m_file, 0) == 0 &&
                          ::pwrite(m_file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
     if (!written)
-      throw std::system_error(errno, std::generic_category(), "cannot write to the places folder");
+      throw std::system_error(errno, std::generic_category(),
+                              "cannot write to the folder \"places\" of --state");
   }
 
  private:

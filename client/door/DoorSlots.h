@@ -1,5 +1,5 @@
-// Visitors' folders of an ssh door, and the limits on concurrent visitors, in total and per address. Each
-// visitor holds a locked file; the kernel unlocks it when the process ends.
+// Visitors' folders of an ssh door, and the limits on concurrent visitors, in total and per address. For each
+// visitor, a process holds a lock on a file, which the kernel releases when the process ends.
 #pragma once
 
 #include <sys/types.h>
@@ -13,14 +13,16 @@
 namespace naiad {
 
 /// Returns the folder name of the first key in `auth_info` (sshd's ExposeAuthInfo: lines "publickey TYPE
-/// BASE64"): its SHA-256 as 64 hexadecimal digits. Nullopt if there is no key, or more than 16,384 bytes.
+/// BASE64"): its SHA-256 as 64 hexadecimal digits. Nullopt if there is no key, or if `auth_info` is longer
+/// than 16,384 bytes.
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
 /// Folder with a visitor's data: the name they played under, and the files with which dfclient resumes a
 /// session. There is one for each SSH key, so visitors with a key are recognised on their next visit. One
 /// process at a time can lock it.
 ///
-/// Anyone can make keys, so the number of folders is limited. At the limit, those unused for 30 days go.
+/// Anyone can make keys, so folders are limited in number. At the limit, those unused for 30 days are
+/// removed.
 class VisitorFolder {
  public:
   static constexpr std::size_t kMaxFolders = 10'000;
@@ -55,12 +57,12 @@ class VisitorFolder {
   int m_lock = -1;
 };
 
-/// A visitor's place, held for the lifetime of this object. Programs started by this one do not hold it.
+/// A visitor's place at the door, for the lifetime of this object. Child processes do not inherit it.
 class DoorSlot {
  public:
   struct Limits {
     int total = 64;
-    int per_prefix = 8;  ///< maximum from one IPv4 address or IPv6 /64
+    int per_prefix = 8;  ///< maximum number of visitors from one IPv4 address or IPv6 /64
   };
   enum class Refusal { kNone, kFull, kFullForPrefix };
   struct AcquireResult {
@@ -68,8 +70,8 @@ class DoorSlot {
     Refusal refusal = Refusal::kNone;
   };
 
-  /// Takes a place for the visitor at this address, "192.0.2.7:50312" or "[2001:db8::7]:50312". Creates
-  /// `folder` with mode 0700 if it is missing. Waits briefly while other processes acquire places.
+  /// Takes a place for the visitor at this address, such as "192.0.2.7:50312" or "[2001:db8::7]:50312".
+  /// Creates `folder` with mode 0700 if it is missing. Waits briefly while other processes acquire places.
   /// Throws std::system_error.
   static AcquireResult acquire(const std::filesystem::path& folder, const std::string& visitor,
                                const Limits& limits);

@@ -21,13 +21,13 @@ namespace naiad {
 struct OfferedGame {
   std::string name;  ///< 1 to 32 letters, digits, '-', '_', '.'
   JoinLink link;
-  std::string socket;  ///< absolute path
+  std::string socket;  ///< absolute path of the visitors' socket
   bool needs_password = false;
 };
 
 struct GamesList {
   std::vector<OfferedGame> games;
-  /// "line 3: REASON" for the first invalid line, and then `games` is empty; empty if all lines are valid.
+  /// Set if a line is invalid: "line 3: REASON", for the first such line. Then `games` is empty.
   std::string problem;
 
   static constexpr std::size_t kMaxGames = 64;

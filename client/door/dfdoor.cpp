@@ -121,14 +121,15 @@ constexpr const char* kHelp =
     "sshd runs this program for each visitor of a door; deploy/door sets up a door. It reads "
     "SSH_CONNECTION,\n"
     "SSH_USER_AUTH and TERM, and refuses to run a command (SSH_ORIGINAL_COMMAND).\n\n"
-    "Lines of games.list: NAME LINK SOCKET [password]. SOCKET is the --visitors of the game's dfserver.\n\n"
+    "Lines of games.list: NAME LINK SOCKET [password]. SOCKET is the --proxy-socket of the game's "
+    "dfserver.\n\n"
     "Exit codes: 2 wrong usage, a command was requested, or games.list is invalid; 3 no free place;\n"
     "5 no terminal; else those of dfclient.\n";
 
 constexpr std::chrono::seconds kPromptTimeout{60};  // limit for an answer of the visitor
-constexpr std::chrono::seconds kTakeOver{10};       // limit for the end of the visitor's other client
+constexpr std::chrono::seconds kTakeOver{10};       // limit for the visitor's other client to end
 constexpr std::chrono::milliseconds kStep{50};      // interval between attempts to lock the folder
-constexpr std::size_t kMaxList = 65'536;            // bytes of games.list
+constexpr std::size_t kMaxList = 65'536;            // maximum bytes of games.list
 constexpr std::size_t kMaxTerm = 64;
 constexpr std::size_t kMaxAuthInfo = 65'536;
 
@@ -161,7 +162,7 @@ void ignoreStops() {
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
 }
 
-/// Passes on to the client that the terminal is gone or the door closes: the client must end first.
+/// Makes SIGHUP (the terminal is gone) and SIGTERM (the door closes) go to the client, which must end first.
 void passOnEnds() {
   for (const int signal : {SIGINT, SIGQUIT}) ::signal(signal, SIG_IGN);
   struct sigaction action {};
@@ -176,7 +177,7 @@ std::string variable(const char* name) {
   return value != nullptr ? value : "";
 }
 
-/// Parses SSH_CONNECTION, "192.0.2.7 50312 198.51.100.1 22": the visitor's address and ours.
+/// Returns the visitor's address from SSH_CONNECTION: "192.0.2.7 50312 198.51.100.1 22", last sshd's own.
 asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   const std::size_t blank = connection.find(' ');
   const std::string address = connection.substr(0, blank);
@@ -215,7 +216,8 @@ std::unique_ptr<naiad::DoorSlot> takePlace(const DoorOptions& options,
                               : "Too many players from your address. Try again later."};
 }
 
-/// Asks a visitor already playing, perhaps on a dead connection, whether to continue here; ends that client.
+/// Asks a visitor already playing whether to continue in this terminal. If so, ends the other client, which
+/// may have a dead connection. Returns true if this process has then locked `folder`.
 bool takeOver(naiad::VisitorFolder& folder) {
   const auto yes =
       naiad::promptYes("You are already playing here. Continue that game in this terminal?", kPromptTimeout);
@@ -231,7 +233,7 @@ bool takeOver(naiad::VisitorFolder& folder) {
   return false;
 }
 
-/// Returns the locked folder of the visitor's key. Null without a key, or if the folder cannot be had.
+/// Returns the locked folder of the visitor's key. Null without a key, or if opening or locking it fails.
 std::unique_ptr<naiad::VisitorFolder> folderOf(const DoorOptions& options) {
   const std::string auth_file = variable("SSH_USER_AUTH");
   const auto name = auth_file.empty()
@@ -253,12 +255,12 @@ struct ClientStart {
 ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& game, const std::string& name,
                         const asio::ip::tcp::endpoint& visitor, const fs::path& folder) {
   ClientStart start;
-  // One file of known servers for each key: the host puts a server's new key into games.list.
+  // Each key has its own file of known servers, because the host puts a server's new key into games.list.
   start.words = {options.client,
                  game.link.text(),
                  "--name=" + name,
-                 "--visitors=" + game.socket,
-                 "--visitor=" + naiad::peerName(visitor),
+                 "--proxy-socket=" + game.socket,
+                 "--proxy-for=" + naiad::peerName(visitor),
                  "--known-servers=" + (folder / ("known-" + game.link.key.text())).string(),
                  "--idle-limit=" + std::to_string(options.idle_limit)};
   if (game.needs_password) start.words.push_back("--ask-password");

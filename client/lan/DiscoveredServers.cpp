@@ -22,7 +22,7 @@ std::uint16_t countAt(const Json& server, std::string_view name, std::uint16_t m
   return static_cast<std::uint16_t>(std::clamp(p_value->number().value_or(0), 0.0, kMost));
 }
 
-/// Returns the server of a list entry. Nullopt without a valid link, or if it leads to a room.
+/// Returns the server of a list entry. Nullopt without a valid link, or if the link names a room.
 std::optional<DiscoveredServer> serverOf(const Json& object) {
   const auto parsed = JoinLink::parse(object["link"].textOrEmpty());
   const auto* p_link = std::get_if<JoinLink>(&parsed);

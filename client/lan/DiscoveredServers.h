@@ -17,7 +17,7 @@
 
 namespace naiad {
 
-/// A server as described by itself or by a list: all of it may be wrong. Texts are safe to draw.
+/// A server, as it describes itself or as a list does, so all members may be wrong. Texts are safe to draw.
 struct DiscoveredServer : ServerInfo {
   ServerAddress address;
   ShortKey key = ShortKey::ofBytes({});  ///< key that the server must prove to joining clients
@@ -59,11 +59,11 @@ class DiscoveredServers {
 
 /// Parses a list of servers from the web: an object as dfserver --status-file writes it, or an array of them.
 ///
-/// Lists come from strangers, so memory and depth are bounded and texts are made safe. Nullopt unless `json`
-/// is a JSON object or an array of objects (RFC 8259), in UTF-8, at most 8 levels deep. Reads the members
-/// name, game, players, max_players, password, protocol and link. Numbers are clamped to 16 bits; members of
-/// another type count as empty, 0 or false. Objects without a link to a server are skipped, and so are
-/// servers beyond the limits of DiscoveredServers.
+/// Lists come from strangers, so memory and nesting depth are bounded and texts are made safe. Nullopt unless
+/// `json` is a JSON object or an array of objects (RFC 8259), in UTF-8, at most 8 levels deep. Reads the
+/// members name, game, players, max_players, password, protocol and link. Numbers are clamped to 16 bits;
+/// members of another type count as empty, 0 or false. Objects without a link to a server are skipped, and so
+/// are servers beyond the limits of DiscoveredServers.
 std::optional<DiscoveredServers> readServerList(std::string_view json);
 
 /// Message for people if no server was found: what to do.

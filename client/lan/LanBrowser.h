@@ -1,7 +1,7 @@
 // Finds the servers of the local network: sends queries and collects answers (LanMessage.h).
 //
-// An answer counts if it repeats this browser's nonce, has passed no router, and comes from a network of the
-// interface on which it arrived.
+// An answer is accepted only if it repeats this browser's nonce, has passed no router, and comes from a
+// network of the interface on which it arrived.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 namespace naiad {
 
 /// True if the packet comes from a machine on this network link. `networks`: those of this machine. Packets
-/// of this machine may come by loopback.
+/// of this machine itself may come over loopback.
 bool isFromLink(const LanPacket& packet, const std::vector<LanNetwork>& networks);
 
 /// Never blocks. Use from one thread at a time.
@@ -26,7 +26,7 @@ class LanBrowser {
   /// kInterval.
   static constexpr std::chrono::milliseconds kRetryDelay{400};
   static constexpr std::chrono::milliseconds kInterval{3000};
-  /// All servers of a quiet network have answered after this time.
+  /// Time after a query by which all servers of a quiet network have answered.
   static constexpr std::chrono::milliseconds kResponseTimeout{800};
   /// Maximum number of answers read from a socket in one call; the rest waits for the next call.
   static constexpr int kMaxAnswersPerCall = 64;
@@ -55,8 +55,8 @@ class LanBrowser {
   std::vector<LanNetwork> m_networks;
   LanNonce m_nonce{};
   DiscoveredServers m_servers;
-  int m_sent = 0;       ///< rounds of queries since the start
-  Time m_next_query{};  ///< initially in the past: at once
+  int m_sent = 0;       ///< number of rounds of queries since the start or restart()
+  Time m_next_query{};  ///< initially in the past, so that the first update() sends a query
 };
 
 }  // namespace naiad

@@ -82,7 +82,7 @@ void ClientSession::handle(SoundsMessage&& message, Time) {
 }
 
 void ClientSession::handle(const PongMessage& message, Time now) {
-  // Otherwise a server could postpone the greeting's timeout without end.
+  // Without this check, a server could postpone the greeting's timeout without end.
   if (m_state != State::kPlaying) return reject("a pong before the welcome");
   m_link.acknowledgeReliable(message.last_frame);
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.addRttSample(*sample);
@@ -138,7 +138,7 @@ void ClientSession::startSecond(std::unique_ptr<ReliableChannel> channel) {
                      [this](std::string_view bytes) { receiveOnSecond(bytes, m_link.now()); });
 }
 
-// Does not count as received for m_liveness: the death of the first stream must still be noticed.
+// Does not count as received for m_liveness, so that the death of the first stream is still noticed.
 void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
   if (m_state != State::kPlaying) return;
   m_counters.bytes_in += bytes.size() + kFrameHeaderSize;
@@ -182,7 +182,7 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   if (welcome.player != m_welcome.player) updateRoom(welcome);
   m_world.resume(welcome.tick_now);
   m_liveness.onReceived(now);
-  m_liveness.startStream(now);  // its first ping tells the server that the new token has arrived
+  m_liveness.startStream(now);  // the stream's first ping tells the server that the new token has arrived
   m_timing.onAttached(now);
   m_inputs.restartStream();
   if (same_id) {

@@ -37,9 +37,9 @@ class ClientSession {
   enum class State { kGreeting, kPlaying, kRefused, kEnded, kLost, kLeft };
 
   static constexpr std::chrono::seconds kGreetingTimeout{5};
-  /// Silence after which the stream is closed, and the session ended if it cannot be resumed.
+  /// Silence of the server after which the stream is closed, and the session ended if it cannot be resumed.
   static constexpr std::chrono::seconds kIdleTimeout{15};
-  /// Silence after which a session without a stream ends.
+  /// Silence of the server after which a session without a stream ends.
   static constexpr std::chrono::seconds kDetachedTimeout{60};
   /// The session ends if no picture follows the welcome within this time. A world in a process of its own may
   /// take 30 s to start.
@@ -54,10 +54,10 @@ class ClientSession {
   // The stream.
   /// Handles a frame from the server.
   void receive(std::string_view frame, Time now);
-  /// Call when the channel has ended by itself.
+  /// Call when the channel has ended, unless this session closed it.
   void closed(CloseReason reason);
   bool owns(const ReliableChannel* channel) const { return m_link.ownsStream(channel); }
-  /// True if the session has no stream and waits for another one: adopt().
+  /// True if the session has no stream and waits for another one (see adopt()).
   bool isDetached() const { return m_state == State::kPlaying && !m_link.hasStream(); }
   /// Number of the newest reliable frame received, for the hello that resumes the session.
   std::uint32_t receivedFrames() const { return m_inbox.newestFrame(); }
@@ -77,8 +77,8 @@ class ClientSession {
     return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kDatagramTimeout;
   }
 
-  /// Handles pings and timeouts. Call about ten times a second: longer pauses between calls do not count as
-  /// silence of the server (IdleTimer).
+  /// Handles pings and timeouts. Call about ten times a second, because longer pauses between calls do not
+  /// count as silence of the server (IdleTimer).
   void update(Time now);
   /// Returns when update() should be called earlier than usual; nullopt if it need not.
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
@@ -89,11 +89,11 @@ class ClientSession {
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
-  /// Sends a line of chat to all players, unless it has no drawable character. Without a stream it waits for
-  /// the next one.
+  /// Sends a line of chat to all players, unless it has no drawable character. Without a stream, the line
+  /// waits for the next stream.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
-  /// Requests the list of rooms every kRoomListInterval. Call while the list is shown.
+  /// Requests the list of rooms, at most every kRoomListInterval. Call often while the list is shown.
   void refreshRooms(Time now);
   static constexpr std::chrono::seconds kRoomListInterval{2};
   /// Asks the server to move the player to that room. Ignores invalid names.
@@ -105,7 +105,7 @@ class ClientSession {
   State state() const { return m_state; }
   /// After a refusal: the reason, and perhaps a link to another server. The link is unchecked.
   const RefusedMessage& refusal() const { return m_refusal; }
-  /// After a loss: the server has announced to be back within this time; 0: it has announced nothing.
+  /// After a loss: time within which the server announced to be back; 0 if it announced nothing.
   std::chrono::seconds restartDelay() const { return m_restart_delay; }
   /// True if the session neither waits for the server nor plays any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
@@ -129,7 +129,7 @@ class ClientSession {
   std::int32_t score() const { return m_inbox.scoreOf(m_welcome.player); }
 
   // The world.
-  /// True if there is a picture to show: the whole world, or what has arrived of it in half a second.
+  /// True if there is a picture to show: the whole world or, after half a second, the part that has arrived.
   bool hasPicture(Time now) const { return m_world.worlds().hasPicture(now); }
   /// Returns how long the session has waited for a picture since the welcome; zero if there is one.
   IdleTimer::Duration pictureWait(Time now) const;

@@ -59,7 +59,7 @@ std::string ClientSession::nextUpdate(bool in_order, Time now) {
   m_timing.onUpdateSent();
   ClientUpdate update;
   update.acks = m_world.acks();
-  // Unless each update arrives, in order, every one carries all unacknowledged inputs.
+  // If updates may be lost or overtake one another, each carries all unacknowledged inputs.
   update.inputs = in_order ? m_inputs.popForStream() : m_inputs.all();
   update.needs_reset = m_world.worlds().needsReset();
   update.checksum = m_world.pollChecksum(now);

@@ -26,10 +26,10 @@ void Connection::attempt() {
   });
 }
 
-// A failure is harmless: the attempt is repeated later. The token is sent only to the server that gave it.
+// A failure is harmless, because the attempt is repeated. The token is sent only to the server that gave it.
 void Connection::openSecond() {
   m_opener->openSecond([this](std::unique_ptr<ReliableChannel> channel, const std::string&) {
-    if (!channel || !m_session || m_opener->secondKey() != m_token_key) return;
+    if (!channel || !m_session || m_opener->keyOfSecond() != m_token_key) return;
     m_session->startSecond(std::move(channel));
   });
 }
@@ -39,13 +39,13 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
   const ReliableChannel* p_channel = channel.get();
   m_key = m_opener->key();
   SessionOptions options = m_options;
-  // Another server has other rooms, so the room is kept only for this one.
+  // Another server has other rooms, so the room is kept only if this is the server of the last session.
   if (m_session && m_address == m_joined && !m_session->welcome().room.empty())
     options.room = m_session->welcome().room;
   chooseToken(options);
   m_pending = std::make_unique<ClientSession>(std::move(channel), options, Clock::now());
   if (m_observer) m_observer(*m_pending);
-  // A stream may be adopted by another session: each frame goes to its present owner.
+  // Another session may adopt the stream, so each frame goes to the session that owns it at that moment.
   const auto owner = [this, p_channel]() -> ClientSession* {
     if (m_pending && m_pending->owns(p_channel)) return m_pending.get();
     return m_session && m_session->owns(p_channel) ? m_session.get() : nullptr;
@@ -63,8 +63,8 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                  }});
 }
 
-// A token is sent only to the server that gave it. A session that ended here may still exist there: a server
-// that replays a long round, for example, starts the players' grace time after the replay.
+// A token is sent only to the server that gave it. A session that has ended for this client may still exist
+// on the server: one that replays a long round, for example, starts the players' grace time after the replay.
 void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
@@ -108,13 +108,13 @@ void Connection::onAttemptFailed(const std::string& message) {
 }
 
 /// True if a lost redirect target did not answer for m_original_retry_delay: the original server may know
-/// another.
+/// another target.
 bool Connection::isOriginalRetryDue(Time now) const {
   return m_redirected && now - m_lost_at >= m_original_retry_delay && now >= m_original_retry_at;
 }
 
 /// True if a failed join should be retried: the server dropped the handshake, or it is a redirect target,
-/// which was there a moment ago. Only for a limited time after the first such failure.
+/// which was reachable a moment ago. Only for a limited time after the first such failure.
 bool Connection::shouldRetryHandshake(Time now) {
   const bool was_there = m_redirected && !m_original_retried;
   if (!m_opener->closedDuringHandshake() && !was_there) return false;
@@ -242,8 +242,8 @@ bool Connection::followRedirect(const std::string& link, const std::string& room
   return true;
 }
 
-// Tries the original server again when the redirect target is full or unreachable: it may know another one.
-// Only once until the client has joined: the original server may be malicious.
+// Tries the original server again when the redirect target is full or unreachable: the original server may
+// know another target. Only once until the client has joined, because the original server may be malicious.
 bool Connection::retryOriginal() {
   if (!m_redirected || std::exchange(m_original_retried, true)) return false;
   swapServers();
@@ -270,7 +270,7 @@ void Connection::swapServers() {
 void Connection::waitForServer(const std::string& message) {
   const Time now = Clock::now();
   if (m_state == State::kJoining && !std::exchange(m_busy, true)) m_lost_at = now;
-  if (m_state == State::kReconnecting) m_lost_at = now;  // it answers, so the time limit restarts
+  if (m_state == State::kReconnecting) m_lost_at = now;  // the server answers, so the time limit restarts
   m_deferred = true;
   m_message = message;
   ++m_revision;
@@ -296,7 +296,8 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& message) {
-  // Keep the token otherwise: a lost session, or one of a server that refused, may still exist there.
+  // The token is kept in the other final states: the session may still exist on a server that was lost or
+  // refused.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
   m_opener->cancel();

@@ -5,16 +5,18 @@
 //   kJoining --Refused (BUSY)--> kJoining --60 s of such refusals--> kRefused
 //   kJoining --Refused with a redirect--> kJoining the redirect target (StreamOpener::follow()), once
 //   kJoining the target --Refused (FULL), no answer for 4 s--> kJoining the original server, once
-//   kReconnecting the target --no answer for 10 s--> kReconnecting, both in turn; the original may redirect
-//   again any --Refused--> kRefused any --Goodbye--> kEnded kJoined --Goodbye of a server that restarts-->
-//   kReconnecting kReconnecting --60 s without success, or longer if a restarting server announced it-->
-//   kLost; a BUSY server
-//     restarts this time limit
+//   kReconnecting the target --no answer for 10 s--> kReconnecting, both servers in turn
+//   any --any other Refused--> kRefused
+//   any --Goodbye--> kEnded
+//   kJoined --Goodbye of a server that restarts--> kReconnecting
+//   kReconnecting --60 s without success (longer if a restarting server announced it)--> kLost
 //
-// While searching, session() is still the lost one, so that its last picture can stay on the screen under a
-// banner. A session that outlives its stream (ClientSession::isDetached) continues: another stream is opened,
-// and if the server still knows the session, the player notices nothing. The pause between attempts doubles
-// from 0.25 s to 2 s, also after BUSY refusals. Any other refusal is final.
+// The original server may redirect again while both servers are asked. A BUSY server restarts the time limit.
+//
+// While reconnecting, session() is still the lost session, so that its last picture can stay on the screen
+// under a banner. A session that outlives its stream (ClientSession::isDetached) continues: another stream is
+// opened, and if the server still knows the session, the player notices nothing. The pause between attempts
+// doubles from 0.25 s to 2 s, also after BUSY refusals. Any other refusal is final.
 //
 // A StreamOpener opens the streams: by TCP in the terminal, by WebSocket in a browser.
 //
@@ -43,13 +45,13 @@ class Connection {
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kMaxBackoff{2000};
   static constexpr std::chrono::seconds kReconnectTimeout{60};
-  /// Retry time of a joining client whose handshakes the server drops (too many from its address).
+  /// Retry time while joining, if the server drops the handshakes (too many from the client's address).
   static constexpr std::chrono::seconds kHandshakeRetryTimeout{4};
-  /// Retry time of a lost redirect target before the original server is also asked for another one:
-  /// longer than a server needs to restart with its round.
+  /// Time for which only a lost redirect target is retried; then the original server is asked, too, for
+  /// another target. A server restarts with its round in less time.
   static constexpr std::chrono::milliseconds kOriginalRetryDelay{10'000};
 
-  /// `rejoin`: search for a server that was lost. `address`: for messages. Nothing happens before start().
+  /// `rejoin`: reconnect if the server is lost. `address`: for messages. Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
              bool rejoin);
   /// Connects by TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway
@@ -60,13 +62,13 @@ class Connection {
   /// Saves the session's token in `tokens`, which must outlive the Connection, and resumes the session saved
   /// there. Call before start().
   void setTokenStore(TokenStore& tokens) { m_p_tokens = &tokens; }
-  /// Replaces kOriginalRetryDelay, and for redirect targets kHandshakeRetryTimeout if `time` is shorter.
-  /// Before start().
+  /// Replaces kOriginalRetryDelay, and for redirect targets kHandshakeRetryTimeout if `time` is shorter. Call
+  /// before start().
   void setOriginalRetryDelay(std::chrono::milliseconds time) { m_original_retry_delay = time; }
   void start();
   /// Handles timeouts, pings and the next attempt. Call about ten times a second, and after every event.
   void update(Time now);
-  /// Leaves on purpose. Run the event loop for a moment so that the message is sent.
+  /// Leaves on purpose. Run the event loop for a moment afterwards to send the message.
   void leave();
   /// Sends the terminal's size, now and when rejoining.
   void resize(int columns, int rows);
@@ -74,10 +76,10 @@ class Connection {
   void onSession(std::function<void(ClientSession&)> observer) { m_observer = std::move(observer); }
 
   State state() const { return m_state; }
-  /// True in the final states.
+  /// True in all states but kJoining, kJoined and kReconnecting.
   bool isOver() const;
-  /// Reason for the state, for people: set in all final states but kLeft; while searching, why the server was
-  /// lost; while isDeferred(), the server's message.
+  /// Reason for the state, for people: set in all final states but kLeft; while reconnecting, why the server
+  /// was lost; while isDeferred(), the server's message.
   const std::string& message() const { return m_message; }
   /// True after a BUSY refusal; a retry is scheduled.
   bool isDeferred() const { return m_deferred; }
@@ -91,8 +93,7 @@ class Connection {
   Clock::duration pictureWait(Time now) const {
     return m_pending ? m_pending->pictureWait(now) : Clock::duration::zero();
   }
-  /// Counts changes of the state and of session(). They change only in update() and in the opener's
-  /// callbacks.
+  /// Counts changes of the state and of session(), which change only in update() and the opener's callbacks.
   std::uint64_t revision() const { return m_revision; }
   /// Address of the server; after a redirect, of its target.
   const ServerAddress& address() const { return m_address; }
@@ -129,22 +130,22 @@ class Connection {
   std::optional<Fingerprint> m_key;        ///< the server's key on the newest stream
   std::optional<Fingerprint> m_token_key;  ///< key of the server that gave m_token
   std::string m_token;                     ///< newest token of the session
-  bool m_resized = false;                  ///< after the pending session sent the terminal's size
+  bool m_resized = false;                  ///< the terminal's size changed after m_pending sent it
   State m_state = State::kJoining;
   std::string m_message;
-  std::unique_ptr<ClientSession> m_session;  ///< shown
-  std::unique_ptr<ClientSession> m_pending;  ///< greeting, or waiting for its first picture
+  std::unique_ptr<ClientSession> m_session;  ///< the session to show; null before the first picture
+  std::unique_ptr<ClientSession> m_pending;  ///< new session: greeting, or waiting for its first picture
   std::function<void(ClientSession&)> m_observer;
   std::chrono::milliseconds m_backoff{kFirstBackoff};
   Time m_next_attempt = Time::max();
-  Time m_handshake_closed_at = Time::max();  ///< while joining: first dropped handshake
-  Time m_lost_at{};                          ///< start of the time limit: loss, or first BUSY refusal
+  Time m_handshake_closed_at = Time::max();  ///< while joining: time of the first failure that was retried
+  Time m_lost_at{};                          ///< start of m_reconnect_timeout: the loss, or a BUSY refusal
   bool m_busy = false;                       ///< while joining: the server has refused with BUSY
   std::chrono::seconds m_reconnect_timeout{kReconnectTimeout};
   bool m_deferred = false;
   bool m_password_refused = false;
   bool m_redirected = false;
-  /// Data for joining the other server: the original one, or, while that is asked, the redirect target.
+  /// Data for joining the other server: the original one or, while that one is asked, the redirect target.
   struct ServerTarget {
     std::unique_ptr<StreamOpener> opener;
     ServerAddress address;
@@ -153,10 +154,10 @@ class Connection {
   };
   std::unique_ptr<ServerTarget> m_other;  ///< null without a redirect
   ServerAddress m_joined;                 ///< server of session()
-  bool m_trying_original = false;         ///< the original server is being asked
-  bool m_original_retried = false;        ///< it was asked again since the last join
+  bool m_trying_original = false;         ///< after a redirect, the original server is asked again
+  bool m_original_retried = false;        ///< the original server was asked again since the last join
   std::chrono::milliseconds m_original_retry_delay{kOriginalRetryDelay};
-  Time m_original_retry_at{};  ///< while searching: earliest time for that
+  Time m_original_retry_at{};  ///< while reconnecting: earliest time to ask the original server
   std::uint64_t m_revision = 0;
 };
 

@@ -1,6 +1,6 @@
-// Opens streams through a gateway for browsers (server/gateway) as its page does, so that bots and dfclient
-// can take the page's place: each stream is a WebSocket (RFC 6455) on a connection of its own, to the path
-// /play with the subprotocol naiad.1.
+// Opens streams through a gateway for browsers (server/gateway) like the gateway's page, so that bots and
+// dfclient can take the page's place: each stream is a WebSocket (RFC 6455) on a connection of its own, to
+// the path /play with the subprotocol naiad.1.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -16,9 +16,9 @@ namespace naiad {
 
 class HttpExchange;
 
-/// With https, the system's trust store must accept the gateway's certificate. Without it, the gateway must
-/// be on this machine. A channel ends with CloseReason::kPeer if the gateway closed it with code 1000, as it
-/// does when the server ended the stream in order.
+/// With https, the system's trust store must accept the gateway's certificate. Without https, the gateway
+/// must be on this machine. A channel ends with CloseReason::kPeer if the gateway closed it with code 1000,
+/// as it does when the server ended the stream in order.
 ///
 /// Use from the thread that runs `context`, which must outlive this and the channels that it made.
 class GatewayStreamOpener : public StreamOpener {
@@ -32,9 +32,9 @@ class GatewayStreamOpener : public StreamOpener {
   void open(Done done) override { begin(m_first, std::move(done)); }
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
-  /// A constant: the gateway, verified by the system's trust store, is trusted in the server's place.
+  /// Returns a constant: the gateway, verified by the system's trust store, is trusted in the server's place.
   std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
-  std::optional<Fingerprint> secondKey() const override { return key(); }
+  std::optional<Fingerprint> keyOfSecond() const override { return key(); }
   std::string trustError() const override { return {}; }
   bool closedDuringHandshake() const override { return false; }
 

@@ -22,11 +22,11 @@ class InputOutbox {
   /// Limit on waiting inputs; beyond it only key releases are admitted. It is less than the 64 that a server
   /// queues, so that a key held during a stall does not count as a flood, and less than kMaxUpdateInputs.
   static constexpr std::size_t kMax = 40;
-  /// Rate limit: inputs in a burst, and inputs per tick in the long run.
+  /// Rate limit: kBurst inputs at once, and kPerTick inputs per tick in the long run.
   static constexpr double kBurst = 32;
   static constexpr double kPerTick = 12;
 
-  /// Call after the welcome. `id`: newest input that the server has received. `tick`: length of a tick.
+  /// Call after the welcome. `id`: id of the newest input that the server has. `tick`: length of a tick.
   void start(std::uint32_t id, std::chrono::microseconds tick);
   /// True if no further input may wait. `urgent`: for a key release.
   bool isFull(bool urgent) const { return m_inputs.size() >= (urgent ? kMaxUpdateInputs : kMax); }

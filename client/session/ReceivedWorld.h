@@ -26,7 +26,7 @@ class ReceivedWorld {
 
   /// Call after the welcome. Snapshot numbers continue from `from`.
   void start(const WelcomeMessage& welcome, const ResumeState& from);
-  /// Call when the session was resumed in tick `tick_now`: the last snapshot may be much older.
+  /// Call when the session was resumed at about tick `tick_now`, because the last snapshot may be much older.
   void resume(std::uint32_t tick_now) { m_worlds.advanceTick(tick_now); }
 
   /// Call when the player moves to another world. Its snapshots have this epoch; its tick is near `tick_now`.
@@ -52,7 +52,8 @@ class ReceivedWorld {
 
   /// Adds a key that was just sent to the prediction.
   void predictInput(const Input& input) { m_prediction.addInput(input); }
-  /// Predicts the player's own object up to predictedTick(): the server will apply a key pressed now in it.
+  /// Predicts the player's own object up to predictedTick(), in which the server will apply a key pressed
+  /// now.
   const Prediction& predict(Time now);
   std::uint32_t predictedTick(Time now) const;
   bool isPredicting() const { return m_prediction.isActive(); }

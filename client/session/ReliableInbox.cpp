@@ -15,7 +15,7 @@ void ReliableInbox::handlePlayers(PlayersMessage&& message) {
 void ReliableInbox::handleChat(ChatMessage&& message, const WelcomeMessage& self, Time now) {
   if (!isNew(message.number)) return;
   ChatEntry entry{"", df::COLOR_DEFAULT, std::move(message.text), now};
-  if (message.player != 0) entry.name.assign(1, '?');  // has left already
+  if (message.player != 0) entry.name.assign(1, '?');  // the speaker has already left
   for (const PlayerLine& player : m_players) {
     if (message.player == 0 || player.player != message.player) continue;
     entry.name = player.name;

@@ -1,5 +1,5 @@
-// Reliable messages from the server: the list of players, chat and sounds. Each frame counts once, although
-// it may be sent again on the session's next stream.
+// Reliable messages from the server: the list of players, chat and sounds. Each frame is handled once,
+// although the server may send it again on the session's next stream.
 #pragma once
 
 #include <chrono>

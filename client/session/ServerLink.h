@@ -1,6 +1,6 @@
 // The paths of a session to its server: a stream, perhaps a second stream, and encrypted datagrams.
 //
-// UpdateTiming decides when each of them is used; StreamLiveness, whether they are alive.
+// UpdateTiming decides when each of them is used; StreamLiveness tracks whether the server still answers.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ namespace naiad {
 /// and updates use both streams, which are seldom delayed at once. Messages that need order (chat,
 /// players, music) use the first stream only.
 ///
-/// The owner connects and passes the time in.
+/// The owner opens the connection and passes the time as a parameter.
 class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -37,7 +37,7 @@ class SecondStream {
   /// First pause before a retry; doubles up to kMaxRetryDelay while streams fail early.
   static constexpr std::chrono::seconds kFirstRetryDelay{2};
   static constexpr std::chrono::seconds kMaxRetryDelay{64};
-  /// Silence after which the stream is closed: without an answer to the hello, or later.
+  /// Silence of the server after which the stream is closed, after the hello or at any later time.
   static constexpr std::chrono::seconds kMaxSilence{5};
 
   SecondStream() = default;
@@ -47,15 +47,15 @@ class SecondStream {
 
   /// Returns true, once for each attempt, if a stream may be opened now.
   bool tryBeginAttempt(Time now);
-  /// Sends the hello on `channel`. Once the server has accepted it, `on_snapshot` gets its snapshots. If the
-  /// server sends anything else there, only this stream is closed.
+  /// Sends the hello on `channel`. Once the server has accepted the stream, `on_snapshot` is called with each
+  /// snapshot on it. If the server sends anything else on it, only this stream is closed.
   void start(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options,
              std::function<void(std::string_view bytes)> on_snapshot);
   /// Closes the stream if it is silent. Call about once a second or more often.
   void update(Time now);
   /// True if the server has accepted the stream.
   bool isOpen() const { return m_open; }
-  /// Call for each snapshot on either stream. True if it is among the last ones: it also came on the other.
+  /// Call for each snapshot on either stream. True if it is among the last 64: the other stream carried it.
   bool isDuplicate(std::string_view snapshot);
   /// Sends a frame if the stream is open and has nothing unsent.
   void send(std::string_view frame);
@@ -68,7 +68,7 @@ class SecondStream {
   std::unique_ptr<ReliableChannel> m_channel;
   std::function<void(std::string_view)> m_on_snapshot;
   bool m_open = false;
-  /// Hashes of the last snapshots. Fewer than 65,536, because snapshots that far apart may have equal bytes.
+  /// Hashes of the last snapshots. Must be fewer than 65,536, because snapshots that far apart may be equal.
   std::array<std::size_t, 64> m_hashes{};
   std::size_t m_snapshot_count = 0;
   std::chrono::seconds m_retry_delay = kFirstRetryDelay;
@@ -83,12 +83,12 @@ class SealedDatagrams : public DatagramChannel {
   using Time = std::chrono::steady_clock::time_point;
   using Now = std::function<Time()>;
 
-  /// `server`: the server's UDP endpoint. `id`: from its welcome.
+  /// `server`: the server's UDP endpoint. `id`: the connection id in its welcome.
   SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now,
                   SealLimits limits = {});
 
-  /// Derives keys from the session's newest stream (DatagramKeys.h). False if that fails, or the epoch is not
-  /// newer.
+  /// Derives keys from the session's newest stream (DatagramKeys.h). Returns false if that fails, or the
+  /// epoch is not newer.
   bool startEpoch(const KeyExporter& exporter, AeadId aead, Epoch epoch);
 
   void start(std::function<void(std::string_view packet)> on_packet) override;
@@ -98,7 +98,7 @@ class SealedDatagrams : public DatagramChannel {
   /// Measures the round trip with the next packet; popRoundTrip() returns the result.
   void ping() { m_link.ping(); }
   std::optional<LinkPing::Millis> popRoundTrip() { return m_link.popRoundTrip(); }
-  /// Returns true, once for each epoch, when one of its keys nears its limit: another stream is needed.
+  /// Returns true, once for each epoch, when a key nears its limit, so that another stream is needed.
   bool popNewEpochDue();
   /// Continues from another port, because the network may have changed.
   void reopen();
@@ -108,7 +108,7 @@ class SealedDatagrams : public DatagramChannel {
   Endpoint m_server;
   Now m_now;
   SealedLink m_link;
-  std::optional<Epoch> m_reported_epoch;  ///< popNewEpochDue() has returned true for it
+  std::optional<Epoch> m_reported_epoch;  ///< newest epoch for which popNewEpochDue() returned true
 };
 
 namespace wire {
@@ -134,16 +134,17 @@ class ServerLink {
 
   bool hasStream() const { return m_channel != nullptr; }
   bool ownsStream(const ReliableChannel* channel) const { return m_channel.get() == channel; }
-  /// Takes over the stream of `other`; closes the second stream.
+  /// Takes over the stream of `other`; closes this link's second stream.
   void adoptStream(ServerLink& other);
-  /// Call when the stream has ended by itself.
+  /// Call when the stream has ended, unless closeStreams() closed it.
   void dropStream();
   /// Closes the streams; queued data is still sent.
   void closeStreams();
   bool isStalled() const { return hasStream() && m_channel->unsentBytes() > kMaxUnsent; }
-  /// Sends on the stream, if there is one.
+  /// Sends a message on the stream, if there is one.
   void send(const wire::ClientMessage& message);
-  /// Sends on the stream, and again on later ones until acknowledged. False if too much is unacknowledged.
+  /// Sends a message on the stream, and again on later streams until it is acknowledged. Returns false,
+  /// without sending it, if too much is unacknowledged.
   bool sendReliable(wire::ClientMessage& message);
   void acknowledgeReliable(std::uint32_t number) { m_unacknowledged.acknowledge(number); }
   void resendReliable();
@@ -156,7 +157,7 @@ class ServerLink {
                    OnSnapshot on_snapshot);
 
   bool hasDatagrams() const { return m_datagrams != nullptr; }
-  /// Opens a datagram socket to the stream's peer address. False if datagrams are off or impossible.
+  /// Opens a datagram socket to the stream's peer address. Returns false if datagrams are off or impossible.
   bool openDatagrams(const WelcomeMessage& welcome, OnSnapshot on_snapshot);
   void closeDatagrams() { m_datagrams.reset(); }
   /// Derives new keys for existing datagrams from a new stream, and sends from another port.

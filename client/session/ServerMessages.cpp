@@ -16,7 +16,7 @@ constexpr std::uint32_t kMaxRttMillis = 99999;
 constexpr std::size_t kMaxTokenLength = 64;
 constexpr std::uint32_t kMaxGraceMillis = 3'600'000;
 constexpr std::uint32_t kMaxReconnectSeconds = 600;
-constexpr std::size_t kMaxRedirect = 512;  // bytes of a link
+constexpr std::size_t kMaxRedirect = 512;  // maximum bytes of a redirect's link
 
 bool isViewSize(std::uint32_t width, std::uint32_t height) {
   return width >= 1 && width <= static_cast<unsigned>(kMaxViewWidth) && height >= 1 &&

@@ -24,31 +24,31 @@ struct ResumeState {
   std::uint32_t input = 0;       ///< id of the newest input
 };
 
-/// The server has accepted the client.
+/// Message that the server has accepted the client.
 struct WelcomeMessage {
   std::uint32_t player = 0;  ///< this player's id, never 0
   std::string name;          ///< this player's name in the game
   std::string game;
   std::string server;                     ///< program and version
-  std::chrono::microseconds tick{33333};  ///< 1 ms to 1 s
+  std::chrono::microseconds tick{33333};  ///< length of a tick, 1 ms to 1 s
   int view_width = 80;
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;            ///< the game's own lines
+  std::vector<std::string> help;            ///< lines of the game for the help
   std::uint32_t tick_now = 0;               ///< the world's approximate current tick
   std::uint64_t connection_id = 0;          ///< connection id of datagrams
   std::uint32_t aead = 0;                   ///< cipher of datagrams; 0: no datagrams
   std::uint32_t epoch = 0;                  ///< key epoch of datagrams
   std::string resume_token;                 ///< empty: the session ends with its stream
-  bool resumed = false;                     ///< an earlier session was resumed
+  bool resumed = false;                     ///< the server has resumed an earlier session
   std::chrono::milliseconds grace{0};       ///< how long the server keeps a session without a stream
-  std::optional<ResumeState> resume_state;  ///< set if the hello said `new_process`
-  std::uint32_t last_frame = 0;             ///< otherwise: newest reliable frame that the server received
-  bool second_stream = false;               ///< the server accepts one; or: this is one
+  std::optional<ResumeState> resume_state;  ///< set if a new client process resumed the session
+  std::uint32_t last_frame = 0;             ///< else: newest reliable frame that the server received
+  bool second_stream = false;               ///< second streams are accepted, or this is one
   std::string room;                         ///< the player's room; empty: the server has no rooms
 };
 
-/// The player has entered another room.
+/// Message that the player has entered another room.
 struct RoomEnteredMessage {
   std::uint32_t player = 0;  ///< this player's id in that room, never 0
   std::string room;
@@ -79,7 +79,7 @@ struct RefusedMessage {
   std::string message;
   /// Link to another server with a free place (JoinLink.h), unchecked. Empty: none.
   std::string redirect = {};
-  std::string redirect_room = {};  ///< room of that server; may be empty
+  std::string redirect_room = {};  ///< room of the other server; may be empty
   bool full = false;               ///< the server has no free place
 };
 
@@ -112,7 +112,7 @@ struct ChatMessage {
   std::uint32_t number = 0;  ///< number of the reliable frame; 0: not reliable
 };
 
-/// A sound or a piece of music began, paused or stopped.
+/// A sound or a piece of music that began, paused or stopped.
 struct SoundLine {
   enum class Action : std::uint8_t { kPlay, kPause, kStop };
   std::string label;
@@ -130,7 +130,7 @@ struct SoundsMessage {
 
 struct PongMessage {
   std::uint64_t token = 0;
-  std::uint32_t last_frame = 0;  ///< newest reliable frame of the client that arrived
+  std::uint32_t last_frame = 0;  ///< number of the client's newest reliable frame that arrived
 };
 
 using ServerMessageValue =

@@ -5,12 +5,12 @@
 
 namespace naiad {
 
-/// Bytes are frame payloads plus two bytes of header each.
+/// Byte counts are the sizes of frame payloads, plus two bytes of header for each frame.
 struct SessionCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
   std::uint64_t snapshots = 0;
-  std::uint64_t stale_snapshots = 0;  ///< dropped: they refer to state that newer ones replaced
+  std::uint64_t stale_snapshots = 0;  ///< dropped: they refer to state that newer snapshots replaced
   std::uint64_t inputs = 0;
   std::uint64_t inputs_dropped = 0;  ///< not sent: too many, or the stream is stuck
   std::uint64_t chat_lines = 0;
@@ -18,7 +18,7 @@ struct SessionCounters {
   std::uint64_t chat_dropped = 0;     ///< not sent: too many unacknowledged frames
   std::uint64_t repeated_frames = 0;  ///< reliable frames received before: ignored
   std::uint64_t datagrams_in = 0;     ///< snapshots by datagram; bytes_in includes them, without headers
-  std::uint64_t resets = 0;           ///< worlds that followed the first one
+  std::uint64_t resets = 0;           ///< number of worlds after the first one
   std::uint64_t bad_messages = 0;
 };
 

@@ -17,12 +17,12 @@ namespace naiad {
 
 /// Rules by which a client trusts a server.
 struct ServerTrust {
-  bool insecure = false;                   ///< plain TCP, loopback only, no datagrams: for tests
+  bool insecure = false;                   ///< use plain TCP, loopback only, without datagrams; for tests
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if given by the player
   std::optional<ShortKey> link_key;        ///< the key in the link, if the player followed one
-  std::filesystem::path known_servers;     ///< file with the keys of known servers; empty: the user's
-  bool pin_new_keys = true;                ///< store the keys of trusted servers there
-  bool ignore_redirects = false;           ///< ignore redirects
+  std::filesystem::path known_servers;     ///< file of known servers; empty: KnownServers::defaultPath()
+  bool pin_new_keys = true;                ///< store the keys of trusted servers in that file
+  bool ignore_redirects = false;
   /// Maximum of the random wait before a redirect is followed. It spreads out the arrivals when many clients
   /// are redirected at once, as after the end of a server.
   std::chrono::milliseconds max_redirect_wait{1000};
@@ -30,10 +30,11 @@ struct ServerTrust {
   std::optional<GatewayAddress> gateway;
 };
 
-/// Not thread-safe. May be destroyed at any time, even in its own callback; that cancels.
+/// Not thread-safe. May be destroyed at any time, even in its own callback; this cancels all attempts.
 class StreamOpener {
  public:
-  /// Gets either a channel, not started yet, and an empty `error`; or no channel and one sentence for people.
+  /// Called with either a channel, not started yet, and an empty `error`; or no channel and one sentence for
+  /// people.
   using Done = std::function<void(std::unique_ptr<ReliableChannel> channel, const std::string& error)>;
 
   virtual ~StreamOpener() = default;
@@ -41,16 +42,16 @@ class StreamOpener {
   /// Opens a stream for a session. `done` is called once, from the event loop, unless cancelled. Cancels an
   /// earlier attempt that has not ended.
   virtual void open(Done done) = 0;
-  /// Like open(), for the session's second stream (SecondStream); independent of the first.
+  /// Like open(), for the session's second stream (SecondStream); independent of open().
   virtual void openSecond(Done done) = 0;
   /// Cancels all attempts; no `done` will be called.
   virtual void cancel() = 0;
 
-  /// Returns the key of the server behind the newest stream of open(): a session's token is sent to no other.
-  /// Nullopt without encryption.
+  /// Returns the key of the server behind the newest stream of open(), so that no other gets a token. Nullopt
+  /// without encryption.
   virtual std::optional<Fingerprint> key() const = 0;
   /// Like key(), for openSecond().
-  virtual std::optional<Fingerprint> secondKey() const = 0;
+  virtual std::optional<Fingerprint> keyOfSecond() const = 0;
   /// Returns why the server behind the newest stream of open() is not trusted, for people; empty if it is.
   /// Nothing may be sent to an untrusted server.
   virtual std::string trustError() const = 0;

@@ -15,7 +15,7 @@
 
 namespace naiad {
 
-/// Use from the thread that runs the context, which must outlive this.
+/// Use from the thread that runs the context, which must outlive this object.
 class TcpStreamOpener : public StreamOpener {
  public:
   static constexpr std::chrono::milliseconds kConnectTimeout{5000};
@@ -28,9 +28,9 @@ class TcpStreamOpener : public StreamOpener {
   void openSecond(Done done) override { connect(m_second_connector, std::move(done)); }
   void cancel() override;
   std::optional<Fingerprint> key() const override { return keyOf(m_connector); }
-  std::optional<Fingerprint> secondKey() const override { return keyOf(m_second_connector); }
+  std::optional<Fingerprint> keyOfSecond() const override { return keyOf(m_second_connector); }
   std::string trustError() const override;
-  /// Refuses redirects for a visitor of a door, without TLS, after a redirect, and to ports below 1024. The
+  /// Refuses redirects for visitors of a door, without TLS, after a redirect, and to ports below 1024. The
   /// target's addresses must not have a narrower scope than this server's (mayRedirectTo()).
   RedirectTarget follow(const std::string& link) override;
   bool closedDuringHandshake() const override { return m_connector.closedDuringHandshake(); }

@@ -31,7 +31,8 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   return {};
 }
 
-/// Takes the key of a listed server with an IPv6 zone in its address, which links cannot express.
+/// Sets the key that a server from a list must have. Used if its address has an IPv6 zone, which links cannot
+/// express.
 std::string followList(const ShortKey& key, ServerTrust& trust) {
   if (trust.insecure) return "--insecure cannot be used with a list, which contains the servers' keys.";
   if (namesAnotherKey(trust, key))
@@ -43,10 +44,10 @@ std::string followList(const ShortKey& key, ServerTrust& trust) {
 std::string applyVisit(const ServerChoice& server, const ServerTrust& trust, SessionOptions& session) {
   if (server.visitors.empty() && server.visitor.empty()) return {};
   if (server.visitors.empty() || server.visitor.empty())
-    return "--visitors and --visitor must be used together.";
-  if (trust.insecure) return "--visitors cannot be used with --insecure.";
+    return "--proxy-socket and --proxy-for must be used together.";
+  if (trust.insecure) return "--proxy-socket cannot be used with --insecure.";
   const auto visitor = proxiedPeerFromText(server.visitor);
-  if (!visitor) return quoted(server.visitor) + " is not a valid --visitor: expected ADDRESS:PORT.";
+  if (!visitor) return quoted(server.visitor) + " is not a valid --proxy-for: expected ADDRESS:PORT.";
   session.proxy = ProxyOptions{server.visitors, *visitor};
   return {};
 }
@@ -87,9 +88,9 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
       {"--insecure", &trust.insecure,
        "Connect without encryption, only to a server on this machine (for tests)", "NAIAD_INSECURE"}};
   const std::vector<Option> doors = {
-      {"--visitors", &server.visitors,
-       "For doors: join through this visitors' socket of a server on this machine (dfserver --visitors)"},
-      {"--visitor", &server.visitor, "With --visitors: the player's address, ADDRESS:PORT"}};
+      {"--proxy-socket", &server.visitors,
+       "For doors: join through this visitors' socket of a server on this machine (dfserver --proxy-socket)"},
+      {"--proxy-for", &server.visitor, "With --proxy-socket: the player's address, ADDRESS:PORT"}};
   options[0].type = "HEX";
   options[1].type = "FILE";
   options[2].p_from_environment = &server.is_password_ambient;
@@ -103,7 +104,7 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
   if (std::string wrong = applyVisit(server, trust, session); !wrong.empty()) return wrong;
   if (GatewayAddress::looksLikeLink(server.text)) {
     if (trust.insecure || trust.fingerprint || session.proxy)
-      return "--insecure, --fingerprint and --visitors cannot be used with a gateway (https://…).";
+      return "--insecure, --fingerprint and --proxy-socket cannot be used with a gateway (https://…).";
     trust.gateway = GatewayAddress::parse(server.text);
     if (!trust.gateway)
       return quoted(server.text) + " is not a valid gateway address: expected https://HOST[:PORT]/.";
@@ -115,7 +116,7 @@ std::string resolveServer(const ServerChoice& server, ServerAddress& address, Se
     const auto parsed = ServerAddress::parse(server.text.substr(0, slash));
     if (!parsed)
       return quoted(server.text) +
-             " is not a valid server: expected a link (naiad://…) or HOST[:PORT][/ROOM].";
+             " is not a valid server: expected a link (naiad://… or https://…) or HOST[:PORT][/ROOM].";
     address = *parsed;
     const std::string room = server.text.substr(std::min(slash + 1, server.text.size()));
     if (slash < server.text.size() && !isRoomName(room))

@@ -1,4 +1,5 @@
-// Command-line options that dfclient and dfbot share: the server, its key, its password. Their exit codes.
+// Command-line options that dfclient and dfbot share: the server, its key, its password. Also their exit
+// codes.
 #pragma once
 
 #include <optional>
@@ -22,24 +23,24 @@ enum ExitCode {
   kExitTruthMismatch = 6,  ///< the bot's pictures differ from the truth file, or could not be compared
 };
 
-/// The part of --help that both programs share.
+/// Part of --help that both programs share: the exit codes.
 inline constexpr const char* kExitCodeHelp =
     "Exit codes:\n"
     "  0  left                      3  refused by the server (the reason is on stderr)\n"
     "  1  cannot connect            4  the server ended the game, or was lost for good\n"
     "  2  wrong usage               5  no terminal (dfclient)\n"
-    "  6  wrong cells, or nothing to compare (dfbot --truth)\n";
+    "  6  wrong cells, or nothing to compare (dfbot --truth-file)\n";
 
 /// The server as given by the command line and the environment.
 struct ServerChoice {
   std::string text = {};                  ///< HOST[:PORT][/ROOM], link (JoinLink.h) or page address
   std::string visitors = {};              ///< path of a visitors' socket; empty: connect directly
   std::string visitor = {};               ///< ADDRESS:PORT of the remote player, given with `visitors`
-  bool is_password_ambient = false;       ///< the password is from the environment, not for this server
+  bool is_password_ambient = false;       ///< it is from the environment, perhaps for another server
   std::optional<ShortKey> list_key = {};  ///< `text` was chosen from a list that names this key
 
-  /// True if the password is from the environment and must not be sent, because strangers make links, pages
-  /// and lists.
+  /// True if the password is from the environment and the server from a link, page or list. Then the password
+  /// must not be sent, because strangers make these.
   bool dropsPassword() const;
 };
 
@@ -48,7 +49,7 @@ Option serverOption(ServerChoice& server);
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
 
 /// Finds the address in `server`, and for links the key that the server must have. Call after parseOptions().
-/// Returns what is wrong, and then nothing must be connected to; empty if nothing is.
+/// Returns an error message, with which the caller must not connect; empty if all is right.
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session);
 

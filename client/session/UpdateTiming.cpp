@@ -7,7 +7,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxPings = 20;  ///< unanswered ones
+constexpr std::size_t kMaxPings = 20;  ///< maximum number of stored unanswered pings
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // Timing of a client: when it sends acknowledgements and inputs, whether datagrams pass, whether the server
-// is still there. Time is passed in.
+// still answers. Time is a parameter.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace naiad {
 
-/// Tracks whether the server is still there: its silence, and the round trip of pings on the stream.
+/// Tracks whether the server still answers: its silence, and the round trip of pings on the stream.
 class StreamLiveness {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -66,12 +66,12 @@ class UpdateTiming {
   static constexpr std::chrono::milliseconds kDatagramTimeout = PathProbe::kOpenTime;
   /// Time without datagrams after which a second stream is worth opening.
   static constexpr std::chrono::milliseconds kSecondStreamDelay{3000};
-  /// Unusual pause between datagrams: the server may have lost the client's address.
+  /// Pause between datagrams before a probe is sent, because the server may have lost the client's address.
   static constexpr std::chrono::milliseconds kProbeDelay{400};
-  /// Time after a snapshot on the stream during which the server may not be receiving datagrams.
+  /// Time after a snapshot on the stream for which it is undecided whether the server receives datagrams.
   static constexpr std::chrono::milliseconds kUndecidedWindow{500};
   static constexpr std::chrono::milliseconds kInputResendDelay{10};  ///< delay before an input is sent again
-  static constexpr int kSnapshotsPerAck = 3;                         ///< snapshots per acknowledgement
+  static constexpr int kSnapshotsPerAck = 3;                         ///< snapshots until an acknowledgement
   static constexpr std::chrono::milliseconds kAckDelay{50};          ///< maximum delay of an acknowledgement
   static constexpr std::chrono::milliseconds kDatagramPingInterval{1000};  ///< interval of pings by datagram
 
@@ -108,8 +108,8 @@ class UpdateTiming {
  private:
   PathProbe m_probe{kProbeDelay};
   Time m_last_streamed{};
-  Time m_last_ping{};        ///< last ping by datagram
-  int m_unacknowledged = 0;  ///< number of snapshots
+  Time m_last_ping{};        ///< time of the last ping by datagram
+  int m_unacknowledged = 0;  ///< number of snapshots since the last update
   std::optional<Time> m_acknowledge_at;
   std::optional<Time> m_resend_at;
 };

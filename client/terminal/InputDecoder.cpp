@@ -20,7 +20,7 @@ bool isText(int code) {
 
 }  // namespace
 
-/// The numbers of `a:b:c;d:e;…`: up to six fields of up to three parts; -1 for missing parts.
+/// The numbers of `a:b:c;d:e;…`: up to six fields of up to three parts; −1 for missing parts.
 struct InputDecoder::Numbers {
   std::array<std::array<int, 3>, 6> field{};
   bool well_formed = true;
@@ -250,7 +250,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
   if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
-    if (final == '^' || final == '@') m_parameters += ";5";  // rxvt's control
+    if (final == '^' || final == '@') m_parameters += ";5";  // 5: with Control, as rxvt writes it
     if (final == '$') m_parameters += ";2";
     finishTilde(out);
     return enterState(State::kGround);

@@ -1,4 +1,4 @@
-// Decodes the bytes of the player's terminal into events, in all dialects in use.
+// Decodes the bytes of the player's terminal into events, in all encodings that terminals use.
 //
 // ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
 // second after an ESC. So the client reads fd 0 itself. This decoder uses neither a terminal nor a clock. It
@@ -30,7 +30,7 @@ namespace naiad {
 enum Modifier : std::uint8_t { kShift = 1, kAlt = 2, kControl = 4, kSuper = 8 };
 
 /// A key, as reported by the terminal. Without the kitty protocol, terminals report only presses, and repeats
-/// as presses: KeyHoldTracker guesses the rest.
+/// as presses; KeyHoldTracker guesses which are repeats, and the releases.
 struct KeyEvent {
   enum class Action : std::uint8_t { kPress, kRepeat, kRelease };
   df::Keyboard::Key key = df::Keyboard::UNDEFINED_KEY;  ///< undefined for characters without a key
@@ -50,7 +50,8 @@ struct MouseEvent {
   friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
 };
 
-/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol. `flags`: the active ones.
+/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol. `flags`: the protocol's active
+/// flags.
 struct KittyReply {
   int flags = 0;
   friend bool operator==(const KittyReply&, const KittyReply&) = default;
@@ -126,14 +127,14 @@ class InputDecoder {
   bool m_meta = false;           ///< an ESC came before the sequence (rxvt's Alt)
   bool m_pasting = false;        ///< between CSI 200 ~ and CSI 201 ~
   std::u32string m_pasted;       ///< text since CSI 200 ~
-  bool m_pasted_return = false;  ///< its last character was CR, to which an LF belongs
+  bool m_pasted_return = false;  ///< the last pasted character was CR: drop an LF after it
   std::string m_parameters;
   std::string m_utf8;
   Time m_last{};
   std::unique_ptr<InputDecoder>
       m_record_decoder;              ///< decodes bytes in key records; null before the first record
   bool m_is_record_decoder = false;  ///< this is m_record_decoder of another decoder: ignore key records
-  int m_surrogate = 0;               ///< first half of a surrogate pair, from a record
+  int m_surrogate = 0;               ///< first half of a surrogate pair, from a key record; 0: none
 };
 
 }  // namespace naiad

@@ -40,7 +40,7 @@ std::vector<KeyAction> KeyHoldTracker::handleKey(const KeyEvent& event, Time now
   std::vector<KeyAction> out = expire(now);
   const auto held = m_held.find(event.key);
   if (event.action == KeyEvent::Action::kRelease) {
-    // Not held if the key was pressed while a text line was open.
+    // The key is not held if it was pressed while a text line was open.
     if (held == m_held.end()) return out;
     m_held.erase(held);
     out.push_back({event.key, df::KEY_RELEASED});
@@ -54,7 +54,7 @@ std::vector<KeyAction> KeyHoldTracker::handleKey(const KeyEvent& event, Time now
 std::vector<KeyAction> KeyHoldTracker::handleTyped(Key key, Time now) {
   std::vector<KeyAction> out = expire(now);
   learnPause(key, now);
-  pressBeside(key, now, out);
+  updateOtherHolds(key, now, out);
   const auto held = m_held.find(key);
   if (held == m_held.end()) {
     pressFirst(key, m_held[key], now);
@@ -62,7 +62,7 @@ std::vector<KeyAction> KeyHoldTracker::handleTyped(Key key, Time now) {
     return out;
   }
   const Duration gap = now - held->second.last;
-  // Typed again sooner than the keyboard repeats, or after another key: the player has pressed it again.
+  // If a key types sooner than the keyboard would repeat it, or after another key, it was pressed again.
   const bool again = held->second.silenced || (held->second.bridging && gap < bridge(key) * 3 / 4);
   if (again && gap >= releaseDelay()) {
     out.push_back({key, df::KEY_RELEASED});
@@ -86,7 +86,7 @@ void KeyHoldTracker::handleRepeat(Held& held, Time now) {
 }
 
 // Keyboards repeat only the key pressed last, so the other held keys fall silent, released or not.
-void KeyHoldTracker::pressBeside(Key key, Time now, std::vector<KeyAction>& out) {
+void KeyHoldTracker::updateOtherHolds(Key key, Time now, std::vector<KeyAction>& out) {
   if (m_held.contains(key)) return;
   for (auto it = m_held.begin(); it != m_held.end();) {
     Held& other = it->second;

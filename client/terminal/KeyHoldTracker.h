@@ -1,4 +1,4 @@
-// Converts a terminal's key presses to the book's three actions: pressed, held down, released.
+// Converts a terminal's key presses to Dragonfly's three key actions: pressed, held down, released.
 //
 // Most terminals report only that a key typed a character; a held key repeats it after a pause of 0.25 to
 // 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real releases arrive,
@@ -25,22 +25,22 @@ struct KeyAction {
   friend bool operator==(const KeyAction&, const KeyAction&) = default;
 };
 
-/// Rule by which releases are guessed that the terminal does not report. The default plays best in the games;
-/// the other values exist for comparison.
+/// Rule for guessing the releases that the terminal does not report. The default plays best in the games; the
+/// other values exist for comparison.
 struct HoldRule {
-  /// Long enough to keep running over a gap, too short to run far when both keys were released.
+  /// Default of `companion`: long enough to keep running while jumping over a gap, too short to run far after
+  /// both keys were released.
   static constexpr std::chrono::milliseconds kCompanion{300};
 
-  /// Meaning of the first press of a direction key (arrows, WASD). Other keys are taps.
+  /// Treatment of the first press of a direction key (arrows, WASD). A press of any other key is a tap.
   enum class First : std::uint8_t {
     kTap,      ///< released after the release delay; the first repeat is a new press
     kUsual,    ///< held for kUsualPause, unless another key comes
-    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; until a pause was
-    ///< seen, a tap
+    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; before that, a tap
   };
   First first = First::kTap;
-  /// Time a repeating key stays down after another key was pressed, which silences it: keyboards repeat
-  /// only the key pressed last. Zero: it is released like any silent key.
+  /// Time for which a repeating key stays down after another key was pressed, because keyboards repeat only
+  /// the key pressed last. Zero: the first key is released like any key that falls silent.
   std::chrono::milliseconds companion{kCompanion};
   /// If true, a direction key is released when the opposite one is pressed.
   bool opposites = true;
@@ -57,7 +57,7 @@ class KeyHoldTracker {
   static constexpr std::chrono::milliseconds kMaxRelease{250};
   /// Pause of most keyboards before the first repeat.
   static constexpr std::chrono::milliseconds kUsualPause{500};
-  /// Limits of pauses that are learned.
+  /// Shortest and longest pause before the first repeat that is learned.
   static constexpr std::chrono::milliseconds kMinPause{150};
   static constexpr std::chrono::milliseconds kMaxPause{1000};
   /// Limit on keys that report KEY_DOWN in one tick; further keys still report presses and releases.
@@ -88,15 +88,15 @@ class KeyHoldTracker {
  private:
   struct Held {
     Time last;
-    Time until;              ///< time of its release, if it types nothing more
+    Time until;              ///< time of its release, if it types nothing before
     bool repeating = false;  ///< reports KEY_DOWN
-    bool bridging = false;   ///< held during the pause before the first repeat
+    bool bridging = false;   ///< kept down during the pause before the first repeat
     bool silenced = false;   ///< another key was pressed after its last repeat
   };
   std::vector<KeyAction> handleTyped(df::Keyboard::Key key, Time now);
   void pressFirst(df::Keyboard::Key key, Held& held, Time now);
   void handleRepeat(Held& held, Time now);
-  void pressBeside(df::Keyboard::Key key, Time now, std::vector<KeyAction>& out);
+  void updateOtherHolds(df::Keyboard::Key key, Time now, std::vector<KeyAction>& out);
   void learnInterval(Duration gap);
   void learnPause(df::Keyboard::Key key, Time now);
   Duration bridge(df::Keyboard::Key key) const;
@@ -106,9 +106,9 @@ class KeyHoldTracker {
   Duration m_interval = std::chrono::milliseconds(35);
   Duration m_pause{};
   std::map<df::Keyboard::Key, Held> m_held;
-  /// Times at which a key typed last.
+  /// The last two times at which a key typed.
   struct Past {
-    Time first;  ///< last time but one
+    Time first;  ///< time before `last`
     Time last;
   };
   std::map<df::Keyboard::Key, Past> m_past;

@@ -13,7 +13,7 @@ constexpr std::array kControls = {BACKSPACE, TAB, RETURN, RETURN, ESCAPE, BACKSP
 
 constexpr Key kNone = UNDEFINED_KEY;
 
-/// Returns the key at an index of a table; undefined for other numbers.
+/// Returns the key at an index of a table; undefined if the table has no such index.
 template <std::size_t N>
 Key keyAt(const std::array<Key, N>& keys, int place) {
   return place >= 0 && place < static_cast<int>(N) ? keys[static_cast<std::size_t>(place)] : kNone;

@@ -22,10 +22,10 @@ df::Keyboard::Key keyOfTilde(int number);
 /// Returns the key of a kitty code: a Unicode character, or a functional key in the private use area.
 df::Keyboard::Key keyOfKitty(int code);
 
-/// Returns the key of a virtual key of Windows (VK_…), by its place on a US keyboard.
+/// Returns the key of a virtual key of Windows (VK_…), by its position on a US keyboard.
 df::Keyboard::Key keyOfWindows(int virtual_key, int scan_code, bool enhanced);
 
-/// Returns the character that a keypad code of kitty types; 0 for all other codes.
+/// Returns the character that the keypad key with this kitty code types; 0 for all other codes.
 char32_t characterOfKeypad(int code);
 
 }  // namespace naiad

@@ -146,7 +146,7 @@ void Screen::ring() {
 
 void Screen::put(int x, int y, const ScreenCell& cell) {
   attr_t attributes = A_NORMAL;
-  // Bold makes a colour bright if there are only eight.
+  // Terminals with only eight colours show bold ones brighter, so dark blue is drawn bold.
   const bool is_dark = m_colors && COLORS < 16 && cell.color == df::BLUE && cell.background == df::BLACK;
   if (cell.style == Style::kBold || is_dark) attributes |= A_BOLD;
   if (cell.style == Style::kReverse) attributes |= A_REVERSE;

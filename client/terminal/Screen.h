@@ -2,7 +2,8 @@
 //
 // Only cells that differ from the last picture are passed to ncurses. ncurses compares again, but making its
 // cells costs more than that: without the first comparison a frame takes 1.7 times the processor time at
-// 80x24 and 2.7 times at 200x60, and up to 8 % more bytes. Whole rows at a time (mvadd_wchnstr): 1.4 and 2.4.
+// 80x24 and 2.7 times at 200x60, and up to 8 % more bytes. With whole rows at a time (mvadd_wchnstr), the
+// factors are 1.4 and 2.4.
 //
 // ncurses is used only for output: it never reads the keyboard and sets no signal handlers (the
 // TerminalGuard's are installed before). One Screen at a time; all calls on one thread.
@@ -30,7 +31,8 @@ class Screen {
   /// Limit on the used part of the terminal: ncurses takes 100 bytes for each cell, and a visitor of a door
   /// chooses the size. A game's view is smaller (shared/replica/Limits.h).
   static constexpr Size kMaxSize{640, 256};
-  /// Returns the terminal's size, 1 to kMaxSize. If the terminal reports none, COLUMNS and LINES, or 80 x 24.
+  /// Returns the terminal's size, 1 to kMaxSize. If the terminal reports none, returns COLUMNS and LINES, or
+  /// 80 x 24.
   static Size terminalSize();
 
   /// Enters the alternate screen. Throws std::runtime_error, with a sentence for people, if the terminal

@@ -31,11 +31,12 @@ class ScreenBuffer {
 
   int width() const { return m_width; }
   int height() const { return m_height; }
-  /// Sets a cell; ignored outside the picture. All cells with a background must have an equal one.
+  /// Sets a cell; ignored outside the picture. All cells that have a background must have equal backgrounds.
   void put(int x, int y, ScreenCell cell);
   /// Returns a cell; a blank one outside the picture.
   ScreenCell at(int x, int y) const;
-  /// Writes a safe text from (x, y) to the right, at most `columns` characters. Returns the column after it.
+  /// Writes a safe text (SafeText.h) from (x, y) to the right, at most `columns` characters. Returns the
+  /// column after it.
   int write(int x, int y, const std::string& text, int columns, df::Color color = df::COLOR_DEFAULT,
             Style style = Style::kPlain);
   /// Fills a rectangle with blanks.

@@ -26,7 +26,7 @@ constexpr std::string_view kPasteOn = "\033[?2004h";
 constexpr std::string_view kKittyQuery = "\033[?u";
 constexpr std::string_view kKittyPush = "\033[>31u";
 constexpr std::string_view kKittyPop = "\033[<u";
-// Windows Terminal's key records; other terminals ignore it.
+// Switches on Windows Terminal's key records; other terminals ignore this.
 constexpr std::string_view kRecordsOn = "\033[?9001h";
 constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2004l";
 // Written at exits that cannot call ncurses: plain colours, cursor on, normal screen.
@@ -35,12 +35,12 @@ constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
-constexpr int kWriteTimeoutMillis = 1000;  // for a terminal that accepts no bytes
+constexpr int kWriteTimeoutMillis = 1000;  // time limit for a terminal that accepts no bytes
 constexpr int kForegroundMillis = 100;     // interval of checks for the foreground
 
 // Data that the signal handlers read: lock-free, and initialised before the handlers are installed.
 termios g_original;
-volatile sig_atomic_t g_taken = 0;  ///< 1 from before raw mode is set to after the original mode is set
+volatile sig_atomic_t g_taken = 0;  ///< 1 while the terminal may be in raw mode
 volatile sig_atomic_t g_modes_on = 0;
 volatile sig_atomic_t g_kitty = 0;
 volatile sig_atomic_t g_end_asked = 0;
@@ -81,7 +81,7 @@ pid_t shellOfGroup() {
 
 /// Waits until the process group is in the foreground: it may have been continued in the background. Returns
 /// false if the process must end, because a signal asks it to, or its shell or terminal is gone. It does not
-/// stop again: the shell thinks that it runs, and would not send SIGCONT after a terminating signal.
+/// stop again, because the shell takes it for running and would not send SIGCONT after a terminating signal.
 bool waitForForeground(pid_t shell) {
   while (!g_end_asked) {
     const pid_t foreground = tcgetpgrp(STDIN_FILENO);

@@ -1,18 +1,18 @@
-// Takes the terminal for the client and restores it on every exit but SIGKILL.
+// Sets the terminal's modes for the client, and restores the terminal on every exit but by SIGKILL.
 //
-// Taking sets raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (escape
+// It sets raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (escape
 // sequences written by hand), and the kitty keyboard protocol once the terminal has reported that it supports
 // it. Screen, made after the guard and destroyed before it, owns the alternate screen; at a crash the guard
-// leaves that too.
+// leaves that screen, too.
 //
 // restore() restores all this; the destructor calls it. exit() and the handlers of SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write prebuilt byte strings and call tcsetattr, both async-signal-safe; the process then
 // dies of the signal. Other signals become bytes from signalFd() for the event loop. A second SIGTERM, SIGHUP
-// or SIGINT restores the terminal and kills the process immediately. One that the loop has not read when the
-// guard is destroyed ends the process then.
+// or SIGINT restores the terminal and kills the process immediately. If the event loop has not read such a
+// signal when the guard is destroyed, the destructor ends the process by it.
 //
-// One guard at a time: signal handlers need static data. Signals may arrive in any thread; the thread that
-// made the guard, and draws, handles them.
+// Only one guard may exist at a time, because signal handlers need static data. Signals may arrive in any
+// thread; the thread that made the guard, and draws, handles them.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,8 @@ class TerminalGuard {
     bool mouse = true;
   };
 
-  /// Takes the terminal on fds 0 and 1. Throws std::runtime_error if fd 0 is not a terminal.
+  /// Sets raw mode for the terminal on fds 0 and 1, and installs the signal handlers. Throws
+  /// std::runtime_error if fd 0 is not a terminal.
   explicit TerminalGuard(Options options);
   ~TerminalGuard();
   TerminalGuard(const TerminalGuard&) = delete;
@@ -55,14 +56,14 @@ class TerminalGuard {
   /// terminal first. Returns false if the process must end, because a signal asks it to or its shell has
   /// ended; the terminal may then belong to another program.
   [[nodiscard]] bool stopProcess();
-  /// Returns a descriptor with one byte per signal that arrived: its number.
+  /// Returns a descriptor from which one byte can be read for each signal that arrived: the signal's number.
   int signalFd() const;
   /// Sets the function that ends the screen. restore() calls it after leaveModes() and before setOriginal().
   void onRestore(std::function<void()> end_screen) { m_end_screen = std::move(end_screen); }
   /// Restores the terminal; does nothing the second time.
   void restore();
 
-  /// Writes `size` bytes to the terminal. Gives up if it is gone or accepts none for a second.
+  /// Writes `size` bytes to the terminal. Gives up if the terminal is gone or accepts no byte for a second.
   static void write(const char* bytes, unsigned long size);
 
  private:

@@ -10,7 +10,7 @@
 namespace naiad {
 
 struct TerminalType {
-  std::string name;    ///< a type with a description
+  std::string name;    ///< terminal type for which there is a description
   std::string notice;  ///< message for the player if `name` is not TERM; otherwise empty
 };
 

@@ -175,7 +175,7 @@ TrustResult KnownServers::admit(const std::string& host, std::uint16_t port, con
     const std::string server = nameOf(host, port);
     const PinLines seen = readLines(path_);
     TrustResult first = verifyWith(seen, server, facts, given, link, path_);
-    // Nothing to write, so no lock is taken, and a read-only home directory does not matter.
+    // There is nothing to write, so no lock is taken, and the home directory may be read-only.
     if (!first.accepted() || seen.find(server) == facts.key) return first;
     if (path_.has_parent_path()) fs::create_directories(path_.parent_path());
     const FileLock lock(path_.string() + ".lock");

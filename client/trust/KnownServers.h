@@ -19,12 +19,12 @@ namespace naiad {
 enum class Trust {
   kChain,                ///< trusted: the certificate verifies for this host name
   kPinned,               ///< trusted: the key was seen before
-  kFirstUse,             ///< trusted: never seen before
+  kFirstUse,             ///< trusted: the server was never seen before
   kChanged,              ///< refused: not the key seen before
   kFingerprintMatch,     ///< trusted: the fingerprint that the player gave
   kFingerprintMismatch,  ///< refused: not the fingerprint that the player gave
-  kLinkMatch,            ///< trusted: never seen before, and the key fits the link
-  kLinkMismatch,         ///< refused: the key does not fit the link
+  kLinkMatch,            ///< trusted: never seen before, and the key is that in the link
+  kLinkMismatch,         ///< refused: the key is not that in the link
 };
 
 struct TrustResult {
@@ -55,12 +55,12 @@ class KnownServers {
   explicit KnownServers(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// Decides whether the server at `host`:`port`, as typed by the player, is trusted. `given`: fingerprint
-  /// that the player gave, if any; it has priority over the certificate chain, and that over the pin. `link`:
-  /// the key of the link that was followed, if any. It must always match, but does not replace a pin, because
-  /// links come from strangers. Writes nothing.
+  /// that the player gave, if any; it has priority over the certificate chain, and the chain over the pin.
+  /// `link`: the key of the link that was followed, if any. It must always match, but does not replace a pin,
+  /// because links come from strangers. Writes nothing.
   TrustResult verify(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
                      const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
-  /// Like verify(), but pins the key if the server is accepted. Judging and pinning are one atomic step.
+  /// Like verify(), but pins the key if the server is accepted. Both happen in one atomic step.
   TrustResult admit(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
                     const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
 

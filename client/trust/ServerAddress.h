@@ -18,7 +18,7 @@ struct GatewayAddress {
 
   /// True if the text begins with "http://" or "https://".
   static bool looksLikeLink(std::string_view text);
-  /// Parses an address. Nullopt if it is invalid, or of another page of the host.
+  /// Parses an address. Nullopt if it is invalid, or names another page of the host.
   static std::optional<GatewayAddress> parse(const std::string& text);
   /// Returns the value of the header Host: "example.org:8080", "[::1]"; without the scheme's default port.
   std::string hostText() const;

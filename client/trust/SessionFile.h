@@ -21,7 +21,8 @@ class SessionFile : public TokenStore {
   /// Interval at which the time in the file is updated.
   static constexpr std::chrono::seconds kRefresh{2};
 
-  /// Returns naiad/sessions in $XDG_STATE_HOME, or in ~/.local/state; nullopt if neither variable is set.
+  /// Returns naiad/sessions in $XDG_STATE_HOME, or in ~/.local/state; nullopt if neither XDG_STATE_HOME nor
+  /// HOME is set.
   static std::optional<std::filesystem::path> defaultDirectory();
 
   /// Takes over the newest file of a client that no longer runs and played at `server`
@@ -29,7 +30,7 @@ class SessionFile : public TokenStore {
   /// save() creates the directory.
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
-  /// Leaves the file; a client that leaves on purpose calls remove().
+  /// Keeps the file; a client that leaves on purpose calls remove().
   ~SessionFile() override;
   SessionFile(const SessionFile&) = delete;
   SessionFile& operator=(const SessionFile&) = delete;

@@ -57,7 +57,7 @@ std::optional<SavedSession> readSavedSession(std::string_view text) {
   if (text.find_first_not_of('\n') != std::string_view::npos) return std::nullopt;
   const auto fingerprint = Fingerprint::parse(*key);
   auto bytes = bytesOfHex(*token);
-  constexpr std::int64_t kLatest = std::int64_t{1} << 42;  // ms; later ones do not fit the clock's type
+  constexpr std::int64_t kLatest = std::int64_t{1} << 42;  // ms; later times do not fit the clock's type
   if (!fingerprint || !bytes || bytes->empty() || bytes->size() > kMaxToken || *alive > kLatest)
     return std::nullopt;
   return SavedSession{std::string(*server),

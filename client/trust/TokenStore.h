@@ -17,11 +17,11 @@ struct SavedSession {
   using Time = std::chrono::system_clock::time_point;
 
   std::string server;  ///< "host:port": ServerAddress::canonicalText() of the address that the player typed
-  Fingerprint key;     ///< key of the server that gave the token; no other server gets it
+  Fingerprint key;     ///< key of the server that gave the token; the token is sent to no other server
   std::string name;    ///< the requested name
   std::string token;   ///< 1 to 64 bytes
   std::chrono::milliseconds grace{0};  ///< how long the server keeps a session without a stream
-  Time alive{};                        ///< time when the session was last alive; milliseconds
+  Time alive{};                        ///< time when the session was last alive, in whole milliseconds
 
   /// True if the session may still exist.
   bool isWithinGrace(Time now) const { return now - alive <= grace; }

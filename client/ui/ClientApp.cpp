@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kFrame{16};  // at most 60 frames a second
 constexpr std::chrono::milliseconds kHousekeeping{100};
 constexpr std::chrono::milliseconds kFarewell{500};
-constexpr std::chrono::seconds kPictureNotice{2};  // wait for the first picture before a notice
+constexpr std::chrono::seconds kPictureNotice{2};  // wait for the first picture until a notice is shown
 
 SessionOptions withTerminalSize(SessionOptions options) {
   const Screen::Size size = Screen::terminalSize();
@@ -153,7 +153,7 @@ void ClientApp::waitForSignal() {
   });
 }
 
-// The descriptor stays blocking: O_NONBLOCK would also affect the shell, which shares the terminal.
+// The descriptor stays blocking, because O_NONBLOCK would also affect the shell, which shares the terminal.
 void ClientApp::readInput() {
   std::array<char, 4096> bytes{};
   const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
@@ -186,14 +186,14 @@ void ClientApp::handleSignals() {
 }
 
 void ClientApp::handleEvents(const std::vector<TerminalEvent>& events, Time now) {
-  if (m_decoder.hasKeyRecords()) onKeyReleases(now);
+  if (m_decoder.hasKeyRecords()) acceptKeyReleases(now);
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) handleKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
     if (const auto* paste = std::get_if<PasteEvent>(&event)) {
       m_dirty = m_controls.insertPasted(paste->text) || m_dirty;
     }
-    if (std::holds_alternative<KittyReply>(event) && onKeyReleases(now)) {
+    if (std::holds_alternative<KittyReply>(event) && acceptKeyReleases(now)) {
       m_guard->pushKitty();
       m_dirty = true;
     }
@@ -231,10 +231,10 @@ void ClientApp::handleKey(const KeyEvent& event, Time now) {
   }
 }
 
-bool ClientApp::onKeyReleases(Time now) {
+bool ClientApp::acceptKeyReleases(Time now) {
   if (m_controls.isChatOpen()) return false;
   m_player.setRealReleases(true, now);
-  m_composer.onKeyReleases(true);
+  m_composer.acceptKeyReleases(true);
   return true;
 }
 
@@ -246,8 +246,8 @@ void ClientApp::handleSounds(Time now) {
   if (m_sounds.popBell()) m_screen->ring();
 }
 
-/// Leaves after the terminal has gone: the player closed the window. A visitor's session is kept, because
-/// their connection may have broken and they may return.
+/// Leaves because the terminal is gone, as when the player closes its window. A visitor's session is kept,
+/// because their connection may have broken and they may return.
 void ClientApp::onHangUp() {
   m_leaving = true;
   m_hung_up = m_options.session.proxy.has_value();
@@ -277,7 +277,7 @@ void ClientApp::resume() {
   m_guard->setRaw();
   // Another terminal may have been attached, so enterModes() asks for its protocol again.
   m_player.setRealReleases(false, now);
-  m_composer.onKeyReleases(false);
+  m_composer.acceptKeyReleases(false);
   if (m_screen->readSize()) m_connection.resize(m_screen->columns(), m_screen->rows());
   m_screen->redrawAll();
   drawFrame(now);

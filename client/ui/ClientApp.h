@@ -31,7 +31,7 @@ class ClientApp {
  public:
   struct Options {
     ServerAddress address;
-    SessionOptions session;  ///< the constructor sets the terminal's size
+    SessionOptions session;  ///< ClientApp itself sets the terminal's size in it
     ServerTrust trust;
     TokenStore* p_tokens = nullptr;  ///< store of the session's token; null: no resuming
     TerminalType terminal;
@@ -72,7 +72,7 @@ class ClientApp {
   void handleEvents(const std::vector<TerminalEvent>& events, Time now);
   void handleKey(const KeyEvent& event, Time now);
   /// Call when the terminal reports key releases. Returns false and ignores them while a text line is open.
-  bool onKeyReleases(Time now);
+  bool acceptKeyReleases(Time now);
   void handleSounds(Time now);
   void suspend();
   bool isIdle(Time now) const;

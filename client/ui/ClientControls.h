@@ -41,7 +41,7 @@ inline constexpr const char* kBrowserKeyHelp[] = {
     "Esc        close the help or the list",
 };
 
-/// Last line in a terminal, depending on how exact held keys are in it (docs/terminals.md).
+/// Last line of the help in a terminal: whether it reports key releases (docs/terminals.md).
 inline constexpr const char* kKeyReleasesHelp = "Held keys  exact: this terminal reports key releases";
 inline constexpr const char* kGuessedReleasesHelp =
     "Held keys  guessed: this terminal reports no key releases";
@@ -50,7 +50,7 @@ inline constexpr const char* kGuessedReleasesHelp =
 struct ShownControls {
   bool status = true;       ///< a status line was shown
   int max_scroll = 0;       ///< number of lines of the open panel that did not fit
-  int page = 1;             ///< number of its lines shown at a time
+  int page = 1;             ///< number of the open panel's lines shown at a time
   int max_chat_scroll = 0;  ///< maximum of chatScroll()
   int chat_page = 1;        ///< number of chat rows shown at a time
   int rooms = 0;            ///< length of the open list of rooms
@@ -61,7 +61,7 @@ class ClientControls {
   /// Action that the program must take for a key. Panels and the chat line have already changed.
   enum class Result {
     kGame,       ///< pass the key to the game
-    kHandled,    ///< nothing, but the picture may have changed
+    kHandled,    ///< do nothing, but the picture may have changed
     kOpened,     ///< a chat line was opened: release the game's keys, switch to text
     kClosed,     ///< the chat line was closed without text
     kSendChat,   ///< the chat line was closed with Return: send popChat()
@@ -72,7 +72,8 @@ class ClientControls {
 
   /// Handles a key event.
   Result handleKey(const KeyEvent& event);
-  /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
+  /// Inserts pasted text into an open chat line, up to its limit, without sending it. Returns false if none
+  /// is open.
   bool insertPasted(const std::u32string& text);
   /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text);

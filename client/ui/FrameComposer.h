@@ -15,8 +15,8 @@
 
 namespace naiad {
 
-/// Decides when the status is shown over the game, on a terminal without space outside it: for a moment after
-/// joining, and when the connection has become bad.
+/// Decides when the status is shown over the game, on a terminal without space outside the game: for a moment
+/// after joining, and when the connection has become bad.
 class StatusTimer {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -43,7 +43,8 @@ class StatusTimer {
   Time m_until{};
 };
 
-/// Asks the server to move the player to line `choice` of the session's room list. Null session: nothing.
+/// Asks the server to move the player to line `choice` of the session's room list. Does nothing if the
+/// session is null.
 void enterChosenRoom(ClientSession* p_session, int choice);
 
 class FrameComposer {
@@ -57,10 +58,10 @@ class FrameComposer {
   /// True if a frame composed now would differ from the last one. Ignores changes of the controls.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
-  /// Shows a line of the client itself among the chat lines, for as long as those.
+  /// Shows a line of the client itself among the chat lines, for as long as a chat line.
   void addNotice(std::string text, Time now) { m_notice = {"", df::COLOR_DEFAULT, std::move(text), now}; }
   /// Sets the line about key releases in the help. `reported`: the terminal reports them.
-  void onKeyReleases(bool reported) { m_key_releases = reported; }
+  void acceptKeyReleases(bool reported) { m_key_releases = reported; }
   /// Call if a browser page shows the frames: it has buttons for the client's commands.
   void setBrowser() { m_browser = true; }
   /// Call when the terminal's size has changed: shows the status for a moment.
@@ -94,7 +95,7 @@ class FrameComposer {
   StatusTimer m_status;
   std::optional<std::uint32_t> m_joined_as;
   bool m_pointed = false;
-  Time m_point_until{};  ///< end of the pointer at the player's own object
+  Time m_point_until{};  ///< time until which the player's own object is pointed at
   bool m_browser = false;
   bool m_key_releases = false;
 };

@@ -16,7 +16,7 @@ class PlayerInput {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Minimum interval of reported mouse moves: more would only fill the server's queue.
+  /// Minimum interval between reported mouse moves, because more would only fill the server's queue.
   static constexpr std::chrono::milliseconds kMoveInterval{16};
 
   /// `connection` must outlive this.

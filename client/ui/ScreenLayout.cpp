@@ -13,7 +13,7 @@ namespace {
 
 // The side panel: players, chat and help next to the game, on terminals with enough space.
 
-// Limits of its width: fewer columns are too narrow for the texts, more do not help.
+// Limits of the side panel's width: fewer columns are too narrow for the texts, more do not help.
 constexpr int kMinPanelColumns = 26;
 constexpr int kMaxPanelColumns = 44;
 constexpr int kMinPanelRows = 20;
@@ -124,7 +124,7 @@ void drawChatRow(ScreenBuffer& picture, const ChatRow& row, int x, int y, int wi
 
 /// Returns the columns of the side panel; 0 if there is not enough space, or in a browser.
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
-  const int room = columns - model.view.width() - 2;  // columns of the view's frame
+  const int room = columns - model.view.width() - 2;  // 2: the columns of the view's frame
   if (model.browser || !model.status_shown || rows < kMinPanelRows || rows < model.view.height() ||
       room < kMinPanelColumns)
     return 0;
@@ -176,7 +176,7 @@ void drawView(ScreenBuffer& picture, const ScreenModel& model, const ViewPlaceme
   }
 }
 
-/// "ann  42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
+/// Draws "ann  42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
 void drawStatusRow(ScreenBuffer& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
@@ -274,7 +274,7 @@ void drawBanner(ScreenBuffer& picture, const std::string& banner, int row) {
   picture.write((picture.width() - width) / 2, row, text, width, df::COLOR_DEFAULT, Style::kReverse);
 }
 
-/// Draws the chat line that is being typed; of a long one, the end.
+/// Draws the chat line that is being typed; of a long line, only the end.
 void drawChatLine(ScreenBuffer& picture, const ScreenModel& model, int y) {
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
   int x = picture.write(0, y, "say: ", picture.width(), df::COLOR_DEFAULT, Style::kReverse);
@@ -302,7 +302,7 @@ void drawChatOver(ScreenBuffer& picture, const ScreenModel& model, int bottom, S
   }
 }
 
-/// Draws a pointer to the player's own object, with their name if there is space.
+/// Draws a pointer to the player's own object, with the player's name if there is space.
 void drawSelf(ScreenBuffer& picture, const ScreenModel& model, const ViewPlacement& place) {
   if (!model.self_cell) return;
   const int x = model.self_cell->x - place.view_x;
@@ -329,7 +329,7 @@ struct PanelLines {
   std::string keys = {};  ///< keys on the lower edge; empty: panelKeys()
 };
 
-/// Returns the text about keys for the lower edge of a panel, as long as fits into `room` columns.
+/// Returns the text about keys for the lower edge of a panel, the longest that fits into `room` columns.
 std::string panelKeys(bool scrolls, int room) {
   std::vector<std::string> texts = {"Esc closes", "Esc"};
   if (scrolls)

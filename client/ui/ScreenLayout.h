@@ -13,7 +13,7 @@
 
 namespace naiad {
 
-/// Time for which a chat line is shown. While the player types a line, all are shown.
+/// Time for which a chat line is shown. While the player types a line, older lines are shown, too.
 inline constexpr std::chrono::seconds kChatShown{8};
 
 /// Contents of the screen, as values. Texts must be safe (SafeText.h).
@@ -25,7 +25,7 @@ struct ScreenModel {
   std::string banner;                ///< a line over everything; empty: none
 
   bool status_shown = true;      ///< show the status where it covers nothing of the game
-  bool status_over_game = true;  ///< show it even over the game
+  bool status_over_game = true;  ///< show the status even over the game
   std::chrono::milliseconds round_trip{0};
   std::uint32_t tick = 0;
   std::int32_t score = 0;
@@ -42,8 +42,8 @@ struct ScreenModel {
   std::vector<PlayerLine> players;
   std::string room;               ///< the player's room; empty: the server has no rooms
   std::vector<RoomLine> rooms;    ///< list of rooms for the panel
-  int room_choice = 0;            ///< index of the chosen line in it
-  std::vector<std::string> help;  ///< the game's own lines
+  int room_choice = 0;            ///< index of the chosen line in `rooms`
+  std::vector<std::string> help;  ///< lines of the game for the help
   bool browser = false;           ///< shown by a browser page, not a terminal
   bool key_releases = false;      ///< the terminal reports key releases
 
@@ -56,7 +56,7 @@ struct ScreenModel {
 
 struct ScreenLayout {
   ScreenBuffer picture;
-  ViewPlacement placement;  ///< used for the mouse; default if no view is shown
+  ViewPlacement placement;  ///< position of the view, for the mouse; empty if no view is shown
   ShownControls shown;
 };
 

@@ -27,12 +27,13 @@ class ServerChooser {
     TerminalType terminal;
     bool ascii = false;
     bool colors = true;
-    /// Fetches a list, while keys wait. Empty: show the servers of the local network.
+    /// Fetches a list; keys typed before it returns are handled afterwards. Empty: show the local network's
+    /// servers.
     std::function<std::variant<DiscoveredServers, DownloadError>()> fetch{};
   };
   struct Outcome {
     std::optional<DiscoveredServer> server;  ///< nullopt: the player left
-    int signal = 0;                          ///< the signal that ended this, to be raised again; 0: none
+    int signal = 0;                          ///< signal that ended the chooser, to be raised again; 0: none
   };
 
   explicit ServerChooser(Options options);

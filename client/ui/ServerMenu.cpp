@@ -16,7 +16,7 @@ constexpr int kFootRows = 3;  // blank, address, keys
 
 constexpr const char* kMenuKeys = "Enter join   Up/Down choose   r refresh   q leave";
 
-/// Widths of the columns for name, game and places; the note gets the rest.
+/// Widths of the columns for name, game and places; the note gets the remaining columns.
 struct Widths {
   int name = 0;
   int game = 0;

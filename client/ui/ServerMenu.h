@@ -49,7 +49,7 @@ class ServerMenu {
   int m_first = 0;  ///< index of the server in the top row
   int m_page = 1;   ///< number of rows for servers in the last picture
   bool m_searching = true;
-  std::string m_message;  ///< why the chosen server cannot be joined; otherwise empty
+  std::string m_message;  ///< set if the chosen server cannot be joined: the reason
 };
 
 }  // namespace naiad

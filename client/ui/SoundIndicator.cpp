@@ -31,7 +31,8 @@ void SoundIndicator::addSound(const SoundLine& sound, std::uint32_t self, Time n
   m_rings = true;
 }
 
-// A sound of this player, or one for all, replaces another player's note at once; others wait for kMin.
+// A sound of this player, or of no player, replaces another player's note at once. Otherwise, a sound within
+// kMin of the last note is not shown.
 void SoundIndicator::show(const SoundLine& sound, bool others, Time now) {
   const bool recent = m_noted_at && now - *m_noted_at < kMin;
   if (recent && (others || !m_of_others)) return;

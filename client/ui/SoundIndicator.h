@@ -26,7 +26,8 @@ class SoundIndicator {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// A note is shown for kShown, and for at least kMin before most others can replace it.
+  /// A note is shown for kShown. Within kMin, only a note of this player's sound, or of no player's, can
+  /// replace it, and only if it is of another player's sound.
   static constexpr std::chrono::milliseconds kShown{1500};
   static constexpr std::chrono::milliseconds kMin{300};
   /// Minimum interval between two rings of the bell.

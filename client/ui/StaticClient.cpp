@@ -54,7 +54,7 @@ bool isUtf8() {
 char g_locale[] = "C.UTF-8";
 char g_coding[] = "UTF-8";
 
-/// Initialised before anything looks up a host name.
+/// Makes glibc find host names only in files and by DNS. Initialised before any look-up.
 [[maybe_unused]] const int g_names = __nss_configure_lookup("hosts", "files dns");
 
 }  // namespace

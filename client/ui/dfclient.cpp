@@ -40,8 +40,8 @@ namespace {
 constexpr std::size_t kMaxPassword = 255;  // bytes
 constexpr char kControlC = 3;
 
-/// Switches the terminal's echo off while it lives, and the keyboard's signals, which would end the process
-/// and leave the terminal without echo.
+/// For its lifetime, switches off the terminal's echo and the keyboard's signals, because a signal would end
+/// the process and leave the terminal without echo.
 class Unseen {
  public:
   explicit Unseen(int terminal) : m_terminal(terminal) {
@@ -210,7 +210,7 @@ int printServers(const CommandLine& line) {
 
 /// Lets the player choose a server on the screen. Returns the exit code if the player joins none.
 std::optional<int> chooseServer(CommandLine& line) {
-  // A door always names the server.
+  // A door always names the server, so there is nothing to choose from.
   const bool is_visit = !line.server.visitors.empty() || !line.server.visitor.empty();
   if (is_visit || !naiad::TerminalGuard::isTerminal())
     return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
@@ -279,7 +279,7 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
       attached ? naiad::ClientApp(options).run() : joinWithPassword(options);
   printProblems(p_file, printed);
   endBySignal(outcome.signal);
-  // The game runs in this terminal, so the player sees its end there.
+  // The game itself runs in this terminal, so the player sees its end without a message.
   if (attached && outcome.code == naiad::kExitEnded) return outcome.code;
   if (!outcome.message.empty()) std::fprintf(stderr, "dfclient: %s\n", outcome.message.c_str());
   return outcome.code;

@@ -2,7 +2,7 @@
 // messages, and draws its picture.
 //
 // Session, replica, prediction, controls and layout are those of dfclient. Time is a parameter; nothing here
-// waits.
+// blocks.
 #pragma once
 
 #include <chrono>
@@ -22,8 +22,8 @@
 
 namespace naiad {
 
-/// Stores the token of a browser tab's session in the page.
-/// The only server is the one behind the gateway, so keys are ignored. Not thread-safe.
+/// Stores the token of a browser tab's session in the page. The only server is the one behind the gateway, so
+/// the servers' keys are ignored. Not thread-safe.
 class TabTokenStore : public TokenStore {
  public:
   /// `kept`: the token that the page stored for this tab, hexadecimal; an invalid one counts as empty.
@@ -58,14 +58,14 @@ class WebClient {
   /// Joins immediately. `port` must outlive this.
   WebClient(PageBridge& port, const Options& options, Time now);
 
-  /// The page reports events of streams to this.
+  /// Returns the opener to which the page must report the events of streams.
   WebStreamOpener& streams() { return *m_p_streams; }
 
   void pressKey(std::string_view key, std::string_view code, KeyEvent::Action action, std::uint8_t modifiers,
                 Time now);
   /// `x`, `y`: cell of the picture.
   void moveMouse(const MouseEvent& event, Time now) { m_player.moveMouse(event, m_layout.placement, now); }
-  /// Runs a command of the client by its letter (ClientControls): t, p, h, s, q.
+  /// Runs a command of the client by its letter (kBrowserKeyHelp): t, p, r, h, s, q.
   void command(char32_t letter, Time now);
   /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text) { m_controls.setChatText(text); }

@@ -1,7 +1,7 @@
 // Opens streams through WebSockets (RFC 6455) to a gateway (server/gateway): each binary message is a frame.
 //
-// The browser checks the gateway's certificate; the gateway checks the server's key. So that key is not known
-// here; a constant stands for "the server behind the gateway".
+// The browser checks the gateway's certificate; the gateway checks the server's key. So the server's key is
+// not known here; a constant stands for "the server behind the gateway".
 #pragma once
 
 #include <chrono>
@@ -52,7 +52,7 @@ class WebStreamOpener : public StreamOpener {
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
   std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
-  std::optional<Fingerprint> secondKey() const override { return keyBehindGateway(); }
+  std::optional<Fingerprint> keyOfSecond() const override { return keyBehindGateway(); }
   std::string trustError() const override { return {}; }
   bool closedDuringHandshake() const override { return m_crowded; }
 
@@ -74,7 +74,7 @@ class WebStreamOpener : public StreamOpener {
   struct Attempt {
     int stream = 0;  ///< 0: no attempt
     Done done;
-    std::optional<Time> until;  ///< set by the first update()
+    std::optional<Time> until;  ///< deadline of the attempt, set by the first update()
   };
   void begin(Attempt& attempt, Done done);
   void drop(Attempt& attempt);

@@ -21,7 +21,7 @@ void DisplayClock::onSnapshot(std::uint32_t tick, Time now) {
     m_anchor_time = now;
     return;
   }
-  if (distance(m_newest, tick) <= 0) return;  // late, or another part of this tick
+  if (distance(m_newest, tick) <= 0) return;  // a late snapshot, or another part of the newest tick
   m_newest = tick;
   Time expected = m_anchor_time + due(tick);
   const Duration late = now - expected;

@@ -1,9 +1,10 @@
 // Chooses the tick to draw now.
 //
 // Snapshots describe the world at a tick; between them the replica extrapolates. This clock estimates when
-// each tick should arrive. Early arrivals correct the estimate at once, late ones by a sixteenth, so that
-// jitter does not shake the picture. The clock runs ahead of the estimate by the snapshots' delay, at most
-// 250 ms beyond the newest snapshot. After 500 ms without one, a banner says that the connection is silent.
+// each tick should arrive. Early arrivals correct the estimate at once, late ones by a sixteenth of the
+// difference, so that jitter does not shake the picture. The clock runs ahead of the estimate by the
+// snapshots' delay, at most 250 ms beyond the newest snapshot. After 500 ms without a snapshot, a banner says
+// that the connection is silent.
 //
 // Ticks are compared as serial numbers. Time is a parameter.
 #pragma once
@@ -23,13 +24,14 @@ class DisplayClock {
   static constexpr std::chrono::milliseconds kMaxAhead{250};
   /// Limit on the lead that makes up for the snapshots' delay.
   static constexpr std::chrono::milliseconds kMaxLead{50};
-  /// Silence that counts as a broken connection.
+  /// Time without a snapshot after which the connection counts as silent.
   static constexpr std::chrono::milliseconds kSilence{500};
 
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
   /// Sets the age of a snapshot on arrival: half the shortest round trip. The picture makes up for it, up to
-  /// kMaxLead: beyond that, objects that change course make more cells wrong than the lead makes right.
+  /// kMaxLead, because a longer lead makes more cells wrong, by objects that change course, than it makes
+  /// right.
   void setDelay(Duration delay) { m_lead = std::clamp<Duration>(delay, Duration::zero(), kMaxLead); }
   /// Call when a snapshot of `tick` arrives.
   void onSnapshot(std::uint32_t tick, Time now);

@@ -1,5 +1,5 @@
-// Positions that the client draws instead of the replica's: its own object and the view that follows it as
-// predicted, and other objects not inside solid ones (ExtrapolationClamp).
+// Positions that the client draws instead of the replica's: those predicted for its own object and the view
+// that follows it, and those of other objects as limited by ExtrapolationClamp.
 #pragma once
 
 #include "client/world/ExtrapolationClamp.h"
@@ -14,7 +14,7 @@ class DrawnPlacement : public Placement {
   DrawnPlacement(const Replica& replica, const Prediction& prediction, const ExtrapolationClamp& clamp)
       : m_replica(replica), m_prediction(prediction), m_clamp(clamp) {}
 
-  /// `tick` must be that of the clamp.
+  /// `tick` must be the tick for which the clamp was made.
   df::FixedVector positionOf(const ObjectState& object, std::uint32_t /*tick*/) const override {
     return m_prediction.isOwn(object) ? m_prediction.position() : m_clamp.positionOf(object);
   }

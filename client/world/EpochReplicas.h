@@ -1,9 +1,9 @@
-// The client's world, as snapshots describe it. Each epoch has a replica; this chooses the replica for each
-// snapshot and the one to show.
+// The client's world, as snapshots describe it. Each epoch has a replica; this class chooses the replica for
+// each snapshot and the one to show.
 //
 // The first world is not shown before it is complete: its objects may take several snapshots, and some time
 // on a slow connection. A snapshot of the next epoch starts another world in a second replica, while the old
-// one is shown. Either is shown incomplete after kIncompleteTimeout.
+// one is shown. Either world is shown incomplete after kIncompleteTimeout.
 #pragma once
 
 #include <chrono>
@@ -37,8 +37,8 @@ class EpochReplicas {
   enum class Result {
     kApplied,
     kShown,      ///< applied, and another world is shown from now on
-    kIgnored,    ///< it belongs to a past epoch
-    kStale,      ///< it uses an origin or a name that a newer snapshot has replaced
+    kIgnored,    ///< the snapshot belongs to a past epoch
+    kStale,      ///< it uses an origin or a definition that a newer snapshot has replaced
     kMalformed,  ///< not a valid snapshot: the server is broken
   };
   /// Reads and applies a snapshot; sets `header` to its header. `before` is called just before it is applied.
@@ -48,8 +48,8 @@ class EpochReplicas {
   /// Call when another world will follow. Its snapshots have this epoch; its tick is now near `tick`, which
   /// may be lower than that of the present world.
   void expectWorld(std::uint8_t epoch, std::uint32_t tick, Time now);
-  /// Call when the server's tick is known to be at least `tick`: snapshots carry only the low bits of a tick,
-  /// which are completed near it.
+  /// Call when the server's tick is known to be at least `tick`. Snapshots carry only the low bits of their
+  /// tick; they are taken to mean the tick nearest to this one.
   void advanceTick(std::uint32_t tick);
 
   /// Returns the replica to show.
@@ -81,10 +81,10 @@ class EpochReplicas {
   int m_stale_in_a_row = 0;
 
   // State of the first world only.
-  std::uint32_t m_before;          ///< number of the last snapshot sent before this world's
-  std::uint32_t m_complete;        ///< newest complete snapshot; m_before: none yet
-  AckWindow m_arrived;             ///< snapshots of this world
-  std::optional<Time> m_first_at;  ///< arrival of the first
+  std::uint32_t m_before;          ///< number of the last snapshot before those of this world
+  std::uint32_t m_complete;        ///< number of the newest complete snapshot; m_before: none yet
+  AckWindow m_arrived;             ///< received snapshots of this world
+  std::optional<Time> m_first_at;  ///< arrival of this world's first snapshot
   bool m_first_complete = false;
 };
 

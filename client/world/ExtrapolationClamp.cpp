@@ -80,11 +80,11 @@ void ExtrapolationClamp::clampAll() {
       std::count_if(m_solids.begin(), m_solids.end(), [](const Solid& solid) { return solid.moves; }));
   if (movers == 0) return;
   const std::size_t share = (kMaxWork - std::min(m_work, kMaxWork)) / movers;
-  std::size_t allowed = m_work;  // each mover may also use what earlier ones left
+  std::size_t allowed = m_work;  // each mover may also use the work that earlier movers left
   for (const Solid& mover : m_solids) {
     if (!mover.moves) continue;
     allowed += share;
-    std::uint32_t first = m_ticks + 1;  // the first tick in which it would be blocked
+    std::uint32_t first = m_ticks + 1;  // the first tick in which the mover would be blocked
     forEachNear(mover, allowed, [&](const Solid& other) {
       if (other.p_state->order == mover.p_state->order || !df::intersects(mover.along, other.along)) return;
       first = firstTouch(mover, other, first);

@@ -7,7 +7,7 @@
 // A clamp is made for one picture: the objects are sorted into cells once, then each moving one is tested
 // against its neighbours only. In a pile all objects are neighbours, so the work for one picture is limited.
 // Each moving object has a share of it; when that is used up, only contacts found so far block the object.
-// Objects beyond the limit of the index are drawn as modelled and block nothing.
+// Objects beyond the limit of the index are drawn where extrapolation puts them, and block nothing.
 #pragma once
 
 #include <cstddef>
@@ -42,14 +42,14 @@ class ExtrapolationClamp {
   bool isExhausted() const { return m_exhausted; }
 
  private:
-  /// Cells of the index, edges included.
+  /// A rectangle of cells of the index, including its edges.
   struct Range {
     std::int64_t left, top, right, bottom;
     std::int64_t count() const { return (right - left + 1) * (bottom - top + 1); }
   };
   struct Solid {
     const ObjectState* p_state;
-    df::FixedBox along;  ///< around all its boxes from known to drawn
+    df::FixedBox along;  ///< smallest box around all its boxes from known to drawn
     Range range;
     std::size_t first_box;  ///< index of its first box in m_boxes; one per tick from known to drawn
     bool moves;             ///< false: there is only one box
@@ -69,13 +69,13 @@ class ExtrapolationClamp {
 
   std::uint32_t m_known;
   std::uint32_t m_drawn;
-  std::uint32_t m_ticks = 0;  ///< number from known to drawn; 0: nothing is clamped
+  std::uint32_t m_ticks = 0;  ///< number of ticks from known to drawn; 0: nothing is clamped
   std::size_t m_work = 0;
   bool m_exhausted = false;
   std::vector<df::FixedBox> m_boxes;
   std::vector<Solid> m_solids;
   std::vector<std::pair<Cell, std::uint32_t>> m_cells;  ///< sorted; the number is an index into m_solids
-  std::vector<std::uint32_t> m_large;                   ///< indices of solids in too many cells
+  std::vector<std::uint32_t> m_large;                   ///< indices of solids in too many cells for the index
   std::unordered_map<const ObjectState*, df::FixedVector> m_clamped;  ///< positions of clamped objects
 };
 

@@ -2,8 +2,8 @@
 //
 // That is the tick of the newest snapshot, plus the time since its arrival, plus a round trip: half for the
 // snapshot's delay, half for the key's. A margin on top makes up for jitter. It grows when an input was too
-// late for its requested tick, and shrinks with each that was not, so that about one in forty is late.
-// Packet loss makes more of them late, which no margin prevents.
+// late for its requested tick, and shrinks with each that was not, so that about one in forty is late. Packet
+// loss makes more inputs late, which no margin prevents.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ class InputTickEstimator {
   static constexpr double kGrow = 0.15;
   static constexpr double kShrink = 0.004;
 
-  /// Adds a sample. The shortest of the last eight counts, because longer ones include queueing.
+  /// Adds a sample of the round trip. The shortest of the last eight is used, because longer ones include
+  /// queueing.
   void addRttSample(Millis sample);
   /// Call when the server has applied an input in tick `taken` that requested tick `asked`.
   void onInputApplied(std::uint32_t asked, std::uint32_t taken);

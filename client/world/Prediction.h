@@ -34,8 +34,8 @@ class Prediction {
   static constexpr std::size_t kMaxInputs = 64;
 
   struct Counters {
-    std::uint64_t confirmed = 0;     ///< states equal to the prediction for their tick
-    std::uint64_t mispredicted = 0;  ///< states that differ from it
+    std::uint64_t confirmed = 0;     ///< exact states equal to the prediction for their tick
+    std::uint64_t mispredicted = 0;  ///< exact states that differ from the prediction
     std::uint64_t unpredicted = 0;   ///< inputs beyond kMaxInputs
   };
 
@@ -54,12 +54,12 @@ class Prediction {
 
   /// True if the last run() found an object to predict.
   bool isActive() const { return m_active; }
-  /// True if `object` is the predicted one.
+  /// True if `object` is the player's own object, which is predicted.
   bool isOwn(const ObjectState& object) const { return m_active && object.order == m_order; }
   /// Position and velocity of the object at the end of the last run()'s tick.
   df::FixedVector position() const { return m_position; }
   df::FixedVector velocity() const { return m_velocity; }
-  /// Returns the corner of the view that follows the object, at the end of that tick.
+  /// Returns the corner of the view that follows the object, at the end of the last run()'s tick.
   df::FixedVector viewCorner(const Replica& replica) const;
   /// Returns the number of inputs that no exact state includes yet.
   std::size_t pendingInputs() const { return m_inputs.size(); }
@@ -85,7 +85,7 @@ class Prediction {
   Counters m_counters;
   bool m_active = false;
   std::uint64_t m_order = 0;
-  std::uint32_t m_from = 0;  ///< first tick of the last replay
+  std::uint32_t m_from = 0;  ///< tick of the state from which the last run() replayed
   df::FixedVector m_position;
   df::FixedVector m_velocity;
   std::vector<df::FixedVector> m_trail;

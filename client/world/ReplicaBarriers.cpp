@@ -48,7 +48,7 @@ ReplicaBarriers::ReplicaBarriers(const Replica& replica, const ObjectState& own,
   for (const auto& [slot, entry] : replica.entries()) {
     if (!entry.alive || entry.state.order == own.order || !blocks(own.body, entry.state.body)) continue;
     m_work += entry.state.motion.acceleration != df::FixedVector{} ? ticks : 1;
-    if (m_work > kMaxWork / 2) break;  // the rest is for isBlocked()
+    if (m_work > kMaxWork / 2) break;  // the other half is for isBlocked()
     const auto box = boxAlong(entry.state, first, last);
     if (box && df::intersects(*box, around)) m_others.push_back({*box, &entry.state});
   }

@@ -20,8 +20,8 @@ std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t fi
 
 class ReplicaBarriers : public Barriers {
  public:
-  /// Limit on the work, in boxes computed or compared: about two milliseconds. Objects beyond it do not
-  /// block.
+  /// Limit on the work, in boxes computed or compared: about two milliseconds. Once it is used up, the
+  /// remaining objects do not block.
   static constexpr std::size_t kMaxWork = 200'000;
 
   /// Collects the replica's objects that can block `own` in the ticks after `first` up to `last`, if it moves
@@ -29,7 +29,7 @@ class ReplicaBarriers : public Barriers {
   ReplicaBarriers(const Replica& replica, const ObjectState& own, const df::FixedBox& from,
                   df::FixedVector reach, std::uint32_t first, std::uint32_t last);
 
-  /// Returns true if the object is blocked at `to`, by the rules of the book's moveObject(): its box touches
+  /// Returns true if the object is blocked at `to`, by the rules of Dragonfly's moveObject(): its box touches
   /// that of a HARD object (HARD mover) or of a SOFT one (no-soft mover). During an update, objects created
   /// before `own` have already moved in this tick, the others have not.
   bool isBlocked(df::FixedVector to, std::uint32_t tick, bool in_update) const override;
@@ -39,7 +39,7 @@ class ReplicaBarriers : public Barriers {
 
  private:
   struct Other {
-    df::FixedBox along;  ///< around all its boxes in the ticks
+    df::FixedBox along;  ///< smallest box around all its boxes in the ticks
     const ObjectState* p_state;
   };
 

@@ -39,7 +39,8 @@ void copy(Children& to, const Children& from, const Field& field) {
   for (const Child& child : from) copy(to.emplace_back(), child, field);
 }
 
-/// Each member of a oneof has a line in the table; only the line of the set one copies.
+/// Copies the oneof if `field` is its set member. Called for each member, because each has a line in the
+/// table.
 void copy(Oneof& to, const Oneof& from, const Field& field) {
   if (from.number() == 0) to.clear();
   if (from.number() != field.number) return;

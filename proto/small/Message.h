@@ -79,7 +79,8 @@ class Oneof {
   /// Returns the message of the set field; null if there is none.
   const Message* child() const { return m_child.get(); }
 
-  /// Returns the value of this field. If not set, sets it to its default and clears the set field.
+  /// Returns the value of this field. If it is not set, clears the set field and sets this one to its
+  /// default.
   std::string& mutableText(std::uint32_t number);
   Message& mutableChild(std::uint32_t number, const FieldTable& fields);
 
@@ -89,7 +90,8 @@ class Oneof {
   Child m_child;
 };
 
-/// A view of a repeated field's messages with their class, returned by getters. It refers to their message.
+/// A view of a repeated field's messages, as objects of their class. Valid as long as the message with the
+/// field.
 template <class Element>
 class RepeatedView {
  public:

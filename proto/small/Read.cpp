@@ -119,7 +119,7 @@ class Input {
   std::string_view m_bytes;
 };
 
-/// Returns a number as it is stored. Signed ones keep their bits.
+/// Converts a decoded number to the form in which a field stores it. Signed numbers keep their bits.
 std::uint64_t stored(Type type, std::uint64_t value) {
   const auto word = static_cast<std::uint32_t>(value);
   switch (type) {
@@ -127,7 +127,7 @@ std::uint64_t stored(Type type, std::uint64_t value) {
       return value;
     case Type::kBool:
       return value != 0 ? 1 : 0;
-    case Type::kSint32:  // 0, -1, 1, -2, 2 …
+    case Type::kSint32:  // zig-zag: 0, -1, 1, -2, 2
       return (word >> 1) ^ (0u - (word & 1));
     default:
       return word;

@@ -26,10 +26,10 @@ void addNumber(std::string& out, const Field& field, std::uint64_t value) {
     case Type::kFixed64:
       addKey(out, field, 1);
       return addFixed(out, value, 8);
-    case Type::kSint32:  // 0, -1, 1, -2, 2 …
+    case Type::kSint32:  // zig-zag: 0, -1, 1, -2, 2
       value = (word << 1) ^ (0u - (word >> 31));
       break;
-    case Type::kEnum:  // a negative one takes ten bytes
+    case Type::kEnum:  // a negative number takes ten bytes
       value = static_cast<std::uint64_t>(std::int64_t{static_cast<std::int32_t>(word)});
       break;
     default:
@@ -71,7 +71,7 @@ void addRepeated(std::string& out, const Field& field, const Message& message) {
   }
 }
 
-/// Writes a single field. Omits one that has its default, and a message that was never set.
+/// Writes a single field. Omits a field that has its default, and a message that was never set.
 void addSingle(std::string& out, const Field& field, const Message& message) {
   if (field.type == Type::kMessage) {
     const Child& child = message.*field.member.child;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kMaxPollInterval{250};
 
-/// Returns the time between updates: several in each heartbeat interval, so that changes are noticed soon.
+/// Returns the time between updates: at most a quarter of the heartbeat interval, to notice changes soon.
 std::chrono::milliseconds pollInterval(const DirectorySettings& settings) {
   return std::min(kMaxPollInterval, settings.interval / 4);
 }
@@ -51,7 +51,7 @@ class Directory::ListFile {
       throw std::runtime_error("The list " + m_path + " cannot be written: " + problem);
     m_thread = std::thread([this] { run(); });
   }
-  /// Removes the file, because an outdated list would lead to servers that are gone.
+  /// Removes the file, because players would try servers of an outdated list that no longer exist.
   ~ListFile() {
     {
       const std::lock_guard lock(m_mutex);
@@ -64,7 +64,7 @@ class Directory::ListFile {
   ListFile(const ListFile&) = delete;
   ListFile& operator=(const ListFile&) = delete;
 
-  /// Writes the text soon, if it has changed. Does not block. Any thread.
+  /// Makes the thread write the text soon, if it has changed. Does not block. Call from any thread.
   void setText(std::string text) {
     {
       const std::lock_guard lock(m_mutex);
@@ -75,7 +75,8 @@ class Directory::ListFile {
     m_wake.notify_one();
   }
 
-  /// Returns a log line, once, if writing has begun to fail or works again; else empty. Any thread.
+  /// Returns a log line if writing has begun to fail or works again, only once each time; else an empty
+  /// string. Call from any thread.
   std::string popLogMessage() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_log_message, std::string());
@@ -127,7 +128,7 @@ class Directory::ListFile {
   bool m_has_text = false;  ///< m_text is not written yet
   bool m_failing = false;
   bool m_stopping = false;
-  std::thread m_thread;  ///< last member, because it uses the others
+  std::thread m_thread;  ///< last member, because the thread uses the other members
 };
 
 Directory::Directory(DirectorySettings settings, LogLine log)
@@ -190,7 +191,8 @@ void Directory::publishRedirects(Time now) {
     if (!other) continue;
     const auto link = JoinLink::parse(linkOf(*other.p_server, other.room));
     if (const auto* const p_link = std::get_if<JoinLink>(&link))
-      m_fleet.bus().publish({redirectSubject(full.id), Redirect{other.p_server->id, *p_link}.payload()});
+      for (const std::string& subject : {redirectSubject(full.id), formerRedirectSubject(full.id)})
+        m_fleet.bus().publish({subject, Redirect{other.p_server->id, *p_link}.payload()});
   }
 }
 
@@ -213,10 +215,10 @@ void Directory::stop() {
 void Directory::logCounters() {
   const FleetCounters& counted = m_fleet.servers().counters();
   const BusCounters passed = m_fleet.bus().counters();
-  std::vector<std::pair<const char*, std::uint64_t>> all = {{"heard", counted.heard},
+  std::vector<std::pair<const char*, std::uint64_t>> all = {{"heartbeats", counted.heartbeats},
                                                             {"unreadable", counted.unreadable},
-                                                            {"foreign", counted.foreign},
-                                                            {"crowded", counted.crowded},
+                                                            {"wrong_subject", counted.wrong_subject},
+                                                            {"over_limit", counted.over_limit},
                                                             {"expired", counted.expired},
                                                             {"bus_received", passed.received},
                                                             {"bus_ignored", passed.ignored},
@@ -226,12 +228,12 @@ void Directory::logCounters() {
     const LobbyCounters& met = m_lobby->counters();
     const TcpListener::Counters& streams = m_lobby->streams();
     all.insert(all.end(), {{"hellos", met.hellos},
-                           {"sent_on", met.sent_on},
-                           {"no_place", met.no_place},
+                           {"redirected", met.redirected},
+                           {"no_slot", met.no_slot},
                            {"no_game", met.no_game},
                            {"malformed", met.malformed},
-                           {"late", met.late},
-                           {"guests_crowded", met.crowded},
+                           {"timeouts", met.timeouts},
+                           {"pending_evicted", met.pending_evicted},
                            {"handshakes", streams.handshakes},
                            {"handshakes_failed", streams.handshakes_failed},
                            {"handshakes_late", streams.handshakes_late},

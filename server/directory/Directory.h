@@ -1,6 +1,6 @@
 // The directory of a fleet: receives the servers' heartbeats from the bus, writes a list of servers for the
-// web (FleetRegistry.h), redirects players to them (Lobby.h), and names other servers to those that are
-// nearly full (BusPayloads.h).
+// web (FleetRegistry.h), redirects players to them (Lobby.h), and tells servers that are nearly full to which
+// other server they can redirect players (BusPayloads.h).
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -32,7 +32,7 @@ struct DirectorySettings {
   std::string key;          ///< PEM file of the certificate's private key
 };
 
-/// Works only in run(), on the thread that calls it.
+/// Does its work only in run(), on the thread that calls it.
 class Directory {
  public:
   /// Throws std::runtime_error if the list cannot be written, ListenError, and TlsError for the lobby's key.
@@ -48,7 +48,7 @@ class Directory {
   /// Serves until a signal stops it.
   void run();
 
-  /// The lobby's port and key; nullopt without a lobby.
+  /// Returns the lobby's port; fingerprint() returns its key. Both return nullopt without a lobby.
   std::optional<std::uint16_t> port() const;
   std::optional<Fingerprint> fingerprint() const;
 

@@ -9,7 +9,8 @@
 namespace naiad {
 namespace {
 
-/// After this many bytes, servers are listed without their rooms: clients read 1 MiB (ListDownload.h).
+/// After this many bytes, servers are listed without their rooms, because clients read at most 1 MiB
+/// (ListDownload.h).
 constexpr std::size_t kMaxTextWithRooms = 500'000;
 
 std::uint32_t freePlaces(const Presence& server) {
@@ -87,15 +88,15 @@ bool FleetRegistry::handleHeartbeat(const std::string& subject, std::string_view
     return false;
   }
   if (presenceSubject(presence->id) != subject) {
-    ++m_counters.foreign;
+    ++m_counters.wrong_subject;
     return false;
   }
   const bool is_new = m_servers.count(presence->id) == 0;
   if (is_new && m_servers.size() >= kMaxServers) {
-    ++m_counters.crowded;
+    ++m_counters.over_limit;
     return false;
   }
-  ++m_counters.heard;
+  ++m_counters.heartbeats;
   RegisteredServer& entry = m_servers[presence->id];
   entry.presence = *std::move(presence);
   entry.heard = now;
@@ -154,7 +155,7 @@ bool FleetRegistry::fits(const RegisteredServer& entry, const PlayerRequest& req
   return request.room.empty() && (request.game.empty() || there.game == request.game);
 }
 
-// Rooms are in the server's order. Without a request, the first one with a free place is chosen.
+// Looks at the rooms in the server's order, so without a request the first room with a free place is chosen.
 const PresenceRoom* FleetRegistry::findRoom(const RegisteredServer& entry, const PlayerRequest& request) {
   const PresenceRoom* p_best = nullptr;
   for (const PresenceRoom& room : entry.presence.rooms) {

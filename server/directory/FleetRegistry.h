@@ -33,15 +33,16 @@ inline constexpr std::size_t kMaxListedServers = 500;
 std::string linkOf(const Presence& server, const std::string& room = "");
 
 /// Returns the open servers that have a link as an ASCII JSON array (RFC 8259), one object per line. If there
-/// are too many, lists those with the most free places. Omits rooms when the text gets too long.
+/// are more than kMaxListedServers, lists those with the most free places. Omits the rooms of further servers
+/// once the text has 500 kB.
 std::string serverListText(std::vector<Presence> servers);
 
 struct FleetCounters {
-  std::uint64_t heard = 0;       ///< valid heartbeats
-  std::uint64_t unreadable = 0;  ///< heartbeats that cannot be parsed
-  std::uint64_t foreign = 0;     ///< heartbeats with another name than their subject
-  std::uint64_t crowded = 0;     ///< heartbeats of new servers while kMaxServers are known
-  std::uint64_t expired = 0;     ///< servers removed because their heartbeats stopped
+  std::uint64_t heartbeats = 0;     ///< valid heartbeats
+  std::uint64_t unreadable = 0;     ///< heartbeats that cannot be parsed
+  std::uint64_t wrong_subject = 0;  ///< heartbeats with another name than their subject
+  std::uint64_t over_limit = 0;     ///< heartbeats of new servers while kMaxServers are known
+  std::uint64_t expired = 0;        ///< servers removed because their heartbeats stopped
 };
 
 /// Not thread-safe. Time is passed in.
@@ -51,7 +52,7 @@ class FleetRegistry {
 
   static constexpr std::size_t kMaxServers = 4096;
 
-  /// `interval`: heartbeat interval of the servers. A server that is silent for three intervals is gone.
+  /// `interval`: heartbeat interval of the servers. A server without one for three intervals expires.
   explicit FleetRegistry(std::chrono::milliseconds interval = Presence::kInterval)
       : m_timeout(3 * interval) {}
 
@@ -59,12 +60,12 @@ class FleetRegistry {
   bool handleHeartbeat(const std::string& subject, std::string_view payload, Time now);
   /// Removes the servers whose heartbeats have stopped. Returns their names.
   std::vector<std::string> removeExpired(Time now);
-  /// Restarts the timeouts of all servers. For outages of the bus, during which no heartbeats arrive.
+  /// Restarts the timeouts of all servers. Call while the bus is down, because no heartbeats arrive then.
   void resetTimeouts(Time now);
 
   /// A player's requirements.
   struct PlayerRequest {
-    std::string game;            ///< empty: any
+    std::string game;            ///< name of a game; empty: any
     std::uint32_t protocol = 0;  ///< protocol version of the client
     std::string not_id = {};     ///< the server that redirects the player; excluded
     std::string room = {};       ///< name of a room; empty: any
@@ -77,9 +78,10 @@ class FleetRegistry {
   };
   /// Chooses a server for a player and reserves a place on it until the server has counted the player. The
   /// server must be open, have no password, a known address and key, an unprivileged port and a free place.
-  /// Prefers the fullest server below three quarters, because players look for company, else the one with the
-  /// most free places. On a server with rooms, chooses a room of the wished game in this way,
-  /// the wished room, or, without a request, the first one with a free place.
+  /// Prefers the fullest server that is less than three quarters full, because players look for company; if
+  /// there is none, the one with the most free places. On a server with rooms, chooses a room of the
+  /// requested game by the same rule, the requested room, or, without a request, the first room with a free
+  /// place.
   Assignment choose(const PlayerRequest& request);
 
   /// Like choose(), for players of a server that is nearly full: chooses the server with the most free
@@ -95,8 +97,8 @@ class FleetRegistry {
   const FleetCounters& counters() const { return m_counters; }
 
  private:
-  /// Number of redirected players since the last heartbeat, and in the two intervals before, because they may
-  /// not have arrived yet.
+  /// Numbers of players that were redirected to a server since its last heartbeat, and in the two intervals
+  /// before it. They count as present, because the server may not have counted them yet.
   using RedirectCounts = std::array<std::uint32_t, 3>;
   /// The load of a server or a room.
   struct Load {
@@ -104,7 +106,7 @@ class FleetRegistry {
     std::uint32_t places = 0;
     std::uint32_t free() const { return places - std::min(taken, places); }
     bool isBelowThreeQuarters() const { return taken < places / 4 * 3; }
-    /// True if this is the better choice for a player looking for company.
+    /// True if a server or room with this load is the better choice for a player looking for company.
     bool isBetterThan(const Load& other) const;
   };
   struct RegisteredServer {
@@ -138,7 +140,7 @@ class FleetMonitor {
   /// Longest outage of the bus during which the list stays unchanged: the servers still run, and players
   /// still find them.
   static constexpr std::chrono::minutes kMaxBusOutage{10};
-  /// Limit of log lines about servers that come and go, because names may be faked.
+  /// Rate limit of log lines about servers that join or leave; needed because names may be faked.
   static constexpr BucketRate kLogRate{5, 100};
 
   /// `bus` must subscribe to presence. `interval`: heartbeat interval of the servers.

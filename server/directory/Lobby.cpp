@@ -67,7 +67,7 @@ struct Lobby::State : std::enable_shared_from_this<State> {
         : channel(std::move(stream)), deadline(context) {}
     std::unique_ptr<ReliableChannel> channel;
     asio::steady_timer deadline;
-    bool is_limited = true;  ///< counts in `limit`: no hello yet
+    bool is_limited = true;  ///< is counted in `limit`, because its hello has not arrived yet
   };
   using Id = HalfOpenLimit::Id;
 
@@ -116,7 +116,7 @@ TlsListenerOptions Lobby::State::listening(const LobbySettings& settings,
 void Lobby::State::onConnection(std::unique_ptr<ReliableChannel> channel) {
   const AddressPrefix prefix = AddressPrefix::ofEndpoint(channel->peerAddress()).value_or(AddressPrefix());
   if (!evictFor(prefix)) {
-    ++counters.crowded;
+    ++counters.pending_evicted;
     return;
   }
   const Id id = next++;
@@ -125,19 +125,20 @@ void Lobby::State::onConnection(std::unique_ptr<ReliableChannel> channel) {
   client.deadline.expires_after(hello_timeout);
   client.deadline.async_wait([self = shared_from_this(), id](const std::error_code& error) {
     if (error) return;
-    ++self->counters.late;
+    ++self->counters.timeouts;
     self->disconnect(id);
   });
   client.channel->start({[this, id](std::string_view frame) { handleFrame(id, frame); },
                          [this, id](CloseReason) { disconnect(id); }});
 }
 
-/// Evicts the oldest connection without a hello of the most crowded prefix, if a new one needs its place.
+/// Makes room for a new connection from `prefix` if necessary: evicts the oldest connection without a hello
+/// of the most crowded prefix. Returns false if the new one must be dropped.
 bool Lobby::State::evictFor(const AddressPrefix& prefix) {
   for (auto verdict = limit.check(prefix); verdict.kind != HalfOpenLimit::Result::Kind::kFits;
        verdict = limit.check(prefix)) {
     if (verdict.kind != HalfOpenLimit::Result::Kind::kEvictFirst) return false;
-    ++counters.crowded;
+    ++counters.pending_evicted;
     disconnect(verdict.id);
   }
   return true;
@@ -152,8 +153,8 @@ void Lobby::State::handleFrame(Id id, std::string_view frame) {
   if (answer) {
     ++counters.hellos;
     using Kind = LobbyReply::Kind;
-    ++(answer->kind == Kind::kRedirected ? counters.sent_on
-       : answer->kind == Kind::kNoPlace  ? counters.no_place
+    ++(answer->kind == Kind::kRedirected ? counters.redirected
+       : answer->kind == Kind::kNoPlace  ? counters.no_slot
                                          : counters.no_game);
     client.channel->send(answer->frame);
   } else {
@@ -167,7 +168,7 @@ void Lobby::State::release(Id id, PendingClient& client) {
   client.deadline.cancel();
 }
 
-// The caller may be the channel itself, so it is destroyed later.
+// The caller may be the channel itself, so the channel is destroyed later.
 void Lobby::State::disconnect(Id id) {
   const auto found = clients.find(id);
   if (found == clients.end()) return;

@@ -31,23 +31,23 @@ struct LobbyReply {
 std::optional<LobbyReply> replyToHello(std::string_view frame, FleetRegistry& servers);
 
 struct LobbySettings {
-  std::string address = "::";                      ///< numeric
-  std::uint16_t port = 0;                          ///< 0: any free one
+  std::string address = "::";                      ///< numeric address to listen on
+  std::uint16_t port = 0;                          ///< 0: any free port
   std::chrono::milliseconds hello_timeout{5'000};  ///< timeout of a connection without a hello
   int max_per_address = 64;  ///< simultaneous new players from one IPv4 address or IPv6 /64
 };
 
 struct LobbyCounters {
   std::uint64_t hellos = 0;
-  std::uint64_t sent_on = 0;    ///< redirected to a server
-  std::uint64_t no_place = 0;   ///< asked to retry: no free place
-  std::uint64_t no_game = 0;    ///< refused: no server fits the hello
-  std::uint64_t malformed = 0;  ///< dropped: the first frame is not a hello
-  std::uint64_t late = 0;       ///< dropped: no hello in time
-  std::uint64_t crowded = 0;    ///< dropped: too many connections without a hello
+  std::uint64_t redirected = 0;       ///< answered with a redirect to a server
+  std::uint64_t no_slot = 0;          ///< asked to retry: no free place
+  std::uint64_t no_game = 0;          ///< refused: no server fits the hello
+  std::uint64_t malformed = 0;        ///< dropped: the first frame is not a hello
+  std::uint64_t timeouts = 0;         ///< dropped: no hello in time
+  std::uint64_t pending_evicted = 0;  ///< dropped: too many connections without a hello
 };
 
-/// Thread: the one that runs the context. `context` and `servers` must outlive the Lobby.
+/// Use on the thread that runs the context. `context` and `servers` must outlive the Lobby.
 class Lobby {
  public:
   static constexpr std::size_t kMaxPending = 1024;  ///< maximum connections without a hello

@@ -28,7 +28,7 @@ constexpr const char* kHelp =
     "place (with --game NAME: to one that runs that game). Like a server, a lobby has a key.\n\n"
     "Exit codes: 2 wrong usage; 4 it cannot listen; 5 a file cannot be read or written.\n";
 
-/// Limit of open files: half-open connections, guests and the program's own.
+/// Limit of open files: half-open connections, connections without a hello, and the program's own files.
 constexpr std::size_t kOpenFiles = 4096;
 
 struct CommandLine {
@@ -86,7 +86,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
                            return storeListen(text, settings);
                          }),
                          "Address of the lobby, which redirects players to servers; without it, no lobby"),
-      naiad::typedOption("--link-host", "HOST[:PORT]", naiad::StoreText([&line](const std::string& text) {
+      naiad::typedOption("--public-host", "HOST[:PORT]", naiad::StoreText([&line](const std::string& text) {
                            return storeLinkHost(text, line.link_host);
                          }),
                          "Host, and port if it differs from --listen, for the printed link"),

@@ -167,16 +167,16 @@ void Gateway::Loop::onConnection(Peer peer) {
   ++state->counters.connections;
   ProxiedPeer visitor = ProxiedPeer::of(bytesOf(endpoint.address()), endpoint.port());
   if (!state->arrivals.tryConsume(visitor.prefix, std::chrono::steady_clock::now())) {
-    ++state->counters.too_often;
+    ++state->counters.rate_limited;
     return;
   }
-  // The place is taken first, so that no memory is used for a connection that gets none.
+  // The slot is acquired first, so that no memory is used for a connection that gets no slot.
   const auto slot = std::make_shared<std::weak_ptr<WebConnection>>();
   auto place = state->pending.acquire(visitor.prefix, [slot] {
     if (const auto connection = slot->lock()) connection->disconnect();
   });
   if (!place) {
-    ++state->counters.no_place;
+    ++state->counters.no_slot;
     return;
   }
   const auto connection =
@@ -234,10 +234,10 @@ void Gateway::Loop::logCounters() const {
                                                        {"refused_requests", c.refused_requests},
                                                        {"bad_requests", c.bad_requests},
                                                        {"refused_upgrades", c.refused_upgrades},
-                                                       {"late", c.late},
-                                                       {"too_often", c.too_often},
-                                                       {"no_place", c.no_place},
-                                                       {"ended_for_others", state->pending.evicted()},
+                                                       {"timeouts", c.timeouts},
+                                                       {"rate_limited", c.rate_limited},
+                                                       {"no_slot", c.no_slot},
+                                                       {"evicted", state->pending.evicted()},
                                                        {"failed_handshakes", c.failed_handshakes},
                                                        {"failed_accepts", c.failed_accepts},
                                                        {"websockets", c.websockets},
@@ -245,8 +245,8 @@ void Gateway::Loop::logCounters() const {
                                                        {"full", c.full},
                                                        {"unreachable", c.unreachable},
                                                        {"wrong_keys", c.wrong_keys},
-                                                       {"gone_silent", c.gone_silent},
-                                                       {"too_slow", c.too_slow},
+                                                       {"ping_timeouts", c.ping_timeouts},
+                                                       {"stalled", c.stalled},
                                                        {"bad_messages", c.bad_messages},
                                                        {"control_floods", c.control_floods},
                                                        {"messages_up", c.messages_up},

@@ -21,8 +21,8 @@ class GatewayError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Works only in run(), on the thread that calls it. Call the other functions, except post(), on that thread
-/// or while no thread is in run().
+/// Handles connections only in run(), on the thread that calls it. Call the other functions, except post(),
+/// on that thread or while no thread is in run().
 class Gateway {
  public:
   /// Begins to listen; connections wait for run(). Plain HTTP is allowed on loopback addresses only. Throws
@@ -37,7 +37,8 @@ class Gateway {
   static bool parseListen(std::string_view text, GatewaySettings& settings);
 
   std::uint16_t port() const;
-  /// Returns the URLs for players, like "http://127.0.0.1:8080/#KEY", the given origins first.
+  /// Returns the URLs for players, like "http://127.0.0.1:8080/#KEY": first those of the settings' origins,
+  /// then that of the listening address.
   std::vector<std::string> addresses() const;
   const GatewayCounters& counters() const;
   /// Number of current connections and WebSockets.
@@ -48,7 +49,7 @@ class Gateway {
   void installSignalHandlers();
   /// Serves until stop() was called and all connections have ended.
   void run();
-  /// Calls `job` in run(). Any thread.
+  /// Makes run() call `job`. Call from any thread.
   void post(std::function<void()> job);
   /// Reloads certificate and key for new connections. If they cannot be used, keeps the old ones and logs the
   /// reason.

@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t kStreamsPerPlayer = 2;
 constexpr std::size_t kMaxShownName = 100;  // characters
 
-/// A page has some ten files, for which browsers open six connections. The burst allows a class to open it at
-/// once; then 16 connections a second are allowed from one address.
+/// Rates of new connections. A page has about ten files, for which a browser opens six connections. The burst
+/// allows a class to open the page at once; then 16 connections a second are allowed from one address.
 constexpr PrefixRateLimiter::Rates kArrivals{{16, 1024}, {64, 4096}, std::nullopt};
 
 std::string serverJson(const GatewaySettings& settings) {

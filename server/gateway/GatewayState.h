@@ -30,7 +30,7 @@ namespace naiad {
 /// hello. If no slot is free, the oldest silent connection of the most crowded prefix is evicted. A
 /// connection is never evicted for another one while an answer is sent to it.
 ///
-/// Not thread-safe. Must outlive its places.
+/// Not thread-safe. Must outlive its slots.
 class PendingConnections {
  public:
   using Disconnect = std::function<void()>;
@@ -48,9 +48,10 @@ class PendingConnections {
     ~Slot();
 
     explicit operator bool() const { return m_owner != nullptr; }
-    /// Marks the connection as busy after a whole request. False: its prefix has too many places; close it.
+    /// Marks the connection as busy after a whole request. Returns false if the connection's prefix has too
+    /// many slots: then close the connection.
     [[nodiscard]] bool setBusy();
-    /// Marks the connection as silent, and as the youngest one.
+    /// Marks the connection as silent, and as the newest one.
     void setSilent();
 
    private:
@@ -73,10 +74,10 @@ class PendingConnections {
   /// Returns a slot for a connection from this prefix. `disconnect` must end the connection and release its
   /// slot before it returns. Returns an empty slot if none can be freed.
   Slot acquire(const AddressPrefix& prefix, Disconnect disconnect);
-  /// Replaces the function that ends the connection, for one that became a WebSocket.
+  /// Replaces the function that ends the connection. Call when the connection has become a WebSocket.
   void replace(const Slot& slot, Disconnect disconnect) { m_disconnects[slot.m_id] = std::move(disconnect); }
 
-  /// Number of connections that were evicted for another one.
+  /// Returns how many connections were evicted so far because another one needed a slot.
   std::uint64_t evicted() const { return m_evicted; }
 
  private:
@@ -89,10 +90,10 @@ class PendingConnections {
 };
 
 /// Limits the WebSockets that play: in all, and from one IPv4 address or IPv6 /64.
-/// Not thread-safe. Must outlive its places.
+/// Not thread-safe. Must outlive its slots.
 class VisitorSlots {
  public:
-  /// A slot. The last copy releases it; null: none.
+  /// A slot, released when the last copy of this pointer is destroyed. Null: no slot.
   using Slot = std::shared_ptr<VisitorSlots>;
 
   VisitorSlots(std::size_t total, std::size_t max_per_prefix)
@@ -125,7 +126,7 @@ class GatewayConnections;
 
 /// A connection to the gateway: a browser that reads the page, or one stream of a player.
 ///
-/// Each has one deadline. A periodic sweep checks all of them, so messages need no timers of their own.
+/// Each connection has one deadline. A periodic sweep checks all deadlines, so messages need no timers.
 /// Make it with std::make_shared: pending handlers keep it alive.
 class GatewayConnection : public std::enable_shared_from_this<GatewayConnection> {
  public:
@@ -139,9 +140,9 @@ class GatewayConnection : public std::enable_shared_from_this<GatewayConnection>
 
   /// Called when the deadline has passed.
   virtual void onDeadline() = 0;
-  /// Ends the connection because the gateway stops, with a goodbye if possible.
+  /// Ends the connection because the gateway stops, with a close message if possible.
   virtual void shutDown() = 0;
-  /// Ends the connection at once. Its places are released when this returns.
+  /// Ends the connection at once. Its slots are released when this returns.
   virtual void disconnect() = 0;
 
   /// Called ten times a second. Calls onDeadline() when the deadline has passed.
@@ -200,7 +201,7 @@ inline GatewayConnection::~GatewayConnection() {
   m_connections->m_all.erase(this);
 }
 
-/// Thread: the gateway's. GatewayConnections keep it alive.
+/// Use on the gateway's thread. Each GatewayConnection keeps it alive.
 struct GatewayState : std::enable_shared_from_this<GatewayState> {
   GatewayState(GatewaySettings given, const AllowedOrigins& allowed, LogLine line);
 

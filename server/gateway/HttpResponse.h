@@ -21,10 +21,10 @@ namespace naiad {
 using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 struct HttpResponse {
-  std::string head;              ///< status line and headers, with the empty line
+  std::string head;              ///< status line, headers and the empty line after them
   std::string text;              ///< body of a generated response
   std::string_view content;      ///< body of a file, owned by PageFiles
-  bool keeps_connection = true;  ///< another request may follow
+  bool keeps_connection = true;  ///< another request may follow on the connection
   bool is_refusal = false;       ///< status 400 or above
 
   std::string_view body() const { return text.empty() ? content : std::string_view(text); }
@@ -38,7 +38,7 @@ class HttpResponses {
 
   /// Returns the response to a request that is not a WebSocket upgrade.
   HttpResponse response(const WebRequest& request) const;
-  /// Returns an error with a message; the connection ends after it.
+  /// Returns an error response with a message; the connection ends after the response.
   HttpResponse refusal(int status, std::string_view message) const;
   /// The status and message of a refused request.
   struct Refusal {
@@ -55,7 +55,7 @@ class HttpResponses {
   static std::string_view pathOf(const WebRequest& request);
 
  private:
-  /// Like validateUpgrade(), for the checks of every request: HTTP version and Host.
+  /// Like validateUpgrade(), but checks only what every request needs: HTTP version and Host.
   const Refusal* validateHost(const WebRequest& request) const;
   HttpResponse fileResponse(const WebRequest& request, const PageFile& file) const;
   HttpResponse make(const WebRequest& request, int status, std::string_view headers,

@@ -23,7 +23,7 @@ class PageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Immutable. Memory: the files (64 MiB at most) and their compressed forms.
+/// Immutable. Holds the files (64 MiB at most) and their compressed forms in memory.
 class PageFiles {
  public:
   /// Reads the regular files of `folder` (not of subfolders) whose names consist of letters, digits, '.', '_'

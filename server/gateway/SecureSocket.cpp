@@ -46,7 +46,7 @@ bool SecureSocket::startTls(ssl_ctx_st* context, Role role) {
   tls->bio.socket = m_socket.native_handle();
   BIO* const bio = tls->ssl ? tls->bio.make() : nullptr;
   if (!bio) return false;
-  SSL_set_bio(tls->ssl.get(), bio, bio);  // owns it
+  SSL_set_bio(tls->ssl.get(), bio, bio);  // the SSL owns the BIO now
   SSL_set_read_ahead(tls->ssl.get(), 1);  // reads the header and the rest of a record with one system call
   if (role == Role::kServer) {
     tls->bio.guard.emplace();
@@ -123,7 +123,7 @@ std::span<char> SecureSocket::flatBytes() {
 
 bool SecureSocket::holdsInput() const {
   return m_tls &&
-         SSL_has_pending(m_tls->ssl.get()) == 1;  // also for a partial record, which costs one vain attempt
+         SSL_has_pending(m_tls->ssl.get()) == 1;  // also true for a partial record: one read is then in vain
 }
 
 SecureSocket::Progress SecureSocket::toProgress(std::pair<error_code, std::size_t> written) {

@@ -30,8 +30,8 @@ using boost::system::error_code;
 /// The executor of the gateway. Using the concrete type avoids the virtual calls of any_io_executor.
 using GatewayExecutor = boost::asio::io_context::executor_type;
 
-/// Thread: the one that runs the io_context. At most one read and one write may be pending. The object must
-/// not be moved while one is.
+/// Use on the thread that runs the io_context. At most one read and one write may be pending. The object must
+/// not be moved while an operation is pending.
 class SecureSocket {
  public:
   using Socket = boost::asio::basic_stream_socket<boost::asio::generic::stream_protocol, GatewayExecutor>;
@@ -50,14 +50,14 @@ class SecureSocket {
   bool hasTls() const { return m_tls != nullptr; }
   /// True with TLS if the peer closed the connection or it broke; false after a TLS error.
   bool hasEnded() const;
-  /// Returns the key that the peer proved to have, for a client after the handshake. Returns nullopt if the
-  /// peer did not agree to `protocol` by ALPN.
+  /// Returns the key that the server proved to have, for a client after the handshake. Returns nullopt if
+  /// the server did not agree to `protocol` by ALPN.
   std::optional<Fingerprint> provenKey(std::string_view protocol) const;
 
   executor_type get_executor() { return m_socket.get_executor(); }
   Socket& socket() { return m_socket; }
-  /// True if the kernel has more than `limit` bytes that it has not sent to the peer; false if it does not
-  /// know. Asks the kernel only if more than `limit` bytes may have been written since the last time.
+  /// True if the kernel has more than `limit` bytes that it has not sent to the peer; false if the kernel
+  /// cannot tell. Asks the kernel only if more than `limit` bytes may be unsent since the last call.
   bool hasUnsent(std::size_t limit);
 
   /// Queues these bytes for the next flush(). They are sent after pending writes and before later ones, never
@@ -68,7 +68,7 @@ class SecureSocket {
   /// Sends the queued bytes as far as possible without waiting. The next write or flush() sends the rest.
   /// Returns false if the connection has ended.
   bool flush();
-  /// Tells the peer that no more data comes, if that is possible without waiting.
+  /// Tells the peer that no more data follows, if that is possible without waiting.
   void shutDownSend();
   /// Ends the connection at once. Pending operations fail. Does nothing if it has ended.
   void close();
@@ -90,8 +90,8 @@ class SecureSocket {
   auto asyncWaitWritable(Token&& token) {
     return m_socket.async_wait(Socket::wait_write, std::forward<Token>(token));
   }
-  /// Like those of Asio's streams. A read ends with eof after an orderly shutdown by the peer, and with
-  /// connection_reset if the peer left without a TLS shutdown.
+  /// Like the functions of these names of Asio's streams. A read ends with eof after an orderly shutdown by
+  /// the peer, and with connection_reset if the peer left without a TLS shutdown.
   template <class Buffers, class Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return start<void(error_code, std::size_t)>(Step<ReadTry<Buffers>>{*this, {buffers}, !holdsInput()},
@@ -162,7 +162,8 @@ class SecureSocket {
     }
   };
 
-  /// Tries, waits for the socket, and tries again. Never completes before the initiating call has returned.
+  /// An asynchronous operation: attempts it, waits until the socket is ready, and attempts it again. Never
+  /// completes before the initiating call has returned.
   template <class Try>
   struct Step {
     SecureSocket& socket;
@@ -170,7 +171,7 @@ class SecureSocket {
     bool waits_first;  // true for reads, because usually no input is there yet; false for writes
     bool begun = false;
     Progress early{};     // result of the first attempt
-    bool posted = false;  // `early` is to be reported
+    bool posted = false;  // the next call reports `early`
 
     template <class Self>
     void operator()(Self& self, error_code failed = {}) {
@@ -238,7 +239,7 @@ class SecureSocket {
   Socket m_socket;
   std::unique_ptr<Tls> m_tls;
   bool m_is_server = false;     // TLS server: wait for the client's hello before OpenSSL allocates memory
-  bool m_is_mid_write = false;  // a part of a write was sent; the rest must come next
+  bool m_is_mid_write = false;  // a part of a write was sent; its rest must be sent next
   std::string m_queued;
   std::size_t m_queued_begin = 0;            // bytes of m_queued that were sent
   std::size_t m_unsent_bound = kNeverAsked;  // upper bound of the kernel's unsent bytes

@@ -7,10 +7,10 @@
 namespace naiad {
 namespace {
 
-/// First and longest pause between attempts; it doubles after each.
+/// First and longest pause between attempts; the pause doubles after each attempt.
 constexpr std::chrono::milliseconds kFirstRetryDelay{50};
 constexpr std::chrono::milliseconds kLastRetryDelay{800};
-/// Time for retries, as in dfclient: a server with many simultaneous connects drops some of them.
+/// Time for retries, as in dfclient: if too many clients connect at once, the server drops some of them.
 constexpr std::chrono::seconds kRetryTimeout{4};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The stream to this gateway's dfserver: TLS over the server's visitors' socket (ProxyHeader.h).
+// The stream to this gateway's dfserver: TLS over the visitors' socket of the server (ProxyHeader.h).
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace naiad {
 
 /// The server behind the gateway.
 struct GameServer {
-  std::string socket;  ///< path of its visitors' socket
+  std::string socket;  ///< path of the server's visitors' socket
   ShortKey key;        ///< key that the server must prove to have
   std::shared_ptr<const TlsContext> tls;
 };
@@ -26,11 +26,12 @@ struct GameServer {
 /// A link for one use. Make it with std::make_shared: pending handlers share it. Until the server has proved
 /// its key, only the header and the TLS handshake are sent.
 ///
-/// Thread: the one that runs the io_context.
+/// Use on the thread that runs the io_context.
 class UpstreamLink : public std::enable_shared_from_this<UpstreamLink> {
  public:
   enum class End { kOpen, kUnreachable, kWrongKey };
-  /// Called once from the event loop, unless closed before. `problem`: reason of a failure, for the log.
+  /// Called once from the event loop, unless close() comes first. `problem`: reason of a failure, for the
+  /// log.
   using Done = std::function<void(End end, const std::string& problem)>;
 
   UpstreamLink(GatewayExecutor executor, const GameServer& server);
@@ -39,7 +40,7 @@ class UpstreamLink : public std::enable_shared_from_this<UpstreamLink> {
   /// connection before it has proved its key, retries for a few seconds. The caller must enforce a time
   /// limit.
   void open(std::string header, Done done);
-  /// The stream for both directions, after End::kOpen.
+  /// Returns the stream for both directions. Call only after End::kOpen.
   SecureSocket& stream() { return *m_stream; }
   bool isOpen() const { return m_is_open; }
   /// Closes the link, with a TLS shutdown if it is open. Pending operations fail.

@@ -66,7 +66,7 @@ void WebConnection::onRequest(error_code error) {
   if (error) return onBadRequest(error);
   ++m_gateway.counters.requests;
   if (!m_slot.setBusy()) {
-    ++m_gateway.counters.no_place;
+    ++m_gateway.counters.no_slot;
     return disconnect();
   }
   if (!m_parser->is_done()) return refuse(400, "Request bodies are not allowed.\n");
@@ -135,7 +135,7 @@ void WebConnection::onSent(error_code error) {
 }
 
 void WebConnection::onDeadline() {
-  ++m_gateway.counters.late;
+  ++m_gateway.counters.timeouts;
   disconnect();
 }
 

@@ -12,8 +12,8 @@
 
 namespace naiad {
 
-/// Memory: at most 8 KiB for a request's head, and OpenSSL's for one connection.
-/// Thread: the gateway's.
+/// Uses at most 8 KiB for a request's head, in addition to OpenSSL's memory for one connection.
+/// Use on the gateway's thread.
 class WebConnection : public GatewayConnection {
  public:
   WebConnection(GatewayState& gateway, SecureSocket socket, ProxiedPeer visitor);

@@ -16,14 +16,14 @@ namespace {
 namespace websocket = boost::beast::websocket;
 
 constexpr std::size_t kMaxUnsent = 4096;  // the server is read only while at most this many bytes are unsent
-/// Send buffer towards a browser in bytes, including data in flight. A new snapshot may have to wait behind
-/// it. Enough for 300 kB/s at a round trip of 200 ms.
+/// Send buffer towards a browser in bytes, including data in flight (the kernel doubles it): small, because a
+/// new snapshot may have to wait behind these bytes, but enough for 300 kB/s at a round trip of 200 ms.
 constexpr int kSendBuffer = 32 * 1024;
 /// Rate limit of pings and unsolicited pongs; browsers send none.
 constexpr BucketRate kControls{1, 16};
 /// Available messages of a browser are sent to the server together, up to this many bytes.
 constexpr std::size_t kMaxBatch = 2048;
-/// Space behind the largest message: Beast needs some to read an empty last fragment.
+/// Bytes of the read buffer beyond the largest message, which Beast needs to read an empty last fragment.
 constexpr std::size_t kSlack = 64;
 
 /// Queues a binary message of one frame, unmasked as required for servers (RFC 6455 5.2).
@@ -95,8 +95,8 @@ void WebSocketRelay::prepareSocket() {
       [this](websocket::frame_type kind, boost::beast::string_view) { onControl(kind); });
 }
 
-/// Limits control frames, because pings need responses. Closes only the socket: the pending read ends the
-/// rest.
+/// Limits control frames, because pings need responses. Closes only the socket: the pending read then fails
+/// and ends the relay.
 void WebSocketRelay::onControl(websocket::frame_type kind) {
   onActivity();
   if (kind == websocket::frame_type::close ||
@@ -115,12 +115,12 @@ void WebSocketRelay::onSweep(Time now) {
   GatewayConnection::onSweep(now);
   if (now < m_ping_at || m_phase == Phase::kClosing || isOver()) return;
   if (!m_is_pinged) return ping();
-  ++m_gateway.counters.gone_silent;
+  ++m_gateway.counters.ping_timeouts;
   disconnect();
 }
 
 void WebSocketRelay::ping() {
-  onActivity();  // the answer must come within ping_interval, too
+  onActivity();  // starts another ping_interval, within which the browser must answer
   m_is_pinged = true;
   if (std::exchange(m_ping_waits, true)) return;
   m_socket.async_ping({}, [self = sharedFrom(this)](error_code) { self->m_ping_waits = false; });
@@ -171,11 +171,11 @@ void WebSocketRelay::openLink() {
   m_link = std::make_shared<UpstreamLink>(m_socket.get_executor(), m_gateway.server);
   m_link->open(m_visitor.header,
                [self = sharedFrom(this)](UpstreamLink::End end, const std::string& problem) {
-                 self->onLink(end, problem);
+                 self->onLinkAttemptEnd(end, problem);
                });
 }
 
-void WebSocketRelay::onLink(UpstreamLink::End end, const std::string& problem) {
+void WebSocketRelay::onLinkAttemptEnd(UpstreamLink::End end, const std::string& problem) {
   if (m_phase != Phase::kOpening) return;
   if (end == UpstreamLink::End::kOpen) {
     ++m_gateway.counters.played;
@@ -217,7 +217,8 @@ void WebSocketRelay::flushBatch() {
   if (!m_server_blocked) flushUp();
 }
 
-/// Returns true if all data was sent. Else continues when the server has read, then reads the browser again.
+/// Returns true if all data was sent. Else sends the rest when the server accepts it, then reads the browser
+/// again.
 bool WebSocketRelay::flushUp() {
   SecureSocket& stream = m_link->stream();
   ++m_gateway.counters.writes_up;
@@ -281,12 +282,12 @@ void WebSocketRelay::awaitWritable() {
 void WebSocketRelay::onDeadline() {
   switch (m_phase) {
     case Phase::kHello:
-      ++m_gateway.counters.late;
+      ++m_gateway.counters.timeouts;
       return close(GatewayCloseCode::kPolicy, "No hello message arrived in time.");
     case Phase::kOpening:
       return closeWithoutServer();
     case Phase::kPlaying:
-      ++m_gateway.counters.too_slow;
+      ++m_gateway.counters.stalled;
       return close(GatewayCloseCode::kTooSlow, "Disconnected: your connection is too slow.");
     case Phase::kClosing:
     case Phase::kOver:

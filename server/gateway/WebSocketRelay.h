@@ -10,7 +10,7 @@
 //   up     Read all available messages of the browser, and write them to dfserver as frames, at once.
 //
 // Data is never held back to wait for more. The buffers hold at most one frame and 4 KiB down, and one frame
-// and 2 KiB up, apart from the sockets' own.
+// and 2 KiB up, in addition to the sockets' own buffers.
 //
 // Beast reads, and writes the responses to pings and the close. Messages to the browser are written here,
 // because Beast would write each of them separately. They have a simple header (RFC 6455 5.2).
@@ -32,13 +32,13 @@
 
 namespace naiad {
 
-/// Thread: the gateway's.
+/// Use on the gateway's thread.
 class WebSocketRelay : public GatewayConnection {
  public:
   WebSocketRelay(GatewayState& gateway, SecureSocket socket, ProxiedPeer visitor,
                  PendingConnections::Slot slot);
 
-  /// Accepts an upgrade request that was checked, and begins to relay.
+  /// Accepts an upgrade request that has passed validateUpgrade(), and begins to relay.
   void accept(const WebRequest& request);
 
   void onSweep(Time now) override;
@@ -57,7 +57,7 @@ class WebSocketRelay : public GatewayConnection {
   void readUp();
   void onUp(error_code error, std::size_t size);
   void openLink();
-  void onLink(UpstreamLink::End end, const std::string& problem);
+  void onLinkAttemptEnd(UpstreamLink::End end, const std::string& problem);
   void queueUp();
   void batchUp();
   void flushBatch();
@@ -86,13 +86,13 @@ class WebSocketRelay : public GatewayConnection {
   bool m_is_reading_up = false;
   bool m_server_blocked = false;       // the server accepts no more data, so the browser is not read
   bool m_is_batching = false;          // a call of flushBatch() is posted
-  bool m_batch_grew = false;           // a message has come since that call was posted
+  bool m_batch_grew = false;           // a message has arrived since flushBatch() was posted
   std::array<char, kReadSize> m_down;  // data from the server
-  FrameReader m_frames;                // splits it into frames
+  FrameReader m_frames;                // splits the data from the server into frames
   boost::beast::websocket::close_reason m_close;
   bool m_close_sent = false;
-  Time m_ping_at = Time::max();  // time of the next ping; max while the browser is not read
-  bool m_is_pinged = false;      // a ping was sent since the browser's last sign of life
+  Time m_ping_at = Time::max();  // time of the next ping; Time::max() while no data is read from the browser
+  bool m_is_pinged = false;      // a ping was sent since the browser last sent anything
   bool m_ping_waits = false;     // a ping is still being sent
   TokenBucket m_controls;        // limit of the browser's pings and pongs
 };

@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 enum ExitCode { kUsage = 2, kNoPage = 3, kCannotListen = 4, kFile = 5 };
 
 constexpr const char* kHelp =
-    "LINK is the link that dfserver prints, SOCKET its --visitors. Browsers can reach no other server.\n"
+    "LINK is the link that dfserver prints, SOCKET its --proxy-socket. Browsers can reach no other server.\n"
     "Without a certificate dfweb listens on loopback addresses only. SIGHUP reopens the log and reloads the\n"
     "certificate; SIGTERM and SIGINT tell players and exit. dfweb can read players' passwords and chat.\n\n"
     "Exit codes: 2 wrong usage; 3 no page found; 4 cannot listen; 5 a file cannot be written.\n";
 
-/// Descriptors that are not connections.
+/// Number of file descriptors for other purposes than connections.
 constexpr std::size_t kOwnFiles = 64;
 
 struct WebOptions {
@@ -58,7 +58,7 @@ std::string storeLink(const std::string& text, naiad::GatewaySettings& settings)
   return settings.link->room.empty() ? "" : "dfweb requires a link without a room: remove what follows the /";
 }
 
-/// Returns the folder of the installed page, else that of the build tree.
+/// Returns the folder of the installed page; if it does not exist, that of the build tree.
 fs::path ownPage() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -72,8 +72,8 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
                                return storeLink(text, settings);
                              }),
                              "Link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
-          naiad::typedOption("--visitors", "SOCKET", &settings.visitors,
-                             "Visitors' socket of that server: the value of its --visitors"),
+          naiad::typedOption("--proxy-socket", "SOCKET", &settings.visitors,
+                             "Visitors' socket of that server: the value of its --proxy-socket"),
           {.name = "--listen",
            .target =
                naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
@@ -110,15 +110,15 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
 
 /// Returns a message about missing or conflicting options; empty if they are valid.
 std::string problemOf(const naiad::GatewaySettings& settings) {
-  if (settings.visitors.empty()) return "--visitors is required: the visitors' socket of the server.";
+  if (settings.visitors.empty()) return "--proxy-socket is required: the visitors' socket of the server.";
   if (settings.visitors.size() >= sizeof(sockaddr_un::sun_path))
-    return "--visitors: the path is too long for a socket.";
+    return "--proxy-socket: the path is too long for a socket.";
   if (settings.certificate.empty() != settings.key.empty())
     return "--certificate and --key must be used together.";
   return "";
 }
 
-/// Raises the limit of open files: two for each WebSocket, one for each newcomer.
+/// Raises the limit of open files to two for each WebSocket and one for each pending connection.
 void allowFiles(const naiad::GatewaySettings& settings, const naiad::LogLine& log) {
   const std::size_t wanted = 4 * settings.max_visitors + settings.max_pending + kOwnFiles;
   const std::size_t allowed = naiad::raiseOpenFileLimit(wanted);

@@ -4,11 +4,11 @@
 // it. With NAIAD_REPEAT="SEED START FRAME AGAIN" in the environment, each clock shows START plus the world's
 // ticks of FRAME nanoseconds, and advances by a microsecond each time it is read, so that a game that waits
 // for it does not hang. Random devices give numbers from the seed, in the order of the calls. Files that are
-// opened for reading before the first tick are recorded. Without that variable every function is the
-// system's.
+// opened for reading before the first tick are recorded. Without that variable every function behaves
+// like the system's.
 //
 // It does not cover instructions (rdtsc, rdrand), system calls that a game makes without the C library, and
-// threads. A game that uses those is noticed when its round is replayed.
+// threads. If a game uses these, its round may differ when it is replayed, and dfreplay notices that.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@
 namespace {
 
 constexpr std::uint64_t kSecond = 1'000'000'000;
-constexpr std::uint64_t kStep = 1'000;            ///< nanoseconds that each reading of a clock takes
-constexpr std::uint64_t kBoot = 1'000 * kSecond;  ///< start of monotonic clocks
+constexpr std::uint64_t kStep = 1'000;            ///< nanoseconds by which reading a clock advances it
+constexpr std::uint64_t kBoot = 1'000 * kSecond;  ///< nanoseconds that monotonic clocks show at the start
 constexpr std::size_t kMaxPaths = std::size_t{64} << 10;
 
 struct Repeat {
@@ -36,7 +36,7 @@ struct Repeat {
   bool again = false;
   std::uint64_t start = 0;
   std::uint64_t frame = 0;
-  std::atomic<std::uint64_t> now{0};  ///< ns since the start
+  std::atomic<std::uint64_t> now{0};  ///< nanoseconds since the world's start
   std::atomic<std::uint64_t> random{0};
   std::atomic<bool> notes{true};
   std::atomic<std::size_t> noted{0};
@@ -50,7 +50,7 @@ std::uint64_t readNumber(const char*& p) {
   return number;
 }
 
-// Programs that the game starts are not worlds, so the variables are removed.
+// Removes the variables from the environment, because programs that the game starts are not worlds.
 Repeat* makeRepeat() {
   static Repeat repeat;
   const char* p = getenv("NAIAD_REPEAT");
@@ -164,7 +164,7 @@ mode_t modeOf(va_list arguments, int flags) {
 
 extern "C" {
 
-// ---- for the world ----------------------------------------------------------------------------------------
+// ---- functions that the world calls -----------------------------------------------------------------------
 
 void naiad_repeat_tick(std::uint32_t tick) {
   Repeat& all = repeat();
@@ -281,7 +281,7 @@ std::uint32_t arc4random_uniform(std::uint32_t bound) {
   return bound < 2 ? 0 : static_cast<std::uint32_t>(nextRandom() % bound);
 }
 
-/// Replaces std::random_device::_M_getval(), however it was opened.
+/// Replaces std::random_device::_M_getval(), for all kinds of random devices.
 unsigned _ZNSt13random_device9_M_getvalEv(void* p_device) {
   static auto* const p_next = next(&_ZNSt13random_device9_M_getvalEv, "_ZNSt13random_device9_M_getvalEv");
   return repeat().on ? static_cast<unsigned>(nextRandom()) : p_next(p_device);

@@ -27,10 +27,11 @@ constexpr const char* kDebugger = "gdb";
 /// Makes the first `continue` run the tick, and not only report the signal that has stopped the world.
 constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
 
-/// Time limit of stopping the world, which is polled: only a child would report that it stopped.
+/// Time limit for the world to stop. Its state is polled, because only a child would report that it stopped.
 constexpr std::chrono::seconds kStopTimeout{10};
 
-/// Returns the state letter in /proc; 0: it has ended. The name before it may have any characters.
+/// Returns the process's state letter from /proc; 0 if the process has ended. Searches from the end, because
+/// the name before the letter may have any characters.
 char stateOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -62,7 +63,8 @@ class ScopedDescriptor {
   int m_number;
 };
 
-/// Starts gdb in this terminal. Ctrl-C is for gdb alone. Returns 0 if gdb is not installed.
+/// Starts gdb in this terminal, and ignores Ctrl-C, which is meant for gdb. Returns 0 if gdb is not
+/// installed.
 pid_t startDebugger(pid_t world) {
   const std::string number = std::to_string(world);
   const char* words[] = {kDebugger, "-q", "-p", number.c_str(), "-ex", kNoStop, nullptr};
@@ -81,7 +83,7 @@ pid_t startDebugger(pid_t world) {
   return error == 0 ? debugger : 0;
 }
 
-/// Returns a descriptor that is readable at its end. glibc 2.36 declares pidfd_open() for C only.
+/// Returns a descriptor that becomes readable at the process's end. glibc 2.36 has pidfd_open() for C only.
 int watchProcess(pid_t process) {
   return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
 }
@@ -93,7 +95,8 @@ void waitForDebugger(pid_t debugger) {
   throw RoundError(std::string(kDebugger) + " exited with code " + std::to_string(WEXITSTATUS(status)) + ".");
 }
 
-/// Returns a descriptor that is readable when the user asks for the end.
+/// Returns a descriptor that becomes readable when the user sends SIGINT, SIGTERM or SIGHUP to end the
+/// program.
 int watchSignals() {
   sigset_t ends;
   sigemptyset(&ends);
@@ -105,7 +108,7 @@ int watchSignals() {
   return signalfd(-1, &ends, SFD_CLOEXEC);
 }
 
-/// Executes the remaining turns, until the world or the file ends, or `ended` is readable.
+/// Executes the remaining turns, until the world ends, the file ends, or the descriptor `ended` is readable.
 void resumeRound(Replay& replay, int ended, std::ostream& out) {
   replay.world().setCancelDescriptor(ended);
   while (replay.step()) continue;

@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Maximum bytes of a file: days of a busy server.
+/// Maximum bytes of a file: enough for days of a busy server.
 constexpr std::uintmax_t kMaxRound = std::uintmax_t{1} << 30;
 
-/// True for a name of an installed game. A path is refused, because a file may come from a stranger.
+/// True if `name` can be that of an installed game. Refuses paths, because the file may come from a stranger.
 bool isGameName(const std::string& name) {
   return !name.empty() && name.size() <= 100 && name[0] != '.' && isPlainName(name);
 }
@@ -91,7 +91,7 @@ std::vector<std::string> RecordedRound::warnings() const {
   return warnings;
 }
 
-// ---- the game ---------------------------------------------------------------------------------------------
+// ---- ReplayEnvironment, which finds and starts the game ---------------------------------------------------
 
 ReplayEnvironment::ReplayEnvironment(const RecordedRound& round, const std::string& game) : m_round(round) {
   const std::string module = findModule(game);

@@ -1,4 +1,4 @@
-// The file of a round, and the game that replays it.
+// The file of a recorded round, and the game with which it is replayed.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ class RecordedRound {
   const DfrFacts& facts() const { return m_facts; }
   /// Returns a fact; empty if the file does not have it.
   std::string fact(const std::string& name) const;
-  /// Returns a reader at the beginning of the file. This must outlive it.
+  /// Returns a reader at the beginning of the file. This object must outlive the reader.
   std::unique_ptr<DfrReader> read() const;
   /// Returns warnings about the recording, as sentences, for example that its clocks were real.
   std::vector<std::string> warnings() const;
@@ -39,11 +39,11 @@ class RecordedRound {
   DfrFacts m_facts;
 };
 
-/// Replays the worlds of a round in a folder of their own, which is removed at the end.
+/// Finds the game of a round and starts its worlds, in a folder of their own that the destructor removes.
 class ReplayEnvironment {
  public:
-  /// `game`: a name or path from the user; empty: the installed game that the file names, if its module is
-  /// unchanged. Throws RoundError or std::system_error.
+  /// `game`: a name or path from the user. If empty, uses the installed game that the file names, if its
+  /// module is unchanged. Throws RoundError or std::system_error.
   ReplayEnvironment(const RecordedRound& round, const std::string& game);
   ~ReplayEnvironment();
   ReplayEnvironment(const ReplayEnvironment&) = delete;
@@ -51,7 +51,7 @@ class ReplayEnvironment {
 
   const WorldLauncher& launcher() const { return *m_launcher; }
   WorldStartOptions order() const;
-  /// Returns the differences of game and machine to the recorded ones, as sentences.
+  /// Returns sentences on how the game and this machine differ from the recorded ones.
   const std::vector<std::string>& warnings() const { return m_warnings; }
 
  private:

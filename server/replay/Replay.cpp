@@ -21,7 +21,8 @@ constexpr std::size_t kMaxPrinted = 4096;
 
 constexpr const char* kEnded = "ended";
 
-/// Time limit for the supervisor's report of the world's end; it first ends what the world has started.
+/// Time limit for the supervisor's report of the world's end. The supervisor first ends all processes that
+/// the world has started.
 constexpr int kExitReportTimeoutMillis = 2000;
 
 }  // namespace
@@ -44,7 +45,7 @@ std::optional<std::string_view> ReplayWorld::step(const WorldTurn& turn) {
   if (!m_failure.empty()) return std::nullopt;
   std::string record;
   std::string message;
-  m_turns.write(turn, record);  // a turn of a file is never too long
+  m_turns.write(turn, record);  // cannot fail, because a turn of a file is never too long
   appendTurnMessage(record, false, message);
   if (!send(message) || !receiveFrame()) return std::nullopt;
   return m_answer;
@@ -183,7 +184,7 @@ bool Replay::step(bool pictures) {
   }
   const auto answer = m_world.step(turn);
   if (!answer) {
-    // The recorded world ended here, too, if the file has no result of this turn.
+    // If the file has no result of this turn, the recorded world ended here, too.
     if (m_next) {
       recordDifference("the world's end");
       m_failure = m_world.failure();
@@ -200,7 +201,7 @@ bool Replay::step(bool pictures) {
   return true;
 }
 
-/// Handles the other records of this tick: result and picture.
+/// Handles the records that follow the turn in the file: its result and picture.
 void Replay::consumeTickRecords(std::string_view answer, bool exact) {
   for (; m_next && !std::holds_alternative<WorldTurn>(*m_next); readAhead()) {
     if (const auto* p_result = std::get_if<TickResult>(&*m_next)) compare(*p_result, answer, exact);

@@ -14,8 +14,8 @@
 
 namespace naiad {
 
-/// A world that is replayed: a process of its own, which gets one turn after the other as fast as it answers.
-/// Single-threaded: the calling thread waits for the world.
+/// A world that is replayed: a process of its own, which gets each turn once it has answered the previous
+/// one. Single-threaded: the calling thread waits for the world.
 class ReplayWorld {
  public:
   /// Time limit for an answer; after it the world counts as hung.
@@ -30,18 +30,19 @@ class ReplayWorld {
 
   /// Returns the game's settings; nullopt if it ended before GM.run().
   const std::optional<WorldReady>& ready() const { return m_ready; }
-  /// Executes a turn. Returns the answer, the fields of its frame, valid until the next turn; nullopt if the
-  /// world has ended, and failure() says how.
+  /// Executes a turn. Returns the fields of the world's answer, valid until the next turn; nullopt if the
+  /// world has failed (see failure()).
   std::optional<std::string_view> step(const WorldTurn& turn);
-  /// Returns how the world failed, like "did not answer any more"; empty while it answers.
+  /// Returns how the world failed, for example "stopped answering"; empty while it answers.
   const std::string& failure() const { return m_failure; }
   /// Returns the id of its process; -1: it never started.
   int process() const { return m_process; }
-  /// Removes the time limit of answers. Instead, when this descriptor is readable, the world counts as hung.
+  /// Removes the time limit of answers. Instead, the world counts as hung when this descriptor is readable.
   void setCancelDescriptor(int descriptor) { m_cancel_descriptor = descriptor; }
-  /// Returns the status of its process after a failure, as of waitpid(); nullopt if it has not ended.
+  /// Call after a failure: returns the exit status of the world's process, in the format of waitpid();
+  /// nullopt if the process has not ended.
   std::optional<int> popExitStatus();
-  /// Returns the end of what it printed.
+  /// Returns the last part of the world's output.
   const std::string& printed() const { return m_printed; }
 
  private:
@@ -72,9 +73,10 @@ class Replay {
   bool step(bool pictures = false);
   /// True if the file has a turn after those that were executed.
   bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
-  /// Makes the world get the keys and clicks of this tick that were dropped after its crash.
+  /// Makes the world get the keys and clicks of this tick that the server dropped when it repeated the tick
+  /// after a crash or hang.
   void restoreDroppedInputs(std::uint32_t tick) { m_restored_tick = tick; }
-  /// Makes step() read the scores of each answer, too.
+  /// Makes step() also read the scores in each answer, for scores().
   void readScores() { m_reads_scores = true; }
   /// Returns the number of ticks executed so far.
   std::uint32_t tick() const { return m_tick; }
@@ -93,9 +95,9 @@ class Replay {
 
   /// Returns the first tick that differed; 0: none so far.
   std::uint32_t firstDifference() const { return m_first_difference; }
-  /// Returns what differed in it: "the world's answer", "the state".
+  /// Returns what differed in that tick, for example "the state".
   const std::string& differenceText() const { return m_difference_text; }
-  /// Returns how the world ended before its recorded end; empty if it did not.
+  /// Returns how the world failed before its recorded end; empty if it did not.
   const std::string& failure() const { return m_failure; }
   /// Returns the files that the game reads and that have changed since the recording.
   const std::vector<std::string>& changedFiles() const { return m_changed_files; }

@@ -35,7 +35,7 @@ std::uint32_t countTurns(const RecordedRound& round) {
   return count;
 }
 
-/// Minimum interval of pictures: faster rounds skip some.
+/// Minimum time between two shown pictures. At high speeds, some pictures are skipped.
 constexpr std::chrono::milliseconds kFrameInterval{16};
 
 }  // namespace
@@ -188,9 +188,9 @@ std::string RoundControls::status() const {
   const WorldPicture* p_shown = shown();
   const std::string eyes = p_shown != nullptr ? "player " + std::to_string(p_shown->player) : "no player";
   const std::string speed = m_speed < 0 ? "1/" + std::to_string(1 << -m_speed) : std::to_string(1 << m_speed);
-  std::snprintf(text, sizeof text, " %s  %ld:%02ld  tick %u of %u  x%s  %s%s", m_paused ? "paused" : "plays",
-                whole / 60, whole % 60, m_history.tick(), m_history.count(), speed.c_str(), eyes.c_str(),
-                m_history.firstDifference() != 0 ? "  (not as recorded)" : "");
+  std::snprintf(text, sizeof text, " %s  %ld:%02ld  tick %u of %u  x%s  %s%s",
+                m_paused ? "paused" : "playing", whole / 60, whole % 60, m_history.tick(), m_history.count(),
+                speed.c_str(), eyes.c_str(), m_history.firstDifference() != 0 ? "  (not as recorded)" : "");
   return text;
 }
 
@@ -209,7 +209,7 @@ ScreenBuffer RoundControls::compose(int columns, int rows) const {
   return picture;
 }
 
-// ---- in the terminal --------------------------------------------------------------------------------------
+// ---- RoundPlayer, which uses the terminal -----------------------------------------------------------------
 
 bool RoundPlayer::hasTerminal() {
   return TerminalGuard::isTerminal();

@@ -14,23 +14,23 @@
 
 namespace naiad {
 
-/// The pictures of a round by tick, in any order: those of about the last minute are kept, earlier ones are
-/// made again by replaying.
+/// The pictures of a round, which can be requested in any order of their ticks. Keeps the pictures of about a
+/// minute; makes earlier ones again by replaying the round.
 class FrameHistory {
  public:
-  /// Maximum cells of all kept pictures: a minute and more of one player in 80 by 24.
+  /// Maximum cells of all kept pictures: enough for more than a minute of one player with 80 by 24 cells.
   static constexpr std::size_t kMaxCells = std::size_t{4} << 20;
-  /// Ticks before a requested one whose pictures are made as well, for going back.
+  /// Number of ticks before a requested tick whose pictures are made as well, for rewinding.
   static constexpr std::uint32_t kRewindTicks = 150;
 
-  /// Both must outlive this. Throws like Replay.
+  /// `round` and `environment` must outlive this object. Throws what the constructor of Replay throws.
   FrameHistory(const RecordedRound& round, const ReplayEnvironment& environment);
 
-  /// Goes to this tick (from 1), or to the last one if the round ends before. Returns the tick reached; 0:
-  /// the round has none. Going far back replays the round from its beginning.
+  /// Moves to this tick (at least 1), or to the last one if the round ends before it. Returns the tick
+  /// reached; 0 if the round has no ticks. To move far back, replays the round from its beginning.
   std::uint32_t seek(std::uint32_t tick);
   std::uint32_t tick() const { return m_tick; }
-  /// Returns the players' pictures after that tick, by player; empty without players.
+  /// Returns the players' pictures after tick(), in the order of the players; empty if there are no players.
   const std::vector<WorldPicture>& pictures() const;
   /// Returns the number of ticks of the whole round.
   std::uint32_t count() const { return m_count; }
@@ -49,31 +49,31 @@ class FrameHistory {
   const RecordedRound& m_round;
   const ReplayEnvironment& m_environment;
   std::unique_ptr<Replay> m_replay;
-  std::deque<Frame> m_frames;  ///< without gaps
+  std::deque<Frame> m_frames;  ///< of consecutive ticks
   std::size_t m_cells = 0;
   std::uint32_t m_tick = 0;
   std::uint32_t m_count = 0;
 };
 
-/// The effects of keys, without a terminal. Time is passed in.
+/// The reaction of a RoundPlayer to keys, without a terminal. Time is passed in.
 class RoundControls {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr int kMinSpeed = -2;  ///< a quarter of the speed, as a power of two
-  static constexpr int kMaxSpeed = 6;   ///< 64 times
+  static constexpr int kMinSpeed = -2;  ///< exponent of 2: a quarter of the normal speed
+  static constexpr int kMaxSpeed = 6;   ///< exponent of 2: 64 times the normal speed
   static constexpr std::uint64_t kJumpNanos = 5'000'000'000;
 
-  /// `player`: whose picture is shown; 0: the first one's. Begins with tick `from`, or the last one before
-  /// it.
+  /// `player`: number of the player whose picture is shown; 0: the first player. Begins with tick `from`, or
+  /// with the last tick if the round ends before it.
   RoundControls(FrameHistory& history, std::uint64_t frame_nanos, std::uint32_t player, Time now,
                 std::uint32_t from = 1);
 
-  /// Handles a key. Returns false if the user ends the player.
+  /// Handles a key. Returns false if the key ends the RoundPlayer.
   bool handleKey(const KeyEvent& key, Time now);
   /// Advances the round to this time. Returns true if the picture has changed.
   bool update(Time now);
-  /// Returns when update() will next have something to do.
+  /// Returns the time at which to call update() again.
   Time deadline(Time now) const;
 
   bool isPaused() const { return m_paused; }
@@ -102,12 +102,12 @@ class RoundControls {
 
 class RoundPlayer {
  public:
-  /// Takes the parameters of RoundControls.
+  /// `player` and `from`: as for RoundControls.
   RoundPlayer(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t player,
               std::uint32_t from)
       : m_round(round), m_environment(environment), m_player(player), m_from(from) {}
   /// Plays until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot
-  /// show it.
+  /// show pictures.
   void run();
 
   static bool hasTerminal();

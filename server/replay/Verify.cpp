@@ -50,7 +50,7 @@ void printRows(const df::Canvas& recorded, const df::Canvas& again, std::ostream
   out << "  " << same << " of " << height << " rows are equal\n";
 }
 
-/// Prints the differences between the next picture of the file and the world's picture then.
+/// Prints the differences between the next picture in the file and the world's picture at that tick.
 void showDifference(Replay& replay, std::ostream& out) {
   do {
     if (!replay.recordedPicture()) continue;

@@ -10,15 +10,15 @@ namespace naiad {
 class RecordedRound;
 class ReplayEnvironment;
 
-/// Replays the round, and prints the result. Returns true if it matches to the last whole turn of the file.
+/// Replays the round, and prints the result. Returns true if it matches the file up to the last whole turn.
 bool verifyRound(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out);
 
-/// Prints one line for each input, and one for each end of the game by the host.
+/// Prints one line for each input, one where the host ends the game, and a last one with the number of ticks.
 void printInputs(const RecordedRound& round, std::ostream& out);
 
 /// Replays the round, and prints one line for each score that the game adds: "tick=N number=N table=…
 /// name="…" points=N", which identify its row in the server's file of scores. Returns false if the round
-/// differs; then the last line says from which tick on.
+/// differs from the file; then the last line names the first tick that differs.
 bool printScores(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out);
 
 /// Prints a player's picture after this tick; player 0: the first one. Returns false if the round has no such

@@ -18,7 +18,7 @@ namespace {
 
 enum ExitCode { kOk = 0, kDiffers = 1, kUsage = 2, kNoRound = 3, kNoTerminal = 4 };
 
-/// Nice value with --for-server.
+/// Nice value of this process with --for-server.
 constexpr int kNice = 10;
 
 constexpr const char* kHelp =
@@ -88,7 +88,8 @@ int fail(ExitCode code, const std::string& sentence) {
   return code;
 }
 
-/// Lets the server's game go first, and ends with the server. Call before this process starts another one.
+/// Lowers the priority of this process below the server's, and makes it end with the server. Call before this
+/// process starts another one.
 void serveParent() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpriority(PRIO_PROCESS, 0, kNice);

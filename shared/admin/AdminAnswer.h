@@ -19,11 +19,11 @@ struct AdminAnswer {
   std::vector<std::string> candidates;  ///< the matches of an ambiguous name
   AdminRow facts;                       ///< facts about the server
   bool is_list = false;                 ///< `rows` is the answer, even if it is empty
-  std::vector<AdminRow> rows;           ///< all with equal names
+  std::vector<AdminRow> rows;           ///< the rows of a list; all have equal column names
 
   /// Returns the answer to a command that succeeded.
   static AdminAnswer done(std::string text) { return {true, std::move(text), {}, {}, false, {}}; }
-  /// Returns these rows, or the sentence `if_empty` if the list is empty.
+  /// Returns an answer that lists `rows`. Its text is `if_empty` if there are none.
   static AdminAnswer list(std::vector<AdminRow> rows, std::string if_empty) {
     std::string text = rows.empty() ? std::move(if_empty) : std::string();
     return {true, std::move(text), {}, {}, true, std::move(rows)};

@@ -1,5 +1,5 @@
-// The table of commands that manage a running server. dfctl, the lines in the chat that begin with /, help,
-// completions and the manual page are made from it.
+// The table of commands that manage a running server. It defines dfctl's commands, the lines in the chat that
+// begin with /, the help, the completions and the manual page.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace naiad {
 struct AdminArgument {
   enum class Kind {
     kWord,    ///< any word
-    kPlayer,  ///< #ID, or a name, or the beginning of one
+    kPlayer,  ///< a player: #ID, a name, or the beginning of a name
     kTarget,  ///< the target of a ban: a player, a name, an address or an address range
-    kSpan,    ///< 90s, 30m, 2h, 7d; an optional span is skipped if the word is not a span
-    kChoice,  ///< one of `one_of`; a leading "--" is ignored
+    kSpan,    ///< a time span: 90s, 30m, 2h, 7d; if optional, skipped if the word is not a span
+    kChoice,  ///< one of the words `one_of`; a leading "--" is ignored
     kSecret,  ///< a password, which no log contains
     kText,    ///< the rest of the line
   };
 
-  std::string name;  ///< its name in JSON: "player"
+  std::string name;  ///< name in help and JSON, for example "player"
   Kind kind = Kind::kWord;
   bool required = true;
   std::string help;
@@ -46,12 +46,13 @@ struct AdminCommand {
 
 /// Returns all commands, grouped by purpose, in the order in which help lists them.
 const std::vector<AdminCommand>& adminCommands();
-/// Returns nullptr if there is no command of this name.
+/// Returns the command of this name; nullptr if there is none.
 const AdminCommand* findAdminCommand(std::string_view name);
 
-/// Returns, for example, "ban WHO [FOR] [REASON]".
+/// Returns the command and its arguments, for example "ban WHO [FOR] [REASON]".
 std::string adminUsage(const AdminCommand& command);
-/// Returns a line with usage and help, in two columns, for each command that this level has at this place.
+/// Returns a line with usage and help, in two columns, for each command that users of `level` may give at
+/// `place`.
 std::vector<std::string> adminHelp(AdminCommand::Level level, AdminCommand::Frontend place);
 /// Returns the usage, help and arguments of one command.
 std::vector<std::string> adminHelp(const AdminCommand& command);

@@ -10,12 +10,12 @@ namespace naiad {
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 2;         ///< nesting of a request: an object in an object
-constexpr std::size_t kMaxAnswerDepth = 32;  ///< nesting of an answer that dfctl reads
-/// Bytes of rows in a line of an answer. The rest of the line holds the JSON around the rows.
+constexpr std::size_t kMaxDepth = 2;         ///< maximum nesting of a request: one object in another
+constexpr std::size_t kMaxAnswerDepth = 32;  ///< maximum nesting of an answer that dfctl reads
+/// Maximum bytes of rows in a line of an answer. The rest of the line holds the JSON around the rows.
 constexpr std::size_t kMaxRowBytes = kMaxControlLine - 512;
-constexpr std::size_t kMaxTextBytes = 2048;  ///< limit of one text in a line
-constexpr std::size_t kMaxCellBytes = 384;   ///< limit of one text in a row, as JSON: a row holds several
+constexpr std::size_t kMaxTextBytes = 2048;  ///< maximum bytes of one text in a line
+constexpr std::size_t kMaxCellBytes = 384;   ///< maximum bytes of one text in a row, as JSON
 
 std::string lineOf(const Json& json) {
   return json.toString() + "\n";
@@ -34,7 +34,7 @@ std::string cut(std::string_view text, std::size_t most) {
   return std::string(text.substr(0, most)) + "…";
 }
 
-/// Like cut(), until the text as JSON has at most `json_bytes`; an escape has up to six bytes.
+/// Like cut(), but until the text as JSON has at most `json_bytes`, because an escape takes up to six bytes.
 std::string cutToFit(std::string_view text, std::size_t json_bytes = kMaxRowBytes) {
   std::string kept = cut(text, kMaxTextBytes);
   for (std::size_t most = kMaxTextBytes; Json(kept).toString().size() > json_bytes;)

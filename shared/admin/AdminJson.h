@@ -21,7 +21,7 @@
 
 namespace naiad {
 
-/// The longest line in bytes, without its \n.
+/// Maximum length of a line in bytes, without its \n.
 inline constexpr std::size_t kMaxControlLine = 4096;
 
 /// Parses one request line without its \n. Throws AdminUsageError.
@@ -32,7 +32,7 @@ std::string requestLine(const AdminRequest& request);
 std::string answerLines(const AdminAnswer& answer);
 /// Returns {"event":KIND,"text":TEXT}; a text that does not fit the line is shortened.
 std::string eventLine(std::string_view kind, std::string_view text);
-/// Returns {"dropped":COUNT}: this many events were dropped.
+/// Returns {"dropped":COUNT}, a line that reports that this many events were dropped.
 std::string droppedLine(std::uint64_t count);
 
 /// Reads the lines of an answer, for dfctl.
@@ -40,9 +40,9 @@ class AnswerReader {
  public:
   enum class LineKind { kMore, kAnswer, kEvent, kDropped, kMalformed };
   LineKind readLine(std::string_view line);
-  /// The whole answer, after kAnswer.
+  /// Returns the whole answer; valid after a line of kind kAnswer.
   const AdminAnswer& answer() const { return m_answer; }
-  /// The text of the event, after kEvent.
+  /// Returns the text of the event; valid after a line of kind kEvent.
   const std::string& event() const { return m_event; }
   std::uint64_t dropped() const { return m_dropped; }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = AdminArgument::Kind;
 
-/// The longest argument in bytes.
+/// Maximum length of an argument in bytes.
 constexpr std::size_t kMaxAdminArgument = 1024;
 
 const AdminCommand& commandOf(const std::string& name) {
@@ -32,7 +32,7 @@ std::string undashed(const std::string& word) {
   return word.starts_with("--") ? word.substr(2) : word;
 }
 
-/// True if this word can be the optional argument.
+/// True if the word is a valid value for this optional argument.
 bool fits(const AdminArgument& argument, const std::string& word) {
   if (argument.kind == Kind::kSpan) return readTimeSpan(word).has_value();
   if (argument.kind == Kind::kChoice) return isOneOf(argument, undashed(word));
@@ -54,7 +54,7 @@ void checkArgument(const AdminCommand& command, const AdminArgument& argument, c
     throw AdminUsageError(command.name + ": " + argument.name + " is empty.");
 }
 
-/// Returns the argument that --NAME or --NAME=VALUE names; nullptr for other words.
+/// Returns the argument that a word --NAME or --NAME=VALUE names; nullptr for other words.
 const AdminArgument* findNamed(const AdminCommand& command, const std::string& word) {
   const std::string name = undashed(word.substr(0, word.find('=')));
   const auto found = std::find_if(

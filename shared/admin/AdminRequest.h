@@ -11,7 +11,7 @@
 
 namespace naiad {
 
-/// An invalid command; what() is one sentence.
+/// Thrown for an invalid command. what() is one sentence that gives the reason.
 class AdminUsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,7 +22,7 @@ struct AdminRequest {
   const AdminCommand* command = nullptr;
   std::map<std::string, std::string> arguments;  ///< values by name, without omitted arguments
 
-  /// Returns the argument's text; empty if it was omitted.
+  /// Returns the argument's text; empty if the argument was omitted.
   std::string of(const std::string& name) const;
   bool has(const std::string& name) const { return arguments.contains(name); }
   /// Returns the command for logs and history: secrets are "***", texts in quotes.
@@ -31,7 +31,7 @@ struct AdminRequest {
 
 /// Parses a command's words, name first. Throws AdminUsageError.
 AdminRequest readAdminRequest(const std::vector<std::string>& words);
-/// Like readAdminRequest(words), with the arguments by name.
+/// Like readAdminRequest(words), but takes the arguments by name.
 AdminRequest readAdminRequest(const std::string& command, std::map<std::string, std::string> arguments);
 
 /// Splits a line at blanks into words; "in quotes" is one word. Later, a text argument that takes the rest of

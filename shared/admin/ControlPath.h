@@ -14,7 +14,7 @@ std::optional<std::filesystem::path> controlFolder();
 std::optional<std::filesystem::path> controlPath(std::uint16_t port);
 /// True if the file name is of the form control-*.sock.
 bool isControlName(const std::filesystem::path& path);
-/// Returns all control sockets in the folder, sorted; none if it cannot be read.
+/// Returns all control sockets in the folder, sorted; none if the folder cannot be read.
 std::vector<std::filesystem::path> controlSockets(const std::filesystem::path& folder);
 
 }  // namespace naiad

@@ -14,7 +14,8 @@ inline constexpr std::chrono::seconds kMaxTimeSpan{std::chrono::hours(24 * 3653)
 /// Parses a whole number >= 1 and a unit: s, m, h, d or w. Returns nullopt if invalid or above kMaxTimeSpan.
 std::optional<std::chrono::seconds> readTimeSpan(std::string_view text);
 
-/// Returns "90s", "30m", "2h" or "7d": the span in the largest unit that divides it. "0s" below a second.
+/// Returns "90s", "30m", "2h" or "7d": the span in the largest unit that divides it. Returns "0s" for less
+/// than a second.
 std::string timeSpanText(std::chrono::seconds span);
 
 /// Returns, for example, "2026-11-25 19:01 UTC".

@@ -39,8 +39,8 @@ bool isGameWord(std::string_view game) {
   return !game.empty() && game.size() <= PresenceRoom::kMaxGame && isPlainName(game);
 }
 
-/// Removes the text up to and including `mark` and returns the part before it. Returns nullopt, and leaves
-/// `text` unchanged, without a mark.
+/// Removes the text up to and including `mark` and returns the part before it. If there is no mark, returns
+/// nullopt and leaves `text` unchanged.
 std::optional<std::string_view> takeUntil(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
   if (at == std::string_view::npos) return std::nullopt;
@@ -88,7 +88,7 @@ BusFields::BusFields(std::string_view payload) {
   if (payload.size() <= kMaxBusPayload) m_object = Json::parse(payload, 1).value_or(Json());
   m_ok = m_object.object() != nullptr &&
          std::ranges::none_of(*m_object.object(), [](const Json::Member& member) {
-           return member.second.isInteger() && !member.second.integer();  // beyond 63 bits
+           return member.second.isInteger() && !member.second.integer();  // too large for 63 bits
          });
 }
 
@@ -151,6 +151,10 @@ std::string resultSubject(std::string_view id) {
 }
 
 std::string redirectSubject(std::string_view id) {
+  return "naiad.redirect." + std::string(id);
+}
+
+std::string formerRedirectSubject(std::string_view id) {
   return "naiad.sendon." + std::string(id);
 }
 
@@ -190,7 +194,7 @@ std::string Redirect::payload() const {
   return Json{{"v", kRedirectFormat}, {"to", to}, {"link", link.text()}}.toString();
 }
 
-// Refuses links that are not in the spelling that a directory writes.
+// Also refuses a link whose text differs from the one that a directory writes for this link.
 std::optional<Redirect> Redirect::parse(std::string_view payload) {
   BusFields fields(payload);
   fields.number("v", kRedirectFormat, kRedirectFormat);
@@ -214,7 +218,7 @@ std::string roomsText(const std::vector<PresenceRoom>& rooms) {
   return text;
 }
 
-// Each number has only one spelling, so writing the result again gives an equal text.
+// Also refuses other texts than roomsText() writes for these rooms, so that each list has only one text.
 std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text) {
   std::vector<PresenceRoom> rooms;
   std::set<std::string> names;

@@ -19,7 +19,7 @@ namespace naiad {
 /// The bus of a fleet, and how to connect to it.
 struct BusSettings {
   std::string url;          ///< nats://HOST:PORT or tls://HOST:PORT
-  std::string credentials;  ///< file of a user's token and seed; empty: none
+  std::string credentials;  ///< file with a user's token and seed; empty: none
   std::string authorities;  ///< PEM file of authorities for the bus's certificate; empty: the system's
   std::vector<std::string> subjects = {};  ///< subjects to subscribe to; in "naiad.presence.*", * is any word
 
@@ -38,13 +38,13 @@ class BusFields {
  public:
   explicit BusFields(std::string_view payload);
 
-  /// True if all members read so far were present and valid.
+  /// True if the payload is a valid object and all members read so far were present and valid.
   bool ok() const { return m_ok; }
 
   /// True if the payload has the member as a text, a number or a flag.
   bool has(std::string_view name) const;
 
-  // Each returns a member. For an invalid one, ok() becomes false and the result is empty, false or `least`.
+  // Each returns a member. If it is missing or invalid, ok() is false and the result empty, false or `least`.
 
   std::int64_t number(std::string_view name, std::int64_t least, std::int64_t most);
   bool flag(std::string_view name);
@@ -64,13 +64,17 @@ inline constexpr std::size_t kMaxServerId = 48;
 /// True for 1 to kMaxServerId characters a-z, 0-9 and '-', beginning with a letter or digit: one word of a
 /// subject, whose words are separated by dots.
 bool isServerId(std::string_view text);
-/// Makes an id of any text: other characters become '-'; "server" if nothing is left.
+/// Makes an id of any text: letters become lower case, other characters '-'; too long texts are truncated.
+/// Returns "server" if nothing is left.
 std::string serverIdOf(std::string_view text);
 
-/// Return "naiad.presence.ID", "naiad.results.ID" and "naiad.sendon.ID".
+/// Returns "naiad.presence.ID", "naiad.results.ID" and "naiad.redirect.ID".
 std::string presenceSubject(std::string_view id);
 std::string resultSubject(std::string_view id);
 std::string redirectSubject(std::string_view id);
+/// Returns "naiad.sendon.ID", which versions before 0.2 use instead of redirectSubject(). This version uses
+/// both subjects.
+std::string formerRedirectSubject(std::string_view id);
 
 /// A score on the bus (HighScores.h): a row of a table, with its origin.
 ///
@@ -80,7 +84,7 @@ std::string redirectSubject(std::string_view id);
 ///
 /// messageId() identifies the row for JetStream, which drops duplicates.
 struct GameResult {
-  std::string server;  ///< isServerId()
+  std::string server;  ///< the id of the server: isServerId() is true for it
   std::string game;
   std::string table;
   std::string name;  ///< the player's name
@@ -95,24 +99,24 @@ struct GameResult {
   std::string payload() const;
   /// Returns "ROUND-TICK-NUMBER".
   std::string messageId() const;
-  /// Returns nullopt for a payload that no server writes.
+  /// Returns nullopt for an invalid payload, which no server writes.
   static std::optional<GameResult> parse(std::string_view payload);
 
   friend bool operator==(const GameResult&, const GameResult&) = default;
 };
 
 /// A directory's message to a full or nearly full server: the server to which it may redirect players. While
-/// it holds, it is repeated as often as servers send Presence. It expires after three intervals without a
-/// message.
+/// the redirect is valid, the message is repeated as often as servers send Presence. The redirect expires
+/// after three intervals without a message.
 ///
-///   naiad.sendon.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876/duel#…26 characters…"}
+///   naiad.redirect.ID  {"v":1,"to":"paris-9876","link":"naiad://192.0.2.8:9876/duel#…26 characters…"}
 struct Redirect {
-  std::string to;  ///< the other server: isServerId()
+  std::string to;  ///< id of the other server: isServerId() is true for it
   JoinLink link;   ///< link to the server, and to one of its rooms if it has rooms
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
-  /// Returns nullopt for a payload that no directory writes.
+  /// Returns nullopt for an invalid payload, which no directory writes.
   static std::optional<Redirect> parse(std::string_view payload);
 
   friend bool operator==(const Redirect&, const Redirect&) = default;
@@ -125,7 +129,7 @@ struct PresenceRoom {
   static constexpr std::size_t kMaxGame = 64;
   static constexpr std::uint32_t kMaxPlaces = 1'000'000;
 
-  std::string name;  ///< isRoomName()
+  std::string name;  ///< a name for which isRoomName() is true
   std::string game;  ///< 1 to kMaxGame characters, as allowed in a room's name
   std::uint32_t players = 0;
   std::uint32_t max_players = 0;
@@ -133,12 +137,12 @@ struct PresenceRoom {
   friend bool operator==(const PresenceRoom&, const PresenceRoom&) = default;
 };
 
-/// Limit of the text in bytes. With the rest of a presence it fits into a payload of the bus.
+/// Maximum bytes of roomsText(). A presence with a text of this length fits into a payload of the bus.
 inline constexpr std::size_t kMaxRoomsText = 900;
 
 /// Returns the text of the first rooms that fit. Omits rooms whose game has a name that cannot be written.
 std::string roomsText(const std::vector<PresenceRoom>& rooms);
-/// Parses the format of roomsText(); nullopt for other texts. Names must differ, not only in case.
+/// Parses the format of roomsText(); nullopt for other texts. Two names must not differ only in case.
 std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text);
 
 /// A server's heartbeat on the bus: its address, its key, its players.
@@ -151,21 +155,21 @@ struct Presence : ServerInfo {
   /// Heartbeat interval without --bus-interval; a server silent for three of them is removed.
   static constexpr std::chrono::milliseconds kInterval{2000};
   static constexpr std::chrono::milliseconds kMinInterval{50};  ///< limits a server's load on the directory
-  /// Players are redirected to a dead server for up to three of these.
+  /// Limits how long players may be redirected to a dead server: for up to three intervals.
   static constexpr std::chrono::milliseconds kMaxInterval{60'000};
 
-  std::string id;          ///< isServerId()
+  std::string id;          ///< the server's id: isServerId() is true for it
   std::string host;        ///< name or numeric address for players; empty: unknown
   std::uint16_t port = 0;  ///< 1 to 65535
   std::string key;         ///< Fingerprint::text(); empty: no encryption
   bool is_open = true;     ///< accepts players: it neither drains nor shuts down
   /// The named rooms in the server's order, as many as fit (kMaxRoomsText). Empty for a server without rooms,
-  /// whose text has no member "rooms".
+  /// whose payload has no member "rooms".
   std::vector<PresenceRoom> rooms = {};
 
   /// Returns the JSON text that parse() reads.
   std::string payload() const;
-  /// Returns nullopt for a payload that no server writes.
+  /// Returns nullopt for an invalid payload, which no server writes.
   static std::optional<Presence> parse(std::string_view payload);
 
   friend bool operator==(const Presence&, const Presence&) = default;

@@ -10,11 +10,11 @@ namespace naiad {
 class Json;
 
 struct ServerInfo {
-  static constexpr std::size_t kMaxName = 64;  ///< characters of name and game
+  static constexpr std::size_t kMaxName = 64;  ///< maximum characters of the name, and of the game
 
   std::string name;
   std::string game;            ///< the first room's game if there are several rooms
-  std::uint32_t protocol = 0;  ///< kProtocolVersion of the server
+  std::uint32_t protocol = 0;  ///< the server's kProtocolVersion
   std::uint32_t players = 0;
   std::uint32_t max_players = 0;
   bool requires_password = false;

@@ -44,8 +44,8 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     bool is_object;
     Json::Array elements = {};
     Json::Object members = {};
-    std::map<std::string, std::size_t> places = {};  ///< index in `members`, by name
-    std::size_t current = 0;                         ///< the member that gets the next value
+    std::map<std::string, std::size_t> places = {};  ///< indices into `members`, by name
+    std::size_t current = 0;                         ///< index of the member that gets the next value
   };
 
   bool add(Json value) {

@@ -22,7 +22,7 @@ class Json {
   using Member = std::pair<std::string, Json>;
   using Object = std::vector<Member>;  ///< members in the order of insertion, with unique names
 
-  /// Treatment of a name that occurs twice in an object. kKeepLast: its last value, in the first place.
+  /// Treatment of a name that occurs twice in an object. kKeepLast: its last value, in its first position.
   enum class Duplicates { kRefuse, kKeepLast };
   /// kCompact writes no blanks. kAscii writes one after each comma and colon, and escapes everything but
   /// printable ASCII, so that the text means the same in any encoding and in any terminal.
@@ -68,7 +68,8 @@ class Json {
   const Json* find(std::string_view name) const;
   /// Like find(), but returns null if the member is missing: json["status"]["ports"].
   const Json& operator[](std::string_view name) const;
-  /// Sets a member, in its old position if it exists. A value that is not an object becomes one first.
+  /// Sets a member; an existing one keeps its position. Other values than objects become an empty object
+  /// first.
   void set(std::string_view name, Json value);
 
  private:

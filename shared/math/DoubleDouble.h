@@ -1,9 +1,9 @@
 // Sums of two doubles that do not overlap: about 106 bits, from + − × ÷ √ in double precision alone.
 //
-// For the elementary functions, where one double is too short. The exact sum is Knuth's, the exact product
-// Dekker's with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for extending the available
-// precision", 1971). Without fused multiply-add, every machine gets the same bits. Everything is constexpr:
-// the compiler computes the tables.
+// Used by the elementary functions, for which one double is too short. The exact sum is Knuth's, the exact
+// product Dekker's with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for extending the
+// available precision", 1971). Without fused multiply-add, every machine gets the same bits. Everything is
+// constexpr, so that the compiler can compute tables.
 #pragma once
 
 #include <cmath>

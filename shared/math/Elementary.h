@@ -31,15 +31,15 @@ SineCosine sincos(double x);
 double sin(double x);
 double cos(double x);
 
-/// tanh(±0) = ±0, tanh(±∞) = ±1.
+/// Hyperbolic tangent. tanh(±0) = ±0, tanh(±∞) = ±1.
 double tanh(double x);
-/// sinh(±0) = ±0; beyond ±710.48 it is ±∞.
+/// Hyperbolic sine. sinh(±0) = ±0; beyond ±710.48 it is ±∞.
 double sinh(double x);
-/// cosh(±0) = 1; beyond ±710.48 it is +∞.
+/// Hyperbolic cosine. cosh(±0) = 1; beyond ±710.48 it is +∞.
 double cosh(double x);
 
 /// The angle of the point (x, y) in [−π, π]. Zeros and infinities as in C99's annex F: atan2(±0, x > 0) = ±0,
-/// atan2(±0, x < 0 or −0) = ±π, atan2(±∞, +∞) = ±π/4 …
+/// atan2(±0, x < 0 or −0) = ±π, atan2(±∞, +∞) = ±π/4, and so on
 double atan2(double y, double x);
 /// The angle in [−π/2, π/2] whose tangent is x. atan(±0) = ±0.
 double atan(double x);

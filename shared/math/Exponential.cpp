@@ -33,7 +33,7 @@ double powerOfTwo(int exponent) {  // −1022 to 1023
   return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
-// Returns e^x − 1 for |x| < 0.4, as an exact head and a tail.
+// Returns e^x − 1 for |x| < 0.4, as the sum of an exact head and a small tail.
 DoubleDouble nearOne(double x) {
   const double series =
       1.0 / 6 +

@@ -72,7 +72,7 @@ Reduced reduceLarge(double x) {
     const std::uint64_t upper = kTwoOverPi[word + i], lower = kTwoOverPi[word + i + 1];
     return shift == 0 ? upper : upper << shift | lower >> (64 - shift);
   };
-  // mantissa · window, modulo one turn: the fraction of a turn in 192 bits.
+  // mantissa · window, modulo one turn: the fraction of a turn, in 192 bits.
   const Wide low = static_cast<Wide>(mantissa) * window(2);
   const Wide middle = static_cast<Wide>(mantissa) * window(1) + static_cast<std::uint64_t>(low >> 64);
   std::uint64_t w0 = static_cast<std::uint64_t>(low), w1 = static_cast<std::uint64_t>(middle);

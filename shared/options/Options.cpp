@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
@@ -17,7 +18,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kLongest = 64;  ///< longer names get no suggestion
+constexpr std::size_t kLongest = 64;  ///< maximum bytes of a name that gets a suggestion
 
 /// Returns the optimal string alignment distance, computed row by row.
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -71,14 +72,26 @@ CLI::Validator within(const OptionRange& range) {
   return CLI::Validator(check, numbers.get_description());
 }
 
-/// Returns the value of the option's variable; empty if there is none.
-std::string variableOf(const Option& option) {
-  const char* p_value = option.environment.empty() ? nullptr : std::getenv(option.environment.c_str());
-  return p_value == nullptr ? "" : p_value;
+/// Former and present names of renamed options of all programs.
+constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
+    {"--players", "--input-mode"},      {"--visitors", "--proxy-socket"}, {"--visitor", "--proxy-for"},
+    {"--hang-time", "--tick-timeout"},  {"--grace", "--reconnect-time"},  {"--drain-time", "--drain-timeout"},
+    {"--inactive-kick", "--idle-kick"}, {"--link-host", "--public-host"}, {"--audit", "--replica-audit"},
+    {"--truth", "--truth-file"},        {"--log", "--log-file"}};
+
+/// Replaces former names of this program's options by the present ones, and adds a note on each to `notes`.
+void replaceFormerName(std::string& word, const std::vector<Option>& options,
+                       std::vector<std::string>& notes) {
+  const std::string typed = word.substr(0, word.find('='));
+  for (const Option& option : options) {
+    if (typed.empty() || formerNameOf(option.name) != typed) continue;
+    word.replace(0, typed.size(), option.name);
+    notes.push_back(typed + " is now " + option.name + "; the old name will be removed in the next version");
+  }
 }
 
 void describe(CLI::App& app, const Option& row, CLI::Option& option) {
-  if (row.name.front() != '-') option.required(!row.is_optional && variableOf(row).empty());
+  if (row.name.front() != '-') option.required(!row.is_optional && environmentValue(row).empty());
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
   if (row.range) option.check(counts ? within<std::int64_t>(*row.range) : within<double>(*row.range));
@@ -151,9 +164,11 @@ std::optional<std::string> configValue(const std::string& text) {
 
 /// Stores the value of a line, unless the command line or the environment set the option. Throws OptionError.
 void storeConfigLine(const std::string& line, const std::string& place, const std::vector<Option>& options,
-                     const std::vector<bool>& is_given) {
+                     const std::vector<bool>& is_given, std::vector<std::string>& notes) {
   const std::size_t equals = line.find('=');
-  const std::string key = trimmed(line.substr(0, equals));
+  std::string key = "--" + trimmed(line.substr(0, equals));
+  replaceFormerName(key, options, notes);
+  key.erase(0, 2);
   const auto found = std::find_if(options.begin(), options.end(),
                                   [&key](const Option& row) { return row.name == "--" + key; });
   if (found == options.end()) {
@@ -178,7 +193,7 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
 
 /// Reads lines `name = value`; skips empty ones and # and ; comments. Throws OptionError: a line per error.
 void readConfig(const std::string& path, const std::vector<Option>& options,
-                const std::vector<bool>& is_given) {
+                const std::vector<bool>& is_given, std::vector<std::string>& notes) {
   std::error_code error;
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw OptionError("--config: " + path + " is not a regular file");  // a pipe would block
@@ -191,7 +206,7 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
     line = trimmed(line);
     if (line.empty() || line.front() == '#' || line.front() == ';') continue;
     try {
-      storeConfigLine(line, place, options, is_given);
+      storeConfigLine(line, place, options, is_given, notes);
     } catch (const OptionError& line_error) {
       wrong += (wrong.empty() ? "" : "\n") + std::string(line_error.what());
     }
@@ -211,7 +226,8 @@ std::optional<ParseResult> printPage(const Program& program, const std::vector<O
   return ParseResult::kDone;
 }
 
-/// Empties a text or path, for a line without a value, which the parser would reject. False if it is neither.
+/// Empties a text or path, for a line without a value, which the parser would reject. False for other
+/// options.
 bool clearText(const Option& option) {
   if (!option.one_of.empty()) return false;
   return std::visit(
@@ -225,8 +241,10 @@ bool clearText(const Option& option) {
       option.target);
 }
 
-/// Reads all options. Returns false after it printed --help or --version. Throws OptionError.
-bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv) {
+/// Reads all options, and adds a note on each former name. Returns false after it printed --help or
+/// --version. Throws OptionError.
+bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv,
+             std::vector<std::string>& notes) {
   CLI::App app(program.purpose, program.name);
   app.set_version_flag("--version", program.name + " " + kVersion);
   std::string config;
@@ -237,8 +255,12 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
     added.push_back(addTo(app, row));
     describe(app, row, *added.back());
   }
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
+    replaceFormerName(words[i], options, notes);
+  std::reverse(words.begin(), words.end());  // as CLI11 expects them
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (const CLI::ExtrasError&) {
     throw OptionError(unknownArgument(program, options, app));
   } catch (const CLI::ParseError& error) {
@@ -251,24 +273,45 @@ bool readAll(const Program& program, const std::vector<Option>& options, int arg
   for (std::size_t i = 0; i < options.size(); ++i) {
     const Option& option = options[i];
     // CLI11 2.4 ignores a variable with an invalid value, so variables are read here.
-    const std::string value = added[i]->count() > 0 ? "" : variableOf(option);
+    const std::string value = added[i]->count() > 0 ? "" : environmentValue(option);
     if (!value.empty()) storeValue(option, value, option.environment);
     is_given.push_back(added[i]->count() > 0 || !value.empty());
     if (!is_given.back()) continue;
     if (option.p_given != nullptr) *option.p_given = true;
     if (option.p_from_environment != nullptr) *option.p_from_environment = !value.empty();
   }
-  if (!config.empty()) readConfig(config, options, is_given);
+  if (!config.empty()) readConfig(config, options, is_given, notes);
   return true;
 }
 
 }  // namespace
 
+std::string variableNameOf(const std::string& option_name) {
+  std::string variable = "NAIAD_" + option_name.substr(2);
+  for (char& c : variable) c = c == '-' ? '_' : static_cast<char>(std::toupper(c));
+  return variable;
+}
+
+std::string formerNameOf(const std::string& option_name) {
+  for (const auto& [former, present] : kRenamed) {
+    if (present == option_name) return std::string(former);
+  }
+  return {};
+}
+
+std::string environmentValue(const Option& option) {
+  if (option.environment.empty()) return {};
+  const std::string former = formerNameOf(option.name);
+  const char* p_value = std::getenv(option.environment.c_str());
+  if (p_value == nullptr && !former.empty()) p_value = std::getenv(variableNameOf(former).c_str());
+  return p_value == nullptr ? "" : p_value;
+}
+
 std::string nearestName(const std::string& typed, const std::vector<std::string>& names) {
   if (typed.size() > kLongest) return {};
   std::string nearest;
   std::size_t least = typed.size() / 3 + 1;
-  constexpr std::size_t kBeginning = 4;  // a shorter one is ambiguous: "--m" of "--max-players"
+  constexpr std::size_t kBeginning = 4;  // a shorter beginning is ambiguous: "--m" of "--max-players"
   for (const std::string& name : names) {
     const bool begins = typed.size() >= kBeginning && name.starts_with(typed);
     const std::size_t changes = begins ? 1 : distance(typed, name);
@@ -297,7 +340,10 @@ ParseResult parseOptions(const Program& program, const std::vector<Option>& opti
                          const char* const* argv) {
   if (const auto printed = printPage(program, options, argc, argv)) return *printed;
   try {
-    return readAll(program, options, argc, argv) ? ParseResult::kRun : ParseResult::kDone;
+    std::vector<std::string> notes;
+    const bool runs = readAll(program, options, argc, argv, notes);
+    for (const std::string& note : notes) std::cerr << program.name << ": " << note << "\n";
+    return runs ? ParseResult::kRun : ParseResult::kDone;
   } catch (const OptionError& error) {
     return reportUsageError(program, error.what());
   }
@@ -305,7 +351,8 @@ ParseResult parseOptions(const Program& program, const std::vector<Option>& opti
 
 void readOptions(const Program& program, const std::vector<Option>& options, int argc,
                  const char* const* argv) {
-  readAll(program, options, argc, argv);
+  std::vector<std::string> notes;
+  readAll(program, options, argc, argv, notes);
 }
 
 void copyValue(const Option& from, const Option& to) {
@@ -327,7 +374,7 @@ void storeValue(const Option& option, const std::string& value, const std::strin
   CLI::App app;
   describe(app, option, *addTo(app, option));
   std::vector<std::string> words{option.name + "=" + value};
-  if (option.name.front() != '-') words = {value, "--"};  // the last is read first
+  if (option.name.front() != '-') words = {value, "--"};  // CLI11 reads the last word first
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {

@@ -1,6 +1,6 @@
 // A program's table of options, which defines its command line, its environment variables and its --help.
 //
-// A program lists its options as values, in the order of --help; parseOptions() does the rest.
+// A program lists its options as values, in the order of --help; parseOptions() parses them.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,14 @@ std::string nearestName(const std::string& typed, const std::vector<std::string>
 std::vector<std::string> unknownVariableWarnings(const char* const* p_environment, const std::string& prefix,
                                                  const std::vector<std::string>& known);
 
-/// Stores a text; returns an error message, or "" if it is valid.
+/// Returns the environment variable of an option: "NAIAD_MAX_PLAYERS" for "--max-players".
+std::string variableNameOf(const std::string& option_name);
+
+/// Returns the name that an option had before it was renamed, which this version still accepts on the command
+/// line, in --config files, and as a variable; "" if it had none.
+std::string formerNameOf(const std::string& option_name);
+
+/// A function that stores a text. Returns an error message, or "" if the text is valid.
 using StoreText = std::function<std::string(const std::string& text)>;
 
 /// The variable that receives an option's value. A bool makes it a flag without a value.
@@ -42,14 +49,14 @@ struct Option {
   std::string name;  ///< "--port"; without dashes: a required argument
   OptionTarget target;
   std::string help;
-  std::string environment{};           ///< environment variable that also sets it; empty: none
+  std::string environment{};           ///< environment variable that also sets the option; empty: none
   std::optional<OptionRange> range{};  ///< unset: any number
   std::vector<std::string> one_of{};   ///< allowed texts; empty: any
   std::string type{};                  ///< type of the value in --help; empty: derived from the target
   std::string excludes{};              ///< name of an earlier option that cannot be combined with this one
   bool shows_default = false;          ///< --help shows the target's value before parsing as the default
-  std::string default_text{};          ///< default shown in --help instead
-  bool hidden = false;                 ///< not in --help
+  std::string default_text{};          ///< default shown in --help instead of the target's value
+  bool hidden = false;                 ///< not shown in --help
   bool is_secret = false;              ///< its value is never printed
   bool is_optional = false;            ///< argument that may be omitted
   bool joins = false;                  ///< text that may be repeated; the values are joined with blanks
@@ -58,7 +65,7 @@ struct Option {
   std::string* p_location = nullptr;   ///< becomes "FILE:LINE" if the --config file gave it
 };
 
-/// Returns an option whose value has this type in --help: "FILE".
+/// Returns an option whose value is called `type` in --help, for example "FILE".
 inline Option typedOption(std::string name, std::string type, OptionTarget target, std::string help) {
   Option option{std::move(name), std::move(target), std::move(help)};
   option.type = std::move(type);
@@ -81,9 +88,9 @@ enum class ParseResult {
   kUsageError,  ///< wrong usage: printed
 };
 
-/// Stores the options from the command line, the environment and the --config file, in this order of
-/// precedence. Prints help, version and usage errors. Errors go to stderr, prefixed by the program's name,
-/// with the file and line of those in the file and the nearest name for an unknown one.
+/// Stores the options from the command line, the environment and the --config file; the first of these that
+/// sets an option has precedence. Prints help, version and usage errors. Errors go to stderr, prefixed by the
+/// program's name, with file and line for an option in a file and the nearest name for an unknown one.
 ParseResult parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                          const char* const* argv);
 /// Returns the exit code after parsing: 0, or 2 for wrong usage; nullopt if the program is to run.
@@ -98,6 +105,9 @@ class OptionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Returns the value of the option's environment variable, or of its former one; "" if neither is set.
+std::string environmentValue(const Option& option);
 
 /// Stores a value in the option's target. Throws OptionError with `place`, the value's origin, in front.
 void storeValue(const Option& option, const std::string& value, const std::string& place);

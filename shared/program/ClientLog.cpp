@@ -32,7 +32,7 @@ void ClientLog::logRefusal(const std::string& address, const std::string& senten
 
 void ClientLog::log(Kind& kind, const std::string& address, LogEvent event, Time now) {
   const auto prefix = AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
-  // Checks the prefix first: one over its limit uses no tokens of the others.
+  // Checks the prefix's limit first, so that a prefix over its limit uses no tokens of the others.
   if (kind.prefixes.use(prefix).tryConsume(kind.per_prefix, now) && kind.all.tryConsume(kind.total, now)) {
     event.fields.insert(event.fields.begin(), {"address", address});
     return m_log(event);

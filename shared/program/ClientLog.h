@@ -19,25 +19,25 @@ class ClientLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Limit of refusals: rate per second and burst, per address prefix and in all.
+  /// Limits of refusals that are logged: rate per second and burst, per address prefix and in all.
   static constexpr BucketRate kRefusalRatePerPrefix{1, 1};
   static constexpr BucketRate kTotalRefusalRate{20, 20};
-  /// Limit of other lines: players join, leave and return. A whole class may join and leave at once.
+  /// Limits of other lines: players join, leave and return. A whole school class may join and leave at once.
   static constexpr BucketRate kEventRatePerPrefix{1, 128};
   static constexpr BucketRate kTotalEventRate{20, 512};
-  /// Interval between two lines with the count of one kind.
+  /// Interval between two lines with the count of dropped lines of one kind.
   static constexpr std::chrono::seconds kCountInterval{10};
 
   explicit ClientLog(LogLine log);
 
-  /// Logs "ADDRESS TEXT"; the address becomes a field too. `address` is that of a TCP connection,
-  /// "127.0.0.1:40000".
+  /// Logs "ADDRESS TEXT"; the address also becomes a field. `address` is the other end of a TCP connection,
+  /// like "127.0.0.1:40000".
   void logClientEvent(const std::string& address, LogEvent event, Time now);
-  /// Logs `ADDRESS refused: "SENTENCE"`; the sentence becomes a field too.
+  /// Logs `ADDRESS refused: "SENTENCE"`; the sentence also becomes a field.
   void logRefusal(const std::string& address, const std::string& sentence, Time now);
-  /// Logs the counts that are due. Call once per tick.
+  /// Logs the counts of dropped lines that are due. Call once per tick.
   void update(Time now);
-  /// Logs all counts. Call when the server ends.
+  /// Logs all counts of dropped lines. Call when the server ends.
   void finish();
 
  private:

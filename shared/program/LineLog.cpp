@@ -26,7 +26,7 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxField = 128;  ///< most bytes of a JSON value: addresses, names, refusals
+constexpr std::size_t kMaxField = 128;  ///< maximum bytes of a JSON value: addresses, names, refusals
 
 std::string localTime(std::chrono::system_clock::time_point time) {
   const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
@@ -69,7 +69,7 @@ std::string asJson(const LogEvent& event, std::string_view text, const std::stri
 }
 
 constexpr std::chrono::milliseconds kRetry{200};        ///< pause after a failed write
-constexpr std::chrono::milliseconds kLastChance{1000};  ///< time that a writer gets to finish at the end
+constexpr std::chrono::milliseconds kLastChance{1000};  ///< time for writers to finish when the process ends
 constexpr int kPollMillis = 100;                        ///< interval of checks whether the thread must end
 constexpr std::size_t kPipePiece = 4096;                ///< PIPE_BUF: other writers cannot split these
 constexpr std::size_t kFilePiece = std::size_t{64} << 10;
@@ -182,9 +182,9 @@ void LineLog::Shared::add(const LogEvent& event) {
   }
 }
 
-// Called with the first line, because a server must fork its worlds before it has threads.
+// Called when the first line is logged, because a server must fork its worlds before it has threads.
 void LineLog::Shared::start() {
-  // A game may call exit() in a handler.
+  // Also runs if a game calls exit() in a handler.
   [[maybe_unused]] static const int registered = std::atexit([] { waitUntilWritten(kLastChance); });
   startWithoutSignals([shared = shared_from_this()] { shared->run(); }).detach();
 }
@@ -197,7 +197,7 @@ bool LineLog::Shared::keep(const std::string& line) {
   return true;
 }
 
-// Bytes that cannot be written at once are lost: there is no thread to retry.
+// Bytes that cannot be written at once are lost, because there is no thread to retry.
 bool LineLog::Shared::writeNow(const std::string& line) {
   out = line;
   g_unwritten += static_cast<std::int64_t>(out.size());

@@ -49,17 +49,18 @@ std::string formatEvent(const LogEvent& event, LogFormat format, std::chrono::sy
 /// A function that receives log events.
 using LogLine = std::function<void(const LogEvent& event)>;
 
-/// A stalled reader, a full disk or a pipe without a reader loses lines but no time: lines beyond kMaxWaiting
-/// are dropped, writing is retried, and afterwards a line reports how many were lost.
+/// If a reader stalls, a disk is full or a pipe has no reader, lines are lost but no writer waits: lines
+/// beyond kMaxWaiting are dropped, writing is retried, and afterwards a line reports how many were lost.
 class LineLog {
  public:
-  /// The writer of the lines. A world process has no further threads: the caller writes each line, or drops
-  /// it if it would wait. The front adds the time when it copies the lines into its log.
+  /// The writer of the lines. kCaller is for a world process, which has no further threads: the caller writes
+  /// each line, or drops it if it would wait. The front process adds the time when it copies the lines into
+  /// its log.
   enum class Writer { kThread, kCaller };
 
-  /// Most bytes of lines that wait to be written.
+  /// Maximum bytes of lines that wait to be written; further lines are dropped.
   static constexpr std::size_t kMaxWaiting = std::size_t{1} << 20;
-  /// Most bytes of a line; the rest is truncated. A pipe accepts a line of this size as a whole.
+  /// Maximum bytes of a line; the rest is truncated. A pipe accepts a line of this size as a whole.
   static constexpr std::size_t kMaxLine = 2048;
 
   /// Appends to this file, created with mode 0640; empty: stderr. Throws std::runtime_error if it cannot be
@@ -74,7 +75,7 @@ class LineLog {
   void operator()(const LogEvent& event);
   /// Sets the format of later lines. Thread-safe.
   void setFormat(LogFormat format);
-  /// Logs only this level and more severe ones; default: all. Thread-safe.
+  /// Logs only events of this level and more severe ones; default: all. Thread-safe.
   void setLevel(LogEvent::Level least);
   /// The descriptor that lines are written to. Does not change when the file is reopened.
   int descriptor() const;

@@ -34,7 +34,7 @@ std::thread startWithoutSignals(std::function<void()> job) {
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  // Restored also if std::thread throws.
+  // Restores the signal mask also if std::thread throws.
   const std::shared_ptr<void> restored(nullptr,
                                        [&](void*) { pthread_sigmask(SIG_SETMASK, &before, nullptr); });
   return std::thread(std::move(job));

@@ -12,7 +12,7 @@ namespace naiad {
 std::size_t raiseOpenFileLimit(std::size_t wanted);
 
 /// Makes writes to a pipe without a reader fail with EPIPE, unless the process already handles SIGPIPE.
-/// Programs started by this process get the default.
+/// Programs started by this process get SIGPIPE's default action.
 void ignoreBrokenPipes();
 
 /// Runs `job` on a new thread that blocks all signals, so that only other threads handle them. Throws

@@ -24,7 +24,7 @@ struct AckWindow {
   std::uint32_t newest = 0;
   std::uint64_t mask = 0;
 
-  /// Records that `number` arrived; ignores one older than the window.
+  /// Records that `number` arrived; ignores a number older than the window.
   void addReceived(std::uint32_t number);
   /// True if `number` is known to have arrived.
   bool has(std::uint32_t number) const;

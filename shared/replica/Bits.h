@@ -2,10 +2,9 @@
 //
 // Bits fill each byte from its low end; a number is written low bit first. There are two further codes:
 //
-//   exp-Golomb of order k   v + 2^k in binary takes n bits: n − 1 − k zeros, a one, then the n − 1 lower
-//   bits.
+//   exp-Golomb of order k   v + 2^k in binary takes n bits: n − 1 − k zeros, a one, n − 1 lower bits.
 //                           Small numbers are short, all numbers are possible (ITU-T H.264, 9.1).
-//   zig-zag                 0, −1, 1, −2 … as 0, 1, 2, 3 …
+//   zig-zag                 0, −1, 1, −2 as 0, 1, 2, 3
 #pragma once
 
 #include <bit>
@@ -118,7 +117,8 @@ class BitWriter {
   int m_pending_count = 0;  ///< below 64 between calls
 };
 
-/// Reads the bits of a BitWriter. After a missing or out-of-range number, it has failed and returns zeros.
+/// Reads the bits of a BitWriter. After a missing or out-of-range number, ok() is false and all reads return
+/// 0.
 class BitReader {
  public:
   explicit BitReader(std::string_view bytes) : m_bytes(bytes) {}

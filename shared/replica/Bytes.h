@@ -25,8 +25,8 @@ class ByteWriter {
   std::string& m_out;
 };
 
-/// Reads the bytes of a ByteWriter. After a missing, overlong or out-of-range number, it has failed and
-/// returns zeros.
+/// Reads the bytes of a ByteWriter. After a missing, overlong or out-of-range number, ok() is false and all
+/// reads return 0.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : m_bytes(bytes) {}
@@ -44,7 +44,7 @@ class ByteReader {
   }
 
   std::uint64_t varint() {
-    // Most numbers are small.
+    // A shortcut, because most numbers are small.
     if (m_ok && m_at < m_bytes.size() && static_cast<std::uint8_t>(m_bytes[m_at]) < 0x80)
       return static_cast<std::uint8_t>(m_bytes[m_at++]);
     std::uint64_t value = 0;

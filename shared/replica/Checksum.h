@@ -11,10 +11,10 @@
 namespace naiad {
 
 std::uint64_t lifeSum(std::uint32_t id, std::uint8_t generation, std::uint64_t order);
-/// Does not depend on the base tick: motions with one path have one sum.
+/// Returns a sum that does not depend on the base tick: motions with equal paths have equal sums.
 std::uint64_t motionSum(std::uint32_t id, const Motion& motion);
-/// For a looping clock, all starts that show equal frames give one sum; for one that stops, only the sent
-/// start. See rebase().
+/// If the look's clock loops, all starts that show equal frames give one sum. If the clock stops, only equal
+/// starts do. See rebase().
 std::uint64_t lookSum(std::uint32_t id, const Look& look);
 std::uint64_t bodySum(std::uint32_t id, const Body& body);
 

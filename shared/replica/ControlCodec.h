@@ -30,16 +30,16 @@ class BitReader;
 class BitWriter;
 struct Origin;
 
-/// Largest size of a table; longer ones are refused.
+/// Largest size of a table in bytes; longer ones are refused.
 inline constexpr std::size_t kMaxControlTableBytes = 800;
-/// Largest size of a state; longer ones are refused.
+/// Largest size of a state in bytes; longer ones are refused.
 inline constexpr std::size_t kMaxControlRecordBytes = 160;
 
 /// The exact state of the object that a player steers, at the end of a tick. (A published motion need only
 /// draw the right cells, but a prediction must start from exact numbers.)
 struct ControlRecord {
   std::uint32_t tick = 0;
-  std::uint32_t slot = 0;          ///< the world's slot; on the wire and later, the client's id
+  std::uint32_t slot = 0;          ///< slot in the world; on the wire and at the client, the client's id
   std::uint32_t generation = 0;    ///< generation of that slot or id; 0: the player steers nothing
   std::uint32_t newest_input = 0;  ///< newest input of this player that reached the game; 0: none
   df::FixedVector position;

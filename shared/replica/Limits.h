@@ -10,15 +10,16 @@ namespace naiad {
 inline constexpr std::size_t kMaxSnapshot = std::size_t{15} * 1024;
 inline constexpr std::size_t kMaxDatagramSnapshot = 1150;
 
-/// Slots of the replica. A server with more Objects in a world replicates the first ones and reports it.
+/// Number of slots that are replicated. If a world has more Objects, the server ignores the others and counts
+/// them.
 inline constexpr std::uint32_t kMaxSlots = 1u << 20;
-/// Most characters of an appearance, and most bytes of its encoding (so that a birth fits a snapshot).
+/// Maximum glyphs of a sequence, and maximum bytes of its encoding (so that a birth fits a snapshot).
 inline constexpr std::size_t kMaxGlyphs = 8192;
 inline constexpr std::size_t kMaxLookBytes = std::size_t{14} * 1024;
-/// Most texts shown to a single player.
+/// Maximum number of texts shown to a single player.
 inline constexpr std::uint32_t kMaxTexts = 16;
 
-/// Size of the view that a server grants, in cells.
+/// Least and largest size of the view that a server grants, in cells.
 inline constexpr int kMinViewWidth = 20;
 inline constexpr int kMinViewHeight = 10;
 inline constexpr int kMaxViewWidth = 400;

@@ -25,15 +25,16 @@ struct Glyph {
 };
 
 inline constexpr int kGlyphUnitBits = 8;  ///< 2^8 glyph units are one cell
-/// Farthest from its object that a glyph may be drawn, in glyph units (8192 cells).
+/// Maximum distance of a glyph from its object, on an axis, in glyph units (8192 cells).
 inline constexpr std::int64_t kMaxGlyphOffset = std::int64_t{1} << (13 + kGlyphUnitBits);
 
-/// Returns the world cell in which a glyph of an object at `position` is drawn.
+/// A cell of the world or of a view.
 struct CellPosition {
   std::int32_t x = 0;
   std::int32_t y = 0;
   friend bool operator==(CellPosition, CellPosition) = default;
 };
+/// Returns the world cell in which a glyph of an object at `position` is drawn.
 CellPosition glyphCell(df::FixedVector position, const Glyph& glyph);
 
 /// The characters of one draw() call, in drawing order.
@@ -57,15 +58,16 @@ class Sequence {
 
   /// The number of glyphs in all appearances.
   std::size_t glyphCount() const { return empty() ? 0 : m_p_data->glyphs; }
-  /// The size that counts towards memory limits: its glyphs, and three for each appearance after the first.
+  /// Returns the size that counts towards memory limits: the glyphs, and three for each appearance after the
+  /// first.
   std::size_t weight() const { return empty() ? 0 : m_p_data->glyphs + 3 * (m_p_data->frames.size() - 1); }
   /// Checksum of the sequence (PROTOCOL.md, "Checksum"); 0 if it is empty.
   std::uint64_t sum() const { return empty() ? 0 : m_p_data->sum; }
-  /// Largest distance of a glyph from the object on an axis, in glyph units.
+  /// Returns the largest distance of a glyph from the object on an axis, in glyph units.
   std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }
   /// True if all glyphs are whole cells apart, and whole or half cells from the object on each axis.
   bool isWhole() const { return empty() || m_p_data->whole; }
-  /// If isWhole(): the fraction of a cell, in glyph units.
+  /// Returns the fraction of a cell by which all glyphs are off, in glyph units. Only if isWhole().
   CellPosition fraction() const { return empty() ? CellPosition{} : m_p_data->fraction; }
   /// True if both share their memory; then they are equal.
   bool isSharedWith(const Sequence& other) const { return m_p_data == other.m_p_data; }

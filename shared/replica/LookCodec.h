@@ -45,7 +45,7 @@ std::uint64_t wireSolidness(const Body& body);
 void writeBody(BitWriter& out, const Body& body);
 Body readBody(BitReader& in);
 
-/// Returns the size of `sequence` in full, in bits.
+/// Returns the size of `sequence`, encoded in full, in bits.
 std::size_t encodedBits(const Sequence& sequence);
 
 // ---- implementation ------------------------------------------------------------------------------------

@@ -1,6 +1,6 @@
 // Selects the appearance of a sequence as a function of the tick that server and client share.
 //
-// So animation and rotation need no traffic: both ends count ticks.
+// So animation and rotation need no traffic, because both ends count ticks.
 #pragma once
 
 #include <cstddef>
@@ -8,23 +8,23 @@
 
 namespace naiad {
 
-/// Most appearances of a sequence.
+/// Maximum number of appearances of a sequence.
 inline constexpr std::size_t kMaxFrames = 256;
-/// Most ticks for which a clock shows one appearance.
+/// Maximum number of ticks for which a clock shows one appearance.
 inline constexpr std::uint32_t kMaxTicksPerFrame = 1u << 16;
 
-/// Made by the functions below. Fields of other kinds are 0 (ticks_per_frame: 1).
+/// Made by the functions below. Fields that a kind does not use are 0 (ticks_per_frame: 1).
 struct Selector {
   enum Kind : std::uint8_t {
-    kFixed,      ///< always one
-    kClock,      ///< one after the other, looping
-    kClockOnce,  ///< one after the other; the last one stays
+    kFixed,      ///< always the same appearance
+    kClock,      ///< one appearance after the other, looping
+    kClockOnce,  ///< one appearance after the other; the last one stays
     kAngle,      ///< chosen by an angle that changes each tick; the sequence is a whole turn
   };
   Kind kind = kFixed;
   std::uint8_t frame = 0;             ///< kFixed: index of the shown appearance
   std::uint32_t ticks_per_frame = 1;  ///< clocks: 1 … kMaxTicksPerFrame
-  std::uint32_t start = 0;            ///< clocks: the tick at which the first one begins
+  std::uint32_t start = 0;            ///< clocks: the tick at which the first appearance begins
   std::uint32_t angle = 0;            ///< kAngle: angle at tick 0; 2^32 is a turn
   std::int32_t spin = 0;              ///< kAngle: change of the angle per tick
 
@@ -41,14 +41,15 @@ struct Selector {
   /// Returns the angle at `tick`; only for kAngle.
   std::uint32_t angleAt(std::uint32_t tick) const;
 
-  /// True if the selector is valid for this many frames. A single one is always kFixed.
+  /// True if the selector is valid for this many frames. For a single frame, only kFixed is.
   bool fits(std::size_t frames) const;
-  /// Returns, for clocks, the ticks from `start` to `tick`: modulo a whole round, or, if it plays once, the
-  /// first tick of the last frame at most. Below frames · ticks_per_frame.
+  /// Returns the ticks from `start` to `tick`, below frames · ticks_per_frame; only for clocks. If the clock
+  /// loops, modulo a whole round; else at most up to the first tick of the last frame.
   std::uint32_t age(std::uint32_t tick, std::size_t frames) const;
   /// Returns a selector that shows the same frames from `tick` on, with the latest possible start.
   Selector rebased(std::uint32_t tick, std::size_t frames) const;
-  /// True if it may be sent at `tick`: it fits and has its latest start, so each meaning has one encoding.
+  /// True if it may be sent at `tick`: it is valid and has its latest start, so that each meaning has one
+  /// encoding.
   bool isCanonical(std::uint32_t tick, std::size_t frames) const {
     return fits(frames) && *this == rebased(tick, frames);
   }

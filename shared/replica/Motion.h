@@ -1,7 +1,7 @@
 // The motion of an object between two snapshots: the recurrence that server and client share.
 //
 // At the base tick the object is at `position`; each tick position += velocity, then velocity += acceleration
-// (the book's order). After n ticks that is p + n·w + n(n−1)/2·a, in integers, so the closed form equals
+// (Dragonfly's order). After n ticks that is p + n·w + n(n−1)/2·a, in integers, so the closed form equals
 // stepping bit for bit.
 #pragma once
 
@@ -25,8 +25,8 @@ struct Motion {
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 
-/// Returns the position at `tick`, which may be before the base. Wraps on overflow, because the numbers may
-/// come from a hostile server.
+/// Returns the position at `tick`, which may be before the base tick. Wraps on overflow, because the numbers
+/// may come from a hostile server.
 df::FixedVector positionAt(const Motion& motion, std::uint32_t tick);
 
 /// Returns an equal motion with its base at `tick`.

@@ -30,7 +30,7 @@ int codeFor(df::FixedVector v) {
                           kFractions.begin());
 }
 
-/// Returns the bits of a number in two's complement; 0 for 0.
+/// Returns the number of bits that a number needs in two's complement; 0 for 0.
 int widthOf(std::int64_t value) {
   return value == 0 ? 0 : std::bit_width(static_cast<std::uint64_t>(value < 0 ? ~value : value)) + 1;
 }

@@ -13,7 +13,8 @@ namespace naiad {
 /// Appends a motion; `motion.position` must hold at the snapshot's tick.
 void writeMotion(BitWriter& out, const Motion& motion, const Origin& origin);
 
-/// A motion with its bits that are equal for all clients: all but the cell, relative to a client's origin.
+/// A motion with those of its bits that are equal for all clients: all but the cell, which depends on the
+/// origin.
 struct SharedMotion {
   SharedMotion() = default;
   SharedMotion(const Motion& m, std::uint64_t kept, int kept_count)
@@ -37,8 +38,8 @@ df::FixedVector readVector(BitReader& in, df::Fixed most);
 /// Returns the smallest encodable number of fractional bits that holds both coordinates exactly.
 int fractionBits(df::FixedVector v);
 
-/// Largest accepted magnitudes. For velocities, twice an object's limit, because a model may have accelerated
-/// for one tick more than its object.
+/// Largest accepted magnitudes. For velocities, it is twice an object's limit, because a model may have
+/// accelerated for one tick more than its object.
 inline constexpr df::Fixed kMaxWirePosition = df::Fixed{2'100'000'000} << df::kFixedBits;
 inline constexpr df::Fixed kMaxWireVelocity = df::Fixed{1} << (25 + df::kFixedBits);
 

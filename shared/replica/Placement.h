@@ -13,7 +13,7 @@ class Placement {
   virtual ~Placement() = default;
   /// Returns the position at which an object of the replica is drawn in the picture of `tick`.
   virtual df::FixedVector positionOf(const ObjectState& object, std::uint32_t tick) const = 0;
-  /// Returns the upper left corner of the view; `modelled` is the corner by the view's record.
+  /// Returns the upper left corner of the view; `modelled` is the corner according to the view's record.
   virtual df::FixedVector viewCorner(df::FixedVector modelled) const = 0;
 };
 

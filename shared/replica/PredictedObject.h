@@ -18,8 +18,8 @@ namespace naiad {
 class Barriers {
  public:
   virtual ~Barriers() = default;
-  /// True if the object is blocked at `to` in the tick that ends as `tick`. `in_update`: at its turn in the
-  /// movement phase; else before it, during the inputs.
+  /// True if the object is blocked at `to` in the tick that ends as `tick`. `in_update`: true in the movement
+  /// phase, at the object's turn; false before it, while the inputs are handled.
   virtual bool isBlocked(df::FixedVector to, std::uint32_t tick, bool in_update) const = 0;
 };
 
@@ -35,7 +35,7 @@ class PredictedObject : public SteeringTarget {
 
   /// The state after the last finishTick(); its newest_input is unchanged.
   const ControlRecord& now() const { return m_now; }
-  /// All positions that it moved to, for the view that follows it.
+  /// Returns all positions that the copy moved to, for the view that follows it.
   const std::vector<df::FixedVector>& trail() const { return m_trail; }
 
   df::FixedVector position() const override { return m_now.position; }

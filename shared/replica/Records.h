@@ -68,9 +68,9 @@ struct WorldRecord {
 /// The position of this client's view, and the object that it follows.
 struct ViewRecord {
   df::FixedVector corner;
-  bool follows = false;         ///< else `id` and `generation` are 0
+  bool follows = false;         ///< false: `id` and `generation` are 0
   std::uint32_t id = 0;         ///< the followed object
-  std::uint8_t generation = 0;  ///< its generation, as in its birth
+  std::uint8_t generation = 0;  ///< generation of the followed object, as in its birth
   friend bool operator==(const ViewRecord&, const ViewRecord&) = default;
 };
 
@@ -84,8 +84,8 @@ struct TextRecord {
   friend bool operator==(const TextRecord&, const TextRecord&) = default;
 };
 
-/// The reference for positions and orders, so that near ones are short. A snapshot gives the slot of its
-/// origin; the sender uses only slots that the client has confirmed.
+/// Positions and orders are encoded relative to an origin, so that near ones are short. A snapshot gives the
+/// slot of its origin; the sender uses only slots that the client has confirmed.
 struct Origin {
   CellPosition corner;      ///< upper left corner of the window
   std::int32_t x_bits = 0;  ///< the window is 2^x_bits cells wide, 0 … 15

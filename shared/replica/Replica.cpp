@@ -40,7 +40,7 @@ struct DrawingOrder {
   }
 };
 
-/// True if a glyph of an object at `at` may be on the canvas.
+/// True if a glyph of an object at `at` may be within the canvas.
 bool reaches(const Sequence& sequence, df::FixedVector at, CellPosition from, const df::Canvas& canvas) {
   // The fractions of the glyph's offset and the object's position add at most a cell each.
   const std::int64_t cells = (sequence.reach() >> kGlyphUnitBits) + 2;

@@ -20,13 +20,15 @@
 
 namespace naiad {
 
-/// Objects, including dead ones, that a replica remembers; records of further ones are ignored and counted.
+/// Maximum number of objects, including dead ones, that a replica remembers; records of further ones are
+/// counted only.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
-/// Glyphs of all looks together (16 bytes each): a shared sequence counts once, and each appearance after its
-/// first as three more. A look beyond that is ignored and counted.
+/// Maximum glyphs of all looks together (16 bytes each): a shared sequence counts once, and each appearance
+/// after its first as three more. A look beyond the limit is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
-/// Most objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 cells has 60,000 cells.
+/// Maximum objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 cells has 60,000
+/// cells.
 inline constexpr std::size_t kMaxDrawnObjects = 1u << 16;
 inline constexpr std::size_t kMaxDrawnGlyphs = 1u << 19;
 
@@ -41,7 +43,7 @@ class Replica {
     ObjectState state;
   };
 
-  /// `tick`: near those of the first snapshots (the welcome contains it).
+  /// `tick`: a tick near those of the first snapshots (the welcome contains one).
   explicit Replica(std::uint32_t tick = 0) : m_context{0, tick, 0} {}
   /// Returns an empty replica for a session in a new world: numbers, ticks and inputs continue from `near`.
   static Replica continuing(const SnapshotContext& near) {
@@ -71,18 +73,19 @@ class Replica {
   CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Returns the view cell of the followed object at `tick`; the view's centre if no object is followed.
   CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// Returns the view cell of the player's steered object at `tick`; nullopt without one or outside the view.
+  /// Returns the view cell of the player's steered object at `tick`; nullopt if there is none or it is
+  /// outside the view.
   std::optional<CellPosition> ownCell(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// Returns the view at `tick` by its record, and the boundary of its world.
+  /// Returns the view at `tick` according to its record, and the boundary of its world.
   ViewFrame viewFrame(std::uint32_t tick) const;
   /// Returns the object that the view follows, or null.
   const ObjectState* followed() const;
 
-  /// The player's control table, and the newest number that contained one; 0: none yet.
+  /// The player's control table, and the number of the newest snapshot that contained one; 0: none yet.
   const df::ControlTable& controlTable() const { return m_table; }
   std::uint32_t controlTableNumber() const { return m_table_newest; }
-  /// The steered object's state, with the client's ids, and the newest number that contained one; 0: none
-  /// yet.
+  /// The steered object's state, with the client's ids, and the number of the newest snapshot that contained
+  /// one; 0: none yet.
   const ControlRecord& control() const { return m_control; }
   std::uint32_t controlNumber() const { return m_control_newest; }
 
@@ -91,7 +94,7 @@ class Replica {
   /// The colour behind all characters of the view.
   df::Color background() const { return m_world.background; }
   std::size_t aliveCount() const { return m_alive; }
-  /// The newest applied snapshot, tick and input, or the tick of advanceTick().
+  /// Returns the newest applied snapshot number, tick and input; the tick may be that of advanceTick().
   const SnapshotContext& newest() const { return m_context; }
   /// Returns the live object with this id, or null.
   const ReplicaObject* find(std::uint32_t id) const;

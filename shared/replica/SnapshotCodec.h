@@ -14,8 +14,8 @@
 
 namespace naiad {
 
-/// The header of a snapshot. The wire has only the low 16 bits of numbers, ticks and inputs; the reader
-/// restores the others from the newest known ones, so it must not fall behind by 2^15.
+/// The header of a snapshot. The wire has only the low 16 bits of numbers, ticks and inputs. The reader
+/// restores the other bits from the newest known ones, so it must not fall behind by 2^15.
 struct SnapshotHeader {
   std::uint32_t number = 0;      ///< never 0
   std::uint32_t tick = 0;        ///< the records hold at the end of this tick
@@ -71,7 +71,7 @@ class SnapshotWriter {
   /// ignored.
   void encode(BitWriter& out, std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
               const Motion& motion, LookForm form = {}) const;
-  /// Adds an encoded record. Each id at most once.
+  /// Adds an encoded record. Call at most once for each id.
   void object(std::uint32_t id, const BitWriter& bits);
 
   /// Like encode() and object() without a copy: returns the record's bits; then call commit() or drop().

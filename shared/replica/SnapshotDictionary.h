@@ -1,4 +1,5 @@
-// The definitions of snapshots for their receiver: origins for positions, sequences of appearances.
+// The definitions that a receiver has read from snapshots: origins of positions, and sequences of
+// appearances.
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ class SteeringTarget {
   /// The change of the position per tick.
   virtual df::FixedVector velocity() const = 0;
   virtual void setVelocity(df::FixedVector velocity) = 0;
-  /// Moves to `position` unless something blocks it, like the book's moveObject(): all or nothing.
+  /// Moves to `position` unless something blocks it, like Dragonfly's moveObject(): all or nothing.
   virtual void moveTo(df::FixedVector position) = 0;
 };
 

@@ -1,5 +1,5 @@
-// The truth file: the correct picture of each player at each tick. `dfserver --truth` writes it from the
-// engine's own display (not from the encoder), and `dfbot --truth` compares its replica with it.
+// The truth file: the correct picture of each player at each tick. `dfserver --truth-file` writes it from the
+// engine's own display (not from the encoder), and `dfbot --truth-file` compares its replica with it.
 //
 // Text, one record per tick and player, in the order of ticks:
 //

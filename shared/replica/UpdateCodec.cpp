@@ -17,7 +17,7 @@ namespace naiad {
 namespace {
 
 constexpr int kTickBits = 16;
-constexpr int kMaxNamed = 8;  ///< most missing snapshots that are listed one by one
+constexpr int kMaxNamed = 8;  ///< maximum missing snapshots that are listed one by one
 constexpr int kKeyBits = 7;
 constexpr int kTickOrder = 2;
 constexpr int kSnapshotOrder = 3;
@@ -26,7 +26,7 @@ constexpr std::uint64_t kOldestBase = 1 << 15;
 constexpr int kActions = 3;
 constexpr int kButtons = 4;
 
-// Usually only a few are missing: those are listed.
+// Lists the missing snapshots if they are few, which is usual; else writes the mask.
 void writeMask(BitWriter& out, std::uint64_t mask) {
   const int missing = std::popcount(~mask);
   out.flag(missing > kMaxNamed);

@@ -17,7 +17,7 @@ namespace naiad {
 struct Input {
   std::uint32_t id = 0;
   std::uint32_t tick = 0;      ///< key: the tick that should apply it; mouse: the tick that was drawn
-  std::uint32_t snapshot = 0;  ///< newest snapshot applied at that time
+  std::uint32_t snapshot = 0;  ///< newest snapshot applied when the input was made
   bool is_mouse = false;
   std::uint8_t action = 0;  ///< df::EventKeyboardAction or df::EventMouseAction
   std::uint8_t key = 0;     ///< df::Keyboard::Key
@@ -34,9 +34,9 @@ struct ClientUpdate {
   std::vector<Input> inputs;              ///< unacknowledged inputs, with consecutive ids
 };
 
-/// Most inputs in one update.
+/// Maximum number of inputs in one update.
 inline constexpr std::size_t kMaxUpdateInputs = 48;
-/// Most bytes of an update.
+/// Maximum bytes of an update.
 inline constexpr std::size_t kMaxUpdate = 1024;
 
 /// Encodes an update with its first kMaxUpdateInputs inputs.

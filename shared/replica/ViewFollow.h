@@ -23,8 +23,8 @@ df::FixedVector clampView(const ViewFrame& frame, df::FixedVector corner);
 
 /// Returns the corner at `tick` of a view that follows an object, if it was `frame.corner` at `known` and the
 /// object moves by `motion` (null: no object, the view stays). It depends only on the two newest records, so
-/// a client that lost some draws an equal view. If the true view differs (its path turned in between), the
-/// server sends a new record.
+/// a client that lost some draws an equal view. If the true view differs, because the object's path turned in
+/// between, the server sends a new record.
 df::FixedVector viewCornerAt(const ViewFrame& frame, std::uint32_t known, const Motion* motion,
                              std::uint32_t tick);
 

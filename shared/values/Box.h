@@ -1,4 +1,5 @@
-// An axis-aligned rectangle in cells (book, section 4.13): an Object's bounding box, a view, a boundary.
+// An axis-aligned rectangle in cells (Dragonfly book, section 4.13): an Object's bounding box, a view, a
+// boundary.
 #pragma once
 
 #include "Vector.h"
@@ -41,8 +42,8 @@ class Box {
 };
 
 #if __cplusplus >= 201703L
-/// The box in fixed point; nullopt if a number is not finite, a size is negative, the corner is beyond 1e6
-/// cells or a size beyond `size_limit` cells.
+/// Returns the box in fixed point; nullopt if a number is not finite, a size is negative, the corner is
+/// beyond 1e6 cells or a size beyond `size_limit` cells.
 std::optional<FixedBox> toFixed(const Box& box, double size_limit = 1e6);
 #endif
 

@@ -1,4 +1,4 @@
-// The eight colours of a Dragonfly character (book, Listing 4.66).
+// The eight colours of a Dragonfly character (Dragonfly book, Listing 4.66).
 #pragma once
 
 #include "detail/LanguageStandard.h"
@@ -16,7 +16,7 @@ enum Color {
   MAGENTA,
   CYAN,
   WHITE,
-  CUSTOM,  ///< a game's mix of red, green and blue; never on the wire or in a cell
+  CUSTOM,  ///< a colour that a game mixes; never on the wire or in a cell
 };
 
 /// The colour of characters without a colour.

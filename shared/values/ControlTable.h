@@ -18,16 +18,16 @@ namespace df {
 inline constexpr std::size_t kMaxControlRows = 32;
 /// Number of groups of rows that share a wait.
 inline constexpr std::size_t kControlGroups = 8;
-/// Longest `wait` and `patience`, in ticks.
+/// Maximum of `wait` and `patience`, in ticks.
 inline constexpr std::uint16_t kMaxControlTicks = 9000;
-/// Farthest step in cells, and fastest velocity of an axis in cells per tick.
+/// Maximum length of a step in cells, and maximum velocity of an axis in cells per tick.
 inline constexpr Fixed kMaxControlReach = fromCells(1024);
 
 /// The effect of a row on the Object.
 enum class ControlEffect : std::uint8_t {
   kStep,      ///< one moveObject() by `value`, immediately
-  kVelocity,  ///< sets this velocity on the axes of the row
-  kDrive,     ///< this velocity on those axes while the key is down; then rest
+  kVelocity,  ///< sets the velocity `value` on the row's axes
+  kDrive,     ///< sets the velocity while the key is down; then the Object rests
 };
 
 /// The effect of one key.

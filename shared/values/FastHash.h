@@ -1,7 +1,7 @@
 // A fast 64-bit hash to find differences between replayed worlds and between their answers.
 //
-// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). Equal on
-// every machine. Not cryptographic: collisions can be constructed.
+// Each step multiplies two words to 128 bits and folds the halves, as wyhash does (Wang Yi, 2019). The result
+// is equal on every machine. Not cryptographic: collisions can be constructed.
 #pragma once
 
 #include <cstdint>

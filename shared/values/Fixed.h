@@ -58,7 +58,7 @@ constexpr Fixed fromCells(std::int32_t cells) {
   return static_cast<Fixed>(cells) * kFixedOne;
 }
 
-#if __cplusplus >= 201703L  // games do not need the rest
+#if __cplusplus >= 201703L  // games, which may be C++11, do not need the rest
 
 constexpr FixedVector operator+(FixedVector a, FixedVector b) {
   return {a.x + b.x, a.y + b.y};
@@ -72,7 +72,7 @@ constexpr FixedBox translate(FixedBox box, FixedVector offset) {
   return {box.corner + offset, box.size};
 }
 
-/// True if two closed boxes share a point. Touching edges count (book, positionsIntersect: |dx| <= 1).
+/// True if two closed boxes share a point: touching edges count (Dragonfly's positionsIntersect, |dx| <= 1).
 constexpr bool intersects(const FixedBox& a, const FixedBox& b) {
   return a.corner.x <= b.corner.x + b.size.x && b.corner.x <= a.corner.x + a.size.x &&
          a.corner.y <= b.corner.y + b.size.y && b.corner.y <= a.corner.y + a.size.y;

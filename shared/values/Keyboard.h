@@ -1,5 +1,5 @@
-// Keys and mouse buttons: names for games and numbers on the wire (book, Listings 4.84 to 4.88). Their type
-// is int, so that any number can be cast to them and compared with the known ones.
+// Keys and mouse buttons: names for games and numbers on the wire (Dragonfly book, Listings 4.84 to 4.88).
+// Their type is int, so that any number can be cast to them and compared with the known ones.
 #pragma once
 
 #include "detail/LanguageStandard.h"
@@ -123,7 +123,7 @@ enum Button : int {
   RIGHT,
   MIDDLE,
 };
-/// The old name.
+/// The name of Button in the published engine.
 using EventMouseButton = Button;
 
 }  // namespace Mouse

@@ -1,4 +1,4 @@
-// The role of an Object in collisions (book, Listing 4.103).
+// The role of an Object in collisions (Dragonfly book, Listing 4.103).
 #pragma once
 
 namespace df {

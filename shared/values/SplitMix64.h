@@ -1,4 +1,4 @@
-// A small random number generator, for links, tests, and to seed the world's generator
+// A small random number generator for tests and their lossy links, and to seed the world's generator
 // (server/engine/world/Random.h). A seed gives equal numbers on every machine.
 //
 // Steele, Lea, Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014. Not for secrets.

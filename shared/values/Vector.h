@@ -1,4 +1,4 @@
-// A 2d vector in cells: positions, directions, velocities (book, Listing 4.26 and following).
+// A 2d vector in cells: positions, directions, velocities (Dragonfly book, Listing 4.26 and following).
 //
 // The components are doubles; getX() and getY() return float, as the book prints them, and x() and y() return
 // the doubles. y grows downward. The World stores positions in fixed point (Fixed.h), so it rounds the

@@ -36,7 +36,7 @@ constexpr int kRuns = 5;
 constexpr int kFewestRuns = 2;
 constexpr int kCrowdRuns = 3;  // runs of cases with thousands of bodies
 constexpr int kMaxCpuSeconds = 120;
-constexpr int kMaxShorterTicks = 16;  // limit for the product's curves
+constexpr int kMaxShorterTicks = 16;  // limit of ticks per tick in the product's curves
 
 struct Options {
   bool quick = false;
@@ -73,7 +73,7 @@ std::vector<int> substepCounts(const Options& options, const lab::Problem& probl
   for (const int count : {1, 2, 4, 8, 16, 32, 64}) {
     const bool quick = count == 1 || count == 4 || count == 16;
     const std::vector<int>& asked = options.substeps;
-    // The number at which a level is judged is always measured.
+    // Even if it is not asked for, a level is measured at the number of sub-steps at which it is judged.
     const bool is_asked = asked.empty() || std::find(asked.begin(), asked.end(), count) != asked.end() ||
                           (problem.kind == lab::Problem::Kind::DIAGRAM && count == method.own_substeps);
     if (count < method.own_substeps) continue;  // ticks can only get shorter, not longer
@@ -114,7 +114,7 @@ const Run* findRun(const std::vector<Run>& runs, const std::string& case_name, c
   return found == runs.end() ? nullptr : &*found;
 }
 
-// Returns the time relative to the bound's unit; NaN if that was not measured.
+// Returns the run's time in units of the bound; NaN if the unit was not measured.
 double partOf(const lab::CpuBound& bound, const Run& run, const std::vector<Run>& runs) {
   const double own = run.measurement.cpu.median;
   if (bound.is_of_later) return run.measurement.cpu.first_part;
@@ -125,7 +125,7 @@ double partOf(const lab::CpuBound& bound, const Run& run, const std::vector<Run>
   return compared == nullptr ? std::nan("") : own / compared->measurement.cpu.median;
 }
 
-// Computes the limits that are relative to other times, once those are known.
+// Records the times that are judged relative to other times. Call when all runs are measured.
 void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab::Records& records) {
   for (const Run& run : runs) {
     if (!run.measurement.expressed) continue;

@@ -55,7 +55,7 @@ def engine_header(name):
     return f"#pragma once\nnamespace df {{\nclass {name} {{ a copy that must not be taken }};\n}}\n"
 
 
-# Written with Visual Studio on Windows, with a copy of the engine, packed on a Mac.
+# A game that was written with Visual Studio on Windows, contains a copy of the engine, and was packed on a Mac.
 WINDOWS = {
     "src/game.cpp": MAIN.replace('"Hero.h"', '"..\\Things\\hero.H"').replace('"WorldManager.h"', '"worldmanager.h"')
     .replace("int main(int argc, char *argv[])", "#include <Player.h>\nint _tmain(int argc, _TCHAR *argv[])")
@@ -73,7 +73,7 @@ class Hero : public df::Object {
 };
 """,
     "Things/Hero.cpp": HERO.replace("  return 1;\n}", "}") + "const df::Vector &Hero::home() const { return m_home; }\n",
-    # A name that Naiad also has.
+    # Naiad has a header of this name, too.
     "Things/Player.h": "#include \"Object.h\"\nusing namespace df;\nclass Player : public Object { public: Vector start() const; };\n",
     "Things/Player.cpp": "#include \"player.h\"\nVector Player::start() const { return df::Vector(1, ROCKS); }\n"
                          "#if defined(WIN32)\n#error\n#endif\n",
@@ -88,7 +88,7 @@ class Hero : public df::Object {
     "sprites/hero-spr.txt": SPRITE,
 }
 
-# A game for an early engine, in UTF-16 as Visual Studio may save it. Its handler happens to delete nothing.
+# A game for an early engine, in UTF-16 as Visual Studio may save it.
 EARLY = {
     "game.cpp": ("\ufeff" + ALONE + """class Hero : public df::Object {
  public:
@@ -109,7 +109,7 @@ MISSING_SPRITE = {
   GM.shutDown();
 }
 """,
-    # A format that the published engine accepts.
+    # The published engine accepts a sprite in this format.
     "run it/sprites/odd-spr.txt": "frames 1\nwidth 1\nheight 1\ncolor green\nslowdown\n@\nend\neof\n",
     "run it/sprites/torn-spr.txt": "frames 1\nwidth 3\nheight 2\ncolor green\n<=>\n<=\nend\neof\n"}
 
@@ -135,7 +135,7 @@ NO_RUN = {"game.cpp": ALONE + "int main() { GM.startUp(); new df::Object; GM.shu
 
 NO_FILE = {"game.cpp": '#include "GameManager.h"\n#include "Level.h"\nint main() { GM.startUp(); Level level; GM.run(); }\n'}
 
-# Uses the author's own engine, which has features that the published one lacks, some under other names.
+# A game for its author's own engine, which has functions that the published engine lacks.
 OWN_ENGINE = {
     "game.cpp": ALONE + """int main() {
   GM.startUp();
@@ -148,22 +148,22 @@ OWN_ENGINE = {
     **{f"engine/{name}.cpp": f'#include "{name}.h"\nvoid df::{name}::startTheParty(int) {{}}\n'
        for name in ("GameManager", "WorldManager", "LogManager", "DisplayManager", "Object")}}
 
-# The Makefile is older than the game: it lacks a needed file and lists an unused one.
+# A game with an outdated Makefile, which lacks a needed file and lists an unused one.
 STALE_LIST = {"game.cpp": MAIN, "Hero.h": HERO_H, "Hero.cpp": HERO, "sprites/hero-spr.txt": SPRITE,
               "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n', "Makefile": "game: game.cpp\n\tg++ game.cpp Old.cpp -o game\n"}
 
-# A folder after a term of work, without a list of the files that belong to the game.
+# A folder with many leftover copies and no Makefile or project file that lists the files of the game.
 COPIES = {
     "src/game.cpp": MAIN.replace('#include "Hero.h"', '#include "Hero.h"\n#include "Points.cpp"'), "src/Points.cpp": "int points() { return 3; }\n",
     "src/include/Hero.h": HERO_H, "src/Hero.Cpp": HERO, **{f"src/Hero{suffix}.cpp": HERO for suffix in (" - Copy", " copy", " (1)", "_old")},
     "old/Hero.h": "this is no C++ yet\n", "old/Hero.cpp": HERO,
     "tests/HeroTest.cpp": '#include "../src/include/Hero.h"\nHero::Hero() {}\nint Hero::eventHandler(const df::Event *p_e) { return 7; }\n'}
 
-# Two programs in one folder; one only makes an Object.
+# Two programs in one folder. One of them only makes an Object and is not the game.
 TWO_MAINS = {"Driver.cpp": '#include "hero.h"\nint main() { Hero hero; return 0; }\n', "main.cpp": MAIN, "hero.h": HERO_H, "hero.cpp": HERO,
              "Again.cpp": '#include "GameManager.h"\nvoid again() { GM.run(); }\n'}
 
-# Visual Studio's folders, and its tools that look for leaks.
+# A game in the folders of a Visual Studio project, with calls of its tools that report memory leaks.
 STUDIO = {
     "Project 1/Game/Game.vcxproj": '<ClCompile Include="main.cpp" />\r\n<ClCompile Include="Source Files\\Hero.cpp" />',
     "Project 1/Game/main.cpp": "#include <vld.h>\n#include <crtdbg.h>\n" +
@@ -171,7 +171,7 @@ STUDIO = {
     "Project 1/Game/Header Files/Hero.h": HERO_H.replace('"Object.h"', '"../../dragonfly/include/object.h"'),
     "Project 1/Game/Source Files/Hero.cpp": HERO.replace("return 0;", 'return _stricmp("a", "A");')}
 
-# Tries what the sandbox forbids, and prints what succeeded.
+# A game that tries everything that the sandbox forbids, and prints which attempts succeeded.
 PRISONER = {
     "game.cpp": ALONE + r"""#include <arpa/inet.h>
 #include <fcntl.h>
@@ -204,9 +204,9 @@ int main() {
 }
 """}
 
-# Names without df::, headers that were once included indirectly, an accidentally private base, enumerators of a scoped type,
-# a name of both game and engine, a setter and main() of other types; draw() of an early engine and of today's, code that
-# only MSVC accepts; and an unused source.
+# A game with names without df::, with names whose headers were once included indirectly, an accidentally private base,
+# enumerators of a scoped type, a name of both game and engine, a setter and main() of other types, draw() of an early engine and
+# of today's, code that only MSVC accepts, and an unused source.
 NAMES = {
     "game.cpp": ALONE + """#include <math.h>
 class Contact { public: int touch() { return 1; } };
@@ -248,7 +248,7 @@ class Thing : df::Object {};
 """,
     "Old.cpp": '#include "Forgotten.h"\nForgotten forgotten;\n'}
 
-# Has a copy of the engine's headers, with a name that Naiad lacks. (Here it is one that no engine has.)
+# A game with a copy of the engine's headers, which have a name that Naiad lacks. (Here it is a name that no engine has.)
 BUNDLE = {
     "game.cpp": """#include "GameManager.h"
 #include "Object.h"

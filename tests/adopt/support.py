@@ -1,4 +1,4 @@
-"""Shared by the tests of dragonfly-adopt: a scratch folder, a run of the program, time limits."""
+"""Helpers of the tests of dragonfly-adopt: a scratch folder, runs of the program, time limits."""
 import atexit
 import contextlib
 import json
@@ -72,7 +72,7 @@ def within(test, seconds, what):
 
 
 def run_as_user(test, script, *arguments):
-    """Runs Python as an ordinary user, because root has other limits. Skips the test if that is not possible."""
+    """Runs a Python script as an ordinary user, because root has other limits. Skips the test if that is impossible."""
     other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
     try:
         return subprocess.run(["/usr/bin/python3", "-c", script, MODULES, *arguments], capture_output=True, text=True, check=False,

@@ -10,7 +10,7 @@ from adopt import (blame, bounded, compiler, engine, folder, game, includes, key
                    treatments, verdicts)
 from support import MODULES, WORK, run_as_user, within
 
-# Sets its own limits if the system does not allow more.
+# A script that lowers its limits and then calls sandbox.limits(), which must not raise them. It prints the limits.
 LIMITED = """
 import resource, sys
 sys.dont_write_bytecode = True
@@ -101,7 +101,7 @@ class ListsTest(unittest.TestCase):
 
 
 class EngineTest(unittest.TestCase):
-    """Tests which files count as a copy of the engine: those that declare a name of it in namespace df. A file name of Naiad's
+    """Tests which files count as a copy of the engine: those that define one of its names in namespace df. The name of the file
     is not enough."""
 
     def engine_files(self, files):
@@ -134,7 +134,7 @@ class EngineTest(unittest.TestCase):
         one.copy_in()
         self.assertEqual((one.engine.files, one.files), (["Event.h", "dragonfly/Object.h"], ["Base.h"]))
         self.assertIn(("Thing.h", "a link to a file that was left out"), [(row.where, row.text) for row in said.rows])
-        verdicts.Verdicts(one, None)  # reads what an earlier run skipped
+        verdicts.Verdicts(one, None)  # must not fail because of the link
 
     def test_BesideAnEngineOfOnesOwnTheGameKeepsItsSources(self):
         core = {f"engine/{name}.cpp": "" for name in ("GameManager", "LogManager", "WorldManager", "Music")}
@@ -186,7 +186,7 @@ class TextTest(unittest.TestCase):
 
 
 class CompilerTest(unittest.TestCase):
-    """Tests the conclusions from how a compiler run ends."""
+    """Tests what is concluded from the way in which a run of the compiler ends."""
 
     def compiler(self, body, name="g++", seconds=20):
         place = tempfile.mkdtemp(dir=WORK)
@@ -219,7 +219,7 @@ class CompilerTest(unittest.TestCase):
 
 
 class BlameTest(unittest.TestCase):
-    """Tests which side a fault is attributed to."""
+    """Tests to whom a fault is attributed: the game, another engine, another system or Naiad."""
 
     def blame(self, main_code):
         ours = types.SimpleNamespace(header_of=lambda name: None, was_published=lambda name, classes=(): False)
@@ -234,7 +234,7 @@ class BlameTest(unittest.TestCase):
 
 
 class MicrosoftTest(unittest.TestCase):
-    """Tests how the constructs of Visual Studio's templates and library are treated."""
+    """Tests how names of Visual Studio's templates and library are replaced."""
 
     def treated(self, *lines):
         place = tempfile.mkdtemp(dir=WORK)

@@ -52,7 +52,7 @@ class Bins {
   df::Fixed m_bin;
   df::Fixed m_largest;
   int m_row;
-  std::vector<std::uint32_t> m_begins;  // start of each bin in m_members, and the end
+  std::vector<std::uint32_t> m_begins;  // start of each bin in m_members, then the end of the last
   std::vector<std::uint32_t> m_members;
 };
 

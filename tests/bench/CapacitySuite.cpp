@@ -33,7 +33,7 @@ using namespace std::chrono_literals;
 
 constexpr int kStep = 250;
 constexpr double kTick = 1.0 / 30;
-/// Above this share of their core, the bots are the limit.
+/// If the bots use more than this share of their core, they are the limit, not the server.
 constexpr double kBotsBusy = 0.95;
 
 /// Share of wrong screens allowed for moments in which this machine was busy with other work.
@@ -47,13 +47,13 @@ struct Effort {
   int trials = 12;
 };
 
-/// The results for one number of players.
+/// The results of a trial with one number of players.
 struct Trial {
   int clients = 0;
   double busy = 0;       ///< share of its core used by the server
-  double cpu_us = 0;     ///< microseconds per client and tick
-  double datagrams = 0;  ///< total per tick
-  double bytes = 0;      ///< per datagram
+  double cpu_us = 0;     ///< the server's processor time per client and tick, in microseconds
+  double datagrams = 0;  ///< datagrams per tick to all clients
+  double bytes = 0;      ///< bytes per datagram
   double delivered = 0;
   double tick_p50_ms = 0, tick_p99_ms = 0;
   double ticks = 0, late = 0;
@@ -64,7 +64,7 @@ struct Trial {
 
 using Pictures = std::map<std::pair<std::string, std::string>, std::string>;
 
-/// Returns the lines up to `done`.
+/// Reads the worker's lines up to `done`. Returns the checksum of each picture, by tick and player.
 Pictures picturesOf(Worker& worker) {
   Pictures pictures;
   for (std::string line = worker.hear(); line != "done"; line = worker.hear()) {
@@ -123,7 +123,7 @@ class Arena {
     trial.bots_busy = bots["busy"];
     for (const auto& [key, sum] : seen) {
       const auto found = truth.find(key);
-      if (found == truth.end()) continue;  // outside the measurement
+      if (found == truth.end()) continue;  // the server did not record this tick
       ++trial.checked;
       trial.wrong += found->second != sum ? 1 : 0;
     }
@@ -185,7 +185,8 @@ int stepped(double clients) {
   return std::max(kStep, static_cast<int>(clients) / kStep * kStep);
 }
 
-/// Searches for the largest number of players that passes. Guesses from the cost of a client.
+/// Searches for the largest number of players that passes. The next number to try is a guess from the
+/// measured cost of a client.
 void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& effort, bool quick) {
   std::unique_ptr<Arena> arena = open();
   std::map<int, Trial> trials;
@@ -194,7 +195,8 @@ void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& e
     if (found != trials.end()) return found->second;
     const Trial& trial = trials[clients] = arena->run(clients, effort);
     print(trial, trial.limit.empty() ? "passed" : "failed");
-    // The server sends to badly served clients less often for a while, so the next trial uses a new one.
+    // After an overload, a server sends to the affected clients less often for a while, so the next trial
+    // uses a new server.
     if (!trial.limit.empty()) {
       arena.reset();
       arena = open();
@@ -210,7 +212,7 @@ void search(const std::function<std::unique_ptr<Arena>()>& open, const Effort& e
     const int guess = stepped(0.93 * clients / trial.busy);
     clients = std::max(clients + kStep, std::min(guess, clients + 2000));
   }
-  // Tries the steps between the best and the lowest failed number, if they are few; else the middle.
+  // Tries up to seven steps below the lowest failed number, from above; with --quick, one in the middle.
   int above = trials.empty() ? 0 : trials.rbegin()->first;
   if (above > best && !quick) {
     for (int n = above - kStep; n > best && n > above - 8 * kStep; n -= kStep) {

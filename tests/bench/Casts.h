@@ -1,4 +1,4 @@
-// A field of obstacles and casts through it, used for all engines, and the exact answers.
+// A field of obstacles and casts through it, for all engines, and the exact results of the casts.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace bench {
 struct Field {
   Field(int n, double density);
 
-  double side;  ///< width and height in cells
+  double side;  ///< width and height of the field, in cells
   std::vector<df::FixedBox> obstacles;
   Bins bins;
 };
@@ -25,10 +25,10 @@ struct Cast {
   df::FixedVector to;
 };
 
-/// No obstacle.
+/// Stands for "no obstacle" in Answer::who.
 inline constexpr std::uint32_t kNobody = UINT32_MAX;
 
-/// The obstacle that a cast meets first. At equal times, the one with the lowest index.
+/// The obstacle that a cast hits first; of several hit at once, the one with the lowest index.
 struct Answer {
   std::uint32_t who = kNobody;
   double time = 1;
@@ -36,13 +36,14 @@ struct Answer {
 };
 
 /// Returns this many casts of `length` cells from random places in random directions. None touches an
-/// obstacle at its start, and none leaves the field if that is more than twice as wide.
+/// obstacle at its start. If the field is wider than twice the length, none leaves it.
 std::vector<Cast> drawCasts(const Field& field, int count, double length);
 
 /// Returns the exact answer from all obstacles near the path.
 Answer solve(const Field& field, const Cast& cast);
 
-/// True if obstacle and final position are equal, and the times too, within 1e-9 of the way.
+/// True if the obstacles and final positions are equal, and the times differ by at most 1e-9 of the whole
+/// way.
 bool areEqual(const Answer& a, const Answer& b);
 
 }  // namespace bench

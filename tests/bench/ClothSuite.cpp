@@ -1,4 +1,4 @@
-// The cost per tick of a cloth with many nodes, for a whole WM.update(), and the stretch of its threads.
+// The cost of a cloth with many nodes per tick, that is, per WM.update(), and the stretch of its threads.
 #include <algorithm>
 #include <cmath>
 

@@ -1,8 +1,9 @@
-// Several engines run a scene and are timed in turn, A B C A B C …, so that a busy minute of the machine
-// affects all. Every tick that any two of them ran is compared.
+// Several engines run a scene and are timed in turn, A B C A B C …, so that other load on the machine affects
+// all of them. Every tick that two of them ran is compared.
 //
-// First all run a number of warm-up ticks and are compared event by event and position by position. Then each
-// repetition lasts enough ticks to be timed. The median of the repetitions counts. The clock is CPU time.
+// First all engines run the warm-up ticks, after which their events and positions are compared. Then each
+// runs several repetitions, whose number of ticks is large enough to be timed. The result is the median of
+// the repetitions, in CPU time.
 #pragma once
 
 #include <cstdint>
@@ -18,27 +19,27 @@ class Contest {
  public:
   struct Rules {
     int warm_up_ticks = 10;
-    std::size_t compared_ticks = SIZE_MAX;  ///< counted from the start, warm-up included
-    int repetitions = 5;                    ///< ticks to compare, from the start with the warm-up
-    double least_seconds = 0.05;            ///< a repetition takes at least this time and a tick
-    double most_seconds = 2;                ///< total time after which an engine needs only the minimum
-    int least_repetitions = 3;              ///< minimum number of repetitions
+    std::size_t compared_ticks = SIZE_MAX;  ///< ticks to compare, counted from the start of the warm-up
+    int repetitions = 5;                    ///< number of repetitions
+    double least_seconds = 0.05;            ///< minimum time of a repetition, which has at least one tick
+    double most_seconds = 2;                ///< after this total time, least_repetitions are enough
+    int least_repetitions = 3;              ///< minimum of repetitions, except for the first engine
   };
 
-  /// Returns suitable rules for a world of `n` objects.
+  /// Returns rules that suit a world of `n` objects.
   static Rules rulesFor(int n, const Options& options);
 
   explicit Contest(const Rules& rules) : m_rules(rules) {}
 
-  /// Adds an engine. The others are compared with the first: their time, and what happens in them, unless
-  /// they run another scene (`same_scene`).
+  /// Adds an engine. Times are compared with the first engine's. Events and positions are, too, unless the
+  /// engine runs another scene (`same_scene` is false).
   void add(const std::string& name, EnginePtr engine, bool same_scene = true);
   void run();
 
   bool has(const std::string& name) const { return find(name) != nullptr; }
   /// Returns the CPU time per tick of the engine with this name, which must exist.
   double nanosecondsPerTick(const std::string& name) const;
-  /// Returns the engine's time relative to the first one's.
+  /// Returns the engine's time divided by the first engine's.
   double ratio(const std::string& name) const;
   /// True if all engines that ran whole ticks gave equal results.
   bool equal() const;

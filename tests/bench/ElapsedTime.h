@@ -1,11 +1,11 @@
-// CPU time of this thread. Other programs do not add to it, except through their effect on the caches.
+// CPU time of this thread. Other programs increase it only by their effect on the caches.
 #pragma once
 
 #include <ctime>
 
 namespace bench {
 
-/// Returns nanoseconds since a fixed moment.
+/// Returns the CPU time that this thread has used so far, in nanoseconds.
 inline double cpuNanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -1,4 +1,4 @@
-// A world that runs a Scene, in our engine or a peer's.
+// A world that runs a Scene, in this project's engine or in a peer, that is, another library.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ class Engine {
   virtual const Tally& tally() const = 0;
   /// Returns a hash of all positions and velocities in id order, equal in engines that agree.
   virtual std::uint64_t stateHash() const = 0;
-  /// Returns 1 if tick() is a whole tick. Less if it is only that part of one, because a whole one takes too
-  /// long; then the engine is not compared with others.
+  /// Returns 1 if tick() runs a whole tick. Otherwise returns the part of a tick that it runs, because a
+  /// whole one takes too long; then results are not compared with other engines'.
   virtual double partOfTick() const { return 1; }
 };
 

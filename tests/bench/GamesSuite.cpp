@@ -29,7 +29,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t kPlayers = 4;
 constexpr std::uint64_t kSeed = 7;
 
-/// Runs a game's main() in its own world, and calls `play` where it waits for players.
+/// Runs a game's main() in its own world, and calls `play` where the game would run its loop.
 class Stage : public df::Runner {
  public:
   template <class Play>
@@ -48,7 +48,7 @@ class Stage : public df::Runner {
   std::function<void(df::World&)> m_play;
 };
 
-/// Returns ticks per second of this thread's processor time, including the bots' keys and joins.
+/// Returns the ticks per second of this thread's processor time, which includes the bots' keys and joins.
 double ticksPerSecond(const GameModule& game, int ticks) {
   double nanoseconds = 0;
   const Stage stage(game, [&](df::World& world) {
@@ -79,7 +79,7 @@ std::uint64_t hashOf(const GameModule& game) {
 
 struct Cost {
   double microseconds = 0;  ///< server time for the tick, publishing and encoding
-  double bytes = 0;         ///< sent to the clients
+  double bytes = 0;         ///< bytes sent to the clients
   double player_ticks = 0;
 };
 

@@ -11,8 +11,8 @@ df::Fixed cellOfCorner(df::Fixed corner) {
   return (corner >> df::kFixedBits) + 1;
 }
 
-// Adds the times at which the box's corner enters another cell while the boxes touch on this axis, and the
-// time at which they begin to touch.
+// Adds to `times` when the moving box's corner enters another cell while the boxes touch on this axis, and
+// when they begin to touch.
 void addChanges(const Steps& steps, df::Fixed low, bool back, std::vector<Fraction>& times) {
   times.push_back(steps.begin());
   const df::Fixed last = std::min(steps.last, steps.way);

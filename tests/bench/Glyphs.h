@@ -1,4 +1,4 @@
-// Characters in plain rows, some of them set. A reference for precise collisions.
+// A rectangle of cells, some of which have a character. Used as a reference for precise collisions.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace bench {
 
 class Glyphs {
  public:
-  /// Returns 3×2 to 12×4 characters, each set with a probability of 55 %.
+  /// Returns a rectangle of 3×2 to 12×4 cells, each of which has a character with a probability of 55 %.
   static Glyphs random(naiad::SplitMix64& random);
 
   /// Returns the rows for Object::setMask().
@@ -30,7 +30,7 @@ class Glyphs {
 /// True if the two, with their boxes in world coordinates, share a drawn cell. Compares every character.
 bool shareCell(const Glyphs& a, const df::FixedBox& a_box, const Glyphs& b, const df::FixedBox& b_box);
 
-/// Returns when the moving one first touches the obstacle's box and shares a cell with it; nullopt if never,
+/// Returns when the moving glyphs first touch the obstacle's box and share a cell with it; nullopt if never,
 /// or if they share a cell at the start. Checks each position at which this may begin.
 std::optional<Fraction> firstShare(const Path& path, const Glyphs& own, const df::FixedBox& obstacle,
                                    const Glyphs& others);

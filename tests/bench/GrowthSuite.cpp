@@ -1,4 +1,4 @@
-// Growth of the cost of an object with the number of objects. tests/bench/plot draws it.
+// Measures how the cost of an object grows with the number of objects. tests/bench/plot draws the result.
 #include <memory>
 #include <string>
 
@@ -15,11 +15,12 @@ namespace {
 
 constexpr double kDensity = 0.1;
 constexpr int kLargestTextbook = 10'000;
-// Above this, Box2D moves only some of its objects, because a whole tick would take seconds.
+// With more objects than this, Box2D moves only kBox2dTurns of them, because a whole tick would take seconds.
 constexpr int kWholeBox2d = 100'000;
 constexpr int kBox2dTurns = 10'000;
 
-// Returns our cost per object in ns. `least` is the cost in the smallest world, or 0 if this is it.
+// Returns our engine's cost per object, in ns. `least` is the cost in the smallest world, or 0 if this is the
+// smallest.
 double measure(int n, double least, const Options& options) {
   progress("growth: " + std::to_string(n));
   const Scene scene(Mix::MIXED, n, kDensity);

@@ -1,5 +1,6 @@
 // Time per event including its handler: the time of a tick divided by its events, in a crowded world.
-// Handlers only count, or change velocities, or delete and create. (The time includes moving and finding.)
+// Handlers only count, or also change velocities, or also delete and create Objects. (The time includes
+// moving Objects and finding collisions.)
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,12 +23,12 @@ namespace {
 
 constexpr int kObjects = 10'000;
 constexpr double kDensity = 0.5;
-constexpr std::uint64_t kSpawnEvery = 100;  // collision events
+constexpr std::uint64_t kSpawnEvery = 100;  // collision events from one deletion to the next
 
 enum class Kind {
-  COUNT,     ///< handlers count
-  VELOCITY,  ///< and reverse their Object, whether it moved or not
-  SPAWN,     ///< and every 100th deletes its Object and creates another one elsewhere
+  COUNT,     ///< handlers only count events
+  VELOCITY,  ///< handlers also reverse their Object, whether it moved or not
+  SPAWN,     ///< every 100th event also makes its handler delete the Object and create another one elsewhere
 };
 
 struct Crowd {

@@ -8,7 +8,8 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// Mirrors the problem if necessary, so that the coordinate increases.
+// Returns the steps of one axis on which the boxes touch. Mirrors the axis if necessary, so that the
+// coordinate increases.
 std::optional<Steps> stepsOf(df::Fixed low, df::Fixed size, df::Fixed way, df::Fixed other,
                              df::Fixed other_size) {
   if (way < 0) return stepsOf(-low - size, size, -way, -other - other_size, other_size);

@@ -1,10 +1,10 @@
-// One move and one obstacle by the rules of docs/collisions.md: an independent reference for swept moves. It
-// shares with the engine only its number type.
+// One move and one obstacle by the rules of docs/collisions.md: an independent reference for swept moves.
+// This code shares only the number type with the engine.
 //
 // A move visits representable positions: at time t in [0,1] of a way w each coordinate has gone ⌊|w|·t⌋ units
-// towards its end. On one axis, two boxes touch from one step of the way to another. Divided by the way's
-// length these are the times between which they touch. The first contact is the later of the two axes'
-// beginnings, if it comes before both ends. All of this is exact.
+// towards its end. On one axis, two boxes touch from a first to a last step of the way. Divided by the way's
+// length, these steps are the times between which they touch. The first contact is the later one of the two
+// axes' beginnings, if it is before both ends. All of this is exact.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct Steps {
   std::int64_t way;
 
   Fraction begin() const { return {first, way == 0 ? 1 : way}; }
-  Fraction end() const { return way == 0 ? Fraction{1, 0} : Fraction{last + 1, way}; }  // exclusive
+  Fraction end() const { return way == 0 ? Fraction{1, 0} : Fraction{last + 1, way}; }  // after the contact
 };
 
 /// True if the two boxes touch, edges included.
@@ -47,13 +47,13 @@ class Path {
 
   const df::FixedBox& start() const { return m_box; }
   df::FixedVector way() const { return m_way; }
-  /// Returns when it first touches the obstacle; nullopt if never, or if it touches it at the start, for
+  /// Returns when the box first touches the obstacle; nullopt if never, or if it touches it at the start, for
   /// which there is another rule.
   std::optional<Fraction> firstTouch(const df::FixedBox& obstacle) const;
   /// Returns the steps on which the horizontal (vertical) extents touch; nullopt if never.
   std::optional<Steps> stepsX(const df::FixedBox& obstacle) const;
   std::optional<Steps> stepsY(const df::FixedBox& obstacle) const;
-  /// Return the distance moved at this time, and at the last position before it.
+  /// Return how far the box has moved at this time, and at the last position before this time.
   df::FixedVector goneAt(Fraction time) const;
   df::FixedVector goneBefore(Fraction time) const;
 

@@ -1,10 +1,10 @@
 // The cost to a scene of layers that it does not use, by counts that other programs cannot disturb:
 // valgrind's count of instructions, and the heap's of allocations.
 //
-// layer=motion, motion_hard: only motion, here and in a build without layers (-DNAIAD_LAYERS=OFF). The
-// others: the everyday workload of HARD boxes, in which an Object far from all others uses the layer or does
-// not; bytes_extra and allocations_per_tick are for a world in which all use it. layer=sprite, wall: such an
-// Object, or sixteen scattered (who=sixteen), larger than a character.
+// layer=motion, motion_hard: only motion, in this build and in one without layers (-DNAIAD_LAYERS=OFF). Other
+// layers: the everyday workload of HARD boxes, in which an Object far from all others uses the layer or does
+// not; bytes_extra and allocations_per_tick are for a world in which all Objects use it. layer=sprite, wall:
+// the far Object, or sixteen scattered ones (who=sixteen), are larger than a character.
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -25,12 +25,12 @@ std::filesystem::path fullProgram() {
   return besideThis("naiad_layers");
 }
 
-// Returns the path where deploy/bench puts the program.
+// Returns the path where deploy/bench puts the program built without layers.
 std::filesystem::path bareProgram() {
   return besideThis("../../bench-bare/bin/naiad_layers").lexically_normal();
 }
 
-// Returns all output, including stderr.
+// Runs a command and returns all its output, including stderr.
 std::string outputOf(const std::string& command) {
   const auto [code, output] = naiad::test::runProgram(command + " 2>&1");
   if (code != 0) throw std::runtime_error(command + ": " + output);
@@ -62,7 +62,7 @@ double instructions(const Setting& setting, int ticks) {
       "Collected :");
 }
 
-// The difference of two runs removes the cost of building the scene.
+// Takes the difference of two runs of different lengths, which removes the cost of building the scene.
 double instructionsPerObject(const Setting& setting, int ticks) {
   return (instructions(setting, 2 * ticks) - instructions(setting, ticks)) / ticks / setting.objects;
 }

@@ -17,7 +17,7 @@ void turnBack(df::Object& object, double side) {
   object.setVelocity(df::Vector(left_x ? -v.x() : v.x(), left_y ? -v.y() : v.y()));
 }
 
-/// The workload's handlers, written like a game's.
+/// An Object of the workload, with handlers like a game's.
 class Ball : public df::Object {
  public:
   Ball(const Body& body, std::uint64_t number, double side, Tally& tally)
@@ -43,7 +43,7 @@ class Ball : public df::Object {
     m_tally.event(m_number);
     const bool is_mover = p_e->getObject1() == this;
     if (!is_mover || getSolidness() != df::HARD || p_e->getObject2()->getSolidness() != df::HARD) return 1;
-    if (m_turned == m_tally.tick) return 1;  // it met several boxes in this tick
+    if (m_turned == m_tally.tick) return 1;  // it collided with several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
     const df::Vector v = getVelocity();

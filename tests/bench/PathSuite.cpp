@@ -18,17 +18,18 @@ using path::Condition;
 using path::Effort;
 using path::Figures;
 
-// ssh's known rate for this scene in the first condition. A different rate means that scene or link are not
-// those of the reference measurement.
+// ssh's known rate for this scene in the first condition, in kbit/s. Another rate means that the scene or the
+// link differs from that of the reference measurement.
 constexpr double kSshKbitS = 713;
 constexpr double kSshTolerance = 0.25;
-// Maximum delay of packets beyond their time in a valid run.
+// Limit of the link's own lateness, in ms: in a valid run it delays packets by at most this beyond their
+// time.
 constexpr double kLateMs = 2;
 
 const Condition kUsual{100, 2, 0};
 const std::vector<Condition> kConditions = {kUsual, {200, 2, 0}, {100, 0, 512}};
 
-/// Keys of the line in printing order. A program that lacks a figure has no such key.
+/// Keys of the printed line, in order. If a program lacks a figure, its key is left out.
 const std::vector<std::string> kKeys = {"kbit_s_down",      "kbit_s_up",        "fps",
                                         "staleness_p50_ms", "staleness_p99_ms", "freeze_ms",
                                         "key_p50_ms",       "key_p99_ms",       "predicted_key_p99_ms",
@@ -87,7 +88,7 @@ class Run {
   }
 
   Effort m_effort;
-  std::optional<bool> m_as_known;  // set once ssh has been measured
+  std::optional<bool> m_as_known;  // set after ssh was measured: true if its rate was the known one
 };
 
 void run(const Options& options) {

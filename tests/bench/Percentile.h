@@ -7,7 +7,7 @@
 
 namespace bench {
 
-/// Returns the value below which `percent` of all values are; at 100 the largest; 0 without values.
+/// Returns the value below which `percent` of the values are; for 100 the largest; 0 if there are no values.
 template <class Value>
 Value percentile(std::vector<Value> values, std::size_t percent) {
   if (values.empty()) return 0;

@@ -1,6 +1,7 @@
 // Cost per tick of scenes of rigid bodies, compared with Box2D, and how deep bodies overlap during them.
 //
-// Both engines start from equal positions and run in turn; every tick counts, including the first.
+// Both engines start from equal positions and run one after the other. Every tick counts, including the
+// first.
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -27,7 +28,7 @@ constexpr int kRounds = 3;
 constexpr double kMostSeconds = 20;  // CPU time limit of a run
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-/// Requirements for `ok`.
+/// Requirements for printing `ok=1`.
 struct Target {
   double least_ratio = 1;
   double most_overlap = kAny;
@@ -66,7 +67,8 @@ struct Round {
   Run ours;
   Run box2d;
 
-  /// If a run was cut short, only the ticks that both ran are compared.
+  /// Number of ticks that both runs have, because a run may have been stopped at its time limit. Only these
+  /// are compared.
   std::size_t ticks() const { return std::min(ours.tick_ms.size(), box2d.tick_ms.size()); }
   double ratio() const { return box2d.meanMs(ticks()) / ours.meanMs(ticks()); }
 };
@@ -83,7 +85,7 @@ double medianOf(const std::vector<Round>& rounds, Value value) {
   return median(values);
 }
 
-// The engines repeat their results in each round, so the first round's errors are reported.
+// Reports the errors of the first round, because in each round the engines get equal results.
 void addErrors(Line& line, const std::string& prefix, const physics::Scene& scene, const Run& run) {
   if (run.looks == 0) return;
   if (scene.collide) line.add(prefix + "overlap_m", run.meanOverlap());

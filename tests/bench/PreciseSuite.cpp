@@ -1,9 +1,9 @@
 // The cost of comparing characters, and the correctness of the answers.
 //
-// Precise Objects with masks fly about (WM.update) and turn around when blocked. Then each is asked at its
-// position for its collisions (WM.getCollisions), once precisely and once with boxes only. The difference,
-// divided by the pairs whose boxes touch, is the cost of a test. All lists are compared with a simple loop
-// over all characters.
+// Precise Objects with masks fly about (WM.update) and turn around when blocked. Then WM.getCollisions finds
+// the collisions of each at its position, once precisely and once with boxes only. The difference of the
+// times, divided by the number of pairs whose boxes touch, is the cost of comparing the characters of a pair.
+// All results are compared with those of a simple loop over all characters.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -65,7 +65,7 @@ class Sprite : public df::Object {
   }
 };
 
-// The result for one arrangement.
+// The result for one arrangement of the Objects.
 struct Verdict {
   long pairs = 0;  ///< pairs whose boxes touch
   long mismatches = 0;
@@ -102,7 +102,7 @@ class Crowd {
     return timePerObject([] { WM.update(); });
   }
 
-  /// Asks all sprites for their collisions. Returns the time per Object.
+  /// Finds the collisions of all sprites. Returns the time per Object.
   double askAll(bool precise) {
     for (Sprite* p_sprite : m_sprites) p_sprite->setPrecise(precise);
     const double time = timePerObject([this] {
@@ -130,7 +130,7 @@ class Crowd {
     return (cpuNanoseconds() - begin) / static_cast<double>(m_sprites.size());
   }
 
-  // Counts pairs that are missing in the engine's list or wrongly in it.
+  // Counts the pairs of sprite i that are missing in the engine's list or wrongly in it.
   void judge(std::size_t i, const std::vector<df::FixedBox>& boxes, const Bins& bins,
              Verdict& verdict) const {
     std::vector<const df::Object*> right;

@@ -13,7 +13,7 @@ df::Box toBox(const df::FixedBox& box) {
   return {df::Vector::fromFixed(box.corner), df::toCells(box.size.x), df::toCells(box.size.y)};
 }
 
-// Returns the first time at which the mover meets the other.
+// Returns the first time at which the mover collides with the other Object.
 std::optional<Fraction> meeting(const Path& path, const Flier& own, const df::FixedBox& obstacle,
                                 const Flier& other) {
   if (!own.glyphs || !other.glyphs) return path.firstTouch(obstacle);
@@ -22,7 +22,7 @@ std::optional<Fraction> meeting(const Path& path, const Flier& own, const df::Fi
 
 }  // namespace
 
-/// Counts collision events, separately as the mover and as the other.
+/// Counts its collision events: separately those in which it moved and those in which it was hit.
 class Shooter : public df::Object {
  public:
   explicit Shooter(const Make& make) {
@@ -138,7 +138,7 @@ void Range::tick(Account& account) {
     hit |= turn.must_meet;
     if (!turn.is_right) (turn.must_meet ? through : ghost) = true;
   }
-  const bool solid = !m_fliers[0].glyphs;  // shots may pass through holes
+  const bool solid = !m_fliers[0].glyphs;  // shots may fly through holes
   const bool all_swept = m_makes[0].swept && m_makes[1].swept;
   const bool told = m_p_shooters[0]->as_mover + m_p_shooters[1]->as_mover > 0;
   if (solid && all_swept && !told && haveSwapped(before, after)) through = true;

@@ -1,14 +1,12 @@
-// A range for shots: a world of two Objects that fly through a tick, with an exact account of the expected
-// events.
+// A shooting range: a world of two Objects that fly for a tick, with an exact account of the expected events.
 //
-// Objects move one after another, the older first. A swept one is tested against the other at that one's
-// position in this turn. So it must not pass through anything on its own path, which is checked exactly for
-// every turn of every swept Object. Two that move in one tick are never where a clock would see them both
-// half-way: two sequential movers may miss each other where two simultaneous ones would have hit, because the
-// first has passed before the second starts (`simultaneous` counts these). But they cannot change sides
-// within a corridor: if their extents on one axis overlap at the start, after the first turn and after the
-// second, they do in between, and their order on the other axis must not change without a collision. This is
-// checked, too, without computing times.
+// Objects move one after another, the older one first. A swept Object is tested against the other one where
+// that is during this turn. So it must not pass through anything on its own path, which is checked exactly
+// for every turn of every swept Object. The two never move at once: the first may pass before the second
+// starts, so they may miss each other where simultaneous movers would have hit (`simultaneous` counts these
+// cases). But they cannot change sides within a corridor: if their extents on one axis overlap at the start,
+// after the first turn and after the second, they also do in between, and then their order on the other axis
+// must not change without a collision. This is checked, too, without computing times.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +22,10 @@ namespace bench {
 
 /// One of the two Objects before a tick.
 struct Flier {
-  df::FixedBox box;  ///< relative to the position
+  df::FixedBox box;  ///< box relative to the position
   df::FixedVector position;
   df::FixedVector velocity;
-  std::optional<Glyphs> glyphs;  ///< set if it is precise
+  std::optional<Glyphs> glyphs;  ///< the characters, if the Object is precise
 
   df::FixedBox boxAt(df::FixedVector at) const { return df::translate(box, at); }
 };
@@ -40,10 +38,10 @@ struct Make {
 };
 
 struct Account {
-  long shots = 0;    ///< ticks in which an Object was fired
-  long hits = 0;     ///< ticks in which a swept turn had to meet the other
-  long through = 0;  ///< ticks with a hit that was not reported to both, or without a stop just before it
-  long ghosts = 0;   ///< ticks in which a swept turn met or stopped without reason
+  long shots = 0;         ///< ticks in which an Object was fired
+  long hits = 0;          ///< ticks in which a swept turn had to hit the other Object
+  long through = 0;       ///< ticks with a hit that was not reported to both, or with no stop before it
+  long ghosts = 0;        ///< ticks in which a swept turn reported a hit or stopped without reason
   long simultaneous = 0;  ///< ticks without a hit in which two simultaneous movers would have hit
 };
 
@@ -51,15 +49,15 @@ class Shooter;
 
 class Range {
  public:
-  /// `older` takes the first turn.
+  /// Makes two Objects. The older one moves first in each tick.
   Range(const Make& older, const Make& younger);
   ~Range();
 
-  /// Makes all moves of the world swept, whatever its Objects' own setting (WM.setSweptCollisions).
+  /// Makes all moves of the world swept (WM.setSweptCollisions), whatever the Objects' own settings are.
   void sweepAll();
-  /// Puts both at their starts.
+  /// Puts both Objects at their start positions.
   void set(const Flier& older, const Flier& younger);
-  /// Also judges unswept Objects, but only by the collisions reported on their way, not by where they stop.
+  /// Judges unswept Objects, too, from now on, but only by the reported collisions, not by where they stop.
   void judgeUnswept() { m_judge_unswept = true; }
   /// Runs a tick from the present positions and adds it to the account.
   void tick(Account& account);

@@ -19,9 +19,10 @@ class Line {
   Line& add(const std::string& key, int value) { return add(key, static_cast<long long>(value)); }
   /// Adds a number with four significant digits.
   Line& add(const std::string& key, double value);
-  /// Adds `equal=1` if all engines that ran agree, otherwise `equal=0`; then the program exits with an error.
+  /// Adds `equal=1` if all engines that ran agree. Otherwise adds `equal=0`, and the program will exit with
+  /// an error.
   Line& addEqual(bool equal);
-  /// Adds a number of errors. If it is not 0, the program exits with an error.
+  /// Adds a number of errors. If it is not 0, the program will exit with an error.
   Line& addZero(const std::string& key, long long errors);
 
  private:
@@ -32,7 +33,7 @@ class Line {
 /// libraries, to stderr (Chipmunk prints a banner).
 void reserveStdout();
 
-/// True if each line so far that compared engines found them equal, and without errors.
+/// True if no Line so far had addEqual(false), or addZero() with errors.
 bool allEqual();
 
 /// Prints a progress message on stderr.

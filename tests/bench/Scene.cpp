@@ -25,7 +25,7 @@ void chooseKind(Body& body, Mix mix, SplitMix64& random) {
   body.height = 1 + static_cast<int>(random.below(4));
 }
 
-// True if this velocity equals its length times its direction in the book's float arithmetic.
+// True if this velocity equals its length times its direction in the float arithmetic of the Dragonfly book.
 bool survivesBook(double x, double y) {
   const auto fx = static_cast<float>(x);
   const auto fy = static_cast<float>(y);
@@ -42,7 +42,7 @@ void chooseVelocity(Body& body, double grain, SplitMix64& random) {
   } while (!body.moves() || !survivesBook(body.vx, body.vy));
 }
 
-// Returns the finest grain, at least 2^-10, with which the 24 bits of a float cover the world.
+// Returns the finest grain, 2^-10 or coarser, with which the 24 bits of a float cover the world.
 double grainFor(double side) {
   const int bits = std::min(10, 24 - std::ilogb(side) - 1);
   return std::ldexp(1.0, -bits);

@@ -3,13 +3,13 @@
 //
 // Boxes start on distinct whole cells, in no particular order, and fly in random directions at up to one cell
 // per tick. All numbers are multiples of a grain so coarse that float, double and fixed point hold every
-// position exactly; and each velocity survives the book's float arithmetic (length × normalised vector). So
-// engines of all number types must send exactly equal events.
+// position exactly, and each velocity is unchanged by the float arithmetic of the Dragonfly book (length ×
+// normalised vector). So engines of all number types must send exactly equal events.
 //
-// Every engine then does this: boxes with a velocity move one after another in id order. A solid mover meets
-// all solid boxes that its own would touch at its target (edges included); each pair is reported to both, the
-// mover first, pairs in id order. HARD on HARD blocks: the mover stays and reverses. If the target is outside
-// [0, side) on an axis, the mover stays and reverses on that axis. Otherwise it moves.
+// In a tick, every engine moves the boxes with a velocity one after another in id order. A solid mover
+// collides with all solid boxes that it would touch at its target (edges included). Each pair is reported to
+// both, the mover first, pairs in id order. A pair of two HARD boxes blocks: the mover stays and reverses. If
+// the target is outside [0, side) on an axis, the mover stays and reverses on that axis. Otherwise it moves.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ enum class Mix {
   HARD_ONLY,    ///< HARD, 1×1
   MIXED,        ///< 60 % HARD, 30 % SOFT, 10 % SPECTRAL, 1×1
   SPRITES,      ///< kinds as in MIXED, 1 to 12 wide and 1 to 4 high
-  MOVING,       ///< SPECTRAL: only motion
-  MOVING_HARD,  ///< HARD, 1×1, far apart: no collisions for kLonelyTicks
+  MOVING,       ///< SPECTRAL, so there is only motion
+  MOVING_HARD,  ///< HARD, 1×1, so far apart that there are no collisions for kLonelyTicks
   REST,         ///< HARD, 1×1, 99 % without velocity
 };
 
@@ -50,7 +50,7 @@ struct Body {
 
 struct Scene {
   Mix mix = Mix::HARD_ONLY;
-  double density = 0;  ///< covered area per world area; for 1×1 boxes, boxes per cell
+  double density = 0;  ///< area of all boxes divided by the world's; for 1×1 boxes, boxes per cell
   double side = 0;     ///< width and height of the world, a whole number of cells
   std::vector<Body> bodies;
 

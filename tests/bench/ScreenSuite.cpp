@@ -3,9 +3,9 @@
 //
 // The 1000-object world in an 80 by 24 view, over a line in virtual time. At 1000 random instants the
 // client's picture is compared with the truth of the server's newest tick, over the cells that are not blank
-// in one of them. `floor_percent`: for a client that knows the exact state of the newest tick that could have
-// arrived, and extrapolates from there. `still_percent`: for one that shows that tick unchanged. `ahead`: 1
-// if the picture is drawn ahead by the snapshots' delay.
+// in at least one of the two. `floor_percent`: the result for a client that knows the exact state of the
+// newest tick that could have arrived, and extrapolates from it. `still_percent`: the result for a client
+// that shows that tick unchanged. `ahead`: 1 if the picture is drawn ahead by the snapshots' delay.
 #include <algorithm>
 #include <chrono>
 #include <deque>
@@ -26,7 +26,7 @@ namespace {
 using namespace naiad;
 using namespace std::chrono_literals;
 
-/// Share of different cells, among those that are not blank in both pictures.
+/// Share of different cells, among the cells that are not blank in at least one of the two pictures.
 struct Share {
   long long wrong = 0;
   long long all = 0;
@@ -65,10 +65,11 @@ void measure(const Case& c, bool quick) {
   for (int i = 0; i < kPlayers; ++i) {
     clients.push_back(std::make_unique<LinkedClient>(clock, link, static_cast<std::uint64_t>(i), c.resend));
   }
-  // Number of ticks whose pictures are kept: the newest that can have arrived, and all since.
+  // Number of ticks whose pictures are kept: the newest one that can have arrived at the client, and all
+  // later ones.
   const auto kept = static_cast<std::size_t>(link.delay / kTickLength) + 2;
   std::vector<std::deque<df::Canvas>> truths(kPlayers);
-  // Ideal clients that receive everything at once, and their past replicas.
+  // Ideal clients, which receive everything at once, and copies of their replicas from the last ticks.
   std::vector<std::unique_ptr<LinkedClient>> ideals;
   std::vector<std::deque<Replica>> known(kPlayers);
   for (int i = 0; i < kPlayers; ++i) {

@@ -40,8 +40,8 @@ class Client {
   long long wrong() const { return m_wrong; }
 
  private:
-  // The client extrapolates between snapshots, so each tick before `tick` was shown as its replica has it
-  // now.
+  // Compares the ticks before `tick`. The client extrapolates between snapshots, so it showed each of them as
+  // its replica draws it now.
   void compareUntil(std::uint32_t tick) {
     auto it = m_truths.begin();
     for (; it != m_truths.end() && it->first < tick; it = m_truths.erase(it)) {
@@ -51,7 +51,7 @@ class Client {
   }
 
   LinkedClient m_linked;
-  std::map<std::uint32_t, df::Canvas> m_truths;  ///< not compared yet
+  std::map<std::uint32_t, df::Canvas> m_truths;  ///< true pictures that are not compared yet
   long long m_wrong = 0;
 };
 
@@ -78,7 +78,7 @@ void measure(const Scene& scene, bool quick) {
     clients.push_back(std::make_unique<Client>(clock, link, static_cast<std::uint64_t>(i), scene.resend));
   }
   std::chrono::steady_clock::duration publish{};
-  // A minute to settle, after which coarse motion models of endless paths have been replaced.
+  // One minute of warm-up, after which coarse motion models of endless paths have been replaced.
   const int warm_up = 60 * 30;
   for (int i = 0; i < warm_up + seconds * 30; ++i) {
     if (i == warm_up) {

@@ -9,7 +9,7 @@
 namespace bench {
 namespace {
 
-// Created by whichever suite registers first.
+// Created when the first suite registers.
 std::map<std::string, const Suite*>& registry() {
   static std::map<std::string, const Suite*> s_suites;
   return s_suites;

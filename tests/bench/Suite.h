@@ -40,8 +40,8 @@ struct Ending {
   int code = 0;         ///< exit code
   bool silent = false;  ///< the program printed nothing
 };
-/// Runs a program of the build that prints `suite key=value …`, and prints that as Lines. A `failed` other
-/// than 0 makes naiad_bench exit with an error, too.
+/// Runs a program of the build that prints `suite key=value …`, and prints its output as Lines. If a line has
+/// `failed` with a value other than 0, naiad_bench also exits with an error.
 Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace bench

@@ -1,9 +1,9 @@
-// Cost of finding the first obstacle on a way, compared with Box2D's ray cast. Every answer is compared with
-// the exact one.
+// The cost of finding the first obstacle on a way, compared with Box2D's ray cast. Every result is compared
+// with the exact one.
 //
-// A 1×1 box is put somewhere (setPosition) and asked for the first obstacle within `speed` cells
-// (WM.firstContact). kind=move: it moves there (WM.moveObject), swept, receives events, and stops. Box2D only
-// answers the question; its tree does not contain the mover.
+// A 1×1 box is put somewhere (setPosition), and WM.firstContact finds the first obstacle within `speed`
+// cells. kind=move: the box is moved there (WM.moveObject), swept, receives events, and stops at the
+// obstacle. Box2D only finds the obstacle; its tree does not contain the mover.
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +23,7 @@
 namespace bench {
 namespace {
 
-/// Records the first Object that it meets.
+/// Records the first Object with which it collides.
 class Runner : public df::Object {
  public:
   int eventHandler(const df::Event* p_e) override {
@@ -68,14 +68,14 @@ class Course {
     const df::Contact contact = WM.firstContact(m_p_runner, df::Vector::fromFixed(cast.to));
     return {numberOf(contact.p_object), contact.time, exactly(contact.position)};
   }
-  /// Places the runner and moves it (WM.moveObject), swept. Returns the Object that it met and where it
-  /// stopped, but no time, because moves do not report it.
+  /// Places the runner and moves it (WM.moveObject), swept. Returns the Object that it hit and where it
+  /// stopped, but not the time, which moves do not report.
   Answer move(const Cast& cast) {
     place(cast);
     WM.moveObject(m_p_runner, df::Vector::fromFixed(cast.to));
     return {numberOf(m_p_runner->takeMet()), 0, exactly(m_p_runner->getPosition())};
   }
-  /// True if the book's test at the end of the way finds a collision.
+  /// True if the ordinary test, only at the end of the way, finds a collision.
   bool isBlockedAtEnd(const Cast& cast) {
     place(cast);
     return WM.isCollision(m_p_runner, df::Vector::fromFixed(cast.to));
@@ -88,7 +88,7 @@ class Course {
 
   df::World m_world;
   df::World::Scope m_scope;
-  int m_first_id = 0;  // id of the first obstacle; the others follow
+  int m_first_id = 0;  // id of the first obstacle; further ones have the next ids
   Runner* m_p_runner;  // owned by the world
 };
 
@@ -101,7 +101,7 @@ double nanosecondsPerCast(const std::vector<Cast>& casts, Do run) {
   return (cpuNanoseconds() - begin) / static_cast<double>(casts.size());
 }
 
-// All answers and times of one case.
+// All results and times of one case.
 struct Result {
   std::vector<Answer> ours;
   std::vector<Answer> box2d;

@@ -1,5 +1,5 @@
-// Counters of a world's handlers. The handlers of every engine do only this per event. Engines that send
-// equal events in equal order end with equal checksums.
+// Counters of a world's handlers. In every engine, handling an event only changes these. Engines that send
+// equal events in equal order have equal checksums at the end.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 namespace bench {
 
 struct Tally {
-  std::uint64_t tick = 0;      ///< present tick, from 1
+  std::uint64_t tick = 0;      ///< number of the present tick, from 1
   std::uint64_t events = 0;    ///< collision events received
   std::uint64_t blocked = 0;   ///< moves blocked by a HARD object
-  std::uint64_t checksum = 0;  ///< over the receivers, in order of their events
+  std::uint64_t checksum = 0;  ///< checksum of the receivers' ids, in the order of events
 
   void event(std::uint64_t receiver) {
     ++events;

@@ -1,6 +1,6 @@
 // Tests that nothing passes through anything: a million shots at all kinds of targets, in random directions,
-// at speeds from a tenth of a cell to a million cells per second, and some of a million per tick. Range.h
-// defines what counts.
+// at speeds from a tenth of a cell to a million cells per second, and some at up to a million cells per tick.
+// Range.h defines what counts as a hit and as passing through.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,13 +27,13 @@ enum class Shape {
 };
 
 enum class Motion {
-  REST,     ///< the older one rests, the younger one flies at it
+  REST,     ///< the older one rests, the younger one flies towards it
   FIRES,    ///< the older one flies, the younger one rests
   BOTH,     ///< both fly in any direction
   HEAD_ON,  ///< both fly along an axis towards each other, almost straight
 };
 
-/// A pair of kinds. The older Object takes the first turn.
+/// The kinds of two Objects and how they move. The older Object moves first.
 struct Pairing {
   const char* name;
   Shape older;
@@ -41,7 +41,7 @@ struct Pairing {
   Motion motion = Motion::REST;
   Make make_older{};
   Make make_younger{};
-  int ticks = 1;     ///< ticks of a shot, which sets its initial distance
+  int ticks = 1;     ///< ticks of a shot, which determine its initial distance
   double speed = 0;  ///< cells per tick; 0: random
 };
 
@@ -84,8 +84,8 @@ Flier shape(Shape shape, SplitMix64& random) {
   return flier;
 }
 
-// Returns the distance of a shot per tick. Positions are read as doubles, so shots at the highest speeds last
-// only one tick.
+// Draws the speed of a shot, in cells per tick. The highest speeds are drawn only for shots of one tick,
+// because positions are read as doubles.
 double drawSpeed(const Pairing& pairing, SplitMix64& random) {
   if (pairing.speed > 0) return pairing.speed;
   const double usual = 1e6 / kTicksPerSecond;
@@ -112,7 +112,8 @@ void chooseVelocities(const Pairing& pairing, Flier& older, Flier& younger, Spli
   for (Flier* p_flier : {&older, &younger}) std::swap(p_flier->velocity.x, p_flier->velocity.y);
 }
 
-// Returns a position of the younger one relative to the older one at which they touch, mostly just barely.
+// Draws a position of the younger Object relative to the older one at which the two touch, mostly just
+// barely.
 df::FixedVector drawContact(const Flier& older, const Flier& younger, SplitMix64& random) {
   const double reach_x = df::toCells(older.box.size.x + younger.box.size.x) / 2;
   const double reach_y = df::toCells(older.box.size.y + younger.box.size.y) / 2;

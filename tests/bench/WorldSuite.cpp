@@ -1,5 +1,5 @@
-// Cost of an object per tick in the everyday workload (Scene.h), compared with Chipmunk, Box2D and the book's
-// loop.
+// The cost of an object per tick in the everyday workload (Scene.h), compared with Chipmunk, Box2D and the
+// loop of the Dragonfly book.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@
 namespace bench {
 namespace {
 
-constexpr int kLarge = 1'000'000;  // at this size, only one engine of each library
+constexpr int kLarge = 1'000'000;  // with this number of objects, only one engine of each library runs
 // If a peer's whole tick would take long, it moves only some of its objects.
 constexpr int kWholeTextbook = 10'000;
 constexpr int kLargestTextbook = 100'000;
@@ -33,7 +33,7 @@ struct Case {
 
 void addTextbook(Contest& contest, const Scene& scene) {
   const int n = scene.count();
-  const bool loops = scene.mix != Mix::MOVING;  // without solid objects, moves do not look at others
+  const bool loops = scene.mix != Mix::MOVING;  // without solid objects, moves have no loop over all
   if (scene.mix == Mix::SPRITES || scene.mix == Mix::MOVING_HARD || scene.mix == Mix::REST) return;
   if (loops && n > kLargestTextbook) return;
   const int turns = loops && n > kWholeTextbook ? kTextbookTurns : n;
@@ -68,7 +68,8 @@ void addChipmunk(Line& line, const Contest& contest, const ChipmunkTuning& tunin
   line.add("chipmunk_cell", tuning.cell).add("chipmunk_table_per_object", tuning.table_per_object);
 }
 
-// Adds the share of turns taken on each path. (The broad phase has fewer looks, because flights need none.)
+// Adds the share of turns that took each of the engine's paths. (The broad phase has fewer searches than
+// turns, because flights need none.)
 void addPaths(Line& line, const df::MoverStats& paths) {
   const auto turns = static_cast<double>(paths.flown + paths.walked + paths.met + paths.unheard +
                                          paths.deferred + paths.special);

@@ -1,4 +1,4 @@
-// A datagram channel without a network: the target plays the other end.
+// A datagram channel without a network: the fuzz target acts as the other end.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace naiad::fuzz {
 
-/// The source of its packets. Must outlive the channel.
+/// The source of the channel's packets. Must outlive the channel.
 struct FakeAir {
   std::function<void(std::string_view packet)> on_packet;
 };

@@ -11,7 +11,7 @@
 namespace naiad::fuzz {
 namespace {
 
-/// Number of fractional bits, by code.
+/// Number of fractional bits, by its code (4 bits) in a message.
 constexpr std::array<int, 16> kFractions = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 16, 22, 32};
 /// Upper limit of written numbers: exceeds every limit of the protocol without overflow.
 constexpr std::uint64_t kHuge = std::uint64_t{1} << 62;
@@ -33,8 +33,8 @@ void HostileWriter::begin() {
   m_good_before = bad >> kKindBits;
 }
 
-/// Makes a small number, or 2^n or 2^n − 1, near which limits are. Uses exactly one byte, so that a change of
-/// it does not move the fields after it.
+/// Makes a small number, or 2^n or 2^n − 1, because limits are near these. Uses exactly one byte of the
+/// script, so that a change of this byte does not move the fields after it.
 std::uint64_t HostileWriter::any() {
   const std::uint8_t head = m_script.byte();
   if (head < 0x80) return head;
@@ -102,7 +102,7 @@ void HostileWriter::fraction() {
   field(bits);
 }
 
-/// Writes components of a whole number of cells in this range, and a fraction.
+/// Writes a vector. Each component is a whole number of cells in this range, and a fraction.
 void HostileWriter::vector(std::int64_t least, std::int64_t most) {
   m_out.flag(false);
   for (int i = 0; i < 2; ++i) {
@@ -142,12 +142,12 @@ void HostileWriter::character() {
 }
 
 void HostileWriter::appearance(bool whole) {
-  constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // enough to test one more than the limit
+  constexpr std::uint64_t kEnough = 2 * kMaxGlyphs;  // enough for one glyph more than the limit
   const std::uint64_t glyphs = golomb(Kind::kGlyphs, 3, 15, kMaxGlyphs);
   constexpr std::int64_t kStep = 1 << kGlyphUnitBits;
   const std::int64_t unit = whole ? kStep : 1;
   const int order = whole ? 1 : 8;
-  std::int64_t dx = -kStep;  // without the half cell that a look may add
+  std::int64_t dx = -kStep;  // a glyph offset, without the half cell that a look may add
   std::int64_t dy = 0;
   for (std::uint64_t i = 0; i < std::min(glyphs, kEnough); ++i) {
     const bool at_edge = dx + 2 * kStep > kMaxGlyphOffset;
@@ -247,7 +247,7 @@ void HostileWriter::view() {
   field(2);
 }
 
-/// Writes the prelude's origin, so that later positions relative to it are where they should be.
+/// Writes an origin of the prelude (Prelude.h) again, so that later positions relative to it stay correct.
 void HostileWriter::origin() {
   const std::uint64_t slot = 1 + choose(Kind::kSlot, kOriginSlots - 1);
   const Origin& origin = preludeOrigin(slot);

@@ -1,9 +1,9 @@
-// Snapshots and updates as only a hostile peer writes them: the fields are in the protocol's order and in
-// range, except for one, which may have any value.
+// Writes snapshots and updates like a hostile peer: the fields are in the protocol's order and in range,
+// except for one, which may have any value.
 //
-// Only one field is bad, because a decoder rejects the whole at the first problem, so a missing check shows
-// only if all else is right. Each field takes one byte of the script, so that a change by the fuzzer alters
-// one number and does not shift the bits after it.
+// Only one field is bad, because a decoder rejects the whole message at the first problem, so a missing check
+// is found only if all other fields are right. Each field takes one byte of the script, so that a change by
+// the fuzzer alters one number and does not shift the bits after it.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ class HostileWriter {
 
   void begin();
   std::uint64_t any();
-  /// Returns at most `most`. In the bad field: any number, often one just beyond `limit`.
+  /// Chooses a number of at most `most`, or, in the bad field, any number, often one just beyond `limit`.
   std::uint64_t choose(Kind kind, std::uint64_t most, std::uint64_t limit);
   std::uint64_t choose(Kind kind, std::uint64_t most) { return choose(kind, most, most); }
   std::uint64_t field(int bits);

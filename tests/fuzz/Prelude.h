@@ -1,4 +1,5 @@
-// A small world that a replica may know before the fuzzer's snapshots arrive, so that they can refer to it.
+// A small world, the prelude, that a replica may know before the fuzzer's snapshots arrive, so that they can
+// refer to it.
 #pragma once
 
 #include <array>

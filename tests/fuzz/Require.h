@@ -1,4 +1,5 @@
-// Conditions for every input. A target that finds one broken crashes, and libFuzzer keeps the input.
+// Checks conditions that must hold for every input. If one does not, the target crashes, and libFuzzer keeps
+// the input.
 #pragma once
 
 #include <cstdio>

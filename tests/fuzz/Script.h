@@ -1,4 +1,4 @@
-// Reads the fuzzer's bytes from the front as numbers and pieces. They tell a target what to do step by step.
+// Reads the fuzzer's bytes from the front as numbers and pieces, by which a target chooses its steps.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class Script {
   /// Returns a number in 0 … n − 1.
   std::size_t below(std::size_t n) { return byte() % n; }
   bool flag() { return (byte() & 1) != 0; }
-  /// Returns at most `count` bytes.
+  /// Returns the next `count` bytes, or all if fewer are left.
   std::string bytes(std::size_t count) {
     const std::string piece(m_left.substr(0, count));
     m_left.remove_prefix(piece.size());
@@ -57,7 +57,8 @@ class Exactly {
   char* m_bytes;
 };
 
-/// Passes the stream to `take` in pieces: all at once (0), byte by byte (1), or of random sizes below `how`.
+/// Passes the stream to `take` in pieces: one piece if `how` is 0, single bytes if it is 1, else pieces of
+/// random sizes below `how`.
 template <class Take>
 void forEachPiece(std::string_view stream, std::uint8_t how, Take take) {
   SplitMix64 random(how);

@@ -86,7 +86,7 @@ void ScriptedLink::tick(Fate fate, Script* p_script) {
   m_sender.applyTick(m_publisher, m_world.view().players[0]);
   for (const SnapshotSender::Packet& packet : m_sender.build(m_publisher)) {
     REQUIRE(packet.bytes.size() <= (packet.large ? kMaxSnapshot : kMaxDatagramSnapshot));
-    if (packet.large) {  // sent over the stream, which loses nothing
+    if (packet.large) {  // large packets are sent over the stream, which loses nothing
       hear(packet.bytes);
       answer(true);
       continue;
@@ -108,14 +108,14 @@ void ScriptedLink::tick(Fate fate, Script* p_script) {
 void ScriptedLink::deliver(const Sent& sent, bool answered) {
   const Exactly packet(sent.sealed);
   const auto plain = m_client_link.open(kServerPath, packet.view(), m_now);
-  if (!plain) return;  // too old for the replay window
+  if (!plain) return;  // rejected, because it is too old for the replay window
   REQUIRE(*plain == sent.plain);
   REQUIRE(!m_client_link.open(kServerPath, packet.view(), m_now));
   hear(std::string(*plain));
   answer(answered);
 }
 
-/// The seal must reject the damaged packet, and even without the seal it must not harm the replica.
+/// Damages a packet. The seal must reject it, and even without the seal it must not harm the replica.
 void ScriptedLink::damage(const Sent& sent, Script& script) {
   const std::size_t where = script.number<std::uint16_t>();
   const auto flipped = [where](std::string bytes) {

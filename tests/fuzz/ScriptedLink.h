@@ -17,7 +17,7 @@ class ScriptedLink {
  public:
   explicit ScriptedLink(Resend resend);
 
-  /// Executes the script for at most `ticks` ticks.
+  /// Executes the script, at most `ticks` ticks of it.
   void run(Script& script, int ticks);
   /// Runs at most `ticks` ticks without events and losses, until nothing is pending.
   void heal(int ticks);
@@ -54,7 +54,7 @@ class ScriptedLink {
   SealedLink m_client_link;
   SealedLink::Time m_now{std::chrono::hours(1)};
   std::deque<Sent> m_held;
-  std::deque<std::string> m_updates;  ///< sealed, on their way to the server
+  std::deque<std::string> m_updates;  ///< sealed updates on their way to the server
   Replica m_replica;
   AckWindow m_acks;
   std::uint8_t m_epoch = 0;  ///< epoch of the replica

@@ -96,13 +96,13 @@ void ScriptedWorld::turn(Thing& thing, Script& script) {
   thing.facts.velocity = thing.facts.acceleration = {};
   if ((how & 1) != 0) thing.facts.velocity.x = signedByte(script, df::kFixedOne / 64);
   if ((how & 2) != 0) thing.facts.velocity.y = signedByte(script, df::kFixedOne / 128);
-  if ((how & 4) != 0) thing.facts.velocity.x += script.byte();  // values that no coarse grid has
+  if ((how & 4) != 0) thing.facts.velocity.x += script.byte();  // finer than any coarse grid
   if ((how & 24) == 24) thing.facts.acceleration.x = signedByte(script, df::kFixedOne / 4096);
   if ((how & 40) == 40) thing.facts.acceleration.y = signedByte(script, df::kFixedOne / 4096);
   thing.changed = true;
 }
 
-/// A word whose frames change by a clock or an angle.
+/// Gives the object a word whose frames change by a clock or an angle.
 void ScriptedWorld::animate(Thing& thing, Script& script) {
   const std::uint8_t how = script.byte();
   std::vector<Appearance> frames(2 + how % 4);
@@ -129,7 +129,7 @@ void ScriptedWorld::restyle(Thing& thing, Script& script) {
   };
   switch (how % 8) {
     case 0:
-      return;  // draws nothing
+      return;  // a look without characters
     case 1:
       return row(1, 0, 0);
     case 2:
@@ -140,7 +140,7 @@ void ScriptedWorld::restyle(Thing& thing, Script& script) {
       return row(4, -kHalf * 3, 0);  // a sprite of even width: its cells are at half offsets
     case 5:
       return row(2, signedByte(script, df::kFixedOne / 64 + 3), signedByte(script, df::kFixedOne / 64 + 5));
-    case 6:  // sometimes too large for a datagram
+    case 6:  // a look that may be too large for a datagram
       for (int y = 0, rows = script.byte() % 64; y < rows; ++y)
         row(30, df::fromCells(-15), df::fromCells(y - 8));
       return;

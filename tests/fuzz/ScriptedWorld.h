@@ -1,4 +1,5 @@
-// A small world in which only the events of a script happen. It reports itself like the engine does.
+// A small world in which only the events of a script happen. It reports its state to the publisher like the
+// engine does.
 #pragma once
 
 #include <array>
@@ -22,8 +23,8 @@ class ScriptedWorld {
 
   ScriptedWorld();
 
-  /// Does one thing to one object or the player. Two bytes of the script select action and object; more bytes
-  /// are its parameters.
+  /// Applies one action to one object or the player. Two bytes of the script select the action and the
+  /// object; more bytes are the action's parameters.
   void happen(Script& script);
   /// Moves all objects and draws everything.
   void tick();
@@ -36,7 +37,7 @@ class ScriptedWorld {
     df::ObjectFacts facts;
     bool alive = false;
     bool changed = false;
-    std::vector<df::DrawCommand> look;   ///< relative to the position
+    std::vector<df::DrawCommand> look;   ///< characters drawn, relative to the position
     std::shared_ptr<const Look> p_told;  ///< animated frames instead of `look`, or null
   };
 
@@ -52,8 +53,8 @@ class ScriptedWorld {
   void noteMoved(const Thing& thing);
 
   std::array<Thing, kThings> m_things;
-  std::vector<df::ObjectKey> m_gone;     ///< deleted since the last tick
-  std::vector<df::DrawCommand> m_loose;  ///< drawn outside any object in the next tick
+  std::vector<df::ObjectKey> m_gone;     ///< objects deleted since the last tick
+  std::vector<df::DrawCommand> m_loose;  ///< commands that draw outside any object in the next tick
   std::uint64_t m_next_order = 1;
   df::WorldView m_view;
 };

@@ -112,7 +112,7 @@ std::size_t glyphsIn(const Records& records) {
 }  // namespace
 
 void receiveAndCheck(Replica& replica, std::string_view received, bool again) {
-  constexpr std::size_t kSmall = 20'000;  // glyphs; few names can mean many glyphs, which take time to write
+  constexpr std::size_t kSmall = 20'000;  // glyphs; a snapshot with more is not written again, to save time
   const Exactly bytes(received);
   Snapshot snapshot;
   peekEpoch(bytes.view());

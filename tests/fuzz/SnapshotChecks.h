@@ -1,4 +1,4 @@
-// Requirements for every snapshot that a client accepts, from any writer.
+// Requirements for every snapshot that a client accepts, whatever program wrote it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Included by the one file of each target. Passes libFuzzer's input to tryInput().
+// Included by the main source file of each target. Passes libFuzzer's input to tryInput().
 #pragma once
 
 #include "Require.h"
@@ -6,7 +6,7 @@
 
 namespace naiad::fuzz {
 
-/// Defined by each target.
+/// Tests one input. Each target defines this function.
 void tryInput(Script script);
 
 }  // namespace naiad::fuzz

@@ -1,4 +1,4 @@
-"""The compile commands of a build, also where the sources of a folder are compiled together."""
+"""Reads the compile commands of a build, including those that compile several sources of a folder together."""
 import json
 import pathlib
 import re

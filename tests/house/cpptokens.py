@@ -89,7 +89,7 @@ def javascript_tokens(text):
 
 
 def directive_tokens(text, line):
-    """Yields the tokens of a preprocessor line. "#define NAME(" is one of them, and so is a whole #include."""
+    """Yields the tokens of a preprocessor line. "#define NAME(" and a whole #include are each one token."""
     text = re.sub(r"\\(?=\r?\n)", " ", text)
     include = re.match(r'#\s*(include|import)\s*("[^"]*"|<[^>]*>)', text)
     if include:
@@ -102,7 +102,7 @@ def directive_tokens(text, line):
 
 
 def body(literal):
-    """Returns the characters between the quotes; those of a raw string are escaped like in an ordinary one."""
+    """Returns the characters between the quotes of a literal; for a raw string, escaped as in an ordinary string."""
     raw = re.fullmatch(rf'{PREFIX}R"([^()\\\s]*)\((.*)\)\1"', literal, re.S)
     if raw:
         return raw[2].replace("\\", r"\\").replace('"', r"\"").replace("\n", r"\n")
@@ -117,7 +117,7 @@ def joined(tokens_of_text):
             continue
         if kind == "string" and held and token[0] not in "'`}":
             first, second = body(held[1]), body(token)
-            # An escape with digits ends with its literal: "\x4" "1" is not "\x41".
+            # An escape with digits must not grow when its literal is joined with the next: "\x4" "1" is not "\x41".
             gap = '""' if re.search(r"\\(?:x[\da-fA-F]+|[0-7]{1,3})$", first) and re.match(r"[\da-fA-F]", second) else ""
             prefix = re.match(PREFIX, held[1]).group() or re.match(PREFIX, token).group()
             held = ("string", f'{prefix}"{first}{gap}{second}"', held[2])

@@ -1,5 +1,5 @@
-"""Splits every kind of source of this project into tokens, for the checks in this folder: Python, shell, CMake, HTML and
-lines with # comments here, the others by cpptokens.
+"""Splits all kinds of sources of this project into tokens, for the checks in this folder. Python, shell, CMake, HTML and files
+with # comments are split here, the other languages by cpptokens.
 
 language(path, text) names the language of a file. read(language, text) yields (kind, text, line) like cpptokens.tokens(),
 with the kinds "string", "comment", "word", "punct", "directive" and:
@@ -63,7 +63,7 @@ def read(kind, text):
 
 
 def python_string(token):
-    """Writes a literal in one way, whatever quotes and prefix it has."""
+    """Returns a string literal in a normal form, which does not depend on its kind of quotes."""
     prefix = re.match(r"\w*", token).group().lower()
     if "b" in prefix:
         return token
@@ -107,7 +107,7 @@ def python_tokens(text):
 
 
 def end_of_quote(text, at, closing):
-    """Returns the end of what begins before `at` and ends with `closing`: a quote, or a bracket of $( ) or ${ }."""
+    """Returns the end of the quoted text, $( ) or ${ } that begins before `at` and ends with `closing`."""
     is_double = closing in '"}'
     while at < len(text):
         char = text[at]

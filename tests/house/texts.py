@@ -1,7 +1,7 @@
 """Finds the comments and string literals of a file, for words and draw.
 
-Both are Texts. A comment block is one line of a Text, so a phrase is found where the source breaks it. So are adjacent string
-literals and a paragraph of a page.
+Both are Texts. A comment block is one line of a Text, so a phrase is also found across a line break of the source. Adjacent string
+literals and a paragraph of a page are one line, too.
 """
 import bisect
 import contextlib
@@ -24,7 +24,7 @@ TEST = re.compile(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", re.M)
 
 
 class Text:
-    """Pieces of a file joined by the glue before each, and the line of the file that each piece comes from."""
+    """Pieces of a file, joined by the separators ("glue") before them, with the line of the file that each piece comes from."""
 
     def __init__(self):
         self.text, self.starts, self.lines, self.begins = io.StringIO(), [], [], []

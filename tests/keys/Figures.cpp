@@ -30,7 +30,6 @@ using Keys = std::set<Key>;
 
 constexpr int kSettle = 24;  // ticks after a pattern before positions are compared
 constexpr int kMinute = 1800;
-constexpr int kLearn = 40;  // ticks of a first hold, for methods that learn
 
 int (*mainOf(const std::string& game))() {
   if (game == "breakout") return breakout_main;
@@ -110,8 +109,7 @@ Track follow(const std::string& game, const Pattern& pattern, const KeyMethod& m
       objectOf(world, ann)->setVelocity(df::Vector());
     }
     Typist typist(world, ann, method, keyboard);
-    // An earlier hold of a key that the games ignore teaches the terminal's repeat delay. A habit is learned
-    // from the keys themselves, by the script.
+    // First holds a key that the games ignore, from which methods that learn get the keyboard's repeat delay.
     typist.hold({Key::X});
     for (int t = 0; t < 30; ++t) typist.tick();
     typist.hold({});
@@ -205,7 +203,7 @@ class Impatience {
   bool gaveUp(bool wanted, bool moves, int key_age) {
     if (m_lift > 0) return --m_lift, true;
     m_still = wanted && !moves ? m_still + 1 : 0;
-    // It may be the keyboard's repeat delay, which players know.
+    // The cause may be the keyboard's repeat delay, which players know.
     if (m_still < kReaction || (key_age > 3 && key_age < kPause)) return false;
     m_still = 0;
     m_lift = 2;

@@ -10,7 +10,7 @@
 
 namespace naiad {
 
-/// Means over the scripted patterns.
+/// Mean values over the scripted patterns; `missed` is a sum.
 struct PatternFigures {
   double tap_over = 0;   ///< cells beyond the end with real releases, after a tap of 90 ms
   double hold_over = 0;  ///< cells beyond that end, after longer holds and changes of direction
@@ -25,7 +25,7 @@ struct PlayFigures {
   int bad = 0;   ///< falls, balls lost, crashes, ships lost
 };
 
-/// Returns platformer, breakout, lander, saucershoot.
+/// Returns the games' names: platformer, breakout, lander, saucershoot.
 const std::vector<std::string>& keyGames();
 
 PatternFigures runPatterns(const std::string& game, const KeyMethod& method,

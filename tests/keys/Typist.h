@@ -48,7 +48,7 @@ class Typist {
   void type(const std::string& bytes);
   void take(const std::vector<TerminalEvent>& events);
   void send(const std::vector<KeyAction>& actions);
-  /// Handles tap-to-go. True if the key is a direction or X.
+  /// Handles a key in the mode KeyMethod::tap_to_go. Returns true if it is a direction or X.
   bool takeGo(const KeyEvent& event);
 
   df::World& m_world;

@@ -34,7 +34,8 @@ class AdminTest : public VisitedServer {
   bool reads(TestClient& client, const std::string& text) {
     return serveUntil(context, {&client}, [&] { return hasRead(client, text); });
   }
-  /// Repeats a chat line until it is answered, because players and addresses may send few lines a second.
+  /// Repeats a chat line until it is answered, because lines beyond the limits of a player and an address are
+  /// dropped.
   bool saysAndReads(TestClient& client, const std::string& line, const std::string& text) {
     const std::size_t before = client.session().chat().size();
     const auto answered = [&] {
@@ -74,7 +75,7 @@ TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
   const auto step = [&server] {
     return server.inWorld([](df::World& world) { return static_cast<std::uint32_t>(world.getStepCount()); });
   };
-  const std::uint32_t kicked = step();  // or the tick after it
+  const std::uint32_t kicked = step();  // ann was removed in this tick or in the next one
   while (step() < kicked + 2) {
   }
   EXPECT_FALSE(server.truth(kicked + 2, player));
@@ -106,7 +107,7 @@ TEST_F(AdminTest, BanDropsNewConnectionsBeforeTls) {
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(does("ban", R"("who":"192.0.2.0/24","for":"2h")"));
   ASSERT_TRUE(ends(ann));
-  // TlsListenerTest.BannedAddressGetsNoByte also sends a hello.
+  // This visitor sends nothing. TlsListenerTest.BannedAddressGetsNoByte also tests one that sends a hello.
   EXPECT_EQ(bytesFor(options.visitors, "192.0.2.7:50001"), "");
   TestClient eve(context, server.port(), from("192.0.2.200:50003", "eve"));
   EXPECT_FALSE(joins(eve));
@@ -146,7 +147,8 @@ TEST_F(AdminTest, ABanLastsBeyondARestart) {
   EXPECT_TRUE(has(eve.connection().message(), "banned"));
 }
 
-/// The real dfserver and dfctl. dfctl is not a descendant of the server, because those may not give commands.
+/// Uses the real dfserver and dfctl. dfctl is not a descendant of the server, because the server obeys no
+/// descendants.
 class CtlTest : public LoopbackFixture {
  protected:
   std::pair<int, std::string> ctl(const std::string& arguments) const {
@@ -352,7 +354,7 @@ TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   ASSERT_TRUE(reads(ann, "Press a key"));
   ASSERT_TRUE(ends(ann));
   EXPECT_EQ(ann.connection().message(), "Disconnected: no input for 1s.");
-  EXPECT_EQ(server.counters().inactive, 1u);
+  EXPECT_EQ(server.counters().idle_kicks, 1u);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ df::Vector somehow() {
           static_cast<double>(WM.randomInt(200) - 100) / 240.0};
 }
 
-/// One to five characters, or a 2x2 sprite. Turns sometimes and has a limited lifetime.
+/// Looks like one to five characters or a 2x2 sprite. Sometimes changes its velocity, its first character,
+/// its visibility or its place, or is replaced by another Creature.
 class Creature : public df::Object {
  public:
   Creature() {
@@ -72,7 +73,7 @@ class Creature : public df::Object {
 
   int draw() override {
     if (!m_square) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
-    // Tests a sprite of even width: its cells are at half offsets, and the positions pass through floats.
+    // A sprite of even width tests cells at offsets of half a cell, whose positions are converted to floats.
     for (int i = 0; i < 4; ++i) {
       const df::Vector at(getPosition().getX() - 0.5 + i % 2, getPosition().getY() - 0.5 + i / 2);
       DM.drawCh(at, m_text.front(), m_color);

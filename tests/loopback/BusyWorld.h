@@ -8,7 +8,7 @@ namespace naiad::test {
 
 /// Fills the world with `count` creatures and an object that gives each player a ship.
 void populateBusyWorld(df::World& world, int count);
-/// Returns a function that does so, for a TestServer.
+/// Returns a function that calls populateBusyWorld(), for a TestServer.
 inline auto busyWorld(int count) {
   return [count](df::World& world) { populateBusyWorld(world, count); };
 }

@@ -9,7 +9,7 @@
 
 namespace naiad::test {
 
-/// Counts for all players; may be read from any thread. Must outlive the server.
+/// Numbers of join and leave events of all players. May be read from any thread. Must outlive the server.
 struct Census {
   std::atomic<int> joins = 0;
   std::atomic<int> leaves = 0;

@@ -1,4 +1,4 @@
-// Chat floods, and receivers that are slow or disconnected: no other player loses the session.
+// Chat floods, and receivers of chat that are slow or disconnected. No other player loses the session.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -50,17 +50,17 @@ TEST_F(Company, StalledClientDoesNotDisturbOthers) {
   stalled.send(RawClient::hello("mud"));
   bob.keepPictures(false);
 
-  // `mud` neither reads nor acknowledges.
+  // The client `mud` neither reads nor acknowledges anything.
   const std::uint32_t begin = ann.newestTick();
   ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return ann.newestTick() > begin + kFiveSeconds; }));
-  // The others had every tick and correct pictures all the time.
+  // Ann received every tick, and all her pictures were correct.
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
   expectSame(ann, server, kFiveSeconds - 1);
 }
 
 TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   TestServer server(busyWorld(300));
-  asio::io_context asleep;  // polling this context or not decides whether the second client is stalled
+  asio::io_context asleep;  // mud is stalled while the test does not poll this context
   TestClient ann(context, server.port(), "ann");
   TestClient mud(asleep, server.port(), "mud");
   ASSERT_TRUE(serveUntil(asleep, {&mud}, [&] { return mud.joined(); }));
@@ -68,7 +68,7 @@ TEST_F(Company, StalledClientCatchesUpWhenItReadsAgain) {
   ASSERT_TRUE(
       serveUntil(context, {&ann}, [&] { return ann.joined() && ann.newestTick() > begin + kFiveSeconds; }));
   const std::uint32_t stalled_until = ann.newestTick();
-  // Once it reads again, it soon shows the server's picture.
+  // When mud reads again, it soon shows the server's picture.
   EXPECT_TRUE(serveUntil(asleep, {&mud}, [&] {
     return mud.newestTick() > stalled_until + 50 && !mud.pictures().empty() &&
            mud.pictures().rbegin()->first > stalled_until && showsTheTruth(mud, server);

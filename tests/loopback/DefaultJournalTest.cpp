@@ -67,7 +67,7 @@ class DefaultJournal : public RoomsFixture {
   std::string state() const { return home.identity("state"); }
 };
 
-// Killed immediately, possibly before the file of the round exists.
+// The servers are killed soon after the start, possibly before a file of the round exists.
 TEST_F(DefaultJournal, TwoKilledServersOfOneUserRecover) {
   Server servers[2] = {{"ann"}, {"bob"}};
   for (Server& one : servers) {

@@ -10,10 +10,11 @@
 namespace naiad::test {
 namespace {
 
-/// More than half the range of 16 bits, and less than all: 18 to 36 minutes at 30 Hz.
+/// Ticks before the first player joins: between half the range of 16 bits and all of it, here 22 minutes at
+/// 30 Hz.
 constexpr std::uint32_t kEmptyTicks = 40'000;
 
-/// Moves, so that a wrong tick shows it in a wrong place.
+/// An object that moves, so that a picture of a wrong tick shows it in a wrong place.
 struct Walker : df::Object {
   Walker() {
     setSolidness(df::SPECTRAL);

@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kObjects = 3000;
 
-/// A unique word, so that the objects do not share a look in the snapshot.
+/// Draws a unique word, so that the objects do not share a look in the snapshot.
 struct Word : df::Object {
   explicit Word(int number) : text("word " + std::to_string(number)) {
     setSolidness(df::SPECTRAL);
@@ -49,8 +49,8 @@ TEST(FirstPicture, IsTheWholeWorld) {
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
   const auto held = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - *began);
   EXPECT_LT(at_first, kObjects);
-  // The snapshots may take longer on a busy machine than the client waits for the rest of a picture. It waits
-  // from the first snapshot, so not earlier than from its connection.
+  // The snapshots may take longer on a busy machine than kIncompleteTimeout, after which the client shows an
+  // incomplete picture. Its wait begins with the first snapshot, and `held` earlier, with the connection.
   if (held < EpochReplicas::kIncompleteTimeout) {
     EXPECT_GE(frames, 3u);
     EXPECT_EQ(ann.session().replica().aliveCount(), kObjects);

@@ -1,5 +1,5 @@
 // dfserver in a fleet: its messages to the sidecar of a cluster and to the bus. Players do not notice when
-// these two disappear. Real processes and sockets, a fake sidecar, the real nats-server.
+// the sidecar or the bus disappears. Real processes and sockets, a fake sidecar, the real nats-server.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -61,7 +61,7 @@ TEST_F(Fleet, ServerReportsReadyHealthAllocateAndShutdown) {
 TEST_F(Fleet, ImmediateStopAlsoReportsShutdown) {
   FakeSidecar sidecar;
   sidecar.start(answerWell);
-  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIME", "1000"}});
+  start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIMEOUT", "1000"}});
   auto ann = join("ann");
   game->signal(SIGTERM);
   EXPECT_TRUE(logs(*ann, "stopping when all players have left"));
@@ -74,8 +74,8 @@ TEST_F(Fleet, ClusterShutdownDrainsTheServer) {
   FakeSidecar sidecar;
   sidecar.start(answerWell);
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())},
-         {"NAIAD_DRAIN_TIME", "1000"},
-         {"NAIAD_GRACE", "0"}});
+         {"NAIAD_DRAIN_TIMEOUT", "1000"},
+         {"NAIAD_RECONNECT_TIME", "0"}});
   ASSERT_TRUE(sidecar.waitFor("GET /watch/gameserver"));
   auto ann = join("ann");
   sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"

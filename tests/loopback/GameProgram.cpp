@@ -35,7 +35,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
                       {"NAIAD_PORT", "0"},
                       {"NAIAD_PORT_FILE", m_directory / "port"},
                       {"NAIAD_IDENTITY", m_directory / "identity"},
-                      {"NAIAD_LOG", m_directory / "log"},
+                      {"NAIAD_LOG_FILE", m_directory / "log"},
                       {"NAIAD_CONTROL", m_directory / "control.sock"},
                       {"NAIAD_STATE", m_directory / "state"},
                       {"NAIAD_JOURNAL", "off"},
@@ -61,7 +61,7 @@ GameProgram::GameProgram(const std::string& name, std::map<std::string, std::str
   posix_spawn_file_actions_adddup2(&actions, errors >= 0 ? errors : STDOUT_FILENO, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // Reset SIGHUP, because a parent that ignores it, such as nohup, passes that on.
+  // Reset SIGHUP, because children of a parent that ignores it, such as nohup, also ignore it.
   sigset_t defaults;
   sigemptyset(&defaults);
   sigaddset(&defaults, SIGHUP);

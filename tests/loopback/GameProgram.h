@@ -15,26 +15,26 @@ namespace naiad::test {
 
 class GameProgram {
  public:
-  /// Starts program `name` of the build in its own session without a terminal. It listens on a free port of
-  /// 127.0.0.1, a tick takes 5 ms, and no round is recorded. `environment` is added to that, `arguments` are
-  /// those of its command line. `errors` is a descriptor for its standard error; below 0, that goes to the
-  /// file of its output. It runs in playFolder(), which is empty.
+  /// Starts program `name` of the build in its own session without a terminal, in playFolder(), which is
+  /// empty. The default environment lets it listen on a free port of 127.0.0.1, with ticks of 5 ms, and
+  /// record no round; `environment` adds variables or replaces these. `arguments` are those of its command
+  /// line. `errors` is a descriptor for its standard error, which below 0 goes to the file of its output.
   GameProgram(const std::string& name, std::map<std::string, std::string> environment,
               const std::vector<std::string>& arguments = {}, int errors = -1);
-  /// Sends SIGTERM if the program has not ended.
+  /// If the program has not ended, sends SIGTERM and waits for its end.
   ~GameProgram();
   GameProgram(const GameProgram&) = delete;
   GameProgram& operator=(const GameProgram&) = delete;
 
   std::uint16_t port() const { return m_port; }
-  /// Waits for its end. Returns its status as from waitpid().
+  /// Waits until the program ends. Returns its status as from waitpid().
   int wait();
   void signal(int number) const;
-  /// Returns its log so far.
+  /// Returns the program's log and output so far.
   std::string log() const;
-  /// Returns the folder that has its key in identity/key.pem.
+  /// Returns the folder with the program's files, for example its key, identity/key.pem.
   std::filesystem::path directory() const { return m_directory.path(); }
-  /// Returns the path of its control socket.
+  /// Returns the path of the program's control socket.
   std::filesystem::path control() const { return m_directory / "control.sock"; }
   std::filesystem::path playFolder() const { return m_directory / "play"; }
   pid_t process() const { return m_process; }

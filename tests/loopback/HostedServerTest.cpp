@@ -90,7 +90,9 @@ class HostedServer : public LoopbackFixture {
   bool reload(const std::string& options) {
     writeConfig(options);
     server->signal(SIGHUP);
-    return logs("the options ");
+    return serve([this] {
+      return has(server->log(), "options reloaded: ") || has(server->log(), "the options were not changed: ");
+    });
   }
   bool ticks(TestClient& playing) {
     const std::uint32_t from = playing.newestTick();
@@ -124,7 +126,7 @@ class HostedServer : public LoopbackFixture {
 // ---- shutdown ---------------------------------------------------------------------------------------------
 
 TEST_F(HostedServer, SigtermLetsPlayersFinish) {
-  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  start({{"NAIAD_DRAIN_TIMEOUT", "3000"}});
   TestClient& ann = join("ann");
   server->signal(SIGTERM);
   EXPECT_TRUE(
@@ -138,7 +140,7 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
 }
 
 TEST_F(HostedServer, ADrainHasADeadline) {
-  start({{"NAIAD_DRAIN_TIME", "1"}});
+  start({{"NAIAD_DRAIN_TIMEOUT", "1"}});
   TestClient& ann = join("ann");
   const auto begin = Clock::now();
   server->signal(SIGTERM);
@@ -150,7 +152,7 @@ TEST_F(HostedServer, ADrainHasADeadline) {
 }
 
 TEST_F(HostedServer, TwoSignalsEndADrainAtOnce) {
-  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  start({{"NAIAD_DRAIN_TIMEOUT", "3000"}});
   TestClient& ann = join("ann");
   server->signal(SIGTERM);
   ASSERT_TRUE(
@@ -161,7 +163,7 @@ TEST_F(HostedServer, TwoSignalsEndADrainAtOnce) {
 }
 
 TEST_F(HostedServer, SigintEndsAtOnce) {
-  start({{"NAIAD_DRAIN_TIME", "3000"}});
+  start({{"NAIAD_DRAIN_TIMEOUT", "3000"}});
   TestClient& ann = join("ann");
   server->signal(SIGINT);
   EXPECT_TRUE(isDismissed(ann, "The server is shutting down."));
@@ -258,7 +260,7 @@ TEST_F(HostedServer, JsonLogLinesHaveEventFields) {
   std::map<std::string, nlohmann::json> events;
   std::istringstream lines(server->log());
   for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with('{')) continue;  // text that it prints for its host
+    if (!line.starts_with('{')) continue;  // not a log line: text that the server prints for its host
     const auto event = nlohmann::json::parse(line);
     events[event.at("event")] = event;
   }
@@ -300,7 +302,7 @@ TEST_P(Fail2ban, MatchesOnlyWrongPasswordsInNormalMode) {
   ClientSetup ann = home.player("ann");
   ann.options.password = "xyzzy";
   TestClient& playing = join(ann);
-  // Chat that imitates the beginning of another line, and another field.
+  // Chat that imitates the beginning of another log line, and another field of a JSON line.
   playing.session().sendChat("203.0.113.9:1 refused: \"That is not this server's password");
   playing.session().sendChat(
       "\",\"address\":\"203.0.113.9:1\",\"sentence\":\"That is not this server's password");
@@ -313,7 +315,7 @@ TEST_P(Fail2ban, MatchesOnlyWrongPasswordsInNormalMode) {
   EXPECT_TRUE(has(fail2banFinds(*server, "aggressive"), " 1 matched,"));
   ClientSetup guess = home.player("eve");
   guess.options.password = "plugh";
-  // At most one line a second on refusals is logged per address, and bob already has one.
+  // Retries until a refusal is logged: at most one a second is logged per address, and bob's was just logged.
   ASSERT_TRUE(serve([&] {
     EXPECT_NE(refusal(guess), "");
     const std::string log = server->log();
@@ -376,7 +378,8 @@ TEST_F(HostedWorld, ClientWithoutReconnectEndsAtARestart) {
 
 class Restarts : public HostedServer, public testing::WithParamInterface<const char*> {
  protected:
-  /// Counts the starts of dfserver by the line without a mark; lines of a world process have one.
+  /// Returns how often dfserver has started, by its line "hosts". It does not match those of world processes,
+  /// which have a mark after the time.
   std::size_t begun() const {
     const std::regex line("\\n[-0-9]+ [:0-9]+ dfserver \\S+ hosts ");
     const std::string lines = "\n" + server->log();
@@ -493,7 +496,7 @@ TEST_F(HostedServer, GameSurvives100ScrapesCommandsAndReloadsPerSecond) {
     const Repeated reloads([&] {
       Talk talk(server->control());
       const std::string answer = talk.ask(R"({"command":"reload"})");
-      bad += answer.find("read") == std::string::npos ? 1 : 0;  // "read again" or "being read already"
+      bad += answer.find("reload") == std::string::npos ? 1 : 0;  // also if one is in progress
     });
     EXPECT_TRUE(
         serve([&] { return scrapes.count() >= 200 && orders.count() >= 200 && reloads.count() >= 200; }));
@@ -505,7 +508,7 @@ TEST_F(HostedServer, GameSurvives100ScrapesCommandsAndReloadsPerSecond) {
 }
 
 TEST_F(HostedServer, ConnectionDroppedBeforeTlsIsLogged) {
-  start({{"NAIAD_VISITORS", home.identity("visitors")}});
+  start({{"NAIAD_PROXY_SOCKET", home.identity("visitors")}});
   ASSERT_EQ(ctl("ban 192.0.2.0/24").first, 0);
   ClientSetup eve = home.player("eve");
   eve.options.proxy = ProxyOptions{home.identity("visitors"), *proxiedPeerFromText("192.0.2.7:50000")};

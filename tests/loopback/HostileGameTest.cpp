@@ -25,14 +25,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kPassword = "open-sesame";
-constexpr int kMemory = 1024;  ///< MiB
+constexpr int kMemory = 1024;  ///< memory limit of a world, in MiB
 
 struct Line {
   pid_t process = 0;
   std::string text;
 };
 
-/// False for a process that has ended but is not yet waited for.
+/// False if the process has ended, even if its parent has not yet waited for it.
 bool isAlive(pid_t process) {
   const char state = stateOf(process);
   return state != 'X' && state != 'Z';
@@ -46,7 +46,7 @@ class HostileGame : public LoopbackFixture {
   void start(std::map<std::string, std::string> environment = {},
              const std::vector<std::string>& arguments = {}) {
     environment.insert({{"NAIAD_GAME", NAIAD_BINARY_DIR "/../lib/hostile_module.so"},
-                        {"NAIAD_PLAYERS", "private"},
+                        {"NAIAD_INPUT_MODE", "private"},
                         {"NAIAD_WORLD_MEMORY", std::to_string(kMemory)}});
     game = std::make_unique<GameProgram>("dfserver", std::move(environment), arguments);
     ASSERT_NE(game->port(), 0) << game->log();
@@ -72,7 +72,7 @@ class HostileGame : public LoopbackFixture {
     while (file >> line.process && std::getline(file >> std::ws, line.text)) lines.push_back(line);
     return lines;
   }
-  /// Returns the worlds that have finished attacking, in the order of their players.
+  /// Returns the processes of the worlds that have finished attacking, in the order of their players.
   std::vector<pid_t> worlds() const {
     std::vector<pid_t> found;
     for (const Line& line : report()) {
@@ -91,7 +91,7 @@ class HostileGame : public LoopbackFixture {
   void expectRefused(const std::vector<std::string>& attempts) const {
     for (const std::string& attempt : attempts) EXPECT_EQ(result(attempt), "refused") << attempt;
   }
-  /// Returns a world and the two processes that it started, one of which has lost its parent. They move to
+  /// Returns a world and the two processes that it started. One of the two has lost its parent. Both move to
   /// their own sessions if that is allowed.
   std::vector<pid_t> processesOf(pid_t world) const {
     std::vector<pid_t> all{world};
@@ -148,7 +148,7 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
   EXPECT_TRUE(serve([&] { return logged(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)"); })) << game->log();
   EXPECT_TRUE(logged(" game: dfserver ")) << "what the engine logs there";
   EXPECT_FALSE(logged("\x1b"));
-  // The flags of the server's own output are unchanged, so the world does not share its descriptor.
+  // The flags of the server's own output are unchanged, so the world does not share the server's open file.
   const std::string info = contentOf("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
   if (!info.empty()) {  // only root may read this
     const std::size_t at = info.find("flags:");
@@ -200,7 +200,7 @@ TEST_F(HostileGame, IsLoadedOnlyByWorldProcesses) {
 }
 
 TEST_F(HostileGame, LearnsNoPassword) {
-  // 64 MiB for each password check are too much under the thread sanitizer, so it gets a cheap hash.
+  // A password check with 64 MiB is too slow under the thread sanitizer, so its server gets a cheap hash.
   const std::string secret =
       kSanitized ? PasswordHash::of(kPassword, {.memory_kib = 64, .passes = 1}).text() : kPassword;
   start({{"NAIAD_PASSWORD", "not this one"}, {"SECRET_OF_MINE", kPassword}},

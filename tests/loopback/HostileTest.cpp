@@ -92,7 +92,7 @@ void attack(SplitMix64& random, RawClient& client) {
   }
 }
 
-/// Default settings: encrypted, and a disconnected player has a grace time.
+/// Uses encrypted connections and, unless a test changes it, the default grace time for disconnected players.
 class Hostile : public LoopbackFixture {
  protected:
   /// Returns a setup without datagrams, because pictures from the stream are never provisional.
@@ -106,8 +106,8 @@ constexpr auto kTls = RawClient::Line::kTls;
 
 TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   HostOptions options = home.server();
-  options.grace = 0.1;            // few attackers are detached at once, so each picture is kept
-  options.max_per_address = 500;  // twice as many may join in sequence (RateLimits)
+  options.grace = 0.1;            // short, because the test also keeps pictures of detached attackers
+  options.max_per_address = 500;  // a burst of twice as many joins is allowed (RateLimits)
   TestServer server(busyWorld(50), options);
   TestClient ann(context, server.port(), player("ann"));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
@@ -210,7 +210,7 @@ TEST_F(Hostile, SilentConnectionsDoNotBlockPlayers) {
   for (int i = 0; i < 30; ++i) crowd.push_back(std::make_unique<RawClient>(server.port()));
   TestClient ann(context, server.port(), "ann");
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
-  EXPECT_EQ(server.counters().turned_away, 13u) << "18 fit; 31 came";
+  EXPECT_EQ(server.counters().connections_rejected, 13u) << "18 fit; 31 came";
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-/// Keeps what it sends so that an attacker can replay it.
+/// Records the datagrams that it sends, so that an attacker can replay them.
 class Sniffed : public DatagramSocket {
  public:
   Sniffed(std::unique_ptr<DatagramSocket> socket, std::vector<std::string>& seen)
@@ -87,7 +87,7 @@ TEST_F(HostileTls, GarbageAndForgeriesAreNeverAnswered) {
       case 2:  // truncated
         bytes.resize(random.below(bytes.size()));
         break;
-      case 3:  // the correct head with another body
+      case 3:  // the header of an authentic datagram, with another body
         for (std::size_t k = 11; k < bytes.size(); ++k) bytes[k] = static_cast<char>(random.next());
         break;
       default:  // captured and replayed

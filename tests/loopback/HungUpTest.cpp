@@ -13,7 +13,8 @@ namespace {
 
 class HungUp : public LoopbackFixture {
  protected:
-  /// Joins a server that drops the handshakes before the `first`-th and sends nothing itself.
+  /// Joins a server that accepts handshakes from the `first`-th on, drops earlier ones, and never sends
+  /// anything.
   TestClient& joinWhereAnswered(int first) {
     TlsListenerOptions tls;
     tls.context =

@@ -27,7 +27,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kSlow = 12;     ///< row of the target that moves half a cell a tick
 constexpr int kFast = 14;     ///< row of the target that moves a cell a tick
 constexpr int kPillars = 16;  ///< row of the fixed pillars in a wide world
-/// Enough clicks for a busy machine, where most arrive later than the server compensates.
+/// Limit of clicks in a test. It is high because on a busy machine most clicks arrive too late to be
+/// compensated.
 constexpr std::size_t kMaxClicks = 100;
 
 struct Click {
@@ -109,7 +110,7 @@ class Watcher : public df::Object {
     Click click;
     click.tick = df::World::current().picture().view().tick;
     click.hit_as_drawn = WM.objectsSeenAt(p_mouse->getMousePosition()).getCount() > 0;
-    click.corner = m_p_runner->getPosition().getX() - 80 * 2 / 3.0;  // the runner pushes the view
+    click.corner = m_p_runner->getPosition().getX() - 80 * 2 / 3.0;  // it pushes the view
     m_clicks.push_back(click);
     return 1;
   }
@@ -190,7 +191,7 @@ TEST_F(LagCompensatorPlay, AClickHitsWhatWasOnTheScreen) {
     ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, row, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
-    // A click may arrive later than the server compensates if the machine is busy.
+    // A click may arrive too late to be compensated if the machine is busy.
     const Click& click = now.back();
     if (click.tick - drawn > LagCompensator::kMaxBehind) continue;
     ++judged;
@@ -238,7 +239,7 @@ TEST_F(LagCompensatorScrolling, AClickHitsWhatWasOnTheScreen) {
     ASSERT_TRUE(ann.session().sendMouse(df::CLICKED, df::Mouse::LEFT, x, kPillars, present));
     std::vector<Click> now;
     ASSERT_TRUE(clicked(ann, i + 1, now));
-    // A click may arrive later than the server compensates if the machine is busy. If the server is behind
+    // A click may arrive too late to be compensated if the machine is busy. If the server is behind
     // the picture, the client drew a predicted view.
     const auto behind = static_cast<std::int32_t>(now.back().tick - drawn);
     if (behind < 2 || behind > static_cast<std::int32_t>(LagCompensator::kMaxBehind)) continue;

@@ -21,7 +21,7 @@ class LightClient {
  public:
   enum class State { kIdle, kJoining, kWelcome, kRefused, kHungUp };
 
-  /// `address` is the client's own, in 127/8. Runs in `context`, which must outlive it.
+  /// `address` is the client's own address, in 127/8. Runs in `context`, which must outlive this client.
   LightClient(asio::io_context& context, std::uint16_t server, const std::string& address);
   ~LightClient();
   LightClient(const LightClient&) = delete;
@@ -31,7 +31,7 @@ class LightClient {
   void join(const std::string& password = {});
   /// Calls join() after a pause.
   void joinAfter(std::chrono::milliseconds pause);
-  /// Retries until it is welcome, like Connection does: after 0.25 s, 0.5 s, … 2 s.
+  /// Joins and, like Connection, retries until it is accepted: after 0.25 s, 0.5 s and so on up to 2 s.
   void joinUntilWelcome();
   /// Closes the connection without a goodbye.
   void drop();
@@ -52,7 +52,7 @@ class LightClient {
   asio::ip::tcp::endpoint m_server;
   asio::ip::tcp::endpoint m_own;
   asio::steady_timer m_timer;
-  std::shared_ptr<asio::ip::tcp::socket> m_socket;  ///< set while it connects
+  std::shared_ptr<asio::ip::tcp::socket> m_socket;  ///< set while the client connects
   std::shared_ptr<TlsHandshake> m_handshake;
   std::unique_ptr<ReliableChannel> m_channel;
   State m_state = State::kIdle;

@@ -18,12 +18,12 @@ constexpr std::chrono::milliseconds kMaxMoveTime{300};
 class LobbyDoors : public LobbyFixture {
  protected:
   static std::string named(TestClient& client) { return client.session().welcome().room; }
-  /// True if the client is in that room and shows the player and the sign of the door back.
+  /// True if the client is in `room` and shows the player and the sign of the door to `other`.
   static bool isIn(TestClient& client, const std::string& room, const std::string& other) {
     return client.joined() && named(client) == room && walker(client, kFirstRow, kFirstRow) &&
            row(client, kDoorRow - 2).find(other) != std::string::npos;
   }
-  /// Steps into the door. Returns the time until the other room is on the screen.
+  /// Steps into the door to room `to`. Returns the time until that room is on the screen.
   std::optional<std::chrono::milliseconds> enterDoor(TestClient& client, const std::string& to,
                                                      const std::string& from) {
     press(client, df::Keyboard::DOWNARROW);
@@ -38,7 +38,7 @@ TEST_F(LobbyDoors, APlayerWalksThroughADoorAndBack) {
   auto bob = connect("bob", "yard");
   ASSERT_TRUE(serve([&] { return bob->joined() && walker(*bob, kFirstRow, kFirstRow); })) << server->log();
   while (!HasFatalFailure() && walker(*bob, kFirstRow, kRows - 1)->second <= kDoorRow + 1)
-    step(*bob, df::Keyboard::DOWNARROW);  // away from where players appear
+    step(*bob, df::Keyboard::DOWNARROW);  // moves bob away from the row where players appear
   auto ann = connect("ann", "hall");
   ASSERT_TRUE(serve([&] { return isIn(*ann, "hall", "yard"); })) << server->log();
   const ClientSession* const p_session = &ann->session();

@@ -20,7 +20,7 @@ class LobbyFixture : public RoomsFixture {
  protected:
   using Place = std::pair<int, int>;
 
-  /// Returns the position of a player in these rows; nullopt if none is there.
+  /// Returns the position of the first player shown in these rows; nullopt if none is there.
   static std::optional<Place> walker(TestClient& client, int first, int last) {
     const df::Canvas picture = client.session().replica().render(client.newestTick());
     for (int y = first; y <= last; ++y) {
@@ -29,7 +29,7 @@ class LobbyFixture : public RoomsFixture {
     }
     return std::nullopt;
   }
-  /// Makes one step. The lobby allows one every second tick.
+  /// Makes one step. Waits four ticks, because the lobby allows a step only every second tick.
   void step(TestClient& client, df::Keyboard::Key key) {
     const auto before = walker(client, kFirstRow, kRows - 1);
     ASSERT_TRUE(before);
@@ -38,7 +38,7 @@ class LobbyFixture : public RoomsFixture {
     const std::uint32_t moved = client.newestTick();
     ASSERT_TRUE(serve([&] { return client.newestTick() >= moved + 4; }));
   }
-  /// Walks to where the next step leads into the door.
+  /// Walks to the cell from which one more step down leads into the door.
   void walkToDoor(TestClient& client) {
     while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->first > kDoorColumn)
       step(client, df::Keyboard::LEFTARROW);

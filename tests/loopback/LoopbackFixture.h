@@ -32,7 +32,7 @@ class LoopbackFixture : public testing::Test {
   bool ends(TestClient& client) {
     return serveUntil(context, {&client}, [&] { return client.connection().isOver(); });
   }
-  /// Waits until the client's pictures come as datagrams.
+  /// Waits until the client receives its pictures as datagrams.
   bool settles(TestClient& client) {
     return serveUntil(context, {&client}, [&] { return isOnDatagrams(client); });
   }

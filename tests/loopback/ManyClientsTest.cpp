@@ -173,7 +173,7 @@ TEST_F(ManyClients, SpoofedAddressesDoNotLockPlayersOut) {
   EXPECT_EQ(server.counters().detached, 0u);
   const DatagramDemuxCounters gate = server.datagrams();
   EXPECT_GT(gate.unknown_id, 500u);
-  EXPECT_GT(gate.claimed_flood, 500u) << "most of them met no cryptography";
+  EXPECT_GT(gate.unvalidated_session_flood, 500u) << "most of them met no cryptography";
 }
 
 }  // namespace

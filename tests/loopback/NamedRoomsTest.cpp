@@ -74,7 +74,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   EXPECT_EQ(ann->session().counters().bad_messages, 0u);
 }
 
-// A world that has missed ticks is behind the others in its tick number.
+// A world that has missed ticks has a lower tick number than the others.
 TEST_F(NamedRooms, PlayerMovesToAWorldWithEarlierTicks) {
   start({"one", "slow"});
   auto ann = join("ann", "one");
@@ -133,8 +133,8 @@ class Isolation : public RoomsFixture {
     press(*bob, key);
     ASSERT_TRUE(serve([&] { return done(*bob); })) << server->log();
     const auto passed = std::chrono::duration<double>(Clock::now() - began).count();
-    // A small part of the ticks is enough, because the machine may be busy. A world that waited for the bad
-    // one would have had almost none.
+    // 15 % of the ticks are enough, because the machine may be busy. A world that waited for the bad one
+    // would have had almost none.
     const int least = static_cast<int>(passed / 0.005 * 0.15);
     EXPECT_GE(shown(*ann).ticks - first, least) << passed;
     EXPECT_GE(shown(*cid).ticks - other, least) << passed;
@@ -164,7 +164,7 @@ TEST_F(Isolation, LoadAffectsOnlyItsRoom) {
   int ticks = -1;
   expectOthersGoOn(df::Keyboard::B, [&](TestClient& bad) {
     if (ticks < 0) ticks = shown(bad).ticks;
-    return shown(bad).ticks > ticks + 2;  // each takes a tenth of a second of processor time
+    return shown(bad).ticks > ticks + 2;  // each of these ticks takes a tenth of a second of processor time
   });
 }
 

@@ -23,7 +23,7 @@ TEST_F(Loopback, ClientMatchesTheServerForAThousandTicks) {
   TestClient client(context, server.port(), "ann");
   std::uint32_t pressed = 0;
   ASSERT_TRUE(serveUntil(context, {&client}, [&] {
-    // Steer as well, so that the player's own text and ship change.
+    // Presses keys, so that the player's own text and ship change.
     if (client.joined() && client.newestTick() > pressed + 10) {
       pressed = client.newestTick();
       const auto key = pressed % 3 == 0 ? df::Keyboard::LEFTARROW : df::Keyboard::RIGHTARROW;
@@ -64,7 +64,7 @@ TEST_F(Loopback, EarlyAndLateClientsSeeTheSameWorld) {
   EXPECT_LE(different, server.skippedTicks(ann.player()) + server.skippedTicks(cal.player()));
 }
 
-/// Shakes the window for ten ticks of thirty.
+/// Shakes the window for ten of every thirty ticks.
 struct Shaker : df::Object {
   Shaker() {
     setSolidness(df::SPECTRAL);

@@ -89,7 +89,7 @@ TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
     const auto key = right ? df::Keyboard::RIGHTARROW : df::Keyboard::LEFTARROW;
     ASSERT_TRUE(ann.session().sendKey(key, df::KEY_PRESSED, Clock::now()));
     x += right ? 1 : -1;
-    // No answer can have arrived yet.
+    // The server's answer cannot have arrived yet, so the boat's move was predicted.
     EXPECT_EQ(shown(ann), (start + df::FixedVector{df::fromCells(x), 0})) << i;
     const std::uint32_t tick = ann.newestTick();
     ASSERT_TRUE(serveUntil(context, {&ann}, [&] {

@@ -1,4 +1,4 @@
-// A busy server. Its clients' streams pass through a proxy, and their datagrams go straight to it.
+// A busy server. Its clients' streams pass through a proxy; their datagrams do not.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class ProxiedServer : public LoopbackFixture {
     valve->server_port = server->port();
   }
   void start() { start(home.server()); }
-  /// Adds a suite's own objects to the world.
+  /// Adds the objects of a derived fixture to the world.
   virtual void addObjects() {}
   virtual ClientSetup player(const std::string& name) {
     ClientSetup setup = home.player(name);

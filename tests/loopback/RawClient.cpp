@@ -41,14 +41,15 @@ RawClient::RawClient(std::uint16_t port, Line line) {
   transfer(true, nullptr, 0);
 }
 
-// Waits until bytes can be sent (`out`) or read. False after kPatienceMillis.
+// Waits until bytes can be sent (if `out`) or read. False after kPatienceMillis.
 bool RawClient::await(bool out) {
   pollfd watched{m_socket.native_handle(), static_cast<short>(out ? POLLOUT : POLLIN), 0};
   m_timed_out = poll(&watched, 1, kPatienceMillis) <= 0;
   return !m_timed_out;
 }
 
-// Returns how many bytes were sent or read; 0 or less at the end. A count of 0 does the TLS handshake.
+// Sends (if `out`) or reads bytes. Returns their number; 0 or less if the connection has ended. With a count
+// of 0 it does the TLS handshake.
 int RawClient::transfer(bool out, char* bytes, std::size_t count) {
   const int size = static_cast<int>(count);
   while (m_socket.is_open()) {

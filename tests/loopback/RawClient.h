@@ -35,7 +35,8 @@ class RawClient {
   std::optional<wire::ServerMessage> receive();
   /// Reads until the server closes the connection. False after 30 s.
   bool waitForHangup();
-  /// Ends its side of the stream, then reads until the server has read all and closes. False after 30 s.
+  /// Ends this side of the stream, then reads until the server, which has read everything, closes it. False
+  /// after 30 s.
   bool finish();
   /// Closes the connection with a reset, as if the process was killed.
   void reset();

@@ -32,14 +32,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenKeys{20};
-/// Number of further ticks that each client must see after the harm.
+/// Number of further ticks that each client must see after its world was killed or hung.
 constexpr std::uint32_t kSeenTicks = 10;
-/// Number of those ticks that may have been under way when the world failed.
+/// Number of these ticks that may have been sent before the world failed.
 constexpr std::uint32_t kOnTheWay = 3;
 
-/// Returns the world process that runs the round; 0 if missing. The second world, a check, starts later.
+/// Returns the process of the world that runs the round; 0 if there is none. A second world, which only
+/// checks replays, starts later.
 pid_t worldOf(pid_t server) {
-  const std::vector<pid_t> worlds = processesBelow(server, "exe");  // name of /proc/self/exe
+  const std::vector<pid_t> worlds = processesBelow(server, "exe");  // started as /proc/self/exe
   return worlds.empty() ? 0 : worlds.front();
 }
 
@@ -89,7 +90,7 @@ class RecoveryClient {
   }
   void leave() { m_connection.leave(); }
   bool isJoined() { return m_connection.state() == Connection::State::kJoined; }
-  /// True in any session that began after forgetSession().
+  /// True if the client plays in a session that began after forgetSession().
   bool isBack() { return isJoined() && m_sessions != m_sessions_before; }
   void forgetSession() { m_sessions_before = m_sessions; }
   /// Calls forgetSession(), and keeps the last picture when the next session starts.
@@ -105,7 +106,7 @@ class RecoveryClient {
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
   const ClientSession* session() { return m_connection.session(); }
   std::uint32_t newestTick() const { return m_whole.tick(); }
-  /// True if it has had a picture since freezePicture().
+  /// True if the client has had a complete picture since freezePicture().
   bool hasPicture() const { return m_picture.has_value() || m_whole.isComplete(); }
   /// Returns the last picture before freezePicture().
   const std::optional<df::Canvas>& picture() const { return m_frozen; }
@@ -115,7 +116,7 @@ class RecoveryClient {
     freezeLastPicture();
     m_whole = CompletenessTracker();
   }
-  /// Returns the newest tick at that time.
+  /// Returns the client's newest tick when the picture was frozen.
   std::uint32_t frozenAfter() const { return m_frozen_after; }
 
  private:
@@ -254,7 +255,7 @@ KillResult RecoveryRun::killTwice(std::chrono::milliseconds between) {
   m_server->signal(SIGKILL);
   m_server->wait();
   m_log += m_server->log();
-  for (const auto& client : m_clients) client->forgetSession();  // some may have been back already
+  for (const auto& client : m_clients) client->forgetSession();  // some may already have returned
   return comeBack();
 }
 
@@ -284,7 +285,7 @@ void RecoveryRun::killServer() {
   m_server->signal(SIGKILL);
   m_server->wait();
   m_log += m_server->log();
-  play(std::chrono::milliseconds(20));  // for messages under way
+  play(std::chrono::milliseconds(20));  // receives the messages that the server sent before
   m_before.clear();
   m_seen = 0;
   for (const auto& client : m_clients) {
@@ -295,7 +296,7 @@ void RecoveryRun::killServer() {
   }
 }
 
-// Waits, because a client may have its answer before the line is in the file.
+// Waits for the line, because a client may have its answer before another thread has written the line.
 bool RecoveryRun::isLogged(const std::string& text) {
   const auto end = Clock::now() + kForLog;
   while (m_server->log().find(text) == std::string::npos) {
@@ -357,7 +358,7 @@ void RecoveryRun::judge(bool back, KillResult& result) {
   }
   const std::string log = m_server->log();
   const std::uint32_t turns = recoveredTurns();
-  const std::uint32_t last = m_seen + 1 - m_first_tick;  // counted by the world
+  const std::uint32_t last = m_seen + 1 - m_first_tick;  // the world counts its ticks from 1
   if (last > turns) {
     result.ticks_lost = last - turns;
     result.problem = "a client saw tick " + std::to_string(m_seen) + ", the world's " + std::to_string(last) +
@@ -391,7 +392,7 @@ std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const st
   while (!sees_more(kSeenTicks)) {
     if (Clock::now() > began + kPatience) return std::nullopt;
     play(std::chrono::milliseconds(2));
-    // Pictures that were under way when the world died still arrive.
+    // Pictures sent before the world failed still arrive, so the first kOnTheWay ticks do not count.
     if (!next_picture && sees_more(kOnTheWay)) next_picture = Clock::now();
   }
   for (std::size_t i = 0; i < m_clients.size(); ++i) {

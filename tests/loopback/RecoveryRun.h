@@ -68,10 +68,12 @@ class RecoveryRun {
   KillResult killBoth();
   /// Plays until the world has had this many turns in all. False after `patience`.
   bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
-  /// Kills the server, changes the time of the round's file as if `away` had passed, and starts it again. The
-  /// old players' grace time must have ended; `newcomers` join. Returns how many of these see the game.
+  /// Kills the server, changes the time of the round's file as if `away` had passed, and starts the server
+  /// again. `away` must be longer than the old players' grace time. `newcomers` join. Returns how many of
+  /// these see the game.
   int replacePlayers(std::chrono::seconds away, int newcomers);
-  /// The two halves of kill().
+  /// kill() consists of these two: the first kills the server, the second starts it again and waits for the
+  /// players.
   void killServer();
   KillResult comeBack();
   /// Runs `dfctl restart --keep` while the players play, then waits until all are back.
@@ -79,14 +81,15 @@ class RecoveryRun {
   /// Kills only the world's process. Returns the time until the last player's next picture; nullopt if a
   /// player gets no further pictures, or only in another session.
   std::optional<std::chrono::milliseconds> killWorld();
-  /// Like killWorld(), but a player presses a key that makes the world hang until --hang-time of the server.
+  /// Like killWorld(), but a player presses a key that makes the world hang until --tick-timeout of the
+  /// server.
   std::optional<std::chrono::milliseconds> hangWorld(df::Keyboard::Key key);
-  /// Returns the waiting copies of the world's process.
+  /// Returns the processes that wait as copies of the world.
   std::vector<pid_t> copies() const;
   /// Ends the server and replays its round. True if all ticks are equal; `said` is the output of dfreplay
   /// --verify.
   bool verify(std::string& said);
-  /// Call after verify(). All rows must be from this round.
+  /// Compares the scores. Call after verify(). All rows of the file must be from this round.
   ScoreCheck checkScores() const;
   /// Sets the game of the next server.
   void setGame(const std::string& game) { m_game = game; }
@@ -116,11 +119,11 @@ class RecoveryRun {
   asio::io_context m_context;
   std::unique_ptr<GameProgram> m_server;
   std::uint16_t m_port = 0;
-  std::uint32_t m_first_tick = 0;  ///< the server's number of the world's first tick
+  std::uint32_t m_first_tick = 0;  ///< number of the world's first tick in the server's count
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
   int m_names = 0;                       ///< number of names given to players so far
   std::vector<WelcomeMessage> m_before;  ///< welcomes of the clients before the kill
-  std::uint32_t m_seen = 0;              ///< newest tick that a client had
+  std::uint32_t m_seen = 0;              ///< newest tick that any client had before the kill
   std::string m_log;
   std::chrono::steady_clock::time_point m_killed_at;
 };

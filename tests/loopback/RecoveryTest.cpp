@@ -47,7 +47,7 @@ TEST_P(KilledServer, LosesNoPlayersAndNoTicks) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// After dfctl restart --keep, the new program meets the promises made for a kill.
+// After dfctl restart --keep, players and ticks are kept like after a kill.
 TEST_P(KilledServer, KeepRestartLosesNoPlayersAndNoTicks) {
   const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
   std::mt19937_64 random(11);
@@ -68,7 +68,8 @@ TEST_P(KilledServer, KeepRestartLosesNoPlayersAndNoTicks) {
   EXPECT_TRUE(run.verify(said)) << said << run.log();
 }
 
-// The machine was off for longer than the grace time. The world still uses the ids of lost players.
+// Simulates a machine that was off for longer than the grace time. The world still uses the ids of the lost
+// players.
 TEST(Recovery, NewPlayersSeeTheRecoveredRoundWithoutItsPlayers) {
   constexpr std::chrono::hours kDay{24};
   RecoveryRun run("saucershoot", 2, 13);

@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kElsewhere = "This session was resumed in another client.";
 
-/// Keys that the game received, counted by action.
+/// Numbers of key events that the game received, by action.
 struct Keys {
   std::atomic<int> pressed = 0;
   std::atomic<int> released = 0;
@@ -78,7 +78,7 @@ class Return : public ProxiedServer {
     }
     return true;
   }
-  /// Plays for a while. True if the pictures and the checksums are right.
+  /// Plays for 300 ticks. True if the pictures and the checksums are right.
   bool playsOn(TestClient& client) {
     return hears(client, 300) && seesTheTruth(client) && server->counters().divergences == 0;
   }
@@ -265,7 +265,7 @@ TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
   ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return ann->connection().isOver(); }));
   EXPECT_EQ(ann->connection().state(), Connection::State::kRefused);
   EXPECT_EQ(ann->connection().message(), kElsewhere);
-  EXPECT_EQ(server->counters().refused_elsewhere, 1u);
+  EXPECT_EQ(server->counters().refused_session_moved, 1u);
   EXPECT_TRUE(playsOn(elsewhere));
   expectNoJoinOrLeave();
 }
@@ -323,7 +323,7 @@ TEST_F(Return, ChatDuringADisconnectArrivesOnceInOrder) {
     const std::size_t had = linesOf(bob).size();
     const std::string number = std::to_string(round);
     proxy->setOpen(false);
-    round == 1 ? proxy->stall() : proxy->cut();  // lost with the stream, or sent without one
+    round == 1 ? proxy->stall() : proxy->cut();  // chat is lost with a stream, or has none
     ann->session().sendChat("one " + number);
     bob.session().sendChat("hello? " + number);
     ann->session().sendChat("two " + number);
@@ -338,7 +338,7 @@ TEST_F(Return, ChatDuringADisconnectArrivesOnceInOrder) {
     EXPECT_EQ(linesOf(*ann), heard) << "the same in the same order, each once";
   }
   EXPECT_EQ(server->counters().chat_dropped, 0u);
-  EXPECT_EQ(server->counters().kept_overflows, 0u);
+  EXPECT_EQ(server->counters().outbox_sounds_dropped, 0u);
 }
 
 TEST_F(Return, NewProcessDoesNotReceiveOldChat) {

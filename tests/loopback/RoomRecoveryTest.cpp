@@ -29,7 +29,7 @@ class RoomRecovery : public LobbyFixture {
   void startJournaled() {
     const std::uint16_t port = server ? m_port : 0;
     server.reset();
-    start(rooms, {"--grace=60", "--world-environment=ROOM_REPEATS"},
+    start(rooms, {"--reconnect-time=60", "--world-environment=ROOM_REPEATS"},
           {{"ROOM_REPEATS", "1"},
            {"NAIAD_PORT", std::to_string(port)},
            {"NAIAD_IDENTITY", home.identity("key")},
@@ -156,7 +156,7 @@ TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   EXPECT_EQ(&bob->session(), p_bob);
   EXPECT_EQ(shown(*ann).keys, 2) << "without the one that it died of";
   EXPECT_EQ(bob->session().chat().size(), heard_by_bob);
-  EXPECT_FALSE(has(server->log(), "room two: the game"));
+  EXPECT_FALSE(has(server->log(), "room two: game"));
   type(*ann, 1);
   type(*bob, 1);
   kill();
@@ -168,7 +168,7 @@ TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   EXPECT_EQ(shown(*bob).keys, 3);
 }
 
-// The lobby's knowledge of rooms is part of its round.
+// The round of the lobby includes the list of rooms that its doors need.
 TEST_F(RoomRecovery, DoorsWorkAfterRecovery) {
   rooms = {"hall=lobby", "one"};
   startJournaled();
@@ -205,7 +205,7 @@ TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   EXPECT_EQ(shown(*ann).keys, 2);
   EXPECT_EQ(shown(*bob).keys, 0) << "the next round";
   EXPECT_EQ(bob->session().welcome().room, "two");
-  EXPECT_TRUE(serve([&] { return server->log().find("room two: the round") != std::string::npos; }));
+  EXPECT_TRUE(serve([&] { return server->log().find("room two: giving up") != std::string::npos; }));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// Globals that the game draws.
+/// Values that the game draws, such as its global variables.
 struct Shown {
   int mains = 0;
   int steps = -1;
@@ -50,7 +50,7 @@ class Rounds : public LoopbackFixture {
     const auto mains = numberAfter(row, "mains=");
     const auto steps = numberAfter(row, "steps=");
     const auto process = numberAfter(row, "process=");
-    // The first pictures of a round may be incomplete.
+    // The first pictures of a round may lack a part of the text.
     if (!mains || !steps || !process || row.find(';') == std::string::npos) return {};
     return {*mains, *steps, *process};
   }
@@ -67,13 +67,13 @@ class Rounds : public LoopbackFixture {
     }
     return heard;
   }
-  /// A start of the theme replaces a stop that still waits to be sent.
+  /// True if the theme stopped and started again: a start replaces a stop that still waits to be sent.
   static bool beganAgain(const std::string& theme) { return theme == "+-+" || theme == "++"; }
   /// Presses a key at which the game writes a line. Returns the line from the server's `watch` command.
   std::string watchedLine(TestClient& client, df::Keyboard::Key key) {
     Talk talk(game->control());
     EXPECT_EQ(talk.ask(R"({"command":"watch"})"), R"({"ok":true,"text":"The log follows."})");
-    EXPECT_TRUE(has(talk.ask(R"({"command":"ping"})"), "\"ok\":true"));  // so the watch has begun
+    EXPECT_TRUE(has(talk.ask(R"({"command":"ping"})"), "\"ok\":true"));  // the watch has begun
     press(client, key);
     std::string line;
     const bool comes = serve([&] {
@@ -98,7 +98,7 @@ class Rounds : public LoopbackFixture {
   std::vector<TestClient*> clients;
 };
 
-/// ann's key ends the round; ann and bob continue in the next one.
+/// Tests in which ann's key ends the round, and ann and bob continue in the next one.
 class RoundEnd : public Rounds {
  protected:
   void expectAnotherRound(df::Keyboard::Key key, const std::string& line) {
@@ -155,7 +155,7 @@ TEST_F(RoundEnd, HangStartsTheNextRound) {
 
 TEST_F(Rounds, PlayersSeeWhatTheWorldsDraw) {
   const std::string truth = home.knownServers().string() + ".truth";
-  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH", truth}, {"NAIAD_INSECURE", "true"}});
+  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH_FILE", truth}, {"NAIAD_INSECURE", "true"}});
   TestClient ann(context, game->port(), "ann");
   clients.push_back(&ann);
   ASSERT_TRUE(serve([&] { return ann.joined() && shown(ann).steps >= 0; })) << game->log();
@@ -215,7 +215,7 @@ TEST_F(Rounds, AServerThatIsKilledLeavesNoWorld) {
 }
 
 TEST_F(Rounds, PrivateWorldsCrashAlone) {
-  start({{"NAIAD_PLAYERS", "private"}});
+  start({{"NAIAD_INPUT_MODE", "private"}});
   auto ann = join("ann");
   auto bob = join("bob");
   EXPECT_NE(shown(*ann).process, shown(*bob).process);
@@ -244,7 +244,7 @@ TEST_F(Rounds, PrivateWorldsCrashAlone) {
 }
 
 TEST_F(Rounds, LeavingPlayerEndsTheirPrivateWorld) {
-  start({{"NAIAD_PLAYERS", "private"}});
+  start({{"NAIAD_INPUT_MODE", "private"}});
   auto ann = join("ann");
   auto bob = join("bob");
   const int anns = shown(*ann).process;
@@ -260,7 +260,7 @@ TEST_F(Rounds, LeavingPlayerEndsTheirPrivateWorld) {
 }
 
 TEST_F(Rounds, PrivateWorldsHaveRounds) {
-  start({{"NAIAD_PLAYERS", "private"}, {"NAIAD_ON_GAME_OVER", "restart"}});
+  start({{"NAIAD_INPUT_MODE", "private"}, {"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
   auto bob = join("bob");
   const int anns = shown(*ann).process;
@@ -369,13 +369,13 @@ TEST_F(Upgrade, NextRoundDetectsTheUpgradeAndRestartsTheServer) {
   EXPECT_TRUE(logs("program was upgraded while it runs: a new game process has another build ("))
       << game->log();
   EXPECT_FALSE(has(game->log(), "sent a malformed answer"));
-  // Now everything is of the new build.
+  // Now the server and its worlds use the new build.
   press(*ann, df::Keyboard::X);
   EXPECT_TRUE(serve([&] { return heard(*ann, "The round is over; the next one begins."); })) << game->log();
 }
 
 TEST_F(Upgrade, PrivateWorldsContinueUntilTheirPlayersLeave) {
-  start({{"NAIAD_PLAYERS", "private"}});
+  start({{"NAIAD_INPUT_MODE", "private"}});
   auto ann = join("ann");
   upgrade();
   TestClient bob(context, game->port(), home.player("bob"));

@@ -8,7 +8,7 @@
 
 namespace naiad::test {
 
-/// Returns its exit code and its output, standard error included.
+/// Runs dfctl with these arguments. Returns its exit code and its output, including standard error.
 inline std::pair<int, std::string> runCtl(const std::string& arguments) {
   return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
 }

@@ -94,9 +94,9 @@ class RoomScores : public RoomsFixture {
                       recording + " --game " + kScoresModule + " " + words + " 2>&1")
         .second;
   }
-  /// Returns the number of keys that the game has drawn.
+  /// Returns the number after "keys=" in the picture: the keys that the game has received; -1 if missing.
   static int keysIn(const std::string& picture) { return numberAfter(picture, "keys=").value_or(-1); }
-  /// Returns the value of "NAME":, without quotes.
+  /// Returns the value of the key `name` in JSON text, without quotes.
   static std::string valueIn(const std::string& json, const std::string& name) {
     const std::string key = "\"" + name + "\":";
     const std::size_t at = json.find(key);

@@ -33,7 +33,8 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
   TestServer server(busyWorld(200), home.server());
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(settles(ann));
-  // A snapshot on the stream may be overtaken; pictures recorded before it arrives are not final.
+  // Datagrams may overtake a snapshot on the stream, which may change pictures recorded before. Forgets
+  // those.
   std::uint64_t on_stream = streamed(ann);
   ann.forgetPictures();
   std::uint32_t pressed = 0;
@@ -137,7 +138,8 @@ TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
   ASSERT_TRUE(joins(ann));
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().hasSecondStream(); }));
   ann.forgetPictures();
-  ann.keepWholePictures();  // data sent only on the stalled stream, while the other was full, is lost
+  ann.keepWholePictures();  // a snapshot is lost if it was sent only on the stalled stream, because the other
+                            // one was full
   proxy.stallOldest();
   EXPECT_TRUE(hears(ann, 200));
   expectSame(ann, server, 100);

@@ -66,7 +66,7 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     handshake->run(30s, [self = shared_from_this()](TlsHandshake::End, auto made, const auto&) {
       if (!made) return self->noteEnd();
       self->stream = std::move(made);
-      self->stream->socket().async_wait(  // the server sends nothing, so this waits for the end
+      self->stream->socket().async_wait(  // waits for the end, as the server sends nothing
           tcp::socket::wait_read, [self](const std::error_code&) { self->noteEnd(); });
     });
   }
@@ -86,7 +86,8 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
                              self->noteEnd();
                            });
   }
-  /// Reconnects after 200 ms: a few hundred connections a second, or some ten with a sanitizer.
+  /// Reconnects after 200 ms (later with a sanitizer), so that the crowd makes a few hundred connections a
+  /// second.
   void comeAgain() {
     timer.expires_after(kSlowness * 200ms);
     timer.async_wait([self = shared_from_this()](const std::error_code& error) {
@@ -130,8 +131,8 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
   });
 }
 
-// Completes the first hellos once all have begun and the server has had time to accept them. Later ones are
-// completed at once.
+// Completes the first connections' ClientHellos half a second after all have begun, so that the server has
+// accepted them. Completes later ones at once.
 void SilentCrowd::finishHello(One& one) {
   if (m_finished) return one.say(m_rest);
   if (!std::ranges::all_of(m_all, [](const auto& other) { return other->begun; })) return;

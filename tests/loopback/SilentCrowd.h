@@ -15,9 +15,9 @@ namespace naiad::test {
 
 class SilentCrowd {
  public:
-  /// Data sent: nothing (kSilent); half a ClientHello (kBegunHello); a ClientHello, but no answer to the
-  /// server's reply (kWholeHello); like that, all beginning before the first completes (kFinishedTogether);
-  /// the TLS handshake, but no hello of the protocol (kNoHello).
+  /// What a connection sends. kSilent: nothing. kBegunHello: half a ClientHello. kWholeHello: a ClientHello,
+  /// but no answer to the server's reply. kFinishedTogether: like kWholeHello, but first all connections
+  /// begin, then all complete their ClientHellos. kNoHello: the TLS handshake, but no hello of the protocol.
   enum class Kind { kSilent, kBegunHello, kWholeHello, kFinishedTogether, kNoHello };
 
   /// Makes `each` connections from each of the addresses, which must be in 127/8.

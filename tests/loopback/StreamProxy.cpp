@@ -24,7 +24,7 @@ struct StreamProxy::Line {
   std::array<asio::steady_timer, 2> timers;
   std::array<std::array<char, 16384>, 2> buffers{};
   bool stalled = false;
-  bool closed = false;  ///< the proxy may be destroyed then
+  bool closed = false;  ///< true after close(); the proxy may already be destroyed then
 };
 
 StreamProxy::StreamProxy(asio::io_context& context, std::uint16_t server_port)

@@ -12,7 +12,7 @@
 
 namespace naiad::test {
 
-/// Runs in `context`, which must outlive it.
+/// Runs in `context`, which must outlive the proxy.
 class StreamProxy {
  public:
   StreamProxy(asio::io_context& context, std::uint16_t server_port);
@@ -22,11 +22,11 @@ class StreamProxy {
   std::uint16_t port() const { return m_acceptor.local_endpoint().port(); }
   /// Closes both ends of all present connections.
   void cut();
-  /// Stops all bytes on the present connections without an error at either end.
+  /// Stops passing on bytes of the present connections. Neither end gets an error.
   void stall();
   /// Like stall(), but only for the oldest connection.
   void stallOldest();
-  /// If not open, later connections are closed at once.
+  /// If `open` is false, later connections are closed at once.
   void setOpen(bool open) { m_open = open; }
   /// Sets the delay of bytes in each direction.
   void setDelay(std::chrono::milliseconds delay) { m_delay = delay; }

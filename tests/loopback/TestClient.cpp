@@ -33,8 +33,8 @@ TestClient::TestClient(asio::io_context& context, std::uint16_t port, const Clie
   m_connection.start();
 }
 
-// When a snapshot of a new tick is about to be applied, all ticks before it are final: the replica
-// extrapolates those that no snapshot corrected.
+// When a snapshot of a new tick is about to be applied, the pictures of all ticks before it are final. The
+// replica extrapolates the ticks that no snapshot corrected.
 void TestClient::record(ClientSession& session, std::uint32_t tick) {
   const std::uint32_t known = session.clock().newestTick();
   if (!m_keep || known == 0 || tick == known) return;
@@ -99,7 +99,8 @@ std::optional<std::chrono::nanoseconds> timeUntil(asio::io_context& context,
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
     took += std::min<std::chrono::nanoseconds>(now - before, kMaxTurn);
   }
-  // At most half is deducted: several threads may wait at once, and an ended thread's wait is forgotten.
+  // The wait is only an estimate, because several threads may wait at once, and an ended thread's wait is
+  // forgotten. So at most half the time is deducted.
   return took -
          std::clamp<std::chrono::nanoseconds>(runDelay() - delay, std::chrono::nanoseconds(0), took / 2);
 }

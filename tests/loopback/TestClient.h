@@ -18,7 +18,7 @@
 
 namespace naiad::test {
 
-/// Timeout for a loaded machine. A test that reaches it has failed anyway.
+/// Timeout, long enough for a loaded machine. Only tests that fail reach it.
 inline constexpr std::chrono::seconds kPatience{kSanitized ? 120 : 60};
 
 /// A client's options, the keys it trusts, and whether it reconnects.
@@ -31,7 +31,7 @@ struct ClientSetup {
 /// Returns a setup for plain TCP without reconnects.
 ClientSetup insecurely(const std::string& name);
 
-/// Destroying it acts as if the client's process was killed.
+/// Its destructor acts, for the server, like killing the client's process.
 class TestClient {
  public:
   TestClient(asio::io_context& context, std::uint16_t port, const std::string& name)
@@ -59,7 +59,7 @@ class TestClient {
   Connection m_connection;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   CompletenessTracker m_whole;
-  std::uint32_t m_recorded = 0;  ///< newest tick recorded
+  std::uint32_t m_recorded = 0;  ///< newest tick whose picture was recorded
   bool m_keep = true;
   bool m_only_whole = false;
 };

@@ -20,8 +20,7 @@
 
 namespace naiad::test {
 
-/// Returns options for tests: any free port, plain TCP, no grace time, ticks so short that a thousand take
-/// seconds.
+/// Returns options for tests: any free port, plain TCP, no grace time, ticks of 3 ms.
 HostOptions fastOptions();
 
 class TestServer {
@@ -31,7 +30,7 @@ class TestServer {
   ~TestServer();
 
   std::uint16_t port() const { return m_host->endpoint().port(); }
-  /// Returns the port that the log names; 0 without metrics.
+  /// Returns the port of the metrics page, as logged by the server; 0 without metrics.
   std::uint16_t metricsPort() const { return m_metrics_port; }
   std::optional<Fingerprint> fingerprint() const { return m_host->endpoint().fingerprint(); }
   /// Runs `job` on the server's thread between two ticks and returns its result.
@@ -44,19 +43,21 @@ class TestServer {
   Counters counters() {
     return inWorld([this](df::World&) { return m_host->context().counters; });
   }
-  /// Returns counters of received datagrams and their fates.
+  /// Returns the counters of received datagrams: delivered ones, and dropped ones by reason.
   DatagramDemuxCounters datagrams() {
     return inWorld([this](df::World&) { return m_host->endpoint().network().gateCounters(); });
   }
-  /// Returns at how many ticks' ends the server knew that this player was not up to date.
+  /// Returns the number of ticks after which the server knew that this player was not up to date.
   std::uint64_t skippedTicks(std::uint32_t player) {
     return inWorld([this, player](df::World&) { return m_host->clients().sessions().skippedTicks(player); });
   }
-  /// Returns the picture that the book's draw path makes for `player` after `tick`, if they were in it.
+  /// Returns the picture of `player` after `tick`, drawn by the engine's own draw(); nullopt if they were not
+  /// in the game.
   std::optional<df::Canvas> truth(std::uint32_t tick, std::uint32_t player) const;
-  /// Sets whether the truth is kept. With many players this takes longer than all else.
+  /// Sets whether pictures for truth() are recorded. With many players this takes more time than the rest of
+  /// the server.
   void keepTruth(bool keep) { m_draws = keep; }
-  /// Starts a shutdown by this plan and returns. The server runs until then.
+  /// Schedules a shutdown by this plan and returns at once. The server runs until the planned time.
   void end(const ShutdownScheduler::Plan& plan) {
     inWorld([&](df::World&) {
       m_host->controls().end(plan);
@@ -75,7 +76,7 @@ class TestServer {
   std::unique_ptr<Host> m_host;
   std::atomic<bool> m_draws = true;
   mutable std::mutex m_mutex;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< indexed by tick and player
+  std::map<std::pair<std::uint32_t, std::uint32_t>, df::Canvas> m_truth;  ///< pictures by tick and player
   std::thread m_thread;
 };
 

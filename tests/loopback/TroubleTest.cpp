@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGoodbye = "The server is shutting down.";
 
-/// A pipe of one page.
+/// A pipe that holds 4096 bytes.
 struct Pipe {
   Pipe() {
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -45,7 +45,7 @@ struct Pipe {
   /// Fills the pipe, whatever it contains, so that writing blocks until the pipe is read.
   void fill() const {
     const int end = open(("/proc/self/fd/" + std::to_string(ends[1])).c_str(),
-                         O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // the program's must block
+                         O_WRONLY | O_NONBLOCK | O_CLOEXEC);  // the program's descriptor must block
     ASSERT_GE(end, 0);
     while (write(end, "#", 1) == 1) {
     }
@@ -69,7 +69,7 @@ struct Pipe {
 class Trouble : public LoopbackFixture {
  protected:
   void TearDown() override {
-    if (game) game->signal(SIGKILL);  // the tests check nothing after this
+    if (game) game->signal(SIGKILL);  // ends a game that may hang; the tests check nothing after this
   }
   void start(std::map<std::string, std::string> environment = {}, int errors = -1) {
     game = std::make_unique<GameProgram>("trouble_game", std::move(environment), std::vector<std::string>{},
@@ -104,7 +104,7 @@ class Trouble : public LoopbackFixture {
 
 TEST_F(Trouble, ClosedLogPipeDoesNotEndTheGame) {
   Pipe pipe;
-  start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
+  start({{"NAIAD_LOG_FILE", ""}}, pipe.ends[1]);
   auto ann = join("ann");
   pipe.closeReader();
   auto bob = join("bob");
@@ -121,7 +121,7 @@ TEST_F(Trouble, ClosedLogPipeDoesNotEndTheGame) {
 
 TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   Pipe pipe;
-  start({{"NAIAD_LOG", ""}}, pipe.ends[1]);
+  start({{"NAIAD_LOG_FILE", ""}}, pipe.ends[1]);
   std::string said;
   ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("is a server on") != std::string::npos; }))
       << said;
@@ -158,7 +158,7 @@ TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
   game->signal(SIGTERM);
   game->wait();
   EXPECT_TRUE(has(game->log(), " refused_password=2 "));
-  EXPECT_TRUE(has(game->log(), "passwords: right=1 wrong=1 unfit=1\n"));
+  EXPECT_TRUE(has(game->log(), "passwords: right=1 wrong=1 malformed=1\n"));
 }
 
 // ---- signals ----------------------------------------------------------------------------------------------
@@ -204,7 +204,7 @@ TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
   const auto stands = [&, last = ann->newestTick(), since = Clock::now()]() mutable {
     if (ann->newestTick() != last) since = Clock::now();
     last = ann->newestTick();
-    return Clock::now() - since > std::chrono::milliseconds(500);  // 100 ticks
+    return Clock::now() - since > std::chrono::milliseconds(500);  // 100 ticks without a new one
   };
   ASSERT_TRUE(serve(stands));
   game->signal(SIGTERM);
@@ -260,7 +260,8 @@ TEST_F(Crash, CrashAfterNestedHandlerNamesTheOuterHandler) {
   expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
 }
 
-/// Like the tests above, with the world in a process that shares its crash page with the front.
+/// Like the tests above, but the world is in its own process, which shares its crash page with the front
+/// process.
 TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
@@ -285,7 +286,7 @@ TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
 
 // ---- programs that never play -----------------------------------------------------------------------------
 
-/// Returns the log of a program with this mistake, and its exit code in `code`.
+/// Runs a program with this mistake (makeMistake()). Returns its log, and in `code` its exit code.
 std::string lastWords(const std::string& mistake, int& code) {
   GameProgram game("trouble_game", {{"TROUBLE", mistake}});
   const int status = game.wait();
@@ -312,7 +313,7 @@ TEST(ProgramMistakes, AreExplainedInTheLog) {
       has(before, "trouble_game: the game's log: Sprite ship: no/such.txt: cannot be read; looked in "));
 }
 
-/// A log that a game can block: like the engine's own, it writes under a lock.
+/// A log that a game can block, because it writes under a lock like the engine's own log.
 struct HeldLog {
   void operator()(const std::string& line) {
     if (line.find("the game has not finished tick") != std::string::npos) reported = true;
@@ -350,7 +351,7 @@ TEST(TroubleDeathTest, SignalsEndAHungGameThatLocksTheLog) {
     new HangsWhileItLogs(log);
     host.run(world);
   };
-  EXPECT_EXIT(hang(), testing::ExitedWithCode(1), "");  // the exit code for a game that hangs
+  EXPECT_EXIT(hang(), testing::ExitedWithCode(1), "");  // 1 is the exit code for a game that hangs
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class TrustTest : public LoopbackFixture {
     TestClient client(context, port, setup);
     return refusal(client);
   }
-  /// Returns a cheap hash, so that a busy machine does not make a guess late.
+  /// Returns a cheap hash, so that even on a busy machine password checks take little time.
   static std::string quick(const std::string& password) {
     return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
   }
@@ -83,10 +83,10 @@ TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   EXPECT_TRUE(has(message, "HAS CHANGED"));
   EXPECT_TRUE(has(message, server->fingerprint()->text()));
   EXPECT_EQ(pins(), before);
-  // The client has not sent a hello.
+  // The client did not join, because it had not sent a hello.
   EXPECT_EQ(server->counters().joined, 0u);
 
-  // The host confirms that this is the key now.
+  // The host has told ann the new fingerprint, so she trusts it.
   ClientSetup informed = home.player("ann");
   informed.trust.fingerprint = server->fingerprint();
   EXPECT_EQ(refusal(port, informed), "");

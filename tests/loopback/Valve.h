@@ -11,21 +11,21 @@
 
 namespace naiad::test {
 
-/// Controls the datagrams; may be changed at any time. Must outlive the socket.
+/// Settings and counters of the obstacle. They may be changed at any time. Must outlive the socket.
 struct Valve {
   bool up = true;                      ///< datagrams of the client reach the server
-  bool down = true;                    ///< datagrams to the client reach it
-  std::chrono::milliseconds delay{0};  ///< added in each direction
-  std::uint16_t server_port = 0;       ///< port where datagrams really go; 0: unchanged
-  std::uint64_t sent = 0;              ///< passed on to the server
-  std::uint64_t arrived = 0;           ///< passed on to the client
+  bool down = true;                    ///< datagrams from the server reach the client
+  std::chrono::milliseconds delay{0};  ///< delay added in each direction
+  std::uint16_t server_port = 0;  ///< port to which the client's datagrams are sent instead; 0: unchanged
+  std::uint64_t sent = 0;         ///< number of datagrams passed on to the server
+  std::uint64_t arrived = 0;      ///< number of datagrams passed on to the client
   DatagramSocket* p_socket = nullptr;  ///< the newest socket
 
   /// Sends from another port from now on, like a NAT that forgets a mapping.
   void rebind() { p_socket->reopen(); }
 };
 
-/// Returns a function for SessionOptions::open_socket.
+/// Returns a function for SessionOptions::open_socket that opens sockets with this valve.
 std::function<std::unique_ptr<DatagramSocket>(const Endpoint& server)> through(asio::io_context& context,
                                                                                std::shared_ptr<Valve> valve);
 

@@ -59,7 +59,7 @@ TEST_F(VisitorsTest, InvalidHeadersDoNotDisturbTheGame) {
   std::string oversized = proxyHeader({asio::ip::make_address("192.0.2.9"), 9});
   oversized[14] = static_cast<char>(0xff);
   std::vector<Local::socket> doors;
-  for (int i = 0; i < 200; ++i) {  // more than may wait
+  for (int i = 0; i < 200; ++i) {  // more connections than may wait for their headers
     doors.emplace_back(context).connect(Local::endpoint(options.visitors));
     const std::string& text = i % 3 == 0   ? oversized
                               : i % 3 == 1 ? std::string("GET / HTTP/1.1\r\n\r\n")
@@ -82,7 +82,8 @@ TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   asio::ip::tcp::socket socket(context);
   socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
   asio::write(socket, asio::buffer(proxyHeader({asio::ip::make_address("192.0.2.9"), 9})));
-  // The server takes it for a broken TLS hello and closes the connection, after an alert at most.
+  // The server reads the header as a broken TLS hello, so it sends at most a TLS alert and closes the
+  // connection.
   socket.non_blocking(true);
   std::string heard;
   TestClient ann(context, server.port(), home.player("ann"));

@@ -1,5 +1,5 @@
-// Prints the moving picture of docs/games.md: Saucer Shoot with eight pilots, as an SVG with a group per
-// picture. usage: moving-picture GAME.so >docs/page/eight-pilots.svg
+// Prints the animated picture of docs/games.md: Saucer Shoot with eight pilots, as an SVG with a group for
+// each frame. usage: moving-picture GAME.so >docs/page/eight-pilots.svg
 #include <cstdint>
 #include <cstdio>
 #include <random>
@@ -17,7 +17,7 @@ constexpr int kCellWidth = 8;
 constexpr int kCellHeight = 16;
 const char* const kColors[] = {"#555", "#f66", "#6d6", "#ee5", "#79f", "#d7d", "#5dd", "#ddd"};
 
-/// Presses keys like a beginner.
+/// Presses keys as a beginner would.
 void pressSome(df::GameTest& game, std::mt19937& random, std::uint32_t pilot) {
   using namespace df::Keyboard;
   constexpr Key kWays[] = {UPARROW, DOWNARROW, LEFTARROW, RIGHTARROW};
@@ -37,7 +37,7 @@ std::string escaped(char32_t ch) {
   return text;
 }
 
-/// Prints runs of one colour, each at its position.
+/// Prints a row as SVG texts: each run of cells of one colour at its position.
 void printRow(const df::Canvas& canvas, int y) {
   for (int x = 0; x < canvas.width();) {
     if (canvas.at(x, y).ch == U' ') {

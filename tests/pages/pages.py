@@ -1,4 +1,4 @@
-"""Reads the code blocks of a page, and applies them to files as the sentences around them say.
+"""Reads the code blocks of a page, and applies them to files as the sentences before them say.
 
 The sentence before a block tells the reader, and the test, what to do with it:
 
@@ -18,7 +18,7 @@ COMMENT = re.compile(r"^<!-- (.*) -->$")
 
 
 class PageError(Exception):
-    """An error in a page. Its text says where."""
+    """An error in a page. Its text contains the place."""
 
 
 class Block:
@@ -120,7 +120,7 @@ def _change(folder, file, where, change):
 
 
 def unmet(outcome, picture):
-    """Returns the parts of an outcome (`N REGEX; N REGEX`: each at least N times) that the picture does not meet."""
+    """Returns the parts of an outcome that the picture lacks. `N REGEX; N REGEX`: each must be found at least N times."""
     missing = []
     for one in outcome.split("; "):
         number, pattern = one.split(" ", 1)

@@ -1,4 +1,4 @@
-"""Terminals of tmux in which tests of pages play and read, and their rows as SVG."""
+"""Terminals of tmux, in which the tests of pages press keys and read the screen, and conversion of their rows to SVG."""
 import html
 import os
 import re
@@ -42,7 +42,7 @@ class Terminals:
         self._answer()
 
     def _answer(self):
-        """Returns the lines of the next answer."""
+        """Returns the lines of tmux's next answer."""
         lines = []
         inside = False
         for line in self.client.stdout:
@@ -72,7 +72,7 @@ class Terminals:
         return "\n".join(self.ask(f"capture-pane -p -t {name}:"))
 
     def press(self, key, names):
-        """Presses a key in these terminals at one moment."""
+        """Presses a key in all these terminals at once."""
         self.client.stdin.write("".join(f"send-keys -t {name}: {key}\n" for name in names))
         self.client.stdin.flush()
         for _ in names:

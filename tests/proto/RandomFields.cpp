@@ -30,7 +30,7 @@ std::string varint(std::uint64_t value) {
   return bytes;
 }
 
-/// Encodes the number in more bytes than needed. Ten are allowed for a number, five for a key or a length.
+/// Encodes the number in more bytes than needed. A number may have ten, a key or a length five.
 std::string longVarint(RandomFields& random, std::uint64_t value) {
   std::string bytes = varint(value);
   for (std::uint64_t more = random.below(12); more > 0; --more) {
@@ -148,7 +148,7 @@ void mutate(RandomFields& random, std::string& bytes, const std::string& other) 
       bytes.insert(place(bytes), bytes.substr(at, length));
       break;
     case 6:
-      bytes += other;  // parses as a merge
+      bytes += other;  // parses as a message that is merged
       break;
     case 7:
       bytes.insert(at, other.substr(place(other), length));

@@ -8,7 +8,7 @@
 
 namespace naiad::test {
 
-/// Values of all sizes, more small than large ones.
+/// Makes random values of all sizes, more small than large ones.
 class RandomFields {
  public:
   explicit RandomFields(std::uint64_t seed) : m_random(seed) {}

@@ -18,8 +18,8 @@ namespace naiad::test {
 namespace {
 
 constexpr int kDepth = 2;                                ///< depth of random nested messages
-constexpr int kMessages = kSanitized ? 200 : 2'000;      ///< number per type
-constexpr int kMutations = kSanitized ? 5'000 : 60'000;  ///< number per type
+constexpr int kMessages = kSanitized ? 200 : 2'000;      ///< number of messages per type
+constexpr int kMutations = kSanitized ? 5'000 : 60'000;  ///< number of mutations per type
 
 /// Returns bytes in hex for failures.
 std::string hex(const std::string& bytes) {
@@ -39,7 +39,8 @@ std::string validBytes(RandomFields& random) {
   return message.SerializeAsString();
 }
 
-/// Both codecs read `bytes`. They must agree and find equal fields. Returns true if they accept.
+/// Reads `bytes` with both codecs, which must agree and find equal fields. Returns true if they accept the
+/// bytes.
 template <class Twins>
 bool readByBoth(const std::string& bytes) {
   typename Twins::Real real, known;
@@ -134,7 +135,7 @@ TYPED_TEST(SmallProto, CodecsAgreeOnMutatedBytes) {
     accepted += readByBoth<TypeParam>(bytes) ? 1 : 0;
     if (i % 64 == 0 && testing::Test::HasFailure()) return;
   }
-  // Both results are frequent, so the comparison is meaningful.
+  // Accepted and rejected inputs are both frequent, so the comparison is meaningful.
   EXPECT_GT(accepted, kMutations / 10);
   EXPECT_LT(accepted, kMutations * 9 / 10);
 }
@@ -252,7 +253,7 @@ TEST(SmallProtoLimits, CodecsAgreeOnValidUtf8) {
       Real real;
       const std::string field = "\x8A\x01" + std::string(1, static_cast<char>(text.size())) + text;
       ASSERT_EQ(small::isUtf8(text), real.ParseFromString(field)) << hex(text);
-      // After eight bytes, which isUtf8() checks at once.
+      // Puts the text behind eight ASCII bytes, because isUtf8() checks eight at once.
       const std::string behind = "12345678" + text;
       ASSERT_EQ(small::isUtf8(behind), small::isUtf8(text)) << hex(text);
     }

@@ -34,7 +34,7 @@ def unit_values(unit, key):
 
 
 class Manager:
-    """Stands in for systemd: receives the service's notifications."""
+    """Replaces systemd: receives the service's notifications."""
 
     def __init__(self, folder):
         self.path = os.path.join(folder, "notify")
@@ -43,7 +43,7 @@ class Manager:
         self.heard = []
 
     def wait_for(self, wanted):
-        """Waits for a notification that begins so. Keeps the earlier ones in `heard`."""
+        """Waits for a notification that begins with `wanted`. Stores it and the earlier ones in `heard`."""
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             self.socket.settimeout(max(0.01, end - time.monotonic()))
@@ -67,7 +67,7 @@ class Manager:
             pass
 
 
-# Takes descriptors as arguments, passes them on as 3, 4, ..., and becomes the program given after them.
+# A script that gets descriptors and a command as arguments. It duplicates the descriptors to 3, 4, ... and executes the command.
 GIVE = """
 import os, sys
 end = sys.argv.index("--")
@@ -107,7 +107,7 @@ class ServiceTest(unittest.TestCase):
                            XDG_STATE_HOME=self.file("config"), XDG_RUNTIME_DIR=self.file("config"))
         environment.update(variables or {})
         if program_name == "dfserver":
-            options = ["--frame-time", TICK, "--log", self.file("log"), *options]
+            options = ["--frame-time", TICK, "--log-file", self.file("log"), *options]
         server = subprocess.Popen([*words, program(program_name), *options],
                                   env=environment, cwd=self.file("game"), stdout=subprocess.DEVNULL,
                                   stderr=open(self.file("errors"), "wb"), preexec_fn=preexec, pass_fds=pass_fds)
@@ -150,7 +150,7 @@ class ServiceTest(unittest.TestCase):
 
     def test_a_game_that_hangs_keeps_it_from_saying_that_it_is_alive(self):
         server = self.start(program_name="trouble_game", variables={
-            "WATCHDOG_USEC": "200000", "NAIAD_PORT": "0", "NAIAD_PORT_FILE": self.file("port"), "NAIAD_LOG": self.file("log")})
+            "WATCHDOG_USEC": "200000", "NAIAD_PORT": "0", "NAIAD_PORT_FILE": self.file("port"), "NAIAD_LOG_FILE": self.file("log")})
         self.manager.wait_for("WATCHDOG=1")
         bot = subprocess.Popen([program("dfbot"), f"127.0.0.1:{self.text('port').strip()}", "--script", "press H", "--seconds", "600",
                                 "--known-servers", self.file("known")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -193,7 +193,7 @@ class ServiceTest(unittest.TestCase):
 
     def test_it_listens_with_the_sockets_that_it_is_given(self):
         port, sockets = self.give_sockets("tcp", "udp")
-        # A client that connects before the server starts waits for it.
+        # A client that connects before the server starts must wait and then be served.
         early = socket.create_connection(("127.0.0.1", port), PATIENCE)
         self.addCleanup(early.close)
         server = self.start_with(sockets, "--game", "hello", "--port-file", self.file("port"))
@@ -238,7 +238,7 @@ class ServiceTest(unittest.TestCase):
         return subprocess.run(["systemd-analyze", *words], capture_output=True, text=True, timeout=PATIENCE, check=False)
 
     def test_units_are_in_order(self):
-        # Uses the paths of the built programs, and no manual pages, which another test checks.
+        # Puts the paths of the built programs into the units, and removes the manual pages, which another test checks.
         for name in os.listdir(UNITS):
             with open(os.path.join(UNITS, name), encoding="utf-8") as file:
                 text = re.sub(r"^Documentation=.*\n", "", file.read(), flags=re.M)
@@ -281,10 +281,10 @@ class ServiceTest(unittest.TestCase):
         return allowed | resolve("@default") | {"execve"}  # added by systemd itself
 
     def sandbox_gaps(self):
-        """Returns what dfserver reports as missing in this kernel's sandbox, without any filter."""
+        """Returns dfserver's message about missing sandbox features of this kernel, without the unit's filter."""
         other = os.path.join(self.folder, "other")
         subprocess.run([program("dfserver"), "--address", "127.0.0.1", "--port", "0", "--game", "hello", "--on-game-over", "restart",
-                        "--ticks", "3", "--log", other, "--identity", other + "-key"], cwd=self.file("game"),
+                        "--ticks", "3", "--log-file", other, "--identity", other + "-key"], cwd=self.file("game"),
                        stdout=subprocess.DEVNULL, timeout=PATIENCE, check=True)
         with open(other, encoding="utf-8") as file:
             return "; ".join(re.findall(GAPS, file.read()))
@@ -376,7 +376,7 @@ def seccomp_installer(names):
     code = [Instruction(LOAD, 0, 0, 4), Instruction(JUMP_EQUAL, 1, 0, arch), Instruction(RETURN, 0, 0, refused),
             Instruction(LOAD, 0, 0, 0)]
     for name in sorted(names):
-        if name in numbers:  # other names are of other processors
+        if name in numbers:  # the other system calls exist only on other processors
             code += [Instruction(JUMP_EQUAL, 0, 1, numbers[name]), Instruction(RETURN, 0, 0, SECCOMP_RET_ALLOW)]
     code.append(Instruction(RETURN, 0, 0, refused))
     array = (Instruction * len(code))(*code)

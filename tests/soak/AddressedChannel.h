@@ -1,4 +1,4 @@
-// A stream in virtual time that knows its address, to which a client sends its datagrams.
+// A stream in virtual time with the peer's address, to which a client also sends its datagrams.
 #pragma once
 
 #include <memory>

@@ -13,9 +13,9 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds kFirstBackoff{250};
 constexpr std::chrono::milliseconds kMaxBackoff{2000};
-/// Time without news after which a client counts as stuck.
+/// A client that should receive snapshots counts as stuck after this time without a new one.
 constexpr std::chrono::seconds kStuck{3};
-/// Limit for a client without datagrams, because the stream first waits for its own timers.
+/// Like kStuck, for a client without datagrams: a stream waits for its timers before it sends again.
 constexpr std::chrono::seconds kStuckOnStream{15};
 
 }  // namespace
@@ -38,7 +38,7 @@ std::uint32_t Bot::player() const {
 // ---- joining and rejoining
 
 void Bot::attempt() {
-  if (!m_connecting) {  // TCP and TLS take two round trips
+  if (!m_connecting) {  // first waits for the two round trips that TCP and TLS take
     m_connecting = true;
     m_next_attempt = now() + 2 * (m_weather.up().delay + m_weather.down().delay);
     return;
@@ -183,7 +183,7 @@ void Bot::applyWeather() {
   applyTo(m_pending);
 }
 
-// Disappears without a message to the server.
+// Disappears without a message to the server, and joins again after `pause`.
 void Bot::quit(std::chrono::milliseconds pause) {
   m_shown = {};
   m_pending = {};
@@ -249,7 +249,8 @@ void Bot::press() {
   if (m_random.below(3000) == 0) session.sendChat("all is well with " + std::to_string(m_number));
 }
 
-// The server releases the keys of a disconnected player, possibly before the player's own release arrives.
+// A release may arrive twice, because the server releases the keys of a disconnected player, possibly before
+// the player's own release arrives.
 void Bot::heard(const Heard& what) {
   const bool is_release = !what.is_mouse && what.action == df::KEY_RELEASED;
   const bool is_next = !m_unheard.empty() && m_unheard.front().what == what.what &&

@@ -1,5 +1,5 @@
-// A client with a random player, over a bad network in virtual time. Does what client/session/Connection does
-// for dfclient.
+// A client whose player plays at random, over a bad network in virtual time. Joins and reconnects like
+// client/session/Connection does for dfclient.
 #pragma once
 
 #include <deque>
@@ -32,13 +32,14 @@ class Bot {
 
   Bot(Place place, int number, std::uint64_t seed, double haste, OnSnapshot on_snapshot);
 
-  /// Applies random events, presses keys, and checks for news. Call once a tick.
+  /// Applies random network events, presses keys, and counts the client as stuck if it receives nothing. Call
+  /// once a tick.
   void tick();
   /// Checks timeouts. Call a few times a tick.
   void update();
   /// Call when the game received an input of this player.
   void heard(const Heard& what);
-  /// Ends bad conditions and key presses.
+  /// Makes the network perfect and stops pressing keys, for the rest of the run.
   void rest();
 
   /// Returns the shown session; null if it is missing.
@@ -90,7 +91,7 @@ class Bot {
   bool m_connecting = false;
   std::deque<Heard> m_unheard;
   std::set<int> m_down;    ///< keys that are down in the game
-  std::set<int> m_let_go;  ///< released in the game, maybe by the server before the player's own release
+  std::set<int> m_let_go;  ///< keys released in the game, maybe by the server before the player's release
   Time m_calm_since{};
   Time m_news_at{};
   std::uint64_t m_snapshots_seen = 0;

@@ -10,7 +10,7 @@ namespace naiad::soak {
 namespace {
 
 constexpr int kMaxAge = 90;        ///< ticks that an undecided picture is kept
-constexpr int kMaxDescribed = 12;  ///< limit of wrong pictures that are printed
+constexpr int kMaxDescribed = 12;  ///< maximum number of wrong pictures that are printed
 
 std::string describe(const df::Canvas& seen, const df::Canvas& truth) {
   int told = 0;

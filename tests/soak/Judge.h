@@ -1,8 +1,9 @@
 // Compares the pictures of clients with those of the server.
 //
-// A picture counts if its client has received everything that the server sent until then. The client cannot
-// know this, because content of a lost snapshot may still be on its way again. So the server is asked, like
-// for the protocol's checksum, with the exact snapshots received. While it cannot decide, the picture waits.
+// A picture counts if its client has received everything that the server sent until that tick. The client
+// cannot know this, because content of a lost snapshot may not yet have been sent again. So the server is
+// asked, like for the protocol's checksum, with the exact snapshots received. While it cannot decide, the
+// picture waits.
 #pragma once
 
 #include <array>
@@ -28,13 +29,13 @@ class Judge {
   void lookAtAll() { m_stride = 1; }
   /// Records the pictures of the world's present tick. Call before its snapshots are sent.
   void keepTruths();
-  /// Call after a client has applied a snapshot.
+  /// Compares a client's picture. Call after the client has applied a snapshot.
   void look(Bot& bot, const SnapshotHeader& header, const AckWindow& acks);
   /// Judges the waiting pictures. Call once a tick.
   void judge();
   /// Returns how many of this player's latest pictures in a row were right.
   std::uint64_t rightInARow(std::uint32_t player) const;
-  /// Returns the memory used here, which memory measurements must subtract.
+  /// Returns the bytes that this Judge uses, which measurements of the game's memory must subtract.
   std::size_t bytesKept() const;
 
  private:

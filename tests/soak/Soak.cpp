@@ -15,17 +15,17 @@ using namespace std::chrono_literals;
 
 constexpr std::uint64_t kTicksPerSecond = 30;
 constexpr int kParts = 4;  ///< parts of a tick, in each of which bots check timeouts
-/// Time for streams to recover from earlier events, and 5 s more.
+/// Seconds without events at the end: the time in which streams recover from earlier events, and 5 s more.
 constexpr std::uint64_t kQuietSeconds = 20;
-/// Warm-up time in which memory grows until buffers and tables have had their maxima: with 8 bots from 2 MB
-/// to 9 MB, where it stays.
+/// Warm-up time. In it memory grows until all buffers and tables have had their maximum sizes: with 8 bots
+/// from 2 MB to 9 MB. After it memory stays constant.
 constexpr double kWarmUpMinutes = 10;
 /// Minimum run time for judging memory growth.
 constexpr double kJudgedMinutes = 30;
-/// Fraction of the time after the warm-up at its start and at its end. Memory is averaged over each, because
-/// clients come and go, and compared.
+/// Memory is averaged over this fraction of the time after the warm-up, at its start and at its end, because
+/// clients join and leave. The two means are compared.
 constexpr double kCompared = 0.2;
-/// Right pictures in a row that each client must have at the end.
+/// Number of right pictures in a row that each client must have had at the end.
 constexpr std::uint64_t kRightInTheEnd = 10;
 
 double mean(const std::vector<double>& values) {

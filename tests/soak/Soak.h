@@ -28,7 +28,7 @@ class Soak {
   explicit Soak(const SoakOptions& options);
   ~Soak();
 
-  /// Runs the soak, prints progress on stderr and the last line on stdout. True if nothing went wrong.
+  /// Runs the test, prints progress on stderr and the result on stdout. True if nothing went wrong.
   bool run();
 
  private:
@@ -38,7 +38,7 @@ class Soak {
   void finish();
   bool isQuiet(Bot& bot) const;
   void measureMemory(double minute);
-  /// Returns the growth in percent after the warm-up; nullopt if the run was too short.
+  /// Returns the growth of memory after the warm-up, in percent; nullopt if the run was too short.
   std::optional<double> memoryGrowth() const;
   bool conclude();
 
@@ -53,7 +53,7 @@ class Soak {
   std::vector<std::unique_ptr<Bot>> m_bots;
   std::uint64_t m_ticks = 0;
   int m_unwell = 0;             ///< clients with a wrong picture, or without datagrams, at the end
-  std::vector<double> m_early;  ///< bytes in use
+  std::vector<double> m_early;  ///< samples of the bytes in use, soon after the warm-up
   std::vector<double> m_late;
 };
 

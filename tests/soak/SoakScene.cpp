@@ -36,7 +36,8 @@ df::Color someColor() {
   return static_cast<df::Color>(1 + WM.randomInt(df::kColorCount - 1));
 }
 
-/// Returns one of few letters, so that clients reach their limit of remembered looks within minutes.
+/// Returns one of four letters from `first` on: few, so that clients reach their limit of remembered looks
+/// within minutes.
 char someLetter(char first) {
   return static_cast<char>(first + WM.randomInt(4));
 }
@@ -98,7 +99,7 @@ class Creature : public df::Object {
   int draw() override {
     if (m_kind > 3) {
       df::Object::draw();
-      return m_kind == 4 || m_age % 64 > 8 ? 0 : DM.drawCh(getPosition(), '!', m_color);  // at times
+      return m_kind == 4 || m_age % 64 > 8 ? 0 : DM.drawCh(getPosition(), '!', m_color);  // blinks
     }
     if (m_kind < 3) return DM.drawString(getPosition(), m_text, df::LEFT_JUSTIFIED, m_color);
     const char frame = "|/-\\"[m_age / 8 % 4];

@@ -12,7 +12,7 @@
 
 namespace naiad::soak {
 
-/// An event of a player that the game received, in order.
+/// A player's key or mouse event that the game received.
 struct Heard {
   std::uint32_t player = 0;
   bool is_mouse = false;

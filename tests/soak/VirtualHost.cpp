@@ -61,7 +61,7 @@ void VirtualHost::greet(Session& session, const wire::Hello& hello) {
 
 bool VirtualHost::resume(Session& session, const wire::Hello& hello) {
   if (hello.resume_token().empty()) return false;
-  const std::uint64_t id = m_tokens.redeem(hello.resume_token()).value_or(0);  // 0 is never a player
+  const std::uint64_t id = m_tokens.redeem(hello.resume_token()).value_or(0);  // 0 is not a player
   const auto found = std::find_if(m_sessions.begin(), m_sessions.end(),
                                   [id](const auto& other) { return other->id() == id; });
   if (found == m_sessions.end() || (*found)->state() != Session::State::kPlaying) return false;

@@ -18,7 +18,7 @@
 
 namespace naiad::soak {
 
-/// Converts virtual time to the time used by sessions.
+/// Converts the time of the virtual clock to a time for sessions.
 inline Session::Clock::time_point timeOf(const VirtualClock& clock) {
   return Session::Clock::time_point(std::chrono::hours(1)) + clock.now();
 }
@@ -30,7 +30,7 @@ class VirtualHost {
 
   /// Accepts a client's connection.
   void accept(std::unique_ptr<ReliableChannel> channel);
-  /// Runs a tick: inputs, world, snapshots. Calls `on_ticked` between the last two.
+  /// Runs a tick: inputs, world, snapshots. Calls `on_ticked` after the world's tick, before the snapshots.
   void tick(const std::function<void()>& on_ticked);
 
   const Counters& counters() const { return m_counters; }

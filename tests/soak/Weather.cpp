@@ -4,7 +4,7 @@ namespace naiad::soak {
 
 namespace {
 
-// Mean seconds between two events of a kind.
+// Mean time in seconds between two events of a kind, if haste is 1.
 constexpr double kRedraw = 60;
 constexpr double kOutage = 300;
 constexpr double kBlockade = 240;

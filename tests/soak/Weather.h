@@ -13,7 +13,7 @@ namespace naiad::soak {
 /// Events of a client in one tick.
 struct Strokes {
   bool changed = false;  ///< the conditions have changed and must be applied
-  bool healed = false;   ///< an outage or blockade has ended, or another one begun
+  bool healed = false;   ///< an outage has ended, or a blockade has begun or ended
   bool rebind = false;   ///< the client's address changes
   bool break_stream = false;
   bool kill = false;
@@ -24,7 +24,7 @@ class Weather {
  public:
   using Time = VirtualClock::Time;
 
-  /// `haste` is a factor for the rate of events.
+  /// `haste` is a factor for the rate of events; 1: those of Weather.cpp.
   Weather(std::uint64_t seed, double haste);
 
   Strokes tick(Time now);

@@ -1,4 +1,4 @@
-// Texts that harm a terminal or mislead its reader, one for each kind of attack. For tests of everything that
+// Texts that harm a terminal or mislead its reader, one for each kind of attack, to test everything that
 // displays text from other people.
 #pragma once
 

@@ -25,8 +25,8 @@ struct MessageLine : FakeLine {
   MessageLine(const MessageLine&) = delete;
   MessageLine& operator=(const MessageLine&) = delete;
 
-  std::vector<Message> sent;  ///< sent while the line was open
-  std::size_t sent_late = 0;  ///< sent after close(); a real channel drops such frames
+  std::vector<Message> sent;  ///< messages sent while the line was open
+  std::size_t sent_late = 0;  ///< number of messages sent after close(); a real channel drops them
 };
 
 }  // namespace naiad::test

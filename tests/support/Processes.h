@@ -20,9 +20,9 @@ struct ProcessFacts {
   pid_t parent;
 };
 
-/// Returns nullopt if the process does not exist.
+/// Returns facts about a process; nullopt if it does not exist.
 inline std::optional<ProcessFacts> factsOf(pid_t process) {
-  // One that ends while it is read makes an iterator of its stream throw.
+  // Reads the file at once, because an iterator of its stream throws if the process ends before it is read.
   std::ostringstream stat;
   stat << std::ifstream("/proc/" + std::to_string(process) + "/stat").rdbuf();
   const std::string text = stat.str();
@@ -33,7 +33,7 @@ inline std::optional<ProcessFacts> factsOf(pid_t process) {
                       std::atoi(text.c_str() + end + 4)};
 }
 
-/// Returns 'X' if the process does not exist.
+/// Returns the state of a process; 'X' if it does not exist.
 inline char stateOf(pid_t process) {
   const auto facts = factsOf(process);
   return facts ? facts->state : 'X';

@@ -1,5 +1,5 @@
-// References in quadruple precision (113 bits) by GCC's libquadmath, for tests. Declared here because clang
-// does not see GCC's quadmath.h.
+// Reference values in quadruple precision (113 bits) by GCC's libquadmath, for tests. Declared here because
+// clang does not see GCC's quadmath.h.
 #pragma once
 
 __extension__ typedef __float128 Quad;

@@ -72,7 +72,7 @@ class RunningProgram {
     for (std::size_t at = 0; (at = m_printed.find(text, at)) != std::string::npos; at += text.size()) ++found;
     return found;
   }
-  /// Returns false if the program closed its output.
+  /// Collects output that arrives within this time. Returns false if the program has closed its output.
   bool read(int patience_ms) {
     pollfd waited{m_output, POLLIN, 0};
     if (::poll(&waited, 1, patience_ms) == 0) return true;

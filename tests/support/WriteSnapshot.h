@@ -7,7 +7,7 @@
 
 namespace naiad::test {
 
-/// Encodes the snapshot without naming anything. The reader must know `origin` under `slot`.
+/// Encodes the snapshot, with all sequences in full. The reader must know `origin` as that of `slot`.
 inline std::string writeSnapshot(const SnapshotHeader& header, const Records& records, std::uint32_t slot = 0,
                                  const Origin& origin = {}) {
   SnapshotWriter out;

@@ -13,7 +13,7 @@ namespace {
 class BotExitTest : public HomeFixture {
  protected:
   BotExitTest() {
-    serve("hello", {"--insecure", "--seed", "1", "--port-file", file("port"), "--truth", file("truth")});
+    serve("hello", {"--insecure", "--seed", "1", "--port-file", file("port"), "--truth-file", file("truth")});
   }
 
   std::string file(const char* name) const { return m_home / name; }
@@ -47,12 +47,12 @@ TEST_F(BotExitTest, FolderIsRejectedAsAScript) {
 }
 
 TEST_F(BotExitTest, MatchingPicturesAreOk) {
-  expectEnd(*join({"--seconds", "1", "--truth", file("truth")}), 0, "wrong_cells=0");
+  expectEnd(*join({"--seconds", "1", "--truth-file", file("truth")}), 0, "wrong_cells=0");
 }
 
 TEST_F(BotExitTest, NothingComparedIsNotOk) {
   std::ofstream(file("empty"));
-  expectEnd(*join({"--seconds", "1", "--truth", file("empty")}), 6, "nothing was compared");
+  expectEnd(*join({"--seconds", "1", "--truth-file", file("empty")}), 6, "nothing was compared");
 }
 
 TEST_F(BotExitTest, WrongCellsAreNotOk) {
@@ -65,7 +65,7 @@ TEST_F(BotExitTest, WrongCellsAreNotOk) {
     out << '\n';
   }
   out.close();
-  expectEnd(*join({"--seconds", "1", "--truth", file("blank")}), 6, "wrong cells, the first at tick");
+  expectEnd(*join({"--seconds", "1", "--truth-file", file("blank")}), 6, "wrong cells, the first at tick");
 }
 
 TEST_F(BotExitTest, AServerThatCrashedIsNotOk) {

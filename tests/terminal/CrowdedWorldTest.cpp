@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint32_t kTick = 100;  // the tick of FakeServer's snapshots
+constexpr std::uint32_t kTick = 100;  // tick of FakeServer's snapshots
 /// Time from a key or signal to the end, on a busy machine. Without the work limit it would take minutes.
 constexpr auto kSoon = 20s;
 

@@ -72,7 +72,7 @@ class DoorTest : public testing::Test {
   /// Starts a server with a visitors' socket, and a door to it.
   void open(const std::vector<std::string>& options = {}) {
     m_server = run({programPath("dfserver"), "--game", "hello", "--address", "127.0.0.1", "--port", "0",
-                    "--identity", m_home / "identity", "--visitors", m_home / "hello.visitors"});
+                    "--identity", m_home / "identity", "--proxy-socket", m_home / "hello.visitors"});
     ASSERT_TRUE(m_server->waitFor("Only this machine can join")) << m_server->output();
     m_link = linkIn(m_server->output());
     ASSERT_TRUE(m_link.starts_with("naiad://")) << m_server->output();
@@ -168,7 +168,7 @@ TEST_F(DoorTest, TwoVisitorsPlayUnderTheirOwnAddresses) {
   NAIAD_SKIP_WITHOUT(ann);
   EXPECT_TRUE(serverSays("\"ann\" joined")) << m_server->output();
   EXPECT_TRUE(has(m_server->output(), "127.0.0.2:"));
-  // The command that the door prints.
+  // The ssh command that the door prints has these options.
   PtyTerminal* bob = play("bob", {"-b", "127.0.0.3", "-o", "IgnoreUnknown=ObscureKeystrokeTiming", "-o",
                                   "ObscureKeystrokeTiming=no"});
   ASSERT_NE(bob, nullptr);

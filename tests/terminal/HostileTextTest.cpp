@@ -68,7 +68,8 @@ bool isUtf8(const std::string& bytes) {
   return wire::ClientMessage().ParseFromString(message.SerializeAsString());
 }
 
-/// Joins several UTF-8 texts per row, because each row starts a client. All others are in the last row.
+/// Joins several UTF-8 texts into a row, because each row starts a client. The last row has those not in
+/// UTF-8.
 std::vector<std::string> gathered() {
   constexpr std::size_t kEnough = 60;  // bytes; short enough to survive the limits of fields
   std::vector<std::string> rows(1);
@@ -102,7 +103,7 @@ TEST_F(HostileTextTest, ChatAndNamesCannotControlTheTerminal) {
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE"));
   int n = 0;
   for (const HostileText& hostile : hostileTexts()) {
-    if (!isUtf8(hostile.bytes)) continue;  // ends the session: see below
+    if (!isUtf8(hostile.bytes)) continue;  // such a text ends the session: another test below
     // Only changed cells are written, so all letters of consecutive marks must differ.
     const std::string mark(4, static_cast<char>('A' + n++ % 26));
     terminal.forget();

@@ -76,7 +76,7 @@ class LanListTest : public HomeFixture {
   }
 
   LanLock m_lock;
-  /// "test-…", because other tests may list their servers, too
+  /// The server's name, "test-…": unique, because other tests may list their servers, too.
   const std::string m_name = m_home.path().filename().string().substr(6);
 };
 

@@ -24,7 +24,7 @@ TEST_F(NoPicture, WaitIsReportedAndControlCLeaves) {
 TEST_F(NoPicture, LostServerEndsTheClientWithAMessage) {
   server.withholdPictures();
   server.onWelcome([](wire::ServerMessage& message) {
-    message.mutable_welcome()->set_resume_token("0123456789abcdef");  // so that it could be resumed
+    message.mutable_welcome()->set_resume_token("0123456789abcdef");  // so that the session could be resumed
   });
   PtyTerminal terminal(options());
   ASSERT_TRUE(server.hasReceived([](const wire::ClientMessage& m) { return m.has_ping(); }));

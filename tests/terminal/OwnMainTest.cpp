@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kRight = "\033[C";
-// Only changed cells are written to the screen: the character after WALKED-, which becomes $ and then %, and
-// of a chat line the part that differs from the previous line.
+// Only changed cells are written to the screen. So tests wait for the character after WALKED-, which becomes
+// $ and then %, and for the part of a chat line that differs from the previous line.
 constexpr const char* kCtrlC = "\x03";
 
 class OwnMain : public HomeFixture {
@@ -38,7 +38,7 @@ class OwnMain : public HomeFixture {
     options.environment["NAIAD_PORT"] = "0";
     options.environment["NAIAD_JOIN_FILE"] = m_home / "join";
     options.environment["NAIAD_CLIENT"] = programPath("dfclient");
-    options.environment["NAIAD_LOG"] = "";
+    options.environment["NAIAD_LOG_FILE"] = "";
     options.environment["DF_COMPAT"] = "";
     options.environment["USER"] = "ann";
     options.columns = 120;
@@ -106,7 +106,7 @@ TEST_F(OwnMain, TitleWithItsOwnRunLeadsToTheGame) {
   expectOrderlyEnd(*game);
 }
 
-// The world outlives the run.
+// The world outlives the first run.
 TEST_F(OwnMain, PlayersLeaveBeforeTheNextRun) {
   auto game = start({{"LONE_TITLE", "1"}, {"LONE_USHER", "1"}});
   ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
@@ -243,7 +243,7 @@ TEST_F(OwnMain, ModulesHaveRoundsToo) {
 }
 
 TEST_F(OwnMain, FirstPlayerPlaysWhileOthersWaitTheirTurn) {
-  configure("players:first,\n");
+  configure("input_mode:first,\n");
   auto game = startServer();
   auto ann = join("ann");
   auto bob = join("bob");
@@ -296,7 +296,7 @@ TEST_F(OwnMain, RunsWithoutTheOperatorsLibrary) {
   const fs::path libraries = fs::path(programPath("lone_game")).parent_path().parent_path() / "lib";
   fs::create_directory(m_home / "lib");
   fs::copy(libraries / "libdragonfly.so.0", m_home / "lib");
-  const auto server = startServer({{"LD_LIBRARY_PATH", m_home / "lib"}, {"NAIAD_LOG", m_home / "log"}});
+  const auto server = startServer({{"LD_LIBRARY_PATH", m_home / "lib"}, {"NAIAD_LOG_FILE", m_home / "log"}});
   const auto ann = join("ann");
   ann->type("\035t/help\r");
   EXPECT_TRUE(ann->waitFor("no commands")) << ann->output();

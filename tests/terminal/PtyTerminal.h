@@ -1,6 +1,6 @@
 // A scripted terminal: runs a real program on a pseudo-terminal, types into it and reads what it draws.
 //
-// Can answer the query of the kitty keyboard protocol, which common terminal multiplexers do not.
+// It can answer the query of the kitty keyboard protocol, unlike common terminal multiplexers.
 #pragma once
 
 #include <sys/types.h>

@@ -23,7 +23,7 @@ class TerminalRestoreTest : public FakeServerFixture {
 
   static void expectRestored(PtyTerminal& terminal) {
     const std::string after = terminal.newOutput();
-    // The alternate screen, mouse reports, bracketed paste, key records.
+    // Modes of the alternate screen, mouse reports, bracketed paste and key records.
     for (const char* mode : {"1049", "1003", "1006", "2004", "9001"})
       EXPECT_TRUE(has(after, "\033[?" + std::string(mode) + "l")) << mode;
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << "termios is as before";
@@ -63,7 +63,7 @@ TEST_F(TerminalRestoreTest, CrashRestoresTheTerminal) {
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS}) {
     PtyTerminal::Options with = options();
     with.answer_kitty = true;
-    // Otherwise the sanitizer's own handler would run first.
+    // Without these options, the sanitizer's own handler would run first.
     with.environment["ASAN_OPTIONS"] = "handle_segv=0:handle_abort=0:handle_sigbus=0";
     PtyTerminal terminal(with);
     join(terminal);
@@ -144,7 +144,7 @@ TEST_F(TerminalRestoreTest, PlainKeysMouseAndResizeReachTheServer) {
   terminal.type("\033[C");
   EXPECT_TRUE(server.heardKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED));
   EXPECT_TRUE(server.heardKey(df::Keyboard::RIGHTARROW, df::KEY_RELEASED));
-  // 100 x 30: the view lies at (10, 2); terminals count from 1.
+  // The view begins at (10, 2) in a terminal of 100 x 30 cells; terminals count from 1.
   terminal.type("\033[<0;13;6M\033[<0;13;6m");
   EXPECT_TRUE(server.heardInput([](const Input& input) {
     return input.is_mouse && input.action == df::CLICKED && input.button == 1 && input.x == 2 && input.y == 3;

@@ -100,7 +100,7 @@ TEST_F(TerminalSignalsTest, SignalsDuringTheGameRestoreTheTerminal) {
   }
 }
 
-// Signals arrive while restore() runs.
+// The signals arrive while restore() runs.
 TEST_F(TerminalSignalsTest, SignalsWhileLeavingRestoreTheTerminal) {
   for (int i = 0; i < tries() && !HasFailure(); ++i) {
     PtyTerminal terminal(options());

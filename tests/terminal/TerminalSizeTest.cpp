@@ -80,7 +80,7 @@ TEST_F(TerminalSizeTest, EveryTerminalTypeReportsItsRealSize) {
   }
 }
 
-// Here the terminal itself has no size.
+// The terminal itself has no size here, so COLUMNS and LINES are used.
 TEST_F(TerminalSizeTest, InvalidColumnsAndLinesTakeBoundedMemory) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer takes memory of its own";
   for (const char* number : {"30000", "99999999999999999999", "-5", "x"}) {

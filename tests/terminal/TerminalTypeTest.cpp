@@ -21,7 +21,7 @@ TEST_F(TerminalTypeTest, UnknownTypeIsDrawnAsXterm) {
     PtyTerminal terminal(with(p_term));
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     EXPECT_TRUE(terminal.waitFor(std::string("TERM=") + p_term + " is not known")) << terminal.output();
-    EXPECT_TRUE(terminal.waitFor("drawn as xterm-256color"));
+    EXPECT_TRUE(terminal.waitFor("using xterm-256color"));
     terminal.type("\x03");
     EXPECT_EQ(WEXITSTATUS(terminal.waitForExit()), 0);
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes()));

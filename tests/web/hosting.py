@@ -20,14 +20,14 @@ class Hosting:
         self.visitors = os.path.join(self.folder, "visitors")
         self.control = os.path.join(self.folder, "control.sock")
         self.ctl = os.path.join(bin_, "dfctl")
-        self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--visitors", self.visitors,
+        self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--proxy-socket", self.visitors,
                                    "--control", self.control, *arguments], "server.log", environment)
         self.link = self._wait_for("server.log", "naiad://")
         self.key = self.link.split("#")[1]
         port_file = os.path.join(self.folder, "port")
 
         def start_gateway(port):
-            self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--visitors", self.visitors, "--listen", f"127.0.0.1:{port}",
+            self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--proxy-socket", self.visitors, "--listen", f"127.0.0.1:{port}",
                                         "--port-file", port_file, "--page", page, "--name", "a game", *gateway], "gateway.log", environment)
             self.port = int(self._wait_for_file(port_file))
 
@@ -43,7 +43,7 @@ class Hosting:
         return program
 
     def break_lines(self):
-        """Kills the gateway, which cuts all connections with browsers, and starts another one at that address."""
+        """Kills the gateway, which ends all connections with browsers, and starts another gateway at its address."""
         self.gateway.kill()
         self.gateway.wait()
         self.programs.remove(self.gateway)
@@ -51,7 +51,7 @@ class Hosting:
         self._start_gateway(self.port)
 
     def players_of(self, room):
-        """Returns the number of players in a room, by dfctl."""
+        """Returns the number of players in a room, as dfctl reports it."""
         answer = subprocess.run([self.ctl, "--control", self.control, "rooms", "--json"], capture_output=True, text=True, check=True)
         return next(row["players"] for row in json.loads(answer.stdout) if row["room"] == room)
 

@@ -33,7 +33,7 @@ def page():
 
 
 def rows(browser):
-    """Returns the rows of the picture as drawn."""
+    """Returns the rows of the picture that the page shows, as text."""
     return browser.run(SHOWN)
 
 
@@ -160,7 +160,7 @@ class PageTest(unittest.TestCase):
             self.begin()
             hosting.wait_for_line("server.log", "Ada")
             self.assertEqual(hosting.players_of("arcade"), 1)
-            # After a reload it is still player Ada, in her room.
+            # After a reload, the page still plays as Ada, in her room.
             self.browser.call("POST", "/refresh", {})
             wait_for(self.browser, "Session resumed")
             self.assertEqual(hosting.players_of("arcade"), 1)
@@ -236,7 +236,7 @@ class PageTest(unittest.TestCase):
         shutil.copytree(page(), folder)
         shutil.copy(os.path.join(BUILD, "wasm", "recording_client.wasm"), os.path.join(folder, "client.wasm"))
         truth = os.path.join(folder, "truth.txt")
-        with Hosting(BUILD, folder, "--game", "bullethell", "--seed", "7", "--truth", truth) as hosting:
+        with Hosting(BUILD, folder, "--game", "bullethell", "--seed", "7", "--truth-file", truth) as hosting:
             join(self.browser, hosting)
             self.browser.run("""
                 window.frames_drawn = 0;
@@ -255,9 +255,9 @@ class PageTest(unittest.TestCase):
 
     def test_bots_come_by_the_gateway_as_well(self):
         truth = os.path.join(BUILD, "gateway-truth.txt")
-        with Hosting(BUILD, page(), "--game", "bullethell", "--truth", truth) as hosting:
+        with Hosting(BUILD, page(), "--game", "bullethell", "--truth-file", truth) as hosting:
             bot = subprocess.run([os.path.join(BUILD, "bin", "dfbot"), "--web", hosting.address, "--clients", "3", "--ticks", "150", "--random", "1",
-                                  "--truth", truth, "--quiet"], capture_output=True, text=True, timeout=120)
+                                  "--truth-file", truth, "--quiet"], capture_output=True, text=True, timeout=120)
         print(bot.stdout.strip())
         self.assertEqual(bot.returncode, 0, bot.stdout + bot.stderr)
         self.assertIn(" wrong_cells=0 ", bot.stdout)

@@ -66,7 +66,7 @@ class Browser:
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
     def wait(self, script, *arguments):
-        """Runs the body of a JavaScript function until its result is true. Returns that."""
+        """Runs the body of a JavaScript function until its result is true. Returns the result."""
         end = time.monotonic() + self.patience
         while time.monotonic() < end:
             value = self.run(script, *arguments)

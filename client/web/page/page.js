@@ -67,7 +67,7 @@ function later(call) {
 function fit() {
   const stage = element("stage");
   const view = client?.view() ?? {columns: 80, rows: 24};
-  // The view, its frame and the status line.
+  // The size includes the view, its frame and the status line.
   const size = picture.fit(stage.clientWidth, stage.clientHeight, view.columns + 2, view.rows + 3);
   client?.resize(size.columns, size.rows);
   return size;
@@ -217,7 +217,7 @@ picture.canvas.addEventListener("blur", () => client?.blur());
 addEventListener("blur", () => client?.blur());
 document.addEventListener("visibilitychange", () => document.hidden && client?.blur());
 
-// The chat line; or keys for the game, if a phone's keyboard was opened for it.
+// The text field is the chat line or, if a phone's keyboard was opened for the game, takes keys for the game.
 line.addEventListener("keydown", (event) => {
   if (client === null || event.isComposing) return;
   if (!client.writing() || event.key === "Enter" || event.key === "Escape" || event.ctrlKey && event.key === "]") takeKey(event, down);

@@ -10,7 +10,7 @@ const advance = 0.602;
 const lineHeight = 1.17;
 const baseline = 0.79;
 const mostImages = 4000;
-const smallest = 11;  // CSS pixels from line to line
+const smallest = 11;  // smallest line height, in CSS pixels
 const largest = 48;
 
 /** Arms of the characters U+2500 … U+257F: left, up, right, down; 0 none, 1 light, 2 heavy, 3 double. */
@@ -40,8 +40,8 @@ export class Picture {
   }
 
   /**
-   * Chooses the largest cell size with which `columns` by `rows` cells fit into width by height CSS pixels. There is
-   * a minimum for reading; then fewer cells fit. Returns the number of columns and rows that fit.
+   * Chooses the largest cell size with which `columns` by `rows` cells fit into width by height CSS pixels. Cells stay
+   * large enough to be read; if necessary, fewer fit. Returns the number of columns and rows that fit.
    */
   fit(width, height, columns, rows) {
     const scale = window.devicePixelRatio || 1;
@@ -71,7 +71,7 @@ export class Picture {
     this.shown = new Uint32Array(0);
   }
 
-  /** Draws the cells that have changed. The picture may still have an earlier size. */
+  /** Draws the cells that have changed. The picture may still have the size before the last fit(). */
   show({columns, rows, cells, cursor}) {
     const all = this.shown.length !== cells.length || this.shownColumns !== columns;
     if (all) this.redraw();
@@ -121,7 +121,7 @@ export class Picture {
     this.screen.fillRect(column * this.cell, row * this.line + this.line - Math.max(2, this.line >> 3), this.cell, Math.max(2, this.line >> 3));
   }
 
-  /** Returns false if the character is not drawn as a shape. */
+  /** Draws a line, block or Braille character. Returns false for other characters. */
   drawShape(context, code) {
     if (code <= 0x257f) return this.drawLines(context, code);
     if (code <= 0x259f) return this.drawBlock(context, code);

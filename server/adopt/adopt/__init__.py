@@ -1,1 +1,1 @@
-"""dragonfly-adopt: builds and runs a game for the published Dragonfly with Naiad."""
+"""dragonfly-adopt: builds and runs, with Naiad, a game that was written for the published Dragonfly engine."""

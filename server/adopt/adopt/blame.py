@@ -1,4 +1,4 @@
-"""Judges the remaining errors: whose fault each is, and what to change."""
+"""Judges the errors that remain after all treatments: whose fault each error is, and what to change."""
 import os
 import re
 
@@ -79,7 +79,7 @@ class Blame:
         return THEIRS, _advice(diagnostic.text, name)
 
     def _is_engines(self, name, text):
-        """Returns whether the published engine has the missing name of a message."""
+        """Returns whether the published engine declares the name that is missing according to this message."""
         owner = re.search(r"'(?:class |struct |const )*(?:df::)?(\w+)[ *&]*' has no member|call to '(?:df::)?(\w+)::", text)
         if owner:
             one = owner.group(1) or owner.group(2)
@@ -104,13 +104,13 @@ class Blame:
         if unit.name not in self._checked:
             self._checked[unit.name] = self._with_engine(unit)
         found = self._checked[unit.name]
-        # If the check stopped at a missing file, it proves nothing about the other lines.
+        # If that compilation stopped at a missing file, it proves nothing about the other lines.
         if found is None or any(one.kind == "fatal error" for one in found):
             return False
         return not any(one.is_error and (one.file, one.line) == (diagnostic.file, diagnostic.line) for one in found)
 
     def symbol(self, symbol):
-        """Like error(), for a symbol that no object defines."""
+        """Like error(), for a symbol that no object file defines."""
         plain = re.sub(r"\(.*", "", symbol).replace("[abi:cxx11]", "")
         parts = [part for part in re.split(r"::|\s", plain) if part]
         name = parts[-1] if parts else plain
@@ -159,7 +159,7 @@ def _advice(text, name):
 
 
 def networks(sources, names):
-    """Returns (file, line) of the first network include of each source that has one."""
+    """Returns (file, line) of the first #include of a network header, for each source that has one."""
     found = []
     for name in names:
         for number, line in enumerate(sources.text(name).split("\n"), 1):

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-MAX_OUTPUT = 1 << 20  # bytes that are kept; the rest is discarded
+MAX_OUTPUT = 1 << 20  # maximum bytes of a command's output that are kept; further output is discarded
 
 
 class Stalled(Exception):
@@ -14,8 +14,8 @@ class Stalled(Exception):
 
 
 def phase(what, seconds):
-    """Begins a phase that must not take longer than `seconds` (0: no limit). A safety net: code that reads untrusted text has
-    limits of its own."""
+    """Begins a phase of this program; raises Stalled if it takes longer than `seconds` (0: no limit). This is a safety net: code
+    that reads untrusted text has limits of its own."""
     def stop(*_):
         raise Stalled(f"{what} took more than {seconds:g} s")
 
@@ -37,14 +37,14 @@ def limit_self():
 
 
 def limit_to(what, most, for_good=True):
-    """Limits a resource to `most`, or to the system's limit if that is lower. Not `for_good`: a program may raise it again."""
+    """Limits a resource to `most`, or to the system's limit if that is lower. Programs may raise it again if not `for_good`."""
     hard = resource.getrlimit(what)[1]
     soft = most if hard == resource.RLIM_INFINITY else min(most, hard)
     resource.setrlimit(what, (soft, soft if for_good else hard))
 
 
 def run(argv, cwd=None, env=None, timeout=120.0):
-    """Runs argv without input, in a process group of its own, and kills the group at its end."""
+    """Runs argv without input, in a process group of its own, and kills the group when argv has ended."""
     process = subprocess.Popen(argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     kept, timed_out = bytearray(), False

@@ -1,4 +1,4 @@
-"""Compiles and links a game, and fixes its copy ("treats" it) until it compiles."""
+"""Compiles and links a game. Changes the copy of its sources ("treats" it) until they compile."""
 import os
 import re
 
@@ -8,11 +8,11 @@ from .includes import Includes, header_folders
 from .naiad import system_headers
 from .treatments import Treatments
 
-MAX_ROUNDS = 12  # maximum rounds of treating and compiling again
+MAX_ROUNDS = 12  # maximum number of times that the copy is treated and compiled again
 # Errors about missing files or engine members, which no other C++ standard would fix.
 _IN_EVERY_STANDARD = re.compile(r"No such file or directory|file not found|'(?:const )?(?:class |struct )?df::\w+' has no member named|"
                                 r"no member named '\w+' in 'df::\w+'")
-MAX_LINKS = 6  # maximum attempts to link with further sources
+MAX_LINKS = 6  # maximum number of links; further sources are added after each failed one
 
 
 class Building:
@@ -76,7 +76,7 @@ class Building:
                 pending = list(dict.fromkeys(pending + self.broken))
 
     def _retry(self, option, value, fits):
-        """Compiles failed units with another option, and keeps the option where it helps. Returns the units that it helped."""
+        """Compiles failed units with another option, and keeps the option for units that it helps. Returns those units."""
         before = {unit: (unit.diagnostics, getattr(unit, option)) for unit in self.broken if fits(unit)}
         for unit in before:
             setattr(unit, option, value)
@@ -91,7 +91,7 @@ class Building:
         return [unit for unit in before if unit.object]
 
     def _link(self):
-        """Links. If symbols are missing, adds sources that define them, although no list names them."""
+        """Links the program. If symbols are missing, adds sources that define them, although no project file lists them."""
         for _ in range(MAX_LINKS):
             if self.broken:
                 return
@@ -116,7 +116,7 @@ class Building:
         return found
 
     def _drop_unneeded_sources(self):
-        """Drops the sources that do not compile, if the program links without them. Lists may name unused sources."""
+        """Drops the sources that do not compile, if the program links without them. Project files may list unused sources."""
         bad, all_units = self.broken, self.units
         if self.units[0] in bad:
             return
@@ -141,7 +141,7 @@ class Building:
 
 
 def undefined(said):
-    """Returns [(symbol, place)] of the symbols that the linker did not find, each once."""
+    """Returns a list of (symbol, place that uses it) for the symbols that the linker did not find, each once."""
     found = {}
     for line in said.splitlines():
         match = re.search(r"^(?:/\S*ld: )?(?P<place>.*?):? ?undefined reference to [`'](?P<symbol>.+)'", line)

@@ -11,8 +11,8 @@ from .bounded import run
 _LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? "
                    r"(?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
 _WITHIN = re.compile(r"^.+?: (?:In|At) (?P<within>.*):$")
-MAX_LINE = 4000  # maximum characters of a message: names of templates can be endless
-STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # that of dragonfly::dragonfly, then older ones that games were written for
+MAX_LINE = 4000  # maximum characters of a message, because names of templates can be very long
+STANDARDS = ("gnu++20", "gnu++17", "gnu++14")  # the standard of dragonfly::dragonfly, then older ones that games were written for
 
 
 class Diagnostic:
@@ -52,7 +52,7 @@ def parse(output):
 
 
 def _is_clang(program):
-    """Returns whether the program is clang. Links do not tell: /usr/lib/ccache/clang++ is ccache, and c++ may be either."""
+    """Returns whether the program is clang. Link targets do not show it: /usr/lib/ccache/clang++ is ccache, c++ may be either."""
     if "clang" in os.path.basename(program):
         return True
     try:
@@ -90,12 +90,12 @@ class Compiler:
         self.definitions, self.extra = [], []
         self.is_gcc = not _is_clang(program)
         self._launcher = [found] if (found := shutil.which("ccache")) else []
-        # Paths are relative to the copy, so that ccache knows a folder again although its copy lies elsewhere.
+        # Paths are relative to the copy, so that ccache finds its results again although each run has another copy.
         self._environment = {**os.environ, "LC_ALL": "C", "CCACHE_BASEDIR": root, "CCACHE_NOHASHDIR": "1"}
         os.makedirs(objects, exist_ok=True)
 
     def compile(self, units, progress=lambda done, all: None):
-        """Compiles these units. Calls progress(done, all) after each."""
+        """Compiles these units. Calls progress(done, all) after each, with the numbers of finished units and of all units."""
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
             for count, _ in enumerate(pool.map(self._compile, units), 1):
                 progress(count, len(units))
@@ -144,7 +144,7 @@ class Compiler:
 
     def check_with(self, unit, include):
         """Returns the diagnostics of a unit compiled against another engine's headers. Returns None if the compiler did not reach
-        the end or those headers do not compile, because then lines without an error prove nothing."""
+        the unit's end or those headers do not compile, because then lines without an error prove nothing."""
         forced, unit.forced = unit.forced, []  # these are Naiad's headers
         command = [word for word in self._command(unit, max_errors=0) if word != "-c"]
         unit.forced = forced

@@ -22,7 +22,7 @@ def stem(name):
 
 
 def published_stems(names):
-    """Returns the stems of the published engine's headers. A game may have names of Naiad's own headers: Player, World, Random."""
+    """Returns the stems of the published engine's headers, without Naiad's own: a game may use their names (Player, World)."""
     return {stem(name) for name in names if name.endswith(".h")} | EARLY_HEADERS
 
 
@@ -50,7 +50,7 @@ def _defines(text, name):
 class EngineCopies:
     """Finds the `files` of the copy that belong to an engine.
 
-    `own`: they include sources of an engine, so the author wrote it and it may differ from the published one.
+    `own`: the files include sources of an engine, so the author wrote that engine and it may differ from the published one.
     `without_namespace`: no file uses namespace df.
     """
 
@@ -63,7 +63,7 @@ class EngineCopies:
         brings_network = not self.own and any(is_source(name) and NETWORK.match(stem(name)) for name in code_files)
         candidates = [name for name in code_files if stem(name) in known and not (brings_network and NETWORK.match(stem(name)))]
         headers = [name for name in candidates if not is_source(name) and self._is_engines_header(name, texts[name])]
-        # A source belongs where its header belongs: to the engine or to the game.
+        # A source belongs to the engine if its header does, else to the game.
         games = {stem(name) for name in code_files if not is_source(name)} - {stem(name) for name in headers}
         sources = [name for name in candidates if is_source(name) and self._is_engines_source(name, texts[name], games)]
         self.files = sorted(headers + sources)

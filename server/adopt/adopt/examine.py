@@ -11,7 +11,7 @@ MAX_LINE = 1000  # maximum characters of a line, because a game's output is untr
 
 
 def frame_of(printed, files):
-    """Returns ("file:line", error) of the innermost function of the game in a report, or None."""
+    """Returns ("file:line", error) of the innermost function of the game in a sanitizer's report, or None."""
     what = _WHAT.search(printed)
     if not what:
         return None

@@ -1,11 +1,11 @@
-"""Checks the files that a game loads: finds the folder to start it in, and the files that are missing."""
+"""Checks the files that a game loads: finds the folder to start the game in, and the files that are missing."""
 import os
 import re
 
 _NAMED = re.compile(r'"([^"\n]{1,200}\.(?:txt|spr|wav|ogg|mp3|flac|csv|json|dat|map|lvl))"')
 _LOADED = re.compile(r'\bload(?:Sprite|Sound|Music)\s*\(\s*"([^"\n]{1,200})"')
 _REFUSED = re.compile(r"Sprite [^:]*: (?P<file>[^:]+?)(?::(?P<line>\d+))?: (?P<text>.*)")
-MAX_NAMED, MAX_FOLDERS = 2000, 500  # maximum file names, and folders to look for them in
+MAX_NAMED, MAX_FOLDERS = 2000, 500  # maximum number of file names, and of folders that are searched for these files
 MAX_LINE = 2000  # maximum characters of a log line
 
 

@@ -1,4 +1,4 @@
-"""Makes a private copy of an untrusted folder. Only reads the folder, with limits for everything."""
+"""Makes a private copy of an untrusted folder. Only reads the folder, with limits for number, depth and sizes of its files."""
 import os
 import re
 import stat
@@ -6,7 +6,7 @@ import stat
 MIB = 1 << 20
 SOURCES = (".cpp", ".cc", ".cxx", ".c++")
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".inl", ".ipp")
-# Products of version control, editors and build systems.
+# Names of folders and files made by version control, editors and build systems. They are not copied.
 JUNK_FOLDERS = {"__macosx", ".git", ".svn", ".hg", ".vs", ".idea", ".vscode", "cmakefiles", "node_modules", ".ds_store"}
 JUNK_FOLDER = re.compile(r"cmake-build-|sfml([-_ .]?\d.*)?$|.*\.(dsym|app|tlog)$", re.I)
 JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|pdb|ilk|idb|ipch|pch|sdf|suo|exe|dll|so|dylib|lib|a|"
@@ -14,7 +14,7 @@ JUNK_FILE = re.compile(r"(\._.*|\.ds_store|thumbs\.db|desktop\.ini)$|.*\.(o|obj|
 
 
 class Limits:
-    """Limits of a copy. Student games have some hundred files and a few MiB, most of it sound."""
+    """Limits of a copy. A student's game has some hundred files and a few MiB, mostly sound files."""
 
     def __init__(self, entries=20000, depth=24, file_bytes=64 * MIB, total_bytes=512 * MIB, source_bytes=MIB):
         self.entries, self.depth = entries, depth

@@ -1,4 +1,4 @@
-"""The game in the folder: its copy, its sources, and the program that they make."""
+"""The game in the folder: its copy, its sources, and the program that is built from the sources."""
 import os
 import shutil
 
@@ -16,7 +16,7 @@ PROGRAM = "naiad-game"  # file name of the built program
 
 
 class Game:
-    """A game's folder. The copy is in `tree`, without the files of an engine, which are in `engine_tree`."""
+    """A game's folder. The copy is in `tree`, except the files of an engine, which are in `engine_tree`."""
 
     def __init__(self, folder, scratch, naiad, report, limits):
         self.folder, self.scratch, self.naiad, self.report, self._limits = folder, scratch, naiad, report, limits
@@ -37,7 +37,7 @@ class Game:
             shutil.move(copy.path(name), os.path.join(self.engine_tree, name))
         gone = set(self.engine.files)
         copy.files = [name for name in copy.files if name not in gone]
-        drop_broken_links(copy)  # links to the files just moved
+        drop_broken_links(copy)  # those to the files that were just moved
         self.files = copy.files
         self._report_left_out(copy.left_out)
         for folder, count in sorted(self.engine.folders().items())[:MAX_ROWS]:
@@ -48,7 +48,7 @@ class Game:
             self.report.add("treated", name, "converted from UTF-16 to UTF-8")
 
     def _report_left_out(self, left_out):
-        """Reports files that were not copied: products of builds and systems in one row, others in a row each."""
+        """Reports files that were not copied: those made by builds or the system in one row, every other file in its own row."""
         usual, rest = [], []
         for one in left_out:
             (usual if one[1].startswith(("a file made by", "a folder of the system")) else rest).append(one)
@@ -60,7 +60,7 @@ class Game:
             self.report.add("left out", "", f"{len(usual)} product{'s' * (len(usual) > 1)} of builds, editors or the system, such as {usual[0][0]}")
 
     def choose_program(self, main):
-        """Chooses the program: that of `main`, or the most likely one. Returns whether there is one."""
+        """Chooses the program: that of the file `main` if it is given, else the most likely one. Returns False if none is found."""
         self.all_sources = [name for name in self.sources.files if is_source(name)]
         if not self.all_sources:
             unpack = f": unpack {self._archives[0]} first" if self._archives else ""

@@ -61,7 +61,7 @@ class Includes:
         return f'{begin}"{found}"{rest}', why
 
     def _is_systems(self, here, path):
-        """Returns whether <path> needs no change: a system header, or Naiad's if the game has no file of that name."""
+        """Returns whether <path> needs no change: a system header, or a header of Naiad if the game has no file of that name."""
         if path.startswith("SFML/") or any(os.path.exists(os.path.join(folder, path)) for folder in self._system):
             return True
         return path in self._naiad.headers and not any(place.lower() in self._by_lower for place in self._candidates(here, path))
@@ -70,8 +70,8 @@ class Includes:
         return [os.path.normpath(os.path.join(folder, path)) for folder in [here] + self._folders]
 
     def _resolve(self, here, path):
-        """Returns (path to write, whether it is Naiad's header), or None if there is no such file. The game's files come first:
-        a game with a Player.h of its own, in any case, does not mean Naiad's."""
+        """Returns (path to write, whether it is Naiad's header), or None if there is no such file. Prefers the game's files: a game
+        with a Player.h of its own (or player.h) does not mean Naiad's."""
         places = self._candidates(here, path)
         if any(place in self._names for place in places):
             return path, False
@@ -92,12 +92,12 @@ class Includes:
 
     @staticmethod
     def _spelt(path, real, here):
-        """Returns the written path with the upper and lower case of the file."""
+        """Returns the path of an #include with upper and lower case as in the name of the file."""
         return real[len(real) - len(path):] if real.lower().endswith(path.lower()) else os.path.relpath(real, here or ".")
 
 
 def included_sources(sources):
-    """Returns {source: the files that include it}. Such a source is compiled as a part of them."""
+    """Returns {source: the files that include it}. Such a source is not compiled alone, but as a part of those files."""
     by_lower = {name.lower(): name for name in sources.files if is_source(name)}
     found = {}
     for name in sources.files:
@@ -112,7 +112,7 @@ def included_sources(sources):
 
 
 def header_folders(sources, program):
-    """Returns the folders with headers, the program's own first, those of tests and leftovers last."""
+    """Returns the folders with headers: that of the program first, those that look like tests or leftovers last."""
     home = os.path.dirname(program.main)
     folders = {os.path.dirname(name) for name in sources.files if not is_source(name)}
     return sorted(folders, key=lambda folder: (folder != home, is_secondary(folder), folder.count("/"), folder))[:MAX_FOLDERS]

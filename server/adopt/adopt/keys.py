@@ -1,4 +1,4 @@
-"""Makes random scripts for dfbot with the keys that a game's sources name."""
+"""Makes random scripts for dfbot. They press the keys that a game's sources name."""
 import random
 import re
 
@@ -17,7 +17,7 @@ def keys_of(texts):
 
 
 def random_script(named, seed, ticks, width=80, height=24):
-    """Returns a script of about `ticks` ticks, determined by the seed."""
+    """Returns a script of about `ticks` ticks. Equal arguments give equal scripts."""
     dice = random.Random(seed)
     lines = [f"wait 5; press {key}; wait 10" for key in _BEGIN]
     pool = named * 3 + _USUAL if named else _USUAL

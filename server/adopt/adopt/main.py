@@ -20,8 +20,8 @@ from .trial import ScriptError
 from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
-READ_SECONDS = 120  # time limit; a student's folder takes one or two
-BUILD_SECONDS = 1800  # time limit, of which the compiler gets 900
+READ_SECONDS = 120  # time limit for reading the folder; a student's folder takes one or two seconds
+BUILD_SECONDS = 1800  # time limit for building, of which the compiler gets 900 seconds
 
 DESCRIPTION = """\
 Builds and runs a game written for the published Dragonfly engine (4.2 to 4.22), or reports what prevents it.
@@ -165,7 +165,7 @@ def _print(report, as_json):
         sys.stdout.flush()
         return True
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python flushes the rest when it exits
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # because Python flushes stdout again when it exits
         if not isinstance(error, BrokenPipeError):  # expected with `| head`
             sys.stderr.write(f"dragonfly-adopt: {error}\n")
         return False

@@ -14,7 +14,7 @@ from .text import shown
 
 MARKED, INCOMPLETE, USAGE = 0, 1, 2
 MAX_TEXT = 200  # maximum characters of a finding in the list
-_SPARE_SECONDS = 2400  # time limit apart from playing; dragonfly-adopt's own limits are lower
+_SPARE_SECONDS = 2400  # time limit of a game, in addition to the playing time; dragonfly-adopt's own limits are lower
 
 DESCRIPTION = """\
 Builds and plays games with dragonfly-adopt. FOLDER contains a folder for each student. Each game is built from a private copy, with
@@ -34,7 +34,7 @@ Example: dragonfly-mark handed-in --report marks.md
 
 
 class Verdict:
-    """The result of one folder: its `name`, dragonfly-adopt's `result`, the main finding as `text`, the report's `rows`."""
+    """The result of one folder: its `name`, dragonfly-adopt's `result`, the main finding as `text`, and the report's `rows`."""
 
     def __init__(self, name, result, text, rows=()):
         self.name, self.result, self.text, self.rows = name, result, text, rows
@@ -45,7 +45,7 @@ class Verdict:
 
 
 def verdict_of(name, answer):
-    """Makes a verdict of dragonfly-adopt's JSON."""
+    """Converts the JSON report of dragonfly-adopt to a Verdict."""
     rows, reason = answer["rows"], answer["reason"]
     if reason.startswith("not run:"):  # the sandbox failed, not the game
         return Verdict(name, "not judged", reason, rows)
@@ -57,7 +57,7 @@ def verdict_of(name, answer):
 
 
 def mark(adopt, folder, name, options):
-    """Runs dragonfly-adopt on one folder."""
+    """Runs dragonfly-adopt on one folder. Returns the Verdict."""
     command = [adopt, os.path.join(folder, name), "--book", "--json", "--quiet", "--seconds", str(options.seconds), "--seed",
                str(options.seed), "--players", str(options.players)]
     for option in ("keys", "cxx"):
@@ -77,7 +77,7 @@ def mark(adopt, folder, name, options):
 
 
 def write_report(file, verdicts):
-    """Writes a Markdown table, then the findings of each folder."""
+    """Writes a Markdown table of the results, then the findings of each folder."""
     cell = lambda text: shown(text, 400).replace("|", "\\|")
     file.write("| game | result | seen |\n|---|---|---|\n")
     for one in verdicts:

@@ -1,4 +1,4 @@
-"""Replaces names of Visual Studio's templates and library with standard ones: int _tmain(int argc, _TCHAR *argv[])."""
+"""Replaces names of Visual Studio's templates and library, like _tmain and _TCHAR, with standard ones."""
 import re
 
 from .treatments import Change
@@ -6,7 +6,7 @@ from .treatments import Change
 _WORDS = {"_tmain": "main", "wmain": "main", "_TCHAR": "char", "TCHAR": "char", "__int64": "long long", "__forceinline": "inline",
           "_stricmp": "strcasecmp", "stricmp": "strcasecmp", "_strnicmp": "strncasecmp", "_strdup": "strdup", "_snprintf": "snprintf"}
 _TEXT = r'\b_T(?:EXT)?\s{0,20}\(\s{0,20}("(?:\\.|[^"\\])*")\s{0,20}\)'
-# Calls that report memory leaks in Visual Studio's window. They are removed.
+# Calls that make Visual Studio report memory leaks. They are removed.
 _LEAKS = r"\b_Crt\w+\s{0,20}\([^();]{0,300}\)(?=\s{0,20};)"
 _DEFINED = r"#\s*define\s+(\w+)|\btypedef\s[^;]{0,200}\b(\w+)\s*;|\b(?:int|char)[ \t*]{1,20}(_?str\w+|_snprintf)\s*\("
 _ANY = re.compile(r"\b(?:_T|_TEXT|_Crt\w+|" + "|".join(_WORDS) + r")\b")

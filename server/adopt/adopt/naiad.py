@@ -25,7 +25,7 @@ class Installation:
             self._index(header)
 
     def _index(self, header):
-        # Most headers only include their namesake in text/, after undefining the game's one-letter macros.
+        # Most headers only undefine the game's one-letter macros and include the header of their name in text/.
         inner = os.path.join(self.include, "text", header)
         with open(inner if os.path.exists(inner) else os.path.join(self.include, header), encoding="utf-8") as file:
             text = code_only(file.read())
@@ -53,7 +53,8 @@ class Installation:
         return next(iter(scopes)) if len(scopes) == 1 else None
 
     def was_published(self, name, classes=()):
-        """Returns whether the published engine has this class, constant or header; with `classes`, a member of one of them."""
+        """Returns whether the published engine has this class, constant or header; with `classes`, whether one of these has such a
+    member."""
         if classes:
             return any(f"{one}::{name}" in self.published for one in classes)
         return name in self.published or any(one.endswith("::" + name) and one.split("::")[0][:1].isupper() and name.isupper()

@@ -9,20 +9,20 @@ _RUN = re.compile(r"(?:\bGM\s*\.|->|\.|::)\s*run\s*\(")
 _ASIDE = re.compile(r"(^|[/ _-])(tests?|testing|unit-?tests?|old|backup|tutorial|examples?|"
                     r"saucer[-_ ]?shoot|template|unused|archive)"
                     r"([/ _.-]|$)", re.I)
-# Names of second copies, as Explorer, Finder and students make them of the first name.
+# Names of second copies of a file, as Explorer, Finder and students choose them.
 _COPY = re.compile(r"(.+?)(?: - copy(?: \(\d+\))?| copy(?: \d+)?| ?\(\d+\)|[-_. ](?:old|bak|backup|orig|copy))$", re.I)
-MAX_PROGRAMS = 24  # maximum considered; a folder rarely has more than three
+MAX_PROGRAMS = 24  # maximum number of programs considered; a folder rarely has more than three
 
 
 class Program:
-    """A program: its `main` file, its `sources` with main first, their `source_list` or None, and `left_out` as (file, reason)."""
+    """A program: its `main` file, its `sources` (main first), the SourceList that names them or None, `left_out` (file, reason)."""
 
     def __init__(self, main, sources, source_list, left_out):
         self.main, self.sources, self.source_list, self.left_out = main, sources, source_list, left_out
 
 
 def is_secondary(name):
-    """Returns whether the name of a file or folder looks like a test, tutorial or leftover."""
+    """Returns whether this name of a file or folder looks like that of a test, tutorial or leftover."""
     return _ASIDE.search(name) is not None
 
 

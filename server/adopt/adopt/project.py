@@ -13,7 +13,7 @@ _SEPARATORS = re.compile(r"[\s\"'<>|;,()=:]+")
 _SOURCE_WORD = re.compile(r".+\.(?:cpp|cc|cxx|c\+\+|C)(?!\w)")
 _OBJECT_WORD = re.compile(r"([\w./-]+)\.o(?!\w)")
 MAX_PROJECT_FILE = 1 << 20
-MAX_PROJECT_FILES = 60  # maximum read, those nearest to the top
+MAX_PROJECT_FILES = 60  # maximum number read: those in the fewest subfolders
 MAX_WORD = 300  # maximum characters of a source's path
 MAX_WORDS = 5000
 MAX_PATTERNS = 40
@@ -24,7 +24,7 @@ MAX_DEFINITIONS = 20
 
 class SourceList:
     """The contents of a project file: `sources` that exist, `missing` ones, `unread` calls of programs, `definitions` (-DNAME=
-    VALUE). `exact`: it names each source; with patterns it may include unused ones."""
+    VALUE). `exact`: the file names each source. If not, it has patterns, which may match unused sources."""
 
     def __init__(self, file, sources, missing, unread=(), exact=True, definitions=()):
         self.file, self.sources, self.missing, self.unread, self.exact = file, sources, missing, list(unread), exact
@@ -63,7 +63,7 @@ def read_lists(root, files, sources):
 
 
 def _words(name, text):
-    """Returns the sources that a project file names, and its calls of other programs."""
+    """Returns the sources that a project file names, and the calls of other programs in it."""
     base = os.path.basename(name).lower()
     if base.endswith((".vcxproj", ".vcproj")):
         return _only_sources(html.unescape(word) for word in _visual_studio(text)), []
@@ -98,7 +98,7 @@ def _visual_studio(text):
 
 
 def _with_variables(text):
-    """Expands variables of one word, once: SRC = src, set(SRC src)."""
+    """Replaces variables whose value is one word, as in SRC = src or set(SRC src). Does not replace variables in such values."""
     found = re.findall(r"(?m)^[ \t]*([\w.-]+)[ \t]*[:?]?:?=[ \t]*([^\s$()]{1,100})[ \t\r]*$", text)
     found += re.findall(r"\bset\s*\(\s*([\w.-]+)\s+\"?([^\s$()\"]{1,100})\"?\s*\)", text)
     variables = dict(found[:100])
@@ -106,7 +106,7 @@ def _with_variables(text):
 
 
 def _expanded(text):
-    """Returns the sources that a Makefile names, including patterns. Without any, derives them from the objects it names."""
+    """Returns the sources that a Makefile names, including patterns. If it names none, derives them from the object files."""
     here = "wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR"
     plain = re.sub(r"\$[({](?:" + here + r")[)}]?", " ./ ", text)
     words = [word for word in _SEPARATORS.split(re.sub(r"\./\s+/?", "./", plain)) if len(word) <= MAX_WORD]
@@ -126,7 +126,7 @@ def _is_pattern(word):
 
 
 class _Known:
-    """Finds existing sources by the words of project files."""
+    """Finds the existing sources that words in project files refer to."""
 
     def __init__(self, sources):
         self._by_lower, self._by_base = {name.lower(): name for name in sources}, {}
@@ -134,7 +134,7 @@ class _Known:
             self._by_base.setdefault(os.path.basename(name).lower(), []).append(name)
 
     def meant(self, folder, word, deep):
-        """Returns the sources that a word of a project file in `folder` means, or None. deep: patterns match in subfolders."""
+        """Returns the sources that a word of a project file in `folder` means, or None. deep: patterns match in subfolders, too."""
         word = word.replace("\\", "/")
         path = os.path.normpath(os.path.join(folder, word)).lower()
         if _is_pattern(word):
@@ -142,7 +142,7 @@ class _Known:
             return [name for lower, name in self._by_lower.items() if _fits(lower, pattern, deep)] or None
         if path in self._by_lower:
             return [self._by_lower[path]]
-        # A list may have an outdated path or one of another machine: look for the base name.
+        # Looks for the file name alone, because the path may be outdated or that of another machine.
         same = self._by_base.get(os.path.basename(word).lower(), ())
         return same if len(same) == 1 else None
 

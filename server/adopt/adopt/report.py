@@ -4,13 +4,13 @@ import json
 from .text import shown
 
 MAX_ROWS = 12  # maximum rows of one kind
-_INDENT = 12  # columns before the text
+_INDENT = 12  # columns of the table before its text
 
 
 class Row:
     """A row of the table.
 
-    what: "program", "left out", "treated", "built", "ran", "left" (an error), "note", "kept"; where: file:line, or empty; text:
+    what: "program", "left out", "treated", "built", "ran", "left" (an error), "note" or "kept"; where: file:line, or empty; text:
     action or error; whose: whose fault an error is; line: the source line; change: the changed line, or what to do.
     """
 
@@ -29,7 +29,7 @@ class Report:
         self.rows.append(Row(what, where, text, whose, line, change))
 
     def add_left(self, where, whose, text, change, line=""):
-        """Adds a row for an error that is left: whose fault it is, and what to do."""
+        """Adds a row for an error that remains: whose fault it is, and what to do."""
         self.add("left", where, text, whose, line, change)
 
     def fail(self, result, reason):

@@ -14,7 +14,7 @@ from .trial import START_SECONDS, Trial
 _CRASH_ADVICE = ("check the pointers in this line: getSound(), getSprite() and objectWithId() return null if they find nothing, "
                  "and a deleted Object must not be used")
 FAILURES = (sandbox.SandboxError, RuntimeError, OSError)  # failures of the sandbox or of copying into it
-_NOTED_LINES = 4  # lines shown of a game's output, and of its log
+_NOTED_LINES = 4  # maximum lines that the report shows of a game's output, and of its log
 
 
 class Running:

@@ -1,4 +1,4 @@
-"""A sandbox for a Python function and what it starts: namespaces of its own for users, mounts, processes and network.
+"""A sandbox for a Python function and the processes it starts: own namespaces for users, mounts, processes and network.
 
 Processes in it see the system's programs and libraries and the given paths read-only, and a small file system in memory that is
 deleted at the end. The network is a private loopback. They have no capabilities and cannot get any. When the sandbox ends, all its
@@ -92,7 +92,7 @@ def _bind(source, root, writable=False):
 
 
 def _build_root(root, shown, megabytes):
-    """Builds the root file system: the system, the `shown` paths, and /tmp and /game to write to."""
+    """Builds the root file system: the system's folders, the `shown` paths, and the writable folders /tmp and /game."""
     _mount(None, "/", None, _REC | _PRIVATE)
     _mount("sandbox", root, "tmpfs", _NOSUID | _NODEV, f"size={megabytes}m,mode=755")
     for path in _SYSTEM:
@@ -152,7 +152,7 @@ def limits(seconds, memory=MEMORY, confined=True):
 
 def _drop_effective():
     """Drops the capabilities of this process, which it still has from creating the namespace."""
-    header = struct.pack("Ii", 0x20080522, 0)  # version 3, this thread
+    header = struct.pack("Ii", 0x20080522, 0)  # version 3 of capset, for this thread
     _libc.capset(header, struct.pack("6I", 0, 0, 0, 0, 0, 0))
 
 
@@ -177,7 +177,7 @@ def run(function, root, shown, timeout, megabytes=64):
 
 
 def _first_process(function, root, shown, megabytes, reader, writer):
-    """Runs in the child: creates the namespaces, then process 1. Never returns."""
+    """Runs in the child process: creates the namespaces, then process 1 of the sandbox. Never returns."""
     try:
         os.close(reader)
         os.setsid()
@@ -188,7 +188,7 @@ def _first_process(function, root, shown, megabytes, reader, writer):
             os.wait()
             os._exit(0)
         _libc.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
-        # Process 1 gets only signals that it handles. With handlers of its parent, its descendants could end it.
+        # Process 1 gets only signals for which it has handlers. With those of its parent, its descendants could end it.
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGALRM):
             signal.signal(number, signal.SIG_DFL)
         _build_root(root, shown, megabytes)
@@ -233,7 +233,7 @@ def _answer(reader, timeout):
 
 
 def unavailable_reason(root):
-    """Returns why this user cannot have a sandbox, or None if it works."""
+    """Returns the reason why this user cannot have a sandbox; None if sandboxes work."""
     if not sys.platform.startswith("linux"):
         return "it requires Linux"
     try:

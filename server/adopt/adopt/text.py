@@ -1,4 +1,4 @@
-"""Sources as lines that can be changed. No treatment adds or removes a line, so line numbers stay those of the author."""
+"""Sources as lists of lines that can be changed. No change adds or removes a line, so the author's line numbers stay valid."""
 import os
 import re
 
@@ -56,7 +56,7 @@ class Sources:
 
     def __init__(self, root, files):
         self.root, self.files, self.recoded = root, sorted(files), []
-        self._code = {}  # cached code_only() texts of files; a change removes its file
+        self._code = {}  # cached code_only() texts by file; changing a file removes its entry
         self._changed = set()
         self._lines = {name: self._read(name) for name in self.files}
 

@@ -34,7 +34,7 @@ class Change:
 
 
 class Treatments:
-    """Looks at diagnostics, changes the copy, and remembers what it changed."""
+    """Changes the copy according to the compiler's diagnostics, and records the changes."""
 
     def __init__(self, sources, compiler, naiad):
         self._sources, self._compiler, self._naiad = sources, compiler, naiad
@@ -43,7 +43,7 @@ class Treatments:
                        self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
 
     def treat(self, units):
-        """Treats the diagnostics of these units. Returns the units to compile again."""
+        """Changes the copy according to the diagnostics of these units. Returns the units to compile again."""
         definitions = len(self._compiler.definitions)
         again, touched = [], set()
         for unit in units:
@@ -59,8 +59,8 @@ class Treatments:
                 any(one.file in files for one in unit.diagnostics)]
 
     def _treat_unit(self, unit, touched):
-        """Returns the lines that were changed. Skips lines that another unit changed, because their columns may have moved.
-        Several unknown names in a line are treated at once, from right to left."""
+        """Changes lines for a unit's diagnostics. Returns these lines. Skips lines that another unit changed, because their columns
+        may have moved. Replaces several unknown names in a line from right to left, which keeps their columns valid."""
         lines = {}
         for diagnostic in sorted(unit.diagnostics, key=lambda one: (one.file, one.line, -one.column)):
             place = diagnostic.file, diagnostic.line
@@ -133,7 +133,7 @@ class Treatments:
         return done
 
     def _clang_return_type(self, diagnostic):
-        """Like _return_type(), for clang, which names no class: first the declaration, then definitions that no longer match."""
+        """Like _return_type(), for clang, whose message names no class. Changes the declaration, later definitions that differ."""
         match = _CLANG_CONFLICT.search(diagnostic.text)
         if match:
             name, old, goal = match.group("name"), match.group("type"), match.group("goal")
@@ -217,7 +217,7 @@ class Treatments:
         return False
 
     def _is_engines(self, name):
-        """Returns whether a name without df:: can be the engine's: the game has no class of that name."""
+        """Returns whether a name without df:: can be the engine's: the engine has it, and the game has no class of that name."""
         if name not in self._engines:
             self._engines[name] = self._naiad.header_of(name) is not None and \
                 not any(self._sources.find(rf"\b(?:class|struct|enum|union)\s+{name}\b(?!\s*;)"))

@@ -54,7 +54,7 @@ class Trial:
         return self._checked(answer) if answer else Outcome("hangs", text="the sandbox did not end and was killed")
 
     def _checked(self, answer):
-        if answer["state"] == "refused" and answer["code"] == 2 and self.keys:  # dfbot's wrong usage
+        if answer["state"] == "refused" and answer["code"] == 2 and self.keys:  # dfbot's exit code for wrong usage
             raise ScriptError(answer["text"])
         return Outcome(**answer)
 
@@ -107,14 +107,14 @@ class Trial:
         found = _TICKS.search(said)
         ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
         ended = _end(game, ticks)
-        # The player failed, and not because the game ended (4). If the game itself failed, that is the result instead.
+        # The player failed, but not because the game ended (code 4). If the game itself failed, its failure is the result.
         if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
             ended = {"state": "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
                 "text": _last_line(said) or f"dfbot exited with code {code}" if code else ""}
 
     def _play(self, game, port, seconds, number):
-        """Plays with dfbot. Returns its output and exit code; the code is None if it had to be killed."""
+        """Plays with dfbot. Returns dfbot's output and exit code; the code is None if dfbot had to be killed."""
         script = f"{self.tmp}/keys"
         with open(script, "w", encoding="utf-8", errors="replace") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
@@ -125,7 +125,7 @@ class Trial:
                                preexec_fn=lambda: sandbox.limits(600, confined=self.confined))
         deadline = time.monotonic() + seconds + 15
         while bot.poll() is None and game.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.02)  # until one of them ends
+            time.sleep(0.02)  # until the player or the game ends
         if game.poll() is not None:
             _wait(bot)
         elif bot.poll() in (1, 4):  # the bot lost its connection: the game may be ending
@@ -176,7 +176,7 @@ def _wait_for_port(game, path):
                 return int(text)
         except OSError:
             pass
-        time.sleep(0.02)  # until it listens or ends
+        time.sleep(0.02)  # until the game listens or ends
     return None
 
 

@@ -1,4 +1,4 @@
-"""Reports a build: the changes made, the errors left, and whose fault they are."""
+"""Reports a build: the changes made, the errors that remain, and whose fault they are."""
 import os
 import re
 
@@ -9,7 +9,7 @@ from .compiler import STANDARDS
 from .folder import is_source
 from .report import MAX_ROWS
 
-MAX_ERRORS = 3  # maximum errors reported of a source: the first usually causes the others
+MAX_ERRORS = 3  # maximum errors reported of a source, because the first error usually causes the others
 WHOLE_ENGINE = 10  # minimum headers in a folder for a copy of the engine that sources can be compiled against
 
 
@@ -22,7 +22,7 @@ class Verdicts:
                             game.sources.code(game.program.main) if game.program else "")
 
     def say(self, built):
-        """Writes the rows of a build. `built`: it succeeded."""
+        """Writes the rows of a build. `built`: whether the build succeeded."""
         self._report_treated()
         broken, units = self._building.broken, self._building.units
         if not built:
@@ -46,7 +46,7 @@ class Verdicts:
                 with open(os.path.join(self._game.engine_tree, name), encoding="latin-1") as file:
                     texts.append(file.read())
             except OSError:
-                pass  # a link to a file of the game, which is not in this tree
+                pass  # it is a link to a file of the game, which is not in this tree
         return "\n".join(texts)
 
     def _against_engine(self, unit):

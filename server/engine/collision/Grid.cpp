@@ -10,14 +10,14 @@ namespace df {
 
 namespace {
 
-constexpr int kFirstWidthBits = 4;   // of level 1: boxes up to 16 by 4
-constexpr int kFirstHeightBits = 2;  // each further level takes four times as much on both axes
-// Cells are smaller than the largest boxes of their level: fewer boxes are near then, and more cells cost
-// little, because a word holds a row of them.
+constexpr int kFirstWidthBits = 4;   // largest box of level 1: 2^4 by 2^2 cells
+constexpr int kFirstHeightBits = 2;  // each further level: four times as large on both axes
+// Cells are smaller than the largest boxes of their level, so that fewer boxes need the exact test. More
+// cells cost little, because a word holds a row of them.
 constexpr int kFinerWidthBits = 2;
 constexpr int kFinerHeightBits = 1;
 
-constexpr double kWide = 64;  // cells per character
+constexpr double kWide = 64;  // largest number of cells per character with which spots pay
 constexpr double kFew = 512;
 
 int bitsFor(Fixed size) {
@@ -63,7 +63,7 @@ void Grid::count(const Record& record, int by) {
   }
 }
 
-// Decides whether characters have a level of their own. It changes so rarely that moving them costs nothing.
+// Decides whether characters have a level of their own. This changes so rarely that its cost does not matter.
 void Grid::chooseCharacterLevel() {
   const bool apart = m_characters_apart ? m_small_boxes <= 16 || m_characters * 4 >= m_small_boxes
                                         : m_characters > m_small_boxes;
@@ -74,7 +74,7 @@ void Grid::chooseCharacterLevel() {
   }
 }
 
-// Decides whether the boxes of other levels cover so few cells that it pays to know which.
+// Decides whether the boxes of other levels cover so few cells that it pays to mark the covered cells.
 void Grid::updateCoverage() {
   const std::int64_t characters = m_levels[0].count;
   if (m_boxes_beside == 0 || characters == 0) return m_p_coverage.reset();
@@ -164,14 +164,14 @@ void Grid::drop(Slot slot) {
   count(m_records[slot], -1);
   m_records[slot].level = kNotFiled;
   if (--level.count == 0) m_occupied &= ~(1u << number);
-  // Gives memory back at a sixteenth of the boxes that would make it grow beyond this size.
+  // Shrinks the arrays if the boxes are fewer than a sixteenth of the number that would make them grow.
   const std::size_t few = level.words.size() * kBoxesPerWord / 16;
   if (level.words.size() > kMinWords && static_cast<std::size_t>(level.count) < few) {
     rebuild(number, level.words.size() / 4);
   }
 }
 
-// Unrolls the torus over the area where the boxes are now.
+// Sizes the arrays, and places the part of the torus that lies flat over the area where the boxes are now.
 void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1,
                         std::int64_t y1) {
   assert(std::has_single_bit(word_count) && word_count >= 64);
@@ -181,11 +181,11 @@ void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0
   word_mask = static_cast<std::uint32_t>(word_count - 1);
   base_x = x0 >> 6;
   base_y = y0 >> 6;
-  const int bits = std::bit_width(word_count / 64) - 1;  // blocks, as a power of two
+  const int bits = std::bit_width(word_count / 64) - 1;  // log2 of the number of blocks
   const auto bitsOf = [](std::int64_t blocks) { return std::bit_width(static_cast<std::uint64_t>(blocks)); };
   const int wide = bitsOf((x1 >> 6) - base_x);
   const int high = bitsOf((y1 >> 6) - base_y);
-  // Spare bits are shared between the sides, and so are missing ones, unless one side needs few.
+  // The sides share spare bits equally. They share missing bits equally, too, unless one side needs few.
   x_bits = std::clamp(wide + (bits - wide - high) / 2, 0, bits);
   if (wide + high > bits && wide < bits / 2) x_bits = wide;
   if (wide + high > bits && high < bits / 2) x_bits = bits - high;

@@ -1,26 +1,26 @@
 // The broad phase: finds the solid boxes that may touch a box.
 //
-// Boxes are filed by their upper left corner, once each, in levels by their size. Level 0 is for single
-// characters: cells of 1 by 1, so that a query looks at nine of them. In the levels above, the largest boxes
-// grow by four from 16 by 4 on, four times as wide as high, as text is; the cells are a quarter as wide and
-// half as high. If characters are few among sprites, they are filed in level 1 with them, and there is one
-// level less to search.
+// Each box is filed once, by its upper left corner, in a level that depends on its size. Level 0 is for
+// single characters and has cells of 1 by 1, so that a query looks at nine cells. Level 1 is for boxes up to
+// 16 by 4, because text is wider than high; each further level is for boxes up to four times as large on both
+// axes. Cells are a quarter as wide and half as high as the largest boxes of their level. If few boxes are
+// characters, these are filed in level 1 too, so that there is one level less to search.
 //
-// A level has two arrays: a bit per cell that says whether it is occupied, 64 cells of a row to a word,
-// followed by the words of the rows below; and the first slot of each cell. Nine cells are looked up in three
-// neighbouring words. Level 0 has a third array: for each cell the spot in it where its character is, in 15
-// bits, so that only those of nine neighbours are looked up that touch, or nearly so. (It is missing if
-// characters are few and far between.) Cells are mapped onto the arrays as onto a torus: the part of the
-// world over which the boxes of a level are spread lies flat. What is a whole turn away falls onto these
-// cells, too, shifted by a hash, and the exact test separates them. So the arrays are about as long as there
-// are boxes, wherever these are: 32 to 64 cells for each. Only occupied cells are touched. Nothing is
-// allocated when something moves.
+// A level has two arrays: one bit per cell, set if it is occupied, with 64 cells of a row in a word and then
+// the words of the rows below; and the first slot of each cell. Nine cells are looked up in three
+// neighbouring words. Level 0 has a third array with the spot of each cell: the place of its character within
+// the cell, in 15 bits. With the spots, only those of the nine characters are read that touch, or nearly so.
+// (The array is missing if characters are few and far apart.) Cells are mapped onto the arrays as onto a
+// torus. The part of the world over which the boxes of a level are spread lies flat on it, if there is room.
+// Cells a whole turn away share the same entries, shifted by a hash, and the exact test tells them apart. So
+// the arrays have 32 to 64 cells per box, wherever the boxes are. Queries read only occupied cells. Nothing
+// is allocated when a box moves.
 //
-// A character that moves looks at the other levels only where a bit per cell of level 0 says that a box of
-// theirs may be (GridCoverageMask.h). The bits are kept while such boxes cover few cells per character.
+// When a character moves, the other levels are searched only if a bit of its cell of level 0 says that one of
+// their boxes may be there (GridCoverageMask.h). The bits are kept while such boxes cover few cells.
 //
-// The grid reads positions and boxes from the store's arrays; a slot is filed under their values at its last
-// file() or refile().
+// The grid reads positions and boxes from the world store's arrays. A slot is filed under the values that
+// they had at its last file() or refile().
 #pragma once
 
 #include <array>
@@ -50,13 +50,13 @@ class Grid {
   static constexpr int kLevels = 12;
   class Steps;
 
-  /// Both must outlive the grid; slots index them.
+  /// Slots are indices of both arrays, which must outlive the grid.
   Grid(const std::vector<FixedVector>& positions, const std::vector<FixedBox>& boxes);
   ~Grid();
 
   /// Files `slot` under its position and box, wherever it was filed before.
   void file(Slot slot);
-  /// Files `slot` again after a change of its position alone. It must be filed.
+  /// Files `slot` again after a change of its position but not its box. It must be filed already.
   void refile(Slot slot) {
     refile(slot, m_levels[m_records[slot].level]);
     if (m_p_coverage != nullptr && m_records[slot].level > 0) cover(slot);
@@ -68,32 +68,32 @@ class Grid {
   /// Counters of work done by the grid and its users.
   MoverStats& moverStats() { return m_mover_stats; }
   const MoverStats& moverStats() const { return m_mover_stats; }
-  /// Returns the memory of the levels, in bytes.
+  /// Returns the memory of the grid, in bytes.
   std::size_t bytes() const;
 
   static constexpr std::size_t kAll = ~std::size_t{0};
   /// Appends to `out` the slots whose boxes touch `box`, except `self`, in no particular order; a slot may
-  /// come twice. If there are more than `most`, appends only some, but more than `most`.
+  /// appear twice. If more than `most` slots touch, appends only some of them, but more than `most`.
   void touching(const FixedBox& box, Slot self, std::vector<Slot>& out, std::size_t most = kAll) const;
-  /// Calls `visit(slot)` for every slot of a level in `levels` whose corner may lie in [from, to]; some may
-  /// come twice. Stops if it returns false.
+  /// Calls `visit(slot)` for every slot of `level`, one of levels(), whose corner may lie in [from, to]. A
+  /// slot may be visited twice. Stops when `visit` returns false.
   template <class Visit>
   void visitCorners(int level, FixedVector from, FixedVector to, Visit visit) const;
-  /// Returns a bit per level, set if the level holds something.
+  /// Returns one bit per level, set if the level holds any box.
   std::uint32_t levels() const { return m_occupied; }
-  /// Returns the upper bound of the sizes of boxes in a level.
+  /// Returns the size of the largest boxes that a level holds.
   static FixedVector largest(int level);
 
  private:
   class CoverageMask;
   static constexpr Slot kNone = 0x7FFFFFFF;
-  static constexpr Slot kMore = 0x80000000;        // in a cell's first slot: others follow
-  static constexpr Spot kSeveral = 0x8000;         // in a cell's spot: it has several slots, anywhere
-  static constexpr std::size_t kRowOfSpots = 4;    // spots read at a time, of which three are used
-  static constexpr std::int64_t kBlock = 64;       // cells per side of the squares that lie flat
-  static constexpr std::uint8_t kNotFiled = 0xff;  // in place of a level
+  static constexpr Slot kMore = 0x80000000;        // bit in a cell's first slot: the cell has more slots
+  static constexpr Spot kSeveral = 0x8000;         // value of a cell's spot if it has several slots
+  static constexpr std::size_t kRowOfSpots = 4;    // spots that are read at once; three are used
+  static constexpr std::int64_t kBlock = 64;       // cells per side of a block
+  static constexpr std::uint8_t kNotFiled = 0xff;  // value of Record::level
   static constexpr std::size_t kMinWords = 256;
-  static constexpr std::size_t kBoxesPerWord = 2;  // at most, on average
+  static constexpr std::size_t kBoxesPerWord = 2;  // maximum, on average over a level
 
   struct Record {
     std::uint32_t cell = 0;
@@ -101,29 +101,30 @@ class Grid {
     Slot previous = kNone;
     std::uint8_t level = kNotFiled;
     bool character = false;
-    std::uint16_t area = 0;  // above level 0: area of its cover, in cells; 0: too large for one
+    std::uint16_t area = 0;  // above level 0: cells that its cover takes; 0: too large for a cover
   };
 
   struct Level {
     int x_shift = kFixedBits;
     int y_shift = kFixedBits;
-    std::int64_t base_x = 0;  // block from which the torus is unrolled
+    std::int64_t base_x = 0;  // first block of the part of the torus that lies flat
     std::int64_t base_y = 0;
-    int x_bits = 0;  // blocks of one turn, as powers of two
+    int x_bits = 0;  // log2 of the number of blocks in a turn of the torus
     int y_bits = 0;
     std::int64_t x_mask = 0;
     std::uint32_t word_mask = 0;
     int count = 0;
-    std::vector<std::uint64_t> words;  // bit per cell
-    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; undefined for others
-    std::unique_ptr<Spot[]> spots;  // level 0 only, or null: spot in each occupied cell; undefined for others
+    std::vector<std::uint64_t> words;  // a bit per cell, set if it is occupied
+    std::unique_ptr<Slot[]> heads;     // first slot of each occupied cell; other entries are undefined
+    std::unique_ptr<Spot[]> spots;     // spot of each occupied cell of level 0; null: no spots
 
     std::uint32_t wordOf(std::int64_t x, std::int64_t y) const;
     std::uint32_t cellOf(FixedVector anchor) const;
     void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
   };
 
-  /// Returns the place of a position in its cell: x in the lower eight bits, y in the seven above, floored.
+  /// Returns the place of a position within its cell, floored: x in the lowest eight bits, y in the next
+  /// seven.
   static Spot spotOf(FixedVector p) {
     return static_cast<Spot>((p.x >> (kFixedBits - 8) & 0xFF) | (p.y >> (kFixedBits - 7) & 0x7F) << 8);
   }
@@ -140,7 +141,7 @@ class Grid {
   void link(Slot slot, Level& level, std::uint32_t cell);
   void unlink(Slot slot, Level& level);
   void rebuild(int level, std::size_t word_count);
-  /// Returns the point by which a box is filed: its corner; for a character its position.
+  /// Returns the point by which a box is filed: in level 0 the position, else the box's corner.
   FixedVector anchor(Slot slot, int level) const {
     return level == 0 ? m_positions[slot] : m_positions[slot] + m_boxes[slot].corner;
   }
@@ -153,16 +154,16 @@ class Grid {
   std::uint32_t m_occupied = 0;
   int m_characters = 0;
   int m_small_boxes = 0;                       // boxes of level 1 that are not characters
-  bool m_characters_apart = true;              // true: they are in level 0; else in level 1
+  bool m_characters_apart = true;              // true: characters are in level 0; false: in level 1
   int m_boxes_beside = 0;                      // boxes of all levels but 0
-  int m_large_boxes = 0;                       // those of them that are too large for a cover
-  std::int64_t m_covered_area = 0;             // area of the others' covers, in cells
+  int m_large_boxes = 0;                       // boxes above level 0 that are too large for a cover
+  std::int64_t m_covered_area = 0;             // cells that the covers of all boxes take in all
   std::unique_ptr<CoverageMask> m_p_coverage;  // null: there are no characters, or only characters
   MoverStats m_mover_stats;
-  std::vector<Slot> m_found;  // found slots of Steps, if they are many
+  std::vector<Slot> m_found;  // slots that Steps has found, if they are many
 };
 
-// Returns the word that holds cell (x,y), and the 63 others of its row in its block.
+// Returns the index of the word that holds cell (x,y) and the other 63 cells of its row in the block.
 inline std::uint32_t Grid::Level::wordOf(std::int64_t x, std::int64_t y) const {
   const std::int64_t bx = (x >> 6) - base_x;
   const std::int64_t by = (y >> 6) - base_y;

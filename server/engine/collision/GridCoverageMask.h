@@ -11,25 +11,26 @@
 namespace df {
 
 /// A bit per cell of level 0, set if a character there may touch a box of another level. If it is clear, a
-/// move to this cell need not look at the other levels. The bits are exact only while such boxes cover few
-/// cells; otherwise, and while there is a large box, all count as set. Moving a box costs the cells around
-/// it, moving a character one bit. Making a cover costs as much as the changes that make it necessary.
+/// move to this cell need not search the other levels. The bits are exact only while such boxes cover few
+/// cells; otherwise, and while there is a large box, all count as set. Moving a box costs time for each of
+/// its cells, moving a character one bit test. Making a cover costs about as much as the changes that make it
+/// necessary.
 class Grid::CoverageMask {
  public:
-  /// Cells of all boxes for each character, above which the cover is no longer exact. With half as many it is
-  /// exact again.
+  /// If all boxes together take more than this many cells per character, the cover is no longer exact. At
+  /// half as many it becomes exact again.
   static constexpr int kMaxCellsPerCharacter = 8;
-  static constexpr std::uint64_t kMaxArea = 4096;  ///< cells of one box
+  static constexpr std::uint64_t kMaxArea = 4096;  ///< limit of cells per box; a larger box sets all bits
 
-  /// Returns how many cells a box of this size takes at most; 0 if it is too large.
+  /// Returns the maximum number of cells that a box of this size takes; 0 if that is above kMaxArea.
   static std::uint16_t areaOf(const FixedBox& box);
   /// Makes a cover without boxes.
   CoverageMask(const Level& level, bool is_exact);
 
   bool isExact() const { return m_is_exact; }
-  /// Makes all bits count as set, or ends this. Filed boxes stay known.
+  /// Sets whether all bits count as set. Keeps the filed boxes.
   void cover(bool is_covered);
-  /// Files a box at its place, wherever it was before. The cover must be exact.
+  /// Files a box at `world_box`, even if it is filed elsewhere already. The cover must be exact.
   void file(const Level& level, Slot slot, const FixedBox& world_box);
   void remove(const Level& level, Slot slot);
   /// Returns the bits, arranged like the words of the level.
@@ -54,9 +55,9 @@ class Grid::CoverageMask {
   std::vector<std::uint64_t> m_words;  // empty if not exact
   std::vector<std::uint64_t> m_ones;   // used while all bits count as set; made when first needed
   bool m_are_set = false;
-  std::vector<std::uint8_t> m_counts;  // boxes near each cell, also a turn of the torus away
+  std::vector<std::uint8_t> m_counts;  // number of boxes near each cell, or a whole turn of the torus away
   std::vector<Area> m_areas;
-  std::vector<std::uint32_t> m_index;  // index of its area, by slot
+  std::vector<std::uint32_t> m_index;  // index in m_areas, by slot
 };
 
 }  // namespace df

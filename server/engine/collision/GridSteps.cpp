@@ -2,7 +2,7 @@
 
 namespace df {
 
-// Used if the nine cells lie in more than one block.
+// Finds the touching characters if the nine cells lie in more than one block.
 bool Grid::Steps::findAround(Slot s, FixedVector where) {
   --m_nine_cells;
   ++m_grid.m_mover_stats.far_cells;
@@ -25,8 +25,8 @@ void Grid::Steps::findInOtherLevels(Slot s, FixedVector where) {
   for (std::uint32_t left = m_others; left != 0; left &= left - 1) visit(std::countr_zero(left), s, box);
 }
 
-// The window is a few cells wide and high for a box of its level. As for characters, the numbers of its cells
-// follow from the box's own while it stays in one block.
+// The cells to search form a window that is a few cells wide and high. As for characters, their indices
+// follow from that of the box's own cell if the window lies in one block.
 bool Grid::Steps::isBoxFree(Slot s, const Record& own, FixedVector where) {
   m_count = 0;
   m_lifted = m_plain = false;

@@ -1,5 +1,5 @@
-// The grid's part in a walker's step: tests whether the target is free, then files the box there. Inline,
-// because most Objects of a busy world do this in most ticks.
+// The grid's part in the step of a walker (UpdateMasks::walkers): tests whether the target is free, then
+// files the box there. Inline, because most Objects of a busy world do this in most ticks.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace df {
 
-/// Steps of boxes, one after another. Nothing else may use the grid in between, and the store's arrays must
-/// stay where they are, because the pointers are kept in members.
+/// Makes the steps of boxes, one after another. While it exists, nothing else may use the grid, and the world
+/// store's arrays must not be reallocated, because their addresses are kept in members.
 class Grid::Steps {
  public:
   /// found() lists all touching slots if they are at most `most`, else more than `most` of them.
@@ -28,15 +28,17 @@ class Grid::Steps {
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
-  /// True if `s`, which is filed, would touch nothing at `where`. Otherwise found() lists what it touches.
+  /// True if `s`, which is filed, would touch nothing at `where`. If false, found() lists the slots it would
+  /// touch.
   bool isFree(Slot s, FixedVector where) {
     return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
   }
-  /// Returns the slots it touches, in no particular order; a slot may come twice.
+  /// Returns the slots that the last isFree() found, in no particular order; a slot may appear twice.
   std::span<const Slot> found() const {
     return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
   }
-  /// Files `s`, the argument of the last isFree(), at its target. Its position must be set.
+  /// Files `s` at `where`, the arguments of the last isFree(). The caller must have set its position to
+  /// `where`.
   void fileAtTarget(Slot s);
 
  private:
@@ -46,7 +48,7 @@ class Grid::Steps {
   bool gather(Slot s, FixedVector where, unsigned near);
   bool isBoxFree(Slot s, const Record& own, FixedVector where);
   bool findAround(Slot s, FixedVector where);
-  /// True if a character in this cell of level 0, which is in that word, may touch boxes of other levels.
+  /// True if a character in `cell` of level 0, whose bit is in `word`, may touch boxes of other levels.
   bool mayTouchOthers(std::uint32_t word, std::uint32_t cell) const {
     return m_others != 0 && (m_p_coverage[word] >> (cell & 63) & 1) != 0;
   }
@@ -69,27 +71,27 @@ class Grid::Steps {
   std::uint32_t m_word_mask;
   std::uint32_t m_cell_mask;
   std::uint32_t m_others;
-  const std::uint64_t* m_p_coverage;  // null if there are no others
+  const std::uint64_t* m_p_coverage;  // null if the other levels are empty
   std::uint64_t m_nine_cells = 0;
   // State of the last isFree().
   std::uint32_t m_cell = 0;
-  bool m_lifted = false;  // its own cell, which it has alone, is marked empty for now
+  bool m_lifted = false;  // the mover is alone in its cell, which is marked empty for now
   bool m_plain = false;   // m_lifted, and the target cell is empty, too
   std::size_t m_count = 0;
   std::array<Slot, kFew> m_few;
 };
 
-// Finds which of the characters in nine cells touch one in the middle cell, by their spots: all nine at once,
-// because a branch for each would be mispredicted. Bits 0 to 2 are the row above, 4 to 6 the row below, 8 to
-// 10 the row between, from left to right.
+// Finds by their spots which of the characters in nine cells touch one in the middle cell. Tests all nine at
+// once, because a branch for each would be mispredicted. Bits 0 to 2 are the row above, 4 to 6 the row below,
+// 8 to 10 the row between, from left to right.
 class Grid::Steps::Nine {
  public:
   static constexpr unsigned kMiddle = 1 << 9;
   /// Steps from the middle to the cell of each bit.
   static constexpr std::array<std::int32_t, 11> kSteps{-65, -64, -63, 0, 63, 64, 65, 0, -1, 0, 1};
 
-  /// Takes the spots of each row from the left cell on, kRowOfSpots of them, occupied or not, and the spot of
-  /// the middle one.
+  /// The pointers are to the left spot of each row: kRowOfSpots of a row are read, occupied or not. `middle`
+  /// is the spot of the character in the middle cell.
   Nine(const Spot* p_above, const Spot* p_own, const Spot* p_below, Spot middle) {
     const Eight outer = load(p_above, p_below);
     const Eight inner = load(p_own, p_own);
@@ -98,17 +100,18 @@ class Grid::Steps::Nine {
     const Eight outer_x = outer & 0xFF;
     const Eight outer_y = outer >> 8 & 0x7F;
     const Eight inner_x = inner & 0xFF;
-    // One to the left is too far if it is farther left in its cell than the middle one in its own, and so on.
+    // A character on the left is too far if it is farther left in its cell than the middle one in its own;
+    // and so on.
     constexpr Eight kLeft{-1, 0, 0, 0, -1, 0, 0, 0};
     constexpr Eight kRight{0, 0, -1, 0, 0, 0, -1, 0};
     constexpr Eight kAbove{-1, -1, -1, -1, 0, 0, 0, 0};
     const Eight far_outer = ((outer_x < x) & kLeft) | ((outer_x > x) & kRight) | ((outer_y < y) & kAbove) |
                             ((outer_y > y) & ~kAbove);
     const Eight far_inner = ((inner_x < x) & kLeft) | ((inner_x > x) & kRight);
-    m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // kSeveral: may be anywhere
+    m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // a cell with kSeveral always counts as near
   }
-  /// Returns the bits of those that may touch. They do, unless they miss by less than a spot resolves, or are
-  /// neighbours only on the torus.
+  /// Returns the bits of the cells whose character may touch. It does touch, unless it misses by less than
+  /// the resolution of spots, or is a neighbour only on the torus.
   unsigned near() const { return m_near; }
 
  private:
@@ -124,7 +127,7 @@ class Grid::Steps::Nine {
     std::memcpy(&eight, &two, sizeof eight);
     return eight;
   }
-  /// Returns the signs.
+  /// Returns the sign bits of the numbers.
   static unsigned bits(Eight low, Eight high) {
 #if defined(__SSE2__)
     return static_cast<unsigned>(
@@ -154,8 +157,8 @@ inline Grid::Steps::Steps(Grid& grid, std::size_t most)
       m_others(grid.m_occupied & ~1u),
       m_p_coverage(grid.m_p_coverage != nullptr ? grid.m_p_coverage->words() : nullptr) {}
 
-// A character touches another if the positions are at most one apart on both axes: nine cells. In the inner
-// part of the block that it comes from, their numbers follow from its own.
+// A character touches another if their positions differ by at most one on both axes, so the other is in one
+// of nine cells. In the inner part of the mover's block, their indices follow from that of its own cell.
 inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   const FixedVector from = m_p_positions[s];
   const std::int64_t x = where.x >> kFixedBits;
@@ -182,7 +185,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   };
   const std::uint32_t above = (before - 64) & m_cell_mask;
   const std::uint32_t below = (before + 64) & m_cell_mask;
-  // The bits of Nine: the row above, the one below, its own.
+  // Bits as in Nine: the row above, the row below, the mover's own row.
   const unsigned seen = rowOf(above) | rowOf(below) << 4 | rowOf(before) << 8;
   m_plain = alone & ((seen & Nine::kMiddle) == 0);
   if (seen != 0) {
@@ -201,7 +204,7 @@ inline bool Grid::Steps::isCharacterFree(Slot s, FixedVector where) {
   return false;
 }
 
-// Collects those slots in the cells of `near` that touch. Returns false if they are too many.
+// Collects the slots in the cells of `near` that touch. Returns false if there are too many.
 inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
   // Touching characters lie within 2 of the corner that is one up and one to the left.
   const FixedVector corner = where - FixedVector{kFixedOne, kFixedOne};
@@ -246,7 +249,7 @@ inline void Grid::Steps::found(Slot t) {
 }
 
 inline void Grid::Steps::fileAtTarget(Slot s) {
-  if (m_plain) {  // from a cell of its own, which isFree() has emptied, to a free one
+  if (m_plain) {  // from a cell that it had alone, marked empty by isFree(), to an empty one
     m_p_records[s].cell = m_cell;
     m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);
     m_p_heads[m_cell] = s;

@@ -47,7 +47,7 @@ bool Mask::isSet(int x, int y) const {
   return (bitsFrom(x, y) & 1u) != 0;
 }
 
-// Returns characters x … x + 63 of row y, the first in the lowest bit; beyond the row are holes.
+// Returns characters x … x + 63 of row y, the first in the lowest bit. Characters beyond the row are holes.
 std::uint64_t Mask::bitsFrom(std::int64_t x, std::int64_t y) const {
   const std::uint64_t* p_row = m_bits.data() + y * m_words;
   const auto word = static_cast<std::uint64_t>(x) / kWordBits;

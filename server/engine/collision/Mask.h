@@ -16,8 +16,9 @@ class Mask {
   static constexpr int kMaxSide = 1024;
 
 #if __cplusplus >= 201703L
-  /// Makes a mask from one string per row, UTF-8; a character is set unless it is a blank or `hole`. Shorter
-  /// rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than kMaxSide.
+  /// Makes a mask from one string words per row, UTF-8; a character is set unless it is a blank or `hole`.
+  /// Shorter rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than
+  /// kMaxSide.
   static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
 #endif
 
@@ -49,9 +50,9 @@ struct CellBox {
   std::int64_t height;
 };
 
-/// Returns the cells over which an Object's mask lies, holes included. Null is a full mask; `box` is in world
-/// coordinates: character (i,j) is drawn in cell (⌊corner.x⌋ + 1 + i, ⌊corner.y⌋ + 1 + j). A full mask has
-/// max(1, ⌈width⌉) by max(1, ⌈height⌉) characters.
+/// Returns the cells that an Object's mask covers, holes included. `box` is the Object's box in world
+/// coordinates. Character (i,j) is drawn in cell (⌊corner.x⌋ + 1 + i, ⌊corner.y⌋ + 1 + j). If `p_mask` is
+/// null, the mask is full: max(1, ⌈width⌉) by max(1, ⌈height⌉) characters.
 CellBox drawnCells(const Mask* p_mask, const FixedBox& box);
 
 /// True if two Objects share a drawn cell. Each has a mask, null for a full one, and its box in world

@@ -8,14 +8,14 @@
 namespace df {
 
 struct MoverStats {
-  // Turns in update().
+  // Turns of Objects in update(), by what happened in them.
   std::uint64_t flown = 0;     ///< SPECTRAL Objects in consecutive slots, moved together
-  std::uint64_t walked = 0;    ///< solid ones that touched nothing
-  std::uint64_t met = 0;       ///< solid ones that touched another
-  std::uint64_t unheard = 0;   ///< solid ones among many others, none of which has a handler
+  std::uint64_t walked = 0;    ///< solid Objects that touched nothing
+  std::uint64_t met = 0;       ///< solid Objects that touched another
+  std::uint64_t unheard = 0;   ///< solid Objects that touched many others, none with a handler
   std::uint64_t deferred = 0;  ///< fliers and walkers that left the boundary, or whose masks shared no cell
-  std::uint64_t special = 0;   ///< those with an acceleration, an option, or a view that follows
-  // Moves tested along their whole path: all of them, and further stages after a pass.
+  std::uint64_t special = 0;   ///< Objects with an acceleration, an option, or a view that follows
+  // Moves that are tested along their whole path, and their further stages after a pair that did not block.
   std::uint64_t swept = 0;
   std::uint64_t swept_again = 0;
   // Queries of the broad phase for a turn: characters at their nine cells, boxes at a few cells, and either

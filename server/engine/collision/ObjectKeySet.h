@@ -25,7 +25,7 @@ class ObjectKeySet {
     m_count = 0;
     if (m_places.size() <= kMax) {
       m_places.assign(m_places.size(), {});
-    } else {  // large: every later clear() would have to wipe it all
+    } else {  // large: frees it, because every later clear() would have to wipe it all
       m_places = {};
     }
   }
@@ -34,7 +34,7 @@ class ObjectKeySet {
   static constexpr std::size_t kMin = 16;    // a power of two
   static constexpr std::size_t kMax = 1024;  // largest size that clear() keeps
 
-  // Returns the place of the key, or a free one. Generations in the world begin with 1: 0 marks a free place.
+  // Returns the index of the key or of a free entry. Generation 0 is free: in the world they begin with 1.
   std::size_t find(ObjectKey key) const {
     const std::uint64_t hash =
         ((std::uint64_t{key.generation} << 32) | key.slot) * std::uint64_t{0x9E3779B97F4A7C15};

@@ -11,7 +11,7 @@ namespace {
 __extension__ typedef __int128 Wide;
 __extension__ typedef unsigned __int128 WideUnsigned;
 
-// Returns a − b for a >= b: two coordinates may be further apart than a signed number reaches.
+// Returns a − b for a >= b: the difference of two coordinates may be too large for a signed number.
 std::uint64_t distance(Fixed a, Fixed b) {
   return static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b);
 }
@@ -20,13 +20,13 @@ WideUnsigned multiply(std::uint64_t a, std::uint64_t b) {
   return static_cast<WideUnsigned>(a) * b;
 }
 
-// Returns the least coordinate for which the mask's first character is in this cell (⌊corner⌋ + 1).
+// Returns the least corner coordinate with which the mask's first character is in this cell (⌊corner⌋ + 1).
 Fixed lowOfCell(std::int64_t cell) {
   return (cell - 1) * kFixedOne;
 }
 
-// Range of the first character's cell, on one axis, in which the comparison cannot change: one mask is full,
-// and the other lies wholly inside it.
+// Range of cells of the first character, on one axis, in which the comparison of masks cannot change, because
+// one mask is full and the other lies wholly inside it.
 struct Still {
   std::int64_t first = 0;
   std::int64_t last = -1;
@@ -53,10 +53,10 @@ std::strong_ordering operator<=>(Moment a, Moment b) {
   return left < right ? std::strong_ordering::less : std::strong_ordering::greater;
 }
 
-// Gap of two boxes on one axis, or on both.
+// The gap of two boxes: on one axis, or the larger one of both axes.
 struct Sweep::Gap {
   Wide size;
-  bool shrinks;  // true: as soon as the move begins
+  bool shrinks;  // true if it shrinks as soon as the move begins
 
   static Gap ofPair(const Gap& x, const Gap& y) {
     if (x.size == y.size) return {x.size, x.shrinks && y.shrinks};
@@ -80,7 +80,7 @@ Sweep::Stay Sweep::Axis::stayWithin(Fixed first, Fixed last) const {
   return {low > last ? distance(low, last) : 0, distance(low, first) + 1};
 }
 
-// True if the low edge is within [first, last] at any time.
+// True if the low edge is within [first, last] at any time of the move.
 bool Sweep::Axis::reaches(Fixed first, Fixed last) const {
   return path_low <= last && path_high - size >= first;
 }
@@ -104,7 +104,8 @@ std::uint64_t Sweep::Axis::stepsBefore(Moment moment) const {
   return static_cast<std::uint64_t>((multiply(length, moment.numerator) - 1) / moment.denominator);
 }
 
-// Steps until the mask's first character is drawn in `cell`, which lies ahead; out of reach if nothing moves.
+// Returns the steps until the mask's first character is drawn in `cell`, ahead of it. UINT64_MAX if nothing
+// moves.
 std::uint64_t Sweep::Axis::stepsToCell(std::int64_t cell) const {
   if (direction > 0) return distance(lowOfCell(cell), low);
   if (direction < 0) return distance(low, lowOfCell(cell + 1) - 1);
@@ -119,7 +120,8 @@ Sweep::Gap Sweep::Axis::gapTo(Fixed low_then, Fixed other_low, Fixed other_size)
 }
 
 // Returns the first time at which both axes are in their ranges, except at the start. An axis that does not
-// move needs no special case: both its products are 0, and the other's leave is not.
+// move needs no special case: both products with its length are 0, and the other axis leaves at a product
+// above 0.
 std::optional<Moment> Sweep::bothWithin(const Stay& x, const Stay& y) const {
   const WideUnsigned enter_x = multiply(x.enter, m_y.length);
   const WideUnsigned enter_y = multiply(y.enter, m_x.length);
@@ -146,8 +148,8 @@ std::optional<Moment> Sweep::firstShare(const Mask* p_own, const FixedBox& other
   const CellBox own = drawnCells(p_own, {{m_x.low, m_y.low}, size});
   const CellBox cells = drawnCells(p_others, other);
 
-  // The low edge's range in which the boxes touch and the masks' rectangles overlap: elsewhere there is
-  // nothing to compare. It is never empty: where the corners agree, so do the first cells.
+  // Range of the low edge in which the boxes touch and the masks' rectangles overlap, so that there are cells
+  // to compare. It is never empty, because equal corners mean equal first cells.
   const Fixed first_x = std::max(other.corner.x - size.x, lowOfCell(cells.x - own.width + 1));
   const Fixed first_y = std::max(other.corner.y - size.y, lowOfCell(cells.y - own.height + 1));
   const Fixed last_x = std::min(other.corner.x + other.size.x, lowOfCell(cells.x + cells.width) - 1);
@@ -173,9 +175,9 @@ std::optional<Moment> Sweep::firstShare(const Mask* p_own, const FixedBox& other
     if (closesGap(other)) return enter;
     if (endsWithin(x, y) && share(cellAfter(m_x, m_x.length), cellAfter(m_y, m_y.length))) return enter;
   }
-  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // rectangles touch once
+  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // two full masks share cells only once
 
-  // Goes from one cell to the next, in the order of time.
+  // Visits one cell of the first character after another, in the order of time.
   const Still still_x(p_own == nullptr, own.width, p_others == nullptr, cells.x, cells.width);
   const Still still_y(p_own == nullptr, own.height, p_others == nullptr, cells.y, cells.height);
   for (;;) {

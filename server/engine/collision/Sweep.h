@@ -1,10 +1,10 @@
 // The geometry of one move along a straight line (docs/collisions.md, "Swept"): computes exactly when it
 // first touches a box.
 //
-// At time t in [0,1] of a move by d, each coordinate has gone floor(|d|·t) units: the move visits only
-// representable positions, and the sweep is the end-point test at every one of them. So the first time at
-// which two boxes touch is a whole number of units over |d|. Moments are fractions, compared without
-// rounding.
+// At time t in [0,1] of a move by d, each coordinate has moved by floor(|d|·t) units. So the move visits only
+// representable positions, and the sweep gives the same result as the end-point test at every one of them.
+// The first time at which two boxes touch is a whole number of units divided by |d|. Moments are fractions,
+// which are compared without rounding.
 #pragma once
 
 #include <compare>
@@ -29,19 +29,19 @@ struct Moment {
 
 class Sweep {
  public:
-  /// Describes the move of an Object with `box`, relative to its position, from one legal position to
-  /// another; they may be as far apart as the world is wide.
+  /// Describes the move of an Object with `box`, relative to its position, from one valid position to
+  /// another, at any distance.
   Sweep(const FixedBox& box, FixedVector from, FixedVector to);
 
-  /// Returns when the move hits `other` (world coordinates) by the boxes: the first time at which they touch.
-  /// A pair that touches at the start counts, at time 0, only if the move closes the gap or they touch at the
+  /// Returns when the mover's box hits `other` (in world coordinates): the first time at which they touch. If
+  /// they touch at the start, that is a hit at time 0 only if the move closes the gap or they touch at the
   /// end.
   std::optional<Moment> firstTouch(const FixedBox& other) const {
     return mayTouch(other) ? touchOnPath(other) : std::nullopt;
   }
-  /// Returns when it hits `other` by the boxes and the masks: the first time at which they touch and share a
-  /// cell. The start counts as in firstTouch(); a pair that shares a cell at the start and does not count may
-  /// hit again after the two have come apart. Null for a full mask.
+  /// Returns when the mover hits `other` if masks are compared too: the first time at which the boxes touch
+  /// and the masks share a cell. The start counts as in firstTouch(). A pair that shares a cell at the start
+  /// without a hit may hit after the two have separated. A null mask is a full one.
   std::optional<Moment> firstShare(const Mask* p_own, const FixedBox& other, const Mask* p_others) const;
 
   /// Returns the last position before `moment`; the start for time 0. Never beyond the target.
@@ -54,8 +54,8 @@ class Sweep {
  private:
   struct Gap;
 
-  // The steps of an axis at which its coordinate lies within a range: from `enter` on, before `leave`. An
-  // axis that does not move has length 0: then `enter` is 0, and `leave` over 0 is never.
+  // The steps of an axis at which its coordinate lies within a range: from `enter` to before `leave`. For an
+  // axis that does not move, `enter` is 0, and it never leaves, because `leave` is divided by its length, 0.
   struct Stay {
     std::uint64_t enter;
     std::uint64_t leave;

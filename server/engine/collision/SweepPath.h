@@ -17,7 +17,7 @@ class SweepPath {
     FixedVector high;
   };
 
-  /// See Sweep.
+  /// See the constructor of Sweep.
   SweepPath(const FixedBox& box, FixedVector from, FixedVector to)
       : m_sweep(box, from, to), m_box(box), m_from(from), m_to(to) {}
 

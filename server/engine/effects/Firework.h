@@ -1,4 +1,4 @@
-// A particle of a firework; in a terminal it is like the others.
+// A particle of a firework; in a terminal it looks like any other particle.
 #pragma once
 
 #include "Particle.h"
@@ -7,7 +7,7 @@ namespace df {
 
 class Firework : public Particle {
  public:
-  /// Like Particle's; the colour is r, g, b, 0 to 255 each.
+  /// See the constructor of Particle.
   Firework(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b)
       : Particle(size, age, opacity, r, g, b) {}
 };

@@ -1,12 +1,12 @@
-// A spark, a drop, a puff: a short-lived Object that is only seen. In a terminal a particle is one character
-// (Shape.h), so a few dozen are enough (addParticles() in utility.h).
+// A spark, a drop, a puff: a short-lived Object that is only for the eye. In a terminal a particle is one
+// character (Shape.h), so a few dozen are enough (addParticles() in utility.h).
 #pragma once
 
 #include "Object.h"
 
 namespace df {
 
-/// Spread for addParticles() with which all particles are equal.
+/// Value of a spread argument of addParticles() with which all particles are equal.
 inline constexpr int NO_SPREAD = 0;
 
 /// Kinds of particles that addParticles() makes.
@@ -44,11 +44,11 @@ class Particle : public Object {
   /// The colour; red, green and blue 0 to 255.
   void setRGB(Color color);
   void setRGB(unsigned char r, unsigned char g, unsigned char b);
-  /// Remaining ticks.
+  /// Number of ticks until the particle is deleted.
   void setAge(int new_age) { m_age = new_age; }
   int getAge() const { return m_age; }
 
-  /// Ages by one in each step. At age 0, and outside the world, the particle is deleted.
+  /// Lowers the age by one in each step. Deletes the particle at age 0, and when it leaves the world.
   int eventHandler(const Event* p_e) override;
 
  private:

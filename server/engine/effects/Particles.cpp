@@ -22,7 +22,7 @@ Random& dice() {
   return World::current().extras().decoration();
 }
 
-// Returns a random number in mean - spread … mean + spread.
+// Returns a random number between mean - spread and mean + spread.
 double about(double mean, double spread) {
   constexpr int kSteps = 10'000;
   if (!(spread > 0)) return mean;
@@ -42,7 +42,7 @@ Vector anyDirection() {
   return turned(dice().below(360));
 }
 
-// Halves the height, because a cell is about twice as high as wide: a round burst is to look round.
+// Halves the height, so that a round burst looks round: a cell is about twice as high as wide.
 Vector asSeen(Vector v) {
   return {v.x(), v.y() / 2};
 }
@@ -142,7 +142,7 @@ int explode(const Sprite* p_sprite, int index, Vector position, int age, float s
       Vector velocity = offset == Vector() ? anyDirection() : offset;
       velocity.normalize();
       velocity.scale(speed);
-      // Characters that fly together start where they would have flown apart to.
+      // Characters that fly together (speed < 0) start where they would have flown apart to.
       Vector start = position + offset;
       if (speed < 0) start = start - Vector(velocity.x() * age, velocity.y() * age);
       auto* p_debris = new Debris(age, 255, p_sprite->getColor(), velocity, ch, rotate);

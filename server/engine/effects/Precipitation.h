@@ -1,4 +1,4 @@
-// Rain, snow and stars that pass by: particles that leave the world and enter it again on the other side.
+// Rain, snow and stars: particles that leave the world and enter it again on the other side.
 #pragma once
 
 #include "Particle.h"
@@ -15,13 +15,13 @@ enum PrecipitationType {
 
 class Precipitation : public Particle {
  public:
-  /// Makes one at a random place in the world, below everything else.
+  /// Makes a particle at a random place in the world, at the lowest altitude.
   Precipitation(float size, Direction direction, unsigned char opacity, unsigned char r, unsigned char g,
                 unsigned char b);
 
-  /// Moves in its direction, in cells per tick.
+  /// Makes the particle move in its direction. `speed` is in cells per tick.
   void fall(double speed);
-  /// Whether it wavers to the sides.
+  /// Whether the particle sways to the sides at random.
   void setTurbulence(bool new_turbulence = true) { m_turbulence = new_turbulence; }
   int eventHandler(const Event* p_e) override;
 

@@ -15,11 +15,11 @@ inline const EventType UNDEFINED_EVENT("df-undefined");
 
 class Event {
  public:
-  /// An event of type UNDEFINED_EVENT.
+  /// Makes an event of type UNDEFINED_EVENT.
   Event() = default;
   virtual ~Event() = default;
 
-  /// The name by which Objects register interest and distinguish events. Names that begin with "df-"
+  /// Sets the name by which Objects register interest and distinguish events. Names that begin with "df-"
   /// belong to the engine.
   void setType(std::string new_type) {
     m_type = EventType(std::move(new_type));
@@ -29,7 +29,7 @@ class Event {
   const EventType& getType() const { return m_p_known_type != nullptr ? *m_p_known_type : m_type; }
 
  protected:
-  /// Makes an event of one of the engine's types. The constant is not copied, so it must never be destroyed.
+  /// Makes an event of an engine type. Keeps only the pointer, so `p_known_type` must never be destroyed.
   explicit Event(const EventType* p_known_type) : m_p_known_type(p_known_type) {}
 
  private:

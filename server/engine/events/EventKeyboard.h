@@ -22,13 +22,13 @@ class EventKeyboard : public Event {
   void setKeyboardAction(EventKeyboardAction action) { m_action = action; }
   EventKeyboardAction getKeyboardAction() const { return m_action; }
 
-  /// The player that pressed it: an id for `WM.getPlayer()`; 0 if no player sent it (an event a game made
-  /// itself). A game that ignores this gets all players' keys.
+  /// Id of the player that used the key, for `WM.getPlayer()`; 0 if none did (the game made the event
+  /// itself). A game that ignores it treats all players' keys alike.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 
-  /// True if the player's declared controls (Player::setControls) have handled it, or would have but for a
-  /// wait or a wall: the handler need not move the Object.
+  /// True if the player's declared controls (Player::setControls) have handled the key, even if a wait or a
+  /// wall kept the Object where it is. Then the handler need not move the Object.
   void setHandled(bool handled) { m_handled = handled; }
   bool isHandled() const { return m_handled; }
 

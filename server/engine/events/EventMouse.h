@@ -21,15 +21,15 @@ class EventMouse : public Event {
   /// Whether a button went down or is held, or the pointer moved.
   void setMouseAction(EventMouseAction action) { m_action = action; }
   EventMouseAction getMouseAction() const { return m_action; }
-  /// UNDEFINED_MOUSE_BUTTON for an event of type MOVED.
+  /// The button; UNDEFINED_MOUSE_BUTTON if the action is MOVED.
   void setMouseButton(Mouse::Button button) { m_button = button; }
   Mouse::Button getMouseButton() const { return m_button; }
-  /// The cell under the pointer, in world coordinates (whole numbers): comparable with positions of
-  /// Objects as it is, however far the player's view is from the world's corner.
+  /// The cell under the pointer, in world coordinates (whole numbers). It can be compared with positions of
+  /// Objects directly, wherever in the world the player's view is.
   void setMousePosition(Vector position) { m_position = position; }
   Vector getMousePosition() const { return m_position; }
 
-  /// Player's id for `WM.getPlayer()`; 0 if no player sent it.
+  /// Id of the player that used the mouse, for `WM.getPlayer()`; 0 if none did.
   void setPlayer(std::uint32_t player) { m_player = player; }
   std::uint32_t getPlayer() const { return m_player; }
 

@@ -1,7 +1,7 @@
 // Sent to an Object whose move took it from inside the world boundary to outside (book, Listing 4.112).
 //
-// Sent once: an Object that stays outside, or was placed there, gets no second event. No interest needs to be
-// registered. The Object has already moved when it gets the event.
+// An Object that stays outside gets no second event, and one that was placed outside gets none. No interest
+// needs to be registered. The Object has already moved when it gets the event.
 #pragma once
 
 #include "Event.h"

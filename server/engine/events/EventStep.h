@@ -1,4 +1,4 @@
-// Sent once per tick, before anything else happens in it (book, Listing 4.53).
+// Sent once per tick, before anything else happens in the tick (book, Listing 4.53).
 #pragma once
 
 #include "Event.h"
@@ -10,12 +10,12 @@ inline const EventType STEP_EVENT("df-step");
 
 class EventStep : public Event {
  public:
-  /// A step event with count 0.
+  /// Makes a step event with count 0.
   EventStep() : EventStep(0) {}
-  /// A step event of tick number `step_count`.
+  /// Makes the step event of tick number `step_count`.
   explicit EventStep(int step_count) : m_step_count(step_count) { setType(STEP_EVENT); }
 
-  /// Ticks begun since the world began, this one included: 1 in the first tick (compat: 0).
+  /// Number of ticks since the world began, including this one: 1 in the first tick (compat: 0).
   void setStepCount(int step_count) { m_step_count = step_count; }
   int getStepCount() const { return m_step_count; }
 

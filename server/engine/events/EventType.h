@@ -14,7 +14,7 @@ class EventType : public std::string {
  public:
   EventType() = default;
   /// Makes a type of this name; two types of one name are equal.
-  // Explicit, so that a comparison with any other string compares strings.
+  // Explicit, so that comparing a type with a std::string does not first convert that string to an EventType.
   explicit EventType(std::string name) : std::string(std::move(name)) {}
 
   friend bool operator==(const EventType& a, const EventType& b) {

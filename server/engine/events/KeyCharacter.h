@@ -7,7 +7,7 @@
 
 namespace df {
 
-/// Returns the character that a key types; 0 for none.
+/// Returns the character that a key types, with or without Shift; 0 if it types none.
 char characterOf(Keyboard::Key key, bool shift);
 /// Returns the key's name, such as "space", "a" or "f1".
 std::string nameOfKey(Keyboard::Key key);

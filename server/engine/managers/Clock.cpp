@@ -13,7 +13,7 @@ namespace {
 long int now() {
   World& world = World::current();
   WorldExtras& extras = world.extras();
-  // 33 means exactly 1/30 s.
+  // A frame time of 33 ms, the default, means exactly 1/30 s.
   const std::int64_t frame = extras.settings.frame_time;
   const std::int64_t ticks = world.getStepCount();
   const std::int64_t begun = frame == 33 ? ticks * 1'000'000 / 30 : ticks * frame * 1000;

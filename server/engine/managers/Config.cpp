@@ -17,7 +17,7 @@ namespace df {
 
 namespace {
 
-// Sets settings from the values of keys, one by one.
+// Reads settings from a text "key:value,…", one key with each call.
 class Reader {
  public:
   Reader(const std::string& text, World& world) : m_text(text), m_world(world) {}

@@ -4,10 +4,10 @@
 //     window_horizontal_chars:100,
 //     random_seed:7,
 //
-// GM.startUp() reads the file from the working directory, or the one that the environment names
-// (DRAGONFLY_CONFIG). These settings have an effect: size in characters and background of the window,
-// random_seed, compat, logfile; in a host frame_time; in a program headless and the host's options. The rest
-// is only stored.
+// GM.startUp() reads the file in the working directory, or the one that the environment variable
+// DRAGONFLY_CONFIG names. These settings have an effect: size in characters and background of the window,
+// random_seed, compat, logfile; frame_time if a host runs the game; headless and the host's options if the
+// game is a program of its own. All other settings are only stored.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@
 #include "detail/Settings.h"
 
 #if !defined(DF_DEPRECATED)
-/// Marks older names.
+/// Marks functions that games should no longer call.
 #define DF_DEPRECATED __attribute__((deprecated))
 #endif
 
 namespace df {
 
-/// The file that GM.startUp() reads.
+/// Name of the file that GM.startUp() reads.
 const std::string CONFIG_FILENAME = "df-config.txt";
 
 class Config {
@@ -32,8 +32,8 @@ class Config {
   /// Returns the settings of the current world.
   static Config& getInstance();
 
-  // Each setting has a getter and a setter, such as getFrameTime() and setFrameTime(33). Setters act until
-  // GM.startUp() opens the window; those of its size in characters and background always (DM.setSize).
+  // Each setting has a getter and a setter, such as getFrameTime() and setFrameTime(33). Call setters before
+  // GM.startUp(); only those of the window's size in characters and background also act later (DM.setSize).
 /// A setting with its getter and setter.
 #define DF_SETTING(Type, Name, member)     \
   Type get##Name() const {                 \
@@ -52,7 +52,7 @@ class Config {
     applyWindow();                            \
   }
   // clang-format off
-  /// Settings as df-config.txt names them (the top of this file says which have an effect).
+  /// The settings of df-config.txt; the top of this file lists those that have an effect.
   DF_SETTING(std::string, Config, text)
   DF_SETTING(int, WindowHorizontalPixels, window_horizontal_pixels)
   DF_SETTING(int, WindowVerticalPixels, window_vertical_pixels)
@@ -82,19 +82,19 @@ class Config {
   void setHeadless() {
     setHeadless(true);
   }
-  /// Stored, without effect: terminals show their pointer.
+  /// Only stored, without effect, because terminals show their own pointer.
   void setShowMouse() {
     setShowMouse(true);
   }
 
-  /// Returns the value of a key in the text that was read; empty if it is missing.
+  /// Returns the value of the key `find` in the configuration that was read; empty if the key is missing.
   std::string match(const std::string& find) const;
 
   /// Writes the main settings to the log.
   void writeToLog() const;
-  /// Returns the contents of the file, without comments; empty if it is missing.
+  /// Reads the configuration file and returns its contents without comments; empty if the file is missing.
   std::string readConfig();
-  /// Sets what `str` says, or the file, if `str` is empty. Invalid values are logged and ignored.
+  /// Applies the settings in the text `str` or, if it is empty, in the file. Logs and ignores invalid values.
   void loadConfig(const std::string& str = "");
 
  private:

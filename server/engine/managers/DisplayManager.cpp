@@ -95,7 +95,7 @@ void DisplayManager::shake(int scale_x, int scale_y, int duration, bool delta) {
   };
   ScreenShake& shake = World::current().extras().shake;
   const ScreenShake before = delta ? shake : ScreenShake{};
-  // The smallest shake that shows is one cell.
+  // A shake of less than a cell would not show, so the least is one cell.
   const int x = scale_x > 0 ? std::max(1, cells(scale_x, charWidth())) : 0;
   const int y = scale_y > 0 ? std::max(1, cells(scale_y, charHeight())) : 0;
   shake.scale_x = std::min(before.scale_x + x, kMaxShake);

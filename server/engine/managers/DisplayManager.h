@@ -1,8 +1,8 @@
 // Puts characters on the screen (book, Listing 4.69).
 //
-// There is no screen here: characters are collected, in world coordinates, and shown to each player by the
-// client. Call these functions from an Object's draw(). Characters drawn elsewhere in a tick are shown for
-// that tick, below everything else.
+// The engine has no screen of its own: characters are collected in world coordinates, and each player's
+// client shows them. Call these functions from an Object's draw(). Characters drawn elsewhere in a tick are
+// shown for that tick, below everything else.
 #pragma once
 
 #include <string>
@@ -22,15 +22,15 @@ namespace df {
 
 /// Alignment of a string to its position.
 enum Justification {
-  LEFT_JUSTIFIED,    ///< it begins there
-  CENTER_JUSTIFIED,  ///< its middle is there
-  RIGHT_JUSTIFIED,   ///< it ends just before
+  LEFT_JUSTIFIED,    ///< the string begins at the position
+  CENTER_JUSTIFIED,  ///< its middle is at the position
+  RIGHT_JUSTIFIED,   ///< it ends just before the position
 };
 
-/// Size of the published engine's window, in pixels. Nothing here depends on it.
+/// Size of the published engine's window, in pixels. Naiad does not use it.
 inline constexpr int WINDOW_HORIZONTAL_PIXELS_DEFAULT = 1024;
 inline constexpr int WINDOW_VERTICAL_PIXELS_DEFAULT = 768;
-/// Titlebar and close button, as bits of the graphics library.
+/// A title bar and a close button, as bits of the graphics library SFML.
 inline constexpr int WINDOW_STYLE_DEFAULT = 5;
 inline constexpr Color WINDOW_BACKGROUND_COLOR_DEFAULT = BLACK;
 const std::string WINDOW_TITLE_DEFAULT = "Dragonfly";
@@ -40,7 +40,7 @@ inline constexpr float FONT_SCALE_DEFAULT = 2;
 /// Returns the size of a character, in pixels of the window that the published engine would open.
 float charHeight();
 float charWidth();
-/// Converts cells to such pixels, and back.
+/// Convert a vector in cells to these pixels, and back.
 Vector spacesToPixels(Vector spaces);
 Vector pixelsToSpaces(Vector pixels);
 
@@ -53,19 +53,20 @@ class DisplayManager : public Manager {
   /// draw in exactly one cell becomes '?'. Returns 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
   int drawCh(Vector world_pos, char32_t ch, Color color = COLOR_DEFAULT) const;
-  /// Draws the character with this code, for example `'0' + digit`.
+  /// Draws the character with the code `ch`, for example `'0' + digit`.
   int drawCh(Vector world_pos, int ch, Color color = COLOR_DEFAULT) const;
-  /// Ignores the rotation, because terminals do not turn characters.
+  /// Like drawCh(world_pos, ch, color): ignores the rotation, because terminals do not turn characters.
   int drawCh(Vector world_pos, char ch, Color color, float rotation) const;
-  /// Draws in the one of the eight colours that is nearest to this mix.
+  /// Draws in that of the eight terminal colours that is nearest to this mix of red, green and blue.
   int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
              float rotation = 0) const;
-  /// Draws a UTF-8 string, one character per cell. Returns 0, or -1 like drawCh() and draws nothing.
+  /// Draws a UTF-8 string, one character per cell. Returns 0. If drawCh() would return -1, draws nothing and
+  /// returns -1.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
 
   /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150. Set it before GM.run(). A
-  /// boundary that was never set follows. setSize() returns 0, else -1.
+  /// boundary that was never set follows. setSize() returns 0, or -1 for a size out of range.
   int setSize(int horizontal, int vertical);
   int getHorizontal() const;
   int getVertical() const;
@@ -76,11 +77,12 @@ class DisplayManager : public Manager {
   int getHorizontalPixels() const;
   int getVerticalPixels() const;
 
-  /// Sets the colour behind all characters, for all players; black is the terminals' own. Returns true, or
-  /// false for an unknown colour.
+  /// Sets the colour behind all characters, for all players; BLACK means each terminal's own background.
+  /// Returns true, or false for an unknown colour.
   bool setBackgroundColor(Color new_color);
-  /// Shakes the picture for this many ticks by up to this many pixels; `delta`: in addition to the present
-  /// shake. The picture moves by cells, of about 13 by 32 pixels; view objects stay where they are.
+  /// Shakes the picture for `duration` ticks by up to `scale_x` and `scale_y` pixels. If `delta`, these are
+  /// added to the present shake. The picture moves by whole cells of about 13 by 32 pixels; view objects do
+  /// not move.
   void shake(int scale_x, int scale_y, int duration, bool delta = false);
   /// Does nothing, because characters are shown at the end of the tick. Returns 0.
   int swapBuffers() { return 0; }

@@ -16,7 +16,7 @@
 #include "Manager.h"
 #include "StandardHeaders.h"
 
-/// Version of the published engine that has this interface.
+/// Version of the published engine whose interface this is.
 #define DF_VERSION 4.18
 
 /// The game manager.
@@ -28,7 +28,7 @@ namespace running {
 class Runner;  // Runner.h
 }
 
-/// Length of a tick, in milliseconds, rounded; exactly it is 1/30 s.
+/// Length of a tick in milliseconds, rounded; the exact length is 1/30 s.
 inline constexpr int FRAME_TIME_DEFAULT = 33;
 
 class GameManager : public Manager {
@@ -36,15 +36,15 @@ class GameManager : public Manager {
   /// Returns the only instance; GM is short for it. It acts on the current world.
   static GameManager& getInstance();
 
-  /// Starts all managers, applies df-config.txt (Config.h), and decides whether to be compatible
-  /// (docs/dragonfly-api.md). Returns 0.
+  /// Starts all managers, applies df-config.txt (Config.h), and decides whether the world behaves like the
+  /// published engine (docs/dragonfly-api.md). Returns 0.
   int startUp() override;
   /// Stops all managers and resets the world (WorldManager::shutDown).
   void shutDown() override;
 
-  /// Runs the game until it is over: through the installed Runner, which may wait for clocks and players. A
-  /// program with its own main() becomes a server that terminals join (docs/bring-your-game.md), unless
-  /// df-config.txt says headless:true. Otherwise ticks run as fast as possible. Does nothing inside a tick.
+  /// Runs the game until it is over. If a Runner is set, it decides when ticks begin. A program with its own
+  /// main() becomes a server that terminals join (docs/bring-your-game.md), unless df-config.txt has
+  /// headless:true. In all other cases ticks run as fast as possible. Does nothing inside a tick.
   void run();
   /// Runs one full tick: step event; joins, leaves, keys and mouse; WM.update(); WM.draw().
   void tick();
@@ -58,11 +58,11 @@ class GameManager : public Manager {
   /// Returns the length of a tick, in milliseconds, from df-config.txt or the default.
   int getFrameTime() const;
 
-  /// Sets what runs the loop. Not owned; null for none.
+  /// Sets the Runner, which runs the game loop. Not owned; null for none.
   void setRunner(running::Runner* p_runner);
   /// Restarts the world's random sequence (WM.randomInt).
   void setSeed(std::uint64_t seed);
-  /// A few lines about the game and its keys, for the help screen of the clients.
+  /// Lines about the game and its keys, shown on the help screen of clients.
   void setHelp(std::vector<std::string> lines);
   const std::vector<std::string>& getHelp() const;
 

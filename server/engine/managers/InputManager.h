@@ -1,5 +1,5 @@
-// Passes on what players do (book, Listing 4.91). Keys and mouse come from the host through InputQueue::key()
-// and InputQueue::mouse(); Objects get them as EventKeyboard and EventMouse.
+// Passes players' input to Objects (book, Listing 4.91). The host adds keys and mouse actions with
+// InputQueue::key() and InputQueue::mouse(); Objects get them as EventKeyboard and EventMouse.
 #pragma once
 
 #include "EventKeyboard.h"

@@ -19,7 +19,7 @@ bool isWanted(int log_level) {
   return world.compat() ? log_level >= world.log().level() : log_level <= world.log().level();
 }
 
-// Returns nullopt if `fmt` and `args` make no text.
+// Returns the formatted text; nullopt if `fmt` is not a valid format for `args`.
 std::optional<std::string> format(const char* fmt, std::va_list args) {
   std::va_list again;
   va_copy(again, args);

@@ -1,7 +1,7 @@
 // Writes log lines (book, Listing 4.6).
 //
-// Lines go to the current world's sink; without one, to the file dragonfly.log in the working directory,
-// which the first line of a process opens and empties.
+// Lines go to the current world's sink. If it has none, they go to the file dragonfly.log in the working
+// directory, which is opened and emptied for the first line of a process.
 #pragma once
 
 #include <functional>
@@ -23,9 +23,9 @@ class LogManager : public Manager {
   /// Writes one line, formatted like printf(); a newline at its end is optional. Returns the number of
   /// characters, or -1 for a bad format.
   int writeLog(const char* fmt, ...) const __attribute__((format(printf, 2, 3)));
-  /// Like writeLog(fmt), if `log_level` is not above the level set (compat: not below it); else returns 0.
+  /// Like writeLog(fmt) if `log_level` <= getLogLevel() (compat: >=); otherwise does nothing and returns 0.
   int writeLog(int log_level, const char* fmt, ...) const __attribute__((format(printf, 3, 4)));
-  /// Takes std::string arguments, too, which printf() could not: "%s" prints them.
+  /// Like the functions above; unlike printf(), "%s" also prints std::string arguments.
   template <class... Printed,
             class = typename std::enable_if<(std::is_base_of<std::string, Printed>::value || ...)>::type>
   int writeLog(const char* fmt, const Printed&... printed) const {
@@ -36,12 +36,12 @@ class LogManager : public Manager {
   int writeLog(int log_level, const char* fmt, const Printed&... printed) const {
     return writeLog(log_level, fmt, printable(printed)...);
   }
-  /// Like writeLog(), into another file in the working directory, which its first line empties.
+  /// Like writeLog(), but writes to another file in the working directory. A process's first line empties it.
   int writeMyLog(const std::string& filename, const char* fmt, ...) const
       __attribute__((format(printf, 3, 4)));
   int writeMyLog(const std::string& filename, int log_level, const char* fmt, ...) const
       __attribute__((format(printf, 4, 5)));
-  /// Level above which writeLog(level, …) writes nothing (compat: below which). Default: 0.
+  /// Highest level (compat: lowest) of which writeLog(level, …) writes lines. Default: 0.
   void setLogLevel(int new_log_level);
   int getLogLevel() const;
   /// Flushes the file after each line, so that nothing is lost in a crash. Off by default.
@@ -49,7 +49,8 @@ class LogManager : public Manager {
   /// Has no effect: lines carry no times and no step counts.
   void setLogTimeString(bool /*log_time_string*/ = true) {}
   void setLogStepCount(bool /*log_step_count*/ = true) {}
-  /// Sets what receives the current world's lines, without newline; an empty function: the file again.
+  /// Makes the current world pass its lines to `sink`, without newlines, instead of writing them to the file.
+  /// An empty function makes it write to the file again.
   void setSink(std::function<void(const std::string&)> sink);
 
  private:

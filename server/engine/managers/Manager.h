@@ -1,4 +1,4 @@
-// Base of the engine's managers, and of managers that a game adds (book, Listing 4.2).
+// Base class of the engine's managers, and of managers that a game adds (book, Listing 4.2).
 //
 // The engine's own managers hold no state: each call goes to the calling thread's current World. A reference
 // to one never becomes invalid.
@@ -11,7 +11,7 @@
 #include "ObjectList.h"
 #include "StandardHeaders.h"
 
-// Games test whether registerInterest() is there.
+// Games test this macro to learn whether managers have registerInterest().
 #if !defined(DF_REGISTER_INTEREST)
 #define DF_REGISTER_INTEREST
 #endif
@@ -21,7 +21,7 @@ namespace df {
 // Lets games write df::GM.run(), although the macros of the managers contain df:: themselves.
 namespace df = ::df;
 
-/// The limit of the published engine, for games that name it. Here the number is not limited.
+/// The published engine's limit, for games that use the name. Naiad does not limit the number.
 inline constexpr int MAX_EVENTS = 100;
 
 class Manager {
@@ -31,7 +31,7 @@ class Manager {
   Manager& operator=(const Manager&) = delete;
   virtual ~Manager() = default;
 
-  /// Name, for log lines.
+  /// Returns the manager's name, for log lines.
   const std::string& getType() const { return m_type; }
 
   /// Starts the manager. Returns 0 if ok, else -1.
@@ -42,26 +42,26 @@ class Manager {
   virtual bool isStarted() const;
 
   /// Sends `p_event` to the Objects that registered interest in its type, in order of registration. Returns
-  /// the number of Objects it was sent to; 0 for null. See EventDispatch::onEvent for Objects that come, go
-  /// or become inactive during the call.
+  /// the number of Objects it was sent to; 0 for null. EventDispatch::onEvent() documents the effect of
+  /// Objects that register, are deleted or become inactive during the call.
   int onEvent(const Event* p_event) const;
 
-  /// Calls Object::registerInterest(), or its opposite. Returns -1 for null.
+  /// Calls registerInterest() or unregisterInterest() of the Object. Returns -1 if `p_o` is null.
   int registerInterest(Object* p_o, const std::string& event_type);
   int unregisterInterest(Object* p_o, const std::string& event_type);
-  /// True if events of this type come from this manager. For games' own managers: the engine does not call
-  /// it.
+  /// True if this manager sends events of this type. For games' own managers; the engine does not call it.
   virtual bool isValid(std::string /*event_type*/) const { return true; }
 
  protected:
-  /// Makes one of the engine's own: `started` is its bit in Started.h, which the current world keeps.
+  /// Makes one of the engine's own managers. `started` is its bit in Started.h, in which the current world
+  /// records whether it is started.
   Manager(std::string type, unsigned started) : m_type(std::move(type)), m_started(started) {}
   /// Sets the name for getType().
   void setType(std::string type) { m_type = std::move(type); }
 
  private:
   std::string m_type = "Manager";
-  unsigned m_started = 0;  // 0: not one of the engine's, so m_is_started counts
+  unsigned m_started = 0;  // 0: a game's own manager, which uses m_is_started
   bool m_is_started = false;
 };
 

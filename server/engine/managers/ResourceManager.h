@@ -17,7 +17,7 @@
 
 namespace df {
 
-/// Limits of the published engine, for games that name them. Here the numbers are not limited.
+/// The published engine's limits, for games that use the names. Naiad does not limit the numbers.
 inline constexpr int MAX_SPRITES = 1000;
 inline constexpr int MAX_SOUNDS = 50;
 inline constexpr int MAX_MUSICS = 50;
@@ -27,26 +27,27 @@ class ResourceManager : public Manager {
   /// Returns the only instance; RM is short for it. It acts on the current world.
   static ResourceManager& getInstance();
 
-  /// Loads a sprite in one of the three formats (SpriteFile.h). Returns 0, else -1.
+  /// Loads a sprite in one of the three formats (SpriteFile.h). Returns 0, or -1 if the file cannot be
+  /// loaded.
   int loadSprite(const std::string& filename, const std::string& label);
-  /// Forgets a sprite; Objects that show it keep it. Returns 0, or -1 for an unknown label.
+  /// Removes a sprite's label; Objects that show the sprite keep it. Returns 0, or -1 for an unknown label.
   int unloadSprite(const std::string& label);
-  /// Returns the sprite. Null if none was loaded under this label, so that a game may ask. If its file could
-  /// not be loaded, one that shows a '?' (compat: null).
+  /// Returns the sprite; null for an unknown label. If its file could not be loaded, returns a sprite that
+  /// shows a '?' (compat: null).
   Sprite* getSprite(const std::string& label) const;
 
   /// Loads a sound. Returns 0, or -1 for a file that cannot be read.
   int loadSound(const std::string& filename, const std::string& label);
   /// Unloads a sound. Returns 0, or -1 for an unknown label.
   int unloadSound(const std::string& label);
-  /// Returns the sound. For an unknown label, one that plays nothing, and logs a line (compat: null).
+  /// Returns the sound. For an unknown label, logs a line and returns a silent sound (compat: null).
   Sound* getSound(const std::string& label);
 
   /// Loads a piece of music. Returns 0, or -1 for a file that cannot be read.
   int loadMusic(const std::string& filename, const std::string& label);
   /// Unloads a piece of music. Returns 0, or -1 for an unknown label.
   int unloadMusic(const std::string& label);
-  /// Returns the music. For an unknown label, one that plays nothing, and logs a line (compat: null).
+  /// Returns the music. For an unknown label, logs a line and returns silent music (compat: null).
   Music* getMusic(const std::string& label);
 
  private:

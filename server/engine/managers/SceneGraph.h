@@ -11,7 +11,7 @@ namespace df {
 
 class SceneGraph {
  public:
-  /// Returns all active Objects. All lists are in creation order.
+  /// Returns all active Objects. All functions here list Objects in creation order.
   ObjectList activeObjects() const;
   ObjectList inactiveObjects() const;  ///< All inactive Objects.
   /// Returns the active HARD and SOFT Objects.

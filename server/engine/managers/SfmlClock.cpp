@@ -5,7 +5,7 @@ namespace sf {
 
 namespace {
 
-// Returns the time since a moment that is common to all clocks.
+// Returns the game time since the first call, in microseconds. All clocks share it.
 long elapsed() {
   static const df::Clock kBegun;
   return kBegun.split();

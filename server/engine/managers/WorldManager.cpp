@@ -22,7 +22,7 @@ ObjectList pickByBox(Wanted wanted) {
       [&](const Object& o) { return o.isActive() && wanted(getWorldBox(&o)); });
 }
 
-/// Returns the player whose view counts: the one whose input is being handled; null for the world's own view.
+/// Returns the player whose view is used: the one whose input is being handled; null: the world's own view.
 Player* viewer(const World& world) {
   return world.views().player(world.input().player());
 }

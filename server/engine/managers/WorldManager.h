@@ -30,8 +30,8 @@ class Player;  // Player.h
 
 class WorldManager : public Manager {
  public:
-  /// The Objects that an Object would collide with: an ObjectList that converts to true if it is not empty.
-  /// The published engine returned the list up to 4.14, and only true or false since then.
+  /// Result of isCollision(): an ObjectList that converts to true if it is not empty. The published engine
+  /// returned a list up to version 4.14, and a bool since then.
   class Collisions : public ObjectList {
    public:
     explicit Collisions(ObjectList found) : ObjectList(std::move(found)) {}
@@ -41,25 +41,26 @@ class WorldManager : public Manager {
   /// Returns the only instance; WM is short for it. It acts on the current world.
   static WorldManager& getInstance();
 
-  /// Deletes the Objects that were made with `new`, removes the others, and resets everything, so that the
-  /// world can be started again. Inside a tick or an event handler, this happens at its end.
+  /// Deletes the Objects that were made with `new`, removes all others, and resets the rest of the world, so
+  /// that it can be started again. If called inside a tick or an event handler, does so at its end.
   void shutDown() override;
 
   // Objects in the world.
 
-  /// Puts a removed Object back, last in creation order. (The constructor does the first insertion; for an
-  /// Object that is in the world nothing happens.) Returns 0, or -1 for null or an Object of another world.
+  /// Puts a removed Object back into the world, last in creation order. (The constructor inserts new
+  /// Objects.) Has no effect on an Object in the world. Returns 0, or -1 for null or an Object of another
+  /// world.
   int insertObject(Object* p_o);
-  /// Removes an Object without deleting it; lists and interests forget it at once. Returns 0, or -1 if it is
-  /// not in the world.
+  /// Removes an Object from the world without deleting it. At once its interests end and lists read it as
+  /// null. Returns 0, or -1 if it is not in the world.
   int removeObject(Object* p_o);
-  /// Deletes the Object at the end of the present or next update(), in order of the marks; until then it
-  /// moves, collides and gets events as before. A second mark has no effect. An Object not made with `new` is
-  /// only removed. Returns 0, or -1 if it is not in the world.
+  /// Deletes the Object at the end of the present or next update(). Until then it moves, collides and gets
+  /// events as before. Objects are deleted in the order in which they were marked; a second mark has no
+  /// effect. An Object not made with `new` is only removed. Returns 0, or -1 if it is not in the world.
   int markForDelete(Object* p_o);
-  /// Marks all in the list. Returns 0, or -1 if one of them is not in the world.
+  /// Marks all Objects in the list. Returns 0, or -1 if one of them is not in the world.
   int markForDelete(const ObjectList& obj_list);
-  /// Returns all active Objects (and the inactive ones, if asked) in creation order.
+  /// Returns all active Objects and, if `inactive`, the inactive ones, in creation order.
   ObjectList getAllObjects(bool inactive = false) const;
   /// Returns all active Objects of this type, in creation order.
   ObjectList objectsOfType(const std::string& type) const;
@@ -69,27 +70,27 @@ class WorldManager : public Manager {
   Object* objectWithId(int id) const;
   /// Returns the active Objects whose boxes contain this position, edges included, in creation order.
   ObjectList objectsAtPosition(Vector where) const;
-  /// Returns those whose boxes touch a box, a line segment, a circle, in creation order.
+  /// Returns the active Objects whose boxes touch this box, line segment or circle, in creation order.
   ObjectList objectsInBox(Box box) const;
   ObjectList objectsOnLine(Line line) const;
   ObjectList objectsInCircle(Circle circle) const;
-  /// Returns lists of Objects by their properties.
+  /// Returns the SceneGraph, whose functions list Objects by their properties.
   SceneGraph& getSceneGraph() const;
   /// Returns the active visible Objects whose boxes covered this cell (a world position, as in EventMouse) on
   /// the screen of the player whose input is being handled, at the moment of that input, in creation order.
-  /// So a click hits what was clicked on, whatever the latency and the target's speed. It looks at most 8
-  /// ticks back (a quarter of a second). Outside a player's mouse input, and without setLagCompensated(), it
-  /// uses the present positions.
+  /// So a click hits the Object that the player saw there, whatever the latency and the Object's speed. Uses
+  /// pictures of at most 8 ticks ago (a quarter of a second). Outside a player's mouse input, and without
+  /// setLagCompensated(), uses the present positions.
   ObjectList objectsSeenAt(Vector cell) const;
-  /// Makes the host keep where Objects were drawn, for objectsSeenAt(), and where players' views were: the
-  /// position of an EventMouse is then what was under the pointer in that picture. Off by default.
+  /// Makes the host record where Objects were drawn, for objectsSeenAt(), and where players' views were, so
+  /// that the position of an EventMouse is the cell that the player saw under the pointer. Off by default.
   void setLagCompensated(bool lag_compensated = true);
   bool isLagCompensated() const;
   [[deprecated("say setLagCompensated")]] void setLookingBack(bool on = true) { setLagCompensated(on); }
   [[deprecated("say isLagCompensated")]] bool isLookingBack() const { return isLagCompensated(); }
 
-  /// Whether a host ticks the world without players. Else it stops the world's time after a minute without
-  /// players, until the next one joins. Call before GM.run(). Off by default; needs a host.
+  /// Whether a host continues to tick the world while it has no players. If not, ticks stop after a minute
+  /// without players until the next player joins. Off by default. Call before GM.run(). Only hosts use it.
   void setRunsEmpty(bool runs_empty = true);
   bool getRunsEmpty() const;
 
@@ -99,7 +100,7 @@ class WorldManager : public Manager {
   /// order, without p_o itself; if one of the two is precise, the characters must share a cell, too. Whether
   /// p_o is solid does not matter (Listing 4.108). Empty for null and for a position out of range.
   ObjectList getCollisions(const Object* p_o, Vector where) const;
-  /// Returns what p_o would collide with at `where`; true if there is anything.
+  /// Like getCollisions(), but the result converts to true if it is not empty.
   Collisions isCollision(const Object* p_o, Vector where) const;
   /// Moves p_o to `where` (Listings 4.109, 4.111, 4.113): the solid Objects that it touches there, and p_o
   /// itself, get collision events; if none blocks, it moves, and gets an out event if it left the world.
@@ -107,47 +108,49 @@ class WorldManager : public Manager {
   /// more than 32 deep in handlers. An inactive Object is placed without collisions or events. See Mover.h.
   int moveObject(Object* p_o, Vector where);
   /// Returns the first Object that p_o, if solid, would hit on the straight path to `where`, by the rules of
-  /// swept moves (docs/collisions.md), whether or not p_o is swept. Nothing moves, no event is sent. None for
-  /// null, for an Object that is SPECTRAL, inactive or not in a world, and for a position out of range.
+  /// swept moves (docs/collisions.md), whether or not p_o is swept. Nothing moves, no event is sent. Returns
+  /// a Contact without Object if p_o is null, SPECTRAL, inactive or not in a world, or `where` is out of
+  /// range.
   Contact firstContact(const Object* p_o, Vector where) const;
 #if __cplusplus >= 201703L
   /// Returns the position nearest to `near`, a whole number of cells from it on each axis, at which `box`
   /// (relative to the position, as in Object::setBox) touches no solid Object and lies inside the boundary;
-  /// of equally near ones the one with the least y, then x. Nullopt if there is none within 1000 cells, or if
-  /// an argument is out of range.
+  /// of equally near positions the one with the least y, then x. Nullopt if there is none within 1000 cells,
+  /// or if an argument is out of range.
   std::optional<Vector> findFree(Box box, Vector near) const;
 #endif
-  /// Whether the moves of all Objects are swept (Object::setSwept), or only those of the Objects that ask for
-  /// it: the default.
+  /// Whether the moves of all Objects are swept. By default only those of Objects with Object::setSwept()
+  /// are.
   void setSweptCollisions(bool swept = true);
   bool getSweptCollisions() const;
-  /// Moves every active Object by its velocity, once, then deletes what is marked. Nothing else of a tick
-  /// happens; see GM.tick().
+  /// Moves every active Object by its velocity, once, then deletes the marked Objects. Does nothing else that
+  /// a tick does; see GM.tick().
   void update();
   /// Draws all Objects in view. GM.tick() calls it.
   void draw();
 
   // Boundary and view.
 
-  /// Limits of the world, for out events and views; the window's, if never set. Corner and size up to 1e6
-  /// cells. setBoundary() returns 0, else -1.
+  /// Limits of the world, for out events and views. Default: the size of the window. Corner and size are up
+  /// to 1e6 cells. setBoundary() returns 0, or -1 if a number is out of range.
   int setBoundary(Box new_boundary);
   Box getBoundary() const;
-  /// Returns the view: that of the player whose input is being handled, if they have one of their own, else
-  /// the world's, which all other players share. Its size is the window's (DM.setSize).
+  /// Returns the view of the player whose input is being handled, if they have their own, else the world's
+  /// view, which all players without their own share. Its size is the window's (DM.setSize).
   Box getView() const;
   /// Moves the view to the box's corner, clamped inside the boundary; the box's size is ignored. Returns 0,
-  /// or -1 if not finite.
+  /// or -1 if a number is out of range.
   int setView(Box new_view);
-  /// Centres the view on this position, clamped inside the boundary. Returns 0, or -1 if not finite.
+  /// Centres the view on this position, clamped inside the boundary. Returns 0, or -1 if it is out of range.
   int setViewPosition(Vector view_pos);
   /// Centres the view on this Object, and moves it along when moveObject() or update() takes the Object out
-  /// of the view's inner third. Null: the view stays. Returns 0, or -1 if the Object is not in the world.
+  /// of the view's inner third. Null makes the view stay where it is. Returns 0, or -1 if the Object is not
+  /// in the world.
   int setViewFollowing(Object* p_new_view_following);
   /// Returns the Object that the view follows; null for none.
   Object* getViewFollowing() const;
-  /// Stored for getViewSlack(), without effect: views that follow keep their Object in the inner third. The
-  /// published engine takes fractions of the view.
+  /// Only stored for getViewSlack(): a view that follows an Object always keeps it in the inner third. In the
+  /// published engine these are fractions of the view's size.
   void setViewSlack(Vector new_slack);
   Vector getViewSlack() const;
 
@@ -158,8 +161,8 @@ class WorldManager : public Manager {
   /// Returns the player with this id; null before its EventJoin and after its EventLeave.
   players::Player* getPlayer(std::uint32_t id) const;
 
-  /// Returns 0 to n-1, each equally likely, from the world's seed (GM.setSeed); 0 if n < 1. Unlike rand(), it
-  /// gives the same numbers in all runs with the same inputs.
+  /// Returns a random number 0 to n-1, each equally likely, from the sequence of the world's seed
+  /// (GM.setSeed); 0 if n < 1. Unlike rand(), it gives the same numbers in all runs with the same inputs.
   int randomInt(int n);
 
  private:

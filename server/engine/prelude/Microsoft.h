@@ -1,4 +1,4 @@
-// Functions of Microsoft's compiler beyond the standard, for games that use them.
+// Functions that Microsoft's compiler has beyond the standard, for games that use them.
 #pragma once
 
 #if !defined(_MSC_VER)
@@ -14,9 +14,9 @@
 #define _countof(array) (sizeof(array) / sizeof((array)[0]))
 #endif
 
-// A game written for several compilers may define macros of these names.
+// Defined only if they are not macros already, because a game for several compilers may define these names.
 #if !defined(sprintf_s)
-/// Like std::snprintf().
+/// Formats like std::snprintf().
 __attribute__((format(printf, 3, 4))) inline int sprintf_s(char* text, std::size_t size, const char* format,
                                                            ...) {
   std::va_list arguments;
@@ -36,7 +36,7 @@ __attribute__((format(printf, 2, 3))) int sprintf_s(char (&text)[size], const ch
 #endif
 
 #if !defined(strcpy_s)
-/// Copies what fits, with a 0 at the end. Returns 0, unless there is no room at all.
+/// Copies as much of `from` as fits with a 0 at the end. Returns 0, or ERANGE if `size` is 0.
 inline int strcpy_s(char* text, std::size_t size, const char* from) {
   if (size == 0) return ERANGE;
   const std::size_t length = strnlen(from, size - 1);
@@ -51,7 +51,7 @@ int strcpy_s(char (&text)[size], const char* from) {
 #endif
 
 #if !defined(strcat_s)
-/// Appends what fits. Returns 0, unless there is no 0 at the end of the first text.
+/// Appends as much of `more` as fits. Returns 0, or an error number if `text` has no 0 at its end.
 inline int strcat_s(char* text, std::size_t size, const char* more) {
   const std::size_t length = strnlen(text, size);
   return strcpy_s(text + length, size - length, more);
@@ -63,7 +63,7 @@ int strcat_s(char (&text)[size], const char* more) {
 #endif
 
 #if !defined(fopen_s)
-/// Returns 0, else the error number; the file is then null.
+/// Opens a file. Returns 0; on failure sets `*p_file` to null and returns the error number.
 inline int fopen_s(std::FILE** p_file, const char* name, const char* mode) {
   *p_file = std::fopen(name, mode);
   return *p_file != nullptr ? 0 : errno;
@@ -71,7 +71,7 @@ inline int fopen_s(std::FILE** p_file, const char* name, const char* mode) {
 #endif
 
 #if !defined(localtime_s)
-/// Returns 0, else the error number.
+/// Converts a time to local time. Returns 0, else the error number.
 inline int localtime_s(std::tm* p_local, const std::time_t* p_time) {
   return localtime_r(p_time, p_local) != nullptr ? 0 : errno;
 }

@@ -1,7 +1,7 @@
 // Stands in for the graphics library SFML, which the published engine's headers include and some games use
 // directly: DM.getWindow(), Sound::getSound(), Music::getMusic(), drawing on the window, asking for keys and
-// buttons. All of it takes the usual calls and does nothing; no key is ever down. The folder SFML next to
-// this file has the headers that games include by themselves.
+// buttons. Its classes and functions accept the usual calls and do nothing; no key is ever down. The folder
+// SFML next to this file has the SFML headers that games include themselves.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // Stands in for the shapes, texts and pictures of the graphics library SFML, which some games draw directly.
-// They take the usual calls and show nothing. See Sfml.h.
+// They accept the usual calls and show nothing. See Sfml.h.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ class VertexArray : public Drawable {
   std::vector<Vertex> m_vertices;
 };
 
-/// Has a position.
+/// Base of drawn things that have a position.
 class Transformable {
  public:
   void setPosition(float x, float y) { m_position = {x, y}; }
@@ -90,7 +90,7 @@ class Font {
   }
 };
 
-/// A Drawable with a fill and an outline.
+/// A Drawable with a fill colour and an outline.
 class Shape : public Drawable, public Transformable {
  public:
   void setFillColor(const Color& color) { m_fill = color; }

@@ -1,5 +1,5 @@
-// Stands in for the keys and buttons of the graphics library SFML. None is ever down, because players' keys
-// come as events. See Sfml.h.
+// Stands in for the keys and buttons of the graphics library SFML. No key or button is ever down, because
+// players' input comes as events. See Sfml.h.
 #pragma once
 
 #include "detail/SfmlValues.h"

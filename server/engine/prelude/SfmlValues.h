@@ -117,10 +117,10 @@ constexpr Time milliseconds(std::int32_t amount) {
 constexpr Time microseconds(std::int64_t amount) {
   return Time(static_cast<long>(amount));
 }
-/// Returns at once: a game that sleeps would keep its players waiting.
+/// Returns at once, because a game that sleeps would keep its players waiting.
 inline void sleep(Time /*duration*/) {}
 
-/// Game time, as in df::Clock.
+/// Measures game time, like df::Clock.
 class Clock {
  public:
   Clock();

@@ -1,4 +1,4 @@
-// Event of the published engine's sockets. The engine sends it only to games that are servers
+// The event of the published engine's sockets. The engine sends it only to games that are servers
 // (NetworkManager.h), when players come and go.
 #pragma once
 
@@ -18,7 +18,7 @@ enum class NetworkEventLabel {
   DATA,
 };
 
-/// Older names of the labels.
+/// Older names of the values of NetworkEventLabel.
 namespace Network {
 using Label = NetworkEventLabel;
 inline constexpr NetworkEventLabel UNDEFINED_LABEL = NetworkEventLabel::UNDEFINED;
@@ -40,7 +40,7 @@ class EventNetwork : public Event {
   int getSocketIndex() const { return m_sock; }
   void setBytes(int new_bytes) { m_bytes = new_bytes; }
   int getBytes() const { return m_bytes; }
-  /// Message, not owned.
+  /// The message. Not owned.
   void setMessage(void* p_new_buff) { m_p_buff = p_new_buff; }
   void* getMessage() const { return m_p_buff; }
 

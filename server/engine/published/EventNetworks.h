@@ -1,7 +1,7 @@
-// Kinds of events of the published engine's sockets. The engine sends only those of players that come, go,
-// press keys and use the mouse, and only to games that are servers (NetworkManager.h). The build makes a
-// header for each class, such as EventNetworkSync.h. EventNetwork.h does not include them, so that games may
-// have events of these names.
+// The kinds of events of the published engine's sockets. The engine sends only those for players that join,
+// leave, press keys or use the mouse, and only to games that are servers (NetworkManager.h). The build makes
+// a header for each class, such as EventNetworkSync.h. EventNetwork.h does not include these, so that games
+// may have event classes of these names.
 #pragma once
 
 #include "EventKeyboard.h"
@@ -103,7 +103,7 @@ class EventNetworkCustom : public EventNetwork {
     setType(NETWORK_CUSTOM_EVENT);
   }
 
-  /// Message, not owned.
+  /// The message. Not owned.
   void setMessage(const void* new_message) { m_p_message = new_message; }
   const void* getMessage() const { return m_p_message; }
 
@@ -111,10 +111,11 @@ class EventNetworkCustom : public EventNetwork {
   const void* m_p_message = nullptr;
 };
 
-/// Name in versions 4.5 to 4.18.
+/// Name of EventNetworkCustom in versions 4.5 to 4.18 of the published engine.
 using EventCustomNetwork = EventNetworkCustom;
 
-// Input that a client program would have sent, of players that are a server's connections (NetworkManager.h).
+// Input of players that are a server's connections, as a client program would have sent it
+// (NetworkManager.h).
 
 inline const EventType NETWORK_KEYBOARD_EVENT("df-keyboard-network");
 

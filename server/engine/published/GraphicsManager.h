@@ -1,4 +1,4 @@
-// Name of the DisplayManager in older versions of the published engine.
+// GraphicsManager: the DisplayManager's name in older versions of the published engine.
 #pragma once
 
 #include "DisplayManager.h"

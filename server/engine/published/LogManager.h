@@ -1,4 +1,4 @@
-// LogManager as games include it: with utility.h, as in the published engine.
+// Includes LogManager and, as in the published engine, utility.h.
 #pragma once
 
 #include "detail/LogManager.h"

@@ -22,8 +22,8 @@ bool isThere(const std::vector<Player*>& players, std::uint32_t id) {
   return std::any_of(players.begin(), players.end(), [id](const Player* p) { return p->getId() == id; });
 }
 
-// Sends the event with its own type, for games of later versions, and with the common type, for those of
-// earlier ones. Both are sent even during a pause.
+// Sends the event twice, even during a pause: with its own type, for games of later versions of the published
+// engine, and with the common type NETWORK_EVENT, for games of earlier versions.
 template <class Specific>
 void send(World& world, NetworkEventLabel label, int socket) {
   Specific specific(label);
@@ -51,9 +51,9 @@ EventMouseNetwork fromNetwork(const EventMouse& mouse) {
   return event;
 }
 
-// Sends an input as a network event. Returns whether it ends here. If no Object takes it from the network, it
-// is also sent as the local event: so a key to leave works in a game that is played with the mouse. But a
-// server that plays gets local events only of its own player.
+// Sends an input as a network event. Returns true if it must not be sent as a local event, too. If no Object
+// is interested in the network event, the local event is sent, so that a key to leave works in a game that is
+// played with the mouse. But a server that is a player itself gets local events only of its own player.
 template <class Local>
 bool handOn(World& world, const Local& local) {
   const Connections& c = world.extras().connections;
@@ -69,13 +69,13 @@ bool handOn(World& world, const Local& local) {
 /// Plays the server's half of a game that was written as two programs, a server and a client for each player,
 /// over the published engine's NetworkManager. The players of the world are the connections: a new player is
 /// accepted as a socket, and their keys and mouse come as the events that a client program would have sent.
-/// What the server sends is dropped, because all players see the server's world.
+/// Messages that the server sends are dropped, because all players see the server's world.
 ///
-/// If the server is a player itself (it has keys of its own, one client has the others), df-config.txt has
-/// `server_plays:true,`: then the first player sits at the server and is not a connection.
+/// If the server is a player itself, with keys that no client has, df-config.txt must have
+/// `server_plays:true,`. Then the first player sits at the server and is not a connection.
 class NetworkServer {
  public:
-  /// Makes this world's players connections. end() stops that.
+  /// Makes this world's players connections, until end().
   static void begin(World& world) {
     world.extras().connections.is_server = true;
     world.extras().input_filter = [&world](const Event* p_event) { return filter(world, p_event); };
@@ -86,7 +86,8 @@ class NetworkServer {
     world.extras().connections.limit = limit;
     world.extras().input_filter = nullptr;
   }
-  /// Closes a connection, or all for -1; the player stays and watches. Returns 0, else -1.
+  /// Closes a connection, or all connections if `socket` is -1. Its player stays in the world and watches.
+  /// Returns 0, or -1 if `socket` is not connected.
   static int close(World& world, int socket) {
     Connections& c = world.extras().connections;
     if (socket >= 0 && !c.isConnected(socket)) return -1;
@@ -114,7 +115,7 @@ class NetworkServer {
     return false;
   }
   static void accept(World& world) {
-    // Handlers may close connections, and end it all.
+    // Handlers of the events below may close connections or end the server, so each step checks again.
     Connections& c = world.extras().connections;
     const std::vector<Player*> there = world.views().getPlayers();
     std::erase_if(c.closed, [&there](std::uint32_t id) { return !isThere(there, id); });
@@ -152,7 +153,7 @@ Connections& connections() {
   return World::current().extras().connections;
 }
 
-// Logs once for each world. Returns -1.
+// Logs that `what` is not supported, once for each world. Returns -1.
 int logUnsupportedOnce(const std::string& what) {
   World& world = World::current();
   bool& said = world.extras().network_logged;

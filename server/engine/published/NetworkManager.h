@@ -2,7 +2,7 @@
 // all players play in its world. Their input comes as EventKeyboard and EventMouse, with getPlayer(); joins
 // and leaves come as EventJoin and EventLeave; the server sends all players what Objects look like.
 //
-// A game that was written as two programs is played by its server's half: after setServer() each player that
+// Of a game that was written as two programs only the server's half runs: after setServer() each player that
 // joins is a connection. EventNetworkAccept reports it, with a socket (0, 1, …), and EventNetworkClose when
 // they leave. Their keys and mouse come as EventKeyboardNetwork and EventMouseNetwork with that socket, or as
 // local events if no Object is interested in those. Messages to clients count as sent and are dropped. The
@@ -27,9 +27,10 @@ class NetworkManager : public Manager {
 
   /// Returns 0.
   int startUp() override;
-  /// Makes the players connections; false ends that. The host's port (--port) counts, not `port`. Returns 0.
+  /// Makes the players connections; false ends that. The host's option --port decides the port. Returns 0.
   int setServer(bool server = true, const std::string& port = DRAGONFLY_PORT);
-  /// True if this is the server, except while Objects draw: players must see what a client would show them.
+  /// True if the game is a server. False while Objects draw, because players must see what a client would
+  /// show.
   bool isServer() const;
   /// Returns -1: players are accepted automatically.
   int accept();
@@ -41,21 +42,21 @@ class NetworkManager : public Manager {
   int sendDelayed() { return 0; }
   /// Returns -1: players send only keys and mouse.
   int receive(void* buffer, int bytes, bool leave, int sock = 0);
-  /// Closes a connection, or all for -1; the player stays and watches. Returns 0, else -1.
+  /// Closes a connection, or all connections for -1. Its player stays and watches. Returns 0, else -1.
   int close(int sock = -1);
   int closeAll() { return close(); }
   /// Has no effect. Returns 0 on the server, else -1.
   int setDelay(int new_delay, int sock = 0);
 
-  /// True if a player is connected as this socket, or as any for -1.
+  /// True if a player is connected with this socket or, for -1, with any socket.
   bool isConnected(int sock = -1) const;
-  /// Limit of connections; further players watch. Default: 16.
+  /// Maximum number of connections; further players only watch. Default: 16.
   void setMaxConnections(int new_max_sock);
   int getMaxConnections() const;
   int getNumConnections() const;
   /// Returns the socket of the connection with this index; -1 if unknown.
   int getSocket(int index = 0) const;
-  /// There is never any data.
+  /// Return that no data has arrived.
   int isData(int /*sock*/ = 0) const { return 0; }
   int isAnyData() const { return -1; }
   int genDataEvents(int /*sock*/ = 0) const { return 0; }

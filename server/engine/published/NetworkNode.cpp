@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-// Returns what sendMessage() does. NetworkManager logs why a message cannot arrive.
+// Returns the result of sendMessage(). If the game is not a server, lets NetworkManager log the reason.
 int reach(int sock) {
   if (!World::current().extras().connections.is_server) return NM.send(nullptr, 0, sock);
   if (sock >= 0) return NM.isConnected(sock) ? 1 : -1;

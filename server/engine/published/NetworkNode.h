@@ -1,5 +1,5 @@
-// An Object that sends and receives messages over the published engine's sockets. Here it gets events of
-// players that come and go, if the game is a server (NetworkManager.h); messages to clients are dropped.
+// An Object that sends and receives messages over the published engine's sockets. If the game is a server
+// (NetworkManager.h), it gets events when players join and leave; messages to clients are dropped.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace df {
 
-/// Unscoped until 4.18 (ObjectAttributes.h).
+/// An unscoped enumeration in the published engine until 4.18; see DF_ENUM in ObjectAttributes.h.
 DF_ENUM MessageType{
     UNDEFINED_MESSAGE = -1,    SYNC_OBJECT,    DELETE_OBJECT, GAME_OVER,
     SET_GAME_OVER = GAME_OVER, KEYBOARD_INPUT, MOUSE_INPUT,   CUSTOM_MESSAGE,
@@ -22,7 +22,7 @@ class NetworkNode : public Object {
   /// Makes it SPECTRAL and interested in NETWORK_EVENT.
   NetworkNode();
 
-  /// Passes a NETWORK_EVENT to one of the handlers below. Returns what that returns.
+  /// Passes a NETWORK_EVENT to one of the handlers below and returns its result.
   int eventHandler(const Event* p_e) override;
   virtual int handleConnect(const EventNetwork* /*p_e*/) { return 0; }
   virtual int handleAccept(const EventNetwork* /*p_e*/) { return 0; }
@@ -30,8 +30,9 @@ class NetworkNode : public Object {
   virtual int handleClose(const EventNetwork* /*p_e*/) { return 0; }
   virtual Object* createObject(std::string /*object_type*/) { return nullptr; }
 
-  // These return 1 on the server, or 0 if no player is connected (-1: if this one is not), and synchronised
-  // attributes count as written (Object::isModified). Elsewhere they return -1.
+  // On a server these return 1, 0 if no player is connected (`sock` -1), or -1 if socket `sock` is not
+  // connected. With result 1, synchronised attributes count as written (Object::isModified). Without a server
+  // they return -1.
 
   int sendMessage(MessageType msg_type, int sock = -1);
   int sendMessage(MessageType msg_type, Object* p_obj, unsigned int attr = 0, int sock = -1);

@@ -1,5 +1,5 @@
-// Shares out the time for path searches, in the published engine. Here Object::pathTo() finds its path in the
-// step in which it is called, so this has nothing to do.
+// In the published engine, this manager divides the time for path searches among Objects. In Naiad,
+// Object::pathTo() finds its path before it returns, so the manager has nothing to do.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 #include "Manager.h"
 #include "PathFind.h"
 
-#if !defined(PM)  // PhysicsManager.h has one, too
+#if !defined(PM)  // PhysicsManager.h defines PM, too
 #define PM df::PathManager::getInstance()
 #endif
 
@@ -20,11 +20,11 @@ class PathManager : public Manager {
  public:
   static PathManager& getInstance();
 
-  /// Returns 0, as do the two below.
+  /// Returns 0, as do the next two functions.
   int startUp() override;
   int registerPathFind(PathFind* /*p_path_find*/) { return 0; }
   int unregisterPathFind(PathFind* /*p_path_find*/) { return 0; }
-  /// Milliseconds; stored, without effect.
+  /// Time in milliseconds; only stored, without effect.
   void setMinCycleTime(int new_min_cycle_time) { m_min_cycle_time = new_min_cycle_time; }
   int getMinCycleTime() const { return m_min_cycle_time; }
   void cycle(int /*max_cycle_time*/ = -1) {}

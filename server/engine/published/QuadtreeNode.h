@@ -1,5 +1,5 @@
-// A node of the tree in which the published engine keeps Objects by their positions. The world here has a
-// grid instead: a node is a list of Objects with a boundary, and it never splits.
+// A node of the tree in which the published engine keeps Objects by their positions. Naiad's world has a grid
+// instead, so this node is only a list of Objects with a boundary and never splits.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class QuadtreeNode {
   ObjectList getObjects() const { return m_objects; }
   Box getBoundary() const { return m_boundary; }
   int getDepth() const { return m_depth; }
-  /// Returns 0, else -1.
+  /// Add or remove an Object. Return 0, else -1.
   int insertObject(Object* p_o) { return m_objects.insert(p_o); }
   int removeObject(Object* p_o) { return m_objects.remove(p_o); }
   int split() { return 0; }

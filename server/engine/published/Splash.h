@@ -1,5 +1,5 @@
-// The published engine's first picture, its name. Here no player has joined at that time (utility.h,
-// splash()), so it shows nothing and is deleted in the first step.
+// The published engine's first picture, which shows its name. In Naiad no player has joined at that time (see
+// splash()), so this Object shows nothing and is deleted in the first step.
 #pragma once
 
 #include "EventStep.h"

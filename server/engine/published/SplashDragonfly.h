@@ -1,4 +1,4 @@
-// The dragonfly in the first picture (Splash.h).
+// The dragonfly in the published engine's first picture (Splash.h).
 #pragma once
 
 #include "EventStep.h"

@@ -1,5 +1,5 @@
-// One state of a StateMachine: what its owner does while in it. States store nothing about an Object, so
-// several machines may share them.
+// One state of a StateMachine, with the actions of the machine's owner in that state. States store nothing
+// about an Object, so several machines may share them.
 #pragma once
 
 #include <string>
@@ -21,7 +21,8 @@ class State {
   void setType(std::string new_type) { m_type = std::move(new_type); }
   const std::string& getType() const { return m_type; }
 
-  /// Called when the Object enters the state, in each StateMachine::Update(), and when it leaves the state.
+  /// Enter() is called when the Object enters the state, Execute() in each StateMachine::Update(), Exit()
+  /// when the Object leaves the state.
   virtual void Enter(Object* /*p_obj*/) {}
   virtual void Execute(Object* p_obj) = 0;
   virtual void Exit(Object* /*p_obj*/) {}

@@ -1,5 +1,5 @@
-// A finite state machine for an Object. The game calls Update(), for example in each step. Owner and states
-// are not owned.
+// A finite state machine for an Object. The game calls Update(), for example in each step. The machine does
+// not own its owner or its states.
 #pragma once
 
 #include "Object.h"
@@ -18,7 +18,7 @@ class StateMachine {
   State* getState() const { return m_p_state; }
   void setPreviousState(State* p_new_state) { m_p_previous = p_new_state; }
   State* getPreviousState() const { return m_p_previous; }
-  /// State that is executed in addition to the present one, before it.
+  /// A state that Update() executes before the present state; null for none.
   void setGlobalState(State* p_new_state) { m_p_global = p_new_state; }
   State* getGlobalState() const { return m_p_global; }
 

@@ -1,5 +1,5 @@
-// Stands in for the Windows header of this name, which games made there include, mostly without need. Keys
-// come as events, and time is the game's: nothing here waits, or asks the machine.
+// Stands in for the Windows header of this name, which games made on Windows include, mostly without need.
+// Keys come as events and time is game time, so nothing here waits or asks the operating system.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Small functions that games expect in one header (book, Listings 4.107, 4.124, 4.135 and 4.144), and the
-// standard headers that they expect with it. Geometry, colours, keys and particles have headers of their own,
-// which this one includes.
+// Small functions that games expect in one header (book, Listings 4.107, 4.124, 4.135 and 4.144), with the
+// standard headers that games expect it to include. Functions for geometry, colours, keys and particles are
+// in headers of their own, which this one includes.
 #pragma once
 
 #include <iosfwd>
@@ -38,14 +38,14 @@ std::string toString(const Path& path);
 std::string toString(Keyboard::Key key_val);
 std::string toString(Solidness solid);
 std::string toString(ViewObjectLocation location);
-/// Returns ones and zeros, the highest bit first.
+/// Returns the bits as a text of ones and zeros, the highest bit first.
 std::string maskToString(unsigned int mask);
-/// Returns the value of the key `find` in "key:value,key:value,…", without blanks; empty if there is none. An
-/// empty `str` means that of the last call.
+/// Returns the value of the key `find` in the text `str` "key:value,key:value,…", without blanks; empty if
+/// the key is missing. An empty `str` means the text of the last call.
 std::string match(const std::string& str, const std::string& find);
 /// Returns the game's time as "hh:mm:ss", in a buffer that the next call reuses.
 char* getTimeString();
-/// Logs a line if the stream has failed or is null. Returns 0, or -1 if so.
+/// If the stream has failed or is null, logs a line and returns -1. Otherwise returns 0.
 int stringStreamCheck(const char* prefix, std::stringstream* p_ss);
 
 /// Returns the colour as a value of the graphics library (Sfml.h).

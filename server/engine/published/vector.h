@@ -1,4 +1,4 @@
-// Includes Vector.h, for games made where file names have no upper and lower case.
+// Includes Vector.h by its other name, for games made on systems where case in file names does not matter.
 #pragma once
 
 #include "StandardHeaders.h"

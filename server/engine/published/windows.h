@@ -1,4 +1,4 @@
-// Includes Windows.h by its other name: on Windows file names have no upper and lower case.
+// Includes Windows.h by its other name, because on Windows case in file names does not matter.
 #pragma once
 
 #include "Windows.h"

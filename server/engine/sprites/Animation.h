@@ -1,7 +1,8 @@
-// Selects the frame of a sprite that shows now (book, Listing 4.149). A value: each Object has its own.
+// Selects the frame of a sprite to show (book, Listing 4.149). Each Object has an Animation of its own.
 //
 // An Object's animation advances once per tick, after all Objects have been drawn, whether or not it is in a
-// view; that of an inactive or invisible Object waits. A game's own advances with each draw().
+// view. It does not advance while the Object is inactive or invisible or the game is paused. An Animation
+// that a game holds itself advances with each draw().
 #pragma once
 
 #include <string>
@@ -28,14 +29,14 @@ class Animation {
 
   Animation() = default;
 
-  /// Sprite, shown from its first frame on. Not owned; null for none.
+  /// The sprite, which is shown from its first frame on. Not owned; null for none.
   void setSprite(Sprite* p_new_sprite);
   Sprite* getSprite() const { return m_p_sprite; }
-  /// The sprite's label.
+  /// Label of the sprite.
   void setName(std::string new_name) { m_name = std::move(new_name); }
   const std::string& getName() const { return m_name; }
 
-  /// The frame that shows now, 0 … frames-1.
+  /// Index of the frame that is shown, 0 to the number of frames - 1.
   void setIndex(int new_index) { m_index = new_index; }
   int getIndex() const { return m_index; }
 
@@ -43,19 +44,20 @@ class Animation {
   void setSlowdownCount(int new_slowdown_count) { m_slowdown_count = new_slowdown_count; }
   int getSlowdownCount() const { return m_slowdown_count; }
 
-  /// Mirrors the frames as they are drawn; characters with a mirror image, such as / and <, become that. The
-  /// box stays, and characters are not compared in collisions (Object::setPrecise) while this is on.
+  /// Mirrors the frames when they are drawn. Characters with a mirror image, such as / and <, are replaced by
+  /// it. The box does not change. In collisions of such an Object, characters are not compared
+  /// (Object::setPrecise).
   void setTransform(Transform new_transform) { m_transform = new_transform; }
   Transform getTransform() const { return m_transform; }
 
-  /// Returns the sprite's box; 1 by 1 around the position without a sprite.
+  /// Returns the sprite's box; without a sprite, a box of 1 by 1 around the position.
   Box getBox() const;
 
   /// Draws the frame around a position, then advances by a tick. Returns 0, or -1 without a frame.
   int draw(Vector position);
   /// Draws the frame without advancing.
   int paint(Vector position) const;
-  /// Advances by one tick. Returns whether another frame shows now.
+  /// Advances by one tick. Returns true if that selected another frame.
   bool advance();
 
   /// Returns a text for log lines.

@@ -11,9 +11,9 @@ namespace df {
 
 class Frame {
  public:
-  /// An empty frame.
+  /// Makes an empty frame.
   Frame() = default;
-  /// `frame_str` holds the rows one after another: new_width times new_height characters.
+  /// Makes a frame of the rows in `frame_str`, one after another: new_width times new_height characters.
   Frame(int new_width, int new_height, std::string frame_str)
       : m_width(new_width), m_height(new_height), m_string(std::move(frame_str)) {}
 
@@ -22,7 +22,7 @@ class Frame {
   int getWidth() const { return m_width; }
   void setHeight(int new_height) { m_height = new_height; }
   int getHeight() const { return m_height; }
-  /// Its characters, row by row, without line ends: width times height of them.
+  /// Its width times height characters, row by row, without line ends.
   void setString(std::string new_frame_str) { m_string = std::move(new_frame_str); }
   const std::string& getString() const { return m_string; }
 

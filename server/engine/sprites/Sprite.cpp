@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-/// Returns what Frame::draw() puts on the screen, relative to the position.
+/// Returns the characters that Frame::draw() draws, relative to the position.
 naiad::Appearance pictureOf(const Frame& frame, Color color, char transparency) {
   constexpr int kHalf = 1 << (naiad::kGlyphUnitBits - 1);
   naiad::Appearance picture;
@@ -68,7 +68,7 @@ const Mask* Sprite::mask(int frame_number) const {
     std::vector<std::string> rows;
     for (int y = 0; y < frame.getHeight(); ++y) {
       std::string& row = rows.emplace_back();
-      // Byte by byte, as it is drawn: a byte beyond ASCII shows as one character.
+      // One character per byte, as draw() draws them, even for bytes beyond ASCII.
       for (int x = 0; x < frame.getWidth(); ++x) {
         const char ch = frame.at(x, y);
         const bool hole = ch == ' ' || (m_transparency != 0 && ch == m_transparency);

@@ -1,5 +1,5 @@
-// A named sequence of frames, all of one size, with a colour and a pace (book, Listing 4.139). Sprites come
-// from files, through RM.loadSprite(), and belong to the ResourceManager; Objects share them.
+// A named sequence of frames, all of one size, with a colour and a slowdown (book, Listing 4.139).
+// RM.loadSprite() loads sprites from files. They belong to the ResourceManager; Objects share them.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace df {
 
 class Sprite {
  public:
-  /// A sprite without frames, with room for `max_frames`.
+  /// Makes a sprite without frames, with room for `max_frames`.
   explicit Sprite(int max_frames);
 
   /// Size of all frames, in characters.
@@ -38,20 +38,20 @@ class Sprite {
   /// Returns 0, or -1 if there are max_frames already.
   int addFrame(Frame new_frame);
   int getFrameCount() const { return static_cast<int>(m_frames.size()); }  ///< Number of frames.
-  /// Returns a frame; the empty one for a number that is not in 0 … getFrameCount()-1.
+  /// Returns a frame; an empty frame if `frame_number` is not in 0 … getFrameCount()-1.
   Frame getFrame(int frame_number) const;
 
-  /// Label under which it was loaded.
+  /// Label under which the sprite was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
-  /// Ticks for which each frame is shown; 0: the first frame always shows (compat: like 1).
+  /// Number of ticks for which each frame is shown; 0: the animation does not advance (compat: like 1).
   void setSlowdown(int new_sprite_slowdown) { m_slowdown = new_sprite_slowdown; }
   int getSlowdown() const { return m_slowdown; }
   /// Makes a slowdown of 0 or less show each frame for one tick, as in the published engine. The engine sets
   /// it on the sprites of a world with compat.
   void setNeverStill(bool never_still = true) { m_never_still = never_still; }
-  /// Returns the ticks for which each frame is really shown; 0: the animation stands still.
+  /// Returns the number of ticks for which each frame is really shown; 0: the animation does not advance.
   int getTicksPerFrame() const { return m_slowdown > 0 ? m_slowdown : m_never_still ? 1 : 0; }
 
   /// Character that is not drawn; 0: all are drawn, blanks included.
@@ -62,8 +62,8 @@ class Sprite {
   int draw(int frame_number, Vector position, char transparency) const;
   int draw(int frame_number, Vector position) const { return draw(frame_number, position, m_transparency); }
 
-  /// Returns which characters of a frame are set, for precise collisions: neither blank nor transparent. Null
-  /// for a number without a frame.
+  /// Returns the mask of a frame for precise collisions: set are the characters that are neither blank nor
+  /// transparent. Null for a number without a frame.
   const Mask* mask(int frame_number) const;
 
   /// Returns a text for log lines.
@@ -84,9 +84,9 @@ class Sprite {
   char m_transparency = 0;
   std::vector<Frame> m_frames;
   std::string m_label;
-  // Masks by frame, made at first use. Null: not made yet. An empty one: the frame has no character.
+  // Masks by frame, made at first use. Null: not made yet. An empty mask: the frame has no characters.
   mutable std::vector<std::shared_ptr<const Mask>> m_masks;
-  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // as clients get them; made at first use
+  mutable std::shared_ptr<const naiad::Sequence> m_p_pictures;  // frames for clients, made at first use
 };
 
 }  // namespace df

@@ -43,12 +43,12 @@ class Lines {
     while (isBlank() && m_lines[m_next].size() != row) ++m_next;
   }
   bool isBlank() const { return !isDone() && trimmed(m_lines[m_next]).empty(); }
-  /// Returns the next line as it is.
+  /// Returns the next line unchanged. `expected` describes it, for the error at the end of the file.
   const std::string& nextLine(const std::string& expected) {
     if (isDone()) throw ParseError{m_lines.size(), "the file ends where " + expected + " should be"};
     return m_lines[m_next++];
   }
-  /// Returns the next line that is not blank, without blanks around it.
+  /// Returns the next line that is not blank, without blanks at its ends.
   std::string nextWord(const std::string& expected) {
     skipBlank();
     return trimmed(nextLine(expected));
@@ -61,9 +61,9 @@ class Lines {
     const std::string found = nextWord("\"" + word + "\"");
     if (found != word) fail("expected \"" + word + "\", not \"" + found + "\"");
   }
-  /// Reports an error in the line taken last.
+  /// Throws an error in the line that was returned last.
   [[noreturn]] void fail(const std::string& what) const { throw ParseError{m_next, what}; }
-  /// Returns the number of the line taken last, and what is odd about it.
+  /// Returns a text with the number of the line that was returned last and `what`.
   std::string describe(const std::string& what) const { return std::to_string(m_next) + ": " + what; }
 
  private:
@@ -75,7 +75,7 @@ struct Header {
   explicit Header(std::vector<std::string>* warnings)
       : p_warnings(warnings), slowdown(warnings != nullptr ? 0 : 1) {}
 
-  std::vector<std::string>* p_warnings;  // not null: takes what the published engine takes, and lists it here
+  std::vector<std::string>* p_warnings;  // not null: accept more, and list it here (SpriteFile.h)
   std::optional<int> frames;
   std::optional<int> width;
   std::optional<int> height;
@@ -189,7 +189,7 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
     lines.expect("end");
   }
   lines.expect("</BODY>");
-  if (lines.peekWord().empty()) return sprite;  // the footer holds nothing useful
+  if (lines.peekWord().empty()) return sprite;  // a footer is optional, and nothing in it is used
   lines.expect("<FOOTER>");
   while (lines.nextWord("\"</FOOTER>\"") != "</FOOTER>") {
   }
@@ -197,8 +197,8 @@ std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
 }
 
 std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
-  // Rows may look like anything, so fields are recognised only by their names: they end with the last line
-  // that begins with one.
+  // Rows may contain any text, so fields are recognised only by their names. The header ends with the last
+  // line that begins with the name of a field.
   constexpr std::array<const char*, 5> kFields{"frames", "width", "height", "color", "slowdown"};
   const auto isField = [&](const std::string& line) {
     if (header.p_warnings != nullptr && line == "slowdown") return true;

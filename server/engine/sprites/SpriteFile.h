@@ -19,20 +19,20 @@
 
 namespace df {
 
-/// Limits: frames of a sprite, and characters per side.
+/// Maximum number of frames of a sprite, and of characters in its width or height.
 inline constexpr int kMaxSpriteFrames = 10'000;
 inline constexpr int kMaxSpriteSide = 1024;
 
 /// Parses the sprite in `text` and gives it this label. On failure, returns null and sets `error` to the
 /// number of the line and the reason, as in "12: the row has 5 characters instead of 6".
-/// With `p_warnings` the published engine's rules hold: `slowdown -1`, a line `slowdown` with nothing behind
-/// it, `transparency " "` (its first character counts) and text after `</FOOTER>` or `eof` (ignored) are
-/// accepted, and listed there like errors; a missing slowdown is 0, and the sprite never stands still
-/// (Sprite::setNeverStill).
+/// With `p_warnings` the published engine's rules hold. Then `slowdown -1`, a line `slowdown` without a
+/// value, `transparency " "` (only its first character is used) and text after `</FOOTER>` or `eof` (ignored)
+/// are accepted, and added to `p_warnings` in the form of errors. A missing slowdown is 0, and the animation
+/// never stands still (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
                                     std::vector<std::string>* p_warnings = nullptr);
 
-/// Returns the colour of this name, in small or capital letters; UNDEFINED_COLOR for none.
+/// Returns the colour with this name, in small or capital letters; UNDEFINED_COLOR if there is none.
 Color colorOfName(const std::string& name);
 
 }  // namespace df

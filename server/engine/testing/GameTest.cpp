@@ -35,9 +35,9 @@ namespace df {
 
 namespace {
 
-/// Runs a game's main() on a thread of its own, in turns with the thread that made it: one of the two always
-/// waits for the other. So a test can be written from top to bottom, although main() does not return before
-/// the game is over.
+/// Runs a game's main() on a thread of its own, in turns with the test's thread: one of the two always waits
+/// for the other. So a test can be written from top to bottom, although main() does not return before the
+/// game is over.
 class GameThread : private Runner {
  public:
   /// Runs `game_main` with `world` as the current one, until it calls GM.run() or ends.
@@ -60,7 +60,7 @@ class GameThread : private Runner {
     std::unique_lock lock(m_mutex);
     m_turned.wait(lock, [this] { return !m_games_turn; });
   }
-  /// Makes every run() return, and waits for the end of main().
+  /// Makes GM.run() return whenever main() calls it, and waits for the end of main().
   ~GameThread() override {
     m_ending = true;
     if (m_in_run) finishRun();
@@ -78,18 +78,18 @@ class GameThread : private Runner {
     m_in_run = false;
     switchTo(true, lock);
   }
-  /// Returns what main() threw; empty if nothing.
+  /// Returns the text of the exception that main() threw; empty if it threw none.
   const std::string& fault() const { return m_fault; }
 
  private:
   void run(World& world) override {
     if (m_ending) return;
-    if (m_has_run) world.setGameOver(false);  // as in a program: after the title comes the game
+    if (m_has_run) world.setGameOver(false);  // as in a program, where the game follows the title
     std::unique_lock lock(m_mutex);
     m_in_run = m_has_run = true;
     switchTo(false, lock);
   }
-  /// Lets the other side run, until it hands back control.
+  /// Lets the other thread run until it hands back control. `game`: lets the game's thread run.
   void switchTo(bool game, std::unique_lock<std::mutex>& lock) {
     m_games_turn = game;
     m_turned.notify_all();
@@ -110,7 +110,7 @@ class GameThread : private Runner {
 
 namespace fs = std::filesystem;
 
-/// Returns a copy that no other process uses. Remove it once it is loaded.
+/// Returns the path of a copy that no other process uses. The caller has to remove it.
 fs::path copyOf(const fs::path& module) {
   std::string name = (fs::temp_directory_path() / (module.stem().string() + "-XXXXXX.so")).string();
   const int file = mkstemps(name.data(), 3);
@@ -133,8 +133,8 @@ void* load(const fs::path& module) {
 /// A game's module, loaded for one test.
 class TestedModule {
  public:
-  /// Loads it: the first time in this process from its file, later from a copy in the folder for temporary
-  /// files, because loading one file twice gives one module, with the previous game's variables. Throws
+  /// Loads the module: the first time in this process from its file, later from a temporary copy, because
+  /// loading a file again gives the same module, with the variables of the previous game. Throws
   /// std::runtime_error.
   explicit TestedModule(const std::string& path) {
     const fs::path module = fs::absolute(path).lexically_normal();
@@ -149,14 +149,15 @@ class TestedModule {
     m_folders = {(folder / m_name).string(), folder.string(), folder.parent_path().string()};
   }
 
-  /// Runs the game's main(). It stays loaded, because destructors of its static Objects may still run.
+  /// Runs the game's main(). The module stays loaded, because destructors of its static Objects may still
+  /// run.
   int main() const {
     std::string name = m_name;
     char* arguments[] = {name.data(), nullptr};
     return m_main(1, arguments);
   }
-  /// Folders of its sprites and sounds: the one of its name next to the module, the module's own, and the one
-  /// above that.
+  /// Returns the folders in which to look for sprites and sounds: the folder of the game's name next to the
+  /// module, the module's folder, and the folder above it.
   const std::vector<std::string>& folders() const { return m_folders; }
 
  private:
@@ -169,11 +170,11 @@ class TestedModule {
 constexpr std::size_t kShownLogLines = 5;
 constexpr Color kColors[] = {RED, GREEN, YELLOW, CYAN, MAGENTA, WHITE, BLUE};
 
-int g_right = 0;  // expectations of all GameTests that held
+int g_right = 0;  // expectations of all GameTests that were met
 int g_wrong = 0;
 int g_alive = 0;
 
-/// Fails the test if the game calls exit(), which would end it with the game's own exit code, mostly 0.
+/// Fails the test if the game calls exit(), which would end the test with the game's own exit code, mostly 0.
 void refuseExit() {
   if (g_alive == 0) return;
   std::fputs("GameTest: the game called exit() during the test\n", stderr);
@@ -188,7 +189,7 @@ void countAlive() {
 
 }  // namespace
 
-/// The world, and the game in it.
+/// A world and the game that runs in it.
 class GameTest::Game {
  public:
   Game(std::optional<TestedModule> module, int (*p_main)(), std::uint64_t seed)
@@ -225,7 +226,7 @@ class GameTest::Game {
     return player;
   }
 
-  /// Runs one tick; false if the game is over.
+  /// Runs one tick. Returns false, without a tick, if the game is over.
   bool tick() {
     if (!isRunning()) return false;
     m_world.tick();

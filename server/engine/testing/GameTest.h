@@ -1,5 +1,5 @@
-// Plays a game without terminal, network and clock, for tests: press keys at ticks, look at the picture,
-// assert.
+// Plays a game without terminal, network and clock, for tests, which press keys in certain ticks and check
+// the picture.
 //
 //   #include "GameTest.h"
 //
@@ -14,13 +14,13 @@
 //   }
 //
 // dragonfly_test() in CMake builds such a program and defines DRAGONFLY_GAME (docs/testing-your-game.md). The
-// game's own main() runs, in a world of its own, up to GM.run(); there the test takes over, and calls tick().
-// The same seed and keys give the same game, tick for tick.
+// game's own main() runs, in a world of its own, up to GM.run(); then the test controls the game by calls of
+// tick(). Two runs with one seed and equal keys are equal, tick for tick.
 //
-// While a GameTest lives, its world is the current one of this thread, so that WM, GM and the game's own
-// classes can be used as in the game. If several live at once, the newest is the current one, and must be
-// destroyed first. A tick is 1/30 s of the game, and takes as long as it computes. Cells are counted from the
-// upper left one of the player's view, (0,0); x goes right, y down.
+// While a GameTest exists, its world is the current world of this thread, so that WM, GM and the game's own
+// classes can be used as in the game. If several exist, the world of the newest is the current one, and the
+// newest must be destroyed first. A tick is 1/30 s of game time, but runs as fast as possible. Cell (0,0) is
+// the upper left one of the player's view; x grows to the right, y downward.
 //
 // Player 0 is always the player that joined first.
 #pragma once
@@ -42,13 +42,13 @@ class Object;
 
 class GameTest {
  public:
-  /// Starts the game of this module, which dragonfly_game(NAME MODULE …) makes. Each GameTest loads it anew,
-  /// so that its global and static variables are as at the start of a program; sprites and sounds are found
-  /// where dfserver finds them. Throws std::runtime_error if it cannot be loaded, has no main(), or if its
-  /// main() ends without having called GM.run().
+  /// Starts the game in this module, which dragonfly_game(NAME MODULE …) makes. Each GameTest loads the
+  /// module anew, so that global and static variables are as at the start of a program. Sprites and sounds
+  /// are found where dfserver finds them. Throws std::runtime_error if the module cannot be loaded, has no
+  /// main(), or if its main() ends without having called GM.run().
   explicit GameTest(const std::string& module, std::uint64_t seed = 1);
   /// Starts the game whose main() was compiled into this program under another name (-Dmain=my_main). Its
-  /// static variables stay from one GameTest to the next. Throws like the constructor above.
+  /// static variables keep their values from one GameTest to the next. Throws like the constructor above.
   explicit GameTest(int (*p_main)(), std::uint64_t seed = 1);
   /// Ends the game as a server would: GM.run() returns, and main() runs to its end.
   ~GameTest();
@@ -57,25 +57,25 @@ class GameTest {
 
   // Players.
 
-  /// Adds a player; one tick passes. Returns the player's id: 1, 2, …, each number once. An empty name
-  /// becomes "player 1" and so on; colours are given in turn.
+  /// Adds a player; one tick passes. Returns the player's id: 1, 2, …; ids are not reused. An empty name
+  /// becomes "player 1" and so on. Players get the colours in turn.
   std::uint32_t join(const std::string& name = "");
   /// Removes a player; one tick passes.
   void leave(std::uint32_t player = 0);
 
   // Time.
 
-  /// Runs `count` ticks, or fewer if the game is over before. If main() calls GM.run() again, for example
-  /// after a title, the game continues. Returns how many passed.
+  /// Runs `count` ticks, or fewer if the game ends earlier. If main() calls GM.run() again, for example after
+  /// a title, the game continues. Returns the number of ticks that passed.
   int tick(int count = 1);
-  /// Runs ticks until `holds()`, at most `most`. Returns whether it holds.
+  /// Runs ticks until `holds()` is true, at most `most` ticks. Returns the last result of `holds()`.
   bool tickUntil(const std::function<bool()>& holds, int most = 300);
   /// Returns the number of ticks that have passed.
   int getTicks() const;
   /// True if the game's last GM.run() has returned.
   bool isOver() const;
 
-  // Scores (HighScores.h). A test adds and reads others through df::HighScores.
+  // Scores (HighScores.h). For rows of the present game, a test uses df::HighScores.
 
   /// Adds a row to a table, as if a server had stored it. Call it before the first tick, for games that show
   /// the best rows from the start.
@@ -99,25 +99,26 @@ class GameTest {
   void press(Keyboard::Key key, std::uint32_t player = 0);
   /// Holds a key down while `ticks` ticks pass, at least one, then releases it.
   void hold(Keyboard::Key key, int ticks, std::uint32_t player = 0);
-  /// Presses or releases a key; no tick passes. For keys of several players in one tick.
+  /// Press or release a key; no tick passes. Use these for keys of several players in one tick.
   void down(Keyboard::Key key, std::uint32_t player = 0);
   void up(Keyboard::Key key, std::uint32_t player = 0);
-  /// Presses a mouse button at a cell of the player's view, nothing outside of it; one tick passes.
+  /// Clicks a mouse button at a cell of the player's view; one tick passes. Clicks outside the view are
+  /// ignored.
   void click(int x, int y, Mouse::Button button = Mouse::LEFT, std::uint32_t player = 0);
   /// Moves the pointer to a cell; one tick passes.
   void moveMouse(int x, int y, std::uint32_t player = 0);
 
-  // The picture of a player after the last tick. Before the first join: the world's own view.
+  // The picture that a player sees after the last tick. Before the first join, it is the world's own view.
 
-  /// Returns the rows, each with a newline, without blanks at their ends.
+  /// Returns the rows of the picture, each without blanks at its end but with a newline.
   std::string picture(std::uint32_t player = 0) const;
   /// Like picture(), with colours.
   Canvas canvas(std::uint32_t player = 0) const;
-  /// True if this text is in a row of the picture.
+  /// True if a row of the picture contains this text.
   bool shows(const std::string& text, std::uint32_t player = 0) const;
-  /// Returns how often it is there, without overlaps; 0 for an empty text.
+  /// Returns the number of times that the picture contains this text, without overlaps; 0 for an empty text.
   int count(const std::string& text, std::uint32_t player = 0) const;
-  /// Returns the character of a cell, and its colour; blank outside of the view.
+  /// Return the character in a cell, and its colour; outside the view, a blank.
   char32_t at(int x, int y, std::uint32_t player = 0) const;
   Color colorAt(int x, int y, std::uint32_t player = 0) const;
 
@@ -125,26 +126,26 @@ class GameTest {
 
   /// Returns the number of active Objects of this type (Object::setType).
   int objects(const std::string& type) const;
-  /// Returns the first of them in creation order; null if not found.
+  /// Returns the first active Object of this type in creation order; null if there is none.
   Object* find(const std::string& type) const;
-  /// Returns the points (Player::setScore); 0 for a player that is not there.
+  /// Returns the player's points (Player::setScore); 0 if the player is not in the game.
   int score(std::uint32_t player = 0) const;
-  /// Returns how often a sound or a piece of music of this label was played since the start.
+  /// Returns how often the sound or music with this label was played since the start.
   int played(const std::string& label) const;
-  /// Returns the lines of dragonfly.log so far.
+  /// Returns the lines that the game has written to its log so far.
   const std::vector<std::string>& log() const;
 
   // Expectations.
 
-  /// Records that this must be true. If it is not, prints file, line and `what` to stderr, with the picture
-  /// and the last lines of the log. Returns `holds`.
+  /// Checks that `holds` is true. If not, prints file, line and `what` to stderr, with the picture and the
+  /// last lines of the log, and report() returns 1. Returns `holds`.
   bool expect(bool holds, const std::string& what, const char* p_file = __builtin_FILE(),
               int line = __builtin_LINE());
-  /// Expects that the player sees this text.
+  /// Checks that the player's picture shows this text.
   bool expectShows(const std::string& text, std::uint32_t player = 0, const char* p_file = __builtin_FILE(),
                    int line = __builtin_LINE());
-  /// Prints how many expectations of all GameTests of this program held. Returns 0, or 1 if one did not or
-  /// there was none: the result of a test's main().
+  /// Prints how many checks of all GameTests of this program passed and failed. Returns 0, or 1 if one failed
+  /// or there was none: the result for a test's main() to return.
   static int report();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace df {
 
-/// The attribute that a Button adds to a ViewObject's, as a bit.
+/// The attribute that a Button has beyond those of a ViewObject, as a bit.
 enum class ButtonAttribute : unsigned int {
   APPEARANCE = 1 << (ViewObjectAttributeMax + 0),
   HIGHLIGHT_COLOR = APPEARANCE,
@@ -17,20 +17,20 @@ inline constexpr int ButtonAttributeMax = ViewObjectAttributeMax + 1;
 
 class Button : public ViewObject {
  public:
-  /// Makes a button without value, in the default colour, red under the mouse, interested in MSE_EVENT, at
-  /// the top (compat: in the middle of the view).
+  /// Makes a button without a value, in the default colour and red under the mouse. It is interested in
+  /// MSE_EVENT and is placed at the top (compat: in the middle of the view).
   Button();
 
   /// Called when the button is clicked.
   virtual void callback() = 0;
 
-  /// Colour while the pointer is on it.
+  /// Colour of the button while the pointer is on it.
   void setHighlightColor(Color new_highlight_color) { m_highlight_color = new_highlight_color; }
   Color getHighlightColor() const { return m_highlight_color; }
-  /// Colour at other times.
+  /// Colour of the button while the pointer is elsewhere.
   void setDefaultColor(Color new_default_color);
   Color getDefaultColor() const { return m_default_color; }
-  /// True if the mouse is on it, border included.
+  /// True if the mouse is on the button, border included.
   bool mouseOverButton(const EventMouse* p_e) const;
 
   int eventHandler(const Event* p_e) override;

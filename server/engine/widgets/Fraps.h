@@ -1,8 +1,8 @@
-// Shows how many frames the game makes in a second, at the top right in green, as "fps". F9 hides and shows
-// it.
+// Shows the number of frames that the game makes in a second, at the top right in green, as "fps". F9 hides
+// and shows the number.
 //
-// The time is the game's, so the number is what `frame_time` asks for, even if a server is slower. Nothing is
-// recorded.
+// The second is one of game time, so the number follows from the setting `frame_time`, even if a server is
+// slower. Nothing is recorded.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ const std::string FRAPS_STRING = "fps";
 
 class Fraps : public ViewObject {
  public:
-  /// Makes it green, at the top right. `do_record` has no effect.
+  /// Makes the ViewObject, green and at the top right. `do_record` has no effect.
   explicit Fraps(bool do_record = false);
 
   int eventHandler(const Event* p_e) override;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVoteTicks = 300;
 
-/// Returns the players whose keys count, so that they can vote.
+/// Returns the players that can vote: those whose input the host passes on.
 std::vector<std::uint32_t> votersOf(const World& world) {
   const WorldExtras* p_extras = world.findExtras();
   const std::uint32_t only = p_extras != nullptr ? p_extras->input_player : 0;
@@ -52,7 +52,7 @@ int Pause::eventHandler(const Event* p_e) {
   return 1;
 }
 
-// A key without a player, from the game itself, takes effect at once.
+// A key event without a player comes from the game itself and takes effect without a vote.
 void Pause::vote(std::uint32_t player) {
   World& world = *getWorld();
   const std::vector<std::uint32_t> voters = votersOf(world);
@@ -70,7 +70,7 @@ void Pause::vote(std::uint32_t player) {
   count(voters.size(), true);
 }
 
-// The leaving player is still among the players.
+// The leaving player is still in getPlayers() here.
 void Pause::leave(std::uint32_t player) {
   World& world = *getWorld();
   std::erase(m_votes, player);
@@ -84,7 +84,7 @@ void Pause::leave(std::uint32_t player) {
   }
 }
 
-// `announce`: shows the count even if it is not enough.
+// Counts the votes and pauses or continues if they are enough. `announce`: shows the count in any case.
 void Pause::count(std::size_t voters, bool announce) {
   World& world = *getWorld();
   const bool enough = 2 * m_votes.size() > voters;

@@ -1,9 +1,9 @@
-// Pauses the game when its key is pressed, and continues it when the key is pressed again. In between there
-// are no step events, nothing moves, and only Pause objects get input; the picture stays.
+// Pauses the game when its key is pressed, and continues it when the key is pressed again. During a pause
+// there are no step events, nothing moves, and only Pause objects get input; the picture stays.
 //
-// With several players it is a vote: more than half of the players have to press the key, each within ten
-// seconds of the vote before. All of them read the count ("pause: 1 of 3"). A player that leaves loses their
-// vote, and the others are counted again. When the last player leaves, the pause ends.
+// With several players, the key is a vote: more than half of the players have to press it, each within ten
+// seconds of the previous vote. All players see the count ("pause: 1 of 3"). When a player leaves, their vote
+// is removed and the votes are counted again. When the last player leaves, the pause ends.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace df {
 
 class Pause : public Object {
  public:
-  /// Pauses and continues the game with this key (Keyboard::Key).
+  /// Makes a Pause for this key (a Keyboard::Key).
   explicit Pause(int init_pause_key = DF_PAUSE_KEY);
   /// Ends the pause.
   ~Pause() override;
@@ -35,8 +35,8 @@ class Pause : public Object {
   void count(std::size_t voters, bool announce);
 
   int m_pause_key;
-  std::vector<std::uint32_t> m_votes;  ///< players that want the other state
-  int m_voted_at = 0;                  ///< step of the newest vote
+  std::vector<std::uint32_t> m_votes;  ///< players that voted to pause or, in a pause, to continue
+  int m_voted_at = 0;                  ///< getStepCount() at the newest vote
 };
 
 }  // namespace df

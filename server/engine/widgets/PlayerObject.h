@@ -1,4 +1,4 @@
-// An Object that a player steers, derived from any kind of Object: it gets only that player's input.
+// An Object that a player steers. It is derived from any class of Objects and gets only that player's input.
 //
 //   class Ship : public df::PlayerObject<df::Body> {
 //    public:
@@ -11,7 +11,7 @@
 //
 //   new df::JoinSpawner<Ship>;  // before GM.run(): each player that joins gets one
 //
-// It is the player's Object (Player::setObject) and is deleted when the player leaves.
+// The PlayerObject is the player's Object (Player::setObject). It is deleted when the player leaves.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ namespace df {
 template <class Base = Object>
 class PlayerObject : public Base {
  public:
-  /// Makes it in the current world, in which the player must be.
+  /// Makes the Object in the current world. `player` must be in that world.
   explicit PlayerObject(Player& player) : m_player(player.getId()), m_color(player.getColor()) {
     for (const EventType& type : {STEP_EVENT, KEYBOARD_EVENT, MSE_EVENT, LEAVE_EVENT}) {
       this->registerInterest(type);
@@ -37,7 +37,7 @@ class PlayerObject : public Base {
     player.setObject(this);
   }
 
-  /// Returns the player that steers it; null from the tick in which they leave.
+  /// Returns the player that steers the Object; null from the tick in which they leave.
   Player* getPlayer() const { return WM.getPlayer(m_player); }
   /// Returns the player's colour.
   Color getColor() const { return m_color; }
@@ -90,6 +90,7 @@ class JoinSpawner : public Object {
     return 1;
   }
 };
+/// The name of JoinSpawner in earlier versions.
 template <class Its>
 using Welcome [[deprecated("say JoinSpawner")]] = JoinSpawner<Its>;
 

@@ -9,7 +9,7 @@
 
 namespace df {
 
-/// Attributes beyond a ViewObject's.
+/// Attributes that a TextBox has beyond those of a ViewObject, as bits.
 enum class TextBoxAttribute : unsigned int {
   TEXT = 1 << (ViewObjectAttributeMax + 0),
   APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
@@ -22,7 +22,7 @@ class TextBox : public ViewObject {
   /// Makes an empty box, 30 by 5 characters, with padding and word wrap.
   TextBox();
 
-  /// Text. addText() appends to it.
+  /// setText() replaces the text, addText() appends to it.
   void setText(std::string new_text) { m_text = std::move(new_text); }
   void addText(const std::string& new_text) { m_text += new_text; }
   const std::string& getText() const { return m_text; }
@@ -37,9 +37,9 @@ class TextBox : public ViewObject {
   void setWordWrap(bool new_word_wrap) { m_word_wrap = new_word_wrap; }
   bool getWordWrap() const { return m_word_wrap; }
 
-  /// Draws the box around its place, and in it the last lines.
+  /// Draws the box around its position, with the last lines of the text.
   DF_DRAW draw() override;
-  /// Returns all lines of the text, broken as they are shown.
+  /// Returns all lines of the text, broken as draw() shows them.
   std::vector<std::string> lines() const;
 
  private:

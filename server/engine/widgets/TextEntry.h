@@ -1,7 +1,7 @@
 // A line of text that the player types; RETURN calls callback().
 //
-// An entry made while a player's join, key or mouse is handled is that player's: it takes only their keys.
-// Any other takes all players' keys, unless setPlayer() names one.
+// An entry that is made while a player's join, key or mouse is handled belongs to that player: it takes only
+// their keys. Other entries take all players' keys, unless setPlayer() names a player.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace df {
 
-/// The attributes that a TextEntry adds to a ViewObject's, as bits.
+/// Attributes that a TextEntry has beyond those of a ViewObject, as bits.
 enum class TextEntryAttribute : unsigned int {
   TEXT = 1 << (ViewObjectAttributeMax + 0),
   APPEARANCE = 1 << (ViewObjectAttributeMax + 1),
@@ -31,32 +31,32 @@ inline constexpr int TextEntryAttributeMax = ViewObjectAttributeMax + 2;
 class TextEntry : public ViewObject {
  public:
   /// Makes an empty entry for up to 30 characters (compat: 1), interested in KEYBOARD_EVENT, for the player
-  /// whose input is handled. The cursor blinks every 15 ticks (compat: 10).
+  /// whose input is being handled. The cursor shows and hides every 15 ticks (compat: 10).
   TextEntry();
 
   /// Called when the player presses RETURN.
   virtual void callback() = 0;
 
-  /// Typed characters. A longer text raises the limit.
+  /// The characters typed so far. A text longer than the limit raises the limit.
   void setText(std::string new_text);
   const std::string& getText() const { return m_text; }
   void clearText() { setText(""); }
-  /// Limit of characters that can be typed.
+  /// Maximum length of the text, in characters.
   void setLimit(int new_limit);
   int getLimit() const { return m_limit; }
-  /// Position of the next character, 0 … length of the text.
+  /// Index at which the next character is inserted, 0 to the length of the text.
   void setCursor(int new_cursor);
   int getCursor() const { return m_cursor; }
   void setCursorChar(char new_cursor_char) { m_cursor_char = new_cursor_char; }  ///< Default '_'.
   char getCursorChar() const { return m_cursor_char; }
-  /// Ticks for which the cursor shows, and then is hidden; 0: it always shows.
+  /// Number of ticks for which the cursor is shown, and then hidden; 0: always shown.
   void setBlinkRate(int new_blink_rate) { m_blink_rate = new_blink_rate; }
   int getBlinkRate() const { return m_blink_rate; }
   void setNumbersOnly(bool new_numbers_only = true) { m_numbers_only = new_numbers_only; }  ///< Digits only.
   bool numbersOnly() const { return m_numbers_only; }
 
-  /// Player whose keys it takes; 0: all players. After that player has left it takes all players' keys, so
-  /// that the game does not wait in vain.
+  /// Player whose keys the entry takes; 0: all players. When that player has left, it takes all players'
+  /// keys, so that the game does not wait in vain.
   void setPlayer(std::uint32_t new_player) { m_player = new_player; }
   std::uint32_t getPlayer() const { return m_player; }
 

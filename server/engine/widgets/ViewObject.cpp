@@ -17,7 +17,7 @@ ViewObject::ViewObject() {
   ViewObject::setLocation(TOP_CENTER);
 }
 
-// Row and column follow from the location's number, 0 to 2 each.
+// The value of the location is 3 * row + column, each 0 to 2.
 void ViewObject::setLocation(ViewObjectLocation new_location) {
   if (new_location < TOP_LEFT || new_location > BOTTOM_RIGHT) return;
   const double width = DM.getHorizontal();

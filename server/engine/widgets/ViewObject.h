@@ -1,7 +1,7 @@
-// Shows a text and a value at a fixed place of the view, such as points (book, Listing 4.175).
+// Shows a text and a value, such as points, at a fixed place of the view (book, Listing 4.175).
 //
-// Its position is in cells of the view, not of the world: it is always drawn, at this cell of every player's
-// view. It collides with nothing.
+// The position of a ViewObject is a cell of the view, not of the world: it is always drawn at this cell of
+// every player's view. It collides with nothing.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ enum ViewObjectLocation {
   BOTTOM_RIGHT,
 };
 
-/// Attributes beyond an Object's. Those after APPEARANCE are older names of it.
+/// Attributes that a ViewObject has beyond those of an Object. Names after APPEARANCE are older names of it.
 DF_ENUM ViewObjectAttribute : unsigned int{
                                   VALUE = 1 << (ObjectAttributeMax + 0),
                                   APPEARANCE = 1 << (ObjectAttributeMax + 1),
@@ -46,29 +46,29 @@ class ViewObject : public Object {
   /// the middle, with a border, the default colour and the value 0.
   ViewObject();
 
-  /// Draws " text value " around its place, with a border if set. Returns 0, else -1.
+  /// Draws the text and the value centred at its position, with the border if set. Returns 0, else -1.
   DF_DRAW draw() override;
-  /// Handles a VIEW_EVENT whose tag is the text. Returns 1 if it did, else 0.
+  /// Sets the value if the event is a VIEW_EVENT whose tag is the text. Returns 1 if it did so, else 0.
   int eventHandler(const Event* p_e) override;
 
-  /// Places it at 1/6, 1/2 or 5/6 of the view's width, on the upper rows, the middle one or the lowest ones.
+  /// Sets the position to 1/6, 1/2 or 5/6 of the view's width, in the top, middle or bottom row.
   virtual void setLocation(ViewObjectLocation new_location);
   /// Returns the location; UNDEFINED after setPosition().
   ViewObjectLocation getLocation() const { return m_location; }
-  /// Places it at a cell of the view. Returns 0, else -1.
+  /// Sets the position to a cell of the view. Returns 0, or -1 if it is out of range.
   int setPosition(Vector new_pos) override;
 
-  /// Number behind the text.
+  /// The number behind the text.
   virtual void setValue(int new_value) { m_value = new_value; }
   int getValue() const { return m_value; }
   /// Whether to show the value behind the text.
   virtual void setDrawValue(bool new_draw_value = true) { m_draw_value = new_draw_value; }
   bool getDrawValue() const { return m_draw_value; }
-  virtual void setBorder(bool new_border);  ///< Whether it is framed.
+  virtual void setBorder(bool new_border);  ///< Whether a frame is drawn.
   bool getBorder() const { return m_border; }
-  virtual void setColor(Color new_color) { m_color = new_color; }  ///< Colour of all of it.
+  virtual void setColor(Color new_color) { m_color = new_color; }  ///< Colour of text, value and border.
   Color getColor() const { return m_color; }
-  /// Text before the value, and tag of the events for it.
+  /// Text before the value. EventViews with this text as their tag set the value.
   virtual void setViewString(std::string new_view_string) { m_view_string = std::move(new_view_string); }
   const std::string& getViewString() const { return m_view_string; }
 
@@ -77,12 +77,12 @@ class ViewObject : public Object {
   using Object::serialize;
   std::string serialize(std::string attr = "") override;
   int deserialize(std::string s) override;
-  /// Always true: they are written whenever the ViewObject is.
+  /// Returns true, because these attributes are always written with the ViewObject.
   virtual bool isModified(ViewObjectAttribute /*attribute*/) const { return true; }
   std::string toString() const { return m_view_string + " " + std::to_string(m_value); }
 
  protected:
-  /// Draws any text around its place, with its border.
+  /// Draws `text` centred at this ViewObject's position, with the border if there is one.
   int drawText(const std::string& text) const;
 
  private:

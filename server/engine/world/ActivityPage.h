@@ -1,8 +1,8 @@
 // Records which handler of a world's game is running, for reports after a crash or a hang.
 //
-// Plain data of fixed size, without pointers that a reader follows. A world in a process of its own has it in
-// memory shared with its host, which reads it after that process was killed. A reader must not trust any
-// byte, because the game can write anything here.
+// The page is plain data of fixed size, without pointers that a reader follows. If a world has a process of
+// its own, the page is in memory shared with the host, which reads it after that process was killed. A reader
+// must not trust any byte, because the game can write anything to the page.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ inline std::uintptr_t classOf(const T& object) {
   return table;
 }
 
-/// The running handler. Written by the thread that ticks; any thread or process may read it.
+/// The running handler. The thread that ticks writes it; any thread or process may read it.
 struct alignas(16) Activity {
   static constexpr std::uintptr_t kNothing = 0;
   static constexpr std::uintptr_t kDraw = 1;  ///< value of event_class while draw() runs
@@ -30,7 +30,8 @@ struct alignas(16) Activity {
   std::atomic<std::uintptr_t> event_class{kNothing};
 };
 
-/// Marks a handler as running while this lives, then restores the previous one. Two loads and four stores.
+/// Marks a handler as running while this object exists, then restores the previous one. Costs two loads and
+/// four stores.
 class ActivityScope {
  public:
   ActivityScope(Activity& activity, std::uintptr_t object_class, std::uintptr_t event_class)
@@ -69,11 +70,11 @@ struct ActivityPage {
   };
 
   Activity now;
-  std::atomic<std::uint32_t> lines_written;  ///< lines so far; the next goes to this modulo kLines
+  std::atomic<std::uint32_t> lines_written;  ///< lines so far; index of the next, modulo kLines
   Name names[kNames];                        ///< hash table by id
   Line lines[kLines];
 
-  // Called by the world's thread.
+  // Call these on the thread that ticks the world.
 
   /// Stores the name of a class; does nothing if kNames classes are stored.
   void addName(std::uintptr_t id, const char* p_mangled);

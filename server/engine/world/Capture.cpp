@@ -103,7 +103,7 @@ void Capture::drawOne(ObjectKey key) {
   const auto count = static_cast<std::uint32_t>(m_view.commands.size()) - first;
   m_view.drawn[entry].count = count;
   if (!store.isCurrent(key)) return;
-  const bool frames = store.has(key.slot, WorldStore::kFrames);  // draw() may have set them
+  const bool frames = store.has(key.slot, WorldStore::kFrames);  // after draw(), which may set frames
   publishLook(entry);
   if (frames || !store.has(key.slot, WorldStore::kStaticLook)) return;
   if (m_looks.size() <= key.slot) m_looks.resize(std::size_t{key.slot} + 1);
@@ -112,7 +112,7 @@ void Capture::drawOne(ObjectKey key) {
   relative.clear();
   for (std::uint32_t i = first; i < first + count; ++i) {
     const DrawCommand& c = m_view.commands[i];
-    // Far from the Object the sum might leave the number range when the Object moves.
+    // Skips characters so far from the Object that their positions could overflow when it moves.
     if (!isNear(c.position, position)) continue;
     relative.push_back({c.position - position, c.ch, c.color});
   }
@@ -172,7 +172,8 @@ void Capture::finishView() {
   }
 }
 
-// Shifts every view and lets it follow nothing in this tick: a client would undo the shift by following.
+// Shifts every view. In this tick the views follow nothing, because a client would undo the shift by
+// following.
 void Capture::shake() {
   if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
   const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};

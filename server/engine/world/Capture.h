@@ -1,7 +1,7 @@
-// Runs the draw() of every Object in view and keeps the characters that it draws.
+// Runs the draw() of every Object in view and records the characters that they draw.
 //
-// The list of characters is always kept, because it is the picture of the tick (render()). The rest of the
-// WorldView is filled only while the world is watched.
+// The list of characters is always recorded, because it is the picture of the tick (render()). The rest of
+// the WorldView is filled only while the world is watched (WorldStore::setWatched).
 #pragma once
 
 #include <array>
@@ -29,22 +29,23 @@ class Capture {
   /// Clears the picture of the last tick.
   void clearPicture();
   /// Draws the active visible Objects whose box intersects a view, by altitude, then creation order, as these
-  /// were when the call began. Objects of type Object itself draw only sprites, shapes and frames. A static
-  /// look is drawn once and then repeated.
+  /// were when the call began. For Objects of class Object itself, draws only sprites, shapes and frames. A
+  /// static look (Object::setStaticLook) is drawn once and then repeated.
   void drawAll();
   /// Adds one character, as drawn by the Object whose draw() is running.
   void add(FixedVector position, char32_t ch, Color color);
-  /// Adds the frame that shows now, as drawn by that Object.
+  /// Adds the present frame of the Object in this slot, as drawn by it.
   void addFrame(std::uint32_t slot);
   /// Completes view() if the world is watched.
   void finishView();
 
   /// Returns the changes of the last tick. Valid until the next tick begins.
   const WorldView& view() const { return m_view; }
-  /// Returns the picture in a view with this corner: cell(position) - cell(corner), shaken if the window is.
-  /// View objects keep their cells.
+  /// Returns the picture in a view with this corner: a character is in cell(position) - cell(corner),
+  /// displaced if the window shakes. View objects keep their cells.
   Canvas render(FixedVector corner) const;
-  /// Returns the picture that this player sees, with their texts on top. Without a player, the world's view.
+  /// Returns the picture that this player sees, with their texts on top. For an unknown player, it is that of
+  /// the world's view.
   Canvas renderPlayer(std::uint32_t player) const;
 
  private:
@@ -60,7 +61,7 @@ class Capture {
   const LazyExtras& m_extras;
   const WorldState& m_state;
   WorldView m_view;
-  ObjectKey m_drawing;  // the Object whose draw() is running; generation 0: none
+  ObjectKey m_drawing;  // Object whose draw() is running; generation 0: none
   std::array<std::vector<ObjectKey>, MAX_ALTITUDE + 1> m_by_altitude;  // scratch of drawAll()
   std::vector<std::vector<DrawCommand>> m_looks;  // static looks, by slot; see WorldStore::kLookCached
 };

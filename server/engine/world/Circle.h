@@ -9,14 +9,14 @@ namespace df {
 
 class Circle {
  public:
-  /// A circle at (0,0) with radius 0.
+  /// Makes a circle at (0,0) with radius 0.
   Circle() = default;
   Circle(Vector init_center, float init_radius) : m_center(init_center), m_radius(init_radius) {}
 
   /// Centre, in cells.
   void setCenter(Vector new_center) { m_center = new_center; }
   Vector getCenter() const { return m_center; }
-  /// Radius, in cells on both axes.
+  /// Radius, in cells, equal on both axes.
   void setRadius(float new_radius) { m_radius = new_radius; }
   float getRadius() const { return m_radius; }
 

@@ -9,28 +9,30 @@
 
 namespace df {
 
-/// A moving Object and another that it may touch, in their present state in the store. Both are in the world.
+/// A moving Object and one other that it may touch, with their present state in the store. Both are in the
+/// world.
 class CollisionRule {
  public:
   CollisionRule(const WorldStore& store, WorldStore::Slot mover, WorldStore::Slot other)
       : m_store(store), m_mover(mover), m_other(other) {}
 
-  /// True if they would block each other: both are HARD, or the mover is no-soft and the other SOFT.
+  /// True if the pair blocks: both are HARD, or the mover is no-soft and the other SOFT.
   bool blocks() const {
     const Solidness own = m_store.solidness(m_mover);
     const Solidness its = m_store.solidness(m_other);
     return (own == HARD && its == HARD) || (its == SOFT && m_store.has(m_mover, WorldStore::kNoSoft));
   }
-  /// Like blocks(), but false if the mover moves out of the other on this path (Object::setMayMoveOut).
+  /// Like blocks(), but false if this path lets the mover move out of the other (Object::setMayMoveOut).
   bool blocks(FixedVector from, FixedVector to) const { return blocks() && !movesOut(from, to); }
-  /// Returns when they first collide on this path: by boxes or, if one of them is precise, by characters.
+  /// Returns when the pair first collides on this path: by boxes or, if either is precise, by characters.
   std::optional<Moment> firstCollision(const Sweep& sweep) const { return firstCollision(sweep, otherBox()); }
   /// Like firstCollision(sweep), given the other's box in world coordinates.
   std::optional<Moment> firstCollision(const Sweep& sweep, const FixedBox& box) const {
     if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
     return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
   }
-  /// True if they collide with the mover at `box`, where their boxes touch: a precise pair must share a cell.
+  /// True if the pair collides if the mover's box is `box`, which touches the other's: a precise pair must
+  /// share a cell.
   bool collidesIn(const FixedBox& box) const {
     return !isPrecise() || shareCell(m_store.mask(m_mover), box, m_store.mask(m_other), otherBox());
   }

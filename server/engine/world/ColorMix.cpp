@@ -24,7 +24,7 @@ void colorToRGB(Color color, unsigned char& r, unsigned char& g, unsigned char& 
   b = mix.b;
 }
 
-// Compares hues: parts above half of the strongest one count as on, so that a dim yellow is yellow.
+// Compares hues, so that a dim yellow is yellow: a part counts if it is above half of the strongest part.
 Color nearestColor(unsigned char r, unsigned char g, unsigned char b) {
   const int strongest = std::max({r, g, b});
   if (strongest == 0) return BLACK;

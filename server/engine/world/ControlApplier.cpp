@@ -10,8 +10,8 @@
 
 namespace df {
 
-/// Gives the functions shared with the client access to the Object that a player steers. One that is gone or
-/// inactive is not moved.
+/// Gives the functions that the client also uses (Steering.h) access to the Object that a player steers. An
+/// Object that is deleted or inactive is not moved.
 class ControlApplier::SteeringTarget : public naiad::SteeringTarget {
  public:
   SteeringTarget(Mover& mover, Player& player) : m_mover(mover), m_object(player.m_object) {
@@ -50,7 +50,7 @@ void ControlApplier::beginTick(Mover& mover) {
 }
 
 bool ControlApplier::handleKey(Mover& mover, Player& player, Keyboard::Key key, EventKeyboardAction action) {
-  // A reference of our own, because a handler that the move calls may declare other controls.
+  // Holds a reference to the table, because a handler that the move calls may declare other controls.
   const std::shared_ptr<const ControlTable> p_controls = player.m_p_controls;
   if (p_controls == nullptr) return false;
   SteeringTarget steered(mover, player);

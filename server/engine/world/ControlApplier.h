@@ -10,9 +10,9 @@ class Mover;
 
 class ControlApplier {
  public:
-  /// Starts the tick for all players with controls, between the step event and the first input.
+  /// Starts a tick of all players with controls. Call between the step event and the first input.
   static void beginTick(Mover& mover);
-  /// Applies one key, just before its event. Returns whether the player's table handled it.
+  /// Applies one key. Call just before its event is sent. Returns true if the player's table handled the key.
   static bool handleKey(Mover& mover, Player& player, Keyboard::Key key, EventKeyboardAction action);
 
  private:

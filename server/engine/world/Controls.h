@@ -1,17 +1,18 @@
 // Declares how a player's keys move their Object: Player::setControls().
 //
-// A game that moves its Object in the handler of EventKeyboard shows a key's effect only after a round trip.
-// With declared controls the client shows it in the next frame: it has the table, moves its copy at once, and
-// corrects it by the server's result.
+// If a game moves an Object in its handler of EventKeyboard, the player sees a key's effect only after a
+// round trip. With declared controls, they see it in the next frame: the client has the table, moves its copy
+// of the Object at once, and corrects the copy by the server's result.
 //
 //   player.setControls(Controls()
 //                          .onKey(Keyboard::UPARROW).step(0, -1).every(3)
 //                          .onKey(Keyboard::DOWNARROW).step(0, 1).every(3)
 //                          .within(Box(Vector(1, 1), 70, 20)));
 //
-// The engine applies the table just before it sends the key's EventKeyboard, whose isHandled() then says
-// whether it did. It moves the Object as the game would, with WM.moveObject() and setVelocity(), including
-// collisions and out events. At most 32 rows; a bad number (not finite, out of range) makes a table invalid.
+// The engine applies the table just before it sends the key's EventKeyboard, whose isHandled() then tells
+// whether the table handled the key. It moves the Object as the game would, with WM.moveObject() and
+// setVelocity(), including collisions and out events. At most 32 rows. A number that is not finite or out of
+// range makes a table invalid.
 #pragma once
 
 #include <optional>
@@ -26,30 +27,30 @@ class Controls {
  public:
   /// Selects the key and the action for which the next calls add effects.
   Controls& onKey(Keyboard::Key key, EventKeyboardAction action = KEY_PRESSED);
-  /// Moves the Object once by (dx,dy) with WM.moveObject(). Up to 1024 cells on each axis.
+  /// Moves the Object once by (dx,dy), up to 1024 cells on each axis, with WM.moveObject().
   Controls& step(double dx, double dy);
-  /// Sets the velocity, in cells per tick. It stays until it is changed.
+  /// Sets the Object's velocity, in cells per tick. It stays until something changes it.
   Controls& velocity(double vx, double vy);
-  /// Like velocity(), for one axis; the other keeps its velocity.
+  /// Like velocity(), for one axis; the velocity on the other axis does not change.
   Controls& velocityX(double vx);
   Controls& velocityY(double vy);
-  /// Sets this velocity on the axes that are not 0 while the key is down, whatever the action in onKey().
-  /// Among keys for one axis the last one pressed wins. When it goes up, the axis stops with the next tick.
-  /// The engine sets the velocity of a driven axis in every tick, so nothing else should.
+  /// While the key is down, whatever the action in onKey(), sets the velocity on those axes on which (vx,vy)
+  /// is not 0. If several keys drive one axis, the last one pressed wins. When a key goes up, the axis stops
+  /// with the next tick. The engine sets the velocity of a driven axis in every tick, so nothing else should.
   Controls& drive(double vx, double vy);
-  /// Lets the last step or velocity, together with all others of its `group` (0 to 7), act at most once in
-  /// this many ticks (up to 9000).
+  /// Limits the step or velocity added last: all steps and velocities of one `group` (0 to 7) together act at
+  /// most once in `ticks` ticks (up to 9000).
   Controls& every(int ticks, int group = 0);
 
   // Settings of the whole table.
 
-  /// Keeps the Object's position inside this box, edges included: a step that would leave it does not happen,
-  /// and a velocity that would is set to 0 on that axis.
+  /// Keeps the Object's position inside this box, edges included. A step that would leave the box does not
+  /// happen; a velocity that would leave it is set to 0 on that axis.
   Controls& within(const Box& box);
-  /// Stops a driven axis at the next whole cell instead of at once, so that a tap is a step.
+  /// Stops a driven axis at the next whole cell instead of at once, so that a short press is one step.
   Controls& toWholeCells();
-  /// Releases drives when the player has sent no key for this many ticks (up to 9000; 0: never), for
-  /// terminals that may miss a key going up.
+  /// Ends drives when the player has sent no key for this many ticks (up to 9000; 0: never), for terminals
+  /// that may not report that a key went up.
   Controls& releaseAfter(int ticks);
   [[deprecated("say releaseAfter")]] Controls& patience(int ticks) { return releaseAfter(ticks); }
 

@@ -1,8 +1,8 @@
 // Delays the freeing of deleted Objects' memory.
 //
-// Games written for the published engine keep calling Objects that they have deleted. That mostly works there
-// for a while, because the memory is not reused yet. So a world with `compat` keeps it for some more
-// deletions: getters of such an Object return its old values or those now in its slot, and a handler called
+// Some games written for the published engine call Objects that they have deleted. That mostly works there,
+// because the memory is not reused at once. So a world with `compat` keeps the memory for some more
+// deletions: getters of a deleted Object return its old values or those now in its slot, and a handler called
 // on it does nothing.
 #pragma once
 
@@ -13,14 +13,15 @@
 
 namespace df {
 
-/// Memory blocks from Object's operator new in which no Object has been constructed yet. Object's constructor
-/// looks for its address here, to learn whether it was made with `new`. `new A(new B)` has several at a time.
+/// The memory blocks from Object's operator new in which no Object has been constructed yet. Object's
+/// constructor searches for its address here, to learn whether it was made with `new`. There may be several,
+/// as in `new A(new B)`.
 class PendingBlocks {
  public:
   void push(const void* p, std::size_t size) {
     if (m_count < m_blocks.size()) m_blocks[m_count++] = {static_cast<const std::byte*>(p), size};
   }
-  /// Removes the newest block that contains this address. False if not found.
+  /// Removes the newest block that contains this address. Returns false if none does.
   bool claim(const void* p) {
     const auto* address = static_cast<const std::byte*>(p);
     for (std::size_t i = m_count; i-- > 0;) {
@@ -28,7 +29,7 @@ class PendingBlocks {
     }
     return false;
   }
-  /// Removes the block that begins here, because a constructor threw before Object's ran.
+  /// Removes the block that begins at `p`. Call if a constructor threw before Object's constructor ran.
   void cancel(const void* p) {
     for (std::size_t i = m_count; i-- > 0;) {
       if (m_blocks[i].begin == p) erase(i);
@@ -52,7 +53,7 @@ class PendingBlocks {
 
 class DelayedFree {
  public:
-  /// Number of freed blocks that are kept.
+  /// Maximum number of freed blocks that are kept.
   static constexpr std::size_t kMaxKept = 4096;
 
   DelayedFree() = default;
@@ -62,7 +63,7 @@ class DelayedFree {
     for (std::size_t i = 0; i < m_count; ++i) ::operator delete(m_blocks[i].p, m_blocks[i].align);
   }
 
-  /// Keeps this block, and frees the oldest one if kMaxKept are kept already.
+  /// Keeps this block. If kMaxKept blocks are kept already, frees the oldest one.
   void free(void* p, std::align_val_t align) noexcept {
     if (m_count < kMaxKept) {
       m_blocks[m_count++] = {p, align};

@@ -6,8 +6,8 @@
 
 namespace df {
 
-/// Like DM.drawCh(). A char beyond ASCII is only part of an encoded character and becomes '?'; CUSTOM means
-/// the default colour. Returns 0, or -1 for a position or colour out of range.
+/// Like DM.drawCh(). A char beyond ASCII is only part of a UTF-8 character and becomes '?'. CUSTOM means the
+/// default colour. Returns 0, or -1 for a position or colour out of range.
 int drawCharacter(Vector world_pos, char ch, Color color);
 
 }  // namespace df

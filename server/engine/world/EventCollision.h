@@ -1,9 +1,10 @@
 // Sent to both Objects when a solid one moves onto another solid one (book, Listing 4.105).
 //
-// The mover gets it first, then the other; no interest needs to be registered. If the first handler deletes
-// either Object by hand, the second one is not called, so the pointers are valid in every handler.
+// The mover gets the event first, then the other Object. No interest needs to be registered. If the first
+// handler deletes either Object with `delete`, the second handler is not called, so both pointers are valid
+// in every handler.
 //
-// Bodies (physics) get it once when a contact begins, after all of them have moved.
+// Bodies (physics) get the event once when a contact begins, after all bodies have moved.
 #pragma once
 
 #include "Event.h"
@@ -17,10 +18,10 @@ inline const EventType COLLISION_EVENT("df-collision");
 
 class EventCollision : public Event {
  public:
-  /// A collision at (0,0) without Objects.
+  /// Makes a collision at (0,0) without Objects.
   EventCollision() : EventCollision(nullptr, nullptr, Vector()) {}
-  /// A collision that `p_o1` caused by moving onto `p_o2`; `p` is the position that p_o1 wanted to move to
-  /// (swept: just before the contact).
+  /// Makes a collision that `p_o1` caused by moving onto `p_o2`. `p` is the target of the move (swept: p_o1's
+  /// position just before the contact).
   EventCollision(Object* p_o1, Object* p_o2, Vector p)
       : Event(&COLLISION_EVENT), m_pos(p), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
@@ -34,8 +35,8 @@ class EventCollision : public Event {
   /// contact.
   void setPosition(Vector new_pos) { m_pos = new_pos; }
   Vector getPosition() const { return m_pos; }
-  /// Strength of the impact of bodies: mass · cell widths per tick, along the line of the impact. 0 for all
-  /// other Objects, and if one of the two is SOFT and so does not push.
+  /// Strength of the impact of bodies: mass · cell widths per tick, along the line of the impact. 0 if either
+  /// Object is not a body, or is SOFT and so does not push.
   void setImpulse(double new_impulse) { m_impulse = new_impulse; }
   double getImpulse() const { return m_impulse; }
 

@@ -29,7 +29,7 @@ int EventDispatch::onEvent(const Event* p_event) {
   if (&type == &UNDEFINED_EVENT)
     m_log.writeOnce("WM.onEvent() of a " + classNameOf(typeid(*p_event)) +
                     " without a type: setType() was forgotten");
-  // Joins and leaves are sent even during a pause: they count when the game continues.
+  // Joins and leaves are sent even during a pause, because the game needs them when it continues.
   return send(*p_event, m_state.paused && type != JOIN_EVENT && type != LEAVE_EVENT);
 }
 
@@ -68,7 +68,7 @@ void EventDispatch::classifyNewObjects() {
 
 void EventDispatch::classifyObject(std::uint32_t slot) {
   const Object& object = *m_store.object(slot);
-  if (m_p_page != nullptr) nameClass(slot);
+  if (m_p_page != nullptr) addClassName(slot);
   m_store.set(slot, WorldStore::kClassified, true);
   m_store.set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
   const bool deaf = object.hasNoEventHandler();
@@ -87,19 +87,20 @@ void EventDispatch::setPage(ActivityPage* p_page) {
   if (p_page == nullptr) return;
   const WorldStore::Walk walk(m_store);
   for (std::size_t i = 0; i < walk.size(); ++i) {
-    if (walk[i] != WorldStore::kNoSlot && m_store.has(walk[i], WorldStore::kClassified)) nameClass(walk[i]);
+    if (walk[i] != WorldStore::kNoSlot && m_store.has(walk[i], WorldStore::kClassified))
+      addClassName(walk[i]);
   }
-  // Events that are sent without onEvent().
-  nameEvent(EventCollision());
-  nameEvent(EventOut());
+  // The engine sends them without onEvent(), so their names are added here.
+  addEventName(EventCollision());
+  addEventName(EventOut());
 }
 
-void EventDispatch::nameClass(std::uint32_t slot) {
+void EventDispatch::addClassName(std::uint32_t slot) {
   const Object& object = *m_store.object(slot);
   m_p_page->addName(classOf(object), typeid(object).name());
 }
 
-void EventDispatch::nameEvent(const Event& event) {
+void EventDispatch::addEventName(const Event& event) {
   m_named_event = classOf(event);
   m_p_page->addName(m_named_event, typeid(event).name());
 }

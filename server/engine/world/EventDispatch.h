@@ -22,7 +22,7 @@ struct WorldState;
 
 class EventDispatch {
  public:
-  /// `shut_down` is called after each handler while a shutdown is pending. The others must outlive this.
+  /// `shut_down` is called after each handler while a shutdown is pending. Other arguments must outlive this.
   EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
                 std::function<void()> shut_down);
 
@@ -33,8 +33,8 @@ class EventDispatch {
   int onEvent(const Event* p_event);
   /// Like onEvent(), but to all Objects even while the world is paused.
   int sendToAll(const Event& event) { return send(event, false); }
-  /// Sends the event to one Object, if it is alive and active. If its handler throws, the Object is made
-  /// inactive, marked for deletion and logged. Returns whether it was sent.
+  /// Sends the event to one Object, if that is in the world and active. If its handler throws, the Object is
+  /// made inactive, marked for deletion and logged. Returns true if the event was sent.
   bool deliver(ObjectKey key, const Event& event);
   /// Runs the eventHandler() of an Object in the world; see deliver().
   [[gnu::always_inline]] void runHandler(ObjectKey key, Object& object, const Event& event) {
@@ -50,8 +50,9 @@ class EventDispatch {
     --m_handlers;
     if (m_shutdown_pending) m_shut_down();
   }
-  /// Sends a collision to the mover, then to the other, except to an Object that is gone, inactive or without
-  /// a handler. Both must be in the world. Returns whether the mover still is in the world.
+  /// Sends a collision to the mover, then to the other Object, but not to one that is inactive or has no
+  /// handler. Stops if the first handler removes either. Both must be in the world. True if the mover still
+  /// is.
   [[gnu::always_inline]] bool sendToBoth(ObjectKey mover, ObjectKey other, const EventCollision& event) {
     const WorldStore& store = m_store;
     if (store.handlesEvents(mover.slot)) {
@@ -70,7 +71,7 @@ class EventDispatch {
   /// Makes an Object whose handler threw inactive, marks it for deletion, and logs why.
   void quarantine(ObjectKey key, const std::string& why);
 
-  /// Makes a shutdown pending.
+  /// Makes a shutdown pending, until popShutDown().
   void deferShutDown() { m_shutdown_pending = true; }
   /// Returns whether a shutdown was pending, and cancels it.
   bool popShutDown() { return std::exchange(m_shutdown_pending, false); }
@@ -79,32 +80,32 @@ class EventDispatch {
   void classifyNewObjects();
   void classifyObject(std::uint32_t slot);
 
-  /// Records further events and handlers on this page (ActivityPage.h). Not owned; null for none.
+  /// Makes the dispatch record events and handlers on this page (ActivityPage.h). Not owned; null for none.
   void setPage(ActivityPage* p_page);
   /// Returns the record of the running handler, with or without a page.
   Activity& activity() { return *m_p_activity; }
-  /// Names the event's class on the page. Call it before the event is sent.
+  /// Adds the name of the event's class to the page. Call before the event is sent.
   void nameClassOf(const Event& event) {
-    if (m_p_page != nullptr && classOf(event) != m_named_event) nameEvent(event);
+    if (m_p_page != nullptr && classOf(event) != m_named_event) addEventName(event);
   }
 
  private:
   int send(const Event& event, bool is_paused);
-  void nameClass(std::uint32_t slot);
-  void nameEvent(const Event& event);
+  void addClassName(std::uint32_t slot);
+  void addEventName(const Event& event);
 
   WorldStore& m_store;
   ObjectRegistry& m_objects;
   Interests& m_interests;
   WorldLog& m_log;
   const WorldState& m_state;
-  int m_handlers = 0;  // number of running handlers, nested
+  int m_handlers = 0;  // number of running handlers: they may be nested
   bool m_shutdown_pending = false;
   std::function<void()> m_shut_down;
   Activity m_own_activity;
-  Activity* m_p_activity = &m_own_activity;  // m_own_activity, or the page's
+  Activity* m_p_activity = &m_own_activity;  // m_own_activity, or that of m_p_page
   ActivityPage* m_p_page = nullptr;          // null: no page
-  std::uintptr_t m_named_event = 0;          // class of the event that was named last
+  std::uintptr_t m_named_event = 0;          // class whose name was added last
 };
 
 }  // namespace df

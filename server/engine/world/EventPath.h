@@ -12,7 +12,7 @@ namespace df {
 /// Type of EventPath, which is sent without registration to the Object that asked for a path.
 inline const EventType PATH_EVENT("df-path");
 
-/// Result of a search.
+/// Results of a search.
 enum SearchResult {
   NOT_FOUND,
   INCOMPLETE,
@@ -22,13 +22,13 @@ enum SearchResult {
 class EventPath : public Event {
  public:
   EventPath() : Event(&PATH_EVENT) {}
-  /// An event with result FOUND and this path.
+  /// Makes an event with result FOUND and this path.
   explicit EventPath(Path path) : Event(&PATH_EVENT), m_result(FOUND), m_path(std::move(path)) {}
 
   /// Result of the search.
   void setResult(SearchResult new_result) { m_result = new_result; }
   SearchResult getResult() const { return m_result; }
-  /// Path that was found; empty if none.
+  /// The path that was found; empty if none was.
   void setPath(Path new_path) { m_path = std::move(new_path); }
   const Path& getPath() const { return m_path; }
 

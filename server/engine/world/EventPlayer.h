@@ -1,6 +1,6 @@
 // Events of players that join or leave, sent to Objects that registered interest in JOIN_EVENT or
 // LEAVE_EVENT, in the input stage of a tick. A game that registers for neither still has players: they watch,
-// and their keys are sent to it.
+// and the game gets their keys.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace df {
 
-/// Register interest in these to get an EventJoin or EventLeave for each player.
+/// Register interest in these types to get an EventJoin or EventLeave for each player.
 inline const EventType JOIN_EVENT("df-join");
 inline const EventType LEAVE_EVENT("df-leave");
 
@@ -28,7 +28,7 @@ class EventJoin : public Event {
 
 /// Sent when a player leaves: the last event in which `WM.getPlayer(getPlayer())` exists. The game has to
 /// delete the player's Object. An Object marked for deletion still gets events later in the tick, when the
-/// Player is gone: keep the id in it, not the pointer.
+/// Player is gone, so it should store the player's id, not the pointer.
 class EventLeave : public Event {
  public:
   explicit EventLeave(std::uint32_t player = 0) : m_player(player) { setType(LEAVE_EVENT); }

@@ -23,13 +23,13 @@ FreeSpaceSearch::Range FreeSpaceSearch::Range::within(const Range& other) const 
   return {std::max(first, other.first), std::min(last, other.last)};
 }
 
-// Returns the numbers of cells by which the box may move and be in the boundary.
+// Returns the offsets with which the box lies inside the boundary, on one axis.
 FreeSpaceSearch::Range FreeSpaceSearch::inside(Fixed low, Fixed size, Fixed boundary_low,
                                                Fixed boundary_size) {
   return {ceilCells(boundary_low - low), floorCells(boundary_low + boundary_size - size - low)};
 }
 
-// Returns the numbers of cells by which it may move and touch another box.
+// Returns the offsets with which the box touches another box, on one axis.
 FreeSpaceSearch::Range FreeSpaceSearch::taken(Fixed low, Fixed size, Fixed other_low, Fixed other_size) {
   return {ceilCells(other_low - size - low), floorCells(other_low + other_size - low)};
 }
@@ -40,7 +40,7 @@ std::optional<FixedVector> FreeSpaceSearch::nearest() {
   for (std::int64_t reach = kFirstReach;; reach = std::min(2 * reach, kReach)) {
     mark(xs.within({-reach, reach}), ys.within({-reach, reach}));
     const std::optional<Offset> found = nearestInTable();
-    // An offset in a corner of the square is further away than some outside it.
+    // Not if it is further than `reach`: then an offset outside the square may be nearer.
     if (found && (found->square() <= reach * reach || reach == kReach)) {
       return FixedVector{found->x * kFixedOne, found->y * kFixedOne};
     }
@@ -48,7 +48,7 @@ std::optional<FixedVector> FreeSpaceSearch::nearest() {
   }
 }
 
-// Makes the table for these offsets.
+// Makes the table of free offsets in these ranges.
 void FreeSpaceSearch::mark(const Range& xs, const Range& ys) {
   m_xs = xs;
   m_ys = ys;
@@ -85,7 +85,7 @@ void FreeSpaceSearch::markTaken(const Range& xs, const Range& ys) {
   }
 }
 
-// Returns the free offset of this row that is nearest to 0; of two the smaller.
+// Returns the free offset of this row that is nearest to 0; of two equally near ones, the smaller.
 std::optional<std::int64_t> FreeSpaceSearch::nearestInRow(std::int64_t y) const {
   const std::uint64_t* p_row = &m_free[static_cast<std::size_t>((y - m_ys.first) * m_words)];
   const std::int64_t width = m_xs.last - m_xs.first + 1;

@@ -1,7 +1,7 @@
-// Finds the nearest free position for a box: the smallest move by whole cells to where it touches no other.
+// Finds the nearest free position for a box: the smallest move by whole cells that lets it touch nothing.
 //
-// The offsets form a square, stored as a table with one bit each. Every solid Object in reach takes a
-// rectangle of them. The square doubles until the nearest free offset is nearer than any outside it.
+// The offsets form a square, a table with one bit for each. Every solid Object nearby rules out a rectangle
+// of offsets. The square doubles until the nearest free offset is nearer than any outside it.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,16 @@ class FreeSpaceSearch {
   /// Largest offset on each axis, in cells.
   static constexpr std::int64_t kReach = 1000;
 
-  /// Searches for `box`, in world coordinates, inside `boundary`.
+  /// Prepares a search for `box`, in world coordinates, inside `boundary`.
   FreeSpaceSearch(const WorldStore& store, const FixedBox& boundary, const FixedBox& box)
       : m_store(store), m_boundary(boundary), m_box(box) {}
 
-  /// The least (distance, y, x) where the box is in the boundary and touches nothing solid; nullopt for none.
+  /// Returns the least offset, by (distance, y, x), at which the box is inside the boundary and touches no
+  /// solid Object; nullopt if not found.
   std::optional<FixedVector> nearest();
 
  private:
-  // Offsets on one axis, in cells; empty if first > last.
+  // A range of offsets on one axis, in cells; empty if first > last.
   struct Range {
     std::int64_t first;
     std::int64_t last;
@@ -52,8 +53,8 @@ class FreeSpaceSearch {
   const FixedBox m_box;
   Range m_xs{0, -1};  // offsets that the table covers
   Range m_ys{0, -1};
-  std::int64_t m_words = 0;           // per row
-  std::vector<std::uint64_t> m_free;  // row by row, offset x in bit x - m_xs.first
+  std::int64_t m_words = 0;           // words per row
+  std::vector<std::uint64_t> m_free;  // free offsets, row by row; x in bit x - m_xs.first
   std::vector<WorldStore::Slot> m_near;
 };
 

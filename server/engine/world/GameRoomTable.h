@@ -1,4 +1,4 @@
-// The server's rooms as a world knows them, and the players that its game sends there (GameRooms.h).
+// The server's rooms as a world knows them, and the players that its game sends to them (GameRooms.h).
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,8 @@ struct RoomTransfer {
 
 class GameRoomTable {
  public:
-  /// Adds a room behind the others, or updates it. Ignores invalid and surplus rooms.
+  /// Adds a room at the end, or updates the room of this name. Ignores invalid rooms and rooms above the
+  /// limit.
   void update(GameRoom room) {
     if (room.name.empty() || room.name.size() > GameRoomLimits::kMaxName) return;
     if (GameRoom* p_room = find(room.name)) {
@@ -29,7 +30,8 @@ class GameRoomTable {
     }
   }
   const std::vector<GameRoom>& rooms() const { return m_rooms; }
-  /// Sends a player to a room. False if there is no such room to send to, or too many were sent in this tick.
+  /// Sends a player to a room. False for an unknown room or this world's own, or if too many were sent in
+  /// this tick.
   bool send(std::uint32_t player, const std::string& room) {
     const GameRoom* p_room = find(room);
     const bool is_full = m_sent.size() >= GameRoomLimits::kMaxSentInTick;
@@ -37,7 +39,7 @@ class GameRoomTable {
     m_sent.push_back({player, room});
     return true;
   }
-  /// Returns the players sent in the last tick. Those not taken before the next one begins are forgotten.
+  /// Returns and removes the players sent in the last tick. The beginning of the next tick removes them, too.
   std::vector<RoomTransfer> popSent() { return std::exchange(m_sent, {}); }
   const std::vector<RoomTransfer>& sent() const { return m_sent; }
   void beginTick() { m_sent.clear(); }

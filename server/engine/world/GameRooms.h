@@ -4,12 +4,12 @@
 //   for (const df::GameRoom& room : rooms.getRooms()) show(room.name, room.players);
 //   if (rooms.send(p_player->getId(), "arcade") != 0) ...  // no such room
 //
-// The server's report on a room is an input of the world, like a key press, and is repeated when it has
-// changed. The order to move a player is part of the world's output. The player leaves this world a tick or
-// two later, with an EventLeave, and joins the other as a new player. The server may refuse because the room
-// is full or the player's client is too old. It then tells the player, who stays.
+// The server's report on a room is an input of the world, like a key press; the server sends another when the
+// room has changed. The order to move a player is part of the world's output. The player leaves this world a
+// tick or two later, with an EventLeave, and joins the other room as a new player. The server may refuse
+// because the room is full or the player's client is too old. Then it tells the player, and they stay.
 //
-// Without dfserver's --room the list is empty. In tests it is empty until the test adds rooms.
+// Without dfserver's --room, the list of rooms is empty. In tests it is empty until the test adds rooms.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace df {
 /// Gives access to the rooms that the current world knows. Call it on the thread that runs the tick.
 class GameRooms : public GameRoomLimits {
  public:
-  /// Returns the rooms in the order of the server's options: players begin in the first. May be empty.
+  /// Returns the rooms in the order of the server's options; new players begin in the first. May be empty.
   const std::vector<GameRoom>& getRooms() const;
   /// Asks the server to move the player to the room. Returns 0, or −1 without effect if there is no such
   /// room, it is this world's own, the player is not in this world, or kMaxSentInTick were sent in this tick.

@@ -14,17 +14,17 @@ class Object;
 /// True if two single characters collide: |dx| <= 1 and |dy| <= 1.
 bool positionsIntersect(Vector p1, Vector p2);
 
-/// True if two boxes share a point; touching edges do.
+/// True if two boxes share a point; touching edges are enough.
 bool boxIntersectsBox(Box a, Box b);
 /// True if a position is in a box, edges included.
 bool boxContainsPosition(Box b, Vector p);
 
-/// Returns an Object's box in world coordinates, at its position. The empty box for null.
+/// Returns an Object's box in world coordinates, at its position. Returns the empty box for null.
 Box getWorldBox(const Object* p_o);
-/// Returns an Object's box in world coordinates, if it were at `where`.
+/// Like getWorldBox(p_o), but as if the Object were at `where`.
 Box getWorldBox(const Object* p_o, Vector where);
 
-/// Converts world coordinates to those of the current view (WM.getView), and back.
+/// Convert world coordinates to those of the current view (WM.getView), and back.
 Vector worldToView(Vector world_pos);
 Vector viewToWorld(Vector view_pos);
 
@@ -41,11 +41,11 @@ bool boxContainsBox(Box b1, Box b2);
 bool lineIntersectsLine(Line line1, Line line2);
 /// True if a part of the segment is in the box.
 bool lineIntersectsBox(Line line, Box b);
-/// True if they share a point (compat: not if the circle lies wholly inside the box).
+/// True if the circle and the box share a point (compat: false if the circle lies wholly inside the box).
 bool circleIntersectsBox(Circle circle, Box b);
-/// Returns the side of Object 2 on which Object 1, the mover, hit it: a vector of length 1 away from Object
-/// 2, along the axis on which their boxes overlap least. (0,0) if they do not touch, or if the middles of
-/// their boxes coincide.
+/// Returns the normal of the side of Object 2 that Object 1, the mover, hit: a vector of length 1 away from
+/// Object 2, along the axis on which their boxes overlap least. Returns (0,0) if they do not touch, or if the
+/// middles of their boxes coincide.
 Vector getNormal(const Object* p_o1, const Object* p_o2);
 /// Returns the direction of a vector in degrees, 0 to 360: 0 to the right, 90 downward.
 float vectorToAngle(Vector v);

@@ -4,9 +4,9 @@
 //   scores.add(p_player->getName(), p_player->getScore());
 //   for (const df::HighScore& best : scores.best(3)) show(best.name, best.points);
 //
-// A HighScores only names a table of the current world, so make one wherever it is needed. Stored rows are
-// there from the first tick on, not before GM.run(). Without a server, and in tests, the tables begin empty
-// and end with the world.
+// A HighScores only names a table of the current world, so make one wherever it is needed. Stored rows are in
+// the table from the first tick on, not before GM.run(). Without a server, and in tests, tables begin empty
+// and are lost with the world.
 //
 // Stored rows are inputs of the world, like key presses, and added rows are part of its output. So a round
 // that is replayed from its inputs shows the same tables.
@@ -21,17 +21,18 @@
 
 namespace df {
 
-/// Names a table. Call it on the thread that runs the tick.
+/// Gives access to a table by its name. Use it on the thread that runs the tick.
 class HighScores : public HighScoreLimits {
  public:
-  /// `table` has 1 to 32 letters, digits, '-' and '_'.
+  /// `table` is a name of 1 to 32 letters, digits, '-' and '_'.
   explicit HighScores(std::string table = "scores") : m_table(std::move(table)) {}
   const std::string& getTable() const { return m_table; }
 
-  /// Adds a row. If less is better, as for times, add it negated. Returns 0, or −1 without effect for an
-  /// invalid table name, an empty `name`, or more tables, points or rows in this tick than the limits allow.
+  /// Adds a row. If fewer points are better, as for times, negate them. Returns 0, or −1 without effect for
+  /// an invalid table name, an empty `name`, or above a limit of tables, points or rows added in this tick.
   int add(const std::string& name, std::int64_t points);
-  /// Returns the best rows, best first; of equal points, the older row first. At most kMaxRows.
+  /// Returns the `count` best rows (at most kMaxRows), best first. Of equal points, the older row comes
+  /// first.
   std::vector<HighScore> best(int count = 10) const;
 
  private:

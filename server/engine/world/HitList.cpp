@@ -18,11 +18,11 @@ namespace df {
 namespace {
 
 /// Quick bounds on when a move touches a box, in doubles and without a branch. They are a little too wide on
-/// both sides; Sweep then tests the remaining boxes exactly.
+/// both sides, so that no hit is missed; Sweep then tests exactly.
 class SweepBounds {
  public:
-  /// Times of the move at which a box is touched, also before its start and after its end. enter > leave if
-  /// it is never touched.
+  /// Times of the move at which a box is touched, also before its start and after its end. If the box is
+  /// never touched, enter > leave.
   struct Stay {
     double enter;
     double leave;
@@ -39,19 +39,19 @@ class SweepBounds {
     const Stay y = m_y.at(other.corner.y, other.size.y);
     return {std::max(x.enter, y.enter), std::min(x.leave, y.leave)};
   }
-  /// Returns a bound: no hit at or before `moment` has a later enter.
+  /// Returns an upper bound of `enter` of all boxes that are hit at or before `moment`.
   static double latest(Moment moment) { return moment.toDouble() * (1 + 1e-12); }
 
  private:
-  // Margin on either side, in units: doubles of coordinates are some thousand units off.
+  // Margin on either side, in units: coordinates in doubles have errors of some thousand units.
   static constexpr double kSlack = 1 << 16;
-  // Time per unit of an axis at rest, practically infinite.
+  // Time per unit on an axis without movement: practically infinite.
   static constexpr double kForEver = 1e100;
 
   struct Axis {
     double centre;
-    double half;      // of its size
-    double per_unit;  // time, negative if it goes back
+    double half;      // half of the size
+    double per_unit;  // time per unit; negative if the move goes backward
 
     Axis(Fixed corner, Fixed size, std::uint64_t length, bool back)
         : centre(static_cast<double>(corner) + 0.5 * static_cast<double>(size)),
@@ -71,11 +71,11 @@ class SweepBounds {
 
 /// A path cut into pieces, so that Objects along it are searched in the order of travel.
 ///
-/// It has as many steps as its longer axis has units. The position of the shorter axis after a step is
-/// rounded, so pieces are a little wider: only the sweep decides what is hit, and when.
+/// The path has as many steps as its longer axis has units. The position on the shorter axis after a step is
+/// rounded, so pieces are a little too wide. Only the sweep decides what is hit, and when.
 class SweepSegments {
  public:
-  /// The path must not be of length 0.
+  /// The length of the path must not be 0.
   explicit SweepSegments(const SweepPath& path)
       : m_horizontal(path.lengthX() >= path.lengthY()),
         m_along(axis(path, m_horizontal)),
@@ -85,7 +85,7 @@ class SweepSegments {
   /// True if the longer axis is x.
   bool isHorizontal() const { return m_horizontal; }
   std::uint64_t length() const { return m_along.length; }
-  /// Returns how far the shorter axis goes at each step.
+  /// Returns the units that the move covers on the shorter axis in each step.
   double slope() const { return m_slope; }
   /// Returns the time at which this many steps are done.
   Moment at(std::uint64_t steps) const { return {steps, m_along.length}; }
@@ -105,13 +105,14 @@ class SweepSegments {
   }
 
  private:
-  // Margin in units of two. Doubles have 53 bits, steps 64: some thousand units are lost, never this many.
+  // Margin of across(), in units of two steps. Rounding 64-bit steps to the 53 bits of a double makes errors
+  // of some thousand units, far less than this.
   static constexpr double kSlack = 1 << 20;
 
   struct Axis {
-    Fixed start;  // of the box's corner
+    Fixed start;  // the box's corner
     std::uint64_t length;
-    std::uint64_t back;  // all ones if it goes back: arithmetic in place of an unpredictable branch
+    std::uint64_t back;  // all ones if the move goes backward: avoids an unpredictable branch
 
     Fixed after(std::uint64_t steps) const {
       return static_cast<Fixed>(static_cast<std::uint64_t>(start) + ((steps ^ back) - back));
@@ -127,7 +128,8 @@ class SweepSegments {
   static double halfOf(std::uint64_t steps) {
     return static_cast<double>(static_cast<std::int64_t>(steps >> 1));
   }
-  // Returns the steps of the shorter axis at that time, plus 2 * slack, within its length.
+  // Returns the steps done on the shorter axis after `steps` on the longer one, plus 2 * slack, but at most
+  // its length.
   std::uint64_t across(std::uint64_t steps, double slack) const {
     const double half = m_slope * halfOf(steps) + slack;
     if (half <= 0) return 0;
@@ -136,22 +138,22 @@ class SweepSegments {
   }
 
   bool m_horizontal;
-  Axis m_along;   // the longer one
-  Axis m_across;  // the shorter one
+  Axis m_along;   // the longer axis
+  Axis m_across;  // the shorter axis
   double m_slope;
 };
 
-// Among many Objects a hit is near, and among few an empty piece costs little. So the first piece is short,
-// and after each empty piece the next one is longer. Lengths in cells of the level.
+// Among many Objects a hit is near; among few, an empty piece costs little. So the first piece is short, and
+// each piece after an empty one is twice as long. Unit: the largest box of the level of the grid.
 constexpr Fixed kFirstPiece = 4;
 constexpr Fixed kMaxPiece = 16;
 constexpr Fixed kMaxFlatPiece = 64;  // for a path that hardly changes its row
 constexpr double kFlat = 0.25;
 
-// Up to this many pieces are cheaper than testing all Objects, even if there are very few.
+// Up to this many pieces cost less than testing all Objects, even if there are very few Objects.
 constexpr int kFewPieces = 32;
 
-// Progress of the search in one level of the grid, and the length of its pieces.
+// Progress of the search in one level of the grid, and the length of the pieces there.
 struct Front {
   std::uint64_t reached;
   std::uint64_t stride;
@@ -205,7 +207,7 @@ class HitList::Search {
         if (fronts[i].reached < front.reached) std::swap(front, fronts[i]);
       }
       const std::uint64_t from = front.reached;
-      // Objects ahead of all fronts are hit later.
+      // All levels are searched up to `from`: other Objects are hit after the end of the list.
       if (m_list.m_end && from != begin && *m_list.m_end <= pieces.at(from)) return;
       const bool is_last = pieces.length() - from <= front.stride || !isWorthMore(number);
       front.reached = is_last ? pieces.length() : from + front.stride;
@@ -219,7 +221,7 @@ class HitList::Search {
     const bool horizontal = pieces.isHorizontal();
     const Fixed cell = horizontal ? Grid::largest(level).x : Grid::largest(level).y;
     const Fixed first = level == 0 ? kFirstPiece * cell : cell;
-    // Neighbouring pieces both contain what is within the mover's size: shorter ones would only repeat tests.
+    // Pieces overlap by the mover's size, so pieces shorter than that would only repeat tests.
     const Fixed least = horizontal ? m_path.box().size.x : m_path.box().size.y;
     const bool flat = horizontal && pieces.slope() < kFlat;
     const Fixed longest = (flat ? kMaxFlatPiece : kMaxPiece) * cell;
@@ -227,12 +229,12 @@ class HitList::Search {
             level};
   }
 
-  // A piece costs about as much as testing a few Objects, so the count of Objects limits that of pieces.
+  // A piece costs about as much as testing a few Objects, so the number of Objects limits that of pieces.
   bool isWorthMore(int number) const {
     return number < kFewPieces || number < kFewPieces + m_store.grid().size() / 4;
   }
 
-  // Returns whether there was any candidate.
+  // Returns true if there was any candidate.
   bool searchPiece(int level, const SweepPath::Piece& piece) {
     bool is_empty = true;
     const FixedVector low = piece.low - Grid::largest(level);
@@ -250,7 +252,7 @@ class HitList::Search {
     return true;
   }
 
-  // Tests the collected candidates, the nearest first, until the rest is beyond the end of the list.
+  // Tests the collected candidates, the nearest first, until the next lies beyond the end of the list.
   void lookAtNear(int level) {
     std::size_t count = std::exchange(m_count, 0);
     if (count == 1) return lookAt(m_near[0], level);
@@ -310,7 +312,7 @@ void HitList::fill(const WorldStore& store, WorldStore::Slot mover, const SweepP
     const auto earlier = a.moment <=> b.moment;
     return std::is_eq(earlier) ? a.order < b.order : std::is_lt(earlier);
   });
-  // Some were found twice, some before the end of the list was known.
+  // Removes hits that were found twice, and hits beyond the end, found before the end was known.
   const auto rest = std::unique(m_hits.begin(), m_hits.end(),
                                 [](const Hit& a, const Hit& b) { return a.order == b.order; });
   m_hits.erase(rest, m_hits.end());

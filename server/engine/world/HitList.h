@@ -1,7 +1,7 @@
 // Lists the solid Objects that a move hits on its path, in the order of (time, creation).
 //
-// The grid is queried piece by piece in the order of travel, and no further than the end of the list. The
-// levels of the grid take turns, so that none is searched far ahead of the others.
+// The path is searched piece by piece in the order of travel, and only until the list is complete. The levels
+// of the grid are searched in turn, so that no level is searched far ahead of the others.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +17,22 @@ namespace df {
 
 struct Hit {
   Moment moment;
-  std::uint64_t order;  ///< place in the world's creation order
+  std::uint64_t order;  ///< the Object's place in the creation order
   ObjectKey key;
 };
 
 class HitList {
  public:
-  /// Kinds of ends: the first time at which a pair would block, or the first hit.
+  /// Where the list ends: at the first time at which a pair would block, or at the first hit.
   enum End { kBlock, kFirst };
 
-  /// Lists what `mover`, in the world and solid, hits on `path` at `since` or later, except Objects in `met`.
+  /// Lists what `mover`, in the world and solid, hits on `path` at time `since` or later, except Objects in
+  /// `p_met`.
   void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
             Moment since = {}, const ObjectKeySet* p_met = nullptr);
 
   const std::vector<Hit>& hits() const { return m_hits; }
-  /// Returns when the list ends; nullopt if it goes to the end of the path.
+  /// Returns the time at which the list ends; nullopt if it covers the whole path.
   std::optional<Moment> end() const { return m_end; }
 
  private:

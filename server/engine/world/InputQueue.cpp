@@ -77,7 +77,7 @@ bool InputQueue::isPossible(const Input& input) const {
          input.y >= 0 && input.x < m_views.width() && input.y < m_views.height();
 }
 
-// The filter is copied, because it may replace or remove itself.
+// Calls a copy of the filter, because the filter may replace or remove itself.
 bool InputQueue::isFiltered(const Event* p_event) {
   const WorldExtras* p_extras = m_extras.find();
   if (p_extras == nullptr || p_extras->input_filter == nullptr) return false;
@@ -117,7 +117,7 @@ void InputQueue::handle(const Input& input) {
     m_events.onEvent(&event);
     return;
   }
-  if (m_views.player(input.player) == nullptr) return;  // has left, or never joined
+  if (m_views.player(input.player) == nullptr) return;  // the player has left, or never joined
   if (input.kind == kKey) sendKey(input);
   if (input.kind == kMouse) sendMouse(input);
   if (input.kind == kLeave) {
@@ -132,7 +132,7 @@ void InputQueue::sendKey(const Input& input) {
   event.setKey(input.key);
   event.setKeyboardAction(input.key_action);
   event.setPlayer(input.player);
-  // Declared controls have no effect during a pause, either.
+  // Like handlers, declared controls do not get keys during a pause.
   event.setHandled(!m_state.paused && ControlApplier::handleKey(m_mover, *m_views.player(input.player),
                                                                 input.key, input.key_action));
   if (!isFiltered(&event)) m_events.onEvent(&event);
@@ -152,7 +152,7 @@ void InputQueue::sendMouse(const Input& input) {
   if (!isFiltered(&event)) m_events.onEvent(&event);
 }
 
-// True if a box of an Object at `position` is drawn in this cell. One smaller than a cell is drawn in one.
+// True if an Object's box is drawn in this cell, on one axis. A box smaller than a cell is drawn in one cell.
 static bool coversCell(Fixed position, Fixed corner, Fixed extent, std::int32_t cell) {
   if (extent < kFixedOne) return cellOf(position + corner + extent / 2) == cell;
   return cellOf(position + corner + kFixedOne / 2) <= cell &&

@@ -1,5 +1,5 @@
-// Input of a world: what players did since the last tick, in the order it came, and the input being handled.
-// An input waits here only for the next tick: the host decides which tick that is (ReceivedInputs.h).
+// The inputs of a world since the last tick, in order of arrival, and the one being handled. An input waits
+// here only until the next tick; the host decides which tick that is (ReceivedInputs.h).
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,10 @@ struct WorldState;
 
 class InputQueue {
  public:
-  /// kScore and kRoom come from the host itself: a stored row of a score table (HighScores.h), and the state
-  /// of a room of the server (GameRooms.h). They take effect at once and send no event.
+  /// kScore (a stored row of a table, HighScores.h) and kRoom (the state of a room of the server,
+  /// GameRooms.h) come from the host itself. They take effect at once and send no event.
   enum Kind { kJoin, kLeave, kKey, kMouse, kScore, kRoom };
-  /// One input. The fields below `player` are used according to its kind.
+  /// One input. Which of the fields below `player` are used depends on the kind.
   struct Input {
     Kind kind;
     std::uint32_t player;
@@ -51,45 +51,47 @@ class InputQueue {
   InputQueue(ObjectRegistry& objects, Views& views, EventDispatch& events, Mover& mover, LazyExtras& extras,
              const WorldState& state);
 
-  // Functions for hosts. An input is handled in the next tick.
+  // Functions for hosts. Inputs are handled in the next tick.
 
-  /// Lets a player join. Returns the new id at once; the Player and its EventJoin come in the next tick. Ids
-  /// count up from 1 and are not reused; those below `id` are skipped.
+  /// Lets a player join. Returns the new id at once; the next tick makes the Player and sends the EventJoin.
+  /// Ids count up from 1 and are not reused; those below `id` are skipped.
   std::uint32_t join(const std::string& name, Color color, std::uint32_t id = 0);
-  /// Lets a player leave in the next tick. An unknown id is ignored then.
+  /// Lets a player leave in the next tick, which ignores an unknown id.
   void leave(std::uint32_t player);
-  /// Adds a key. Unknown keys, actions and players are ignored. `seen`: what was on the player's screen then.
+  /// Adds a key. Ignores unknown keys, actions and players. `seen`: the picture that the player saw at that
+  /// time.
   void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen = {});
-  /// Adds a mouse action at cell (x,y) of the player's view; ignored outside it. The event's position is in
-  /// world coordinates. It is computed from the view that the player saw, if the host knows it
+  /// Adds a mouse action at cell (x,y) of the player's view; ignored outside the view. The event's position
+  /// is in world coordinates, computed from the view that the player saw, if the host knows it
   /// (setLagCompensation()), else from the view when the event is handled.
   void mouse(std::uint32_t player, EventMouseAction action, Mouse::Button button, int x, int y,
              const ViewedTick& seen = {});
-  /// Adds an input, unless no player can have sent it: unknown keys, buttons and actions, clicks outside the
-  /// view. Returns the player's id; for a join, that is the first free one not below `input.player`.
+  /// Adds an input. Ignores inputs that no player can have sent: unknown keys, buttons and actions, and mouse
+  /// actions outside the view. Returns the player's id; for a join, that is the first free id that is not
+  /// below `input.player`.
   std::uint32_t push(Input input);
-  /// Returns the highest player id used so far; 0 before the first.
+  /// Returns the highest player id so far; 0 if no player has joined.
   std::uint32_t newestPlayer() const { return m_next_player - 1; }
 
-  /// Sends the events of all waiting inputs. Inputs added during the call wait for the next one.
+  /// Sends the events of all waiting inputs. Inputs added during the call wait for the next call.
   void drain();
-  /// Removes the waiting inputs and the leavers, and resets setLagCompensated().
+  /// Removes the waiting inputs and the players for popLeavers(), and resets setLagCompensated().
   void clear();
 
-  /// Returns the player whose join, leave, key or mouse is being handled; 0 outside that.
+  /// Returns the id of the player whose join, leave, key or mouse is being handled; 0 if none is.
   std::uint32_t player() const { return m_player; }
-  /// If set, a game over while a player's input is handled does not end the game: it means that this player
-  /// wants to leave, and the host decides. clear() keeps the setting.
+  /// If set, a game over while a player's input is being handled does not end the game, but only means that
+  /// this player wants to leave (popLeavers()). clear() keeps the setting.
   void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
-  /// Handles a game over. True if it only means that the player whose input is handled wants to leave.
+  /// Handles a game over. True if it only means that the player whose input is being handled wants to leave.
   bool handleGameOver();
-  /// Returns the players that wanted to leave since the last call.
+  /// Returns the players that wanted to leave since the last call (setGameOverLeaves()).
   std::vector<std::uint32_t> popLeavers() { return std::exchange(m_leavers, {}); }
 
-  /// Whether the game uses lag compensation. If so, the host should provide it; else it needs no history.
+  /// Whether the game uses lag compensation. If it does not, the host need not record what players saw.
   void setLagCompensated(bool lag_compensated) { m_lag_compensated = lag_compensated; }
   bool isLagCompensated() const { return m_lag_compensated; }
-  /// Sets the source of what players saw. Not owned; null for none.
+  /// Sets the host's record of what players saw. Not owned; null for none.
   void setLagCompensation(const LagCompensation* p_lag_compensation) {
     m_p_lag_compensation = p_lag_compensation;
   }
@@ -111,8 +113,8 @@ class InputQueue {
   const WorldState& m_state;
   std::vector<Input> m_inputs;
   std::uint32_t m_next_player = 1;
-  std::uint32_t m_player = 0;  // the one whose input is being handled; 0: none
-  ViewedTick m_seen;           // what that player saw
+  std::uint32_t m_player = 0;  // player whose input is being handled; 0: none
+  ViewedTick m_seen;           // the picture that this player saw
   const LagCompensation* m_p_lag_compensation = nullptr;
   std::vector<std::uint32_t> m_leavers;
   bool m_game_over_leaves = false;

@@ -33,7 +33,7 @@ int Interests::remove(ObjectKey key, ObjectProfile& profile, const std::string& 
   return 0;
 }
 
-// The entries need no search: the Object's generation ends, so they name no Object.
+// Leaves the entries in the tables: the Object's generation ends, so their keys find no Object.
 void Interests::removeAll(ObjectProfile& profile) {
   for (std::uint32_t number : profile.interests) ++m_tables[number].gone;
   profile.interests.clear();

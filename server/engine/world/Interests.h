@@ -1,4 +1,4 @@
-// The registered interests: for each type of event, the Objects in the order they registered.
+// The registered interests: for each type of event, the Objects in the order in which they registered.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ class Interests {
   void removeAll(ObjectProfile& profile);
 
   /// Calls visit(key) for the Objects that were registered for the type when the call began, in that order.
-  /// Objects may register and leave during the call; the key of one that left names no Object.
+  /// Objects may register and leave during the call. The key of one that has left finds no Object.
   template <class Visit>
   void visit(const std::string& type, Visit visit) {
     const auto it = m_numbers.find(type);
@@ -44,14 +44,14 @@ class Interests {
   struct Table {
     std::vector<ObjectKey> entries;
     std::size_t gone = 0;  // entries of Objects that unregistered or left
-    int walks = 0;         // in progress, during which no entry moves
+    int walks = 0;         // visits in progress, during which no entry moves
   };
 
   void compact(Table& table);
 
   const WorldStore& m_store;
   std::unordered_map<std::string, std::uint32_t> m_numbers;
-  std::deque<Table> m_tables;  // by number; a deque, because handlers may add tables during a walk
+  std::deque<Table> m_tables;  // by number; a deque, because handlers may add tables during visit()
 };
 
 }  // namespace df

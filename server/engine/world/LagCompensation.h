@@ -1,8 +1,8 @@
-// The interface through which a host says what was on a player's screen when the player acted.
+// The interface by which a host provides what was on a player's screen when the player acted.
 //
-// Between a click and the tick that handles it, the Object that was clicked has moved. A host that knows
-// which snapshots each client has received can say where an Object was drawn. Without one, the present
-// positions count.
+// Between a click and the tick that handles it, the clicked Object moves on. A host that knows which
+// snapshots each client has received can compute where an Object was drawn. Without such a host, the present
+// positions are used.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace df {
 
-/// Identifies the picture on a player's screen.
+/// Identifies the picture that was on a player's screen.
 struct ViewedTick {
   bool known = false;       ///< false: the other fields mean nothing
   std::uint32_t base = 0;   ///< the newest tick of which the client had a snapshot
@@ -23,10 +23,10 @@ struct ViewedTick {
 class LagCompensation {
  public:
   virtual ~LagCompensation() = default;
-  /// Returns where the Object was drawn in that picture; nullopt if it was not in it.
+  /// Returns the position at which the Object was drawn in that picture; nullopt if it was not drawn.
   virtual std::optional<FixedVector> positionOf(ObjectKey object, const ViewedTick& seen) const = 0;
   /// Returns the upper left corner of the player's view in that picture, in world coordinates; nullopt if it
-  /// is unknown, and then the present corner counts.
+  /// is unknown, so that the present corner is used.
   virtual std::optional<FixedVector> viewCornerOf(std::uint32_t player, const ViewedTick& seen) const = 0;
 };
 

@@ -1,7 +1,7 @@
-// The interface through which parts beyond the book, such as physics, take part in a world's update().
+// The interface by which extensions of the engine, such as physics, take part in a world's update().
 //
-// A world without layers spends nothing on them. A layer moves Objects that have the store's flag kBody; the
-// book's moves skip these.
+// A world without layers has no cost for them. A layer moves the Objects that have the store's flag kBody;
+// the moves of the book's engine skip these.
 #pragma once
 
 namespace df {
@@ -12,7 +12,7 @@ class Layer {
  public:
   virtual ~Layer() = default;
   /// Called once in each update(), after all Objects have moved and before the marked ones are deleted.
-  /// Handlers called from here may do what collision handlers may.
+  /// Handlers that step() calls may do what collision handlers may do.
   virtual void step(World& world) = 0;
 };
 

@@ -9,18 +9,18 @@ namespace df {
 
 class Line {
  public:
-  /// A line from (0,0) to (0,0).
+  /// Makes a line from (0,0) to (0,0).
   Line() = default;
   Line(Vector init_p1, Vector init_p2) : m_p1(init_p1), m_p2(init_p2) {}
 
-  /// End points, in cells.
+  /// The end points, in cells.
   void setP1(Vector new_p1) { m_p1 = new_p1; }
   Vector getP1() const { return m_p1; }
   void setP2(Vector new_p2) { m_p2 = new_p2; }
   Vector getP2() const { return m_p2; }
 
-  /// Draws the line in the cells that it passes, with -, |, / or \ by its slope. A line longer than 1000
-  /// cells is not drawn.
+  /// Draws the line in the cells that it passes, with the character -, |, / or \ that fits its slope. A line
+  /// longer than 1000 cells is not drawn.
   void draw() const;
   /// Returns "(x,y)-(x,y)".
   std::string toString() const { return m_p1.toString() + "-" + m_p2.toString(); }

@@ -17,12 +17,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kRetry{1};  ///< interval after a failed open
+constexpr std::chrono::seconds kRetry{1};  ///< time before another attempt to open a file
 
 constinit std::atomic<bool> g_kept = false;
 
-/// Opens without waiting: a pipe whose other end is not read, or missing, must not hold up the game. Such a
-/// pipe takes no lines. Null if the file cannot be opened.
+/// Opens a file without waiting, because a pipe that nothing reads must not stop the game; lines for such a
+/// pipe are lost. Returns null if the file cannot be opened.
 std::FILE* openToWrite(const std::string& filename, int how) {
   constexpr int kAlways = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
   const int file = ::open(filename.c_str(), kAlways | how, 0640);
@@ -39,7 +39,7 @@ struct OpenFile {
 
 }  // namespace
 
-// Each line goes to the end of the file as it is then, because other processes may append to it too.
+// Opens the file with O_APPEND, because other processes may append to it, too.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush) {
   static std::mutex* p_mutex = new std::mutex;  // never destroyed, like the default world
   static auto* p_files = new std::map<std::string, OpenFile>;

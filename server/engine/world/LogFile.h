@@ -5,16 +5,16 @@
 
 namespace df {
 
-/// Appends a line to the file, which is created with mode 0640; the first call for a name empties it. Never
-/// waits: if the file cannot be opened, the disk is full or a pipe is not read, the line is dropped, and
-/// later lines are tried again. Other processes may append to the file too. Any thread.
+/// Appends a line to the file. The first call for a name empties the file, or creates it with mode 0640.
+/// Never waits: drops the line if the file cannot be opened, the disk is full or a pipe is not read; later
+/// lines are tried again. Other processes may append to the file, too. Any thread may call it.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
 /// Makes writeToLogFile() empty no files, because another process of this game writes to them. Any thread.
 void disableLogTruncation();
 
-/// Appends a line to another file, which this process's first line empties. Returns false on failure. Any
-/// thread.
+/// Appends a line to a file of the game's own; the process's first line empties the file. Returns false on
+/// failure. Call on any thread.
 bool writeToFile(const std::string& filename, const std::string& line);
 
 }  // namespace df

@@ -19,8 +19,8 @@ namespace df {
 
 namespace {
 
-// The published engine compares in floats: a box that touches the boundary to within a float's precision is
-// still inside, whatever the exact sums say.
+// The published engine compares floats, so a box that touches the boundary to within a float's precision is
+// inside, even if exactly it is not.
 [[gnu::noinline]] bool touchesAsFloats(const FixedBox& a, const FixedBox& b) {
   const auto overlap = [](Fixed a_begin, Fixed a_size, Fixed b_begin, Fixed b_size) {
     const auto begin_a = static_cast<float>(toCells(a_begin));
@@ -60,7 +60,7 @@ SweptMove::End SweptMove::run(EventDispatch& events, WorldStore& store, ObjectKe
   return End::kTarget;
 }
 
-// A handler may begin moves of its own, but those have lists of their own.
+// Handlers may begin other moves, which use other lists.
 SweptMove::Verdict SweptMove::sendHits(EventDispatch& events, const WorldStore& store, ObjectKey mover,
                                        const SweepPath& path) {
   Verdict verdict{Outcome::kFree, {}};
@@ -109,8 +109,8 @@ void Mover::moveAll() {
   }
 }
 
-// Moves all walkers up to the next turn of another kind, or up to a walker that touches another, whose turn
-// it finishes too. Returns the bit after that of the last one.
+// Moves all walkers up to the next turn of another kind, or up to a walker that would touch an Object or
+// leave the world; finishes the turn of that walker, too. Returns the bit after the last turn.
 int Mover::moveWalkers(std::size_t word, std::uint64_t turns) {
   WorldStore& store = m_store;
   const std::uint64_t others = turns & ~store.updateMasks().walkers[word];
@@ -136,7 +136,7 @@ int Mover::moveWalkers(std::size_t word, std::uint64_t turns) {
   return bit + 1;
 }
 
-// Finishes a walker's turn, given what it touches at its target.
+// Finishes a walker's turn, given the Objects that it touches at its target.
 void Mover::finishWalk(ObjectKey key, std::vector<ObjectKey>& others) {
   WorldStore& store = m_store;
   const FixedVector velocity = store.velocity(key.slot);
@@ -183,7 +183,7 @@ void Mover::finishUpdate(ObjectKey key, FixedVector velocity, bool blocked) {
   WorldStore& store = m_store;
   const WorldStore::Slot s = key.slot;
   FixedVector next = store.velocity(s);
-  // Whether a velocity that a handler has just set is blocked is not known yet.
+  // A handler has set another velocity: whether that is blocked is not known yet.
   if (next != velocity) blocked = false;
   const FixedVector acceleration = store.acceleration(s);
   if (acceleration != FixedVector{} && WorldStore::isVelocity(next + acceleration)) {
@@ -222,7 +222,7 @@ int Mover::move(ObjectKey mover, FixedVector where) {
   return end == End::kTarget ? 0 : -1;
 }
 
-// Returns whether the mover may move. Only the target is tested.
+// Tests the target, not the path, and sends the collision events. Returns true if the mover may move.
 bool Mover::collideAt(ObjectKey mover, FixedVector where, std::vector<ObjectKey>& others) {
   const WorldStore& store = m_store;
   const FixedBox box = store.worldBox(mover.slot, where);

@@ -1,23 +1,23 @@
 // Moves Objects, as in the book's update() and moveObject() (Listings 4.101, 4.109, 4.111, 4.113).
 //
 // One move of a solid, active Object: the solid Objects touched at the target are listed once, in creation
-// order, before the first event. For each that is still in the world, the collision event goes to the mover,
-// then to the other. After both handlers have run, the present state of the two decides: the pair blocks if
-// both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even if an
-// earlier one blocks. Then a blocked mover stays where it is (or where a handler put it); any other mover is
-// set to the target (wherever a handler put it). Last, if that took it from inside the boundary to outside,
-// it gets an out event. Inside means its position or, in a world with compat, that its box shares a point
-// with the boundary.
+// order, before the first event. For each that is still in the world, the collision event is sent to the
+// mover, then to the other. After both handlers have run, the state that the two then have decides: the pair
+// blocks if both are HARD, or if the mover is no-soft and the other SOFT. All pairs get their events, even if
+// an earlier pair blocks. Then a blocked mover stays where it is (or where a handler put it); a mover that is
+// not blocked is set to the target (wherever a handler put it). Last, if this took the mover from inside the
+// boundary to outside, it gets an out event. Inside means that its position lies in the boundary or, in a
+// world with compat, that its box shares a point with the boundary.
 //
 // During the move, handlers may:
-//  - delete or remove the other: the other gets no more events, the pair does not block;
-//  - delete or remove the mover: the move ends at once with -1, the rest of the list gets no events;
-//  - make either inactive: it gets no more events, the move continues;
+//  - delete or remove the other Object: it gets no more events, and the pair does not block;
+//  - delete or remove the mover: the move ends at once with -1, and the remaining pairs get no events;
+//  - make either inactive: it gets no more events, but the move continues;
 //  - make either SPECTRAL: it still gets the events of the listed pairs, which then do not block;
-//  - mark for deletion, move, create, resize: the list stays as it is, the move continues.
+//  - mark, move, create or resize Objects: the list does not change, and the move continues.
 //
-// Beyond the book's move there are moves tested along the path (SweptMove), and pairs whose characters are
-// tested or that do not block (CollisionRule.h).
+// In addition to the book's moves, there are moves that are tested along their path (SweptMove), pairs whose
+// characters are compared, and pairs that do not block (CollisionRule.h).
 #pragma once
 
 #include <array>
@@ -42,28 +42,29 @@ struct WorldState;
 
 /// One move that is tested along its whole path (docs/collisions.md, "Swept").
 ///
-/// It goes in stages. Each lists what the mover hits, up to the first time at which a pair would block in the
-/// present state, sends the event to both of each pair, and then judges the pair. If no pair blocks after all
-/// (a handler has deleted the glass), the next stage searches the rest of the path, in the world as it is
-/// then. Memory is kept for the next move.
+/// The move is tested in stages. A stage lists the Objects that the mover hits, up to the first time at which
+/// a pair would block in the present state. It sends the event to both Objects of each pair, and then decides
+/// whether the pair blocks. If no pair blocks after all (a handler has deleted the glass), the next stage
+/// searches the rest of the path, in the world as it is then. Memory is reused by the next move.
 class SweptMove {
  public:
-  /// Stages after which a move is blocked, because a handler may make a new obstacle for each it deletes.
+  /// Number of stages after which a move is blocked, because handlers may make a new obstacle for each they
+  /// delete.
   static constexpr int kMaxStages = 1000;
 
-  /// End of a move: at its target, just before a contact, or where the mover is already, because a handler
-  /// put it there or it cannot move.
+  /// Where a move ends: at its target, just before a contact, or where the mover is already (kNone), because
+  /// a handler put it there or it cannot move.
   enum class End { kTarget, kContact, kNone };
-  /// Sends the events of what `mover`, in the world and solid, hits on its path to `where`. If a pair blocks
-  /// it and no handler has moved it, sets `where` to its position just before the contact. The caller places
-  /// the mover.
+  /// Sends the events of all Objects that `mover`, in the world and solid, hits on its path to `where`. If a
+  /// pair blocks and no handler has moved the mover, sets `where` to the mover's position just before the
+  /// contact. The caller places the mover.
   End run(EventDispatch& events, WorldStore& store, ObjectKey mover, FixedVector& where);
 
  private:
   enum class Outcome { kFree, kBlocked, kGone };
   struct Verdict {
     Outcome outcome;
-    Moment moment;  // when the pair blocks
+    Moment moment;  // moment at which the pair blocks
   };
 
   Verdict sendHits(EventDispatch& events, const WorldStore& store, ObjectKey mover, const SweepPath& path);
@@ -74,7 +75,7 @@ class SweptMove {
 
 class Mover {
  public:
-  /// Limit of moves nested inside handlers of moves; deeper ones are refused.
+  /// Maximum depth of moves inside handlers of moves; deeper moves are refused.
   static constexpr int kMaxDepth = 32;
 
   /// The arguments must outlive this object.
@@ -83,7 +84,8 @@ class Mover {
   Views& views() const { return m_views; }
 
   /// Moves every active Object that was in the world when the call began, in creation order: by its velocity,
-  /// then adds its acceleration to the velocity. Whether it is active is read at its turn.
+  /// then adds its acceleration to the velocity. Objects that are made inactive before their turn are not
+  /// moved.
   void moveAll();
   /// See WM.moveObject().
   int moveObject(Object* p_o, Vector where);
@@ -92,7 +94,7 @@ class Mover {
 
   // Parts of a move.
 
-  /// Sets the mover's position, moves the views that follow it, sends an out event if it leaves the world.
+  /// Sets the mover's position, moves views that follow it, and sends an out event if it leaves the world.
   void place(ObjectKey mover, FixedVector where);
 
  private:

@@ -1,4 +1,4 @@
-// A piece of music: like a Sound, but by default it repeats.
+// A piece of music: like a Sound, but it repeats by default.
 #pragma once
 
 #include "Sound.h"
@@ -20,7 +20,7 @@ class Music : private Sound {
   using Sound::setLabel;
   using Sound::silence;
   using Sound::stop;
-  /// Plays from the beginning, or from where it paused; repeats unless `loop` is false.
+  /// Plays from the beginning, or from where the music paused; repeats unless `loop` is false.
   void play(bool loop = true) { Sound::play(loop); }
 
   /// Returns a stand-in for the published engine's SFML object: calls on it do nothing.

@@ -27,8 +27,8 @@ thread_local PendingBlocks t_pending;
 
 // Returns the function that this Object's eventHandler() is, to find out whether its class overrides it. Uses
 // the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
-// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Null on other
-// platforms.
+// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Returns null on
+// other platforms.
 const void* handlerOf(const Object& object) {
 #if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
   int (Object::*const p_member)(const Event*) = &Object::eventHandler;
@@ -47,19 +47,20 @@ const void* handlerOf(const Object& object) {
 
 const void* g_p_base_handler = nullptr;
 
-// An Object begins with a cache line, which has what every event needs.
+// An Object begins on a cache line of its own, so that the members that every event uses share that line.
 constexpr std::align_val_t kLine{64};
 
-// The box of an Object without a sprite in the published engine: characters one apart do not touch.
+// The box of an Object without a sprite in the published engine. It is smaller than a cell, so Objects in
+// neighbouring cells do not touch.
 const FixedBox kCompatBox{{-kFixedOne / 2, -kFixedOne / 2}, {*toFixed(0.99), *toFixed(0.99)}};
 const FixedVector kCompatPlace{kFixedOne, kFixedOne};
 
-// Clears the memory in compat: games of the published engine rely on memory that happens to be zero there.
+// Clears the memory in compat, because games of the published engine rely on memory that happens to be zero.
 void* cleared(void* p, std::size_t size) {
   return World::current().compat() ? std::memset(p, 0, size) : p;
 }
 
-/// Returns the constant that was meant by a name without the engine's "df-"; null for all others.
+/// Returns the name of the constant that a game meant by an event name without "df-"; null for other names.
 const char* engineEventFor(std::string_view name) {
   if (name.starts_with("df-") || name.size() > 9) return nullptr;
   for (const auto& [word, constant] :
@@ -111,7 +112,7 @@ void Object::operator delete(void* p, std::align_val_t align) noexcept {
     ::operator delete(p, align);
     return;
   }
-  // Never destroyed: static Objects may delete others after the thread's own variables are gone.
+  // Never destroyed, because static Objects may delete others after the thread's own variables are gone.
   thread_local auto* t_p_freed = new (std::nothrow) DelayedFree;
   if (t_p_freed != nullptr) {
     t_p_freed->free(p, align);
@@ -130,7 +131,7 @@ Object::Object() : m_p_store(nullptr), m_slot(0), m_p_profile(nullptr) {
     m_p_store->setPosition(m_slot, kCompatPlace);
     m_p_profile->type = kUndefinedType;
   }
-  // The derived class has not been constructed yet, so this is the base handler.
+  // The derived class has not been constructed yet, so handlerOf() returns the handler of Object itself.
   if (g_p_base_handler == nullptr) g_p_base_handler = handlerOf(*this);
   m_p_store->enter(m_slot);
 }
@@ -139,8 +140,7 @@ Object::~Object() {
   if (m_p_extras != nullptr) dropExtras();
   leaveWorld();
   m_p_store->freeSlot(m_slot);
-  // Calls on the deleted Object (DelayedFree.h) must find no extras, so the compiler must not drop this
-  // store.
+  // Calls on the deleted Object (DelayedFree.h) must find no extras: the compiler must not drop this store.
   m_p_extras.reset();
   std::atomic_signal_fence(std::memory_order_seq_cst);
 }
@@ -184,7 +184,7 @@ void Object::copyAttributes(const Object& other) {
   to.setAcceleration(m_slot, from.acceleration(source));
   to.setDerived(m_slot, from.has(source, WorldStore::kDerive));
   to.setFrames(m_slot, from.frames(source));
-  // All attributes but the interests, which belong to the Object that registered them.
+  // Copies all attributes but the interests, which belong to the Object that registered them.
   const ObjectProfile& profile = *other.m_p_profile;
   m_p_profile->type = profile.type;
   m_p_profile->speed = profile.speed;
@@ -200,13 +200,13 @@ void Object::copyAttributes(const Object& other) {
   animate();
 }
 
-// Identity, place and collisions.
+// Identity, world and collisions.
 
 ObjectKey Object::key() const {
   return m_p_store->key(m_slot);
 }
 
-// Returns null for a deleted Object (DelayedFree.h): its setters must not reach the world's lists.
+// Returns null for a deleted Object (DelayedFree.h), because its setters must not reach the world's lists.
 World* Object::getWorld() const {
   return m_p_store->object(m_slot) == this ? m_p_store->world() : nullptr;
 }
@@ -414,12 +414,13 @@ Vector Object::getDirection() const {
   return m_p_profile->direction;
 }
 
-// Rounds the vector itself, not the product of length and normalised vector: so getVelocity() returns what
-// was set, at any size.
+// Rounds the vector itself, not the product of its length and direction, so that getVelocity() returns the
+// value that was set.
 int Object::setVelocity(Vector new_velocity) {
   const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
   if (!velocity) return refuse("setVelocity");
-  // Speed and direction are derived from the velocity if it stores the vector to the last bit (it has no -0).
+  // Speed and direction can be derived from the velocity if that holds the vector exactly (it cannot hold
+  // -0).
   const Vector derived = Vector::fromFixed(*velocity);
   const bool is_derived = sameBits(derived.x(), new_velocity.x()) && sameBits(derived.y(), new_velocity.y());
   m_p_store->setDerived(m_slot, is_derived);

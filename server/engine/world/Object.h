@@ -1,14 +1,14 @@
-// A thing in the world (book, Listings 4.34, 4.99, 4.104, 4.110, 4.122): games derive their own from it.
+// A thing in the world (book, Listings 4.34, 4.99, 4.104, 4.110, 4.122). Games derive classes from it.
 //
-// Constructing an Object puts it into the calling thread's current World, destroying it takes it out. It may
-// be made with `new`, or be a static or automatic variable or a member. It may be deleted by hand at any
-// time, even inside an event handler; usually `WM.markForDelete()` deletes it. The world deletes only what
-// was made with `new`.
+// Constructing an Object puts it into the calling thread's current World, destroying it removes it. It may be
+// made with `new`, or be a static or automatic variable or a member. Usually `WM.markForDelete()` deletes it,
+// but `delete` is allowed at any time, even inside an event handler. The world deletes only Objects that were
+// made with `new`.
 //
 // An Object is a handle: position, velocity, box and the like are in arrays of the world's store. Lengths are
 // in cells, velocities in cells per tick; both are kept in fixed point (Fixed.h). A setter that gets a number
-// that is not finite or out of range returns -1 and changes nothing. The world counts this
-// (WorldLog::refusals) and logs it once per type of Object.
+// that is not finite or out of range returns -1 and changes nothing. The world counts such calls
+// (WorldLog::refusals) and logs each once per type of Object.
 //
 // Call all functions on the thread that runs the world's tick.
 #pragma once
@@ -44,7 +44,7 @@
 /// Return type of five setters that classes may override: setVelocity(), setDirection(), setAcceleration(),
 /// setBox() and setAnimation(). It is void for games of the published engine, which override or hide a `void
 /// setVelocity()`. It is int, as for all setters, for games made for Naiad, which are compiled with
-/// -DDF_COMPAT=0 (dragonfly_game() does). -DDF_SETTER=int or =void overrides it. The library stays the same.
+/// -DDF_COMPAT=0 (dragonfly_game() does). -DDF_SETTER=int or =void overrides this. The library fits both.
 #if !defined(DF_SETTER)
 #if defined(DF_COMPAT) && !DF_COMPAT
 #define DF_SETTER int
@@ -65,7 +65,7 @@ struct ObjectExtras;
 
 /// Highest altitude; 0 is the lowest, drawn first.
 inline constexpr int MAX_ALTITUDE = 4;
-/// The published engine's limit, for games that name it. Here an Object may register any number of interests.
+/// The published engine's limit, for games that use the name. Naiad does not limit an Object's interests.
 inline constexpr int MAX_OBJ_EVENTS = 100;
 
 class Object {
@@ -84,17 +84,17 @@ class Object {
   virtual void setType(std::string new_type);
   const std::string& getType() const { return m_p_profile->type; }
 
-  /// Place in the world's creation order: unique in a world, never reused, ascending. It changes only when a
-  /// removed Object is inserted again, and with setId().
+  /// The Object's place in the world's creation order: unique in a world, never reused, ascending. The id
+  /// changes only when a removed Object is inserted again, and with setId().
   int getId() const;
-  /// Replaces the id by a number of the game's own. The creation order stays.
+  /// Replaces the id by a number of the game's choice. The creation order does not change.
   void setId(int new_id);
-  /// Reads as the highest id given in the current world so far. Assignments have no effect.
+  /// Converts to the highest id in the current world so far. Assignments have no effect.
   struct MaxId {
     operator int() const;
     MaxId& operator=(int /*id*/) { return *this; }
   };
-  /// The highest id given in the current world.
+  /// The highest id in the current world so far.
   inline static MaxId max_id;
 
   // Position and box.
@@ -103,22 +103,22 @@ class Object {
   /// views: see WM.moveObject(). Returns 0, else -1.
   virtual int setPosition(Vector new_pos);
   Vector getPosition() const;
-  /// Drawing order, 0 to MAX_ALTITUDE, higher ones on top. setAltitude() returns 0, else -1.
+  /// Drawing order, 0 to MAX_ALTITUDE; higher Objects are drawn on top. setAltitude() returns 0, else -1.
   virtual int setAltitude(int new_altitude);
   int getAltitude() const;
-  /// Bounding box, its corner relative to the position. Used for collisions (edges included) and to find what
-  /// is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single characters.
-  /// Corner and size are up to 1e6 cells. setBox() returns 0, else -1.
+  /// Bounding box, its corner relative to the position. It decides collisions (edges included) and whether
+  /// the Object is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single
+  /// characters. Corner and size are up to 1e6 cells. setBox() returns 0, else -1.
   virtual DF_SETTER setBox(Box new_box);
   Box getBox() const;
 
-  // Motion. Velocity = direction × speed, rounded once to 2^-32 cell when one of them is set.
+  // Motion. Velocity = direction × speed, rounded to 2^-32 cell when either is set.
 
   /// Speed in cells per tick, in the present direction. setSpeed() returns 0, or -1 if it is not finite or if
   /// a component of the velocity would exceed 2^24.
   int setSpeed(double speed);
   float getSpeed() const;
-  /// Direction as given, not normalised: (2,0) doubles the velocity. setDirection() returns 0, else -1.
+  /// Direction, not normalised: (2,0) gives twice the velocity of (1,0). setDirection() returns 0, else -1.
   virtual DF_SETTER setDirection(Vector new_direction);
   Vector getDirection() const;
   /// Sets speed to the length of `new_velocity` and direction to the normalised vector; (0,0) zeroes both.
@@ -143,27 +143,27 @@ class Object {
   Solidness getSolidness() const;
   /// True if HARD or SOFT.
   bool isSolid() const;
-  /// If set, this Object does not move onto SOFT ones either. Both still get the collision event.
+  /// If set, SOFT Objects block this Object, too. Both still get the collision event.
   void setNoSoft(bool new_no_soft = true);
   bool getNoSoft() const;
-  /// If set, collisions are tested along the whole path of each move, not only at its end: for fast Objects.
-  /// Off by default, as in the book. WM.setSweptCollisions() sets it for all. Rules: docs/collisions.md.
+  /// If set, collisions are tested along the whole path of each move, not only at its end. Use it for fast
+  /// Objects. Off by default. WM.setSweptCollisions() sets it for all. Rules: docs/collisions.md.
   void setSwept(bool swept = true);
   bool isSwept() const;
   /// If set, touching boxes are not enough: the two Objects must share a cell in which both draw a set
   /// character. A pair is tested like this if either Object is precise. Off by default.
   void setPrecise(bool precise = true);
   bool isPrecise() const;
-  /// Sets which characters of the Object are set: a string (UTF-8) per row, from the box's upper left cell
-  /// on; blanks are holes. No rows: the whole box counts, as by default. What draw() shows does not matter.
-  /// Returns 0, or -1 without change for rows without any character or a side above 1024.
+  /// Sets the characters that setPrecise() compares: a string (UTF-8) per row, from the box's upper left cell
+  /// on; blanks are holes. Without rows, as by default, the whole box counts. What draw() draws does not
+  /// matter. Returns 0, or -1 without change for rows without any character or a side above 1024.
   int setMask(const std::vector<std::string>& rows);
   /// If set, an Object at rest is tested for collisions in each update() as if it had moved to its position,
-  /// so that it gets events of what touches it. Off by default.
+  /// so that it gets collision events with the Objects that touch it. Off by default.
   void setRestContacts(bool rest_contacts = true);
   bool hasRestContacts() const;
-  /// If set, what the Object touches at the start of a move does not block it if the gap is larger at the
-  /// end: it may leave a wall in which it was placed. Both still get the event. Off by default.
+  /// If set, an Object that this one touches at the start of a move does not block it if the gap is larger at
+  /// the end. So it may leave a wall in which it was placed. Both still get the event. Off by default.
   void setMayMoveOut(bool may_move_out = true);
   bool getMayMoveOut() const;
 
@@ -171,9 +171,9 @@ class Object {
   /// drawn. It stays in the world. setActive() returns 0.
   virtual int setActive(bool active = true);
   bool isActive() const;
-  /// An invisible Object is not drawn; everything else continues. Returns 0.
+  /// An invisible Object is not drawn, but moves, collides and gets events. Returns 0.
   int setVisible(bool visible = true);
-  /// Hook for games; the engine uses the setVisible() flag.
+  /// Returns the flag of setVisible(). An override has no effect on the engine, which reads the flag.
   virtual bool isVisible() const;
 
   // Events.
@@ -182,27 +182,27 @@ class Object {
   /// to eventHandler(). Collision and out events need no registration. A second registration has no effect.
   /// Returns 0, or -1 if the Object is not in a world.
   int registerInterest(const std::string& event_type);
-  /// Returns 0, or -1 if it was not registered (compat: 0).
+  /// Ends an interest. Returns 0, or -1 if it was not registered (compat: 0).
   int unregisterInterest(const std::string& event_type);
   /// Returns the number of registered interests.
   int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
-  /// Handles an event. Returns 1 if it was handled, else 0 (as in the book; the engine ignores it). If it
-  /// throws, the Object is deleted (EventDispatch::deliver) and the world continues.
+  /// Handles an event. Returns 1 if the event was handled, else 0 (as in the book; the engine ignores the
+  /// result). If the handler throws, the Object is deleted (EventDispatch::deliver) and the world continues.
   virtual int eventHandler(const Event* p_e);
 
   // Look.
 
   /// Called once a tick while the Object is active, visible and in view, to put characters on the screen with
-  /// DM.drawCh() and DM.drawString(). The default shows the sprite, the shape and the present frame, as far
-  /// as the Object has them. Returns 0, else -1.
+  /// DM.drawCh() and DM.drawString(). By default, shows the sprite, the shape and the present frame, if the
+  /// Object has them. Returns 0, else -1.
   virtual DF_DRAW draw();
 
   /// Shows this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
-  /// the sprite's: its size, the position in the middle. If characters are compared (setPrecise), those of
-  /// the frame count. Returns 0, or -1 for a label that is not loaded.
+  /// the sprite's: its size, the position in the middle. If characters are compared (setPrecise), they are
+  /// those of the frame. Returns 0, or -1 for a label that is not loaded.
   virtual int setSprite(std::string sprite_label);
   int setSprite(const std::string& sprite_label, bool set_box);
-  /// Shows a sprite owned by the game, which must outlive its use; null: none.
+  /// Shows a sprite owned by the game, which must keep it as long as it is shown; null: none.
   int setSprite(Sprite* p_new_sprite, bool set_box = true);
   /// Returns the sprite; null for none.
   Sprite* getSprite() const { return getAnimation().getSprite(); }
@@ -210,20 +210,20 @@ class Object {
   virtual DF_SETTER setAnimation(Animation new_animation, bool set_box = true);
   /// Returns a copy; to change the animation, pass it to setAnimation().
   Animation getAnimation() const;
-  /// Index of the frame that shows.
+  /// Index of the frame that is shown.
   void setSpriteIndex(int new_index);
   int getSpriteIndex() const { return getAnimation().getIndex(); }
   /// Ticks per frame of the sprite, for all Objects that share it; 0: no animation.
   void setSpriteSlowdown(int new_slowdown);
   int getSpriteSlowdown() const;
-  /// Ticks for which the frame has been shown; -1 stops the animation.
+  /// Number of ticks for which the frame has been shown; -1 stops the animation.
   void setSpriteSlowdownCount(int new_slowdown_count);
   int getSpriteSlowdownCount() const { return getAnimation().getSlowdownCount(); }
   /// Label of the sprite. Setting it changes only the name.
   void setSpriteName(std::string new_name);
   std::string getSpriteName() const { return getAnimation().getName(); }
-  /// Draws the sprite around the position, as by default, or with its upper left character there, and sets
-  /// the box accordingly.
+  /// If set, as by default, the sprite is drawn around the position, otherwise with its upper left character
+  /// at the position. Sets the box accordingly.
   void setCentered(bool centered = true);
   bool isCentered() const;
   /// Character of the sprite that is not drawn, for all Objects that share it; 0: all are drawn.
@@ -233,35 +233,37 @@ class Object {
   virtual void setShape(Shape new_shape);
   /// Returns the shape; a white circle if none was set.
   Shape getShape() const;
-  /// Promises that draw() always puts the same characters at the same places relative to the position. It is
-  /// then called once, and its result moves with the Object. Each further call makes draw() run once more.
+  /// Promises that draw() always draws equal characters at equal places relative to the position. draw() is
+  /// then called only once, and the result moves with the Object. Each further setStaticLook() makes draw()
+  /// run once more.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
-  /// Number of frames of a body, and index of the one that shows in the present tick (0 if none).
+  /// Number of frames of a body, and index of the frame that is shown in the present tick (0 if it has none).
   int getFrameCount() const;
   int getFrame() const;
 
   // Text form, for games that save or send their Objects.
 
-  /// Returns the attributes as "id:7,pos-x:2.5,pos-y:3,…": those modified since they were last written, those
-  /// that `attr` names ("pos", "box", …, separated by commas), or all for "ALL". Those written then count as
-  /// not modified.
+  /// Returns the attributes as "id:7,pos-x:2.5,pos-y:3,…": those modified since they were last written, or
+  /// those that `attr` names ("pos", "box", …, separated by commas), or all for "ALL". Attributes that were
+  /// written count as not modified.
   virtual std::string serialize(std::string attr = "");
-  /// Returns all attributes or the modified ones: the first versions' form. Takes only bool.
+  /// Writes all attributes, or only the modified ones, as in the first published versions. Takes only bool.
   template <class Flag>
   typename std::enable_if<std::is_same<Flag, bool>::value, std::string>::type serialize(Flag all) {
     return serialize(std::string(all ? "ALL" : ""));
   }
-  /// Writes the attributes in the mask `attr`; 0: the modified ones. Returns 0, or -1 for null.
+  /// Writes the attributes in the mask `attr`; 0 means the modified ones. Returns 0, or -1 for null.
   virtual int serialize(std::stringstream* p_ss, unsigned int attr = 0);
-  /// Sets the attributes in such a text. Returns 0, or -1 if a value was refused.
+  /// Sets the attributes in a text from serialize(). Returns 0, or -1 if a value was refused.
   virtual int deserialize(std::string s);
   /// Like deserialize(s); adds the attributes found to the mask *p_a, if that is not null.
   virtual int deserialize(std::stringstream* p_ss, unsigned int* p_a = nullptr);
-  /// True if the attribute, or any one, has changed since it was last written, or was never written.
+  /// True if the attribute (without an argument: any attribute) has changed since it was last written, or was
+  /// never written.
   bool isModified(ObjectAttribute attribute) const;
   virtual bool isModified() const { return getModified() != 0; }
-  /// Mask of the modified attributes. Setting it marks these as modified, in addition to changed ones.
+  /// Mask of the modified attributes. setModified() marks further attributes as modified.
   virtual void setModified(unsigned int new_modified);
   virtual unsigned int getModified() const;
   /// Returns type, id and position, for log lines.
@@ -269,19 +271,19 @@ class Object {
 
   // Paths.
 
-  /// Walks to a position, at the present speed, round HARD Objects (PathFind.h): sets a velocity in each step
-  /// from node to node. An EventPath tells the Object how the search ended.
+  /// Makes the Object walk to a position, at its present speed, round HARD Objects (PathFind.h). Each step
+  /// sets the velocity towards the next node. An EventPath tells the Object the result of the search.
   void pathTo(Vector position);
-  /// Walks to the present position of another Object.
+  /// Makes the Object walk to the present position of another Object.
   void pathTo(const Object* p_o_target);
-  /// Turns towards a position.
+  /// Turns the direction towards a position.
   void moveTo(Vector new_position);
   void setPath(Path new_path);  ///< Path for setFollowPath().
   Path getPath() const;
   /// Starts or stops walking along the path, from its next node on.
   virtual void setFollowPath(bool new_follow_path = true);
   bool getFollowPath() const;
-  /// Kept for getAvoidCollisions(): pathTo() always avoids HARD Objects.
+  /// Only stored for getAvoidCollisions(), because pathTo() always avoids HARD Objects.
   virtual void setAvoidCollisions(bool new_avoid_collisions = true);
   bool getAvoidCollisions() const;
 
@@ -289,11 +291,11 @@ class Object {
 
   /// Returns the handle of the Object.
   ObjectKey key() const;
-  /// Returns the world it was made in; null once that is gone.
+  /// Returns the world in which the Object was made; null if that world or the Object has been destroyed.
   World* getWorld() const;
 
-  /// These record which Objects were made with `new`, because the world deletes those. (Not elements of an
-  /// array made with `new[]`.) With compat they clear the memory: games read members that they never set.
+  /// They record which Objects were made with `new`, because the world deletes them (but not the elements of
+  /// arrays). With compat they clear the memory, because games read members that they never set.
   static void* operator new(std::size_t size);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
@@ -306,9 +308,9 @@ class Object {
 #endif
 
  protected:
-  /// Makes the position a cell of every view, and the Object always drawn (ViewObject.h).
+  /// Makes the position mean a cell of every view, and the Object be drawn always (ViewObject.h).
   void showOnView();
-  /// Makes events arrive while the game is paused, too (Pause.h).
+  /// Makes the Object get events while the game is paused, too (Pause.h).
   void receiveWhilePaused();
   [[deprecated("say receiveWhilePaused")]] void hearWhilePaused() {
     receiveWhilePaused();
@@ -339,11 +341,11 @@ class Object {
   std::shared_ptr<const naiad::Look> publishedLook(std::uint32_t tick);
   ObjectAttributes attributes() const;
 
-  // Few members, so that those of games, which handlers use, share their cache line.
+  // Few members, so that the members of derived classes, which handlers use, share their cache line.
   WorldStore* m_p_store;  // never null: a store lives as long as its last Object
   std::uint32_t m_slot;
   std::unique_ptr<ObjectExtras> m_p_extras;  // rarely used attributes; null until needed
-  ObjectProfile* m_p_profile;                // never null; the store's
+  ObjectProfile* m_p_profile;                // never null; owned by the store
 };
 
 }  // namespace df

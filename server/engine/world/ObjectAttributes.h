@@ -8,9 +8,9 @@
 
 namespace df {
 
-// The published engine's enumerations were unscoped until 4.18 and are scoped since. Games may write
-// df::POSITION or df::ObjectAttribute::POSITION here. -DDF_SCOPED_ENUMS allows only the second form, for a
-// game with such names of its own.
+// In the published engine, enumerations were unscoped until 4.18 and are scoped since. With Naiad, games may
+// write df::POSITION or df::ObjectAttribute::POSITION. -DDF_SCOPED_ENUMS allows only the second form, for
+// games that use the first as names of their own.
 #if !defined(DF_ENUM)
 #if defined(DF_SCOPED_ENUMS)
 #define DF_ENUM enum class
@@ -19,7 +19,7 @@ namespace df {
 #endif
 #endif
 
-/// Attributes, one bit each.
+/// The attributes, one bit each.
 DF_ENUM ObjectAttribute : unsigned int{
                               ID = 1 << 0,         ACTIVE = 1 << 1,        VISIBLE = 1 << 2,
                               EVENTS = 1 << 3,     BOX = 1 << 4,           POSITION = 1 << 5,
@@ -27,12 +27,12 @@ DF_ENUM ObjectAttribute : unsigned int{
                               SOLIDNESS = 1 << 9,  NO_SOFT = 1 << 10,      SPEED = 1 << 11,
                               DIRECTION = 1 << 12, ACCELERATION = 1 << 13, SHAPE = 1 << 14,
                               PATH = 1 << 15,      FOLLOW_PATH = 1 << 16,  AVOID_COLLISIONS = 1 << 17,
-                              SPRITE = ANIMATION,  ///< older name
+                              SPRITE = ANIMATION,  ///< older name of ANIMATION
                           };
-/// Number of attributes; derived classes' own begin with this bit.
+/// Number of attributes; the attributes of derived classes begin with this bit.
 inline constexpr int ObjectAttributeMax = 18;
 
-/// Each attribute as text, "name:value," or several of these, indexed by the number of its bit.
+/// The text of each attribute, indexed by the number of its bit: "name:value,", or several of these.
 using ObjectAttributes = std::array<std::string, ObjectAttributeMax>;
 
 }  // namespace df

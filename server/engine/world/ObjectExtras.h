@@ -1,4 +1,4 @@
-// Attributes that an Object has only if its game sets them: made at first use, behind one pointer.
+// Attributes that an Object has only if its game sets them. They are made at first use, behind one pointer.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct ObjectExtras {
   std::shared_ptr<const naiad::Look> p_look;  ///< last published look
   std::size_t animated = kNowhere;            ///< index in the world's Animations
   std::optional<Shape> shape;
-  std::optional<int> id;  ///< chosen by the game
+  std::optional<int> id;  ///< id chosen by the game (setId())
   Path path;
   bool receives_while_paused = false;
   bool is_centered = true;

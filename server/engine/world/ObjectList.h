@@ -1,8 +1,8 @@
 // A list of Objects that outlives them (book, Listing 4.39).
 //
 // The list holds handles, not pointers: an Object that was deleted, or removed from the world, then reads as
-// null, even if another one has taken its place in memory. Up to 16 entries need no allocation; there is no
-// upper limit. All entries belong to one world.
+// null, even if another Object has taken its place in memory. Up to 16 entries need no allocation; there is
+// no upper limit. All entries belong to one world.
 #pragma once
 
 #include <array>
@@ -23,14 +23,14 @@ class ObjectList {
   static constexpr int kInline = 16;
 
   ObjectList() = default;
-  /// Copies and moves like a value.
+  /// An ObjectList can be copied and moved.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
   ObjectList& operator=(ObjectList other) noexcept;
   ~ObjectList();
 
   /// Appends an Object, which may be in the list more than once. Returns 0, or -1 for null and for an Object
-  /// of another world than the entries.
+  /// that is not in the world of the entries.
   int insert(Object* p_o);
   /// Removes the first entry of this Object; the others keep their order. Returns 0, or -1 if it is not in
   /// the list.
@@ -47,7 +47,7 @@ class ObjectList {
   /// Returns entry `index`; null if the Object is gone or `index` is not in 0 … getCount()-1.
   Object* operator[](int index) const;
 
-  /// True if both list the same Objects in the same order.
+  /// True if both lists have equal entries in equal order.
   friend bool operator==(const ObjectList& a, const ObjectList& b);
   friend bool operator!=(const ObjectList& a, const ObjectList& b) { return !(a == b); }
 

@@ -24,8 +24,8 @@
 
 namespace df {
 
-/// Sprite's friend: returns all its frames. Empty if they cannot be described: there are none, too many
-/// (kMaxFrames) or too large ones, or they draw nothing.
+/// Friend of Sprite that returns all its frames in the form for clients. Returns none if there are no frames,
+/// too many (kMaxFrames), too large ones, or if they draw nothing.
 class SpritePictures {
  public:
   static const naiad::Sequence& of(const Sprite& sprite) { return sprite.pictures(); }
@@ -39,21 +39,21 @@ naiad::Selector selectorOf(const Animation& animation, std::uint32_t tick) {
   const auto index = static_cast<std::size_t>(animation.getIndex());
   const bool still = slowdown < 1 || count < 0 || slowdown > int{naiad::kMaxTicksPerFrame};
   if (still) return naiad::Selector::fixed(index);
-  // A count beyond the slowdown shows the next frame with the next tick, like the last count before it.
+  // A count above the slowdown shows the next frame in the next tick, as does the count slowdown - 1.
   const auto shown = static_cast<std::uint32_t>(std::min(count, slowdown - 1));
   return naiad::Selector::clock(tick - shown, static_cast<std::uint32_t>(slowdown), true, index);
 }
 
-// An animation as clients get it: the pictures of its sprite, and a clock that selects the one to show. While
-// only the clock decides, clients draw it without further messages.
+// Clients get an animation as the pictures of its sprite, and a clock that selects the picture to show. While
+// only the clock decides, clients draw the animation without further messages.
 
-/// Returns what `animation` shows in `tick`, and later until it is stopped, set or hidden. Null if the
-/// pictures cannot be described or there is only one. Returns `before`, an earlier result, if it still holds.
+/// Returns a look that shows `animation` from `tick` on, until it is stopped, set or hidden. Null if there
+/// are no pictures for clients, or only one. Returns `before`, an earlier result, if it is still right.
 std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint32_t tick,
                                           const std::shared_ptr<const naiad::Look>& before) {
   const Sprite* p_sprite = animation.getSprite();
   if (p_sprite == nullptr || p_sprite->getFrameCount() < 2) return nullptr;
-  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // the pictures differ
+  if (animation.getTransform() != Transform::NO_TRANSFORM) return nullptr;  // its pictures are mirrored
   if (animation.getIndex() < 0 || animation.getIndex() >= p_sprite->getFrameCount()) return nullptr;
   const naiad::Sequence& pictures = SpritePictures::of(*p_sprite);
   if (pictures.empty()) return nullptr;
@@ -106,13 +106,13 @@ void Object::dropExtras() {
   if (m_p_extras->follows_path) p_world->setWalking(*this, false);
 }
 
-// Updates the world's lists after the sprite or the shape has changed.
+// Updates the world's lists. Call after the sprite or the shape has changed.
 void Object::animate() {
   Sprite* p_sprite = m_p_extras->animation.getSprite();
   m_p_store->set(m_slot, WorldStore::kPainted, p_sprite != nullptr || m_p_extras->shape.has_value());
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also for one made by the game
+  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also if the game made it
   invalidateLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
     p_world->extras().animations.add(m_slot, *m_p_extras);
@@ -157,7 +157,7 @@ int Object::setAnimation(Animation new_animation, bool set_box) {
   return 0;
 }
 
-// Sets the box to the sprite's. That of a single character around the position begins at -0.5.
+// Sets the box to the sprite's. For one character around the position, its corner is (-0.5,-0.5).
 void Object::fitBox() {
   Box box = m_p_extras->animation.getBox();
   if (!m_p_extras->is_centered) box.setCorner(Vector(-0.5, -0.5));
@@ -240,14 +240,14 @@ int Object::draw() {
   return result;
 }
 
-// Returns null if nothing changes by itself. What draw() really draws decides whether it counts.
+// Returns the look that changes without draw(); null for none. It is used only if draw() draws what it shows.
 std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
   if (m_p_extras == nullptr || m_p_extras->shape || !m_p_extras->is_centered) return nullptr;
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
-// Null in a box that is not the sprite's own: its characters would lie elsewhere than they are drawn.
+// Null if the box is not the sprite's own, because the mask would not lie where the characters are drawn.
 const Mask* spriteMaskOf(const Object& object) {
   const Sprite* p_sprite = object.getSprite();
   const bool as_drawn = p_sprite != nullptr && object.isCentered() && object.getBox() == p_sprite->getBox() &&
@@ -320,7 +320,7 @@ void Object::pathTo(Vector position) {
   setFollowPath(false);
   setPath(std::move(path));
   if (event.getResult() == FOUND) setFollowPath();
-  p_world->deliver(key(), event);  // the last thing: it may delete this
+  p_world->deliver(key(), event);  // last, because the handler may delete this Object
 }
 
 void Object::pathTo(const Object* p_o_target) {
@@ -418,7 +418,7 @@ int Object::serialize(std::stringstream* p_ss, unsigned int attr) {
   const unsigned mask = attr != 0 ? attr : getModified();
   const ObjectAttributes now = attributes();
   ObjectExtras& mine = extras();
-  // Attributes that were never written remain modified.
+  // Attributes that were never written still count as modified.
   if (!mine.serialized) mine.serialized.emplace();
   for (std::size_t i = 0; i < now.size(); ++i) {
     if ((mask >> i & 1) == 0) continue;

@@ -10,10 +10,10 @@ class Object;
 
 class ObjectLookAccess {
  public:
-  /// Sets pictures of the Object, of which draw() shows the one that `selector` names for the tick
-  /// (WorldView's): an animation, or a rotation in steps. While only the tick decides which frame shows,
-  /// nothing is sent to clients. An empty sequence removes the frames. Returns 0, or -1 without change if the
-  /// selector does not fit or the pictures are too large (kMaxGlyphs, kMaxLookBytes).
+  /// Sets pictures of the Object. In each tick, draw() shows the picture that `selector` selects for
+  /// WorldView::tick: an animation, or a rotation in steps. While only the tick decides which picture is
+  /// shown, nothing is sent to clients. An empty sequence removes the frames. Returns 0, or -1 without change
+  /// if the selector does not fit or the pictures are too large (kMaxGlyphs, kMaxLookBytes).
   static int setFrames(Object& object, const naiad::Sequence& frames, const naiad::Selector& selector);
   /// Replaces the selector. Returns 0, or -1 if it does not fit or there are no frames.
   static int setSelector(Object& object, const naiad::Selector& selector);

@@ -1,4 +1,4 @@
-// Rarely read attributes of an Object, which the store keeps by slot apart from its arrays.
+// Rarely read attributes of an Object. The store keeps them by slot, but apart from its arrays.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace df {
 
-/// Type of Objects without a type of their own, in the published engine.
+/// Type of Objects without a type of their own, in compat as in the published engine.
 inline constexpr const char* kUndefinedType = "(Undefined)";
 
 struct ObjectProfile {
   std::string type = "Object";
-  // Values of setSpeed() and setDirection(). After an acceleration (a flag in the store) or setVelocity(),
-  // which may leave its vector in the direction, they are derived when they are read.
+  // Values of setSpeed() and setDirection(). After an acceleration or setVelocity(), the store's flag kDerive
+  // says that they are derived from the velocity when they are read.
   double speed = 0;
   Vector direction;
   bool direction_is_velocity = false;

@@ -43,7 +43,7 @@ int ObjectRegistry::markForDelete(Object* p_o) {
 }
 
 void ObjectRegistry::deleteMarked() {
-  // Destructors may mark more, which are deleted in this round too.
+  // Destructors may mark more Objects, which this loop deletes, too.
   for (std::size_t i = 0; i < m_deletions.size(); ++i) {
     Object* p_o = m_store.find(m_deletions[i]);
     if (p_o == nullptr) continue;
@@ -93,7 +93,7 @@ ObjectList ObjectRegistry::objectsOfType(const std::string& type) {
   return found;
 }
 
-// Done once for each type that was not found, because it looks at all Objects.
+// Logs each type that was not found only once, because this searches all Objects.
 void ObjectRegistry::logMissingType(const std::string& type) {
   constexpr std::size_t kMaxMissing = 100;
   if (m_missing.size() >= kMaxMissing || !m_missing.insert(type).second) return;

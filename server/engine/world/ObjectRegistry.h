@@ -18,7 +18,7 @@ class WorldLog;
 
 class ObjectRegistry {
  public:
-  /// All three must outlive this object.
+  /// The arguments must outlive this object.
   ObjectRegistry(WorldStore& store, Interests& interests, WorldLog& log)
       : m_store(store), m_interests(interests), m_log(log) {}
 
@@ -36,7 +36,8 @@ class ObjectRegistry {
   Object* objectWithId(int id) const;
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   Contact firstContact(const Object* p_o, Vector where) const;
-  /// Returns the Objects that `wanted` accepts, in creation order. It gets a slot (collect) or Object (pick).
+  /// Returns the Objects that `wanted` accepts, in creation order. Its argument is a slot; in pick(), an
+  /// Object.
   template <class Wanted>
   ObjectList collect(Wanted wanted) const {
     ObjectList list;
@@ -54,8 +55,8 @@ class ObjectRegistry {
 
   /// Deletes the marked Objects in order of their marks, and those that destructors mark.
   void deleteMarked();
-  /// Deletes the Objects made with `new`, removes the others, and forgets marks and lines that were logged
-  /// once.
+  /// Deletes the Objects made with `new`, removes all others, and clears the marks and the records of logged
+  /// types.
   void clear();
 
  private:
@@ -64,7 +65,7 @@ class ObjectRegistry {
   WorldStore& m_store;
   Interests& m_interests;
   WorldLog& m_log;
-  std::vector<ObjectKey> m_deletions;  // marked ones, in order of their marks
+  std::vector<ObjectKey> m_deletions;  // marked Objects, in order of their marks
   std::set<std::string> m_missing;     // types that objectsOfType() did not find
   std::set<std::string> m_unowned;     // logged types that were marked for deletion but not made with new
 };

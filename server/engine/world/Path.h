@@ -12,24 +12,24 @@ namespace df {
 
 class Path {
  public:
-  /// A path without nodes.
+  /// Makes a path without nodes.
   Path() = default;
 
-  /// Returns the node to go to next; (-1,-1) for a path without nodes.
+  /// Returns the next node to walk to; (-1,-1) for a path without nodes.
   Vector nextNode() const;
-  /// Returns the node before it; (-1,-1) at the first one.
+  /// Returns the node before nextNode(); (-1,-1) if that is the first node.
   Vector previousNode() const;
-  /// Nodes; after setPath() the first one is next.
+  /// The nodes; after setPath() the first node is next.
   void setPath(std::vector<Vector> new_path);
   const std::vector<Vector>& getPath() const { return m_path; }
-  /// True at the last node, and for a path without nodes.
+  /// True if the next node is the last one, and for a path without nodes.
   bool endOfPath() const { return m_index + 1 >= static_cast<int>(m_path.size()); }
   /// Returns the last node; (-1,-1) for a path without nodes.
   Vector getEnd() const;
   /// Index of the next node. setIndex() returns 0, or -1 for an index without a node.
   int setIndex(int new_index);
   int getIndex() const { return m_index; }
-  /// Moves to the next node; stays at the last one. Returns the path as it was before.
+  /// Advances to the next node, but not beyond the last one. Returns the path as it was before.
   Path operator++(int);
   /// Draws the remaining nodes. Returns 0, else -1.
   int draw(Color color) const;

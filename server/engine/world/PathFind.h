@@ -1,5 +1,5 @@
 // Finds a path through the world for Object::pathTo(): A* over whole cells and their eight neighbours, round
-// active HARD Objects that the walker would touch there.
+// active HARD Objects that the walker would touch.
 #pragma once
 
 #include "EventPath.h"
@@ -9,8 +9,8 @@
 namespace df {
 
 /// Returns the shortest path from the Object's position to `end`, inside the world boundary. The target
-/// itself may be occupied, so that an Object can walk up to another. It is always the same one of equally
-/// short paths. The path is empty if none exists, or if the search would visit more than 20,000 cells.
+/// itself may be occupied, so that an Object can walk up to another. The choice among equally short paths is
+/// always the same. The path is empty if none exists, or if the search would visit more than 20,000 cells.
 Path findPath(const Object& object, Vector end);
 
 }  // namespace df

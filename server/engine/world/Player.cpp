@@ -62,7 +62,7 @@ PlayerFacts Player::facts() const {
   f.name = m_name;
   f.color = m_color;
   f.score = m_score;
-  // A player without their own view shares the world's, and the Object that it follows.
+  // A player without their own view shares the world's view and the Object that this follows.
   f.followed = m_views.followed(this);
   f.view_corner = m_view_corner;
   for (const auto& [id, text] : m_texts) f.texts.push_back(text);

@@ -1,8 +1,9 @@
-// A person (or bot) at a terminal. Games for several players read and set these; other games ignore them and
-// get all players' keys.
+// A person (or bot) at a terminal. Games for several players use Players; other games ignore them and get all
+// players' keys.
 //
-// A Player exists from its EventJoin until just after its EventLeave; else `WM.getPlayer(id)` is null. Ids
-// count up from 1 and are not reused in a world. All calls must be on the thread that runs the tick.
+// A Player exists from its EventJoin until just after its EventLeave. Before and after, `WM.getPlayer(id)` is
+// null. Ids count up from 1 and are not reused in a world. All calls must be on the thread that runs the
+// tick.
 #pragma once
 
 #include <cstdint>
@@ -31,28 +32,28 @@ namespace players {
 
 class Player {
  public:
-  /// Called by the engine as players join.
+  /// The engine makes a Player when a player joins.
   Player(Views& views, std::uint32_t id, std::string name, Color color);
 
   /// Returns the player's number: 1, 2, …, unique in a world.
   std::uint32_t getId() const { return m_id; }
   /// Returns the name that the player gave; the host makes sure that it can be drawn.
   const std::string& getName() const { return m_name; }
-  /// Returns the player's colour: seven take turns, so that the first seven players differ.
+  /// Returns the player's colour. Seven colours take turns, so that the first seven players differ.
   Color getColor() const { return m_color; }
 
-  /// Object that this player steers; null after its deletion. Setting it makes the view follow it
-  /// (WM.setViewFollowing, while the player's input is handled, lets the view follow another). Null leaves
-  /// the view where it is. setObject() returns 0, or -1 for an Object of another world.
+  /// Object that this player steers; null after its deletion. setObject() makes the player's view follow the
+  /// Object (to follow another, call WM.setViewFollowing() while the player's input is being handled); null
+  /// leaves the view where it is. setObject() returns 0, or -1 for an Object of another world.
   int setObject(Object* p_o);
   Object* getObject() const;
 
-  /// Makes these keys move getObject(), whichever that is at the time (Controls.h); a table without rows ends
-  /// this. Keys held down and waits are forgotten. Returns 0, or -1 without change for controls with a number
-  /// that is not finite or out of range.
+  /// Makes the keys in `controls` move the Object that getObject() returns at the time (Controls.h). Controls
+  /// without rows end this. Keys held down and waits are reset. Returns 0, or -1 without change for controls
+  /// with a number that is not finite or out of range.
   int setControls(const Controls& controls);
-  /// Whether the controls have effects (default) or only remember which keys are down, for example while a
-  /// ship is lost. An inactive Object is not moved either.
+  /// Whether the controls have effects (default) or only record which keys are down, for example while a ship
+  /// is lost. An inactive Object is not moved, either.
   void setSteering(bool steering = true) { m_steers = steering; }
   bool isSteering() const { return m_steers; }
 
@@ -68,7 +69,7 @@ class Player {
   /// Returns the upper left corner of this player's view, in world coordinates.
   Vector getViewCorner() const { return Vector::fromFixed(m_view_corner); }
 
-  /// Returns the plain-data form, for the host.
+  /// Returns the player's state as plain data, for the host.
   PlayerFacts facts() const;
 
  private:
@@ -84,9 +85,9 @@ class Player {
   ObjectKey m_object;    // steered Object
   ObjectKey m_followed;  // Object that the player's own view follows
   FixedVector m_view_corner;
-  bool m_has_view = false;  // true since its first Object; before that it shares the world's view
+  bool m_has_view = false;  // true since the first setObject(); false: shares the world's view
   std::map<std::uint32_t, PlayerText> m_texts;
-  std::shared_ptr<const ControlTable> m_p_controls;  // null: none declared
+  std::shared_ptr<const ControlTable> m_p_controls;  // null: no controls
   ControlState m_control_state;
   bool m_steers = true;
 };

@@ -23,8 +23,7 @@ std::uint64_t Random::next() {
   return result;
 }
 
-// The remainder of 2^64 by n would favour the small numbers, so numbers above the last multiple of n are
-// drawn again.
+// Remainders by n would favour small numbers, so random numbers above the last multiple of n are drawn again.
 int Random::below(int n) {
   if (n < 1) return 0;
   const auto divisor = static_cast<std::uint64_t>(n);

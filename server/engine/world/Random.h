@@ -10,12 +10,12 @@ namespace df {
 
 class Random {
  public:
-  /// Starts the sequence of this seed.
+  /// Starts the random sequence of this seed.
   explicit Random(std::uint64_t seed = 1);
 
   /// Returns 64 random bits.
   std::uint64_t next();
-  /// Returns 0 to n-1, each equally likely; 0 if n < 1.
+  /// Returns a random number 0 to n-1, each equally likely; 0 if n < 1.
   int below(int n);
 
  private:

@@ -6,9 +6,9 @@
 //     if (m_target) steerTo(m_target->getPosition());
 //   };
 //
-// It reads as null once the Object was deleted or removed from the world, even if another one has taken its
-// place in memory, and once the world itself is gone. A removed Object that is inserted again counts as
-// another one. Like ObjectList it holds a handle, not only a pointer.
+// A Ref reads as null once the Object was deleted or removed from the world, even if another Object has taken
+// its place in memory, and once the world itself is gone. It stays null if a removed Object is inserted
+// again. Like an ObjectList, it holds a handle, not only a pointer.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace df {
 class Object;
 class WorldStore;
 
-/// The part of a Ref that does not depend on its type: knows whether the Object is still there.
+/// The part of a Ref that does not depend on its type: checks whether the Object is still in its world.
 class RefBase {
  public:
   RefBase() = default;
@@ -35,7 +35,7 @@ class RefBase {
   bool isInWorld() const;
 
  private:
-  WorldStore* m_p_store = nullptr;  // reference-counted; null for none
+  WorldStore* m_p_store = nullptr;  // reference-counted; null for a null reference
   ObjectKey m_key;
 };
 
@@ -45,9 +45,9 @@ class Ref {
   /// A null reference.
   Ref() = default;
   Ref(std::nullptr_t) {}
-  /// Refers to an Object in the world; one that is not reads as null until it is inserted.
+  /// Refers to an Object in the world. If it is not in the world, the Ref reads as null until it is inserted.
   Ref(T* p_o) : m_base(p_o), m_p_object(p_o) {}
-  /// Converts a reference to one to a base class.
+  /// Converts a reference to an Object to a reference to its base class.
   template <class U, class = std::enable_if_t<std::is_convertible_v<U*, T*>>>
   Ref(const Ref<U>& other) : m_base(other.m_base), m_p_object(other.m_p_object) {}
 

@@ -24,7 +24,7 @@ bool sameButForCase(const std::string& a, const std::string& b) {
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-// Returns the entries of the folder with this name, exactly or except for case.
+// Returns the entries of the folder whose names equal `name`, exactly or except for case.
 std::vector<fs::path> matches(const fs::path& folder, const std::string& name) {
   std::error_code error;
   if (name == "." || name == "..") return {folder / name};
@@ -102,7 +102,7 @@ std::string Resources::locate(const std::string& filename) const {
     const std::filesystem::path path = std::filesystem::path(folder) / filename;
     if (isFile(path)) return path.string();
   }
-  // Games are written on systems where "Sprites\Ship.txt" finds sprites/ship.txt.
+  // Many games are written on Windows, where "Sprites\Ship.txt" finds sprites/ship.txt.
   std::string found = findCaseInsensitive("", filename);
   for (std::size_t i = 0; i < m_folders.size() && found.empty(); ++i)
     found = findCaseInsensitive(m_folders[i], filename);
@@ -124,7 +124,7 @@ bool Resources::open(const std::string& filename) const {
 
 std::optional<std::string> Resources::read(const std::string& filename) const {
   const std::string path = locate(filename);
-  if (!isFile(path)) return std::nullopt;  // first, because opening a pipe would wait for its writer
+  if (!isFile(path)) return std::nullopt;  // tested first, because opening a pipe would wait for its writer
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(file), {});
@@ -178,8 +178,8 @@ std::string Resources::spriteLabels() const {
   return loadedAre(labels);
 }
 
-// Games ask for a sprite to see whether it is still to be loaded, so null is not an error there. If a crash
-// follows, its report has the line.
+// Games ask for a sprite to learn whether they have to load it, so null is not an error. If a crash follows,
+// its report has the line.
 Sprite* Resources::spriteOrPlaceholder(const std::string& label) {
   Sprite* p_sprite = sprite(label);
   if (p_sprite != nullptr || m_state.compat) return p_sprite;

@@ -17,22 +17,22 @@ namespace df {
 class WorldLog;
 struct WorldState;
 
-/// Returns the file in `folder` (empty: the working directory) that `name` means on systems where a backslash
-/// separates folders and ASCII letters have no case. If there are several, the first by name; empty if there
-/// is none.
+/// Returns the file in `folder` (empty: the working directory) that `name` would name if a backslash
+/// separated folders and the case of ASCII letters did not matter, as on Windows. If several match, returns
+/// the first by name; if none does, an empty string.
 std::string findCaseInsensitive(const std::string& folder, const std::string& name);
 
 /// The sounds, or the pieces of music, of one world.
 template <class T>
 class SoundBank {
  public:
-  /// `get` is the function of ResourceManager that looks one up, for log lines.
+  /// `get` is the name of ResourceManager's function that finds a T, for log lines.
   SoundBank(WorldLog& log, const WorldState& state, const char* get)
       : m_log(log), m_state(state), m_get(get) {}
   int load(const std::string& filename, const std::string& label);
   int unload(const std::string& label);
   T* find(const std::string& label);
-  /// Like find(). For an unknown label, logs a line and returns one that plays nothing (compat: null).
+  /// Like find(). For an unknown label, logs a line and returns a T that plays nothing (compat: null).
   T* findOrPlaceholder(const std::string& label);
   void clear() { m_all.clear(); }
 
@@ -52,25 +52,25 @@ class Resources {
   int loadSprite(const std::string& filename, const std::string& label);
   int unloadSprite(const std::string& label);
   Sprite* sprite(const std::string& label) const;
-  /// Like sprite(). If the sprite's file could not be loaded, returns one that shows a '?'. If none was
-  /// loaded under the label, returns null, which a crash report then mentions. Returns null in compat.
+  /// Like sprite(). If the sprite's file could not be loaded, returns a sprite that shows a '?' (compat:
+  /// null). If no file was loaded under the label, returns null, which a later crash report mentions.
   Sprite* spriteOrPlaceholder(const std::string& label);
   /// Returns the sprite that shows a '?'.
   Sprite& missingSprite();
-  /// Returns text for a log line: "; loaded: saucer, ship".
+  /// Returns the loaded labels as text for a log line: "; loaded: saucer, ship".
   std::string spriteLabels() const;
   SoundBank<Sound>& sounds() { return m_sounds; }
   SoundBank<Music>& musics() { return m_musics; }
 
-  /// Forgets all labels. Sprites live on, because Objects may still show them.
+  /// Removes all labels. Sprites are kept, because Objects may still show them.
   void clear();
   /// Adds a folder. Relative names are looked for in the working directory, then in the folders in order of
   /// the calls. clear() keeps the folders.
   void addFolder(std::string folder) { m_folders.push_back(std::move(folder)); }
   /// Returns the contents of the file; nullopt if it cannot be read.
   std::optional<std::string> read(const std::string& filename) const;
-  /// Returns text for a log line about a missing file: "; looked in /home/ann/game, /usr/…". Empty for an
-  /// absolute name.
+  /// Returns the searched folders as text for a log line: "; looked in /home/ann/game, /usr/…". Returns ""
+  /// for an absolute name.
   std::string searchedFolders(const std::string& filename) const;
   /// True if the file can be read.
   bool open(const std::string& filename) const;

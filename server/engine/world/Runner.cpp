@@ -10,7 +10,7 @@ namespace running {
 
 namespace {
 
-// Set while programs and modules are loaded, in any order with other initialisers.
+// Set while programs and modules are loaded, before or after other initialisers, so these need constinit.
 constinit Program* g_p_program = nullptr;
 constinit std::optional<bool> g_declared;
 

@@ -1,15 +1,16 @@
-// Interfaces through which a host runs a game's loop.
+// Interfaces by which a host runs a game's loop.
 //
 // A program that loads games (dfserver) gives the world a Runner before it calls the game's main(). A game
 // that is a program itself sets none: GM.startUp() and GM.run() then call the Program that the library's
-// hosting part has set when it was loaded. Without either, GM.run() steps headless.
+// hosting part has set when it was loaded. Without a Runner and a Program, GM.run() runs ticks as fast as
+// possible.
 #pragma once
 
 namespace df {
 
 class World;
 
-// The classes have a namespace of their own, so that a game with `using namespace df` may have a Runner, too.
+// The namespace allows a game with `using namespace df` to have classes of these names.
 namespace running {
 
 class Runner {
@@ -22,22 +23,22 @@ class Runner {
 /// Runs the default world of a process that has no Runner. Worlds made by hand never use it.
 class Program : public Runner {
  public:
-  /// Called when GM.startUp() is about to return: settings are read, and nothing of the game exists yet.
+  /// Called at the end of GM.startUp(), when settings have been read and the game has made no Objects yet.
   virtual void startUp(World& world) = 0;
 };
 
-/// Sets the Program; null: none. Not owned; it must live as long as the process. Call it before the game's
+/// Sets the Program; null: none. Not owned; it must exist as long as the process. Call this before the game's
 /// main() begins, or from main() before GM.startUp().
 void setProgram(Program* p_program);
 Program* program();
 
-/// Records that the game was built with -DDF_COMPAT=0 or 1 (GameManager.h calls it). Returns `compat`.
+/// Records that the game was built with -DDF_COMPAT=0 or 1. GameManager.h calls it. Returns `compat`.
 bool declareCompat(bool compat);
 
-/// Returns the compat setting before df-config.txt is read: that of the build, if declared, else on in a
-/// Program, else `compat`.
+/// Returns the compat setting before df-config.txt is read: the one given to declareCompat(), if any;
+/// otherwise true if `in_program`, else `compat`.
 bool beginCompat(bool compat, bool in_program);
-/// Returns the final compat setting: the environment decides by DF_COMPAT=0 or 1, else `compat`.
+/// Returns the final compat setting: the environment variable DF_COMPAT (0 or 1), if set, else `compat`.
 bool endCompat(bool compat);
 
 }  // namespace running

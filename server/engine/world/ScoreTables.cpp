@@ -35,7 +35,7 @@ std::string scoreName(const std::string& name) {
   return safe;
 }
 
-// Puts the row behind those with equal points, which are older.
+// Inserts the row behind rows with equal points, which are older.
 bool ScoreTables::insert(const std::string& table, HighScore score) {
   if (!isTableName(table) || score.name.empty() || !isInRange(score.points)) return false;
   if (m_tables.size() >= HighScoreLimits::kMaxTables && m_tables.count(table) == 0) return false;

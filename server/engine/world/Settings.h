@@ -11,12 +11,12 @@ namespace df {
 inline constexpr int WINDOW_HORIZONTAL_CHARS_DEFAULT = 80;
 inline constexpr int WINDOW_VERTICAL_CHARS_DEFAULT = 24;
 
-/// The file that log lines go to.
+/// The file to which log lines are written.
 const std::string LOGFILE_DEFAULT = "dragonfly.log";
 
 /// Settings of one world.
 struct ConfigSettings {
-  std::string text;  ///< text that was read: "key:value,key:value," without comments
+  std::string text;  ///< the configuration that was read: "key:value," without comments
   int window_horizontal_pixels = 1024;
   int window_vertical_pixels = 768;
   int window_horizontal_chars = WINDOW_HORIZONTAL_CHARS_DEFAULT;
@@ -32,9 +32,9 @@ struct ConfigSettings {
   bool show_mouse = true;
   bool headless = false;
   std::string logfile = LOGFILE_DEFAULT;
-  int random_seed = -1;  ///< 0: from the time; -1: not set
+  int random_seed = -1;  ///< 0: seed from the time; -1: not set
   bool networking = false;
-  bool runs_empty = false;  ///< true: a host ticks it even without players (WorldManager::setRunsEmpty)
+  bool runs_empty = false;  ///< true: a host ticks the world even without players (WM.setRunsEmpty)
   int quadtree_threshold = 10;
   int quadtree_depth = 5;
   int grid_width = 1;

@@ -18,7 +18,7 @@ void Shape::setColor(unsigned char r, unsigned char g, unsigned char b) {
 }
 
 void Shape::draw(Vector world_pos) const {
-  constexpr float kPoint = 4;  // pixels; smaller shapes are points
+  constexpr float kPoint = 4;  // pixels; smaller shapes are drawn as '.'
   constexpr unsigned char kInvisible = 32;
   constexpr unsigned char kFaint = 128;
   if (m_opacity < kInvisible || m_size <= 0 || m_type == UNDEFINED_SHAPE) return;

@@ -1,5 +1,5 @@
 // A circle, square or triangle that an Object shows. The published engine draws it in pixels; in a terminal
-// it is the one character that is most like it.
+// it is shown as the character that is most like it.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ enum ShapeType {
 
 class Shape {
  public:
-  /// A white circle of the size of a character.
+  /// Makes a white circle of the size of a character.
   Shape() = default;
 
   /// Radius in pixels; a character is about 13 by 32 pixels.
@@ -28,14 +28,15 @@ class Shape {
   void setType(ShapeType new_type) { m_type = new_type; }  ///< Circle, square or triangle.
   ShapeType getType() const { return m_type; }
   void setColor(Color new_color);  ///< One of the eight colours.
-  /// Sets a mix, which is shown in the nearest of the eight colours; getColor() then returns CUSTOM.
+  /// Sets a mix of red, green and blue, which is shown as the nearest of the eight colours. getColor() then
+  /// returns CUSTOM.
   void setColor(unsigned char r, unsigned char g, unsigned char b);
   Color getColor() const { return m_color; }
-  /// 0: invisible, 255: opaque.
+  /// Opacity; 0: invisible, 255: opaque.
   void setOpacity(unsigned char new_opacity) { m_opacity = new_opacity; }
   unsigned char getOpacity() const { return m_opacity; }
 
-  /// Draws the shape at a world position. Small ones are '.', faint ones ':' or not drawn at all.
+  /// Draws the shape at a world position: a small shape as '.', a faint one as ':' or not at all.
   void draw(Vector world_pos) const;
 
   /// Returns a text for log lines.

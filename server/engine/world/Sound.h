@@ -1,6 +1,6 @@
-// A sound or a piece of music of a game. The engine makes no noise: it records in the tick's WorldView what
-// was played. A host sends that to clients, which play it as their player has chosen. Repeating sounds are
-// kept for players that join later. Without clients they have no effect.
+// A sound or a piece of music of a game. The engine makes no noise: it records in the tick's WorldView which
+// sounds were played. A host sends this to clients, which play them if their player has chosen so. Repeating
+// sounds are also played to players that join later. Without clients, sounds have no effect.
 #pragma once
 
 #include <string>
@@ -19,28 +19,28 @@ class Sound {
   /// Returns 0 if the file can be read, else logs a line and returns -1. Its contents are not checked.
   int loadSound(const std::string& filename);
 
-  /// Label under which it was loaded.
+  /// Label under which the sound was loaded.
   void setLabel(std::string new_label) { m_label = std::move(new_label); }
   const std::string& getLabel() const { return m_label; }
 
-  /// Plays from the beginning, or from where it paused; repeats if `loop`.
+  /// Plays the sound from the beginning, or from where it paused; repeats it if `loop`.
   void play(bool loop = false) { recordSound(SoundPlayed::kPlay, loop); }
-  /// Stops; the next play() starts from the beginning.
+  /// Stops the sound; the next play() starts from the beginning.
   void stop() { recordSound(SoundPlayed::kStop, false); }
-  /// Pauses; the next play() continues here.
+  /// Pauses the sound; the next play() continues from there.
   void pause() { recordSound(SoundPlayed::kPause, false); }
 
-  /// Makes it play nothing, because it stands in for one that is missing.
+  /// Makes this sound play nothing, because it stands in for a missing sound.
   void silence() { m_silent = true; }
 
-  /// Stops it if it repeats, before it is unloaded.
+  /// Stops the sound if it repeats. Call before it is unloaded.
   void endLoop();
 
   /// Returns a stand-in for the published engine's SFML object: calls on it do nothing.
   sf::Sound getSound() const { return {}; }
 
  protected:
-  /// Makes a piece of music if `music`.
+  /// Makes a piece of music if `music`, else a sound.
   explicit Sound(bool music) : m_music(music) {}
 
  private:

@@ -1,4 +1,4 @@
-// Bits of World::isStarted(), by manager.
+// Bits for World::isStarted(), one for each manager.
 #pragma once
 
 namespace df {

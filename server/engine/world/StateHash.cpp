@@ -34,7 +34,7 @@ void addObject(FastHash& hash, const WorldStore& store, WorldStore::Slot s) {
   addVector(hash, store.acceleration(s));
   addVector(hash, store.box(s).corner);
   addVector(hash, store.box(s).size);
-  // Only flags that hosts see: others are internal and may depend on whether the world is watched.
+  // Includes only flags that hosts see. Other flags may depend on whether the world is watched.
   const bool active = store.has(s, WorldStore::kActive);
   const bool visible = store.has(s, WorldStore::kVisible);
   hash.word(static_cast<std::uint64_t>(store.solidness(s)) |

@@ -7,9 +7,9 @@ namespace df {
 
 class World;
 
-/// Hashes all that decides the future of the world, as far as the engine has it (Objects with their types,
-/// motions and boxes, and players), and what the last tick drew, in which a game's own members show. Pointers
-/// and memory addresses do not count. Call it between two ticks; it walks over all Objects.
+/// Returns a hash of the engine's state that decides the future of the world (Objects with their types,
+/// motions and boxes, and players), and of the characters that the last tick drew, because these depend on a
+/// game's own members. Excludes memory addresses. Call it between two ticks; it visits all Objects.
 std::uint64_t hashState(const World& world);
 
 }  // namespace df

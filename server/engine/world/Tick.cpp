@@ -19,7 +19,7 @@ namespace df {
 
 namespace {
 
-// Sets a flag while it lives.
+// Sets a flag while this object exists.
 class During {
  public:
   explicit During(bool& flag) : m_flag(flag) { m_flag = true; }
@@ -44,7 +44,7 @@ void PathFollowers::set(Object& object, bool walks) {
 }
 
 void PathFollowers::step() {
-  const std::vector<Object*> walkers = m_objects;  // a copy: Objects that arrive remove themselves
+  const std::vector<Object*> walkers = m_objects;  // a copy, because Objects that arrive remove themselves
   for (Object* p_o : walkers) turn(*p_o);
 }
 

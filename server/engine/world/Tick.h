@@ -1,4 +1,4 @@
-// The steps of a world's tick and their order.
+// Runs the steps of a world's tick in their order.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ class PathFollowers {
   PathFollowers() = default;
   PathFollowers(const PathFollowers&) = delete;
   PathFollowers& operator=(const PathFollowers&) = delete;
-  /// Ends all walks, because Objects may outlive their world.
+  /// Stops all walking Objects, because Objects may outlive their world.
   ~PathFollowers();
 
-  /// Adds or removes the Object.
+  /// Adds the Object if `walks`, else removes it.
   void set(Object& object, bool walks);
-  /// Starts a tick: turns each Object towards its next node, in the order in which they set out.
+  /// Starts a tick: turns each Object towards its next node, in the order in which they were added.
   void step();
 
  private:
@@ -38,7 +38,7 @@ class PathFollowers {
 
 class Tick {
  public:
-  /// The arguments must outlive this object. The world is for layers only.
+  /// The arguments must outlive this object. `world` is only passed to layers.
   Tick(World& world, ObjectRegistry& objects, EventDispatch& events, Capture& picture, Mover& mover,
        InputQueue& input, LazyExtras& extras, WorldState& state);
 
@@ -47,7 +47,7 @@ class Tick {
   void run();
   void update();
   void draw();
-  /// True while one of these is running.
+  /// True while run(), update() or draw() is running.
   bool isRunning() const { return m_in_tick || m_in_update || m_in_draw; }
   /// True while a picture is being drawn.
   bool isDrawing() const { return m_in_draw; }

@@ -83,7 +83,7 @@ bool ViewCover::intersectsAny(const FixedBox& box) const {
   const std::int64_t left = columnOf(box.corner.x - m_size.x);
   const std::int64_t right = columnOf(box.corner.x + box.size.x);
   const std::int64_t bottom = rowOf(box.corner.y + box.size.y);
-  // Only rows with corners: a box larger than all views together would have many rows to search.
+  // Searches only rows that have corners, because a box larger than all views together would have many rows.
   const std::int64_t first = std::max(rowOf(box.corner.y - m_size.y), m_corners.front().row);
   const std::int64_t last = std::min(bottom, m_corners.back().row);
   for (std::int64_t row = first; row <= last; ++row) {

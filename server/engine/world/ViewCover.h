@@ -1,4 +1,4 @@
-// Tests whether a box shows in any view. This happens for every Object in every tick, at a cost that hardly
+// Tests whether a box intersects any view. This is done for every Object in every tick, at a cost that hardly
 // grows with the number of views.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace df {
 
-/// A set of views of one size, at corners in whole cells.
+/// A set of views of one size, each with its corner at a whole cell.
 class ViewCover {
  public:
   ViewCover(const std::vector<FixedVector>& corners, FixedVector size);
@@ -18,14 +18,15 @@ class ViewCover {
   bool intersectsAny(const FixedBox& box) const;
 
  private:
-  /// Limit of views that are tested one by one.
+  /// Up to this many views are tested one by one.
   static constexpr std::size_t kFew = 8;
-  /// Blocks of 8 by 4 cells that lie wholly in a view are marked, at most kMaxBlocks.
+  /// log2 of the size of a block: 8 by 4 cells. Blocks that lie wholly in a view are marked, unless the area
+  /// of all views has more than kMaxBlocks blocks.
   static constexpr int kColumnShift = 3;
   static constexpr int kRowShift = 2;
   static constexpr std::int64_t kMaxBlocks = 1 << 16;
 
-  /// A corner, and the cell that contains it in a grid with cells of the size of a view.
+  /// The corner of a view, and the cell that contains it in a grid whose cells have the size of a view.
   struct Corner {
     std::int64_t row, column;
     FixedVector at;
@@ -38,7 +39,7 @@ class ViewCover {
 
   FixedVector m_size;
   std::vector<Corner> m_corners;  ///< sorted by row, column and position; unique
-  std::int64_t m_left = 0;        ///< edges of the marked area, in blocks
+  std::int64_t m_left = 0;        ///< left edge of the area with marks, in blocks
   std::int64_t m_top = 0;
   std::int64_t m_columns = 0;
   std::int64_t m_rows = 0;

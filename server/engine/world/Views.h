@@ -1,8 +1,8 @@
-// The boundary, the window, the world's own view, and the players with theirs.
+// The boundary, the window, the world's own view, and the players with their views.
 //
-// A view is a corner; its size is the window's. A player shares the world's view until they first have an
-// Object, and has their own from then on. A view that follows an Object moves only when that Object is moved
-// by moveObject() or update(); setting it to follow centres it.
+// A view is defined by its corner; its size is the window's. A player shares the world's view until their
+// first Player::setObject(), and has their own view from then on. A view that follows an Object moves only
+// when moveObject() or update() moves that Object; beginning to follow an Object centres the view.
 #pragma once
 
 #include <cstdint>
@@ -29,9 +29,9 @@ class Views {
  public:
   using Players = std::map<std::uint32_t, std::unique_ptr<Player>>;
 
-  /// Both must outlive this object.
+  /// The arguments must outlive this object.
   Views(WorldStore& store, WorldLog& log) : m_store(store), m_log(log) { reset(); }
-  /// Restores the initial state: no players, window 80 by 24, boundary the window.
+  /// Restores the initial state: no players, and a window and boundary of 80 by 24.
   void reset();
 
   // Boundary and window.
@@ -54,27 +54,28 @@ class Views {
   Player* player(std::uint32_t id) const;
   const Players& players() const { return m_players; }
   std::vector<Player*> getPlayers() const;
-  /// Counts and logs a refused call on a Player. Returns -1.
+  /// Counts and logs a refused call of a Player's function. Returns -1.
   int refuse(const char* what);
   const WorldStore& store() const { return m_store; }
 
-  // Views. A null player, or one without their own view, stands for the world's view.
+  // Views. A null player, or a player without their own view, stands for the world's view.
 
   FixedVector cornerOf(const Player* p_player) const;
   Box viewOf(const Player* p_player) const;
-  /// Moves the corner there, clamped inside the boundary.
+  /// Moves the view to this corner, clamped inside the boundary.
   void setCorner(Player* p_player, FixedVector corner);
   /// Centres the view on this position.
   void centre(Player* p_player, FixedVector position);
-  /// Makes the view follow this Object; null: none. Returns 0, or -1 for one that is not in this world.
+  /// Makes the view follow this Object; null: none. Returns 0, or -1 for an Object that is not in this world.
   int follow(Player* p_player, Object* p_o);
-  /// Gives the player their own view, which follows this Object; null leaves it where it is. Like follow().
+  /// Gives the player their own view, which follows this Object; null leaves it where it is. Returns like
+  /// follow().
   int setObject(Player& player, Object* p_o);
-  /// Moves the views that follow this Object, which was moved.
+  /// Moves the views that follow this Object. Call when the Object was moved.
   void moved(ObjectKey key, FixedVector position);
-  /// Returns the Object that the player's view follows, their own or the world's; generation 0 if none.
+  /// Returns the Object that the player's view (their own or the world's) follows; generation 0 if none.
   ObjectKey followed(const Player* p_player) const;
-  /// Returns all views in whole cells, as they show on the screens.
+  /// Returns all views, in whole cells, as the screens show them.
   ViewCover cover() const;
 
  private:
@@ -85,13 +86,14 @@ class Views {
   WorldStore& m_store;
   WorldLog& m_log;
   FixedBox m_boundary;
-  bool m_boundary_set = false;  // else it follows the window
+  bool m_boundary_set = false;  // false: the boundary is the window
   int m_width = 0;
   int m_height = 0;
   FixedVector m_corner;  // corner of the world's view
   ObjectKey m_followed;  // Object that the world's view follows
   Players m_players;
-  /// Players by the slot that their own view follows. Players may be many, and so may followed Objects.
+  /// Players with the slot that their own view follows, so that moved() does not search all of the many
+  /// players.
   std::vector<std::pair<std::uint32_t, Player*>> m_followers;
   bool m_followers_known = false;
 };

@@ -54,7 +54,7 @@ World::~World() {
 World& World::current() {
   if (t_p_current != nullptr) return *t_p_current;
   static World* p_default = [] {
-    auto* p_world = new World;  // never destroyed: static Objects of games may die last
+    auto* p_world = new World;  // never destroyed: static Objects of games may be destroyed last
     p_world->m_state.is_default = true;
     return p_world;
   }();
@@ -116,7 +116,7 @@ bool World::isDrawing() const {
 }
 
 void World::run() {
-  // A handler that called it would wait for ticks that cannot begin before it returns.
+  // A handler that calls run() would wait for ticks that cannot begin before the handler returns.
   if (m_tick->isRunning()) {
     m_log->writeOnce("GM.run() inside a handler does nothing: the game is running");
     return;
@@ -127,7 +127,7 @@ void World::run() {
     m_state.p_runner->run(*this);
     return;
   }
-  // Many games show a title in a run of its own, which ends with the game over, and then run again.
+  // Many games first run a title, which ends with a game over, and then run the game.
   if (isStarted(kGameHasRun)) m_state.game_over = false;
   if (isStarted(kGameStarted)) setStarted(kGameHasRun, true);
   if (running::Program* p_program = program()) return p_program->run(*this);

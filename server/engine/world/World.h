@@ -44,8 +44,8 @@ struct WorldExtras;
 class World {
  public:
   World();
-  /// Objects that are still alive stay alive without a world: their getters and setters still work. (It is
-  /// shutDown() that deletes.)
+  /// Does not delete Objects, unlike shutDown(). They stay alive without a world: their getters and setters
+  /// still work.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -54,14 +54,14 @@ class World {
   /// destroyed, so that static Objects and cached references are safe.
   static World& current();
 
-  /// Makes a world the current one of this thread while it lives. Scopes nest.
+  /// Makes a world the current world of this thread while the Scope exists. Scopes can be nested.
   using Scope = WorldScope;
 
   // Lifetime.
 
-  /// Deletes Objects made with `new`, removes the others, and forgets players, inputs, interests, boundary,
-  /// views, ticks and game over. The world can be started again; seed, sink and runner stay. Called inside a
-  /// tick, update, draw or event handler, it takes effect at its end, and the game is over until
+  /// Deletes Objects made with `new`, removes all others, and resets players, inputs, interests, boundary,
+  /// views, tick count and game over. The world can then be started again; it keeps seed, sink and runner. If
+  /// called inside a tick, update, draw or event handler, does so at its end, and the game is over until
   /// GM.startUp().
   void shutDown();
   /// Records which managers are started, as bits of Started.h. (The world itself works without them.)
@@ -75,33 +75,34 @@ class World {
   /// Runs one full tick: step event, input events, update(), draw(), then fills the WorldView if the world is
   /// watched. Does nothing inside another tick, update or draw.
   void tick();
-  /// Moves all Objects once, in creation order, lets the layers step, then deletes what is marked. Does
-  /// nothing inside another update.
+  /// Moves all Objects once, in creation order, runs the layers' step(), then deletes the marked Objects.
+  /// Does nothing inside another update.
   void update();
   /// Begins a new picture: runs the draw() of all Objects in view, by altitude, then creation order. Does
   /// nothing inside a tick, which draws at its end.
   void draw();
   /// True while a picture is being drawn.
   bool isDrawing() const;
-  /// Runs the game: through the Runner if one is set, else through program(), else tick by tick until the
-  /// game is over. Without a Runner a second call after GM.startUp() continues after the first run has ended,
-  /// but a game over before the first run ends it at once. Does nothing inside a tick, update or draw.
+  /// Runs the game: by the Runner if one is set, else by program(), else tick by tick until the game is over.
+  /// Without a Runner, a second call after GM.startUp() continues a game that was over at the end of the
+  /// first run. If the game is over before the first run, that ends at once. Does nothing inside a tick,
+  /// update or draw.
   void run();
   /// Returns the number of ticks begun since the world began.
   int getStepCount() const { return m_state.step_count; }
   /// True if run(), tick() or update() was ever called.
   bool hasBegun() const { return m_state.begun; }
-  /// Ends the game, or undoes that. While a player's input is handled, it may end for that player alone
-  /// (InputQueue::setGameOverLeaves).
+  /// Ends the game; `false` undoes this. While a player's input is being handled, the host may end the game
+  /// for that player alone (InputQueue::setGameOverLeaves).
   void setGameOver(bool game_over = true);
   bool isGameOver() const { return m_state.game_over; }
   /// Sets the Runner. Not owned; null for none.
   void setRunner(Runner* p_runner) { m_state.p_runner = p_runner; }
-  /// Returns what runs this world if it has no Runner (Runner.h). Null if it has one, was made by hand, or no
-  /// Program is set.
+  /// Returns the Program that runs this world (Runner.h). Null if the world has a Runner, if it is not the
+  /// default world, or if no Program is set.
   running::Program* program() const;
-  /// Makes `layer` take part in update(), after the layers added before it. It lives as long as the world.
-  /// Added by a layer's step(), or by a handler that it calls, it takes part in that update() already.
+  /// Makes `layer` take part in update(), after the layers added before it. The layer exists as long as the
+  /// world. If it is added during a layer's step(), it takes part in that update() already.
   void addLayer(std::unique_ptr<Layer> layer) { m_state.layers.push_back(std::move(layer)); }
   /// Returns the first layer of this class; null if not found.
   template <class T>
@@ -116,32 +117,34 @@ class World {
     m_state.seed = seed;
     m_state.random = Random(seed);
   }
-  /// Returns 0 to n-1, each equally likely; 0 if n < 1.
+  /// Returns a random number 0 to n-1, each equally likely; 0 if n < 1.
   int randomInt(int n) { return m_state.random.below(n); }
 
   // The picture.
 
-  /// Draws one character at a world position; one that no terminal draws in one cell becomes '?'. Returns 0,
-  /// or -1 for a position or colour out of range.
+  /// Draws one character at a world position. A character that no terminal draws in one cell becomes '?'.
+  /// Returns 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char32_t ch, Color color);
-  /// Returns the view of the player whose input is being handled, if they have their own, else the world's.
+  /// Returns the view of the player whose input is being handled, if they have their own, else the world's
+  /// view.
   Box getView() const;
 
   // Features that only some games use.
 
   /// Makes the world behave like the published engine where that differs from the book (docs/dragonfly-api.md
-  /// lists it). Affects new Objects, so call it before the first. Off by default. shutDown() keeps it.
+  /// lists it). Affects new Objects, so call it before the first is made. Off by default. shutDown() keeps
+  /// the setting.
   void setCompat(bool compat = true) { m_state.compat = compat; }
   bool compat() const { return m_state.compat; }
   /// While a game is paused, no step event is sent and nothing moves; only Pause objects get events, except
   /// joins and leaves, which all Objects get.
   void setPaused(bool paused = true) { m_state.paused = paused; }
   bool isPaused() const { return m_state.paused; }
-  /// Returns sprites, sounds, settings and the like, made at first use.
+  /// Returns the sprites, sounds, settings and other WorldExtras, which are made at first use.
   WorldExtras& extras();
-  /// Like extras(), but null before its first call.
+  /// Like extras(), but returns null if extras() has not been called yet.
   WorldExtras* findExtras() const;
-  /// Lines about the game for the client's help screen.
+  /// Lines about the game, shown on the help screen of clients.
   void setHelp(std::vector<std::string> lines) { m_state.help = std::move(lines); }
   const std::vector<std::string>& getHelp() const { return m_state.help; }
   /// Makes the world record on this page what the game does (ActivityPage.h). Not owned; null for none.
@@ -161,7 +164,7 @@ class World {
   Mover& mover() { return *m_mover; }
   InputQueue& input() const { return *m_input; }
 
-  // Access for Objects and sounds, which do not include these parts.
+  // Access for Objects and sounds, which do not include the headers of the parts.
 
   /// See EventDispatch::deliver().
   void deliver(ObjectKey key, const Event& event);
@@ -171,7 +174,7 @@ class World {
   void drawFrame(std::uint32_t slot);
   /// Records that a sound was played; see WorldView.
   void recordSound(SoundPlayed sound);
-  /// True if it was played in a loop and was neither stopped nor paused since.
+  /// True if the sound or music was played in a loop and was neither stopped nor paused since.
   bool isPlaying(const std::string& label, bool music);
   /// True if the file of a sound or a piece of music can be read; logs a line if not.
   bool findFile(const std::string& kind, const std::string& filename);
@@ -181,7 +184,7 @@ class World {
   /// True while an Object's code is running, which has to return before a shutdown.
   bool isBusy() const;
 
-  WorldStore* m_p_store;  // reference-counted: outlives the world if Objects or lists do
+  WorldStore* m_p_store;  // reference-counted: outlives the world if Objects, lists or Refs do
   WorldState m_state;
   std::unique_ptr<WorldLog> m_log;
   std::unique_ptr<LazyExtras> m_extras;

@@ -1,5 +1,5 @@
-// Parts of a world that only some games use. Made at first use (World::extras), so that a world without them
-// costs a null pointer and one test in a tick.
+// Parts of a world that only some games use. They are made at first use (World::extras), so that a world
+// without them only has a null pointer and tests it once in a tick.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct WorldState;
 
 /// The shaking of the window (DM.shake): by how many cells the picture is displaced in a tick.
 struct ScreenShake {
-  int scale_x = 0;  ///< limit to either side, in cells
+  int scale_x = 0;  ///< largest displacement to either side, in cells
   int scale_y = 0;
   int ticks = 0;  ///< remaining ticks
   int x = 0;      ///< displacement in this tick, in cells
@@ -42,22 +42,22 @@ struct ScreenShake {
   }
 };
 
-/// The players of a world as the connections of the published engine's NetworkManager, for games written as
-/// two programs, of which only the server half runs here (published/NetworkManager.cpp).
+/// The players of a world as the connections of the published engine's NetworkManager. Used by games written
+/// as two programs, of which only the server's half runs here (published/NetworkManager.cpp).
 struct Connections {
   bool is_server = false;
-  /// Limit of connected players; the others watch.
+  /// Maximum number of connected players; further players only watch.
   int limit = 16;
   /// True if the game's server is a player itself (server_plays).
   bool has_host = false;
-  /// The player that sits at the server then; 0 for none.
+  /// With has_host, the player that sits at the server; 0 for none.
   std::uint32_t host = 0;
   /// Players whose connection the game has closed.
   std::vector<std::uint32_t> closed;
-  /// Players by socket, which is the index; 0 for none.
+  /// Players; the index is their socket. 0: the socket is free.
   std::vector<std::uint32_t> players;
 
-  /// Returns the socket of a player; -1 for none.
+  /// Returns the socket of a player; -1 if they have none.
   int socketOf(std::uint32_t player) const {
     const auto found = std::find(players.begin(), players.end(), player);
     return player == 0 || found == players.end() ? -1 : static_cast<int>(found - players.begin());
@@ -78,10 +78,10 @@ class Animations {
   explicit Animations(WorldStore& store) : m_store(store) {}
   Animations(const Animations&) = delete;
   Animations& operator=(const Animations&) = delete;
-  /// Clears the index of each Object, because Objects may outlive their world.
+  /// Resets ObjectExtras::animated of each Object, because Objects may outlive their world.
   ~Animations();
 
-  /// Runs the animation of the Object in this slot. A second call has no effect.
+  /// Makes advance() advance the animation of the Object in this slot. A second call has no effect.
   void add(std::uint32_t slot, ObjectExtras& extras);
   void remove(ObjectExtras& extras);
   /// Advances all animations by one tick.
@@ -90,7 +90,7 @@ class Animations {
  private:
   struct Entry {
     std::uint32_t slot;
-    ObjectExtras* p_extras;  // has its index here (ObjectExtras::animated)
+    ObjectExtras* p_extras;  // its `animated` is the index of this entry
   };
 
   WorldStore& m_store;
@@ -103,19 +103,19 @@ struct RoundExtras {
   ScreenShake shake;
   std::vector<SoundPlayed> sounds;  ///< played in this tick
   std::uint32_t sounds_lost = 0;
-  std::vector<SoundPlayed> playing;  ///< repeating sounds
-  std::vector<std::string> notes;    ///< lines of this tick
-  /// The only player whose input the host passes on; 0: it passes on all players' input.
+  std::vector<SoundPlayed> playing;  ///< repeating sounds, oldest first
+  std::vector<std::string> notes;    ///< lines of this tick for all players to read
+  /// If not 0, the host passes on only this player's input.
   std::uint32_t input_player = 0;
   Color background = BLACK;
   Vector view_slack{1.0 / 3, 1.0 / 3};  ///< stored only; has no effect
   bool network_logged = false;          ///< true once the log says that there are no sockets
   Connections connections;
-  /// Gets each key, mouse event and leave before the game does, and null before the inputs of a tick. Returns
-  /// true to keep the event from the game.
+  /// Called with each key, mouse event and leave before the game gets it, and with null before the inputs of
+  /// a tick. Returns true if the game must not get the event.
   std::function<bool(const Event*)> input_filter;
   Random random{0xD6A60};
-  std::int64_t clock = 0;  ///< last reading of a Clock, in microseconds of game time
+  std::int64_t clock = 0;  ///< last time that a Clock read, in microseconds of game time
 };
 
 struct WorldExtras : RoundExtras {
@@ -128,22 +128,23 @@ struct WorldExtras : RoundExtras {
   void recordSound(SoundPlayed sound);
   /// Adds a line for all players to read.
   void addNote(std::string line);
-  /// True if this is repeating.
+  /// True if a sound or music with this label is repeating.
   bool isPlaying(const std::string& label, bool music) const;
   /// Ends a tick, after it was drawn.
   void endTick(bool paused);
-  /// Restores the initial state, except scores and rooms. Sprites live as long as the world, because Objects
-  /// may still show them.
+  /// Restores the initial state, except scores and rooms. Sprites are kept, because Objects may still show
+  /// them.
   void reset() {
     resources.clear();
     static_cast<RoundExtras&>(*this) = RoundExtras();
   }
-  /// Returns random numbers for what is only seen, so that these do not change WM.randomInt().
+  /// Returns the random numbers for visual effects. They are separate, so that effects do not change
+  /// WM.randomInt().
   Random& decoration() { return random; }
 
-  static constexpr std::size_t kMaxSounds = 256;  ///< per tick; further ones are only counted
-  static constexpr std::size_t kMaxNotes = 4;     ///< per tick
-  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating ones; a further one replaces the oldest
+  static constexpr std::size_t kMaxSounds = 256;  ///< sounds per tick; further ones are only counted
+  static constexpr std::size_t kMaxNotes = 4;     ///< lines per tick; further ones are dropped
+  static constexpr std::size_t kMaxPlaying = 16;  ///< repeating sounds; a further one replaces the oldest
 
   Resources resources;
   Animations animations;
@@ -157,7 +158,7 @@ class LazyExtras {
   LazyExtras(WorldStore& store, WorldLog& log, const WorldState& state)
       : m_store(store), m_log(log), m_state(state) {}
   WorldExtras& get();
-  /// Like get(), but null before its first call.
+  /// Like get(), but returns null if get() has not been called yet.
   WorldExtras* find() const { return m_p_extras.get(); }
 
  private:

@@ -10,7 +10,7 @@ namespace df {
 
 namespace {
 
-/// Limit of different lines of writeOnce(): a game that makes up names by the thousand must not fill memory.
+/// Maximum number of different lines of writeOnce(), so that a game with many names does not fill memory.
 constexpr std::size_t kMaxLogged = 500;
 
 /// Returns which values a setter would have accepted.

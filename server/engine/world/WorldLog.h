@@ -1,4 +1,4 @@
-// The log of a world: its lines, and the calls that were refused.
+// The log of a world: writes its lines, and counts the calls that were refused.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ class WorldLog {
  public:
   using Sink = std::function<void(const std::string& line)>;
 
-  /// Receives the lines. Without one they go to a file (LogManager.h).
+  /// Sets the function that receives the lines. Without one, lines go to a file (LogManager.h).
   void setSink(Sink sink) { m_sink = std::move(sink); }
-  /// Names the file for lines without a sink. Not owned; null for dragonfly.log.
+  /// Sets the name of the file for lines without a sink. Not owned; null for dragonfly.log.
   void setFile(const std::string* p_name) { m_p_file = p_name; }
   /// Copies further lines to this page, for the report of a crash. Not owned; null for none.
   void setPage(ActivityPage* p_page) { m_p_page = p_page; }
@@ -29,16 +29,16 @@ class WorldLog {
 
   /// Writes one line, without a newline at its end.
   void write(const std::string& line) const;
-  /// Writes the line, unless it was written like this before. After 500 different lines it writes no more.
+  /// Writes the line, unless writeOnce() has written it before. After 500 different lines, writes none.
   void writeOnce(const std::string& line);
   /// Like writeOnce(), but only crash reports show the line.
   void addActivityLineOnce(const std::string& line);
-  /// Counts a refused call. Writes the first one of its name for this type of Object, and which values are
-  /// valid. Returns -1.
+  /// Counts a refused call. For the first one of each name and type of Object, writes a line with the valid
+  /// values. Returns -1.
   int refuse(const std::string& type, const char* what);
-  /// The number of refused calls.
+  /// Returns the number of refused calls.
   std::uint64_t refusals() const { return m_refusals; }
-  /// Forgets the refusals and the lines that were written once.
+  /// Resets refusals(), and lets writeOnce(), addActivityLineOnce() and refuse() write all lines again.
   void clear();
 
  private:

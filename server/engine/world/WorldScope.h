@@ -1,4 +1,4 @@
-// Makes a world the current one of the calling thread while it lives (World::Scope).
+// Makes a world the current world of the calling thread while this object exists (World::Scope).
 #pragma once
 
 namespace df {

@@ -25,7 +25,7 @@ struct RoundState {
 struct WorldState : RoundState {
   bool compat = false;      ///< World::setCompat()
   bool begun = false;       ///< World::hasBegun()
-  bool is_default = false;  ///< the world of threads without a current one
+  bool is_default = false;  ///< true for the world of threads without a current world
   std::uint64_t seed = 1;
   Runner* p_runner = nullptr;
   std::vector<std::unique_ptr<Layer>> layers;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kWhileInWorld = WorldStore::kInWorld | WorldStore::kMarked | WorldStore::kLookCached |
                                         WorldStore::kReported | WorldStore::kFollowed;
-// With one of these flags, a turn is more than position += velocity.
+// An Object with one of these flags is neither a flier nor a walker (UpdateMasks).
 constexpr std::uint32_t kOptions =
     WorldStore::kSwept | WorldStore::kPrecise | WorldStore::kRestContacts | WorldStore::kMayMoveOut;
 constexpr std::uint32_t kSpecial = WorldStore::kFollowed | (WorldStore::kLayers ? kOptions : 0);
@@ -34,7 +34,7 @@ WorldStore::Slot WorldStore::allocateSlot(Object* p_o, bool heap) {
   m_positions[s] = {};
   m_velocities[s] = {};
   m_accelerations[s] = {};
-  // A slot that was reused within a tick is in the list of changes already.
+  // Keeps kDirty: a slot that is reused within a tick is in the list of changes already.
   m_cards[s].flags =
       static_cast<std::uint32_t>((m_cards[s].flags & kDirty) | kActive | kVisible | (heap ? kHeap : 0u));
   m_cards[s].solidness = HARD;
@@ -92,7 +92,7 @@ void WorldStore::closeGaps() {
   std::erase(m_order_list, kNoSlot);
   assert(m_order_list.size() == static_cast<std::size_t>(m_in_world));
   for (std::size_t i = 0; i < m_order_list.size(); ++i) {
-    // Entries only move towards the front, so what is read here has not been overwritten yet.
+    // Entries only move towards the front, so the entry that is read here has not been overwritten yet.
     const Slot s = m_order_list[i];
     const bool blocked = isBlocked(s);
     m_cards[s].index = static_cast<std::uint32_t>(i);
@@ -122,7 +122,7 @@ void WorldStore::classify(Slot s) {
   const std::size_t i = m_cards[s].index;
   mark(m_bits.handlers, m_handlers, i, handlesEvents(s) && !spectral);
   UpdateMasks::set(m_bits.turns, i, turns);
-  // A flier that was blocked is left out: its next turn has to clear that mark.
+  // A blocked Object is not a flier, because its next turn has to clear the bit.
   UpdateMasks::set(m_bits.fliers, i, plain && spectral && !isBlocked(s));
   UpdateMasks::set(m_bits.walkers, i, plain && !spectral && !(kLayers && m_all_swept));
 }
@@ -133,7 +133,7 @@ void WorldStore::mark(UpdateMasks::Words& row, int& count, std::size_t index, bo
   count += on ? 1 : -1;
 }
 
-// Updates the sets of solid Objects.
+// Updates the Object's bits in the sets of solid Objects.
 void WorldStore::markSolid(Slot s) {
   if (!has(s, kInWorld)) return;
   const bool is_solid = collides(s);
@@ -141,7 +141,7 @@ void WorldStore::markSolid(Slot s) {
   mark(m_bits.softs, m_softs, m_cards[s].index, is_solid && m_cards[s].solidness == SOFT);
 }
 
-// Removes an entry that becomes a gap from the counted sets.
+// Removes an entry that becomes a gap from the sets that are counted.
 void WorldStore::unmark(std::size_t index) {
   mark(m_bits.handlers, m_handlers, index, false);
   mark(m_bits.hards, m_hards, index, false);
@@ -177,7 +177,7 @@ void WorldStore::setVelocity(Slot s, FixedVector velocity) {
   const FixedVector before = m_velocities[s];
   if (before == velocity) return;
   m_velocities[s] = velocity;
-  // Whether the new one is blocked is not known yet.
+  // Whether the new velocity is blocked is not known yet.
   const bool was_blocked = has(s, kInWorld) && isBlocked(s);
   if (was_blocked) UpdateMasks::set(m_bits.blocked, m_cards[s].index, false);
   if (was_blocked || before == FixedVector{} || velocity == FixedVector{}) classify(s);
@@ -239,7 +239,8 @@ const Mask* WorldStore::spriteMask(Slot s) const {
 
 void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {
   const bool was_blocked = isBlocked(s);
-  // The velocity of a blocked Object is not shown: gravity on something that lies still is not a change.
+  // Hosts do not see the velocity of a blocked Object, so gravity on an Object that lies still is not a
+  // change.
   const bool shows = was_blocked != blocked || (!blocked && m_velocities[s] != velocity);
   m_velocities[s] = velocity;
   if (was_blocked != blocked) {

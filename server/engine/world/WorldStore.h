@@ -1,14 +1,14 @@
 // The state of a world's Objects that every tick uses: arrays by slot, behind handles with generations.
 //
-// An Object owns one slot from construction to destruction. In between it may be "in the world": entering
-// puts it last in the creation order; leaving (or dying) ends its generation, so that old handles find no
-// Object. A freed slot rests before it is reused, so that clients know of the deletion before another Object
-// has the slot.
+// An Object owns one slot from construction to destruction. In between it may be "in the world". Entering the
+// world puts it last in the creation order. Leaving it, or being destroyed, ends its generation, so that old
+// handles find no Object. A freed slot is not reused for some time, so that clients know of the deletion
+// before another Object has the slot.
 //
-// All changes of an Object's state go through the setters here: they keep the grid of solid boxes and the
-// list of changes up to date. Arguments must be in range; Object checks what games pass in.
+// All changes of an Object's state go through the setters here, which keep the grid of solid boxes and the
+// list of changes up to date. Arguments must be in range; Object checks the arguments of games.
 //
-// The store is reference-counted by its world, by each Object and by each list, so it may outlive the world.
+// The world, each Object, each list and each Ref hold a reference to the store, so it may outlive the world.
 #pragma once
 
 #include <cassert>
@@ -37,7 +37,7 @@ class World;
 
 /// The flags of an Object in its world's store.
 struct ObjectFlags {
-  /// An engine built without the options beyond the book has their setters, but these have no effect.
+  /// False in an engine built without the options beyond the book: their setters then have no effect.
 #if defined(NAIAD_WITHOUT_LAYERS)
   static constexpr bool kLayers = false;
 #else
@@ -50,10 +50,10 @@ struct ObjectFlags {
     kNoSoft = 1 << 3,
     kHeap = 1 << 4,        ///< made with `new`: the world deletes it
     kMarked = 1 << 5,      ///< marked to be deleted after update
-    kLookCached = 1 << 6,  ///< its static look was drawn and is repeated
-    kDirty = 1 << 7,       ///< is in the list of changes
-    kReported = 1 << 8,    ///< the host knows its state
-    kDerive = 1 << 9,      ///< speed and direction follow from the velocity
+    kLookCached = 1 << 6,  ///< its static look has been drawn and is repeated
+    kDirty = 1 << 7,       ///< it is in the list of changes
+    kReported = 1 << 8,    ///< the host knows the Object's state
+    kDerive = 1 << 9,      ///< speed and direction are derived from the velocity
     kStaticLook = 1 << 10,
     kNeverDraws = 1 << 11,      ///< its dynamic type is Object itself
     kClassified = 1 << 12,      ///< kNeverDraws and kNoEventHandler are known
@@ -64,22 +64,22 @@ struct ObjectFlags {
     kRestContacts = 1 << 17,
     kMayMoveOut = 1 << 18,
     kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
-    kPainted = 1 << 24,  ///< has a sprite or a shape, which draw() shows unless its class overrides it
-    kOnView = 1 << 25,   ///< a view object: drawn at every position
-    kFrames = 1 << 28,   ///< has frames
+    kPainted = 1 << 24,  ///< has a sprite or a shape, which Object::draw() shows
+    kOnView = 1 << 25,   ///< a view object: drawn wherever its position is
+    kFrames = 1 << 28,   ///< it has frames (setFrames())
   };
 };
 
-/// Kinds of turns that Objects take in update(), as bits by place in the creation order: entry i has bit i %
-/// 64 of word i / 64, so that 64 Objects are classified at a time.
+/// Kinds of turns that Objects take in update(), one bit for each entry of the creation order: entry i has
+/// bit i % 64 of word i / 64, so that 64 Objects are tested at a time.
 struct UpdateMasks {
   using Words = std::vector<std::uint64_t>;
 
   Words turns;        ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
-  Words fliers;       ///< those of `turns` that are SPECTRAL and only add their velocity
-  Words walkers;      ///< those of `turns` that are solid and use only the book's test at the end of a move
-  Words consecutive;  ///< its slot follows that of the entry before
-  Words blocked;      ///< its last move in update did not happen
+  Words fliers;       ///< turns of SPECTRAL Objects that only add their velocity
+  Words walkers;      ///< turns of solid Objects that use only the book's test, at the end of a move
+  Words consecutive;  ///< its slot follows the slot of the entry before it
+  Words blocked;      ///< its last move in update() did not happen
   Words handlers;     ///< solid, active, and its class overrides eventHandler(): gets collision events
   Words hards;        ///< active and HARD
   Words softs;        ///< active and SOFT
@@ -96,22 +96,22 @@ struct UpdateMasks {
     for (Words* p_words : {&turns, &fliers, &walkers, &consecutive, &blocked, &handlers, &hards, &softs})
       p_words->resize(i / 64 + 1);
   }
-  /// Clears the bits of entry i, now a gap. Its sequel bit stays, and means nothing without a turn.
+  /// Clears the bits of entry i, now a gap. Its bit in `consecutive` stays; it means nothing without a turn.
   void clear(std::size_t i) {
     for (Words* p_words : {&turns, &fliers, &walkers, &blocked, &handlers, &hards, &softs})
       set(*p_words, i, false);
   }
 };
 
-/// Returns the mask of the sprite's present frame, if that is drawn where the Object's box is; else null.
-/// Defined with Object, because the store knows only pointers to Objects.
+/// Returns the mask of the sprite's present frame, if the frame is drawn where the Object's box is; else
+/// null. Defined in Object's files, because the store does not include Object.h.
 const Mask* spriteMaskOf(const Object& object);
 
 class WorldStore : public ObjectFlags {
  public:
   using Slot = std::uint32_t;
   static constexpr Slot kNoSlot = UINT32_MAX;
-  /// Number of updates for which a freed slot rests: two seconds, longer than any playable round trip.
+  /// Number of updates before a freed slot is reused: two seconds, longer than any playable round trip.
   static constexpr std::uint64_t kSlotReuseDelay = 64;
 
   explicit WorldStore(World* p_world) : m_p_world(p_world) {}
@@ -122,7 +122,7 @@ class WorldStore : public ObjectFlags {
     assert(m_references > 0);
     if (--m_references == 0) delete this;
   }
-  /// Returns the world; null once it is gone.
+  /// Returns the world; null once it has been destroyed.
   World* world() const { return m_p_world; }
   void detachWorld() { m_p_world = nullptr; }
 
@@ -130,10 +130,10 @@ class WorldStore : public ObjectFlags {
 
   /// Allocates a slot with an Object's default state, not in the world yet.
   Slot allocateSlot(Object* p_o, bool heap);
-  /// Frees the slot of a destroyed Object, which must have left the world. It rests for kSlotReuseDelay
-  /// updates.
+  /// Frees the slot of a destroyed Object, which must have left the world. It is not reused for
+  /// kSlotReuseDelay updates.
   void freeSlot(Slot s);
-  /// Counts an update.
+  /// Counts an update. Call once in each.
   void age() { ++m_updates; }
   /// Adds the slot to the world, last in creation order.
   void enter(Slot s);
@@ -148,7 +148,7 @@ class WorldStore : public ObjectFlags {
   bool isCurrent(ObjectKey k) const {
     return k.slot < m_cards.size() && m_cards[k.slot].generation == k.generation;
   }
-  /// Like isCurrent(), without the bounds check, for a key that was current in this store once.
+  /// Like isCurrent(), without the bounds check. `k` must have been current in this store at some time.
   bool isCurrentUnchecked(ObjectKey k) const { return m_cards[k.slot].generation == k.generation; }
   Object* find(ObjectKey k) const { return isCurrent(k) ? m_cards[k.slot].p_object : nullptr; }
   Object* object(Slot s) const { return m_cards[s].p_object; }
@@ -165,17 +165,17 @@ class WorldStore : public ObjectFlags {
   FixedBox box(Slot s) const { return m_boxes[s]; }
   FixedBox worldBox(Slot s, FixedVector at) const { return translate(m_boxes[s], at); }
   Solidness solidness(Slot s) const { return m_cards[s].solidness; }
-  /// Returns the Object's mask, else that of its sprite's frame; null for the whole box.
+  /// Returns the Object's mask or, if it has none, the mask of its sprite's frame; null: the whole box.
   const Mask* mask(Slot s) const {
     const auto it = m_masks.find(s);
     if (it != m_masks.end()) return &it->second;
     return has(s, kPainted) ? spriteMask(s) : nullptr;
   }
-  /// Returns the frames and their selector; null without frames.
+  /// Returns the frames and their selector; null if the Object has no frames.
   const std::shared_ptr<const naiad::Look>& frames(Slot s) const;
   int altitude(Slot s) const { return m_cards[s].altitude; }
   std::uint64_t order(Slot s) const { return m_cards[s].order; }
-  /// Returns the order given last; 0 before the first.
+  /// Returns the highest place in the creation order so far; 0 if no Object has entered.
   std::uint64_t lastOrder() const { return m_next_order - 1; }
   std::uint32_t flags(Slot s) const { return m_cards[s].flags; }
   bool has(Slot s, Flag flag) const { return (m_cards[s].flags & flag) != 0; }
@@ -183,9 +183,9 @@ class WorldStore : public ObjectFlags {
     return (m_cards[s].flags & (kInWorld | kActive)) == (kInWorld | kActive) &&
            m_cards[s].solidness != SPECTRAL;
   }
-  /// True if its last move in update() did not happen.
+  /// True if the Object's last move in update() did not happen.
   bool isBlocked(Slot s) const { return UpdateMasks::get(m_bits.blocked, m_cards[s].index); }
-  /// True if it gets events: it is in the world, active, and of a class that overrides eventHandler().
+  /// True if the Object gets events: it is in the world, active, and its class overrides eventHandler().
   bool handlesEvents(Slot s) const {
     return (m_cards[s].flags & (kInWorld | kActive | kNoEventHandler)) == (kInWorld | kActive);
   }
@@ -197,8 +197,8 @@ class WorldStore : public ObjectFlags {
   void setVelocity(Slot s, FixedVector velocity);
   void setAcceleration(Slot s, FixedVector acceleration);
   void setBox(Slot s, FixedBox box);
-  /// True if there ever was a box that does not contain its Object's position. If not, an Object whose
-  /// position is inside something has its box there too.
+  /// True if there ever was a box that does not contain its Object's position. If false, an Object whose
+  /// position is inside an area has a part of its box there, too.
   bool hasBoxesOffPosition() const { return m_boxes_off; }
   void setSolidness(Slot s, Solidness solidness);
   /// True if any Object was SOFT since the world was made.
@@ -208,7 +208,7 @@ class WorldStore : public ObjectFlags {
   void setMask(Slot s, std::optional<Mask> mask);
   /// Sets the frames; null: none.
   void setFrames(Slot s, std::shared_ptr<const naiad::Look> p_look);
-  /// Ends an Object's turn in update(): sets its velocity and whether its move was blocked.
+  /// Ends an Object's turn in update(): sets its velocity, and whether its move was blocked.
   void settle(Slot s, FixedVector velocity, bool blocked) {
     if (velocity != m_velocities[s] || blocked != isBlocked(s)) settleChanged(s, velocity, blocked);
   }
@@ -220,14 +220,15 @@ class WorldStore : public ObjectFlags {
   /// Sets a flag. Flags that hosts see (active, visible, no-soft) are reported as changes.
   void set(Slot s, Flag flag, bool on);
 
-  /// True if this is a legal position, or a legal velocity.
+  /// True if this is a valid position, or a valid velocity.
   static bool isPosition(FixedVector p) { return within(p, kMaxCells); }
   static bool isVelocity(FixedVector v) { return within(v, kMaxVelocityCells); }
 
   // Walking.
 
-  /// The creation order as it is now: entries [0, size()), which a walk may read while Objects come and go.
-  /// An Object that enters is appended behind the end; one that leaves becomes a gap, kNoSlot.
+  /// The creation order at the time of the constructor: entries [0, size()), which can be read while Objects
+  /// enter and leave. An Object that enters is appended behind size(); one that leaves becomes a gap,
+  /// kNoSlot.
   class Walk {
    public:
     explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {
@@ -247,7 +248,7 @@ class WorldStore : public ObjectFlags {
   /// Returns entry i of the creation order; kNoSlot for a gap.
   Slot entry(std::size_t i) const { return m_order_list[i]; }
   const UpdateMasks& updateMasks() const { return m_bits; }
-  /// Sweeps the moves of all Objects, or only of those that ask for it.
+  /// Sets whether the moves of all Objects are swept, or only those of Objects with kSwept.
   void setAllSwept(bool all_swept);
   bool isAllSwept() const { return m_all_swept; }
 
@@ -259,24 +260,24 @@ class WorldStore : public ObjectFlags {
   /// True if any Object is precise.
   bool hasPrecise() const { return kLayers && m_precise > 0; }
 
-  /// Moves up to `count` fliers, from slot `first` on, by their velocities. Stops at the first that would
-  /// leave `boundary`. Returns how many were moved.
+  /// Moves up to `count` fliers (UpdateMasks) in consecutive slots from `first` on by their velocities. Stops
+  /// at the first that would leave `boundary`. Returns how many were moved.
   std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
-  /// Takes the turns of walkers as long as they stay in `boundary` and touch nothing, or only many Objects
-  /// without handlers: entry 64 * word + i of the order for each bit i of `walkers`, lowest first. Returns
-  /// the bits of the rest. `met` lists what the first of these would touch, in order; nothing if it would
-  /// leave.
+  /// Takes the turns of walkers, entry 64 * word + i of the creation order for each bit i of `walkers`,
+  /// lowest first. Stops at a walker that would leave `boundary`, or touch Objects, unless these are many and
+  /// have no handlers. Returns the bits from this walker on. `met` lists the Objects that it would touch, in
+  /// order; none if it would leave.
   std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
                      std::vector<ObjectKey>& met);
 
-  /// Removes the gaps from the order, if they are many and no walk is in progress. leave() calls it; call it
-  /// when a walk has ended.
+  /// Removes the gaps from the order, if they are many and no Walk exists. leave() calls this; call it when a
+  /// Walk has ended.
   void closeGaps();
 
-  /// Appends the Objects that collide with `box`, except `self`, to `out` in creation order.
+  /// Appends the solid Objects whose boxes touch `box`, except `self`, to `out` in creation order.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
-  /// Like touching(), for the target of a move. But if they are many, and neither the mover nor any of them
-  /// has a handler, lists none and returns whether the move happens.
+  /// Like touching(), for the target of a move. But if there are many such Objects, and neither the mover nor
+  /// any of them has a handler, lists none and returns whether the move happens.
   std::optional<bool> touchingTarget(Slot mover, const FixedBox& target, std::vector<ObjectKey>& out) const;
   const Grid& grid() const { return m_grid; }
   /// Returns the counters of moves so far.
@@ -285,7 +286,7 @@ class WorldStore : public ObjectFlags {
   // Changes, for hosts.
 
   /// Starts or stops recording changes, beginning with all Objects, and filling the WorldView in every tick.
-  /// Unwatched, only what was drawn is kept.
+  /// In an unwatched world, only the drawn characters are recorded.
   void setWatched(bool watched);
   bool isWatched() const { return m_watched; }
   /// Moves the changes since the last call into `view`.
@@ -298,7 +299,7 @@ class WorldStore : public ObjectFlags {
     std::uint64_t since;  ///< m_updates when it was freed
   };
 
-  // State of the other Object that a collision reads, in half a cache line.
+  // The state that a collision reads of the other Object, in half a cache line.
   struct alignas(32) Card {
     Object* p_object = nullptr;
     std::uint64_t order = 0;  ///< place in creation order, never reused
@@ -310,7 +311,7 @@ class WorldStore : public ObjectFlags {
   };
   static_assert(sizeof(Card) == 32);
 
-  ~WorldStore() { assert(m_p_world == nullptr); }  // the world holds a reference
+  ~WorldStore() { assert(m_p_world == nullptr); }  // until then, the world holds a reference
   static bool within(FixedVector v, double cells) {
     const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
     return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;
@@ -345,12 +346,12 @@ class WorldStore : public ObjectFlags {
   std::deque<ObjectProfile> m_profiles;
 
   Grid m_grid{m_positions, m_boxes};  // all boxes that collide
-  std::deque<Freed> m_free;           // longest free first
+  std::deque<Freed> m_free;           // slots to reuse, longest free first
   std::uint64_t m_updates = 0;
   std::vector<Slot> m_order_list;  // slots in the world by creation order, with gaps
   UpdateMasks m_bits;
   std::size_t m_gaps = 0;
-  mutable int m_walks = 0;  // in progress; gaps stay then
+  mutable int m_walks = 0;  // number of Walks; while there are any, gaps stay
   int m_in_world = 0;
   std::uint64_t m_next_order = 1;
   std::vector<ObjectKey> m_new_objects;
@@ -358,12 +359,12 @@ class WorldStore : public ObjectFlags {
   bool m_watched = false;
   std::vector<Slot> m_dirty;
   std::vector<ObjectKey> m_vanished;
-  std::unordered_map<Slot, Mask> m_masks;  // of the few Objects that have one
+  std::unordered_map<Slot, Mask> m_masks;  // masks set by setMask(), of few Objects
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
   bool m_boxes_off = false;  // see hasBoxesOffPosition()
   int m_precise = 0;         // number of precise Objects
-  int m_handlers = 0;        // number of bits in UpdateMasks::handlers, and so on
+  int m_handlers = 0;        // numbers of bits set in UpdateMasks::handlers, hards and softs
   int m_hards = 0;
   int m_softs = 0;
   mutable std::vector<Slot> m_candidates;  // scratch of touching()

@@ -48,7 +48,7 @@ ObjectFacts WorldStore::facts(Slot s) const {
   if (has(s, kActive) && !isBlocked(s)) {
     f.velocity = m_velocities[s];
     if (isVelocity(f.velocity + m_accelerations[s])) f.acceleration = m_accelerations[s];
-    // A body's velocity is that of this moment; in a tick it moves by half a tick's acceleration more.
+    // A body's velocity is that of this moment. In the next tick it moves by half a tick's acceleration more.
     if (has(s, kBody)) f.velocity = f.velocity + FixedVector{f.acceleration.x >> 1, f.acceleration.y >> 1};
   }
   f.box = m_boxes[s];

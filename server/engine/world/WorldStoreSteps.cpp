@@ -12,9 +12,9 @@ namespace df {
 
 namespace {
 
-constexpr std::size_t kMaxSmallList = 12;  // too many to sort them one by one
+constexpr std::size_t kMaxSmallList = 12;  // longer lists are sorted by std::sort()
 
-// Both coordinates in one register, if the processor has such (GCC and Clang know the notation).
+// Both coordinates in one vector register, if the processor has any (an extension of GCC and Clang).
 using Two = Fixed __attribute__((vector_size(16)));
 
 Two load(FixedVector v) {
@@ -28,7 +28,7 @@ std::size_t WorldStore::fly(Slot first, std::size_t count, const FixedBox& bound
   const Two high = load(boundary.corner + boundary.size - FixedVector{1, 1});
   FixedVector* p_positions = &m_positions[first];
   const FixedVector* p_velocities = &m_velocities[first];
-  // A negative number in `outside` means that a coordinate would leave the boundary.
+  // A negative number in `outside` means that an Object would leave the boundary.
   const auto move = [&](std::size_t i, Two& outside) {
     const Two p = load(p_positions[i]) + load(p_velocities[i]);
     outside |= (p - low) | (high - p);
@@ -101,9 +101,9 @@ std::uint64_t WorldStore::walk(std::size_t word, std::uint64_t walkers, const Fi
   return left;
 }
 
-// Number of touched Objects from which it pays to ask first whether any of them has a handler.
+// Returns the number of touched Objects above which it pays to test first whether any of them has a handler.
 std::size_t WorldStore::crowdThreshold() const {
-  constexpr int kHandlersPerOther = 16;  // handlers tested in the time that listing one Object takes
+  constexpr int kHandlersPerOther = 16;  // Objects that can be tested in the time of listing one
   return static_cast<std::size_t>(std::max(32, m_handlers / kHandlersPerOther));
 }
 
@@ -118,8 +118,8 @@ bool WorldStore::isAnyAt(const UpdateMasks::Words& row, const FixedBox& box, Slo
   return false;
 }
 
-// True if something at `target` blocks; `some` are known to be there. Searches the shorter list: all that are
-// there, or all in the world that could block.
+// True if an Object at `target` blocks. `some` are Objects that are known to be there. Tests either all
+// Objects that are there or all in the world that could block, whichever are fewer.
 bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const {
   const bool hard = m_cards[mover].solidness == HARD;
   const bool no_soft = has(mover, kNoSoft);
@@ -131,15 +131,15 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
   if (!hard && !no_soft) return false;
   const int blockers = (hard ? m_hards : 0) + (no_soft ? m_softs : 0);
   const auto most = static_cast<std::size_t>(blockers);
-  m_candidates.clear();  // `some` may lie there; it is not read again
+  m_candidates.clear();  // `some` may be in m_candidates; it is not read again
   m_grid.touching(target, mover, m_candidates, most);
   if (std::any_of(m_candidates.begin(), m_candidates.end(), blocks)) return true;
-  if (m_candidates.size() <= most) return false;  // these are all
+  if (m_candidates.size() <= most) return false;  // these are all Objects at the target
   return (hard && isAnyAt(m_bits.hards, target, mover)) || (no_soft && isAnyAt(m_bits.softs, target, mover));
 }
 
-// Returns whether a move happens, given some of those that it touches; nullopt if one may have a handler.
-// Without handlers nothing changes, so any one that blocks decides.
+// Returns whether a move happens, given some of the Objects that it touches; nullopt if one of them may have
+// a handler. Without handlers nothing changes during the move, so one Object that blocks decides.
 std::optional<bool> WorldStore::moveWithoutHandlers(Slot mover, const FixedBox& target,
                                                     std::span<const Slot> some) const {
   if (handlesEvents(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;
@@ -167,7 +167,7 @@ void WorldStore::touching(const FixedBox& box, Slot self, std::vector<ObjectKey>
   list(m_candidates, out);
 }
 
-// Lists the slots in creation order, each once. They are few, mostly one or two, and get events next.
+// Lists the slots in creation order, each once. There are few, mostly one or two, whose handlers run next.
 void WorldStore::list(std::span<const Slot> found, std::vector<ObjectKey>& out) const {
   const Card* p_cards = m_cards.data();
   if (found.size() == 1) {

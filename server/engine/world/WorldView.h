@@ -1,8 +1,8 @@
-// The changes of a tick, as plain data: all that a host reads of a world.
+// The changes of a tick, as plain data: everything that a host reads of a world.
 //
 // The engine fills a WorldView at the end of every tick while the world is watched (WorldStore::setWatched),
-// and spends nothing on it otherwise. It holds no pointers into the world, so it could cross a process
-// boundary. The engine does not depend on its readers.
+// and spends nothing on it otherwise. It contains no pointers into the world, so it can be sent to another
+// process. The engine does not depend on its readers.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ namespace df {
 /// State of one object that appeared or changed (moved, turned, resized …) in the tick.
 struct ObjectFacts {
   ObjectKey key;
-  std::uint64_t order = 0;   ///< creation order in the world: a total order, never reused
+  std::uint64_t order = 0;   ///< place in the creation order of the world, never reused
   FixedVector position;      ///< position at the end of the tick
-  FixedVector velocity;      ///< added to the position next tick; zero if the last move was blocked
+  FixedVector velocity;      ///< added to the position in the next tick; zero if the last move was blocked
   FixedVector acceleration;  ///< added to the velocity after each move; zero if blocked
   FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
   bool no_soft = false;
-  bool shown = true;     ///< active and visible: false means it must not be drawn
+  bool shown = true;     ///< active and visible; false: must not be drawn
   bool on_view = false;  ///< a view object: its position is in cells of every view, not in the world
   int altitude = 2;
 };
@@ -50,7 +50,7 @@ struct SoundPlayed {
   std::string label;  ///< label under which it was loaded
   What what = kPlay;
   bool music = false;        ///< false: a sound
-  bool loop = false;         ///< repeats
+  bool loop = false;         ///< true: repeats
   std::uint32_t player = 0;  ///< player whose input was being handled, a hint for the client; 0: none
   friend bool operator==(const SoundPlayed& a, const SoundPlayed& b) {
     return a.label == b.label && a.what == b.what && a.music == b.music && a.loop == b.loop &&
@@ -67,15 +67,15 @@ struct DrawnObject {
   bool on_view = false;  ///< view object: its characters keep their cells in every view
 };
 
-/// The frames and selector of a drawn object (ObjectLookAccess::setFrames). Its draw() may have drawn
-/// something else.
+/// The frames and selector of a drawn object (ObjectLookAccess::setFrames). Its draw() may have drawn other
+/// characters.
 struct PublishedLook {
   std::uint32_t drawn = 0;  ///< index in WorldView::drawn
   std::shared_ptr<const naiad::Look> p_look;
 };
 using ToldLook [[deprecated("say PublishedLook")]] = PublishedLook;
 
-/// A text that one player sees, in cells of that player's view. Empty text: removed.
+/// A text that only one player sees, in cells of that player's view. An empty text means that it was removed.
 struct PlayerText {
   std::uint32_t id = 0;
   int x = 0;
@@ -90,7 +90,7 @@ struct PlayerText {
 
 /// Exact state of an Object that a player steers by declared controls, at the end of the tick.
 struct SteeringFacts {
-  std::shared_ptr<const ControlTable> p_table;  ///< null: no controls declared, and nothing below is set
+  std::shared_ptr<const ControlTable> p_table;  ///< null: no controls, and no field below is set
   ObjectKey object;  ///< generation 0: no Object is steered, and only `state` is set below
   ControlState state;
   FixedVector position;
@@ -111,22 +111,22 @@ struct PlayerFacts {
 };
 
 struct WorldView {
-  std::uint32_t tick = 0;  ///< ticks done since the world began
+  std::uint32_t tick = 0;  ///< number of ticks since the world began
   FixedBox boundary;       ///< boundary of the world
   int view_width = 80;     ///< size of every view, in cells
   int view_height = 24;
-  std::vector<ObjectFacts> changed;   ///< appeared or changed, by creation order
-  std::vector<ObjectKey> vanished;    ///< deleted or removed; never in `changed` of the same tick
+  std::vector<ObjectFacts> changed;   ///< Objects that appeared or changed, in creation order
+  std::vector<ObjectKey> vanished;    ///< deleted or removed Objects; not in `changed` of this tick
   std::vector<DrawnObject> drawn;     ///< drawn Objects in drawing order; they may have vanished since
   std::vector<DrawCommand> commands;  ///< drawn characters, in drawing order
-  std::vector<PublishedLook> looks;   ///< looks of drawn objects that have frames, in that order
+  std::vector<PublishedLook> looks;   ///< looks of those Objects in `drawn` that have frames
   std::vector<PlayerFacts> players;   ///< all players, by id
   FixedVector corner;                 ///< corner of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< sounds in the order they were played
-  std::uint32_t sounds_lost = 0;      ///< further sounds of this tick, not recorded
-  std::vector<SoundPlayed> playing;   ///< repeating sounds, as they were begun, oldest first
-  std::vector<std::string> notes;     ///< lines of the engine for all players to read
-  Color background = BLACK;           ///< colour of the window
+  std::uint32_t sounds_lost = 0;      ///< sounds of this tick that were too many to record
+  std::vector<SoundPlayed> playing;   ///< repeating sounds, oldest first
+  std::vector<std::string> notes;     ///< lines that the engine shows to all players
+  Color background = BLACK;           ///< background colour of the window
   int shake_x = 0;                    ///< cells by which views are displaced in this tick
   int shake_y = 0;
 };

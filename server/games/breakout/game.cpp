@@ -1,5 +1,5 @@
 // Breakout for four: each player guards a side, and the bricks are in the middle. Unguarded sides are walls,
-// so a single player has the classic game. Shows: a limited number of places with a queue, fast Objects
+// so a single player has the classic game. Example for: a limited number of places with a queue, fast Objects
 // (setSwept), bouncing, levels.
 #include <array>
 #include <cmath>
@@ -16,8 +16,8 @@ using namespace df;
 
 namespace {
 
-constexpr int kServeTicks = 30;  // that a ball rests on its paddle
-constexpr double kTouch = 1e-3;  // boxes that are nearer to each other than this are about to touch
+constexpr int kServeTicks = 30;  // ticks for which a ball rests on its paddle before it is served
+constexpr double kTouch = 1e-3;  // cells: boxes whose distance is smaller are about to touch
 constexpr std::array kColors = {RED, MAGENTA, YELLOW, GREEN, CYAN, WHITE};
 enum Side { BOTTOM, TOP, LEFT, RIGHT };
 
@@ -32,10 +32,10 @@ struct Brick : Object {
   int draw() override { return DM.drawString(getPosition() - Vector(1.5, 0), "[##]", LEFT_JUSTIFIED, color); }
 };
 
-/// What closes a side: a wall, or a player's paddle.
+/// What closes a side of the court: a wall, or a player's paddle.
 struct Guard : Object {
   const Side side;
-  const std::uint32_t player;  // 0: a wall
+  const std::uint32_t player;  // id of the player; 0: a wall
   const Color color;
   int width, height;
 
@@ -61,7 +61,7 @@ struct Guard : Object {
     for (const auto key : forth) controls.onKey(key).drive(way.x(), way.y());
     its.setControls(controls.toWholeCells().within(Box(Vector(5, 1), 69, 22)).releaseAfter(40));
   }
-  /// From the middle of the side into the field.
+  /// Returns the direction from the middle of this side into the court.
   Vector inward() const { return std::array{Vector(0, -1), Vector(0, 1), Vector(1, 0), Vector(-1, 0)}[side]; }
   int draw() override {
     const Vector corner = getPosition() - Vector((width - 1) / 2.0, (height - 1) / 2.0);
@@ -71,7 +71,7 @@ struct Guard : Object {
   }
 };
 
-/// Every player has one. It has the colour of the player who hit it last, and earns them the points.
+/// A player's ball. It has the colour of the paddle that hit it last, whose player gets its points.
 struct Ball : Object {
   const std::uint32_t home;
   std::uint32_t shooter;
@@ -82,7 +82,7 @@ struct Ball : Object {
   explicit Ball(const Player& player) : home(player.getId()), shooter(home), color(player.getColor()) {
     setType("Ball");
     setBox(Box(Vector(-0.3, -0.3), 0.6, 0.6));
-    setSwept();  // it meets all that is on its way, not only what is at its end
+    setSwept();  // so that it hits everything on its path, not only at the end of the path
     setAltitude(3);
     registerInterest(STEP_EVENT);
   }
@@ -100,7 +100,7 @@ struct Ball : Object {
   void waitOnPaddle() {
     const Player* p_player = WM.getPlayer(home);
     const auto* p_paddle = static_cast<const Guard*>(p_player ? p_player->getObject() : nullptr);
-    if (p_paddle == nullptr) return;  // leaving in this very tick
+    if (p_paddle == nullptr) return;  // the player leaves in this tick
     setPosition(p_paddle->getPosition() + p_paddle->inward());
     shooter = home;
     color = p_paddle->color;
@@ -109,7 +109,7 @@ struct Ball : Object {
     const double aside = 0.3 + 0.1 * WM.randomInt(5);
     go(in.x() == 0 ? Vector(aside, in.y()) : Vector(in.x(), aside));
   }
-  /// In this direction; a row is as high as two columns are wide.
+  /// Starts to move in this direction. A row is as high as two columns are wide.
   void go(Vector direction) {
     direction.normalize();
     direction.scale(speed);
@@ -125,18 +125,18 @@ struct Ball : Object {
     double y = getVelocity().y() * 2;
     if (beside) x = std::copysign(x, off.x());
     if (above || !beside) y = std::copysign(y, off.y());
-    if (other.getType() == "Paddle") {  // where it hits the paddle decides where it goes
+    if (other.getType() == "Paddle") {  // the point of the paddle that was hit decides the direction
       const auto& guard = static_cast<const Guard&>(other);
       shooter = guard.player;
       color = guard.color;
       if (guard.width > guard.height) x = 0.12 * off.x() * speed + 0.1 * x;
       if (guard.width < guard.height) y = 0.3 * off.y() * speed + 0.1 * y;
     } else if (other.getType() == "Brick") {
-      other.setActive(false);  // no other ball hits it in this tick
+      other.setActive(false);  // so that no other ball hits it in this tick
       WM.markForDelete(&other);
       earn(10);
     }
-    if (std::abs(y) < 0.1) y = y < 0 ? -0.1 : 0.1;  // never quite level: it would never come down
+    if (std::abs(y) < 0.1) y = y < 0 ? -0.1 : 0.1;  // never quite horizontal: it would never come down
     go(Vector(x, y));
   }
   void earn(int points) const {
@@ -148,7 +148,7 @@ struct Ball : Object {
     const ObjectList paddles = WM.objectsOfType("Paddle");
     for (int i = 0; i < paddles.getCount(); ++i) {
       const auto* p_paddle = static_cast<const Guard*>(paddles[i]);
-      if (p_paddle->side == side) shooter = p_paddle->player;  // it costs them
+      if (p_paddle->side == side) shooter = p_paddle->player;  // the player of this side loses points
     }
     earn(-10);
     rest = kServeTicks;
@@ -157,7 +157,7 @@ struct Ball : Object {
   int draw() override { return DM.drawCh(getPosition(), 'O', color); }
 };
 
-/// Gives sides to players, and bricks to the level.
+/// Gives sides to players, and makes the bricks of the level.
 struct Court : Object {
   std::array<Guard*, 4> guards{};
   int level = 0;
@@ -203,7 +203,7 @@ struct Court : Object {
       for (int column = 0; column < 9; ++column)
         new Brick(Vector(23.5 + 4 * column, 9 + row), kColors[static_cast<std::size_t>(row)]);
     const ObjectList balls = WM.objectsOfType("Ball");
-    for (int i = 0; i < balls.getCount(); ++i) {  // they begin again, a little faster
+    for (int i = 0; i < balls.getCount(); ++i) {  // serve all of them again, a little faster
       auto* p_ball = static_cast<Ball*>(balls[i]);
       p_ball->rest = kServeTicks;
       p_ball->setVelocity(Vector());

@@ -1,6 +1,6 @@
 // Bullet hell: hundreds of bullets at once, and a small ship among them. Its gun fires by itself; the player
-// has to survive. Shows: many Objects in straight flight (which cost no network traffic), levels, lives,
-// friends who share a boss.
+// has to survive. Example for: many Objects in straight flight (which need no network traffic), levels,
+// lives, friends who fight a boss together.
 #include <algorithm>
 #include <cmath>
 
@@ -19,13 +19,13 @@ using namespace df;
 namespace {
 
 constexpr int kShieldTicks = 75;
-constexpr int kPatternTicks = 180;  // then the boss does something else
+constexpr int kPatternTicks = 180;  // ticks after which the boss changes its pattern
 constexpr int kLives = 3;           // in each level
 const Box kPoint(Vector(-0.2, -0.2), 0.4, 0.4);
 
-/// A shot of somebody's: straight on until it is out.
+/// A shot of a player or of the boss. It flies straight until it leaves the world.
 struct Shot : Object {
-  const std::uint32_t player;  // 0: the boss's
+  const std::uint32_t player;  // id of the player; 0: the boss's shot
   const char ch;
   const Color color;
   Shot(const char* type, std::uint32_t its_player, Vector at, Vector velocity, char its_ch, Color its_color)
@@ -101,7 +101,7 @@ struct Boss : Object {
     setVelocity(Vector(0.2, 0));
     registerInterest(STEP_EVENT);
   }
-  /// At an angle, in parts of a turn; 0 is down.
+  /// Shoots at an angle in parts of a whole turn; 0 is down.
   void shoot(double turn, double speed, char ch, Color color) const {
     const double angle = 6.283185307179586 * turn;
     const Vector velocity(speed * math::sin(angle), speed / 2 * math::cos(angle));
@@ -136,7 +136,7 @@ struct Boss : Object {
       const bool moves = p_collision->getObject1() == this;
       Object* p_other = moves ? p_collision->getObject2() : p_collision->getObject1();
       if (p_other->getType() != "Ours" || !p_other->isVisible()) return 0;
-      p_other->setVisible(false);  // it hits once
+      p_other->setVisible(false);  // so that the shot hits only once
       WM.markForDelete(p_other);
       --life;
       Player* p_player = WM.getPlayer(static_cast<const Shot*>(p_other)->player);
@@ -150,7 +150,7 @@ struct Boss : Object {
   }
 };
 
-/// Ships for everybody, a boss for every level.
+/// Makes a ship for each player, and a boss for each level.
 struct Arena : Object {
   Boss* p_boss = nullptr;
   std::string message;

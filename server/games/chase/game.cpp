@@ -1,6 +1,6 @@
-// Chase: gather the gold and keep away from the hounds. They run for the nearest player; the more gold is
-// gathered, the more of them there are. Shows: joining and leaving, declared controls, collisions, texts for
-// a single player.
+// Chase: gather the gold and avoid the hounds. They run towards the nearest player; their number grows with
+// the gold that was gathered. Example for: joining and leaving, declared controls, collisions, texts for a
+// single player.
 #include "Controls.h"
 #include "DisplayManager.h"
 #include "EventCollision.h"
@@ -13,18 +13,18 @@ using namespace df;
 
 namespace {
 
-constexpr int kShieldTicks = 60;  // of a hare that has just come
-constexpr int kAimTicks = 12;     // hounds look round so often
-constexpr int kGoldPerHound = 5;  // that makes another one come
+constexpr int kShieldTicks = 60;  // ticks for which a new hare is protected
+constexpr int kAimTicks = 12;     // ticks between two choices of a hound's target
+constexpr int kGoldPerHound = 5;  // gold after which there is one more hound
 const Box kBody(Vector(-0.4, -0.4), 0.8, 0.8);
 
-/// In two steps: which argument of a call is worked out first is the compiler's choice.
+/// Returns a random cell. Draws in two steps, as the compiler may evaluate a call's arguments in any order.
 Vector dice(int width, int height) {
   const int y = WM.randomInt(height);
   return Vector(WM.randomInt(width), y);
 }
 
-/// A free place, away from the row of the texts.
+/// Returns a random free place below the row of the texts.
 Vector anywhere(const Object* p_o) {
   while (true) {
     const Vector place = Vector(1, 2) + dice(78, 21);
@@ -43,7 +43,7 @@ struct Gold : Object {
   int draw() override { return DM.drawCh(getPosition(), '$', YELLOW); }
 };
 
-/// What a player steers.
+/// A player's character.
 struct Hare : Object {
   const std::uint32_t player;
   const std::string name;
@@ -57,8 +57,8 @@ struct Hare : Object {
     setBox(kBody);
     registerInterest(STEP_EVENT);
     its.setObject(this);
-    // Declared, so that the player's own client shows a step at once. A row is as high as two columns are
-    // wide.
+    // The keys are declared, so that the player's own client shows a step at once. A row is as high as two
+    // columns are wide.
     Controls controls;
     for (const auto key : {Keyboard::LEFTARROW, Keyboard::A}) controls.onKey(key).drive(-0.6, 0);
     for (const auto key : {Keyboard::RIGHTARROW, Keyboard::D}) controls.onKey(key).drive(0.6, 0);
@@ -73,7 +73,7 @@ struct Hare : Object {
   }
   int eventHandler(const Event* p_e) override {
     Player* p_player = WM.getPlayer(player);
-    if (p_player == nullptr) return 0;  // leaving in this very tick
+    if (p_player == nullptr) return 0;  // the player leaves in this tick
     if (p_e->getType() == STEP_EVENT && shield > 0) --shield;
     if (p_e->getType() == COLLISION_EVENT) {
       const auto* p_collision = static_cast<const EventCollision*>(p_e);
@@ -111,10 +111,10 @@ struct Hound : Object {
     const ObjectList hares = WM.objectsOfType("Hare");
     for (int i = 0; i < hares.getCount(); ++i) {
       const auto* p_hare = static_cast<const Hare*>(hares[i]);
-      if (p_hare->shield > 0) continue;  // it has no scent yet
+      if (p_hare->shield > 0) continue;  // hounds ignore a shielded hare
       if (p_prey == nullptr || way(p_hare) < way(p_prey)) p_prey = p_hare;
     }
-    // A hound that knows no prey runs about, and no two take the same way.
+    // A hound without a target runs in a random direction.
     Vector target = Vector(0, 1) + dice(80, 22);
     if (p_prey != nullptr) target = p_prey->getPosition() + dice(7, 3) - Vector(3, 1);
     Vector direction = target - getPosition();
@@ -127,7 +127,7 @@ struct Hound : Object {
   int draw() override { return DM.drawCh(getPosition(), 'H', RED); }
 };
 
-/// Lets players in and out, sends the hounds, and tells everybody how it stands.
+/// Handles players who join or leave, sends the hounds, and shows the score to all players.
 struct Forest : Object {
   Forest() {
     setSolidness(SPECTRAL);

@@ -1,4 +1,4 @@
-// A complete game: each player is an @ and walks with the arrow keys. Walls and other players block.
+// A complete game: each player is an @ and walks with the arrow keys. Walls and other players block it.
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
 #include "EventPlayer.h"
@@ -6,25 +6,25 @@
 #include "WorldManager.h"
 using namespace df;
 
-struct Wall : Object {  // HARD, as every Object is unless it says otherwise
+struct Wall : Object {  // HARD by default, so that it blocks other Objects
   int draw() override { return DM.drawCh(getPosition(), '#', BLUE); }
 };
 
 struct Walker : Object {
-  const std::uint32_t player;  // whose it is
+  const std::uint32_t player;  // id of its player
   const Color color;
   explicit Walker(Player* p_player) : player(p_player->getId()), color(p_player->getColor()) {
     p_player->setObject(this);
-    setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));  // those side by side do not touch
+    setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));  // smaller than a cell, so that neighbours do not touch
     do {
-      const int y = WM.randomInt(24);  // in two steps: which argument comes first is the compiler's choice
+      const int y = WM.randomInt(24);  // row first, because compilers evaluate arguments in any order
       setPosition(Vector(WM.randomInt(80), y));
     } while (WM.isCollision(this, getPosition()));
     registerInterest(KEYBOARD_EVENT);
   }
   int eventHandler(const Event* p_e) override {
     const auto* p_key = dynamic_cast<const EventKeyboard*>(p_e);
-    if (!p_key || p_key->getPlayer() != player) return 0;  // not my key
+    if (!p_key || p_key->getPlayer() != player) return 0;  // the key of another player
     if (p_key->getKeyboardAction() == KEY_RELEASED) return 0;
     const int key = p_key->getKey();
     const int x = (key == Keyboard::RIGHTARROW) - (key == Keyboard::LEFTARROW);
@@ -34,7 +34,7 @@ struct Walker : Object {
   int draw() override { return DM.drawCh(getPosition(), '@', color); }
 };
 
-struct Door : Object {  // where players come in and go out
+struct Door : Object {  // makes a walker for each player who joins
   Door() { registerInterest(JOIN_EVENT), registerInterest(LEAVE_EVENT); }
   int eventHandler(const Event* p_e) override {
     if (auto* p_join = dynamic_cast<const EventJoin*>(p_e)) new Walker(WM.getPlayer(p_join->getPlayer()));

@@ -8,7 +8,7 @@
 
 namespace {
 
-constexpr int kHighest = 14;  // row
+constexpr int kHighest = 14;  // topmost row of the mountains
 constexpr int kLowest = 22;
 constexpr int kPadWidth = 8;
 constexpr std::array<int, 4> kWorths = {50, 100, 200, 100};
@@ -33,7 +33,7 @@ int Ground::draw() {
 
 void makeLandscape() {
   const int width = DM.getHorizontal();
-  const int stretch = width / static_cast<int>(kWorths.size());  // of mountains with a pad in it
+  const int stretch = width / static_cast<int>(kWorths.size());  // width of the mountains with one pad
   int top = 18;
   for (int x = 0; x < width; ++x) {
     const int pad = x / stretch;

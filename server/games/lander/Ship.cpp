@@ -13,13 +13,13 @@
 
 namespace {
 
-constexpr double kMainEngine = 5;  // cells per second², the moon's gravity being 2
+constexpr double kMainEngine = 5;  // cells per second²; the moon's gravity is 2
 constexpr double kSideJet = 4;
-constexpr double kTank = 14;     // seconds of the main engine
-constexpr double kGentle = 2.2;  // cells per second that the legs bear
-constexpr int kBurnTicks = 5;    // that a key counts for, unless it repeats or tells that it went up
-constexpr int kTapTicks = 2;     // that the shortest tap burns
-constexpr int kStandTicks = 20;  // before a landing counts
+constexpr double kTank = 14;     // seconds for which the fuel lasts in the main engine
+constexpr double kGentle = 2.2;  // maximum speed of a landing, cells per second
+constexpr int kBurnTicks = 5;    // ticks for which a key burns without a repeat or release
+constexpr int kTapTicks = 2;     // maximum ticks of burning after a key's release
+constexpr int kStandTicks = 20;  // ticks that a ship must stand before its landing counts
 constexpr int kWaitTicks = 75;
 constexpr std::uint32_t kStatusText = 0;
 constexpr std::uint32_t kMessageText = 1;
@@ -79,7 +79,7 @@ void Ship::burn(Jet jet) {
   m_fuel -= df::perSecond(jet == MAIN ? 1 : 0.3);
   const df::Vector push =
       jet == MAIN ? df::Vector(0, -kMainEngine) : df::Vector(jet == LEFT ? -kSideJet : kSideJet, 0);
-  applyForce(df::perSecondSquared(push));  // its mass is 1
+  applyForce(df::perSecondSquared(push));  // the ship's mass is 1
 }
 
 void Ship::step() {
@@ -94,14 +94,14 @@ void Ship::step() {
   showStatus(*getPlayer());
 }
 
-// How hard it was hit is its change of velocity: impulse over mass.
+// Handles a collision. Its strength is the change of velocity, which is impulse over mass.
 void Ship::touch(const df::EventCollision& event) {
   if (m_wait > 0) return;
   const df::Object* p_other = event.getObject1() == this ? event.getObject2() : event.getObject1();
   const double speed = event.getImpulse() / getMass() * df::TICKS_PER_SECOND;
   const auto* p_ground = dynamic_cast<const Ground*>(p_other);
   if (speed > kGentle) return crash("Crashed: that was faster than 2.2");
-  if (p_ground == nullptr) return;  // bumped into somebody
+  if (p_ground == nullptr) return;  // it hit another ship
   if (p_ground->getWorth() == 0) return crash("Crashed: rocks are no place to land");
   m_worth = p_ground->getWorth();
 }
@@ -128,9 +128,9 @@ void Ship::crash(const std::string& why) {
 
 int Ship::draw() {
   const df::Vector at = getPosition();
-  const df::Vector upper = at + df::Vector(-1, -0.5);  // its left end
+  const df::Vector upper = at + df::Vector(-1, -0.5);  // left end of the upper row
   const df::Vector lower = at + df::Vector(-1, 0.5);
-  if (getSolidness() == df::SPECTRAL) {  // wreckage
+  if (getSolidness() == df::SPECTRAL) {  // draws wreckage
     DM.drawString(upper, "\\*/", df::LEFT_JUSTIFIED, df::RED);
     return DM.drawString(lower, "/*\\", df::LEFT_JUSTIFIED, df::RED);
   }

@@ -27,10 +27,10 @@ class Ship : public df::PlayerObject<df::Body> {
   void crash(const std::string& why);
   void showStatus(df::Player& player) const;
 
-  double m_fuel = 0;                     // remaining seconds of the main engine
+  double m_fuel = 0;                     // fuel in seconds of the main engine
   std::array<int, JETS> m_burning = {};  // remaining ticks of each jet
   int m_worth = 0;                       // points of the pad on which it stands
-  int m_standing = 0;                    // ticks it has stood on the pad
+  int m_standing = 0;                    // number of ticks for which it has stood on the pad
   int m_wait = 0;                        // ticks until the next launch
   std::string m_message;
 };

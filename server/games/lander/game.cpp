@@ -1,4 +1,4 @@
-// Lander: bring a ship down gently. The engine does gravity, jets and impacts; start reading at Ship.
+// Lander: bring a ship down gently. The engine computes gravity, jets and impacts; start reading at Ship.
 #include "GameManager.h"
 #include "Ground.h"
 #include "PhysicsManager.h"
@@ -16,7 +16,7 @@ int main() {
       "The legs bear 2.2 cells a second. What is left in the tank counts",
       "as well; so does bumping into others, who will not thank you.",
   });
-  PM.setGravity(df::perSecondSquared(df::Vector(0, 2)));  // the moon's
+  PM.setGravity(df::perSecondSquared(df::Vector(0, 2)));  // gravity of the moon
   makeLandscape();
   new df::JoinSpawner<Ship>;
   GM.run();

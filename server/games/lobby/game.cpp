@@ -1,5 +1,5 @@
-// A lobby: each room of the server is a door with its name, game and number of players. Walking into a door
-// moves the player to its room. Shows: reading the list of rooms, and moving a player to one.
+// A lobby: each room of the server is a door with its name, game and number of players. A player that walks
+// into a door moves to its room. Example for: the list of rooms, and moving a player to another room.
 #include <algorithm>
 
 #include "Controls.h"
@@ -20,11 +20,11 @@ constexpr int kDoorsInRow = 4;
 constexpr int kDoorWidth = kWidth / kDoorsInRow;
 constexpr int kDoorHeight = 5;
 constexpr int kFirstDoor = 6;                  // row
-constexpr int kPatience = 60;                  // ticks until a door that did not open is tried again
-constexpr std::size_t kSign = kDoorWidth - 2;  // characters
+constexpr int kPatience = 60;                  // ticks after which a door that did not open is tried again
+constexpr std::size_t kSign = kDoorWidth - 2;  // characters of a line of the sign
 
 struct Door : Object {
-  const std::size_t number;  // of the server's rooms
+  const std::size_t number;  // index in the server's list of rooms
 
   Door(std::size_t room, int place) : number(room) {
     setType("Door");
@@ -49,11 +49,11 @@ struct Door : Object {
 struct Walker : Object {
   const std::uint32_t player;
   const Color color;
-  int wait = 0;  // ticks until a door is tried again
+  int wait = 0;  // ticks until a door may be tried again
 
   Walker(Player& its, const Box& floor) : player(its.getId()), color(its.getColor()) {
     setType("Walker");
-    setSolidness(SOFT);  // a crowd before a door lets each other by
+    setSolidness(SOFT);  // so that players at a door do not block each other
     setAltitude(3);
     setBox(Box(Vector(-0.4, -0.4), 0.8, 0.8));
     setPosition(Vector(kWidth / 2.0 + WM.randomInt(11) - 5, 2));
@@ -78,7 +78,7 @@ struct Walker : Object {
     if (p_door != nullptr && wait == 0) enter(*p_door);
     return 1;
   }
-  /// The server leads the player away, or says why it does not.
+  /// Asks the server to move the player. If the server refuses, tells the player why.
   void enter(const Door& door) {
     wait = kPatience;
     GameRooms().send(player, GameRooms().getRooms()[door.number].name);
@@ -86,9 +86,9 @@ struct Walker : Object {
   int draw() override { return DM.drawCh(getPosition(), '@', color); }
 };
 
-/// Builds the doors, and lets walkers in and out.
+/// Builds the doors, and makes a walker for each new player.
 struct Porter : Object {
-  std::size_t known = 0;  // rooms whose doors are built
+  std::size_t known = 0;  // number of rooms that have a door
   int doors = 0;
 
   Porter() {

@@ -1,5 +1,5 @@
-// A maze of 700 walls: find the exit before the others do. Then a new maze begins. Shows: a world larger than
-// the view, hundreds of Objects that come and go in one tick, steps as declared controls.
+// A maze of 700 walls: the first player to find the exit wins. Then a new maze begins. Example for: a world
+// larger than the view, hundreds of Objects that change in one tick, steps as declared controls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +15,8 @@ using namespace df;
 
 namespace {
 
-// Rooms. Each tile (a room, or a wall or a passage between two) is two characters wide. That makes 2·rows+1
-// by 2·columns+1 tiles, of which the rooms and all passages but one per room are no walls: 700 are.
+// Numbers of rooms. A tile is a room, or a wall or passage between two, and two characters wide. There are
+// 2·rows+1 by 2·columns+1 tiles. The rooms and the passages (one fewer) are free; the other 700 are walls.
 constexpr int kColumns = 24;
 constexpr int kRows = 13;
 constexpr int kTileColumns = 2 * kColumns + 1;
@@ -75,7 +75,7 @@ struct Walker : Object {
     const bool moves = p_collision->getObject1() == this;
     Object* p_other = moves ? p_collision->getObject2() : p_collision->getObject1();
     if (p_other->getType() == "Exit") arrived = true;
-    if (p_other->getType() == "Walker" && moves) {  // two in a narrow passage let each other by
+    if (p_other->getType() == "Walker" && moves) {  // so that players in a narrow passage can pass each other
       const Vector mine = getPosition();
       setPosition(p_other->getPosition());
       p_other->setPosition(mine);
@@ -85,17 +85,17 @@ struct Walker : Object {
   int draw() override { return DM.drawString(getPosition() - Vector(0.5, 0), "()", LEFT_JUSTIFIED, color); }
 };
 
-/// Builds the mazes, and lets walkers in and out.
+/// Builds the mazes, and makes a walker for each new player.
 struct Builder : Object {
   std::array<std::array<bool, kTileColumns>, kTileRows> open{};
   const Exit* p_exit = nullptr;
-  int wait = 0;  // ticks to the next maze, if somebody has arrived
+  int wait = 0;  // ticks until the next maze, after a player has reached the exit
   std::string winner;
 
   Builder() {
     setSolidness(SPECTRAL);
     for (const auto& type : {JOIN_EVENT, LEAVE_EVENT, STEP_EVENT}) registerInterest(type);
-    WM.setBoundary(Box(Vector(0, -1), 2 * kTileColumns, kTileRows + 1));  // a row for the texts
+    WM.setBoundary(Box(Vector(0, -1), 2 * kTileColumns, kTileRows + 1));  // one more row, for the texts
     build();
   }
   int eventHandler(const Event* p_e) override {
@@ -105,7 +105,7 @@ struct Builder : Object {
     if (p_e->getType() == STEP_EVENT) step();
     return 1;
   }
-  /// From this room on, through a wall into each room that has no door yet, in any order.
+  /// Opens passages from this room to all rooms that have none yet, in random directions.
   void dig(int column, int row) {
     open[row][column] = true;
     std::array<std::pair<int, int>, 4> ways = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};

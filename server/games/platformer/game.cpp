@@ -1,6 +1,6 @@
 // A platformer: run and jump to the flag. Friends are solid: stand on each other's heads to reach high
-// places. Shows: a world larger than the view, gravity as an acceleration, swept moves that land exactly, a
-// level drawn in text.
+// places. Example for: a world larger than the view, gravity as an acceleration, swept moves that land
+// exactly, a level drawn in text.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@ namespace {
 
 constexpr double kRun = 0.5;  // cells per tick
 constexpr double kJump = 0.72;
-constexpr double kGravity = 0.055;  // each tick: a jump is almost six rows high and 14 columns far
-constexpr int kCoinTicks = 450;     // until a coin that was taken is there again
+constexpr double kGravity = 0.055;  // cells per tick²: a jump is almost six rows high and 14 columns long
+constexpr int kCoinTicks = 450;     // ticks after which a coin that was taken reappears
 
-// # ground, o coin, ^ spikes, F the flag; its first row is row kTop of the world.
+// # is ground, o a coin, ^ spikes, F the flag. The first row is row kTop of the world.
 constexpr std::array kLevel = {
     "                                                                                                    ",
     "                                                                            o                       ",
@@ -45,7 +45,7 @@ constexpr int kTop = 7;
 const double kRows = 24;
 const double kColumns = 100;
 
-struct Ground : Object {  // a run of # in a row
+struct Ground : Object {  // one Object for several # side by side
   const int length;
   Ground(int x, int y, int its_length) : length(its_length) {
     setType("Ground");
@@ -58,10 +58,10 @@ struct Ground : Object {  // a run of # in a row
   }
 };
 
-/// What does something when it is touched.
+/// A coin, spikes or the flag: an Object that acts when it is touched.
 struct Thing : Object {
   const char ch;
-  int gone = 0;  // ticks until it is back
+  int gone = 0;  // ticks until the coin reappears
   Thing(int x, int y, char its_ch) : ch(its_ch) {
     setType(ch == 'o' ? "Coin" : ch == '^' ? "Spikes" : "Flag");
     setPosition(Vector(x, y));
@@ -84,18 +84,18 @@ struct Thing : Object {
 struct Runner : Object {
   const std::uint32_t player;
   const Color color;
-  bool beside = false;  // something was in the way sideways
-  bool done = false;    // at the flag, or in the spikes
+  bool beside = false;  // a wall stopped the runner in this tick
+  bool done = false;    // the runner is at the flag or in the spikes
   int age = 0;          // in ticks
 
   explicit Runner(Player& its) : player(its.getId()), color(its.getColor()) {
     setType("Runner");
     setBox(Box(Vector(-0.4, -0.45), 0.8, 0.9));
-    setSwept();  // so it lands on the ground, not a little above it
+    setSwept();  // so that it lands on the ground, not a little above the ground
     setAltitude(3);
     for (const auto& type : {STEP_EVENT, KEYBOARD_EVENT}) registerInterest(type);
     its.setObject(this);
-    Controls controls;  // running is the keys' affair; jumping needs ground, so it is the handler's
+    Controls controls;  // keys control running; the event handler does jumps, which need ground
     for (const auto key : {Keyboard::LEFTARROW, Keyboard::A}) controls.onKey(key).drive(-kRun, 0);
     for (const auto key : {Keyboard::RIGHTARROW, Keyboard::D}) controls.onKey(key).drive(kRun, 0);
     its.setControls(controls.within(Box(Vector(0, -100), kColumns - 1, 300)).releaseAfter(40));
@@ -131,12 +131,12 @@ struct Runner : Object {
   void step() {
     Player* p_player = WM.getPlayer(player);
     if (++age == 60 && p_player != nullptr)
-      p_player->setText(1, Vector(), "");  // what was said of the last one
+      p_player->setText(1, Vector(), "");  // removes the message about the last runner
     const bool standing = stands();
     if (standing && getVelocity().y() != 0) fall(0);
     const Vector pull(0, standing ? 0 : kGravity);
     if (getAcceleration() != pull) setAcceleration(pull);
-    // A runner at a wall falls on, or climbs on, all the same.
+    // A runner that is stopped by a wall still falls or rises.
     if (std::exchange(beside, false) && !standing)
       WM.moveObject(this, getPosition() + Vector(0, getVelocity().y()));
   }
@@ -157,12 +157,12 @@ struct Runner : Object {
     if (thing.ch == 'F') p_player->setText(1, Vector(30, 0), "You have reached the flag!", MAGENTA);
     if (thing.ch == '^') p_player->setText(1, Vector(30, 0), "Ouch. Mind the spikes.", RED);
     done = thing.ch != 'o';
-    if (done) WM.markForDelete(this);  // the land makes another one
+    if (done) WM.markForDelete(this);  // Land then makes another runner
   }
   int draw() override { return DM.drawCh(getPosition(), '@', color); }
 };
 
-/// The level, and a runner for everybody in it.
+/// Makes the level, and a runner for each new player.
 struct Land : Object {
   Land() {
     setSolidness(SPECTRAL);

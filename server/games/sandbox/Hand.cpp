@@ -7,12 +7,12 @@
 
 namespace {
 
-constexpr int kLetGo = 4;  // ticks without news of the button
+constexpr int kLetGo = 4;  // ticks without a button event, after which the button counts as released
 constexpr int kVoteTicks = 15 * 30;
 constexpr int kMaxThings = 150;
-constexpr int kMaxBlobs = 8;       // a heap of them is dear
+constexpr int kMaxBlobs = 8;       // a pile of blobs is slow to compute
 constexpr double kShotSpeed = 60;  // cells per second
-const df::Vector kMuzzle(40, 1);   // where shots come from
+const df::Vector kMuzzle(40, 1);   // where shots start
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Hand::Hand(df::Player& player) : PlayerObject(player) {
 
 void Hand::step() {
   if (m_wants_turn > 0) --m_wants_turn;
-  if (++m_since_held > kLetGo) m_grip.release();  // it flies on as fast as it was dragged
+  if (++m_since_held > kLetGo) m_grip.release();  // the thing flies on as fast as it was dragged
 }
 
 void Hand::mouse(const df::EventMouse& event) {

@@ -9,7 +9,7 @@ class Hand : public df::PlayerObject<> {
   explicit Hand(df::Player& player);
 
   int draw() override;
-  /// True if this player has voted to turn gravity.
+  /// True if this player has voted to rotate gravity.
   bool wantsTurn() const { return m_wants_turn > 0; }
   void forgetTurn() { m_wants_turn = 0; }
 
@@ -21,5 +21,5 @@ class Hand : public df::PlayerObject<> {
 
   df::Grip m_grip;       // holds the dragged thing
   int m_since_held = 0;  // ticks since the button was last known to be down
-  int m_wants_turn = 0;  // remaining ticks of the player's vote
+  int m_wants_turn = 0;  // ticks for which the player's vote still counts
 };

@@ -3,7 +3,7 @@
 
 #include "Body.h"
 
-/// Sets up a Body as one of the things that are counted and may be thrown.
+/// Sets up a Body as one of the things that players may throw and whose number is limited.
 void makeThing(df::Body& body);
 
 class Crate : public df::Body {

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Turns gravity by a quarter when more than half of the players want it.
+/// Rotates gravity by a quarter turn when more than half of the players have voted for it.
 class Votes : public df::Object {
  public:
   Votes() {
@@ -28,7 +28,7 @@ class Votes : public df::Object {
     for (int i = 0; i < hands.getCount(); ++i) wishes += static_cast<Hand*>(hands[i])->wantsTurn() ? 1 : 0;
     if (2 * wishes <= hands.getCount()) return 1;
     for (int i = 0; i < hands.getCount(); ++i) static_cast<Hand*>(hands[i])->forgetTurn();
-    // A cell is twice as high as wide, and so is what gravity does in cells.
+    // A cell is twice as high as wide, so the components of gravity in cells change when it rotates.
     const df::Vector gravity = PM.getGravity();
     PM.setGravity(df::Vector(-2 * gravity.y(), gravity.x() / 2));
     return 1;
@@ -45,7 +45,7 @@ void makePyramid(df::Vector foot, int rows) {
       new Crate(foot + df::Vector(4.2 * i + 2.1 * row, -1 - 2 * row), row % 2 == 0 ? df::YELLOW : df::RED);
 }
 
-/// Newton's: as many balls on rods; the first is let go from the side.
+/// Makes Newton's cradle of this many balls on rods. The first ball starts raised to the side.
 void makeCradle(df::Vector where, int balls) {
   constexpr double kRadius = 1.5;
   constexpr double kRod = 5;  // rows
@@ -60,7 +60,7 @@ void makeCradle(df::Vector where, int balls) {
   }
 }
 
-/// Balls that feel no gravity, within rails.
+/// Makes balls without gravity between four rails.
 void makeBilliard(df::Vector corner, int width, int height) {
   makeWall(corner, width, 1);
   makeWall(corner + df::Vector(0, height - 1), width, 1);
@@ -76,7 +76,7 @@ void makeBilliard(df::Vector corner, int width, int height) {
   }
 }
 
-/// Hung up by its left edge.
+/// Makes a flag that hangs on its left edge.
 void makeFlag(df::Vector corner, double width, double height) {
   auto* p_flag = new df::Cloth(corner, width, height, 0.5);
   p_flag->setDrawing(df::BodyDrawing::FILL, ':', df::RED);
@@ -95,7 +95,7 @@ int main() {
       "C, B, R, X     a crate, a ball, a ragdoll, a blob where you point",
       "G              vote: gravity turns when more than half want it",
   });
-  WM.setLagCompensated();  // hands grab what they saw
+  WM.setLagCompensated();  // so that hands grab the thing that their player saw there
   makeWall(df::Vector(0, 23), 80, 1);
   makeWall(df::Vector(0, 1), 1, 22);
   makeWall(df::Vector(79, 1), 1, 22);

@@ -11,11 +11,11 @@
 Bullet::Bullet(std::uint32_t player, df::Color color, df::Vector position, df::Vector direction)
     : m_player(player) {
   setType("Bullet");
-  setSolidness(df::SOFT);  // a HARD one could not leave the ship that shoots it
+  setSolidness(df::SOFT);  // a HARD bullet could not leave the ship that shoots it
   setPosition(position);
-  setSprite(inColor("bullet", color));  // longer than its path of one tick: it passes through nothing
+  setSprite(inColor("bullet", color));  // longer than its path in a tick, so that it passes through nothing
 
-  // On the screen all directions shall look equally fast, so a row counts as two columns.
+  // All directions should look equally fast on the screen. A row is as high as two columns are wide.
   const double x = direction.x();
   const double y = direction.y();
   direction.scale(kSpeed / std::sqrt(x * x + 4 * y * y));
@@ -37,7 +37,7 @@ int Bullet::eventHandler(const df::Event* p_e) {
 }
 
 void Bullet::hit(df::Object* p_other) {
-  // A marked Object goes on colliding until the tick is over, and one bullet must not bring down two.
+  // An Object marked for deletion still collides until the tick ends, but a bullet must not hit two saucers.
   if (m_spent || p_other->getType() != "Saucer") return;
   m_spent = static_cast<Saucer*>(p_other)->shotBy(m_player);
   if (m_spent) WM.markForDelete(this);

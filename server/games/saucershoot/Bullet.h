@@ -1,4 +1,4 @@
-// A ship's shot: flies straight on until it hits a saucer or leaves the screen. It does not hit friends.
+// A ship's shot. It flies straight until it hits a saucer or leaves the screen. It does not hit friends.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 class Bullet : public df::Object {
  public:
-  /// Cells per tick across the screen.
+  /// Speed across the screen, in cells per tick.
   static constexpr double kSpeed = 2;
 
   /// Creates the shot of `player` at `position`, in `direction` (of any length except zero).

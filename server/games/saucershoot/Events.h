@@ -1,5 +1,5 @@
-// The game's own events. Parts of the game use them to work together without knowing each other: they
-// register interest, as for the engine's events.
+// The game's own events. Parts of the game communicate by them, without using each other's classes: they
+// register interest in them, as in the engine's events.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ inline const std::string NUKE_EVENT = "nuke";
 inline const std::string SHOT_DOWN_EVENT = "shot-down";
 inline const std::string SHIP_LOST_EVENT = "ship-lost";
 
-/// Another part of the round begins.
+/// Sent when another part of the round begins.
 class EventRound : public df::Event {
  public:
   enum Part {
@@ -28,13 +28,13 @@ class EventRound : public df::Event {
   Part m_part;
 };
 
-/// A player used a nuke: all enemies on the screen explode.
+/// Sent when a player uses a nuke: all enemies on the screen explode.
 class EventNuke : public df::Event {
  public:
   EventNuke() { setType(NUKE_EVENT); }
 };
 
-/// A bullet of `player` hit a saucer worth `points`.
+/// Sent when a bullet of `player` has hit a saucer worth `points`.
 class EventShotDown : public df::Event {
  public:
   EventShotDown(std::uint32_t player, int points) : m_player(player), m_points(points) {
@@ -48,7 +48,7 @@ class EventShotDown : public df::Event {
   int m_points;
 };
 
-/// A ship was lost, perhaps the pilot's last. Its pilot `name` has earned `points` in this round.
+/// Sent when a ship is lost, perhaps the pilot's last. Its pilot `name` has earned `points` in this round.
 class EventShipLost : public df::Event {
  public:
   EventShipLost(std::string name, int points, bool is_last)

@@ -7,7 +7,7 @@ Explosion::Explosion(df::Vector position, df::Vector velocity) {
   setType("Explosion");
   if (setSprite("explosion") == 0) m_time_to_live = getSprite()->getFrameCount() * getSprite()->getSlowdown();
   setSolidness(df::SPECTRAL);
-  setAltitude(1);  // above the stars, below everything one has to see to survive
+  setAltitude(1);  // above the stars, below all Objects that a player must see
   setPosition(position);
   setVelocity(velocity);
   registerInterest(df::STEP_EVENT);

@@ -1,4 +1,4 @@
-// The remains of a saucer or a ship, shown while their sprite plays.
+// The remains of a saucer or a ship. It disappears when its sprite has been shown once.
 #pragma once
 
 #include "Object.h"
@@ -10,8 +10,8 @@ class Explosion : public df::Object {
   int eventHandler(const df::Event* p_e) override;
 
  private:
-  int m_time_to_live = 1;  // in ticks
+  int m_time_to_live = 1;  // remaining ticks
 };
 
-/// Makes several explosions that fly apart: the end of a ship.
+/// Makes several explosions that fly apart, for the end of a ship.
 void explodeShip(df::Vector position);

@@ -1,11 +1,11 @@
-// The layout of the screen, shared by several parts of the game.
+// The layout of the screen, which several parts of the game use.
 #pragma once
 
 #include <cstdint>
 
 #include "DisplayManager.h"
 
-/// The world is one window; nothing scrolls.
+/// Width of the world, which is one window; nothing scrolls.
 inline double fieldWidth() {
   return DM.getHorizontal();
 }
@@ -13,7 +13,7 @@ inline double fieldHeight() {
   return DM.getVertical();
 }
 
-/// Ships and saucers keep their centres within these rows. The other rows are for texts.
+/// Upper and lower limit of the rows for the centres of ships and saucers. The other rows are for texts.
 inline double topRow() {
   return 2;
 }
@@ -21,10 +21,10 @@ inline double bottomRow() {
   return fieldHeight() - 4;
 }
 
-/// Numbers of a player's texts, see df::Player::setText().
+/// Ids of a player's texts for df::Player::setText().
 enum TextId : std::uint32_t {
   STATUS_TEXT,   ///< top left: the player's points, ships and nukes
   TEAM_TEXT,     ///< top right: the present bonus for flying together
-  MESSAGE_TEXT,  ///< second last row: the keys, and this player's latest event
+  MESSAGE_TEXT,  ///< second last row: the keys, and the latest event of this player
   BEST_TEXT,     ///< bottom: the best pilots so far
 };

@@ -21,7 +21,7 @@ int GameOver::eventHandler(const df::Event* p_e) {
   return 1;
 }
 
-// Not a text and a value, but the sprite.
+// Draws the sprite, not the text and value that a ViewObject draws.
 int GameOver::draw() {
   return df::Object::draw();  // NOLINT(bugprone-parent-virtual-call)
 }

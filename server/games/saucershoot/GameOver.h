@@ -1,4 +1,4 @@
-// The end of the round: shown while its sprite plays three times, then the title comes back.
+// The end of the round. Its sprite plays three times, then the title is shown again.
 #pragma once
 
 #include "ViewObject.h"
@@ -10,5 +10,5 @@ class GameOver : public df::ViewObject {
   int draw() override;
 
  private:
-  int m_time_to_live = 1;  // in ticks
+  int m_time_to_live = 1;  // remaining ticks
 };

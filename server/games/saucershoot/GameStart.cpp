@@ -23,14 +23,14 @@ int GameStart::eventHandler(const df::Event* p_e) {
     return 1;
   }
   if (p_e->getType() == ROUND_EVENT) {
-    setActive(false);  // at once: another key of this tick must not begin another round
+    setActive(false);  // at once, so that another key in this tick does not begin a second round
     WM.markForDelete(this);
     return 1;
   }
   return 0;
 }
 
-// Not a text and a value, but the sprite.
+// Draws the sprite, not the text and value that a ViewObject draws.
 int GameStart::draw() {
   return df::Object::draw();  // NOLINT(bugprone-parent-virtual-call)
 }

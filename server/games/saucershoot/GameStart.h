@@ -1,4 +1,4 @@
-// The title. The first key that any player presses begins the round for all.
+// The title. The first key that any player presses begins the round for all players.
 #pragma once
 
 #include "ViewObject.h"

@@ -19,7 +19,7 @@
 
 namespace {
 
-// Cells per tick. A cell is about twice as high as wide.
+// Speeds in cells per tick. A cell is about twice as high as wide, so both look equally fast.
 constexpr double kSpeedAcross = 1;
 constexpr double kSpeedDown = 0.5;
 
@@ -27,13 +27,14 @@ constexpr int kShieldTicks = 60;
 constexpr int kLostTicks = 60;
 constexpr int kHintTicks = 240;
 constexpr int kGunTicks = 6;
-constexpr int kMaxBullets = 128;  // of all ships together
+constexpr int kMaxBullets = 128;  // limit for all ships together
 constexpr int kMaxNukes = 3;
 constexpr int kHitsPerNuke = 20;
-constexpr double kAimRows = 2;  // how far the gun turns by itself
+constexpr double kAimRows = 2;  // rows above and below the ship within which saucers are targets
 
-/// Full speed while a key is down, then on to the next whole cell, so that a tap of a key is a step of one
-/// cell. Declared, so that a pilot far away sees the ship obey at once.
+/// The ship has full speed while a key is down, then moves on to the next whole cell, so that a tap of a key
+/// moves it by one cell. Keys are declared, so that the pilot's client shows the movement at once, even far
+/// away.
 df::Controls flightControls() {
   using namespace df::Keyboard;
   df::Controls controls;
@@ -56,7 +57,7 @@ Hero::Hero(df::Player& player)
   setType("Hero");
   setAltitude(3);
   setSprite(inColor("ship", m_color), false);
-  setBox(df::Box(df::Vector(-2, -0.4), 4, 0.8));  // its body: what only brushes a wing is no hit
+  setBox(df::Box(df::Vector(-2, -0.4), 4, 0.8));  // only the body of the ship can be hit, not the wings
   registerInterest(df::STEP_EVENT);
   registerInterest(df::KEYBOARD_EVENT);
   registerInterest(df::MSE_EVENT);
@@ -112,7 +113,7 @@ void Hero::step() {
     if (m_lost) {
       launch();
     } else {
-      setSolidness(df::SOFT);  // the shield is down
+      setSolidness(df::SOFT);  // the shield ends
     }
   }
   if (!m_lost && m_trigger.isPulled()) fire(aimAhead());
@@ -120,7 +121,7 @@ void Hero::step() {
   showMessage(*p_player);
 }
 
-// --- what the player does
+// --- actions of the player: keys, gun and nuke
 
 void Hero::keyboard(const df::EventKeyboard& event) {
   m_trigger.key(event);
@@ -136,7 +137,7 @@ void Hero::mouse(const df::EventMouse& event) {
 
 void Hero::fire(df::Vector direction) {
   if (m_gun_wait > 0 || WM.objectsOfType("Bullet").getCount() >= kMaxBullets) return;
-  if (direction == df::Vector()) direction = df::Vector(1, 0);  // clicked on the ship itself
+  if (direction == df::Vector()) direction = df::Vector(1, 0);  // the click was on the ship itself
   m_gun_wait = kGunTicks;
   new Bullet(m_player, m_color, nose(), direction);
 }
@@ -147,14 +148,14 @@ df::Vector Hero::nose() const {
 
 df::Vector Hero::aimAhead() const {
   df::Vector direction(1, 0);
-  double nearest = fieldWidth() - nose().x();  // what is not on the screen yet is not shot at
+  double nearest = fieldWidth() - nose().x();  // saucers beyond the screen's edge are not targets
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
   df::ObjectListIterator li(&saucers);
   for (li.first(); !li.isDone(); li.next()) {
     const df::Vector way = li.currentObject()->getPosition() - nose();
     if (way.x() <= 0 || way.x() >= nearest || std::abs(way.y()) > kAimRows) continue;
     nearest = way.x();
-    // Not where it is, but where it will be when the bullet is there.
+    // Aims at the point where the saucer will be when the bullet reaches it.
     df::Vector saucer_moves = li.currentObject()->getVelocity();
     saucer_moves.scale(way.x() / (Bullet::kSpeed - saucer_moves.x()));
     direction = way + saucer_moves;
@@ -182,14 +183,14 @@ void Hero::launch() {
 }
 
 df::Vector Hero::freePlace() {
-  // Ask for more room than the ship needs, most of it in front; the sky may be too full for that, so take
-  // the last place after some attempts: there is the shield, after all.
+  // The place must have more room than the ship needs, most of it in front. If the sky is too full for that,
+  // the last place after some attempts is used, because a shield protects the new ship.
   const df::Box ship = getBox();
   setBox(df::Box(df::Vector(-4, -2), 18, 4));
   df::Vector place;
   for (int attempt = 0; attempt < 20; ++attempt) {
     const int rows = static_cast<int>(bottomRow() - topRow()) - 3;
-    const int row = WM.randomInt(rows);  // first: the order of arguments is the compiler's choice
+    const int row = WM.randomInt(rows);  // row first, because compilers evaluate arguments in any order
     place = df::Vector(6 + WM.randomInt(8), topRow() + 2 + row);
     if (!WM.isCollision(this, place)) break;
   }
@@ -199,7 +200,7 @@ df::Vector Hero::freePlace() {
 
 void Hero::lose() {
   df::Player* p_player = WM.getPlayer(m_player);
-  if (p_player == nullptr) return;  // leaving in this very tick
+  if (p_player == nullptr) return;  // the player leaves in this tick
   m_lost = true;
   m_wait = kLostTicks;
   m_hint_wait = 0;
@@ -221,11 +222,11 @@ void Hero::retire() {
   WM.markForDelete(this);
 }
 
-// --- what is seen
+// --- drawing
 
 int Hero::draw() {
   const df::Vector at = getPosition();
-  if (m_wait > 0) {  // a new ship: whose it is, and a flickering shield
+  if (m_wait > 0) {  // a new ship: show its owner's name and a flickering shield
     DM.drawString(at + df::Vector(-2, -2), m_name, df::LEFT_JUSTIFIED, m_color);
     if (m_wait / 4 % 2 == 0) DM.drawCh(at + df::Vector(4, 0), ')', m_color);
   }

@@ -1,5 +1,5 @@
-// A player's ships, one after another. After a loss the next is launched after a moment; after the last one
-// the pilot watches the others until the round is over.
+// A player's ships, one after another. After a loss, the next ship is launched after a moment. After the loss
+// of the last one, the pilot watches until the round is over.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Hero : public df::Object {
  public:
   explicit Hero(df::Player& player);
 
-  /// True if it has lost its last ship.
+  /// True if the pilot has lost the last ship.
   bool isSpent() const { return m_ships == 0; }
 
   int eventHandler(const df::Event* p_e) override;
@@ -42,15 +42,15 @@ class Hero : public df::Object {
   void showStatus(df::Player& player) const;
   void showMessage(df::Player& player) const;
 
-  std::uint32_t m_player;  // an id, because the Player may be gone
+  std::uint32_t m_player;  // an id instead of a pointer, because the Player may leave
   std::string m_name;
   df::Color m_color;
   Trigger m_trigger;
   bool m_lost = false;
   int m_ships = 3;      // remaining ships, including this one
-  int m_wait = 0;       // ticks: remaining shield while flying, or time to the next launch
+  int m_wait = 0;       // ticks: remaining shield while flying, or time until the next launch
   int m_gun_wait = 0;   // ticks until the gun is ready
-  int m_hint_wait = 0;  // remaining ticks for which the keys are shown
+  int m_hint_wait = 0;  // ticks for which the keys are still shown
   int m_nukes = 0;
   int m_hits = 0;  // hits since the last nuke was earned
 };

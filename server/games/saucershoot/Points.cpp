@@ -22,7 +22,7 @@ int Points::eventHandler(const df::Event* p_e) {
     return 1;
   }
   if (p_e->getType() == ROUND_EVENT) {
-    m_counting = false;  // it stays to be read until the title is back
+    m_counting = false;  // the points stay visible until the title is shown again
     if (static_cast<const EventRound*>(p_e)->getPart() == EventRound::TITLE) WM.markForDelete(this);
     return 1;
   }

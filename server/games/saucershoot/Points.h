@@ -1,4 +1,4 @@
-// All pilots' points in this round: one each second, plus the points of saucers.
+// The points of all pilots together in this round: one each second, plus those of the saucers.
 #pragma once
 
 #include "ViewObject.h"

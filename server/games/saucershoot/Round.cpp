@@ -49,7 +49,7 @@ void Round::step() {
   for (int i = 0; i < heroes.getCount(); ++i) {
     if (!static_cast<const Hero*>(heroes[i])->isSpent()) return;
   }
-  // Without players there is none to tell.
+  // If there are no players, the title is shown again at once.
   const EventRound end(heroes.isEmpty() ? EventRound::TITLE : EventRound::OVER);
   WM.onEvent(&end);
 }

@@ -1,5 +1,5 @@
 // The course of the game: the title, then all players fly until all ships are lost, then the title again.
-// Players joining during a round get ships at once.
+// Players who join during a round get ships at once.
 #pragma once
 
 #include "EventPlayer.h"

@@ -20,7 +20,7 @@ const Saucer::Kind& Saucer::anyKind() {
 
 Saucer::Saucer() : m_kind(anyKind()) {
   setType("Saucer");
-  // SOFT, so that none gets stuck behind or inside another one. They see to their distance themselves.
+  // SOFT, so that saucers do not block each other; swerve() keeps them apart.
   setSolidness(df::SOFT);
   setSprite(m_kind.sprite);
   registerInterest(df::STEP_EVENT);
@@ -30,8 +30,8 @@ Saucer::Saucer() : m_kind(anyKind()) {
 
 void Saucer::enter() {
   int row = static_cast<int>(topRow()) + WM.randomInt(static_cast<int>(bottomRow() - topRow()) + 1);
-  // Every third one has picked a ship and comes in right in front of it: no corner is safe, and nobody has
-  // to wait for something to shoot at.
+  // One saucer in three enters in the row of a random ship, so that no corner is safe and every pilot gets
+  // targets.
   const df::ObjectList heroes = WM.objectsOfType("Hero");
   if (!heroes.isEmpty() && WM.randomInt(3) == 0) {
     row = static_cast<int>(heroes[WM.randomInt(heroes.getCount())]->getPosition().y());
@@ -41,7 +41,7 @@ void Saucer::enter() {
 }
 
 void Saucer::setDrift(int direction) {
-  // Never off the field, whoever is in the way there.
+  // Does not let the saucer leave the field.
   const double row = getPosition().y();
   if (row <= topRow()) direction = std::abs(direction);
   if (row >= bottomRow()) direction = -std::abs(direction);
@@ -60,7 +60,7 @@ int Saucer::eventHandler(const df::Event* p_e) {
     return 1;
   }
   if (p_e->getType() == NUKE_EVENT) {
-    // Those that wait outside do not see the flash.
+    // Saucers beyond the screen's edge are not affected by the flash.
     if (getPosition().x() < fieldWidth() + 3) explode();
     return 1;
   }
@@ -68,7 +68,7 @@ int Saucer::eventHandler(const df::Event* p_e) {
 }
 
 void Saucer::steer() {
-  if (getPosition().x() < -3) enter();  // the last of it is out of sight
+  if (getPosition().x() < -3) enter();  // it has left the screen completely
   const double row = getPosition().y();
   if (row <= topRow()) {
     if (getVelocity().y() < 0) setDrift(1);
@@ -80,7 +80,7 @@ void Saucer::steer() {
 }
 
 void Saucer::swerve(const df::Object* p_other) {
-  if (p_other->getType() != "Saucer") return;  // ships and bullets know themselves what happens now
+  if (p_other->getType() != "Saucer") return;  // collisions with ships and bullets are handled by those
   const double distance = getPosition().y() - p_other->getPosition().y();
   const bool down = distance == 0 ? getId() > p_other->getId() : distance > 0;
   setDrift(down ? 1 : -1);
@@ -97,6 +97,6 @@ bool Saucer::explode() {
   if (m_exploded) return false;
   m_exploded = true;
   new Explosion(getPosition());
-  WM.markForDelete(this);  // until the tick is over it goes on colliding, hence m_exploded
+  WM.markForDelete(this);  // it still collides until the tick ends, so m_exploded is needed
   return true;
 }

@@ -1,4 +1,4 @@
-// The enemy. Saucers enter on the right, fly left, and return until they are shot down.
+// The enemy. Saucers enter on the right, fly to the left, and enter again until they are shot down.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 class Saucer : public df::Object {
  public:
-  /// Creates a saucer about to enter on the right.
+  /// Creates a saucer that is about to enter on the right.
   Saucer();
 
   /// Handles a hit by a bullet of `player`. Returns false if the saucer has already exploded.
@@ -20,8 +20,8 @@ class Saucer : public df::Object {
  private:
   struct Kind {
     const char* sprite;
-    double speed;  // to the left, cells per tick
-    double drift;  // up or down
+    double speed;  // speed to the left, in cells per tick
+    double drift;  // speed up or down, in rows per tick
     int points;
   };
   static const Kind kDrone, kWeaver, kRaider;

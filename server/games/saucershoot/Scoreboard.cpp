@@ -14,10 +14,10 @@
 
 namespace {
 
-constexpr int kTeamTicks = 90;         // how long a hit counts for the team
-constexpr int kBiggestTeam = 4;        // more do not make more of it
-constexpr int kShowTicks = 150;        // how long the best pilots stay on the screen
-constexpr int kShowEveryTicks = 1800;  // even if nobody dies
+constexpr int kTeamTicks = 90;         // ticks after a hit in which it counts for the team
+constexpr int kBiggestTeam = 4;        // maximum factor for the hits of a team
+constexpr int kShowTicks = 150;        // ticks for which the best pilots are shown
+constexpr int kShowEveryTicks = 1800;  // ticks from one display of the best pilots to the next
 constexpr std::size_t kBestCount = 3;
 
 }  // namespace
@@ -63,7 +63,7 @@ void Scoreboard::step(int tick) {
 
 void Scoreboard::credit(const EventShotDown& shot_down) {
   df::Player* p_player = WM.getPlayer(shot_down.getPlayer());
-  if (p_player == nullptr) return;  // left while the bullet was still on its way
+  if (p_player == nullptr) return;  // the player left while the bullet was flying
   m_last_hit[shot_down.getPlayer()] = GM.getStepCount();
   const int points = shot_down.getPoints() * teamFactor();
   p_player->setScore(p_player->getScore() + points);
@@ -81,7 +81,7 @@ void Scoreboard::enter(const EventShipLost& ship_lost) {
   m_show_best = kShowTicks;
 }
 
-// Each once, however often they were good.
+// Returns the names of the best pilots. Names each once, even if a pilot has several of the best results.
 std::string Scoreboard::bestPilots() const {
   std::set<std::string> named;
   std::string text;

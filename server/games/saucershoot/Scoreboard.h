@@ -1,7 +1,7 @@
-// Counts the points, and shows the best pilots; the server keeps these.
+// Counts the points, and shows the best pilots, whose list the server stores.
 //
-// A saucer is worth its points times the number of pilots (up to four) with a hit in the last three seconds,
-// so it pays to keep friends in the game.
+// A saucer gives its points times the number of pilots (up to four) with a hit in the last three seconds, so
+// it is worth to keep friends in the game.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Scoreboard : public df::Object {
   int teamFactor() const;
   std::string bestPilots() const;
 
-  df::HighScores m_pilots{"pilots"};        // the server keeps it between games
-  std::map<std::uint32_t, int> m_last_hit;  // player -> tick
-  int m_show_best = 0;                      // remaining ticks
+  df::HighScores m_pilots{"pilots"};        // stored by the server from game to game
+  std::map<std::uint32_t, int> m_last_hit;  // player -> tick of the player's last hit
+  int m_show_best = 0;                      // ticks for which the best pilots are still shown
 };

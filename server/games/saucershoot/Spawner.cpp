@@ -11,12 +11,13 @@
 namespace {
 
 constexpr int kMaxSaucers = 32;
-constexpr int kSaucersAtRest = 8;  // when nobody plays
+constexpr int kSaucersAtRest = 8;  // number of saucers if there are no players
 constexpr int kSaucersPerPilot = 2;
 constexpr int kLevelsPerPilot = 12;
 constexpr int kTicksPerLevel = 120;
-constexpr int kTicksPerWave = 4;  // after a nuke the sky fills again in a few seconds, not at once
-constexpr int kRelief = 2;        // levels that a lost ship takes back: it got too hard too fast
+constexpr int kTicksPerWave = 4;  // ticks between two waves: after a nuke the sky fills in seconds, not at
+                                  // once
+constexpr int kRelief = 2;        // levels subtracted for each lost ship
 
 int pilotCount() {
   return WM.objectsOfType("Hero").getCount();
@@ -33,7 +34,8 @@ Spawner::Spawner() {
 
   for (int i = 0; i < kSaucersAtRest; ++i) {
     auto* p_saucer = new Saucer;
-    const double left = fieldWidth() / 3;  // the first ship gets a little time to look round
+    const double left = fieldWidth() / 3;  // no saucers here: the first ship has some time before it meets
+                                           // them
     p_saucer->setPosition(
         df::Vector(left + WM.randomInt(static_cast<int>(fieldWidth() - left)), p_saucer->getPosition().y()));
   }
@@ -60,7 +62,7 @@ void Spawner::step(int tick) {
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
   const int wanted = std::min(kSaucersAtRest + kSaucersPerPilot * pilots + m_level, kMaxSaucers);
   const int missing = wanted - saucers.getCount();
-  const int wave = std::min(missing, 1 + pilots / 2);  // many pilots shoot many
+  const int wave = std::min(missing, 1 + pilots / 2);  // more pilots shoot more saucers
   for (int i = 0; i < wave; ++i) new Saucer;
   if (missing < 0) retireOne(saucers);
 }

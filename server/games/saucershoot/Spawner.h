@@ -1,5 +1,5 @@
-// Sends the saucers: a few without pilots, more per pilot, and more the longer the pilots survive. There is
-// an upper limit, so that the game never becomes hopeless.
+// Makes the saucers: a few without pilots, more for each pilot, and more the longer the pilots survive. There
+// is an upper limit, so that the game never becomes hopeless.
 #pragma once
 
 #include "Object.h"
@@ -7,15 +7,15 @@
 
 class Spawner : public df::Object {
  public:
-  /// Fills the sky with the first saucers.
+  /// Makes the first saucers, all over the sky.
   Spawner();
 
   int eventHandler(const df::Event* p_e) override;
 
  private:
   void step(int tick);
-  /// Removes a saucer that is not visible at the moment, after pilots have left.
+  /// After pilots have left, removes a saucer that is not on the screen at the moment.
   static void retireOne(const df::ObjectList& saucers);
 
-  int m_level = 0;  // saucers in addition to the initial number per pilot
+  int m_level = 0;  // number of saucers in addition to those for each pilot
 };

@@ -1,14 +1,14 @@
-// The pictures of the game, by the labels for Object::setSprite().
+// The sprites of the game, by the labels for Object::setSprite().
 #pragma once
 
 #include <string>
 
 #include "Color.h"
 
-/// Loads them all. Returns 0, or -1 if a file is missing or invalid; the log says which.
+/// Loads all sprites. Returns 0, or -1 if a file is missing or invalid; the log names the file.
 int loadSprites();
 
-/// Ships and bullets have the colours of their pilots, so there is one sprite of each per colour.
+/// Returns the label of a sprite in a colour: ships and bullets have a sprite for each pilot's colour.
 inline std::string inColor(const std::string& what, df::Color color) {
   return what + "-" + std::to_string(static_cast<int>(color));
 }

@@ -11,7 +11,7 @@ Star::Star() : m_near(WM.randomInt(3) == 0) {
   setAltitude(0);
   setStaticLook();
 
-  const int row = WM.randomInt(DM.getVertical());  // first: the order of arguments is the compiler's choice
+  const int row = WM.randomInt(DM.getVertical());  // drawn first: compilers evaluate arguments in any order
   setPosition(df::Vector(WM.randomInt(DM.getHorizontal()), row));
   const double speed = m_near ? 0.15 : 0.05;
   setVelocity(df::Vector(-speed - 0.01 * WM.randomInt(5), 0));
@@ -19,7 +19,7 @@ Star::Star() : m_near(WM.randomInt(3) == 0) {
 
 int Star::eventHandler(const df::Event* p_e) {
   if (p_e->getType() != df::OUT_EVENT) return 0;
-  // It left on the left; the next one like it comes in on the right.
+  // A star that leaves the screen on the left enters again on the right, in a random row.
   setPosition(df::Vector(fieldWidth(), WM.randomInt(DM.getVertical())));
   return 1;
 }

@@ -2,7 +2,7 @@
 
 void Trigger::key(const df::EventKeyboard& event) {
   const bool down = event.getKeyboardAction() != df::KEY_RELEASED;
-  if (down) m_idle = 0;  // any key will do: keyboards repeat only the one that was pressed last
+  if (down) m_idle = 0;  // any key counts, because keyboards repeat only the key that was pressed last
   if (event.getKey() == df::Keyboard::SPACE) m_pulled = down;
 }
 

@@ -1,14 +1,14 @@
 // The state of a pilot's trigger, the space bar.
 //
-// A terminal may miss the release of a key (when the window loses the focus, for example). So the trigger is
-// also released when the pilot's keyboard has been silent for a while, and no ship shoots endlessly.
+// A terminal may miss the release of a key (for example when the window loses the focus). So the trigger is
+// also released when no key of the pilot has arrived for a while, so that no ship shoots endlessly.
 #pragma once
 
 #include "EventKeyboard.h"
 
 class Trigger {
  public:
-  /// Ticks; longer than a keyboard's delay before its first repeat.
+  /// Ticks without a key after which the trigger is released; longer than a keyboard's delay before repeats.
   static constexpr int kPatience = 36;
 
   /// Updates the state from a key event.

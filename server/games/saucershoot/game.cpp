@@ -1,7 +1,7 @@
 // Saucer Shoot for many players: the whole game of the Dragonfly tutorial, for one to eight pilots or more.
 //
-// Start reading here, then continue with Round and Hero. dfserver loads this game, runs main() and shows it
-// to the players; the game contains no network code.
+// Start reading here, then continue with Round and Hero. dfserver loads this game, runs main() and shows the
+// game to the players; it contains no network code.
 #include "GameManager.h"
 #include "Round.h"
 #include "Scoreboard.h"
@@ -25,13 +25,13 @@ int main() {
       "last three seconds, the more a saucer is worth: up to four times.",
   });
 
-  // Objects are made with new and never deleted here: the world looks after them.
+  // Objects are made with new. The world deletes them.
   for (int i = 0; i < 30; ++i) new Star;
   new Spawner;
   new Round;
   new Scoreboard;
 
-  GM.run();  // until the server ends
+  GM.run();  // returns when the server ends
   GM.shutDown();
   return 0;
 }

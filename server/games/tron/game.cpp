@@ -1,6 +1,6 @@
 // Tron: each cycle leaves a wall behind it. Turn in time; the player who rides longest wins the round. A
-// single player rides against a robot. Shows: rounds that players can join, many Objects at rest, one class
-// for players and robots, best scores that outlive the game.
+// single player rides against a robot. Example for: rounds that players can join, many Objects at rest, one
+// class for players and robots, best scores that the server stores.
 #include <array>
 
 #include "DisplayManager.h"
@@ -14,12 +14,12 @@ using namespace df;
 
 namespace {
 
-constexpr int kStartTicks = 45;   // to see where one stands
-constexpr int kResultTicks = 75;  // to see who won
+constexpr int kStartTicks = 45;   // ticks before the start, so that players find their cycle
+constexpr int kResultTicks = 75;  // ticks for which the result is shown
 const Box kBody(Vector(-0.4, -0.4), 0.8, 0.8);
 const std::array<Vector, 4> kWays = {Vector(1, 0), Vector(0, 1), Vector(-1, 0), Vector(0, -1)};
 
-/// A piece of what a cycle left behind, or of the fence around the field.
+/// A piece of a cycle's wall, or of the fence around the field.
 struct Wall : Object {
   const Color color;
   const char ch;
@@ -33,12 +33,12 @@ struct Wall : Object {
 };
 
 struct Cycle : Object {
-  const std::uint32_t player;  // 0: a robot
+  const std::uint32_t player;  // id of the player; 0: a robot
   const std::string name;
   const Color color;
-  int way;        // index in kWays
-  int wish;       // where to turn with the next move
-  int cells = 0;  // ridden in this round
+  int way;        // direction, as an index in kWays
+  int wish;       // direction of the next move
+  int cells = 0;  // number of cells ridden in this round
   bool wrecked = false;
 
   Cycle(const Player* p, Vector at, int its_way)
@@ -74,10 +74,10 @@ struct Cycle : Object {
     }
   }
   int turn(int new_way) {
-    if ((new_way + 2) % 4 != way) wish = new_way;  // not back into its own wall
+    if ((new_way + 2) % 4 != way) wish = new_way;  // it must not turn back into its own wall
     return 1;
   }
-  /// Cells until something is in the way, up to `most`.
+  /// Returns the number of free cells in this direction, up to `most`.
   int freeCells(int which, int most) const {
     Vector at = getPosition();
     for (int i = 0; i < most; ++i) {
@@ -86,7 +86,7 @@ struct Cycle : Object {
     }
     return most;
   }
-  /// What a robot does: straight on, mostly; else to where there is more room.
+  /// Steers a robot: mostly straight on, otherwise to the side with more free cells.
   void think() {
     if (freeCells(way, 2) == 2 && WM.randomInt(25) != 0) return;
     const int left = (way + 3) % 4;
@@ -94,8 +94,8 @@ struct Cycle : Object {
     const int best = freeCells(left, 12) > freeCells(right, 12) ? left : right;
     if (freeCells(best, 12) > freeCells(way, 4)) wish = best;
   }
-  /// A cell on, with a wall where it was. A row is as high as two columns are wide, so it takes twice as
-  /// long.
+  /// Moves one cell and leaves a wall behind. A row is as high as two columns are wide, so a vertical move
+  /// takes twice as long.
   void ride(int tick) {
     if (player == 0) think();
     if (tick % 2 != 0 || (wish % 2 == 1 && tick % 4 != 0)) return;
@@ -113,13 +113,13 @@ struct Cycle : Object {
   }
 };
 
-/// The course of the rounds.
+/// Runs the rounds.
 struct Track : Object {
-  std::vector<Cycle*> cycles;  // of this round
-  int wait = 0;                // ticks until the round begins, or the next one is prepared
+  std::vector<Cycle*> cycles;  // cycles of this round
+  int wait = 0;                // ticks until the round begins, or until the next round is prepared
   bool riding = false;
   std::string message;
-  HighScores rides{"rides"};  // cells that winners rode, as far as servers remember
+  HighScores rides{"rides"};  // best rides in cells, stored by the server
 
   Track() {
     setSolidness(SPECTRAL);
@@ -175,7 +175,7 @@ struct Track : Object {
     riding = false;
     wait = kResultTicks;
   }
-  /// A clean field, and everybody who is here on it, evenly along its left and right side.
+  /// Clears the field, and places all players evenly along its left and right sides.
   void prepare() {
     for (const char* type : {"Cycle", "Trail"}) WM.markForDelete(WM.objectsOfType(type));
     cycles.clear();

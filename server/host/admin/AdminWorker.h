@@ -18,8 +18,8 @@ class AdminWorker {
   /// Calls finish().
   ~AdminWorker();
 
-  /// Queues a job, which must not throw. Drops it and returns false if too many wait, or after finish(). Any
-  /// thread; does not block.
+  /// Queues a job, which must not throw. If too many jobs wait, or after finish(), drops it and returns
+  /// false. Any thread; does not block.
   bool enqueue(std::function<void()> job);
   /// Waits until all queued jobs have run, so that accepted changes are written. Do not call it from a job.
   void finish();
@@ -31,7 +31,7 @@ class AdminWorker {
   std::condition_variable m_wake;
   std::deque<std::function<void()>> m_jobs;
   bool m_stopping = false;
-  std::thread m_thread;  ///< starts with the first job
+  std::thread m_thread;  ///< started by the first job
 };
 
 }  // namespace naiad

@@ -157,7 +157,8 @@ const Ban* BanSet::findIn(const Index& index, const asio::ip::address& address, 
                                           return std::tie(a.length, a.bytes) < std::tie(b.length, b.bytes);
                                         });
     if (found == index.keys.end() || found->length != length || found->bytes != wanted.bytes) continue;
-    const Ban& ban = m_bans[found->ban];  // the only one of this range; longer prefixes may still match
+    const Ban& ban = m_bans[found->ban];  // the only ban of this range; if it is expired, bans of other
+                                          // prefix lengths may match
     if (!ban.isExpired(now) && ban.range->contains(address)) return &ban;
   }
   return nullptr;
@@ -247,8 +248,8 @@ void BanList::replace(std::vector<Ban> bans) {
   m_set.swap(set);
 }
 
-// Expired bans are removed from memory only. In the file they stay until a new ban of their target replaces
-// them, which saves writes.
+// Expired bans are removed from memory only. In the file they stay until a new ban with the same target
+// replaces them, which saves writes.
 bool BanList::add(Ban ban, Saved saved) {
   std::vector<Ban> bans = currentSet()->all();
   std::erase_if(bans, [&ban, present = m_clock()](const Ban& other) {

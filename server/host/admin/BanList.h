@@ -35,13 +35,13 @@ struct Ban {
   std::string name{};                   ///< only for kName
   std::optional<AddressRange> range{};  ///< set for the other kinds
   std::string reason{};
-  std::string by{};             ///< caller of the command
+  std::string by{};             ///< caller of the command that made the ban
   Time made{};                  ///< whole seconds
   std::optional<Time> until{};  ///< nullopt: permanent
-  bool persistent = true;       ///< saved on disk
+  bool persistent = true;       ///< true if the ban is saved on disk
 
   bool isExpired(Time now) const { return until && *until <= now; }
-  /// Returns "name:Ann" or "192.0.2.0/24". A new ban replaces an old one of its target.
+  /// Returns "name:Ann" or "192.0.2.0/24". A new ban replaces an old one with the same target.
   std::string target() const { return kind == Kind::kName ? "name:" + name : range->text(); }
   bool isSameTarget(const Ban& other) const {
     return (kind == Kind::kException) == (other.kind == Kind::kException) && target() == other.target();
@@ -56,7 +56,7 @@ std::string banMessage(const Ban& ban);
 using BanFileError = StateFileError;
 
 /// The ban file: an SQLite database in the server's state folder. For one thread at a time. Servers with a
-/// common folder share the file; each sees the others' changes when it loads.
+/// common folder share the file; load() also reads the changes of the other servers.
 class BanStore {
  public:
   /// Does not open or create the file yet.
@@ -66,8 +66,8 @@ class BanStore {
   /// file unchanged, if it is damaged or unreadable. The server must not start then, or banned players could
   /// join.
   std::vector<Ban> load();
-  /// Writes the ban, replacing one of its target. Creates the file (0600) and its folder if necessary. Waits
-  /// for the disk. Throws BanFileError.
+  /// Writes the ban, replacing one with the same target. Creates the file (0600) and its folder if necessary.
+  /// Waits for the disk. Throws BanFileError.
   void save(const Ban& ban);
   /// Removes the ban, if it is there. Throws BanFileError.
   void erase(const Ban& ban);
@@ -112,19 +112,21 @@ class BanSet {
   std::vector<std::pair<std::string, std::size_t>> m_skeletons;  ///< skeletons of banned names, sorted
 };
 
-/// The bans in force. isBanned(), currentSet() and count() may be called from any thread, the rest from the
-/// host's thread. Only the worker accesses the disk.
+/// The bans in force. isBanned(), currentSet() and count() may be called from any thread, all other members
+/// only from the host's thread. Only the worker accesses the disk.
 class BanList {
  public:
-  /// Called on the worker's thread when a change was written: `problem` is empty, or one sentence that says
-  /// why the change lasts only until the server ends. Without a file, called at once by the caller.
+  /// Called when a change was written, on the worker's thread; if there is nothing to write, or too many jobs
+  /// wait, called at once by the caller. `problem` is empty, or says in one sentence why the change ends with
+  /// the server.
   using Saved = std::function<void(const std::string& problem)>;
-  /// A wall clock; tests pass their own. Any thread.
+  /// A wall clock; tests pass their own. May be called from any thread.
   using Clock = std::function<Ban::Time()>;
 
   static constexpr std::size_t kMaxBans = 20'000;
 
-  /// Uses the file bans.sqlite3 in `folder`; empty: no file, bans end with the server. Throws BanFileError.
+  /// Uses the file bans.sqlite3 in `folder`. If `folder` is empty, there is no file, and bans end with the
+  /// server. Throws BanFileError.
   BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock);
   BanList(AdminWorker& worker, const std::filesystem::path& folder);
   ~BanList();
@@ -139,9 +141,11 @@ class BanList {
   /// Number of calls for which isBanned() returned true.
   std::uint64_t count() const { return m_hits; }
 
-  /// Adds a ban, replacing one of its target, and removes expired ones. False if there are kMaxBans.
+  /// Adds a ban, replacing one with the same target, and removes expired ones. Returns false if there are
+  /// already kMaxBans.
   bool add(Ban ban, Saved saved);
-  /// Removes the bans named by this text: #NUMBER, name:NAME, an address or a range. Returns their number.
+  /// Removes the bans named by this text: #NUMBER, name:NAME, an address or a range. Returns the number
+  /// removed.
   std::size_t remove(const std::string& text, Saved saved);
   /// Called on the worker's thread with the bans in the file, or with the reason why it cannot be read.
   using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
@@ -151,7 +155,7 @@ class BanList {
   void replaceAll(std::vector<Ban> bans);
 
  private:
-  /// Used by the worker's jobs.
+  /// The ban file, and the bans that could not be written to it yet. Used by the worker's jobs.
   struct File;
 
   void replace(std::vector<Ban> bans);

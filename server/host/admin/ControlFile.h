@@ -15,7 +15,8 @@ class ControlFile {
   /// Creates the folder (0750) if necessary. Replaces a socket on which no process listens any more. Throws
   /// ListenError (TcpListener.h) if the path is in use or is another kind of file.
   explicit ControlFile(std::filesystem::path path);
-  /// Removes the file if it is still this one. Closes the descriptor unless it was taken.
+  /// Removes the file if it is still this socket's. Closes the descriptor, unless releaseDescriptor() was
+  /// called.
   ~ControlFile();
   ControlFile(const ControlFile&) = delete;
   ControlFile& operator=(const ControlFile&) = delete;
@@ -33,8 +34,8 @@ class ControlFile {
   std::pair<dev_t, ino_t> m_identity;
 };
 
-/// Removes sockets of killed servers in this folder: those that are named as by controlPath() and on which no
-/// process listens.
+/// Removes sockets of killed servers in this folder: those that have a name as from controlPath() and on
+/// which no process listens.
 void removeStaleControls(const std::filesystem::path& folder);
 
 }  // namespace naiad

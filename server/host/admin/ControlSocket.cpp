@@ -65,7 +65,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     send(answerLines(AdminAnswer::refused(sentence)));
     finish();
   }
-  /// Sends an event if this is a watcher. If too much is unsent, drops and counts it.
+  /// Sends an event if this is a watcher. If too many bytes are unsent, drops the event and counts it.
   void sendEvent(const FeedEvent& event) {
     if (!m_watching || m_closed) return;
     if (m_out.size() + m_writing.size() > ControlSocket::kMaxUnread) {
@@ -109,7 +109,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
     serveLines();
   }
   void serveLines() {
-    // Serves a line only when the answer to the one before is written, so the input buffer stays bounded.
+    // Serves a line only when the answer to the previous one is written, so the input buffer stays bounded.
     while (!m_busy && !m_finishing && !m_closed && !isWriting()) {
       const std::size_t end = m_in.find('\n');
       if (end == std::string::npos) break;
@@ -189,9 +189,9 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   bool m_too_long = false;  ///< skipping the rest of a line that is too long
   std::string m_out;        ///< output that is not being written yet
   std::string m_writing;
-  bool m_busy = false;  ///< a command is being executed
+  bool m_busy = false;  ///< true while a command is executed
   bool m_reading = false;
-  bool m_ended = false;  ///< the client has closed its side, or reading failed
+  bool m_ended = false;  ///< true if the client has closed its side, or reading failed
   bool m_finishing = false;
   bool m_closed = false;
   bool m_watching = false;
@@ -327,7 +327,7 @@ void ControlSocket::State::forget(ControlConnection& connection) {
     feed.end();
     feeding = false;
   }
-  if (connections.empty() && !acceptor.is_open()) context.stop();  // finish() has nothing more to wait for
+  if (connections.empty() && !acceptor.is_open()) context.stop();  // finish() need not wait any more
 }
 
 void ControlSocket::State::finish() {

@@ -20,17 +20,17 @@ namespace naiad {
 
 struct ControlSocketOptions {
   std::filesystem::path path;  ///< path of the socket, at most 103 bytes
-  /// Maximum number of connections. The last one is reserved for short commands: it cannot watch, and is
-  /// closed after `short_time`.
+  /// Maximum number of connections. The last one is reserved for short commands: the command "watch" is
+  /// refused on it, and it is closed after `short_time`.
   std::size_t max_connections = 8;
   std::chrono::milliseconds short_time{2000};
-  /// Returns true for processes that may not give commands: those started by the server. May be empty.
-  /// Called on the socket's thread, once for each connection.
+  /// Returns true for processes that may not give commands, because the server started them. If empty, no
+  /// process is refused. Called on the socket's thread, once for each connection.
   std::function<bool(pid_t process)> is_refused = nullptr;
 };
 
-/// Has a thread of its own, so a client that stalls does not delay the tick. For a watcher that stalls,
-/// events are dropped; their number is sent when it reads again.
+/// Runs on a thread of its own, so a client that stalls does not delay the tick. If a watcher stalls, its
+/// events are dropped; it gets their number when it reads again.
 class ControlSocket {
  public:
   /// Executes a command. Called on the socket's thread. `done` must be called once, from any thread, even

@@ -17,8 +17,8 @@
 namespace naiad {
 
 /// Runs one vote at a time. All players of an IPv4 address or IPv6 /64 are one voter. A vote passes if more
-/// than half of the connected voters, and at least two, agree within kTime. Not thread-safe; time is passed
-/// in.
+/// than half of the connected voters, and at least two, agree within kTime. Not thread-safe. Time is a
+/// parameter.
 class VoteKick {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -33,10 +33,10 @@ class VoteKick {
     kBegun,    ///< the vote has begun
     kAgreed,   ///< one more voter agrees, not enough yet
     kPassed,   ///< enough voters agree; the vote is over
-    kAlready,  ///< this voter has already agreed
+    kAlready,  ///< this voter has already agreed to the vote
     kOther,    ///< a vote on another player is running
     kTooSoon,  ///< this voter began a vote less than kMinInterval ago
-    kSelf,     ///< the target is at the voter's own address, or a player is gone
+    kSelf,     ///< the target is at the voter's own address, or one of the two players is gone
   };
 
   /// Begins a vote to kick a player, or agrees to the running one. `voter` and `target` are session ids.
@@ -72,7 +72,7 @@ class VoteKick {
     m_target.reset();
     return target;
   }
-  /// Number of voters that agree, and the number needed, in the current vote or the one that just passed.
+  /// Number of voters that agree to the current vote, or to the one that just passed, and the number needed.
   std::size_t votes() const { return m_votes.size(); }
   std::size_t needed() const { return m_needed; }
 

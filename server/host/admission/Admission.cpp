@@ -97,15 +97,15 @@ void Admission::evaluateHello(Session& session, const wire::Hello& hello) {
   admitPlayer(session, hello);
 }
 
-// All hellos wait, but with named rooms only those that resume a session: it may be in a room still in
-// recovery. Such a room admits new players later (RoomAdmission.h).
+// While a round is in recovery, all hellos wait. With named rooms only those that resume a session wait,
+// because the session may be in a room in recovery; such a room refuses new players (RoomAdmission.h).
 bool Admission::waitsForRound(const wire::Hello& hello) const {
   if (!m_setup.rooms.recovering()) return false;
   return !m_setup.rooms.isNamed() ||
          (!hello.resume_token().empty() && !m_tokens.find(hello.resume_token()).has_value());
 }
 
-// The address was checked before TLS, but a ban may have been added since.
+// The address was checked before TLS, but a ban may have been added since then.
 bool Admission::isBanned(Session& session, const std::string& name) {
   const auto address = endpointAddress(session.address());
   const std::string sentence =
@@ -180,10 +180,10 @@ void Admission::forgetSession(const Session& session) {
 
 // ---- resumed sessions -------------------------------------------------------------------------------------
 
-// False if the token belongs to no session that can be resumed.
+// Returns false if the token belongs to no session that can be resumed.
 bool Admission::resumeSession(Session& session, const wire::Hello& hello) {
   if (m_tokens.isSuperseded(hello.resume_token())) {
-    ++m_counters.refused_elsewhere;
+    ++m_counters.refused_session_moved;
     session.refuse(wire::Refused::SESSION_MOVED, "This session was resumed in another client.");
     return true;
   }
@@ -237,8 +237,8 @@ void Admission::continueSession(Session& before, Session& session, const wire::H
   log(before, newsOf("resumed", before.name(), "reconnected"));
 }
 
-// Adds a second stream to a session that has its first one. Without such a session the client is refused: it
-// asked for a second stream, so it is not a new player.
+// Adds a second stream to a session that has its first one. If there is no such session, refuses the client:
+// it is not a new player, because it asked for a second stream.
 void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
   const auto id = m_tokens.findNewest(hello.resume_token());
   Session* p_first = id ? m_setup.sessions.find(*id) : nullptr;
@@ -257,7 +257,8 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
 
 // ---- sessions of a killed server --------------------------------------------------------------------------
 
-// Clients that reconnect retry after a moment, and show the sentence.
+// Refuses hellos that have waited for too long. Clients that reconnect retry after a moment, and show the
+// sentence.
 void Admission::evaluateWaiting() {
   const int percent = m_setup.rooms.recovering().value_or(100);
   const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
@@ -287,8 +288,9 @@ void Admission::restoreSessions(Room& room, const std::vector<PersistedSession>&
   }
 }
 
-// The client's new stream belongs to a new session without state, like the client: the world is sent from the
-// beginning. The welcome may be lost, so the previous token stays valid until the client has read it.
+// The client goes on with a new session, that of its new stream. Neither of them has any state, so the world
+// is sent from the beginning. The welcome may be lost, so the previous token stays valid until the client has
+// read it.
 void Admission::replaceRestoredSession(Session& before, Session& session, const wire::Hello& hello) {
   Room* p_room = m_setup.rooms.roomOf(before);
   wire::Welcome welcome = before.welcomed();
@@ -363,7 +365,7 @@ void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   log(session, newsOf("joined", name, "joined with " + inQuotes(program), {{"program", program}}));
 }
 
-// False if the session was refused.
+// Returns false if the session was refused.
 bool Admission::checkLimits(Session& session) {
   if (!m_setup.context.shutdown_scheduler.acceptsPlayers()) {
     ++m_counters.refused_closing;
@@ -372,12 +374,13 @@ bool Admission::checkLimits(Session& session) {
   }
   const int max_players = m_options.max_players;
   const int max_per_address = m_options.max_per_address;
-  if (m_setup.sessions.playing() >= static_cast<std::size_t>(max_players)) {
+  if (m_setup.sessions.playingCount() >= static_cast<std::size_t>(max_players)) {
     ++m_counters.refused_full;
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
   }
-  // Players without a connection count too: an address must not collect the places kept for them.
+  // Counts players without a connection, too. Otherwise one address could collect the places that are kept
+  // for such players.
   if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
     ++m_counters.refused_address;
     session.refuse(wire::Refused::FULL, "Too many players from your address (limit " +
@@ -387,17 +390,18 @@ bool Admission::checkLimits(Session& session) {
   return true;
 }
 
-// Adds a link if another server of the fleet has a free place.
+// Refuses a session for lack of places. Adds a link if another server of the fleet has a free place.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
   const auto link = m_find_redirect ? m_find_redirect() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);
-  ++m_counters.sent_on;
+  ++m_counters.redirected;
   const std::string said =
       safeText(sentence + " Another server has free places: " + link->text(), kMaxMessageLength);
   session.refuse(wire::Refused::FULL, said, JoinLink{link->address, "", link->key}.text(), link->room);
 }
 
-// Null if the session was refused. Joins are limited per address, because rejoining resets other limits.
+// Returns null if the session was refused. Joins are limited per address, because rejoining resets other
+// limits.
 Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   const AddressPrefix prefix = prefixOf(session);
   const Session::Clock::time_point now = session.now();
@@ -447,7 +451,7 @@ void Admission::refuseRoom(Session& session, const RoomAdmission::Refusal& refus
   }
 }
 
-// The player gets a new id, because a world uses an id only once.
+// The player gets a new id in the new room, because a world uses an id only once.
 std::string Admission::moveSession(Session& session, const std::string& room, bool led) {
   if (!m_setup.rooms.isNamed()) return "This server has no rooms.";
   if (room.empty()) return "Room name missing.";
@@ -532,7 +536,7 @@ wire::Welcome Admission::welcomeOf(const Room& room, std::uint32_t player, const
   return welcome;
 }
 
-// Uses the first supported cipher of the client's list.
+// Opens datagrams with the first cipher of the client's list that the server supports.
 std::unique_ptr<SealedChannel> Admission::openDatagrams(const Session& session,
                                                         const wire::Hello& hello) const {
   for (const std::uint32_t wanted : hello.aeads()) {

@@ -29,7 +29,7 @@ namespace naiad {
 /// the password; the limits on players; the name. Every refusal has a counter. Not thread-safe.
 class Admission {
  public:
-  /// The objects it works with. All of them must outlive the Admission.
+  /// The objects that the Admission works with. All of them must outlive it.
   struct Setup {
     HostContext& context;
     SessionTable& sessions;
@@ -53,10 +53,10 @@ class Admission {
   /// Sets the world whose window and help go into welcomes. Call before the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
-  /// Time that a hello waits for a round in recovery before its client is told the progress.
+  /// Time that a hello waits for a round in recovery; then its client is refused and told the progress.
   static constexpr std::chrono::milliseconds kRecoveryWait{1000};
-  /// Longer wait once more than half of the round is replayed, because a refused client might retry only
-  /// after its end. Less than Session::kAdmissionTimeout.
+  /// Time that a hello waits once more than half of the round is replayed. It is longer, because a refused
+  /// client might retry only after the end of the recovery. Less than Session::kAdmissionTimeout.
   static constexpr std::chrono::milliseconds kNearEndWait{3000};
 
   /// Refuses or welcomes the session that received this hello: at once, after its password check, or after
@@ -64,7 +64,7 @@ class Admission {
   void evaluateHello(Session& session, const wire::Hello& hello);
   /// Makes new players get higher ids than this one.
   void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }
-  /// Call once a tick: evaluates the hellos that wait for a round.
+  /// Call once a tick: evaluates the hellos that wait for a round in recovery.
   void evaluateWaiting();
   /// Call when the client has received its newest token (Session::popWelcomeConfirmed).
   void confirmToken(Session& session);
@@ -72,14 +72,14 @@ class Admission {
   void restoreSessions(Room& room, const std::vector<PersistedSession>& sessions);
   /// Records the sessions of all players in the journal of the room's world. Call when that world is new.
   void recordSessions(const Room& room) const;
-  /// Records a changed session in the journal of its world. Call before the client is told.
+  /// Records a changed session in the journal of its world. Call before its client is told of the change.
   void recordSession(const Session& session) const;
   /// Moves a playing session to the room of this name. Returns a refusal for its player, or "" on success.
   /// `led`: moved by the server, so it does not count for the rate limit.
   std::string moveSession(Session& session, const std::string& room, bool led);
   /// Call when the session is over: its token becomes void.
   void forgetSession(const Session& session);
-  /// Sets the password of new players; nullopt: none.
+  /// Sets the password of new players; nullopt: they need none.
   void changePassword(std::optional<PasswordHash> hash);
   bool needsPassword() const { return m_needs_password; }
   /// Results of password checks; all zero if no password was ever needed.
@@ -132,7 +132,7 @@ class Admission {
   std::unique_ptr<PasswordCheck> m_password;  ///< null: no password was needed yet
   bool m_needs_password = false;
   std::uint32_t m_next_player = 1;
-  std::vector<WaitingHello> m_waiting;  ///< for a round; at most one per session
+  std::vector<WaitingHello> m_waiting;  ///< hellos that wait for a round in recovery; at most one per session
 };
 
 }  // namespace naiad

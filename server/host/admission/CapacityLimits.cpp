@@ -9,17 +9,18 @@ namespace naiad {
 
 namespace {
 
-/// Limits of half-open connections. Per prefix: a class behind one address, or the host's limit per address.
-/// In all: a few such groups, or all players when they reconnect at once. Each takes up to 192 KiB.
+/// Limits of half-open connections. Per prefix, at least a class behind one address, or the host's limit per
+/// address. In total, a few such groups, or all players when they reconnect at once. Each connection takes up
+/// to 192 KiB.
 constexpr std::size_t kMinHalfOpenPerPrefix = 64;
 constexpr std::size_t kMinHalfOpen = 256;
 constexpr std::size_t kMaxHalfOpen = 2048;
 
-/// Files other than connections: libraries, logs.
+/// Number of open files other than connections, such as libraries and logs.
 constexpr std::size_t kOtherFiles = 256;
 
-/// A private world needs its socket and its supervisor's. A room's world also needs one for its output; all
-/// of this twice while one world follows another.
+/// Returns the number of files for worlds. A private world needs its socket and its supervisor's. A room's
+/// world also needs one for its output, and all three twice while a new world replaces the old one.
 std::size_t worldFiles(const HostOptions& options) {
   if (!options.rooms.empty()) return 6 * kMaxRooms;
   return options.players == "private" ? 2 * RoomManager::maxWorlds(options) : 0;
@@ -43,7 +44,7 @@ HalfOpenQuota halfOpenQuota(const HostOptions& options) {
 
 std::size_t requiredOpenFiles(const HostOptions& options) {
   const HalfOpenQuota half_open = halfOpenQuota(options);
-  return maxConnections(options) + static_cast<std::size_t>(options.max_players) +  // with second streams
+  return maxConnections(options) + static_cast<std::size_t>(options.max_players) +  // for second streams
          half_open.total + half_open.known + worldFiles(options) + kOtherFiles;
 }
 

@@ -10,11 +10,11 @@ namespace naiad {
 /// Maximum number of client connections: players, their reconnections, and some without a hello yet.
 std::size_t maxConnections(const HostOptions& options);
 
-/// Limits of connections that have not finished TLS. Prefixes with players have their own places, so that a
-/// flood from others does not stop players from reconnecting.
+/// Limits of connections that have not finished TLS. Prefixes with players have places of their own, so that
+/// a flood from other prefixes does not stop players from reconnecting.
 struct HalfOpenQuota {
   std::size_t total = 0;
-  std::size_t known = 0;  ///< from prefixes with players
+  std::size_t known = 0;  ///< places for prefixes with players, in addition to `total`
   std::size_t per_prefix = 0;
 };
 HalfOpenQuota halfOpenQuota(const HostOptions& options);

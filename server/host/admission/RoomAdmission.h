@@ -20,16 +20,18 @@ class RoomAdmission {
   struct Refusal {
     Reason reason = Reason::kUnknown;
     std::string sentence;  ///< message for the player
-    std::string log;       ///< additional text for the server's log; may be empty
+    std::string log;       ///< more details for the server's log; may be empty
   };
 
   RoomAdmission(RoomManager& rooms, int max_per_address)
       : m_rooms(rooms), m_wakes(RateLimits::wakes()), m_moves(RateLimits::moves(max_per_address)) {}
 
-  /// Finds a room by name; otherwise by game, preferring rooms with a free place and awake ones; otherwise
-  /// the first. Null if none matches; `refusal` then says why.
+  /// Finds the room `name`, which must play `game` if both are given; without a name, a room that plays
+  /// `game`, preferably one with a free place that is awake; without both, the first room. If there is none,
+  /// returns null, and `refusal` says why.
   Room* findRoom(const std::string& name, const std::string& game, Refusal& refusal) const;
-  /// Wakes the room if it sleeps. Returns why a player from `prefix` may not enter it; nullopt if they may.
+  /// Wakes the room if it sleeps. Returns nullopt if a player from `prefix` may enter it, otherwise the
+  /// reason why not.
   std::optional<Refusal> open(Room& room, const AddressPrefix& prefix, Time now);
   /// Counts a room change by a player from `prefix`. False if it is over the limit.
   bool tryMove(const AddressPrefix& prefix, Time now) { return m_moves.tryConsume(prefix, now); }

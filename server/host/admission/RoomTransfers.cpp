@@ -42,7 +42,7 @@ void RoomTransfers::grant(const Request& request) {
   const std::string refusal =
       m_admission.moveSession(*p_session, request.room, !request.goodbye_message.empty());
   if (!refusal.empty()) return refuse(*p_session, request, refusal);
-  ++m_context.counters.room_moves;
+  ++m_context.counters.room_transfers;
   m_context.client_log.logClientEvent(p_session->address(),
                                       {"moved",
                                        inQuotes(p_session->name()) + " moved to the room " + request.room,

@@ -22,18 +22,20 @@ class RoomTransfers {
   void ask(const Session& session, const std::string& room);
   /// Like ask(), on request of the game. Rate-limited, because games may ask as often as they like.
   void askByGame(Session& session, const std::string& room);
-  /// Call when this room was closed. Moves its players to the first room; ends sessions that cannot move.
+  /// Call when this room was closed. Moves its players to the first room; ends sessions that cannot move. If
+  /// it is the first room, ends all of its sessions.
   void evacuate(const Room& room, const std::string& sentence);
   /// Call once a tick, outside of session callbacks.
   void update();
-  /// Sends the room list to the session, if it can arrive at once.
+  /// Sends the room list to the session, or drops it if it cannot be sent at once.
   void sendList(Session& session) const;
 
  private:
   struct Request {
     std::uint64_t session = 0;
     std::string room;
-    std::string goodbye_message = {};  ///< sentence if the move fails; empty: the player stays
+    std::string goodbye_message =
+        {};  ///< last message of the session if the move fails; empty: the player stays
   };
   void grant(const Request& request);
   void refuse(Session& session, const Request& request, const std::string& sentence);

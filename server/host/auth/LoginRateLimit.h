@@ -9,8 +9,9 @@
 
 namespace naiad {
 
-/// Not a token bucket, because a try counts only if it fails, and messages promise players a time window.
-/// Until its result is known, a try counts as wrong; otherwise many at once would evade the limit.
+/// Counts the wrong tries of a time window. Not a token bucket, because a try counts only if it fails, and
+/// messages promise players a time window. Until its result is known, a try counts as wrong; otherwise many
+/// at once would evade the limit.
 class LoginRateLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -19,8 +20,8 @@ class LoginRateLimit {
   LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
       : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), cancelled_(prefixes) {}
 
-  /// kAllowed: finishTry() must follow. kTooMany: too many wrong tries. kWait: too many if those
-  /// in progress are wrong.
+  /// Begins a try. kAllowed: finishTry() or cancelTry() must follow. kTooMany: too many tries were wrong.
+  /// kWait: too many would be wrong if those in progress are.
   Answer beginTry(const AddressPrefix& from, Time now) {
     PrefixFailures& entry = table_.use(from);
     if (!entry.since || now - *entry.since >= window_) {
@@ -39,7 +40,8 @@ class LoginRateLimit {
     if (!right) ++entry->wrong;
     if (entry->in_progress == 0 && entry->wrong == 0) table_.erase(from);
   }
-  /// Ends and counts a try that was not compared, because other guesses had priority.
+  /// Ends a try that was dropped because other guesses had priority. It counts in cancelledTries(), not as
+  /// wrong.
   void cancelTry(const AddressPrefix& from, Time now) {
     finishTry(from, true);
     CancelledTries& tries = cancelled_.use(from);
@@ -51,7 +53,7 @@ class LoginRateLimit {
     const PrefixFailures* const entry = table_.find(from);
     return entry != nullptr ? entry->wrong : 0;
   }
-  /// Number of given-up tries in the present window; 0 for unknown prefixes.
+  /// Number of cancelled tries in the present window; 0 for unknown prefixes.
   int cancelledTries(const AddressPrefix& from, Time now) {
     const CancelledTries* const tries = cancelled_.find(from);
     return tries != nullptr && now - *tries->since < window_ ? tries->count : 0;
@@ -74,7 +76,7 @@ class LoginRateLimit {
   std::chrono::seconds window_;
   PrefixLruMap<PrefixFailures> table_;
   PrefixLruMap<CancelledTries>
-      cancelled_;  ///< a separate table: giving up is free, and must not evict wrong tries
+      cancelled_;  ///< a separate table, so that cancelled tries, which cost nothing, evict no wrong ones
 };
 
 }  // namespace naiad

@@ -94,7 +94,7 @@ class PasswordCheck::Worker {
 };
 
 /// The owner's side, with all callbacks, which the worker never touches, copies or destroys. Jobs posted by
-/// the worker hold a weak pointer to it, so they do nothing after its end.
+/// the worker hold a weak pointer to this object, so they do nothing after its end.
 struct PasswordCheck::State : std::enable_shared_from_this<State> {
   State(asio::any_io_executor executor, const Limits& with_limits, Worker& with_worker)
       : owner(std::move(executor)),
@@ -116,7 +116,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
     std::unique_ptr<Secret> password;  // null while the worker has it
     std::function<void(Answer)> done;
   };
-  std::map<PasswordQueue::Id, Guess> guesses;  // not answered yet
+  std::map<PasswordQueue::Id, Guess> guesses;  // guesses that have no answer yet
   bool comparing = false;
   PasswordQueue::Id newest = 0;
 
@@ -126,7 +126,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   void onCompared(PasswordQueue::Id id, std::optional<bool> right);
 };
 
-// After the end of State, `done` is only destroyed.
+// If the State has ended when the job runs, `done` is destroyed without a call.
 void PasswordCheck::State::answerLater(Answer answer, std::function<void(Answer)> done) {
   asio::post(owner, [weak = weak_from_this(), answer, call = std::move(done)] {
     if (!weak.expired()) call(answer);
@@ -138,7 +138,7 @@ void PasswordCheck::State::add(bool known, Guess guess, Time now) {
   const AddressPrefix from = guess.from;
   guesses.emplace(id, std::move(guess));
   const auto loser = queue.add({id, from, known, tries.wrong(from), tries.cancelledTries(from, now)});
-  if (!comparing) return compareNext();  // there was a free place
+  if (!comparing) return compareNext();  // the queue was empty, so no guess was dropped
   if (!loser) return;
   Guess lost = std::move(guesses.extract(*loser).mapped());
   tries.cancelTry(lost.from, now);
@@ -179,7 +179,7 @@ void PasswordCheck::check(const AddressPrefix& from, bool known, std::string pas
                           std::chrono::steady_clock::time_point now, std::function<void(Answer)> done) {
   auto secret = std::make_unique<Secret>(std::move(password));
   if (secret->text.empty() || secret->text.size() > kMaxPassword) {
-    ++state_->counters.unfit;
+    ++state_->counters.malformed;
     return state_->answerLater(Answer::kWrong, std::move(done));
   }
   switch (state_->tries.beginTry(from, now)) {

@@ -9,13 +9,13 @@
 
 namespace naiad {
 
-/// Not enough memory for a hash, or an invalid hash. what() is one sentence for people.
+/// Thrown if there is not enough memory for a hash, or a hash is invalid. what() is one sentence for people.
 class PasswordError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Bytes. Longer passwords match nothing.
+/// Maximum length of a password in bytes. Longer ones match no hash.
 inline constexpr std::size_t kMaxPassword = 128;
 
 class PasswordHash {
@@ -33,7 +33,8 @@ class PasswordHash {
   /// breaks at the end. Throws PasswordError.
   static PasswordHash fromText(std::string_view text);
 
-  /// Takes equally long for wrong and right passwords. Throws PasswordError if memory is short. Any thread.
+  /// True if this is the password; takes equally long if not. Throws PasswordError if memory is short. Any
+  /// thread.
   bool matches(std::string_view password) const;
   /// The hash as text: "$argon2id$v=19$m=65536,t=3,p=1$…"
   const std::string& text() const { return text_; }

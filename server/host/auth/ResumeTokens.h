@@ -10,14 +10,15 @@
 
 namespace naiad {
 
-/// A token is 128 unpredictable bits, valid until the client has proved that it received the next one. (If it
-/// were void once used, an answer lost on a bad line would cost the session.) Only the SHA-256 is stored, so
-/// that a reader of the server's memory cannot use it.
+/// A token is 128 unpredictable bits, valid until the client has proved that it received the next one. (If a
+/// token became void by its first use, an answer lost on a bad line would cost the session.) Only its SHA-256
+/// is stored, so that a reader of the server's memory cannot use it.
 class ResumeTokens {
  public:
   static constexpr std::size_t kBytes = 16;
 
-  /// Issues a token for a session. The one redeemed last stays valid until confirm(); others become void.
+  /// Issues a token for a session. The token redeemed last stays valid until confirm(); all older ones become
+  /// void.
   std::string issue(std::uint64_t session);
   /// Returns the session of a token; nullopt if it was never issued or is void.
   std::optional<std::uint64_t> find(const std::string& token) const;
@@ -50,7 +51,7 @@ class ResumeTokens {
     std::string newest;
     std::string redeemed;    ///< empty: none, or void
     std::string superseded;  ///< newest void token that another process had redeemed
-    bool restarted = false;  ///< another process redeemed `redeemed`
+    bool restarted = false;  ///< true if another process redeemed `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
   void drop(std::string& hash);
@@ -58,7 +59,7 @@ class ResumeTokens {
 
   std::unordered_map<std::string, std::uint64_t> m_sessions;  ///< keyed by hash
   std::unordered_map<std::uint64_t, Hashes> m_hashes;         ///< keyed by session
-  std::unordered_set<std::string> m_superseded;               ///< hashes, at most one per session
+  std::unordered_set<std::string> m_superseded;  ///< hashes of superseded tokens, at most one per session
 };
 
 /// Returns unpredictable bits from the system.

@@ -1,4 +1,4 @@
-// A seed that cannot be predicted.
+// Makes a random seed that cannot be predicted.
 #pragma once
 
 #include <cstdint>

@@ -83,7 +83,8 @@ auto inWords(Action action) {
   }
 }
 
-/// Returns a warning, or "", because whatever can write to the key's folder can replace the key.
+/// Returns a warning if others can write to the key's folder, because they can replace the key; otherwise "".
+/// Throws TlsError if every user can.
 std::string checkDirectory(const fs::path& directory) {
   struct stat facts {};
   if (::stat(directory.c_str(), &facts) != 0) return {};  // the next access reports the reason

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::chrono::seconds kWatchAgain{1};
 
-/// Returns the given port, else that of AGONES_SDK_HTTP_PORT, which the cluster sets, else the default.
+/// Returns the given port, else the port in AGONES_SDK_HTTP_PORT, which the cluster sets, else the default.
 std::uint16_t portOf(std::uint16_t given) {
   if (given != 0) return given;
   const char* p_text = std::getenv("AGONES_SDK_HTTP_PORT");
@@ -46,7 +46,7 @@ class LineReader {
   using Handler = std::function<void(const std::string& line)>;
   explicit LineReader(Handler on_line) : m_on_line(std::move(on_line)) {}
 
-  /// Adds received bytes. Returns false if a line is too long for a sidecar.
+  /// Adds received bytes. Returns false if a line is longer than any that a sidecar sends.
   bool take(std::string_view piece) {
     m_text.append(piece);
     for (std::size_t end = m_text.find('\n'); end != std::string::npos; end = m_text.find('\n')) {

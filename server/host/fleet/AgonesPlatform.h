@@ -17,10 +17,10 @@ namespace naiad {
 class AgonesPlatform : public HostPlatform {
  public:
   static constexpr std::uint16_t kDefaultPort = 9358;
-  /// Timeout of a request with its response. For the watch, only of connecting and sending the request.
+  /// Timeout of a request with its response. For GET /watch/gameserver, only of connecting and sending.
   static constexpr std::chrono::seconds kRequestTimeout{2};
 
-  /// `port`: the sidecar's port on 127.0.0.1; 0: that of AGONES_SDK_HTTP_PORT, else kDefaultPort.
+  /// `port`: the sidecar's port on 127.0.0.1; 0: the port in AGONES_SDK_HTTP_PORT, or else kDefaultPort.
   explicit AgonesPlatform(std::uint16_t port);
   ~AgonesPlatform() override;
 

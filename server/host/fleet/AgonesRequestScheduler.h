@@ -46,7 +46,7 @@ class AgonesRequestScheduler {
   std::optional<SidecarRequest> next(Time now);
   /// Handles the response to the last request. `status`: HTTP status, or 0 without a response.
   void onResponse(int status, const std::string& body, Time now);
-  /// Latest time for the next call of next().
+  /// Call next() again at this time, at the latest.
   Time wake() const { return m_wake; }
   /// True if the shutdown request has succeeded.
   bool isOver() const { return m_over; }
@@ -71,9 +71,9 @@ class AgonesRequestScheduler {
   std::vector<std::uint32_t> m_players;
   std::size_t m_max_players = 0;
   ReportedState m_reported_state = ReportedState::kNothing;
-  std::optional<Time> m_healthy;  ///< last successful health request
-  std::string m_counter;          ///< body of the last successful request
-  std::string m_list;             ///< like m_counter
+  std::optional<Time> m_healthy;  ///< time of the last successful health request
+  std::string m_counter;          ///< body of the last successful counter request
+  std::string m_list;             ///< body of the last successful list request
   std::string m_missing;
   std::optional<GameServerInfo> m_facts;
   std::optional<SidecarRequest> m_pending;  ///< request that is not answered yet

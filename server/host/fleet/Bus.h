@@ -22,14 +22,14 @@ struct BusCounters {
   std::uint64_t published = 0;    ///< messages passed to the bus
   std::uint64_t dropped = 0;      ///< oldest messages dropped because too many waited
   std::uint64_t failures = 0;     ///< failed attempts to connect or publish
-  std::uint64_t connections = 0;  ///< successful connects; above 1, the bus was lost and came back
+  std::uint64_t connections = 0;  ///< successful connects; more than 1 if the bus was lost and came back
   std::uint64_t received = 0;     ///< messages of the subscribed subjects
   std::uint64_t ignored = 0;      ///< received messages that were too long or had too many subjects
 };
 
 class Bus {
  public:
-  /// Maximum numbers of reliable and of other messages waiting for the bus; then the oldest is dropped.
+  /// Maximum numbers of reliable and of other messages waiting for the bus; beyond it, the oldest is dropped.
   static constexpr std::size_t kMaxReliable = 4096;
   static constexpr std::size_t kMaxBestEffort = 1024;
 

@@ -14,12 +14,13 @@
 
 namespace naiad {
 
-/// Received messages. Bounded; holds only the newest of each subject, so a server that sends much cannot
-/// displace the others. Not thread-safe.
+/// Received messages. Holds a limited number, and only the newest of each subject, so a server that sends
+/// many messages cannot displace those of the others. Not thread-safe.
 class BusInbox {
  public:
-  static constexpr std::size_t kMaxSubjects = 4096;  ///< waiting subjects; further ones are ignored
-  static constexpr std::size_t kMaxSubject = 128;    ///< bytes
+  static constexpr std::size_t kMaxSubjects =
+      4096;  ///< maximum number of subjects; messages of further ones are ignored
+  static constexpr std::size_t kMaxSubject = 128;  ///< maximum length of a subject, in bytes
 
   void put(std::string subject, std::string payload) {
     ++m_received;
@@ -51,7 +52,7 @@ class BusInbox {
 /// Not thread-safe.
 class BusQueue {
  public:
-  /// Adds a message. One that may be lost replaces an older one of its subject.
+  /// Adds a message. If it may be lost (no id), it replaces an older one with its subject.
   void push(BusMessage message) {
     if (!message.id.empty()) {
       m_reliable.push_back(std::move(message));
@@ -75,7 +76,7 @@ class BusQueue {
   }
   /// Returns the oldest reliable message. It stays until ackReliable().
   const BusMessage& frontReliable() const { return m_reliable.front(); }
-  /// Removes the oldest reliable message if it has this id. It may have been dropped already.
+  /// Removes the oldest reliable message if it has this id; otherwise it was already dropped.
   void ackReliable(const std::string& id) {
     if (hasReliable() && m_reliable.front().id == id) m_reliable.pop_front();
   }

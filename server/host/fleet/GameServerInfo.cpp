@@ -9,7 +9,7 @@ namespace naiad {
 namespace {
 
 constexpr std::size_t kMaxDepth = 32;  ///< more than the JSON of any sidecar needs
-constexpr std::size_t kMaxText = 253;  ///< limit of Kubernetes names and of host names
+constexpr std::size_t kMaxText = 253;  ///< maximum length of Kubernetes names and host names
 constexpr int kMaxHealthSeconds = 3600;
 
 /// Returns a JSON string; empty if it is another type, too long or not printable.

@@ -19,7 +19,7 @@ struct GameServerInfo {
   std::string name;        ///< name of the GameServer resource
   std::string state;       ///< "Ready", "Allocated", "Shutdown" and others
   std::string address;     ///< public address of the server
-  std::uint16_t port = 0;  ///< its first public port; 0: unknown
+  std::uint16_t port = 0;  ///< first public port of the server; 0: unknown
   int health_seconds = 0;  ///< maximum time between health requests; 0: unknown
 
   /// Returns nullopt for invalid text. Fields that are missing or of another type stay empty; unknown ones

@@ -136,7 +136,7 @@ class NatsBus : public Bus {
     return Connection(status == NATS_OK ? p_made : nullptr);
   }
 
-  /// Repeated messages are suppressed. The address is not logged, because it may contain a password.
+  /// Logs a new state once. The address is not logged, because it may contain a password.
   void onConnectionChange(bool connected, natsStatus status) {
     m_connected = connected;
     m_counters.connections += connected ? 1 : 0;
@@ -179,7 +179,8 @@ class NatsBus : public Bus {
     }
   }
 
-  /// Subscribes to all subjects. If the bus refuses one (permissions), only the log of the bus shows it.
+  /// Subscribes to all subjects. If the bus refuses one for lack of permission, only the log of the bus shows
+  /// it.
   std::vector<Subscription> subscribe(natsConnection& connection) const {
     std::vector<Subscription> made;
     for (const std::string& subject : m_settings.subjects) {
@@ -198,7 +199,7 @@ class NatsBus : public Bus {
         natsMsg* p_taken = nullptr;
         const natsStatus status = natsSubscription_NextMsg(&p_taken, subscription.get(), 0);
         const Message message(p_taken);
-        if (status == NATS_SLOW_CONSUMER) continue;  // reported once after drops, before the next message
+        if (status == NATS_SLOW_CONSUMER) continue;  // reported once if messages were dropped
         if (status != NATS_OK) break;
         m_inbox.put(
             natsMsg_GetSubject(p_taken),
@@ -207,7 +208,7 @@ class NatsBus : public Bus {
     }
   }
 
-  /// Returns true if JetStream has stored the message, now or before.
+  /// Returns true if JetStream has stored the message, now or at an earlier attempt.
   static bool keep(jsCtx& stream, const BusMessage& message) {
     jsPubOptions options;
     jsPubOptions_Init(&options);

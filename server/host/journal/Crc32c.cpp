@@ -4,7 +4,7 @@ namespace naiad {
 
 namespace {
 
-constexpr std::uint32_t kPolynomial = 0x82f63b78u;  // reflected
+constexpr std::uint32_t kPolynomial = 0x82f63b78u;  // reflected, that is, with its bits in reverse order
 
 constexpr std::array<std::uint32_t, 256> makeTable() {
   std::array<std::uint32_t, 256> table{};

@@ -69,7 +69,7 @@ bool DeterminismCheck::update() {
     return !m_over;
   }
   m_world->checkProcess(1);
-  if (m_world->end()) m_over = true;  // perhaps with the round; a crash is not this check's concern
+  if (m_world->end()) m_over = true;  // even after a crash, which is not this check's concern
   m_allowed = kTurnsPerTick;
   sendNext();
   return !m_over;

@@ -1,5 +1,6 @@
 // Checks whether a game is repeatable: a second world gets the turns of the first a little later, and their
-// answers are compared. Covers the beginning of a round, where games read clocks and seed themselves.
+// answers are compared. Covers the beginning of a round, where games read clocks and seed their random
+// numbers.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +21,11 @@ class DeterminismCheck {
   /// Ticks that are compared, and ticks before the second world starts: two seconds, so that clocks differ.
   static constexpr std::uint32_t kTicks = 900;
   static constexpr std::uint32_t kDelay = 60;
-  /// Maximum turns per tick of the host for the second world: enough to catch up, in little time.
+  /// Maximum number of turns for the second world per tick of the host: enough to catch up, in little time.
   static constexpr int kTurnsPerTick = 3;
 
   using NewWorld = std::function<std::unique_ptr<WorldPort>()>;
-  /// `new_world` starts a world from the order of the first; if it throws std::system_error, nothing is
+  /// `new_world` starts a world with the options of the first; if it throws std::system_error, nothing is
   /// compared. `on_difference` is called at most once, with a sentence.
   DeterminismCheck(NewWorld new_world, std::function<void(const std::string&)> on_difference);
   ~DeterminismCheck();
@@ -50,7 +51,7 @@ class DeterminismCheck {
   std::deque<Tick> m_waiting;
   std::uint32_t m_added = 0;
   std::uint32_t m_compared = 0;
-  int m_allowed = 0;  ///< turns left in this tick of the host
+  int m_allowed = 0;  ///< turns that may still be sent in this tick of the host
   bool m_over = false;
 };
 

@@ -1,9 +1,8 @@
 // The file format `.dfr`: a round, from the world's seed to its last tick. docs/dfr.md describes every bit.
 //
 //   file    header | chunk | chunk | …
-//   header  magic (8) | version (2) | flags (2) | CRC-32C of what follows (4) | uuid (16) | frame (8) | seed
-//   (8)
-//           | start (8) | 0 (8)
+//   header  magic (8) | version (2) | flags (2) | CRC-32C of what follows (4) | uuid (16) | frame (8)
+//           | seed (8) | start (8) | 0 (8)
 //   chunk   type (4) | size of the payload (4) | CRC-32C of type, size and payload (4) | payload
 //
 // Numbers are little-endian. A file grows only at its end, so a truncated file is valid up to its last whole
@@ -29,12 +28,12 @@ inline constexpr std::uint16_t kDfrVersion = 2;
 inline constexpr std::size_t kDfrHeaderSize = 64;
 inline constexpr std::size_t kDfrFlagsAt = 10;  ///< offset of the flags, which are overwritten later
 inline constexpr std::size_t kDfrChunkHead = 12;
-/// Maximum bytes of a payload, and of the unpacked records in one.
+/// Maximum size of a payload, and of its unpacked records, in bytes.
 inline constexpr std::size_t kMaxDfrPayload = std::size_t{1} << 20;
 
 /// Bits of DfrHeader::flags. Unknown ones are ignored.
 enum DfrFlag : std::uint16_t {
-  kDfrStopped = 1 << 0,    ///< the journal stopped before the round did: it cannot be resumed
+  kDfrStopped = 1 << 0,    ///< the journal stopped before the round did, so the round cannot be resumed
   kDfrInProcess = 1 << 1,  ///< the world ran in the server's own process, with real addresses and clocks
 };
 
@@ -65,15 +64,15 @@ inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
-/// A TURN chunk begins with the position of its first byte in the record stream, modulo 65,536 (2 bytes: a
-/// small game's chunk of a second is barely 100), and a varint: twice the number of unpacked bytes, plus the
-/// DfrPacking.
+/// A TURN chunk begins with the position of its first byte in the record stream, modulo 65,536 (2 bytes,
+/// because a small game's chunk of a second has barely 100), and a varint: twice the number of unpacked
+/// bytes, plus the DfrPacking.
 inline constexpr std::size_t kDfrTurnPositionSize = 2;
 
 /// Packing of turns in a TURN chunk.
 enum DfrPacking : std::uint8_t {
   kDfrRaw = 0,
-  kDfrModelled = 1,  ///< by a RecordPacker that has packed all such chunks before
+  kDfrModelled = 1,  ///< packed by a RecordPacker that has packed all earlier such chunks
 };
 
 /// Returns the CRC-32C (Castagnoli, as in iSCSI) of `bytes`, after bytes whose checksum is `before`.

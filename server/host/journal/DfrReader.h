@@ -18,7 +18,7 @@ namespace naiad {
 /// State of the end of a file.
 enum class DfrEnd {
   kDone,     ///< the round is complete
-  kTorn,     ///< the rest is missing, or the round is still being played
+  kTorn,     ///< the end is missing, or the round is still being played
   kDamaged,  ///< a chunk is damaged
 };
 
@@ -42,16 +42,16 @@ class DfrReader {
   /// Skips to the end without unpacking the remaining turns. wholeBytes(), streamBytes() and end() are then
   /// as if next() had read everything, provided that all records are valid. Nothing can be read afterwards.
   void skipToEnd();
-  /// Returns the bytes of the file read so far: whole chunks.
+  /// Returns the number of bytes of the file read so far, all of whole chunks.
   std::size_t wholeBytes() const { return m_at; }
-  /// Returns the bytes of the record stream in these chunks.
+  /// Returns the number of bytes of the record stream in the chunks read so far.
   std::uint64_t streamBytes() const { return m_offset; }
   /// Appends all records, unpacked, to `records`, which must outlive this. Call before next().
   void copyRecordsTo(std::string& records);
-  /// Returns the bytes of the file up to the last chunk that ends with a whole record; later chunks end in
-  /// the middle of one. Call after next() has reached the end.
+  /// Returns the number of bytes up to the end of the last chunk that ends with a whole record; later chunks
+  /// end in the middle of a record. Call after next() has reached the end.
   std::size_t bytesOfWholeRecords() const { return m_whole_records; }
-  /// Returns the state for writing chunks after those read. Nothing can be read afterwards.
+  /// Returns the state for writing further chunks after those that were read. Nothing can be read afterwards.
   JournalPosition releasePosition() { return {DfrTurnPacker(m_unpacker.releaseModel(), m_offset), m_offset}; }
   /// Returns how the round ended, if end() is DfrEnd::kDone.
   const std::string& endReason() const { return m_end_reason; }

@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// Maximum bytes of records in one chunk. Packed records that grow still fit in a payload.
+/// Maximum size of the records in one chunk, in bytes. Even if packing enlarges them, they fit in a payload.
 constexpr std::size_t kMaxPacked = kMaxDfrPayload / 2;
 
 template <class Number>

@@ -19,10 +19,10 @@ namespace naiad {
 class Journal {
  public:
   /// Creates the journal of a round that begins, or of one that is resumed (`resumed`): then the file has all
-  /// earlier records. `facts`: known before the world begins. `ring`: bytes of records that may wait for the
-  /// disk, in memory that survives a crash if `shared`. `folder`: hash of the file's folder (TurnRing.h).
-  /// `name`: the file's name, so that the next server can create the file if this one is killed before the
-  /// first write; empty: not needed. Throws std::system_error if there is no memory.
+  /// earlier records. `facts`: those known before the world begins. `ring`: bytes of records that may wait
+  /// for the disk, in memory that survives a crash if `shared`. `folder`: hash of the file's folder
+  /// (TurnRing.h). `name`: the file's name, so that the next server can create the file if this one is killed
+  /// before the first write; empty: not needed. Throws std::system_error if there is no memory.
   Journal(std::unique_ptr<JournalSink> sink, const DfrHeader& header, const DfrFacts& facts, std::size_t ring,
           bool shared, std::optional<JournalPosition> resumed = std::nullopt, std::uint64_t folder = 0,
           const std::string& name = {});
@@ -54,11 +54,11 @@ class Journal {
 
   // The writer's thread calls these.
 
-  /// Calls of flush() per write without players: half a minute, so that an idle server does not write all
-  /// day.
+  /// Number of calls of flush() per write if there are no players: half a minute, so that an idle server does
+  /// not write all day.
   static constexpr int kIdleFlushInterval = 33;
 
-  /// Writes all records to disk. `at_once`: even without players. Returns false if no more will come.
+  /// Writes all records to disk. `at_once`: even if there are no players. Returns false if no more will come.
   bool flush(bool at_once = false);
 
  private:
@@ -73,8 +73,8 @@ class Journal {
   std::atomic<bool> m_overflowed{false};
   std::atomic<bool> m_idle{false};
 
-  std::mutex m_mutex;  ///< held while these are swapped, never while waiting for the disk
-  DfrFacts m_facts;    ///< not yet written
+  std::mutex m_mutex;  ///< guards the next three; never held while waiting for the disk
+  DfrFacts m_facts;    ///< facts not yet written
   std::string m_why;
   std::string m_problem;
 

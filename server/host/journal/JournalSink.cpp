@@ -51,7 +51,7 @@ std::vector<RoundFile> filesByAge(const fs::path& folder) {
 /// True if this or another server is writing the file.
 bool isBeingWritten(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (file < 0) return true;  // not ours to remove
+  if (file < 0) return true;  // cannot be opened, so it may not be our file: count it as being written
   const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0;
   close(file);
   return locked;

@@ -13,7 +13,7 @@ class JournalSink {
   virtual ~JournalSink() = default;
   /// Appends bytes.
   virtual void write(std::string_view bytes) = 0;
-  /// Makes what was written survive a power cut.
+  /// Makes all bytes written so far survive a power cut.
   virtual void sync() = 0;
   /// Overwrites the header's flags.
   virtual void setFlags(std::uint16_t flags) = 0;
@@ -25,8 +25,8 @@ inline constexpr std::size_t kMaxRoundFile = std::size_t{128} << 20;
 /// Removes the oldest rounds of a folder until it is within both limits. Files that a server is writing stay.
 void removeOldRounds(const std::string& folder, std::size_t max_files, std::uintmax_t max_bytes);
 
-/// A new file, readable by this user only and locked until this is destroyed. The first write creates it, and
-/// its folder if the parent exists. A file longer than kMaxRoundFile is an error, EFBIG.
+/// A new file, readable by this user only and locked until this object is destroyed. The first write creates
+/// it, and its folder if the parent exists. A file longer than kMaxRoundFile is an error, EFBIG.
 class JournalFileSink : public JournalSink {
  public:
   explicit JournalFileSink(std::string path) : m_path(std::move(path)) {}

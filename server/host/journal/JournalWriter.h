@@ -16,7 +16,7 @@ class JournalWriter {
   static constexpr std::chrono::milliseconds kFinalFlushTimeout{2000};
 
   JournalWriter();
-  /// Writes what is left, waiting at most kFinalFlushTimeout.
+  /// Writes the remaining records, waiting at most kFinalFlushTimeout.
   ~JournalWriter();
   JournalWriter(const JournalWriter&) = delete;
   JournalWriter& operator=(const JournalWriter&) = delete;
@@ -30,7 +30,7 @@ class JournalWriter {
 
  private:
   struct Shared;
-  std::shared_ptr<Shared> m_shared;  ///< the thread's, too: it may outlive this in a write that does not end
+  std::shared_ptr<Shared> m_shared;  ///< shared with the thread, which outlives this if a write does not end
 };
 
 }  // namespace naiad

@@ -37,9 +37,10 @@ constexpr int kWeightBits = 16;
 constexpr int kRate = 10;  ///< learning rate of the mixer
 constexpr std::uint32_t kMaxPlace = 31;
 constexpr std::uint32_t kTurnKind = 1;      ///< m_kind of kRecordedTurn (TurnRecord.h)
-constexpr std::uint32_t kBeforeInputs = 1;  ///< bytes of such a record before its inputs
+constexpr std::uint32_t kBeforeInputs = 1;  ///< bytes of a turn's record before its inputs
 
-/// Updates until a probability's step size is constant, and the step size after each number of updates.
+/// Number of updates until a probability's step size is constant, and the step size after each number of
+/// updates.
 constexpr std::uint16_t kMaxCount = 60;
 constexpr auto kReciprocals = [] {
   std::array<std::int32_t, kMaxCount + 1> all{};
@@ -125,7 +126,7 @@ void RecordModel::update(bool bit) {
   beginByte();
 }
 
-// Misreads a length of more than one byte, which costs only some bits because both ends do.
+// Misreads a length of more than one byte, which costs only some bits, because packer and unpacker both do.
 void RecordModel::followRecord(std::uint8_t byte) {
   if (m_left == 0) {
     m_left = byte;
@@ -139,7 +140,7 @@ void RecordModel::followRecord(std::uint8_t byte) {
   --m_left;
 }
 
-// The first byte is the number of inputs. Misreads numbers of more than one byte, too.
+// The first byte is the number of inputs. Also misreads numbers of more than one byte.
 void RecordModel::followInput(std::uint8_t byte) {
   static constexpr std::uint32_t kLengths[4] = {2, 2, 4, 9};
   if (m_place == kBeforeInputs) {
@@ -152,7 +153,8 @@ void RecordModel::followInput(std::uint8_t byte) {
   m_field = m_field + 1 >= kLengths[m_input] ? 0 : m_field + 1;
 }
 
-// The prediction splits the interval from low to high. Leading bytes that both have in common are written.
+// The prediction splits the interval from low to high. Leading bytes that both ends have in common are
+// written.
 void RecordPacker::pack(std::string_view records, std::string& out) {
   std::uint32_t low = 0;
   std::uint32_t high = 0xffffffff;

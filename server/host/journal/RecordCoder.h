@@ -3,7 +3,7 @@
 // A second of a game has about 500 bytes, of which barely 100 carry information. A general packer works in
 // blocks and whole bytes: flushed each second, zstd (level 6) needs 7.1 bytes for a tick in which four
 // players press keys at random, and 5.8 when flushed each minute. This coder needs 4.0, of which the checks
-// are 1.3. It predicts bits from the bytes before and the place in the record, as lpaq does (Matt Mahoney,
+// are 1.3. It predicts bits from the bytes before and the position in the record, as lpaq does (Matt Mahoney,
 // 2007): each context has a probability, and a mixer weights them by their past success. All arithmetic is on
 // integers, so the result is equal on all machines.
 #pragma once
@@ -26,7 +26,7 @@ class RecordModel {
   RecordModel& operator=(RecordModel&&) = delete;
   /// Returns the probability that the next bit is 1, in 65,536ths; never 0 or 65,536.
   std::uint32_t predict();
-  /// Learns the value of that bit.
+  /// Learns the value of the bit that predict() has predicted.
   void update(bool bit);
 
  private:
@@ -42,14 +42,15 @@ class RecordModel {
   std::array<std::uint32_t, kContexts> m_hashes{};  ///< hashes of this byte's contexts
   std::array<std::uint32_t, kContexts> m_slots{};
   std::array<std::int32_t, kContexts> m_inputs{};
-  std::uint32_t m_partial = 1;  ///< bits of the byte so far, after a 1
+  std::uint32_t m_partial = 1;  ///< bits of the byte so far, with a 1 before them
   std::uint32_t m_history = 0;  ///< the last four bytes
-  std::uint32_t m_place = 0;    ///< bytes of the record before this one, without its length
+  std::uint32_t m_place = 0;    ///< bytes of the record before this byte, without the length
   std::uint64_t m_left = 0;     ///< bytes of the record that are left
   std::uint32_t m_kind = 0;     ///< kind of the record plus 1; 0: not read yet
   std::uint32_t m_input = 0;    ///< in a turn: kind of the input that the next byte belongs to
   std::uint32_t m_field = 0;    ///< position of the byte in that input
-  std::uint32_t m_player = 0;   ///< player of that input, or of the one before
+  std::uint32_t m_player =
+      0;  ///< first byte of that input's player; until it is read, of the previous input's
   std::uint32_t m_predicted = 0;
 };
 

@@ -1,6 +1,6 @@
 // The records of a round, for the world that takes over after a crash: all of them, or those since the oldest
-// copy of the world (WorldProcess::requestCheckpoint). Also the places of copies in them, and when the next
-// is due.
+// copy of the world (WorldProcess::requestCheckpoint). Also stores the positions of the copies, and decides
+// when the next one is due.
 #pragma once
 
 #include <chrono>
@@ -15,21 +15,23 @@
 
 namespace naiad {
 
-/// Place of a copy in the round.
+/// Position of a copy in the round.
 struct CheckpointMark {
-  std::uint32_t ticks = 0;             ///< ticks that the world had had
+  std::uint32_t ticks = 0;             ///< number of ticks before the copy
   std::vector<std::uint32_t> players;  ///< players in the world, in the order in which they joined
   std::size_t records = 0;             ///< bytes of RoundHistory::records() up to the copy
 };
 
 class RoundHistory {
  public:
-  /// Maximum bytes of records: days of play. Of a longer round only those since the oldest copy are kept.
+  /// Maximum size of the records, in bytes: days of play. Of a longer round, only those since the oldest copy
+  /// are kept.
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
   /// Ticks between two copies: ten seconds of a usual game. A copy takes 0.4 to 1.5 ms of the world's time.
   static constexpr std::uint32_t kCheckpointInterval = 300;
-  /// Ticks before the first copy: most games have started up then, and before that a new world is as fast.
+  /// Ticks before the first copy: most games have started up after them, and replaying so few ticks from the
+  /// start is fast.
   static constexpr std::uint32_t kFirstCheckpoint = 30;
   /// If ticks are slow, copies are made more often, so that the ticks since the newest copy can be replayed
   /// fast: every kMinCheckpointInterval ticks a copy is due if the world has used kMaxReplayTime of processor
@@ -37,7 +39,7 @@ class RoundHistory {
   static constexpr std::uint32_t kMinCheckpointInterval = 60;
   static constexpr std::chrono::milliseconds kMaxReplayTime{100};
 
-  /// `records`: those of a round that is resumed.
+  /// `records`: the records so far of a round that is resumed.
   explicit RoundHistory(std::string records = {}) : m_records(std::move(records)) {}
 
   /// Adds the next record. Returns false if the round is too long; then nothing of it is kept.
@@ -78,7 +80,7 @@ class RoundHistory {
   }
   /// Returns the mark of the copy after `ticks` ticks, which takes over. Removes its mark and newer ones.
   std::optional<CheckpointMark> popCheckpoint(std::uint32_t ticks) {
-    // The next copy is due soon, because one fewer is left.
+    // The next copy is due soon, because one copy fewer is left.
     m_in_progress.reset();
     m_requested_tick = 0;
     while (!m_marks.empty() && m_marks.back().ticks > ticks) m_marks.pop_back();
@@ -111,14 +113,14 @@ class RoundHistory {
     return true;
   }
 
-  static constexpr std::size_t kMaxMarks = 8;  ///< maximum marks; a world keeps fewer copies
+  static constexpr std::size_t kMaxMarks = 8;  ///< maximum number of marks; a world keeps fewer copies
 
   std::string m_records;
   bool m_has_beginning = true;
   std::deque<CheckpointMark> m_marks;           ///< newest last
-  std::optional<CheckpointMark> m_in_progress;  ///< the copy of the tick that has begun
-  std::uint32_t m_requested_tick = 0;           ///< tick of the newest order; 0: none
-  std::chrono::nanoseconds m_cpu_time{0};       ///< at that order
+  std::optional<CheckpointMark> m_in_progress;  ///< mark of the copy ordered in this tick
+  std::uint32_t m_requested_tick = 0;           ///< tick of the newest order for a copy; 0: none
+  std::chrono::nanoseconds m_cpu_time{0};       ///< processor time of the world at that order
 };
 
 static_assert(RoundHistory::kCheckpointInterval % RoundHistory::kMinCheckpointInterval == 0,

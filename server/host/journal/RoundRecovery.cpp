@@ -58,8 +58,8 @@ std::string RoundRecovery::compareResult(const WorldAnswer& answer) {
 
 std::string RoundRecovery::findDifference(const TickResult& result, const WorldAnswer& answer) {
   if (result.game_over != answer.game_over)
-    return answer.game_over ? "the game is over, but was not before"
-                            : "the game continues, but was over before";
+    return answer.game_over ? "the game is over, but was not in the recorded round"
+                            : "the game continues, but was over in the recorded round";
   if (result.state_hash && result.state_hash != answer.state_hash) return "the world's state is different";
   if (result.has_check && result.check != checkOf(answer.hash)) return "the world's output is different";
   return {};

@@ -36,13 +36,13 @@ class RoundRecovery {
   /// Compares the answer to the oldest unanswered turn with the file. Returns the difference in words; empty
   /// if there is none.
   std::string compareResult(const WorldAnswer& answer);
-  /// True if the file lacks the result of that turn: the server was killed before it was recorded.
+  /// True if the file lacks the result of the turn compared last: the server was killed before recording it.
   bool isResultMissing() const { return m_result_missing; }
   /// Returns the number of turns that the world has answered.
   std::uint32_t turns() const { return m_turns; }
 
-  /// Returns the turn after all of the file (UnfinishedRound::closingInputs). It is not watched, so that the
-  /// next watched turn reports every Object as changed.
+  /// Returns the turn that follows all turns of the file (UnfinishedRound::closingInputs). It is not watched,
+  /// so that the next watched turn reports every Object as changed.
   WorldTurn closingTurn() const;
   /// Returns the sessions of players that may reconnect.
   std::vector<PersistedSession> sessions() const;
@@ -55,7 +55,7 @@ class RoundRecovery {
   std::shared_ptr<const UnfinishedRound> m_round;
   TurnRecordReader m_records;
   TurnRecordWriter m_writer;          ///< encodes turns for the world; no other records are sent to it
-  std::optional<TurnRecord> m_ahead;  ///< read while looking for a result
+  std::optional<TurnRecord> m_ahead;  ///< record that was read while searching for a result
   /// Recorded results of the unanswered turns; nullopt: not in the file.
   std::deque<std::optional<TickResult>> m_results;
   std::uint32_t m_turns = 0;

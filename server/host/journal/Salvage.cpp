@@ -59,20 +59,21 @@ bool isNameOfRound(const std::string& name) {
          name.find('/') == std::string::npos;
 }
 
-/// Creates the files of servers that were killed before they could. Existing rounds are left alone.
+/// Creates the round files that killed servers had not created yet. Existing rounds are left alone.
 void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
   for (const OrphanedRing& ring : OrphanedRing::findWithoutFile(ringFolder(folder), rounds)) {
     const auto beginning = ring.beginning();
     if (!beginning || !isNameOfRound(beginning->name)) continue;
     const fs::path path = folder / beginning->name;
     std::error_code error;
-    if (fs::is_regular_file(path, error) && !headerOf(path)) fs::remove(path, error);  // unfinished
+    if (fs::is_regular_file(path, error) && !headerOf(path))
+      fs::remove(path, error);  // its creation was not finished
     try {
       JournalFileSink file(path.string());
       file.write(beginning->bytes);
       file.sync();
     } catch (const std::system_error&) {
-      continue;  // the disk is full, or another server created it
+      continue;  // the disk is full, or another server created the file
     }
     if (const auto time = fs::last_write_time(ring.path(), error); !error)
       fs::last_write_time(path, time, error);  // keep the round's time

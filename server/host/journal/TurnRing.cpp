@@ -79,7 +79,8 @@ TurnRing::~TurnRing() {
   if (m_file >= 0) close(m_file);
 }
 
-// Allocates all of the file at once, because a write into a hole of a full file system raises SIGBUS.
+// Allocates all of the file at once, because a write into a hole of the file raises SIGBUS if the file system
+// is full.
 bool TurnRing::mapShared(const std::array<std::uint8_t, 16>& uuid) {
   const std::string path = ringPath(uuid);
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -176,7 +177,7 @@ std::optional<std::string> OrphanedRing::bytesFrom(std::uint64_t position) const
 std::uint64_t ringFolder(const std::string& folder) {
   FastHash hash;
   hash.bytes(folder);
-  return hash.value() | 1;  // 0 is unknown
+  return hash.value() | 1;  // never 0, which means an unknown folder
 }
 
 namespace {

@@ -9,8 +9,8 @@
 //
 // The folder is that of the round's file, as a hash. The two counts are positions in the record stream, like
 // those in TURN chunks (Dfr.h). The beginning is the file's name, a zero byte and the first bytes of the
-// file, because the worker creates the file only after the round has begun. From a ring without a file the
-// next server in that folder creates the file, or it removes the ring.
+// file, because the worker creates the file only after the round has begun. If a ring has no file, the next
+// server in that folder creates the file or removes the ring.
 #pragma once
 
 #include <array>
@@ -33,9 +33,9 @@ struct FilePrologue {
 class TurnRing {
  public:
   /// Creates a ring of `capacity` bytes: in /dev/shm under the round's name if `shared` and if that works
-  /// (see isShared()), otherwise in memory of this process alone. `position`: that of the first byte, in the
-  /// record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: that of a file that
-  /// does not exist yet.
+  /// (see isShared()), otherwise in memory of this process alone. `position`: position of the first byte in
+  /// the record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: that of a file
+  /// that does not exist yet.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
            std::uint64_t position = 0, std::uint64_t folder = 0, const FilePrologue& beginning = {});
   /// Removes the shared memory, unless handOver() was called.
@@ -84,10 +84,10 @@ class TurnRing {
   std::size_t size() const { return sizeof(Head) + m_capacity + m_prologue_size; }
 
   std::size_t m_capacity;
-  std::size_t m_prologue_size;  ///< its size in bytes
+  std::size_t m_prologue_size;  ///< size of the beginning, in bytes
   std::string m_path;
   bool m_handed_over = false;
-  int m_file = -1;  ///< the shared memory, locked as long as this process lives
+  int m_file = -1;  ///< file of the shared memory, locked as long as this process lives
   Head* m_p_head = nullptr;
 };
 

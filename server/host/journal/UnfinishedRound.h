@@ -37,7 +37,7 @@ class UnfinishedRound {
   std::string fact(const std::string& name) const;
   bool isOver() const { return m_over; }
 
-  /// Returns the bytes of the file up to the last chunk that ends with a whole record.
+  /// Returns the number of bytes up to the end of the file's last chunk that ends with a whole record.
   std::size_t wholeBytes() const { return m_whole_bytes; }
   /// Returns the record stream, unpacked (TurnRecordReader).
   const std::string& records() const { return m_records; }

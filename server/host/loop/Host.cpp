@@ -32,16 +32,16 @@ namespace {
 
 constexpr std::chrono::milliseconds kLate{5};
 constexpr std::chrono::milliseconds kMinService{5};  ///< minimum time for sockets, however late the tick is
-constexpr int kMinHandlers = 16;                     ///< one may serve many messages
+constexpr int kMinHandlers = 16;                     ///< minimum number of handlers run for sockets
 constexpr std::chrono::seconds kDrainTime{1};
-constexpr std::chrono::milliseconds kDrainStep{10};  ///< interval of checks for worlds that end
-constexpr double kFirstPlayerSeconds = 60;           ///< --exit-when-empty before the first player joins
-constexpr std::chrono::milliseconds kRestTime{400};  ///< between two ticks while no world ticks
+constexpr std::chrono::milliseconds kDrainStep{10};  ///< interval of checks whether worlds have ended
+constexpr double kFirstPlayerSeconds = 60;           ///< minimum of --exit-when-empty until a player joins
+constexpr std::chrono::milliseconds kRestTime{400};  ///< time between two ticks while no world ticks
 constexpr int kMaxFrameTimeMillis = 1000;            ///< limit of --frame-time
-constexpr int kExitHung = 1;                         ///< like a game that fails
+constexpr int kExitHung = 1;                         ///< exit code of a hung game, as of one that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";  // like ShutdownScheduler's sentence
 
-// Ends the process by the signal, with its default action, so the sender sees that it worked.
+// Ends the process by the signal's default action, so that its exit status shows the signal.
 void endBySignal(int signal) {
   ::signal(signal, SIG_DFL);
   sigset_t none;
@@ -65,7 +65,8 @@ Host::Host(HostOptions options, std::string game, Log log)
   m_parts = makeOperatorParts({*m_context, *m_endpoint, *m_clients, *m_controls});
 }
 
-// The network thread calls the parts, which are destroyed here; after a game throws, it is still running.
+// Stops the network thread, which calls the parts that are destroyed here. It still runs if a game has
+// thrown.
 Host::~Host() {
   m_endpoint->network().stop();
 }
@@ -79,7 +80,7 @@ void Host::run(df::World& world) {
       signals, [&side_log](const std::string& line) { side_log(line); },
       [this, &side_log](const ForcedExit& end) { endProcess(end, side_log); });
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
-  const auto work = asio::make_work_guard(m_context->home);  // or run_until() would return at once
+  const auto work = asio::make_work_guard(m_context->home);  // without it, run_until() would return at once
   m_endpoint->network().start();
   for (const auto& part : m_parts) part->begin();
   while (!isOver()) {
@@ -129,7 +130,7 @@ void Host::endGame(df::World& world) {
 void Host::applySettings(df::World& world) {
   HostOptions& options = m_context->options;
   if (const df::WorldExtras* p_extras = world.findExtras()) {
-    // The published engine uses 33 ms for 1/30 s.
+    // 33 ms is not applied, because the published engine's 33 ms stand for 1/30 s.
     const int millis = std::min(p_extras->settings.frame_time, kMaxFrameTimeMillis);
     if (options.frame_micros == 0 && millis != df::FRAME_TIME_DEFAULT) options.frame_micros = millis * 1000;
   }
@@ -138,8 +139,8 @@ void Host::applySettings(df::World& world) {
     m_context->log("compat is on: using the published engine's rules where they differ from the book's");
 }
 
-// A minimum number of handlers runs even after the deadline, because an overloaded server must still receive.
-// But not all that are ready run: then one flooding client could stop the world.
+// Runs a minimum number of handlers even after the deadline, because an overloaded server must still receive.
+// After the deadline, does not run all that are ready, because one flooding client could stop the world.
 void Host::serveUntil(Clock::time_point deadline) {
   asio::io_context& home = m_context->home;
   home.restart();
@@ -155,7 +156,8 @@ bool Host::isResting() const {
   return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
 }
 
-// While resting, ticks only serve the heartbeat, at its interval. A connection ends the rest.
+// Waits while no world ticks. Ticks then only serve the bus's heartbeat, at its interval. A connection ends
+// the wait.
 TickClock Host::rest() {
   const auto heartbeat = std::chrono::milliseconds(m_context->options.bus_interval_ms);
   const auto end = Clock::now() + std::min(kRestTime, heartbeat);
@@ -195,7 +197,7 @@ void Host::tick(Watchdog& watchdog) {
   if (m_observer) m_observer(*m_p_world);
 }
 
-// Only this function runs the game's code, unless it is in other processes.
+// Only this function runs the game's code, unless the game runs in other processes.
 void Host::tickWorlds(Watchdog& watchdog) {
   const std::uint64_t number = m_p_world->picture().view().tick + 1;
   watchdog.beginTick(number);
@@ -205,7 +207,7 @@ void Host::tickWorlds(Watchdog& watchdog) {
   watchdog.endTick();
 }
 
-// The flush after the last room's tick ends the host's tick.
+// Passes everything to the network thread. After the last room's tick, this ends the host's tick.
 void Host::flush() {
   const Stage before = m_context->stages.enter(Stage::kFlush);
   if (m_clients->rooms().isTicking()) {
@@ -219,14 +221,14 @@ void Host::flush() {
 
 void Host::sweep() {
   m_clients->sessions().sweep();
-  if (m_clients->sessions().connected() > 0) m_empty_since = Clock::now();
+  if (m_clients->sessions().connectedCount() > 0) m_empty_since = Clock::now();
 }
 
 // ---- end --------------------------------------------------------------------------------------------------
 
 bool Host::isDeserted(Clock::time_point now) const {
   const double exit_when_empty = m_context->options.exit_when_empty;
-  if (exit_when_empty <= 0 || m_clients->sessions().connected() > 0) return false;
+  if (exit_when_empty <= 0 || m_clients->sessions().connectedCount() > 0) return false;
   const double first = m_context->counters.joined > 0 ? 0 : kFirstPlayerSeconds;
   return now - m_empty_since > std::chrono::duration<double>(std::max(exit_when_empty, first));
 }
@@ -236,11 +238,13 @@ bool Host::isOver() const {
   const bool counted_out = ticks > 0 && m_context->counters.ticks >= static_cast<std::uint64_t>(ticks);
   const ShutdownScheduler& scheduler = m_context->shutdown_scheduler;
   // A player whose connection broke may return, so they count as playing.
-  const bool is_due = scheduler.plan() && scheduler.isDue(Clock::now(), m_clients->sessions().playing() == 0);
+  const bool is_due =
+      scheduler.plan() && scheduler.isDue(Clock::now(), m_clients->sessions().playingCount() == 0);
   return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(Clock::now());
 }
 
-// Players of a kept round just lose the connection, as if the server had been killed.
+// If the round is handed over, players get no goodbye: they lose the connection, as if the server had been
+// killed.
 void Host::sendGoodbyes() {
   if (m_controls->handsOverRound()) return;
   const ShutdownScheduler& scheduler = m_context->shutdown_scheduler;

@@ -67,7 +67,7 @@ ServerInfo HostClients::facts() const {
   return {.name = options.name,
           .game = m_context.game,
           .protocol = kProtocolVersion,
-          .players = static_cast<std::uint32_t>(m_sessions.playing()),
+          .players = static_cast<std::uint32_t>(m_sessions.playingCount()),
           .max_players = static_cast<std::uint32_t>(options.max_players),
           .requires_password = !options.password.empty()};
 }
@@ -99,7 +99,7 @@ void HostClients::update(Clock::time_point now) {
 }
 
 void HostClients::sendPlayers() {
-  if (m_sessions.playing() == 0) return;
+  if (m_sessions.playingCount() == 0) return;
   m_player_list.tick(
       static_cast<std::uint32_t>(m_context.counters.ticks), m_rooms.players(),
       [this](std::uint32_t player) {

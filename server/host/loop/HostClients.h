@@ -28,7 +28,7 @@ namespace naiad {
 /// Ends sessions of players without any key, click or chat line. Not thread-safe. Time is a parameter.
 class InactivityCheck {
  public:
-  /// Players are warned this long before; if the limit is short, at half of it.
+  /// Players are warned this long before the limit or, if the limit is less than twice this, at half of it.
   static constexpr std::chrono::seconds kWarning{10};
 
   /// Call once a tick for each playing session. `limit` 0: no limit. Sessions without a connection are
@@ -43,7 +43,7 @@ class InactivityCheck {
       if (!m_warned.empty()) m_warned.erase(session.id());
     } else if (idle >= limit) {
       m_warned.erase(session.id());
-      ++counters.inactive;
+      ++counters.idle_kicks;
       session.sendGoodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
     } else if (m_warned.insert(session.id()).second) {
       tell(session, "Press a key, or you will be disconnected.");
@@ -73,9 +73,9 @@ class HostClients {
 
   /// Plays in these worlds instead of the one of Host::run(): one after the other, or one per player
   /// (HostOptions::players). The world of Host::run() then only provides facts for welcomes. New players get
-  /// ids above `highest_player`, because the first world may have used these. Call before run().
+  /// ids above `highest_player`, because the first world may have used lower ones. Call before run().
   void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
-  /// Plays in these rooms instead; players start in the first. Call before run().
+  /// Plays in these rooms instead of one world; players start in the first room. Call before run().
   void setRooms(std::vector<RoomConfig> plans);
 
   /// Sets the handler of chat commands: lines that begin with "/". They are never sent to other players.
@@ -83,14 +83,14 @@ class HostClients {
     m_serve_command = std::move(serve_command);
   }
 
-  /// Returns the facts that server lists show.
+  /// Returns the facts about this server that server lists show.
   ServerInfo facts() const;
 
   /// Call for each accepted connection.
   void add(std::unique_ptr<ReliableChannel> channel);
   /// Applies the player limit of the options in force. Logs a warning if too few files may be open for it.
   void applyCapacityLimits();
-  /// Call once a tick, before worlds tick: deadlines, waiting hellos, and moves between rooms.
+  /// Call once a tick, before worlds tick: serves deadlines, waiting hellos, and moves between rooms.
   void update(Clock::time_point now);
   /// Call once a tick, after worlds tick: sends the list of players of all rooms.
   void sendPlayers();

@@ -75,7 +75,8 @@ void HostControls::update(Clock::time_point now) {
   restartForUpgrade(now);
 }
 
-// Present worlds continue; the next ones need a server of their own build.
+// Restarts after an upgrade, because new worlds have another build than this server. Private worlds are
+// played to their end first.
 void HostControls::restartForUpgrade(Clock::time_point now) {
   const auto news = m_clients.rooms().popUpgradeMessage();
   if (!news) return;
@@ -138,7 +139,8 @@ OptionChanges HostControls::applyOptions(const HostOptions& options) {
 
 // ---- the round --------------------------------------------------------------------------------------------
 
-// A round in recovery cannot be kept: its file counts servers that ended in a recovery (RoundJournals.h).
+// A round in recovery cannot be handed over: its file counts servers that ended in a recovery
+// (RoundJournals.h).
 std::string HostControls::handoverBlocker() const {
   return m_clients.rooms().recovering() ? "it is still being recovered" : "";
 }
@@ -152,7 +154,7 @@ void HostControls::handOverRound(Done done) {
   m_context.log("replaying the round in the installed program while the game continues");
   m_p_handover->verify([this, done = std::move(done)](const RoundHandover::Result& result) {
     asio::post(m_context.home, [this, done, result] {
-      if (!result.starts) return done(false, kCannotHandOver + result.problem);  // nor could it start later
+      if (!result.starts) return done(false, kCannotHandOver + result.problem);  // a restart would fail, too
       finishVerification(result.problem, done);
     });
   });
@@ -171,7 +173,7 @@ void HostControls::finishVerification(const std::string& problem, const Done& do
   done(true, text);
 }
 
-// Like a restart that lets players finish.
+// Ends the server, without its round, like a restart that waits until all players have left.
 void HostControls::endWithoutRound(const std::string& problem, const Done& done) {
   const std::string text = "Cannot move the round to the installed program: " + problem;
   m_context.log(LogEvent::warning("restart: " + text + "; the server restarts when all players have left"));

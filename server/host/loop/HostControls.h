@@ -22,15 +22,16 @@ class HostClients;
 class HostEndpoint;
 class RoundHandover;
 
-/// Reloaded options, and what is slow to compute from them.
+/// Reloaded options, and values that are slow to compute from them.
 struct ReloadResult {
-  std::string problem;  ///< why they cannot be used; empty if they can
+  std::string problem;  ///< why the options cannot be used; empty if they can
   HostOptions options;
   std::optional<PasswordHash> password;    ///< hash of a changed password
   std::optional<ServerIdentity> identity;  ///< from --certificate and --key, whose files may be new
 };
 
-/// Reads a running server's options again. On its own thread: files may be slow, hashing takes 0.1 s.
+/// Reads a running server's options again, on a thread of its own, because files may be slow and hashing
+/// takes 0.1 s.
 class Reload {
  public:
   /// Throws an exception that says why the options cannot be read.
@@ -54,7 +55,7 @@ class Reload {
 class HostControls {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Called once with the result of a request, on the host's thread: whether it succeeded, and a sentence
+  /// Called once on the host's thread with the result of a request: whether it succeeded, and a sentence
   /// without its full stop.
   using Done = std::function<void(bool is_done, const std::string& sentence)>;
 
@@ -62,13 +63,13 @@ class HostControls {
   HostControls(HostContext& context, HostEndpoint& endpoint, HostClients& clients)
       : m_context(context), m_endpoint(endpoint), m_clients(clients) {}
 
-  /// Plans the end of Host::run(). With private worlds or named rooms, at_round_end means when all have left.
+  /// Plans the end of Host::run(). With private worlds or named rooms, at_round_end is treated as when_empty.
   void end(ShutdownScheduler::Plan plan);
   /// Plans the end when no players are left, or after this many seconds.
   void endWhenEmpty(double seconds);
   /// Cancels a planned end. False if none was planned.
   bool cancelEnd();
-  /// Call once a tick: tells players about the end, and notices an upgraded program.
+  /// Call once a tick: tells players about a planned end, and plans a restart if the program was upgraded.
   void update(Clock::time_point now);
   /// Reacts to signals. The first SIGTERM gives players drain_time to finish; a second signal ends everything
   /// at once (Watchdog.h). SIGHUP without a terminal reloads the options.
@@ -82,15 +83,16 @@ class HostControls {
   void setOnReload(std::function<void(bool is_done, Clock::time_point now)> on_reload) {
     m_on_reload = std::move(on_reload);
   }
-  /// Sets a function called before the process ends without the hung game. It runs on the watchdog's thread
-  /// and may block for `timeout`. Call before Host::run().
+  /// Sets a function called before the process is forced to exit (ForcedExit in Watchdog.h). It runs on the
+  /// watchdog's thread and may block for `timeout`. Call before Host::run().
   void setOnForcedExit(std::function<void(std::chrono::milliseconds timeout)> on_forced_exit) {
     m_on_forced_exit = std::move(on_forced_exit);
   }
   void reportForcedExit(std::chrono::milliseconds timeout) const {
     if (m_on_forced_exit) m_on_forced_exit(timeout);
   }
-  /// Applies the changed options that may change while the server runs: applyReloadable() (HostOptions.h).
+  /// Applies those of the changed options that may change while the server runs: applyReloadable()
+  /// (HostOptions.h).
   OptionChanges applyOptions(const HostOptions& options);
 
   /// Sets the object that handOverRound() uses; it must outlive this.
@@ -99,9 +101,10 @@ class HostControls {
   /// replay of the round. If the program cannot continue the round, the server restarts when all have left.
   /// If the trial cannot start, nothing changes.
   void handOverRound(Done done);
-  /// True if Host::run() has ended, or is about to, so that another program continues the round.
+  /// True if Host::run() has ended, or is about to end, so that another program continues the round.
   bool handsOverRound() const;
-  /// Call after the last tick. Ignores a trial replay that still runs; stops writing a round that is kept.
+  /// Call after the last tick. Ignores a trial replay that still runs; stops writing a round that is handed
+  /// over.
   void beginDrain();
 
  private:
@@ -117,7 +120,7 @@ class HostControls {
   std::optional<Reload> m_reload;
   std::function<void(bool, Clock::time_point)> m_on_reload;
   std::function<void(std::chrono::milliseconds)> m_on_forced_exit;
-  RoundHandover* m_p_handover = nullptr;  ///< null: rounds cannot be kept
+  RoundHandover* m_p_handover = nullptr;  ///< null: rounds cannot be handed over
   bool m_hands_over_round = false;
   bool m_is_draining = false;
   int m_handled_signals = 0;

@@ -15,7 +15,7 @@ namespace naiad {
 
 namespace {
 
-/// Only for the log: the client is disconnected without an answer.
+/// Returns the reason for the log. The client is disconnected without an answer.
 std::string sentenceOf(StreamRefusal why) {
   switch (why) {
     case StreamRefusal::kBanned:
@@ -38,7 +38,7 @@ TcpOptions channelOptions() {
   return options;
 }
 
-/// Returns the key that TLS proves; nullopt without encryption.
+/// Returns the key and certificate for TLS; nullopt without encryption.
 std::optional<ServerIdentity> identityOf(const HostOptions& options) {
   if (options.insecure) return std::nullopt;
   if (!options.certificate.empty()) return ServerIdentity::load(options.certificate, options.key);
@@ -90,7 +90,7 @@ TlsListenerOptions HostEndpoint::listening() {
   return listening;
 }
 
-// Refuses world processes: they may have this user's rights to the socket, and could claim any visitors.
+// Refuses world processes, because they may open the socket with this user's rights and claim any visitors.
 ProxyListenerOptions HostEndpoint::visitors() const {
   ProxyListenerOptions visitors;
   visitors.path = m_context.options.visitors;

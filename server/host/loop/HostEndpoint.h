@@ -57,11 +57,11 @@ class HostEndpoint {
   std::optional<Fingerprint> fingerprint() const;
   /// Returns the dfclient arguments to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
-  /// Returns the link for players on this machine, or if `elsewhere`, on any machine; the latter needs
+  /// Returns the link for players on this machine or, if `elsewhere`, on any machine, which needs
   /// HostOptions::link_host. Nullopt without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
 
-  /// Uses this key for new connections.
+  /// Uses this key and certificate for new connections.
   void setIdentity(ServerIdentity identity);
   /// Drops connections for which `is_banned`, called on the network thread, is true. Call before start().
   void setBans(std::function<bool(const asio::ip::address& address)> is_banned) {

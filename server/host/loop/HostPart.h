@@ -19,8 +19,8 @@ struct HostAccess {
   HostControls& controls;
 };
 
-/// All calls are on the host's thread, in this order. Only finish() may block. A part that cannot start
-/// throws ListenError or std::runtime_error in its constructor, before players can join.
+/// All functions are called on the host's thread, in this order. Only finish() may block. A part that cannot
+/// start throws ListenError or std::runtime_error in its constructor, before players can join.
 class HostPart {
  public:
   using Clock = std::chrono::steady_clock;

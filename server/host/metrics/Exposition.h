@@ -10,7 +10,7 @@
 
 namespace naiad {
 
-/// The Content-Type that goes with the text.
+/// The Content-Type of the text.
 inline constexpr std::string_view kExpositionType = "text/plain; version=0.0.4; charset=utf-8";
 
 enum class MetricType { kCounter, kGauge, kHistogram };

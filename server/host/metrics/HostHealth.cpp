@@ -8,7 +8,7 @@ namespace naiad {
 const char* nameOf(Stage stage) {
   switch (stage) {
     case Stage::kIdle:
-      return "between";
+      return "idle";
     case Stage::kReceive:
       return "receive";
     case Stage::kSessions:
@@ -22,7 +22,7 @@ const char* nameOf(Stage stage) {
     case Stage::kSnapshots:
       return "snapshots";
     case Stage::kBroadcasts:
-      return "news";
+      return "broadcasts";
     case Stage::kFlush:
       return "flush";
   }
@@ -39,7 +39,8 @@ void HostHealth::beginDrain(bool ticks) {
   m_phase = ticks ? Phase::kDraining : Phase::kEnding;
 }
 
-// A host does not tick while it loads its game at the start, or flushes its last bytes at the end.
+// Always good while the host loads its game at the start, or flushes its last bytes at the end: then it does
+// not tick.
 HostHealth::Result HostHealth::health(Clock::time_point now) const {
   const Phase phase = m_phase;
   if (phase == Phase::kStarting) return {true, "starting"};

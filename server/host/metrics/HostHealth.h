@@ -11,10 +11,11 @@
 
 namespace naiad {
 
-/// Returns the stage's name in metrics, like "between" or "receive".
+/// Returns the stage's name in metrics, like "idle" or "receive".
 const char* nameOf(Stage stage);
 
-/// Any thread may call health() and readiness(), the tick thread the others. Time is passed in.
+/// Any thread may call health() and readiness(); only the tick thread may call the others. Time is a
+/// parameter.
 class HostHealth {
  public:
   using Clock = std::chrono::steady_clock;
@@ -26,16 +27,17 @@ class HostHealth {
   /// `stages` has the time of the newest tick and the current stage; it must outlive this.
   explicit HostHealth(const StageClock& stages) : m_stages(stages) {}
 
-  /// Call it when the host listens and ticks of this length begin.
+  /// Call it when the host listens and its ticks begin. `tick_length`: their length.
   void begin(std::chrono::nanoseconds tick_length, Clock::time_point now);
   /// Sets whether the maximum number of players is reached.
   void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
-  /// Call it when the host accepts no more players. `ticks`: it still ticks, so it can still hang.
+  /// Call it when the host accepts no more players. `ticks`: true if it still ticks; health() then still
+  /// reports a hang.
   void beginDrain(bool ticks);
-  /// Returns to normal operation.
+  /// Call it if the end is cancelled: the host accepts players again.
   void cancelDrain() { m_phase = Phase::kRunning; }
 
-  /// The response: status 200 if good, else 503.
+  /// The response to a health check: status 200 if good, else 503.
   struct Result {
     bool is_good = true;
     std::string sentence;

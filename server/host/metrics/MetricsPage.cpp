@@ -29,7 +29,7 @@ std::string textOf(const char* path) {
 
 double startTime() {
   const std::string text = textOf("/proc/self/stat");
-  // A program's name may contain spaces and brackets.
+  // Starts after the last bracket, because the program's name before it may contain spaces and brackets.
   std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
   std::string field;
   for (int i = 0; i < kStartTime && fields >> field; ++i) {
@@ -73,7 +73,7 @@ void writeTicks(Exposition& out, const MetricsSnapshot& snapshot) {
             "Delay of a tick's start after its deadline.");
   out.add(snapshot.tick_lateness);
   out.begin("naiad_stage_seconds_total", MetricType::kCounter,
-            "Time of the tick thread, by stage; between: serving streams or waiting.");
+            "Time of the tick thread, by stage; idle: serving streams or waiting.");
   for (std::size_t i = 0; i < kStages; ++i) {
     out.add(metricLabel("stage", nameOf(static_cast<Stage>(i))), seconds(snapshot.stages[i]));
   }
@@ -85,7 +85,8 @@ void writePlayers(Exposition& out, const MetricsSnapshot& snapshot) {
   out.add(R"(state="detached")", snapshot.detached);
   out.begin("naiad_max_players", MetricType::kGauge, "Maximum number of players.");
   out.add("", snapshot.max_players);
-  out.begin("naiad_newcomers", MetricType::kGauge, "Connections that have not joined yet or are closing.");
+  out.begin("naiad_pending_connections", MetricType::kGauge,
+            "Connections that have not joined yet or are closing.");
   out.add("", snapshot.greeting);
   out.begin("naiad_rooms", MetricType::kGauge, "Worlds that are running.");
   out.add("", snapshot.rooms);
@@ -107,7 +108,7 @@ void writeNamedRooms(Exposition& out, const std::vector<MetricsSnapshot::NamedRo
   out.begin("naiad_room_players", MetricType::kGauge, "Players, by room.");
   for (const auto& room : rooms) out.add(labels(room), room.players);
   out.begin("naiad_room_asleep", MetricType::kGauge,
-            "1 for a room without a world, which starts when a player joins.");
+            "1 if the room has no world; a world starts when a player joins.");
   for (const auto& room : rooms) out.add(labels(room), std::uint64_t{room.asleep ? 1u : 0u});
   out.begin("naiad_room_late_ticks_total", MetricType::kCounter,
             "Ticks that a room's world missed because its previous tick was still running.");

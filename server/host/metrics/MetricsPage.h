@@ -32,7 +32,7 @@ struct ProcessInfo {
 /// Writes the process_* metrics.
 void writeProcess(Exposition& out, const ProcessInfo& facts);
 
-/// Upper bounds of buckets.
+/// Upper bounds of the buckets of round-trip times (in seconds) and of losses (0 … 1).
 inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.025, 0.05,
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
@@ -48,7 +48,8 @@ struct MetricsSnapshot {
   Histogram round_trips{kRoundTripBounds};  ///< one sample per second of each player with a known round trip
   Histogram losses{kLossBounds};            ///< one sample per second of each connected player
 
-  /// Total CPU times of threads. "other": those of passwords, log and watchdog, and the game's own.
+  /// CPU times of threads since the start. `other`: of all other threads, such as those for passwords and the
+  /// log, and the game's own.
   struct Cpu {
     std::chrono::nanoseconds tick{0};
     std::chrono::nanoseconds network{0};
@@ -56,10 +57,10 @@ struct MetricsSnapshot {
     std::chrono::nanoseconds other{0};
   } cpu;
 
-  // Current values.
+  // Values at this moment.
   std::uint64_t connected = 0;  ///< players with a connection
   std::uint64_t detached = 0;   ///< players that lost the connection
-  std::uint64_t greeting = 0;   ///< sessions that do not play, yet or any more
+  std::uint64_t greeting = 0;   ///< sessions that do not play yet, or not any more
   std::uint64_t max_players = 0;
   std::uint64_t rooms = 0;    ///< rooms that are not asleep
   std::uint64_t objects = 0;  ///< published Objects

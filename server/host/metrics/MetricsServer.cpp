@@ -25,7 +25,8 @@ using asio::ip::tcp;
 using std::error_code;
 
 constexpr std::chrono::milliseconds kRetryDelay{100};
-/// Maximum of bytes read after a request. Reading them prevents a TCP reset that could overtake the answer.
+/// Maximum number of bytes read after a request. Reading them prevents a TCP reset that could overtake the
+/// answer.
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 MetricsServer::Response badRequest() {
@@ -192,7 +193,7 @@ void MetricsServer::Loop::accept() {
       }
       return accept();
     }
-    // Out of descriptors: new connections wait in the kernel's queue.
+    // No descriptor is free, so accepts again later. Until then, new connections wait in the kernel's queue.
     retry.expires_after(kRetryDelay);
     retry.async_wait([this](error_code ended) {
       if (!ended) accept();
@@ -200,7 +201,8 @@ void MetricsServer::Loop::accept() {
   });
 }
 
-// Evicts the oldest idle connection: a real scraper sends its request at once and closes after the answer.
+// Evicts the oldest idle connection. It is not a real scraper, which sends its request at once and closes
+// after the answer.
 bool MetricsServer::Loop::makeRoom() {
   std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
   if (connections.size() < kMaxConnections) return true;

@@ -19,7 +19,7 @@ DatagramService::~DatagramService() = default;
 std::unique_ptr<DatagramService::Channel> DatagramService::open(const KeyExporter& exporter, AeadId aead) {
   for (;;) {
     const ConnectionId id{m_random()};
-    if (m_gate.has(id)) continue;  // probability 2^-64
+    if (m_gate.has(id)) continue;  // another session has this id: probability 2^-64
     return open(exporter, aead, id);
   }
 }
@@ -85,12 +85,12 @@ void DatagramService::Channel::send(std::string_view packet) {
   }
 }
 
-// An address must be validated before much is sent to it.
+// Sends an answer or a challenge if due: an address must be validated before much is sent to it.
 void DatagramService::Channel::answerChallenges(Time now) {
   if (m_link.needsToSend(now)) send({});
 }
 
-// flush() handles a new address until it is validated.
+// Makes flush() send challenges to a new address until the address is validated.
 void DatagramService::Channel::markUnvalidated() {
   if (m_unvalidated || m_link.isValidated(*m_link.path())) return;
   m_unvalidated = true;

@@ -58,7 +58,7 @@ class DatagramService {
     std::function<void(std::string_view)> m_on_packet;
   };
 
-  /// Opens a channel with keys from the stream's exporter (DatagramKeys.h). Null if it provides none.
+  /// Opens a channel with keys from the stream's exporter (DatagramKeys.h). Null if the exporter has no keys.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
   /// Like open(exporter, aead), with a given id. Also null if the id is in use.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead, ConnectionId id);
@@ -66,7 +66,7 @@ class DatagramService {
   void flush();
   /// True while an address is being challenged. Then call flush() regularly even if nothing is sent.
   bool hasUnvalidated() const { return !m_unvalidated.empty(); }
-  /// When the packet now being delivered was received; for use in callbacks of channels.
+  /// Returns when the packet now being delivered was received; for use in callbacks of channels.
   Time received() const { return m_received; }
   /// The bound port.
   std::uint16_t port() const { return m_socket->localEndpoint().port; }

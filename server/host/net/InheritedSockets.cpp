@@ -18,9 +18,9 @@ namespace naiad {
 
 namespace {
 
-constexpr const char* kExported = "NAIAD_SOCKETS";  ///< process, streams, datagrams, is_service
+constexpr const char* kExported = "NAIAD_SOCKETS";  ///< variable with process, streams, datagrams, is_service
 constexpr int kWanted = 2;
-constexpr int kSpare = 16;  ///< duplicates get at least this number
+constexpr int kSpare = 16;  ///< lowest descriptor number of duplicates
 
 [[noreturn]] void refuse(const std::string& what) {
   throw ListenError("The sockets from the service manager (LISTEN_FDS) cannot be used: " + what + ".",
@@ -111,7 +111,7 @@ std::optional<InheritedSockets> InheritedSockets::importSockets(pid_t process, c
   return sockets;
 }
 
-// kSpare is above the numbers that importSockets() examines, which are in use.
+// kSpare is above the numbers that importSockets() examines, because those are in use.
 InheritedSockets InheritedSockets::duplicate() const {
   InheritedSockets others = *this;
   for (int* const p_socket : {&others.streams, &others.datagrams}) {

@@ -18,12 +18,12 @@ struct InheritedSockets {
   int streams = -1;
   int datagrams = -1;
   std::string address;     ///< numeric, as in `--address`
-  std::uint16_t port = 0;  ///< port of both
+  std::uint16_t port = 0;  ///< port of both sockets
   /// True if the service manager opened them. It does so once; later programs of this process inherit them.
   bool is_service = false;
 
-  /// Returns duplicates, which stay open when these are closed, for a process that executes a program again.
-  /// Throws std::system_error.
+  /// Returns duplicates, which stay open when these sockets are closed, for a process that executes a program
+  /// again. Throws std::system_error.
   InheritedSockets duplicate() const;
   /// Keeps these sockets open for the next program that this process executes, and puts their numbers into
   /// the environment. The numbers do not change, because other threads may open and close descriptors until

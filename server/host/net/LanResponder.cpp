@@ -48,7 +48,7 @@ const LanNetwork* LanQueryFilter::findNetwork(const LanPacket& packet) const {
   return found == m_networks.end() ? nullptr : &*found;
 }
 
-// Cheap tests come first, and tests that a sender outside the link cannot pass.
+// First makes the cheap tests, and those that a sender outside the link cannot pass.
 std::optional<LanQueryFilter::Reply> LanQueryFilter::filter(const LanPacket& packet, std::size_t players,
                                                             Time now) {
   if (packet.hop_limit != kLanHopLimit) {
@@ -65,10 +65,10 @@ std::optional<LanQueryFilter::Reply> LanQueryFilter::filter(const LanPacket& pac
     ++m_counters.malformed;
     return std::nullopt;
   }
-  // The common limit comes last, so a sender over its own limit does not use it up.
+  // Tests the common limit last, so that a sender above its own limit does not use it up.
   TokenBucket& own = m_prefixes.use(AddressPrefix::of(packet.source.address()));
   if (!own.tryConsume(kPrefixRate, now) || !m_all.tryConsume(kTotalRate, now)) {
-    ++m_counters.too_often;
+    ++m_counters.rate_limited;
     return std::nullopt;
   }
   ++m_counters.answered;
@@ -148,7 +148,7 @@ bool LanResponder::serve(LanSocket& socket) {
   return true;
 }
 
-/// Waits for stop(), also for packets if `sockets` is true, and at most for `time`.
+/// Waits for stop() and, if `sockets` is true, for packets, but at most for `time`.
 void LanResponder::wait(bool sockets, std::chrono::milliseconds time) {
   std::vector<pollfd> waited{{m_wake, POLLIN, 0}};
   for (const LanSocket& socket : m_sockets) {

@@ -1,8 +1,8 @@
 // Answers clients that search the local network for servers (LanMessage.h).
 //
-// It has its own thread and sockets, so LAN packets cost the game little processor time and nothing else: it
-// reads at most kMaxPackets packets per kPollInterval; the system drops the rest. It notices new networks
-// within kRefreshInterval.
+// It has its own thread and sockets, so LAN packets cost the game little processor time and nothing else,
+// because at most kMaxPackets packets are read per kPollInterval; the system drops further ones. It notices
+// new networks within kRefreshInterval.
 #pragma once
 
 #include <atomic>
@@ -30,19 +30,20 @@ enum class LanMode {
   kOn,    ///< in all networks that it listens on
 };
 
-/// Returns those of `networks` in which a server that listens on this numeric address can be found. "::"
-/// includes IPv4. With kAuto, loopback is included only if a private network is.
+/// Returns the networks of `networks` in which a server that listens on this numeric address can be found.
+/// "::" includes IPv4. With kAuto, loopback is included only if a private network is.
 std::vector<LanNetwork> answeredNetworks(const std::vector<LanNetwork>& networks, const std::string& address,
                                          LanMode mode);
 
 /// Outcomes of received packets. Each packet is counted once.
 struct LanCounters {
   std::uint64_t answered = 0;
-  std::uint64_t routed = 0;     ///< the hop limit shows that it passed a router
-  std::uint64_t foreign = 0;    ///< not to the group, or not from a network in which the server can be found
-  std::uint64_t malformed = 0;  ///< not a query
-  std::uint64_t too_often = 0;  ///< over a rate limit
-  std::uint64_t unsent = 0;     ///< the system refused to send the answer
+  std::uint64_t routed = 0;  ///< packets whose hop limit shows that they passed a router
+  std::uint64_t foreign =
+      0;  ///< not sent to the group, or not from a network in which the server can be found
+  std::uint64_t malformed = 0;     ///< not a query
+  std::uint64_t rate_limited = 0;  ///< queries above a rate limit
+  std::uint64_t unsent = 0;        ///< the system refused to send the answer
 };
 
 /// Decides which queries from the local network a server answers, and how. LanResponder owns the sockets.
@@ -55,11 +56,12 @@ class LanQueryFilter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Rate limits of answers, in all and per address (IPv6: /64). A client asks twice at first, per family.
+  /// Rate limits of answers, in total and per address (IPv6: /64). A client begins with two queries per
+  /// family.
   static constexpr BucketRate kTotalRate{10, 10};
   static constexpr BucketRate kPrefixRate{2, 4};
 
-  /// `facts`: everything except nonce and players.
+  /// `facts`: the answer, except for its nonce and its number of players.
   explicit LanQueryFilter(LanAnswer facts) : m_facts(std::move(facts)) {}
 
   /// Sets the networks in which queries are answered: answeredNetworks().
@@ -89,12 +91,13 @@ class LanQueryFilter {
 
 class LanResponder {
  public:
-  static constexpr int kMaxPackets = 64;  ///< packets per address family
+  static constexpr int kMaxPackets = 64;  ///< maximum packets per kPollInterval and address family
   static constexpr std::chrono::milliseconds kPollInterval{50};
   static constexpr std::chrono::seconds kRefreshInterval{5};
 
-  /// Opens the sockets. `facts`: everything except nonce and players. `address`: numeric, where the server
-  /// listens. Throws std::system_error if no socket of either family can be opened.
+  /// Opens the sockets. `facts`: the answer, except for its nonce and its number of players. `address`: the
+  /// numeric address on which the server listens. Throws std::system_error if no socket of either family can
+  /// be opened.
   LanResponder(LanAnswer facts, std::string address, LanMode mode);
   /// Calls stop().
   ~LanResponder();

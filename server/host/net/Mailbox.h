@@ -1,8 +1,8 @@
 // Messages from one thread to another, in batches.
 //
 // A writer fills its own Batch and puts it into the Mailbox from time to time; the reader takes everything in
-// it at once. Both hold the lock only to swap or append vectors, so neither waits long for the other. After a
-// while nothing is allocated any more.
+// it at once. Both hold the lock only to swap or append vectors, so neither waits long for the other. Memory
+// is reused, so after a while nothing is allocated any more.
 #pragma once
 
 #include <atomic>
@@ -87,7 +87,7 @@ class Mailbox {
     std::swap(m_waiting, batch);
     m_size = 0;
   }
-  /// Bytes that have not been taken yet.
+  /// Bytes that the reader has not taken yet.
   std::size_t size() const { return m_size; }
 
  private:

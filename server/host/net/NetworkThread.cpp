@@ -20,18 +20,18 @@ namespace naiad {
 
 namespace {
 
-/// Maximum number of event-loop handlers per turn; then the results are handed over.
+/// Maximum number of event-loop handlers per turn; then their results are passed to the tick thread.
 constexpr int kMaxHandlers = 64;
-/// Overhead of a notice in addition to its frame, so that many small frames also reach a limit.
+/// Bytes counted for each event in addition to its frame, so that many small frames also reach a limit.
 constexpr std::size_t kNoticeBytes = 32;
-/// Minimum time between two counts of unsent bytes. A count takes one system call per stream. So with many
-/// streams the pause is kCounting times the duration of the count, up to kLongBusy.
+/// Minimum time between two counts of unsent bytes. A count takes one system call per stream. So the time is
+/// kCounting times the duration of the last count, but at least kBusy and at most kLongBusy.
 constexpr std::chrono::milliseconds kBusy{2};
 constexpr std::chrono::milliseconds kLongBusy{6};
 constexpr int kCounting = 20;
 /// Interval of challenges to unvalidated addresses.
 constexpr std::chrono::milliseconds kUnvalidated{50};
-/// Time that the tick thread serves notices at once between two ticks.
+/// Time for which the tick thread serves events in one go between two ticks.
 constexpr std::chrono::microseconds kHelping{200};
 constexpr int kMinServed = 64;
 
@@ -66,7 +66,7 @@ void NetworkThread::stop() {
     asio::post(m_io, [] {});
     m_thread.join();
   }
-  // Runs the remaining orders, so that the objects in them are stored or released. None is sent any more.
+  // Runs the remaining commands, so that the objects in them are stored or released. No more data is sent.
   m_command_mailbox.push(m_commands);
   runCommands();
 }
@@ -82,7 +82,7 @@ void NetworkThread::setTls(std::shared_ptr<const TlsContext> context) {
 // ---- the tick thread --------------------------------------------------------------------------------------
 
 bool NetworkThread::serve(Clock::time_point enough) {
-  m_home_woken = false;  // before taking the batch, so that later notices wake it again
+  m_home_woken = false;  // before taking the batch, so that later events wake it again
   bool more = false;
   m_serving = true;
   Event notice;
@@ -140,7 +140,7 @@ std::unique_ptr<SealedChannel> NetworkThread::openDatagrams(const ReliableChanne
   const auto* relayed = dynamic_cast<const RelayedStream*>(&stream);
   if (!hasDatagrams() || relayed == nullptr) return nullptr;
   constexpr Epoch kFirstEpoch{1};
-  auto* const end = new NetworkSideDatagrams;  // owned by m_datagrams once the order runs
+  auto* const end = new NetworkSideDatagrams;  // owned by m_datagrams once the command runs
   end->id = ++m_newest_datagrams;
   if (m_free_slots.empty()) {
     m_free_slots.push_back(static_cast<std::uint32_t>(m_datagram_slots.size()));
@@ -162,7 +162,7 @@ bool NetworkThread::renewDatagrams(NetworkSideDatagrams& end, const ReliableChan
   return true;
 }
 
-// Data unsent at the deadline is lost. The posted jobs own what they use in addition to this object.
+// Data unsent at the deadline is lost. The posted jobs own everything they use, except this object.
 void NetworkThread::broadcastAndClose(const std::string& frame, std::chrono::milliseconds timeout) {
   const auto end = Clock::now() + timeout;
   asio::post(m_io, [this, frame] {
@@ -244,8 +244,8 @@ void NetworkThread::endIteration() {
   if (std::exchange(m_urgent, false)) wakeHome();
 }
 
-// Counts the unsent bytes of streams that had some at the last count or were sent more since. Not in every
-// turn, because after a tick all streams are busy for many turns.
+// Counts the unsent bytes of streams that had some at the last count or were sent more since then. Does not
+// count in every turn, because after a tick all streams are busy for many turns.
 void NetworkThread::updateUnsent() {
   const Clock::time_point begin = Clock::now();
   if (m_busy.empty() || begin < m_count_at) return;
@@ -265,7 +265,7 @@ bool NetworkThread::hasUnsent() const {
 }
 
 void NetworkThread::runCommands() {
-  m_woken = false;  // before taking the batch, so that later orders wake it again
+  m_woken = false;  // before taking the batch, so that later commands wake it again
   m_command_mailbox.popAll(m_running_commands);
   Command order;
   std::string_view bytes;
@@ -375,7 +375,7 @@ void NetworkThread::openDatagrams(NetworkSideDatagrams& end, const NetworkSideSt
 void NetworkThread::updatePayloadBudget(NetworkSideDatagrams& end) {
   const auto payload_budget = end.channel->payloadBudget();
   const std::int32_t now = payload_budget ? static_cast<std::int32_t>(*payload_budget) : -1;
-  // Relaxed, because nothing else depends on it. Compared first, because it rarely changes.
+  // Relaxed memory order, because nothing else depends on it. Compared first, because it rarely changes.
   if (end.payload_budget.load(std::memory_order_relaxed) != now)
     end.payload_budget.store(now, std::memory_order_relaxed);
 }
@@ -386,8 +386,8 @@ void NetworkThread::addEvent(const Event& notice, std::string_view bytes) {
 }
 
 void NetworkThread::registerStream(std::unique_ptr<ReliableChannel> channel) {
-  if (m_unaccepted >= m_limits.unmet || isEventMailboxFull()) {
-    ++m_counters.unmet;
+  if (m_unaccepted >= m_limits.unaccepted || isEventMailboxFull()) {
+    ++m_counters.unaccepted;
     return;
   }
   ++m_unaccepted;

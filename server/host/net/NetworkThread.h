@@ -6,14 +6,14 @@
 //   tick thread      channels -> Batch<Command>  --put--> Mailbox --take--> the sockets, in order
 //
 // Frames of streams wake the tick thread. Datagrams wait for its next tick, but keep their arrival time.
-// Orders leave the tick thread with flush(): once per tick, and once for each serve() between ticks.
+// Commands leave the tick thread with flush(): once per tick, and once for each serve() between ticks.
 //
-// Everything here is limited, and what exceeds a limit is counted:
+// Everything that passes between the threads is limited, and each loss is counted:
 //   datagrams, each direction     dropped while the mailbox is full (Limits::mailbox)
 //   a stream's frames             the stream ends (CloseReason::kOverflow) when more than Limits::stream_in
 //                                 bytes of it wait for the tick thread, or its own queue (TcpOptions) or the
 //                                 mailbox is full
-//   connections                   dropped while Limits::unmet wait for the tick thread
+//   connections                   dropped while Limits::unaccepted wait for the tick thread
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -43,13 +43,13 @@ namespace naiad {
 class RelayedDatagrams;
 class RelayedStream;
 
-/// What was not passed between the threads. Each loss is counted once.
+/// Data and connections that were lost between the threads. Each loss is counted once.
 struct RelayCounters {
-  std::uint64_t datagrams_in_dropped = 0;   ///< the tick thread was behind
-  std::uint64_t datagrams_out_dropped = 0;  ///< the network thread was behind
-  std::uint64_t streams_overflowed = 0;     ///< ended: more frames waited than allowed
-  std::uint64_t streams_clogged = 0;        ///< ended: its send queue was full
-  std::uint64_t unmet = 0;                  ///< connections dropped: too many waited for the tick thread
+  std::uint64_t datagrams_in_dropped = 0;   ///< datagrams dropped because the tick thread was behind
+  std::uint64_t datagrams_out_dropped = 0;  ///< datagrams dropped because the network thread was behind
+  std::uint64_t streams_overflowed = 0;     ///< streams ended because too many of their frames waited
+  std::uint64_t streams_clogged = 0;        ///< streams ended because their send queue was full
+  std::uint64_t unaccepted = 0;             ///< connections dropped: too many waited for the tick thread
   std::uint64_t keyless = 0;                ///< keys requested from a stream that had ended
 };
 
@@ -82,7 +82,7 @@ class NetworkThread {
     std::size_t mailbox = std::size_t{32} << 20;  ///< bytes that may wait for each of the threads
     std::size_t stream_in = std::size_t{256}
                             << 10;  ///< bytes of one stream that may wait for the tick thread
-    std::size_t unmet = 512;        ///< connections that may wait for the tick thread
+    std::size_t unaccepted = 512;   ///< connections that may wait for the tick thread
   };
 
   /// Starts to listen (ServerPort.h); connections wait until start(). If there are `inherited` sockets, uses
@@ -97,23 +97,24 @@ class NetworkThread {
   /// Channels must be destroyed before this; they may outlive the sockets.
   ~NetworkThread();
 
-  // Call all of these on the tick thread.
+  // Call all of these on the tick thread, unless noted.
 
   void start();
   /// Ends the thread at once. Nothing is sent or received afterwards.
   void stop();
-  /// Closes the listener: no new connections.
+  /// Closes the listener, so that no new connections are accepted.
   void closeListener();
   /// Sets the certificate and key for connections accepted from now on.
   void setTls(std::shared_ptr<const TlsContext> context);
 
-  /// Calls back for received messages until `enough`, at least a minimum number. False if more are left.
+  /// Calls the callbacks for received messages until the time `enough`, but for at least a minimum number of
+  /// messages. Returns false if messages are left.
   bool serve(Clock::time_point enough);
-  /// Passes on everything sent since the last flush.
+  /// Passes everything that was sent since the last flush to the network thread.
   void flush() { sendCommands(std::nullopt); }
   /// Like flush(), at the end of a tick that began at `began`.
   void flushTick(Clock::time_point began) { sendCommands(began); }
-  /// When the message being served was received; outside serve(), the present time.
+  /// Returns when the message being served was received; outside serve(), the present time.
   Clock::time_point now() const { return m_serving ? m_received_at : Clock::now(); }
 
   /// True if there are datagrams in addition to streams.
@@ -126,21 +127,21 @@ class NetworkThread {
   std::string address() const { return m_port.streams->address(); }
 
   /// Sends `frame` on all streams, closes them, and waits until they are empty, at most `timeout`. Call from
-  /// any thread but the network's, while that runs; for the case that the tick thread hangs.
+  /// any thread but the network thread, while that runs. Used if the tick thread hangs.
   void broadcastAndClose(const std::string& frame, std::chrono::milliseconds timeout);
 
   /// Durations of ticks, from their start to the last datagram sent. Thread-safe.
   const TickTimes& tickTimes() const { return m_tick_times; }
-  /// Counters of the gate as of the last turn of the thread; all zero without datagrams. Thread-safe.
+  /// Counters of the gate after the network thread's last turn; all zero without datagrams. Thread-safe.
   DatagramDemuxCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
-  /// Makes the thread copy its counters in its next turn; latestCounters() then returns them.
+  /// Makes the network thread copy its counters in its next turn; latestCounters() then returns them.
   void requestCounters() { postCommand({.kind = Command::kReportCounters}); }
   /// The counters of the last request; all zero before the first.
   NetworkCounters latestCounters() const;
-  /// CPU time used by the thread; 0 while it does not run.
+  /// CPU time used by the network thread; 0 while it does not run.
   std::chrono::nanoseconds cpuTime();
-  /// Call the rest only while the thread does not run.
+  /// Call this and the next two only while the network thread does not run.
   RelayCounters counters() const;
   const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
   /// All zero without a visitors' socket.
@@ -157,8 +158,8 @@ class NetworkThread {
     std::uint64_t id = 0;
     std::string peer;  ///< never changes
     std::unique_ptr<ReliableChannel> channel;
-    bool busy = false;                     ///< in m_busy
-    std::atomic<std::size_t> unsent = 0;   ///< unsent bytes of those taken over
+    bool busy = false;                     ///< true if it is in m_busy
+    std::atomic<std::size_t> unsent = 0;   ///< bytes taken over from the tick thread and not sent yet
     std::atomic<std::uint64_t> taken = 0;  ///< total bytes taken over from the tick thread
     std::atomic<std::size_t> in = 0;       ///< bytes in transit to the tick thread
   };
@@ -169,7 +170,7 @@ class NetworkThread {
     std::uint64_t connection = 0;
     AeadId aead = AeadId::kAes128Gcm;
     std::unique_ptr<DatagramService::Channel> channel;  ///< null without keys
-    std::atomic<std::int32_t> payload_budget = -1;      ///< SealedChannel::payloadBudget(); negative: none
+    std::atomic<std::int32_t> payload_budget = -1;      ///< SealedChannel::payloadBudget(); negative: nullopt
   };
   /// A message from the network thread.
   struct Event {
@@ -198,7 +199,7 @@ class NetworkThread {
     } kind = kSendFrame;
     NetworkSideStream* stream = nullptr;
     NetworkSideDatagrams* datagrams = nullptr;
-    std::uint64_t number = 0;  ///< limit, epoch, or when the tick began
+    std::uint64_t number = 0;  ///< the limit, the epoch, or the time when the tick began
   };
 
   // Members used on the tick thread.
@@ -242,7 +243,7 @@ class NetworkThread {
   Batch<Command> m_running_commands;
   Batch<Event> m_events;
   std::uint64_t m_newest_stream = 0;
-  bool m_urgent = false;  ///< the tick thread must be woken for m_events
+  bool m_urgent = false;  ///< true if the tick thread must be woken for m_events
   RelayCounters m_counters;
   TrafficCounters m_traffic;
 
@@ -262,7 +263,7 @@ class NetworkThread {
   Batch<Command> m_commands;
   Batch<Event> m_serving_batch;
   std::unordered_map<std::uint64_t, RelayedStream*> m_relayed_streams;
-  /// Places are reused, ids are not: a notice in transit when its session ends reaches no channel.
+  /// A slot is reused, but no id is, so an event in transit when its session ends reaches no channel.
   struct DatagramSlot {
     std::uint64_t id = 0;
     RelayedDatagrams* channel = nullptr;

@@ -12,8 +12,8 @@
 namespace naiad {
 
 /// A session counts from its welcome to its end, even without a stream. It counts for the prefix that its
-/// player joined from, and for the player's present prefix if that differs. So neither dropping a stream nor
-/// moving it frees a place of a prefix.
+/// player joined from, and for the player's present prefix if that differs. So a player cannot free a place
+/// of a prefix by dropping or moving the stream.
 ///
 /// Thread-safe; a call waits at most for another call.
 class PlayerPrefixes {

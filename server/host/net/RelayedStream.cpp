@@ -8,7 +8,7 @@ namespace naiad {
 
 namespace {
 
-/// Maximum bytes in transit to the network thread, where the channel has its own queue.
+/// Maximum bytes in transit to the network thread, in addition to the channel's own queue there.
 constexpr std::size_t kMaxInTransit = TcpOptions{}.send_cap;
 
 }  // namespace
@@ -42,8 +42,8 @@ std::optional<std::size_t> RelayedDatagrams::payloadBudget() const {
   return payload_budget < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(payload_budget));
 }
 
-// Assumes that the epoch is in use, although the stream may just have ended. Then the next epoch skips a
-// number, which both ends accept (SealedLink::startEpoch).
+// Assumes that the epoch is in use from now on, although the stream may just have ended. If it has, the next
+// epoch skips a number, which both ends accept (SealedLink::startEpoch).
 bool RelayedDatagrams::renew(const ReliableChannel& stream, Epoch epoch) {
   if (epoch <= m_epoch || !m_network.renewDatagrams(m_end, stream, epoch)) return false;
   m_epoch = epoch;

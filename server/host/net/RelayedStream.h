@@ -12,10 +12,10 @@
 
 namespace naiad {
 
-/// A session's datagrams as the tick thread sees them; keys and socket belong to the network thread. Thread:
-/// the one that ticks. Packets arrive in NetworkThread::serve() and leave with its flush(). payloadBudget()
-/// is the value of the network thread's last packet. If a stream ends before it provides keys, the previous
-/// keys stay in use; without such keys there is no budget.
+/// A session's datagrams as the tick thread sees them; keys and socket belong to the network thread. Call on
+/// the tick thread. Packets arrive in NetworkThread::serve() and leave with its flush(). payloadBudget() is
+/// the value after the network thread's last packet. If a stream ends before it provides keys, the previous
+/// keys stay in use; without previous keys, payloadBudget() returns nullopt.
 class RelayedDatagrams : public SealedChannel {
  public:
   RelayedDatagrams(NetworkThread& network, NetworkThread::NetworkSideDatagrams& end, Epoch epoch);
@@ -43,10 +43,10 @@ class RelayedDatagrams : public SealedChannel {
   std::function<void(std::string_view)> m_on_packet;
 };
 
-/// Thread: the one that ticks. Callbacks come from NetworkThread::serve(), frames leave with its flush().
-/// unsentBytes() adds the bytes on the way to the network thread and those that it had unsent at its last
-/// count. It counts every few milliseconds while there are any. exportSecret() returns nothing, because the
-/// network thread makes the keys (NetworkThread::openDatagrams).
+/// Call on the tick thread. Callbacks come from NetworkThread::serve(), frames leave with its flush().
+/// unsentBytes() is the sum of the bytes on the way to the network thread and of those that were unsent there
+/// at its last count, every few milliseconds. exportSecret() returns nothing, because the network thread
+/// makes the keys (NetworkThread::openDatagrams).
 class RelayedStream : public ReliableChannel {
  public:
   RelayedStream(NetworkThread& network, NetworkThread::NetworkSideStream& end);
@@ -73,8 +73,8 @@ class RelayedStream : public ReliableChannel {
   NetworkThread::NetworkSideStream& m_end;
   std::shared_ptr<Callbacks> m_callbacks;  ///< shared with a running callback
   std::uint64_t m_bytes_passed = 0;        ///< total bytes passed to the network thread
-  mutable bool m_idle = false;             ///< no bytes passed since there were no unsent ones
-  bool m_closed = false;                   ///< by this end, or after an overflow
+  mutable bool m_idle = false;             ///< unsentBytes() was 0, and nothing was passed since
+  bool m_closed = false;                   ///< true if closed by this end, or after an overflow
 };
 
 }  // namespace naiad

@@ -17,7 +17,7 @@ class SealedChannel : public DatagramChannel {
   virtual AeadId aead() const = 0;
   /// Epoch of the newest keys.
   virtual Epoch epoch() const = 0;
-  /// Switches to keys from another stream of the session. False if it provides none or `epoch` is not newer.
+  /// Switches to keys from another stream of the session. False if that has no keys or `epoch` is not newer.
   virtual bool renew(const ReliableChannel& stream, Epoch epoch) = 0;
 };
 

@@ -11,7 +11,7 @@ namespace naiad {
 
 namespace {
 
-/// A port that is free for streams may be in use for datagrams.
+/// Number of ports to try, because a port that is free for streams may be in use for datagrams.
 constexpr int kPortsToTry = 50;
 
 void addDatagrams(ServerPort& opened, asio::io_context& context, UdpOptions udp) {

@@ -16,8 +16,8 @@ class TickTimes {
   void add(std::chrono::nanoseconds duration) {
     m_counts[indexOf(duration.count() / 1000)].fetch_add(1, std::memory_order_relaxed);
   }
-  /// The shortest duration that at least `share` of the samples do not exceed, rounded up to its step; 0 if
-  /// there are no samples.
+  /// Returns the shortest duration that at least this share of the samples does not exceed, rounded up to its
+  /// step; 0 if there are no samples.
   std::chrono::microseconds quantile(double share) const {
     const std::uint64_t all = count();
     std::uint64_t longer = all;

@@ -52,7 +52,8 @@ using Level = AdminCommand::Level;
 
 constexpr std::size_t kScoresOfATable = 10;
 constexpr std::size_t kMaxScoresOfATable = 10'000;
-/// Shortest prefixes that can be banned. A wider range covers whole providers and is most likely a typo.
+/// Shortest prefixes that can be banned, in bits. A wider range covers whole providers, so it is likely a
+/// typo.
 constexpr int kMinBitsIPv4 = 8;
 constexpr int kMinBitsIPv6 = 16;
 
@@ -99,8 +100,8 @@ BanPlan planRange(Ban ban, const AddressRange& range) {
                                             "."));
   const asio::ip::address first = unmapped(asio::ip::address_v6(range.bytes()));
   if (first.is_loopback() || range.contains(asio::ip::address_v6::loopback()))
-    return refusedPlan(
-        AdminAnswer::refused("Loopback cannot be banned: this machine's doors connect from it."));
+    return refusedPlan(AdminAnswer::refused(
+        "Loopback addresses cannot be banned: this machine's ssh and web doors connect from them."));
   ban.range = range;
   return {{std::move(ban)}, ""};
 }
@@ -112,7 +113,7 @@ BanPlan planName(Ban ban, const std::string& name) {
   return {{std::move(ban)}, ""};
 }
 
-// Bans only the name if the address is this machine's, or is shared with other players.
+// Plans a player's ban: only of the name if the address is this machine's, or is shared with other players.
 BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, const std::string& typed) {
   const PlayerLookup choice = resolvePlayer(players, typed);
   if (!choice.player) {
@@ -378,7 +379,7 @@ void AdminConsole::changePassword(const AdminRequest& request, Done done) {
   if (!given) done(AdminAnswer::refused("Busy: too many pending requests. Try again in a moment."));
 }
 
-// Reloads the ban file first. If that fails, the answer says so, and the rest is still reloaded.
+// Reloads the ban file first. If that fails, the answer says so, and the options are reloaded anyway.
 void AdminConsole::reload(Done done) {
   const auto loaded = [this, done](std::vector<Ban> bans, const std::string& problem) {
     post([this, done, bans = std::move(bans), problem] {

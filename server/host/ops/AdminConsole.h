@@ -23,8 +23,8 @@ struct PlayerLookup {
 };
 
 /// Finds the player meant by a typed #ID, name, or beginning of a name. Tries #ID only if the text has that
-/// form, so a player named "#7" cannot protect another one; else the exact name, the name ignoring case, then
-/// its beginning. If several players match equally well, the problem lists them.
+/// form, so a player named "#7" cannot protect another one; otherwise tries the exact name, then the name
+/// ignoring case, then its beginning. If several players match equally well, `problem` lists them.
 PlayerLookup resolvePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
 
 /// Carries out commands on the host's thread. Logs each admin's command with its caller, passwords as "***".

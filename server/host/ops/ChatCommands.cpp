@@ -95,7 +95,7 @@ void ChatCommands::becomeAdmin(Session& session, const std::string& password) {
                     });
 }
 
-// Admin rights belong to the stream. The session may have been resumed on another one since the check began.
+// Admin rights belong to a stream. The session may have been resumed on another stream since the check began.
 void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordCheck::Answer answer) {
   Session* const p_session = m_access.clients.sessions().find(id);
   if (p_session == nullptr || p_session->state() != Session::State::kPlaying) return;

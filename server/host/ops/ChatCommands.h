@@ -24,7 +24,7 @@ class ChatCommands {
   ChatCommands(const HostAccess& access, HostAdmin& admin, AdminConsole& console, BanList& bans);
 
   void serve(Session& session, const std::string& line);
-  /// Announces votes that failed. Call it once a tick.
+  /// Announces votes that failed because their time is over. Call it once a tick.
   void update(Session::Clock::time_point now);
 
  private:

@@ -22,9 +22,9 @@ namespace {
 
 /// Returns the options that may change while the server runs, without dashes.
 const std::vector<std::string>& changeableOptions() {
-  static const std::vector<std::string> names{"max-players",   "max-per-address", "server-name",
-                                              "grace",         "exit-when-empty", "drain-time",
-                                              "inactive-kick", "vote-kick",       "log-chat"};
+  static const std::vector<std::string> names{"max-players",    "max-per-address", "server-name",
+                                              "reconnect-time", "exit-when-empty", "drain-timeout",
+                                              "idle-kick",      "vote-kick",       "log-chat"};
   return names;
 }
 
@@ -111,21 +111,22 @@ AdminRow HostAdmin::status() const {
   const Counters& counters = m_access.context.counters;
   const TickTimes& times = m_access.endpoint.network().tickTimes();
   const auto number = [](std::uint64_t count) { return static_cast<std::int64_t>(count); };
-  return {{"server", m_access.context.options.name},
-          {"version", std::string(kVersion)},
-          {"game", m_access.context.game},
-          {"address", m_access.endpoint.address()},
-          {"up_s", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
-          {"rooms", number(m_access.clients.rooms().countAwake())},
-          {"players", number(m_access.clients.sessions().playing())},
-          {"connected", number(m_access.clients.sessions().connected())},
-          {"max_players", std::int64_t{m_access.context.options.max_players}},
-          {"password", m_access.clients.admission().needsPassword()},
-          {"ticks", number(counters.ticks)},
-          {"late_ticks", number(counters.late_ticks)},
-          {"tick_p50_ms", millis(times.quantile(0.5))},
-          {"tick_p99_ms", millis(times.quantile(0.99))},
-          {"joined", number(counters.joined)}};
+  return {
+      {"server", m_access.context.options.name},
+      {"version", std::string(kVersion)},
+      {"game", m_access.context.game},
+      {"address", m_access.endpoint.address()},
+      {"uptime_seconds", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
+      {"rooms", number(m_access.clients.rooms().countAwake())},
+      {"players", number(m_access.clients.sessions().playingCount())},
+      {"connected", number(m_access.clients.sessions().connectedCount())},
+      {"max_players", std::int64_t{m_access.context.options.max_players}},
+      {"password", m_access.clients.admission().needsPassword()},
+      {"ticks", number(counters.ticks)},
+      {"late_ticks", number(counters.late_ticks)},
+      {"tick_p50_ms", millis(times.quantile(0.5))},
+      {"tick_p99_ms", millis(times.quantile(0.99))},
+      {"joined", number(counters.joined)}};
 }
 
 std::vector<AdminRow> HostAdmin::rooms() const {
@@ -138,7 +139,7 @@ std::vector<AdminRow> HostAdmin::rooms() const {
                     {"max_players", std::int64_t{room.plan()->max_players}},
                     {"asleep", room.isAsleep()},
                     {"ticks", static_cast<std::int64_t>(room.ticks())},
-                    {"late_ticks", static_cast<std::int64_t>(room.lateTicks())}});
+                    {"missed_ticks", static_cast<std::int64_t>(room.lateTicks())}});
   });
   return rows;
 }
@@ -148,7 +149,7 @@ Session* HostAdmin::findPlaying(std::uint64_t session) const {
   return p_session != nullptr && p_session->state() == Session::State::kPlaying ? p_session : nullptr;
 }
 
-// Ending the session also invalidates its resume token (Admission::forgetSession).
+// This also invalidates the resume token of the session (Admission::forgetSession).
 void HostAdmin::kickPlayer(std::uint64_t session, const std::string& sentence) {
   if (Session* p_session = findPlaying(session))
     p_session->sendGoodbye(safeText(sentence, kMaxMessageLength));
@@ -201,7 +202,7 @@ void HostAdmin::handOverRound(std::function<void(AdminAnswer)> done) {
   m_access.controls.handOverRound(answering(std::move(done)));
 }
 
-// The time limit is that of the command, else --drain-time. If both are absent, there is no limit.
+// The time limit is that of the command, or else --drain-timeout. If both are absent, there is no limit.
 AdminAnswer HostAdmin::drain(std::optional<std::chrono::seconds> most) {
   ShutdownScheduler::Plan plan{.when_empty = true};
   std::chrono::duration<double> patience(m_access.context.options.drain_time);
@@ -291,16 +292,19 @@ void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)
 
 AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {
   const auto& names = changeableOptions();
-  if (std::find(names.begin(), names.end(), option) == names.end())
+  const auto found = std::find_if(names.begin(), names.end(), [&option](const std::string& name) {
+    return name == option || formerNameOf("--" + name) == "--" + option;
+  });
+  if (found == names.end())
     return AdminAnswer::refused("\"" + option + "\" cannot be changed while the server runs.");
   HostOptions changed = m_access.context.options;
   try {
-    setHostOption(changed, option, value);
+    setHostOption(changed, *found, value);
   } catch (const OptionError& error) {
     return AdminAnswer::refused(error.what());
   }
   m_access.controls.applyOptions(changed);
-  return AdminAnswer::done(option + " is " + hostOptionValue(m_access.context.options, option) + ".");
+  return AdminAnswer::done(*found + " is " + hostOptionValue(m_access.context.options, *found) + ".");
 }
 
 AdminRow HostAdmin::settings() const {

@@ -24,12 +24,13 @@ struct AdminRestart {
   std::chrono::seconds in{0};  ///< delay of kIn
 };
 
-/// Selects scores. The game is `game`, else the game of `room`, else the server's only one.
+/// Selects scores. The game is `game`; if that is empty, the game of `room`; if both are, the server's only
+/// one.
 struct AdminScores {
   std::string table;      ///< empty: all tables of the game
   std::size_t count = 0;  ///< rows of each table
-  std::string room;       ///< may be empty
-  std::string game;       ///< may be empty
+  std::string room;       ///< name of a room; may be empty
+  std::string game;       ///< name of a game; may be empty
 };
 
 /// Call all functions on the host's thread, between two ticks. None of them blocks.
@@ -58,11 +59,11 @@ class HostAdmin {
   AdminAnswer restart(const AdminRestart& restart);
   /// Calls HostControls::handOverRound().
   void handOverRound(std::function<void(AdminAnswer)> done);
-  /// `most`: time limit; nullopt: --drain-time.
+  /// Ends the server when all players have left. `most`: time limit; nullopt: that of --drain-timeout.
   AdminAnswer drain(std::optional<std::chrono::seconds> most);
   AdminAnswer cancel();
   void reload(std::function<void(AdminAnswer)> done);
-  /// nullopt: new players need no password.
+  /// Sets the password of new players; nullopt: they need none.
   AdminAnswer changePassword(std::optional<PasswordHash> hash);
   /// Answers with rows of the score file, best first.
   void scores(const AdminScores& which, std::function<void(AdminAnswer)> done);
@@ -78,7 +79,7 @@ class HostAdmin {
     std::vector<std::string> rooms;
   };
   std::vector<Board> boards() const;
-  /// Returns null, with the reason in `refusal`, if no board or more than one matches.
+  /// Returns null, with the reason in `refusal`, if no board matches or more than one could be meant.
   static const Board* findBoard(const std::vector<Board>& boards, const AdminScores& which,
                                 AdminAnswer& refusal);
   Session* findPlaying(std::uint64_t session) const;

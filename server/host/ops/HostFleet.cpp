@@ -40,7 +40,8 @@ class SystemdPlatform : public HostPlatform {
 };
 
 constexpr std::chrono::seconds kSayPlayers{1};
-constexpr std::chrono::milliseconds kFinishTimeout{1500};  ///< timeout of finish(), for bus and platform each
+constexpr std::chrono::milliseconds kFinishTimeout{
+    1500};  ///< timeout of finish() for the bus, and again for the platform
 
 BusSettings busSettings(const HostOptions& options) {
   return {options.bus, options.bus_credentials, options.bus_ca};
@@ -91,7 +92,7 @@ HostFleet::HostFleet(const HostAccess& access, HostScores& scores)
   if (access.context.options.bus.empty()) return;
   m_id = busId(access.context.options, access.endpoint.port());
   BusSettings settings = busSettings(access.context.options);
-  settings.subjects = {redirectSubject(m_id)};
+  settings.subjects = {redirectSubject(m_id), formerRedirectSubject(m_id)};
   m_bus = connectBus(settings);
   access.clients.admission().setFindRedirect([this] { return redirectLink(); });
   scores.setObserver([this](const ScoreRow& row, const std::string& game) { publishScore(row, game); });
@@ -121,7 +122,7 @@ void HostFleet::tick(Clock::time_point now) {
   popLogMessage();
 }
 
-// Ignores invalid messages. An earlier valid redirect expires by itself (redirectLink()).
+// Stores the directory's newest valid redirect. An earlier one expires by itself (redirectLink()).
 void HostFleet::processRedirects(Clock::time_point now) {
   if (!m_bus) return;
   for (const BusMessage& message : m_bus->popMessages()) {
@@ -204,7 +205,7 @@ void HostFleet::drain() {
   m_bus->publish({presenceSubject(m_id), last.payload()});
 }
 
-// The platform comes last, because it may remove the server as soon as it is told of the end.
+// Finishes with the platform last, because it may remove the server as soon as it is told of the end.
 void HostFleet::finish() {
   if (m_bus) m_bus->finish(kFinishTimeout);
   m_platform->finish(kFinishTimeout);

@@ -32,7 +32,8 @@ class HostFleet : public HostPart {
   std::chrono::milliseconds interval() const {
     return std::chrono::milliseconds(m_access.context.options.bus_interval_ms);
   }
-  /// Returns a link to another server of the fleet with free places, named by the directory; nullopt: none.
+  /// Returns a link to another server of the fleet with free places, as the directory named it; nullopt:
+  /// none.
   std::optional<JoinLink> redirectLink() const;
   /// Publishes a score row that is about to be written. Called once per row.
   void publishScore(const ScoreRow& row, const std::string& game);
@@ -43,7 +44,7 @@ class HostFleet : public HostPart {
 
   HostAccess m_access;
   std::unique_ptr<HostPlatform> m_platform;
-  std::unique_ptr<Bus> m_bus;                 ///< null: none
+  std::unique_ptr<Bus> m_bus;                 ///< null: no bus
   std::string m_id;                           ///< name on the bus
   Clock::time_point m_players_reported_at{};  ///< last report of players to the platform
   Clock::time_point m_presence_sent_at{};

@@ -119,7 +119,7 @@ void HostMetrics::measureSessions() {
   });
 }
 
-// The clocks are read one after the other, so `other` is not exact. The counters must still never decrease.
+// The clocks are read one after the other, so `other` is not exact. But no counter ever decreases.
 void HostMetrics::measureCpu() {
   MetricsSnapshot::Cpu& cpu = m_next.cpu;
   cpu.tick = cpuOf(CLOCK_THREAD_CPUTIME_ID);

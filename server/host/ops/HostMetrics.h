@@ -24,7 +24,7 @@ class LatestValue {
  public:
   ~LatestValue() { delete m_newest.load(); }
 
-  /// Replaces the value. An older one that was not taken is dropped.
+  /// Replaces the value. Drops an older one that was not read.
   void publish(std::unique_ptr<const T> value) {
     delete m_newest.exchange(value.release(), std::memory_order_acq_rel);
   }

@@ -23,7 +23,7 @@ class HostScores : public HostPart, public ScoreBoard {
   explicit HostScores(const HostAccess& access);
 
   void setObserver(Observer observer) { m_observer = std::move(observer); }
-  /// Returns the tables of this game. Opens them on the first call.
+  /// Returns the score tables of this game. Opens them on the first call.
   ScoreKeeper& of(const std::string& game);
 
   const Tables& tables(const std::string& game) override { return of(game).tables(); }

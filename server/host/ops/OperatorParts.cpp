@@ -59,7 +59,7 @@ class HostCommands : public HostPart {
   void tick(Clock::time_point now) override { m_chat.update(now); }
   /// Stops accepting commands. Waits until accepted changes are written.
   void finish() override {
-    // The socket goes first, so that no command arrives while the worker finishes its jobs.
+    // Closes the socket first, so that no command arrives while the worker finishes its jobs.
     m_control.reset();
     m_worker.finish();
   }
@@ -80,7 +80,7 @@ class HostCommands : public HostPart {
     }
   }
   ControlSocketOptions listening(bool by_default) const {
-    // Refuses worlds (descendants) and processes of PID namespaces that have no number in this one.
+    // Refuses world processes (descendants), and processes of PID namespaces that have no number in this one.
     ControlSocketOptions listening;
     listening.path = m_access.context.options.control;
     if (by_default) {
@@ -105,7 +105,7 @@ class HostCommands : public HostPart {
   HostAdmin m_admin;
   AdminConsole m_console;
   ChatCommands m_chat;
-  std::unique_ptr<ControlSocket> m_control;  ///< null: none
+  std::unique_ptr<ControlSocket> m_control;  ///< null: no control socket
 };
 
 /// Lets players find a server: in the local network (--lan), and by a file for server lists on the web
@@ -123,13 +123,13 @@ class HostListing : public HostPart {
   }
   /// Publishes the number of players.
   void tick(Clock::time_point /*now*/) override {
-    const std::size_t playing = m_access.clients.sessions().playing();
+    const std::size_t playing = m_access.clients.sessions().playingCount();
     if (m_lan) m_lan->setPlayers(playing);
     if (!m_status) return;
     m_status->setPlayers(static_cast<std::uint32_t>(playing));
     if (const std::string news = m_status->popLogMessage(); !news.empty()) m_access.context.log(news);
   }
-  /// Stops to answer queries and removes the status file.
+  /// Stops answering queries and removes the status file.
   void drain() override {
     if (m_lan) m_lan->stop();
     m_status.reset();
@@ -142,7 +142,7 @@ class HostListing : public HostPart {
                                            {"routed", lan.routed},
                                            {"foreign", lan.foreign},
                                            {"malformed", lan.malformed},
-                                           {"too_often", lan.too_often},
+                                           {"rate_limited", lan.rate_limited},
                                            {"unsent", lan.unsent}});
     if (!text.empty()) m_access.context.log("local network: " + text);
   }
@@ -182,7 +182,7 @@ class HostListing : public HostPart {
 
 }  // namespace
 
-// The fleet comes last, because a platform may remove the server as soon as it is told of the end.
+// The part for the fleet is last, because a platform may remove the server as soon as it is told of the end.
 extern "C" void naiad_makeOperatorParts(const HostAccess& access,
                                         std::vector<std::unique_ptr<HostPart>>& parts) {
   auto scores = std::make_unique<HostScores>(access);

@@ -59,7 +59,7 @@ void StatusFile::run() {
   }
 }
 
-// Reports a failure (like a full disk) once, and once when writing works again.
+// Reports a failure (such as a full disk) once, and once more when writing works again.
 void StatusFile::write(const ServerInfo& facts) {
   std::string problem;
   try {

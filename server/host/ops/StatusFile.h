@@ -1,6 +1,6 @@
 // A JSON file with the server's status, for server lists on the web, replaced atomically every 5 seconds.
 //
-// It contains no names of players and no address except the public one (--link-host). A thread of its own
+// It contains no names of players and no address except the public one (--public-host). A thread of its own
 // writes it, so a slow disk does not delay the game.
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace naiad {
 
 /// Returns one line of ASCII JSON: name, game, players, max_players, password, protocol, version, and link.
-/// `link`: for players elsewhere; omitted if empty.
+/// `link`: a link for players on other machines; omitted if empty.
 std::string statusText(const ServerInfo& facts, const std::string& link);
 
 class StatusFile {

@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Time limit for the end of a killed process: one that waits for a disk may stay.
+/// Maximum time to wait for the end of a killed process, which may not end while it waits for a disk.
 constexpr std::chrono::seconds kKillTime{2};
 
 /// A descriptor that is closed at the end of its block.
@@ -43,7 +43,7 @@ int millisUntil(Clock::time_point end) {
   return static_cast<int>(std::clamp<long long>(left + 1, 0, 60'000));
 }
 
-/// Reads what is there without waiting. Returns false at the end of the output.
+/// Reads the output that is there, without waiting. Returns false at the end of the output.
 bool readInto(std::string& output_text, int from) {
   char part[4096];
   while (true) {

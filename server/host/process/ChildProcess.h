@@ -18,17 +18,17 @@ struct ChildExit {
 
   int code = kNotStarted;   ///< exit code, if no signal ended it
   int signal = 0;           ///< signal that ended it; 0: none
-  bool timed_out = false;   ///< it was killed because its time was over
+  bool timed_out = false;   ///< true if it was killed because its time was over
   std::string output_text;  ///< beginning of its standard output and error
 };
 
 class ChildProcess {
  public:
-  /// Maximum bytes of its output that are kept.
+  /// Maximum bytes of its output in ChildExit::output_text; further ones are dropped.
   static constexpr std::size_t kMaxOutput = std::size_t{64} << 10;
 
-  /// Runs the program at `path` with these arguments, without input, and waits for its end. After `limit` it
-  /// is killed. It gets the environment of this process and none of its other descriptors. One at a time.
+  /// Runs one program, at `path` with these arguments, without input, and waits for its end. Kills it after
+  /// `limit`. It gets the environment of this process and none of its other descriptors.
   ChildExit run(const std::string& path, const std::vector<std::string>& arguments,
                 std::chrono::milliseconds limit);
   /// Kills the program that runs, and prevents further ones. Any thread.

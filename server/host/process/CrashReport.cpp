@@ -90,7 +90,7 @@ class Line {
     part(of_day % 60, " ");
     return *this;
   }
-  /// Writes to all files that accept it at once: one that stalls must not keep the process alive.
+  /// Writes to all files that accept it at once, because a file that stalls must not keep the process alive.
   void write() const {
     for (const int file : g_files) {
       pollfd ready{file, POLLOUT, 0};
@@ -140,7 +140,7 @@ void writeHint() {
 
 void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
   if (!g_reported.test_and_set()) {
-    LineLog::waitUntilWritten(kForLog);  // only atomics and sleeps; the game's last lines matter now
+    LineLog::waitUntilWritten(kForLog);  // safe here: only reads atomics and sleeps
     writeLine(signal);
     writeLog();
     writeHint();
@@ -148,7 +148,8 @@ void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   sigaction(signal, &action, nullptr);
-  // A fault happens again when this returns. A signal that was sent (abort(), kill) does not.
+  // A fault happens again when this handler returns. A signal that was sent (abort(), kill) must be raised
+  // again.
   if (p_info->si_code <= 0) raise(signal);
 }
 

@@ -11,13 +11,13 @@ class World;
 
 namespace naiad::crash {
 
-/// While this exists, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) writes a line to stderr and, if that
-/// is another file, to `log`, the last lines of the game's log, and a hint. Then the signal has its usual
-/// effect, with core dump and exit status. Signals that already have a handler (of a sanitizer or the game)
-/// are left alone. The thread that makes it may overflow its stack. One at a time.
+/// While this exists, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) is reported on stderr and, if that
+/// is another file, in `log`: one line, the last lines of the game's log, and a hint. Then the signal has its
+/// usual effect, with core dump and exit status. Signals that already have a handler (of a sanitizer or the
+/// game) are left alone. A stack overflow is reported only on the thread that makes this. One at a time.
 class Report {
  public:
-  /// `name`: the program's. `log`: a descriptor; below 0: none.
+  /// `name`: the program's name. `log`: a descriptor; below 0: none.
   Report(const std::string& name, int log);
   /// Later crashes are written to stderr alone.
   ~Report();
@@ -34,12 +34,12 @@ void clearWorld(df::World& world);
 /// thread.
 std::string activity(std::string_view verb);
 
-/// inTick() is true if a tick is running, and where() is " in tick 17, while Ship handled EventStep". Both on
-/// the thread that ticks.
+/// inTick() is true if a tick is running; where() returns " in tick 17, while Ship handled EventStep". Call
+/// both on the thread that ticks.
 bool inTick();
 std::string where();
 
-/// Call when tick `number` begins, and with 0 when one has ended, on the thread that ticks.
+/// Call on the thread that ticks: with its number when a tick begins, and with 0 when it has ended.
 void setTick(std::uint64_t number);
 
 }  // namespace naiad::crash

@@ -23,15 +23,15 @@ struct FeedEvent {
 /// Thread-safe. Publishing never waits, and costs nothing without watchers.
 class EventFeed {
  public:
-  /// Maximum events that wait for the reader; further ones are dropped and counted.
+  /// Maximum number of events that wait for the reader; further ones are dropped and counted.
   static constexpr std::size_t kMaxWaiting = 512;
-  /// Rate limit for lines of games: per second, and burst for the start of a round. Others are dropped and
-  /// counted.
+  /// Rate limit for lines of games: lines per second, and burst for the start of a round. Further lines are
+  /// dropped and counted.
   static constexpr BucketRate kGameRate{100, 500};
-  /// Maximum bytes of such a line.
+  /// Maximum bytes of a game's line; the rest of it is dropped.
   static constexpr std::size_t kMaxGameLine = 1000;
 
-  /// Starts the feed. `wake` is called, on the publisher's thread, when a first event waits.
+  /// Starts the feed. `wake` is called, on the publisher's thread, when an event is added to the empty feed.
   void begin(std::function<void()> wake);
   /// Stops the feed; `wake` is not called after this.
   void end();

@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kPort = "--port";
 
-/// Replaces a port on the command line. Over one elsewhere the environment takes precedence.
+/// Replaces the port on the command line, if any. run() sets the variable that overrides one in a config
+/// file.
 std::vector<std::string> withPort(std::vector<std::string> arguments, const std::string& port) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (arguments[i] == kPort && i + 1 < arguments.size()) arguments[i + 1] = port;
@@ -33,7 +34,7 @@ std::vector<const char*> argvPointers(const std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Returns the path of this process's program. An upgrade may have put another file there, which is then run.
+/// Returns the path of this process's program. If an upgrade has put a new file there, that one will be run.
 std::string programPath() {
   constexpr std::string_view kReplaced = " (deleted)";  // added by the kernel
   std::error_code error;
@@ -71,7 +72,7 @@ void ReexecCommand::run(std::uint16_t port) const {
   setenv("NAIAD_PORT", number.c_str(), 1);
   const std::vector<std::string> arguments = withPort(m_arguments, number);
   execv(m_program.c_str(),
-        const_cast<char* const*>(argvPointers(arguments).data()));  // execv() changes none of them
+        const_cast<char* const*>(argvPointers(arguments).data()));  // execv() does not change the arguments
   throw std::system_error(errno, std::generic_category(), "cannot restart the server");
 }
 

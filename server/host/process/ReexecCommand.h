@@ -23,8 +23,8 @@ class ReexecCommand {
   int argc() const { return static_cast<int>(m_arguments.size()); }
   /// Returns pointers to all words, then a null one. Valid as long as this.
   std::vector<const char*> argv() const;
-  /// Executes the program again with --port `port`, whatever port was asked for. Close what is open first.
-  /// Throws std::system_error if it fails.
+  /// Executes the program again with this port, whatever port the command line gave. Close sockets and files
+  /// before. Throws std::system_error if it fails.
   [[noreturn]] void run(std::uint16_t port) const;
 
  private:

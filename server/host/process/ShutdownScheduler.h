@@ -14,7 +14,7 @@ class ShutdownScheduler {
 
   /// Players get a last notice this long before the end.
   static constexpr std::chrono::seconds kFinalNotice{10};
-  /// Clients look for a restarting server for this long.
+  /// Clients try to reconnect to a restarting server for this long.
   static constexpr std::chrono::seconds kReconnectWindow{60};
 
   struct Plan {
@@ -30,7 +30,7 @@ class ShutdownScheduler {
   /// Cancels the plan. Returns false if there was none.
   bool cancel();
   const std::optional<Plan>& plan() const { return m_plan; }
-  /// True if new players may join: not if the server ends for good at a time, or when all have left.
+  /// True if new players may join. False if the server ends for good at a set time or when all have left.
   bool acceptsPlayers() const { return !m_plan || m_plan->is_restart || !(m_plan->when_empty || m_plan->at); }
 
   /// True if it is time to end. `is_empty`: no players are left.

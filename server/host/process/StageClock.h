@@ -1,7 +1,7 @@
 // Measures the tick thread's time by stage of the tick, and how late ticks begin and how long they take.
 //
-// A stage ends where the next one begins, so each change costs one reading of the clock. A clock that was not
-// started reads none.
+// A stage ends where the next one begins, so each change reads the clock once. Before start(), the clock is
+// never read.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class Histogram {
  public:
   static constexpr std::size_t kMaxBounds = 16;
 
-  /// `bounds`: the highest value of each bucket, rising, at most kMaxBounds; they must outlive the histogram.
+  /// `bounds`: the highest values of the buckets, ascending, at most kMaxBounds; must outlive the histogram.
   explicit Histogram(std::span<const double> bounds)
       : m_bounds(bounds.first(std::min(bounds.size(), kMaxBounds))) {}
 
@@ -47,7 +47,7 @@ enum class Stage : std::uint8_t {
   kReceive,     ///< reading the datagrams since the last tick
   kSessions,    ///< deadlines of sessions; ends and starts of rounds
   kInputs,      ///< passing keys and clicks to the worlds
-  kWorld,       ///< the game's code and the engine; sending the turn, for worlds in processes of their own
+  kWorld,       ///< the game's code and the engine; for worlds in processes, only sending the turn
   kPublish,     ///< comparing published models with the world
   kSnapshots,   ///< writing snapshots for each player
   kBroadcasts,  ///< sending sounds, lists of players, and lines
@@ -55,13 +55,13 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr std::size_t kStages = 9;
 
-/// Upper bounds of buckets, in seconds. The default tick, 33 ms, is one of them.
+/// Upper bounds of the buckets of tick times, in seconds. The default tick, 33 ms, is one of them.
 inline constexpr std::array<double, 14> kTickBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                     0.02,   0.033,   0.05,   0.1,   0.25,   0.5,   1};
 inline constexpr std::array<double, 11> kLatenessBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,
                                                         0.01,   0.033,   0.1,    0.5,   1};
 
-/// current(), tick() and tickBegan() may be called on any thread, all else only on the one that ticks.
+/// Any thread may call current(), tick() and tickBegan(); only the thread that ticks may call the others.
 class StageClock {
  public:
   using Clock = std::chrono::steady_clock;
@@ -71,7 +71,7 @@ class StageClock {
     m_on = true;
     m_since = Clock::now();
   }
-  /// Enters a stage. Returns the one before.
+  /// Enters a stage. Returns the previous one.
   Stage enter(Stage stage) {
     if (!m_on) return Stage::kIdle;
     const Stage before = m_current.load(std::memory_order_relaxed);
@@ -89,13 +89,13 @@ class StageClock {
     m_lateness.add(std::chrono::duration<double>(now - deadline).count());
     m_in_tick = true;
   }
-  /// Ends the tick: the network thread has all that it sent. Further calls for one tick are ignored.
+  /// Ends the tick: the network thread has all that it sent. Later calls for the tick are ignored.
   void endTick() {
     if (!m_in_tick) return;
     m_in_tick = false;
     m_durations.add(std::chrono::duration<double>(Clock::now() - tickBegan()).count());
   }
-  /// Returns the newest tick; 0: none has begun.
+  /// Returns the number of the newest tick; 0: none has begun.
   std::uint64_t tick() const { return m_tick.load(std::memory_order_relaxed); }
   Clock::time_point tickBegan() const {
     return Clock::time_point(Clock::duration(m_began.load(std::memory_order_relaxed)));

@@ -24,7 +24,7 @@ void onHangup(int /*signal*/) {
   g_hung_up = true;
 }
 
-// Called before a signal comes, because the terminal may be gone afterwards.
+// Call before a signal comes, because the terminal may be gone afterwards.
 bool hasControllingTerminal() {
   const int terminal = ::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (terminal >= 0) ::close(terminal);

@@ -5,9 +5,9 @@
 
 namespace naiad {
 
-/// Handlers are installed while this exists; a signal counts for all objects. SIGHUP asks for the end like
-/// the others if the process has a controlling terminal when this is made: that terminal is gone. Without a
-/// terminal it is reported by popHangup(). If it is ignored (nohup), it stays so.
+/// Handlers are installed while this exists; a signal counts for all objects. If the process has a
+/// controlling terminal when this is made, SIGHUP asks for the end, too, because it means that the terminal
+/// is gone. Without a terminal, popHangup() reports it. If SIGHUP is ignored (nohup), it stays ignored.
 class StopSignals {
  public:
   StopSignals();
@@ -18,7 +18,7 @@ class StopSignals {
   /// Returns the number of signals that have asked for the end since this was installed. Any thread.
   int count() const;
   bool isStopRequested() const { return count() > 0; }
-  /// Returns the last of these signals. Any thread.
+  /// Returns the newest signal that has asked for the end. Any thread.
   int signal() const;
   /// True, once, after a SIGHUP that does not ask for the end.
   bool popHangup();

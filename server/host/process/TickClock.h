@@ -20,8 +20,8 @@ struct TickLength {
   }
 };
 
-/// Deadlines are counted from one origin, so rounding never adds up. A tick that is late by a whole tick
-/// re-bases the schedule: lost time is not made up by running faster.
+/// Deadlines are counted from one origin, so rounding never adds up. If a tick is late by a whole tick, the
+/// schedule starts anew (is re-based), so that lost time is not made up by running faster.
 class TickClock {
  public:
   using Clock = std::chrono::steady_clock;

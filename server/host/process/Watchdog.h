@@ -1,5 +1,5 @@
-// A thread that watches the tick thread, which notices nothing itself while a game does not return from a
-// handler.
+// A thread that watches the tick thread, because that cannot notice anything while a game does not return
+// from a handler.
 #pragma once
 
 #include <atomic>
@@ -18,12 +18,12 @@
 
 namespace naiad {
 
-/// A log for threads that must not wait, as when ending a server whose game may hold the log's lock. Passes
-/// lines on, in order, on a thread of its own, which is started in advance.
+/// A log for threads that must not wait, for example to end a server whose game may hold the log's lock.
+/// Passes lines on, in order, on a thread of its own, which is started in advance.
 class AsyncLog {
  public:
   explicit AsyncLog(LogLine log);
-  /// Waits for all lines, however long they take.
+  /// Waits until all lines are passed on, however long that takes.
   ~AsyncLog();
 
   /// Adds a line, without waiting for the log. Any thread.
@@ -50,7 +50,8 @@ class HangDetector {
 
   /// Time in one tick after which the game counts as hanging.
   static constexpr std::chrono::seconds kHangTime{1};
-  /// A server that was asked to end waits this long for a tick, and this long after the signal.
+  /// After a request to end, the server exits without its game if a tick takes kTickBeforeEnd and the first
+  /// signal came at least kSignalBeforeEnd ago.
   static constexpr std::chrono::seconds kTickBeforeEnd{3};
   static constexpr std::chrono::seconds kSignalBeforeEnd{1};
 
@@ -81,9 +82,9 @@ class HangDetector {
 
 /// The end of a server without its game.
 struct ForcedExit {
-  bool hung = false;       ///< the tick did not finish; false: there was a second signal
+  bool hung = false;       ///< true: the tick did not finish; false: there was a second signal
   std::uint64_t tick = 0;  ///< the tick that did not finish; 0: none was running
-  int signal = 0;          ///< signal that asked for it
+  int signal = 0;          ///< the last signal that asked for the end
 };
 
 class Watchdog {
@@ -94,7 +95,7 @@ class Watchdog {
   Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedExit&)> end);
   ~Watchdog();
 
-  /// Call these on the thread that ticks.
+  /// Call beginTick() and endTick() on the thread that ticks.
   void beginTick(std::uint64_t number);
   void endTick() { m_since.store(0, std::memory_order_release); }
 
@@ -107,7 +108,7 @@ class Watchdog {
   LogLine m_log;
   std::function<void(const ForcedExit&)> m_end;
   std::atomic<std::uint64_t> m_tick = 0;
-  std::atomic<Clock::rep> m_since = 0;  ///< when the tick began; 0: none is running
+  std::atomic<Clock::rep> m_since = 0;  ///< when the running tick began; 0: none is running
   std::mutex m_mutex;
   std::condition_variable m_changed;
   bool m_stopping = false;

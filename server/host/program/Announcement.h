@@ -9,14 +9,14 @@ namespace naiad {
 class HostEndpoint;
 struct HostOptions;
 
-/// Hints which settings let more or fewer players in; one sentence each.
+/// Hints about the settings that let more or fewer players in; one sentence each.
 struct AccessHints {
   std::string how_to_open;
   std::string how_to_restrict;
 };
 
 /// Returns lines for the player: "Join from this machine with: dfclient naiad://…", how to join from
-/// elsewhere, by ssh and in a browser as far as the options name these, and the address it listens on.
+/// elsewhere, by ssh and in a browser if the options name these, and the address on which it listens.
 std::vector<std::string> joinInstructions(const HostEndpoint& endpoint, const HostOptions& options,
                                           const AccessHints& openness);
 /// Returns the QR code if HostOptions::qr is set, or a line that says why there is none; otherwise empty.

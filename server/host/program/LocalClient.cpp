@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Flushes what the game has printed so far, to where it was printed.
+// Flushes the output that the game has printed so far, to the place where it was printed.
 void flushAll() {
   std::cout.flush();
   std::clog.flush();
   std::fflush(stdout);
 }
 
-// Opens a regular file, otherwise /dev/null: a pipe that is not read would block the game.
+// Opens a regular file, otherwise /dev/null, because a pipe without a reader would block the game.
 int openOrNull(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0640);
   struct stat facts {};
@@ -120,7 +120,7 @@ std::optional<fs::path> LocalClient::findProgram() {
     return isProgram(p_named) ? std::optional<fs::path>(p_named) : std::nullopt;
   }
   const fs::path own = ownFolder();
-  for (const char* bin : {"../bin", "../../bin"}) {  // lib, or lib/x86_64-linux-gnu
+  for (const char* bin : {"../bin", "../../bin"}) {  // relative to lib, or lib/x86_64-linux-gnu
     if (const fs::path path = own / bin / "dfclient"; isProgram(path)) return path.lexically_normal();
   }
   const char* p_path = std::getenv("PATH");
@@ -143,7 +143,7 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
   for (int n = 0; n < 3; ++n) {
     if (m_redirect.original(n) >= 0) posix_spawn_file_actions_adddup2(&actions, m_redirect.original(n), n);
   }
-  // The client must not inherit the game's sockets: it would keep the port in use as long as it lives.
+  // The client must not inherit the game's sockets, because it would keep the port in use while it lives.
   posix_spawn_file_actions_addclosefrom_np(&actions, 3);
   const int problem = posix_spawn(&m_process, program.c_str(), &actions, nullptr, argvPointers(words).data(),
                                   argvPointers(environment).data());
@@ -170,7 +170,7 @@ bool LocalClient::hasEnded() {
   int status = 0;
   const pid_t ended = waitpid(m_process, &status, WNOHANG);
   if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
-  // A game that waits for its own child processes may have taken the status.
+  // If the game waits for its own child processes, it may have taken the status.
   m_failed = ended > 0 && meansFailure(status);
   m_process = -1;
   return true;

@@ -13,15 +13,15 @@ namespace naiad {
 /// Redirects the game's output to a file and empties its input while a client uses this process's terminal.
 class OutputRedirect {
  public:
-  /// Appends standard output, and standard error if it is a terminal, to this file; to /dev/null if it cannot
-  /// be opened. Standard input is empty. Throws std::system_error if file descriptors run out.
+  /// Appends standard output, and standard error if it is a terminal, to this file, or to /dev/null if the
+  /// file cannot be opened. Standard input is empty. Throws std::system_error if file descriptors run out.
   explicit OutputRedirect(const std::string& path);
   /// Restores the standard descriptors.
   ~OutputRedirect();
   OutputRedirect(const OutputRedirect&) = delete;
   OutputRedirect& operator=(const OutputRedirect&) = delete;
 
-  /// The original of standard descriptor `n` (0, 1, 2).
+  /// Returns the original standard input, output or error (`n`: 0, 1, 2), as a duplicate.
   int original(int n) const { return m_saved[n]; }
 
  private:

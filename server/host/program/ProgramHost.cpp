@@ -44,7 +44,7 @@ namespace fs = std::filesystem;
 
 enum ExitCode { kGameFailed = 1, kUsage = 2, kCannotListen = 4, kFile = 5 };
 
-constexpr std::chrono::seconds kLogTime{1};  ///< time to write log lines at the end
+constexpr std::chrono::seconds kLogTime{1};  ///< maximum time to write log lines at the end
 
 const AccessHints kOpenness{
     "NAIAD_PUBLIC=1 in the environment, or public:true, in df-config.txt, allows others.",
@@ -54,7 +54,7 @@ std::string programName() {
   return program_invocation_short_name;
 }
 
-bool g_failed = false;  ///< fail() has already printed the reason
+bool g_failed = false;  ///< true if fail() has already printed the reason
 
 [[noreturn]] void fail(ExitCode code, const std::string& sentence) {
   g_failed = true;
@@ -93,8 +93,8 @@ std::string placeInConfig(const std::string& key) {
   return place.append(": ").append(key);
 }
 
-/// Adds folders to search for sprites and sounds after the working directory: the program's and the one
-/// above, because many build in a subfolder.
+/// Adds folders to search for sprites and sounds after the working directory: the program's folder and its
+/// parent, because many games are built in a subfolder.
 void addFolders(df::World& world) {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -152,7 +152,7 @@ class TerminalPlayer {
   /// Call once a tick.
   void update() {
     if (m_client && m_client->hasEnded()) endClient();
-    if (m_local_left && m_host.clients().sessions().connected() == 0) m_host.stop("The game is over.");
+    if (m_local_left && m_host.clients().sessions().connectedCount() == 0) m_host.stop("The game is over.");
   }
 
  private:
@@ -163,7 +163,7 @@ class TerminalPlayer {
     m_local_left = !failed;
     if (failed) {
       std::cout << "The client failed; the game continues as a server. Ctrl-C stops it." << std::endl;
-    } else if (const std::size_t others = m_host.clients().sessions().connected(); others > 0) {
+    } else if (const std::size_t others = m_host.clients().sessions().connectedCount(); others > 0) {
       std::cout << others << " still playing: the server stops when they have left, or with Ctrl-C."
                 << std::endl;
     }
@@ -193,7 +193,7 @@ class WatchedLog {
   df::World& m_world;
 };
 
-/// Executes the program again in this process; the game's statics are lost.
+/// Executes the program again in this process, so that the game's static variables start afresh.
 [[noreturn]] void beginAgain(std::unique_ptr<Host>& host) {
   const std::uint16_t port = host->endpoint().port();
   host.reset();

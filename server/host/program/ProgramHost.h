@@ -30,7 +30,7 @@ class ProgramHost : public df::running::Program {
   bool m_started = false;  ///< true after startUp()
   HostOptions m_options;
   std::set<std::string> m_given;      ///< names of the options set by the environment or df-config.txt
-  int m_ticks = 0;                    ///< headless ticks of all runs
+  int m_ticks = 0;                    ///< number of headless ticks in all runs
   bool m_stopped = false;             ///< ended by a signal, an option or the last player, not by the game
   std::optional<int> m_world_socket;  ///< socket to the host, in a process started for a world
 };

@@ -47,7 +47,7 @@ enum ExitCode { kOk = 0, kGameFailed = 1, kUsage = 2, kNoGame = 3, kCannotListen
 const naiad::AccessHints kOpenness{"--address :: allows other machines.",
                                    "--address 127.0.0.1 restricts it to this machine."};
 
-/// Connects games to the host. Undone however the game ends, because the game's statics outlive the host.
+/// Connects games to the host while it exists, however the game ends: the game's statics outlive the host.
 struct Installed {
   Installed(df::Runner& runner, const naiad::Host::Log& log) {
     LM.setSink(log);
@@ -79,8 +79,8 @@ ExitCode play(const naiad::GameModule& game) {
   return kGameFailed;
 }
 
-/// Returns a log for lines of a game. It marks them, because they may contain player names and could look
-/// like lines of the server.
+/// Returns a log for lines of a game. It marks the lines, because they may contain player names and could
+/// look like lines of the server.
 naiad::LogLine markedLog(naiad::LineLog& log) {
   return [&log](const std::string& line) { log({"game", "game: " + line, {}}); };
 }
@@ -122,10 +122,10 @@ ExitCode failGame(const std::string& how) {
   return kGameFailed;
 }
 
-/// Reports how a game ended before players could join.
+/// Reports that the game ended before players could join. Returns the exit code.
 ExitCode failPreview(const naiad::WorldEnd& end) {
   if (end.why == naiad::WorldEnd::kGameOver) return kOk;
-  if (end.exit_code == kNoGame) return kNoGame;  // it has printed the reason
+  if (end.exit_code == kNoGame) return kNoGame;  // the world's process has printed the reason
   for (const std::string& line : end.last_lines) std::cerr << "dfserver: the game's log: " << line << "\n";
   return failGame(end.text + (end.when.empty() ? " before GM.run()" : " " + end.when));
 }
@@ -144,7 +144,7 @@ struct Start {
   std::string config;                                ///< argument of --config
   std::optional<std::uint16_t> again = {};           ///< port of the restart; nullopt: no restart
   std::optional<naiad::InheritedSockets> kept = {};  ///< sockets for every restart
-  /// Sockets for the next restart only, so that the port stays open for players of a kept round.
+  /// Sockets for the next restart only: the port stays open for players of a round that is handed over.
   std::optional<naiad::InheritedSockets> handed_over = {};
 };
 
@@ -181,7 +181,8 @@ void recordEnd(const naiad::Host& host, const naiad::RoundHandover& handover, St
   handover.exportRounds();
 }
 
-/// Only the worlds load the game: in this process, its code could read the server's key.
+/// Serves a game whose worlds have their own processes. Only these load the game: in this process, its code
+/// could read the server's key.
 int serveWorlds(Start& start, naiad::LineLog& lines) {
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
   const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
@@ -257,7 +258,7 @@ std::vector<naiad::RoundHandover::Room> keptRooms(
   return rooms;
 }
 
-/// Serves rooms; each room's game has its own world processes.
+/// Serves named rooms; each room's game has its own world processes.
 int serveRooms(Start& start, naiad::LineLog& lines) {
   const naiad::LogLine log = [&lines](const naiad::LogEvent& event) { lines(event); };
   const naiad::HostOptions options = naiad::withUsableJournal(start.options, log);
@@ -287,7 +288,7 @@ int serve(Start& start) {
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::isGameOverPerPlayer(options));
     return play(naiad::GameModule(options.game), " in a separate process", world, options, log,
-                [&log](const naiad::LogEvent& event) { log(event); });  // the front process marks lines
+                [&log](const naiad::LogEvent& event) { log(event); });  // the front adds time and "game: "
   }
   if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
     throw std::runtime_error("Cannot load the operator features (bans, scores, dfctl, metrics): " + problem);

@@ -30,7 +30,7 @@ struct HostContext {
   HostOptions options;     ///< current values; some change while the server runs
   const std::string game;  ///< name of the game; with several rooms, of the first room's game
   EventFeed feed;
-  const LogLine log;  ///< its lines go to watchers of `feed`, too
+  const LogLine log;  ///< also sends its lines to watchers of `feed`
   ClientLog client_log{log};
   Counters counters;
   asio::io_context home{1};  ///< runs the handlers of the host's thread; no sockets

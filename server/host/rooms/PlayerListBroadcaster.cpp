@@ -43,7 +43,7 @@ void PlayerListBroadcaster::sendToAll(const std::vector<ListedPlayer>& players, 
   for (const ListedPlayer& player : players) send(player.id, message);
 }
 
-// Each tick serves a different share of the players, so no tick sends to all of them.
+// Each tick sends the list to a different share of the players, so that no tick sends it to all of them.
 void PlayerListBroadcaster::sendToSome(std::uint32_t tick, const std::vector<ListedPlayer>& players,
                                        const RoundTrip& round_trip, const Send& send) {
   m_sent.clear();

@@ -1,4 +1,4 @@
-// Sends players the list of players: periodically, with a limit for large crowds.
+// Sends players the list of players at intervals: less often, and not the whole list, if there are many.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class PlayerListBroadcaster {
  public:
   static constexpr std::uint32_t kInterval = 15;        ///< ticks
   static constexpr std::uint32_t kCrowdInterval = 150;  ///< ticks, with more than kMaxPlayers players
-  static constexpr std::size_t kCrowdEntries = 32;      ///< highest scores listed then
+  static constexpr std::size_t kCrowdEntries = 32;      ///< number of highest scores listed for a crowd
 
   /// Returns a player's round trip in milliseconds, or 0 if it is not known.
   using RoundTrip = std::function<std::uint32_t(std::uint32_t player)>;
@@ -40,7 +40,7 @@ class PlayerListBroadcaster {
   PlayerListBroadcaster();
   ~PlayerListBroadcaster();
 
-  /// Calls `send` for each player due for a list. Call it at the end of a tick.
+  /// Calls `send` for each player that is due to get a list. Call it at the end of a tick.
   void tick(std::uint32_t tick, const std::vector<ListedPlayer>& players, const RoundTrip& round_trip,
             const Send& send);
   /// Sends the next list even if nothing has changed, because a client may have missed the last one.

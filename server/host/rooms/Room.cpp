@@ -13,7 +13,7 @@ namespace {
 
 wire::ServerMessage line(const std::string& text) {
   wire::ServerMessage message;
-  message.mutable_chat()->set_text(text);  // no player: a line from the server
+  message.mutable_chat()->set_text(text);  // without a player, the line is from the server
   return message;
 }
 
@@ -88,7 +88,7 @@ void Room::disconnectAll(const std::string& sentence, std::chrono::seconds again
 
 bool Room::beginTick(bool truth, std::uint32_t audited_player) {
   m_stages.enter(Stage::kInputs);
-  moveInputFocus();
+  updateInputFocus();
   applyInputs();
   if (!m_p_round->isReady()) return false;
   const bool watched = !isEmpty();
@@ -167,7 +167,7 @@ std::unique_ptr<Round> Room::changeRound(std::unique_ptr<Round> round) {
 // ---- whose input counts -----------------------------------------------------------------------------------
 
 // Gives the turn to the connected player with the lowest id.
-void Room::moveInputFocus() {
+void Room::updateInputFocus() {
   if (!m_input_focus.isExclusive()) return;
   const Session* p_first = nullptr;
   forEachPlaying([&p_first](const Session& session) {

@@ -30,9 +30,9 @@ class InputFocus {
   explicit InputFocus(bool first_only) : m_first_only(first_only) {}
 
   bool isExclusive() const { return m_first_only; }
-  /// The player whose turn it is, or 0.
+  /// Returns the player whose turn it is, or 0.
   std::uint32_t player() const { return m_player; }
-  /// Gives the turn to this player (0: none). Returns true if it passed from one player to another.
+  /// Gives the turn to this player (0: none). Returns true if the turn passed from one player to another.
   bool moveTo(std::uint32_t player) {
     if (player == m_player) return false;
     m_before = std::exchange(m_player, player);
@@ -108,7 +108,7 @@ class Room {
     const std::vector<df::PlayerFacts>& players = m_p_round->view().players;
     auto found = players.begin();
     forEachPlaying([&](Session& session) {
-      while (found != players.end() && found->id < session.player()) ++found;  // both are in order
+      while (found != players.end() && found->id < session.player()) ++found;  // both are sorted by id
       if (found != players.end() && found->id == session.player()) visit(session, *found);
     });
   }
@@ -123,8 +123,8 @@ class Room {
   // Ticks.
 
   /// Passes the players' input to the world and begins a tick. Returns false if the world is not ready for
-  /// one. `truth`: publish() will have a TruthWriter. `audited_player`: player whose picture is audited, or
-  /// 0.
+  /// one. `truth`: true if publish() will get a TruthWriter. `audited_player`: player whose picture is
+  /// audited, or 0.
   bool beginTick(bool truth, std::uint32_t audited_player = 0);
   /// Sends snapshots, sounds and notes after the world's tick. Writes the truth to `p_truth` unless null.
   void publish(TruthWriter* p_truth);
@@ -147,7 +147,7 @@ class Room {
   std::unique_ptr<Round> changeRound(std::unique_ptr<Round> round);
 
  private:
-  void moveInputFocus();
+  void updateInputFocus();
   void announceInputFocus(Session& session) const;
   void applyInputs();
   void sendSnapshots(TruthWriter* p_truth);

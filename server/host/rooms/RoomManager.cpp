@@ -21,8 +21,8 @@ namespace naiad {
 
 namespace {
 
-constexpr std::uint64_t kMinRoundTicks = 30;  ///< ticks; a shorter round counts as failed at its start
-constexpr int kMaxShortRounds = 5;            ///< consecutive ones; then no further round begins
+constexpr std::uint64_t kMinRoundTicks = 30;  ///< in ticks; a shorter round counts as failed at its start
+constexpr int kMaxShortRounds = 5;            ///< consecutive short rounds, after which no further one begins
 constexpr std::size_t kEndingWorlds = 8;      ///< ending worlds of former players, allowed above max_players
 
 constexpr const char* kHowToSeeMore =
@@ -69,7 +69,8 @@ void AuditScheduler::forget(const Session& session) {
   if (m_p_session == &session) m_p_session = nullptr;
 }
 
-// The seconds count from the beginning of the turn, so that players with a short visit are audited, too.
+// Seconds are counted from the start of the player's audit, so that players with a short visit are audited,
+// too.
 std::uint32_t AuditScheduler::auditedPlayer(std::uint32_t tick) const {
   if (m_p_session == nullptr) return 0;
   return (tick - m_since) / m_ticks_per_second % kPeriod == 0 ? m_p_session->player() : 0;
@@ -226,7 +227,7 @@ void RoomManager::beginTicks() {
   for (const auto& room : m_rooms) {
     if (room->isPaused()) continue;
     if (room->beginTick(m_truth.has_value(), m_audit.auditedPlayer(tickNumber()))) continue;
-    ++m_counters.late_worlds;
+    ++m_counters.world_missed_ticks;
     room->countLateTick();
   }
   m_in_begin = false;
@@ -321,7 +322,7 @@ void RoomManager::checkPlayers(Time now) {
 }
 
 void RoomManager::onFailover(const Room& room, const Failover& done) {
-  ++(done.by_checkpoint ? m_counters.taken_over_by_copies : m_counters.taken_over_by_worlds);
+  ++(done.by_checkpoint ? m_counters.failovers_by_checkpoint : m_counters.failovers_by_replay);
   room.broadcast("The game failed and was restored.");
 }
 
@@ -353,7 +354,8 @@ void RoomManager::countEnd(WorldEnd::Why why) {
   }
 }
 
-// With private worlds, disconnects the room's players: their clients reconnect after the restart.
+// Stores the message about the upgrade. With private worlds it also disconnects the room's players, whose
+// clients reconnect after the restart.
 void RoomManager::onUpgrade(const Room& room, const WorldEnd& end) {
   if (!std::exchange(m_upgraded, true)) {
     m_upgrade_message = "this server's program was upgraded while it runs: a new game process " + end.text +
@@ -365,7 +367,7 @@ void RoomManager::onUpgrade(const Room& room, const WorldEnd& end) {
 }
 
 // No further round begins for a player alone in the game's own terminal, nor for a game that keeps ending at
-// its start, because that would never stop.
+// its start, because that would continue without end.
 void RoomManager::endRound(Room& room, const WorldEnd& end) {
   if (end.why == WorldEnd::kForeign) return onUpgrade(room, end);
   m_log("the round is over" + inRoom(room) + ": the game " + end.text +

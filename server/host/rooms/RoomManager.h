@@ -27,12 +27,12 @@ namespace naiad {
 
 /// Selects the player whose pictures are audited (ReplicaAudit.h): one player at a time, one second in ten.
 ///
-/// An audit can only begin when a client gets the world from the beginning. So a player who joins takes the
-/// turn if the current one has had it for ten seconds, and at the start of a round it passes to the next
-/// player by id. Thread: the host's.
+/// An audit can only begin when a client gets the world from the beginning. So if a player has been audited
+/// for ten seconds, the next player to join is audited instead, and at the start of a round the audit passes
+/// to the next player by id. Thread: the host's.
 class AuditScheduler {
  public:
-  /// Ticks are compared in one of this many seconds.
+  /// Pictures are compared in one of this many seconds.
   static constexpr std::uint32_t kPeriod = 10;
 
   /// Begins to audit. Before this call the other functions do nothing.
@@ -50,9 +50,9 @@ class AuditScheduler {
   void assign(Session& session, std::uint32_t tick);
 
   std::uint32_t m_ticks_per_second = 0;  ///< 0: no audit
-  Session* m_p_session = nullptr;        ///< has the turn; null: none
-  std::uint32_t m_since = 0;             ///< tick in which its turn began
-  std::uint32_t m_last = 0;              ///< player of the newest turn
+  Session* m_p_session = nullptr;        ///< session that is audited; null: none
+  std::uint32_t m_since = 0;             ///< tick in which its audit began
+  std::uint32_t m_last = 0;              ///< player of the newest audit
 };
 
 /// Not thread-safe.
@@ -75,9 +75,8 @@ class RoomManager {
   void setOnTransfer(std::function<void(Session& session, const std::string& room)> on_sent) {
     m_on_sent = std::move(on_sent);
   }
-  /// Sets callbacks for worlds with players: `on_round` when the next round has begun in a room,
-  /// `on_sessions` when a killed server's round was recovered, with its players' sessions. Call it before
-  /// open().
+  /// Sets callbacks: `on_round` is called when the next round has begun in a room; `on_sessions`, when a
+  /// killed server's round was recovered, with its players' sessions. Call it before open().
   void setOnRound(std::function<void(Room&)> on_round,
                   std::function<void(Room&, const std::vector<PersistedSession>&)> on_sessions) {
     m_on_round = std::move(on_round);
@@ -180,7 +179,7 @@ class RoomManager {
 
  private:
   std::uint32_t tickNumber() const { return static_cast<std::uint32_t>(m_counters.ticks); }
-  bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connected() <= 1; }
+  bool hasLastPlayer() const { return m_ends_with_last && m_sessions.connectedCount() <= 1; }
   bool hasWorlds() const { return m_new_world || isNamed(); }
   Room& openRoom(std::unique_ptr<Round> round, bool first_only);
   void openNamed();
@@ -214,8 +213,8 @@ class RoomManager {
   const LogLine& m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
-  const df::World* m_p_world = nullptr;  ///< given to open()
-  NewWorld m_new_world;                  ///< empty: the world of this process, or m_plans
+  const df::World* m_p_world = nullptr;  ///< world given to open()
+  NewWorld m_new_world;                  ///< makes new worlds; empty: see m_p_world and m_plans
   std::vector<RoomConfig> m_plans;
   std::vector<df::GameRoom> m_game_rooms;        ///< room list last passed to worlds, in the order of m_rooms
   std::vector<std::unique_ptr<Round>> m_ending;  ///< ending rounds of rooms that were put to sleep

@@ -119,7 +119,7 @@ void RoomManager::sendRoomList(Room& room) const {
   }
 }
 
-// Sends changes only, to all worlds. A delay of half a second does not matter for a sign on a door.
+// Sends changes only, to all worlds. A delay of half a second does not matter to a game that shows this list.
 void RoomManager::publishRooms() {
   if (tickNumber() % kRoomListInterval != 0) return;
   m_game_rooms.resize(m_rooms.size());
@@ -145,7 +145,7 @@ void RoomManager::forwardTransfers(Room& room) {
 
 // ---- sleep ------------------------------------------------------------------------------------------------
 
-// Ending a world takes time. The room does not wait for it.
+// Ending a world takes time, but the room does not wait for it.
 void RoomManager::putToSleep(Room& room) {
   auto round = room.changeRound(sleepingRound());
   room.round().checkProcess(tickNumber());

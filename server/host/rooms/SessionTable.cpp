@@ -30,7 +30,8 @@ bool isConnected(const Session& session) {
 
 void sendServerLine(Session& session, const std::string& text) {
   wire::ServerMessage message;
-  message.mutable_chat()->set_text(safeText(text, kMaxChatLength));  // no player: a line from the server
+  message.mutable_chat()->set_text(
+      safeText(text, kMaxChatLength));  // without a player, the line is from the server
   session.sendReliable(message);
 }
 
@@ -53,7 +54,7 @@ void SessionTable::add(std::unique_ptr<ReliableChannel> channel, Session::Events
 bool SessionTable::evictFor(const AddressPrefix& newcomer) {
   if (m_slots.size() >= m_max_sessions) sweep();
   if (m_slots.size() < m_max_sessions) return true;
-  ++m_counters.turned_away;
+  ++m_counters.connections_rejected;
   const auto idle = evictionCandidate(newcomer);
   if (idle == m_slots.end()) return false;
   m_on_remove(*idle->session);
@@ -102,12 +103,12 @@ Session* SessionTable::find(std::uint64_t id) const {
   return found != m_slots.end() && found->session->id() == id ? found->session.get() : nullptr;
 }
 
-std::size_t SessionTable::playing() const {
+std::size_t SessionTable::playingCount() const {
   return static_cast<std::size_t>(std::count_if(
       m_slots.begin(), m_slots.end(), [](const SessionSlot& slot) { return isPlaying(*slot.session); }));
 }
 
-std::size_t SessionTable::connected() const {
+std::size_t SessionTable::connectedCount() const {
   return static_cast<std::size_t>(std::count_if(
       m_slots.begin(), m_slots.end(), [](const SessionSlot& slot) { return isConnected(*slot.session); }));
 }

@@ -42,9 +42,9 @@ class SessionTable {
   Session* find(std::uint64_t id) const;
   bool isEmpty() const { return m_slots.empty(); }
   /// Number of playing sessions, including those that lost their connection.
-  std::size_t playing() const;
+  std::size_t playingCount() const;
   /// Number of playing sessions that have a connection.
-  std::size_t connected() const;
+  std::size_t connectedCount() const;
   /// Number of ticks skipped for this player (Session::skippedTicks); 0 if there is no such player.
   std::uint64_t skippedTicks(std::uint32_t player) const;
 

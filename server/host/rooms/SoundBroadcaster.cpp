@@ -13,13 +13,13 @@ namespace {
 
 static_assert(SoundBroadcaster::kPerTick <= kMaxSounds);
 
-/// True if a client that missed this sound would keep playing something other than the game does.
+/// True if a client that missed this sound would play other sounds than the game from then on.
 bool lasts(const df::SoundPlayed& sound) {
   return sound.music || sound.loop || sound.what != df::SoundPlayed::kPlay;
 }
 
-/// A lasting sound costs as much as three, because it is stored for disconnected clients and must not use up
-/// their storage.
+/// A lasting sound costs as much as three others, because it is stored for disconnected clients and must not
+/// use up their storage.
 constexpr std::uint32_t kLastingWeight = 3;
 
 std::uint32_t costOf(const df::SoundPlayed& sound) {
@@ -55,7 +55,7 @@ void SoundBroadcaster::tick(const df::WorldView& view, const Send& send) {
   std::swap(m_listeners, m_listeners_before);
   m_listeners.clear();
   auto before = m_listeners_before.begin();
-  for (const df::PlayerFacts& player : view.players) {  // by id, too
+  for (const df::PlayerFacts& player : view.players) {  // sorted by id, like m_listeners
     while (before != m_listeners_before.end() && before->player < player.id) ++before;
     const bool is_new = before == m_listeners_before.end() || before->player != player.id;
     Listener& listener = m_listeners.emplace_back(is_new ? addListener(player.id, view, send) : *before);
@@ -79,7 +79,8 @@ void SoundBroadcaster::gatherSounds(const df::WorldView& view) {
   }
 }
 
-// If there are more than fit in one message, drops a sound that does not loop: it has most likely ended.
+// If more sounds last than fit in one message, drops one that does not loop, because it has most likely
+// ended.
 void SoundBroadcaster::updateLasting(const df::SoundPlayed& sound) {
   if (!lasts(sound)) return;
   std::erase_if(m_lasting, [&sound](const df::SoundPlayed& other) {

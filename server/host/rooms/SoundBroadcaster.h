@@ -13,22 +13,22 @@ namespace wire {
 class ServerMessage;
 }
 
-/// Each player gets all sounds within the limits per tick and over time. Above them the most important ones
-/// are sent: lasting ones (music, loops, pauses and stops), then the player's own, then those of no player,
-/// then other players'. A sound played several times in a tick is sent once. A new player gets the sounds
-/// that are playing. Not thread-safe.
+/// Each player gets all sounds within the limits per tick and over time. Above the limits, the most important
+/// sounds are sent: lasting ones (music, loops, pauses and stops), then the player's own, then those of no
+/// player, then other players'. A sound played several times in a tick is sent once. A new player gets the
+/// sounds that are playing. Not thread-safe.
 class SoundBroadcaster {
  public:
   static constexpr std::size_t kPerTick = 4;          ///< sounds for one player in a tick
   static constexpr std::uint32_t kBurst = 12;         ///< burst: sounds for one player without a pause
   static constexpr std::uint32_t kTicksPerSound = 3;  ///< after a burst, one more sound per this many ticks
-  /// Maximum of different sounds in a tick; further ones are dropped.
+  /// Maximum number of different sounds in a tick; further ones are dropped.
   static constexpr std::size_t kMaxDifferent = 64;
 
-  /// Returns whether it was sent. `lasts`: it must arrive, else it must be sent now or dropped.
+  /// Returns whether the message was sent. `lasts`: it must arrive; otherwise it must be sent now or dropped.
   using Send = std::function<bool(std::uint32_t player, const wire::ServerMessage& message, bool lasts)>;
 
-  /// Calls `send` for each player due for sounds. Call it at the end of a tick.
+  /// Calls `send` for each player that is due to get sounds. Call it at the end of a tick.
   void tick(const df::WorldView& view, const Send& send);
   /// Treats the player as new, because their client may have missed sounds.
   void repeat(std::uint32_t player);
@@ -45,7 +45,7 @@ class SoundBroadcaster {
   struct Listener {
     std::uint32_t player = 0;
     std::uint32_t credit = 0;  ///< unit: ticks; a sound costs kTicksPerSound
-    std::uint32_t tick = 0;    ///< when `credit` was updated
+    std::uint32_t tick = 0;    ///< tick in which `credit` was updated
   };
 
   void gatherSounds(const df::WorldView& view);

@@ -21,14 +21,14 @@ using NewWorld = std::function<std::unique_ptr<Round>(asio::io_context& home)>;
 
 struct RoomConfig {
   std::string name;         ///< valid by isRoomName()
-  std::string game;         ///< the name of its module
-  int max_players = 0;      ///< maximum at a time
+  std::string game;         ///< name of the game's module
+  int max_players = 0;      ///< maximum number of players at a time
   bool first_only = false;  ///< only the first player's input is used
   WorldReady ready;         ///< settings of the game, for the players that will join
   NewWorld new_world;
-  /// Its first world resumes the round of a killed server: it does not wait for players.
+  /// True if the first world resumes a killed server's round, so that the room does not wait for players.
   bool resumes_round = false;
-  std::uint32_t highest_player = 0;  ///< highest player id of that round
+  std::uint32_t highest_player = 0;  ///< highest player id of the round to resume
 };
 
 /// State of a room that is asleep (without a world) or still (its world exists and does not tick).
@@ -36,8 +36,8 @@ struct RoomSleepState {
   using Time = std::chrono::steady_clock::time_point;
   bool asleep = false;
   bool still = false;
-  std::optional<Time> empty_since;  ///< nullopt: it has players
-  Time closed_until{};              ///< its game failed repeatedly: it is not woken before
+  std::optional<Time> empty_since;  ///< nullopt: the room has players
+  Time closed_until{};              ///< the room is not woken before, because its game failed repeatedly
 };
 
 }  // namespace naiad

@@ -81,7 +81,7 @@ void Round::begin() {
   m_tick_offset = m_world->ticksBefore();
   if (!m_binding.late_facts) return;
   m_binding.journal->addFacts(m_binding.late_facts());
-  m_binding.writer->wake();  // so that they survive if the server is killed within a second
+  m_binding.writer->wake();  // so that the facts survive if the server is killed within a second
 }
 
 void Round::tick(bool watched, bool truth, std::uint32_t rendered_player) {
@@ -101,7 +101,7 @@ void Round::tick(bool watched, bool truth, std::uint32_t rendered_player) {
   sendTurn(std::exchange(m_turn, WorldTurn()));
 }
 
-// Chooses the picture that the host asked for, or that of the player who has been here longest.
+// Chooses the picture that the host asked for, or else that of the player who has been in the world longest.
 void Round::choosePicture() {
   if (!m_turn.wants_truth) {
     m_turn.wants_truth = true;
@@ -211,7 +211,7 @@ std::optional<std::string> Round::popWarning() {
 
 // ---- replay of a killed server's round --------------------------------------------------------------------
 
-// Recovery ends when the sessions are restored, because a client that came before would be a new player.
+// Recovery ends when the sessions are restored, because a client that joined before would be a new player.
 // While another world takes over, players may join and press keys as usual.
 std::optional<int> Round::recovering() const {
   if (m_sessions) return 100;
@@ -229,8 +229,8 @@ void Round::beginReplay() {
   difference.empty() ? replayTurns() : endRecovery(difference);
 }
 
-// Sends several turns ahead, so that neither end waits for the other. The first one is sent alone, because
-// its time limit is longer.
+// Sends several turns ahead, so that neither process waits for the other. The first one is sent alone,
+// because its time limit is longer.
 void Round::replayTurns() {
   const std::uint32_t limit = m_binding.recovery->turns() == 0 ? 1 : m_world->turnsAhead();
   while (m_binding.recovery->unanswered() < limit) {
@@ -249,7 +249,8 @@ std::uint32_t Round::currentTick() const {
   return m_ticks - (std::max(unanswered, 1u) - 1);
 }
 
-// A killed server may not have stored the last scores; in a takeover they were taken before.
+// Keeps the scores of replayed turns, which a killed server may not have stored. In a failover, it already
+// has them.
 void Round::collectReplayedScores() {
   if (isFailingOver()) return;
   m_scores = popScores();
@@ -322,7 +323,7 @@ bool Round::startFailover(const WorldEnd& end) {
   return replayFromStart(in_last_turn);
 }
 
-// False if the round would end with the tick: then the tick gets the full limit.
+// Returns false if a hang would end the round, or ticks may just be slow: then the tick gets the full limit.
 bool Round::usesFastFailover() const {
   const bool is_followed =
       m_is_recording && m_binding.new_world && !(m_failed_at && m_ticks < *m_failed_at + kSameFailureTicks);
@@ -344,7 +345,7 @@ void Round::onSlowTick() {
 
 bool Round::replayFromStart(bool drops_keys) {
   if (drops_keys) store(InputsDropped());
-  if (!m_binding.new_world) {  // that has made the round too long
+  if (!m_binding.new_world) {  // this record has made the round too long
     m_failed_world.reset();
     return false;
   }
@@ -370,7 +371,7 @@ bool Round::replayInNewWorld() {
     if (!m_history.hasBeginning()) throw std::system_error(std::make_error_code(std::errc::value_too_large));
     adopt(m_binding.new_world());
   } catch (const std::system_error&) {
-    if (isFailingOver()) m_binding.recovery.reset();  // the copy's
+    if (isFailingOver()) m_binding.recovery.reset();  // the recovery of the copy
     m_failed_world.reset();
     return false;
   }
@@ -391,7 +392,7 @@ void Round::prepareReplay(std::size_t records) {
   m_replaying = m_closing = false;
 }
 
-// Input of the meantime is in the next turn. A tick that the previous world did not end ends now.
+// Input received during the replay is in the next turn. A tick that the failed world did not finish ends now.
 void Round::finishFailover(const std::string& problem) {
   const auto recovery = std::move(m_binding.recovery);
   const Failover done{std::exchange(m_by_checkpoint, false), recovery->turns()};

@@ -34,24 +34,24 @@ class WorldProcess;
 /// Names a round in the file of scores.
 struct RoundName {
   std::string id;    ///< unique, 32 hexadecimal digits
-  std::string file;  ///< its recording, below the folder of --journal; empty: not recorded
+  std::string file;  ///< path of its recording below the folder of --journal; empty: not recorded
 };
 
 /// Report of a world that took over from one that crashed or hung.
 struct Failover {
   bool by_checkpoint = false;  ///< a copy took over; false: a world that replayed the whole round
-  std::uint32_t ticks = 0;     ///< ticks that it replayed
+  std::uint32_t ticks = 0;     ///< number of ticks that the new world replayed
 };
 
 class Round {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Maximum inputs that wait for a tick; keys and clicks beyond it are dropped.
+  /// Maximum number of inputs that wait for a tick; further keys and clicks are dropped.
   static constexpr std::size_t kMaxInputs = 16'384;
 
-  /// Ticks between two hashes of the state, and between two pictures, of which the first comes earlier. A
-  /// picture takes about 500 bytes of the file, a hash 8.
+  /// Ticks between two recorded hashes of the state and between two pictures, and the tick of the first
+  /// picture. A picture takes about 500 bytes of the file, a hash 8.
   static constexpr std::uint32_t kHashTicks = 30;
   static constexpr std::uint32_t kPictureTicks = 900;
   static constexpr std::uint32_t kFirstPicture = 300;
@@ -59,35 +59,35 @@ class Round {
   /// A second crash or hang within this many ticks of the first one ends the round.
   static constexpr std::uint32_t kSameFailureTicks = 30;
 
-  /// Maximum scores kept of a recovery's turns: earlier ones are in the server's file.
+  /// Maximum number of scores kept from replayed turns; older ones are in the server's file.
   static constexpr std::size_t kMaxScores = 4096;
 
   /// The journal and the callbacks of a round.
   struct JournalBinding {
     std::shared_ptr<JournalWriter> writer = nullptr;
     std::shared_ptr<Journal> journal = nullptr;  ///< null: not recorded
-    /// Returns more facts, once the world has begun; empty: none.
+    /// Called when the world has begun; returns further facts. Empty: none.
     std::function<DfrFacts()> late_facts = {};
     /// Called when the journal has stopped, with the reason; the game continues.
     std::function<void(const std::string& problem)> on_problem = {};
     std::unique_ptr<DeterminismCheck> check;  ///< checks whether the game is repeatable; null: unchecked
     std::unique_ptr<RoundRecovery> recovery;  ///< null: a new round
-    /// Returns, once a recovery's world has begun, why it is not the world of the file; empty if it is.
+    /// Called when a recovery's world has begun; returns why it is not the recorded world, or "" if it is.
     std::function<std::string()> find_difference = {};
     /// Called at the end of a recovery, with the number of its ticks. If it failed, `problem` says why, and
-    /// `ticks` is the tick in which that showed.
+    /// `ticks` is the tick in which it failed.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
-    std::string recording = {};    ///< the file, below the folder of --journal
-    std::string history = {};      ///< records of a recovery's round
-    std::uint32_t first_tick = 0;  ///< the host's number of its first tick; 0: unknown
+    std::string recording = {};    ///< path of the file below the folder of --journal
+    std::string history = {};      ///< records of the round to recover
+    std::uint32_t first_tick = 0;  ///< the host's number of the round's first tick; 0: unknown
     /// Starts another world of the round, if its world is a process; throws std::system_error. Empty: the
     /// round ends with its world.
     std::function<std::unique_ptr<WorldProcess>()> new_world = {};
-    /// Called when the world has crashed or hung in this tick. `goes_on`: another one takes over.
+    /// Called when the world has crashed or hung in this tick. `goes_on`: true if another world takes over.
     std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_failure = {};
     /// Called when another world has taken over, with the time that it took.
     std::function<void(const Failover& done, std::chrono::milliseconds time)> on_failover = {};
-    /// Gets sentences about copies for the log.
+    /// Called with sentences for the log about copies of the world.
     std::function<void(const std::string& sentence)> on_copies = {};
   };
 
@@ -98,9 +98,9 @@ class Round {
   /// A round that has not ended is recorded as stopped.
   ~Round();
 
-  /// Sets what is called at the end of every tick: from tick(), or later from the host's event loop.
+  /// Sets the callback for the end of every tick, called from tick() or later from the host's event loop.
   void setOnTick(std::function<void()> on_tick) { m_on_tick = std::move(on_tick); }
-  /// If the round is not recorded, its id must be set.
+  /// Returns the round's name. If the round is not recorded, setId() must set its id first.
   const RoundName& name() const { return m_name; }
   void setId(std::string id) { m_name.id = std::move(id); }
 
@@ -117,12 +117,12 @@ class Round {
 
   /// True if a tick may begin.
   bool isReady() const { return !m_binding.recovery && m_world->isReady(); }
-  /// Begins a tick. `watched`: view() will be read; the first one has every Object as changed. `truth`:
-  /// renderPlayer() will be called, too, for all players or only for `rendered_player`.
+  /// Begins a tick. `watched`: view() will be read; the first watched tick reports every Object as changed.
+  /// `truth`: renderPlayer() will be called, too, for all players or only for `rendered_player`.
   void tick(bool watched, bool truth, std::uint32_t rendered_player = 0);
-  /// Returns the number of the next tick to begin, in the numbers of view().
+  /// Returns the number of the next tick to begin, as view() counts ticks.
   std::uint32_t nextTick() const { return m_failed_world ? m_failed_world->next_tick : m_world->nextTick(); }
-  /// Returns what the last watched tick changed. Valid until the next one begins.
+  /// Returns the changes of the last watched tick. Valid until the next tick begins.
   const df::WorldView& view() const { return m_failed_world ? m_failed_world->view : m_world->view(); }
   /// Passes on the models published for the last tick, for games that use lag compensation.
   void onPublished(const Publisher& publisher) { m_world->onPublished(publisher); }
@@ -138,41 +138,41 @@ class Round {
   df::Canvas renderPlayer(std::uint32_t player) const;
 
   /// Ends the world's copies before a long pause, unless only they could resume the round. The next tick
-  /// makes one.
+  /// makes a new copy.
   void dropCheckpoints();
 
   // Replay of a killed server's round.
 
-  /// Returns its progress in percent; nullopt if there is none, or its sessions have been taken.
+  /// Returns the replay's progress in percent; nullopt if there is none, or if its sessions have been taken.
   std::optional<int> recovering() const;
-  /// Returns the sessions of its players, once, when the replay has ended.
+  /// Returns the sessions of the round's players, once, when the replay has ended.
   std::optional<std::vector<PersistedSession>> popSessions() {
     return std::exchange(m_sessions, std::nullopt);
   }
-  /// Records a change of a player's session in the journal. Call before its client can know of it.
+  /// Records a change of a player's session in the journal. Call before the client can know of the change.
   void recordSession(const PersistedSession& session);
 
   // The round's end.
 
-  /// Checks the world's process, and the journal. Call once in each tick of the host, ready or not; `tick` is
-  /// its number.
+  /// Checks the world's process, and the journal. Call once in each tick of the host, even if the world is
+  /// not ready; `tick` is the tick's number.
   void checkProcess(std::uint32_t tick);
-  /// Returns how it ended; nullopt while it continues.
+  /// Returns how the round ended; nullopt while it continues.
   std::optional<WorldEnd> end() const { return m_unrecovered ? m_unrecovered : m_world->end(); }
-  /// Returns a line for the log if the tick does not end, once.
+  /// Returns a line for the log, once, if the current tick does not end.
   std::optional<std::string> popWarning();
-  /// Ends the world; end() says when it has ended.
+  /// Begins to end the world, which takes time: end() is set when it has ended.
   void close() { m_world->close(std::exchange(m_turn, WorldTurn())); }
-  /// Returns the report of a world that has taken over, once.
+  /// Returns the report of a world that has taken over, only once for each; nullopt if there is none.
   std::optional<Failover> popFailover() { return std::exchange(m_failover, std::nullopt); }
 
  private:
   /// Knowledge about ticks that seem to hang.
   enum class Hangs : std::uint8_t {
     kUnknown,
-    kOneEnded,  ///< one was ended early, for a copy to take over; it may have been slow
-    kSlow,      ///< such a tick ended
-    kReal,      ///< one did not end within the full limit
+    kOneEnded,  ///< a tick was ended early, for a copy to take over; it may only have been slow
+    kSlow,      ///< a tick that seemed to hang has ended
+    kReal,      ///< a tick did not end within the full time limit
   };
   /// State of a dead world, while another one replays its turns.
   struct FailedWorld {
@@ -227,8 +227,8 @@ class Round {
   std::uint32_t m_ticks = 0;             ///< ticks begun by this world
   std::uint32_t m_recorded = 0;          ///< player whose picture the current tick records; 0: none
   std::vector<std::uint32_t> m_players;  ///< players in the world, in the order in which they joined
-  WorldTurn m_turn;                      ///< the next one
-  SentTurn m_sent;                       ///< the newest one sent
+  WorldTurn m_turn;                      ///< the next turn
+  SentTurn m_sent;                       ///< the newest turn sent
   TurnRecordWriter m_writer;
 
   // Recovery.
@@ -244,7 +244,7 @@ class Round {
   bool m_by_checkpoint = false;  ///< the world that replays is a copy
   Hangs m_hangs = Hangs::kUnknown;
   std::optional<FailedWorld> m_failed_world;  ///< state of the previous world
-  std::optional<std::uint32_t> m_failed_at;   ///< tick of the newest death
+  std::optional<std::uint32_t> m_failed_at;   ///< tick of the newest crash or hang
   std::optional<Failover> m_failover;
 };
 

@@ -34,7 +34,7 @@ int socketOption(int socket, int option) {
   return getsockopt(socket, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
-/// Returns the address of a socket; nullopt for one that is not of the Internet.
+/// Returns the address of a socket; nullopt if it is not an IP socket.
 std::optional<StreamEndpoint> boundTo(int socket) {
   StreamEndpoint endpoint;
   auto size = static_cast<socklen_t>(endpoint.capacity());
@@ -71,8 +71,8 @@ int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>
 // The listening sockets of this process, for the program that it runs next.
 
 /// Returns copies of the socket that listens on this TCP port and of the one for datagrams on its address.
-/// They stay open when those are closed, and are the caller's to close. Returns nullopt if this process does
-/// not have both, as without encryption. Reads /proc.
+/// The copies stay open when the originals are closed; the caller must close them. Returns nullopt if this
+/// process does not have both sockets, as without encryption. Reads /proc.
 std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   InheritedSockets sockets;
   sockets.streams = findSocket(SOCK_STREAM, port, std::nullopt);
@@ -85,8 +85,8 @@ std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   return sockets.duplicate();
 }
 
-/// Time limit of writes, before a file is read again. The game continues, and other programs may keep the
-/// disk busy.
+/// Time limit for writing a round to disk before dfreplay reads it. The game continues, and other programs
+/// may keep the disk busy.
 constexpr std::chrono::seconds kSyncTime{20};
 /// Time limit of a program that only reads its options.
 constexpr std::chrono::seconds kCheckTime{20};
@@ -94,7 +94,7 @@ constexpr std::size_t kMaxProblem = 200;
 
 constexpr std::string_view kProtocolKey = " protocol=";
 
-/// Returns the last line that begins with `begin`; if that is empty, the last line that is not empty.
+/// Returns the last line that begins with `begin`; if `begin` is empty, the last line that is not empty.
 std::string lineWith(const std::string& text, std::string_view begin) {
   std::istringstream lines(text);
   std::string found;
@@ -120,7 +120,7 @@ std::string protocolProblem(const std::string& verified) {
          std::to_string(kProtocolVersion);
 }
 
-/// Describes an end without an exit code of the program's own; empty if it has one.
+/// Describes the end of a program that did not exit by itself; empty if it did.
 std::string abruptEnd(const std::string& name, const ChildExit& end) {
   if (end.timed_out) return name + " timed out";
   if (end.signal != 0) return name + " was killed by signal " + std::to_string(end.signal);
@@ -172,9 +172,9 @@ std::string RoundHandover::blocker() const {
   return is_any ? std::string() : "no round is being recorded";
 }
 
-// Signals are handled on the thread that ticks.
+// Blocks signals in the new thread, because the thread that ticks handles them.
 void RoundHandover::verify(std::function<void(const Result& result)> done) {
-  if (m_thread.joinable()) m_thread.join();  // it has done its work
+  if (m_thread.joinable()) m_thread.join();  // the thread of an earlier proof, which has ended
   m_verifications.clear();
   for (const Room& room : m_rooms) {
     if (const auto round = room.journals->currentRound()) m_verifications.push_back({&room, *round});
@@ -196,7 +196,8 @@ RoundHandover::Result RoundHandover::execute() {
   return {};
 }
 
-// A new program that ends at once, because it cannot be loaded or has other options, would end the game.
+// Checks that the new program starts. One that ended at once, because it cannot be loaded or has other
+// options, would end the game.
 std::string RoundHandover::problemOfProgram() {
   std::vector<std::string> arguments = withoutPasswords(m_command.arguments());
   arguments.emplace_back("--check-config");

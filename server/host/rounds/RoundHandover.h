@@ -40,11 +40,12 @@ class RoundHandover {
 
   /// Result of a proof, that is, of replaying the rounds with the new program.
   struct Result {
-    std::string problem;  ///< why they cannot be handed over, as the rest of a sentence; or empty
-    bool starts = true;   ///< the new program starts, so that it can be run after the rounds
+    std::string problem;  ///< why the rounds cannot be handed over, as the rest of a sentence; or empty
+    bool starts = true;   ///< true if the new program starts, so that it can run when the rounds are over
   };
 
-  /// `command` runs dfserver again, and must outlive this. So must what `done` of verify() uses.
+  /// `command` runs dfserver again, and must outlive this object. So must everything that `done` of verify()
+  /// uses.
   RoundHandover(const ReexecCommand& command, std::vector<Room> rooms);
   /// Ends a running proof.
   ~RoundHandover();
@@ -53,12 +54,12 @@ class RoundHandover {
 
   /// Returns why no round can be handed over now, as the rest of a sentence; empty if one can.
   std::string blocker() const;
-  /// Replays the rounds. `done` is called once, on a thread of this, unless this is destroyed before. Call
-  /// only without a blocker().
+  /// Replays the rounds. `done` is called once, on a thread of this object, unless it is destroyed before.
+  /// Call only if blocker() is empty.
   void verify(std::function<void(const Result& result)> done);
-  /// Returns what has changed since a successful proof and makes it invalid; empty if nothing has.
+  /// Returns the change since a successful proof that makes the proof invalid; empty if nothing has changed.
   std::string changeSinceVerification() const;
-  /// Stops recording, so that another program can resume the rounds. `port`: of the server.
+  /// Stops recording, so that another program can resume the rounds. `port`: the server's port.
   void suspend(std::uint16_t port);
   /// Returns the sockets to hand over, after suspend(); nullopt if the program must open its own.
   const std::optional<InheritedSockets>& sockets() const { return m_sockets; }
@@ -85,7 +86,7 @@ class RoundHandover {
   ChildProcess m_run;
 };
 
-/// Returns why the round cannot be handed over, from the end of dfreplay --verify; empty if it can.
+/// Returns why the round cannot be handed over, from the result of dfreplay --verify; empty if it can.
 std::string parseVerifyResult(const ChildExit& end);
 
 }  // namespace naiad

@@ -50,7 +50,7 @@ constexpr std::size_t kSharedRing = std::size_t{4} << 20;
 constexpr std::size_t kRoomRing = std::size_t{1} << 20;
 constexpr std::size_t kPrivateRing = std::size_t{256} << 10;
 
-/// Attempts to resume one round. A server that ends during one may have been ended by the round.
+/// Maximum number of attempts to resume one round: if the server dies during one, the round may be the cause.
 constexpr int kMaxAttempts = 3;
 
 std::string readSettings() {
@@ -85,7 +85,7 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   return facts;
 }
 
-/// Returns the header of a file whose name (of pathOf()) is that of one of this game's rounds.
+/// Returns the file's header if its name, as made by pathOf(), is that of a round of this game; else nullopt.
 std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
   const std::string name = path.filename().string();
   if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
@@ -143,7 +143,7 @@ int attemptsOf(const UnfinishedRound& round) {
   return fact >> attempts >> turns && turns >= round.turns() ? attempts : 0;
 }
 
-/// Not an option, because it is for a single start.
+/// Environment variable that names the handed-over rounds. Not an option, because it is for a single start.
 constexpr const char* kHandoverVariable = "DF_KEPT_ROUNDS";
 
 }  // namespace
@@ -171,7 +171,7 @@ std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, 
   for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
     try {
       auto round = std::make_unique<UnfinishedRound>(path.string());
-      if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // another server's
+      if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // a round of another server
       if (round->isOver() || round->turns() == 0) return nullptr;
       const std::string difference = differenceOf(*round, expected, frame_nanos, kept);
       if (difference.empty()) return round;
@@ -280,7 +280,7 @@ void RoundJournals::findRound(const HostOptions& options) {
   std::string why_not;
   m_open = findUnfinishedRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
   if (m_open != nullptr && options.players == "private") {
-    why_not = m_open->path() + ": rounds of --players private are not recovered";
+    why_not = m_open->path() + ": rounds of --input-mode private are not recovered";
     m_open.reset();
   }
   // Players reconnect within the grace time, and a file is written once a second.
@@ -332,7 +332,7 @@ std::unique_ptr<Round> RoundJournals::resumeRound(std::unique_ptr<WorldProcess> 
   }
   if (book.journal == nullptr) return nullptr;
   const bool is_kept = isHandedOver(*round);
-  if (is_kept) book.journal->addFacts(m_facts);  // from now on this server's game plays it
+  if (is_kept) book.journal->addFacts(m_facts);  // from now on this server's game plays the round
   if (!is_kept)
     book.find_difference = [p_world = world.get(), round] {
       for (const auto& [name, value] : factsOfStart(*p_world)) {
@@ -422,7 +422,7 @@ std::unique_ptr<Round> RoundJournals::recordWorld(std::unique_ptr<WorldProcess> 
   }
   m_shared->writer->add(book.journal);
   setCurrentRound(book.journal, path);
-  m_shared->writer->wake();  // so that there is a file if the server is killed within a second
+  m_shared->writer->wake();  // so that the file exists if the server is killed within a second
   return std::make_unique<Round>(std::move(world), std::move(book));
 }
 

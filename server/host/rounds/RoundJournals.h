@@ -36,13 +36,13 @@ std::string shellWord(const std::string& text);
 /// the module that replayed it with equal answers.
 using HandedOverRounds = std::map<std::string, std::string>;
 
-/// Returns what RoundJournals::exportHandedOverRounds() has announced, once.
+/// Returns the rounds that the previous program announced by RoundJournals::exportHandedOverRounds(), once.
 HandedOverRounds importHandedOverRounds();
 
 /// State shared by the journals of a server's rooms (openRoomJournals).
 struct SharedJournals {
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
-  std::set<std::string> checked = {};  ///< games that were, or are being, checked
+  std::set<std::string> checked = {};  ///< games of which a DeterminismCheck has begun
   HandedOverRounds kept = importHandedOverRounds();
 };
 
@@ -59,16 +59,16 @@ class RoundJournals {
   RoundJournals(const HostOptions& options, std::string game, const std::string& module, LogLine log,
                 std::shared_ptr<SharedJournals> p_shared = nullptr);
 
-  /// Returns the order for a world of a new round.
+  /// Returns the options for a world of a new round.
   WorldStartOptions makeStartOptions() const;
-  /// Returns the order for a world that resumes a killed server's round; nullopt if none is left.
+  /// Returns the options for a world that resumes a killed server's round; nullopt if there is no such round.
   std::optional<WorldStartOptions> resumeOptions() const;
-  /// Returns the highest player id of that round (UnfinishedRound::highestPlayer()); 0 without one.
+  /// Returns the highest player id of the round to resume (UnfinishedRound::highestPlayer()); 0 without one.
   std::uint32_t highestPlayer() const;
   /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded.
   /// `another` starts a world that takes over from one that crashed or hangs.
   std::unique_ptr<Round> resumeRound(std::unique_ptr<WorldProcess> world, NewWorld another);
-  /// Returns a new round of `world`, recorded unless that fails, which the log says. `again` starts a second
+  /// Returns a new round of `world`, recorded unless the log says that this fails. `again` starts a second
   /// world from `order`, with which the first round of each game is compared. `another` starts a world that
   /// takes over from one that crashed or hangs.
   std::unique_ptr<Round> recordWorld(std::unique_ptr<WorldProcess> world, const WorldStartOptions& order,
@@ -80,11 +80,12 @@ class RoundJournals {
   struct CurrentRound {
     std::string uuid;
     std::string file;
-    std::uint64_t start_nanos = 0;  ///< since 1970 in UTC
+    std::uint64_t start_nanos = 0;  ///< start time, since 1970 in UTC
   };
   /// Returns the current round; nullopt if none is being recorded.
   std::optional<CurrentRound> currentRound() const;
-  /// Returns why its rounds cannot be handed over, as the rest of a sentence; empty if nothing prevents it.
+  /// Returns why rounds of this game cannot be handed over, as the rest of a sentence; empty if nothing
+  /// prevents it.
   std::string handoverBlocker() const;
   /// Returns the path of the game's module; empty: the game is a program of its own.
   const std::string& module() const { return m_module; }
@@ -92,8 +93,8 @@ class RoundJournals {
   bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
   /// Leaves the journal as a killed server would. From now on nothing is recorded.
   void suspend();
-  /// Tells the program that this process runs next, in its environment, that modules with these hashes
-  /// (hashOfModule) replayed these rounds with equal answers, and may therefore resume them.
+  /// Announces `rounds` to the program that this process runs next, in its environment: modules with these
+  /// hashes (hashOfModule) replayed them with equal answers, so they may resume them.
   static void exportHandedOverRounds(const HandedOverRounds& rounds);
 
  private:
@@ -105,13 +106,13 @@ class RoundJournals {
   Round::JournalBinding makeBinding(const std::string& path, const WorldProcess& world) const;
 
   const std::string m_folder;
-  const bool m_of_room;  ///< the folder is a room's, in that of --journal
+  const bool m_of_room;  ///< true: the folder is a room's, in that of --journal
   const std::string m_game;
-  const std::string m_module;  ///< path; empty: a game that is a program
+  const std::string m_module;  ///< the module's path; empty: the game is a program
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
-  const bool m_checkpoints;  ///< worlds make copies; too many processes if each player has a world
+  const bool m_checkpoints;  ///< worlds make copies; not if each player has a world: too many processes
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
@@ -124,9 +125,9 @@ class RoundJournals {
   std::shared_ptr<SharedJournals> m_shared;
 };
 
-/// Returns the round that a server of this folder was killed in, if this server can resume it: game, settings
-/// and port are as in `expected`. Otherwise returns null; `said` has the reason if there is such a round.
-/// `kept`: rounds that another version of the game may have begun.
+/// Returns the round in which a server with this folder was killed, if this server can resume it: game,
+/// settings and port are as in `expected`. Otherwise returns null; `said` has the reason if there is such a
+/// round. `kept`: rounds that another version of the game may have begun.
 std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
                                                      std::uint64_t frame_nanos, std::string& said,
                                                      const HandedOverRounds& kept = {});
@@ -134,10 +135,10 @@ std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, 
 /// Returns the hash of a file by which a round identifies its game; empty if the file cannot be read.
 std::string hashOfModule(const std::string& path);
 
-/// Returns the kernel version and the build ids of libraries, which decide where memory lies.
+/// Returns the kernel version and the build ids of libraries, on which memory addresses depend.
 DfrFacts factsOfMachine();
 
-/// Maximum bytes of the game's settings; a longer file is not recorded.
+/// Maximum size of the game's settings, in bytes; a longer file is not recorded.
 inline constexpr std::size_t kMaxSettings = kMaxDfrValue;
 
 // Names of facts.
@@ -146,13 +147,15 @@ inline constexpr const char* kFactModule = "module_sha256";  ///< missing: the g
 inline constexpr const char* kFactVersion = "naiad";
 inline constexpr const char* kFactPlayers = "players";
 inline constexpr const char* kFactGameOver = "on_game_over";
-inline constexpr const char* kFactAddresses = "addresses";    ///< "fixed" or "random"
-inline constexpr const char* kFactClocks = "clocks";          ///< "repeatable" or "real"
-inline constexpr const char* kFactSettings = "settings";      ///< the text of df-config.txt
-inline constexpr const char* kFactPort = "port";              ///< port by which players joined
-inline constexpr const char* kFactFirstTick = "first_tick";   ///< its number in the server's log
+inline constexpr const char* kFactAddresses = "addresses";  ///< "fixed" or "random"
+inline constexpr const char* kFactClocks = "clocks";        ///< "repeatable" or "real"
+inline constexpr const char* kFactSettings = "settings";    ///< the text of df-config.txt
+inline constexpr const char* kFactPort = "port";            ///< port by which players joined
+inline constexpr const char* kFactFirstTick =
+    "first_tick";  ///< number of the round's first tick in the server's log
 inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered differently
-inline constexpr const char* kFactAttempts = "attempts";      ///< attempts to resume it, and its turns then
+inline constexpr const char* kFactAttempts =
+    "attempts";  ///< number of attempts to resume the round, and of its turns then
 inline constexpr const char* kFactFile = "file ";  ///< followed by a file's name: the hash of that file
 inline constexpr const char* kFactVariable = "variable ";  ///< followed by a variable's name: its value
 

@@ -24,12 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders of all users, or of many programs.
+/// Folders of all users or many programs, too wide for a game.
 const char* const kWideFolders[] = {"/",    "/dev",  "/etc",  "/home",    "/media",  "/mnt",
                                     "/opt", "/proc", "/root", "/run",     "/srv",    "/sys",
                                     "/tmp", "/usr",  "/var",  "/var/lib", "/var/tmp"};
 
-/// Folders that games load from, in a folder that they share with other things.
+/// Folders that a game may read even if the folder that contains them also has other things.
 const char* const kGameFolders[] = {"sprites", "sounds"};
 
 const char* const kVariables[] = {
@@ -37,9 +37,9 @@ const char* const kVariables[] = {
     "PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TZ", "TERM", "TMPDIR", "LD_LIBRARY_PATH",
     "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS",
     // Variables of the engine, for a game that is a program itself.
-    "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_PLAYERS", "NAIAD_SEED"};
+    "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_INPUT_MODE", "NAIAD_SEED"};
 
-/// Variables of these that differ between users and terminals.
+/// Variables among kVariables that differ between users and terminals.
 const char* const kPersonal[] = {"PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TERM", "TMPDIR"};
 
 /// Returns an absolute path without links, as far as the path exists.
@@ -159,8 +159,8 @@ class Builder {
     }
   }
 
-  // A build links to the folders of its sources. A link is followed only if the folder that both have in
-  // common is not wide: one that comes with a game could lead to the user's files.
+  // A build folder has links to the folders of its sources. A link is followed only if the folder that
+  // contains both ends is not wide, because a link that comes with a game could lead to the user's files.
   void addLinked(const fs::path& folder) {
     for (const char* name : kGameFolders) {
       const fs::path inner = folder / name;
@@ -189,7 +189,7 @@ class Builder {
     }
   }
 
-  // Landlock allows folders only as a whole.
+  // Warns of server files in the folder, because Landlock allows folders only as a whole.
   void noteServerFiles(const fs::path& folder) {
     for (const std::string& file : m_place.server_files) {
       if (file.empty() || !holds(folder, resolve(file))) continue;

@@ -1,8 +1,8 @@
 // Chooses the files, variables and memory that the worlds of a server get (host/world/Sandbox.h).
 //
 // A game reads its own folder and those of its resources, and writes into the working directory. A folder
-// that is too wide (the user's home, or one that holds the server's key) is not given as a whole: of it a
-// game gets sprites/ and sounds/.
+// that is too wide (the user's home, or one that holds the server's key) is not given as a whole: a game gets
+// only sprites/ and sounds/ in it.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@
 
 namespace naiad {
 
-/// Places of a game and its files. Relative paths begin in the directory of the program's start.
+/// Paths of a game's files. Relative paths begin in the directory in which the program was started.
 struct GamePaths {
-  std::vector<std::string> files;         ///< its module, its settings
-  std::vector<std::string> folders;       ///< its resources
-  std::vector<std::string> logs;          ///< files that it appends to
+  std::vector<std::string> files;         ///< the game's module and settings
+  std::vector<std::string> folders;       ///< the game's resources
+  std::vector<std::string> logs;          ///< files that the game appends to
   std::vector<std::string> server_files;  ///< written by the server: no world should write them
   std::vector<std::string> secrets;       ///< files or folders, in addition to those of the options
   bool is_program = false;  ///< the front's program is the game itself: a world may write into its folder
@@ -25,20 +25,21 @@ struct GamePaths {
 
 struct SandboxPolicy {
   Sandbox sandbox;
-  std::vector<std::string> notes;  ///< lines for the log: what a game may lack
+  std::vector<std::string>
+      notes;  ///< lines for the log: restrictions of the game, and files that it could change
 };
 
 SandboxPolicy makeSandboxPolicy(const HostOptions& options, const GamePaths& place);
 
 /// Returns the variables that a world gets from this process's environment: a fixed choice, and those that
-/// HostOptions::world_environment names. Never the passwords.
+/// HostOptions::world_environment names. Never returns the passwords.
 std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 
 /// Like makeWorldEnvironment(), for worlds whose rounds are recorded: variables that depend on the user who
 /// started the server are removed or fixed, unless the options name them.
 std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 
-/// True for "NAME=value" of a variable that changes the engine's behaviour, and that a round's file has.
+/// True for "NAME=value" of a variable that changes the engine's behaviour, so that round files record it.
 bool isGameVariable(const std::string& entry);
 
 /// Overwrites the values of --password and --admin-password, because every process of this machine can read a

@@ -31,11 +31,11 @@ std::vector<std::string> ownArguments() {
   return words;
 }
 
-/// Returns the options of dfserver that a world needs; the others are the front's.
+/// Returns the options of dfserver that a world needs; the others are for the front process.
 std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
-  std::vector<std::string> words{"dfserver", "--game=" + module, "--players=" + options.players,
+  std::vector<std::string> words{"dfserver", "--game=" + module, "--input-mode=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
-  // Worlds of recorded rounds are given their seed, and have equal arguments in each run.
+  // Worlds of recorded rounds get their seed otherwise, so that their arguments are equal in each run.
   if (options.seed != 0 && !usesJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
   return words;
 }
@@ -142,7 +142,7 @@ std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
   };
 }
 
-// The published engine writes 1/30 s as 33 ms.
+// In the published engine, 33 ms stands for 1/30 s, so it is not a choice of the game.
 HostOptions withFrameTime(HostOptions options, const WorldReady& ready) {
   constexpr int kUsualMillis = 33;
   if (options.frame_micros == 0 && ready.frame_millis != kUsualMillis)

@@ -23,7 +23,7 @@ bool isGameOverPerPlayer(const HostOptions& options);
 std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
                                                   const std::string& config, const LogLine& log,
                                                   int nice = 0);
-/// Like launchModule(), for a game that is this program. `log_file`: the game's own.
+/// Like launchModule(), for a game that is this program. `log_file`: the game's log file.
 std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, const std::string& log_file,
                                                    const LogLine& log);
 

@@ -24,8 +24,8 @@ namespace naiad {
 
 /// Counts the scores that worlds have added.
 struct ScoreCounters {
-  std::uint64_t added = 0;    ///< accepted
-  std::uint64_t refused = 0;  ///< invalid, or of more tables than a game may have
+  std::uint64_t added = 0;    ///< accepted scores
+  std::uint64_t refused = 0;  ///< invalid scores, and those of more tables than a game may have
   std::uint64_t written = 0;  ///< saved on disk
   std::uint64_t dropped = 0;  ///< kept only in memory, because too many waited for the disk
 };
@@ -84,7 +84,7 @@ class ScoreKeeper {
   std::atomic<std::uint64_t> m_written = 0;
   std::mutex m_mutex;               ///< guards the members below, except m_worker
   std::vector<ScoreRow> m_waiting;  ///< rows to write, oldest first
-  bool m_writing = false;           ///< a job of the worker will write them
+  bool m_writing = false;           ///< true if a job of the worker will write m_waiting
   std::string m_problem;            ///< current problem; empty: none
   std::string m_log_message;
   std::atomic<bool> m_has_log_message = false;

@@ -50,12 +50,12 @@ class ClientActivity {
 
   /// Call when a welcome was sent: the next frame proves that the client has read it.
   void expectConfirmation() { m_expects_confirmation = true; }
-  /// True once after that frame.
+  /// True once after the frame that expectConfirmation() waits for.
   bool popWelcomeConfirmed() { return std::exchange(m_welcome_confirmed, false); }
 
  private:
   void refill(Time now) {
-    constexpr std::chrono::milliseconds kEnough{1000};  // refills all of it
+    constexpr std::chrono::milliseconds kEnough{1000};  // refills the whole limit
     const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(
         std::min<Time::duration>(now - m_refilled, kEnough));
     m_refilled = now;
@@ -66,7 +66,7 @@ class ClientActivity {
   bool m_has_received = false;  ///< a message came since the last tick
   bool m_expects_confirmation = false;
   bool m_welcome_confirmed = false;
-  int m_messages = kMaxMessageBurst;  ///< messages that may come now
+  int m_messages = kMaxMessageBurst;  ///< number of messages that the client may send now
   IdleTimer m_idle;
   Time m_frame_at;
   Time m_refilled;

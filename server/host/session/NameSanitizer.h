@@ -8,10 +8,10 @@ namespace naiad {
 
 // Detection of names that differ in bytes but look alike: Cyrillic "Аnn" and Latin "Ann", "Ilse" and "llse".
 
-/// Returns the skeletons of `name` (UTF-8): two names look alike if they share a shape. Shapes are the
-/// skeletons of Unicode's confusable characters (UTS #39, section 4) of the name with and without its upper
+/// Returns the skeletons of `name` (UTF-8): two names look alike if they share one. Skeletons replace
+/// Unicode's confusable characters (UTS #39, section 4). They are made of the name with and without its upper
 /// case, because "I" looks like "l" only in upper case. Takes some microseconds. The first call loads ICU's
-/// tables (a few milliseconds), so a server makes one at its start. Any thread.
+/// tables (a few milliseconds), so a server calls it once at its start. Any thread.
 std::vector<std::string> nameSkeletons(const std::string& name);
 
 /// Returns `wanted` with blanks trimmed and collapsed, without characters that no terminal draws in one cell,

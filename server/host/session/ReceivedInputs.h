@@ -1,8 +1,8 @@
 // Inputs received from a client and not yet applied by the world: in order, each id once.
 //
 // They wait here because the world's InputQueue lasts for one tick only. Limits are per client and are
-// checked when updates arrive; a world process would answer later. A snapshot acknowledges the inputs of its
-// tick, so the host must know which inputs a tick has.
+// checked when updates arrive; a world process could check them only later. A snapshot acknowledges the
+// inputs of its tick, so the host must know which inputs a tick has.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,8 @@ class PressedKeys {
   void recordInput(const Input& input) {
     if (!input.is_mouse) m_down.set(input.key, input.action != df::KEY_RELEASED);
   }
-  /// Calls `release(input)` with a release of each key that is down, by key code; afterwards no key is down.
+  /// Calls `release(input)` with a release of each key that is down, in the order of key codes; then no key
+  /// is down.
   template <class Release>
   void releaseAll(Release release) {
     for (std::size_t key = 0; key < m_down.size() && m_down.any(); ++key) {
@@ -48,7 +49,7 @@ class ReceivedInputs {
  public:
   static constexpr std::size_t kMaxQueued = 64;
   static constexpr int kPerTick = 16;
-  /// Ticks. An input for a tick further ahead than this is applied at once.
+  /// Number of ticks: an input for a tick further ahead than this is applied at once.
   static constexpr std::int32_t kMaxEarly = 8;
 
   enum class Result { kQueued, kRepeated, kTooMany };
@@ -91,7 +92,7 @@ class ReceivedInputs {
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     if (m_controls != controls) m_controls = controls;
   }
-  /// The id received last; 0 if none.
+  /// Returns the id of the newest received input; 0 if none.
   std::uint32_t newest() const { return m_newest; }
 
  private:
@@ -104,7 +105,7 @@ class ReceivedInputs {
 
   std::deque<Input> m_queue;
   std::uint32_t m_newest = 0;
-  PressedKeys m_pressed;  ///< after all inputs of m_queue
+  PressedKeys m_pressed;  ///< keys that are down after all inputs of m_queue
   std::shared_ptr<const df::ControlTable> m_controls;
 };
 

@@ -13,7 +13,7 @@ namespace naiad {
 namespace {
 
 wire::ServerMessage noticeOf(std::uint64_t lines) {
-  wire::ServerMessage message;  // no player: a line from the server
+  wire::ServerMessage message;  // without a player, the line is from the server
   message.mutable_chat()->set_text(lines == 1 ? "1 line of chat was dropped."
                                               : std::to_string(lines) + " lines of chat were dropped.");
   return message;
@@ -30,7 +30,7 @@ void ReliableOutbox::add(const wire::ServerMessage& message) {
   append(message, message.has_players() ? Kind::kPlayers : Kind::kChat, {});
 }
 
-// Each sound gets its own frame, so that its newer state can replace it.
+// Each sound gets its own frame, so that a newer state of the sound can replace it.
 void ReliableOutbox::addSounds(const wire::ServerMessage& message) {
   for (const wire::Sound& sound : message.sounds().sounds()) {
     wire::ServerMessage single;
@@ -48,8 +48,9 @@ void ReliableOutbox::append(wire::ServerMessage message, Kind kind, std::string 
   limit();
 }
 
-// Replaces an unsent frame in its place in the queue. At the end, frequent updates would never be sent over a
-// line that is always busy. A sent frame is removed, and the new one goes to the end.
+// Replaces an unsent frame in its place in the queue. At the end of the queue, a frame that is often updated
+// would never be sent over a connection that is always busy. A sent frame is removed, and the new one goes to
+// the end.
 bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label) {
   if (kind == Kind::kChat) return false;
   const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const ReliableFrame& kept) {
@@ -94,7 +95,7 @@ void ReliableOutbox::erase(std::size_t index) {
   m_kept.erase(at);
 }
 
-// Returns m_kept.size() if none.
+// Returns the index of the first unsent frame of this kind; m_kept.size() if there is none.
 std::size_t ReliableOutbox::findUnsent(Kind kind) const {
   const auto found = std::find_if(m_kept.begin(), m_kept.end(), [kind](const ReliableFrame& kept) {
     return !kept.sent && kept.kind == kind;
@@ -116,7 +117,7 @@ bool ReliableOutbox::dropOldestChat() {
   notice.set_number(line.number);
   line = {line.number, Kind::kNotice, false, {}, notice.SerializeAsString(), lines};
   count(line);
-  ++m_counters.chat_left_out;
+  ++m_counters.outbox_chat_dropped;
   return true;
 }
 
@@ -124,7 +125,7 @@ bool ReliableOutbox::dropOldestSound() {
   const std::size_t oldest = findUnsent(Kind::kSound);
   if (oldest == m_kept.size()) return false;
   erase(oldest);
-  ++m_counters.kept_overflows;
+  ++m_counters.outbox_sounds_dropped;
   return true;
 }
 

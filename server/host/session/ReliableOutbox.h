@@ -32,14 +32,14 @@ class ReliableOutbox {
 
   explicit ReliableOutbox(Counters& counters) : m_counters(counters) {}
 
-  /// Adds a message of chat, players or sounds. A player list replaces the previous one, a sound the one with
-  /// that label.
+  /// Adds a message of chat, players or sounds. A player list replaces the previous one, a sound the previous
+  /// one with the same label.
   void add(const wire::ServerMessage& message);
   /// Drops the frames up to `number`, which the client has. Ignores numbers that were never sent.
   void acknowledge(std::uint32_t number);
   /// Call for a new stream: everything kept is sent again.
   void restartStream();
-  /// Drops everything, for another process of the client. Numbers continue.
+  /// Call when another process of the client resumes the session: drops all frames. Numbers continue.
   void clear();
 
   /// Returns the next frame to send on the stream; null if none waits or the window is full.
@@ -54,10 +54,10 @@ class ReliableOutbox {
   struct ReliableFrame {
     std::uint32_t number = 0;
     Kind kind = Kind::kChat;
-    bool sent = false;  ///< over any stream; sent frames come first
-    std::string label;  ///< key of a sound, music or not
+    bool sent = false;  ///< sent over any stream; such frames are at the front of the queue
+    std::string label;  ///< identifies a sound: its label, and whether it is music
     std::string frame;
-    std::uint64_t lines = 0;  ///< chat lines that a notice stands for
+    std::uint64_t lines = 0;  ///< dropped chat lines that a notice reports
     std::size_t size() const;
   };
 

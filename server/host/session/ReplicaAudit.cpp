@@ -7,7 +7,8 @@ namespace naiad {
 
 namespace {
 
-/// Older snapshots can no longer be acknowledged (AckWindow).
+/// Snapshots farther than this before the newest acknowledged one cannot be acknowledged any more
+/// (AckWindow).
 constexpr std::uint32_t kWindow = 64;
 
 }  // namespace
@@ -61,7 +62,7 @@ void ReplicaAudit::applyAcknowledged(const AckWindow& acks) {
   });
 }
 
-// Skips unreadable snapshots; the client does not acknowledge those.
+// Skips unreadable snapshots, which the client does not acknowledge.
 void ReplicaAudit::apply(const std::string& bytes) {
   Snapshot snapshot;
   if (m_shadow.read(bytes, snapshot) != ReadResult::kOk) return;

@@ -55,9 +55,9 @@ class ReplicaAudit {
   Counters& m_counters;
   State m_state = State::kWaits;
   Replica m_shadow;
-  SnapshotHeader m_header;     ///< of the newest snapshot that the shadow has applied
+  SnapshotHeader m_header;     ///< header of the newest snapshot that the shadow has applied
   std::deque<Sent> m_sent;     ///< unacknowledged snapshots, oldest first
-  std::deque<Truth> m_truths;  ///< not compared yet, oldest first
+  std::deque<Truth> m_truths;  ///< pictures not compared yet, oldest first
 };
 
 }  // namespace naiad

@@ -135,12 +135,12 @@ void Session::restart(Session& other, wire::Welcome welcome, std::unique_ptr<Sea
 
 bool Session::admitSecondStream() {
   if (m_second_streams.tryConsume(kSecondStreamRate, now())) return true;
-  ++m_counters.seconds_deferred;
+  ++m_counters.second_streams_deferred;
   return false;
 }
 
 void Session::attachSecondStream(Session& other) {
-  m_streams.adoptSecond(other.m_streams, kMaxClientFrame);
+  m_streams.adoptAsSecond(other.m_streams, kMaxClientFrame);
   other.m_reported_gone = true;
   other.m_state = State::kGone;
   ++m_counters.second_streams;
@@ -170,9 +170,9 @@ void Session::onClosed(CloseReason reason) {
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   m_streams.dropSecond();
-  setLeaveReason(lost                               ? &Counters::left_hung_up
+  setLeaveReason(lost                               ? &Counters::left_disconnected
                  : reason == CloseReason::kProtocol ? &Counters::left_malformed
-                 : reason == CloseReason::kOverflow ? &Counters::left_stuck
+                 : reason == CloseReason::kOverflow ? &Counters::left_stalled
                                                     : &Counters::left_dismissed);
   reportGone();
 }
@@ -202,7 +202,7 @@ void Session::end() {
   if (m_state == State::kGone) return;
   m_state = stream() != nullptr ? State::kEnding : State::kGone;
   m_streams.close();
-  reportGone();  // the player's object must not wait until the last bytes are sent
+  reportGone();  // now: the player's object must not stay in the world until the last bytes are sent
 }
 
 void Session::reportGone() {
@@ -233,20 +233,20 @@ void Session::checkSilence(Clock::time_point now) {
   if (m_state == State::kGreeting) {
     checkGreeting(now);
   } else if (isDetached() && silence > m_grace) {
-    ++m_counters.graces_expired;
+    ++m_counters.reconnect_timeouts;
     setLeaveReason(&Counters::left_silent);
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
-    // An outage often breaks the stream at neither end.
+    // Often neither end notices in an outage that the stream is broken.
     if (m_grace.count() > 0) return detach(now);
     setLeaveReason(&Counters::left_silent);
     sendGoodbye("Disconnected: no data from your client.");
   } else if (m_state == State::kPlaying && m_streams.isStalled(now) &&
              silence < StallDetector::kStallTimeout) {
     // A client that is also silent has lost its connection: it is detached later and may reconnect.
-    ++m_counters.stuck_streams;
-    setLeaveReason(&Counters::left_stuck);
+    ++m_counters.stalled_streams;
+    setLeaveReason(&Counters::left_stalled);
     sendGoodbye("Disconnected: your connection is too slow.");
   }
 }
@@ -302,8 +302,8 @@ void Session::sendReliable(const wire::ServerMessage& message) {
   sendWaiting();
 }
 
-// Sends only while few bytes are unsent, alternating with snapshots: on a slow line, chat must neither delay
-// the game nor fill the stream until it counts as stuck.
+// Sends only while few bytes are unsent, alternating with snapshots: on a slow connection, chat must neither
+// delay the game nor fill the stream until it counts as stuck.
 void Session::sendWaiting() {
   if (m_state != State::kPlaying || stream() == nullptr) return;
   while (const std::string* p_frame = m_outbox.next()) {

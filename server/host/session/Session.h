@@ -47,7 +47,7 @@ class ChatRateLimiter {
 
   static constexpr double kPerSecond = 3;
   static constexpr double kBurst = 3;
-  /// Maximum after a reconnect: lines that the client may have queued during its silence.
+  /// Maximum number of lines after a reconnect: the client may have queued these during its silence.
   static constexpr double kMaxSaved = 30;
 
   explicit ChatRateLimiter(Time now) : m_refilled(now) {}
@@ -67,7 +67,7 @@ class ChatRateLimiter {
   }
 
  private:
-  /// Refills up to `most` lines. Never takes lines away.
+  /// Adds the lines allowed for the time since the last call, up to `most` in all. Never takes lines away.
   void refill(Time now, double most) {
     if (now <= m_refilled) return;
     const double seconds = std::chrono::duration<double>(now - m_refilled).count();
@@ -145,14 +145,14 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Calls to the host, made from the event loop. A hello is answered within kAdmissionTimeout: by refuse(),
-  /// welcome(), or another session's resumeOn(), restart() or attachSecondStream().
+  /// Callbacks to the host, called from the event loop. A hello is answered within kAdmissionTimeout: by
+  /// refuse(), welcome(), or another session's resumeOn(), restart() or attachSecondStream().
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
     std::function<void(Session&)> on_gone;   ///< the session is ending; called once
-    std::function<Clock::time_point()> now;  ///< empty: std::chrono::steady_clock
-    /// The client is being refused; `sentence` is the reason it is sent.
+    std::function<Clock::time_point()> now;  ///< the time; if empty, std::chrono::steady_clock is used
+    /// The client is being refused; `sentence` is the reason that the client is told.
     std::function<void(Session&, const std::string& sentence)> on_refused = {};
     std::function<void(Session&)> on_list_rooms = {};
     std::function<void(Session&, const std::string& room)> on_enter_room = {};
@@ -166,8 +166,8 @@ class Session {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// After this much silence of a detached player, the keys they hold are released.
   static constexpr std::chrono::seconds kKeyReleaseDelay{1};
-  /// Rate limit of resumes, on another stream or by another process. Players do not notice a line that breaks
-  /// once a second, but each resume may send a world from the beginning.
+  /// Rate limit of resumes, on another stream or by another process. Players do not notice a connection that
+  /// breaks once a second, but each resume may send a world from the beginning.
   static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
   /// Rate limit of new second streams. Clients ask at most every two seconds.
   static constexpr BucketRate kSecondStreamRate{.per_second = 0.5, .burst = 4};
@@ -195,7 +195,8 @@ class Session {
   /// True for a restored session, and for a session that replaced one until confirm(). Such a session cannot
   /// be resumed by resumeOn() or restart(), because its client may not have read its welcome.
   bool isRestored() const { return m_restored; }
-  /// Call after welcome(): this session replaces `restored`, which ends. Keeps its mute and resume limit.
+  /// Call after welcome(): this session replaces `restored`, which ends. Keeps the mute and the resume limit
+  /// of `restored`.
   void replaceRestored(Session& restored);
   /// Call once the client has proved that it read the welcome (popWelcomeConfirmed()).
   void confirm() { m_restored = false; }
@@ -237,7 +238,7 @@ class Session {
   /// The welcome without its resume token, because only the hash is stored (ResumeTokens).
   const wire::Welcome& welcomed() const { return *m_welcome; }
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
-  /// Null while detached.
+  /// Returns the first stream; null while detached.
   const ReliableChannel* stream() const { return m_streams.first(); }
   /// Returns keying material of the stream (Channel.h).
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
@@ -268,16 +269,17 @@ class Session {
   /// from the beginning.
   void setAudit(bool audit) { m_delivery.setAudit(audit); }
   bool isAudited() { return m_delivery.audit() != nullptr; }
-  /// Only while audited. Records the picture of the tick that the next sendTick() sends.
+  /// Call only while audited. Records the picture of the tick that the next sendTick() sends.
   void recordTruth(std::uint32_t tick, df::Canvas picture) {
     m_delivery.audit()->recordTruth(tick, std::move(picture));
   }
 
-  /// Sends pending changes of the published tick, unless the client or its line is busy with earlier bytes.
+  /// Sends pending changes of the published tick, unless the client or its connection is busy with earlier
+  /// bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
-  /// Sends reliably, if needed on a later stream. Kept until the client acknowledges it, or dropped if too
-  /// much is kept (ReliableOutbox.h). For chat, player lists and sounds.
+  /// Sends the message reliably, if needed on a later stream. Kept until the client acknowledges it, or
+  /// dropped if too much is kept (ReliableOutbox.h). For chat, player lists and sounds.
   void sendReliable(const wire::ServerMessage& message);
 
   /// Sends only if the message can arrive at once. Returns whether it was sent.
@@ -290,8 +292,8 @@ class Session {
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
-  /// Ticks after which this client was not up to date, because its line or the client was busy with earlier
-  /// bytes.
+  /// Number of ticks after which this client was not up to date, because its connection or the client was
+  /// busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
   /// Newest round-trip time measured by the client, in milliseconds; 0 before the first.
   std::uint32_t rttMillis() const { return m_rtt_millis; }
@@ -335,7 +337,7 @@ class Session {
   void end();
 
   State m_state = State::kGreeting;
-  std::uint32_t m_player = 0;  ///< copy from m_welcome, which is rarely in the cache
+  std::uint32_t m_player = 0;  ///< copy of the id in m_welcome, which is rarely in the cache
   bool m_reported_gone = false;
   Leave m_leave = &Counters::left_dismissed;
   bool m_has_hello = false;  ///< the hello was received

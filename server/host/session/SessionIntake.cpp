@@ -18,7 +18,7 @@ bool parse(std::string_view frame, wire::ClientMessage& message) {
 
 }  // namespace
 
-// False if the session has ended, or ends now because the message is over the limit.
+// Returns false if the session has ended, or ends now because the message is over the limit.
 bool Session::acceptMessage() {
   if (m_state == State::kEnding || m_state == State::kGone) return false;
   if (m_activity.countMessage()) return true;
@@ -75,7 +75,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       handlePing(message.ping());
       return true;
     case What::kLeave:
-      setLeaveReason(&Counters::left_asked);
+      setLeaveReason(&Counters::left_voluntarily);
       sendGoodbye("You left the game.");
       return true;
     case What::kResize:

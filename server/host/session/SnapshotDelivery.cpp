@@ -12,7 +12,7 @@ namespace {
 
 constexpr PacketLimits kStreamRoom{64, kMaxSnapshot, false};
 constexpr PacketLimits kSecondRoom{1, SnapshotDelivery::kMaxOnSecond, false};
-/// More than a megabit per second at 30 Hz.
+/// Maximum number of datagrams per tick: more than a megabit per second at 30 Hz.
 constexpr std::size_t kDatagramsPerTick = 4;
 
 /// The sessions of a thread send one after the other, so they share one buffer.
@@ -33,7 +33,7 @@ void SnapshotDelivery::sendTick(const Publisher& publisher, const df::PlayerFact
                                 StreamPair& streams, Time now) {
   m_tick = publisher.tick();
   m_blocked = false;
-  settleAcks();
+  applyWaitingAck();
   m_sender.applyTick(publisher, player);
   if (m_audit) m_audit->beginTick(m_sender.newestNumber(), m_tick);
   if (usesDatagrams(now)) return sendDatagrams(publisher, streams, now);
@@ -110,13 +110,13 @@ void SnapshotDelivery::skipTick() {
 }
 
 void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time now) {
-  settleAcks();
+  applyWaitingAck();
   m_acks = acks;
   m_transport.acknowledge(acks, by_datagram, now);
 }
 
 // Processing an acknowledgement touches memory that sendTick() touches anyway, so it waits until then.
-void SnapshotDelivery::settleAcks() {
+void SnapshotDelivery::applyWaitingAck() {
   if (m_acks) m_sender.acknowledge(*m_acks);
   if (m_acks && m_audit) m_audit->acknowledge(*m_acks, m_sender);
   m_acks.reset();
@@ -128,7 +128,7 @@ void SnapshotDelivery::compareChecksum(const AckWindow& acks, std::uint64_t chec
     return;
   }
   m_last_checksum = now;
-  settleAcks();
+  applyWaitingAck();
   if (m_sender.matchesChecksum(acks, checksum) != false) return;
   ++m_counters.divergences;
   requestReset(now);
@@ -150,7 +150,8 @@ void SnapshotDelivery::reset() {
   if (m_audit) m_audit->restart();
 }
 
-// A client that was sent no snapshot yet is about to be sent a world from the beginning.
+// If the client was sent no snapshot yet, the audit starts now, because its first snapshots send the whole
+// world.
 void SnapshotDelivery::setAudit(bool audit) {
   m_audit = audit ? std::make_unique<ReplicaAudit>(m_counters) : nullptr;
   if (m_audit && m_sender.newestNumber() == 0) m_audit->restart();
@@ -158,7 +159,7 @@ void SnapshotDelivery::setAudit(bool audit) {
 
 void SnapshotDelivery::onStreamLost() {
   m_blocked = false;
-  settleAcks();
+  applyWaitingAck();
   m_sender.requeueLarge();
 }
 

@@ -26,8 +26,8 @@ class SnapshotDelivery {
   static constexpr std::chrono::seconds kResetInterval{2};
   /// Minimum time between two checksums. Clients send one a second; a few may arrive together after a stall.
   static constexpr std::chrono::milliseconds kChecksumInterval{250};
-  /// Larger snapshots use the first stream only. Changes that gathered during a wait are small enough to
-  /// send twice; a whole world would be too much for a slow line.
+  /// Number of bytes: larger snapshots use the first stream only. Changes that gathered during a wait are
+  /// small enough to send twice; a whole world would be too much for a slow connection.
   static constexpr std::size_t kMaxOnSecond = std::size_t{4} * 1024;
 
   SnapshotDelivery(Counters& counters, Time now) : m_counters(counters), m_transport(now) {}
@@ -36,7 +36,8 @@ class SnapshotDelivery {
   void setDatagrams(std::unique_ptr<SealedChannel> datagrams) { m_datagrams = std::move(datagrams); }
   SealedChannel* datagrams() { return m_datagrams.get(); }
 
-  /// Sends pending changes of the published tick, unless the client or its line is busy with earlier bytes.
+  /// Sends pending changes of the published tick, unless the client or its connection is busy with earlier
+  /// bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player, StreamPair& streams, Time now);
   /// Sets the newest input that the world has applied, and the tick in which it did.
   void setNewestInput(std::uint32_t id, std::uint32_t tick) { m_sender.setNewestInput(id, tick); }
@@ -44,7 +45,7 @@ class SnapshotDelivery {
 
   /// Starts or stops the audit of the client's pictures (ReplicaAudit.h).
   void setAudit(bool audit);
-  /// Null if there is no audit.
+  /// Returns null if there is no audit.
   ReplicaAudit* audit() { return m_audit.get(); }
 
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
@@ -59,7 +60,8 @@ class SnapshotDelivery {
   void onStreamLost();
   /// Call when the client is on another stream: probes again whether datagrams pass.
   void renewTransport(Time now) { m_transport.renew(now); }
-  /// Call for another process of the client: forgets the transport state and sends the world, like a reset.
+  /// Call when another process of the client has resumed the session: forgets the transport state and sends
+  /// the world, like a reset.
   void restart(Time now);
 
   /// True if earlier unsent bytes delayed the last snapshot, which was to use a stream.
@@ -69,14 +71,14 @@ class SnapshotDelivery {
   std::uint32_t tick() const { return m_tick; }
   /// The tick of a snapshot; nullopt if it is no longer remembered.
   std::optional<std::uint32_t> tickOf(std::uint32_t snapshot) const { return m_ticks.tickOf(snapshot); }
-  /// Ticks after which this client was not up to date, because its line or the client was busy with earlier
-  /// bytes.
+  /// Number of ticks after which this client was not up to date, because its connection or the client was
+  /// busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   const TransportSelector& transport() const { return m_transport; }
   const SnapshotSender& sender() const { return m_sender; }
 
  private:
-  void settleAcks();
+  void applyWaitingAck();
   void sendDatagrams(const Publisher& publisher, StreamPair& streams, Time now);
   void sendOnStreams(const Publisher& publisher, StreamPair& streams, Time now);
   void sendProbe(const Publisher& publisher, Time now);
@@ -88,7 +90,7 @@ class SnapshotDelivery {
   Counters& m_counters;
   std::unique_ptr<SealedChannel> m_datagrams;
   std::uint32_t m_tick = 0;
-  std::optional<AckWindow> m_acks;  ///< received, but not passed to m_sender yet
+  std::optional<AckWindow> m_acks;  ///< received acknowledgement, not passed to m_sender yet
   std::uint64_t m_skipped_ticks = 0;
   SnapshotSender m_sender{Resend::kAhead};
   std::unique_ptr<ReplicaAudit> m_audit;

@@ -23,7 +23,7 @@ void StreamPair::start(Callbacks callbacks, std::size_t limit) {
 
 void StreamPair::adoptFirst(StreamPair& other) {
   dropSecond();
-  if (m_first != nullptr) {  // this end has not noticed yet that the other one is gone
+  if (m_first != nullptr) {  // the client has left it, but the server has not noticed yet
     std::swap(m_route, other.m_route);
     std::swap(m_first, other.m_first);
   } else {
@@ -35,7 +35,7 @@ void StreamPair::adoptFirst(StreamPair& other) {
   m_stall.restart();
 }
 
-void StreamPair::adoptSecond(StreamPair& other, std::size_t limit) {
+void StreamPair::adoptAsSecond(StreamPair& other, std::size_t limit) {
   dropSecond();
   m_second = std::move(other.m_first);
   const auto route = std::exchange(other.m_route, std::make_shared<Route>());

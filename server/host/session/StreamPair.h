@@ -1,6 +1,6 @@
 // A session's two streams, and the callbacks from them to the session.
 //
-// A stream outlives the session that received its hello: adoptFirst() and adoptSecond() move it to another
+// A stream outlives the session that received its hello: adoptFirst() and adoptAsSecond() move it to another
 // pair, which then gets its callbacks.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace naiad {
 
 /// Detects a peer that no longer reads its stream. A stream is stuck if more than kStallThreshold bytes are
 /// unsent and the number has not reached a new minimum for kStallTimeout. A slow stream is not stuck: each
-/// new minimum restarts the time. Pure.
+/// new minimum restarts the time. Pure: time is a parameter.
 class StallDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -34,12 +34,12 @@ class StallDetector {
     }
     return now - m_since >= kStallTimeout;
   }
-  /// Call for another stream.
+  /// Call when another stream replaces the observed one.
   void restart() { m_min_unsent = 0; }
 
  private:
   std::size_t m_min_unsent =
-      0;  ///< minimum since more than kStallThreshold is unsent; 0: at most kStallThreshold is unsent
+      0;  ///< minimum of the unsent bytes since they exceeded kStallThreshold; 0: they do not exceed it
   Time m_since{};
 };
 
@@ -67,13 +67,13 @@ class StreamPair {
   /// Takes the first stream of `other`. If this pair still has one, `other` gets it in exchange.
   void adoptFirst(StreamPair& other);
   /// Takes the first stream of `other` as the second one of this pair. An earlier second stream is closed.
-  void adoptSecond(StreamPair& other, std::size_t limit);
+  void adoptAsSecond(StreamPair& other, std::size_t limit);
   void dropSecond();
   /// Drops both streams, because the first one broke.
   void detach();
   void close();
 
-  /// Null while detached.
+  /// Returns the first stream; null while detached.
   const ReliableChannel* first() const { return m_first.get(); }
   bool hasSecond() const { return m_second != nullptr; }
   /// True if the stream exists and has no unsent bytes.
@@ -100,11 +100,11 @@ class StreamPair {
   }
 
   Callbacks m_callbacks;
-  std::string m_address;                      ///< of the last first stream; used while detached
+  std::string m_address;                      ///< address of the previous first stream; used while detached
   std::unique_ptr<ReliableChannel> m_first;   ///< null while detached
   std::unique_ptr<ReliableChannel> m_second;  ///< null if none
-  StallDetector m_stall;                      ///< of the first stream
-  std::shared_ptr<Route> m_route = std::make_shared<Route>();  ///< of the first stream
+  StallDetector m_stall;                      ///< observes the first stream
+  std::shared_ptr<Route> m_route = std::make_shared<Route>();  ///< route of the first stream
 };
 
 }  // namespace naiad

@@ -1,5 +1,5 @@
-// Chooses whether a session's snapshots go as datagrams or on the stream, and how often, from the link's
-// round trip and losses.
+// Chooses whether a session's snapshots are sent as datagrams or on the stream, and how often, from the
+// connection's round-trip time and losses.
 //
 // A session starts on the stream. It probes with a snapshot sent as a datagram: once a second, at first more
 // often. Once a datagram acknowledges such a datagram, snapshots are datagrams. They use the stream again
@@ -47,12 +47,12 @@ class TransportSelector {
       recordArrival(acks.newest - 1 - bit, false, by_datagram, now);
     }
   }
-  /// Call for another address or stream: probes again soon.
+  /// Call when the client uses another address or stream: probes again soon.
   void renew(Time now) { m_probe.renew(now); }
 
   /// True if datagrams pass.
   bool isOpen(Time now) const { return m_probe.isOpen(now); }
-  /// True if a probe is due. `only`: there is no stream.
+  /// True if a probe is due. `only`: true if there is no stream.
   bool wantsProbe(Time now, bool only = false) const { return m_probe.isDue(now, only); }
 
   /// Smoothed time from sending to acknowledgement; 0 before the first sample.
@@ -60,8 +60,8 @@ class TransportSelector {
   /// The shortest round trip of about the last ten seconds.
   Millis shortestRoundTrip() const { return m_stats.shortest(); }
 
-  /// Returns how many ticks apart snapshots are sent: 1, 2, 3 or 6. It grows while the line is overloaded
-  /// (its queues grow, or it loses more than 15 %) and shrinks again after five good seconds.
+  /// Returns how many ticks apart snapshots are sent: 1, 2, 3 or 6. It grows while the connection is
+  /// overloaded (its queues grow, or it loses more than 15 %) and shrinks again after five good seconds.
   std::uint32_t interval(double loss, Time now) {
     const bool bad = roundTrip() - shortestRoundTrip() > kFullQueue || loss > kHighLoss;
     if (bad != m_bad) (bad ? m_bad_since : m_good_since) = now;
@@ -100,7 +100,7 @@ class TransportSelector {
     sent.open = false;
     if (!sent.as_datagram || !by_datagram || sent.confirmed) return;
     sent.confirmed = true;
-    // An older datagram may predate an outage, so it says nothing about the path now.
+    // An older datagram may predate an outage, so it proves nothing about the present path.
     if (now - sent.at < 2 * PathProbe::kOpenTime) m_probe.addEvidence(now);
   }
 

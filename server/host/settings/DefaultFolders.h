@@ -8,7 +8,7 @@
 
 namespace naiad {
 
-/// Given instead of a path, it disables the file or folder.
+/// Value of an option that disables its file or folder, in place of a path.
 inline constexpr std::string_view kOffWord = "off";
 
 /// Fills in dfserver's default paths. Games that are programs themselves have no such defaults.

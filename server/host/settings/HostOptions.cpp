@@ -36,9 +36,7 @@ using Values = std::variant<std::monostate, OptionRange, OneOf>;
 /// Makes a row. The environment variable is named after the option: NAIAD_MAX_PLAYERS sets --max-players.
 Row row(const std::string& name, OptionTarget target, const char* help, const Values& values = {},
         UsedBy used_by = UsedBy::kBoth) {
-  std::string variable = "NAIAD_" + name.substr(2);
-  for (char& c : variable) c = c == '-' ? '_' : static_cast<char>(std::toupper(c));
-  Option option{name, std::move(target), help, variable};
+  Option option{name, std::move(target), help, variableNameOf(name)};
   if (const auto* p_range = std::get_if<OptionRange>(&values)) option.range = *p_range;
   if (const auto* p_words = std::get_if<OneOf>(&values)) option.one_of = *p_words;
   option.joins = name == "--room";
@@ -53,7 +51,7 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--room", &o.rooms,
           "NAME=GAME[,KEY=VALUE…]: add a room that plays this game; repeat it for each room (in the "
           "environment: separated by spaces). Players start in the first room, or join with HOST/NAME. KEY "
-          "is max-players, world-memory, seed or players, like the options",
+          "is max-players, world-memory, seed or input-mode, like the options",
           {}, UsedBy::kServer),
       row("--room-sleep", &o.room_sleep,
           "Seconds without players after which a room ends its round and its process; the next player starts "
@@ -77,7 +75,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "Stop this many seconds after the last player has left (at least 60 if no player ever joins); 0: "
           "never",
           OptionRange{0, 1e6}),
-      row("--players", &o.players,
+      row("--input-mode", &o.players,
           "Whose input the game gets: together = all players'; first = that of one player, while the others "
           "watch and wait for their turn; private = each player plays in a separate world and process",
           OneOf{"together", "first", "private"}),
@@ -93,7 +91,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           OneOf{"on", "off"}),
       row("--world-memory", &o.world_memory, "Limit of a game process's address space, in MiB; 0: no limit",
           OptionRange{0, 1 << 20}),
-      row("--hang-time", &o.hang_time,
+      row("--tick-timeout", &o.hang_time,
           "Seconds after which a tick of a game process counts as hung: the log says what the game is doing, "
           "and after 5 times as long the process is killed. Time lost to load on the machine or in a "
           "debugger does not count",
@@ -108,8 +106,8 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--journal", &o.journal,
           "Record each round to a file in this directory: dfreplay can replay it, and after a crash the next "
           "server resumes it. The game then gets repeatable clocks and random devices. off: do not record. "
-          "Default: rounds in the --state folder; off with --players private or --in-process, and for games "
-          "that are programs themselves"),
+          "Default: rounds in the --state folder; off with --input-mode private or --in-process, and for "
+          "games that are programs themselves"),
       row("--recover", &o.recover,
           "After a crash of the server during a recorded round: on = replay the round, so that its players "
           "can continue; off = start a new round",
@@ -124,18 +122,18 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--password", &o.password,
           "Password that players need, or its $argon2id$ hash (other users can see the command line: prefer "
           "the environment or --config)"),
-      row("--grace", &o.grace, "Seconds in which a disconnected player can reconnect; 0: not at all",
+      row("--reconnect-time", &o.grace, "Seconds in which a disconnected player can reconnect; 0: not at all",
           OptionRange{0, 3600}),
-      row("--drain-time", &o.drain_time,
+      row("--drain-timeout", &o.drain_time,
           "Seconds that players have to finish after SIGTERM: new ones are refused, and the server stops "
           "when all have left or the time is over; 0: stop at once",
           OptionRange{0, 86400}),
       row("--join-file", &o.join_file,
           "Write the address and fingerprint to this file once listening, as arguments for dfclient"),
-      row("--visitors", &o.visitors,
+      row("--proxy-socket", &o.visitors,
           "Path of a socket for this machine's ssh and web doors (mode 0660); processes that can write to it "
           "are trusted to state the players' addresses"),
-      row("--link-host", &o.link_host,
+      row("--public-host", &o.link_host,
           "Host name or address of this machine for players elsewhere, printed in the link; HOST:PORT if a "
           "router forwards another port"),
       row("--ssh-door", &o.ssh_door,
@@ -146,7 +144,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "Let dfclient without arguments find this server in the local network: auto = on private "
           "addresses, on = on all addresses, off = never",
           OneOf{"auto", "on", "off"}),
-      row("--truth", &o.truth_file,
+      row("--truth-file", &o.truth_file,
           "Write to this file what each player should see in each tick (for tests; large)"),
       row("--metrics", &o.metrics,
           "Serve metrics for Prometheus (/metrics) and health checks (/healthz, /readyz) by HTTP on this "
@@ -156,15 +154,15 @@ std::vector<Row> tableOf(HostOptions& o) {
           "addresses"),
       row("--metrics-public", &o.metrics_public,
           "Allow a public address for --metrics; the metrics are then readable from the internet"),
-      row("--audit", &o.audit,
+      row("--replica-audit", &o.audit,
           "With --metrics: compare one player's picture with the world's, one second in ten, and count wrong "
           "cells",
           OneOf{"on", "off"}),
       row("--port-file", &o.port_file, "Write the port number to this file once listening"),
       row("--status-file", &o.status_file,
-          "Write name, game, number of players and link (see --link-host) to this file as JSON, every 5 "
+          "Write name, game, number of players and link (see --public-host) to this file as JSON, every 5 "
           "seconds, for server lists on the web. The file is removed when the server stops"),
-      row("--log", &o.log_file, "Append log lines to this file instead of stderr"),
+      row("--log-file", &o.log_file, "Append log lines to this file instead of stderr"),
       row("--log-format", &o.log_format,
           "Format of log lines: text = sentences; json = one object per line, with named fields",
           OneOf{"text", "json"}, UsedBy::kServer),
@@ -185,7 +183,7 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--vote-kick", &o.vote_kick,
           "Let players ban another one for five minutes by a vote (/vote kick NAME): more than half of the "
           "players' addresses must agree within 30 seconds"),
-      row("--inactive-kick", &o.inactive_kick,
+      row("--idle-kick", &o.inactive_kick,
           "Seconds without key, click or chat after which a player is disconnected, with a warning 10 "
           "seconds before; 0: never",
           OptionRange{0, 86400}),
@@ -215,11 +213,12 @@ std::vector<Row> tableOf(HostOptions& o) {
   };
 }
 
-/// Options that a reload changes while the server runs.
-constexpr std::string_view kLive[] = {
-    "--max-players", "--max-per-address", "--server-name", "--exit-when-empty", "--password",  "--grace",
-    "--drain-time",  "--certificate",     "--key",         "--log-format",      "--log-level", "--log-chat",
-    "--vote-kick",   "--inactive-kick"};
+/// Options whose new value a reload applies while the server runs.
+constexpr std::string_view kLive[] = {"--max-players",     "--max-per-address", "--server-name",
+                                      "--exit-when-empty", "--password",        "--reconnect-time",
+                                      "--drain-timeout",   "--certificate",     "--key",
+                                      "--log-format",      "--log-level",       "--log-chat",
+                                      "--vote-kick",       "--idle-kick"};
 
 /// Variables that are not in the table but are read by this or other programs of the project.
 const char* const kOtherVariables[] = {
@@ -229,16 +228,20 @@ const char* const kOtherVariables[] = {
 
 /// Returns the type of an option's value in --help and completions, if it is a file, directory or socket.
 const char* typeOf(const std::string& name) {
-  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth", "--port-file", "--log",
-                             "--bus-credentials", "--bus-ca"})
+  for (const char* p_file : {"--certificate", "--key", "--join-file", "--truth-file", "--port-file",
+                             "--log-file", "--bus-credentials", "--bus-ca"})
     if (name == p_file) return "FILE";
   if (name == "--identity" || name == "--journal") return "DIR";
-  return name == "--visitors" ? "SOCKET" : "";
+  return name == "--proxy-socket" ? "SOCKET" : "";
 }
 
 void warnOfUnknownVariables(const std::vector<Row>& rows, HostOptions& options) {
   std::vector<std::string> known(std::begin(kOtherVariables), std::end(kOtherVariables));
-  for (const Row& row : rows) known.push_back(row.option.environment);
+  for (const Row& row : rows) {
+    known.push_back(row.option.environment);
+    if (const std::string former = formerNameOf(row.option.name); !former.empty())
+      known.push_back(variableNameOf(former));
+  }
   for (const std::string& sentence : unknownVariableWarnings(environ, "NAIAD_", known))
     options.warnings.push_back(sentence);
 }
@@ -256,10 +259,10 @@ const char* const kExitCodes =
     "  4  cannot listen on that address and port\n"
     "  5  a file cannot be written, or a key, certificate or password cannot be used\n";
 
-/// Returns the option's key in df-config.txt: its name with _ for -; empty if it has no key.
-std::string keyOf(const Row& row) {
-  if (row.option.name == "--frame-time") return {};  // the game's own key frame_time is in milliseconds
-  std::string key = row.option.name.substr(2);
+/// Returns the key of an option in df-config.txt: its name with _ for -; empty if it has no key.
+std::string keyOf(const std::string& name) {
+  if (name.empty() || name == "--frame-time") return {};  // the game's own key frame_time is in milliseconds
+  std::string key = name.substr(2);
   std::replace(key.begin(), key.end(), '-', '_');
   return key;
 }
@@ -303,7 +306,7 @@ struct Printing {
   bool markdown = false;
 };
 
-/// The "FILE:LINE" of passwords from a --config file (Option::p_location); empty: given elsewhere.
+/// The "FILE:LINE" of passwords in a --config file (Option::p_location); empty: given elsewhere.
 struct Places {
   std::string password;
   std::string admin_password;
@@ -406,7 +409,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
 
 OptionChanges applyReloadable(const HostOptions& next, HostOptions& now) {
   OptionChanges changes;
-  HostOptions values = next;  // the table needs mutable targets
+  HostOptions values = next;  // the table needs targets that are not const
   std::vector<Row> rows = tableOf(now);
   const std::vector<Row> wanted = tableOf(values);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -436,11 +439,10 @@ std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOption
   warnOfUnknownVariables(rows, options);
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
-    const std::string key = keyOf(row);
-    const char* p_environment = std::getenv(row.option.environment.c_str());
-    std::string value = p_environment != nullptr ? p_environment : "";
+    std::string value = environmentValue(row.option);
     std::string place = row.option.environment;
-    if (value.empty() && !key.empty()) {
+    for (const std::string& key : {keyOf(row.option.name), keyOf(formerNameOf(row.option.name))}) {
+      if (!value.empty() || key.empty()) continue;
       value = value_of(key);
       place = value.empty() || !location_of ? key : location_of(key);
     }
@@ -475,7 +477,7 @@ std::string hostOptionsMarkdown() {
   HostOptions defaults;
   const std::vector<Row> rows = tableOf(defaults);
   std::string text =
-      "# Options of dfserver\n\nGenerated by `dfserver --markdown`; a test keeps it true.\n\n"
+      "# Options of dfserver\n\nGenerated by `dfserver --markdown`; a test checks that it is up to date.\n\n"
       "| option | environment | default | meaning |\n|---|---|---|---|\n";
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kProgram) continue;
@@ -491,7 +493,7 @@ std::string hostOptionsMarkdown() {
   defaults.address = kLoopback;
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kServer) continue;
-    const std::string key = keyOf(row);
+    const std::string key = keyOf(row.option.name);
     text +=
         "| " + (key.empty() ? "" : "`" + key + "`") + " | `" + row.option.environment + "` | " +
         currentValue(row.option) + " | " +

@@ -28,43 +28,43 @@ struct HostOptions {
   std::string name = "naiad";        ///< shown in the clients' status line
   std::int64_t seed = 0;             ///< random seed of the world; 0: a new one each time, logged
   int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s
-  int ticks = 0;                     ///< stop after this many; 0: never
-  double exit_when_empty = 0;        ///< seconds after the last player left; 0: never
+  int ticks = 0;                     ///< the server stops after this many ticks; 0: never
+  double exit_when_empty = 0;        ///< seconds from the last player's leaving to the end; 0: never
   std::string players = "together";  ///< input mode: "together", "first" or "private" (a world per player)
   std::string on_game_over =
       "leave";                 ///< one of several players ends the game: "leave" (alone), "exit" or "restart"
   std::string sandbox = "on";  ///< sandbox of world processes: "on" or "off"
   int world_memory = 4096;     ///< address space of each world process in MiB; 0: no limit
-  bool in_process = false;     ///< dfserver runs the game in its own process
+  bool in_process = false;     ///< true: dfserver runs the game in its own process
   std::string journal;         ///< directory in which each round is recorded; empty: none
-  bool default_journal = false;     ///< not an option: `journal` is dfserver's default
-  std::string recover = "on";       ///< resume the round of a killed server: "on" or "off"
-  double hang_time = 1;             ///< seconds after which a tick of a world process counts as hung
-  std::string world_environment;    ///< more variables that world processes get, separated by commas
-  double room_sleep = 60;           ///< seconds without players after which a room sleeps
-  bool insecure = false;            ///< plain TCP, loopback only, no datagrams: for tests
-  std::string certificate;          ///< PEM file; requires `key`. Empty: self-signed, made on the first start
-  std::string key;                  ///< PEM file
-  std::string identity;             ///< directory of the self-made key; empty: the user's default
-  std::string password;             ///< players' password or its Argon2id hash; empty: none
-  double grace = 60;                ///< seconds in which a player may reconnect after losing the connection
-  double drain_time = 0;            ///< seconds after SIGTERM in which players may finish
-  std::string join_file;            ///< file for dfclient's arguments (address, fingerprint) once listening
-  std::string visitors;             ///< path of the doors' socket (ProxyListener.h); empty: none
-  std::string link_host;            ///< public HOST[:PORT] in the printed link; empty: unknown
-  std::string ssh_door;             ///< USER@HOST[:PORT] of a door to this server; empty: none
-  std::string web_address;          ///< URL of a web page to play on; empty: none
-  bool qr = false;                  ///< also print `web_address` as a QR code
-  std::string lan = "auto";         ///< visible in the local network: "auto", "on" or "off" (LanMode)
-  std::string truth_file;           ///< file for the picture that each player should see in each tick
-  std::string metrics;              ///< ADDR:PORT for metrics and health; empty: none
+  bool default_journal = false;   ///< not an option: `journal` is dfserver's default
+  std::string recover = "on";     ///< whether the round of a killed server is resumed: "on" or "off"
+  double hang_time = 1;           ///< seconds after which a tick of a world process counts as hung
+  std::string world_environment;  ///< names of more variables for world processes, separated by commas
+  double room_sleep = 60;         ///< seconds without players after which a room sleeps
+  bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
+  std::string certificate;        ///< PEM file; requires `key`. Empty: self-signed, made on the first start
+  std::string key;                ///< PEM file
+  std::string identity;           ///< directory of the self-made key; empty: the user's default
+  std::string password;           ///< players' password or its Argon2id hash; empty: none
+  double grace = 60;              ///< seconds in which a player may reconnect after losing the connection
+  double drain_time = 0;          ///< seconds after SIGTERM in which players may finish
+  std::string join_file;     ///< file for dfclient's arguments (address, fingerprint), written once listening
+  std::string visitors;      ///< path of the doors' socket (ProxyListener.h); empty: none
+  std::string link_host;     ///< public HOST[:PORT] in the printed link; empty: unknown
+  std::string ssh_door;      ///< USER@HOST[:PORT] of a door to this server; empty: none
+  std::string web_address;   ///< URL of a web page to play on; empty: none
+  bool qr = false;           ///< also print `web_address` as a QR code
+  std::string lan = "auto";  ///< whether it is visible in the local network: "auto", "on" or "off" (LanMode)
+  std::string truth_file;    ///< file for the picture that each player should see in each tick
+  std::string metrics;       ///< ADDR:PORT for metrics and health; empty: none
   std::string metrics_hosts;        ///< host names accepted in metrics requests, separated by commas
   bool metrics_public = false;      ///< allows a public address in `metrics`
   std::string audit = "on";         ///< audit of players' pictures if there are metrics: "on" or "off"
   std::string status_file;          ///< file for the server's status as JSON, updated every 5 seconds
   std::string port_file;            ///< file for the port number, written once listening
   std::string log_file;             ///< file for log lines; empty: stderr
-  std::string log_format = "text";  ///< or "json"
+  std::string log_format = "text";  ///< format of log lines: "text" or "json"
   std::string log_level = "info";   ///< least severe level to log: "error", "warning" or "info"
   bool log_chat = false;            ///< also log the chat
   std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
@@ -79,7 +79,7 @@ struct HostOptions {
   std::string admin_password;       ///< password of /admin in the chat or its Argon2id hash; empty: none
   bool vote_kick = false;           ///< players may vote to kick others
   int inactive_kick = 0;            ///< seconds without key, click or chat until a player is kicked; 0: never
-  std::vector<std::string> warnings;  ///< about these options, for the log
+  std::vector<std::string> warnings;  ///< warnings about these options, for the log
   /// Not an option: sockets opened by the service manager. `address` and `port` are then those of the
   /// sockets.
   std::optional<InheritedSockets> sockets;

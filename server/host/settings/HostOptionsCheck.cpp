@@ -22,8 +22,8 @@ std::string inProcessComplaint(const HostOptions& options) {
   if (usesJournal(options))
     return "--in-process cannot be used with --journal: only rounds of game processes are recorded";
   if (options.rooms.empty() && !usesWorldProcesses(options)) return {};
-  return "--in-process cannot be used with --room, --on-game-over restart or --players private: they require "
-         "game processes";
+  return "--in-process cannot be used with --room, --on-game-over restart or --input-mode private: they "
+         "require game processes";
 }
 
 /// Returns the problem of the metrics options; empty if they are valid.
@@ -60,7 +60,7 @@ bool isWebAddress(const std::string& text) {
 /// Returns the problem of the addresses that are printed for players; empty if they are valid.
 std::string announcementComplaint(const HostOptions& options) {
   if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
-    return "--link-host: expected HOST or HOST:PORT, IPv6 in brackets";
+    return "--public-host: expected HOST or HOST:PORT, IPv6 in brackets";
   if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
     return "--ssh-door: expected USER@HOST or USER@HOST:PORT";
   if (!options.web_address.empty() && !isWebAddress(options.web_address))
@@ -82,7 +82,7 @@ std::string validateHostOptions(const HostOptions& options) {
   if (options.insecure && options.lan == "on")
     return "--lan on requires encryption: it cannot be used with --insecure";
   if (options.insecure && !options.visitors.empty())
-    return "--visitors requires encryption: it cannot be used with --insecure";
+    return "--proxy-socket requires encryption: it cannot be used with --insecure";
   if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = validateRoomOptions(options); !wrong.empty()) return wrong;

@@ -35,7 +35,7 @@ std::vector<Option> settingsOf(RoomOptions& room) {
   return {{"--max-players", &room.max_players, "", "", OptionRange{1, kMaxServerPlayers}},
           {"--world-memory", &room.world_memory, "", "", OptionRange{0, 1 << 20}},
           {"--seed", &room.seed, "", "", OptionRange{0, 9e15}},
-          {"--players", &room.players, "", "", {}, {"together", "first"}}};
+          {"--input-mode", &room.players, "", "", {}, {"together", "first"}}};
 }
 
 std::vector<std::string> settingNames() {
@@ -50,7 +50,7 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
   for (const Option& option : settingsOf(room)) {
-    if (option.name != "--" + key) continue;
+    if (option.name != "--" + key && formerNameOf(option.name) != "--" + key) continue;
     const std::string setting = std::string(place).append(": ").append(key);
     if (equals == std::string::npos) throw OptionError(setting + ": expected KEY=VALUE");
     return storeValue(option, text.substr(equals + 1), setting);
@@ -109,9 +109,9 @@ std::string gameComplaint(const RoomOptions& room) {
 
 /// Returns a message about an option that contradicts --room; else empty.
 std::string conflict(const HostOptions& options) {
-  if (options.players == "private") return "--room cannot be used with --players private";
+  if (options.players == "private") return "--room cannot be used with --input-mode private";
   if (options.on_game_over == "exit") return "--room cannot be used with --on-game-over exit";
-  if (!options.truth_file.empty()) return "--room cannot be used with --truth";
+  if (!options.truth_file.empty()) return "--room cannot be used with --truth-file";
   return {};
 }
 

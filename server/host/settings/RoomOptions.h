@@ -11,16 +11,16 @@ namespace naiad {
 
 /// A named room: a game in a process of its own, with its own limits.
 struct RoomOptions {
-  std::string name;  ///< isRoomName()
-  std::string game;  ///< like HostOptions::game
-  // The default of these is the server's option.
+  std::string name;  ///< name for which isRoomName() is true
+  std::string game;  ///< shipped game or path of a module, as in HostOptions::game
+  // The defaults of the following are the server's options.
   int max_players = 0;  ///< limit of this room; the server's own limit applies to all rooms together
   int world_memory = 0;
   std::int64_t seed = 0;
   std::string players;  ///< "together" or "first"
 };
 
-/// Parses HostOptions::rooms, which must have been checked. Players begin in the first room.
+/// Parses HostOptions::rooms, which must have been checked. Players start in the first room.
 std::vector<RoomOptions> parseRooms(const HostOptions& options);
 
 /// Returns a message about an invalid room or an option that contradicts --room; empty if all are valid.

@@ -38,7 +38,7 @@ class AppearanceIds {
     const bool in_this_one = name.used == snapshot;  // already in this snapshot
     return {name.confirmed || in_this_one ? LookForm::kNamed : LookForm::kDefined, name.id};
   }
-  /// Call when the appearance was written in the form of formOf().
+  /// Call when the appearance was written in the form that formOf() returned.
   void markUsed(std::uint64_t hash, std::uint32_t snapshot) {
     const auto found = m_names.find(hash);
     if (found != m_names.end()) found->second.used = snapshot;
@@ -53,13 +53,14 @@ class AppearanceIds {
   void clear() { *this = {}; }
 
  private:
-  /// Half of what the client holds, because it keeps the old meaning of an id until the id has a new one.
+  /// Half of the client's limit of glyphs, because it keeps the old meaning of an id until the id has a new
+  /// one.
   static constexpr std::size_t kMaxGlyphs = kMaxDictionaryGlyphs / 2;
   struct Name {
     std::uint32_t id = 0;
     std::size_t glyphs = 0;
     std::uint32_t assigned = 0;  ///< first snapshot in which the id means this appearance
-    std::uint32_t used = 0;      ///< newest snapshot that used it; 0: none
+    std::uint32_t used = 0;      ///< newest snapshot that used the id; 0: none
     bool confirmed = false;
   };
   /// Frees the id used least recently. False if `snapshot` itself uses all ids.

@@ -21,7 +21,7 @@ class SlotBits {
   void set(std::uint32_t slot) { m_words[slot % kBits / 64] |= std::uint64_t{1} << (slot % 64); }
   void clear(std::uint32_t slot) { m_words[slot % kBits / 64] &= ~(std::uint64_t{1} << (slot % 64)); }
   void clear() { m_words = {}; }
-  /// Calls `visit(bit)` for all bits set in both, in ascending order.
+  /// Calls `visit(bit)` for all bits that are set in both sets, in ascending order.
   template <class Visit>
   void forEachShared(const SlotBits& other, Visit visit) const {
     for (std::uint32_t i = 0; i < m_words.size(); ++i) {
@@ -37,7 +37,7 @@ class SlotBits {
 
 class ChangeIndex {
  public:
-  /// One byte per change, by index: nonzero if it concerns the client. May have zero bytes at the end.
+  /// One byte per change, by index: nonzero if it concerns the client. May end with additional zero bytes.
   using Marks = std::vector<std::uint8_t>;
 
   void clear() {
@@ -63,7 +63,7 @@ class ChangeIndex {
     const std::int32_t* __restrict const right = m_right.data();
     const std::int32_t* __restrict const bottom = m_bottom.data();
     std::uint8_t* __restrict const out = marks.data();
-    for (std::size_t i = 0; i < count; ++i) {  // no branches, so the compiler can vectorize it
+    for (std::size_t i = 0; i < count; ++i) {  // no branches, so that the compiler can vectorize the loop
       out[i] = static_cast<std::uint8_t>(
           static_cast<int>(left[i] < rect.right) & static_cast<int>(rect.left < right[i]) &
           static_cast<int>(top[i] < rect.bottom) & static_cast<int>(rect.top < bottom[i]));

@@ -11,15 +11,15 @@
 namespace naiad {
 
 struct ClientReplica {
-  /// The result of a lost snapshot: the state that is pending again.
+  /// What is pending again because a snapshot was lost.
   struct Requeued {
     std::size_t objects = 0;
-    bool any = false;  ///< objects or client state
+    bool any = false;  ///< true if objects or client state are pending again
   };
 
   bool hasPending() const { return state.hasPending() || !objects.pendingIds().empty(); }
   void confirmArrival(const InFlightSnapshots::Snapshot& snapshot) {
-    // Prefetch them together: waiting for each cache miss took 3.5 % of the time with 1,500 clients.
+    // Prefetch all objects first: with 1,500 clients, waiting for each cache miss took 3.5 % of the time.
     for (const KnownObjects::Sent& sent : snapshot.objects) objects.prefetch(sent.id);
     state.confirmArrival(snapshot.number, snapshot.probe);
     for (const KnownObjects::Sent& sent : snapshot.objects) objects.confirmArrival(sent, snapshot.number);

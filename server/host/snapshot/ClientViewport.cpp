@@ -13,9 +13,11 @@ namespace {
 
 /// Cells around the view whose objects a predicting client needs, because it may collide with them.
 constexpr std::int32_t kCollisionMargin = 2;
-/// Ticks by which the player in the client's picture may be behind or ahead: it draws the past, or predicts.
+/// Ticks by which the player in the client's picture may be behind or ahead: clients draw the past or
+/// predict.
 constexpr double kOffTicks = 12;
-/// Cells by which it may differ at once: a key may move the player in steps.
+/// Minimum of Axis::spare, in cells: a key may move the player in steps, so the client's picture may differ
+/// from the world by this much at once.
 constexpr std::int64_t kMinSpare = 6;
 /// Ticks after which a spare that is larger than needed shrinks by a cell.
 constexpr std::uint32_t kShrinkInterval = 8;
@@ -33,7 +35,7 @@ void ClientViewport::setTerminal(std::uint32_t columns, std::uint32_t rows) {
   m_y.cells = clampedSize(rows, kMinRows, kMaxViewHeight);
 }
 
-// Grows at once but shrinks slowly, because the client learns late that a player has stopped.
+// The spare grows at once but shrinks slowly, because the client learns late that a player has stopped.
 void ClientViewport::Axis::updateSpare(double cells_per_tick, std::uint32_t tick) {
   const double max_cells = std::min(std::abs(cells_per_tick) * kOffTicks, double{kMaxViewWidth});
   const std::int64_t wanted = kMinSpare + static_cast<std::int64_t>(std::ceil(max_cells));

@@ -44,7 +44,7 @@ std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low,
   if (cell < low || cell >= high) return 0;
   if (velocity == 0) return kMaxTicks;
   const std::int64_t cells = velocity > 0 ? high - 1 - cell : cell - low;
-  // One cell less: cells are shifted by half a cell, and the last one is left only beyond its end.
+  // One cell less, as a safety margin.
   if (cells <= 1 || velocity < -df::fromCells(1 << 20) || velocity > df::fromCells(1 << 20)) return 0;
   const std::uint64_t ticks = (static_cast<std::uint64_t>(cells - 1) << df::kFixedBits) /
                               static_cast<std::uint64_t>(std::abs(velocity));
@@ -110,8 +110,8 @@ void Interest::processChanges() {
   processChanges(changes, count);
 }
 
-// Prefetches for many changes at once, because what this client knows of them is no longer cached: with 1,500
-// clients, waiting for each took 3.5 % of the server's time.
+// Prefetches for many changes at once, because this client's data about their objects is no longer cached.
+// With 1,500 clients, waiting for each cache miss took 3.5 % of the server's time.
 void Interest::processChanges(const Changes& changes, std::size_t count) {
   std::array<std::uint32_t, std::tuple_size_v<Changes>> ids;
   for (std::size_t i = 0; i < count; ++i) {
@@ -125,7 +125,7 @@ void Interest::processChanges(const Changes& changes, std::size_t count) {
 // Marks the changes of objects that may be known or may enter the view.
 void Interest::markChanges(ChangeIndex::Marks& marks) const {
   const ChangeIndex& index = m_p_publisher->changeIndex();
-  // The publisher has computed sweeps of kSweep ticks for all clients at once.
+  // The sweeps in the index, computed once for all clients, cover only kSweep ticks.
   const bool sweeps_suffice = kSearchInterval + m_focus.look_ahead <= Publisher::kSweep;
   index.markMeeting(sweeps_suffice ? CompactRect(m_covered) : CompactRect::everywhere(), marks);
   if (bitsAreExact()) return index.markShared(m_known_bits, marks);
@@ -161,7 +161,7 @@ void Interest::considerObject(std::uint32_t slot) {
 void Interest::checkCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Forecast& forecast = this->forecast(slot);
-    if (!forecast.soon.meets(m_window)) return forecast.generation == 0;  // most candidates end here
+    if (!forecast.soon.meets(m_window)) return forecast.generation == 0;  // the usual result
     if (forecast.generation != 0 && !isKnown(slot)) addObject(slot, forecast.generation);
     return true;
   });
@@ -191,7 +191,7 @@ void Interest::searchView() {
                              });
 }
 
-// A view that moved since the last search has probably moved again by the next, which then examines all.
+// A view that has moved since the last search will probably move again; the next search then examines all.
 void Interest::removeOutside(const CellRect& outer, bool moves) {
   m_known_bits.clear();
   const CompactRect around(outer);

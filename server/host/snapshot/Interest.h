@@ -4,9 +4,8 @@
 // until the model changes, so between changes:
 //
 //   enter   A changed object is checked at once. Every kSearchInterval ticks the blocks around the view are
-//   searched for
-//           candidates, which may enter it before the next search; only these few are checked in each tick.
-//           Blocks inside the view contain no unknown objects.
+//           searched for candidates, which may enter it before the next search; only these few are checked in
+//           each tick. Blocks inside the view contain no unknown objects.
 //   leave   This search also examines the known objects whose straight path may have left the view. Removing
 //           an object late costs little.
 //
@@ -26,21 +25,22 @@ class Interest {
  public:
   /// The area and objects of interest to the client.
   struct Focus {
-    CellRect window;                     ///< the view, and its expected place after look_ahead ticks
-    std::array<df::ObjectKey, 2> own{};  ///< known to the client wherever they are
+    CellRect window;                     ///< the view, and its expected position after look_ahead ticks
+    std::array<df::ObjectKey, 2> own{};  ///< objects that the client knows wherever they are
     std::uint32_t look_ahead = 0;        ///< an object is known this many ticks before it may enter
     std::uint32_t stagger = 0;           ///< any number; spreads the searches of clients over the ticks
   };
   /// Call after every update of the publisher. Births, deaths and changes become pending in `known`.
   void update(const Publisher& publisher, const Focus& focus, KnownObjects& known);
 
-  /// True if the object is in the view, or may be until `look_ahead` ticks later.
+  /// True if the object is in `window`, or may enter it within `look_ahead` ticks.
   static bool isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
                         const CellRect& window);
 
-  /// Ticks between two searches.
+  /// Number of ticks from one search to the next.
   static constexpr std::uint32_t kSearchInterval = 8;
-  /// Cells. An object is removed only this far outside the view, so that it does not flicker at the edge.
+  /// Distance in cells outside the view at which an object is removed, so that it does not flicker at the
+  /// edge.
   static constexpr std::int64_t kHysteresis = 2;
 
  private:
@@ -63,8 +63,8 @@ class Interest {
   const Publisher::Forecast& forecast(std::uint32_t slot) const {
     return m_p_publisher->forecast(slot, m_focus.look_ahead, kSearchInterval + m_focus.look_ahead);
   }
-  // Most changes in the world concern objects that the client does not know. These bits tell without a table
-  // lookup. They are exact in a world of fewer slots than bits; the last one belongs to kFreeDrawSlot.
+  // Most changes in the world concern objects that the client does not know. m_known_bits shows this without
+  // a table lookup. It is exact in a world of fewer slots than bits; the last bit belongs to kFreeDrawSlot.
   static_assert(kFreeDrawSlot % SlotBits::kBits == SlotBits::kBits - 1);
   bool bitsAreExact() const { return m_p_publisher->slotCount() < SlotBits::kBits; }
   bool mayBeKnown(std::uint32_t slot) const { return m_known_bits.has(slot); }
@@ -73,20 +73,20 @@ class Interest {
   }
   void removeObject(std::uint32_t id, std::uint32_t slot);
 
-  const Publisher* m_p_publisher = nullptr;  ///< this and the next two only during update()
+  const Publisher* m_p_publisher = nullptr;  ///< this and the next two members are valid only during update()
   KnownObjects* m_p_known = nullptr;
   std::uint32_t m_tick = 0;
   Focus m_focus;
-  CompactRect m_window;    ///< m_focus.window
+  CompactRect m_window;    ///< m_focus.window, in compact form
   CellRect m_last_window;  ///< window of the previous update(): all objects in it are known
   CellRect m_searched;     ///< the window at the last search
   CellRect m_covered;  ///< m_candidates has all objects that may enter a window inside this before the next
                        ///< search
   bool m_has_searched = false;
-  std::vector<std::uint32_t> m_candidates;  ///< slots
+  std::vector<std::uint32_t> m_candidates;  ///< slots of objects that may enter soon
   SlotBits m_known_bits;
   struct Stay {
-    std::uint32_t until = 0;                   ///< the tick until which it cannot leave m_searched
+    std::uint32_t until = 0;                   ///< tick until which the object cannot leave m_searched
     std::uint32_t slot = KnownObjects::kNone;  ///< slot of the object with this id
   };
   std::vector<Stay> m_stays;  ///< indexed by id

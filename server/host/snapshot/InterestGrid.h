@@ -55,10 +55,10 @@ struct CompactRect {
   }
 };
 
-/// The slots by cell, in blocks of 16 by 8 cells. Memory is proportional to the number of slots.
+/// Slots grouped by position, in blocks of 16 by 8 cells. Memory is proportional to the number of slots.
 class InterestGrid {
  public:
-  /// Stores `slot` at its present cell. Cheap if it has not left its block.
+  /// Stores `slot` at the object's present cell. Cheap if the object has not left its block.
   void put(std::uint32_t slot, CellPosition cell) {
     if (slot >= m_entries.size()) m_entries.resize(std::size_t{slot} + 1);
     const std::uint64_t key = keyOf(cell.x >> kColumnShift, cell.y >> kRowShift);
@@ -85,7 +85,7 @@ class InterestGrid {
   }
 
   /// Calls `visit(slot)` for every slot in a block that meets `rect`, except blocks inside `inner`. So it
-  /// visits all slots that are in `rect` but not in `inner`, and some others.
+  /// visits all slots that are in `rect` but not in `inner`, and some other slots.
   template <class Visit>
   void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {
     const std::int64_t left = rect.left >> kColumnShift;

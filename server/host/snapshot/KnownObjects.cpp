@@ -110,7 +110,7 @@ KnownObjects::Sent KnownObjects::markSent(std::uint32_t id, std::uint32_t snapsh
 // A group sent again unchanged is confirmed by any snapshot since the first that carried this content.
 void KnownObjects::recordSum(KnownObject& entry, std::size_t group, std::uint32_t snapshot,
                              std::uint64_t sum) {
-  constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // none this old is in flight
+  constexpr std::uint32_t kMax = std::numeric_limits<std::uint8_t>::max();  // older ones are not in flight
   const bool first = entry.sent[group] == 0 || entry.sums[group] != sum;
   const std::uint32_t since =
       first ? 0 : entry.since_first[group] + before(entry.sent[group], brief(snapshot));
@@ -155,7 +155,8 @@ bool KnownObjects::requeueLost(const Sent& sent, std::uint32_t snapshot, std::ui
     if (carried && known.sent[i] == brief(snapshot)) missing |= 1 << i;
   }
   missing &= known.unconfirmed;
-  // If a birth is lost after another one arrived, only its other groups are missing, if they are the newest.
+  // If a birth is lost after another record of it has arrived, only the record's other groups are missing,
+  // and only if their content is the newest.
   if (known.life == Life::kAlive) missing &= ~kLife;
   addPending(sent.id, missing, tick);
   return missing != 0;

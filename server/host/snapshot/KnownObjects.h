@@ -19,33 +19,34 @@ namespace naiad {
 class KnownObjects {
  public:
   enum class Life : std::uint8_t { kFree, kBorn, kAlive, kDying };
-  /// The data that every tick reads. Kept small, because it has left the cache by the client's next turn.
+  /// The data that every tick reads. It is small, because it is not cached when the client's next tick
+  /// begins.
   struct Known {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;  ///< generation of the object in the world's slot
     std::uint32_t birth = 0;       ///< number of objects that have had this id
     Life life = Life::kFree;
-    std::uint8_t pending = 0;         ///< groups; kLife means the death if kDying
+    std::uint8_t pending = 0;         ///< pending groups; if `life` is kDying, kLife means the death
     std::uint8_t unconfirmed = 0;     ///< groups whose newest content is not known to have arrived
-    bool queued = false;              ///< in pendingIds()
-    std::uint32_t pending_since = 0;  ///< tick
+    bool queued = false;              ///< true if the id is in pendingIds()
+    std::uint32_t pending_since = 0;  ///< tick since which groups are pending
   };
   /// The part of one object that a snapshot carried.
   struct Sent {
     std::uint32_t id = 0;
     std::uint32_t birth = 0;
-    std::uint8_t groups = 0;  ///< groups; kDeath for a death
+    std::uint8_t groups = 0;  ///< groups that were sent; kDeath for a death
   };
   static constexpr std::uint32_t kNone = SlotMap::kNone;
-  /// Generation of the id, as births carry it. Never 0, because 0 means no object elsewhere.
+  /// Generation of the id, as births carry it. Never 0, because elsewhere 0 means that there is no object.
   static std::uint8_t generationOf(const Known& known) {
     return static_cast<std::uint8_t>(known.birth % 3 + 1);
   }
 
-  /// The id of the object in `slot` whose birth was sent or is pending; kNone if none.
+  /// Returns the id of the object in `slot` if its birth was sent or is pending; otherwise kNone.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
-  /// Prefetch the memory of find(slot), or of at(id).
+  /// Prefetch the memory that find(slot) or at(id) reads.
   void prefetchSlot(std::uint32_t slot) const { m_ids.prefetch(slot); }
   void prefetch(std::uint32_t id) const { __builtin_prefetch(&m_known[id], 1); }
   std::size_t idCount() const { return m_known.size(); }
@@ -60,12 +61,12 @@ class KnownObjects {
   /// Makes everything pending again that was sent and is unconfirmed.
   void requeueUnconfirmed(std::uint32_t tick);
 
-  /// The ids with pending groups, unordered. Until trimPending() also ids without pending groups.
+  /// Returns the ids with pending groups, unordered, and until trimPending() some ids without any.
   const std::vector<std::uint32_t>& pendingIds() const { return m_pending_ids; }
   /// Returns the groups to write for an id: kDeath, kAllGroups or some of them.
   std::uint8_t groupsToSend(std::uint32_t id) const;
-  /// Call after writing groupsToSend() into `snapshot` of `tick`. Except for a death, they are
-  /// those of `state`, with `motion` as of `tick`.
+  /// Call after the groups of groupsToSend() were written into `snapshot` of `tick`: those of `state`, with
+  /// `motion` as of `tick`, except for a death.
   Sent markSent(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state, const Motion& motion,
                 std::uint32_t tick);
   void trimPending();
@@ -74,7 +75,7 @@ class KnownObjects {
   /// Call when the snapshot was lost. Returns whether anything is pending again because of it.
   bool requeueLost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick);
 
-  /// Checksum of a client that has received everything that was sent.
+  /// Returns the checksum of a client's replica that has received everything sent.
   std::uint64_t checksum() const { return m_checksum; }
 
   /// Calls `visit(id, known)` for all objects that are born or alive.
@@ -89,10 +90,10 @@ class KnownObjects {
   /// Known plus what was sent of it, in one cache line. Snapshot numbers are stored as brief(), which
   /// suffices because at most some hundred snapshots are in flight.
   struct alignas(64) KnownObject : Known {
-    std::array<std::uint16_t, kGroupCount> sent{};        ///< newest snapshot that carried the group; 0: none
-    std::array<std::uint8_t, kGroupCount> since_first{};  ///< snapshots from the first with this content to
-                                                          ///< `sent`
-    std::array<std::uint64_t, kGroupCount> sums{};        ///< checksum parts of the content
+    std::array<std::uint16_t, kGroupCount> sent{};  ///< newest snapshot that carried the group; 0: none
+    std::array<std::uint8_t, kGroupCount>
+        since_first{};  ///< number of snapshots from the first one with this content to `sent`
+    std::array<std::uint64_t, kGroupCount> sums{};  ///< checksums of the groups' contents
   };
   static_assert(sizeof(KnownObject) == 64);
   static constexpr std::uint32_t kBriefs = 0xFFFF;

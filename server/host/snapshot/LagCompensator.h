@@ -1,4 +1,4 @@
-// Lag compensation: the positions of objects on a client's screen, from the published motions and the
+// Lag compensation: computes where objects were on a client's screen, from the published motions and the
 // players' views of the last ticks.
 //
 // All clients extrapolate the published models. So two ticks determine what a client drew: the newest tick
@@ -20,15 +20,15 @@ namespace naiad {
 
 class LagCompensator : public df::LagCompensation {
  public:
-  /// Ticks whose models are kept. A client that received none of them is treated as if it had the oldest.
+  /// Number of ticks whose models are kept. A client that received none counts as having received the oldest.
   static constexpr std::uint32_t kTicks = 32;
-  /// Ticks. A drawn tick is clamped to the present one and at most this many before it.
+  /// Number of ticks: a drawn tick older than this is clamped to this age; a future one, to the present tick.
   static constexpr std::uint32_t kMaxBehind = 8;
 
   /// Records one tick. Call after Publisher::update() with this view. A gap between ticks clears the history.
   void recordTick(const Publisher& publisher, const df::WorldView& view);
 
-  /// Computed from published models, whose positions may be inexact, but never enough to draw a wrong cell.
+  /// Uses the published models, whose positions may be inexact, but never enough to draw a wrong cell.
   std::optional<df::FixedVector> positionOf(df::ObjectKey object, const df::ViewedTick& seen) const override;
   /// Exact to the cell while the object that the view follows moves in a straight line. Returns nullopt if
   /// the player steers that object by declared controls, because the client predicts both.
@@ -37,7 +37,7 @@ class LagCompensator : public df::LagCompensation {
 
  private:
   struct Known {
-    std::uint32_t since;  ///< first tick in which clients could know it
+    std::uint32_t since;  ///< first tick in which clients could know the motion
     Motion motion;
   };
   struct History {

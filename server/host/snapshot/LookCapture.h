@@ -1,4 +1,4 @@
-// Converts what draw() put on the screen to a look, and checks whether a look draws what draw() did.
+// Converts the characters that draw() drew to a look, and checks whether a look draws the same characters.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace naiad {
 
-/// True if `look`, at `tick` and `position`, puts exactly these characters into exactly these cells.
+/// True if `look`, at `tick` and `position`, draws exactly the characters of `commands`, in exactly their
+/// cells.
 bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position,
                   std::span<const df::DrawCommand> commands);
 
@@ -18,10 +19,10 @@ bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position
 Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
 /// Like captureAppearance(), but with offsets in whole cells from the cell of `position`. It draws the right
-/// cells at this position, whatever the rounding.
+/// cells at this position, however the offsets would be rounded.
 Appearance captureCells(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// Returns a sequence of this appearance alone, without the last characters if it would exceed kMaxLookBytes.
+/// Returns a sequence of only this appearance, without the last characters if all exceed kMaxLookBytes.
 Sequence fitToRecord(Appearance appearance);
 
 }  // namespace naiad

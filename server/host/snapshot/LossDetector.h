@@ -28,13 +28,13 @@ class LossEstimator {
   double loss() const { return m_loss; }
   /// Mean loss over about 512 snapshots, once there were this many, 0 … 1.
   double usualLoss() const { return m_usual_loss; }
-  /// A snapshot counts as lost when this many newer ones were sent and the newest of them arrived. Most lines
-  /// keep the order, so the first gap means a loss. After a late arrival, reorderThreshold() is higher for
-  /// kReorderMemory snapshots (as RFC 8985 does for TCP).
+  /// A snapshot counts as lost when this many newer ones were sent and the newest of them arrived. Most
+  /// connections keep the order, so the first gap means a loss. After a late arrival, reorderThreshold() is
+  /// higher for kReorderMemory snapshots (as RFC 8985 does for TCP).
   int reorderThreshold() const { return m_reorder_remaining > 0 ? kReorderThreshold : 1; }
 
   static constexpr int kReorderThreshold = 3;
-  static constexpr int kReorderMemory = 1024;  ///< snapshots
+  static constexpr int kReorderMemory = 1024;  ///< number of snapshots
 
  private:
   static constexpr int kShort = 64;
@@ -48,14 +48,15 @@ class LossEstimator {
 
 class LossDetector {
  public:
-  /// True if the snapshot, not confirmed by `acks`, counts as lost. On a stream it may just be late.
+  /// True if the snapshot, which `acks` does not confirm, counts as lost. On a stream it may just be late, so
+  /// it counts as lost only after kMaxSnapshots newer ones.
   bool isLost(const InFlightSnapshots::Snapshot& snapshot, const AckWindow& acks) const {
     const auto behind = static_cast<std::int32_t>(acks.newest - snapshot.number);
     const int reorderThreshold =
         snapshot.large ? static_cast<int>(InFlightSnapshots::kMaxSnapshots) : m_estimator.reorderThreshold();
     return behind >= reorderThreshold;
   }
-  /// Call when the snapshot arrived or counts as lost. Losses of probes do not count.
+  /// Call when the snapshot arrived or counts as lost. Probes do not count in estimator().
   void recordOutcome(const InFlightSnapshots::Snapshot& snapshot, bool lost) {
     if (lost) m_missing[snapshot.number % m_missing.size()] = snapshot.number;
     if (!snapshot.probe) m_estimator.addOutcome(lost);
@@ -72,7 +73,7 @@ class LossDetector {
 
  private:
   LossEstimator m_estimator;
-  std::array<std::uint32_t, 16> m_missing{};  ///< snapshots that counted as lost, by number
+  std::array<std::uint32_t, 16> m_missing{};  ///< numbers of the last snapshots that counted as lost
 };
 
 }  // namespace naiad

@@ -16,7 +16,7 @@ void setListed(std::vector<std::uint32_t>& slots, std::uint32_t slot, bool& is_l
   slots.pop_back();
 }
 
-/// True if it moves by more than a cell in a tick, or is accelerated and may soon.
+/// True if the motion covers more than a cell per tick, or is accelerated, so that it soon may.
 bool isFast(const Motion& motion) {
   const auto above = [](df::Fixed v) { return v > df::kFixedOne || v < -df::kFixedOne; };
   return motion.acceleration != df::FixedVector{} || above(motion.velocity.x) || above(motion.velocity.y);

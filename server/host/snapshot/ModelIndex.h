@@ -1,4 +1,4 @@
-// The published models by place: those near a rectangle of cells, and those too wide or fast for the grid.
+// Finds published models by position: those near a rectangle, and those too wide or fast for the grid.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace naiad {
 
 class ModelIndex {
  public:
-  /// The lists that contain a model; stored with the model.
+  /// Records which lists contain a model; stored with the model.
   struct Membership {
     bool wide = false;
     bool fast = false;
   };
 
-  /// Call when the model was born or died, or its reach changed. `position`: of its object.
+  /// Call when the model was born or died, or its reach changed. `position`: position of its object.
   void indexModel(std::uint32_t slot, const PublishedModel& model, df::FixedVector position,
                   Membership& membership);
   /// Call when the object has moved.
@@ -30,8 +30,8 @@ class ModelIndex {
   void updateMaxSpeed(const PublishedModel& model, const Membership& membership);
 
   /// Calls `visit(slot)` for every live model that may be drawn in `rect` within this many ticks, and for
-  /// some others. May skip models well inside `inner`. Visits wide models and those faster than a cell per
-  /// tick wherever they are; some models twice.
+  /// some other models. May skip models well inside `inner`. Visits wide models and models that may move by
+  /// more than a cell per tick wherever they are. May visit a model twice.
   template <class Visit>
   void forEachNear(const CellRect& rect, std::uint32_t ticks, const CellRect& inner, Visit visit) const {
     const std::int64_t x = m_reach + cellsIn(ticks, m_speed.x);
@@ -51,7 +51,7 @@ class ModelIndex {
   InterestGrid m_grid;                ///< models that are not wide
   std::vector<std::uint32_t> m_wide;  ///< models with a reach above kWide, and kFreeDrawSlot
   std::vector<std::uint32_t> m_fast;  ///< models that move by more than a cell per tick, or are accelerated
-  std::int32_t m_reach = 0;           ///< highest reach so far of the models that are not wide
+  std::int32_t m_reach = 0;           ///< highest reach so far, in cells, of models that are not wide
   df::FixedVector m_speed;            ///< highest speed so far on each axis of the models that are not fast
 };
 

@@ -13,17 +13,18 @@ namespace {
 using df::Fixed;
 
 constexpr Fixed kHalf = df::kFixedOne / 2;
-/// Far more than the width of a view. Keeps every sum below within the type.
+/// Maximum speed of a motion that is fitted: far more cells per tick than a view has. It keeps all sums below
+/// in the range of their type.
 constexpr Fixed kFastest = Fixed{4096} * df::kFixedOne;
 
-/// A tick, counted from the first, and the position of a character within its cell in that tick.
+/// A tick, counted from the first one, and the position of a character within its cell in that tick.
 struct HullPoint {
   Fixed tick = 0;
   Fixed within = 0;
 };
 
-/// One half of the convex hull of places, by tick: it bounds the lines that draw the right cells. A straight
-/// path modulo a cell has few hull points, however many ticks it lasts.
+/// One half of the convex hull of points, sorted by tick. It limits which straight paths draw the right
+/// cells. A straight path modulo a cell has few hull points, however many ticks it lasts.
 class HalfHull {
  public:
   /// `side`: 1 for the lower half, −1 for the upper one.
@@ -33,7 +34,7 @@ class HalfHull {
     while (m_places.size() >= 2 && isWithin(place)) m_places.pop_back();
     m_places.push_back(place);
   }
-  /// The minimum of `within + tick · slope`; for the upper half, the maximum.
+  /// Returns the minimum of `within + tick · slope` over all points; for the upper half, the maximum.
   Fixed extreme(Fixed slope) const {
     Fixed best = m_places.front().within;
     for (const HullPoint& place : m_places) {
@@ -44,7 +45,7 @@ class HalfHull {
   }
 
  private:
-  /// True if the last place lies inside the hull once `next` is added.
+  /// True if the last point lies inside the hull once `next` is added.
   bool isWithin(HullPoint next) const {
     const HullPoint& last = m_places.back();
     const HullPoint& before = m_places[m_places.size() - 2];
@@ -58,7 +59,7 @@ class HalfHull {
   std::vector<HullPoint> m_places;
 };
 
-/// One axis of a path, and the coarse pairs of position and velocity that draw it.
+/// One axis of a path. Finds coarse pairs of position and velocity that draw the same cells.
 class AxisFit {
  public:
   AxisFit(Fixed position, Fixed velocity, const std::vector<Fixed>& offsets, std::uint32_t horizon)
@@ -83,7 +84,7 @@ class AxisFit {
     int position_bits = df::kFixedBits;
   };
 
-  /// Returns a pair whose velocity has `bits` fractional bits, with the fewest bits of position possible.
+  /// Returns the pair whose velocity has `bits` fractional bits and whose position has the fewest.
   std::optional<Pair> withVelocityBits(int bits) const {
     const Fixed step = Fixed{1} << (df::kFixedBits - bits);
     const Fixed below = m_velocity & ~(step - 1);
@@ -98,7 +99,7 @@ class AxisFit {
 
  private:
   std::optional<Pair> positionFor(Fixed velocity) const {
-    // Relative to the true position; the coarse path drifts away from it tick by tick.
+    // The bounds are relative to the true position; the coarse path drifts away from it tick by tick.
     const Fixed drift = velocity - m_velocity;
     if (std::abs(drift) > 2 * df::kFixedOne / std::max<Fixed>(m_horizon, 1)) return std::nullopt;
     const Fixed low = std::max(-df::kFixedOne, -m_lower.extreme(drift));
@@ -112,7 +113,7 @@ class AxisFit {
     return std::max(0, df::kFixedBits - std::countr_zero(static_cast<std::uint64_t>(value)));
   }
 
-  /// The number in [low, high) with the fewest fractional bits.
+  /// Returns the number in [low, high) with the fewest fractional bits.
   static Fixed simplest(Fixed low, Fixed high) {
     for (int bits = 0;; ++bits) {
       const Fixed step = Fixed{1} << (df::kFixedBits - bits);
@@ -128,7 +129,7 @@ class AxisFit {
   HalfHull m_upper{-1};
 };
 
-/// The distinct fractional parts of the offsets. Whole cells do not affect a path.
+/// Returns the distinct fractional parts of the offsets. Whole cells do not affect whether a path fits.
 std::vector<Fixed> fractions(std::span<const df::FixedVector> offsets, Fixed df::FixedVector::*axis) {
   std::vector<Fixed> distinct;
   for (const df::FixedVector& offset : offsets) {

@@ -1,5 +1,5 @@
-// Approximates a motion by one of few bits. The published model must draw exactly the right cells, but need
-// not be at exactly the right position.
+// Approximates a motion by one that takes few bits. The published model must draw exactly the right cells,
+// but need not be at exactly the right position.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace naiad {
 /// tried, coarsest first.
 Motion fitMotion(const Motion& truth, std::span<const df::FixedVector> offsets, std::uint32_t horizon);
 
-/// Longer horizons are not tried: fitMotion() returns `truth`.
+/// Maximum horizon, in ticks. For a longer one, fitMotion() returns `truth`.
 inline constexpr std::uint32_t kMaxHorizon = 2048;
 
 }  // namespace naiad

@@ -14,7 +14,7 @@ namespace {
 
 /// Minimum number of cells by which a window exceeds the view.
 constexpr std::int64_t kMargin = 8;
-/// Orders farther than this from the window's order take too many bits.
+/// A new window is sent when creation orders are this far from its order, because they take too many bits.
 constexpr std::uint64_t kFarOrder = 1 << 14;
 
 bool covers(std::int32_t from, std::int32_t bits, std::int32_t low, std::int32_t extent) {
@@ -25,7 +25,7 @@ std::int32_t bitsFor(std::int32_t extent) {
   return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kMargin - 1)));
 }
 
-/// The id of the object whose birth was sent or is pending; kNone if it has none.
+/// Returns the client's id of the object if its birth was sent or is pending; otherwise kNone.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
   const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNone;
   const bool same = id != KnownObjects::kNone && known.at(id).generation == object.generation;
@@ -164,7 +164,7 @@ const Motion* PerClientState::followedMotion(const Publisher& publisher, const K
   return &publisher.find(m_player.followed.slot)->state.motion;
 }
 
-// The view is also a model: it is sent when following the published object would show the wrong cells.
+// Clients compute the view from the object that it follows. It is sent when this would show the wrong cells.
 void PerClientState::queueView(const Publisher& publisher, const KnownObjects& known) {
   const Motion* motion = followedMotion(publisher, known);
   ViewRecord actual{m_player.view_corner, motion != nullptr, 0, 0};
@@ -176,7 +176,7 @@ void PerClientState::queueView(const Publisher& publisher, const KnownObjects& k
   bool correct = m_states[kView].sent != 0 && actual.follows == m_view.follows && actual.id == m_view.id &&
                  actual.generation == m_view.generation;
   if (correct && motion != nullptr && motion->tick != publisher.tick()) {
-    // A motion that is sent late gets a new base, and following it from there may lead elsewhere.
+    // A pending motion is sent with a new base tick; a view that follows it from there may end elsewhere.
     correct = (known.at(id).pending & kMotion) == 0;
   }
   if (correct) {
@@ -230,7 +230,7 @@ void PerClientState::writeInput(SnapshotHeader& header) const {
 
 bool PerClientState::write(SnapshotWriter& writer, std::uint32_t number, std::size_t limit, bool repeats) {
   const std::uint32_t before = m_pending;
-  if (isPending(kInput)) markSent(kInput, number, repeats);  // it is in the header
+  if (isPending(kInput)) markSent(kInput, number, repeats);  // writeInput() has put it into the header
   for (std::uint32_t left = m_pending; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const std::size_t max_bits = i == kTable ? 8 * m_table.size() + 16 : kMaxBits;
@@ -278,7 +278,8 @@ void PerClientState::queueRepeats() {
 }
 
 void PerClientState::confirmArrival(std::uint32_t number, bool probe) {
-  // Every snapshot since the first carries the input in its header, until one is known to have arrived.
+  // Every snapshot from the one that first sent the input carries it in its header, until one of them is
+  // known to have arrived.
   State& input = m_states[kInput];
   if (!probe && input.sent != 0 && !isNewer(input.sent, number)) input.arrived = true;
   for (std::size_t i = 0; i < kCount; ++i) {

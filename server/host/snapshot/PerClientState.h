@@ -80,10 +80,11 @@ class PerClientState {
   bool requeueLost(std::uint32_t number);
 
   bool hasPending() const { return m_pending != 0; }
-  /// Upper bound of the pending bits. Excludes a control table, which waits for a snapshot with room for it.
+  /// Upper bound of the size of the pending parts, in bits. Excludes a control table, which waits for a
+  /// snapshot with space for it.
   std::size_t maxPendingBits() const { return static_cast<std::size_t>(std::popcount(m_pending)) * kMaxBits; }
 
-  /// Facts of the last tick, without name, colour, score and window.
+  /// The player's facts in the last tick, without name, colour, score and window.
   const df::PlayerFacts& player() const { return m_player; }
   const WorldRecord& world() const { return m_world; }
   const OriginChoice& origins() const { return m_origins; }
@@ -92,8 +93,8 @@ class PerClientState {
 
  private:
   struct State {
-    std::uint32_t sent = 0;  ///< number of the newest snapshot that carried it
-    bool arrived = false;    ///< the newest sending arrived
+    std::uint32_t sent = 0;  ///< number of the newest snapshot that carried the part; 0: none
+    bool arrived = false;    ///< true if the part is known to have arrived as sent then
   };
   enum Index : std::size_t {
     kWorld,
@@ -107,7 +108,7 @@ class PerClientState {
   };
   static_assert(kCount <= 32);
 
-  /// Upper bound for every part but the table; the longest is a text of kMaxViewWidth characters.
+  /// Upper bound of the bits of a part, except the table; the longest is a text of kMaxViewWidth characters.
   static constexpr std::size_t kMaxBits = 15 * kMaxViewWidth + 64;
 
   bool isPending(std::size_t part) const { return (m_pending >> part & 1) != 0; }
@@ -128,7 +129,7 @@ class PerClientState {
   std::uint32_t m_to_repeat = 0;  ///< parts to repeat in the next tick
   std::uint32_t m_repeated = 0;   ///< parts repeated in this tick
   WorldRecord m_world;
-  ViewRecord m_view;              ///< as last sent
+  ViewRecord m_view;              ///< view as last sent
   std::uint32_t m_view_tick = 0;  ///< tick of m_view
   OriginChoice m_origins;
   std::uint32_t m_input = 0;

@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// The reach of a view object. It makes the object interesting to every client, wherever its view is.
+/// The reach of a view object, so large that the object is of interest to every client, wherever the view is.
 constexpr std::int32_t kOnEveryView = 1 << 20;
 
 /// Returns an upper bound of the cells that a motion covers in `ticks`.

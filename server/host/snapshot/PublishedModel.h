@@ -9,11 +9,11 @@
 
 namespace naiad {
 
-/// Slot of the published characters that were drawn outside any object's draw().
+/// Slot of the model of all characters that were drawn outside any object's draw().
 inline constexpr std::uint32_t kFreeDrawSlot = kMaxSlots - 1;
 
 struct PublishedModel {
-  /// Cells. A model with a greater reach is in every client's interest.
+  /// Number of cells: a model with a greater reach is of interest to every client.
   static constexpr std::int32_t kWide = 24;
 
   std::uint32_t generation = 0;
@@ -27,15 +27,15 @@ struct PublishedModel {
 /// The cells in which any part of a model may be drawn.
 struct DrawForecast {
   std::uint32_t generation = 0;  ///< 0: the slot is empty
-  CompactRect soon;              ///< now, or exactly `soon` ticks later
-  CompactRect later;             ///< now and until `later` ticks later, and some more
+  CompactRect soon;              ///< cells now and exactly `soon` ticks later, and the cells between
+  CompactRect later;             ///< cells from now until `later` ticks later, and some more
 };
 
 /// Computes PublishedModel::reach from the model's look and body.
 std::int32_t reachOf(const PublishedModel& model);
-/// Returns cells that include all in which the model may be drawn from `tick` to `tick + ticks`.
+/// Returns a rectangle of all cells in which the model may be drawn from `tick` to `tick + ticks`.
 CellRect sweepOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t ticks);
-/// Computes the forecast. `soon`, `later`: in ticks from `tick`.
+/// Computes the forecast. `soon` and `later` are numbers of ticks after `tick`.
 DrawForecast forecastOf(const PublishedModel& model, std::uint32_t tick, std::uint32_t soon,
                         std::uint32_t later);
 

@@ -11,23 +11,24 @@ namespace naiad {
 
 namespace {
 
-/// Looks. Above this number, those not entered for kForgetAfter ticks are dropped.
+/// Maximum number of remembered looks. Above it, looks not entered for kForgetAfter ticks are dropped.
 constexpr std::size_t kMaxRemembered = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
-/// Shared sequences, including those that no object has any more.
+/// Maximum number of shared sequences, including sequences that no object has any more. Then all are dropped.
 constexpr std::size_t kMaxShared = 2'048;
 
-/// Ticks. A path is fitted for at least kMinHorizon, and after a turn for at most kHorizonAfterTurn.
+/// Numbers of ticks: a path is fitted for at least kMinHorizon, and after a turn for at most
+/// kHorizonAfterTurn.
 constexpr std::uint32_t kMinHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
-/// A path that outlives its model's horizon is fitted again, for its age times this.
+/// A path that outlives its model's horizon is fitted again, for a horizon of its age times this factor.
 constexpr std::uint32_t kHorizonFactor = 8;
-/// With more distinct offsets, a fit is slow and rarely finds coarse numbers.
+/// Models with more distinct glyph offsets are not fitted: this would be slow and rarely find coarse numbers.
 constexpr std::size_t kMaxOffsets = 6;
 
 }  // namespace
 
-// A text that changes all the time never recurs.
+// A look recurs if it was entered before or is animated. So a text that changes all the time never recurs.
 void LookCatalogue::enterLook(PublishedModel& model, std::uint32_t tick) {
   Look& look = model.state.look;
   model.look_sum = 0;
@@ -43,7 +44,7 @@ void LookCatalogue::enterLook(PublishedModel& model, std::uint32_t tick) {
   if (m_last_used.size() > kMaxRemembered) m_last_used.clear();
 }
 
-// Objects with equal looks share one copy, because every tick compares it with what they draw.
+// Objects with equal looks share one copy, so that the comparison in every tick reads less memory.
 void LookCatalogue::share(Sequence& sequence) {
   if (sequence.empty()) return;
   if (m_sequences.size() >= kMaxShared) m_sequences.clear();
@@ -166,7 +167,7 @@ bool Publisher::isExact(const Tracked& tracked) const {
   return m_exact.contains({static_cast<std::uint32_t>(&tracked - m_models.data()), model.generation});
 }
 
-// An object that a player just began to follow may have a coarse model.
+// Replaces a coarse motion by the true one, for example of an object that a player has just begun to follow.
 void Publisher::keepExact(df::ObjectKey key) {
   if (key.slot >= m_models.size()) return;
   Tracked& tracked = m_models[key.slot];
@@ -174,13 +175,14 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
-  // Examine it in the next tick at the latest; in this tick if that is due, because it may not be drawn.
+  // Examine the object in the next tick at the latest, because its draw() may not run. If it is due in this
+  // tick, it stays due.
   if (isNewer(m_examine_at[key.slot], m_tick + 1)) m_examine_at[key.slot] = m_tick + 1;
   tracked.off_views = m_tick;
   markChanged(key.slot, tracked, kMotion);
 }
 
-// Corrects the solids that were published before any client predicted.
+// Corrects the solid objects that were published before any client predicted.
 void Publisher::keepSolidsExact() {
   for (std::uint32_t slot = 0; slot < m_models.size(); ++slot) {
     const Tracked& tracked = m_models[slot];
@@ -192,7 +194,7 @@ void Publisher::keepSolidsExact() {
 void Publisher::fitModel(Tracked& tracked) {
   if (&tracked == &m_free_draw || isExact(tracked)) return;
   const Sequence& sequence = tracked.model.state.look.sequence;
-  std::array<df::FixedVector, kMaxOffsets> offsets{};  // starts with the position's own cell
+  std::array<df::FixedVector, kMaxOffsets> offsets{};  // the first offset, 0, stands for the position itself
   std::size_t count = 1;
   const auto add = [&](std::int32_t dx, std::int32_t dy) {
     constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
@@ -221,7 +223,7 @@ void Publisher::fitModel(Tracked& tracked) {
       fitMotion(tracked.model.state.motion, std::span(offsets).first(count), horizon);
 }
 
-// Call when the object's reach or its place in the index may have changed.
+// Call when the object's reach or its entry in the index may have changed.
 void Publisher::indexModel(std::uint32_t slot, Tracked& tracked) {
   tracked.model.reach = reachOf(tracked.model);
   m_index.indexModel(slot, tracked.model, tracked.truth.position, tracked.membership);

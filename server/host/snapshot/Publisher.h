@@ -1,8 +1,8 @@
 // The published models: one per object, shared by all clients.
 //
 // Clients extrapolate a model exactly as the publisher does, so the publisher knows what is on their screens.
-// After each tick it compares that with the world. It changes a model only where the model would draw a wrong
-// cell, or where a look or a body changed. So objects in straight flight cost nothing.
+// After each tick it compares that with the world. It changes a model only if the model would draw a wrong
+// cell, or if the look or the body has changed. So objects in straight flight cost nothing.
 //
 // A model determines which cells an object draws, not its exact position. MotionFit finds numbers that take
 // few bits and draw the right cells for as long as the path is expected to last.
@@ -67,7 +67,7 @@ class ExactObjects {
   bool m_solids_are_new = false;
 };
 
-/// The looks published recently: which of them recur, and one shared copy of each.
+/// Remembers the looks published recently: whether each recurs, and one shared copy of it.
 class LookCatalogue {
  public:
   /// Call when the model has a new look: computes look_sum and `recurs`, and shares the look's memory.
@@ -76,8 +76,8 @@ class LookCatalogue {
  private:
   void share(Sequence& sequence);
 
-  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< enterLook() tick of each checksum
-  std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< some published looks, by checksum
+  std::unordered_map<std::uint64_t, std::uint32_t> m_last_used;  ///< tick of the last use, by checksum
+  std::unordered_map<std::uint64_t, Sequence> m_sequences;       ///< shared copies of looks, by checksum
 };
 
 /// Values per slot that all clients share for one tick, computed on first use.
@@ -86,11 +86,11 @@ class TickCache {
  public:
   /// Drops all values.
   void clear() { ++m_round; }
-  /// Null if no value was put there since the last clear().
+  /// Returns the value at `index`; null if none was put there since the last clear().
   const Value* find(std::size_t index) const {
     return index < m_entries.size() && m_entries[index].round == m_round ? &m_entries[index].value : nullptr;
   }
-  /// Stores a value. `size` exceeds all indices until the next clear(). Valid until the next put().
+  /// Stores a value. `size` must exceed all indices until the next clear(). Valid until the next put().
   const Value& put(std::size_t index, std::size_t size, Value value) {
     m_entries.resize(size);
     m_entries[index] = {m_round, std::move(value)};
@@ -134,7 +134,7 @@ class Publisher {
  public:
   using Model = PublishedModel;
   using Forecast = DrawForecast;
-  /// A slot that an update changed. groups 0: the object is gone.
+  /// A slot that an update changed. If `groups` is 0, the object is gone.
   struct Change {
     std::uint32_t slot = 0;
     std::uint8_t groups = 0;
@@ -142,7 +142,7 @@ class Publisher {
   };
   static constexpr std::uint32_t kSweep = 16;
 
-  /// Processes one tick of the world. Afterwards changes() lists what is new for clients.
+  /// Processes one tick of the world. Afterwards changes() lists the slots whose models clients must learn.
   void update(const df::WorldView& view);
 
   std::uint32_t tick() const { return m_tick; }
@@ -178,7 +178,7 @@ class Publisher {
     m_index.forEachNear(rect, ticks, inner, visit);
   }
 
-  /// An upper bound: all slots except kFreeDrawSlot are below this.
+  /// Returns an upper bound of the slots: all except kFreeDrawSlot are below it.
   std::size_t slotCount() const { return m_models.size(); }
   /// Number of live models.
   std::size_t liveCount() const { return m_live; }
@@ -202,13 +202,13 @@ class Publisher {
     std::uint32_t run = 0;  ///< duration of the previous path, in ticks
     ModelIndex::Membership membership;
     bool shown = true;
-    std::uint32_t drawn = 0;      ///< newest tick in which its draw() ran
-    std::uint32_t off_views = 0;  ///< its look cannot enter a view before this tick
+    std::uint32_t drawn = 0;      ///< newest tick in which the object's draw() ran
+    std::uint32_t off_views = 0;  ///< the look cannot enter a view before this tick
     std::uint8_t changed = 0;
-    bool touched = false;  ///< already in m_changes
+    bool touched = false;  ///< true if the slot is already in m_changes
   };
 
-  /// Index in the caches; kFreeDrawSlot is the last.
+  /// Returns the index of a slot in the caches; kFreeDrawSlot has the last one.
   std::size_t cacheIndex(std::uint32_t slot) const { return std::min<std::size_t>(slot, m_models.size()); }
   const SharedMotion& shareMotionOf(std::uint32_t slot) const;
   const Forecast& computeForecast(std::uint32_t slot, std::uint32_t soon, std::uint32_t later) const;
@@ -248,7 +248,7 @@ class Publisher {
   std::size_t m_live = 0;
   mutable TickCache<Forecast> m_forecasts;
   mutable TickCache<SharedMotion> m_motions;
-  mutable std::uint32_t m_soon = 0;  ///< argument of m_forecasts
+  mutable std::uint32_t m_soon = 0;  ///< this and m_later are the arguments of all values in m_forecasts
   mutable std::uint32_t m_later = 0;
   WorldRecord m_world;
   std::uint32_t m_tick = 0;

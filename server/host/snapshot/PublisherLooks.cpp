@@ -1,4 +1,4 @@
-// The Publisher's looks: publishes what was drawn, and removes looks that are no longer drawn.
+// The Publisher's looks: publishes the looks that objects drew, and removes looks that are no longer drawn.
 #include <algorithm>
 #include <cstdlib>
 
@@ -24,8 +24,8 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
   });
 }
 
-/// Number of ticks that the model, now outside all views, stays outside if views move at most a cell per
-/// tick.
+/// Returns a number of ticks for which the model, now outside all views, stays outside them if views move by
+/// at most a cell per tick.
 std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
   constexpr std::int64_t kFar = 1 << 20;
   const Motion motion = rebase(model.state.motion, tick);
@@ -45,7 +45,7 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
   return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
 }
 
-/// Ticks until an object that stands still and shows nothing is examined again.
+/// Number of ticks after which an object that stands still and shows nothing is examined again.
 constexpr std::uint32_t kNeverExamine = 1u << 20;
 }  // namespace
 
@@ -54,7 +54,7 @@ void Publisher::applyDrawing(const df::WorldView& view, const df::DrawnObject& d
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
-  m_examine_at[drawn.key.slot] = m_tick + 1;  // examined then, unless it is drawn again
+  m_examine_at[drawn.key.slot] = m_tick + 1;  // correctUndrawn() examines it then, unless it is drawn again
   std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
   if (drawn.on_view) commands = relativeToView(commands, view.corner);
   correctLook(drawn.key.slot, tracked, commands, declared);
@@ -88,13 +88,13 @@ void Publisher::correctLook(std::uint32_t slot, Tracked& tracked, std::span<cons
     state.look.sequence = declared->sequence;
     state.look.selector = declared->selector;
     if (!drawsTheSame(state.look, m_tick, positionAt(state.motion, m_tick), drawn)) {
-      state.motion = truthNow(tracked);  // fitted again, for the new look
+      state.motion = truthNow(tracked);  // finishChange() fits it again
       markChanged(slot, tracked, kMotion);
     }
   } else {
     captureLook(slot, tracked, drawn);
   }
-  // A drawing too large for a record is cut in a deterministic way, so it does not change every tick.
+  // A drawing too large for a record is always truncated in the same way, so its look does not change.
   if (state.look != before) markChanged(slot, tracked, kLook);
 }
 
@@ -108,7 +108,7 @@ void Publisher::captureLook(std::uint32_t slot, Tracked& tracked, std::span<cons
   Appearance appearance = captureAppearance(truth, drawn);
   state.look.sequence = {appearance};
   if (modelled != truth && !drawsTheSame(state.look, m_tick, modelled, drawn)) {
-    state.motion = truthNow(tracked);  // fitted again, for the new look
+    state.motion = truthNow(tracked);  // finishChange() fits it again
     modelled = truth;
     markChanged(slot, tracked, kMotion);
   }
@@ -125,7 +125,7 @@ void Publisher::applyFreeDraw(const df::WorldView& view) {
   }
   if (loose.empty() && !m_free_draw.model.alive) return;
   if (!m_free_draw.model.alive) {
-    // Below all objects and motionless: each glyph's offset is its position.
+    // The model lies below all objects and does not move, so a glyph's offset determines where it is drawn.
     m_free_draw.model = {1, true, {0, {m_tick, loose.front().position, {}, {}}, {{}, 0}, {}}};
     m_free_draw.model.state.body.solidness = df::SPECTRAL;
     m_free_draw.truth = m_free_draw.model.state.motion;
@@ -157,7 +157,7 @@ void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::W
     markChanged(slot, tracked, kMotion);
     ++m_corrections;
   }
-  // draw() did not run, so nothing may show. Outside all views the look may stay, unseen.
+  // draw() did not run, so the object must not be seen. A look outside all views is not seen, so it may stay.
   const Appearance* appearance = state.look.select(m_tick);
   if (appearance == nullptr) return;
   if (tracked.shown && tracked.changed == 0 && isNewer(tracked.off_views, m_tick)) return;

@@ -41,7 +41,8 @@ class SentChecksums {
   std::optional<bool> matches(const AckWindow& acks, std::uint64_t checksum) const {
     const std::uint32_t number = acks.newest;
     if (m_repairing || isNewer(m_clean_from, number)) return std::nullopt;
-    // Each missing snapshot must be known lost and its contents sent again. Those before the window are.
+    // Each missing snapshot must be known to be lost, and its contents must have been sent again. For
+    // snapshots older than the window this is known already.
     const Moment* acknowledged = nullptr;
     for (const Moment& moment : m_moments) {
       const std::uint32_t behind = number - moment.number;
@@ -67,9 +68,8 @@ class SentChecksums {
   Moment& at(std::uint32_t number) { return m_moments[number % kMaxMoments]; }
 
   std::array<Moment, kMaxMoments> m_moments;  ///< indexed by number modulo kMaxMoments
-  std::uint32_t m_clean_from;                 ///< since this snapshot, everything lost before has been sent
-                                              ///< again
-  bool m_repairing = false;                   ///< lost contents are pending
+  std::uint32_t m_clean_from;  ///< from this snapshot on, everything lost before it has been sent again
+  bool m_repairing = false;    ///< lost contents are pending
 };
 
 }  // namespace naiad

@@ -34,7 +34,7 @@ class SlotMap {
   void erase(std::uint32_t slot) {
     std::size_t hole = home(slot);
     while (m_entries[hole].slot != slot) hole = next(hole);
-    // Move later entries into the hole if they could no longer be found.
+    // Move later entries into the hole if find() could no longer reach them.
     for (std::size_t i = next(hole); m_entries[i].slot != kNone; i = next(i)) {
       const std::size_t wanted = home(m_entries[i].slot);
       const bool reachable = hole < i ? wanted > hole && wanted <= i : wanted > hole || wanted <= i;

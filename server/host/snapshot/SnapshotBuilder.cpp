@@ -17,7 +17,7 @@ namespace {
 constexpr double kCellsPerTick = 8;
 /// For repeats, a cell per tick of speed counts like being this many cells nearer.
 constexpr double kCellsPerSpeed = 20;
-/// Deaths are short, and each removes a ghost.
+/// Deaths are the most urgent: they are short, and each removes an object that is shown but no longer exists.
 constexpr double kDeathUrgency = 1e6;
 constexpr double kOwnUrgency = 1e5;
 
@@ -33,7 +33,7 @@ class Urgency {
   Urgency(const ClientReplica& replica, const Publisher& publisher)
       : m_replica(replica), m_publisher(publisher) {}
   double of(std::uint32_t id) const {
-    // Objects on the view, near its middle, or waiting for long come first.
+    // View objects, objects near the middle of the view, and objects that have waited for long come first.
     const KnownObjects::Known& known = m_replica.objects.at(id);
     const df::PlayerFacts& player = m_replica.state.player();
     if (known.life == KnownObjects::Life::kDying) return kDeathUrgency;
@@ -51,7 +51,8 @@ class Urgency {
     const double dy = 2 * (df::toCells(at.y) - df::toCells(focus.y));  // cells are twice as high as wide
     return waited - std::sqrt(dx * dx + dy * dy);
   }
-  /// Urgency of repeating the record before a loss is known: a fast object is soon wrong.
+  /// Urgency of repeating the record before a loss is known. A fast object is more urgent, because it is soon
+  /// drawn in the wrong cell.
   double ofResend(std::uint32_t id) const {
     const KnownObjects::Known& known = m_replica.objects.at(id);
     if (known.life == KnownObjects::Life::kDying) return of(id);
@@ -170,7 +171,7 @@ void SnapshotBuilder::writeObjects(const Publisher& publisher, const PacketLimit
       if (!m_p_flight->large) {
         m_writer.drop();
         if (!too_large) break;
-        m_queue.defer();  // it needs its own snapshot, on the stream
+        m_queue.defer();  // the record needs a snapshot of its own, on the stream
         if (limits.large) break;
         continue;
       }

@@ -16,11 +16,11 @@
 
 namespace naiad {
 
-/// Redundancy for lines that lose packets: records are sent again in the next tick, before a loss is known.
-/// Short ones are sent a third time in the tick after, because lines sometimes lose two packets in a row.
+/// Redundancy if packets get lost: records are sent again in the next tick, before a loss is known. Short
+/// ones are sent a third time in the tick after, because sometimes two packets in a row are lost.
 class RedundantResend {
  public:
-  /// Total bits of the records repeated in a tick. The first one may exceed it.
+  /// Total bits of the records repeated in a tick. The first record may exceed this limit.
   static constexpr std::size_t kBits = 768;
   /// Records of at most this many bits are repeated twice.
   static constexpr std::size_t kShortBits = 32;
@@ -38,8 +38,8 @@ class RedundantResend {
     int repeats = 0;
   };
 
-  std::vector<Record> m_next;     ///< to repeat in the next tick
-  std::vector<Record> m_current;  ///< repeated in this tick
+  std::vector<Record> m_next;     ///< records to repeat in the next tick
+  std::vector<Record> m_current;  ///< records repeated in this tick
 };
 
 /// The order in which one client's pending objects are written, the most urgent first.
@@ -50,7 +50,7 @@ class PendingQueue {
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
   void pop() { m_ids.pop_back(); }
-  /// Removes the front until restoreDeferred().
+  /// Removes the front id until restoreDeferred() puts it back.
   void defer() {
     m_deferred.push_back(m_ids.back());
     m_ids.pop_back();
@@ -61,14 +61,14 @@ class PendingQueue {
   }
 
  private:
-  std::vector<std::uint32_t> m_ids;  ///< the most urgent last
+  std::vector<std::uint32_t> m_ids;  ///< ids, the most urgent last
   std::vector<std::uint32_t> m_deferred;
   std::vector<std::pair<double, std::uint32_t>> m_ranked;  ///< scratch
 };
 
 class SnapshotBuilder {
  public:
-  /// Returns the builder that all senders of a thread share, one after the other. It stays in the cache.
+  /// Returns the builder that all senders of a thread share, so that its memory stays in the cache.
   static SnapshotBuilder& ofThread();
 
   /// Queues the pending objects of one client for the snapshots of a tick. `limit`: bytes of each snapshot.
@@ -100,7 +100,7 @@ class SnapshotBuilder {
   SnapshotWriter m_writer;
   PendingQueue m_queue;
   SnapshotHeader m_header;
-  ClientReplica* m_p_replica = nullptr;  ///< this and the next two belong to the snapshot being written
+  ClientReplica* m_p_replica = nullptr;  ///< this and the next two are set by beginSnapshot()
   InFlightSnapshots::Snapshot* m_p_flight = nullptr;
   RedundantResend* m_p_redundancy = nullptr;
 };

@@ -17,14 +17,14 @@ struct SnapshotPacket {
   std::string bytes;
 };
 
-/// Limits of what one tick may send.
+/// Limits of the snapshots that one tick may send.
 struct PacketLimits {
   /// Upper bound of the bits of a snapshot besides the record of its only object.
   static constexpr std::size_t kMaxOverheadBits = 256;
 
-  std::size_t packets = 64;                  ///< maximum number
-  std::size_t bytes = kMaxDatagramSnapshot;  ///< maximum size of each
-  bool large = true;                         ///< one of them may exceed `bytes`, up to kMaxSnapshot
+  std::size_t packets = 64;                  ///< maximum number of snapshots
+  std::size_t bytes = kMaxDatagramSnapshot;  ///< maximum size of each snapshot
+  bool large = true;                         ///< true: one snapshot may exceed `bytes`, up to kMaxSnapshot
 };
 
 /// Reuses the memory of cleared packets.

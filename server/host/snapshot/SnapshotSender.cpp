@@ -33,7 +33,7 @@ void SnapshotSender::build(const Publisher& publisher, PacketLimits limits, Pack
   const bool due = isKeepAliveDue();
   m_throttled = m_replica.hasPending();
   if (!m_throttled && !due) return;
-  // If the window is full, only a keep-alive is sent; so no snapshot in flight counts as lost.
+  // If the window is full, only a keep-alive is sent: each further snapshot makes the oldest count as lost.
   const std::size_t window = m_in_flight.size() < kMaxInFlight ? kMaxInFlight - m_in_flight.size()
                              : due                             ? 1
                                                                : 0;
@@ -52,7 +52,7 @@ void SnapshotSender::build(const Publisher& publisher, PacketLimits limits, Pack
   if (!packets.empty()) m_last_tick = m_tick;
 }
 
-// Queues pending repeats and corrections; applyTick() queued changes of objects.
+// Queues pending repeats and corrections; applyTick() has already queued the changes of objects.
 void SnapshotSender::queueRecords(const Publisher& publisher) {
   if (m_resend == Resend::kEveryTick) m_replica.objects.requeueUnconfirmed(m_tick);
   m_replica.state.queueRepeats();
@@ -141,7 +141,8 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 void SnapshotSender::requeueLost(const InFlightSnapshots::Snapshot& snapshot) {
   const ClientReplica::Requeued requeued = m_replica.requeueLost(snapshot, m_tick);
   m_resent += requeued.objects;
-  // State that changed or died since was already pending; until it is sent, the client lacks what was lost.
+  // State changed or removed since then was already pending; until it is sent, the client lacks what was
+  // lost.
   const bool pending = requeued.any || (!snapshot.empty && m_replica.hasPending());
   m_checksums.recordLost(snapshot, pending, newestNumber());
 }
@@ -160,7 +161,7 @@ void SnapshotSender::reset() {
   next.m_epoch = static_cast<std::uint8_t>((m_epoch + 1) & 3);
   next.m_next_number = m_next_number;
   next.m_checksums = SentChecksums(m_next_number);
-  // A client that has not received the newest input waits for it before it sends more.
+  // Acknowledge the newest input again: a client that has not received this waits before it sends more.
   next.setNewestInput(m_replica.state.input(), m_replica.state.inputTick());
   *this = std::move(next);
 }

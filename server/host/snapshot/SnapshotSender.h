@@ -25,9 +25,9 @@ namespace naiad {
 
 /// When unacknowledged records are sent again.
 enum class Resend {
-  kEveryTick,  ///< until acknowledged, with every snapshot
-  kOnGap,      ///< when later snapshots are acknowledged and theirs is not
-  kAhead,      ///< like kOnGap, and redundantly on a line that loses packets (RedundantResend)
+  kEveryTick,  ///< with every snapshot, until they are acknowledged
+  kOnGap,      ///< when later snapshots are acknowledged and the one that carried them is not
+  kAhead,      ///< like kOnGap, and redundantly if the connection loses packets (RedundantResend)
 };
 
 class SnapshotSender {
@@ -46,12 +46,12 @@ class SnapshotSender {
   void setTerminal(std::uint32_t columns, std::uint32_t rows) { m_viewport.setTerminal(columns, rows); }
   /// True if the client is sent the whole of a view of this size, not only the part that fits its terminal.
   bool coversView(int width, int height) const { return m_viewport.covers(width, height); }
-  /// Sets how many ticks ahead an object is sent before it may enter the view.
+  /// Sets how many ticks in advance an object is sent before it may enter the view.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 
   /// Writes the pending state at the publisher's tick, most urgent first, within a window of kMaxInFlight
-  /// unacknowledged snapshots. If nothing is pending or the window is full, writes
-  /// only one snapshot every kKeepAlive ticks.
+  /// unacknowledged snapshots. If nothing is pending or the window is full, writes one snapshot every
+  /// kKeepAlive ticks.
   void build(const Publisher& publisher, PacketLimits limits, Packets& packets);
   std::vector<Packet> build(const Publisher& publisher, PacketLimits limits = {}) {
     Packets packets;
@@ -62,11 +62,12 @@ class SnapshotSender {
   /// Returns an empty snapshot that probes whether datagrams pass. Its loss does not count in loss().
   Packet probe(const Publisher& publisher);
 
-  /// Processes an acknowledgement. LossEstimator decides when unconfirmed snapshots count as lost.
+  /// Processes an acknowledgement. LossDetector decides when unconfirmed snapshots count as lost.
   void acknowledge(const AckWindow& acks);
   /// Marks a snapshot, just built, that uses a stream: it may be late but is not lost.
   void markLarge(std::uint32_t number) { m_in_flight.markLarge(number); }
-  /// True if a large snapshot is unacknowledged. Overtaking it would show a world without its contents.
+  /// True if a large snapshot is unacknowledged. If a later one overtook it, the world would lack its
+  /// contents.
   bool hasLargeInFlight() const { return m_in_flight.hasLarge(); }
   /// Call when the stream broke: everything it carried is pending again.
   void requeueLarge();
@@ -76,10 +77,10 @@ class SnapshotSender {
   std::optional<bool> matchesChecksum(const AckWindow& acks, std::uint64_t checksum) const {
     return m_checksums.matches(acks, checksum);
   }
-  /// Starts again with an empty client: the whole world is pending.
+  /// Starts again from an empty client replica: the whole world becomes pending.
   void reset();
 
-  /// True if something was pending at the last build() that could not be sent.
+  /// True if the last build() could not send everything that was pending.
   bool isThrottled() const { return m_throttled; }
   /// True if nothing is pending and no unacknowledged snapshot carries anything.
   bool isSettled() const { return !m_in_flight.hasContent() && !m_replica.hasPending(); }

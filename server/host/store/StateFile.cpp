@@ -86,8 +86,9 @@ void StateFile::fail(const std::string& what) const {
                        (why.empty() ? "." : " (" + why + ")."));
 }
 
-// Creates the file (0600, unlike SQLite) under another name and links it to its place when it is complete: a
-// file without tables counts as damaged. Keeps a file that another server has created in the meantime.
+// Creates the file (0600, unlike SQLite) under another name and links it to its final name when it is
+// complete, because a file without tables counts as damaged. Keeps a file that another server has created in
+// the meantime.
 void StateFile::make() {
   std::error_code error;
   if (fs::exists(m_file, error)) return;

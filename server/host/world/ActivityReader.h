@@ -1,7 +1,7 @@
 // Reads an ActivityPage after a crash or during a hang, to log what the game was doing.
 //
-// All functions are async-signal-safe: they allocate nothing, and follow no pointer of the page. The page may
-// be a stranger's: whatever is in it, the text is short, printable ASCII without line breaks.
+// All functions are async-signal-safe: they allocate nothing, and follow no pointer of the page. A malicious
+// game may write anything to the page, but the text is always short, printable ASCII without line breaks.
 #pragma once
 
 #include <cstddef>
@@ -25,15 +25,16 @@ class ActivityText {
   std::size_t m_size = 0;
 };
 
-/// Returns the class's own name: "EventStep" of "N2df9EventStepE" or "9EventStep". Returns other forms whole.
+/// Returns the name without namespaces: "EventStep" of "N2df9EventStepE" or "9EventStep". Other forms stay
+/// whole.
 std::string_view classInMangled(std::string_view mangled);
 
 /// Returns ", while Ship handled EventStep" (`verb`: "handled"), ", while Ship ran draw()", or "" between
 /// handlers.
 ActivityText describeActivity(const df::ActivityPage& page, std::string_view verb);
 
-/// Returns one of the last lines of the game's log. `back` counts from the newest, which is 0. Empty if there
-/// are not that many.
+/// Returns one of the last lines of the game's log. `back` counts from the newest line, which is 0. Empty if
+/// there are not that many lines.
 ActivityText logLine(const df::ActivityPage& page, std::size_t back);
 
 }  // namespace naiad

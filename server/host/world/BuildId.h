@@ -1,4 +1,4 @@
-// The build ids of files of code.
+// The build ids of programs and libraries.
 #pragma once
 
 #include <cstddef>

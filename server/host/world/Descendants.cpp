@@ -24,8 +24,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kNapMillis = 2;
-constexpr std::chrono::seconds kKillTimeout{20};  ///< limit: one that waits for a dead disk cannot be ended
-constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< players are waiting
+constexpr std::chrono::seconds kKillTimeout{20};  ///< a process that waits for a dead disk cannot be ended
+constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< short, because players are waiting
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -109,7 +109,7 @@ std::vector<pid_t> findChildren() {
   return found;
 }
 
-// The group may have processes that the child has started since.
+// Kills the group, too, because the child may have started processes in it.
 void killChild(pid_t child) {
   kill(child, SIGKILL);
   kill(-child, SIGKILL);
@@ -118,7 +118,7 @@ void killChild(pid_t child) {
 int killDescendants(pid_t leader) {
   int status = SIGKILL;
   if (leader > 0) {
-    kill(-leader, SIGKILL);  // the whole group at once, so that none can fork on
+    kill(-leader, SIGKILL);  // the whole group at once, so that none of its processes can go on forking
     kill(leader, SIGKILL);   // in case it has left its group
   }
   std::set<pid_t> ended;
@@ -137,9 +137,9 @@ int killDescendants(pid_t leader) {
       killChild(one);
       news = true;
     }
-    if (news) continue;  // a process that forks and ends may have forked again
+    if (news) continue;  // look again at once: a process may have forked before it was killed
     poll(nullptr, 0, kNapMillis);
-    if (!std::exchange(naps, true)) continue;  // usually the group was all
+    if (!std::exchange(naps, true)) continue;  // search /proc only if processes are left after a pause
     for (const Descendant& one : findDescendants()) kill(one.process, SIGKILL);
   }
   return status;

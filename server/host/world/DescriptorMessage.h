@@ -17,7 +17,7 @@ bool sendDescriptors(int socket, const void* p_bytes, std::size_t size, std::spa
                      int flags = 0);
 
 /// Receives `size` bytes and the descriptors that come with them, in their order and with close-on-exec.
-/// `flags`: of recvmsg(2). Returns the number of descriptors; -1, with none left open, if the message has
+/// `flags`: as of recvmsg(2). Returns the number of descriptors; -1, with none left open, if the message has
 /// another length, has more descriptors than fit in `room`, or cannot be received.
 int receiveDescriptors(int socket, void* p_bytes, std::size_t size, std::span<int> room, int flags = 0);
 

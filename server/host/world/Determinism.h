@@ -10,16 +10,17 @@ namespace naiad {
 
 /// Start parameters of one world.
 struct WorldStartOptions {
-  /// Seed; 0: the world takes one of its own, unless the options have one.
+  /// Random seed; 0: the world's options give it or, if they do not, the world chooses one.
   std::uint64_t seed = 0;
-  /// Replaying its turns makes an equal world: it gets fixed addresses, and clocks and entropy from the seed
-  /// and the tick (server/repeat).
+  /// True if replaying its turns makes an equal world: it gets fixed addresses, and clocks and entropy that
+  /// depend only on the seed and the tick (server/repeat).
   bool repeatable = false;
-  bool again = false;             ///< a replay: it does not sleep
-  bool copies = false;            ///< it makes copies of itself on order (WorldCheckpoints.h)
-  bool reads_only = false;        ///< in a sandbox it writes no files, because another world does
-  std::uint64_t start_nanos = 0;  ///< its clock at the start, since 1970 in UTC
-  std::uint64_t frame_nanos = 0;  ///< length of a tick
+  bool again = false;   ///< the world is a replay, so it does not sleep
+  bool copies = false;  ///< the world makes copies of itself on request (WorldCheckpoints.h)
+  bool reads_only =
+      false;  ///< in a sandbox, this world cannot write files, because another world writes them
+  std::uint64_t start_nanos = 0;  ///< the world's clock at its start, in nanoseconds since 1970 (UTC)
+  std::uint64_t frame_nanos = 0;  ///< length of a tick, in nanoseconds
 };
 
 /// A file that the game read before its first turn.
@@ -30,13 +31,13 @@ struct ReadFile {
 inline constexpr std::size_t kMaxReadFiles = 256;
 inline constexpr std::size_t kMaxReadFileName = 200;
 
-/// Returns the value of LD_PRELOAD: the library, after the sanitizer's runtime of this process, which must be
-/// the first. Empty if the library is missing.
+/// Returns the value of LD_PRELOAD for worlds: the library, after this process's sanitizer runtime, which
+/// must come first. Empty if the library is missing.
 std::string determinismPreload();
 /// Returns the environment entry with the library's settings.
 std::string determinismEntry(const WorldStartOptions& order);
 
-// The world's process calls these. They do nothing without the library.
+// The world's process calls the following functions. Without the library, they do nothing.
 
 /// Sets the number of the next tick to begin.
 void setDeterminismTick(std::uint32_t tick);

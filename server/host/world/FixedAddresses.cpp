@@ -13,7 +13,7 @@ namespace naiad {
 
 namespace {
 
-/// Sizes of a usual environment and more; longer ones are padded to the next multiple.
+/// The environment is padded to a multiple of these entries and bytes; a usual one fits in a single multiple.
 constexpr std::size_t kEntries = 64;
 constexpr std::size_t kBytes = std::size_t{16} << 10;
 constexpr rlim_t kStack = rlim_t{8} << 20;

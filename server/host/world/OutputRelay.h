@@ -26,14 +26,14 @@ class OutputRelay {
   using Clock = std::chrono::steady_clock;
   using Line = std::function<void(const std::string& line)>;
 
-  /// Rate limit in lines: per second, and burst for the start of a round.
+  /// Rate limit: lines per second, and burst for the start of a round.
   static constexpr BucketRate kRate{100, 500};
   /// Maximum bytes of a line; the rest of it is dropped.
   static constexpr std::size_t kMaxLine = 1000;
   /// Maximum bytes that one update() reads.
   static constexpr std::size_t kMaxRead = std::size_t{128} << 10;
 
-  /// Takes over the reading end of a non-blocking pipe; below 0: none. An empty `line` drops all lines.
+  /// Takes over the reading end of a non-blocking pipe; below 0: none. If `line` is empty, drops all lines.
   OutputRelay(int pipe, Line line) : m_pipe(pipe), m_line(std::move(line)) {}
   ~OutputRelay() {
     if (m_pipe >= 0) ::close(m_pipe);
@@ -41,7 +41,7 @@ class OutputRelay {
   OutputRelay(const OutputRelay&) = delete;
   OutputRelay& operator=(const OutputRelay&) = delete;
 
-  /// Passes on the output so far. Call once in each tick; never waits.
+  /// Passes on the lines that the world has printed so far. Call once in each tick; never waits.
   void update(Clock::time_point now) {
     char piece[16 << 10];
     for (std::size_t done = 0; done < kMaxRead && m_pipe >= 0;) {
@@ -52,7 +52,7 @@ class OutputRelay {
       done += static_cast<std::size_t>(got);
     }
   }
-  /// Like update(), when the world has ended: the last line may lack its end.
+  /// Like update(), for a world that has ended: also passes on a last line without a line end.
   void finish(Clock::time_point now) {
     update(now);
     if (!m_text.empty()) endLine(now);

@@ -58,7 +58,7 @@ std::uint64_t rightsOf(int version) {
 
 struct Ruleset {
   std::uint64_t files = 0;
-  std::uint64_t network = 0;  ///< since version 4: bind and connect, TCP
+  std::uint64_t network = 0;  ///< since version 4: bind() and connect() with TCP
   std::uint64_t scoped = 0;   ///< since version 6: abstract Unix sockets, signals
 };
 
@@ -76,7 +76,7 @@ inline constexpr int kLandlockScopesSignals = 6;
 
 class LandlockRules {
  public:
-  /// Allows nothing at first. `version`: of landlockVersion(), above 0.
+  /// Allows nothing at first. `version`: the result of landlockVersion(), above 0.
   explicit LandlockRules(int version) : m_handled(rightsOf(version)) {
     const Ruleset rules{m_handled, 3, 3};
     m_rules = static_cast<int>(syscall(kCreateRuleset, &rules, sizeOf(version), 0));
@@ -141,7 +141,7 @@ constexpr bool kSanitized = false;
 
 constexpr rlim_t kMaxOpenFiles = 1024;
 constexpr rlim_t kMaxFileSize = rlim_t{1} << 30;
-/// Limit of processes and threads. Not lower, because all of the user's count, not only the world's.
+/// Limit of processes and threads. A lower one would fail, because all processes of the user count.
 constexpr rlim_t kMaxProcesses = 4096;
 
 const char* const kSystemFiles[] = {"/etc/ld.so.cache",        "/etc/ld.so.preload",
@@ -164,12 +164,12 @@ void limitResources(const Sandbox& sandbox) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_NOFILE, kMaxOpenFiles);
   limit(RLIMIT_FSIZE, kMaxFileSize);
-  signal(SIGXFSZ, SIG_IGN);  // writing too long a file fails, and does not end the process
+  signal(SIGXFSZ, SIG_IGN);  // so that writing too long a file fails, but does not end the process
   limit(RLIMIT_NPROC, kMaxProcesses);
   if (sandbox.memory != 0 && !kSanitized) limit(RLIMIT_AS, sandbox.memory);
 }
 
-// If root has started the server, only root's user id is kept.
+// Drops all capabilities. If root has started the server, the world keeps only root's user id.
 void dropCapabilities() {
   __user_cap_header_struct asked{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct had[2] = {};
@@ -177,7 +177,8 @@ void dropCapabilities() {
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
   const __user_cap_data_struct none[2] = {};
-  // Otherwise root's next program would get capabilities again, and the kernel would randomise its addresses.
+  // Otherwise the next program of root would get capabilities again, and the kernel would randomise its
+  // addresses.
   prctl(PR_SET_SECUREBITS, SECBIT_NOROOT | SECBIT_NOROOT_LOCKED, 0, 0, 0);
   syscall(SYS_capset, &head, none);
 }
@@ -214,7 +215,7 @@ std::int32_t tryFilter() {
   return filterCalls(0) == 0 ? 1 : 0;
 }
 
-/// Returns the result of `p_find` in a process of its own; 0 if the host ends that process for the call.
+/// Returns the result of `p_find` in a process of its own; 0 if the system kills that for a forbidden call.
 std::int32_t findInTrial(std::int32_t (*p_find)()) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return 0;

@@ -1,5 +1,5 @@
 // Restricts the process of a world. A game may be anyone's program and runs under this user's id, so file
-// permissions do not restrain it: the kernel's sandboxes must.
+// permissions do not restrain it. The kernel's sandboxes do.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ struct Sandbox {
   std::vector<std::string> readable;    ///< readable and executable
   std::vector<std::string> writable;    ///< readable and writable
   std::vector<std::string> appendable;  ///< files only, created if they are missing
-  std::uint64_t memory = 0;             ///< bytes of address space; 0, or with a sanitizer: no limit
+  std::uint64_t memory = 0;  ///< limit of the address space in bytes; 0, or with a sanitizer: no limit
 };
 
 /// Kernel features that this process may use.
 struct SandboxSupport {
   std::int32_t landlock = 0;   ///< version of Landlock; 0: none
-  std::int32_t filter = 0;     ///< 1: seccomp
+  std::int32_t filter = 0;     ///< 1: system calls can be filtered (seccomp)
   std::int32_t addresses = 0;  ///< 1: addresses can be fixed (FixedAddresses.h)
 };
 
@@ -35,8 +35,8 @@ std::string missingSandboxFeatures(const SandboxSupport& support);
 /// errno, or 0; after an error the process must not continue.
 int enterSandbox(const Sandbox& sandbox, const SandboxSupport& support);
 
-/// Hides this process's memory, environment and descriptors from its worlds: only root can read them. It also
-/// dumps no core. Does nothing with a sanitizer, which traces its own process.
+/// Hides this process's memory, environment and descriptors from its worlds, because only root can read them
+/// afterwards. The process also dumps no core. Does nothing with a sanitizer, which traces its own process.
 void makeUndumpable();
 
 /// Returns the system folders that every world may read.

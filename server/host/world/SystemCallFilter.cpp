@@ -31,7 +31,7 @@ namespace {
 
 /// First number of the x32 calls on x86-64.
 constexpr std::uint32_t kX32 = 0x4000'0000;
-/// Calls from 424 on have equal numbers on all architectures. The headers may not know them.
+/// Calls from 424 on have equal numbers on all architectures. The installed headers may not have their names.
 constexpr std::uint32_t kPidfdSendSignal = 424;
 constexpr std::uint32_t kClone3 = 435;
 constexpr std::uint32_t kOpenat2 = 437;
@@ -45,7 +45,7 @@ constexpr std::uint32_t kRefused[] = {
     __NR_listen,
     __NR_accept,
     __NR_accept4,
-    // Other processes.
+    // Access to other processes.
     __NR_process_vm_readv,
     __NR_process_vm_writev,
     __NR_kcmp,
@@ -56,7 +56,7 @@ constexpr std::uint32_t kRefused[] = {
     __NR_move_pages,
     __NR_migrate_pages,
     __NR_perf_event_open,
-    __NR_setsid,  // all processes of a world stay in its group, which is ended at once
+    __NR_setsid,  // all processes of a world must stay in its group, which is killed at once
     __NR_setpgid,
     // Memory that no limit counts, or that is shared with another process.
     __NR_memfd_create,
@@ -74,10 +74,10 @@ constexpr std::uint32_t kRefused[] = {
     __NR_msgrcv,
     __NR_mq_open,
     __NR_mq_unlink,
-    // Ways to files that bypass Landlock, and operations that Landlock does not restrict.
+    // Access to files that bypasses Landlock, and operations that Landlock does not restrict.
     __NR_name_to_handle_at,
     __NR_open_by_handle_at,
-    __NR_fchmod,  // a descriptor for reading is enough
+    __NR_fchmod,  // would work through a descriptor opened for reading
     __NR_fchmodat,
     __NR_fchown,
     __NR_fchownat,
@@ -105,7 +105,7 @@ constexpr std::uint32_t kRefused[] = {
     __NR_iopl,
     __NR_ioperm,
 #endif
-    // The machine.
+    // Access to the machine as a whole.
     __NR_bpf,
     __NR_userfaultfd,
     425,  // io_uring_setup: opens and connects without system calls
@@ -153,7 +153,7 @@ constexpr std::uint32_t kRefused[] = {
     __NR_syslog,
 };
 
-/// Controls with which a world could change a terminal. They have equal numbers on all supported
+/// ioctl requests with which a world could change a terminal. They have equal numbers on all supported
 /// architectures.
 constexpr std::uint32_t kRefusedControls[] = {
     0x5402,      0x5403,      0x5404,       // TCSETS, TCSETSW, TCSETSF
@@ -162,12 +162,12 @@ constexpr std::uint32_t kRefusedControls[] = {
     0x540E,      0x5412,      0x5414,
     0x541C,      0x541D,  // TIOCSCTTY, TIOCSTI, TIOCSWINSZ, TIOCLINUX, TIOCCONS
     0x5423,               // TIOCSETD
-    0x8901,      0x8902,  // FIOSETOWN, SIOCSPGRP: signals to others
+    0x8901,      0x8902,  // FIOSETOWN, SIOCSPGRP: signals to other processes
 };
 
-/// Controls with which a file's owner can change it permanently, by a descriptor for reading.
+/// ioctl requests by which its owner can change a file permanently, even by a descriptor opened for reading.
 constexpr std::uint32_t kRefusedFileControls[] = {
-    0x4004'6602, 0x4008'6602,  // FS_IOC_SETFLAGS, by 32 and 64 bits
+    0x4004'6602, 0x4008'6602,  // FS_IOC_SETFLAGS, with 32 and 64 bits
     0x4004'7602, 0x4008'7602,  // FS_IOC_SETVERSION
     0x401C'5820,               // FS_IOC_FSSETXATTR
     0x4080'6685,               // FS_IOC_ENABLE_VERITY
@@ -183,14 +183,14 @@ constexpr std::uint32_t fails(int error) {
   return SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error);
 }
 
-/// Writes the program, instruction by instruction. Between rules the accumulator holds the call's number.
+/// Writes the filter program instruction by instruction. Between rules the loaded word is the call's number.
 class FilterWriter {
  public:
   void load(std::size_t offset) {
     m_code.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset)));
   }
   void loadNumber() { load(offsetof(seccomp_data, nr)); }
-  /// Loads the low half of an argument: kernels read ints from it.
+  /// Loads the low half of an argument, because the kernel reads ints from it.
   void loadArgument(std::size_t n) { load(offsetof(seccomp_data, args) + n * sizeof(std::uint64_t)); }
   void loadArgumentHigh(std::size_t n) {
     load(offsetof(seccomp_data, args) + n * sizeof(std::uint64_t) + sizeof(std::uint32_t));
@@ -205,7 +205,8 @@ class FilterWriter {
   void ifAtLeast(std::uint32_t value, std::uint32_t verdict) { when(BPF_JGE, value, verdict); }
   void ifAnyOf(std::uint32_t bits, std::uint32_t verdict) { when(BPF_JSET, bits, verdict); }
 
-  /// Writes the rule for the call of this number. If `rule` does not end the program, it ends with `verdict`.
+  /// Writes a branch for one value of the loaded word: a system call's number, or an argument. If `rule` does
+  /// not end the filter program there, the program ends with `verdict`.
   template <class Rule>
   void forCall(std::uint32_t number, std::uint32_t verdict, Rule rule) {
     const std::size_t jump = m_code.size();
@@ -227,7 +228,7 @@ class FilterWriter {
   std::vector<sock_filter> m_code;
 };
 
-/// Allows a call only for this process, named as 0 or by its number.
+/// Allows a call only if its argument names this process, as 0 or by its number.
 void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pid_t self) {
   out.forCall(call, fails(EPERM), [&] {
     out.loadArgument(argument);
@@ -236,7 +237,7 @@ void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pi
   });
 }
 
-// Without Landlock's limit on signals, a world's children can send signals only to their group.
+// Replaces Landlock's limit on signals. A world's children can then send signals only to their own group.
 void limitSignals(FilterWriter& out, pid_t self) {
   out.forCall(__NR_kill, fails(EPERM), [&] {
     out.loadArgument(0);
@@ -250,7 +251,7 @@ void limitSignals(FilterWriter& out, pid_t self) {
   out.ifEqual(__NR_tkill, fails(EPERM));
 }
 
-// Opening a file for reading with O_TRUNC empties it without a right to write.
+// Refuses to open a file for reading with O_TRUNC, because that empties the file without a right to write.
 void limitTruncation(FilterWriter& out) {
   const auto limit = [&out](std::uint32_t call, std::size_t flags) {
     out.forCall(call, kAllow, [&] {
@@ -272,7 +273,7 @@ void limitPriorities(FilterWriter& out, pid_t self) {
   limitToSelf(out, __NR_sched_setparam, 0, self);
   limitToSelf(out, __NR_sched_setscheduler, 0, self);
   limitToSelf(out, __NR_sched_setattr, 0, self);
-  // For groups and users, 0 has a meaning, too, so only processes are allowed.
+  // The id 0 also stands for the caller's process group or user, so only a process's priority may be set.
   const auto limit = [&](std::uint32_t call, std::uint32_t which) {
     out.forCall(call, fails(EPERM), [&] {
       out.loadArgument(1);
@@ -295,7 +296,7 @@ void limitArguments(FilterWriter& out) {
     out.loadArgument(0);
     out.ifAnyOf(kNewNamespaces, fails(EPERM));
   });
-  // A datagram socket of a pair could send to any other socket of this machine that has a name.
+  // Refuses pairs of datagram sockets, which could send to any other socket of this machine with a name.
   out.forCall(__NR_socketpair, fails(EPERM), [&] {
     out.loadArgument(1);
     out.mask(0xF);
@@ -307,14 +308,14 @@ void limitArguments(FilterWriter& out) {
     for (const std::uint32_t control : kRefusedControls) out.ifEqual(control, fails(EPERM));
     for (const std::uint32_t control : kRefusedFileControls) out.ifEqual(control, fails(EPERM));
   });
-  // Refuses signals to others, and a lease, which delays other processes that open the file.
+  // Refuses to send signals to others on events, and leases, which delay other processes that open the file.
   out.forCall(__NR_fcntl, kAllow, [&] {
     out.loadArgument(1);
     out.ifEqual(F_SETOWN, fails(EPERM));
     out.ifEqual(15, fails(EPERM));  // F_SETOWN_EX
     out.ifEqual(F_SETLEASE, fails(EPERM));
   });
-  // The world must end with its supervisor, and must not hide from it.
+  // Refuses options with which the world could outlive its supervisor or hide from it.
   out.forCall(__NR_prctl, kAllow, [&] {
     out.loadArgument(0);
     out.forCall(PR_SET_PDEATHSIG, fails(EPERM), [&] {
@@ -326,7 +327,7 @@ void limitArguments(FilterWriter& out) {
       out.ifEqual(1, kAllow);
     });
   });
-  // Refuses changing the times of a file by its path; those of an open file may be changed.
+  // Refuses to change the times of a file by its path. Those of an open file may be changed.
   out.forCall(__NR_utimensat, fails(EPERM), [&] {
     out.loadArgument(1);
     out.forCall(0, fails(EPERM), [&] {
@@ -352,7 +353,7 @@ std::vector<sock_filter> makeSystemCallFilter(const FilterScene& scene) {
 #endif
   for (const std::uint32_t call : kRefused) out.ifEqual(call, fails(EPERM));
   if (!scene.traces_itself) out.ifEqual(__NR_ptrace, fails(EPERM));
-  out.ifEqual(kClone3, fails(ENOSYS));  // a filter cannot read their arguments
+  out.ifEqual(kClone3, fails(ENOSYS));  // a filter cannot read the arguments of these two calls
   out.ifEqual(kOpenat2, fails(ENOSYS));
   out.ifAtLeast(kFirstUnknown, fails(ENOSYS));
   limitArguments(out);
@@ -374,7 +375,7 @@ std::vector<sock_filter> makeSystemCallFilter(const FilterScene& /*scene*/) {
 int installSystemCallFilter(std::vector<sock_filter> filter) {
   if (filter.empty()) return ENOSYS;
   const sock_fprog program{static_cast<unsigned short>(filter.size()), filter.data()};
-  // Avoids seccomp(), which systemd's usual list of calls does not allow to services.
+  // Does not use seccomp(), because systemd's usual list of calls does not allow it to services.
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0 ? 0 : errno;
 }
 

@@ -13,14 +13,14 @@ namespace naiad {
 
 /// Conditions that make the filter stricter or laxer.
 struct FilterScene {
-  pid_t self = 0;                ///< the process that installs it
+  pid_t self = 0;                ///< the process that installs the filter
   bool signals_scoped = false;   ///< Landlock blocks signals to other processes
   bool truncation_held = false;  ///< Landlock restricts truncate()
   bool traces_itself = false;    ///< ptrace() is allowed, because a sanitizer's runtime needs it
 };
 
-/// Returns the filter; empty on a processor without a list. Refused calls fail with EPERM; those that have an
-/// older substitute, and those that are not known yet, with ENOSYS.
+/// Returns the filter; empty on a processor without a list. Refused calls fail with EPERM. Calls that have an
+/// older substitute, and those that are not known yet, fail with ENOSYS.
 std::vector<sock_filter> makeSystemCallFilter(const FilterScene& scene);
 
 /// Installs the filter for this thread and all that it starts, permanently. PR_SET_NO_NEW_PRIVS must be set.

@@ -2,7 +2,8 @@
 //
 // On a loaded machine a process may have to wait for a processor, and in a debugger it does nothing. Neither
 // is the game's fault, so only computing, and waiting for something that the game asked for, counts in full.
-// A process stopped by a signal has longer, but not unlimited time: it may have sent that signal itself.
+// A process stopped by a signal gets more time, but not unlimited time, because it may have sent the signal
+// itself.
 #pragma once
 
 #include <sys/types.h>
@@ -16,7 +17,7 @@ namespace naiad {
 struct ProcessRunState {
   enum Doing {
     kRuns,      ///< it computes, waits for a processor, or waits for a disk
-    kWaits,     ///< it waits for something it asked for: a time, a lock, bytes
+    kWaits,     ///< it waits for something that it asked for: a time, a lock, bytes
     kStopped,   ///< stopped by a signal
     kDebugged,  ///< stopped by a debugger, which a sandboxed world cannot be itself
   } doing = kRuns;
@@ -26,15 +27,15 @@ struct ProcessRunState {
 /// Returns the state of a process; nullopt if it does not exist, or the kernel does not say.
 std::optional<ProcessRunState> readProcessRunState(pid_t process);
 
-/// Adds up the time of one tick. Time is passed in.
+/// Adds up the time of one tick. Time is a parameter.
 class TickStallMeter {
  public:
   using Nanos = std::chrono::nanoseconds;
 
-  /// Time of a tick that counts in full, without a look at the process.
+  /// A tick's time counts in full, and the process's state is not read, until it has taken this long.
   static constexpr Nanos kUninspectedTime = std::chrono::milliseconds(50);
-  /// One part in this many of the time in which a process is stopped, or waits for a processor, counts. If
-  /// none did, it would be waited for without end.
+  /// One part in this many counts of the time in which a process is stopped by a signal, or waits for a
+  /// processor. If no part did, such a process would never count as hung.
   static constexpr int kStarvedPart = 10;
 
   /// Begins another tick.
@@ -51,12 +52,12 @@ class TickStallMeter {
       count(passed, look());
     }
   }
-  /// Returns the time that counts.
+  /// Returns the part of the tick's time that counts.
   Nanos counted() const { return m_counted; }
-  /// Returns the part of it that no load, signal or debugger can have caused: computing, and waiting for
-  /// something.
+  /// Returns the part of counted() that no load, signal or debugger can have caused, apart from the first
+  /// kUninspectedTime: computing, and waiting for something.
   Nanos own() const { return m_own; }
-  /// Returns how long it has been stopped.
+  /// Returns how long the process has been stopped without a break, by a signal or a debugger.
   Nanos stopped() const { return m_stopped; }
 
  private:

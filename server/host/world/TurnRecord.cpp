@@ -10,8 +10,8 @@ namespace naiad {
 namespace {
 
 enum RecordKind : std::uint8_t {
-  kRecordedTurn = 0,     ///< has the flags of the turn before
-  kRecordedNewTurn = 1,  ///< has flags of its own
+  kRecordedTurn = 0,     ///< a turn with the flags of the previous turn
+  kRecordedNewTurn = 1,  ///< a turn with flags of its own
   kRecordedResult = 2,
   kRecordedPicture = 3,
   kRecordedSession = 4,
@@ -133,7 +133,7 @@ void dropKeys(WorldTurn& turn) {
   });
 }
 
-// Replaces the frame's length by the record's, which is shorter.
+// Replaces the frame's length by the record's length, which takes fewer bytes.
 void TurnRecordWriter::append(std::string& out) {
   const std::string_view record = std::string_view(m_fields).substr(kWorldFrameHead);
   ByteWriter(out).varint(record.size());
@@ -218,7 +218,7 @@ std::optional<TurnRecord> TurnRecordReader::readTurn(FieldReader& in, std::uint8
   if (kind == kRecordedNewTurn) visitHead(in, m_last);
   WorldTurn turn;
   copyHead(m_last, turn);
-  if (!in.isWhole()) visitInputs(in, turn.inputs);
+  if (!in.isFullyRead()) visitInputs(in, turn.inputs);
   return turn;
 }
 
@@ -247,7 +247,7 @@ std::optional<TurnRecord> TurnRecordReader::read(std::string_view record) {
   } else if (in.ok()) {
     return std::nullopt;  // unknown kind
   }
-  if (in.isWhole()) return found;
+  if (in.isFullyRead()) return found;
   m_bad = true;
   return std::nullopt;
 }

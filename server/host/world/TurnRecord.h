@@ -22,8 +22,8 @@
 
 namespace naiad {
 
-/// A player's session in the journal, so that the player can reconnect after the server was killed. Of a
-/// token only its SHA-256 is stored (ResumeTokens.h); addresses and rights of admins are not stored.
+/// A player's session in the journal, so that the player can reconnect after the server was killed. Of each
+/// token only the SHA-256 is stored (ResumeTokens.h). Addresses and rights of admins are not stored.
 struct PersistedSession {
   std::uint32_t player = 0;
   bool over = false;  ///< the player has left; the fields below are unused
@@ -31,12 +31,12 @@ struct PersistedSession {
   std::string name = {};  ///< at most kMaxPersistedName bytes
   df::Color color = df::COLOR_DEFAULT;
   std::string newest = {};    ///< hash of the token issued last; empty: none
-  std::string redeemed = {};  ///< hash of the token before, if it is still valid
+  std::string redeemed = {};  ///< hash of the previous token, if that is still valid; else empty
 };
 inline constexpr std::size_t kMaxPersistedName = 256;
 inline constexpr std::size_t kPersistedHashSize = 32;  ///< bytes of a token's hash
 
-/// The inputs of a tick, and what its answer must have.
+/// The inputs of a tick, and the parts that its answer must have.
 struct WorldTurn {
   std::vector<df::InputQueue::Input> inputs;  ///< ordered by arrival
   bool watched = false;                       ///< the answer must have a view
@@ -50,7 +50,7 @@ struct WorldTurn {
 /// A turn as it is sent to a world.
 struct SentTurn {
   WorldTurn turn;
-  std::string record;  ///< its bytes, also in the journal; empty: too long for a record
+  std::string record;  ///< its record, as in the journal; empty if it is too long
 };
 
 /// Maximum inputs of a turn: keys and clicks that waited (Round::kMaxInputs), joins, leaves and scores.
@@ -70,7 +70,7 @@ struct RecordedPicture {
   df::Canvas canvas;
 };
 
-/// Marks that the world crashed or hung in the last turn, which its successor got without keys and clicks.
+/// Marks a crash or hang in the last turn. The successor of the world got that turn without keys and clicks.
 struct InputsDropped {};
 /// Removes keys and clicks from a turn. Joins and leaves stay.
 void dropKeys(WorldTurn& turn);
@@ -80,7 +80,7 @@ using TurnRecord = std::variant<WorldTurn, TickResult, RecordedPicture, Persiste
 /// Returns the highest eight bits of an answer's hash.
 std::uint8_t checkOf(std::uint64_t answer_hash);
 
-/// Encodes records. The flags of a turn are written only if they differ from those of the turn before.
+/// Encodes records. The flags of a turn are written only if they differ from those of the previous turn.
 class TurnRecordWriter {
  public:
   TurnRecordWriter() = default;
@@ -88,7 +88,7 @@ class TurnRecordWriter {
   explicit TurnRecordWriter(const WorldTurn& last);
   /// Appends a turn to `out`. Returns false, and appends nothing, if it has more than kMaxTurnInputs inputs.
   bool write(const WorldTurn& turn, std::string& out);
-  /// Writes all flags of the next turn, so that the stream can be read from there.
+  /// Makes the writer write all flags of the next turn, so that the stream can be read from there.
   void repeatFlags() { m_repeats_flags = true; }
   void write(const TickResult& result, std::string& out);
   void write(const RecordedPicture& picture, std::string& out);
@@ -113,7 +113,7 @@ class TurnRecordReader {
   void add(std::string_view bytes) { m_bytes.append(bytes); }
   /// Returns the next record; nullopt if none is complete, or isBad().
   std::optional<TurnRecord> next();
-  /// True if something was malformed; nothing can be read any more.
+  /// True if a record was malformed; then nothing more can be read.
   bool isBad() const { return m_bad; }
   /// True if all bytes that were added have been read.
   bool atEnd() const { return m_at == m_bytes.size(); }
@@ -131,7 +131,7 @@ class TurnRecordReader {
 /// Appends a message to a world's process to `out`: a turn's record, and whether a copy is to be made after
 /// its tick (WorldCheckpoints.h).
 void appendTurnMessage(std::string_view record, bool copied, std::string& out);
-/// Reads the fields of such a message, after all earlier turns. Returns nullopt if they are malformed.
+/// Reads the fields of such a message. Call for all turns in order. Returns nullopt if they are malformed.
 std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied);
 
 }  // namespace naiad

@@ -22,7 +22,7 @@ constexpr df::Fixed cells(std::int64_t count) {
   return count << df::kFixedBits;
 }
 
-/// Larger than legal positions, and than those of characters drawn near them.
+/// Limit of coordinates, larger than those of legal positions and of characters drawn near them.
 constexpr df::Fixed kMaxPosition = cells(2'010'000'000);
 /// Limit of a view's corner, so that two corners can be subtracted.
 constexpr df::Fixed kMaxCorner = cells(1'000'000'000);
@@ -31,12 +31,12 @@ constexpr std::int64_t kLastCharacter = 0x10FFFF;
 constexpr std::size_t kMaxText = 4 * std::size_t{kMaxViewWidth};
 constexpr std::size_t kMaxLabel = 256;
 constexpr std::size_t kMaxNote = 4 * kMaxChatLength;
-/// More than fit in a frame, except for the keys of Objects that vanish.
+/// Limits of lists; more than fit in a frame, except for the keys of Objects that vanish.
 constexpr std::size_t kMaxObjects = kMaxSlots;
 constexpr std::size_t kMaxVanished = 4 * std::size_t{kMaxSlots};
 constexpr std::int64_t kMaxShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-/// More bytes than any sequence has that fits in a snapshot.
+/// Limit of a sequence, in bytes; more than any sequence has that fits in a snapshot.
 constexpr std::size_t kMaxSequence = std::size_t{1} << 20;
 
 std::uint32_t numberOf(const std::unordered_map<const void*, std::uint32_t>& numbers, const void* p_thing,
@@ -65,7 +65,7 @@ Selector delayed(Selector selector, std::uint32_t later) {
 
 }  // namespace
 
-/// The fields of each part. One function both writes and reads them.
+/// The fields of each part of a view. One function both writes and reads them.
 struct ViewFields {
   template <class F, class T>
   static void key(F& f, T& key) {
@@ -196,7 +196,7 @@ struct ViewFields {
     f.number(view.shake_y, -kMaxShake, kMaxShake);
   }
 
-  // Parts with numbers. A new number is one more than the last.
+  // Parts that get numbers. A new number is one more than the last one.
 
   static void table(FieldWriter& out, ViewWriter& known,
                     const std::shared_ptr<const df::ControlTable>& p_table) {

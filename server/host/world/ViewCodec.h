@@ -15,10 +15,10 @@
 
 namespace naiad {
 
-/// Above this many numbers of one kind, both ends forget them before the next view.
+/// If one kind of data has more numbers than this, both ends forget them before the next view.
 inline constexpr std::size_t kMaxViewNumbers = 4096;
 
-/// Maximum players of a world, including those who are just leaving.
+/// Maximum number of players of a world, including those who are just leaving.
 inline constexpr std::size_t kMaxViewPlayers = 32'768;
 
 class ViewWriter {
@@ -27,7 +27,7 @@ class ViewWriter {
 
  private:
   friend struct ViewFields;
-  /// Numbers by address. What has a number is kept, so that its address is not reused.
+  /// Numbers by address. Everything that has a number is kept, so that its address is not reused.
   std::unordered_map<const void*, std::uint32_t> m_sequences;
   std::vector<Sequence> m_kept_sequences;
   std::unordered_map<const void*, std::uint32_t> m_tables;
@@ -38,7 +38,7 @@ class ViewReader {
  public:
   /// `later` is added to the tick numbers of views.
   explicit ViewReader(std::uint32_t later = 0) : m_tick_offset(later) {}
-  /// Makes `in` fail if anything is wrong; `view` and this must not be used then.
+  /// Reads a view. Makes `in` fail if anything is wrong; then neither `view` nor this reader may be used.
   void read(FieldReader& in, df::WorldView& view);
 
  private:

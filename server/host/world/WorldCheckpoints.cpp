@@ -51,8 +51,8 @@ bool WorldCheckpoints::send(int descriptor) const {
   return sendDescriptors(m_request_socket, &byte, 1, {&descriptor, 1}, MSG_DONTWAIT);
 }
 
-// A copy has one thread, and locks of the others stay locked. So a game with threads has no usable copies,
-// and those made before the threads were noticed are dropped, too.
+// A copy has only one thread, and locks that other threads held stay locked in it. So copies of a game with
+// threads are useless, and those made before the threads were noticed are dropped, too.
 bool WorldCheckpoints::request(pid_t world) {
   update();
   dropRequested();
@@ -67,7 +67,7 @@ bool WorldCheckpoints::request(pid_t world) {
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return false;
   const bool sent = send(ends[1]);
   ::close(ends[1]);
-  ++m_failures;  // until the copy reports
+  ++m_failures;  // reset when the copy reports
   sent ? m_requested = ends[0] : ::close(ends[0]);
   return sent;
 }

@@ -5,7 +5,7 @@
 // socket. The copy writes its process id, and waits (CheckpointForker). Two copies are kept, because the
 // newer one may already have the state that leads to a crash.
 //
-// A world may be a stranger's program, so its statements are not trusted: the supervisor resumes only a copy
+// A world may be a stranger's program, so what it sends is not trusted: the supervisor resumes only a copy
 // that is its own child. A world that makes no copies is soon not asked any more.
 #pragma once
 
@@ -23,15 +23,15 @@
 
 namespace naiad {
 
-/// Place of a copy in the round, and the views before it, because answers are differences to them.
+/// A copy's place in the round, with the last view and the numbered data that later answers refer to.
 struct CheckpointState {
-  std::uint32_t next_tick = 1;  ///< in the host's numbers
+  std::uint32_t next_tick = 1;  ///< next tick of the copy, in the host's numbers
   ViewReader views;
   df::WorldView view;
 };
 
 struct WorldCheckpoint {
-  int socket = -1;     ///< our end of its socket, to be closed by the owner
+  int socket = -1;     ///< our end of the copy's socket, to be closed by the owner
   pid_t process = -1;  ///< process id that the copy sent; below 0: not yet
   CheckpointState state;
 };
@@ -39,25 +39,25 @@ struct WorldCheckpoint {
 class WorldCheckpoints {
  public:
   static constexpr std::size_t kMaxCheckpoints = 2;
-  /// After this many orders in a row without a copy, none are ordered any more.
+  /// After this many requests in a row without a copy, no more copies are requested.
   static constexpr int kMaxFailures = 3;
 
-  /// `orders`: our end of the socket for orders, closed by this; below 0: no copies.
+  /// `orders`: our end of the socket for requests, closed by this; below 0: there are no copies.
   explicit WorldCheckpoints(int orders) : m_request_socket(orders) {}
-  /// Ends all copies that have not been taken.
+  /// Ends all copies that popNewest() has not returned.
   ~WorldCheckpoints();
   WorldCheckpoints(const WorldCheckpoints&) = delete;
   WorldCheckpoints& operator=(const WorldCheckpoints&) = delete;
 
-  /// True if copies can be ordered.
+  /// True if copies can be requested.
   bool isOn() const { return m_request_socket >= 0; }
-  /// Returns why no copies can be ordered any more, once, in words.
+  /// Returns the reason if copies have become impossible, only once.
   std::optional<std::string> popProblem() { return std::exchange(m_problem, std::nullopt); }
 
-  /// Orders a copy of the process `world` for the turn that is sent next. Returns false if there will be
+  /// Requests a copy of the process `world` after the turn that is sent next. Returns false if there will be
   /// none.
   bool request(pid_t world);
-  /// Call when the world has answered that turn; `state` is its state then.
+  /// Call when the world has answered the turn of the last request(); `state`: the copy's place in the round.
   void add(CheckpointState state);
   /// Reads the messages of copies. Call once in each tick.
   void update();
@@ -65,7 +65,7 @@ class WorldCheckpoints {
   std::optional<WorldCheckpoint> popNewest();
   /// True if a copy is ready to take over.
   bool hasCheckpoint() const { return !processes().empty(); }
-  /// Ends all copies; more can be ordered.
+  /// Ends all copies; more can be requested.
   void clear();
   /// Returns the processes of the copies.
   std::vector<pid_t> processes() const;
@@ -78,7 +78,7 @@ class WorldCheckpoints {
   bool receive(WorldCheckpoint& copy);
 
   int m_request_socket;
-  int m_requested = -1;  ///< our end for the copy of the current turn
+  int m_requested = -1;  ///< our end of the socket for the copy of the current turn
   int m_failures = 0;
   std::vector<WorldCheckpoint> m_checkpoints;  ///< newest last
   std::optional<std::string> m_problem;

@@ -33,7 +33,7 @@ inline constexpr std::size_t kMaxWorldFrame = std::size_t{16} << 20;
 inline constexpr std::size_t kWorldFrameHead = 4;
 
 /// Writes the fields of a frame, which is complete only after finish(). A view of a world has thousands of
-/// numbers a tick, which are written straight into allocated memory.
+/// numbers in each tick, which are written straight into allocated memory.
 class FieldWriter {
  public:
   /// Begins a frame in `out`, and reuses its memory.
@@ -55,7 +55,7 @@ class FieldWriter {
     *reserve(1) = value ? 1 : 0;
     ++m_p_next;
   }
-  /// Writes an integer or enumeration, clamped to `least` to `most`.
+  /// Writes an integer or enumeration, clamped to the range from `least` to `most`.
   template <class T>
   void number(T value, std::int64_t least, std::int64_t most) {
     varint(static_cast<std::uint64_t>(std::clamp(static_cast<std::int64_t>(value), least, most) - least));
@@ -86,13 +86,13 @@ class FieldWriter {
   static constexpr std::size_t kMaxVarint = 10;
 
   std::size_t size() const { return static_cast<std::size_t>(m_p_next - m_out.data()); }
-  /// Returns the place of the next `count` bytes.
+  /// Makes space for the next `count` bytes, and returns its address.
   char* reserve(std::size_t count) {
     if (static_cast<std::size_t>(m_p_end - m_p_next) < count) grow(count);
     return m_p_next;
   }
   void grow(std::size_t count) {
-    // A frame is nearly as long as the one before, whose memory is reused.
+    // Grows rarely, because a frame is nearly as long as the previous one, whose memory is reused.
     const std::size_t used = size();
     m_out.resize(m_out.size() + m_out.size() / 8 + kFirstSize + count);
     m_p_next = m_out.data() + used;
@@ -100,7 +100,7 @@ class FieldWriter {
   }
   void varint(std::uint64_t value) {
     char* p = reserve(kMaxVarint);
-    if (value < 0x80) {  // most are
+    if (value < 0x80) {  // most numbers are so small
       *p = static_cast<char>(value);
       m_p_next = p + 1;
       return;
@@ -115,14 +115,14 @@ class FieldWriter {
   char* m_p_end = nullptr;
 };
 
-/// Reads the fields of a frame. Fails at the first error, and stays failed.
+/// Reads the fields of a frame. After the first error, all further reads fail.
 class FieldReader {
  public:
   /// `fields`: the frame without its length.
   explicit FieldReader(std::string_view fields) : m_bytes(fields) {}
   bool ok() const { return m_bytes.ok(); }
-  /// True if everything was read, and was valid.
-  bool isWhole() const { return m_bytes.ok() && m_bytes.atEnd(); }
+  /// True if all bytes were read, and all fields were valid.
+  bool isFullyRead() const { return m_bytes.ok() && m_bytes.atEnd(); }
   void fail() { m_bytes.fail(); }
   /// Fails if `so` is false.
   void require(bool so) {
@@ -144,7 +144,7 @@ class FieldReader {
     fail();
   }
   void text(std::string& value, std::size_t most) { value = m_bytes.bytes(m_bytes.upTo(most)); }
-  /// Fails, before the list grows, if it would have more than `most` elements.
+  /// Reads a list. Fails if it has more than `most` elements, before memory for them is allocated.
   template <class T, class Visit>
   void list(std::vector<T>& values, std::size_t most, Visit visit) {
     values.clear();

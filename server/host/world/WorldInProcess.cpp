@@ -56,7 +56,7 @@ void WorldInProcess::tick(const SentTurn& turn) {
   reportTick();
 }
 
-// Not taken from the view, which has the number of the last watched tick.
+// Uses the world's step count, because the view has the number of the last watched tick.
 std::uint32_t WorldInProcess::nextTick() const {
   return static_cast<std::uint32_t>(m_world.getStepCount()) + 1;
 }
@@ -65,7 +65,7 @@ const df::WorldView& WorldInProcess::view() const {
   return m_world.picture().view();
 }
 
-// A game that does not use lag compensation needs no memory for it.
+// Keeps models only for a game that uses lag compensation; others need no memory for them.
 void WorldInProcess::onPublished(const Publisher& publisher) {
   if (m_world.input().isLagCompensated() != m_lag_compensator.has_value()) {
     m_world.input().isLagCompensated() ? static_cast<void>(m_lag_compensator.emplace())

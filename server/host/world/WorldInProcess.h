@@ -1,4 +1,4 @@
-// The world of this process, on this thread.
+// A world that runs in this process, on this thread.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ class World;
 
 namespace naiad {
 
-/// Passes the inputs and flags of a turn to the world.
+/// Passes the inputs and flags of a turn to the world, before its tick.
 void applyTurn(const WorldTurn& turn, df::World& world);
-/// Returns the results of the tick that followed, and removes them from the world.
+/// Returns the results of the turn's tick, and removes them from the world.
 WorldAnswer popAnswer(const WorldTurn& turn, df::World& world);
 
 class WorldInProcess : public WorldPort {
@@ -35,7 +35,7 @@ class WorldInProcess : public WorldPort {
 
  private:
   df::World& m_world;
-  std::optional<LagCompensator> m_lag_compensator;  ///< while the game uses it
+  std::optional<LagCompensator> m_lag_compensator;  ///< nullopt unless the game uses lag compensation
 };
 
 }  // namespace naiad

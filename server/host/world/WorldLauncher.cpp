@@ -22,7 +22,7 @@ namespace naiad {
 
 namespace {
 
-constexpr int kStartMillis = 10'000;  ///< limit of the launcher's start
+constexpr int kStartMillis = 10'000;  ///< time limit for the launcher's start
 
 void require(bool good, const char* what) {
   if (!good) throw std::system_error(errno, std::generic_category(), what);
@@ -53,8 +53,9 @@ std::pair<Descriptor, Descriptor> socketPair(int type, const char* what) {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// Makes the pipe for a world's output: the world blocks when it is full, the reader never does. The world
-/// does not get our own output, a file or terminal that it could truncate or read.
+/// Makes the pipe for a world's output. When the pipe is full, the world's writes block; our reads never
+/// block. The world does not get our own output, because that may be a file or terminal that it could
+/// truncate or read.
 std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   int ends[2];
   require(pipe2(ends, O_CLOEXEC) == 0, what);
@@ -63,7 +64,8 @@ std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   return pair;
 }
 
-/// Makes memory for an ActivityPage, sealed because a world that shrank it would end its reader by SIGBUS.
+/// Makes memory for an ActivityPage. It is sealed, so that no world can shrink it and kill its reader by
+/// SIGBUS.
 Descriptor sharedPage(const char* what) {
   Descriptor page(memfd_create("df-activity", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   require(page.get() >= 0 && ftruncate(page.get(), sizeof(df::ActivityPage)) == 0 &&
@@ -107,7 +109,7 @@ WorldLauncher::WorldLauncher(WorldProgram program) : m_hang_time(program.hang_ti
 
 WorldLauncher::~WorldLauncher() {
   close(m_socket);
-  ::kill(m_process, SIGKILL);  // a copy of this process may hold the socket, too
+  ::kill(m_process, SIGKILL);  // needed, because a copy of this process may hold the socket, too
   while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 

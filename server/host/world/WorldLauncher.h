@@ -5,8 +5,8 @@
 // The front is the server's process. The launcher is forked from it before it has keys, passwords of players
 // or threads, and forks a supervisor for each world. The supervisor starts the world in its sandbox, and is
 // the subreaper of its descendants. When the world has ended, or when the front closes or shuts down its end
-// of the supervisor's socket, by whatever death, the supervisor ends all of them, including those that left
-// the world's process group. Worlds cannot signal or trace any of the three.
+// of the supervisor's socket, or dies, the supervisor ends all of these descendants, including those that
+// left the world's process group. Worlds cannot signal or trace any of the three.
 //
 // On the supervisor's socket the front reads WorldStartReport, then one WorldExitReport. If the world makes
 // copies (WorldStartOptions::copies), there are two more for each world that ends and is replaced by a copy.
@@ -33,19 +33,20 @@ struct WorldProgram {
   std::string directory;
   Sandbox sandbox;
   std::string preload = {};  ///< LD_PRELOAD of worlds that are to be repeatable (Determinism.h)
-  std::chrono::milliseconds hang_time{1000};  ///< limit of a tick; after it the game hangs (WorldProcess.h)
-  int nice = 0;                               ///< added to the nice value of this process
+  std::chrono::milliseconds hang_time{
+      1000};     ///< time limit of a tick; after it the game counts as hung (WorldProcess.h)
+  int nice = 0;  ///< difference of the nice value of worlds to that of this process
 };
 
 struct StartedWorld {
   int socket = -1;      ///< our end of the world's socket
   int supervisor = -1;  ///< our end of the supervisor's socket; closing it ends the world
-  int output = -1;      ///< pipe of its output, for an OutputRelay
+  int output = -1;      ///< reading end of the pipe of its output, for an OutputRelay
   int page = -1;        ///< shared memory with an ActivityPage
-  int copies = -1;      ///< socket for orders of copies (WorldCheckpoints.h); -1: it makes none
+  int copies = -1;      ///< socket for requests of copies (WorldCheckpoints.h); -1: it makes none
   std::chrono::milliseconds hang_time{1000};  ///< as in WorldProgram
-  bool hashes = false;                        ///< hash its answers, because it is repeatable
-  bool repeats = false;                       ///< a replay: its output was printed before
+  bool hashes = false;                        ///< true: its answers are hashed, because it is repeatable
+  bool repeats = false;                       ///< true: it is a replay, whose output was printed before
 };
 
 /// Sent when the world's program was executed, or could not be.
@@ -58,7 +59,7 @@ struct WorldExitReport {
   enum Kind : std::int32_t {
     kAll,    ///< all descendants of the world have ended, and the supervisor ends
     kWorld,  ///< the world has ended; the supervisor waits for a SupervisorCommand with its successor
-    kRest,   ///< the copy of that order runs, and nothing of the old world is left
+    kRest,   ///< the successor runs, and nothing of the old world is left
   };
   std::int32_t status = 0;  ///< status of the world that ended last, as of waitpid()
   std::int32_t kind = kAll;
@@ -79,14 +80,14 @@ class WorldLauncher {
   /// Starts the launcher, if possible before this process has threads, much memory and secrets. Throws
   /// std::system_error.
   explicit WorldLauncher(WorldProgram program);
-  /// Ends the launcher. Keepers and worlds stay as long as their sockets are open.
+  /// Ends the launcher. Supervisors and worlds run on as long as their sockets are open.
   ~WorldLauncher();
   WorldLauncher(const WorldLauncher&) = delete;
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
   /// Starts a world with an empty standard input, a pipe as its output, and a session of its own, so that
   /// Ctrl-C in the terminal reaches only the front. Does not wait: the supervisor reports the result. Throws
-  /// std::system_error if the launcher has gone.
+  /// std::system_error if the launcher has ended.
   StartedWorld start(const WorldStartOptions& order = {}) const;
   /// Returns the features that the launcher found. Without a sandbox only `addresses` is set.
   const SandboxSupport& support() const { return m_support; }

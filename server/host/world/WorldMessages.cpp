@@ -147,7 +147,7 @@ std::optional<WorldReady> readReady(std::string_view fields) {
   in.require(build == ownBuildId());
   WorldReady ready;
   visitReady(in, ready);
-  return in.isWhole() ? std::optional(std::move(ready)) : std::nullopt;
+  return in.isFullyRead() ? std::optional(std::move(ready)) : std::nullopt;
 }
 
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
@@ -163,7 +163,7 @@ std::optional<WorldAnswer> readAnswer(std::string_view fields, ViewReader& views
   WorldAnswer answer;
   visitAnswer(in, answer);
   if (in.ok() && answer.has_view) views.read(in, view);
-  return in.isWhole() ? std::optional(std::move(answer)) : std::nullopt;
+  return in.isFullyRead() ? std::optional(std::move(answer)) : std::nullopt;
 }
 
 std::optional<WorldAnswer> readAnswerHead(std::string_view fields) {

@@ -1,6 +1,6 @@
 // The messages between a host and a world in a process of its own, as frames (WorldFrame.h).
 //
-//   world → host   ready: the game's settings           once, when it has come to GM.run()
+//   world → host   ready: the game's settings           once, when it has called GM.run()
 //   host → world   turn: its record (TurnRecord.h); the world then ticks
 //   world → host   answer: the result of the tick; each turn has one answer
 //
@@ -33,7 +33,7 @@ struct WorldReady {
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
   std::vector<ReadFile> files;    ///< files read by the game so far, if it is to be repeatable
   bool fixed_addresses = false;   ///< this process has fixed addresses (FixedAddresses.h)
-  bool runs_empty = false;        ///< the world ticks without players, too
+  bool runs_empty = false;        ///< true if the world ticks even without players
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
@@ -48,17 +48,17 @@ struct WorldAnswer {
   bool game_over = false;
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
-  std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn asked for it
+  std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn requested it
   std::vector<WorldPicture> pictures;       ///< sorted by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
   std::vector<df::RoomTransfer> sent = {};  ///< at most GameRoomLimits::kMaxSentInTick
-  std::uint64_t hash = 0;                   ///< hash of its bytes, set by the reader; 0: none
+  std::uint64_t hash = 0;                   ///< hash of the answer's bytes, set by the reader; 0: none
 };
 
 // Writers fill `frame` with a whole frame, and return false if it would be too long. Readers return nullopt
 // if anything is missing, out of range or left over.
 
-// Records (TurnRecord.h) use these functions, too.
+// Also used by records (TurnRecord.h).
 template <class F, class Text, class Number>
 void visitScore(F& f, Text& table, Text& name, Number& points) {
   f.text(table, df::HighScoreLimits::kMaxTableName);
@@ -70,12 +70,12 @@ void visitPicture(FieldReader& in, df::Canvas& canvas);
 
 /// Writes the ready message, which begins with the build id of its writer.
 void writeReady(const WorldReady& ready, std::string& frame);
-/// Returns the build id (BuildId.h) of the world that sent a ready message. Only this can be read from
-/// another build, whose frames may have any other content.
+/// Returns the build id (BuildId.h) of the world that sent a ready message. If it is another build, nothing
+/// else of its frames can be read, because their format may differ.
 std::optional<std::string> readBuild(std::string_view fields);
 std::optional<WorldReady> readReady(std::string_view fields);
 
-/// Writes an answer. `p_view`: its view; null: none.
+/// Writes an answer. `p_view`: the tick's view; null: the answer has none.
 bool writeAnswer(const WorldAnswer& answer, const df::WorldView* p_view, ViewWriter& views,
                  std::string& frame);
 /// Reads an answer. Fills `view` if the answer has one.

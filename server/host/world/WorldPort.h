@@ -39,23 +39,23 @@ class WorldPort {
  public:
   virtual ~WorldPort() = default;
 
-  /// Sets what is called at the end of every tick: from tick(), or later from the host's event loop.
+  /// Sets a function called at the end of every tick: from tick(), or later from the host's event loop.
   void setOnTick(std::function<void()> on_tick) { m_on_tick = std::move(on_tick); }
 
   /// True if a tick may begin.
   virtual bool isReady() const = 0;
-  /// Begins a tick. The first view that a turn asks for has every Object as changed.
+  /// Begins a tick. In the first view that a turn asks for, every Object counts as changed.
   virtual void tick(const SentTurn& turn) = 0;
   /// Returns the number of the next tick to begin, in the numbers of view().
   virtual std::uint32_t nextTick() const = 0;
   /// Returns the tick number minus the world's own count of ticks. Call before the world's first tick.
   virtual std::uint32_t ticksBefore() const { return nextTick() - 1; }
-  /// Returns how many ticks may be begun before the first of them has ended, once the world has ended one.
+  /// Returns how many ticks may be in progress at once; it is 1 until a world's first tick has ended.
   virtual std::uint32_t turnsAhead() const { return 1; }
 
   // Results of the last tick.
 
-  /// Returns what the tick changed, if it was watched. Valid until the next one begins.
+  /// Returns the changes of the tick, if it was watched. Valid until the next tick begins.
   virtual const df::WorldView& view() const = 0;
   /// Returns the other results, which callers may move out. Of players to be moved to other rooms only
   /// lengths are checked: a player may be in another world, and a room may not exist.
@@ -70,8 +70,9 @@ class WorldPort {
   virtual void checkProcess(std::uint32_t /*tick*/) {}
   /// Returns how the world ended; nullopt while it lives.
   virtual std::optional<WorldEnd> end() const { return {}; }
-  /// Ends the world; end() tells when it has ended. `rest`: the turn that will not be played. A world in this
-  /// process, which may outlive its round, gets the inputs of `rest` in its next tick.
+  /// Begins to end the world; end() returns a value when it has ended. `rest`: the turn that will not be
+  /// played. A world in this process, which may outlive its round, gets the inputs of `rest` in its next
+  /// tick.
   virtual void close(const WorldTurn& /*rest*/) {}
 
  protected:

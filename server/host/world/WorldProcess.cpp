@@ -25,10 +25,10 @@ namespace naiad {
 
 namespace {
 
-/// Maximum time that one check adds: if the host itself was late, the world was not.
+/// Maximum time that one check adds. If more has passed, the host itself was late, not the world.
 constexpr std::chrono::milliseconds kMaxBetweenChecks{100};
 
-/// The game called exit() in a handler, instead of GM.setGameOver().
+/// Reason of the end if the game called exit() in a handler, instead of GM.setGameOver().
 constexpr const char* kExited = "called exit()";
 
 /// Time limit for a supervisor to end a world and its descendants.
@@ -85,12 +85,12 @@ WorldProcess::~WorldProcess() {
   if (m_p_page != nullptr) munmap(const_cast<df::ActivityPage*>(m_p_page), sizeof *m_p_page);
 }
 
-// The supervisor handles this like the end of the host.
+// Ends the world and all copies: the supervisor handles this like the end of the host.
 void WorldProcess::kill() {
   ::shutdown(m_supervisor, SHUT_WR);
 }
 
-/// Returns nullopt if nothing has come, or if the supervisor has ended: without it a world does not live.
+/// Returns nullopt if there is no message, or if the supervisor has ended; then the world counts as killed.
 template <class Message>
 std::optional<Message> WorldProcess::receiveFromSupervisor(int timeout_millis) {
   pollfd readable{m_supervisor, POLLIN, 0};
@@ -134,7 +134,7 @@ void WorldProcess::waitForSupervisor() {
 // ---- sending turns ----------------------------------------------------------------------------------------
 
 void WorldProcess::tick(const SentTurn& turn) {
-  if (m_state >= State::kEnding) return;  // a turn sent ahead has failed
+  if (m_state >= State::kEnding) return;  // one of the turns sent ahead has failed
   if (!std::exchange(m_began, true)) {
     m_tick_offset = m_next_tick - 1;
     m_views.emplace(m_tick_offset);
@@ -153,7 +153,7 @@ void WorldProcess::beginTick() {
   m_warned = m_stop_noted = false;
 }
 
-// A failure shows when the answer is read.
+// Ignores errors of writing, because reading the answer then fails, too.
 void WorldProcess::sendTurns() {
   if (m_unsent.empty() || std::exchange(m_sending, true)) return;
   m_out.swap(m_unsent);
@@ -222,7 +222,8 @@ void WorldProcess::onFrame() {
   if (!starts) reportTick();
 }
 
-// After an upgrade, new worlds start from the new files, but this process still runs the old build.
+// Refuses a world of another build: after an upgrade, new worlds start from the new files, but this process
+// runs the old build.
 void WorldProcess::handleReady() {
   const auto build = readBuild(m_in);
   if (build && *build != ownBuildId())
@@ -252,7 +253,7 @@ void WorldProcess::fail(WorldEnd::Why why, const std::string& text) {
   killWorld();
 }
 
-// Keeps the copies, if there are any, because one may take over.
+// Kills only the world's process if there may be copies, because one of them may take over.
 void WorldProcess::killWorld() {
   if (!m_checkpoints.isOn()) return kill();
   const SupervisorCommand request{SupervisorCommand::kEndWorld};
@@ -293,7 +294,7 @@ void WorldProcess::checkProcess(std::uint32_t tick) {
     readSupervisor(0);
     if (m_status) m_waited = {};
   }
-  // Its last frames are read first.
+  // Finishes only when the last frames of the world have been read, or after kEndTime.
   if (m_status && (m_state == State::kEnding || m_waited > kEndTime)) return finish(*m_status);
   warnOfHang();
   if (isFailedEarly())
@@ -348,7 +349,7 @@ std::chrono::nanoseconds WorldProcess::cpuTime() const {
   return look ? look->cpu : std::chrono::nanoseconds(0);
 }
 
-// The supervisor waits only a second for this, so the host must not sleep before it.
+// The supervisor waits only a second for this command, so the host must not sleep before it.
 std::optional<std::uint32_t> WorldProcess::resumeFromCheckpoint() {
   if (m_state != State::kEnded) return std::nullopt;
   readSupervisor(0);  // the supervisor may have given up waiting
@@ -410,7 +411,7 @@ WorldEnd WorldProcess::endOf(int status) const {
   return {WorldEnd::kGameOver, m_unanswered > 0 && !m_expected && WIFEXITED(status) ? kExited : "is over"};
 }
 
-// Uses the host's tick numbers, like other lines of the log.
+// Returns the time with the host's tick numbers, like other lines of the log.
 std::string WorldProcess::when() const {
   if (!m_began) return {};
   const std::string number = std::to_string(currentTick());

@@ -32,19 +32,19 @@ class WorldProcess : public WorldPort {
   using Clock = std::chrono::steady_clock;
 
   /// Time limit of an answer, in multiples of StartedWorld::hang_time; it is generous because games load
-  /// files in handlers. After one hang_time popWarning() reports a hang. If setFastFailover() is set, a copy
-  /// is ready, and all of that time is certainly the world's own (TickStallMeter::own()), the world is killed
-  /// then already.
+  /// files in handlers. After one hang_time popWarning() reports a hang. The world is killed after one
+  /// hang_time already if setFastFailover() is set, a copy is ready, and all of that time is certainly the
+  /// world's own (TickStallMeter::own()).
   static constexpr int kAnswerTimeoutFactor = 5;
-  /// Time limit from the start of the process to GM.run(), and minimum limit of the first tick.
+  /// Time limit from the start of the process to GM.run(). The first tick's time limit is at least this, too.
   static constexpr std::chrono::seconds kStartTime{30};
-  /// Time limit from the end of the game to that of its process, for what main() does after GM.run().
+  /// Time limit from the end of the game to that of its process, in which main() continues after GM.run().
   static constexpr std::chrono::seconds kEndTime{1};
-  /// Value of turnsAhead(): some milliseconds of most games.
+  /// Value of turnsAhead(): as many ticks as most games execute in some milliseconds.
   static constexpr std::uint32_t kTurnsAhead = 32;
 
-  /// Takes over the process and the descriptors. `home` runs its handlers. `print` gets the lines that the
-  /// world prints, from checkProcess(); empty: they are dropped.
+  /// Takes over the process and the descriptors. `home` runs the handlers of this object. `print` gets the
+  /// lines that the world prints, from checkProcess(). If `print` is empty, they are dropped.
   WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print = {});
   /// Kills the world and all its descendants, if they have not ended.
   ~WorldProcess() override;
@@ -55,7 +55,7 @@ class WorldProcess : public WorldPort {
     return m_state == State::kReady && m_supervisor_state != SupervisorState::kStarting;
   }
   void tick(const SentTurn& turn) override;
-  /// Returns the host's tick number before the first tick. From there on the world counts its own ticks.
+  /// Before the first tick, this is the host's tick number. Afterwards it counts the world's own ticks.
   std::uint32_t nextTick() const override { return m_next_tick; }
   std::uint32_t turnsAhead() const override { return kTurnsAhead; }
   const df::WorldView& view() const override { return m_view; }
@@ -63,32 +63,33 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   void close(const WorldTurn& rest = {}) override;
 
-  /// Returns a line for the log if the tick does not end, once.
+  /// Returns a warning for the log if the tick takes too long, only once.
   std::optional<std::string> popWarning() { return std::exchange(m_warning, std::nullopt); }
-  /// Sets whether a tick that seems to hang is ended early if a copy is ready.
+  /// Sets whether a world whose tick seems to hang is killed early if a copy is ready.
   void setFastFailover(bool impatient) { m_fast_failover = impatient; }
   /// True if the last tick seemed to hang, but ended.
   bool wasTickSlow() const { return m_was_slow; }
-  /// Returns the processor time of its process; 0: unknown.
+  /// Returns the processor time of the world's process; 0: unknown.
   std::chrono::nanoseconds cpuTime() const;
-  /// Ends a replay: from now on its output is printed.
+  /// Ends a replay: from now on the world's output is printed.
   void endReplay();
   /// Ends the world as if it had crashed.
   void markFailed(const std::string& why) { fail(WorldEnd::kCrashed, why); }
 
-  // Copies of its process: one takes over if the world has crashed or hangs.
+  // Copies of the world's process. One of them takes over if the world has crashed or hangs.
 
-  /// Orders a copy of the world after the next tick, in addition to the last one. False: there will be none.
+  /// Requests a copy after the next tick, in addition to the last one. Returns false if there will be none.
   bool requestCheckpoint();
-  /// True if a copy may be ordered: not while the supervisor ends the rest of a world, and the copy with it.
+  /// True if a copy may be requested. False while the supervisor kills what is left of a previous world,
+  /// because it would kill the copy, too.
   bool canRequestCheckpoint() const { return m_supervisor_state == SupervisorState::kWatching; }
   /// Ends all copies.
   void dropCheckpoints() { m_checkpoints.clear(); }
-  /// Returns why there are no copies any more, once, in words.
+  /// Returns the reason if copies have become impossible, only once.
   std::optional<std::string> popCheckpointProblem() { return m_checkpoints.popProblem(); }
-  /// Makes the newest copy the world, as it was after its tick. Call after end(). Returns how many ticks it
-  /// has had since the world's first; nullopt if no copy, and no process of the world, is left. Its output is
-  /// dropped until endReplay().
+  /// Replaces the world by the newest copy, in the state after the copy's tick. Call after end(). Returns how
+  /// many ticks that state has had since the world's first; nullopt if there is no copy, and then no process
+  /// of the world is left. The copy's output is dropped until endReplay().
   std::optional<std::uint32_t> resumeFromCheckpoint();
 
   /// Returns the game's settings; nullopt before GM.run().
@@ -105,8 +106,8 @@ class WorldProcess : public WorldPort {
   enum class SupervisorState : std::uint8_t {
     kStarting,
     kWatching,
-    kClearing,  ///< ends the rest of the previous world
-    kEnded,     ///< has ended all descendants of the world, and itself
+    kClearing,  ///< it ends the rest of the previous world
+    kEnded,     ///< it has ended all descendants of the world, and itself
   };
 
   void beginTick();
@@ -139,31 +140,31 @@ class WorldProcess : public WorldPort {
   void switchTo(WorldCheckpoint copy);
 
   asio::local::stream_protocol::socket m_socket;
-  int m_supervisor;  ///< the socket of its supervisor
+  int m_supervisor;  ///< our end of the supervisor's socket
   OutputRelay::Line m_print;
   OutputRelay m_output;
-  const df::ActivityPage* m_p_page = nullptr;  ///< null: none
+  const df::ActivityPage* m_p_page = nullptr;  ///< null: no page
   const std::chrono::nanoseconds m_hang_time;
   SupervisorState m_supervisor_state = SupervisorState::kStarting;
   pid_t m_process = -1;  ///< as reported by the supervisor
   State m_state = State::kStarting;
   std::optional<WorldReady> m_ready;
-  std::optional<int> m_status;        ///< as of waitpid(), once it has ended
-  std::optional<WorldEnd> m_failure;  ///< why it was killed
+  std::optional<int> m_status;        ///< the world's status as of waitpid(), once it has ended
+  std::optional<WorldEnd> m_failure;  ///< why the world was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
-  std::chrono::nanoseconds m_waited{0};  ///< time in this state; checks add a limited time each
-  TickStallMeter m_stall;                ///< effort of the current tick
+  std::chrono::nanoseconds m_waited{0};  ///< time in this state; each check adds a limited time
+  TickStallMeter m_stall;                ///< time of the current tick, as far as it counts
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_tick_offset = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;
   bool m_fast_failover = false;
-  bool m_warned = false;      ///< a hang of this tick was reported
-  bool m_was_slow = false;    ///< a hang of the tick before was reported
-  bool m_stop_noted = false;  ///< a stop in this tick was reported
+  bool m_warned = false;      ///< true if a hang of this tick was reported
+  bool m_was_slow = false;    ///< true if a hang of the previous tick was reported
+  bool m_stop_noted = false;  ///< true if a stop in this tick was reported
   std::optional<std::string> m_warning;
-  bool m_expected = false;         ///< the end is expected: the game is over, or the host closed it
-  const bool m_hashes;             ///< answers are hashed
+  bool m_expected = false;         ///< true if the end is expected: the game is over, or the host closed it
+  const bool m_hashes;             ///< true if answers are hashed
   std::uint32_t m_unanswered = 0;  ///< turns that were sent and not answered
   std::string m_unsent;
   std::string m_out;  ///< bytes being sent
@@ -172,9 +173,10 @@ class WorldProcess : public WorldPort {
   std::optional<ViewReader> m_views;
   df::WorldView m_view;
   WorldCheckpoints m_checkpoints;
-  bool m_copied = false;  ///< a copy is made after the next turn, or the current one
-  bool m_repeats;         ///< a replay: its output was printed before
-  std::shared_ptr<WorldProcess*> m_self = std::make_shared<WorldProcess*>(this);  ///< handlers may run later
+  bool m_copied = false;  ///< true if a copy will be made after the next or the current turn
+  bool m_repeats;         ///< true in a replay, whose output was printed before
+  std::shared_ptr<WorldProcess*> m_self =
+      std::make_shared<WorldProcess*>(this);  ///< lets late handlers see that this is gone
 };
 
 }  // namespace naiad

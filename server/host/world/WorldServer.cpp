@@ -34,15 +34,16 @@ bool isSocket(int descriptor) {
   return fstat(descriptor, &facts) == 0 && S_ISSOCK(facts.st_mode);
 }
 
-/// Returns a descriptor; below 0: none. Does not wait: the front sends it before the turn that needs it.
+/// Receives a descriptor; below 0: none. Does not wait: the front sends it before the turn that needs it.
 int receiveDescriptor(int from) {
   char byte = 0;
   int number = -1;
   return receiveDescriptors(from, &byte, 1, {&number, 1}, MSG_DONTWAIT) == 1 ? number : -1;
 }
 
-// Avoids fork(), whose handlers (pthread_atfork) are for programs that continue in both processes. The front
-// looks for threads before it orders a copy, so no missing thread holds a lock in the copy.
+// Does not use fork(), whose handlers (pthread_atfork) are for programs that continue in both processes. The
+// front checks that there are no threads before it requests a copy, so no missing thread holds a lock in the
+// copy.
 long forkBesideItself() {
   return syscall(SYS_clone, static_cast<unsigned long>(CLONE_PARENT | SIGCHLD), nullptr, nullptr, nullptr,
                  nullptr);
@@ -60,7 +61,7 @@ void beCopy(int socket, int world_socket, pid_t supervisor) {
   constexpr std::size_t kMaxNameSize = 16;
   char name[kMaxNameSize] = {};
   prctl(PR_GET_NAME, name);
-  prctl(PR_SET_NAME, "df-copy");  // shown in lists of processes
+  prctl(PR_SET_NAME, "df-copy");  // name in lists of processes
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != supervisor) _exit(0);
   // Copies survive the end of the world's process group, except in a sandbox, which refuses setsid().
@@ -107,7 +108,7 @@ CheckpointForker::~CheckpointForker() {
   if (m_request_socket >= 0) close(m_request_socket);
 }
 
-// A world that died before it made the copy left its order to its successor, so the newest order counts.
+// A world that died before it made the copy left its request to its successor, so only the newest one counts.
 int CheckpointForker::receiveRequest() const {
   int newest = -1;
   for (int next = 0; (next = receiveDescriptor(m_request_socket)) >= 0;) {
@@ -191,7 +192,7 @@ void WorldServer::updateLagCompensation(const WorldTurn& turn, df::World& world)
   wanted ? static_cast<void>(m_publisher.emplace()) : m_publisher.reset();
   m_lag_compensator = LagCompensator();
   world.input().setLagCompensation(wanted ? &m_lag_compensator : nullptr);
-  world.store().setWatched(false);  // the next view has every Object as changed
+  world.store().setWatched(false);  // so that every Object counts as changed in the next view
 }
 
 bool WorldServer::sendAnswer(const WorldTurn& turn, df::World& world) {

@@ -1,4 +1,4 @@
-// The world's end of a WorldProcess: implements GM.run() in a process that a host has started for a world.
+// The world's side of a WorldProcess: implements GM.run() in a process that a host has started for a world.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace naiad {
 
-/// Makes copies of a world's process when the front orders them (WorldCheckpoints.h).
+/// Makes copies of a world's process when the front requests them (WorldCheckpoints.h).
 ///
 /// A copy waits on a socket of its own until the front lets it replace the world, and ends when that socket
-/// closes. It is a child of the world's supervisor, not of the world: the game's own wait() never sees it,
+/// closes. It is a child of the world's supervisor, not of the world. So the game's own wait() never sees it,
 /// and it ends with the supervisor as the world does.
 class CheckpointForker {
  public:
-  /// Takes over kWorldCheckpoints, if this process has it; otherwise no copies are made.
+  /// Takes over the descriptor kWorldCheckpoints. If this process does not have it, no copies are made.
   CheckpointForker();
   ~CheckpointForker();
   CheckpointForker(const CheckpointForker&) = delete;
   CheckpointForker& operator=(const CheckpointForker&) = delete;
 
-  /// Makes the copy that was ordered last. Call between two turns, in a process without threads. In the
-  /// world, returns nullopt at once, whether or not there is a copy. In the copy, returns its end of the
-  /// socket when the front has sent the next turn, and closes `world_socket`.
+  /// Makes the copy that was requested last. Call between two turns, in a process without threads. In the
+  /// world, returns nullopt at once, whether or not there is a copy. In the copy, returns the copy's end of
+  /// its socket when the front has sent the next turn, and closes `world_socket`.
   std::optional<int> makeCopy(int world_socket) const;
 
  private:
@@ -37,8 +37,8 @@ class CheckpointForker {
 
 class WorldServer : public df::Runner {
  public:
-  /// `socket`: from takeWorldSocket(), closed by this; below 0: run() ends at once. `leaves`: a player whose
-  /// key ends the game leaves instead (InputQueue::setGameOverLeaves).
+  /// `socket`: from takeWorldSocket(), closed by this; below 0: run() ends at once. `leaves`: if a key of a
+  /// player ends the game, only this player leaves instead (InputQueue::setGameOverLeaves).
   WorldServer(int socket, bool leaves) : m_socket(socket), m_leaves(leaves) {}
   ~WorldServer() override;
   WorldServer(const WorldServer&) = delete;

@@ -65,7 +65,7 @@ std::optional<int> takeWorldSocket() {
   const bool good = parseWhole(p_said, socket) && socket > STDERR_FILENO;
   unsetenv(kVariable);  // programs that the game starts are not worlds
   if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
-  fcntl(kWorldCheckpoints, F_SETFD, FD_CLOEXEC);  // usually it does not exist
+  fcntl(kWorldCheckpoints, F_SETFD, FD_CLOEXEC);  // no effect if there is no such socket
   return socket;
 }
 

@@ -12,13 +12,13 @@
 
 namespace naiad {
 
-/// The socket's descriptor in a world's process.
+/// Descriptor of the socket to the host in a world's process.
 inline constexpr int kWorldSocket = STDERR_FILENO + 1;
 
 /// Descriptor of the memory shared with the host: an ActivityPage.
 inline constexpr int kWorldPage = kWorldSocket + 1;
 
-/// Descriptor of the socket for orders of copies (CheckpointForker), if there are any. It is high, so that
+/// Descriptor of the socket for requests of copies (CheckpointForker), if there are any. It is high, so that
 /// the descriptors that a game opens have equal numbers with and without it.
 inline constexpr int kWorldCheckpoints = 100;
 

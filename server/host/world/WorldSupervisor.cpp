@@ -46,19 +46,19 @@ bool reapWorld(pid_t world, int& status) {
   return false;
 }
 
-/// Supervises a world that makes copies. When it ends, the front says which copy becomes the world, and the
-/// supervisor's other descendants end, except for copies that are kept.
+/// Supervises a world that makes copies. When the world ends, the front says which copy becomes the world.
+/// Then the other descendants of the supervisor end, except for the copies that are kept.
 class FailoverSupervisor {
  public:
-  /// Time limit of the front's order after a world's end.
+  /// Time limit for the front's command after the end of a world.
   static constexpr int kCommandTimeoutMillis = 1'000;
 
   /// `world`: a child of this process, which has no threads and is a child subreaper. `front`: the
-  /// supervisor's socket. `children`: readable when a child has ended.
+  /// supervisor's socket. `children`: a descriptor that is readable when a child has ended.
   FailoverSupervisor(pid_t world, int front, int children)
       : m_world(world), m_front(front), m_children(children) {}
 
-  /// Runs until the front does not need the world any more, or has gone. Reports each end of a world except
+  /// Runs until the front does not need the world any more, or has ended. Reports each end of a world except
   /// the last. Returns the world that is left; 0: it has ended, and status() says how.
   pid_t run() {
     while (waitForEnd()) {
@@ -101,7 +101,8 @@ class FailoverSupervisor {
     do {
       pollfd readable{m_front, POLLIN, 0};
       if (poll(&readable, 1, kCommandTimeoutMillis) <= 0 || !receiveCommand(order)) return false;
-    } while (order.kind == SupervisorCommand::kEndWorld);  // it had already ended
+    } while (order.kind ==
+             SupervisorCommand::kEndWorld);  // skips commands to end the world, which had already ended
     return true;
   }
   bool report(WorldExitReport::Kind what) const {
@@ -115,7 +116,7 @@ class FailoverSupervisor {
   int m_status = 0;
 };
 
-constexpr int kFailure = STDERR_FILENO + 3;  ///< the world's, for errors before it executes its program
+constexpr int kFailure = STDERR_FILENO + 3;  ///< in the world, for errors before it executes its program
 constexpr int kFirstFree = kFailure + 1;
 constexpr int kFront = STDERR_FILENO + 1;  ///< the launcher's end of the front's socket
 
@@ -150,7 +151,7 @@ void raiseOomScore() {
   close(file);
 }
 
-/// Receives an order and its descriptors. Returns nullopt if the front has gone.
+/// Receives a request for a world and its descriptors. Returns nullopt if the front has ended.
 std::optional<WorldDescriptors> receiveStartOptions(int from, WorldStartOptions& order) {
   WorldDescriptors::List list;
   list.fill(-1);
@@ -238,8 +239,7 @@ Sandbox sandboxOf(const WorldProgram& program, const WorldStartOptions& order) {
   fail(kFailure, errno);
 }
 
-// ---- the supervisor
-// -------------------------------------------------------------------------------------------
+// ---- the supervisor ---------------------------------------------------------------------------------------
 
 /// Returns false if the front has closed its end.
 template <class Message>
@@ -247,7 +247,7 @@ bool sendTo(int front, const Message& message) {
   return send(front, &message, sizeof message, MSG_NOSIGNAL) == sizeof message;
 }
 
-/// True if this child has ended; it is not waited for. Others that have ended are.
+/// True if this child has ended. Does not wait for it, but for other children that have ended.
 bool hasEnded(pid_t world) {
   siginfo_t facts{};
   while (waitid(P_ALL, 0, &facts, WEXITED | WNOHANG | WNOWAIT) == 0 && facts.si_pid != 0) {
@@ -315,7 +315,7 @@ class Launcher {
     prctl(PR_SET_CHILD_SUBREAPER, 1);
   }
 
-  /// Runs until the front has gone.
+  /// Runs until the front has ended.
   void run() {
     pollfd either[2] = {{kFront, POLLIN, 0}, {m_children, POLLIN, 0}};
     while (true) {
@@ -342,7 +342,8 @@ class Launcher {
     descriptors.closeAll();
   }
 
-  // The descendants of a killed supervisor become children of this process, one after the other.
+  // Waits for ended supervisors. If one was killed, kills its descendants, which are now those of this
+  // process.
   void waitForChildren() {
     signalfd_siginfo facts{};
     [[maybe_unused]] const ssize_t got = read(m_children, &facts, sizeof facts);

@@ -16,7 +16,7 @@ struct WorldDescriptors {
   int page = -1;
   int copies = -1;  ///< only for a world that makes copies
 
-  /// Returns them in the order in which they are sent; only the first count() exist.
+  /// list() returns the descriptors in the order in which they are sent; only the first count() exist.
   static constexpr std::size_t kMaxCount = 5;
   using List = std::array<int, kMaxCount>;
   List list() const { return {world, supervisor, output, page, copies}; }
@@ -24,7 +24,7 @@ struct WorldDescriptors {
   void closeAll() const;
 };
 
-/// Runs the launcher in a forked process. `front`: the socket of its orders; the process ends when it closes.
+/// Runs the launcher in a forked process. `front`: socket of its requests; the process ends when that closes.
 [[noreturn]] void runLauncher(int front, const WorldProgram& program);
 
 }  // namespace naiad

@@ -19,7 +19,7 @@ using naiad::physics::BodyMedium;
 using naiad::physics::BodyRow;
 using naiad::physics::Vec2;
 
-constexpr double kMinMass = 1e-30;  // its inverse is kMaxBodyNumber
+constexpr double kMinMass = 1e-30;  // the inverse of this mass is kMaxBodyNumber
 
 }  // namespace
 
@@ -47,7 +47,7 @@ int Body::refuseAs(const char* what) const {
 }
 
 void Body::syncFromStore() const {
-  if (World* p_world = getWorld()) {  // its own numbers, for a Vector has not all their digits far away
+  if (World* p_world = getWorld()) {  // from the store, because a Vector is not exact far from the origin
     const std::uint32_t slot = key().slot;
     return m_table->syncFromStore(m_index, p_world->store().position(slot), p_world->store().velocity(slot));
   }

@@ -1,4 +1,4 @@
-// An Object with mass. Forces move it by Newton's laws, not by the book's steps.
+// An Object with mass. Forces move it by Newton\'s laws, while other Objects only move by their velocity.
 //
 //   class Ball : public df::Body {
 //    public:
@@ -50,18 +50,18 @@ class Body : public Object {
   /// Factor of the world's gravity (PM.setGravity), −1e30 … 1e30; 1 by default, 0 for no gravity.
   int setGravityScale(double scale);
   double getGravityScale() const;
-  /// Makes the body kinematic, like a lift or a mill: it keeps its velocity and spin whatever pushes it, and
-  /// ignores gravity. Off by default.
+  /// Makes the body kinematic, like a lift or a mill: it ignores gravity and keeps its velocity and spin,
+  /// whatever pushes it. Off by default.
   void setKinematic(bool kinematic = true);
   bool isKinematic() const;
 
   // Contacts.
 
-  /// Coefficient of restitution: the part of the impact speed that is left, 0 (clay, the default) … 1 (no
-  /// loss). For two bodies the larger number counts.
+  /// Coefficient of restitution: the part of the impact speed that a bounce leaves, 0 (clay, the default) … 1
+  /// (no loss). Of two bodies, the larger coefficient counts.
   int setRestitution(double restitution);
   double getRestitution() const;
-  /// Coulomb's coefficient of friction, 0 (ice) … 1e30; 0.5 by default. Two bodies: the geometric mean.
+  /// Coulomb's coefficient of friction, 0 (ice) … 1e30; 0.5 by default. Two bodies have the geometric mean.
   int setFriction(double friction);
   double getFriction() const;
   /// If set, this body gets an EventContactEnd when a contact ends. Off by default.
@@ -72,19 +72,19 @@ class Body : public Object {
   // around the shape. Lengths are in cells, like positions, but a radius is in cell widths. A shape must be
   // at least 1e-6 cell widths wide and reach at most 1e7 from the position; others are refused.
 
-  /// Returns to the Object's own box, and follows later setBox() calls. The position need not be its centre.
+  /// Uses the Object's own box again, and follows later setBox() calls. The position need not be its centre.
   int setBoxShape();
   /// Sets a box of this size, centred on the position. Unlike setBox(), it turns with the body.
   int setBoxShape(double width, double height);
   /// Sets a circle around the position, drawn as round as the cell aspect allows.
   int setCircle(double radius);
-  /// Sets a convex polygon of 3 to 16 corners, in either order, moved so that the position is its centre of
-  /// mass. Also returns -1 if it is not convex.
+  /// Sets a convex polygon of 3 to 16 corners, clockwise or counterclockwise, moved so that the position is
+  /// its centre of mass. Also returns -1 if the polygon is not convex.
   int setPolygon(const std::vector<Vector>& corners);
-  /// Adds one more part; several make a compound. `centre` and `corners` are relative to the centre of mass
-  /// before the call; then all parts are moved so that the position is the centre of mass of the whole.
+  /// Adds one more part; several parts make a compound. `centre` and `corners` are relative to the centre of
+  /// mass before the call. Then all parts are moved so that the position is the centre of mass of the whole.
   int addCircle(double radius, Vector centre);
-  /// `angle` is in radians, −1e6 … 1e6.
+  /// Like addCircle(), for a box. `angle` is in radians, −1e6 … 1e6.
   int addBoxShape(double width, double height, Vector centre, double angle = 0);
   int addPolygon(const std::vector<Vector>& corners);
   /// Returns the shapes in cell widths, relative to the position and not rotated, for classes that draw them.
@@ -93,22 +93,22 @@ class Body : public Object {
 
   // Rotation. Angles are in radians, clockwise on the screen.
 
-  /// Lets the body turn. Off by default: then only a spin set by the game turns it. The moment of inertia is
-  /// that of its shape, evenly filled with its mass.
+  /// Lets forces and impacts turn the body. Off by default: then only a spin set by the game turns it. The
+  /// moment of inertia is that of the shape, evenly filled with the mass.
   void setTurning(bool turning = true);
   bool isTurning() const;
-  /// Angle to set, −1e6 … 1e6; getAngle() returns it in [−π, π].
+  /// Sets the angle, −1e6 … 1e6; getAngle() returns it in [−π, π].
   int setAngle(double angle);
   double getAngle() const;
-  /// Radians per tick, −1e6 … 1e6.
+  /// Sets the spin in radians per tick, −1e6 … 1e6.
   int setSpin(double spin);
   double getSpin() const;
-  /// Moment of inertia about the centre of mass, in mass · (cell widths)².
+  /// Returns the moment of inertia about the centre of mass, in mass · (cell widths)².
   double getInertia() const;
 
-  // Positions and velocities in doubles; those of an Object are rounded to 2^-32 cell.
+  // Positions and velocities are doubles here; those of other Objects are rounded to 2^-32 cell.
 
-  /// Position in cells, to ±2e9. Thaws a frozen body.
+  /// Sets the position in cells, to ±2e9. Unfreezes a frozen body.
   int setPosition(Vector position) override;
   Vector getPosition() const;
   /// Returns the displacement in cells from a point of the world to the position, equally exact near and far
@@ -117,17 +117,18 @@ class Body : public Object {
   [[deprecated("say getDisplacementFrom")]] Vector getWayFrom(Vector point) const {
     return getDisplacementFrom(point);
   }
-  /// Velocity in cells per tick, to ±16777216. Thaws a frozen body.
+  /// Sets the velocity in cells per tick, to ±16777216. Unfreezes a frozen body.
   DF_SETTER setVelocity(Vector velocity) override;
   Vector getVelocity() const;
 
   /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up, to ±1e30.
   int applyForce(Vector force);
-  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). -1 if it would become too fast.
+  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). Returns -1 if it would be too
+  /// fast.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), at a point of the world; also changes the spin if the body may turn.
   int applyImpulseAt(Vector impulse, Vector where);
-  /// Turns the body during the next tick, in force · cell widths. Several torques add up, to ±1e30.
+  /// Applies a torque during the next tick, in force · cell widths. Several torques add up, to ±1e30.
   int applyTorque(double torque);
 
   /// Sets drag: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. `linear` is per
@@ -140,19 +141,19 @@ class Body : public Object {
   /// the body or its next setField() call.
   int setField(const Field* p_field, Vector origin = Vector());
 
-  /// True if the body is in quarantine because its motion has no finite solution (at a field's singularity,
-  /// for example). It stands still until its position or velocity is set.
+  /// True if the body is in quarantine because its motion has no finite solution (for example at a field's
+  /// singularity). It stands still until its position or velocity is set.
   bool isFrozen() const;
 
-  // Drawing, unless the class overrides draw(): the shape in character cells, at its angle.
+  // Drawing. Unless the class overrides draw(), it draws the shape in character cells, at the body's angle.
 
-  /// Draws the body as an outline (the default), filled, or not at all, with the character `ch`. 0 chooses
-  /// outline characters by the direction of the edge, and # for filling. Returns 0, else -1.
+  /// Draws the body as an outline (the default), filled, or not at all, with the character `ch`. If `ch` is
+  /// 0, an outline has characters by the direction of the edge, and a filling has #. Returns 0, else -1.
   int setDrawing(BodyDrawing drawing, char32_t ch = 0, Color color = COLOR_DEFAULT);
   /// Draws the body as a sprite that turns with it: rows (UTF-8) of up to 128 characters, centred on the
   /// position; blanks are transparent. Returns 0, else -1.
   int setDrawing(const std::vector<std::string>& rows, Color color = COLOR_DEFAULT);
-  /// Sends a constant spin to clients only once, like a constant velocity.
+  /// Draws the body. A constant spin is sent to clients only once, like a constant velocity.
   int draw() override;
 
  private:

@@ -21,7 +21,7 @@ void BodyContacts::add(const BodyContact& contact) {
     return;
   }
   m_changes.push_back(contact);
-  if (is_in_slots) count(at->second.contact, -1);  // it ends, or was of Objects that are gone
+  if (is_in_slots) count(at->second.contact, -1);  // the contact ends, or was one of deleted Objects
   if (!contact.is_begin) {
     m_touching.erase(at);
     return;
@@ -54,7 +54,7 @@ void BodyContacts::expireIn(ObjectKey key, int ticks, const BodySolver* p_by) {
   }
 }
 
-// At once, for all that were handed over: a pile may be, as a whole.
+// Lets the contacts of all handed-over bodies expire, in one pass: a whole pile may be handed over.
 void BodyContacts::applyHandOvers() {
   if (m_handed_over.empty()) return;
   m_has_expiring = true;

@@ -20,13 +20,14 @@ class BodyContacts {
     if (contacts > m_changes.capacity()) m_touching.reserve(m_touching.size() + contacts);
     reserveFor(m_changes, contacts);
   }
-  /// Adds a begin or end found by a solver, in order of time for each solver. Ignores known states.
+  /// Adds the begin or end of a contact. Each solver adds its own in order of time. Known changes are
+  /// ignored.
   void add(const BodyContact& contact);
-  /// The body or obstacle is gone: its contacts end with this tick.
+  /// Call when the body or obstacle is gone: its contacts end with this tick.
   void expire(ObjectKey key) { expireIn(key, 1, nullptr); }
-  /// Like the above, only for contacts found by this solver.
+  /// Like expire(key), but only for contacts found by this solver.
   void expire(ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
-  /// The body changed its solver: its contacts end soon, unless the new solver finds them.
+  /// Call when the body changed its solver: its contacts end soon, unless the new solver finds them.
   void handOver(ObjectKey key) { m_handed_over.push_back(key); }
   /// Ends the tick. Returns the contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
@@ -37,13 +38,14 @@ class BodyContacts {
  private:
   struct Touch {
     BodyContact contact;
-    int ticks_left = 0;  // ticks until it ends, unless a solver finds it again; 0: lasting
+    int ticks_left = 0;  // ticks until the contact ends, unless a solver finds it again; 0: it lasts
   };
-  struct TouchCount {  // by slot
+  struct TouchCount {  // indexed by slot
     std::uint32_t generation = 0;
     int count = 0;  // number of contacts
   };
-  static constexpr int kHandOverTicks = 3;  // ticks; solvers may find contacts a tick before bodies press
+  static constexpr int kHandOverTicks = 3;  // ticks to wait: solvers may find contacts a tick before bodies
+                                            // press
   void expireIn(ObjectKey key, int ticks, const BodySolver* p_by);
   static std::uint64_t keyOf(const BodyContact& contact) {
     return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
@@ -54,9 +56,9 @@ class BodyContacts {
 
   std::unordered_map<std::uint64_t, Touch> m_touching;  // unordered; sendContactEvents() sorts the changes
   std::vector<TouchCount> m_counts;
-  std::unordered_map<std::uint64_t, int>
-      m_other_counts;                    // by name: counts of other Objects whose slot in m_counts is taken
-  std::vector<ObjectKey> m_handed_over;  // in this tick, not yet applied to m_touching
+  std::unordered_map<std::uint64_t, int> m_other_counts;  // by nameOf(), for Objects whose slot in m_counts
+                                                          // is taken
+  std::vector<ObjectKey> m_handed_over;  // bodies handed over in this tick, not yet applied to m_touching
   bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;
 };

@@ -5,11 +5,12 @@
 
 namespace df {
 
+/// A way to draw a Body.
 enum class BodyDrawing : std::uint8_t {
   NONE,     ///< not drawn
-  OUTLINE,  ///< the edge; by default with - / | and \, by its direction
-  FILL,     ///< all cells whose centre it covers
-  SPRITE,   ///< rows of characters that turn with it
+  OUTLINE,  ///< the edge; by default with the characters - / | and \, by its direction
+  FILL,     ///< all cells whose centre the body covers
+  SPRITE,   ///< rows of characters that turn with the body
 };
 
 }  // namespace df

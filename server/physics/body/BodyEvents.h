@@ -8,7 +8,7 @@
 namespace naiad::physics {
 
 /// Sorts `contacts` by (time, ids). Sends an EventCollision to both Objects of each contact that began, and
-/// an EventContactEnd to those bodies of an ended one that asked for it. Handlers may delete any Object.
+/// an EventContactEnd to the bodies that asked for it if a contact ended. Handlers may delete any Object.
 void sendContactEvents(World& world, std::vector<BodyContact>& contacts);
 
 }  // namespace naiad::physics

@@ -11,7 +11,7 @@ namespace naiad::physics {
 
 namespace {
 
-/// Everything at once, where no formula has it all.
+/// All forces on a body together, used if there is no closed formula for their combination.
 class Everything : public ForceField {
  public:
   Everything(const BodyMedium& medium, Vec2 acceleration, Vec2 to_anchor, Vec2 to_field)
@@ -26,7 +26,7 @@ class Everything : public ForceField {
   }
   bool jacobian(Vec2 displacement, Vec2 velocity, double time, Mat22& by_position,
                 Mat22& by_velocity) const override {
-    // Differences see a field without a Jacobian and all the rest together.
+    // If the field has no Jacobian, the sum has none either: finite differences of all forces are used.
     if (m_medium.field != nullptr &&
         !m_medium.field->jacobian(displacement - m_to_field, velocity, time, by_position, by_velocity)) {
       return false;
@@ -51,11 +51,11 @@ class Everything : public ForceField {
 
   const BodyMedium& m_medium;
   Vec2 m_acceleration;
-  Vec2 m_to_anchor;  // from where the tick began
+  Vec2 m_to_anchor;  // from the body's place at the start of the tick
   Vec2 m_to_field;
 };
 
-// A spring with a length, and the game's field behind it.
+// A spring with a rest length, plus the game's field.
 class LongSpring : public ForceField {
  public:
   LongSpring(double length, Spring spring, const ForceField* p_field, Vec2 to_field)
@@ -78,11 +78,10 @@ class LongSpring : public ForceField {
   double m_length;
   Spring m_spring;
   const ForceField* m_p_field;
-  Vec2 m_to_field;  // from the spring's anchor
+  Vec2 m_to_field;  // from the spring's anchor to the field's origin
 };
 
-// Can it be treated as if it stayed on this side of the anchor, on one line with it? Undamped it would get
-// farthest.
+// True if the body would stay on its side of the anchor, on a line through it, even without damping.
 bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spring_length,
                  double stiffness) {
   const double distance = length(displacement);
@@ -94,16 +93,15 @@ bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spr
   return swing < spring_length;
 }
 
-// Per tick²: no integrator follows the swing of a stiffer spring that has a length, unless it stays on a
-// line.
+// Stiffness per tick² above which no integrator follows a spring with a rest length, except along a line.
 constexpr double kTooStiff = 1e4;
-constexpr double kStiff = 1;             // per tick²: what is softer changes little within a tick
-constexpr double kDifference = 0x1p-20;  // of a length or speed, to see how a field changes
-constexpr double kLeastTurn = 1e-6;      // rad per tick: what turns less is a constant force
-constexpr double kMaxGrowth = 1;        // of a speed, per tick: the damping beside a magnet is constant in it
-constexpr double kFarthestPull = 1e12;  // metric cells: a Place can be moved by 2^51
+constexpr double kStiff = 1;             // per tick²: with less stiffness, a force changes little in a tick
+constexpr double kDifference = 0x1p-20;  // step of finite differences, as a fraction of a length or speed
+constexpr double kLeastTurn = 1e-6;      // rad per tick: with less turning, a field is a constant force
+constexpr double kMaxGrowth = 1;         // per tick: a field that damps or speeds up more is not a magnet
+constexpr double kFarthestPull = 1e12;   // metric cells; less than 2^51, the limit for moving a Place
 
-// The least eigenvalue of its symmetric part.
+// Returns the smallest eigenvalue of the symmetric part of the matrix.
 double leastOf(const Mat22& m) {
   const double mean = 0.5 * (m.xx + m.yy), across = 0.5 * (m.xy + m.yx), apart = 0.5 * (m.xx - m.yy);
   return mean - std::sqrt(apart * apart + across * across);
@@ -152,7 +150,7 @@ bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, d
 }
 
 Joint jointOf(const Pull& pull, double mass) {
-  constexpr double kMaxNumber = 1e30;  // that a joint takes
+  constexpr double kMaxNumber = 1e30;  // limit of all numbers of a joint
   Joint joint;
   joint.kind = JointKind::kMouse;
   joint.target = pull.to;

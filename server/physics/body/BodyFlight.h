@@ -15,7 +15,7 @@ IntegratorStatus flyBody(const BodyRow& row, const BodyMedium& medium, Vec2 acce
                          double t, const IntegratorOptions& options, Flown& flown,
                          IntegratorCounters& counters);
 
-/// A pull that grows with distance, −k·(x − to) − c·v, in addition to a constant acceleration.
+/// A spring pull −k·(x − to) − c·v, in addition to a constant acceleration.
 struct Pull {
   Place to;
   Spring spring;  ///< per unit of mass
@@ -24,13 +24,13 @@ struct Pull {
   }
 };
 
-/// Used by solvers that hold the body against others and cannot call flyBody(). True if a force that is
-/// constant within the tick is not accurate enough. Springs are returned exactly. A field is linearised where
-/// it is stiff (more than 1 per tick²), by its Jacobian or three calls of it, with the stiffness of its
-/// steepest direction. `acceleration` is the part that `pull` does not include.
+/// Approximates the forces on a body by a pull, for solvers that also apply contacts and so cannot call
+/// flyBody(). False if a constant force within the tick is accurate enough. Springs are returned exactly. A
+/// field is linearised where it is stiff (more than 1 per tick²), by its Jacobian or by three calls, with the
+/// stiffness of its steepest direction. `acceleration` is the part that `pull` does not include.
 bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);
 
-/// A magnet's effect on a body, also for such solvers.
+/// A magnet's effect on a body, for the solvers that use pullOf().
 struct Magnet {
   double rate = 0;  ///< rate at which it turns the velocity: rad per tick, from x to y
   Vec2 rest;        ///< acceleration by all other forces
@@ -39,7 +39,7 @@ struct Magnet {
 /// True if there is a magnet that turns the velocity and damps it little. Calls the field four times.
 bool magnetOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Magnet& magnet);
 
-/// Returns the joint for this pull: a kMouse without limit. The caller sets its `b`.
+/// Returns the joint for this pull: a kMouse without a force limit. The caller sets its `b`.
 Joint jointOf(const Pull& pull, double mass);
 
 /// Like flyBody(), for a body whose centre hangs on a spring joint (kSpring) from `anchor`, a point of the

@@ -14,17 +14,17 @@ namespace naiad::physics {
 
 namespace {
 
-/// Cells from the middle that a picture goes, at most.
+/// Maximum distance of a drawing's cells from its middle, in rows or columns.
 constexpr std::int32_t kFarthest = 96;
-/// What ends on the border of two cells belongs to the one on the right, or below.
+/// Offset of the tested points from the middles of cells, right and down, so that none lies on an edge.
 constexpr double kHair = 1.0 / 1024;
-/// What is thinner than this may miss the middles of cells: it is drawn as a line.
+/// A shape that is thinner than this, in cells, may miss the middles of cells, so it is drawn as a line.
 constexpr double kThin = 1.1;
 constexpr double kTurn = 6.283185307179586;
-/// Of all frames of a turn together: what is heavier gets no name on the wire.
+/// Maximum weight of all frames of a turn. Heavier sequences do not get an id in snapshots (AppearanceIds).
 constexpr std::size_t kMaxWeight = 4096;
 
-/// Column and row; ordered by rows, as they are written.
+/// A cell of a drawing. Cells are ordered by rows, in the order in which they are written.
 struct Cell {
   std::int32_t row;
   std::int32_t column;
@@ -63,8 +63,8 @@ class Drawing {
   }
 
  private:
-  // Where its left and its upper edge are borders of cells, unturned, it looks as large as it is: an even
-  // number of cells lies half a cell off.
+  // Moves the cells by half a cell if the body is an even number of cells wide or high, so that its left and
+  // upper edge are borders of cells when it is not rotated, and it gets its true size.
   void align(std::span<const ConvexShape> shapes) {
     Vec2 lower = {-0.5, -0.5 * m_aspect};
     if (m_style.how == df::BodyDrawing::SPRITE) {
@@ -81,7 +81,7 @@ class Drawing {
       }
     }
     const auto half = [](double edge) {
-      const double off = std::abs(edge - std::floor(edge + 0.5));  // from a whole number
+      const double off = std::abs(edge - std::floor(edge + 0.5));  // distance from the nearest whole number
       return off < 0.25 ? 0.5 : 0.0;
     };
     m_half = {half(lower.x), half(lower.y / m_aspect)};
@@ -90,7 +90,7 @@ class Drawing {
   Vec2 middleOf(Cell cell) const {
     return {cell.column + m_half.x + kHair, (cell.row + m_half.y + kHair) * m_aspect};
   }
-  /// The body's place, from the middle of cell (0, 0).
+  /// Returns the body's place relative to the tested point of cell (0, 0).
   Vec2 place() const { return {-m_half.x - kHair, -(m_half.y + kHair) * m_aspect}; }
   bool covers(Cell cell) const { return m_covered.contains(cell); }
 
@@ -134,10 +134,10 @@ class Drawing {
 
   struct Nearest {
     double distance = 1e300;
-    Vec2 along;  ///< the edge there
+    Vec2 along;  ///< direction of the edge at the nearest point
   };
 
-  // A distance in this direction, in cells.
+  // Converts a distance in metric cells along this direction to character cells.
   double inCells(double distance, Vec2 direction) const {
     const double size = length(direction);
     return size > 0 ? distance *
@@ -147,7 +147,7 @@ class Drawing {
                     : 0;
   }
 
-  // How far the edge of the shape passes the point, and in which direction.
+  // Returns the distance in cells from the point to edge `i` of the shape, and the edge's direction there.
   Nearest nearest(const RotatedShape& shape, std::int32_t i, Vec2 p) const {
     const Vec2 a = shape.vertices[at(i)];
     if (shape.count == 1)
@@ -184,7 +184,7 @@ class Drawing {
                : ch;
   }
 
-  // A line through the middle of what is thin. Over what is there, or in gaps alone.
+  // Draws a thin shape as a line through its middle. Removes the cells that it covers before, unless `gaps`.
   void coreLine(const RotatedShape& shape, bool gaps) {
     if (shape.count == 1) return;
     double width = 1e300;
@@ -199,7 +199,7 @@ class Drawing {
         normal = out;
       }
     }
-    // A cell that is higher than wide misses more of what lies flat.
+    // If cells are higher than wide, a flat shape may miss more of their middles.
     if (width + 2 * shape.radius > kThin * (1 + (m_aspect - 1) * std::abs(normal.y))) return;
     if (!gaps) removeCovered(shape);
     const Vec2 along = {-normal.y, normal.x};
@@ -211,7 +211,7 @@ class Drawing {
       least = std::min(least, dot(normal, v));
       most = std::max(most, dot(normal, v));
     }
-    const double cell = 1 + (m_aspect - 1) * std::abs(along.y);  // along the line
+    const double cell = 1 + (m_aspect - 1) * std::abs(along.y);  // length of a cell along the line
     const double half = std::max(0.0, (to - from) / 2 + shape.radius - cell / 2);
     const Vec2 middle = (from + to) / 2 * along + (least + most) / 2 * normal;
     line(middle - half * along, middle + half * along);
@@ -269,7 +269,7 @@ class Drawing {
   double m_aspect;
   const FrameStyle& m_style;
   Rotation m_rotation;
-  Vec2 m_half;  ///< the middle of cell (0, 0), from the body's place, in cells
+  Vec2 m_half;  ///< middle of cell (0, 0) relative to the body's place, in cells
   std::vector<RotatedShape> m_shapes;
   Picture m_covered;
   Picture m_picture;

@@ -9,7 +9,7 @@
 
 namespace naiad::physics {
 
-/// Plain data that extends the body's row.
+/// Data of a body in addition to its BodyRow.
 struct BodyGeometry {
   std::vector<ConvexShape>
       shapes;                 ///< relative to the centre of mass, which is the place; none: the Object's box
@@ -17,7 +17,7 @@ struct BodyGeometry {
   double unit_inertia = 0;    ///< moment of inertia of `shapes` per mass
   Rotation rotation;          ///< rotation of the shapes relative to the world's axes
   double spin = 0;            ///< rad per tick
-  double torque = 0;          ///< applied in the next step
+  double torque = 0;          ///< applied in the next step, in force · cell widths
   std::uint32_t version = 0;  ///< counts changes of the shapes
   bool is_turning = false;    ///< true if impacts and torques may turn it
 };

@@ -7,15 +7,14 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxRounds =
-    100;  // of stepping and searching for obstacles; then no more are searched in this tick
-constexpr double kRoom = 0.25;  // around what a body reaches by itself, metric cells
+constexpr int kMaxRounds = 100;  // rounds of a tick that search for obstacles; further rounds only step
+constexpr double kRoom = 0.25;   // metric cells: margin around the area that a body reaches by itself
 
 Vec2 sizeOf(Vec2 a) {
   return {std::fabs(a.x), std::fabs(a.y)};
 }
 
-// A polygon that is a box along the axes around the origin: its half size.
+// True if the polygon is a box along the axes around the origin. Then sets its half size.
 bool isUpright(const ConvexShape& shape, Vec2& half) {
   if (shape.count != 4 || shape.radius != 0) return false;
   half = sizeOf(shape.vertices[0]);
@@ -52,8 +51,9 @@ void BodyImpacts::beginTick() {
   for (Proxy& proxy : m_proxies) proxy.is_used = false;
 }
 
-// Only constant accelerations are known there. A path that is none gets one that begins and ends where it
-// does, as fast as it does; on something it lies on, one that begins and ends as fast as it does.
+// Replaces a bent path by one with a constant acceleration, because an ImpactWorld has no other paths. It has
+// the start, end and final velocity of the flight; for a body that touches another, the first and final
+// velocity.
 void BodyImpacts::adapt(const BodyState& state, const BodyRow& row, ImpactBody& body) {
   body.velocity = state.start_velocity;
   body.acceleration = state.push;
@@ -69,26 +69,26 @@ void BodyImpacts::adapt(const BodyState& state, const BodyRow& row, ImpactBody& 
 bool BodyImpacts::add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset) {
   if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
   Proxy& proxy = m_proxies[state.index];
-  if (proxy.id >= 0 && proxy.order != row.order) {  // the one before is gone
+  if (proxy.id >= 0 && proxy.order != row.order) {  // the entry belongs to a deleted body of this row
     m_world.remove(proxy.id);
     proxy = {};
   }
   proxy.order = row.order;
   proxy.is_used = true;
   adapt(state, row, body);
-  // An unchanged place comes back as it was, without another rounding.
+  // If the place is unchanged, the ImpactWorld's own value is used, to avoid another rounding.
   const bool is_unchanged = proxy.id >= 0 && proxy.row_place == row.place && proxy.offset == offset;
   body.place = is_unchanged ? proxy.world_place : row.place + offset;
   proxy.offset = offset;
   body.inverse_mass = row.inverse_mass;
   body.restitution = row.restitution;
   body.friction = row.friction;
-  if (!isSound(body)) return proxy.is_used = false;
+  if (!isValid(body)) return proxy.is_used = false;
   m_active.push_back({state.index, body, {}, {}});
   return true;
 }
 
-// Adds the bodies that are new and removes those that are gone. Ids are given in the order of construction.
+// Adds new bodies and removes those that left. Ids are given in the order of construction.
 void BodyImpacts::updateBodies() {
   for (Proxy& proxy : m_proxies) {
     if (proxy.is_used || proxy.id < 0) continue;
@@ -110,7 +110,7 @@ void BodyImpacts::identify(int id, ObjectKey key, std::uint64_t order, int state
   m_identities[static_cast<std::size_t>(id)] = {key, order, state};
 }
 
-// Adds the region that it may reach in the time left, at `room` times its present speed.
+// Adds the region that the body may reach in the remaining time, at `room` times its present speed.
 void BodyImpacts::searchAround(const BodyTable& table, ActiveBody& active, double left, double room) {
   const Proxy& proxy = m_proxies[active.index];
   const ImpactBody& body = m_world.body(proxy.id);
@@ -142,7 +142,7 @@ void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyCont
     body.restitution = table.settings.obstacle_restitution;
     if (obstacle.id < 0) {
       obstacle.id = m_world.add(body);
-    } else if (!m_world.set(obstacle.id, body)) {  // it has no size any more
+    } else if (!m_world.set(obstacle.id, body)) {  // its box is not valid any more
       m_world.remove(obstacle.id);
       obstacle.id = -1;
     }
@@ -207,7 +207,7 @@ void BodyImpacts::collect(double since) {
   }
 }
 
-// What happened to bodies that were passed on did not happen.
+// Sets the results in the states, except those of bodies for which passOn() was called.
 void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts) {
   const auto isPassedOn = [&](int state) {
     return state >= 0 && states[static_cast<std::size_t>(state)].solver != BodySolver::kImpact;
@@ -228,7 +228,7 @@ void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts)
     const ImpactBody& body = m_world.body(proxy.id);
     if (m_world.isFrozen(proxy.id)) state.p_failure = "its motion cannot be computed";
     state.is_touched = state.is_touched || m_world.isTouching(proxy.id);
-    if (!state.is_touched) {  // exactly as on its own
+    if (!state.is_touched) {  // then the flight alone gives the exact result
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;
     } else {

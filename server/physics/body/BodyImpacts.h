@@ -1,4 +1,4 @@
-// Keeps an ImpactWorld in step with the table: the bodies that it moves, and their obstacles.
+// Keeps an ImpactWorld up to date with the BodyTable: the bodies that it moves, and their obstacles.
 #pragma once
 
 #include <array>
@@ -23,48 +23,48 @@ class BodyImpacts {
   static bool canHave(const BodyGeometry& form, const Metric& metric, const FixedBox& box, ImpactBody& body,
                       Vec2& offset);
 
-  /// Begins a tick without bodies; add() adds them.
+  /// Begins a tick without any bodies; add() adds them.
   void beginTick();
-  /// Adds a body to this tick. `body` has the shape; this function sets the other fields. False if numbers
-  /// are too large to calculate with.
+  /// Adds a body to this tick. `body` has the shape; this function sets its other fields. Returns false if
+  /// numbers are too large to calculate with.
   bool add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset);
-  /// True if no body takes part, and none did in the last tick.
+  /// True if no body is moved in this tick, and none was in the last one.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
-  /// Steps the added bodies by a tick. Sets `is_costly` in the states of bodies that were abandoned because
-  /// they would have cost too much.
+  /// Steps the added bodies by a tick. Sets `is_costly` in the states of bodies that the ImpactWorld
+  /// abandoned because they would have cost too much.
   void step(World& world, const BodyTable& table, std::vector<BodyState>& states, BodyContacts& contacts);
 
   bool hasGivenUp() const { return m_world.hasGivenUp(); }
-  /// Another solver moves the body in this tick: discards the results of the step for it.
+  /// Call if another solver moves the body in this tick: discards this step's results for the body.
   void passOn(const BodyState& state);
-  /// Appends the contacts of the remaining bodies, and sets places and velocities in their states.
+  /// Appends the contacts of the bodies without passOn(), and sets the places and velocities in their states.
   void finish(std::vector<BodyState>& states, BodyContacts& contacts);
 
   const ImpactCounters& counters() const { return m_world.counters(); }
 
  private:
-  struct Proxy {              // by index of the table
+  struct Proxy {              // by row of the table
     std::uint64_t order = 0;  // construction order of the body that this entry belongs to
     int id = -1;
-    bool is_used = false;  // in this tick
-    Place row_place;       // place last given to the table
+    bool is_used = false;  // true if added in this tick
+    Place row_place;       // place of the body in the table after the last tick
     Place world_place;     // row_place as the ImpactWorld has it
     Vec2 offset;           // world_place − row_place
   };
   struct ActiveBody {
     Index index;
     ImpactBody body;
-    Place search_centre;  // centre and half size of the searched area for obstacles
+    Place search_centre;  // centre and half size of the area that is searched for obstacles
     Vec2 search_half;
   };
-  struct Identity {  // by id
+  struct Identity {  // by id in the ImpactWorld
     ObjectKey key;
     std::uint64_t order = 0;
-    int state = -1;  // −1: an obstacle
+    int state = -1;  // index of the state; −1: an obstacle
   };
   struct FoundContact {
     BodyContact contact;
-    std::array<int, 2> states;  // −1: an obstacle
+    std::array<int, 2> states;  // indices of the states; −1: an obstacle
   };
 
   void adapt(const BodyState& state, const BodyRow& row, ImpactBody& body);
@@ -77,9 +77,9 @@ class BodyImpacts {
   ImpactWorld m_world;
   std::vector<Proxy> m_proxies;
   std::vector<ActiveBody> m_active;
-  std::vector<int> m_state_of;  // by active body
+  std::vector<int> m_state_of;  // index of the state, by active body
   std::vector<Identity> m_identities;
-  std::vector<FoundContact> m_found_contacts;  // in this tick
+  std::vector<FoundContact> m_found_contacts;  // contacts found in this tick
   BodyObstacles m_obstacles;
   BodySurroundings m_surroundings;
   bool m_was_active = false;

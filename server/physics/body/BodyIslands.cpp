@@ -11,18 +11,18 @@ namespace naiad::physics {
 
 namespace {
 
-// An island of more HARD bodies is moved in soft sub-steps, whose cost grows with its contacts alone: above
-// it, direct solutions are too dear for a tick, and sweeps without them are no better than sub-steps.
+// Maximum number of HARD bodies in an island. For larger islands, direct solutions are too slow for a tick,
+// and sweeps are not better than soft sub-steps, whose cost is only proportional to the contacts.
 constexpr int kMaxBodies = 640;
 
-// Groups whose masses differ by a larger factor go to the SubstepWorld as well. A direct solution still holds
-// what rests; of a blow it has no digits left for the lightest body, which it would throw or press into the
-// floor.
+// Groups with a larger ratio of masses also go to the SubstepWorld. A direct solution still holds such a
+// group at rest. But in a blow it has no digits left for the lightest body, and would throw it or press it
+// into the floor.
 constexpr double kMaxMassRatio = 1e6;
 constexpr double kMaxRestingRatio = 1e9;
-constexpr double kBlow = 0.1;  // metric cells per tick: a group in which nothing is faster gets no blow
+constexpr double kBlow = 0.1;  // metric cells per tick: a group without a faster body cannot have a blow
 
-// In sizes of a body: a path that is so long is looked at as a line, not as a square around its start.
+// A path longer than this many body sizes is tested as a line, not as a square around its start.
 constexpr double kLongPath = 8;
 
 bool hasLongPath(const BodyState& state) {
@@ -36,8 +36,8 @@ bool isLine(const BodyState& state) {
 
 }  // namespace
 
-// Where it may get in this tick: anywhere within its reach, or along its path if that is long and nothing is
-// on it, for then nothing sends it elsewhere.
+// Returns the area that the body may reach in this tick: its whole reach. If its path is long and no other
+// body that could deflect it was found on it (`is_alone`), returns only the path.
 SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) const {
   const Vec2 d = state.flown.displacement;
   if (!is_alone || !isLine(state)) return {centre - state.reach, centre + state.reach};
@@ -45,7 +45,7 @@ SweptBox BodyIslands::boxOf(const BodyState& state, Vec2 centre, bool is_alone) 
           centre + Vec2{std::max(d.x, 0.0), std::max(d.y, 0.0)} + state.size};
 }
 
-// Of a long path on which nothing is known to be: does the other's reach lie beside it?
+// True if `flyer` has a long path on which no body was found yet, and the reach of `other` is not on it.
 bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const {
   if (m_is_paired[at(static_cast<int>(&flyer - m_p_states))] != 0 || !isLine(flyer)) return false;
   const Vec2 along = flyer.flown.displacement / length(flyer.flown.displacement);
@@ -53,9 +53,9 @@ bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const
   return std::abs(cross(along, other.start - flyer.start)) > dot(across, flyer.size + other.reach);
 }
 
-// Unites the two, unless one of them goes its own way. A group is settled when it is known that bodies of it
-// may touch, and that it is none of circles that bounce: classifyGroups() would learn no more from other
-// pairs of it. A kinematic body belongs to no group, so that none of its pairs is left out.
+// Adds a pair and unites its bodies. A kinematic body belongs to no group, so that all of its pairs are
+// found. A group is settled when two of its bodies may touch and are not bouncing circles, because further
+// pairs would not change the result of classifyGroups().
 void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& states, int i, int j) {
   m_pairs.emplace_back(i, j);
   const BodyState &a = states[at(i)], &b = states[at(j)];
@@ -71,8 +71,8 @@ void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& 
   m_is_settled[at(m_sets.rootOf(i))] = is_settled ? 1 : 0;
 }
 
-// Pairs of HARD bodies that may meet, in no particular order: nothing depends on it. What is on the path of a
-// fast body may send it elsewhere, and then to others.
+// Finds the pairs of HARD bodies that may touch, in any order. Searches again if a body is found on a long
+// path, because it may deflect the fast body, which may then touch others.
 void BodyIslands::findPairs(const BodyTable& table, const std::vector<BodyState>& states) {
   m_ids.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -139,7 +139,7 @@ bool BodyIslands::areJoined(const BodyTable& table, int row_a, int row_b) {
   return std::binary_search(m_joined.begin(), m_joined.end(), std::pair<int, int>(std::minmax(row_a, row_b)));
 }
 
-// Are there obstacles near the islands that are not for an ImpactWorld?
+// Finds which islands have obstacles nearby, except islands for an ImpactWorld.
 void BodyIslands::findObstacles(const WorldStore& store, const BodyTable& table,
                                 const std::vector<BodyState>& states) {
   for (const int i : m_ids) {
@@ -161,7 +161,7 @@ void BodyIslands::connect(const BodyTable& table, const std::vector<BodyState>& 
   uniteJointed(table, states);
 }
 
-// What kind of group is each?
+// Finds the kind of each group, and lists the pairs that may touch.
 void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links, const BodyContacts& contacts,
                                  const std::vector<BodyState>& states) {
   m_groups.assign(states.size(), {});
@@ -210,10 +210,11 @@ void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links,
   }
 }
 
-// A body that is hit may get as far as the fastest one would, and farther if it is light. Was a reach
-// widened?
+// Widens the reaches of bouncing circles. A circle that is hit may get as far as the fastest one, and farther
+// if it is light. Returns true if any reach was widened.
 bool BodyIslands::widenReaches(std::vector<BodyState>& states) {
-  constexpr double kRoom = 0.2;  // metric cells per tick: slower impacts stay within the reach's own margin
+  constexpr double kRoom = 0.2;  // metric cells per tick: after slower impacts, the margin of the reach
+                                 // suffices
   constexpr double kLight = 2;   // a light body leaves an elastic impact at up to twice the other's speed
   bool is_wider = false;
   for (const int i : m_ids) {
@@ -237,7 +238,7 @@ void BodyIslands::collectCandidates(std::vector<BodyState>& states) {
   std::sort(m_candidates.begin(), m_candidates.end());
 }
 
-// Which kinematic bodies are on the path of what a RigidWorld or SubstepWorld moves?
+// Marks the kinematic bodies on the paths of bodies that a RigidWorld or SubstepWorld moves.
 void BodyIslands::markKinematic(std::vector<BodyState>& states) const {
   for (const auto& [i, j] : m_pairs) {
     BodyState &a = states[at(i)], &b = states[at(j)];
@@ -302,7 +303,7 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
   markKinematic(states);
   for (BodyState& state : states) {
     if (!state.is_kinematic || !links.isJoined(state.index)) continue;
-    state.is_near_rigid = true;  // what hangs on it may be
+    state.is_near_rigid = true;  // because bodies joined to it may be near rigid ones
     state.is_near_substep = m_has_general || m_has_heaps;
   }
 }

@@ -15,7 +15,8 @@ using naiad::physics::JointEntry;
 using naiad::physics::JointKind;
 using RawJoint = naiad::physics::Joint;
 
-// Changes a number of a joint, if there is one, and it is of one of these kinds; of any if none is given.
+// Changes a value of a joint. Returns −1 if the value is invalid, there is no joint, or it is of a kind that
+// is not in `kinds` (if that is empty, any kind is valid).
 template <class Change>
 int tune(JointEntry* p_entry, std::initializer_list<JointKind> kinds, bool is_good, Change change) {
   if (p_entry == nullptr || !is_good) return -1;
@@ -53,7 +54,7 @@ int Joint::setBreakTorque(double torque) {
 int Joint::setLength(double length) {
   const auto change = [&](RawJoint& joint) {
     joint.length = length;
-    m_table->joints.markChanged();  // a spring of length 0 has one row more
+    m_table->joints.markChanged();  // because a spring of length 0 has one more row
   };
   if (length == 0) return tune(find(), {JointKind::kSpring}, true, change);
   return tune(find(), {JointKind::kDistance, JointKind::kRope, JointKind::kSpring}, isUsableSize(length),
@@ -80,7 +81,7 @@ int Joint::setSpeed(double speed) {
 int Joint::setStrength(double strength) {
   return tune(find(), {JointKind::kMotor, JointKind::kMouse}, strength >= 0, [&](RawJoint& joint) {
     joint.max_force = strength;
-    m_table->joints.markChanged();  // a mouse without a bound needs no search of an active set
+    m_table->joints.markChanged();  // a mouse without force limit needs no search for an active set
   });
 }
 

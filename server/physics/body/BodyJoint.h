@@ -19,7 +19,7 @@ namespace naiad::physics {
 class BodyTable;
 struct JointEntry;
 
-/// Identifies a joint of a table: an index that may be reused, and a generation that is not.
+/// Identifies a joint of a table by an index that may be reused, and a generation that is never reused.
 struct JointKey {
   std::uint32_t index = 0;
   std::uint32_t generation = 0;  ///< 0: no joint
@@ -40,28 +40,29 @@ class Joint {
   /// Removes the joint. Returns 0, or -1 if it does not exist.
   int remove();
 
-  /// Sets the force at which the joint breaks: it breaks when its mean force over a tick is larger. Mass ·
+  /// Sets the force at which the joint breaks: it breaks if its mean force over a tick is larger. In mass ·
   /// cell widths per tick², >= 0; infinity by default.
   int setBreakForce(double force);
-  /// Like setBreakForce(), for the torque that holds the angle. Force · cell widths.
+  /// Like setBreakForce(), for the torque that holds the angle, in force · cell widths.
   int setBreakTorque(double torque);
   /// Sets the length of a distance joint (> 0), the maximum length of a rope (> 0) or the rest length of a
-  /// spring (>= 0). Cell widths, to 1e30.
+  /// spring (>= 0), in cell widths, to 1e30.
   int setLength(double length);
-  /// Returns 0 if the joint does not exist.
+  /// Returns the length in cell widths; 0 if the joint does not exist.
   double getLength() const;
-  /// Spring or mouse joints only. Mass per tick² and mass per tick, both 0 … 1e30.
+  /// Sets stiffness (mass per tick²) and damping (mass per tick) of a spring or mouse joint; both 0 … 1e30.
   int setStiffness(double stiffness, double damping);
-  /// Motors only. Speed of the second body relative to the first, radians per tick, −1e30 … 1e30.
+  /// Sets a motor's speed: that of the second body relative to the first, radians per tick, −1e30 … 1e30.
   int setSpeed(double speed);
   /// Sets a motor's maximum torque, or a mouse joint's maximum force along each axis; >= 0, may be infinity.
   int setStrength(double strength);
-  /// Angle limits only. Radians of the second body relative to the first: −π < lower <= upper < π.
+  /// Angle-limit joints only. Sets the limits of the angle of the second body relative to the first, in
+  /// radians: −π < lower <= upper < π.
   int setLimits(double lower, double upper);
-  /// Mouse joints only. The point to pull to, in cells.
+  /// Mouse joints only. Sets the point to which the body is pulled, in cells.
   int setTarget(Vector target);
 
-  /// Mean force on the second body in the last tick, mass · cells per tick²; (0,0) if the joint is gone.
+  /// Returns the mean force on the second body in the last tick, mass · cells per tick²; (0,0) if it is gone.
   Vector getForce() const;
   /// Like getForce(), for the torque, in force · cell widths.
   double getTorque() const;

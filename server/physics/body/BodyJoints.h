@@ -1,7 +1,7 @@
 // The joints of a world's bodies.
 //
-// Bodies are named by their rows in the BodyTable. A joint to the world stores its anchor place, so that a
-// scene moved by whole cells behaves identically.
+// A joint stores the rows of its bodies in the BodyTable. A joint to the world stores its anchor as a Place,
+// so that a scene moved by whole cells behaves identically.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ namespace naiad::physics {
 
 struct JointEntry {
   Joint joint;   ///< a and b are rows, or BodyJoints::kWorld
-  Place anchor;  ///< joint to the world: its point there; the joint's own anchor on that side is 0
+  Place anchor;  ///< point of the world that the joint holds; the joint's own anchor on that side is 0
   std::uint32_t generation = 0;
   bool used = false;
-  std::uint32_t tunings = 0;  ///< counts changes of the joint's numbers by the game
+  std::uint32_t tunings = 0;  ///< counts changes of the joint's numbers (such as its length) by the game
 };
 
 class BodyJoints {
  public:
-  static constexpr int kWorld = -1;  ///< stands for the world in place of a row
+  static constexpr int kWorld = -1;  ///< replaces the row if a side is the world
 
   JointKey add(const Joint& joint, Place anchor);
   /// Returns null if the joint was removed, is broken, or one of its bodies is deleted.
@@ -32,11 +32,11 @@ class BodyJoints {
   /// Removes all joints of a deleted body.
   void removeOf(int row);
 
-  /// Includes unused entries; the order depends only on the previous calls.
+  /// Returns all entries, including unused ones. Their order depends only on the previous calls.
   std::vector<JointEntry>& entries() { return m_entries; }
   const std::vector<JointEntry>& entries() const { return m_entries; }
   int count() const { return m_count; }
-  /// Counts joints added, removed or changed in kind; after a change groups must be found again.
+  /// Counts joints that were added, removed or changed in kind. After a change groups must be found again.
   std::uint64_t changes() const { return m_changes; }
   void markChanged() { ++m_changes; }
 

@@ -20,9 +20,9 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kFarthestFlight =
-    1e12;  // metric cells in a tick: below the 2^51 that a Place can be moved by
+    1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
 constexpr double kFollowed =
-    16;  // per tick²: the JointSolver follows a spring on joints up to this stiffness
+    16;  // per tick²: up to this stiffness, the JointSolver follows a spring on joints
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace
@@ -39,8 +39,7 @@ void placeMoved(World& world, const std::vector<MovedObject>& all) {
   }
 }
 
-// All bodies are stepped from their states at the beginning of the tick; then positions are published, and
-// handlers run.
+// Steps all bodies from their states at the start of the tick, then publishes positions and runs handlers.
 void BodyLayer::step(World& world) {
   m_moved.clear();
   m_states.clear();
@@ -80,7 +79,7 @@ void BodyLayer::step(World& world) {
 void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   BodyRow& row = m_table->row(index);
   const WorldStore& store = world.store();
-  if (!store.isCurrent(row.key)) row.key = row.p_object->key();  // removed; perhaps inserted again
+  if (!store.isCurrent(row.key)) row.key = row.p_object->key();  // removed, and perhaps inserted again
   if (!takesPart(store, row.key)) return;
   m_table->syncFromStore(index, store.position(row.key.slot), store.velocity(row.key.slot));
   if (row.frozen) return;
@@ -118,7 +117,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   m_is_mixed = m_is_mixed || state.is_in_heap || state.is_costly;
   if (state.is_joined) {
     state.solver = BodySolver::kJoints;
-    // What is no constant force counts by what it does in the tick.
+    // A force that is not constant is replaced by its mean over the tick.
     if (state.is_bent && !state.is_sprung && state.turn_rate == 0)
       state.push = state.flown.velocity - row.velocity;
     m_has_pulls = m_has_pulls || state.isPulled();
@@ -126,7 +125,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   if (state.is_hard && state.p_failure == nullptr) measure(store, state);
 }
 
-// Its own flight says nothing of how a magnet pushes what something holds.
+// Sets turn_rate if a magnet acts on a body that may be held. Returns the push without that of the magnet.
 Vec2 BodyLayer::pushBesideMagnet(State& state) {
   const BodyRow& row = m_table->row(state.index);
   const bool may_be_held = !row.is_kinematic && !state.is_sprung && (state.is_hard || state.is_joined);
@@ -138,10 +137,10 @@ Vec2 BodyLayer::pushBesideMagnet(State& state) {
   return magnet.rest;
 }
 
-// Alone. What fields take beyond some derivatives for each body is bounded for all of them together; the
-// oldest come first. For the others a few implicit steps must do.
+// Computes the flight of a body by itself. The evaluations of fields are limited: each body has some, and all
+// bodies share more, oldest bodies first. When these are used up, a body gets only a few implicit steps.
 IntegratorStatus BodyLayer::flyFreely(const State& state, Flown& flown) {
-  constexpr std::int64_t kSharedEvaluations = 8000, kOwnEvaluations = 200;  // smooth fields take less
+  constexpr std::int64_t kSharedEvaluations = 8000, kOwnEvaluations = 200;  // smooth fields need fewer
   constexpr int kFewSteps = 16;
   const BodyRow& row = m_table->row(state.index);
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
@@ -155,7 +154,7 @@ IntegratorStatus BodyLayer::flyFreely(const State& state, Flown& flown) {
   return flyBody(row, medium, state.push, time, 1, options, flown, counters);
 }
 
-// Where would it be on its own?
+// Computes where the body would move if nothing touched it.
 void BodyLayer::fly(State& state) {
   const BodyRow& row = m_table->row(state.index);
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);
@@ -167,7 +166,7 @@ void BodyLayer::fly(State& state) {
     state.is_sprung = pullOf(row, medium, state.push, time, state.pull);
   } else if (p_spring != nullptr &&
              (row.flight == FlightKind::kFree || row.flight == FlightKind::kLinearDrag)) {
-    state.is_sprung = true;  // by its joint
+    state.is_sprung = true;  // by its spring joint
     state.pull.spring.damping = medium.linear_drag;
   }
   const Vec2 held_push = pushBesideMagnet(state);
@@ -183,7 +182,7 @@ void BodyLayer::fly(State& state) {
   } else {
     status = flyFreely(state, state.flown);
   }
-  if (status != IntegratorStatus::kDone && state.is_sprung) {  // what solves for it needs no flight
+  if (status != IntegratorStatus::kDone && state.is_sprung) {  // then the solver needs no flight
     state.must_be_held = true;
     state.flown = flyFree(row.velocity, state.push, 1);
     status = IntegratorStatus::kDone;
@@ -200,16 +199,16 @@ void BodyLayer::fly(State& state) {
   state.velocity = state.flown.velocity;
 }
 
-// How far a pull takes it at most: to the other side of where it pulls to.
+// Returns the maximum movement caused by a pull, which is a swing to the other side of its target.
 Vec2 BodyLayer::swingOf(const State& state) const {
   if (!state.isPulled()) return {};
   const Vec2 away = state.start - state.pull.to;
   return {2 * std::abs(away.x), 2 * std::abs(away.y)};
 }
 
-// Is it one for an ImpactWorld, and how far does it reach?
+// Finds whether an ImpactWorld can move the body, and how far the body can move in this tick.
 void BodyLayer::measure(const WorldStore& store, State& state) {
-  constexpr double kRoom = 0.25;  // metric cells around what it reaches on its own
+  constexpr double kRoom = 0.25;  // metric cells: margin around the area that the body reaches by itself
   const BodyGeometry& form = std::as_const(*m_table).form(state.index);
   const FixedBox box = store.box(state.key.slot);
   Vec2 offset;
@@ -235,7 +234,7 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   state.reach = state.size + path;
 }
 
-// All that may be pushed, and what may push it, is in one SubstepWorld.
+// Gives all bodies that may be pushed, or may push others, to one SubstepWorld.
 void BodyLayer::chooseFast() {
   for (State& state : m_states) {
     if (state.p_failure != nullptr) continue;
@@ -266,7 +265,7 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
   for (State& state : m_states) assignSolver(store, state);
 }
 
-// Bodies whose impacts would cost too much are moved as a group in soft sub-steps, from where the tick began.
+// Groups whose impacts cost too much are moved in soft sub-steps instead, from their state before the tick.
 void BodyLayer::passOnGivenUp() {
   m_islands.passToSubsteps(*m_table, m_states);
   m_has_substeps = true;
@@ -280,8 +279,7 @@ void BodyLayer::passOnGivenUp() {
   }
 }
 
-// Hands the body to its solver; if that is another one than in the last tick, its contacts must be found
-// again.
+// Adds the body to its solver. If the solver has changed, the body's contacts must be found again.
 void BodyLayer::assignSolver(const WorldStore& store, State& state) {
   BodyRow& row = m_table->row(state.index);
   const bool is_for_impacts = !m_table->settings.is_fast && state.is_simple && state.p_failure == nullptr &&
@@ -298,7 +296,7 @@ void BodyLayer::assignSolver(const WorldStore& store, State& state) {
   row.last_solver = solver;
 }
 
-// Turns a body that no contact or joint turns.
+// Rotates a body by its spin and torque if no contact or joint turns it.
 void BodyLayer::turnByTorque(State& state) {
   const BodyGeometry& form = std::as_const(*m_table).form(state.index);
   if (form.spin == 0 && form.torque == 0) return;
@@ -310,7 +308,7 @@ void BodyLayer::turnByTorque(State& state) {
   if (std::abs(state.spin) <= df::kMaxSpin) state.rotation = turned(form.rotation, form.spin + 0.5 * gain);
 }
 
-// What a world has no number for: it goes on as fast as a body can, or where it was.
+// Limits speeds to their maximum. A body outside the range of positions stays where it was.
 void BodyLayer::limit(World& world, State& state) {
   const Vec2 fastest = m_table->metric.fromCells(Vector(kMaxVelocityCells, kMaxVelocityCells));
   const Vec2 velocity = {std::clamp(state.velocity.x, -fastest.x, fastest.x),
@@ -324,7 +322,7 @@ void BodyLayer::limit(World& world, State& state) {
   countLimited(world, state);
 }
 
-// Once in the log.
+// Counts bodies whose motion was limited, and logs the first one.
 void BodyLayer::countLimited(World& world, const State& state) {
   if (++m_table->counters.limited > 1) return;
   const Object* p_object = world.store().find(state.key);
@@ -369,7 +367,7 @@ void BodyLayer::publish(World& world, const State& state, BodyRow& row, FixedVec
     m_moved.push_back({row.key, row.published_position});
 }
 
-// Once.
+// Logs the first tick in which crowding makes bodies pass through others.
 void BodyLayer::logCrowd(World& world) {
   const bool is_crowded =
       m_rigid_world.hasThinned() || m_substep_world.hasThinned() || m_heap_world.hasThinned();
@@ -378,7 +376,7 @@ void BodyLayer::logCrowd(World& world) {
   world.log().write("physics: too many bodies in one place: some pass through others until there is room");
 }
 
-// It stands where it is, so that nothing of it spreads.
+// Freezes the body at its place, so that its invalid numbers do not spread to other bodies.
 void BodyLayer::quarantine(World& world, State& state, const char* p_why) {
   BodyRow& row = m_table->row(state.index);
   ++m_table->counters.quarantined;

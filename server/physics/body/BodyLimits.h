@@ -7,10 +7,11 @@
 
 namespace df {
 
-inline constexpr double kMaxBodyNumber = 1e30;  ///< limit of all numbers: the product of two stays finite
-inline constexpr double kMaxSpin = 1e6;  ///< rad per tick; beyond, a double does not resolve the angle well
+inline constexpr double kMaxBodyNumber = 1e30;  ///< limit of all other numbers: products of two are finite
+inline constexpr double kMaxSpin = 1e6;  ///< rad per tick; if it is faster, a double does not resolve the
+                                         ///< angle
 
-// All of these return false for NaN.
+// All functions below return false for NaN.
 
 inline bool isUsable(double value) {
   return std::abs(value) <= kMaxBodyNumber;

@@ -10,7 +10,7 @@ namespace naiad::physics {
 
 namespace {
 
-// The order of elimination of a net with as many takes some milliseconds to find.
+// Maximum loops of a group. With this many, the search for an elimination order takes some milliseconds.
 constexpr int kMaxLoops = 32;
 
 }  // namespace
@@ -25,7 +25,7 @@ int BodyLinks::bodyOf(int row) {
   return body;
 }
 
-// Collects the joined bodies that springs or stiff fields of their own pull. Have they changed?
+// Collects the joined bodies that their own springs or stiff fields pull. Returns true if they have changed.
 bool BodyLinks::findPulled(const std::vector<BodyState>& states) {
   m_new_pulled.clear();
   for (const BodyState& state : states) {
@@ -36,7 +36,7 @@ bool BodyLinks::findPulled(const std::vector<BodyState>& states) {
   return true;
 }
 
-// Groups that may touch something are moved by another solver.
+// Excludes the groups that may touch something, because other solvers move them.
 void BodyLinks::leaveOut(BodyTable& table, const std::vector<BodyState>& states) {
   bool is_other = findFreeBodies(states);
   is_other = findPulled(states) || is_other;
@@ -63,12 +63,12 @@ void BodyLinks::prepare(BodyTable& table) {
   m_is_connected = false;
 }
 
-// A tree of bodies is factored without fill, and each loop adds some: their number is known before anything
-// is factored. Several joints between the same two bodies are no loop.
+// Marks the bodies of groups with too many loops of joints. A tree of bodies is factored without fill-in, and
+// each loop adds some. Several joints between the same two bodies are not a loop.
 void BodyLinks::countLoops(const BodyTable& table) {
   m_is_costly.clear();
   if (table.joints.count() <= kMaxLoops) return;
-  std::vector<std::pair<int, int>> edges;  // of a fixed end: kWorld, and the other end
+  std::vector<std::pair<int, int>> edges;  // kWorld is the end of a joint that is fixed to the world
   const auto fixedOr = [&](int row) {
     return row == BodyJoints::kWorld || table.row(static_cast<BodyTable::Index>(row)).inverse_mass == 0
                ? BodyJoints::kWorld
@@ -90,7 +90,7 @@ void BodyLinks::countLoops(const BodyTable& table) {
   sets.reset(at(rows));
   for (const auto& [a, b] : edges) {
     const int root = sets.rootOf(b);
-    if (a == BodyJoints::kWorld) {  // all fixed ends of a group are one
+    if (a == BodyJoints::kWorld) {  // because all fixed ends of a group count as one body
       loops[at(root)] += is_held[at(root)];
       is_held[at(root)] = 1;
       continue;
@@ -167,7 +167,7 @@ void BodyLinks::collect(BodyTable& table) {
   }
 }
 
-// Inactive bodies are treated as static; bodies jointed to them stay attached.
+// Copies the states to m_bodies. Inactive bodies become static; bodies joined to them stay attached.
 void BodyLinks::load(const BodyTable& table, const std::vector<BodyState>& states,
                      const std::vector<double>& unit_inertias) {
   m_state_of.assign(m_bodies.size(), -1);
@@ -265,7 +265,7 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
     JointEntry& entry = entries[m_entry_of[i]];
     entry.joint.force = m_joints[i].force;
     entry.joint.torque = m_joints[i].torque;
-    entry.joint.memory = m_joints[i].memory;  // for when all are collected again, as other groups may cause
+    entry.joint.memory = m_joints[i].memory;  // first guess for the joints that the next collect() makes
     if (m_joints[i].is_broken) table.joints.remove({m_entry_of[i], entry.generation});
   }
 }

@@ -1,4 +1,4 @@
-// Groups of circles that bounce, some of them joined: from impact to impact (JointImpacts).
+// Moves groups of bouncing circles, some of them joined, from impact to impact (JointImpacts).
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ bool isBefore(const BodyState& a, const BodyState& b) {
 
 }  // namespace
 
-// Collects the unjoined bodies that joined ones may hit. Have they changed?
+// Collects the bodies without joints that jointed ones may hit. Returns true if they have changed.
 bool BodyLinks::findFreeBodies(const std::vector<BodyState>& states) {
   m_new_free_bodies.clear();
   for (const BodyState& state : states) {
@@ -55,7 +55,7 @@ bool BodyLinks::stepImpactGroup(const BodyTable& table, std::vector<BodyState>& 
     m_pairs.push_back(pair);
   }
   if (!m_impacts.step(m_solver, m_bodies, m_joints, m_pairs, 1)) return false;
-  for (const BodyCandidatePair& candidate : candidates) {  // beyond its reach, nothing has been searched
+  for (const BodyCandidatePair& candidate : candidates) {  // pairs were searched only within reaches
     for (const int i : {candidate.a, candidate.b}) {
       const BodyState& state = states[at(i)];
       const Vec2 displacement = m_bodies[at(bodyAt(state.index))].place - state.start;
@@ -81,7 +81,7 @@ bool BodyLinks::stepImpactGroup(const BodyTable& table, std::vector<BodyState>& 
   return true;
 }
 
-// The group is moved by the RigidWorld in this tick.
+// Lets the RigidWorld move the group in this tick.
 void BodyLinks::passToRigidWorld(int group, BodyTable& table, std::vector<BodyState>& states,
                                  BodyContacts& contacts) {
   for (BodyState& state : states) {

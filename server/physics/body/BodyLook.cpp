@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTurnInRadians = 6.283185307179586;
 
-/// The Object's box as a shape about its position.
+/// Returns the Object's box as a shape, relative to the Object's position.
 std::vector<ConvexShape> shapeOf(const df::FixedBox& box, double aspect) {
   const double width = df::toCells(box.size.x), height = df::toCells(box.size.y) * aspect;
   const Vec2 centre = {df::toCells(box.corner.x) + width / 2,
@@ -47,7 +47,7 @@ bool BodyLook::isUpToDate(const BodyGeometry& form, const df::FixedBox& box, dou
 
 void BodyLook::update(const BodyGeometry& form, const df::FixedBox& box, double aspect, std::uint32_t tick) {
   m_new_frames = m_new_selector = false;
-  // Most bodies never turn: one picture is enough for them. Whoever turns once may do so again.
+  // Most bodies never turn, so they have only one frame. A body that has turned once may turn again.
   const bool turns =
       m_turns || form.is_turning || form.spin != 0 || (m_made && !(form.rotation == m_rotation));
   if (turns != m_turns || !isUpToDate(form, box, aspect)) {
@@ -74,15 +74,15 @@ void BodyLook::redraw(const BodyGeometry& form, const df::FixedBox& box, double 
   }
 }
 
-// The angle is published with as few bits as its error allows, but the spin exactly: what turns freely may do
-// so for ever.
+// Publishes the angle with as few bits as its allowed error needs. The spin is exact, because a freely
+// turning body may keep it for any number of ticks.
 void BodyLook::choose(const BodyGeometry& form, std::uint32_t tick) {
   const std::uint32_t angle = m_turn.repeats * integerAngle(angleOf(form.rotation));
   const auto width = static_cast<std::uint32_t>((std::uint64_t{1} << 32) / m_turn.frames.size());
   const auto off = static_cast<std::int32_t>(angle - m_selector.angleAt(tick));
   const auto most = static_cast<std::int32_t>(width / 4);
   if (m_selector.kind == Selector::kAngle && off >= -most && off <= most) return;
-  constexpr std::uint32_t kCoarse = 1u << 20;  // 1/16 of the smallest width that there is
+  constexpr std::uint32_t kCoarse = 1u << 20;  // 1/16 of the smallest possible width
   const auto spin = static_cast<std::int32_t>(m_turn.repeats * integerAngle(form.spin));
   m_selector = Selector::turning(tick, angle, spin);
   m_selector.angle = (m_selector.angle + kCoarse / 2) & ~(kCoarse - 1);

@@ -1,8 +1,8 @@
 // The drawing of a Body: the frames of its turn, and the choice of the frame shown.
 //
-// The frame shown follows a selector (naiad::Selector), an integer function of the tick. While the body turns
-// as the selector says, within a part of a frame, the selector stays and nothing has to be published. So the
-// screen always shows what the selector says, on the server too.
+// The frame shown is chosen by a selector (naiad::Selector), an integer function of the tick. While the
+// selector differs from the body's angle by less than a part of a frame, it is kept and nothing is published.
+// So the screen always shows the frame of the selector, on the server too.
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,15 @@ namespace naiad::physics {
 
 class BodyLook {
  public:
-  /// Draws with this style from now on.
+  /// Uses this style for all further drawings.
   void restyle(FrameStyle style);
 
-  /// Updates frames and selector from the body's state in this tick. `box` is the Object's, used as shape if
-  /// the form has none.
+  /// Updates frames and selector from the body's state in this tick. `box` is the Object's box, used as the
+  /// shape if `form` has no shapes.
   void update(const BodyGeometry& form, const df::FixedBox& box, double aspect, std::uint32_t tick);
   const Sequence& frames() const { return m_turn.frames; }
   const Selector& selector() const { return m_selector; }
-  /// True if the last update() made new frames; true if it chose a new selector.
+  /// True if the last update() made new frames, or (hasNewSelector) chose a new selector.
   bool hasNewFrames() const { return m_new_frames; }
   bool hasNewSelector() const { return m_new_selector; }
 
@@ -38,7 +38,7 @@ class BodyLook {
   FrameStyle m_style;
   TurnFrames m_turn;
   Selector m_selector;
-  // The input from which the frames were drawn.
+  // The input of drawTurn() for the present frames.
   bool m_made = false;
   bool m_turns = false;  ///< the frames show a whole turn; else only `m_rotation`
   std::vector<ConvexShape> m_shapes;

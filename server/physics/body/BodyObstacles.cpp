@@ -6,7 +6,7 @@ namespace naiad::physics {
 
 namespace {
 
-// Clamped to the range of the store's numbers.
+// Converts a place to a position in the world, clamped to the range of positions.
 FixedVector clamped(const Metric& metric, const Place& place) {
   if (metric.isInRange(place)) return metric.fixedOf(place);
   const Vector at = metric.cellsOf(place);
@@ -28,12 +28,12 @@ void BodyObstacles::markNear(ObjectKey key) {
     m_all.insert(at, Obstacle{key});
     return;
   }
-  at->key = key;  // a new Object in an old slot is another place for the same obstacle
+  at->key = key;  // if a new Object has taken the slot, the solver keeps its obstacle and only moves it
   at->is_near = true;
 }
 
 FixedBox regionOf(const Metric& metric, const Place& centre, Vec2 half) {
-  constexpr double kFarthest = 1 << 28;  // metric cells to either side: the box's size stays in range
+  constexpr double kFarthest = 1 << 28;  // metric cells to either side, so that the box's size is in range
   const Vec2 reach = {std::min(half.x, kFarthest), std::min(half.y, kFarthest)};
   const FixedVector low = clamped(metric, centre + -reach), high = clamped(metric, centre + reach);
   return {{low.x - 1, low.y - 1}, {high.x - low.x + 2, high.y - low.y + 2}};

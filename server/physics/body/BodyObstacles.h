@@ -1,6 +1,6 @@
 // The obstacles of a solver: HARD Objects without mass that bodies may hit in this tick.
 //
-// The world's grid finds them, and they are kept while a body is near. Other Objects cost nothing.
+// The world's grid finds the obstacles; they are kept while a body is near. All other Objects cost nothing.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class BodyObstacles {
   /// Begins a tick; markNear() marks the obstacles that are near.
   void beginTick();
   void markNear(ObjectKey key);
-  /// Sorted by slot. The solver adds those without an id and removes those that are not near.
+  /// Returns the obstacles by slot. The solver adds those without an id and removes those that are not near.
   std::vector<Obstacle>& all() { return m_all; }
   void removeFar() {
     std::erase_if(m_all, [](const Obstacle& obstacle) { return !obstacle.is_near; });
@@ -38,7 +38,7 @@ class BodyObstacles {
   std::vector<Obstacle> m_all;
 };
 
-/// Returns the box of `half` to each side of `centre` in the world's numbers, slightly enlarged.
+/// Returns the box that extends by `half` to each side of `centre`, slightly enlarged, in world coordinates.
 FixedBox regionOf(const Metric& metric, const Place& centre, Vec2 half);
 
 }  // namespace naiad::physics

@@ -10,11 +10,11 @@ namespace naiad::physics {
 
 namespace {
 
-// Of an acceleration that grows or falls steadily from `velocity` on, so that the path ends where, and as
-// fast as, the flight does. None where it does not change so: what brakes within a part of the tick would be
-// thrown back.
+// Returns the change per tick of the acceleration of a path that starts at `velocity` and has the end and
+// final velocity of the flight. Returns 0 if the flight differs much from this path, because a body that
+// brakes within a part of the tick would be thrown back.
 Vec2 jerkOf(const Flown& flown, Vec2 velocity) {
-  constexpr double kRounding = 1e-14, kSteady = 0.25;  // of the speeds
+  constexpr double kRounding = 1e-14, kSteady = 0.25;  // both as a part of the speeds
   const Vec2 gain = flown.velocity - velocity;
   const Vec2 missing = velocity + 0.5 * gain - flown.displacement;
   const double speed = length(velocity) + length(gain);
@@ -43,7 +43,7 @@ void BodyRigids::identify(int id, ObjectKey key, std::uint64_t order, int state)
   m_identities[at(id)] = {key, order, state};
 }
 
-// Its shapes for the others: none, unless it is HARD.
+// Adds the body to the solver, or updates its shapes there. Only HARD bodies have shapes there.
 void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
                        const RigidBody& body) {
   const BodyGeometry& form = table.form(state.index);
@@ -75,7 +75,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
     if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
     Proxy& proxy = m_proxies[state.index];
     const std::uint64_t order = table.row(state.index).order;
-    if (proxy.id >= 0 && proxy.order != order) {  // the one before is gone
+    if (proxy.id >= 0 && proxy.order != order) {  // the entry belongs to a deleted body of this row
       m_world.remove(proxy.id);
       proxy.id = -1;
     }
@@ -127,7 +127,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
   }
 }
 
-// A body that is hit by a faster one may get as far as that.
+// Updates the obstacles near the bodies. A body that is hit may get as far as the fastest body (m_fastest).
 void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table,
                                  const std::vector<BodyState>& states, BodyContacts& contacts) {
   m_obstacles.beginTick();
@@ -171,13 +171,13 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   m_obstacles.removeFar();
 }
 
-// A joint is here if all of its bodies are.
+// True if this solver moves all bodies of the joint.
 bool BodyRigids::isHere(const JointEntry& entry) const {
   const auto isEndHere = [&](int row) { return row == BodyJoints::kWorld || rigidOf(row) >= 0; };
   return entry.used && isEndHere(entry.joint.a) && isEndHere(entry.joint.b);
 }
 
-// What is gone, with its body or without, before anything is added: a number is given again at once.
+// Removes joints that are gone or have no body any more. Call before joints are added, as ids are reused.
 void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyState>& states) {
   const std::vector<JointEntry>& entries = table.joints.entries();
   for (std::size_t i = 0; i < m_joint_proxies.size(); ++i) {
@@ -235,7 +235,7 @@ bool BodyRigids::isPulledHere(const BodyState& state) const {
   return state.solver == m_solver && state.isPulled() && rigidOf(static_cast<int>(state.index)) >= 0;
 }
 
-// A pull is a spring to a point of the world.
+// Updates the joints that represent pulls. A pull is a spring to a point of the world.
 void BodyRigids::updatePulls(const BodyTable& table, const std::vector<BodyState>& states) {
   for (const BodyState& state : states) {
     if (!isPulledHere(state)) continue;
@@ -303,7 +303,7 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
         state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
     const bool is_alone =
         isSoft(m_solver) ? !m_world.isStopped(proxy.id) : state.turn_rate != 0 || length(pushed) <= rounding;
-    if (!is_touched && is_alone) {  // exactly as on its own
+    if (!is_touched && is_alone) {  // then the flight alone gives the exact result
       state.place = state.start + state.flown.displacement;
       state.velocity = state.flown.velocity;
       continue;

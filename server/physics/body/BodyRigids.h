@@ -1,4 +1,4 @@
-// Keeps a RigidWorld or SubstepWorld in step with the table: its bodies, their joints and obstacles.
+// Keeps a RigidWorld or SubstepWorld up to date with the BodyTable: its bodies, their joints and obstacles.
 #pragma once
 
 #include <vector>
@@ -18,11 +18,12 @@ class BodyRigids {
   BodyRigids(const BodyRigids&) = delete;
   BodyRigids& operator=(const BodyRigids&) = delete;
 
-  /// True if no body takes part, and none did in the last tick.
+  /// True if no body is moved in this tick, and none was in the last one.
   bool isEmpty() const { return m_count == 0; }
-  /// True if the last step gave the body's group up; it goes to the heap solver.
+  /// True if the last step abandoned the body's group, so that it goes to the solver for heaps.
   bool isGivenUp(const BodyTable& table, BodyTable::Index row) const;
-  /// Steps the bodies with this solver, and kinematic ones near them. `unit_inertias` is by state; 0: fixed.
+  /// Steps the bodies with this solver, and kinematic ones near them. `unit_inertias` has one number for each
+  /// state; 0: the body does not turn.
   void step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
             const std::vector<double>& unit_inertias, BodyContacts& contacts);
 
@@ -31,26 +32,26 @@ class BodyRigids {
     std::uint64_t order = 0;
     int id = -1;
     bool is_used = false;
-    std::uint32_t version = 0;  // version of the form
+    std::uint32_t version = 0;  // version of the BodyGeometry
     FixedBox box;               // the Object's box, if that is the shape
   };
-  struct JointProxy {  // by entry of the table's joints
+  struct JointProxy {  // by index of the entry in the table's joints
     std::uint32_t generation = 0;
     std::uint32_t tunings = 0;
     int id = -1;
     int anchor = -1;  // the body that represents the world
   };
-  struct PullProxy {  // by row of the table: the joint for its pull
+  struct PullProxy {  // by row of the table: the joint for the pull on the row's body
     std::uint64_t order = 0;
     int id = -1;
     Pull pull;
     double mass = 0;
     bool is_used = false;
   };
-  struct Identity {  // by id
+  struct Identity {  // by id in the solver
     ObjectKey key;
     std::uint64_t order = 0;
-    int state = -1;  // −1: an obstacle
+    int state = -1;  // index of the state; −1: an obstacle
   };
 
   bool isStepped(const BodyState& state) const;
@@ -77,7 +78,7 @@ class BodyRigids {
   std::vector<PullProxy> m_pull_proxies;
   std::vector<Identity> m_identities;
   BodyObstacles m_obstacles;
-  std::vector<FixedBox> m_obstacle_boxes;  // by id
+  std::vector<FixedBox> m_obstacle_boxes;  // by id in the solver
   BodySurroundings m_surroundings;
   int m_count = 0;
   bool m_has_pulls = false;  // true if a pull acts on one of its bodies in this tick

@@ -14,7 +14,7 @@ namespace naiad::physics {
 
 namespace {
 
-// The shape of the Object's box, and its middle.
+// Sets the shape of the Object's box; returns the box's middle.
 Vec2 boxOf(const Metric& metric, const FixedBox& box, ImpactBody& body) {
   body.shape = ImpactShape::kBox;
   body.half = 0.5 * metric.fromCells(Vector::fromFixed(box.size));
@@ -62,7 +62,7 @@ void BodySensors::add(std::size_t a, std::size_t b) {
       {{m_movers[a].key, m_movers[b].key}, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
 }
 
-// By slots. Many are sorted by digits of eight bits, those left out that all have in common.
+// Sorts the pairs by slots. Many pairs get a radix sort by bytes, which skips bytes that are equal in all.
 void BodySensors::sortPairs() {
   constexpr std::size_t kMany = 256;
   if (m_pairs.size() < kMany) return std::sort(m_pairs.begin(), m_pairs.end(), isPairBefore);
@@ -83,14 +83,15 @@ void BodySensors::sortPairs() {
   }
 }
 
-// A SOFT body and whatever crosses its path. Only the SOFT ones are filed: the others are asked about.
+// Finds the bodies that cross the path of a SOFT body. The tree has only the SOFT bodies; all others query
+// it.
 void BodySensors::findBodyPairs() {
   m_boxes.clear();
   m_ids.clear();
   const auto sweptBox = [&](const Mover& mover) {
     const Vec2 from = mover.shape.place - m_movers[0].shape.place, to = from + mover.displacement;
     const Vec2 half = halfExtentOf(mover.shape);
-    const auto margin = [](double x, double y) {  // wider than what rounding takes away
+    const auto margin = [](double x, double y) {  // larger than the rounding error
       return kImpactSlop + 1e-9 * (1 + std::max(std::fabs(x), std::fabs(y)));
     };
     const Vec2 wide = half + Vec2{margin(from.x, to.x), margin(from.y, to.y)};
@@ -111,7 +112,7 @@ void BodySensors::findBodyPairs() {
   }
 }
 
-// A body that moves, or is SOFT itself, may begin to touch an Object.
+// Finds the Objects that a body may begin to touch, because it moves or is SOFT.
 void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric) {
   m_asking.clear();
   m_surroundings.clear();
@@ -130,7 +131,7 @@ void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric)
   });
 }
 
-// What touched at the end of the last tick, and is not near any more or stands still now.
+// Adds the pairs that touched at the end of the last tick but are not near each other in this one.
 void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric) {
   if (m_touching.empty()) return;
   m_by_slot.clear();
@@ -161,7 +162,7 @@ void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric)
   if (m_pairs.size() > listed) sortPairs();
 }
 
-// Do the two touch now, and since when?
+// Tests whether the pair touches now and since when, and adds the begin or end of its contact.
 void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts) {
   const Mover &first = m_movers[pair.a], &second = m_movers[pair.b];
   const Vec2 offset = second.shape.place - first.shape.place;

@@ -12,15 +12,15 @@
 
 namespace naiad::physics {
 
-/// The contacts of sensors, kept from tick to tick. Shapes unknown to an ImpactWorld count as boxes.
+/// Keeps the contacts of sensors from tick to tick. Shapes that an ImpactWorld cannot have count as boxes.
 class BodySensors {
  public:
-  /// Call after all bodies have moved. Appends the contacts that began on their paths, or ended. Solvers
-  /// handle pairs in which neither is SOFT.
+  /// Call after all bodies have moved. Appends the contacts of sensors that began on the bodies' paths, or
+  /// ended. Pairs without a SOFT member are handled by the solvers.
   void step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
             std::vector<BodyContact>& contacts);
 
-  /// Pairs examined since the world was made.
+  /// Returns the number of pairs examined since the world was made.
   std::int64_t pairs() const { return m_examined; }
 
  private:
@@ -29,11 +29,11 @@ class BodySensors {
     std::uint64_t order = 0;
     bool is_body = false;
     bool is_soft = false;
-    ImpactBody shape;   ///< its centre is that at the beginning of the tick
+    ImpactBody shape;   ///< the centre is that at the beginning of the tick
     Vec2 displacement;  ///< movement since the beginning of the tick
   };
   struct Touch {
-    ObjectKey first, second;  ///< a body, and a later body or an Object
+    ObjectKey first, second;  ///< `first` is a body, `second` a later body or an Object
     friend bool operator==(const Touch& a, const Touch& b) {
       return a.first == b.first && a.second == b.second;
     }
@@ -56,12 +56,12 @@ class BodySensors {
 
   std::vector<Mover> m_movers;    // bodies in creation order, then the Objects of m_pairs
   std::size_t m_bodies = 0;       // number of movers that are bodies
-  std::vector<Pair> m_pairs;      // pairs to examine, by slots
+  std::vector<Pair> m_pairs;      // pairs to examine, sorted by slots
   std::vector<Pair> m_sorted;     // scratch memory of sortPairs()
-  std::vector<Touch> m_touching;  // touching at the end of the last tick, by slots
+  std::vector<Touch> m_touching;  // pairs that touched at the end of the last tick, sorted by slots
   std::vector<Touch> m_now;
   std::vector<std::uint32_t> m_by_slot;  // the bodies among the movers, by slot
-  std::vector<std::size_t> m_asking;     // movers by the number of their region
+  std::vector<std::size_t> m_asking;     // indices of movers, by the number of their region
   ImpactTree m_soft;                     // the SOFT bodies
   std::vector<SweptBox> m_boxes;
   std::vector<int> m_ids;

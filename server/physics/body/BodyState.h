@@ -1,4 +1,4 @@
-// A body's state during a tick, from reading the table's row to publishing.
+// A body's state during a tick, from the reading of its row in the table until its new position is published.
 #pragma once
 
 #include "engine/world/WorldView.h"
@@ -10,16 +10,16 @@ namespace naiad::physics {
 
 /// The solver that moves a body.
 enum class BodySolver : std::uint8_t {
-  kFlight,        ///< own flight, because nothing can touch it
-  kImpact,        ///< ImpactWorld: does not turn; a box along the axes or a circle
+  kFlight,        ///< the body's own flight, because nothing can touch it
+  kImpact,        ///< ImpactWorld, only for boxes along the axes and circles that do not turn
   kJoints,        ///< JointSolver
   kRigid,         ///< RigidWorld
-  kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts): circles may hit it
-  kSubstep,       ///< SubstepWorld: at ACCURACY_FAST, or if it is too expensive for the others
-  kHeap,          ///< a SubstepWorld with finer steps: large groups that a RigidWorld gave up
+  kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts), if only circles may hit
+  kSubstep,       ///< SubstepWorld, at ACCURACY_FAST or if the other solvers would be too expensive
+  kHeap,          ///< a SubstepWorld with finer steps, for large groups that a RigidWorld abandoned
 };
 
-/// True for solvers that are a SubstepWorld.
+/// True for the solvers that use a SubstepWorld.
 constexpr bool isSoft(BodySolver solver) {
   return solver == BodySolver::kSubstep || solver == BodySolver::kHeap;
 }
@@ -31,37 +31,38 @@ struct BodyState {
   BodySolver solver = BodySolver::kFlight;
   bool is_hard = false;
   bool is_soft = false;
-  bool is_costly = false;   ///< too expensive for its size, because of joints or impacts
-  bool is_in_heap = false;  ///< the RigidWorld gave it up in the last tick
+  bool is_costly = false;   ///< too expensive for its solver, because of joints or impacts
+  bool is_in_heap = false;  ///< a RigidWorld abandoned its group in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
   bool is_simple = false;        ///< an ImpactWorld can move it
   bool is_sprung = false;        ///< a spring or stiff field pulls it: solvers must use `pull`
   bool must_be_held = false;     ///< its flight is unknown, or the JointSolver cannot follow a pull or magnet
-  double turn_rate = 0;          ///< rad per tick by a magnet, while other bodies hold it
-  bool is_bent = false;          ///< its own path is not that of a constant acceleration
+  double turn_rate = 0;          ///< rad per tick by which a magnet turns its velocity; 0 if nothing can hold
+                                 ///< it
+  bool is_bent = false;          ///< its free path is not that of a constant acceleration
   bool is_near_rigid = false;    ///< kinematic and on the path of a body in the RigidWorld
   bool is_near_substep = false;  ///< kinematic and on the path of a body in a SubstepWorld
   bool is_touched = false;       ///< touched by anything in this or the last tick
   bool contacts_changed = false;    ///< a contact began or ended in this tick
-  bool turns_alone = true;          ///< only its own torque turns it
+  bool turns_alone = true;          ///< true if only the torque applied by the game turns it
   int group = -1;                   ///< kJointImpacts only: bodies that may hit each other have one number
-  const char* p_failure = nullptr;  ///< reason to freeze it, or null
-  double radius = 0;                ///< radius of a circle about its place that does not turn; 0 for others
+  const char* p_failure = nullptr;  ///< reason to freeze the body, or null
+  double radius = 0;                ///< radius if it is a circle about its place that does not turn; else 0
   Place start;                      ///< place at the beginning of the tick
   Vec2 start_velocity;
   Vec2 push;    ///< gravity plus applied force over mass
   Pull pull;    ///< valid if is_sprung
-  Vec2 size;    ///< half size of its shape, with some margin
-  Vec2 reach;   ///< half size of the area around `start` that it can reach on its own, shape included
+  Vec2 size;    ///< half size of the shape, with some margin
+  Vec2 reach;   ///< half size of the area around `start` that it can reach by itself, including its shape
   Flown flown;  ///< flight if nothing touches it
-  Place place;  ///< result of the tick
+  Place place;  ///< place at the end of the tick
   Vec2 velocity;
   Rotation rotation;
   double spin = 0;
   Vec2 acceleration;  ///< used by the clients' extrapolation
 
-  /// True if `pull` acts on it when it does not fly on its own.
+  /// True if `pull` acts on the body while a solver other than its own flight moves it.
   bool isPulled() const { return is_sprung && (pull.spring.stiffness > 0 || pull.spring.damping > 0); }
 };
 
@@ -75,7 +76,7 @@ struct BodyCandidatePair {
   }
 };
 
-/// An Object that gets a new position after all have moved.
+/// An Object that gets a new position after all bodies have moved.
 struct MovedObject {
   ObjectKey key;
   FixedVector where;

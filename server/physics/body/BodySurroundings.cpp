@@ -7,13 +7,13 @@ namespace naiad::physics {
 
 namespace {
 
-// Where few Objects are no bodies they are listed, and compared with the regions themselves: the grid of a
-// heap finds the heap.
+// If there are at most this many Objects other than bodies, they are listed and compared with each region,
+// because in a heap a query of the grid would mostly find the heap's own bodies.
 constexpr std::size_t kFew = 128;
-constexpr std::size_t kScanned = 16;   // Objects looked at for a region, at most
-constexpr std::size_t kTogether = 32;  // regions, added one after the other, that are compared first
+constexpr std::size_t kScanned = 16;   // for that list, at most this many Objects per region are examined
+constexpr std::size_t kTogether = 32;  // number of consecutive regions whose common area is compared first
 
-// Regions that begin in the same 8 by 8 cells, and are not larger than that, are asked for together.
+// Regions that begin in one tile of 8 by 8 cells, and are not larger than a tile, share a query of the grid.
 constexpr int kTileBits = df::kFixedBits + 3;
 constexpr Fixed kLargest = Fixed{1} << kTileBits;
 
@@ -21,7 +21,7 @@ bool isLarge(const FixedBox& region) {
   return region.size.x > kLargest || region.size.y > kLargest;
 }
 
-// Of regions at both ends of a world, which may be farther apart than the greatest size of a box.
+// The area around several regions. At the limits of positions, it may exceed the maximum size of a box.
 struct Span {
   FixedVector low, high;
 
@@ -50,7 +50,7 @@ void BodySurroundings::search(const WorldStore& store) {
   listOthers(store) ? searchOthers() : searchGrid(store);
 }
 
-// Fills m_others; or returns false, because there are too many.
+// Fills m_others with the Objects other than bodies. Returns false if there are too many.
 bool BodySurroundings::listOthers(const WorldStore& store) {
   m_others.clear();
   const WorldStore::Walk walk(store);

@@ -1,6 +1,6 @@
 // Finds the Objects without mass near many bodies.
 //
-// Bodies in one place share a query of the world's grid: in a heap, each query returns the whole heap.
+// Bodies close to each other share a query of the world's grid: in a heap each query returns the whole heap.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class BodySurroundings {
   };
   struct Found {
     std::uint32_t number;
-    std::uint32_t turn;  // in creation order
+    std::uint32_t turn;  // number in creation order
     ObjectKey key;
   };
   struct Other {
@@ -47,7 +47,7 @@ class BodySurroundings {
   std::vector<Region> m_regions;
   std::vector<Found> m_found;
   std::vector<ObjectKey> m_near;
-  std::vector<Other> m_others, m_close;  // in creation order
+  std::vector<Other> m_others, m_close;  // sorted by creation order
 };
 
 }  // namespace naiad::physics

@@ -1,7 +1,7 @@
 // The bodies of a world: their physical data, in addition to what the store has for all Objects.
 //
 // A scene without bodies has no table. A body has a row from construction to destruction; rows of deleted
-// bodies are reused. The layer and each Body share ownership, so a Body may outlive its world.
+// bodies are reused. The BodyLayer and each Body share ownership, because a Body may outlive its world.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace naiad::physics {
 
 /// The force law of a body in flight.
 enum class FlightKind : std::uint8_t {
-  kFree,  ///< constant: gravity and this tick's force
+  kFree,  ///< a constant acceleration: gravity and the force applied in this tick
   kLinearDrag,
   kQuadraticDrag,
   kSpring,  ///< a spring to a point; linear drag is added to its damping
@@ -49,17 +49,17 @@ struct BodyRow {
   bool used = false;
   bool is_kinematic = false;
   bool hears_ends = false;         ///< gets EventContactEnd
-  bool touches_soft = false;       ///< a soft body pushed it in the last step, so it cannot be event-exact
-  bool frozen = false;             ///< quarantined: stands still until the game sets its place or velocity
-  FixedVector published_position;  ///< last position given to the store; if the store's differs, the game
-                                   ///< moved the body
+  bool touches_soft = false;       ///< a soft body pushed it in the last step: not for an ImpactWorld
+  bool frozen = false;             ///< in quarantine: stands still until the game sets its place or velocity
+  FixedVector published_position;  ///< last position given to the store; if the store has another one, the
+                                   ///< game moved the body
   FixedVector published_velocity;
 };
 
 /// Data of bodies with drag, a spring or a field.
 struct BodyMedium {
-  double linear_drag = 0;     ///< force over velocity and mass, per tick
-  double quadratic_drag = 0;  ///< force over velocity² and mass, per metric cell
+  double linear_drag = 0;     ///< drag force over velocity and mass, per tick
+  double quadratic_drag = 0;  ///< drag force over velocity² and mass, per metric cell
   Spring spring;
   Place anchor;
   const ForceField* field = nullptr;  ///< not owned
@@ -78,8 +78,8 @@ struct BodySettings {
 
 /// Counters since the world was made.
 struct BodyCounters {
-  std::uint64_t quarantined = 0;  ///< bodies that were frozen
-  std::uint64_t limited = 0;      ///< pushes, speeds, spins and places reduced to the limit
+  std::uint64_t quarantined = 0;  ///< number of times that a body was frozen
+  std::uint64_t limited = 0;      ///< times that a push, speed, spin or place was reduced to the limit
   IntegratorCounters integrator;
 };
 
@@ -91,28 +91,28 @@ class BodyTable {
   void remove(Index index);
   BodyRow& row(Index index) { return m_rows[index]; }
   const BodyRow& row(Index index) const { return m_rows[index]; }
-  /// Creates the entry if needed.
+  /// Returns the drag, spring and field of the row's body; creates them if needed.
   BodyMedium& medium(Index index);
   const BodyMedium& medium(Index index) const { return index < m_media.size() ? m_media[index] : kNoMedium; }
-  /// Creates the entry if needed.
+  /// Returns the geometry of the row's body; creates it if needed.
   BodyGeometry& form(Index index);
   const BodyGeometry& form(Index index) const { return index < m_forms.size() ? m_forms[index] : kNoForm; }
   /// Returns the moment of inertia per mass; `box` is the Object's box, used if the body has no other shape.
   double unitInertia(Index index, const FixedBox& box) const;
-  /// Takes over changes that the game made to position and velocity since the last step by the Object's own
-  /// setters. The arguments are the store's present values.
+  /// Reads changes that the game made to position and velocity by the Object's own setters since the last
+  /// step. The arguments are the store's present values.
   void syncFromStore(Index index, FixedVector position, FixedVector velocity);
   /// Sets the body's FlightKind from its medium.
   void classify(Index index);
 
-  /// Rows in use, by order of construction.
+  /// Returns the rows in use, by order of construction.
   const std::vector<Index>& inOrder() const { return m_order; }
 
   BodyJoints joints;
   Metric metric;
   BodySettings settings;
   BodyCounters counters;
-  std::int64_t ticks = 0;  ///< steps since the world was made; also the time of fields
+  std::int64_t ticks = 0;  ///< number of steps since the world was made; also the time of fields
   int soft_bodies = 0;     ///< number of soft bodies; they use `metric`, too
 
  private:
@@ -120,8 +120,8 @@ class BodyTable {
   static const BodyGeometry kNoForm;
 
   std::vector<BodyRow> m_rows;
-  std::vector<BodyMedium> m_media;    ///< index of the row; may be shorter than m_rows
-  std::vector<BodyGeometry> m_forms;  ///< index of the row; may be shorter than m_rows
+  std::vector<BodyMedium> m_media;    ///< by row; may be shorter than m_rows
+  std::vector<BodyGeometry> m_forms;  ///< by row; may be shorter than m_rows
   std::vector<Index> m_free;
   std::vector<Index> m_order;
   std::uint64_t m_next_order = 1;

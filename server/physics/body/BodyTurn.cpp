@@ -1,4 +1,4 @@
-// The part of Body that is about its shape and how it turns.
+// Functions of Body for its shape and rotation.
 #include <algorithm>
 #include <cmath>
 
@@ -17,11 +17,11 @@ namespace {
 using naiad::physics::BodyGeometry;
 using naiad::physics::Mass;
 using naiad::physics::Rotation;
-using Part = naiad::physics::ConvexShape;  // df::Shape is what spriteless Objects look like
+using Part = naiad::physics::ConvexShape;  // df::Shape is the look of Objects without a sprite
 using naiad::physics::ShapeStatus;
 using naiad::physics::Vec2;
 
-constexpr double kMaxAngle = 1e6;  // rad: a double still resolves 1e-10
+constexpr double kMaxAngle = 1e6;  // rad: up to this, a double still resolves 1e-10
 
 }  // namespace
 
@@ -29,7 +29,7 @@ BodyGeometry& Body::form() const {
   return m_table->form(m_index);
 }
 
-// The Object's box goes around the shape at any angle.
+// Sets the Object's box so that it encloses the shape. If the body may turn, it does so at any angle.
 void Body::fitBox() {
   const BodyGeometry& its = form();
   if (its.shapes.empty()) return;

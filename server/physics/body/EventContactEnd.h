@@ -1,7 +1,7 @@
-// Event sent to a Body or SoftBody when a contact ends, if it called setContactEnds().
+// Event sent to a Body or SoftBody when a contact ends, if setContactEnds() was called for it.
 //
-// Like an EventCollision it is sent after all bodies have moved, ordered by time, then by ids. A bounce
-// within a tick both begins and ends a contact.
+// Like EventCollisions, these events are sent after all bodies have moved, ordered by time, then by ids. A
+// bounce within a tick both begins and ends a contact.
 #pragma once
 
 #include "Event.h"
@@ -9,7 +9,7 @@
 
 namespace df {
 
-/// Sent only after setContactEnds() of Body or SoftBody.
+/// Type of the event; it is sent only to a Body or SoftBody with setContactEnds().
 inline const EventType CONTACT_END_EVENT("df-contact-end");
 
 class EventContactEnd : public Event {
@@ -19,7 +19,7 @@ class EventContactEnd : public Event {
   /// Creates the event for the contact of `p_o1`, a Body or SoftBody, with `p_o2`.
   EventContactEnd(Object* p_o1, Object* p_o2) : Event(&CONTACT_END_EVENT), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
-  /// The Objects have the roles that they had in the collision event that began the contact.
+  /// The first and second Object, as in the collision event that began the contact.
   void setObject1(Object* p_new_o1) { m_p_obj1 = p_new_o1; }
   Object* getObject1() const { return m_p_obj1; }
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }

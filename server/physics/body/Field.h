@@ -18,7 +18,7 @@ class ForceField;
 
 namespace df {
 
-/// A body enters the field by Body::setField(). The field must outlive the bodies in it.
+/// Body::setField() puts a body into the field. The field must outlive the bodies in it.
 class Field {
  public:
   Field();

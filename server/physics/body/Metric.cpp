@@ -27,7 +27,7 @@ df::Fixed fixedOf(double whole, double rest) {
 Place Metric::placeOf(df::FixedVector position) const {
   const Parts x = partsOf(position.x);
   const Parts y = partsOf(position.y);
-  // The product is exact for aspects of few digits; the sum carries what is beyond half a unit.
+  // The product is exact if the aspect has few digits. Place's + carries what exceeds half a unit.
   const double scaled = static_cast<double>(y.whole) * m_aspect;
   const double whole = df::math::rounded(scaled);
   return Place{x.whole, static_cast<std::int64_t>(whole), 0, 0} +

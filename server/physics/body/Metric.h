@@ -1,7 +1,7 @@
 // Converts between the world's cells and the metric in which bodies move.
 //
 // A character cell is about twice as high as wide. The metric's unit is the width of a cell along both axes:
-// x is unchanged, y is multiplied by the aspect. Boxes of the book stay boxes in cells.
+// x is unchanged, y is multiplied by the aspect. The boxes of Objects are in cells.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace naiad::physics {
 
 class Metric {
  public:
-  static constexpr double kMinAspect = 0.25;  ///< height over width of a character cell
+  static constexpr double kMinAspect = 0.25;  ///< limit of the height over width of a character cell
   static constexpr double kMaxAspect = 4;
 
   /// `aspect` is the height of a cell over its width, kMinAspect … kMaxAspect. If it is a whole number, a
@@ -29,9 +29,9 @@ class Metric {
   df::Vector toCells(Vec2 v) const { return {v.x, overAspect(v.y)}; }
 
   Place placeOf(df::FixedVector position) const;
-  /// Rounds to nearest. `place` must be in range: see isInRange().
+  /// Converts a place to a position, rounded to nearest. `place` must be in range (isInRange()).
   df::FixedVector fixedOf(const Place& place) const;
-  /// True if fixedOf() can represent it.
+  /// True if fixedOf() can represent the place.
   bool isInRange(const Place& place) const;
   /// Converts a position in cells with full precision.
   Place placeAtCells(df::Vector position) const;
@@ -42,11 +42,11 @@ class Metric {
     int exponent = 0;
     return std::frexp(x, &exponent) == 0.5;
   }
-  // Both give equal quotients; a multiplication is much faster.
+  // Both formulas give equal quotients; the multiplication is much faster.
   double overAspect(double y) const { return m_per_aspect != 0 ? y * m_per_aspect : y / m_aspect; }
 
   double m_aspect;
-  double m_per_aspect;  // exact; 0 if 1/aspect is not exact
+  double m_per_aspect;  // 1 / aspect, if that is exact; else 0
 };
 
 }  // namespace naiad::physics

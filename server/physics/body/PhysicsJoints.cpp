@@ -1,4 +1,4 @@
-// The part of PhysicsManager that makes joints.
+// Functions of PhysicsManager that make joints.
 #include <cmath>
 
 #include "engine/world/World.h"
@@ -33,7 +33,7 @@ Joint PhysicsManager::refuseJoint(const char* what) const {
   return {};
 }
 
-// Fills in bodies and anchors: each point relative to its body, turned back.
+// Adds a joint between two bodies, with the points as anchors, converted to the bodies' coordinates.
 Joint PhysicsManager::add(const char* what, RawJoint joint, Body* p_a, Body* p_b, Vector point_a,
                           Vector point_b) const {
   if (p_b == nullptr && joint.kind != JointKind::kSlider && joint.kind != JointKind::kMotor) {
@@ -148,7 +148,7 @@ Joint PhysicsManager::addAngleLimit(Body* p_a, Body* p_b, double lower, double u
 
 Joint PhysicsManager::addMouse(Body* p_body, Vector grabbed, double strength) {
   if (p_body == nullptr) return refuseJoint("addMouse");
-  // Critically damped, at one radian per tick.
+  // A spring that is critically damped, at one radian per tick.
   RawJoint joint = jointOf(JointKind::kMouse);
   joint.stiffness = p_body->getMass();
   joint.damping = 2 * p_body->getMass();

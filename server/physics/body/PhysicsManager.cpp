@@ -32,7 +32,7 @@ bool areUsable(const IntegratorOptions& o) {
 }  // namespace
 
 PhysicsManager& PhysicsManager::getInstance() {
-  static PhysicsManager* p_instance = new PhysicsManager;  // never destroyed, as all managers
+  static PhysicsManager* p_instance = new PhysicsManager;  // never destroyed, like all managers
   return *p_instance;
 }
 

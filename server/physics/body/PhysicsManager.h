@@ -19,7 +19,7 @@ namespace df {
 
 class Body;
 
-/// The solver that moves bodies. Objects, drawing and events work alike with both; only the paths differ.
+/// The kind of solver that moves bodies. Objects, drawing and events are alike; only the paths differ.
 enum Accuracy {
   ACCURACY_DEFAULT,  ///< impacts at their exact moment; joints and piles solved directly where affordable
   ACCURACY_FAST,     ///< all HARD and all joined bodies move in soft sub-steps (docs/physics/substep.md)
@@ -32,12 +32,12 @@ class PhysicsManager : public Manager {
  public:
   static PhysicsManager& getInstance();
 
-  /// Acceleration of every body, times its gravity scale, in cells per tick², −1e30 … 1e30 on each axis;
-  /// (0,0) by default.
+  /// Sets the acceleration of every body, multiplied by its gravity scale, in cells per tick², −1e30 … 1e30
+  /// on each axis; (0,0) by default.
   int setGravity(Vector gravity);
   Vector getGravity() const;
-  /// Height of a character cell over its width, 0.25 … 4; 2 by default. With the screen's true aspect,
-  /// lengths, angles and circles look right. -1 while there are bodies.
+  /// Sets the height of a character cell over its width, 0.25 … 4; 2 by default. Lengths, angles and circles
+  /// look right if it is the true aspect of the screen. Returns -1 while there are bodies.
   int setAspect(double aspect);
   double getAspect() const;
   /// Sets how fields (Field.h) are integrated; docs/physics/flight.md compares the methods. Tolerances are in
@@ -45,30 +45,30 @@ class PhysicsManager : public Manager {
   int setIntegrator(const naiad::physics::IntegratorOptions& options);
   const naiad::physics::IntegratorOptions& getIntegrator() const;
 
-  /// Friction of HARD Objects that are not bodies: 0 … 1e30, 0.5 by default. Restitution: 0 … 1, 0 by
-  /// default. See Body::setFriction and setRestitution.
+  /// Sets the friction of HARD Objects that are not bodies, 0 … 1e30, 0.5 by default, and their restitution,
+  /// 0 … 1, 0 by default. See Body::setFriction and setRestitution.
   int setObstacleFriction(double friction);
   double getObstacleFriction() const;
   int setObstacleRestitution(double restitution);
   double getObstacleRestitution() const;
 
-  /// Takes effect in the next tick. ACCURACY_DEFAULT by default; −1 for any other value.
+  /// Chooses the solver from the next tick on. ACCURACY_DEFAULT by default; returns −1 for any other value.
   int setAccuracy(Accuracy accuracy);
   Accuracy getAccuracy() const;
   /// Lets groups of resting bodies sleep: they cost almost nothing, and wake when touched. True by default.
   void setSleeping(bool may_sleep);
   bool isSleeping() const;
 
-  // Joints. At least one side must be a body of the current world; null is the world itself, in functions
-  // that take points. Points and directions are world coordinates in cells, with the bodies where they are
-  // now; lengths are in cell widths. A body of another world, the same body twice, and numbers that are not
-  // finite or out of range are refused and counted: then the returned joint does not exist (Joint::exists).
+  // Joints. At least one side must be a body of the current world; for functions with points, null is the
+  // world itself. Points and directions are world coordinates in cells, for the bodies' present positions;
+  // lengths are in cell widths. A body of another world, the same body twice, and numbers that are not finite
+  // or out of range are refused and counted; the joint returned then does not exist (Joint::exists).
 
-  /// Adds a rod: keeps the points at their present distance.
+  /// Adds a rod, which keeps the two points at their present distance.
   Joint addDistance(Body* p_a, Body* p_b, Vector point_a, Vector point_b);
-  /// Like the above, between the positions of two bodies.
+  /// Like addDistance() with points, between the positions of two bodies.
   Joint addDistance(Body* p_a, Body* p_b);
-  /// Adds a rope: the points get no farther apart than they are now, or than `length` > 0.
+  /// Adds a rope: the distance of the points stays at most the present one, or `length` > 0.
   Joint addRope(Body* p_a, Body* p_b, Vector point_a, Vector point_b);
   Joint addRope(Body* p_a, Body* p_b);
   Joint addRope(Body* p_a, Body* p_b, double length);
@@ -84,21 +84,21 @@ class PhysicsManager : public Manager {
   Joint addSpring(Body* p_a, Body* p_b, Vector point_a, Vector point_b, double stiffness, double damping = 0);
   Joint addSpring(Body* p_a, Body* p_b, double stiffness, double damping = 0);
   /// Adds a motor: turns the second body relative to the first at `speed` (radians per tick), with a torque
-  /// of at most `strength` >= 0 (force · cell widths). The second must be a body.
+  /// of at most `strength` >= 0 (force · cell widths). `p_b` must not be null.
   Joint addMotor(Body* p_a, Body* p_b, double speed, double strength);
   /// Adds an angle limit: keeps the angle of the second body relative to the first (radians, 0 at present)
-  /// between these: −π < lower <= 0 <= upper < π. The second must be a body.
+  /// between `lower` and `upper`: −π < lower <= 0 <= upper < π. `p_b` must not be null.
   Joint addAngleLimit(Body* p_a, Body* p_b, double lower, double upper);
   /// Adds a mouse joint: drags a point of the body towards Joint::setTarget(), initially the point itself. It
-  /// is a critically damped spring of one radian per tick, with at most the force `strength` on each axis.
+  /// is a critically damped spring of one radian per tick, with a force of at most `strength` on each axis.
   Joint addMouse(Body* p_body, Vector grabbed, double strength);
-  int getJointCount() const;  ///< Number of joints.
+  int getJointCount() const;
 
-  /// Number of bodies, including removed ones that are not deleted yet.
+  /// Returns the number of bodies, including removed ones that are not deleted yet.
   int getBodyCount() const;
-  /// Number of times that a body was frozen (Body::isFrozen).
+  /// Returns how often a body was frozen (Body::isFrozen).
   std::uint64_t getQuarantineCount() const;
-  /// Number of times that a body's acceleration, speed, spin or position was reduced to the limit: 16777216
+  /// Returns how often a body's acceleration, speed, spin or position was reduced to the limit: 16777216
   /// cells and 1e6 radians per tick, 2e9 cells from the origin. The body continues with the limit.
   std::uint64_t getLimitCount() const;
 

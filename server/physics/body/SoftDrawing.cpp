@@ -12,9 +12,9 @@ namespace naiad::physics {
 
 namespace {
 
-// They bound the cost of a picture.
-constexpr int kMaxSteps = 2000;          // cells of one line, rows of a filling
-constexpr std::size_t kMaxCells = 8000;  // of a picture
+// Limits of the cost of a drawing.
+constexpr int kMaxSteps = 2000;          // for each: cells of one line, rows of a filling
+constexpr std::size_t kMaxCells = 8000;  // cells of a drawing
 
 std::int64_t cellOf(double at) {
   return static_cast<std::int64_t>(std::floor(at + 0.5));
@@ -38,7 +38,7 @@ class Pen {
     }
   }
 
-  // Cells whose middle lies within the boundary, by rows.
+  // Fills the cells whose middle lies within the boundary, row by row.
   void fill(const std::vector<int>& boundary) {
     double low = 1e300, high = -1e300;
     for (const int node : boundary) {
@@ -75,7 +75,7 @@ class Pen {
 };
 
 bool isUpToDate(const SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
-  constexpr double kSlack = 0.05;  // cells: what is at rest looks still
+  constexpr double kSlack = 0.05;  // cells: smaller movements are not drawn
   if (drawn.nodes.size() != body.nodes.size()) return false;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
     const df::Vector moved = metric.toCells(body.place + body.nodes[i].offset - drawn.nodes[i]);
@@ -95,7 +95,7 @@ void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric) {
   for (std::size_t i = 1; i < body.boundary.size(); ++i) pen.line(body.boundary[i - 1], body.boundary[i]);
   if (body.is_closed) pen.line(body.boundary.back(), body.boundary.front());
   if (body.is_closed && drawn.drawing == df::BodyDrawing::FILL) pen.fill(body.boundary);
-  // Of two characters in one cell the first one stays: lines before the filling.
+  // Only the first character of each cell is kept. Lines come before the filling.
   const auto isBefore = [](const SoftDrawn::Cell& a, const SoftDrawn::Cell& b) {
     return a.y != b.y ? a.y < b.y : a.x < b.x;
   };

@@ -11,7 +11,7 @@
 
 namespace naiad::physics {
 
-/// The style of a soft body's drawing, and its last picture.
+/// The style of a soft body's drawing, and the cells last drawn.
 struct SoftDrawn {
   struct Cell {
     std::int64_t x = 0;
@@ -27,10 +27,10 @@ struct SoftDrawn {
   std::vector<Cell> cells;   ///< sorted by rows, without duplicates
 };
 
-/// Draws again only if a node has moved by more than a twentieth of a cell since, so that bodies at rest look
-/// still.
+/// Draws the body's cells again, but only if a node has moved by more than a twentieth of a cell since the
+/// last time, so that bodies at rest look still.
 void redraw(SoftDrawn& drawn, const SoftBody& body, const Metric& metric);
-/// Puts the picture on the screen for the Object whose draw() runs. Returns 0, or -1 if it is too far away.
+/// Puts the cells on the screen for the Object whose draw() runs. Returns 0, or -1 if they are too far away.
 int put(const SoftDrawn& drawn);
 
 }  // namespace naiad::physics

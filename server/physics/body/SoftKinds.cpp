@@ -1,4 +1,4 @@
-// Rope, beam, cloth and blob: from what a game says to nodes and springs.
+// Makes the nodes and springs of ropes, beams, cloths and blobs from the game's parameters.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using naiad::physics::Metric;
 using naiad::physics::Place;
 using naiad::physics::Vec2;
 
-constexpr double kMinMaterial = 1e-6, kMaxMaterial = 1e6;  // of mass and stiffness
+constexpr double kMinMaterial = 1e-6, kMaxMaterial = 1e6;  // limits of mass and stiffness
 constexpr double kUsualDrag = 0.02;                        // per tick
 constexpr double kUsualFriction = 0.5;
 
@@ -37,7 +37,7 @@ struct Line {
   Vec2 displacement;
 };
 
-// What has no length is as long as one cell.
+// Returns the line between two points. If they are equal, it is one cell long.
 Line lineOf(Vector from, Vector to) {
   constexpr double kLongest = 1e5;  // metric cells
   const Metric metric(PM.getAspect());
@@ -49,8 +49,8 @@ Line lineOf(Vector from, Vector to) {
   return line;
 }
 
-// One thread at a corner carries half of the cloth, however fine it is. Diagonals stay as they are, so that
-// it drapes.
+// Limits the stretch of threads, because the thread at a corner carries half of the cloth, even if there are
+// many threads. Diagonals are not limited, so that the cloth drapes.
 void tauten(naiad::physics::SoftBody& body, double limit) {
   for (naiad::physics::SoftStretch& s : body.stretches) {
     const Vec2 along = body.nodes[at(s.b)].offset - body.nodes[at(s.a)].offset;
@@ -82,7 +82,7 @@ Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clampe
   if (elements != 0) elements = static_cast<int>(checked("Beam: elements", elements, 2, 100, 0));
   const double whole = length(line.displacement);
   if (elements == 0) elements = countFor(whole, 1.5, 4, 32);
-  constexpr double kTensile = 1000;  // over its weight stiffness: a beam bends, and hardly stretches
+  constexpr double kTensile = 1000;  // factor over stiffness · mass: a beam bends, but hardly stretches
   naiad::physics::SoftBody body =
       naiad::physics::makeBeam(line.from, line.displacement, elements, stiffness * mass * whole * whole / 8,
                                kTensile * stiffness * mass, mass / whole, is_clamped);
@@ -90,7 +90,7 @@ Beam::Beam(Vector from, Vector to, double mass, double stiffness, bool is_clampe
   make(withUsual(body));
 }
 
-// Half of the stiffness to the threads of each direction, however many there are.
+// Divides the stiffness by the smaller number of threads, so that more threads do not make the cloth stiffer.
 Cloth::Cloth(Vector corner, double width, double height, double mass, double stiffness, int columns,
              int rows) {
   setType("Cloth");
@@ -101,14 +101,14 @@ Cloth::Cloth(Vector corner, double width, double height, double mass, double sti
   mass = checked("Cloth: mass", mass, kMinMaterial, kMaxMaterial, 1);
   stiffness = checked("Cloth: stiffness", stiffness, kMinMaterial, kMaxMaterial, 5);
   const Vec2 across = metric.fromCells(Vector(width, 0)), down = metric.fromCells(Vector(0, height));
-  constexpr double kMesh =
-      2.5;  // metric cells: 16 by 4 meshes cost half a millisecond a tick (docs/physics/soft.md)
-  constexpr int kMaxThreads = 128;  // each way: 16,384 nodes
+  constexpr double kMesh = 2.5;     // metric cells: 16 by 4 meshes cost half a millisecond per tick
+                                    // (docs/physics/soft.md)
+  constexpr int kMaxThreads = 128;  // in each direction: 16,384 nodes in all
   if (columns != 0) columns = static_cast<int>(checked("Cloth: columns", columns, 2, kMaxThreads, 0));
   if (rows != 0) rows = static_cast<int>(checked("Cloth: rows", rows, 2, kMaxThreads, 0));
   m_columns = columns != 0 ? columns : countFor(across.x, kMesh, 2, 24) + 1;
   m_rows = rows != 0 ? rows : countFor(down.y, kMesh, 2, 24) + 1;
-  m_is_upright = m_rows > m_columns;  // the builder wants the long side first
+  m_is_upright = m_rows > m_columns;  // makeCloth() numbers the nodes along its second side, the short one
   const double thread = stiffness * mass / std::min(m_columns, m_rows);
   const int longer = std::max(m_columns, m_rows) - 1, shorter = std::min(m_columns, m_rows) - 1;
   naiad::physics::SoftBody body =
@@ -124,7 +124,7 @@ int Cloth::getNode(int column, int row) const {
   return m_is_upright ? column + row * m_columns : row + column * m_rows;
 }
 
-// What resists is mostly the skin's tension while the gas keeps its area.
+// The deformation is mostly resisted by the tension of the skin, while the gas keeps its area.
 Blob::Blob(Vector where, double radius, double mass, double stiffness) {
   setType("Blob");
   const Metric metric(PM.getAspect());
@@ -134,7 +134,7 @@ Blob::Blob(Vector where, double radius, double mass, double stiffness) {
   stiffness = checked("Blob: stiffness", stiffness, kMinMaterial, kMaxMaterial, 1);
   const double load = stiffness * mass;
   constexpr double kGirth = 6.283185307179586;  // 2π
-  constexpr double kBend = 0.02;                // of the skin, in load · radius²
+  constexpr double kBend = 0.02;                // bending stiffness of the skin, in load · radius²
   naiad::physics::SoftBody body =
       naiad::physics::makeBlob(place, radius, countFor(kGirth * radius, 1.5, 10, 32), mass, 0,
                                2 * load / radius, 2 * load, kBend * load * radius * radius);

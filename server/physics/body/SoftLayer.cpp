@@ -15,15 +15,16 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kSearchRoom = 0.5;      // metric cells around a soft body in which obstacles are searched
-constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower is still, of what lies or hangs
-constexpr double kFloatingSpeed = 1e-6;  // the same of what floats: without contact nothing stops it
-constexpr int kSinceTouch = 10;          // ticks: what touched something so recently lies on it
-constexpr double kStillDistance = 0.02;  // cells: a smaller move of a still body is not published
+constexpr double kSearchRoom = 0.5;      // metric cells around a soft body, searched for obstacles
+constexpr double kStillSpeed = 2e-3;     // metric cells per tick: below it, a body that lies or hangs is
+                                         // still
+constexpr double kFloatingSpeed = 1e-6;  // like kStillSpeed, for floating bodies, which no contact stops
+constexpr int kSinceTouch = 10;          // ticks: a body that touched something within this time lies
+constexpr double kStillDistance = 0.02;  // cells: if a still body moves less, this is not published
 
-// Around all nodes, with some room, so that it need not follow each of their movements.
+// Returns a box around all nodes: `before` if it still fits. The margin avoids a new box for small movements.
 FixedBox boxOf(SoftTable& table, int id, FixedVector position, const FixedBox& before) {
-  constexpr double kMargin = 0.25, kLargest = 1e6;  // cells: around the nodes; of the box
+  constexpr double kMargin = 0.25, kLargest = 1e6;  // cells: margin around the nodes, maximum size of the box
   const SoftBody& body = table.world().body(id);
   const Metric& metric = table.metric();
   const Vector middle = metric.toCells(metric.placeOf(position) - body.place);
@@ -97,8 +98,8 @@ void SoftLayer::step(World& world) {
   if (!m_contact_changes.empty()) sendContactEvents(world, m_contact_changes);
 }
 
-// From the solver's ids to Objects. An end is between the same Objects as the begin, even if the obstacle is
-// not near any more; for a deleted Object there is none.
+// Converts the solver's events to contacts of Objects. An end has the Objects of its begin, even if the
+// obstacle is no longer near. Contacts of deleted Objects get no end.
 void SoftLayer::collectContacts(const WorldStore& store) {
   std::erase_if(m_touching, [&](const Touch& touch) {
     return !store.isCurrent(touch.first) || !store.isCurrent(touch.second);
@@ -126,7 +127,7 @@ void SoftLayer::collectContacts(const WorldStore& store) {
   }
 }
 
-// Once: it counts on in SoftCounters::crowded.
+// Logs only the first case; SoftCounters::crowded counts all of them.
 void SoftLayer::logCrowd(World& world) {
   if (m_has_logged_crowd || m_table->world().counters().crowded == 0) return;
   m_has_logged_crowd = true;
@@ -134,7 +135,7 @@ void SoftLayer::logCrowd(World& world) {
       "physics: too many soft bodies in one place: some pass through others until there is room");
 }
 
-// Decides whether it takes part, and gathers what is around it.
+// Decides whether the body takes part, and gathers the obstacles around it.
 void SoftLayer::prepare(const World& world, int id) {
   SoftEntry& entry = m_table->entry(id);
   entry.is_in = false;
@@ -165,7 +166,7 @@ void SoftLayer::prepare(const World& world, int id) {
   m_obstacles.addGrab(*m_table, entry, id);
 }
 
-// Gravity is the world's; what differs from it pulls at the nodes.
+// Sets the forces on the nodes. The solver applies the world's gravity, so only the difference is added.
 void SoftLayer::push(int id) {
   SoftEntry& entry = m_table->entry(id);
   const Vec2 acceleration = (entry.gravity_scale - 1) * m_gravity + entry.force / entry.mass;
@@ -177,7 +178,7 @@ void SoftLayer::push(int id) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Vec2 force = nodes[i].mass * acceleration;
     if (!entry.node_forces.empty()) force += entry.node_forces[i];
-    // As a whole, once: a force that changes makes the solver forget the past.
+    // Sets the sum in one call, because the solver drops its history when a force changes.
     m_table->world().setForce(id, static_cast<int>(i), force);
   }
   entry.node_forces.clear();
@@ -192,7 +193,7 @@ void SoftLayer::settle(World& world, int id) {
   publish(world, id);
 }
 
-// It stands, so that nothing of it spreads.
+// Freezes the body, so that its invalid numbers do not spread to other bodies.
 void SoftLayer::freeze(World& world, int id) {
   SoftEntry& entry = m_table->entry(id);
   ++m_table->bodies().counters.quarantined;

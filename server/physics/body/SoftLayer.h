@@ -1,7 +1,7 @@
 // The soft bodies' part of a world's update(): moves them by a tick after all rigid bodies.
 //
-// A world gets this layer with its first soft body, and has no cost before. The effect of soft bodies on
-// rigid ones is applied after the step (SoftObstacles.h).
+// A world gets this layer with its first soft body; before that, it costs nothing. The effect of soft bodies
+// on rigid ones is applied after the step (SoftObstacles.h).
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ class SoftLayer : public df::Layer {
  private:
   struct Touch {
     ObjectKey first, second;
-    // Ids in the solver.
+    // Ids in the SoftWorld:
     int body;
     int other;
     bool is_other_soft;
@@ -49,7 +49,7 @@ class SoftLayer : public df::Layer {
   void publish(World& world, int id);
   void logCrowd(World& world);
 
-  BodyLayer& m_bodies;  // an earlier layer of the same world, so it outlives this one
+  BodyLayer& m_bodies;  // a layer that the same world made earlier, so it outlives this one
   std::shared_ptr<SoftTable> m_table;
   SoftObstacles m_obstacles;
   std::vector<Touch> m_touching;

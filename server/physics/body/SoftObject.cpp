@@ -26,11 +26,11 @@ using naiad::physics::SoftGrab;
 using naiad::physics::SoftLayer;
 using naiad::physics::Vec2;
 
-constexpr double kMaxRatio = 1e6;  // of gravity scale, friction, drag
-constexpr double kMaxForce = 1e9;  // of forces and impulses: the solver's limit is 1e12 (kLargestSoft)
+constexpr double kMaxRatio = 1e6;  // limit of gravity scale, friction and drag
+constexpr double kMaxForce = 1e9;  // limit of forces and impulses; that of the solver is 1e12 (kLargestSoft)
 
 bool isUsableForce(Vector v) {
-  return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // not if it is no number
+  return std::fabs(v.x()) <= kMaxForce && std::fabs(v.y()) <= kMaxForce;  // false for NaN
 }
 
 }  // namespace

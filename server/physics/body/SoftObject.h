@@ -47,16 +47,16 @@ class SoftBody : public Object {
   SoftBody& operator=(const SoftBody&) = delete;
   ~SoftBody() override;
 
-  /// Mass in the game's unit.
+  /// Returns the mass in the game's unit.
   double getMass() const;
-  /// Factor of the world's gravity (PM.setGravity), −1e6 … 1e6; 1 by default.
+  /// Sets the factor of the world's gravity (PM.setGravity), −1e6 … 1e6; 1 by default.
   int setGravityScale(double scale);
-  /// Coulomb's coefficient of friction, 0 … 1e6; 0.5 by default. For two bodies the geometric mean counts.
+  /// Sets Coulomb's coefficient of friction, 0 … 1e6; 0.5 by default. Two bodies have the geometric mean.
   int setFriction(double friction);
-  /// Sets drag: speeds decay as exp(-drag · ticks). 0 … 1e6 per tick, 0.02 by default.
+  /// Sets drag: speeds decay as exp(−drag · ticks). 0 … 1e6 per tick, 0.02 by default.
   int setDrag(double drag);
 
-  /// Changes the velocity of the whole body at once, by impulse / mass. Mass · cells per tick, to ±1e9.
+  /// Changes the velocity of the whole body at once, by impulse / mass. In mass · cells per tick, to ±1e9.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), for one node.
   int applyImpulse(int node, Vector impulse);
@@ -72,46 +72,47 @@ class SoftBody : public Object {
 
   // Nodes, numbered 0 … getNodeCount() - 1.
 
+  /// Returns the number of nodes.
   int getNodeCount() const;
-  /// Cells, and cells per tick; (0,0) if the node does not exist.
+  /// Position in cells, velocity in cells per tick; (0,0) if the node does not exist.
   Vector getNodePosition(int node) const;
   Vector getNodeVelocity(int node) const;
   /// Returns the node nearest to a point; -1 for a point out of range.
   int getNearestNode(Vector where) const;
-  /// Pins a node where it is, whatever pulls at it, or releases it.
+  /// Pins a node to its present position, so that no force moves it, or releases it.
   int pin(int node, bool pinned = true);
   bool isPinned(int node) const;
-  /// Joins a node to the point of a body where the node is now; each pulls at the other. The two do not
-  /// collide. The attachment ends when the body is deleted. A node is attached to at most one body, the last.
+  /// Joins a node to the point of a body where the node is now; each pulls the other. The two do not collide.
+  /// The attachment ends when the body is deleted. A node has at most one: a new one replaces the old one.
   int attach(int node, Body* p_body);
-  /// Also returns -1 if it was not attached.
+  /// Ends the node's attachment. Also returns -1 if there is none.
   int detach(int node);
 
-  // Dragging with a mouse: the node nearest to a point follows a target, with a force of at most `strength`.
+  // Dragging with a mouse: the grabbed node follows a target, with a force of at most `strength`.
 
   /// Grabs the node nearest to `where` (cells); `strength` is the maximum force. Returns 0, else -1.
   int grab(Vector where, double strength);
-  /// Moves the drag target, initially the grabbed node's position. -1 if nothing is grabbed.
+  /// Moves the drag target, initially the grabbed node's position. Returns -1 if nothing is grabbed.
   int dragTo(Vector target);
-  void release();          ///< Ends dragging; does nothing if nothing is grabbed.
+  void release();          ///< Ends dragging; does nothing if no node is grabbed.
   bool isGrabbed() const;  ///< True while a node is grabbed.
 
   /// True if the body is in quarantine because its motion has no finite solution. It stands still and
   /// collides with nothing until its position or velocity is set; then it has its original shape again.
   bool isFrozen() const;
-  /// True while the body sleeps at rest. It costs almost nothing until something touches or changes it.
+  /// True while the body sleeps at rest. Then it costs almost nothing until something touches or changes it.
   bool isAsleep() const;
 
   /// Draws the body as lines (OUTLINE), with the enclosed area (FILL), or not at all, with the character
-  /// `ch`. 0 chooses characters by the direction of the line, and # for filling. Returns 0, else -1.
+  /// `ch`. If `ch` is 0, lines have characters by their direction, and a filling has #. Returns 0, else -1.
   int setDrawing(BodyDrawing drawing, char32_t ch = 0, Color color = COLOR_DEFAULT);
   int draw() override;
 
  protected:
-  /// Derived classes: the constructor creates an Object without nodes; call make() once after it.
+  /// Constructor for derived classes: creates an Object without nodes; then call make() once.
   SoftBody();
   void make(const naiad::physics::SoftBody& body);
-  /// Returns `value` if it lies within the limits; else counts a refusal and returns `usual`.
+  /// Returns `value` if it lies within the limits. Otherwise counts a refusal and returns `usual`.
   double checked(const char* what, double value, double least, double most, double usual) const;
   Vector checked(const char* what, Vector position) const;
 
@@ -130,20 +131,20 @@ class SoftBody : public Object {
   bool m_has_contact_ends = false;
 };
 
-/// A rope between two points, not fixed anywhere: pin() its ends.
+/// A rope between two points. Its ends are free until they are pinned with pin().
 class Rope : public SoftBody {
  public:
-  /// `stiffness`, 1e-6 … 1e6: hanging, the rope stretches by about gravity / (2 · stiffness) of its length.
+  /// `stiffness`, 1e-6 … 1e6: a hanging rope stretches by about gravity / (2 · stiffness) of its length.
   /// `links` is at most 200; 0 chooses the number by the length.
   Rope(Vector from, Vector to, double mass = 1, double stiffness = 20, int links = 0);
 };
 
-/// A beam between two points. To keep its angle at a pinned node it needs a second pin, or to be clamped.
+/// A beam between two points. It keeps its angle at a pinned node only if it has a second pin or is clamped.
 class Beam : public SoftBody {
  public:
-  /// `stiffness`, 1e-6 … 1e6: clamped at `from`, the beam bends under its own weight by gravity / stiffness
-  /// of its length. Its bending stiffness EI is stiffness · mass · length² / 8. `elements` is 2 … 100; 0
-  /// chooses the number by the length.
+  /// `stiffness`, 1e-6 … 1e6: a beam clamped at `from` bends under its own weight by gravity / stiffness of
+  /// its length. Its bending stiffness EI is stiffness · mass · length² / 8. `elements` is 2 … 100; 0 chooses
+  /// the number by the length.
   Beam(Vector from, Vector to, double mass = 1, double stiffness = 1, bool is_clamped = false,
        int elements = 0);
 };
@@ -151,14 +152,14 @@ class Beam : public SoftBody {
 /// A piece of cloth, seen from the front. Pin some nodes to hang it up.
 class Cloth : public SoftBody {
  public:
-  /// `width` and `height` are in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: hanging, the cloth stretches by
+  /// `width` and `height` are in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: a hanging cloth stretches by
   /// about gravity / (2 · stiffness) of its height. `columns` and `rows` of threads are 2 … 128; 0 chooses
   /// the number by the size, at most 25. Above about 25 × 25 another method moves the body, whose cost grows
   /// with the number of nodes (docs/physics/soft.md). If either is given, threads become taut when stretched
-  /// by 3 % (or 0.15 / stiffness, if that is more), so that the corners that a cloth hangs on bear it.
+  /// by 3 % (or 0.15 / stiffness, if that is more), so that the corners by which a cloth hangs can bear it.
   Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5, int columns = 0,
         int rows = 0);
-  /// Threads across and down: one more than there are meshes.
+  /// Return the numbers of columns and rows of threads: one more than those of the meshes between them.
   int getColumns() const { return m_columns; }
   int getRows() const { return m_rows; }
   /// Returns the node where a column and row meet, counted from 0 at the upper left corner; -1 if none.
@@ -173,8 +174,8 @@ class Cloth : public SoftBody {
 /// A gas-filled elastic skin.
 class Blob : public SoftBody {
  public:
-  /// `radius` is in cell widths, 0.1 … 1000. `stiffness`, 1e-6 … 1e6: a stiffer blob stays rounder. At rest
-  /// under gravity its height is reduced by about 2 · gravity / stiffness of it.
+  /// `radius` is in cell widths, 0.1 … 1000. `stiffness`, 1e-6 … 1e6: a stiffer blob stays rounder. A blob at
+  /// rest under gravity loses about 2 · gravity / stiffness of its height.
   Blob(Vector where, double radius, double mass = 1, double stiffness = 1);
 };
 

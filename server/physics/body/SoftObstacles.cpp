@@ -13,10 +13,10 @@ namespace naiad::physics {
 
 namespace {
 
-// The sub-steps change an obstacle's velocity first, and then move it: so it is half a sub-step ahead.
+// Sub-steps change an obstacle's velocity before they move it. So its path starts half a sub-step ahead.
 constexpr double kAhead = 0.5 / SoftWorld::kDefaultSubsteps;
 
-// Is the body of this state still there, after handlers have run?
+// True if the body of this state still takes part after handlers have run.
 bool isThere(const WorldStore& store, const BodyTable& table, const BodyState& state) {
   const BodyRow& row = table.row(state.index);
   return row.used && row.key == state.key && store.isCurrent(state.key) && !row.frozen &&
@@ -94,8 +94,8 @@ void SoftObstacles::addObject(const World& world, const BodyTable& table, Object
   m_obstacles.push_back(obstacle);
 }
 
-// The body is an obstacle on the path that it has gone in this tick, from its beginning on: with a velocity
-// and a constant acceleration that bring it to where it is.
+// Adds a body as an obstacle that repeats the body's path of this tick: it starts where the body started,
+// with a velocity and a constant acceleration that lead to the body's present place.
 void SoftObstacles::addBody(const World& world, const BodyLayer& bodies, const BodyTable& table, int state) {
   const BodyState& its = bodies.states()[static_cast<std::size_t>(state)];
   const WorldStore& store = world.store();
@@ -122,7 +122,7 @@ void SoftObstacles::addBody(const World& world, const BodyLayer& bodies, const B
   }
   const bool is_carried = bodies.isTouching(its.key);
   const Vec2 displacement =
-      row.place == its.place ? its.place - its.start : Vec2{};  // or a handler has put it there
+      row.place == its.place ? its.place - its.start : Vec2{};  // zero if a handler has moved the body
   const Vec2 change = is_carried ? Vec2{} : its.velocity - its.start_velocity;
   obstacle.acceleration = change - source.gained;
   obstacle.velocity = displacement - 0.5 * change;
@@ -130,14 +130,14 @@ void SoftObstacles::addBody(const World& world, const BodyLayer& bodies, const B
   const double turn = is_carried ? 0 : source.turned, spin = form.spin - turn;
   obstacle.spin = spin + (0.5 + kAhead) * (turn - source.turned);
   obstacle.rotation = turned(form.rotation, kAhead * spin - (spin + 0.5 * turn));
-  if (!setShape(store, table, its, obstacle, source) || !isSound(obstacle)) return;
+  if (!setShape(store, table, its, obstacle, source) || !isValid(obstacle)) return;
   m_sources.push_back(source);
   m_obstacles.push_back(obstacle);
 }
 
 bool SoftObstacles::setShape(const WorldStore& store, const BodyTable& table, const BodyState& state,
                              SoftObstacle& obstacle, Source& source) {
-  if (store.solidness(state.key.slot) != HARD) return true;  // it is only held
+  if (store.solidness(state.key.slot) != HARD) return true;  // then only attached nodes act on it
   const BodyGeometry& form = table.form(state.index);
   if (!form.shapes.empty()) {
     obstacle.shapes = form.shapes;
@@ -153,10 +153,10 @@ bool SoftObstacles::setShape(const WorldStore& store, const BodyTable& table, co
   return true;
 }
 
-// The grab's own mass is that of what it drags, so that its spring is neither too stiff for a tick nor too
-// slow.
+// Adds the grab as an obstacle. It has the mass of the dragged soft body, so that its spring is neither too
+// stiff for a tick nor too slow.
 void SoftObstacles::addGrab(const SoftTable& /*table*/, const SoftEntry& entry, int id) {
-  constexpr double kStiffness = 0.1, kDamping = 0.9;  // per tick² and per tick, over its mass
+  constexpr double kStiffness = 0.1, kDamping = 0.9;  // per tick² and per tick, for each unit of mass
   const SoftGrab& grab = entry.grab;
   if (grab.attachment < 0) return;
   Vec2 pull = kStiffness * (grab.target - grab.place) - kDamping * grab.velocity;
@@ -168,7 +168,7 @@ void SoftObstacles::addGrab(const SoftTable& /*table*/, const SoftEntry& entry, 
   obstacle.velocity = grab.velocity;
   obstacle.acceleration = pull;
   obstacle.inverse_mass = 1 / entry.mass;
-  if (!isSound(obstacle)) return;
+  if (!isValid(obstacle)) return;
   Source source;
   source.grab = id;
   m_sources.push_back(source);
@@ -192,7 +192,7 @@ const SoftObstacles::Pushed* SoftObstacles::findPushed(ObjectKey key) {
   return nullptr;
 }
 
-// Of bodies that no soft body is near any more: takes back the impulse that was expected for this tick.
+// Removes the impulse that was expected for this tick from bodies that are no longer near a soft body.
 void SoftObstacles::revertMissing(const BodyLayer& bodies, BodyTable& table) {
   for (const Pushed& pushed : m_pushed) {
     BodyRow& row = table.row(pushed.index);
@@ -239,7 +239,8 @@ void SoftObstacles::push(World& world, const BodyLayer& bodies, BodyTable& table
   if (!is_sound) return;
   row.velocity = velocity;
   row.place = place;
-  // Half of what is new: the whole would swing to and fro between the two steps.
+  // Expects the mean of the old and the new impulse, because the new one alone would alternate between two
+  // values.
   const Vec2 expected = 0.5 * (obstacle.impulse + source.gained / obstacle.inverse_mass);
   const double before = obstacle.inverse_inertia > 0 ? source.turned / obstacle.inverse_inertia : 0;
   const double expected_turn = 0.5 * (obstacle.angular_impulse + before);
@@ -255,9 +256,9 @@ void SoftObstacles::push(World& world, const BodyLayer& bodies, BodyTable& table
   publish(world, table, m_pushing.back(), moved);
 }
 
-// What hardly moves is published as still, at its last position, so that rest costs no bytes.
+// Publishes a body that hardly moves as still, at its last position, so that bodies at rest need no bytes.
 void SoftObstacles::publish(World& world, BodyTable& table, Pushed& pushed, std::vector<MovedObject>& moved) {
-  constexpr double kCalm = 1e-3;  // metric cells, and per tick
+  constexpr double kCalm = 1e-3;  // metric cells, and metric cells per tick
   BodyRow& row = table.row(pushed.index);
   pushed.published = table.metric.fixedOf(row.place);
   const bool is_calm = std::fabs(row.velocity.x) < kCalm && std::fabs(row.velocity.y) < kCalm;

@@ -16,29 +16,29 @@ class SoftObstacles {
   static constexpr int kFirstGrabId = 1 << 30;
 
   void clear();
-  /// Adds all obstacles near this soft body, and the bodies attached to it. `reach` is how far it gets in
-  /// this tick.
+  /// Adds all obstacles near this soft body, and the bodies attached to it. `reach` is how far the soft body
+  /// can move in this tick.
   void gather(const World& world, const BodyLayer& bodies, SoftTable& table, int id, Vec2 reach);
-  /// Returns a checksum over keys and places of what gather() found; 0 if any of it moves.
+  /// Returns a checksum of the keys and places of the obstacles that gather() found; 0 if any of them moves.
   std::uint64_t surrounding() const { return m_is_lively ? 0 : m_sum; }
   void addGrab(const SoftTable& table, const SoftEntry& entry, int id);
   std::vector<SoftObstacle>& all();
 
   /// Call after the step: updates velocities and places of pushed bodies. A body that lies on something rigid
-  /// gets the impulse in its own next step, because that handles its contacts.
+  /// gets the impulse in its own next step, because that step handles its contacts.
   void apply(World& world, BodyLayer& bodies, SoftTable& table, std::vector<MovedObject>& moved);
-  /// Returns the key of the obstacle with this id in the step; generation 0 if it does not exist.
+  /// Returns the key of the obstacle with this id in the step; its generation is 0 if it does not exist.
   ObjectKey keyOf(int obstacle) const;
 
  private:
   struct Source {
     ObjectKey key;
-    int state = -1;  ///< state of the body; −1: not a body
-    int grab = -1;   ///< id of the soft body whose grab it is
+    int state = -1;  ///< index of the body's state; −1: not a body
+    int grab = -1;   ///< id of the soft body that grabs; −1: not a grab
     int shape = -1;
-    // Effects of the last tick's impulses, already in the bodies' step.
-    Vec2 gained;        ///< velocity
-    double turned = 0;  ///< spin
+    // Effects of the last tick's impulses that the bodies' own step already contains:
+    Vec2 gained;        ///< change of the velocity
+    double turned = 0;  ///< change of the spin
   };
 
   struct Pushed {
@@ -66,8 +66,8 @@ class SoftObstacles {
   std::vector<SoftObstacle> m_obstacles;  // by index in m_sources
   std::vector<ConvexShape> m_shapes;
   std::vector<ObjectKey> m_found;
-  std::vector<Pushed> m_pushed;   // in the last step, by slot of the key
-  std::vector<Pushed> m_pushing;  // in the current step
+  std::vector<Pushed> m_pushed;   // bodies pushed in the last step, by slot of the key
+  std::vector<Pushed> m_pushing;  // bodies pushed in the current step
   std::uint64_t m_sum = 0;
   bool m_is_lively = false;
 };

@@ -8,7 +8,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kStillTicks = 30;  // ticks of stillness until it sleeps: a second
+constexpr int kStillTicks = 30;  // ticks that a body must be still before it sleeps: a second
 
 bool maySleep(const SoftEntry& entry) {
   return entry.is_asleep || (entry.still >= kStillTicks && !entry.is_loaded && entry.attached_nodes.empty() &&
@@ -27,7 +27,7 @@ bool SoftSleep::areNear(SoftTable& table, int a, int b) const {
   return std::fabs(offset.x) <= reach.x && std::fabs(offset.y) <= reach.y;
 }
 
-// What is near one another, from neighbour to neighbour; `allows` says so of all of a group.
+// Finds the groups of bodies near each other. Sets m_allows to 0 for groups with a body that is rejected.
 template <class Allows>
 void SoftSleep::findGroups(SoftTable& table, Allows allows) {
   m_groups.reset(at(table.idLimit()));

@@ -9,10 +9,10 @@
 
 namespace naiad::physics {
 
-/// Neighbours fall asleep and wake together.
+/// Neighbouring soft bodies fall asleep and wake together.
 class SoftSleep {
  public:
-  /// Begins a tick; ids are below `id_limit`.
+  /// Begins a tick; all ids are less than `id_limit`.
   void begin(int id_limit);
   /// Sets how far around its centre of mass the body may touch something in this tick.
   void setReach(int id, Vec2 reach) { m_reaches[static_cast<std::size_t>(id)] = reach; }
@@ -29,9 +29,9 @@ class SoftSleep {
   template <class Allows>
   void findGroups(SoftTable& table, Allows allows);
 
-  std::vector<Vec2> m_reaches;  // by id
-  UnionFind m_groups;           // over ids
-  std::vector<char> m_allows;   // by root
+  std::vector<Vec2> m_reaches;  // by id of the soft body
+  UnionFind m_groups;           // groups of ids
+  std::vector<char> m_allows;   // by root of m_groups: 1 if the group may sleep
 };
 
 }  // namespace naiad::physics

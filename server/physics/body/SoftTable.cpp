@@ -57,7 +57,7 @@ void SoftTable::measure(int id) {
   its.top_speed = std::sqrt(most);
 }
 
-// It comes back as it was made, for what had to be frozen may be a knot.
+// Restores the shape with which a frozen body was made, because its present shape may be tangled.
 void SoftTable::thaw(int id) {
   SoftEntry& its = entry(id);
   if (!its.is_frozen) return;

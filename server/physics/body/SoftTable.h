@@ -1,4 +1,4 @@
-// The soft bodies of a world: the layer's data, in addition to the SoftWorld that moves them.
+// The soft bodies of a world: the data that the SoftLayer needs in addition to the SoftWorld that moves them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace naiad::physics {
 
-/// The grab constraint: a mass without shape on a spring to the target. The node is attached to it.
+/// A grab: a mass without shape on a spring to the target. The grabbed node is attached to this mass.
 struct SoftGrab {
   int attachment = -1;  ///< −1: nothing is grabbed
   Place place;
@@ -27,13 +27,13 @@ struct SoftAttachedNode {
   ObjectKey key;
 };
 
-/// Indexed by id in the SoftWorld.
+/// Data of a soft body, by its id in the SoftWorld.
 struct SoftEntry {
   ObjectKey key;
   const Object* p_object = nullptr;  ///< null: the entry is free
   SoftBody made;                     ///< the body as built, restored after a quarantine
-  FixedVector published_position;    ///< last position given to the store; if the store's differs, the game
-                                     ///< moved the body
+  FixedVector published_position;    ///< last position given to the store; if the store has another one, the
+                                     ///< game moved the body
   FixedVector published_velocity;
   Place centre;  ///< centre of mass
   Vec2 velocity;
@@ -49,21 +49,21 @@ struct SoftEntry {
   bool is_loaded = false;         ///< something movable presses on it
   int still = 0;                  ///< number of ticks with hardly any motion
   int since_touch = 0;            ///< ticks since the last contact
-  std::uint64_t surrounding = 0;  ///< checksum of its surroundings when it fell asleep
+  std::uint64_t surrounding = 0;  ///< SoftObstacles::surrounding() when it fell asleep
   SoftGrab grab;
   std::vector<SoftAttachedNode> attached_nodes;
 };
 
-/// The layer and each soft Object share ownership, because an Object may outlive its world.
+/// The layer and each SoftBody share the ownership, because an Object may outlive its world.
 class SoftTable {
  public:
   explicit SoftTable(std::shared_ptr<BodyTable> bodies) : m_bodies(std::move(bodies)) {}
 
-  /// Returns −1 if the body is invalid.
+  /// Adds a soft body and returns its id; −1 if the body is invalid.
   int add(const Object* p_object, ObjectKey key, const SoftBody& body);
   void remove(int id);
   SoftEntry& entry(int id) { return m_entries[static_cast<std::size_t>(id)]; }
-  /// Upper limit of ids; some may be free.
+  /// Returns a number larger than all ids. Some smaller ids may be unused.
   int idLimit() const { return static_cast<int>(m_entries.size()); }
   SoftWorld& world() { return m_world; }
   BodyTable& bodies() { return *m_bodies; }
@@ -71,20 +71,20 @@ class SoftTable {
 
   /// Replaces the body and wakes it. False if the new one is invalid.
   bool set(int id, const SoftBody& body);
-  /// Wakes the body. False if the node does not exist.
+  /// Pins or releases a node, and wakes the body. Returns false if the node does not exist.
   bool pin(int id, int node, bool is_pinned);
-  /// Computes centre of mass, its velocity and the top speed from the nodes.
+  /// Computes the centre of mass, its velocity and the top speed from the nodes.
   void measure(int id);
-  /// Moves the whole body.
+  /// Moves the whole body so that its centre of mass is at `centre`.
   void moveTo(int id, const Place& centre);
   void setVelocity(int id, Vec2 velocity);
-  /// Takes over changes by the Object's setters. The arguments are the store's present values.
+  /// Reads changes that the game made by the Object's setters. The arguments are the store's present values.
   void syncFromStore(int id, FixedVector position, FixedVector velocity);
   void wake(int id) {
     entry(id).is_asleep = false;
     entry(id).still = 0;
   }
-  /// Half size of the body around its centre of mass, thickness included.
+  /// Returns the half size of the body around its centre of mass, including the thickness of its nodes.
   Vec2 reach(int id) const;
 
  private:

@@ -1,4 +1,4 @@
-// Names of the engine that bodies use, in the namespace of the physics.
+// Makes names of the engine that bodies use known in the namespace of the physics.
 #pragma once
 
 #include "engine/world/WorldView.h"

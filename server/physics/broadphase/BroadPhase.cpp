@@ -12,23 +12,23 @@ namespace naiad::physics {
 
 namespace {
 
-// Bodies that lie in one another by the dozen part in the same way whether each is pushed by all or by the
-// nearest, and all are too many.
-constexpr std::size_t kMaxHeaped = 32;   // of which a proxy keeps all pairs that it finds …
-constexpr std::size_t kKeptHeaped = 16;  // … and of more only the nearest
-constexpr std::size_t kCollected = 64;   // before the farthest are dropped
-constexpr int kCrowd = 64;               // so many in one place are looked for first
+// Limits for crowds. Dozens of overlapping bodies separate equally well if each is pushed only by the nearest
+// others, and all pairs would be too many.
+constexpr std::size_t kMaxHeaped = 32;   // a proxy with at most this many kHeaped pairs keeps them all
+constexpr std::size_t kKeptHeaped = 16;  // number of nearest pairs that a proxy with more pairs keeps
+constexpr std::size_t kCollected = 64;   // number of collected pairs at which the farthest are dropped
+constexpr int kCrowd = 64;               // minimum number of bodies in a crowd that findCrowds() finds
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kLastOrder = std::numeric_limits<std::uint64_t>::max();
-// All pairs of a tree are found in about the time that it takes to ask for those of a quarter of its bodies.
+// Finding all pairs with the tree takes about as long as queries for one in this many bodies.
 constexpr std::size_t kManyShare = 4;
-constexpr std::size_t kMany = 16;  // of fewer, each is asked for
+constexpr std::size_t kMany = 16;  // if fewer bodies have changed, each is queried alone
 
 std::int64_t twiceMiddle(std::int64_t lower, std::int64_t upper) {
   return lower + upper;
 }
 
-// Are their middles nearer than the smaller of them is wide? Those of a body on a large one are not.
+// True if the centres are nearer than the smaller one is wide: rarely for a small body on a large one.
 bool areHeaped(const GridBounds& a, const GridBounds& b) {
   const std::int64_t x = std::abs(twiceMiddle(a.lower_x, a.upper_x) - twiceMiddle(b.lower_x, b.upper_x));
   const std::int64_t y = std::abs(twiceMiddle(a.lower_y, a.upper_y) - twiceMiddle(b.lower_y, b.upper_y));
@@ -40,7 +40,7 @@ Vec2 widthOf(const GridBounds& a) {
   return {static_cast<double>(a.upper_x - a.lower_x), static_cast<double>(a.upper_y - a.lower_y)};
 }
 
-// Is it about as large as all of a crowd?
+// True if a body is about as large as all bodies of a crowd.
 bool areAlike(Vec2 width, Vec2 narrowest, Vec2 widest) {
   const auto areAlong = [](double own, double least, double most) {
     return 2 * std::min(own, least) >= std::max(own, most);
@@ -54,8 +54,8 @@ double squareOfDistance(const GridBounds& a, const GridBounds& b) {
   return x * x + y * y;
 }
 
-// May so many below it be in one place? Cheap, and blind to some whose bounds are of many sizes. `usual`:
-// half of the shorter side of those that move, in the mean.
+// True if many bodies below the node may be in one place. The test is cheap, but misses some crowds of mixed
+// sizes. `usual` is the mean of half the shorter side of moving bodies.
 bool mayBeCrowd(const ImpactTree::Below& below, double usual) {
   const double most = 4 * std::max(double{below.least}, 2 * usual);
   return below.bodies >= kCrowd && below.box.high.x - below.box.low.x < most &&
@@ -90,7 +90,7 @@ void BroadPhase::remove(std::int32_t proxy) {
   own.is_removed = true;
   own.is_filed = false;
   --m_count;
-  markChanged(proxy);  // its number is free only after its pairs are gone
+  markChanged(proxy);  // its number can be reused only after its pairs are removed
 }
 
 bool BroadPhase::move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide) {
@@ -189,7 +189,8 @@ BroadPhase::Kind BroadPhase::kindOf(const Proxy& a, const Proxy& b) const {
   return areAlike(widthOf(a.bounds), width, width) ? Kind::kAlike : Kind::kUnlike;
 }
 
-// Of two that changed the smaller one finds the pair, and of those of one size the one that comes first.
+// Returns which of the two finds the pair: the changed one; if both are, the smaller, or the first of like
+// sizes.
 std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) const {
   const bool is_one = m_proxies[index(a)].changed, is_other = m_proxies[index(b)].changed;
   if (is_one != is_other) return is_one ? a : b;
@@ -197,7 +198,7 @@ std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) con
   return isBefore(b, a) ? b : a;
 }
 
-// Does it lie in so many others, whoever finds them?
+// True if it has more than kMaxHeaped overlaps of kind kHeaped, even if the other body finds the pair.
 bool BroadPhase::isInCrowd(std::int32_t proxy) {
   const Proxy& own = m_proxies[index(proxy)];
   const SweptBox box = relative(own.bounds);
@@ -233,7 +234,7 @@ void BroadPhase::summarizeCrowds() {
   m_tree.summarize(m_crowds, ofBody, joins);
 }
 
-// Are there many below it, so near that most of them lie in one another?
+// True if many bodies below the node are so near each other that most of them overlap.
 bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   if (below.bodies < kCrowd) return false;
   const Crowd& crowd = m_crowds[index(below.node)];
@@ -241,8 +242,8 @@ bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   return spread.x < crowd.widths.x && spread.y < crowd.widths.y && crowd.widest.x < kBeyond;
 }
 
-// All that touch the bounds of a crowd count as lying in too many. Where a crowd was in the last update
-// it is looked for in any case.
+// Marks all bodies that touch the bounds of a crowd as crowded. Skips the cheap test if the last update found
+// a crowd.
 void BroadPhase::findCrowds() {
   const auto comeTo = [](int /*proxy*/) {};
   m_crowds.clear();
@@ -267,8 +268,8 @@ void BroadPhase::findCrowds() {
       comeTo);
 }
 
-// Of those that lie in too many the pairs are looked for once more, one after the other. Within a crowd that
-// is done for all, so it is left out here.
+// Finds the pairs of all bodies at once, except those within a crowd. Then finds those of each crowded body
+// separately.
 void BroadPhase::findAllPairs() {
   fileAll();
   for (Proxy& own : m_proxies) {
@@ -301,7 +302,8 @@ void BroadPhase::findAllPairs() {
     return isCrowded(finderOf(pair.proxy_a, pair.proxy_b, kindOf(one, other)));
   });
   if (m_crowds.empty()) summarizeCrowds();
-  // By where they are: what one has looked at is still in the processor's cache for the next.
+  // Visits them in the order of the tree, because data read for a neighbour is still in the processor's
+  // cache.
   m_tree.walk([](const ImpactTree::Below& /*below*/) { return true; },
               [&](int proxy) {
                 if (m_proxies[index(proxy)].changed && isCrowded(proxy)) findPairs(proxy);
@@ -318,7 +320,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
   m_larger.clear();
   std::size_t heaped = 0;
   bool is_asked = false, is_in_crowd = false;
-  const auto isLimited = [&] {  // asked for only if that may make a difference
+  const auto isLimited = [&] {  // computed only if it is needed
     if (!std::exchange(is_asked, true)) is_in_crowd = isInCrowd(proxy);
     return is_in_crowd;
   };
@@ -343,16 +345,16 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     if (nearest.found.size() < kCollected) return;
     if (kind == Kind::kUnlike ? isLimited() : heaped > kMaxHeaped) nearest.keep();
   };
-  // Do all below it find this one themselves, or are others nearer?
+  // True if all bodies below the node search for the pair themselves, or nearer pairs have been found.
   const Vec2 width = widthOf(bounds);
   const auto isLeftOut = [&](const ImpactTree::Below& below) {
     if (m_crowds.empty()) return false;
     const Crowd& crowd = m_crowds[index(below.node)];
     const Vec2 over = middle - crowd.middles.high, under = crowd.middles.low - middle;
-    const Vec2 span = {std::max(-over.x, -under.x), std::max(-over.y, -under.y)};  // to the farthest middle
+    const Vec2 span = {std::max(-over.x, -under.x), std::max(-over.y, -under.y)};  // to the farthest centre
     const bool are_heaped =
         span.x < std::min(crowd.narrowest.x, width.x) && span.y < std::min(crowd.narrowest.y, width.y);
-    // Or would any be in m_larger?
+    // True if none of them is so large that it would be in m_larger.
     const bool are_near = are_heaped || (crowd.widest.x <= 2 * width.x && crowd.widest.y <= 2 * width.y);
     if (crowd.last < own.order && (!own.moves || are_near)) return true;
     const bool has_smaller = 2 * crowd.narrowest.x < width.x || 2 * crowd.narrowest.y < width.y;
@@ -378,7 +380,7 @@ void BroadPhase::findPairs(std::int32_t proxy) {
   }
 }
 
-// By digits of eight bits, those left out that all have in common.
+// A radix sort by digits of eight bits. Skips digits that are equal in all keys.
 void BroadPhase::sortFound() {
   std::array<std::array<std::uint32_t, 256>, 8> counts = {};
   for (const BroadPhasePair& pair : m_found) {
@@ -408,7 +410,7 @@ std::span<const BroadPhasePair> BroadPhase::updatePairs() {
     }
   }
   sortFound();
-  // Old pairs of changed bodies were found again if they still are any.
+  // The pairs of changed bodies have been searched for again, so their old pairs are dropped.
   m_spare.clear();
   std::size_t next = 0;
   for (const BroadPhasePair& pair : m_pairs) {

@@ -19,33 +19,33 @@ struct BroadPhasePair {
   friend constexpr bool operator==(const BroadPhasePair& a, const BroadPhasePair& b) = default;
 };
 
-/// A body has bounds that are wider than itself, so small moves change nothing and cost one comparison; a
-/// body at rest costs nothing. After a warm-up it does not allocate. Not thread-safe.
+/// The bounds of a body are wider than itself, so small moves change nothing and cost one comparison. A body
+/// at rest costs nothing. After a warm-up this class does not allocate. Not thread-safe.
 class BroadPhase {
  public:
-  /// With `thins_crowds`, a body that lies in more than 32 others finds only the nearest 16 of these and of
-  /// those about as large as itself, and the nearest 16 larger ones. The cost then grows with the number of
-  /// bodies, not of pairs.
+  /// With `thins_crowds`, a body whose bounds lie in those of more than 32 others is in a crowd. It finds
+  /// only the nearest 16 of these and of the others that are about as large as itself, and the nearest 16
+  /// larger ones. So the cost grows with the number of bodies, not of pairs.
   explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
 
-  /// Adds a body and returns its proxy, the number used below, valid until removed. `id` is the caller's and
-  /// unique. `moves` is false for bodies that never move: two of them make no pair. In a crowd `order`
-  /// decides between bodies at equal distance, so that results do not depend on ids, which are reused.
+  /// Adds a body. Returns its proxy, the number used below, which is valid until remove(). `id` is chosen by
+  /// the caller and unique. `moves` is false for bodies that never move: two of these make no pair. In a
+  /// crowd, `order` decides between bodies at equal distance, because results must not depend on reused ids.
   std::int32_t add(std::uint32_t id, const GridBounds& wide, bool moves, std::uint64_t order = 0);
   void remove(std::int32_t proxy);
 
-  /// Moves a body to lie within `tight`. If its bounds contain that, nothing changes; otherwise it gets
-  /// `wide`, which is `tight` with room for later moves. Returns true if it got `wide`.
+  /// Moves a body to `tight`. If its present bounds contain `tight`, they stay; otherwise they become `wide`,
+  /// which is `tight` with room for later moves. Returns true if they became `wide`.
   bool move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide);
-  /// Sets the bounds.
+  /// Sets the bounds of a body in any case.
   void set(std::int32_t proxy, const GridBounds& bounds);
   const GridBounds& bounds(std::int32_t proxy) const { return m_proxies[index(proxy)].bounds; }
 
-  /// Returns all pairs ordered by (id_a, id_b), valid until the next call, without pairs whose bounds do not
-  /// overlap any more. The cost depends on the bodies added, removed or given new bounds since the last call.
+  /// Returns all pairs with overlapping bounds, ordered by (id_a, id_b), valid until the next call. The cost
+  /// depends on the number of bodies added, removed or given new bounds since the last call.
   std::span<const BroadPhasePair> updatePairs();
 
-  /// Calls visit(id) for every body whose bounds overlap, in an unspecified but reproducible order.
+  /// Calls visit(id) for every body whose bounds overlap `bounds`, in an unspecified but reproducible order.
   template <class Visit>
   void query(const GridBounds& bounds, Visit&& visit) {
     if (isUntidy()) fileAll();
@@ -54,9 +54,9 @@ class BroadPhase {
         bounds, [&](const ImpactTree::Below& below) { return overlaps(below.box, box); },
         [&](std::int32_t proxy) { visit(m_proxies[index(proxy)].id); }, kNone);
   }
-  /// True if crowding left out some of this proxy's pairs.
+  /// True if some pairs of this proxy are missing because it is in a crowd.
   bool isThinned(std::int32_t proxy) const { return m_proxies[index(proxy)].is_thinned; }
-  /// True if this ever happened to any proxy.
+  /// True if isThinned() was true for any proxy since construction.
   bool hasThinned() const { return m_has_thinned; }
   /// Number of pairs tested since construction.
   std::int64_t looks() const { return m_looks; }
@@ -67,35 +67,36 @@ class BroadPhase {
     bool moves;
     bool changed;  // listed in m_changed
     bool is_removed;
-    bool is_filed;  // its bounds are within those in the tree; else it is in m_loose or removed
+    bool is_filed;  // its bounds are within those in the tree; if false, it is in m_loose or removed
     bool is_thinned;
-    std::uint32_t heaped;  // overlaps as in a crowd, counted during findAllPairs()
+    std::uint32_t heaped;  // number of overlaps with bodies of kind kHeaped, counted during findAllPairs()
     std::uint64_t order;
     GridBounds bounds;
   };
   static std::size_t index(std::int32_t proxy) { return static_cast<std::size_t>(proxy); }
   struct Heaped {
-    double square;        // square of the distance
+    double square;        // square of twice the distance of the centres
     std::uint64_t order;  // order of the other body
     BroadPhasePair pair;
   };
-  // Summary of all bodies below a node.
+  // A summary of all bodies below a node of the tree.
   struct Crowd {
     SweptBox middles;           // box around the centres of their bounds
-    Vec2 narrowest, widest;     // smallest and largest widths; infinite if one never moves
+    Vec2 narrowest, widest;     // smallest and largest widths; infinite if one of the bodies never moves
     Vec2 widths;                // sum of widths
-    std::uint64_t first, last;  // of order; for an unchanged body last is the maximum
+    std::uint64_t first, last;  // minimum and maximum of `order`; the maximum is used for unchanged bodies
   };
   void markChanged(std::int32_t proxy);
   SweptBox relative(const GridBounds& bounds) const;
   float halfOf(const Proxy& proxy) const;
   void fileAll();
-  // True if bodies outside the tree, or too wide in it, cost more than a new tree.
+  // True if a new tree is worth its cost: too many bodies are outside the tree, or too wide in it.
   bool isUntidy() const {
     return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
   }
   static constexpr std::int32_t kNone = -1;
-  // Visits bodies below nodes of the tree that enters() accepts, near `beside` first, then those outside it.
+  // Visits bodies below the nodes of the tree that enters() accepts, first near `beside`, then those outside
+  // it.
   template <class Enters, class Visit>
   void visitAll(const GridBounds& bounds, Enters&& enters, Visit&& visit, std::int32_t beside) const {
     const auto visitFiled = [&](int proxy) {
@@ -113,19 +114,19 @@ class BroadPhase {
   void findCrowds();
   void summarizeCrowds();
   void findAllPairs();
-  // Relation of two moving bodies: the centre of each lies within the width of the smaller one, or else they
-  // are about equally large, or neither. kOther: one never moves, or crowds are not thinned.
+  // Relation of two moving bodies. kHeaped: the centre of each lies within the width of the smaller one.
+  // kAlike: about equally large. kUnlike: neither. kOther: one never moves, or crowds are not thinned.
   enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kUnlike };
   Kind kindOf(const Proxy& a, const Proxy& b) const;
   std::int32_t finderOf(std::int32_t a, std::int32_t b, Kind kind) const;
   bool isBefore(std::int32_t a, std::int32_t b) const;
   bool isSmaller(std::int32_t a, std::int32_t b) const;
   bool isInCrowd(std::int32_t proxy);
-  // The candidates found for one body, reduced to the nearest.
+  // The candidates found for one body, of which only the nearest are kept.
   struct Nearest {
     std::vector<Heaped> found;
-    double farthest = 0;     // largest distance still accepted
-    std::uint64_t last = 0;  // largest order accepted at that distance
+    double farthest = 0;     // largest Heaped::square still accepted
+    std::uint64_t last = 0;  // largest order accepted at that square
     void clear();
     void keep();
   };
@@ -133,7 +134,7 @@ class BroadPhase {
 
   // Refitting the tree takes about as long as comparing this many bounds per body.
   static constexpr std::size_t kScannedPerBody = 8;
-  // One in this many bodies may have too wide bounds in the tree.
+  // A new tree is made if more than one in this many bodies has too wide bounds in the tree.
   static constexpr std::size_t kWidenedShare = 4;
 
   bool m_thins_crowds;
@@ -146,7 +147,7 @@ class BroadPhase {
   std::size_t m_count = 0;  // number of bodies
   std::vector<BroadPhasePair> m_pairs, m_found, m_spare;
   Nearest m_heaped, m_larger;
-  ImpactTree m_tree;      // by proxy, the bounds at the last fileAll(), in grid units
+  ImpactTree m_tree;      // by proxy: the bounds at the last fileAll(), in grid units
   GridBounds m_origin{};  // origin of the tree's coordinates
   std::vector<SweptBox> m_boxes;
   std::vector<float> m_halves;  // half of the shorter side; 0 for bodies that never move

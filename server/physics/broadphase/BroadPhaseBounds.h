@@ -10,16 +10,16 @@
 
 namespace naiad::physics {
 
-/// Units of 1/64 metric cell, both ends included, up to 2^55 cells. With whole numbers a scene moved by whole
-/// cells has equal bounds, moved.
+/// Bounds in units of 1/64 metric cell, both ends included, up to 2^55 cells. In whole numbers, the bounds of
+/// a scene that is moved by whole cells are exactly the moved bounds.
 struct GridBounds {
   std::int64_t lower_x, lower_y, upper_x, upper_y;
 
   friend constexpr bool operator==(const GridBounds& a, const GridBounds& b) = default;
 };
 
-inline constexpr std::int64_t kGridUnits = 64;  ///< per metric cell
-/// Bounds are clamped to 2^46 cells around the body's own, to avoid overflow.
+inline constexpr std::int64_t kGridUnits = 64;  ///< number of units in a metric cell
+/// Bounds are limited to this many units (2^46 cells) around the body's place, to avoid overflow.
 inline constexpr double kMaxGridUnits = 0x1p52;
 
 constexpr bool overlap(const GridBounds& a, const GridBounds& b) {
@@ -33,13 +33,13 @@ constexpr GridBounds unite(const GridBounds& a, const GridBounds& b) {
   return {std::min(a.lower_x, b.lower_x), std::min(a.lower_y, b.lower_y), std::max(a.upper_x, b.upper_x),
           std::max(a.upper_y, b.upper_y)};
 }
-/// Half the perimeter: the cost measure of a tree's node.
+/// Returns half the perimeter, the measure for the cost of a tree's node.
 constexpr std::int64_t perimeter(const GridBounds& a) {
   return (a.upper_x - a.lower_x) + (a.upper_y - a.lower_y);
 }
 
 /// Returns the smallest grid bounds around `bounds` at `place`, enlarged by `margin` >= 0 metric cells on
-/// every side. Accepts any numbers, because a body that is hit very hard asks before it is frozen.
+/// every side. Accepts any numbers, because a body that was hit very hard has bounds before it is frozen.
 inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
   const auto whole = [](double units) {
     const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // also if `units` is NaN

@@ -6,7 +6,7 @@ namespace naiad::physics {
 
 void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
                         const std::vector<float>& values) {
-  constexpr double kSpread = 1.3;  // of the size when it was built: a larger tree is rebuilt, not refitted
+  constexpr double kSpread = 1.3;  // if all sizes together grow more, the tree is rebuilt, not refitted
   m_boxes = &boxes;
   const auto setValues = [&] {
     for (std::size_t i = 0; i < values.size(); ++i) m_nodes[m_leaf_of[ids[i]]].least = values[i];
@@ -27,7 +27,7 @@ void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<in
   m_built_size = refit();
 }
 
-// Parents come before their children, so that refit() goes backwards.
+// Stores parents before their children, so that refit() can go backwards.
 void ImpactTree::build(int begin, int end, int parent) {
   const int node = static_cast<int>(m_nodes.size());
   m_nodes.push_back({(*m_boxes)[m_order[begin]], parent, -1, node + 2 * (end - begin) - 1, 0});
@@ -55,7 +55,7 @@ void ImpactTree::build(int begin, int end, int parent) {
   build(half, end, node);
 }
 
-// Returns the sum of the sizes.
+// Sets the boxes of all nodes from their children's. Returns the sum of the nodes' sizes.
 double ImpactTree::refit() {
   double size = 0;
   for (int i = this->size(); i-- > 0;) {

@@ -1,9 +1,9 @@
-// A tree of boxes: around areas that bodies sweep in a tick, or their widened bounds (BroadPhase.h).
+// A tree of boxes: those that enclose the paths of bodies in a tick, or widened bounds (BroadPhase.h).
 //
-// Finds all pairs of boxes at once, or all that overlap a single one. The tree is built or refitted for all
-// boxes; after that boxes only grow, for example when an impact gives a body another path.
+// Finds all pairs of boxes at once, or all boxes that overlap a single one. The tree is built or refitted for
+// all boxes. After that boxes only grow, for example when an impact gives a body another path.
 //
-// Queries find bodies in an order that depends on the whole scene; no result may depend on it.
+// Queries find bodies in an order that depends on the whole scene; no result of the caller may depend on it.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +31,13 @@ constexpr SweptBox join(const SweptBox& a, const SweptBox& b) {
           {a.high.x > b.high.x ? a.high.x : b.high.x, a.high.y > b.high.y ? a.high.y : b.high.y}};
 }
 
-/// One leaf per body. n·log n to build, n to refit, about log n to query or to enlarge a leaf. Keeps its
-/// memory.
+/// A tree with one leaf per body. The cost is n·log n to build, n to refit, about log n to query or to
+/// enlarge a leaf. Keeps its memory.
 class ImpactTree {
  public:
   /// Sets `boxes[i]` for the bodies `ids[i]`, all below `id_count`. Refits the old tree if the ids are
-  /// unchanged and its boxes have not spread too far, otherwise rebuilds it. `values[i]` is an arbitrary
-  /// number per body (0 if omitted), of which a node keeps the minimum of all below it.
+  /// unchanged and its boxes have not spread too far; otherwise rebuilds it. `values[i]` is any number for
+  /// each body (0 if omitted); a node has the minimum of those below it.
   void update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
               const std::vector<float>& values = {});
 
@@ -46,15 +46,15 @@ class ImpactTree {
   /// Enlarges the box of a body by `box`.
   void grow(int id, const SweptBox& box);
 
-  /// The bodies below a node, at least one.
+  /// The bodies below a node; at least one body.
   struct Below {
-    const SweptBox& box;  // around all their boxes
-    float least;          // minimum of their values
+    const SweptBox& box;  // box around the boxes of all these bodies
+    float least;          // minimum of the bodies' values
     int bodies;
     int node;  // index of the node, valid until the next update()
   };
 
-  /// Sets of_nodes for every node: ofBody(id) for leaves, joins(a, b) of the children's values otherwise.
+  /// Sets of_nodes for every node: ofBody(id) for a leaf, joins(a, b) of its children's values otherwise.
   template <typename Summary, typename OfBody, typename Joins>
   void summarize(std::vector<Summary>& of_nodes, OfBody&& ofBody, Joins&& joins) const {
     of_nodes.resize(m_nodes.size());
@@ -64,8 +64,8 @@ class ImpactTree {
     }
   }
 
-  /// Descends from the top into nodes for which enters(Below) is true, and calls found(id) for every body
-  /// reached. Bodies near the body `beside` come first, if that is not negative.
+  /// Descends from the root into nodes for which enters(Below) is true, and calls found(id) for every body
+  /// reached. If `beside` is a body, bodies near it come first; −1: none.
   template <typename Enters, typename Found>
   void walk(Enters&& enters, Found&& found, int beside = -1) const {
     const int near = beside < 0 ? size() : nodeOfMany(m_leaf_of[beside]);
@@ -88,7 +88,7 @@ class ImpactTree {
     if (near > 0) walkThrough(0, size());
   }
 
-  /// Calls found(id) for every body whose box overlaps `box`. Stops if it returns false.
+  /// Calls found(id) for every body whose box overlaps `box`. Stops if found() returns false.
   template <typename Found>
   void query(const SweptBox& box, Found&& found) const {
     for (int i = 0; i < size();) {
@@ -147,7 +147,7 @@ class ImpactTree {
 
   /// Like queryPairs(), for grouping: skips pairs within groups that are already known. For bodies in one
   /// place it finds about as many pairs as bodies. areOne(i, j) is true if the groups of i and j need no
-  /// further pairs between them. Once true it must stay so, and it may depend only on the pairs found before.
+  /// further pairs between them. Once true it must stay true, and it may depend only on pairs found before.
   template <typename Found, typename AreOne>
   void queryGroups(Found&& found, AreOne&& areOne) {
     if (m_nodes.empty()) return;
@@ -169,7 +169,7 @@ class ImpactTree {
       const Node &one = m_nodes[a], &other = m_nodes[b];
       if (a == b) {
         if (one.id >= 0) continue;
-        // Processed last, when each child may have become one group.
+        // This pair is processed last, when all bodies below each child may have become one group.
         const int first = a + 1, second = secondOf(a);
         if (overlaps(m_nodes[first].box, m_nodes[second].box)) stack[height++] = {first, second};
         stack[height++] = {first, first};
@@ -189,13 +189,13 @@ class ImpactTree {
  private:
   static double sizeOf(const SweptBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
   static constexpr int kDepth = 128;      // levels; each halves the bodies, so this is far more than needed
-  static constexpr int kNodesOfFew = 15;  // eight bodies and their inner nodes
+  static constexpr int kNodesOfFew = 15;  // number of nodes for eight bodies: leaves and inner nodes
   static constexpr int kNodesOfMany = 255;
-  struct Node {  // its first child is the next node
+  struct Node {  // the first child of a node is the next node
     SweptBox box;
     int parent;
     int id;   // body of a leaf; −1 for inner nodes
-    int end;  // first node after its subtree
+    int end;  // index after the last node of its subtree
     float least;
   };
   struct Leaf {
@@ -207,13 +207,13 @@ class ImpactTree {
   Below below(int node) const {
     return {m_nodes[node].box, m_nodes[node].least, (m_nodes[node].end - node + 1) / 2, node};
   }
-  // Returns the lowest ancestor with kNodesOfMany nodes below it, or the top.
+  // Returns the lowest ancestor with at least kNodesOfMany nodes in its subtree, or the root.
   int nodeOfMany(int node) const {
     while (m_nodes[node].end - node < kNodesOfMany && m_nodes[node].parent >= 0) node = m_nodes[node].parent;
     return node;
   }
 
-  // Divides the larger of two nodes.
+  // Replaces the larger of two nodes by its children.
   void divide(int a, int b, std::pair<int, int>* stack, int& height) const {
     const Node &one = m_nodes[a], &other = m_nodes[b];
     const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));
@@ -228,7 +228,7 @@ class ImpactTree {
 
   std::vector<Node> m_nodes;
   std::vector<int> m_leaf_of;
-  std::vector<int> m_ids;  // of the last build, in the caller's order
+  std::vector<int> m_ids;  // ids of the last build, in the caller's order
   std::vector<int> m_order;
   std::vector<int> m_member;                       // by node, during queryGroups()
   std::vector<Leaf> m_near;                        // during queryPairs()

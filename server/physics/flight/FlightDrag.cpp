@@ -13,22 +13,22 @@ namespace math = df::math;
 
 namespace {
 
-// sin(x)/x or sinh(x)/x near 0, where the quotient would be 0/0.
+// Returns sin(x)/x or sinh(x)/x, given `value`; 1 near 0, where the quotient would be 0/0.
 double quotient(double value, double x) {
   return x > 0x1p-500 ? value / x : 1;
 }
 
-// Falling: velocity and acceleration in the same direction, both >= 0.
+// Computes a fall: velocity and acceleration have the same direction and are both >= 0.
 FlownOnLine fall(double v, double a, double q, double t) {
   const double rate = std::sqrt(a * q);
   const double phase = rate * t;
   if (phase < 20) {
     const double half = math::sinh(0.5 * phase);
     const double path = t * quotient(math::sinh(phase), phase);
-    const double growth = 2 * half * half + q * v * path;  // of the denominator
+    const double growth = 2 * half * half + q * v * path;  // increase of the denominator
     return {math::log1p(growth) / q, (v * math::cosh(phase) + a * path) / (1 + growth)};
   }
-  // cosh and sinh without the common e^phase / 2
+  // cosh and sinh, divided by their common factor e^phase / 2:
   const double limit = std::sqrt(a / q), fast = v / limit;
   const double left = math::exp(-2 * phase);
   const double denominator = (1 + left) + fast * (1 - left);
@@ -41,13 +41,13 @@ FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double 
   assert(drag >= 0 && t >= 0);
   const double sign = acceleration != 0 ? std::copysign(1.0, acceleration) : std::copysign(1.0, velocity);
   const double v = sign * velocity, a = sign * acceleration;
-  if (drag * std::max(std::fabs(v), a * t) * t < 1e-290) {  // no drag that a double could show
+  if (drag * std::max(std::fabs(v), a * t) * t < 1e-290) {  // drag is too small to be noticed in a double
     return {velocity * t + 0.5 * acceleration * t * t, velocity + acceleration * t};
   }
   FlownOnLine flown{};
   if (v >= 0) {
     flown = fall(v, a, drag, t);
-  } else {  // upward first: the same with circular functions, up to the summit
+  } else {  // moves upward: like fall(), but with circular functions, up to the summit
     const double u = -v, rate = std::sqrt(a * drag);
     const double summit = rate > 0 ? math::atan2(u * drag, rate) / rate : math::kPi;
     if (t < summit) {
@@ -66,7 +66,7 @@ FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double 
 
 namespace {
 
-// Displacement and velocity under quadratic drag.
+// The system of displacement and velocity under quadratic drag.
 struct QuadraticDrag {
   Vec2 acceleration;
   double drag;
@@ -110,7 +110,7 @@ IntegratorStatus flyQuadraticDrag(Vec2 velocity, Vec2 acceleration, double drag,
   IntegratorOptions options;
   options.relative = 1e-13;
   options.absolute = 1e-13 * speed * std::min(t, 1.0);
-  options.stiff_relative = 1e-9;  // where drag is strong enough for this, it forgets the errors
+  options.stiff_relative = 1e-9;  // used only if drag is so strong that it damps errors
   options.stiff_absolute = 1000 * options.absolute;
   const IntegratorStatus status = integrate<4>(system, 0, t, y, options, counters);
   flown = {{y[0], y[1]}, {y[2], y[3]}};

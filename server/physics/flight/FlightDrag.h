@@ -1,4 +1,4 @@
-// Flight with quadratic drag. (A medium with linear drag is a spring without stiffness: FlightSpring.h.)
+// Flight with quadratic drag. (FlightSpring.h handles linear drag, as a spring without stiffness.)
 #pragma once
 
 #include "physics/flight/FlightFree.h"
@@ -14,11 +14,10 @@ struct FlownOnLine {
 };
 FlownOnLine flyQuadraticDragOnLine(double velocity, double acceleration, double drag, double t);
 
-/// Flight in the plane. Uses the closed form along a line (acceleration or velocity zero, or both parallel).
-/// Flight in the plane. Uses the closed form along a line (acceleration or velocity zero, or both parallel).
-/// Other cases have no closed form and are integrated with error control to about 1e-12 of displacement and
-/// velocity (1e-9 if drag is so strong that the implicit method takes over). Adds the integration's work to
-/// `counters`. If the status is not kDone, `flown` is where it stopped.
+/// Computes a flight in the plane. Uses the closed form for motion along a line (acceleration or velocity
+/// zero, or both parallel). Other motions have no closed form and are integrated with error control to about
+/// 1e-12 of displacement and velocity (1e-9 if drag is so strong that the implicit method is used). Adds the
+/// integration's work to `counters`. If the status is not kDone, `flown` is where it stopped.
 IntegratorStatus flyQuadraticDrag(Vec2 velocity, Vec2 acceleration, double drag, double t, Flown& flown,
                                   IntegratorCounters& counters);
 

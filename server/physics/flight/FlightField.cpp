@@ -11,8 +11,8 @@ namespace naiad::physics {
 
 namespace {
 
-// A body in a field as a system of first order: position, velocity. Time counts from the start of the call,
-// so that steps may be short however long the world has been running.
+// A body in a field as a first-order system of position and velocity. Time counts from the start of the call,
+// so that short steps are accurate even if the world has been running for long.
 struct FieldSystem {
   const ForceField& field;
   double start;
@@ -30,10 +30,10 @@ struct FieldSystem {
   }
 };
 
-// A field that turns the body by more radians in one call, as a strong magnet does, is not followed from turn
-// to turn.
+// If a field turns the velocity by more radians than this in one call, as a strong magnet does, the
+// integrator does not follow every turn.
 constexpr double kManyRadians = 64;
-constexpr int kTurningSteps = 16;  // instead; four calls of the field each
+constexpr int kTurningSteps = 16;  // number of steps used instead; each calls the field four times
 
 constexpr Vec2 times(Vec2 a, Vec2 b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
@@ -42,15 +42,15 @@ constexpr Vec2 over(Vec2 a, Vec2 b) {
   return times(a, {b.x, -b.y}) / lengthSquared(b);
 }
 
-// Two calls say whether it can be so.
+// True if the field may turn the velocity by more than kManyRadians. Calls the field twice.
 bool mayTurnFast(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t) {
   if (velocity == Vec2{}) velocity = {1, 0};
   const Vec2 change = field.acceleration(position, velocity, time) - field.acceleration(position, {}, time);
   return lengthSquared(change) * t * t > kManyRadians * kManyRadians * lengthSquared(velocity);
 }
 
-// v' = λv + rest, in closed form from step to step. So the speed stays what it is while the body turns,
-// however fast, and drifts across another force as it should.
+// Solves v' = λv + rest in closed form, step by step. So a velocity that turns at any rate keeps its
+// magnitude, and other forces cause the right drift. Returns false if the velocity does not turn fast enough.
 bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t, Flown& flown) {
   if (!mayTurnFast(field, position, velocity, time, t)) return false;
   const double h = t / kTurningSteps;
@@ -59,7 +59,7 @@ bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double ti
     const Turning turning = turningAt(field, position + moved, velocity, time + i * h);
     const bool is_fast = std::fabs(turning.lambda.y) * t > kManyRadians &&
                          std::fabs(turning.lambda.x) < std::fabs(turning.lambda.y);
-    if (!is_fast) return false;  // damping, or out of the magnet
+    if (!is_fast) return false;  // it is damped, or outside the magnet
     const Vec2 lambda = turning.lambda, drift = -over(turning.rest, lambda), own = velocity - drift;
     const double left = df::math::exp(lambda.x * h);
     const Vec2 turned = {left * df::math::cos(lambda.y * h), left * df::math::sin(lambda.y * h)};
@@ -70,12 +70,12 @@ bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double ti
   return isFinite(moved) && isFinite(velocity);
 }
 
-// In the directions in which it pulls most and least: −k·x − c·x′, and what is there at the start.
+// A field in its principal directions, those of the largest and smallest stiffness: −k·x − c·x′ + `start`.
 struct LinearField {
-  Vec2 axis;  // of the first
+  Vec2 axis;  // direction of the largest stiffness
   Vec2 stiffness;
   double damping = 0;
-  Vec2 start;  // the acceleration of a body that stands at the start
+  Vec2 start;  // acceleration of a body that is at rest at the start
 
   Vec2 turnedIn(Vec2 a) const { return {dot(axis, a), cross(axis, a)}; }
   Vec2 turnedOut(Vec2 a) const { return a.x * axis + a.y * perpendicular(axis); }
@@ -91,7 +91,8 @@ struct LinearField {
   }
 };
 
-// By differences as wide as the distance from its origin: only of one that is linear is that the stiffness.
+// Linearises the field by differences as large as the distance from the origin. These give the right
+// stiffness only if the field is linear.
 LinearField linearised(const ForceField& field, Vec2 position, Vec2 velocity, double time) {
   const double scale = length(position) > 0 ? length(position) : 1;
   const Vec2 here = field.acceleration(position, velocity, time);
@@ -104,9 +105,9 @@ LinearField linearised(const ForceField& field, Vec2 position, Vec2 velocity, do
   return {axis, {half - mean, -half - mean}, 0, here};
 }
 
-// A field that pulls in proportion to the distance is a spring, with a formula. One that makes the body swing
-// by many radians would take an integrator thousands of steps. Looked at where the swing ends, and at some
-// moments of it.
+// Flies in a field that pulls in proportion to the distance, by the formula of a spring, because an
+// integrator would need thousands of steps for a body that swings by many radians. Returns false if the field
+// is not linear at the end of the swing or at some moments before.
 bool flyLinear(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t, Flown& flown) {
   constexpr double kLinear = 1e-9;
   LinearField linear = linearised(field, position, velocity, time);

@@ -12,22 +12,22 @@ namespace naiad::physics {
 class ForceField {
  public:
   virtual ~ForceField() = default;
-  /// `position` is relative to the field's origin, in metric cells; `time` is the world's.
+  /// `position` is relative to the field's origin, in metric cells; `time` is that of the world.
   virtual Vec2 acceleration(Vec2 position, Vec2 velocity, double time) const = 0;
-  /// Computes the acceleration's derivatives. Optional: if false, integrators use finite differences.
+  /// Computes the acceleration's derivatives. If it returns false, integrators use finite differences.
   virtual bool jacobian(Vec2 /*position*/, Vec2 /*velocity*/, double /*time*/, Mat22& /*by_position*/,
                         Mat22& /*by_velocity*/) const {
     return false;
   }
 };
 
-/// Linear part of a velocity's effect on itself: a(v) − a(0) = λv as complex numbers, and the rest.
+/// The linear part of a velocity's effect on itself, a(v) − a(0) = λv as complex numbers, and the rest.
 struct Turning {
   Vec2 lambda;  ///< (−damping, rate of turning in rad per tick)
   Vec2 rest;
 };
 
-/// Calls the field four times.
+/// Computes the linear part at this state. Calls the field four times.
 Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time);
 
 /// Flies from `time` to `time + t` by the method of `options`. `position` is relative to the field's origin.

@@ -26,8 +26,8 @@ SpringFlow::SpringFlow(Spring spring, double t) : m_stiffness(spring.stiffness) 
 
 namespace {
 
-constexpr int kShortTerms = 24;  // of the series for short steps: the next is below rounding
-constexpr int kDragTerms = 20;   // likewise, without stiffness
+constexpr int kShortTerms = 24;  // terms of the series for short steps; the next one is below rounding
+constexpr int kDragTerms = 20;   // number of terms needed without stiffness
 
 constexpr std::array<double, kShortTerms + 2> kInverse = [] {
   std::array<double, kShortTerms + 2> inverse{};
@@ -37,12 +37,12 @@ constexpr std::array<double, kShortTerms + 2> kInverse = [] {
 
 }  // namespace
 
-// Short steps: Taylor's series, in which nothing cancels however small stiffness and damping are.
+// Short steps: uses a Taylor series without cancellation, for any small stiffness and damping.
 void SpringFlow::series(double damping, double t) {
   const double z = damping * t, w = m_stiffness * t * t;
-  double before = 0, term = 1;  // of the displacement, over t: the powers n − 1 and n
+  double before = 0, term = 1;  // terms n − 1 and n of the displacement divided by t
   double left = 1, displacement = 1, integral = 0.5;
-  if (w == 0) {  // drag alone: the powers of z, nested
+  if (w == 0) {  // only drag: nested multiplications by z
     for (int n = kDragTerms; n > 2; --n) term = 1 - z * kInverse[static_cast<std::size_t>(n)] * term;
     integral *= term;
     displacement = 1 - z * integral;
@@ -62,10 +62,10 @@ void SpringFlow::series(double damping, double t) {
   m_integral_response = t * t * integral;
 }
 
-// Two decays. The slow rate comes from the product of both, not from a difference.
+// The sum of two decays. The slower rate is computed from the product of both rates, not from a difference.
 void SpringFlow::overdamped(double damping, double t) {
   const double half = 0.5 * damping, root = std::sqrt(m_stiffness);
-  const double split = root > 0 ? std::sqrt((half - root) * (half + root)) : half;  // drag alone
+  const double split = root > 0 ? std::sqrt((half - root) * (half + root)) : half;  // only drag, if root is 0
   const double fast = half + split, slow = m_stiffness / fast;
   const double decay_slow = math::exp(-slow * t), decay_fast = math::exp(-fast * t);
   const double width = 2 * split;
@@ -83,7 +83,7 @@ void SpringFlow::underdamped(double damping, double t) {
   const double half = 0.5 * damping;
   const math::DoubleDouble frequency = math::squareRoot(-math::twoProduct(half, half) + m_stiffness);
   const math::DoubleDouble phase = frequency * t;
-  // The phase may be thousands of turns: what a double of it leaves out is made up for.
+  // The phase may be thousands of turns. A single double is too coarse for that, so its low part is included.
   const math::SineCosine circle = math::sincos(phase.hi);
   math::SineCosine rest = {phase.lo, 1};
   if (std::fabs(phase.lo) > 0x1p-27) rest = math::sincos(phase.lo);

@@ -13,13 +13,13 @@ bool isFinite(double x) {
   return x - x == 0;
 }
 
-// The edge's direction turned outwards. Along an axis the result is exact, for √(x²) is |x|.
+// Returns the edge's outward normal. It is exact along an axis, because √(x²) is |x|.
 Vec2 outward(Vec2 edge) {
   const double by = length(edge);
   return {edge.y / by, -edge.x / by};
 }
 
-// Range checks that all shapes share, and what follows from the vertices.
+// Checks the limits common to all shapes, and computes the fields that follow from the vertices.
 ShapeStatus finish(ConvexShape& made, ConvexShape& shape) {
   double reach = 0;
   for (int i = 0; i < made.count; ++i) {
@@ -59,7 +59,7 @@ double signedArea(std::span<const Vec2> points) {
   return twice / 2;
 }
 
-// How far b rises above the line from a to c, outwards.
+// Returns the height of b above the line from a to c; positive if it is outward.
 double height(Vec2 a, Vec2 b, Vec2 c) {
   return cross(b - a, c - b) / length(c - a);
 }
@@ -119,7 +119,7 @@ ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape
     return ShapeStatus::kTooSmall;
   }
   if (area < 0) return ShapeStatus::kClockwise;
-  // Every point lies on the inner side of every edge, by more than nothing: that refuses stars, too.
+  // Every point must be strictly on the inner side of every edge. This also rejects self-crossing stars.
   const std::size_t count = points.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (length(points[(i + 1) % count] - points[i]) < kMinCornerHeight * size) return ShapeStatus::kTooSmall;

@@ -1,8 +1,8 @@
 // Convex shapes, with corners that may be rounded: the parts of a body that can rotate.
 //
-// Every shape is a core of up to 16 points and a radius around it. One point makes a circle, two a capsule,
-// more a polygon, so one algorithm serves all kinds. A compound is several shapes whose points are relative
-// to one body.
+// Every shape is a core of up to 16 points and a radius around it. One point makes a circle, two make a
+// capsule, and more a polygon, so one algorithm serves all kinds. A compound is several shapes whose points
+// are relative to one body.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace naiad::physics {
 
-inline constexpr int kMaxVertices = 16;  ///< enough for a polygon that looks round; circles use the radius
-/// Metric cells: minimum width of a shape, and maximum distance from its body's origin. They are 13 of a
-/// double's 16 digits apart.
+inline constexpr int kMaxVertices = 16;  ///< enough for a polygon that looks round; circles need only one
+/// Minimum width of a shape and maximum distance of its points from the body's origin, in metric cells. Their
+/// ratio uses 13 of a double's 16 digits.
 inline constexpr double kMinShapeWidth = 1e-6;
 inline constexpr double kMaxShapeExtent = 1e7;
 /// Minimum height of a corner above the line between its neighbours, as a part of the polygon's size.
 inline constexpr double kMinCornerHeight = 1e-6;
 
-/// Plain data. Points are relative to the body's origin, in the body's axes. Create shapes only with the
+/// A shape. Points are relative to the body's origin, in the body's axes. Create shapes only with the
 /// functions below, which check them. Entries of `vertices` and `normals` from `count` on are undefined.
 struct ConvexShape {
   std::int32_t count = 0;  ///< points of the core, 1 … kMaxVertices
@@ -36,18 +36,18 @@ enum class ShapeStatus : std::uint8_t {
   kOk,
   kNotFinite,  ///< NaN or infinity
   kTooFew,     ///< fewer than three points
-  kTooMany,    ///< more than kMaxVertices
+  kTooMany,    ///< more than kMaxVertices points
   kTooSmall,   ///< almost no area, equal points, or a negative radius
-  kTooLarge,   ///< beyond kMaxShapeExtent
+  kTooLarge,   ///< a point is farther from the origin than kMaxShapeExtent
   kNotConvex,  ///< a corner turns inward or is flat, or edges cross
-  kClockwise,  ///< the points run from y to x
+  kClockwise,  ///< the points are in the wrong order, from y to x
 };
 
-/// The make functions write `shape` only if they return kOk. `centre` is its place on the body.
+/// Makes a circle around a point of the body. The make functions write `shape` only if they return kOk.
 ShapeStatus makeCircle(double radius, Vec2 centre, ConvexShape& shape);
 /// Makes a capsule from `a` to `b`, with half discs at both ends.
 ShapeStatus makeCapsule(Vec2 a, Vec2 b, double radius, ConvexShape& shape);
-/// The half sizes do not include the radius, which is added to them.
+/// Makes a box. The half sizes do not include `radius`, which is added to them.
 ShapeStatus makeBox(double half_width, double half_height, Vec2 centre, Rotation rotation, double radius,
                     ConvexShape& shape);
 ShapeStatus makePolygon(std::span<const Vec2> points, double radius, ConvexShape& shape);
@@ -58,7 +58,7 @@ bool isEqual(const ConvexShape& a, const ConvexShape& b);
 /// Returns the shape rotated about the origin, then translated. The caller checks the limits.
 ConvexShape moved(const ConvexShape& shape, Rotation rotation, Vec2 by);
 
-/// A shape in world axes, relative to the body's origin, for pair tests. It does not own its points.
+/// A shape in world axes, relative to the body's origin, for tests of pairs. Its points are stored elsewhere.
 struct RotatedView {
   std::int32_t count;
   double radius;
@@ -67,7 +67,7 @@ struct RotatedView {
   const Vec2* normals;
 };
 
-/// Like RotatedView, with its own points. Made once per body and step; the first `count` entries are valid.
+/// Like RotatedView, but stores its points; made once per body and step. Only the first `count` are valid.
 struct RotatedShape {
   std::int32_t count;
   double radius;
@@ -80,13 +80,13 @@ struct RotatedShape {
 void turn(const ConvexShape& shape, Rotation rotation, RotatedShape& turned);
 /// Writes to `corners`, which has two entries per point: first all points, then all normals.
 void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners);
-/// Returns a view of what turn() wrote to `corners`.
+/// Returns a view of the points and normals that turn() wrote to `corners`.
 RotatedView rotatedView(const ConvexShape& shape, std::span<const Vec2> corners);
 
-/// Half of the minimum width, rounding included. An object that penetrates deeper comes out on the far side.
+/// Returns half of the minimum width, rounding included. A body that penetrates deeper exits on the far side.
 double thicknessOf(const ConvexShape& shape);
 
-/// Bounds relative to the body's origin.
+/// A bounding box relative to the body's origin.
 struct Bounds {
   Vec2 lower;
   Vec2 upper;

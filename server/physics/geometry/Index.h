@@ -6,7 +6,7 @@
 
 namespace naiad::physics {
 
-/// `i` must not be negative.
+/// Converts an index; `i` must not be negative.
 template <std::integral Number>
 constexpr std::size_t at(Number i) {
   return static_cast<std::size_t>(i);

@@ -15,7 +15,7 @@ std::uint32_t idOf(std::int32_t vertex_a, std::int32_t vertex_b) {
   return static_cast<std::uint32_t>(vertex_a) << 8 | static_cast<std::uint32_t>(vertex_b);
 }
 
-// The point of a contact where a corner of one of the shapes decides: one of two corners, or a circle.
+// Makes a contact with one point, for a corner or a circle.
 void onePoint(const RotatedView& a, const RotatedView& b, Vec2 offset, const Separation& s,
               Manifold& manifold) {
   const double gap = s.distance - (a.radius + b.radius);
@@ -34,11 +34,11 @@ void onePoint(const RotatedView& a, const RotatedView& b, Vec2 offset, const Sep
   }
 }
 
-// One end of the incident edge: how far along the reference edge, how far from it, and which corners.
+// One end of the incident edge: its position along the reference edge, distance from that edge, and point.
 struct End {
   double along;
   double distance;
-  Vec2 core;  // relative to its own body
+  Vec2 core;  // relative to the body that has it
   std::int32_t owner_vertex;
   std::int32_t other_vertex;
 };
@@ -49,14 +49,14 @@ End cutAt(double along, const End& near, const End& far) {
           near.core + part * (far.core - near.core), near.owner_vertex, near.other_vertex};
 }
 
-// The part of the other shape's edge that faces the reference edge.
+// Finds the points of the other shape's edge that faces the reference edge. Returns false if it finds none.
 bool facePoints(const RotatedView& owner, const RotatedView& other, Vec2 offset, const FaceSeparation& face,
                 bool owner_is_a, double speculative, Manifold& manifold) {
   const Vec2 n = owner.normals[at(face.edge)], tangent = perpendicular(n);
   const std::int32_t next = following(face.edge, owner.count), before = preceding(face.support, other.count);
   const Vec2 first = owner.vertices[at(face.edge)], second = owner.vertices[at(next)];
   const bool support_starts = dot(other.normals[at(face.support)], n) <= dot(other.normals[at(before)], n);
-  const std::int32_t high = support_starts ? face.support : before;  // the edge runs against the tangent
+  const std::int32_t high = support_starts ? face.support : before;  // the edge runs opposite to the tangent
   const std::int32_t low = following(high, other.count);
   const double start = dot(n, first), begin = dot(tangent, first), end = dot(tangent, second) - begin;
   const auto endAt = [&](std::int32_t vertex, std::int32_t owner_vertex) -> End {
@@ -73,7 +73,7 @@ bool facePoints(const RotatedView& owner, const RotatedView& other, Vec2 offset,
     if (lower.along < 0 && upper.along > lower.along) lower = cutAt(0, lower, upper);
     if (upper.along > end && upper.along > lower_end.along) upper = cutAt(end, upper, lower_end);
   }
-  // Two points that fall together are one, the deeper.
+  // Two points at one position become one: the deeper one.
   const bool single = beside || upper.along - lower.along <= 1e-9 * end;
   const End deeper = beside ? support : (upper.distance < lower.distance ? upper : lower);
   manifold.count = 0;
@@ -95,14 +95,14 @@ bool facePoints(const RotatedView& owner, const RotatedView& other, Vec2 offset,
   return manifold.count > 0;
 }
 
-// Is the kept edge still the one to use? Fills `face` if so.
+// True if the kept edge is still good enough. Then `face` is that edge's separation.
 bool stillGood(const RotatedView& owner, const RotatedView& other, Vec2 offset, std::uint8_t edge,
                double best, FaceSeparation& face) {
   if (edge >= owner.count) return false;
   face = faceSeparation(owner, edge, other, offset);
   if (face.distance < best - kFaceHysteresis * std::min(owner.reach, other.reach)) return false;
   if (face.distance <= 0) return true;
-  // Apart, the kept edge must have something in front of it.
+  // If the shapes are apart, a point must be in front of the kept edge.
   const Vec2 first = owner.vertices[at(edge)],
              side = owner.vertices[at(following(edge, owner.count))] - first;
   const double along = dot(offset + (other.vertices[at(face.support)] - first), side);

@@ -1,7 +1,8 @@
 // The contact of two convex shapes: a normal and up to two points.
 //
-// All input and output is relative to the bodies' origins, so a pair at 1e9 cells gives the bits of an equal
-// pair at the origin. Shapes along the axes are exact: a gap of 2^-20 under a box is reported as such.
+// All input and output is relative to the bodies' origins, so a pair at 1e9 cells has the bits of an equal
+// pair at the origin. Results for boxes along the axes are exact: a gap of 2^-20 under a box is found as
+// such.
 #pragma once
 
 #include <array>
@@ -12,16 +13,16 @@
 namespace naiad::physics {
 
 struct ManifoldPoint {
-  Vec2 anchor_a;          ///< midway between the surfaces, relative to A's origin, in world axes
-  Vec2 anchor_b;          ///< this point relative to B's origin
-  double separation = 0;  ///< along the normal; > 0: gap
-  /// The corners that touch here: vertex of A, vertex of B. Constant while the contact lasts, whichever edge
-  /// gives the normal, so that a solver can start from the last step's impulse.
+  Vec2 anchor_a;          ///< the point midway between the surfaces, relative to A's origin, in world axes
+  Vec2 anchor_b;          ///< the same point relative to B's origin
+  double separation = 0;  ///< distance along the normal; > 0: gap
+  /// The corners that touch here: a vertex of A and a vertex of B. The id is constant while the contact
+  /// lasts, whichever edge defines the normal, so that a solver can start from the last step's impulse.
   std::uint32_t id = 0;
 };
 
-/// The edge that gives the normal. If passed to the next step it is kept until another one is clearly better,
-/// so that rounding does not switch the normal between equal edges.
+/// The edge that defines the normal. If it is passed to the next step, it is kept until another edge is
+/// clearly better, so that rounding does not switch the normal between equal edges.
 struct ReferenceFace {
   enum class Owner : std::uint8_t { kNone, kA, kB };
   Owner owner = Owner::kNone;
@@ -29,8 +30,8 @@ struct ReferenceFace {
   friend constexpr bool operator==(ReferenceFace a, ReferenceFace b) = default;
 };
 
-/// A kept edge may be worse than the best by this part of the smaller shape's reach. Far above rounding, far
-/// below what is visible.
+/// The kept edge may be worse than the best one by this part of the smaller shape's reach. It is far above
+/// rounding and far below what is visible.
 inline constexpr double kFaceHysteresis = 1e-3;
 
 struct Manifold {
@@ -41,14 +42,14 @@ struct Manifold {
 };
 
 /// Finds the contact of `a` and `b`. `offset` is from A's origin to B's, a difference of two places. Drops
-/// points with a gap above `speculative`. The smallest separation is exact without `kept`, and within the
-/// hysteresis with it. Returns true if there is a point; otherwise sets only the count of `manifold`.
-/// `prefers_faces` concerns two polygons with corners as nearest points, one of which has an edge in front of
-/// the other's: they get the two points of these edges, because another corner may be nearest when they meet.
+/// points with a gap above `speculative`. The smallest separation is exact without a kept edge, otherwise
+/// within the hysteresis. Returns true if there is a point; otherwise sets only the count of `manifold`.
+/// `prefers_faces` concerns two polygons whose nearest points are corners, if one has an edge in front of the
+/// other's. It returns the two points of these edges, because another corner may be nearest when they touch.
 bool collide(const RotatedView& a, const RotatedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces = false);
 
-/// Rotates the shapes first; for pairs that are tested once.
+/// Like collide() of views, but rotates the shapes first; for pairs that are tested only once.
 bool collide(const ConvexShape& a, Rotation rotation_a, const ConvexShape& b, Rotation rotation_b,
              Vec2 offset, double speculative, Manifold& manifold);
 

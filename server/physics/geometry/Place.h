@@ -1,7 +1,7 @@
 // A body's position: a whole number of metric cells plus a remainder.
 //
 // The physics never uses absolute floating-point coordinates, only differences of places and displacements.
-// So a scene moved by whole cells, to 1e9 of them, behaves identically to the last bit.
+// So a scene that is moved by whole cells, up to 1e9, behaves identically to the last bit.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 namespace naiad::physics {
 
 /// The unit is the width of a character along both axes, so y is scaled by the aspect of a cell. The
-/// remainder lies in [−0.5, 0.5), so that equal places compare equal. The caller keeps the whole part below
-/// 2^62.
+/// remainder lies in [−0.5, 0.5), so that equal places compare equal. The caller must ensure that the whole
+/// part stays below 2^62.
 struct Place {
   std::int64_t cell_x = 0;
   std::int64_t cell_y = 0;

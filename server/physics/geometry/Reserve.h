@@ -1,5 +1,5 @@
-// Reserves memory once for elements about to be added. Growing by doubling writes to twice as many new pages,
-// and the first write to a page costs as much as solving a contact.
+// Reserves memory once for elements that are about to be added. A vector that grows by doubling writes to
+// twice as many new pages, and the first write to a page costs as much as the solution of a contact.
 #pragma once
 
 #include <algorithm>

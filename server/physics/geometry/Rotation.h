@@ -1,7 +1,7 @@
 // A rotation as a complex number of length one.
 //
-// Quarter turns are exact, so shapes along the axes stay free of rounding errors. Rotating by small angles,
-// as bodies do in a step, needs no elementary function.
+// Quarter turns are exact, so shapes along the axes have no rounding errors. A rotation by a small angle, as
+// in a step, needs no elementary function.
 #pragma once
 
 #include "Elementary.h"
@@ -9,7 +9,7 @@
 
 namespace naiad::physics {
 
-/// y grows downward: a positive angle turns from x to y, clockwise on the screen.
+/// y grows downward: a positive angle turns from x to y, which is clockwise on the screen.
 struct Rotation {
   double c = 1;  ///< cosine
   double s = 0;  ///< sine
@@ -17,7 +17,7 @@ struct Rotation {
   friend constexpr Vec2 operator*(Rotation q, Vec2 v) {
     return {q.c * v.x - q.s * v.y, q.s * v.x + q.c * v.y};
   }
-  /// Rotates by b, then by a; the order does not matter in the plane.
+  /// Returns the rotation by b, then by a; the order does not matter in the plane.
   friend constexpr Rotation operator*(Rotation a, Rotation b) {
     return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
   }
@@ -28,26 +28,26 @@ constexpr Rotation inverse(Rotation q) {
   return {q.c, -q.s};
 }
 
-/// Returns `q` on the unit circle again after rounding: an error e becomes 3/2 e². No square root.
+/// Returns `q` with its length reset to one after rounding: an error e becomes 3/2 e². Needs no square root.
 constexpr Rotation renormalised(Rotation q) {
   const double factor = 1.5 - 0.5 * (q.c * q.c + q.s * q.s);
   return {q.c * factor, q.s * factor};
 }
 
-/// `angle` is in radians and finite.
+/// Returns the rotation by `angle`, in radians and finite.
 inline Rotation rotationBy(double angle) {
   const df::math::SineCosine of = df::math::sincos(angle);
   return {of.cosine, of.sine};
 }
 
-/// Returns radians in [−π, π].
+/// Returns the angle in radians in [−π, π].
 inline double angleOf(Rotation q) {
   return df::math::atan2(q.s, q.c);
 }
 
-/// Returns `q` rotated by a finite angle, exact but for rounding. Up to 1/8 rad it uses the diagonal Padé
-/// approximation of order 8, whose length is one by construction and whose error is below 3e-16; beyond, the
-/// elementary functions.
+/// Returns `q` rotated by a finite angle; only rounding makes errors. Up to 1/8 rad it uses the diagonal Padé
+/// approximation of order 8, whose length is one by construction and whose error is below 3e-16; for larger
+/// angles it uses the elementary functions.
 inline Rotation turned(Rotation q, double angle) {
   if (angle == 0) return q;
   if (!(angle > -0.125 && angle < 0.125)) return renormalised(q * rotationBy(angle));

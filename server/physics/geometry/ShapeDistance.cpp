@@ -18,7 +18,7 @@ void keepNearer(Nearest& best, const Nearest& other) {
   if (other.squared < best.squared) best = other;
 }
 
-// `point` is vertex `index` of one shape, the edge belongs to the other.
+// Returns the distance from `point`, vertex `index` of one shape, to an edge of the other one.
 Nearest pointToEdge(Vec2 point, std::int32_t index, Vec2 from, Vec2 to, std::int32_t first,
                     std::int32_t second, bool edge_of_a) {
   const Vec2 edge = to - from, out = point - from;
@@ -37,13 +37,13 @@ Nearest pointToEdge(Vec2 point, std::int32_t index, Vec2 from, Vec2 to, std::int
   }
   if (found.feature == Feature::kVertices) found.squared = lengthSquared(found.apart);
   if (!edge_of_a) found.apart = -found.apart;
-  // On an edge, `other` is still its first vertex, which names it.
+  // If the nearest point is on the edge, `other` is the edge's first vertex, by which the edge is named.
   found.index_a = edge_of_a ? other : index;
   found.index_b = edge_of_a ? index : other;
   return found;
 }
 
-// The distance between one edge of each, by their four ends.
+// Returns the distance between an edge of each shape, by the four ends of the edges.
 Nearest betweenEdges(const RotatedView& a, std::int32_t edge_a, const RotatedView& b, std::int32_t edge_b,
                      Vec2 offset) {
   const std::int32_t next_a = following(edge_a, a.count), next_b = following(edge_b, b.count);
@@ -62,7 +62,7 @@ Separation fromFace(const FaceSeparation& face, const RotatedView& owner, bool o
   return {face.distance, -n, Feature::kFaceB, face.support, face.edge};
 }
 
-// A capsule's only edge has two sides.
+// Like faceSeparation(), but tests both sides of a capsule's only edge.
 FaceSeparation facing(const RotatedView& shape, std::int32_t edge, const RotatedView& other, Vec2 offset) {
   if (shape.count > 2) return faceSeparation(shape, edge, other, offset);
   return bestFace(shape, other, offset, std::numeric_limits<double>::infinity());
@@ -70,7 +70,7 @@ FaceSeparation facing(const RotatedView& shape, std::int32_t edge, const Rotated
 
 Separation fromVertices(Vec2 apart, std::int32_t index_a, std::int32_t index_b) {
   const double distance = length(apart);
-  // Equal points have no direction; any will do, always the same one.
+  // Equal points have no direction, so a fixed direction is used.
   const Vec2 normal = distance > 0 ? apart / distance : Vec2{0, 1};
   return {distance, normal, Feature::kVertices, index_a, index_b};
 }
@@ -79,7 +79,7 @@ Separation fromVertices(Vec2 apart, std::int32_t index_a, std::int32_t index_b) 
 
 namespace {
 
-// How near the other shape comes along a normal, and, in faceSeparation(), which of its corners does.
+// Returns the minimum of the corners along a normal. faceSeparation() also finds the corner.
 double leastAlong(Vec2 n, const Vec2* p_corners, std::int32_t count) {
   double least = dot(n, p_corners[0]);
   for (std::int32_t j = 1; j < count; ++j) {
@@ -109,7 +109,7 @@ FaceSeparation faceSeparation(const RotatedView& shape, std::int32_t edge, const
 FaceSeparation bestFace(const RotatedView& shape, const RotatedView& other, Vec2 offset, double enough) {
   const std::int32_t edges = shape.count;
   if (edges == 1) return {};
-  // Which corner it is costs more than how far; it is asked for the best edge alone.
+  // Finding the corner costs more than finding its distance, so it is done only for the best edge.
   const Vec2 *const p_normals = shape.normals, *const p_vertices = shape.vertices;
   const Vec2* const p_corners = other.vertices;
   const std::int32_t corners = other.count;
@@ -141,8 +141,8 @@ Separation separationFrom(const RotatedView& a, const RotatedView& b, Vec2 offse
   const RotatedView& owner = of_a ? a : b;
   const RotatedView& other = of_a ? b : a;
   const Vec2 to_other = of_a ? offset : -offset;
-  // Polygons that overlap have no corners that are nearest. Two capsules' cores have no area to overlap with;
-  // if they cross, the best edge has the other's nearest end in front of it.
+  // Overlapping polygons have no nearest corners. The cores of two capsules have no area. If these cross, the
+  // nearest end of one of them is in front of the best edge.
   const bool flat = a.count <= 2 && b.count <= 2;
   if (face.distance <= 0 && !flat) return fromFace(face, owner, of_a);
   const std::int32_t next = following(face.edge, owner.count);
@@ -151,8 +151,8 @@ Separation separationFrom(const RotatedView& a, const RotatedView& b, Vec2 offse
   const double along = dot(out, edge);
   if (along >= 0 && along <= lengthSquared(edge)) return fromFace(face, owner, of_a);
 
-  // The nearest point of the other shape is a corner beside the edge. What is nearest then are two corners,
-  // of the edge and of the other shape, or, where two edges are parallel but for rounding, those edges.
+  // The nearest corner of the other shape is not in front of the edge. So the nearest features are two
+  // corners, one of the edge and one of the other shape, or two edges that are parallel except for rounding.
   if (other.count == 1) {
     const std::int32_t corner = along < 0 ? face.edge : next;
     const Vec2 apart = of_a ? offset + (b.vertices[0] - a.vertices[at(corner)])

@@ -9,27 +9,27 @@ namespace naiad::physics {
 
 namespace {
 
-// A triangle of even density with the given area, about its own centre.
+// Returns the mass of a triangle with this area and density 1.
 Mass triangle(Vec2 a, Vec2 b, Vec2 c, double area) {
   const Vec2 centre = a + ((b - a) + (c - a)) / 3;
   const double squares = lengthSquared(b - a) + lengthSquared(c - b) + lengthSquared(a - c);
   return {area, centre, area * squares / 36};
 }
 
-// The strip of width `radius` outside an edge.
+// Returns the mass of the strip of width `radius` along the outside of an edge.
 Mass strip(Vec2 from, Vec2 to, Vec2 normal, double radius) {
   const double edge = length(to - from), area = edge * radius;
   return {area, from + (to - from) / 2 + (radius / 2) * normal, area * (edge * edge + radius * radius) / 12};
 }
 
-// The sector of a disc between two normals, at most half a disc.
+// Returns the mass of the sector of a disc between two normals, which is at most half a disc.
 Mass sector(Vec2 corner, Vec2 from, Vec2 to, double radius) {
   double angle = df::math::atan2(cross(from, to), dot(from, to));
-  if (angle < 0) angle = df::math::kPi;  // half a disc, its normals opposite but for rounding
+  if (angle < 0) angle = df::math::kPi;  // half a disc: its normals are opposite except for rounding
   if (angle == 0) return {};
   const double half = angle / 2, squared = radius * radius;
   const double away = 2 * radius * df::math::sin(half) / (3 * half);
-  // For half a disc the sum of the normals vanishes, so the middle is found by turning.
+  // The two normals of half a disc cancel, so the middle is found by rotation, not by their sum.
   const Rotation middle = rotationBy(half);
   const double area = squared * half;
   return {area, corner + away * (middle * from), area * (squared / 2 - away * away)};
@@ -69,7 +69,7 @@ Mass massOf(std::span<const ConvexShape> shapes, std::span<const double> densiti
 void recentre(std::span<ConvexShape> shapes, Mass& mass) {
   double reach = 0;
   for (const ConvexShape& shape : shapes) reach = std::max(reach, shape.reach + shape.radius);
-  // A centre that is off by rounding alone must not unsettle points that are exact.
+  // A centre that differs from zero only by rounding must not change exact points.
   const auto nothing = [&](double x) { return std::fabs(x) <= 1e-15 * reach ? 0.0 : x; };
   const Vec2 by = {nothing(mass.centre.x), nothing(mass.centre.y)};
   for (ConvexShape& shape : shapes) shape = moved(shape, {}, -by);

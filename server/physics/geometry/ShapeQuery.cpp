@@ -9,7 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-// The earliest entry wins; a ray that leaves hits nothing.
+// Updates `best` if the ray enters the disc earlier. A ray that starts inside and leaves it does not hit.
 void enterDisc(Vec2 centre, double radius, Vec2 from, Vec2 displacement, RayHit& best) {
   const double distance = length(displacement);
   const Vec2 along = displacement / distance, out = from - centre;
@@ -26,7 +26,7 @@ void enterEdge(Vec2 first, Vec2 second, Vec2 normal, Vec2 from, Vec2 displacemen
   if (rate >= 0 || height < 0) return;
   const double fraction = -height / rate;
   if (fraction > 1 || (best.hit && fraction >= best.fraction)) return;
-  // The sides of the edge's ends are taken from the ray itself, so that no corner lets it through.
+  // Compares both ends of the edge with the ray itself, so that no ray passes between two edges at a corner.
   if (cross(first - from, displacement) > 0 || cross(second - from, displacement) < 0) return;
   best = {true, fraction, normal};
 }

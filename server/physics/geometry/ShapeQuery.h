@@ -16,16 +16,16 @@ struct SurfacePoint {
   Vec2 normal;          ///< unit length, outward
   double distance = 0;  ///< distance from the surface; negative inside
 };
-/// Returns the nearest surface point for points outside, and that across the nearest edge for points inside.
+/// Returns the surface point nearest to `point`; for a point inside, the one across the nearest edge.
 SurfacePoint closestPoint(const ConvexShape& shape, Vec2 point);
 
 struct RayHit {
   bool hit = false;
-  double fraction = 0;  ///< part of the displacement; 0 if the ray starts inside
+  double fraction = 0;  ///< part of the displacement up to the hit; 0 if the ray starts inside
   Vec2 normal;          ///< unit length, outward at the hit; zero if the ray starts inside
 };
 /// Returns where a point that moves from `from` by `displacement` (not zero, up to 1e9 cells) first hits the
-/// shape: the time of impact of points. A grazing ray may count as either.
+/// shape: the time of impact for points. A ray that only grazes the shape may count as a hit or not.
 RayHit castRay(const ConvexShape& shape, Vec2 from, Vec2 displacement);
 
 }  // namespace naiad::physics

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-// Where a level line crosses the shape. What bounds it is straight or an arc of a disc that lies in the
-// shape, so the outermost crossings are those of the shape.
+// The ends of that part of a horizontal line that is in a shape. The border is made of lines and of arcs of
+// discs that are in the shape, so the outermost crossings with all of these are those with the shape.
 struct Crossing {
   double from = 1;
   double to = 0;

@@ -15,7 +15,7 @@ struct Span {
   double to;
 };
 
-// While the circles around the bodies' origins overlap: nothing else can touch. Empty: from > to.
+// Returns when the circles around the bodies' origins overlap: only then can they touch. from > to: never.
 Span nearTimes(Vec2 offset, Vec2 displacement, double reach) {
   const double speed = length(displacement);
   if (speed == 0) return lengthSquared(offset) <= reach * reach ? Span{0, 1} : Span{1, 0};
@@ -25,7 +25,7 @@ Span nearTimes(Vec2 offset, Vec2 displacement, double reach) {
   return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
-// The corners of one shape as an axis sees them: where they are and how fast they move along it.
+// The corners of one shape as seen along an axis: their positions and speeds.
 struct Corners {
   std::int32_t count;
   std::array<double, kMaxVertices> place;
@@ -39,13 +39,13 @@ struct Corners {
     }
   }
 
-  // All that a shape is while it turns about its origin: it may turn as it likes.
+  // Sets one corner, for a disc that contains the shape at any rotation.
   explicit Corners(double reach) : count(1) {
     place[0] = reach;
     speed[0] = 0;
   }
 
-  // Which corner lies foremost after `time`, going straight on.
+  // Returns the corner that is foremost after `time` if all corners move straight.
   std::int32_t foremost(double time) const {
     std::int32_t best = 0;
     double most = place[0] + speed[0] * time;
@@ -58,13 +58,13 @@ struct Corners {
   }
 };
 
-// How long the gap along the axis is safe: every pair of corners leaves at least
-// place + speed·t − bend·t²/2 > 0 until then. At most `longest`.
+// Returns how long the gap along the axis is safe, at most `longest`. For that time every pair of corners has
+// place + speed·t − bend·t²/2 > 0.
 double safeTime(const Corners& a, const Corners& b, double place, double speed, double bend, double longest) {
   double time = longest;
   std::int32_t last_a = -1, last_b = -1;
-  // Each round takes the worst pair at the time found so far; each pair's path is concave, so its root is
-  // final.
+  // Each round takes the pair with the smallest gap at the time found so far. The gap of each pair is
+  // concave, so its root does not have to be computed again.
   for (std::int32_t round = 0; round < kMaxVertices * kMaxVertices; ++round) {
     const std::int32_t i = a.foremost(time), j = b.foremost(time);
     const double gap = place - a.place[at(i)] - b.place[at(j)];
@@ -77,26 +77,26 @@ double safeTime(const Corners& a, const Corners& b, double place, double speed, 
   return time;
 }
 
-// A pair whose sizes differ by more than this is one of a wall and something small.
+// If the sizes of a pair differ by a larger factor, the pair is treated as a wall and something small.
 constexpr double kFarLarger = 16;
 
-// A pair of which one turns by more than a turn is looked at as if that were a disc, while it is far away.
+// Radians, about a turn. A shape that turns by more is treated as a disc while the other one is far away.
 constexpr double kFastTurn = 6.3;
 
-// Both at one time.
+// The motions and rotated shapes of a pair at one moment of its advancement.
 struct View {
   const RigidMotion &motion_a, &motion_b;
   const RotatedShape &a, &b;
   Vec2 apart, displacement;
   double radii, level, farthest, speed, left;
 
-  // The time that is safe along an axis that turns by `axis_turn`. A disc looks the same however it turns.
+  // Returns how long the pair is safe along an axis that turns by `axis_turn`. Discs ignore their rotation.
   double safe(Vec2 normal, double axis_turn, bool a_is_disc = false, bool b_is_disc = false) const {
     const double turn_a = motion_a.turn - axis_turn, turn_b = motion_b.turn - axis_turn;
-    // A's corners count forwards along the axis, B's backwards.
+    // The corners of A are measured forwards along the axis, those of B backwards.
     const Corners of_a = a_is_disc ? Corners(a.reach) : Corners(a, normal, turn_a);
     const Corners of_b = b_is_disc ? Corners(b.reach) : Corners(b, -normal, turn_b);
-    // No path along the axis bends more than this: the corners about their origins, and these about the axis.
+    // Maximum curvature of paths along the axis: corners turn about their origins, and these about the axis.
     const double bend = (a_is_disc ? 0 : a.reach * turn_a * turn_a) +
                         (b_is_disc ? 0 : b.reach * turn_b * turn_b) +
                         std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
@@ -106,7 +106,7 @@ struct View {
   }
 };
 
-// As far as everything reaches that turns about the origin.
+// Returns a disc around the origin that contains every shape within `reach`.
 RotatedShape discAround(double reach) {
   RotatedShape disc;
   disc.count = 1;
@@ -117,7 +117,7 @@ RotatedShape discAround(double reach) {
 
 }  // namespace
 
-// A small shape at a large one is found as exactly as the large one's numbers allow, not as its size.
+// The large size of a shape next to a small one affects only the rounding errors in the tolerance.
 double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, Vec2 relative_displacement) {
   const double size_a = a.reach + a.radius, size_b = b.reach + b.radius, both = size_a + size_b;
   const double near = std::min(both, kFarLarger * std::min(size_a, size_b));
@@ -161,8 +161,8 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     const double farthest = std::max(length(apart), length(offset + span.to * displacement));
     const View view = {motion_a, motion_b, turned_a, turned_b, apart, displacement,
                        radii,    level,    farthest, speed,    left};
-    // Until the disc comes nearer than it does in about a turn. Then its corners decide: within a turn, if it
-    // goes on.
+    // A shape that turns fast is a disc while the other shape is farther away than it moves in about a turn.
+    // After that its corners are used, which touch the other shape within a turn if it comes closer.
     if (turn_most * left > kFastTurn) {
       const Separation d = a_turns_more ? separation(discAround(a.reach), turned_b, apart)
                                         : separation(turned_a, discAround(b.reach), apart);
@@ -179,15 +179,15 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
         }
       }
     }
-    // An axis across an edge turns with it, or else the edge's far end would seem to come nearer.
+    // An axis across an edge turns with the edge. Otherwise the edge's far end would seem to approach.
     const double axis_turn = s.feature == Feature::kFaceA   ? motion_a.turn
                              : s.feature == Feature::kFaceB ? motion_b.turn
                                                             : 0;
     double safe = view.safe(s.normal, axis_turn);
-    // That bends the paths of a long shape's far corners, which are not there.
+    // If the axis turns, the far corners of a long shape seem to have bent paths: try a fixed axis, too.
     if (is_uneven && axis_turn != 0) safe = std::max(safe, view.safe(s.normal, 0));
     if (safe >= left) return result;
-    if (time + safe == time) return hit();  // nearer than a double of time resolves
+    if (time + safe == time) return hit();  // nearer than a double resolves in time
     time += safe;
   }
   --result.iterations;

@@ -1,4 +1,4 @@
-// Connected sets of things.
+// Connected sets of numbers.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace naiad::physics {
 
-/// Disjoint sets of numbers from 0 on that can be united. The lowest number of a set is its root, independent
-/// of the order of uniting. Keeps its memory.
+/// Disjoint sets of the numbers from 0 on, which can be united. The lowest number of a set is its root,
+/// independent of the order in which sets were united. Keeps its memory.
 class UnionFind {
  public:
-  /// Makes `count` sets of one number each.
+  /// Makes `count` sets, each with one number.
   void reset(std::size_t count) {
     m_parent.clear();
     extend(count);
   }
-  /// Extends to `count` numbers in all; each new one is a set by itself.
+  /// Extends to `count` numbers in all; each new number is a set by itself.
   void extend(std::size_t count) {
     const std::size_t before = m_parent.size();
     m_parent.resize(count);

@@ -1,4 +1,4 @@
-// A vector in metric cells, the unit of all physics calculations. Plain data; all but length() is constexpr.
+// A vector in metric cells, the unit of all physics calculations. All functions but length() are constexpr.
 //
 // y grows downward, as everywhere in the project; a positive angle therefore turns clockwise on the screen.
 #pragma once
@@ -26,11 +26,11 @@ struct Vec2 {
 constexpr double dot(Vec2 a, Vec2 b) {
   return a.x * b.x + a.y * b.y;
 }
-/// The z component of the cross product: positive if b is clockwise from a on the screen.
+/// Returns the z component of the cross product: positive if b is clockwise from a on the screen.
 constexpr double cross(Vec2 a, Vec2 b) {
   return a.x * b.y - a.y * b.x;
 }
-/// Velocity of the point `a` of a body that turns at `spin` rad per unit of time.
+/// Returns the velocity of the point `a` of a body that turns at `spin` rad per unit of time.
 constexpr Vec2 cross(double spin, Vec2 a) {
   return {-spin * a.y, spin * a.x};
 }
@@ -41,7 +41,7 @@ constexpr Vec2 perpendicular(Vec2 a) {
 constexpr double lengthSquared(Vec2 a) {
   return dot(a, a);
 }
-/// Overflows beyond 1e154; the physics accepts only values below 1e30.
+/// Overflows for lengths above 1e154; the physics accepts only values below 1e30.
 inline double length(Vec2 a) {
   return std::sqrt(lengthSquared(a));
 }

@@ -11,23 +11,23 @@ namespace naiad::physics {
 
 enum class ImpactShape : std::uint8_t { kBox, kCircle };
 
-/// Plain data. Time is in ticks, lengths are in metric cells.
+/// A body. Time is in ticks, lengths are in metric cells.
 struct ImpactBody {
-  Place place;        ///< place of the centre
-  Vec2 velocity;      ///< per tick
-  Vec2 acceleration;  ///< gravity plus force over mass, constant within a tick
-  Vec2 half = {0.5,
-               0.5};  ///< half size of the box, or the radius in x; >= 0, a box may be flat but not a point
-  double inverse_mass = 1;  ///< 0: static, or kinematic if it has a velocity; not pushed by others
-  double restitution = 0;   ///< 0 … 1; for a pair the larger one counts
-  double friction = 0;      ///< >= 0; for a pair the geometric mean counts
+  Place place;              ///< place of the centre
+  Vec2 velocity;            ///< per tick
+  Vec2 acceleration;        ///< gravity plus force over mass, constant within a tick
+  Vec2 half = {0.5, 0.5};   ///< half size of the box, or the radius in x; >= 0; a box may be flat but not a
+                            ///< point
+  double inverse_mass = 1;  ///< 0: static or, if it has a velocity, kinematic; other bodies do not push it
+  double restitution = 0;   ///< 0 … 1; a pair has the larger of its two
+  double friction = 0;      ///< >= 0; a pair has the geometric mean of its two
   ImpactShape shape = ImpactShape::kBox;
 
   friend constexpr bool operator==(const ImpactBody& a, const ImpactBody& b) = default;
 };
 
 /// True if the body is valid: all numbers finite and below 1e30, sizes below 1e12.
-inline bool isSound(const ImpactBody& body) {
+inline bool isValid(const ImpactBody& body) {
   constexpr double kLargest = 1e30;  // squares and products of two stay finite
   const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN
   const bool has_size = body.shape == ImpactShape::kCircle
@@ -40,7 +40,7 @@ inline bool isSound(const ImpactBody& body) {
          std::fabs(body.place.dx) <= 1 && std::fabs(body.place.dy) <= 1;
 }
 
-/// Returns half of the size of its bounding box.
+/// Returns half of the size of the body's bounding box.
 constexpr Vec2 halfExtentOf(const ImpactBody& body) {
   return body.shape == ImpactShape::kCircle ? Vec2{body.half.x, body.half.x} : body.half;
 }

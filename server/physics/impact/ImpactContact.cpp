@@ -1,4 +1,4 @@
-// What happens when bodies of an ImpactWorld touch, and while they lie on one another.
+// The contacts of an ImpactWorld: impacts, and bodies that rest on each other.
 #include <algorithm>
 #include <utility>
 
@@ -16,17 +16,17 @@ ImpactWorld::PairState ImpactWorld::pairState(int a, int b, ImpactAxis axis) con
   return state;
 }
 
-// Would the bounce be too slow, or not rise high enough, to be one?
+// True if the bodies should not bounce, because the bounce would be too slow or too low.
 bool ImpactWorld::isSoft(int a, int b, const PairState& state) const {
   const double restitution = restitutionOf(m_bodies[a], m_bodies[b]);
   const double bounce = restitution * state.approach;
   if (bounce <= state.rest_speed) return true;
   if (restitution < 1 &&
       (m_motions[a].events_at_once > kMaxAtOnce || m_motions[b].events_at_once > kMaxAtOnce)) {
-    return true;  // nothing has moved since: the height left is none
+    return true;  // too many impacts at one moment: further bounces would have no height
   }
   double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, state.touch.normal);
-  if (restitution < 1) {  // what falls together collapses together: nothing presses, and there is no end
+  if (restitution < 1) {  // bodies that fall together do not press, but their bounces must end
     for (const int id : {a, b}) {
       pressing = std::max(pressing, std::fabs(dot(m_bodies[id].acceleration, state.touch.normal)));
     }
@@ -39,7 +39,7 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   ImpactBody &first = m_bodies[a], &second = m_bodies[b];
   PairState state = pairState(a, b, axis);
   const double masses = first.inverse_mass + second.inverse_mass;
-  if (std::fabs(state.touch.gap) <= 2 * kImpactSlop) {  // what the moment's rounding leaves
+  if (std::fabs(state.touch.gap) <= 2 * kImpactSlop) {  // only the moment was rounded: make them touch
     const Vec2 by = (state.touch.gap / masses) * state.touch.normal;
     if (first.inverse_mass > 0) first.place = first.place + first.inverse_mass * by;
     if (second.inverse_mass > 0) second.place = second.place + -second.inverse_mass * by;
@@ -51,14 +51,14 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   double impulse = 0;
   if (state.approach < 0) {
     const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, state.touch.normal);
-    // They part, but by less than a double resolves: the next impact would be this one again.
+    // They separate, but by less than a double resolves, so the next impact would repeat this one.
     if (pressing > 0 && state.approach * state.approach <= 2 * pressing * kRestHeight) {
       const Vec2 pull = (state.approach / masses) * state.touch.normal;
       first.velocity -= first.inverse_mass * pull;
       second.velocity += second.inverse_mass * pull;
     }
   } else if (isSoft(a, b, state)) {
-    if (state.approach > 0) impulse = pushGroup(contact, now);
+    if (state.approach > 0) impulse = pushGroupOf(contact, now);
   } else {
     pushPair(a, b, state);
     impulse = (1 + restitutionOf(first, second)) * state.approach / masses;
@@ -81,7 +81,7 @@ void ImpactWorld::pushPair(int a, int b, const PairState& state) {
   second.velocity += second.inverse_mass * push;
 }
 
-// At the moment a sliding contact comes to rest: takes away what rounding has left of its speed.
+// Removes the slip that rounding leaves when friction stops a sliding contact.
 void ImpactWorld::stopSliding(int a, int b) {
   const int contact = findContact(a, b);
   if (contact < 0) return;
@@ -111,8 +111,8 @@ int ImpactWorld::localOf(int id) {
   return m_motions[id].local;
 }
 
-// Fills m_group and m_group_contacts with what hangs together with `body`. For an impact: through contacts
-// that would not bounce; otherwise through those at rest, and contacts that have parted end.
+// Fills m_group and m_group_contacts. For an impact: with bodies connected to `own_contact` by contacts that
+// would not bounce. Otherwise: with bodies connected to `body` by resting contacts. Ends separated contacts.
 void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) {
   m_group.clear();
   m_group_contacts.clear();
@@ -134,7 +134,7 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
       advance(other, now);
       if (m_motions[other].is_frozen) continue;
       const PairState state = pairState(contact.first, contact.second, contact.axis);
-      if (at != own_contact && !keepsContact(contact, state)) {  // an impact is one even of two corners
+      if (at != own_contact && !keepsContact(contact, state)) {  // own_contact may touch only at corners
         if (!is_impact) {
           markChanged(contact.first);
           markChanged(contact.second);
@@ -146,7 +146,7 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
         if (at != own_contact && !isSoft(contact.first, contact.second, state)) continue;
       } else {
         contact.is_resting = state.approach <= state.rest_speed;
-        if (!contact.is_resting) continue;  // it is about to be hit
+        if (!contact.is_resting) continue;  // the bodies still approach: this will be an impact
       }
       contact.is_listed = true;
       m_group_contacts.push_back(at);
@@ -161,7 +161,7 @@ void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) 
   for (const int id : m_group) m_group_masses.push_back(m_bodies[id].inverse_mass);
 }
 
-// Rows go by ids, and so do the sums over a body's rows, whatever the order in which the group was found.
+// Solves the group. The order of rows and sums depends only on ids, not on how the group was found.
 void ImpactWorld::solveGroup(Purpose purpose) {
   m_rest.rows().clear();
   for (const int c : m_group_contacts) addRows(m_contacts[c], purpose);
@@ -174,8 +174,8 @@ void ImpactWorld::solveGroup(Purpose purpose) {
   }
 }
 
-// Moves the bodies of a group so far that nothing is inside anything: what impacts of the size of the slop
-// leave, where circles slide around one another. Most times there is nothing to do.
+// Moves overlapping bodies of a group apart, because impacts leave overlaps of the slop's size where circles
+// slide around each other. Usually nothing has to be moved.
 void ImpactWorld::partGroup(double now) {
   bool is_needed = false;
   for (const int c : m_group_contacts) {
@@ -205,7 +205,7 @@ void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   row.first = localOf(contact.first);
   row.second = localOf(contact.second);
   row.direction = normal;
-  // The normal turns while they slide around one another.
+  // The normal turns while the bodies slide around each other, which needs an acceleration.
   const bool is_impact = purpose == Purpose::kImpact;
   row.bias = is_impact ? -state.approach : dot(pull, normal) + slip * slip * state.touch.curvature;
   if (purpose == Purpose::kPlace) row.bias = state.touch.gap > -kDeepest ? state.touch.gap : 0;
@@ -220,8 +220,8 @@ void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   rows.push_back(row);
 }
 
-// An impact without a bounce, felt at once by everything that lies there. Returns the contact's own impulse.
-double ImpactWorld::pushGroup(int contact, double now) {
+// Applies an impact without a bounce to all bodies that rest on each other there. Returns its impulse.
+double ImpactWorld::pushGroupOf(int contact, double now) {
   gather(-1, now, true, contact);
   solveGroup(Purpose::kImpact);
   double impulse = 0;
@@ -244,11 +244,11 @@ double ImpactWorld::pushGroup(int contact, double now) {
   return impulse;
 }
 
-// Bodies that have just been put on one another: event by event the lowest would show that the next one
-// presses on it, and so on, each time with a solution for all. So contacts are made of all pairs that touch
-// and that what moves them might press together. Those that do not press go again.
+// Makes contacts of all touching pairs that may press on each other, for bodies that have just been placed.
+// Without this, one contact after the other would be found, each by an event with a solution of the whole
+// group. Contacts that do not press are dropped. Returns false if there are too few.
 bool ImpactWorld::touchCandidates() {
-  constexpr int kFew = 4;  // so many are found as quickly one by one
+  constexpr int kFew = 4;  // if there are at most this many, it is as fast to find them one by one
   const auto mayPress = [&](int id, Vec2 normal) {
     const Vec2 pull = m_bodies[id].acceleration;
     return std::fabs(dot(pull, normal)) > 1e-9 * length(pull);
@@ -282,7 +282,7 @@ bool ImpactWorld::touchCandidates() {
 }
 
 void ImpactWorld::settle(double now) {
-  for (std::size_t i = 0; i < m_changed.size(); ++i) {  // it may grow
+  for (std::size_t i = 0; i < m_changed.size(); ++i) {  // m_changed may grow in the loop
     const int id = m_changed[i];
     if (!isPushed(id) || m_motions[id].is_visited || m_motions[id].is_frozen) continue;
     settleGroup(id, now);
@@ -290,7 +290,7 @@ void ImpactWorld::settle(double now) {
   for (const int id : m_changed) m_motions[id].is_visited = false;
 }
 
-// The accelerations of everything that hangs together with `body`.
+// Computes the accelerations of all bodies connected to `body` by resting contacts.
 void ImpactWorld::settleGroup(int body, double now) {
   gather(body, now, false, -1);
   if (!m_group_contacts.empty()) {
@@ -339,7 +339,7 @@ void ImpactWorld::settleGroup(int body, double now) {
   }
 }
 
-// Takes away what rounding has left of the speeds of a contact that presses.
+// Removes the relative speed that rounding leaves at a contact whose bodies press on each other.
 void ImpactWorld::calm(const Contact& contact) {
   ImpactBody &first = m_bodies[contact.first], &second = m_bodies[contact.second];
   const PairState state = pairState(contact.first, contact.second, contact.axis);

@@ -7,13 +7,13 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kUnbounded = 1e300;  // a bound that no push reaches
-constexpr double kRegular = 1e-12;    // of the diagonal, so that rows that say the same have one solution
-constexpr int kFrictionRounds = 200;  // of pressures and friction cones by turns: slow where a body is wedged
-constexpr int kSweeps = 400;          // of Gauss and Seidel, where the direct solution fails (`unconverged`)
-constexpr int kRefinements = 10;  // iterative refinement: each round takes out most of what kRegular put in
-constexpr double kRowPrice = 16;  // of looking at a row once, in multiplications
-constexpr int kMaxStored = 4'000'000;  // entries of the factor: 32 MB; a larger group is swept
+constexpr double kUnbounded = 1e300;   // larger than any push
+constexpr double kRegular = 1e-12;     // part added to the diagonal; makes solutions of redundant rows unique
+constexpr int kFrictionRounds = 200;   // limit; pressures and cones alternate, slowly if a body is wedged
+constexpr int kSweeps = 400;           // maximum Gauss–Seidel sweeps if the direct solution fails
+constexpr int kRefinements = 10;       // limit; each refinement removes most of kRegular's error
+constexpr double kRowPrice = 16;       // multiplications each time that a row is used
+constexpr int kMaxStored = 4'000'000;  // entries of the factor, 32 MB; larger groups are solved by sweeps
 
 }  // namespace
 
@@ -52,14 +52,14 @@ void RestSolver::updateChange() {
   }
 }
 
-// Is there so much left?
+// Adds `work` to the total. Returns false if the total exceeds the budget.
 bool RestSolver::spend(double work) {
   if (m_work + work > m_most_work) m_is_too_costly = true;
   if (!m_is_too_costly) m_work += work;
   return !m_is_too_costly;
 }
 
-// Cholesky (LDLᵀ) of the couplings of the free rows, within its skyline.
+// Computes the LDLᵀ factors of the couplings between free rows, within their skyline.
 bool RestSolver::factorise() {
   const int count = static_cast<int>(m_free.size());
   m_skyline.resize(count);
@@ -102,7 +102,7 @@ bool RestSolver::factorise() {
       const double* const above = m_factor.data() + m_start[j];
       double value = line[j];
       for (int i = std::max(m_skyline[k], m_skyline[j]); i < j; ++i) value -= line[i] * above[i];
-      line[j] = value;  // times the pivot, until the row is done
+      line[j] = value;  // stays multiplied by the pivot until the row is complete
     }
     for (int j = m_skyline[k]; j < k; ++j) {
       const double scaled = line[j] / m_factor[m_start[j] + j];
@@ -115,8 +115,8 @@ bool RestSolver::factorise() {
   return true;
 }
 
-// Sets the pushes of the free rows so that nothing approaches along them, refined until the regularisation is
-// not felt.
+// Sets the pushes of the free rows so that the bodies do not approach along them. Refines them until the
+// regularisation has no effect.
 bool RestSolver::solveFree() {
   m_free.clear();
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
@@ -145,7 +145,7 @@ bool RestSolver::solveFree() {
       m_right[k] = -rateOf(m_rows[m_free[k]]);
       worst = std::max(worst, std::fabs(m_right[k]));
     }
-    if (worst == 0 || (round > 1 && worst > 0.5 * error)) break;  // as exact as it gets
+    if (worst == 0 || (round > 1 && worst > 0.5 * error)) break;  // the accuracy cannot become better
     error = worst;
     for (int k = 0; k < count; ++k) {
       const double* const line = m_factor.data() + m_start[k];
@@ -190,7 +190,7 @@ bool RestSolver::solveWithinBounds() {
     if (bad < fewest) {
       fewest = bad;
       patience = 4;
-    } else if (--patience < 0) {  // one at a time cannot go round in circles
+    } else if (--patience < 0) {  // then rows are changed one at a time, which cannot cycle
       flip(last);
       continue;
     }
@@ -203,8 +203,8 @@ bool RestSolver::solveWithinBounds() {
   return false;
 }
 
-// True if they are where they were. The relaxation is Irons and Tuck's (1969) factor: the
-// iteration is linear most of the time, and slow where a body is wedged.
+// Sets the friction bounds from the normal pushes. Returns true if they are unchanged. Changes are relaxed by
+// Irons and Tuck's factor (1969), because the iteration is mostly linear, and slow if a body is wedged.
 bool RestSolver::setFrictionBounds(int round) {
   double largest = 0, product = 0, square = 0;
   bool is_same = true;
@@ -235,7 +235,7 @@ bool RestSolver::setFrictionBounds(int round) {
   return false;
 }
 
-// Projected Gauss and Seidel: what is left when the direct solution fails.
+// Projected Gauss–Seidel sweeps, the fallback if the direct solution fails.
 void RestSolver::sweep() {
   updateChange();
   for (int round = 0; round < kSweeps; ++round) {
@@ -291,12 +291,12 @@ bool RestSolver::solve(const std::vector<double>& inverse_masses, double most_wo
   }
   for (std::size_t i = 1; i < m_rows_begin.size(); ++i) m_rows_begin[i] += m_rows_begin[i - 1];
   m_rows_of.resize(m_rows_begin.back());
-  for (std::size_t i = count; i-- > 0;) {  // ascending within each body, from behind
+  for (std::size_t i = count; i-- > 0;) {  // backwards, so that the rows of each body are in ascending order
     for (const int body : {m_rows[i].first, m_rows[i].second}) {
       if (body >= 0) m_rows_of[--m_rows_begin[body + 1]] = static_cast<int>(i);
     }
   }
-  // Every begin has now moved to its own body's, one place late.
+  // The loop has left the start of each body's rows at the index of the next body; move all of them back.
   for (std::size_t i = 0; i + 1 < m_rows_begin.size(); ++i) m_rows_begin[i] = m_rows_begin[i + 1];
   m_rows_begin.back() = static_cast<int>(m_rows_of.size());
 

@@ -11,19 +11,19 @@ namespace naiad::physics {
 /// One direction of one contact. Its push x acts on `second` along `direction`, and on `first` against it.
 struct RestRow {
   int first;            ///< index into the masses given to solve(); −1: immovable
-  int second;           ///< index or −1 like `first`; at least one is not −1
+  int second;           ///< index like `first`, or −1; at most one of the two is −1
   Vec2 direction;       ///< unit length, from first to second
   double bias;          ///< difference of velocities (or accelerations) along `direction` without any push
-  int normal = -1;      ///< friction row: index of its contact's row, which comes before it
+  int normal = -1;      ///< friction row: index of its contact's normal row, which is before it; else −1
   double friction = 0;  ///< friction row: coefficient of friction
-  double slip = 0;      ///< friction row: 0: may hold within the cone; ±1: slides in this direction
-  double push = 0;      ///< the result; before solve() a guess, of which only the sign is used
+  double slip = 0;  ///< friction row: 0 if it may hold within the cone; ±1 if it slides in this direction
+  double push = 0;  ///< the result; before solve() a guess, of which only the sign is used
 };
 
-/// Finds pushes >= 0 so that no contact approaches, and contacts that separate have no push. Friction is
-/// within µ·push, against the slip. Direct method: block principal pivoting (Júdice and Pires 1994) on a
-/// sparse Cholesky factorisation of the active rows; fixed-point iteration between normal and friction rows
-/// for the cones. Redundant rows share the load. Deterministic; keeps its memory.
+/// Finds pushes >= 0 so that no contact approaches, and contacts that separate have no push. Friction is at
+/// most µ·push, against the slip. It uses a direct method: block principal pivoting (Júdice and Pires 1994)
+/// on a sparse Cholesky factorisation of the active rows, and a fixed-point iteration between normal and
+/// friction rows for the cones. Redundant rows share the load. Deterministic; keeps its memory.
 class RestSolver {
  public:
   std::vector<RestRow>& rows() { return m_rows; }
@@ -33,12 +33,12 @@ class RestSolver {
   bool solve(const std::vector<double>& inverse_masses, double most_work = 1e300);
   /// True if the last solution was abandoned because of its cost.
   bool isTooCostly() const { return m_is_too_costly; }
-  /// Approximate number of multiplications of the last solution.
+  /// Returns the approximate number of multiplications of the last solution.
   double work() const { return m_work; }
 
   /// Returns the change of a body's velocity (or acceleration) by the pushes, after solve().
   Vec2 change(int body) const { return m_change[body]; }
-  /// Returns `before` + `change` for one component, or 0 if that is only rounding of the pushes.
+  /// Returns `before` + `change` for one component, or 0 if the sum is only rounding of the pushes.
   double settled(int body, double before, double change) const {
     const double after = before + change;
     return after <= kRounding * m_effort[body] && after >= -kRounding * m_effort[body] ? 0 : after;
@@ -63,9 +63,9 @@ class RestSolver {
   std::vector<Vec2> m_change;
   std::vector<double> m_effort;  // sum of the sizes of all pushes on a body, over its mass
   std::vector<double> m_low, m_high;
-  std::vector<double> m_limit, m_off;  // friction rows: the cone, and its last error
+  std::vector<double> m_limit, m_off;  // friction rows: limit of the push (the cone), and its last error
   std::vector<Side> m_side;
-  std::vector<int> m_rows_begin, m_rows_of;  // the rows of each body
+  std::vector<int> m_rows_begin, m_rows_of;  // rows of each body, in m_rows_of from m_rows_begin[body] on
   std::vector<int> m_free, m_index;          // free rows, and their indices by row
   std::vector<int> m_skyline, m_start;  // first column of each row of the factor, and where the row is stored
   std::vector<double> m_factor, m_right;

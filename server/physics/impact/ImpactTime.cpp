@@ -8,10 +8,10 @@ namespace naiad::physics {
 
 namespace {
 
-// The moments at which both axes overlap: the intersection of the axes' intervals.
+// An interval in which the bodies overlap on both axes.
 struct Overlap {
   Interval when;
-  bool is_y_last;  // the axis that came last
+  bool is_y_last;  // true if they overlapped on x first
 };
 
 int overlapIntervals(const RelativeMotion& m, Vec2 half, double horizon, Overlap out[5]) {
@@ -28,7 +28,7 @@ int overlapIntervals(const RelativeMotion& m, Vec2 half, double horizon, Overlap
   return count;
 }
 
-// When |r + v·s + ½a·s²| came below `half` for the stretch that contains `inside`.
+// Returns when |r + v·s + ½a·s²| fell below `half` before the moment `inside`, at which it is below.
 double entryBefore(double r, double v, double a, double half, double inside) {
   Interval stretches[3];
   const int count = insideIntervals(r, v, a, half, inside, stretches);
@@ -40,15 +40,15 @@ RelativeMotion movedOn(const RelativeMotion& m, double s) {
           m.acceleration};
 }
 
-// The first moment at which |offset| falls below the radius less the slop, taken back to the radius. −1:
-// never.
+// Returns the first moment at which |offset| falls below the radius less the slop. Unless the pair rests,
+// returns the earlier moment at which |offset| passed the radius. −1 if it never does.
 double circleEntry(const RelativeMotion& m, double radius, double horizon, bool is_resting) {
   const double inner = radius - kImpactSlop;
   if (!(inner > 0)) return -1;
   Overlap near[5];
   const int count = overlapIntervals(m, {radius, radius}, horizon, near);
   for (int i = 0; i < count; ++i) {
-    // From near the circle the squares are small: no digit is lost to a far start.
+    // Measures time from the entry into the square around the circle: a distant start then costs no digits.
     const double start = near[i].when.begin, length = near[i].when.end - start;
     const RelativeMotion here = movedOn(m, start);
     const Vec2 r = here.offset, v = here.velocity, a = 0.5 * here.acceleration;
@@ -64,7 +64,8 @@ double circleEntry(const RelativeMotion& m, double radius, double horizon, bool 
   return -1;
 }
 
-// `reach` − the slop counts on both axes; back to `reach` on the axis that came last.
+// Finds when the boxes overlap by more than the slop on both axes, then goes back to the moment when the
+// distance on the axis that overlapped last fell to `reach`.
 ImpactForecast boxEntry(const RelativeMotion& m, Vec2 reach, double horizon, bool is_resting) {
   Overlap overlap[5];
   if (overlapIntervals(m, reach - Vec2{kImpactSlop, kImpactSlop}, horizon, overlap) == 0) return {};
@@ -77,7 +78,7 @@ ImpactForecast boxEntry(const RelativeMotion& m, Vec2 reach, double horizon, boo
           axis};
 }
 
-// A circle against a box: two boxes and four corner circles make up where its centre may not be.
+// A circle touches a box when its centre enters the rounded box: two boxes, and four circles at the corners.
 ImpactForecast roundedBoxEntry(const RelativeMotion& m, Vec2 half, double radius, double horizon,
                                bool is_resting) {
   ImpactForecast first;
@@ -117,7 +118,7 @@ ImpactTouch boxTouch(Vec2 offset, Vec2 reach, ImpactAxis axis) {
   return {{0, offset.y < 0 ? -1.0 : 1.0}, gap_y, 0, -gap_x};
 }
 
-// From the box to the circle.
+// Returns the contact of a circle with a box; `offset` is from the box's centre to the circle's.
 ImpactTouch roundedBoxTouch(Vec2 offset, Vec2 half, double radius) {
   const Vec2 nearest = {std::clamp(offset.x, -half.x, half.x), std::clamp(offset.y, -half.y, half.y)};
   const Vec2 out = offset - nearest;
@@ -128,7 +129,7 @@ ImpactTouch roundedBoxTouch(Vec2 offset, Vec2 half, double radius) {
   return touch;
 }
 
-// The same pair seen from the box; `is_turned` if the box is the second.
+// A pair of a box and a circle; `is_turned` if the box is the second one.
 struct BoxAndCircle {
   Vec2 half;
   double radius;
@@ -146,9 +147,9 @@ bool areCircles(const ImpactBody& a, const ImpactBody& b) {
   return a.shape == ImpactShape::kCircle && b.shape == ImpactShape::kCircle;
 }
 
-// The first moment at which |r + v·s + ½a·s²| crosses `half`, if it is clearly off it now.
+// Returns when |r + v·s + ½a·s²| first crosses `half`; −1 if it never does, or is there now.
 double crossingOf(double r, double v, double a, double half, double horizon) {
-  constexpr double kClear = 1e-12;  // metric cells: nearer than this it is on the edge now, within rounding
+  constexpr double kClear = 1e-12;  // metric cells; if it is nearer, it is on the edge within rounding
   const double off = std::fabs(r) - half;
   if (std::fabs(off) <= kClear) return -1;
   Interval stretches[3];
@@ -172,7 +173,7 @@ ImpactTouch touchOf(const ImpactBody& a, const ImpactBody& b, Vec2 offset, Impac
 ImpactForecast forecastImpact(const ImpactBody& a, const ImpactBody& b, const RelativeMotion& motion,
                               double horizon, double rest_speed, bool is_resting) {
   const ImpactTouch now = touchOf(a, b, motion.offset);
-  const double depth = std::min(now.gap, 0.0);  // a body that begins inside goes no deeper
+  const double depth = std::min(now.gap, 0.0);  // an overlap at the start must not become deeper
   if (now.gap <= 0 && now.overlap > kImpactSlop && dot(motion.velocity, now.normal) < -rest_speed) {
     if (!areBoxes(a, b)) return {0, ImpactAxis::kNearest};
     return {0, now.normal.x != 0 ? ImpactAxis::kX : ImpactAxis::kY};
@@ -188,7 +189,7 @@ ImpactForecast forecastImpact(const ImpactBody& a, const ImpactBody& b, const Re
   const BoxAndCircle pair = boxAndCircle(a, b);
   const RelativeMotion seen =
       pair.is_turned ? RelativeMotion{-motion.offset, -motion.velocity, -motion.acceleration} : motion;
-  if (pair.radius + depth <= 0) {  // the centre is inside: only the face that is nearest counts
+  if (pair.radius + depth <= 0) {  // the centre is inside, so only the nearest face counts
     Vec2 reach = pair.half;
     (now.normal.x != 0 ? reach.x : reach.y) += pair.radius + depth;
     return {boxEntry(seen, reach, horizon, is_resting).time, ImpactAxis::kNearest};

@@ -6,14 +6,14 @@ namespace naiad::physics {
 
 namespace {
 
-// In multiplications.
-constexpr double kForecastPrice = 80;  // of examining a pair
-constexpr double kEventPrice = 200;    // of an event, beside the pairs it has examined
-constexpr double kBodyPrice = 50;      // of beginning a step, a body
+// Prices of work, in multiplications:
+constexpr double kForecastPrice = 80;  // per examined pair
+constexpr double kEventPrice = 200;    // per event, in addition to its examined pairs
+constexpr double kBodyPrice = 50;      // per body and step
 
-constexpr double kFarthest = 1e15;  // metric cells in one tick: below the 2^51 that a Place can be moved by
+constexpr double kFarthest = 1e15;  // metric cells in one tick; less than 2^51, the limit for moving a Place
 
-// How far a body gets to either side along one axis.
+// Returns in `low` and `high` how far a body moves along one axis within `t`.
 void widen(double v, double a, double t, double& low, double& high) {
   const double end = t * (v + 0.5 * a * t);
   double farthest = 0;
@@ -22,7 +22,7 @@ void widen(double v, double a, double t, double& low, double& high) {
   high = std::max({0.0, end, farthest});
 }
 
-// Later first, so that a heap has the earliest on top.
+// True if `a` is later, with which a heap has the earliest event on top.
 template <typename Pending>
 bool isLater(const Pending& a, const Pending& b) {
   if (a.time != b.time) return a.time > b.time;
@@ -33,7 +33,7 @@ bool isLater(const Pending& a, const Pending& b) {
 }  // namespace
 
 int ImpactWorld::add(const ImpactBody& body) {
-  if (!isSound(body)) return -1;
+  if (!isValid(body)) return -1;
   int id = m_lowest_free;
   while (id < idLimit() && m_motions[id].exists) ++id;
   m_lowest_free = id + 1;
@@ -47,10 +47,10 @@ int ImpactWorld::add(const ImpactBody& body) {
 }
 
 bool ImpactWorld::set(int id, const ImpactBody& body) {
-  if (!exists(id) || !isSound(body)) return false;
+  if (!exists(id) || !isValid(body)) return false;
   Motion& motion = m_motions[id];
   if (m_bodies[id] == body && !motion.is_frozen) return true;
-  if (isPushed(id) != (body.inverse_mass > 0)) {  // contacts are listed by the bodies that can be pushed
+  if (isPushed(id) != (body.inverse_mass > 0)) {  // contacts are listed by pushable bodies only
     remove(id);
     motion.exists = true;
   }
@@ -70,7 +70,7 @@ bool ImpactWorld::remove(int id) {
       m_ending.push_back(c);
       c = m_contacts[c].first == id ? m_contacts[c].next_of_first : m_contacts[c].next_of_second;
     }
-    std::sort(m_ending.begin(), m_ending.end());  // their numbers are used again, the last one first
+    std::sort(m_ending.begin(), m_ending.end());  // because their numbers are reused in the opposite order
   } else {
     for (int c = 0; c < static_cast<int>(m_contacts.size()); ++c) {
       if (m_contacts[c].first == id || m_contacts[c].second == id) m_ending.push_back(c);
@@ -104,7 +104,7 @@ void ImpactWorld::freeze(int id) {
   Motion& motion = m_motions[id];
   motion.is_frozen = true;
   ++motion.generation;
-  ++m_counters.quarantined;  // its contacts go when the next tick begins
+  ++m_counters.quarantined;  // its contacts end at the start of the next tick
 }
 
 void ImpactWorld::giveUp(int id) {
@@ -120,7 +120,7 @@ void ImpactWorld::spend(int id, double work) {
   if (isPushed(id)) m_motions[id].work += work;
 }
 
-// For one group: what is left of all.
+// Returns the work that one group may do: the remaining budget, but at least kWorkOfBody.
 double ImpactWorld::workLeft() const {
   return std::max(m_most_work - m_work, kWorkOfBody);
 }
@@ -134,8 +134,8 @@ RelativeMotion ImpactWorld::relative(int a, int b, double now) const {
           (vb + tb * ab) - (va + ta * aa), ab - aa};
 }
 
-// From now to the end of the tick, as seen from the origin's cell, and a little wider: what is rounded off is
-// less than the margin.
+// Returns the box around the body's path from now to the end of the tick, relative to the origin's cell, with
+// a margin that is larger than rounding errors.
 SweptBox ImpactWorld::sweptBox(int id, double now) const {
   const ImpactBody& body = m_bodies[id];
   const Motion& motion = m_motions[id];
@@ -238,8 +238,8 @@ void ImpactWorld::placeBoxes() {
   m_tree.update(m_boxes, m_ids, idLimit());
 }
 
-// Appends the pairs of a body, and takes them back if they are more than `most`. Those with bodies that are
-// given up already count, or else each body of a crowd would look at all that came before it.
+// Appends the pairs of a body. Returns false and appends none if there are more than `most`. Pairs with
+// abandoned bodies are counted, too; otherwise each body of a crowd would examine all bodies before it.
 bool ImpactWorld::listCandidates(int id, std::size_t most) {
   const std::size_t before = m_candidates.size();
   std::size_t count = 0;
@@ -255,9 +255,9 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
   return false;
 }
 
-// All pairs whose paths may cross. Where bodies lie in one another by the thousand these are too many, which
-// is known before any of them is looked at: after the first body whose pairs do not fit into what the tick
-// has for all, each has its own share alone.
+// Lists all pairs whose paths may cross. Thousands of bodies in one place have too many pairs, which must be
+// known before any is examined. So after the first body whose pairs exceed the tick's shared budget, each
+// body has only its own share.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
   constexpr double kEnough = 1e15;
@@ -270,9 +270,10 @@ void ImpactWorld::listCandidates() {
   for (std::size_t i = 0; i < m_ids.size(); ++i) {
     const int id = m_ids[i];
     if (!isMoving(id) || m_motions[id].is_frozen) continue;
-    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what those before have left
+    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what earlier bodies did not
+                                                                          // use
     const std::size_t left = all > m_candidates.size() ? all - m_candidates.size() : 0;
-    // What cannot be pushed cannot be given up.
+    // A body that cannot be pushed cannot be abandoned.
     const std::size_t most = isPushed(id) ? std::max(left, kOwnShare) : m_ids.size();
     if (listCandidates(id, most)) continue;
     giveUp(id);
@@ -393,8 +394,8 @@ void ImpactWorld::handle(const Pending& pending) {
   forecastChanged(pending.time);
 }
 
-// A pair that hits itself to and fro in one moment, as touching bodies do, counts as one contact with all of
-// the impulse.
+// Sorts the events. If a pair touches several times at one moment, as touching bodies do, it gets one event
+// with the sum of the impulses.
 void ImpactWorld::sortEvents() {
   for (std::size_t i = 0; i < m_events.size(); ++i) m_events[i].order = static_cast<int>(i);
   std::sort(m_events.begin(), m_events.end(), [](const ImpactEvent& x, const ImpactEvent& y) {

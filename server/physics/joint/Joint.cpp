@@ -7,7 +7,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kLargest = 1e30;  // of any number: products of two or three of them stay finite
+constexpr double kLargest = 1e30;  // limit of all numbers: products of two or three of them are finite
 
 bool isUsable(double x) {
   return std::abs(x) <= kLargest;  // false for a NaN

@@ -13,14 +13,14 @@
 
 namespace naiad::physics {
 
-/// A body as joints see it, without shape. A step reads and writes place, velocity, rotation and spin.
+/// A body with the properties that joints need. A step reads and writes place, velocity, rotation and spin.
 struct JointBody {
   Place place;  ///< place of the centre of mass
   Vec2 velocity;
   Rotation rotation;
   double spin = 0;             ///< rad per unit of time, from x to y
-  double inverse_mass = 1;     ///< 0: only its own velocity moves it
-  double inverse_inertia = 0;  ///< 0: only its own spin turns it
+  double inverse_mass = 1;     ///< 0: no force changes its velocity
+  double inverse_inertia = 0;  ///< 0: no torque changes its spin
   Vec2 force;                  ///< added to gravity, constant within the step
   double torque = 0;
 };
@@ -31,14 +31,14 @@ inline bool isMovable(const JointBody& body) {
 
 enum class JointKind : std::uint8_t {
   kDistance,    ///< a rod: keeps the anchors `length` > 0 apart
-  kRope,        ///< keeps the anchors at most `length` > 0 apart; inelastic when it becomes taut
+  kRope,        ///< keeps the anchors at most `length` > 0 apart; does not bounce when it becomes taut
   kHinge,       ///< keeps the anchors together
   kWeld,        ///< like kHinge, without relative rotation
-  kSlider,      ///< keeps b's anchor on the line through a's anchor along `axis`, without relative rotation
-  kSpring,      ///< pulls the anchors to `length` >= 0 with `stiffness`, `damping`
+  kSlider,      ///< keeps b's anchor on the line along `axis` through a's anchor, without relative rotation
+  kSpring,      ///< pulls the anchors to a distance of `length` >= 0 with `stiffness` and `damping`
   kMotor,       ///< turns b relative to a at `speed`, with a torque of at most `max_force`
-  kAngleLimit,  ///< keeps b's angle relative to a and `reference` in [lower, upper], inside (−π, π)
-  kMouse,       ///< a damped spring of length 0 from `target` to b's anchor, at most `max_force` per axis
+  kAngleLimit,  ///< keeps the angle of b relative to a, from `reference`, in [lower, upper], inside (−π, π)
+  kMouse,       ///< a damped spring of length 0 from `target` to b's anchor, at most `max_force` on each axis
 };
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ struct Joint {
   JointKind kind = JointKind::kDistance;
   int a = -1;  ///< index of a body; unused by kMouse
   int b = -1;
-  Vec2 anchor_a;  ///< relative to the centre of a, in the frame of a
+  Vec2 anchor_a;  ///< position relative to the centre of a, in the frame of a
   Vec2 anchor_b;
   double length = 0;
   Vec2 axis = {1, 0};    ///< unit length, in the frame of a
@@ -67,15 +67,15 @@ struct Joint {
   double torque = 0;  ///< mean torque of the rows that hold the angle, without the lever of `force`
   bool is_broken = false;
   std::array<double, 3> memory =
-      {};  ///< multipliers of the last sub-step per its length, the initial guess of the next
+      {};  ///< multipliers of the last sub-step divided by its length: the first guess of the next step
 };
 
 /// True if `joint` is valid for `body_count` bodies: indices and numbers in range, a != b.
 bool isValid(const Joint& joint, int body_count);
-/// True if all is finite, inverse masses are in [0, 1e30] and other numbers below 1e30.
+/// True if all numbers are finite, inverse masses in [0, 1e30] and the other numbers below 1e30.
 bool isValid(const JointBody& body);
 
-/// Number of scalar constraints of the joint.
+/// Returns the number of scalar constraints of the joint.
 int rowsOf(const Joint& joint);
 
 }  // namespace naiad::physics

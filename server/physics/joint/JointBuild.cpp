@@ -1,4 +1,4 @@
-// How the rows of JointConstraints are made from joints, and put into the order in which they are eliminated.
+// Makes the rows of JointConstraints from joints, and puts them into elimination order.
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace naiad::physics {
 
 namespace {
 
-// Of (frequency · step)², no unit: half a radian in a step. Above it composed steps gain nothing
-// (JointConstraints::isCalm).
+// Limit of (frequency · step)²: half a radian in a step, squared. If it is exceeded, composed steps have no
+// advantage (JointConstraints::isCalm).
 constexpr double kCalm = 0.25;
 
-// The force that is calm in a step of length one: the frequency at which a force turns a lever is the root of
-// force over (lever · effective mass).
+// Returns the largest force for which isCalm() is true in a step of length one. The frequency at which a
+// force turns a lever is the square root of force / (lever · effective mass).
 double calmForceOf(const JointMotion& motion, const JointConstraints::Link& link, const Joint& joint) {
   const double arm_a = length(link.anchor_a), arm_b = length(link.anchor_b);
   const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kCertain = 0.02;  // of the tolerance: a residual predicted below this is not computed
-constexpr double kBad = 1e-3;      // of the diagonal: smaller pivots lose too many digits
+constexpr double kCertain = 0.02;  // part of the tolerance: smaller predicted residuals are not computed
+constexpr double kBad = 1e-3;      // part of the diagonal: smaller pivots would lose too many digits
 
 }  // namespace
 
@@ -71,8 +71,8 @@ void JointChain::store(std::span<Vec2> place, std::span<Vec2> velocity, std::spa
   }
 }
 
-// Where the nodes are after h, half a kick, and the velocities that the rods then allow. The factors stay for
-// the next stage.
+// Moves the nodes by h, kicks them by `half`, and projects their velocities onto those that the rods allow.
+// Keeps the factors for the next stage.
 JointChain::Status JointChain::finish(double h, double half) {
   Node* node = m_nodes.data();
   Pair place = node->before + h * node->velocity;
@@ -89,7 +89,7 @@ JointChain::Status JointChain::finish(double h, double half) {
     node->velocity += half * node->acceleration;
     const Pair direction = (2 * rod.half_inverse_length) * (node->place - place);
     place = node->place;
-    const double beside = -mass * dot(last_direction, direction);  // 0 for the first rod
+    const double beside = -mass * dot(last_direction, direction);  // with the rod before; 0 for the first one
     last_lower = beside * last_inverse;
     if (&rod != m_rods.data()) (&rod - 1)->lower = last_lower;
     const double diagonal = (mass + node->inverse_mass) * dot(direction, direction);
@@ -117,8 +117,8 @@ JointChain::Status JointChain::project() {
   return finish(0, 0);
 }
 
-// Simplified Newton, as JointIsland::newton().
-bool JointChain::newton(double h, std::uint64_t& iterations) {
+// Simplified Newton iteration, like JointIsland::iterateNewton().
+bool JointChain::iterateNewton(double h, std::uint64_t& iterations) {
   const double to_impulse = -1 / h;
   double last = 0;
   for (int iteration = 0; iteration < newton::kMaxIterations; ++iteration) {
@@ -170,7 +170,7 @@ JointChain::Status JointChain::stage(double h, std::uint64_t& iterations) {
     push(&m_nodes[i], rod, rod.multiplier);
   }
   m_last_h = h;
-  if (!newton(h, iterations)) return Status::kSlow;
+  if (!iterateNewton(h, iterations)) return Status::kSlow;
   const double per_h = 1 / h;
   for (Link& rod : m_rods) {
     rod.force += rod.multiplier * rod.direction;

@@ -1,7 +1,7 @@
 // A rope of rods between centres: RATTLE as in JointIsland, in two passes along the rope per iteration.
 //
-// One pass down the rope moves, measures and does the forward half of the solution; the pass back does the
-// other half and applies the impulses. x and y are calculated in parallel. This takes a third of the
+// The pass down the rope moves, measures and does the forward half of the solution; the pass back does the
+// other half and applies the impulses. x and y are calculated in parallel. This needs a third of the
 // instructions of the general method.
 #pragma once
 
@@ -18,25 +18,25 @@ class JointChain {
   enum class Status : std::uint8_t {
     kDone,
     kSlow,  ///< a stage did not converge
-    kBad    ///< the rods are nearly dependent: not solvable by this method
+    kBad    ///< the rods are nearly dependent, so this method cannot solve the equations
   };
   struct Rod {
     int a, b;
     double square, half_inverse_length;
   };
 
-  /// `rods` must be in an order in which each shares a movable body with the next one, and with no other.
+  /// Sets the rods, in an order in which each shares a movable body with the next one, and with no other rod.
   void connect(std::span<const Rod> rods, std::span<const JointMass> masses);
   bool isEmpty() const { return m_rods.empty(); }
 
-  /// The spans are by body, `multiplier` by rod, per unit of time.
+  /// Sets the state. The spans are by body, `multiplier` is by rod and per unit of time.
   void load(std::span<const Vec2> place, std::span<const Vec2> velocity, std::span<const Vec2> acceleration,
             std::span<const double> multiplier, double tolerance);
-  /// Removes from the velocities what the rods do not allow.
+  /// Projects the velocities onto those that the rods allow.
   Status project();
-  /// Advances by a stage of h != 0. If the result is not kDone, load again.
+  /// Advances by a stage of length h != 0. If the result is not kDone, call load() again.
   Status stage(double h, std::uint64_t& iterations);
-  /// Writes the results. `multiplier` is per unit of time; `force` sums the impulses on b, by `place_of`.
+  /// Writes the results. `multiplier` is per unit of time; `force` sums impulses on b, at place_of[rod].
   void store(std::span<Vec2> place, std::span<Vec2> velocity, std::span<double> multiplier,
              std::span<Vec2> force, std::span<const int> place_of) const;
 
@@ -48,13 +48,13 @@ class JointChain {
     int body;
   };
   struct Link {
-    Pair direction;  // from this node to the next, over the length
+    Pair direction;  // from this node to the next, divided by the length
     Pair force;
     double square, half_inverse_length;
     double multiplier, last_multiplier;
     double rest;
-    double lower, inverse;  // of the factored matrix
-    bool is_backward;       // b comes first
+    double lower, inverse;  // entries of the factored matrix
+    bool is_backward;       // b is the first body
   };
 
   static double dot(Pair a, Pair b) {
@@ -67,7 +67,7 @@ class JointChain {
     p_node[1].velocity += p_node[1].inverse_mass * push;
   }
   Status finish(double h, double half);
-  bool newton(double h, std::uint64_t& iterations);
+  bool iterateNewton(double h, std::uint64_t& iterations);
 
   std::vector<Node> m_nodes;
   std::vector<Link> m_rods;

@@ -46,7 +46,7 @@ void JointConstraints::setArms(const JointMotion& motion) {
   }
 }
 
-// (d² − L²) / 2L needs no root, and is as good as d − L where it is 0.
+// Uses (d² − L²) / 2L, which needs no square root and equals d − L to first order near zero.
 template <bool kJacobian>
 void JointConstraints::evaluateRod(int at_row, const Link& link, Vec2 apart) {
   value[at(at_row)] = (lengthSquared(apart) - link.length * link.length) * link.half_inverse_length;
@@ -55,7 +55,7 @@ void JointConstraints::evaluateRod(int at_row, const Link& link, Vec2 apart) {
   rows[at(at_row)] = {n, -cross(link.arm_a, n), cross(link.arm_b, n), link.a, link.b};
 }
 
-// The bound that is nearer is chosen with the Jacobian, and stays until the next one.
+// Chooses the nearer bound when the Jacobian is computed. It does not change until the next Jacobian.
 template <bool kJacobian>
 void JointConstraints::chooseBound(int at_row, Link& link, const SpeedRow& placed) {
   const std::size_t row = at(at_row);
@@ -116,12 +116,12 @@ void JointConstraints::evaluate(const JointMotion& motion) {
 template void JointConstraints::evaluate<true>(const JointMotion& motion);
 template void JointConstraints::evaluate<false>(const JointMotion& motion);
 
-// A soft row's impulse s is the same in both halves of a stage, −h·k·(C + C′)/4 − c·(C′ − C)/2: the
-// trapezoidal rule. Where h does not resolve the oscillation (h²·k over the effective mass above 4), backward
-// Euler damps it instead of letting it ring.
+// A soft row has the same impulse s in both halves of a stage: −h·k·(C + C′)/4 − c·(C′ − C)/2, the
+// trapezoidal rule. If h does not resolve the oscillation (h²·k over the effective mass is above 4), backward
+// Euler is used instead, because it damps the oscillation.
 void JointConstraints::prepare(const JointMotion& motion, double h) {
   constexpr double kIdle =
-      1e-280;  // force per length: a row whose stiffness times h is below this exerts no force
+      1e-280;  // force per length: if stiffness times h is less than this, the row exerts no force
   for (const int row : soft) {
     const Joint& joint = jointOf(row);
     const bool is_resolved = h < 0 || h * h * joint.stiffness * inverseEffectiveMass(motion, row) <= 4;
@@ -203,8 +203,8 @@ void JointConstraints::addForces(const std::vector<double>& impulse) {
 }
 
 int JointConstraints::substepsOf(std::span<const Joint> all_joints, double h) const {
-  constexpr double kTurn = 0.035;      // rad that a pulled body swings in a sub-step …
-  constexpr double kMaxSubsteps = 72;  // … unless it would take more than this many
+  constexpr double kTurn = 0.035;      // rad that a pulled body may swing in a sub-step
+  constexpr double kMaxSubsteps = 72;  // limit of sub-steps, even if the body then swings farther in each
   double square = 0;
   for (const Link& link : links) {
     const Joint& joint = all_joints[at(link.index)];

@@ -20,60 +20,61 @@ struct JointConstraints {
 
   struct Link {  // a joint, with data that is constant within a step
     JointKind kind;
-    bool is_plain;     // both anchors are at the centres
+    bool is_plain;     // both anchors are at the bodies' centres
     bool holds_angle;  // holds the angle of b relative to a
-    int index;         // in the caller's joints
-    int a, b;          // in JointMotion
-    int row[3];        // −1: none
+    int index;         // index in the caller's joints
+    int a, b;          // indices of bodies in JointMotion
+    int row[3];        // indices of rows; −1: none
     Vec2 anchor_a, anchor_b;
     Vec2 arm_a, arm_b;  // the anchors at the present rotation
     Vec2 target;
     double length, half_inverse_length;
     double pulled_inverse_mass;  // inverse mass of b, if pulled
-    double calm_force;           // largest force that is calm in a step of length 1: see isCalm()
+    double calm_force;           // largest force for which isCalm() is true in a step of length 1
     double bound;                // the nearer bound of the angle limit
   };
 
-  /// Makes rows for `joint_indices` (indices into `all_joints`), without values.
+  /// Makes rows for the joints at `joint_indices` of `all_joints`, without values.
   JointConstraints(const JointMotion& motion, std::span<const int> joint_indices,
                    std::span<const Joint> all_joints);
 
-  /// Call before a step; `all_joints` must stay in place until its end. Multipliers start from those of the
-  /// last step, stored in the joints (warm start).
+  /// Call before a step; `all_joints` must stay in place until the step's end. Multipliers start from those
+  /// of the last step, which are stored in the joints (warm start).
   void load(const JointMotion& motion, std::span<const Joint> all_joints);
-  /// Call after a step of `h` with a last stage of length `last_h`: stores forces and multipliers.
+  /// Call after a step of `h` with a last stage of `last_h`: stores forces and multipliers in the joints.
   void store(std::span<Joint> all_joints, double h, double last_h) const;
 
   /// Rotates the anchors with their bodies.
   void setArms(const JointMotion& motion);
-  /// Computes the values C of all rows, and with kJacobian their Jacobians.
+  /// Computes the values C of all rows and, if kJacobian is true, their Jacobians.
   template <bool kJacobian>
   void evaluate(const JointMotion& motion);
-  /// Sets softness and bounds for a stage of `h`.
+  /// Sets softness and bounds for a stage of length `h`.
   void prepare(const JointMotion& motion, double h);
   /// Returns the error of a row as a length.
   double residual(int at_row, const JointMotion& motion, double h) const;
   double targetSpeed(int at_row) const;
-  /// Holds rows at a bound that their multiplier has left, and releases those that return within `tolerance`.
-  /// Returns true if a row has changed.
+  /// Holds rows at a bound if their multiplier is beyond it, and releases those whose multiplier returns
+  /// within `tolerance`. Returns true if a row has changed.
   bool changeActiveSet(const JointMotion& motion, double h, bool may_clamp, double tolerance);
-  /// Adds impulses, one per row, to the links' forces.
+  /// Adds impulses, one per row, to the forces of the links.
   void addForces(const std::vector<double>& impulse);
 
-  /// True if h resolves the rotation of joints by their forces. Composed steps are longer than h / substeps,
-  /// and have no advantage where they resolve nothing (a whip, a heavy weight on a light chain).
+  /// True if a step of h resolves the rotation of joints by their forces. Composed steps have longer stages
+  /// than h / substeps, without advantage if these do not resolve it (a whip, a heavy weight on a light
+  /// chain).
   bool isCalm(std::span<const Joint> all_joints, double h) const;
-  /// Number of sub-steps of a step of `h` needed to follow the oscillation of mouse joints without limit.
+  /// Returns how many sub-steps of a step of `h` resolve the oscillation of mouse joints without force limit.
   int substepsOf(std::span<const Joint> all_joints, double h) const;
-  /// True if steps may be composed of stages some of which run backwards. Not possible if a row loses energy.
+  /// True if steps may be composed of stages some of which run backwards. False if a row loses energy.
   bool mayCompose(const JointMotion& motion, std::span<const Joint> all_joints, double h) const;
 
   std::vector<Link> links;
-  std::vector<Vec2> force;  // by link: sums of impulses
+  std::vector<Vec2> force;  // by link: sums of impulses during the step
   std::vector<double> torque;
   std::vector<Rod> rods;  // by row; used only if all links are rods between centres
 
-  // The index of these is the row.
+  // The index of the following vectors is the row.
   std::vector<JointRow> rows;
   std::vector<Kind> kind;
   std::vector<int> link_of;
@@ -81,12 +82,12 @@ struct JointConstraints {
   std::vector<double> value_before;
   std::vector<double> multiplier;        // impulse of the first half of a stage
   std::vector<double> softness, memory;  // soft rows: multiplier·softness + C + memory·C before
-  std::vector<double> diagonal;          // added to the matrix by softness
+  std::vector<double> diagonal;          // number that softness adds to the diagonal of the matrix
   std::vector<double> low, high;         // bounds of the multiplier
   std::vector<std::int8_t> side;         // bound at which the multiplier is held: −1 lower, +1 upper
   std::vector<std::uint8_t> is_out;      // true if the row is excluded from the matrix for positions
   std::vector<int> one_sided, soft;      // lists of rows
-  bool is_smooth = false;                // no row is one-sided or soft
+  bool is_smooth = false;                // true if no row is one-sided or soft
   const Joint* joints = nullptr;         // the caller's joints, during a step
 
  private:

@@ -10,15 +10,15 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kDeepest = 1e-6;  // of the reach: deeper overlap at the start is not for this method
+constexpr double kDeepest = 1e-6;  // part of the reach: with deeper overlap at the start, it is not used
 constexpr double kTouch = 1e-9;    // metric cells: a gap below this counts as touching
 constexpr double kSink =
-    1e-11;  // metric cells: rounding of the places, by which a pair may come nearer unnoticed
-constexpr double kRestSpeed = 1e-9;  // metric cells per unit of time: a slower approach does not bounce
-constexpr double kInstant = 1e-9;    // units of time: impacts less apart than this are simultaneous
-constexpr double kFound = 1e-13;     // metric cells: the gap at which Newton's method ends
-constexpr int kTries = 8;  // Newton iterations for a moment; also flights in a row that take no time
-// More impacts in a step than kMaxImpacts + kMaxPerPair · pairs: the step is given up, for the RigidWorld.
+    1e-11;  // metric cells: rounding of the places, by which a pair may come nearer without an impact
+constexpr double kRestSpeed = 1e-9;  // metric cells per unit of time: slower approaches do not bounce
+constexpr double kInstant = 1e-9;    // units of time: impacts within this time are simultaneous
+constexpr double kFound = 1e-13;     // metric cells: Newton's method ends when the gap is smaller
+constexpr int kTries = 8;  // limit of Newton iterations for a moment, and of flights in a row without time
+// A step with more than kMaxImpacts + kMaxPerPair · pairs impacts is abandoned: the RigidWorld moves it.
 constexpr int kMaxImpacts = 256;
 constexpr int kMaxPerPair = 16;
 
@@ -44,8 +44,8 @@ double approachOf(const JointPair& pair, std::span<const JointBody> bodies) {
   return -dot(normalOf(pair, bodies), speedOf(pair, bodies));
 }
 
-// When does the displacement from one to the other first become shorter than `least`? It is the cubic that
-// begins and ends with these places and velocities, over a time of one. −1: never.
+// Returns when the displacement between two bodies first becomes shorter than `least`; −1 if it never does.
+// The displacement is a cubic of time from 0 to 1, with these values and rates at both ends.
 double firstWithin(double least, Vec2 from, Vec2 from_rate, Vec2 to, Vec2 to_rate) {
   const Vec2 bend = 3 * (to - from) - 2 * from_rate - to_rate;
   const Vec2 rest = from_rate + to_rate - 2 * (to - from);
@@ -61,7 +61,7 @@ double firstWithin(double least, Vec2 from, Vec2 from_rate, Vec2 to, Vec2 to_rat
 
 }  // namespace
 
-// Collects the bodies, joints and islands that take part. False if something is not for this method.
+// Collects the bodies, joints and islands that take part. Returns false if the method is not possible.
 bool JointImpacts::gather(std::span<const JointBody> bodies, std::span<const Joint> joints) {
   m_islands.clear();
   m_bodies.clear();
@@ -114,7 +114,7 @@ void JointImpacts::fly(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
 }
 
-// The pair that touches first between m_before and the present places. −1: none.
+// Returns the pair that touches first between m_before and the present places; −1 if no pair does.
 int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, double& time) const {
   const auto before = [&](int body) -> const JointBody& {
     const auto found = std::lower_bound(m_bodies.begin(), m_bodies.end(), body);
@@ -139,7 +139,7 @@ int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, dou
   return first;
 }
 
-// The cubic is not their path: from its moment to the right one, by Newton's method.
+// Corrects the moment of an impact by Newton's method, because the bodies' paths are not exactly cubic.
 bool JointImpacts::refineImpact(int pair, std::span<JointBody> bodies, std::span<Joint> joints, double left,
                                 double& time) {
   const JointPair& its = m_pairs[at(pair)];
@@ -161,8 +161,8 @@ bool JointImpacts::refineImpact(int pair, std::span<JointBody> bodies, std::span
   return gap > -kTouch;
 }
 
-// The speed at which the two part along `direction` after a unit impulse: the inverse effective mass of the
-// pair with its joints. m_change gets what the impulse does to each body.
+// Returns the speed at which the two bodies separate along `direction` after a unit impulse: the inverse
+// effective mass of the pair with its joints. Sets m_change to the change of each body.
 double JointImpacts::inverseEffectiveMass(const JointPair& pair, Vec2 direction, std::span<JointBody> bodies,
                                           std::span<Joint> joints) {
   m_responding.clear();
@@ -227,7 +227,7 @@ void JointImpacts::resolveImpact(int index, std::span<JointBody> bodies, std::sp
   applyImpulse(std::clamp(-slip / sliding, -most, most), bodies);
 }
 
-// All impacts of one moment, the hardest first, then by order; `forced` is an impact even if it is slow.
+// Resolves all impacts of one moment, the fastest first. The pair `forced` has an impact even if it is slow.
 bool JointImpacts::resolveImpacts(std::span<JointBody> bodies, std::span<Joint> joints, double now,
                                   int forced) {
   const std::size_t most = kMaxImpacts + kMaxPerPair * m_pairs.size();
@@ -251,7 +251,7 @@ bool JointImpacts::resolveImpacts(std::span<JointBody> bodies, std::span<Joint> 
 
 bool JointImpacts::run(std::span<JointBody> bodies, std::span<Joint> joints, double h) {
   double now = 0;
-  int at_once = 0;  // flights in a row that took no time
+  int at_once = 0;  // number of consecutive flights that took no time
   if (!resolveImpacts(bodies, joints, 0, -1)) return false;
   while (h - now > kInstant) {
     const double left = h - now;

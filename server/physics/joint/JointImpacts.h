@@ -1,13 +1,13 @@
-// Jointed circles that bounce off each other: handles impacts at their moments, pair by pair.
+// Jointed circles that bounce off each other: handles each impact at its moment, pair by pair.
 //
-// Between impacts a JointSolver moves the bodies. An impact concerns two bodies only, with their effective
-// masses under their joints; a chain of touching bodies gives a sequence of impacts at one moment. So
-// Newton's cradle passes its momentum on, where a simultaneous solution would distribute it (Chatterjee and
-// Ruina 1998 explain this choice).
+// Between impacts a JointSolver moves the bodies. An impact changes the velocities of two bodies only, with
+// their effective masses under their joints; a chain of touching bodies causes a sequence of impacts at one
+// moment. So Newton's cradle transfers its momentum to the last ball, where a simultaneous solution would
+// distribute it (Chatterjee and Ruina 1998 explain this choice).
 //
-// This is the time of impact for paths that joints bend, which have no formula. The distance of two centres
-// is estimated by cubic (Hermite) interpolation of each path; then Newton's method on the JointSolver itself
-// finds the moment. ImpactTime.h needs a polynomial, TimeOfImpact.h a straight path.
+// This is the time of impact for paths that are bent by joints, which have no formula. The distance of two
+// centres is estimated by cubic (Hermite) interpolation of each path; then Newton's method on the JointSolver
+// itself finds the moment. ImpactTime.h requires paths that are polynomials, TimeOfImpact.h straight ones.
 #pragma once
 
 #include <span>
@@ -28,24 +28,24 @@ struct JointPair {
 struct JointImpact {
   double time = 0;  ///< time since the start of the step
   int pair = -1;
-  double impulse = 0;  ///< along the normal, on b
+  double impulse = 0;  ///< impulse on b along the normal
 };
 
-/// Keeps only its memory from step to step.
+/// Keeps nothing from step to step, except its memory.
 class JointImpacts {
  public:
-  /// Steps the bodies of these pairs, with everything joined to them, by h. Unjoined bodies fly under a
-  /// constant force. Returns false and moves nothing if the method does not apply: bodies press on each other
-  /// or overlap, joints only pull or push, or carriers move.
+  /// Steps the bodies of these pairs, and all bodies joined to them, by h. Bodies without joints fly under a
+  /// constant force. Returns false and moves nothing if the method is not possible: if bodies press on each
+  /// other or overlap, if joints can only pull or only push, or if immovable bodies of joints move.
   bool step(JointSolver& solver, std::span<JointBody> bodies, std::span<Joint> joints,
             std::span<const JointPair> pairs, double h);
 
   /// Restores the bodies to their state before the last successful step.
   void undo(std::span<JointBody> bodies);
 
-  /// Impacts of the last successful step, in order.
+  /// Returns the impacts of the last successful step, in order.
   std::span<const JointImpact> impacts() const { return m_impacts; }
-  /// Indices of the solver's islands that the last step moved.
+  /// Returns the indices of the solver's islands that the last step moved.
   std::span<const int> islands() const { return m_islands; }
 
  private:
@@ -72,14 +72,14 @@ class JointImpacts {
   JointSolver* m_solver = nullptr;
   std::span<const JointPair> m_pairs;
   std::vector<double> m_floor;  // by pair: lower limit of the gap
-  std::vector<int> m_islands;   // islands of the solver
-  std::vector<int> m_bodies;    // sorted: bodies of all these islands, and free ones
+  std::vector<int> m_islands;   // indices of islands of the solver
+  std::vector<int> m_bodies;    // sorted: bodies of these islands, and free bodies
   std::vector<int> m_free;
   std::vector<int> m_joints;
   std::vector<JointBody> m_first, m_before;  // at the start of the step, and of the present flight
-  std::vector<Vec2> m_force;                 // by joint: sums of impulses
+  std::vector<Vec2> m_force;                 // by joint: sums of impulses during the step
   std::vector<double> m_torque;
-  std::vector<Change> m_change;   // by m_bodies: change by a unit impulse
+  std::vector<Change> m_change;   // by m_bodies: change of the body's motion by a unit impulse
   std::vector<int> m_responding;  // indices in m_bodies that the unit impulse changes
   std::vector<JointImpact> m_impacts;
 };

@@ -11,12 +11,12 @@ namespace naiad::physics {
 
 namespace {
 
-// A step that does not converge is repeated with twice as many stages, up to 16 times as many.
+// If a step does not converge, it is repeated with twice as many stages, up to 16 times as many.
 constexpr int kFiner = 2, kFinest = 16;
-constexpr int kPatience = 3;  // converged steps until longer stages are tried again
+constexpr int kPatience = 3;  // number of converged steps after which longer stages are tried again
 
-// How near a position constraint is fulfilled, in metric cells: 2e-13, or 4 units in the last place of the
-// largest coordinate.
+// Returns the tolerance of position constraints in metric cells: 2e-13, or 4 units in the last place of the
+// largest coordinate if that is more.
 double toleranceFor(double extent) {
   return std::max(2e-13, 0x1p-50 * extent);
 }
@@ -108,7 +108,7 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
                        JointOptions options, JointCounters& counters) {
   if (m_is_frozen) return;
   const int substeps = std::max(options.substeps, m_constraints.substepsOf(joints, h));
-  const double resolved = h * options.substeps / substeps;  // a step of the usual number of sub-steps
+  const double resolved = h * options.substeps / substeps;  // length of a step with the usual sub-steps
   if (options.method == JointMethod::kAutomatic) {
     const JointMethod best = substeps > options.substeps ? JointMethod::kKahanLi6 : JointMethod::kSuzuki4;
     options.method = m_constraints.isCalm(joints, resolved) ? best : JointMethod::kRattle;
@@ -119,9 +119,9 @@ void JointIsland::step(std::span<JointBody> bodies, std::span<Joint> joints, dou
   }
   options.substeps = substeps;
   if (!m_constraints.mayCompose(m_motion, joints, resolved)) options.method = JointMethod::kRattle;
-  // A step whose stages do not converge is repeated with shorter ones, all of it: lengths that change within
-  // a step cost more energy than long ones do. Only the last try may halve stages and fall back. What the
-  // last step needed, the next one is likely to need, too.
+  // If stages do not converge, the whole step is repeated with shorter ones, because stages of different
+  // lengths within a step would change the energy more than long ones. Only the last attempt may halve stages
+  // and use regularised ones. The first attempt has as many stages as the last step needed.
   const int first = m_finer;
   bool is_done = false;
   for (int finer = first; !is_done && finer <= kFinest; finer *= kFiner) {

@@ -6,7 +6,7 @@ namespace naiad::physics {
 
 namespace {
 
-// Suzuki 1990, Kahan and Li 1997. Lengths over the step; the middle one makes the sum 1.
+// Lengths of stages as parts of the step (Suzuki 1990, Kahan and Li 1997); the middle one makes the sum 1.
 constexpr double kOne[] = {1.0};
 constexpr double kS1 = 0.41449077179437573714;  // 1 / (4 − ∛4)
 constexpr double kSuzukiFour[] = {kS1, kS1, 1 - 4 * kS1, kS1, kS1};

@@ -12,7 +12,7 @@
 namespace naiad::physics {
 
 enum class JointMethod : std::uint8_t {
-  kAutomatic,  ///< order 4 for islands that conserve energy (6 if a stiff spring pulls), else RATTLE
+  kAutomatic,  ///< order 4 for islands that conserve energy (order 6 if a stiff spring pulls), else RATTLE
   kRattle,     ///< order 2, one sub-step per stage
   kSuzuki4,    ///< order 4, 5 stages
   kKahanLi6,   ///< order 6, 9 stages
@@ -31,9 +31,9 @@ int repeatsOf(const JointOptions& options);
 /// Limits of Newton's iteration for a stage.
 namespace newton {
 
-inline constexpr int kMaxIterations = 25;  ///< enough for ten digits at the slowest accepted rate
-inline constexpr int kFree = 3;            ///< first iterations, whose convergence rate is not checked
-inline constexpr double kSlow = 0.4;  ///< ratio of successive residuals above which the iteration gives up
+inline constexpr int kMaxIterations = 25;  ///< enough for ten digits at the slowest rate that kSlow accepts
+inline constexpr int kFree = 3;            ///< number of first iterations whose convergence is not checked
+inline constexpr double kSlow = 0.4;  ///< the iteration fails if a residual exceeds this part of the last
 
 }  // namespace newton
 
@@ -41,11 +41,11 @@ inline constexpr double kSlow = 0.4;  ///< ratio of successive residuals above w
 struct JointCounters {
   std::uint64_t stages = 0;
   std::uint64_t iterations = 0;   ///< Newton iterations of all stages
-  std::uint64_t refined = 0;      ///< steps repeated with shorter stages because one had not converged
-  std::uint64_t halved = 0;       ///< stages done in two halves, after refinement did not help
-  std::uint64_t regularised = 0;  ///< regularised stages, the last resort: bounded, not exact
+  std::uint64_t refined = 0;      ///< steps repeated with shorter stages because a stage had not converged
+  std::uint64_t halved = 0;       ///< stages done in two halves, if repeating the step did not help
+  std::uint64_t regularised = 0;  ///< regularised stages, the last resort: bounded, but not exact
   std::uint64_t dependent = 0;    ///< redundant rows, counted at each factorisation
-  std::uint64_t unsettled = 0;    ///< active sets that did not settle
+  std::uint64_t unsettled = 0;    ///< active sets that kept changing up to the limit of iterations
   std::uint64_t quarantined = 0;  ///< islands frozen because their numbers are out of range
   std::uint64_t broken = 0;       ///< broken joints
 };

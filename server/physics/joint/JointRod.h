@@ -1,8 +1,9 @@
 // Two points on a rod: RATTLE in closed form for the smallest island (a pendulum, a dumb-bell).
 //
 // The centre of mass flies exactly; RATTLE moves the displacement from one end to the other. In the plane
-// this is a direction and a rate of turning: half a kick changes the rate, a stage of length h turns by the
-// angle with sine h · rate, and half a kick follows. (This follows from the position equation's multiplier.)
+// this has a direction and a rate of turning: half a kick changes the rate, a stage of length h turns by the
+// angle whose sine is h · rate, and half a kick follows. (This follows from the position equation's
+// multiplier.)
 #pragma once
 
 #include <cmath>
@@ -13,13 +14,13 @@
 
 namespace naiad::physics {
 
-/// All vectors are divided by the rod's length.
+/// A rod; all vectors are divided by its length.
 struct JointRod {
   Vec2 direction;     ///< unit length, from a to b
-  double rate = 0;    ///< rate of turning
+  double rate = 0;    ///< angular speed of the rod
   Vec2 acceleration;  ///< acceleration of b relative to a, without the rod
-  double gain = 0;    ///< change of `rate` by it: direction × acceleration
-  Vec2 pull;          ///< sum of the rod's impulses on b, per reduced mass
+  double gain = 0;    ///< change of `rate` by `acceleration`, per unit of time: direction × acceleration
+  Vec2 pull;          ///< sum of the rod's impulses on b, divided by the reduced mass
 
   static constexpr double kMinCosineSquared = 0.01;  ///< a stage turns by less than 84°
 
@@ -50,7 +51,7 @@ struct JointRod {
 };
 
 /// Moves two bodies on one rod over h > 0, and writes the joint's force. Returns false and changes nothing if
-/// the method does not apply: a body turns, the rod is stretched, or it turns too far in a stage.
+/// the method is not possible because a body turns, the rod is stretched, or it turns too far in a stage.
 bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
              JointCounters& counters);
 

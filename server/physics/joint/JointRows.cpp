@@ -4,7 +4,7 @@ namespace naiad::physics {
 
 namespace {
 
-// The sine of the angle, made monotone beyond a right angle.
+// Returns the sine of the angle; beyond a right angle, a function that continues it and grows further.
 double bentSine(Rotation r) {
   if (r.c >= 0) return r.s;
   return r.s >= 0 ? 2 - r.s : -2 - r.s;

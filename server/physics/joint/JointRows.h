@@ -12,23 +12,23 @@ struct SpeedRow {
   Vec2 n;                 ///< force direction: +n on b, −n on a; (0,0): only a torque
   double ja = 0, jb = 0;  ///< factors of the spins, with sign
   double value = 0;       ///< position error
-  int side = 0;           ///< ±1: only impulses of this sign, when the value would pass 0
+  int side = 0;           ///< ±1: only impulses of this sign, which act when the value would pass 0
 };
 
-/// Two anchors, in world axes.
+/// The anchors of a joint, in world axes.
 struct JointFrame {
-  Vec2 arm_a, arm_b;  ///< relative to the bodies' centres
+  Vec2 arm_a, arm_b;  ///< positions relative to the bodies' centres
   Vec2 offset;        ///< displacement from a's anchor, or the target, to b's anchor
   Vec2 axis;
-  Rotation between;  ///< rotation of b relative to a and the reference
+  Rotation between;  ///< rotation of b relative to a, measured from the reference
 };
 
 using SpeedRows = std::array<SpeedRow, 3>;
 
-/// Writes the first rowsOf(joint) of `rows`.
+/// Writes the first rowsOf(joint) entries of `rows`.
 void placeRows(const Joint& joint, const JointFrame& frame, SpeedRows& rows);
 
-/// True if the row holds an angle rather than points.
+/// True if the row holds an angle, false if it holds points.
 bool isAngleRow(JointKind kind, int row);
 
 }  // namespace naiad::physics

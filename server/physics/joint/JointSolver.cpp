@@ -28,7 +28,7 @@ int JointSolver::connect(std::span<const JointBody> bodies, std::span<const Join
   struct Group {
     std::vector<int> bodies, joints;
   };
-  std::vector<Group> groups(bodies.size());  // by the lowest index of their movable bodies
+  std::vector<Group> groups(bodies.size());  // by the lowest index of each group's movable bodies
   m_is_joined.assign(bodies.size(), 0);
   m_carriers.clear();
   for (int i = 0; i < static_cast<int>(joints.size()); ++i) {

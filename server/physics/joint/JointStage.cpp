@@ -1,5 +1,4 @@
-// A stage of RATTLE, its halves where it does not converge, and the one that always ends where those do not,
-// either.
+// A stage of RATTLE; if it does not converge, its halves; and the regularised stage, which always succeeds.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,10 +11,10 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxHalvings = 5;     // of a stage, to 1/32
-constexpr double kDiverged = 1e30;  // a residual above this gives up, before it overflows
-constexpr double kStalled = 20;     // in tolerances: a residual that stalls below this is rounding
-constexpr int kMaxActiveSets = 16;  // tries; in the second half of them rows are only released
+constexpr int kMaxHalvings = 5;     // number of times that a stage may be halved, down to 1/32
+constexpr double kDiverged = 1e30;  // if a residual is larger, the iteration ends before numbers overflow
+constexpr double kStalled = 20;     // in tolerances: a residual below this that does not decrease is rounding
+constexpr int kMaxActiveSets = 16;  // limit of passes; in their second half, rows are only released
 
 }  // namespace
 
@@ -44,9 +43,9 @@ void JointIsland::factor(bool is_for_positions, JointCounters& counters, double 
   m_is_factored = regularisation == 0 && (is_for_positions || its.is_smooth);
 }
 
-// Simplified: the matrix of the start, whose error is of the order of the angle turned in a stage. Slow
-// convergence means that h does not resolve the motion; Newton's exact method would converge there, but at
-// the cost of energy (measured on a rope with a thousandfold weight).
+// Uses the matrix at the start of the stage, whose error is proportional to the angle turned in the stage. If
+// convergence is slow, h does not resolve the motion. Newton's exact method would converge then, but the
+// energy would be wrong (measured on a rope with a thousandfold weight).
 bool JointIsland::iterateNewton(double h, JointCounters& counters) {
   JointConstraints& its = m_constraints;
   const int rows = static_cast<int>(its.rows.size());
@@ -98,11 +97,11 @@ bool JointIsland::solvePositions(double h, JointCounters& counters) {
   return true;
 }
 
-// The rows that hold velocities: hard ones, and one-sided ones that have pulled in the first half. Those that
-// would push in the second half are released.
+// Projects the velocities onto those that hard rows, and one-sided rows that pulled in the first half, allow.
+// Releases rows that would push in the second half.
 void JointIsland::projectVelocities(JointCounters& counters) {
-  constexpr int kRounds = 3;  // of iterative refinement: more than one only if the matrix is ill-conditioned
-  constexpr double kRefined = 1e-12;  // of the first residual: nothing left to refine
+  constexpr int kRounds = 3;          // of refinement; more than one only if the matrix is ill-conditioned
+  constexpr double kRefined = 1e-12;  // part of the first residual; refinement ends below it
   const JointConstraints& its = m_constraints;
   if (!its.one_sided.empty()) m_motion.saveKicked();
   for (int pass = 0; pass < kMaxActiveSets; ++pass) {
@@ -183,11 +182,12 @@ bool JointIsland::advance(double h, int depth, JointCounters& counters) {
   return advance(0.5 * h, depth + 1, counters) && advance(0.5 * h, depth + 1, counters);
 }
 
-// Gauss–Newton from where the bodies are to the nearest place that fulfils the constraints, as impulses.
+// Moves the bodies by impulses to the nearest places that fulfil the constraints (Gauss–Newton).
 bool JointIsland::projectPlaces(double h, JointCounters& counters) {
-  constexpr double kRegularisation = 1e-9;  // of the diagonal: keeps dependent rows apart
-  constexpr int kRounds = 12;   // of Gauss–Newton; quadratic near the solution, so a bound alone
-  constexpr double kNear = 20;  // tolerances: near enough for a stage that is not exact
+  constexpr double kRegularisation = 1e-9;  // part added to the diagonal, so that dependent rows have a
+                                            // solution
+  constexpr int kRounds = 12;               // limit, rarely reached because convergence is quadratic
+  constexpr double kNear = 20;              // in tolerances: sufficient for a stage that is not exact
   const JointConstraints& its = m_constraints;
   for (int round = 0; round < kRounds; ++round) {
     m_constraints.evaluate<true>(m_motion);
@@ -208,10 +208,10 @@ bool JointIsland::projectPlaces(double h, JointCounters& counters) {
   return false;
 }
 
-// Free flight, then the nearest place that fulfils the constraints (fast projection: Goldenthal et al. 2007);
-// the velocity is that displacement over h, projected. Backward Euler in effect: it damps what h does not
-// resolve. If even that finds no place, the light bodies are slowed, and at last all stay where they are. A
-// last bound keeps the energy from growing by more than the forces' work.
+// Lets the bodies fly freely, then moves them to the nearest places that fulfil the constraints (fast
+// projection: Goldenthal et al. 2007). The velocity is that displacement divided by h, projected. In effect
+// this is backward Euler, which damps what h does not resolve. If there is no such place, retries with slower
+// light bodies, and at last stops all bodies. Finally limits the growth of the energy to the forces' work.
 bool JointIsland::regularisedStage(double h, JointCounters& counters) {
   const JointConstraints& its = m_constraints;
   ++counters.regularised;

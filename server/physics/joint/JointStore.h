@@ -15,32 +15,32 @@ namespace naiad::physics {
 /// Joints are listed in the order of addition although ids are reused, so groups do not depend on the past.
 class JointStore {
  public:
-  /// Returns the id. The caller has checked that the joint is valid.
+  /// Adds a joint and returns its id. The caller has checked that the joint is valid.
   int add(const Joint& joint, bool may_touch);
-  /// Returns false if kind or bodies differ. A broken joint stays broken.
+  /// Replaces a joint. Returns false if its kind or bodies differ. A broken joint stays broken.
   bool set(int id, const Joint& joint);
   void remove(int id);
   bool exists(int id) const { return id >= 0 && id < limit() && m_entries[at(id)].exists; }
   /// Returns the joint with the results of the last step.
   const Joint& joint(int id) const { return m_entries[at(id)].joint; }
-  /// Ids in the order of addition.
+  /// Returns all ids in the order of addition.
   const std::vector<int>& ids() const { return m_order; }
   /// True if a joint between the two bodies disables their contacts.
   bool keepsApart(int a, int b);
-  /// Calls visit(a, b) for every joint that is not broken; a is −1 for a mouse.
+  /// Calls visit(a, b) for every joint that is not broken; a is −1 for a mouse joint.
   template <class Visit>
   void visitWorking(Visit visit) const {
     for (const int id : m_order) {
       if (!joint(id).is_broken) visit(firstOf(joint(id)), joint(id).b);
     }
   }
-  /// Returns its first body; −1 for a mouse, which has only one.
+  /// Returns the joint's first body; −1 for a mouse joint, which has only one.
   static int firstOf(const Joint& joint) { return joint.kind == JointKind::kMouse ? -1 : joint.a; }
 
  protected:
   using Memory = std::array<double, 3>;
 
-  /// Multipliers of the last sub-step per its length, by row: the initial guess of the next.
+  /// Multipliers of the last sub-step divided by its length, by row: the first guess of the next sub-step.
   Memory& memoryOf(int id) { return m_entries[at(id)].memory; }
   /// Stores the force and torque of a step. Returns true if they break the joint.
   bool finish(int id, Vec2 force, double torque);
@@ -59,7 +59,7 @@ class JointStore {
   std::vector<Entry> m_entries;
   std::vector<int> m_free;
   std::vector<int> m_order;
-  std::vector<std::pair<int, int>> m_apart;  // sorted pairs of bodies without contacts
+  std::vector<std::pair<int, int>> m_apart;  // sorted pairs of bodies that do not collide because of a joint
   bool m_is_apart_sorted = true;
 };
 

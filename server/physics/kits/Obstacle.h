@@ -10,8 +10,8 @@ namespace df {
 
 class Obstacle : public Object {
  public:
-  /// Creates a block of `width` by `height` whole cells, drawn as `ch`; `corner` is its upper left cell. For
-  /// numbers out of range it keeps the position or the box of a new Object.
+  /// Creates a block of `width` by `height` whole cells, drawn as `ch`; `corner` is its upper left cell. If a
+  /// number is out of range, the position or box of a new Object is kept.
   Obstacle(Vector corner, int width, int height, char ch = '#', Color color = COLOR_DEFAULT);
 
   int draw() override;

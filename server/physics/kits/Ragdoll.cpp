@@ -8,14 +8,14 @@ namespace df {
 
 namespace {
 
-// Of a figure of height 1 with mass 1: x and width in heights as well, y down.
+// A part of a figure of height 1 and mass 1. x and widths are in units of the height, too; y grows downward.
 struct Part {
   double x, y;
   double width, height;
   double mass;
 };
 constexpr Part kTrunk = {0, 0, 0.22, 0.36, 0.44};
-constexpr double kHead = 0.1;  // radius
+constexpr double kHead = 0.1;  // radius, in units of the height
 constexpr double kHeadMass = 0.08;
 constexpr Part kUpperArm = {0.21, -0.14, 0.2, 0.07, 0.05};
 constexpr Part kLowerArm = {0.41, -0.14, 0.2, 0.06, 0.04};
@@ -37,14 +37,14 @@ class Maker {
     p_body->setCircle(kHead * across());
     return p_body;
   }
-  // Bends by `lower` to `upper` radians, clockwise.
+  // Adds a hinge that bends by `lower` to `upper` radians, clockwise.
   void hinge(Body* p_a, Body* p_b, double x, double y, double lower, double upper) const {
     PM.addHinge(p_a, p_b, at(x, y));
     PM.addAngleLimit(p_a, p_b, lower, upper);
   }
 
  private:
-  double across() const { return m_height * PM.getAspect(); }  // cells in a height
+  double across() const { return m_height * PM.getAspect(); }  // the figure's height in cell widths
   Vector at(double x, double y) const { return m_where + Vector(x * across(), y * m_height); }
   Body* body(double x, double y, double mass) const {
     auto* p_body = new Body;

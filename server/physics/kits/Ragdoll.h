@@ -9,8 +9,8 @@
 
 namespace df {
 
-/// Ten Bodies that may turn, joined by hinges with human limits. The world owns them, like every Object made
-/// with new; the joints end with them.
+/// Ten Bodies that may turn, joined by hinges with the angle limits of a human. The world owns them, like
+/// every Object made with new; the joints end with them.
 struct Ragdoll {
   Body* p_head = nullptr;
   Body* p_trunk = nullptr;
@@ -19,12 +19,13 @@ struct Ragdoll {
   std::array<Body*, 2> thighs = {};
   std::array<Body*, 2> shins = {};
 
-  /// Returns all ten, the trunk first.
+  /// Returns all ten parts, the trunk first.
   std::array<Body*, 10> parts() const;
 };
 
-/// Makes a figure standing with its arms stretched out, the middle of the trunk at `where`. `height` > 0 is
-/// in rows (a cell is `aspect` times as high as wide); `mass` > 0 is that of all. Invalid: the default.
+/// Makes a figure that stands with its arms stretched out, the middle of the trunk at `where`. `height` > 0
+/// is in rows (a cell is `aspect` times as high as wide); `mass` > 0 is that of the whole figure. An invalid
+/// height or mass is replaced by its default.
 Ragdoll makeRagdoll(Vector where, double height = 8, double mass = 8, Color color = COLOR_DEFAULT);
 
 }  // namespace df

@@ -24,7 +24,7 @@ void store(float* p, Lanes lanes) {
   std::memcpy(p, &lanes, sizeof lanes);
 }
 
-/// A sum in doubles, four at a time, in an order that is always the same.
+/// Adds up floats as doubles, four at a time, in a fixed order.
 class Sum {
  public:
   void add(Lanes lanes) { m_lanes += __builtin_convertvector(lanes, WideLanes); }
@@ -117,7 +117,7 @@ bool ConjugateGradients::invertDiagonal() {
   return true;
 }
 
-// m_product = A m_direction; returns their scalar product.
+// Sets m_product = A · m_direction. Returns the scalar product of m_direction and m_product.
 double ConjugateGradients::multiply() {
   const float *x = m_direction.x.data(), *y = m_direction.y.data();
   Sum sum;
@@ -126,7 +126,8 @@ double ConjugateGradients::multiply() {
     Lanes to_x = load(&m_middle.xx[at(i)]) * own_x + corner * own_y;
     Lanes to_y = corner * own_x + load(&m_middle.yy[at(i)]) * own_y;
     for (const Diagonal& diagonal : m_diagonals) {
-      for (const int from : {i, i - diagonal.distance}) {  // the pair's first node: this one, or the other
+      for (const int from : {i, i - diagonal.distance}) {  // first node of the pair: this one, or the one
+                                                           // before it
         const int other = from == i ? i + diagonal.distance : from;
         const Lanes other_x = load(x + other), other_y = load(y + other);
         const Lanes side = load(&diagonal.blocks.xy[at(from)]);
@@ -140,8 +141,8 @@ double ConjugateGradients::multiply() {
   return sum.total();
 }
 
-// Goes a step along the direction, and then m_product = what the residual's blocks alone would ask for.
-// Returns the scalar product of the two.
+// Makes a step along the direction, then sets m_product to the residual times the inverse diagonal blocks.
+// Returns the scalar product of the residual and m_product.
 double ConjugateGradients::precondition(float step) {
   Sum sum;
   for (int k = m_margin; k < m_margin + m_nodes; k += kLanes) {
@@ -160,7 +161,7 @@ double ConjugateGradients::precondition(float step) {
   return sum.total();
 }
 
-// m_direction = m_product + keep · m_direction
+// Sets m_direction = m_product + keep · m_direction.
 void ConjugateGradients::turn(float keep) {
   for (int k = m_margin; k < m_margin + m_nodes; k += kLanes) {
     const std::size_t i = at(k);
@@ -169,7 +170,7 @@ void ConjugateGradients::turn(float keep) {
   }
 }
 
-// The solution is zero, and the residual the right-hand side.
+// Sets the solution to zero and the residual to the right-hand side.
 void ConjugateGradients::start(std::span<const double> rows, double by) {
   for (Points* points : {&m_solution, &m_direction, &m_product}) {
     std::fill(points->x.begin(), points->x.end(), 0.0F), std::fill(points->y.begin(), points->y.end(), 0.0F);
@@ -192,7 +193,7 @@ int ConjugateGradients::solve(std::span<double> rows, int most, double tolerance
   int done = 0;
   while (done < most && error > enough) {
     const double curvature = multiply();
-    if (!(curvature > 0)) break;  // the digits of a float are used up
+    if (!(curvature > 0)) break;  // a float has no more digits for a better solution
     ++done;
     const double next = precondition(static_cast<float>(error / curvature));
     turn(static_cast<float>(next / error));

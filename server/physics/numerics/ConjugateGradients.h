@@ -1,13 +1,13 @@
 // Iterative solution of a symmetric positive definite system of 2 × 2 blocks, one block row per node.
 //
-// Conjugate gradients, preconditioned by the diagonal blocks. Each iteration costs a multiplication by the
-// matrix, proportional to nodes + pairs, however far apart the node numbers of pairs are. Used for systems
-// that are too wide for a SoftBand. The matrix is stored by diagonals; a mesh has only few.
+// Conjugate gradients, preconditioned by the diagonal blocks. An iteration costs a multiplication by the
+// matrix, proportional to nodes + pairs, even if the node numbers of pairs are far apart. Used for systems
+// that are too wide for a SoftBand. The matrix is stored by diagonals; that of a mesh has only few.
 //
 // The iteration uses floats, four nodes at a time, plain operators with one rounding each, and sums in a
-// fixed order, so that all processors give equal bits. It finds a correction to some digits; the caller
-// repeats it with the residual in doubles for more. The minimised function falls in each iteration, so
-// stopping early is safe.
+// fixed order, so that all processors give equal bits. It finds a correction to a few digits; for more digits
+// the caller repeats it with the residual in doubles. The minimised function falls in each iteration, so the
+// caller may stop early.
 #pragma once
 
 #include <span>
@@ -24,26 +24,26 @@ class ConjugateGradients {
     int a;
     int b;
   };
-  /// A symmetric block; `xy` is both off-diagonal entries.
+  /// A symmetric block; `xy` is both of its off-diagonal entries.
   struct Block {
     double xx = 0, xy = 0, yy = 0;
   };
 
-  /// Returns the number of diagonals for these pairs: different |a − b|. Each costs the memory and time of
-  /// all nodes.
+  /// Returns the number of diagonals for these pairs: the number of different |a − b|. Each costs as much
+  /// memory and time as all nodes.
   static int diagonalsOf(std::span<const Pair> pairs);
 
   /// Sets the pattern: the diagonal, and blocks (a, b) and (b, a) of these pairs, a != b. Pairs may repeat.
   void resize(int nodes, std::span<const Pair> pairs);
-  /// Sets all to zero. `scale` > 0 is the rough size of entries, so that they and their inverses fit floats.
+  /// Sets all entries to zero. `scale` > 0 is their rough size, so that they and their inverses fit floats.
   void clear(double scale);
-  /// Adds to both blocks (a, b) and (b, a) of this pair.
+  /// Adds `block` to the blocks (a, b) and (b, a) of this pair.
   void addPair(int pair, const Block& block);
   void addDiagonal(int node, const Block& block) {
     Block& sum = m_diagonal[at(node)];
     sum.xx += block.xx, sum.xy += block.xy, sum.yy += block.yy;
   }
-  /// Returns a node's stiffness so far: the mean of its two diagonal entries.
+  /// Returns the mean of the two diagonal entries of a node: its stiffness so far.
   double diagonalOf(int node) const { return 0.5 * (m_diagonal[at(node)].xx + m_diagonal[at(node)].yy); }
 
   /// Replaces `rows` (x and y per node) by the solution, or by the approximation after `most` iterations.
@@ -52,7 +52,7 @@ class ConjugateGradients {
   int solve(std::span<double> rows, int most, double tolerance);
 
  private:
-  /// One number per node, with zeros before and after for missing neighbours.
+  /// One number per node, with zeros before the first and after the last node for missing neighbours.
   using Numbers = std::vector<float>;
   struct Points {
     Numbers x, y;
@@ -62,7 +62,7 @@ class ConjugateGradients {
   };
   struct Diagonal {
     int distance;
-    Blocks blocks;  ///< index i: between the nodes i and i + distance
+    Blocks blocks;  ///< block i is between the nodes i and i + distance
   };
   struct Slot {
     int diagonal, node;
@@ -77,13 +77,13 @@ class ConjugateGradients {
   void turn(float keep);
 
   int m_nodes = 0;
-  int m_margin = 0;  // numbers before the first node's
+  int m_margin = 0;  // numbers before that of the first node
   std::vector<Diagonal> m_diagonals;
   std::vector<Slot> m_slots;  // by pair
   std::vector<Block> m_diagonal;
-  Blocks m_middle, m_inverse;  // the diagonal blocks and their inverses
+  Blocks m_middle, m_inverse;  // diagonal blocks and their inverses
   Points m_solution, m_residual, m_direction, m_product;
-  double m_unit = 1;  // scales entries to about one
+  double m_unit = 1;  // factor that scales entries to about one
 };
 
 }  // namespace naiad::physics

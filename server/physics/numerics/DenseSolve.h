@@ -7,13 +7,13 @@
 
 namespace naiad::physics {
 
-/// Fill matrix(), call decompose() once, then solve() any number of times. Does not allocate.
+/// Fill matrix(), call decompose() once, then solve() any number of times. This class does not allocate.
 template <int N>
 class DenseSolve {
  public:
   std::array<std::array<double, N>, N>& matrix() { return m_rows; }
 
-  /// False if the matrix is singular or not finite; then solve() must not be called.
+  /// Returns false if the matrix is singular or not finite; then solve() must not be called.
   bool decompose() {
     for (int k = 0; k < N; ++k) {
       int pivot = k;

@@ -17,12 +17,12 @@ namespace naiad::physics {
 template <int N>
 using StateVector = std::array<double, N>;
 
-/// Row i holds the derivatives of rate i.
+/// A matrix; row i has the derivatives of rate i.
 template <int N>
 using StateMatrix = std::array<std::array<double, N>, N>;
 
 enum class IntegratorMethod : std::uint8_t {
-  kAutomatic,      ///< extrapolation; if that is slow in a call, Radau if it is faster
+  kAutomatic,      ///< extrapolation; if that is slow in a call, Radau is tried and used if it is faster
   kExtrapolation,  ///< Gragg–Bulirsch–Stoer, order up to 16, error control: accurate to rounding for smooth
                    ///< motion and Kepler orbits
   kRadau,  ///< Radau IIA of order 5, implicit, error control: stiff forces
@@ -31,7 +31,7 @@ enum class IntegratorMethod : std::uint8_t {
 enum class IntegratorStatus : std::uint8_t {
   kDone,
   kTooManySteps,  ///< a limit of the options was reached
-  kNoProgress,    ///< the step became too small: a singularity, or Newton's method does not converge
+  kNoProgress,    ///< the step became too small, because of a singularity or because Newton's method failed
   kNotFinite,     ///< the initial state or the forces there are not finite
 };
 
@@ -45,21 +45,21 @@ struct IntegratorOptions {
   double stiff_relative = 1e-8;
   double stiff_absolute = 1e-10;
 
-  /// The explicit method gives up in a call that needs more evaluations, or would at its current pace.
+  /// The explicit method fails if a call needs more evaluations than this, or would at its present speed.
   int max_evaluations = 30000;
-  /// The implicit method gives up after this many steps, including rejected ones. The automatic method has
-  /// lower limits, and enlarges the tolerances before it gives up (IntegratorAutomatic.h).
+  /// The implicit method fails after this many steps, including rejected ones. The automatic method has lower
+  /// limits, and enlarges the tolerances before it fails (IntegratorAutomatic.h).
   int max_steps = 20000;
 };
 
-/// Added up over calls; only the owner resets them.
+/// Counters added up over calls; only the owner resets them.
 struct IntegratorCounters {
-  std::int64_t evaluations = 0;  ///< number of derivatives, including those for finite-difference Jacobians
-  std::int64_t steps = 0;        ///< accepted steps
-  std::int64_t rejected = 0;     ///< steps rejected by the error estimate
-  std::int64_t jacobians = 0;    ///< implicit methods only
+  std::int64_t evaluations = 0;      ///< evaluations of the derivative, also for finite-difference Jacobians
+  std::int64_t steps = 0;            ///< accepted steps
+  std::int64_t rejected = 0;         ///< steps rejected by the error estimate
+  std::int64_t jacobians = 0;        ///< Jacobians computed, by implicit methods only
   std::int64_t newton_failures = 0;  ///< steps repeated because Newton's method did not converge
-  std::int64_t stiff_calls = 0;      ///< calls in which the automatic method switched to Radau
+  std::int64_t stiff_calls = 0;      ///< calls in which the automatic method changed to Radau
   std::int64_t coarse_calls = 0;     ///< stiff calls that had to finish without error control
   std::int64_t failed_calls = 0;     ///< calls with a final status other than kDone
 };

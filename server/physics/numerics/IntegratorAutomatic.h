@@ -11,22 +11,22 @@ namespace naiad::physics {
 
 namespace automatic {
 
-/// Evaluations per call that smooth motion never needs: above it the implicit method may be faster.
+/// Evaluations per call that smooth motion never needs: if it takes more, the implicit method may be faster.
 inline constexpr int kManyEvaluations = 1500;
-/// Steps in which the implicit method must finish the call on trial. A lasting oscillation would need many
-/// more.
+/// The implicit method is used for a call only if it needs at most this many steps. A lasting oscillation
+/// would need many more.
 inline constexpr int kTrialSteps = 100;
 /// Limits of one call, each about half a millisecond.
 inline constexpr int kMaxEvaluations = 8000;
 inline constexpr int kMaxSteps = 600;
 inline constexpr int kEvaluationsAtLeast = 150;
 inline constexpr int kCoarseSteps = 16;
-/// Factor by which tolerances grow if these steps do not suffice.
+/// Factor by which tolerances grow if the steps of a limit do not suffice.
 inline constexpr double kLoosening = 100;
-/// Factor for the limit of evaluations, because steps next to a jump are short for a while.
+/// Factor for the limit of evaluations, because for a while steps next to a jump of the force are short.
 inline constexpr int kPatience = 2;
 
-/// Extrapolation; if that is slow, Radau on trial; then extrapolation again, up to the limit.
+/// Uses extrapolation; if that is slow, tries Radau; if that fails, extrapolation again, up to the limit.
 template <int N, class System>
 IntegratorStatus integrateExactly(const System& system, double& t, double end, StateVector<N>& y,
                                   const IntegratorOptions& limited, IntegratorCounters& counters) {
@@ -47,9 +47,9 @@ IntegratorStatus integrateExactly(const System& system, double& t, double end, S
   return status;
 }
 
-/// If extrapolation fails, continues with Radau, with larger tolerances if its limit requires, and at last
-/// without error control. So it always ends, unless numbers are not finite. If the limit of evaluations is
-/// too low to detect stiffness, starts with Radau.
+/// If extrapolation fails, continues with Radau, whose tolerances grow as its steps are used up, and at last
+/// without error control. So it always reaches the end, unless numbers are not finite or steps shrink to
+/// nothing. If the limit of evaluations is too low to detect stiffness, starts with Radau.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {
@@ -73,8 +73,8 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
 }  // namespace automatic
 
 /// Integrates from `t` to `end` >= t by kExtrapolation, kRadau or, for any other method, automatically. The
-/// automatic choice depends only on the arguments. `y` is the state reached: that at `end` if the status is
-/// kDone.
+/// automatic choice depends only on the arguments. Sets `y` to the state reached; that is the one at `end` if
+/// the status is kDone.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {

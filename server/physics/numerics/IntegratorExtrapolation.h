@@ -1,9 +1,9 @@
 // Gragg's midpoint rule with Bulirsch–Stoer extrapolation: explicit, error-controlled, of variable order.
 //
 // A step of length H is computed with 2, 4, 6 … sub-steps by the modified midpoint rule, whose error has only
-// even powers of the sub-step, and a polynomial in its square is extrapolated to zero (Aitken and Neville;
-// Hairer, Nørsett and Wanner, "Solving Ordinary Differential Equations I", II.9). Column k has order 2k.
-// Order and step are chosen for the least work per unit of time.
+// even powers of the sub-step. A polynomial in the square of the sub-step is extrapolated to zero (Aitken and
+// Neville; Hairer, Nørsett and Wanner, "Solving Ordinary Differential Equations I", II.9). Column k has order
+// 2k. Order and step are chosen for the least work per unit of time.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace naiad::physics {
 
-/// Returns the largest component of `error` relative to the allowed error for a step from `y` to `y` +
+/// Returns the largest ratio of a component of `error` to the allowed error, for a step from `y` to `y` +
 /// `increment`; +∞ if it is NaN.
 template <int N>
 double scaledError(const StateVector<N>& error, const StateVector<N>& y, const StateVector<N>& increment,
@@ -30,7 +30,7 @@ double scaledError(const StateVector<N>& error, const StateVector<N>& y, const S
   return largest;
 }
 
-/// True if all components are finite and in range for further calculation.
+/// True if all components are finite and small enough for further calculation.
 template <int N>
 bool isUsable(const StateVector<N>& y) {
   return std::all_of(y.begin(), y.end(), [](double value) { return std::fabs(value) <= 1e300; });
@@ -38,7 +38,7 @@ bool isUsable(const StateVector<N>& y) {
 
 namespace extrapolation {
 
-inline constexpr int kColumns = 8;  ///< columns of the table; order 16 at most
+inline constexpr int kColumns = 8;  ///< maximum number of columns of the table, which gives order 16
 inline constexpr int kMaxSubsteps = 2 * kColumns;
 
 /// Row i (with 2(i + 1) sub-steps) is corrected in column j by its difference to the row before, times 1 /
@@ -54,12 +54,12 @@ inline constexpr auto kWeights = [] {
   return weights;
 }();
 
-/// Number of derivatives for the first k columns together, including the one at the start.
+/// Returns the evaluations for the first `columns` columns together, including the one at the start.
 constexpr int evaluationsOf(int columns) {
   return 1 + columns * columns;  // 1 + Σ (2j − 1)
 }
 
-/// Returns the factor for the length of a step whose error in column k was `error` times the allowed one.
+/// Returns the factor for the next step's length, if this column's error was `error` times the allowed one.
 inline double stepFactor(double error, int columns) {
   const double power = 1.0 / (2 * columns - 1);
   const double factor = 0.94 * df::math::exp(power * df::math::log(0.65 / std::max(error, 1e-30)));
@@ -79,7 +79,8 @@ class Step {
  public:
   Step(const System& system, const IntegratorOptions& options) : m_system(system), m_options(options) {}
 
-  /// Steps from `y` at `t`, with derivative `rate`, by `length`. True if a column was accurate enough.
+  /// Steps from `y` at `t`, with derivative `rate`, by `length`. Returns true if a column was accurate
+  /// enough.
   bool take(double t, const StateVector<N>& y, const StateVector<N>& rate, double length) {
     for (m_columns = 0; m_columns < kColumns;) {
       StateVector<N> error{}, last = midpoints(t, y, rate, length, 2 * (m_columns + 1));
@@ -99,9 +100,9 @@ class Step {
     return false;
   }
 
-  /// True if the derivative jumps near an end of the step. `rate` and `rate_at_end` are the derivatives
-  /// there. The midpoint rule hardly uses the ends, so its rows would agree although a force was switched on
-  /// or off there. Compares the second differences at the ends with those farther inside (or, with four
+  /// True if the derivative jumps near an end of the step. `rate` and `rate_at_end` are the derivatives at
+  /// its ends. The midpoint rule hardly uses the ends, so its rows would agree although a force was switched
+  /// on or off there. Compares the second differences at the ends with those farther inside (or, with four
   /// sub-steps, with each other), taken about odd sub-steps because the rule's own error alternates.
   bool missesJump(const StateVector<N>& y, const StateVector<N>& rate, const StateVector<N>& rate_at_end,
                   double length) const {
@@ -122,11 +123,11 @@ class Step {
 
   const StateVector<N>& increment() const { return m_row[m_columns - 1]; }
   int columns() const { return m_columns; }
-  /// Evaluations of the derivative, without the one at the start.
+  /// Returns the number of evaluations of the derivative, without the one at the start.
   int evaluations() const { return evaluationsOf(m_columns) - 1; }
 
   /// Returns the length of the next step relative to this one, by the column with the least cost per unit of
-  /// time. After a step that succeeded at once, one more column may be tried.
+  /// time. If the step succeeded at the first attempt, `may_grow` allows one more column.
   double nextFactor(bool may_grow) const {
     int best = 2;
     double factor = stepFactor(m_errors[2], 2);
@@ -158,16 +159,16 @@ class Step {
   const System& m_system;
   const IntegratorOptions& m_options;
   int m_columns = 0;
-  std::array<StateVector<N>, kColumns> m_row;        // last row of the table: the step's increment by columns
+  std::array<StateVector<N>, kColumns> m_row;        // last row of the table: the step's increment by column
   std::array<StateVector<N>, kMaxSubsteps> m_slope;  // derivatives of the last row at its inner sub-steps
   std::array<double, kColumns + 1> m_errors{};
 };
 
 }  // namespace extrapolation
 
-/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: the end if the status is
-/// kDone. With `patience` > 0 also gives up if, at the pace of the last step, the total would exceed
-/// `patience` times the limit of evaluations.
+/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: that at `end` if the
+/// status is kDone. With `patience` > 0 it also fails if, at the speed of the last step, the total would
+/// exceed `patience` times the limit of evaluations.
 template <int N, class System>
 IntegratorStatus integrateByExtrapolation(const System& system, double& t, double end, StateVector<N>& y,
                                           const IntegratorOptions& options, IntegratorCounters& counters,
@@ -214,7 +215,7 @@ IntegratorStatus integrateByExtrapolation(const System& system, double& t, doubl
     }
     was_rejected = !is_accepted;
 
-    // Estimates the rest at this pace: stiffness shows in steps shorter than accuracy alone requires.
+    // Estimates what remains at this speed: stiffness makes steps shorter than the accuracy requires.
     const double ahead = (end - t) / length * extrapolation::evaluationsOf(step.columns());
     const bool is_slow = patience > 0 && evaluations > 150 && is_accepted &&
                          ahead > static_cast<double>(patience) * options.max_evaluations;

@@ -2,7 +2,7 @@
 //
 // See Hairer and Wanner, "Solving Ordinary Differential Equations II", IV.8. The unknowns are the stages'
 // increments, found by simplified Newton iteration with one decomposition per step. The error estimate has
-// order 3 and is filtered by the stiff part. The 3N equations are solved directly, as N is small.
+// order 3, and its stiff part is damped. The 3N equations are solved directly, because N is small.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline constexpr double kGamma = 0.27488882959532694;
 /// Weights of the stages' increments in the error estimate, times kGamma.
 inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
                                                         -1.0 / 3};
-inline constexpr int kMaxNewton = 10;  ///< iterations; slower convergence shortens the step instead
+inline constexpr int kMaxNewton = 10;  ///< limit of iterations; beyond it, the step is shortened
 
 template <int N>
 using Stages = std::array<StateVector<N>, 3>;
@@ -56,14 +56,14 @@ class Step {
     loosen(1);
   }
 
-  /// Multiplies the tolerances of the options by `factor`.
+  /// Sets the tolerances to those of the options times `factor`.
   void loosen(double factor) {
     m_absolute = factor * m_options.stiff_absolute;
     m_relative = factor * m_options.stiff_relative;
     m_newton_limit = std::max(0x1p-48 / m_relative, 0.01);
   }
 
-  /// Derivative at the start of the step.
+  /// Returns the derivative at the start of the step.
   const StateVector<N>& rate() const { return m_rate; }
 
   /// Evaluates the start. Returns a first step's length, in which the state changes by about a hundredth.
@@ -74,7 +74,7 @@ class Step {
     return speed > 0 ? std::max(0.01 * scaled(y, y), 1.0) / speed : HUGE_VAL;
   }
 
-  /// Finds the stages of a step from `y` at `t`. False if Newton's iteration does not converge.
+  /// Finds the stages of a step from `y` at `t`. Returns false if Newton's iteration does not converge.
   bool solve(double t, const StateVector<N>& y, double length) {
     if (!m_has_jacobian) findJacobian(t, y);
     m_has_jacobian = true;
@@ -84,8 +84,8 @@ class Step {
     return has_converged;
   }
 
-  /// Fallback: y += (I − hJ)⁻¹·h·y′. If that is not in the direction of the derivative, because the solution
-  /// runs away faster than a step can resolve, the state is not changed.
+  /// The last resort, without error control: y += (I − hJ)⁻¹·h·y′. If this increment points away from the
+  /// derivative, because the solution runs away faster than a step can resolve, the state is not changed.
   bool takeCoarsely(double t, StateVector<N>& y, double length) {
     evaluate(t, y, m_rate);
     findJacobian(t, y);
@@ -108,7 +108,8 @@ class Step {
     return true;
   }
 
-  /// Error of the solved step relative to the allowed one. `is_careful`: filters twice before a rejection.
+  /// Returns the step's error over the allowed one. `is_careful`: damps its stiff part again before
+  /// rejection.
   double error(double t, const StateVector<N>& y, double length, bool is_careful) {
     auto& matrix = m_filter.matrix();
     for (int m = 0; m < N; ++m) {
@@ -129,7 +130,7 @@ class Step {
     return std::clamp(caution * df::math::exp(-0.25 * df::math::log(std::max(error, 1e-20))), 0.1, 8.0);
   }
 
-  /// Accepts the step; `t` is its end.
+  /// Accepts the step, which ends at `t`.
   void advance(double t, StateVector<N>& y, double length, bool is_last) {
     for (int m = 0; m < N; ++m) y[m] += m_increments[2][m];
     m_last_increments = m_increments;
@@ -149,7 +150,7 @@ class Step {
     return scaledError<N>(change, y, StateVector<N>{}, m_absolute, m_relative);
   }
 
-  // Uses the system's own formula, or finite differences.
+  // Computes the Jacobian by the system's own formula if there is one, otherwise by finite differences.
   void findJacobian(double t, const StateVector<N>& y) {
     ++m_counters.jacobians;
     if constexpr (requires { m_system.jacobian(t, y, m_jacobian); }) {
@@ -166,7 +167,7 @@ class Step {
     }
   }
 
-  // Extrapolates the last step's polynomial.
+  // Predicts the stages by extrapolation of the last step's polynomial.
   Stages<N> predicted(double length) const {
     Stages<N> increments{};
     if (m_last_length == 0) return increments;
@@ -177,7 +178,7 @@ class Step {
     return increments;
   }
 
-  // Decomposes I − h·A⊗J.
+  // Decomposes the matrix I − h·A⊗J.
   bool decompose(double length) {
     auto& matrix = m_newton.matrix();
     for (int i = 0; i < 3; ++i) {
@@ -200,7 +201,7 @@ class Step {
       if (size <= 1e-3 * m_newton_limit) return true;
       if (m_iterations > 1) {
         const double contraction = size / last_size;
-        // Near the floor that rounding sets, a small residual is accepted.
+        // When rounding prevents further convergence, a small residual is accepted.
         if (contraction >= 1) return contraction < 2 && size <= m_newton_limit;
         const double left = contraction / (1 - contraction) * size;
         if (left <= m_newton_limit) return true;
@@ -212,7 +213,7 @@ class Step {
     return false;
   }
 
-  // Does one iteration; returns the size of the change.
+  // Does one iteration. Returns the size of the change.
   double improve(double t, const StateVector<N>& y, double length) {
     Stages<N> rates;
     for (int i = 0; i < 3; ++i) {
@@ -241,7 +242,7 @@ class Step {
     return size;
   }
 
-  // Returns the raw estimate from the derivative `rate` at the start, with its stiff part damped.
+  // Returns the error estimate with its stiff part damped; `rate` is the derivative at the start.
   StateVector<N> filtered(const StateVector<N>& rate, double length) const {
     StateVector<N> estimate;
     for (int m = 0; m < N; ++m) {
@@ -258,7 +259,7 @@ class Step {
   IntegratorCounters& m_counters;
   double m_absolute = 0;
   double m_relative = 0;
-  double m_newton_limit = 0;  // part of the allowed error left by the iteration; limited by rounding
+  double m_newton_limit = 0;  // part of the allowed error for the iteration; at least rounding
   StateVector<N> m_rate{};
   StateMatrix<N> m_jacobian{};
   bool m_has_jacobian = false;
@@ -266,14 +267,14 @@ class Step {
   DenseSolve<N> m_filter;
   Stages<N> m_increments{};
   int m_iterations = 0;
-  Stages<N> m_last_increments{};  // of the previous accepted step, for the prediction
+  Stages<N> m_last_increments{};  // increments of the previous accepted step, used for the prediction
   double m_last_length = 0;
 };
 
 }  // namespace radau
 
-/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: the end if the status is
-/// kDone. The tolerances grow by the factor `loosening` after each third of the allowed steps.
+/// Integrates from `t` to `end` >= t. On return `t` and `y` are the state reached: that at `end` if the
+/// status is kDone. The tolerances grow by the factor `loosening` after each third of the allowed steps.
 template <int N, class System>
 IntegratorStatus integrateByRadau(const System& system, double& t, double end, StateVector<N>& y,
                                   const IntegratorOptions& options, IntegratorCounters& counters,
@@ -313,8 +314,8 @@ IntegratorStatus integrateByRadau(const System& system, double& t, double end, S
   return IntegratorStatus::kDone;
 }
 
-/// Integrates in this many equal, linearly implicit steps (Rosenbrock's method of order 1): bounded for any
-/// stiffness, without error control.
+/// Integrates in this many equal, linearly implicit steps (Rosenbrock's method of order 1). The result is
+/// bounded for any stiffness, but there is no error control.
 template <int N, class System>
 IntegratorStatus integrateCoarsely(const System& system, double t, double end, StateVector<N>& y, int steps,
                                    const IntegratorOptions& options, IntegratorCounters& counters) {

@@ -45,7 +45,7 @@ Neighbours neighboursOf(std::span<const JointRow> rows, std::span<const JointMas
   return neighbours;
 }
 
-// How many pairs of neighbours are not neighbours of each other.
+// Returns how many pairs of the row's neighbours are not neighbours of each other.
 int fillOf(const Neighbours& neighbours, int i) {
   const std::vector<int>& list = neighbours[at(i)];
   int fill = 0;
@@ -60,7 +60,7 @@ int fillOf(const Neighbours& neighbours, int i) {
 
 }  // namespace
 
-// Least fill first: on a graph that has an order without fill (a tree of bodies has), it finds one.
+// Eliminates the row with the least fill first. Finds an order without fill if there is one, as for trees.
 std::vector<int> eliminationOrder(std::span<const JointRow> rows, std::span<const JointMass> masses) {
   Neighbours neighbours = neighboursOf(rows, masses);
   std::vector<int> fill(rows.size());
@@ -106,7 +106,7 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
     }
     m_entries += static_cast<int>(columns[at(i)].size());
   }
-  for (int j = 0; j < m_size; ++j) {  // what is below the first entry passes to that entry's column
+  for (int j = 0; j < m_size; ++j) {  // rows below the first entry fill that entry's column
     const std::vector<int>& column = columns[at(j)];
     for (std::size_t p = 1; p < column.size(); ++p) insertSorted(columns[at(column[0])], column[p]);
   }
@@ -153,7 +153,7 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
 
 int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
                         const double* softness, double regularisation) {
-  constexpr double kDependent = 1e-11;  // below this share of the diagonal, a pivot is rounding
+  constexpr double kDependent = 1e-11;  // a pivot below this part of the diagonal is only rounding
   std::fill(m_lower.begin(), m_lower.end(), 0.0);
   for (const Term& term : m_terms) {
     if ((is_out[term.i] | is_out[term.k]) != 0) continue;
@@ -228,10 +228,10 @@ void JointMatrix::solve(double* x) const {
   }
 }
 
-// The same operations in the same order. What the next row waits for stays in registers: in memory, a value
-// that was just stored takes longer to come back than a row takes to be computed.
+// Like solve(), with the same operations in the same order. Values for the next rows stay in registers,
+// because to load a value just stored takes longer than to compute a row.
 void JointMatrix::solveBand(double* x) const {
-  const double* column = m_band.data();  // begins with kBand columns of zeros
+  const double* column = m_band.data();  // starts with kBand columns of zeros
   double last = 0, second = 0, third = 0;
   for (int j = 0; j < m_size; ++j, column += kBand) {
     const double value =

@@ -1,9 +1,9 @@
 // The matrix J·M⁻¹·Jᵀ of an island's constraints, its sparse LDLᵀ factors, and solutions with them.
 //
-// Rows are eliminated in an order with little fill. A tree of bodies has none, so that factoring and solving
-// are O(n) (see Baraff, "Linear-time dynamics using Lagrange multipliers", 1996). A loop adds the fill of a
-// dense complement for its closing joint, no wider than the loop. Order, pattern and the list of updates are
-// computed only when joints change.
+// Rows are eliminated in an order with little fill. A tree of bodies has no fill, so that factoring and
+// solving are O(n) (see Baraff, "Linear-time dynamics using Lagrange multipliers", 1996). The closing joint
+// of a loop adds the fill of a dense complement, no wider than the loop. Order, pattern and the list of
+// updates are computed only when joints change.
 #pragma once
 
 #include <cstdint>
@@ -29,28 +29,28 @@ struct JointMass {
   double inverse_inertia = 0;
 };
 
-/// Returns the elimination order of `rows`, which are connected by shared movable bodies.
+/// Returns the elimination order of `rows`. Rows are connected if they share a movable body.
 std::vector<int> eliminationOrder(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
 class JointMatrix {
  public:
-  /// `rows` must be in elimination order, which is the order of all arrays below.
+  /// Sets the pattern. `rows` must be in elimination order, which is also the order of all arrays below.
   void analyse(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
-  /// Excludes rows with `is_out` (their solution is 0). Adds `softness` to the diagonal; null is zero.
-  /// Multiplies the diagonal by 1 + `regularisation`. Returns the number of rows that depend on others; their
-  /// multipliers will be 0.
+  /// Factors the matrix. Rows with `is_out` are excluded, so their solution is 0. Adds `softness` to the
+  /// diagonal; null means zero. Multiplies the diagonal by 1 + `regularisation`. Returns the number of rows
+  /// that depend on other rows; their multipliers will be 0.
   int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
              const double* softness, double regularisation = 0);
 
   /// Replaces the right-hand side by the solution.
   void solve(double* x) const;
 
-  /// True if each row shares a body with the next one, and with no other.
+  /// True if each row shares a body with the next one, and with no other row.
   bool isChain() const { return m_is_chain; }
-  /// True if no entry is more than kBand rows below the diagonal, as for chains of hinges.
+  /// True if no entry is more than kBand rows below the diagonal, which is so for chains of hinges.
   bool isBand() const { return !m_band.empty(); }
-  /// Number of non-zero entries below the diagonal in the factor (filled) and in the matrix (entries).
+  /// Returns the number of non-zero entries below the diagonal in the factor; entries(): in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
   int entries() const { return m_entries; }
 
@@ -59,7 +59,7 @@ class JointMatrix {
 
   void solveBand(double* x) const;
 
-  struct Term {  // part of an entry: rows i and k meet at a body
+  struct Term {  // part of an entry: rows i and k share a body
     int at, i, k, body;
     double sign;
     bool i_is_b, k_is_b;
@@ -70,12 +70,13 @@ class JointMatrix {
   bool m_is_chain = false;   // each row shares a body with the next one, and with no other
   std::vector<int> m_begin;  // begin of each column in m_row and m_lower
   std::vector<int> m_row;
-  std::vector<int> m_targets;  // of the updates in factoring order; ~row for a diagonal entry
+  std::vector<int> m_targets;  // entry changed by each update, in factoring order; ~row for a diagonal entry
   std::vector<Term> m_terms;
   std::vector<double> m_lower;
-  std::vector<double> m_inverse;  // inverse pivots
+  std::vector<double> m_inverse;  // inverses of the pivots
   std::vector<double> m_pivot;
-  std::vector<double> m_band;  // by column, the entries below the diagonal; empty if the matrix is wider
+  std::vector<double> m_band;  // by column, the entries below the diagonal; empty if there are more than
+                               // kBand
 };
 
 }  // namespace naiad::physics

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kHighestDegree = 6;
 
-// Newton's method, kept within a bracket at whose ends the signs differ.
+// Finds a root by Newton's method, kept within an interval at whose ends the polynomial has different signs.
 double rootBetween(const double* c, int degree, double low, double high) {
   const bool is_low_negative = evaluate(c, degree, low) < 0;
   double slope[kHighestDegree];
@@ -26,7 +26,7 @@ double rootBetween(const double* c, int degree, double low, double high) {
   return s;
 }
 
-// The places where the polynomial may turn, with both ends; ascending. Returns how many.
+// Writes the points where the polynomial may turn, and both ends, in ascending order. Returns their number.
 int turningPoints(const double* c, int degree, double low, double high, double* out) {
   out[0] = low;
   int count = 1;
@@ -45,7 +45,7 @@ int turningPoints(const double* c, int degree, double low, double high, double* 
   return count;
 }
 
-// The roots of r + v·s + ½a·s² in (0, horizon), ascending, by the formula that cancels nothing.
+// Writes the roots of r + v·s + ½a·s² in (0, horizon), ascending, without cancellation. Returns their number.
 int quadraticRoots(double r, double v, double a, double horizon, double* out) {
   int count = 0;
   const auto add = [&](double s) {
@@ -99,7 +99,7 @@ int insideIntervals(double r, double v, double a, double half, double horizon, I
   cuts[ends++] = 0;
   ends += quadraticRoots(r - half, v, a, horizon, cuts + ends);
   ends += quadraticRoots(r + half, v, a, horizon, cuts + ends);
-  for (int i = 2; i < ends; ++i) {  // at most four of them
+  for (int i = 2; i < ends; ++i) {  // at most four roots
     for (int j = i; j > 1 && cuts[j] < cuts[j - 1]; --j) std::swap(cuts[j], cuts[j - 1]);
   }
   cuts[ends++] = horizon;

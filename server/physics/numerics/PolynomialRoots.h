@@ -6,12 +6,12 @@ namespace naiad::physics {
 /// Returns c[0] + c[1]·s + … + c[degree]·s^degree.
 double evaluate(const double* c, int degree, double s);
 
-/// Returns the first s in [low, high] at which the polynomial becomes negative (low if it is negative there),
-/// or −1. The polynomial's derivatives divide the interval into monotone pieces, so no crossing larger than
-/// rounding is missed. 1 <= degree <= 6.
+/// Returns the first s in [low, high] at which the polynomial becomes negative; `low` if it is negative
+/// there, −1 if it never is. The polynomial's derivatives divide the interval into monotone pieces, so no
+/// crossing larger than rounding is missed. 1 <= degree <= 6.
 double firstBelowZero(const double* c, int degree, double low, double high);
 
-/// Returns the last s in [low, high] at which the polynomial falls from >= 0 to negative; low if none.
+/// Returns the last s in [low, high] at which the polynomial falls from >= 0 to negative; `low` if never.
 double lastFallThroughZero(const double* c, int degree, double low, double high);
 
 struct Interval {

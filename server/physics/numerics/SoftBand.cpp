@@ -7,13 +7,13 @@ namespace naiad::physics {
 
 namespace {
 
-// Doubles side by side, by the compiler's own operators: each rounded once, so the bits are everybody's.
+// Vectors of doubles. The compiler's operators round each element once, so all processors give equal bits.
 constexpr int kDoubles = 4;
 using Doubles = double __attribute__((vector_size(kDoubles * sizeof(double))));
 
 }  // namespace
 
-// An entry gets the same operations in the same sequence either way.
+// Both loops apply the same operations to an entry, in the same order.
 bool SoftBand::decompose() {
   int j = 0;
   for (; m_band >= kWideBand && j + kPivots <= m_size; j += kPivots) {
@@ -39,7 +39,7 @@ bool SoftBand::invertPivot(int j) {
   return true;
 }
 
-// Column j from the columns `first` to `last` at its right.
+// Eliminates column j from the columns `first` to `last` to its right.
 void SoftBand::eliminate(int j, int first, int last) {
   const double* const row = &entry(j, j);
   const int width = widthOf(j);
@@ -51,12 +51,12 @@ void SoftBand::eliminate(int j, int first, int last) {
   }
 }
 
-// Columns j to j + 3 from all columns at the right of these. Where one of the four does not reach there are
-// zeros.
+// Eliminates columns j to j + 3 from all columns to the right of them. An entry that one of the four columns
+// does not reach is zero there.
 void SoftBand::eliminateFour(int j) {
-  const int end = j + kPivots + m_band;  // of the rows that they reach
+  const int end = j + kPivots + m_band;  // end of the rows that the four columns reach
   for (int c = j + kPivots; c < std::min(end, m_size); ++c) {
-    std::array<const double*, kPivots> from;  // the entries in row c and below
+    std::array<const double*, kPivots> from;  // by column: the entries in row c and below
     std::array<double, kPivots> factors;
     for (int p = 0; p < kPivots; ++p) {
       const double* const column = &entry(j + p, j + p);

@@ -9,7 +9,8 @@
 
 namespace naiad::physics {
 
-/// LDLᵀ of a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Allocates in resize().
+/// LDLᵀ of a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Only resize()
+/// allocates.
 class SoftBand {
  public:
   /// Sets the size; only entries (i, j) with |i − j| <= band may differ from zero.
@@ -21,7 +22,7 @@ class SoftBand {
   }
   int size() const { return m_size; }
   void clear() { std::fill(m_entries.begin(), m_entries.end(), 0); }
-  /// i >= j
+  /// Returns the entry (i, j) for i >= j.
   double& entry(int i, int j) { return m_entries[at(j) * at(m_stride) + at(i - j)]; }
 
   /// Returns false if a pivot is not positive (or NaN); then solve() must not be called.
@@ -46,11 +47,12 @@ class SoftBand {
   }
 
  private:
-  // Number of pivots eliminated from the columns to the right in one pass, so that these are read and written
-  // once. Not worthwhile in a narrow band.
+  // Number of pivots that are eliminated from the columns to the right in one pass, so that these columns are
+  // read and written only once. This is not worthwhile if the band is narrower than kWideBand.
   static constexpr int kPivots = 4;
   static constexpr int kWideBand = 12;
-  static constexpr int kPadding = 7;  // zeros after a column, where pivots and whole vectors read beyond it
+  static constexpr int kPadding = 7;  // zeros after a column, because pivots and whole vectors read beyond
+                                      // its end
 
   int widthOf(int j) const { return std::min(m_band, m_size - 1 - j); }
   bool invertPivot(int j);
@@ -60,7 +62,7 @@ class SoftBand {
 
   int m_size = 0;
   int m_band = 0;
-  int m_stride = 0;               // distance between columns
+  int m_stride = 0;               // distance between columns in m_entries
   std::vector<double> m_entries;  // by column, from the diagonal down; after decompose(): L and 1/D
 };
 

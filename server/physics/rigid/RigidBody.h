@@ -9,7 +9,7 @@
 
 namespace naiad::physics {
 
-/// Plain data. Time is in ticks, lengths are in metric cells, angles in radians from x to y. The shapes are
+/// A body. Time is in ticks, lengths are in metric cells, angles in radians from x to y. Its shapes are
 /// passed separately, relative to `place`.
 struct RigidBody {
   Place place;  ///< place of the centre of mass
@@ -17,19 +17,19 @@ struct RigidBody {
   Rotation rotation;
   double spin = 0;             ///< rad per tick
   double inverse_mass = 1;     ///< 0: static, or kinematic if it has a velocity
-  double inverse_inertia = 0;  ///< 0: only its own spin turns it
-  Vec2 acceleration;           ///< gravity and other forces over mass; mean over a step
+  double inverse_inertia = 0;  ///< 0: no torque changes its spin
+  Vec2 acceleration;           ///< gravity and other forces over mass, as the mean over a step
   Vec2 jerk;                   ///< growth of the acceleration per tick within a step
   double turn_rate = 0;        ///< rad per tick by which a magnet turns its velocity (MagnetTurn.h)
-  double torque = 0;           ///< acts from set() until the next set()
-  double friction = 0;         ///< >= 0; for a pair the geometric mean counts
-  double restitution = 0;      ///< 0 … 1; for a pair the larger one counts
+  double torque = 0;           ///< acts in every step until the next set()
+  double friction = 0;         ///< >= 0; a pair has the geometric mean of its two
+  double restitution = 0;      ///< 0 … 1; a pair has the larger of its two
 
   friend constexpr bool operator==(const RigidBody& a, const RigidBody& b) = default;
 };
 
 /// True if the body is valid: all numbers finite and below 1e30, the rotation of unit length.
-inline bool isSound(const RigidBody& body) {
+inline bool isValid(const RigidBody& body) {
   const auto isSmall = [](double x) { return std::fabs(x) <= 1e30; };  // false for NaN
   const auto isPart = [&](double x) { return x >= 0 && isSmall(x); };
   const double square = body.rotation.c * body.rotation.c + body.rotation.s * body.rotation.s;

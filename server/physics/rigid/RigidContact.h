@@ -8,56 +8,57 @@
 
 namespace naiad::physics {
 
-/// A body within a step. The first cache line has what the solver uses for each contact.
+/// A body within a step. The first cache line has all that the solver reads for each contact.
 struct alignas(64) RigidState {
   Vec2 velocity;
   double spin = 0;
-  double inverse_mass = 0;  ///< both 0 for immovable bodies
+  double inverse_mass = 0;  ///< 0 for immovable bodies, as is inverse_inertia
   double inverse_inertia = 0;
-  Vec2 push;             ///< velocity that undoes overlap, for one sub-step
+  Vec2 push;             ///< velocity that undoes overlap, only for one sub-step
   double push_spin = 0;  ///< spin that undoes overlap
   Vec2 displacement;     ///< movement since the beginning of the step
   Rotation turn;         ///< rotation since the beginning of the step
-  Vec2 kick;             ///< velocity added by half a sub-step of acceleration
-  double spin_kick = 0;  ///< spin added by half a sub-step
+  Vec2 kick;             ///< change of the velocity by half a sub-step of acceleration
+  double spin_kick = 0;  ///< change of the spin by half a sub-step of torque
   Vec2 kick_growth;      ///< change of `kick` from one sub-step to the next
   bool is_pushed = false;
 };
 
-/// Contact of two shapes whose bodies' bounds overlap. Kept from step to step.
+/// A contact of two shapes whose bodies' bounds overlap. It is kept from step to step.
 struct RigidContact {
-  std::int32_t next = -1;  ///< next contact of these bodies, or next free one
+  std::int32_t next = -1;  ///< index of the next contact of these bodies, or of the next free entry
   std::int32_t shape_a = 0;
   std::int32_t shape_b = 0;
   ReferenceFace reference;
-  std::int32_t count = 0;  ///< number of points remembered
+  std::int32_t count = 0;  ///< number of points whose impulses are known
   std::array<std::uint32_t, 2> id = {};
-  std::array<double, 2> normal_impulse = {};  ///< impulse of a sub-step over its length
+  std::array<double, 2> normal_impulse = {};  ///< impulse of a sub-step divided by its length
   std::array<double, 2> friction_impulse = {};
 };
 
-/// Feature that the normal moves with.
+/// The features that the normal follows: an edge of A, an edge of B, or the two points.
 enum class ContactKind : std::uint8_t { kFaceA, kFaceB, kPoints };
 
 /// A contact point within a step. Fields that the solver uses most come first.
 struct alignas(64) ContactPoint {
-  // Levers of the normal and the tangent about both centres.
+  // Levers of the normal and of the tangent about the centres of A and B.
   double normal_a = 0, normal_b = 0, tangent_a = 0, tangent_b = 0;
   double normal_mass = 0, tangent_mass = 0;
-  double normal_impulse = 0;                  ///< this sub-step so far; between sub-steps, the last one
-  double friction_impulse = 0;                ///< this sub-step so far; between sub-steps, the last one
+  double normal_impulse = 0;                  ///< in this sub-step so far; between sub-steps, of the last one
+  double friction_impulse = 0;                ///< in this sub-step so far; between sub-steps, of the last one
   double normal_resistance = 0;               ///< 1 / normal_mass; 0 if normal_mass is 0
-  double normal_warm = 0, friction_warm = 0;  ///< initial guess of each half of the sub-step
-  double target = 0;                          ///< normal speed before the bodies move
-  double after = 0;                           ///< normal speed after the move; used alone if they bounce
-  double push = 0, push_impulse = 0;          ///< undoes overlap
+  double normal_warm = 0, friction_warm = 0;  ///< first guess of the impulses for each half of the sub-step
+  double target = 0;                          ///< normal speed to reach before the bodies move
+  double after = 0;                           ///< normal speed to reach after they moved; if they bounce,
+                                              ///< only this
+  double push = 0, push_impulse = 0;          ///< velocity change and impulse that undo overlap
   double separation = 0;
-  double total = 0;     ///< normal impulse of the step so far
-  Vec2 core_a, core_b;  ///< points of the cores at the start of the step
-  double base = 0;      ///< separation minus the separation of core_a and core_b
+  double total = 0;     ///< normal impulse of the step up to now
+  Vec2 core_a, core_b;  ///< the two points on the cores at the start of the step
+  double base = 0;      ///< separation minus that of the points core_a and core_b
   std::uint32_t id = 0;
   bool is_bouncing = false;
-  bool is_bending = false;  ///< it would bounce, but its path is not a parabola
+  bool is_bending = false;  ///< it would bounce, but the path to the impact is not a parabola
 };
 
 /// A contact within a step. Fields are ordered as in ContactPoint.
@@ -65,22 +66,22 @@ struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
   std::int32_t count = 0;
   ContactKind kind = ContactKind::kPoints;
-  bool may_fly = false;  ///< rotating or bouncing bodies may go from impact to impact
-  bool is_deep = false;  ///< there is overlap to undo
+  bool may_fly = false;  ///< the bodies rotate or bounce, so that they may fly from impact to impact
+  bool is_deep = false;  ///< true if there is overlap to undo
   Vec2 normal;           ///< present normal
   double friction = 0;
-  double coupling = 0;             ///< coupling of two normals
-  double inverse_determinant = 0;  ///< inverse determinant of the two normals' matrix; 0: solve in turn
+  double coupling = 0;             ///< coupling of the two points' normals
+  double inverse_determinant = 0;  ///< of the two normals' matrix; 0: they are solved one after the other
   std::array<ContactPoint, 2> points;
   Vec2 first_normal;  ///< normal at the start of the step
   Vec2 offset;        ///< displacement from A to B at the start of the step
   double radius_a = 0, radius_b = 0;
   double restitution = 0;
-  double slop = 0;            ///< remaining overlap
-  double max_push_speed = 0;  ///< maximum speed of undoing overlap
+  double slop = 0;            ///< depth of overlap that is not undone
+  double max_push_speed = 0;  ///< maximum speed at which overlap is undone
   double first_time = -1;     ///< time of the first impulse within the step; −1: none
-  std::int32_t pair = -1;     ///< −1: found within the step
-  std::int32_t contact = -1;  ///< −1: found within the step
+  std::int32_t pair = -1;     ///< index of the pair; −1: found within the step
+  std::int32_t contact = -1;  ///< index of the kept contact; −1: found within the step
 };
 
 }  // namespace naiad::physics

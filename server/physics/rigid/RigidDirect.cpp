@@ -9,11 +9,11 @@ namespace naiad::physics {
 
 namespace {
 
-// Of a row, in units of the greatest mass: each round divides what is left by about as much, and 1e4 leaves
-// the matrix enough of a double's digits.
+// Stiffness of a row, in units of the largest mass. Each round divides the remaining error by about this
+// factor. With 1e4, the matrix still has enough of a double's digits.
 constexpr double kStiffness = 1e4;
-constexpr double kRounding = 1e-14;  // of the largest impulse: no sum of impulses is known better
-constexpr int kSpareRounds = 2;  // to bring velocities and impulses together, once rows are as they should be
+constexpr double kRounding = 1e-14;  // precision of a sum of impulses, relative to the largest one
+constexpr int kSpareRounds = 2;      // limit of further rounds that make velocities and impulses agree
 
 }  // namespace
 
@@ -24,7 +24,7 @@ struct RigidDirect::Lever {
   Lever times(const Lever& by) const { return Lever{low * by.low, high * by.high}; }
 };
 
-// Three rows and columns of the matrix.
+// A block of three rows and columns of the matrix.
 struct RigidDirect::Corner {
   Two low[3];
   double high[3];
@@ -35,7 +35,7 @@ struct RigidDirect::Corner {
       high[r] += parts[r] * q.high;
     }
   }
-  // Of one body: what is above the diagonal is not used.
+  // Adds the row to the block of a single body. Entries above the diagonal are not used: high[0] and high[1].
   void addSquare(double k, const Lever& p) {
     low[0] += k * p.low[0] * p.low;
     low[1] += k * p.low[1] * p.low;
@@ -90,7 +90,7 @@ double RigidDirect::order() {
     m_next[at(m_rank[at(row.a)]++)] = row.b;
     m_next[at(m_rank[at(row.b)]++)] = row.a;
   }
-  // Breadth first, twice: the second time from where the first one ended.
+  // Traverses bodies breadth first, twice. The second traversal starts at the last body of the first one.
   const auto spread = [&](std::int32_t start) {
     m_rank.assign(count, -1);
     m_sequence.clear();
@@ -146,7 +146,8 @@ double RigidDirect::speedOf(const DirectRow& row) const {
   return speed;
 }
 
-// Of a body that a spring holds, its own mass says little of what moves it.
+// Sets the rows' stiffnesses. If a spring holds a body and its stiffness is larger than the mass, it is used
+// instead.
 void RigidDirect::setStiffnesses() {
   m_held_mass.assign(m_bodies.size(), m_largest_mass);
   for (const DirectRow& row : m_rows) {
@@ -165,8 +166,8 @@ void RigidDirect::setStiffnesses() {
   }
 }
 
-// Which rows push with their stiffness, which are at a bound, and what each exerts at the present velocities.
-// Did none change? A row that would go from one bound to the other stops between them first.
+// Finds which rows push with their stiffness (kFree), which are at a bound, and their impulses at the present
+// velocities. Returns true if no row changed. A row that goes from one bound to the other is free in between.
 bool RigidDirect::setForces(bool is_first) {
   bool is_same = !is_first;
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
@@ -194,7 +195,7 @@ bool RigidDirect::setForces(bool is_first) {
   return is_same;
 }
 
-// The first of the row's bodies, by rank.
+// Returns the lowest rank of the row's bodies.
 std::int32_t RigidDirect::firstOf(const DirectRow& row) const {
   std::int32_t first = static_cast<std::int32_t>(m_bodies.size());
   for (const std::int32_t body : {row.a, row.b}) {
@@ -203,7 +204,7 @@ std::int32_t RigidDirect::firstOf(const DirectRow& row) const {
   return first;
 }
 
-// Rows of bodies before m_changed are factored already, and stay so.
+// Fills the matrix from the rows of the body m_changed on; the rows before them stay factored.
 void RigidDirect::assemble() {
   const auto row = 3 * static_cast<std::size_t>(m_changed);
   if (row == m_first.size()) return;
@@ -223,8 +224,8 @@ void RigidDirect::assemble() {
   }
 }
 
-// Of rows between the same two bodies: the three corners of the matrix that they are in are read and written
-// once. Each entry is the same sum in the same order as row by row.
+// Adds the stiffness of rows between two bodies. Reads and writes the three blocks of the matrix only once,
+// but adds in the order of the rows, so that each entry has equal bits.
 void RigidDirect::addStiffness(std::size_t begin, std::size_t end) {
   const std::int32_t a = m_rows[begin].a, b = m_rows[begin].b;
   const bool has_a = a >= 0, has_b = b >= 0;
@@ -249,7 +250,7 @@ void RigidDirect::addStiffness(std::size_t begin, std::size_t end) {
   setCorner(later, earlier, between);
 }
 
-// 0 in what is fixed, and of what is not there.
+// Returns 1 for each coordinate of the body that can change, and 0 for the others or if there is no body.
 RigidDirect::Lever RigidDirect::freeOf(std::int32_t body) const {
   if (body < 0) return Lever{Two{}, 0};
   const auto isFree = [&](std::size_t c) { return m_mass[at(body)].x[c] > 0 ? 1.0 : 0.0; };
@@ -282,8 +283,8 @@ void RigidDirect::setCorner(std::int32_t i, std::int32_t j, const Corner& corner
   }
 }
 
-// The three rows of a body at once: they begin at the same column. Each entry is the same sum in the same
-// order as row by row.
+// Factors the three rows of a body at once, because they start at the same column. Adds in the order of a
+// factorisation row by row, so that entries have equal bits. Returns false if a pivot is not positive.
 bool RigidDirect::factor() {
   const auto bodies = static_cast<std::int64_t>(m_first.size() / 3);
   m_block.resize(m_first.size());
@@ -299,7 +300,7 @@ bool RigidDirect::factor() {
   return true;
 }
 
-// What three columns are without those before them: times their pivots, until the rows are done.
+// Reduces three columns by those before them. Entries stay multiplied by their pivots until factorBlock().
 void RigidDirect::reduceBlock(std::int64_t first, std::int64_t column) {
   const double *const one = lineOf(column), *const two = lineOf(column + 1),
                       *const three = lineOf(column + 2);
@@ -317,7 +318,7 @@ void RigidDirect::reduceBlock(std::int64_t first, std::int64_t column) {
   block[column] = {a, d}, block[column + 1] = {b, e}, block[column + 2] = {c, f};
 }
 
-// The rows over their pivots, and the pivots of three rows, stored inverted.
+// Divides three rows by the pivots before them, and computes their own pivots, which are stored inverted.
 bool RigidDirect::factorBlock(std::int64_t first, std::int64_t row) {
   double *const one = lineOf(row), *const two = lineOf(row + 1), *const three = lineOf(row + 2);
   Two a = {one[row], two[row]}, b = {0, two[row + 1]};
@@ -344,7 +345,7 @@ bool RigidDirect::factorBlock(std::int64_t first, std::int64_t row) {
   return true;
 }
 
-// The three rows of a body at once, as in factor().
+// Solves the factored system for m_right in place, with the three rows of a body at once.
 void RigidDirect::solveFactored() {
   const auto count = static_cast<std::int64_t>(m_first.size());
   double* const right = m_right.data();
@@ -368,7 +369,7 @@ void RigidDirect::solveFactored() {
   }
 }
 
-void RigidDirect::setResidual() {
+void RigidDirect::computeResidual() {
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
     for (std::int32_t c = 0; c < 3; ++c) {
       m_right[at(3 * m_rank[i] + c)] = m_mass[i].x[c] * (m_start[i].x[c] - m_velocity[i].x[c]);
@@ -391,7 +392,6 @@ void RigidDirect::setResidual() {
   }
 }
 
-// By how much a row's speed is wrong, given what it exerts.
 double RigidDirect::worstError() const {
   double worst = 0;
   for (const DirectRow& row : m_rows) {
@@ -421,8 +421,8 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
   m_side.assign(count, Side::kFree);
   for (std::size_t i = 0; i < count; ++i) m_guess[i] = m_rows[i].impulse + m_rows[i].expected;
   setStiffnesses();
-  // The momentum by which a body's velocity and its impulses may differ. Of the stiffest rows the last digit
-  // of a speed is an impulse that would throw what is light.
+  // A body is balanced if its velocity agrees with the impulses on it. For the stiffest rows, the last digit
+  // of a speed corresponds to an impulse that would throw a light body.
   double largest = 0;
   const auto isBalanced = [&](std::size_t i) {
     for (std::int32_t c = 0; c < 3; ++c) {
@@ -435,7 +435,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
     for (std::size_t i = 0; i < count; ++i) {
       largest = std::max({largest, std::fabs(m_force[i]), std::fabs(m_rows[i].impulse)});
     }
-    setResidual();
+    computeResidual();
     for (std::size_t i = 0; i < m_bodies.size(); ++i) {
       if (!isBalanced(i)) return false;
     }
@@ -452,7 +452,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
       if (!factor()) return false;
       is_factored = true;
     }
-    setResidual();
+    computeResidual();
     solveFactored();
     for (std::size_t i = 0; i < m_bodies.size(); ++i) {
       for (std::int32_t c = 0; c < 3; ++c) m_velocity[i].x[c] += m_right[at(3 * m_rank[i] + c)];
@@ -461,7 +461,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
       is_factored = false;
       continue;
     }
-    // The right ones push; is it already true what they were meant to bring about?
+    // The set of pushing rows is right. Tests whether they reach their target speeds.
     m_guess = m_force;
     double worst = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -473,8 +473,8 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
     is_factored = setForces(false);
   }
   if (!is_found) return false;
-  // The velocities that follow from the impulses, to the last digit of momentum; where they do not, those
-  // that were solved for.
+  // Applies the impulses to the bodies, which conserves the momentum to the last digit. Bodies that are not
+  // balanced get the velocities of the solution instead.
   for (std::size_t i = 0; i < count; ++i) {
     DirectRow& row = m_rows[i];
     const double more = m_force[i] - row.impulse;

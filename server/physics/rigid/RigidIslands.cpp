@@ -1,4 +1,4 @@
-// A group of bodies that contacts and joints connect: swept once, and solved at once where that falls short.
+// Solves a group of bodies connected by contacts and joints: directly, or by sweeps if that costs too much.
 #include <algorithm>
 #include <cmath>
 
@@ -9,29 +9,27 @@ namespace naiad::physics {
 
 namespace {
 
-// Rounds of factorisation and solution of a group; one that takes more is swept. A leaning stack of 40 takes
-// up to 30, each of which costs it next to nothing.
+// Maximum rounds of factorisation and solution of a group; if they are not enough, it is solved by sweeps. A
+// leaning stack of 40 bodies needs up to 30 rounds, but each of them is cheap.
 constexpr int kRounds = 16;
 constexpr int kTallRounds = 32;
-constexpr int kTall = 24;         // bodies, if …
-constexpr double kSlender = 100;  // … a factorisation takes no more multiplications a body: a stack, a chain
-// What one attempt may cost beside that, in multiplications, of which 10⁶ take some .3 ms: so much for each
-// group, and so much for each contact and joint. Where it might cost more it is not tried: a new heap takes
-// most of its rounds, and fewer would be wasted.
+constexpr int kTall = 24;         // minimum number of bodies in a tall group: a stack or chain
+constexpr double kSlender = 100;  // maximum multiplications per body for a factorisation of a tall group
+// Maximum cost of a direct solution in multiplications (10⁶ take about 0.3 ms): a constant, and an amount per
+// contact and joint. It is not tried if all rounds might cost more. A new heap needs most of the rounds, so
+// that fewer rounds would be wasted.
 constexpr double kAttemptStart = 1e6;
 constexpr double kAttempt = 22'000;
-constexpr double kSmallCost = 1e4;  // multiplications: after a failure that cost less it is tried again
-// Relative to the speed that acceleration adds in half a sub-step, the natural unit of what rest must
-// balance.
-constexpr double kSpeedError = 1e-6;  // of a single contact: change of a sweep at which sweeps end
-constexpr double kRest = 4;           // what meets at a higher speed is a blow, and over at once
-constexpr double kDirectTolerance =
-    1e-6;  // of a direct solution: error that is left; sets the sag of a stack
-// Sweeps of Gauss and Seidel where a group is not solved directly.
-constexpr int kSingleSweeps = 16;  // at most, of one contact alone
-constexpr int kJointSweeps = 8;    // of a group with joints
+constexpr double kSmallCost = 1e4;  // multiplications per round: after a cheaper failure it is tried again
+// Speeds in units of Island::kick, the speed that acceleration adds in half a sub-step:
+constexpr double kSpeedError = 1e-6;       // sweeps of a single contact end when the change is smaller
+constexpr double kRest = 4;                // with a larger speed error, a contact is a blow, not at rest
+constexpr double kDirectTolerance = 1e-6;  // remaining error of a direct solution; lets a stack sag
+// Numbers of Gauss–Seidel sweeps for groups that are not solved directly:
+constexpr int kSingleSweeps = 16;  // maximum for a single contact
+constexpr int kJointSweeps = 8;    // for groups with joints
 
-constexpr double kUnequalMassRatio = 1.3;  // a mass ratio at which sweeps crush or throw what is light
+constexpr double kUnequalMassRatio = 1.3;  // if the mass ratio is larger, sweeps crush or throw light bodies
 
 bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states) {
   double least = 0, most = 0;
@@ -44,9 +42,9 @@ bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states)
   return most > kUnequalMassRatio * least;
 }
 
-// Impulses of the last sub-step are a guess that a direct solution corrects, and sweeps do not: after a blow
-// they may throw what is light. Those that add energy, or make a body faster than any was, are taken back,
-// with what the first half made of them; the sweeps start from nothing then, and add no energy.
+// Removes the warm start of a group if it adds energy, or makes a body more than twice as fast as any body
+// was. A direct solution corrects the impulses of the last sub-step, but sweeps do not: after a blow they may
+// throw light bodies. The sweeps then start without impulses and add no energy.
 void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> constraints,
                           std::span<ContactConstraint> all, std::span<RigidState> states) {
   const auto give = [&](RigidState& s, Vec2 impulse, double turning) {
@@ -62,7 +60,7 @@ void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> cons
       give(states[at(c.b)], impulse, p.normal_b * p.normal_warm + p.tangent_b * p.friction_warm);
     }
   }
-  constexpr double kFaster = 4;  // a square
+  constexpr double kFaster = 4;  // square of the ratio of speeds, two
   double gain = 0, before = 0, after = 0;
   for (const int id : bodies) {
     const RigidState& s = states[at(id)];
@@ -96,7 +94,7 @@ void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> cons
 
 void RigidWorld::solveIsland(Island& island, bool is_second) {
   if (island.budget > 0 && island.constraints + island.links > 1 && solveAtOnce(island, is_second)) return;
-  if (island.constraints == 1 && island.links == 0) {  // friction and pressure find each other quickly
+  if (island.constraints == 1 && island.links == 0) {  // sweeps of a single contact converge quickly
     ContactConstraint& c = m_constraints[at(m_island_constraints[at(island.first_constraint)])];
     for (int i = 0; i < kSingleSweeps && solveContact(c, m_states, is_second) > kSpeedError * island.kick;
          ++i) {
@@ -160,14 +158,14 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
   const auto constraintAt = [&](int i) -> ContactConstraint& {
     return m_constraints[at(m_island_constraints[at(island.first_constraint + i)])];
   };
-  const auto isNew = [&] {  // no impulse is known of it
+  const auto isNew = [&] {  // true if there are no known impulses
     for (int i = 0; i < island.constraints; ++i) {
       const ContactConstraint& c = constraintAt(i);
       if (c.points[0].normal_warm != 0 || c.points[1].normal_warm != 0) return false;
     }
     return island.links == 0;
   };
-  // What rests needs in the second half what it needed in the first one.
+  // For a group at rest, the first half's impulses are the guess for the second: they must be equal.
   const bool is_guessed = is_second && island.rests_anew;
   for (int i = 0; i < island.constraints; ++i) {
     const ContactConstraint& c = constraintAt(i);

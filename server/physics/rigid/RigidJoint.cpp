@@ -9,11 +9,9 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kPullRate =
-    0.3;                         // of a joint's error, undone in a sub-step, as of overlap (RigidSolver.cpp)
-constexpr double kResolved = 1;  // up to this (h·ω)² a spring swings; beyond, it is damped
-
-constexpr double kLeastPush = 1e-280;  // force per length or speed: less is none, and has no inverse
+constexpr double kPullRate = 0.3;      // fraction of a joint's error undone in a sub-step; like kPushRate
+constexpr double kResolved = 1;        // maximum (h·ω)² of springs that may oscillate; others are damped
+constexpr double kLeastPush = 1e-280;  // force per length or speed: less is 0, as its inverse is not finite
 
 const RigidState kGround = {};
 
@@ -32,11 +30,11 @@ void push(const RigidRow& row, std::span<RigidState> states, double impulse) {
   b.spin += b.inverse_inertia * row.jb * impulse;
 }
 
-// Rows that hold something fast.
+// Prepares a row of a rigid joint.
 void prepareHard(RigidRow& row, double h) {
   const double mass = row.inverse_effective_mass > 0 ? 1 / row.inverse_effective_mass : 0;
-  // One-sided: on the free side the value may come to 0, and no farther. What did not come to it in the first
-  // half is left to the next sub-step.
+  // A one-sided row whose value is on the free side may reach the value 0, but not pass it. If it did not
+  // reach 0 in the first half, it does nothing in the second one.
   const bool is_free = row.side * row.value > 0, is_idle = is_free && row.impulse == 0;
   const double low = row.side > 0 ? 0 : -kNoLimit, high = row.side < 0 ? 0 : kNoLimit;
   row.half[0] = {is_free ? -row.value / h : -kPullRate * row.value / h, 0, mass, low, high, 0};
@@ -51,9 +49,9 @@ void prepareMotor(RigidRow& row, const Joint& joint, double h) {
   row.half[1] = {joint.speed, 0, mass, -most, most, 0};
 }
 
-// A spring that the sub-step resolves gets half its impulse before and half after the bodies move, as gravity
-// does: that of the middle of their motion (the implicit midpoint rule), which keeps the energy of an
-// undamped one. A stiffer one gets all of it before, by backward Euler.
+// Prepares a spring. If the sub-step resolves its oscillation, half of its impulse acts before the bodies
+// move and half after, like gravity: the implicit midpoint rule, which conserves the energy of an undamped
+// spring. A stiffer spring has all of its impulse before, by backward Euler.
 void prepareSoft(RigidRow& row, const Joint& joint, double h) {
   const double k = joint.stiffness, c = joint.damping;
   const double most = joint.kind == JointKind::kMouse ? joint.max_force * h : kNoLimit;
@@ -105,7 +103,7 @@ void RigidJoints::load(int id, std::span<const RigidBody> bodies) {
   for (int k = 0; k < link.count; ++k) {
     RigidRow row;
     row.a = link.a, row.b = link.b;
-    row.impulse = memoryOf(id)[at(k)];  // per length of a sub-step, until beginSubstep
+    row.impulse = memoryOf(id)[at(k)];  // divided by h until begin() multiplies it
     row.is_soft = j.kind == JointKind::kSpring || j.kind == JointKind::kMouse;
     m_rows.push_back(row);
   }

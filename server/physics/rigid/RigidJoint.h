@@ -13,29 +13,29 @@
 
 namespace naiad::physics {
 
-/// A row in one half of a sub-step: (J·v − target) + softness · (impulse of this half) = 0.
+/// A row for one half of a sub-step: (J·v − target) + softness · (impulse of this half) = 0.
 struct RigidRowHalf {
   double target = 0;
   double softness = 0;
-  double mass = 0;           ///< effective mass, 1 / (J·M⁻¹·Jᵀ + softness); 0: this half is finished
+  double mass = 0;           ///< effective mass, 1 / (J·M⁻¹·Jᵀ + softness); 0: the row is not used now
   double low = 0, high = 0;  ///< bounds of the impulse since the sub-step began
-  double given = 0;          ///< impulse that does not depend on the velocities
+  double given = 0;          ///< part of the impulse that does not depend on the velocities
 };
 
 /// One scalar constraint on two bodies.
 struct RigidRow : SpeedRow {
-  std::int32_t a = -1, b = -1;        ///< a is −1 for a mouse
+  std::int32_t a = -1, b = -1;        ///< bodies; a is −1 for a mouse joint
   double inverse_effective_mass = 0;  ///< J·M⁻¹·Jᵀ
-  bool is_soft = false;               ///< starts from impulse 0
-  double impulse = 0;                 ///< this sub-step so far; between sub-steps, the last one
-  double before = 0;                  ///< impulse of the first half, during the second
-  double warm = 0;                    ///< initial guess of each half
+  bool is_soft = false;               ///< it has no first guess of its impulse
+  double impulse = 0;                 ///< impulse of this sub-step so far; between sub-steps, of the last one
+  double before = 0;                  ///< during the second half: impulse of the first half
+  double warm = 0;                    ///< first guess of the impulse for each half
   std::array<RigidRowHalf, 2> half;
 };
 
 class RigidJoints : public JointStore {
  public:
-  /// Makes rows for the joints with an active body.
+  /// Makes rows for the joints with at least one active body.
   template <class IsActive>
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states, double h,
              IsActive isActive) {
@@ -60,12 +60,12 @@ class RigidJoints : public JointStore {
     return m_rows[static_cast<std::size_t>(m_links[static_cast<std::size_t>(link)].row)].is_soft;
   }
   double solve(int link, std::span<RigidState> states, bool is_second);
-  /// Makes the velocities that undo overlap compatible with the joints.
+  /// Projects the velocities that undo overlap onto those that the joints allow.
   void hold(std::span<RigidState> states) const;
   void endSubstep();
-  /// Writes forces; returns the number of joints that broke.
+  /// Writes the forces of the step to the joints. Returns the number of joints that broke.
   int end(double dt, double h);
-  /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse.
+  /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {
     for (const Link& link : m_links) visit(link.a, link.b);
@@ -80,9 +80,9 @@ class RigidJoints : public JointStore {
     std::int32_t a, b;
     int row, count;
     Vec2 arm_a, arm_b;  // at the start of the step
-    Vec2 offset;        // from a to b, or from the target to b
+    Vec2 offset;        // displacement from the anchor of a, or the target, to the anchor of b
     Vec2 axis;          // at the start of the step
-    Rotation between;   // rotation of b relative to a and the reference, at the start of the step
+    Rotation between;   // rotation of b relative to a, measured from the reference, at the start of the step
     Vec2 force;
     double torque = 0;
   };

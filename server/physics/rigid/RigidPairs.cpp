@@ -1,4 +1,4 @@
-// Contacts: kept from step to step, constraints within one, published as events.
+// Contacts of a RigidWorld: keeps them from step to step, makes their constraints and publishes events.
 #include <algorithm>
 #include <cmath>
 
@@ -10,25 +10,28 @@ namespace naiad::physics {
 
 namespace {
 
-// In thicknesses of the thinner body.
-constexpr double kMaxPush = 2;    // per tick: the greatest speed at which overlap is undone
-constexpr double kSlop = 1e-8;    // overlap that is left, so that a contact at rest stays one
-constexpr double kLinger = 0.01;  // a larger gap ends a contact
-constexpr double kLarge = 2;      // times the size of another body: its shapes are mostly far from it
-constexpr double kSlide = 0.25;   // of the reference face, in a step: farther, and its points are left behind
+// Lengths in units of the thinner body's thickness:
+constexpr double kMaxPush = 2;    // per tick: maximum speed at which overlap is undone
+constexpr double kSlop = 1e-8;    // overlap that is not undone, so that a contact at rest does not end
+constexpr double kLinger = 0.01;  // a contact ends if its gap is larger
+constexpr double kLarge = 2;      // ratio of reaches: above it, most shapes of the larger body are far away
+constexpr double kSlide = 0.25;   // part of the reference face: sliding farther leaves the contact points
+                                  // behind
 
 double edgeLength(const RotatedView& shape, std::int32_t edge) {
   return length(shape.vertices[following(edge, shape.count)] - shape.vertices[edge]);
 }
 
-// What nothing moves. In a drum that turns, bodies would sink deeper with the points on their own edges.
+// True if the body is immovable and does not rotate. Only then may its face be the reference for a sliding
+// body: bodies would sink deeper into a rotating drum.
 bool isFloor(const RigidBody& body) {
   return body.inverse_mass == 0 && body.spin == 0;
 }
 
-// The points of a contact lie on the edge that faces the reference, and stay there for the step. On a longer
-// edge, such as a floor's, they are left behind by what slides over it, and hold it no more. Then the longer
-// one is the better reference: the points go with what slides. `path`: of B against A, in the step.
+// True if a body slides so far in the step that it would leave the contact points behind. The points lie on
+// the edge opposite the reference face and stay there for the step. If that edge is longer, such as a
+// floor's, it is the better reference, because the points then move with the sliding body. `path` is the
+// movement of B relative to A in the step.
 bool slidesAway(const RotatedView& a, const RotatedView& b, Vec2 offset, Vec2 path, const Manifold& manifold,
                 ReferenceFace& better) {
   using Owner = ReferenceFace::Owner;
@@ -73,7 +76,7 @@ std::int32_t RigidWorld::findPair(std::int32_t a, std::int32_t b) const {
   return static_cast<std::int32_t>(found - m_pairs.begin());
 }
 
-// Their bounds parted.
+// Removes a pair whose bounds no longer overlap.
 void RigidWorld::dropPair(Pair& pair) {
   dropContacts(pair);
   if (pair.is_touching) addEvent({0, pair.a, pair.b, false, 0, {}});
@@ -83,7 +86,7 @@ void RigidWorld::forgetPairs(int id) {
   std::erase_if(m_pairs, [id](const Pair& pair) { return pair.a == id || pair.b == id; });
 }
 
-// An event names the lower id first.
+// Adds an event, with the lower id first.
 void RigidWorld::addEvent(RigidEvent event) {
   if (event.first > event.second) {
     std::swap(event.first, event.second);
@@ -126,7 +129,7 @@ void RigidWorld::updatePairs() {
   m_late_before.clear();
 }
 
-// A pair of which one body wakes the other may give work to further pairs.
+// Repeats the update until no more bodies wake, because a woken body may wake others.
 void RigidWorld::updateContacts(double dt) {
   std::size_t before = 0;
   do {
@@ -158,7 +161,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   const double margin = a.margin + b.margin;
   const double reach = a.reach + b.reach + margin;
   const bool is_far = lengthSquared(offset) > reach * reach;
-  if (is_far && pair.first < 0 && !pair.is_touching) {  // most of them
+  if (is_far && pair.first < 0 && !pair.is_touching) {  // so for most pairs
     pair.is_seen = true;
     return;
   }
@@ -266,10 +269,10 @@ void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
   if (!is_late) {
     Pair& pair = m_pairs[at(index)];
     if (pair.is_touching && !pair.is_pushing) {
-      pair.is_pushing = true;  // it goes on
+      pair.is_pushing = true;  // the contact continues
       return;
     }
-    if (pair.is_touching) {  // begun in this step, or gone on
+    if (pair.is_touching) {  // true if the contact began or continued in this step
       if (pair.event >= 0) m_events[at(pair.event)].impulse += impulse;
       return;
     }

@@ -1,4 +1,4 @@
-// Which bodies form a group, and which groups may sleep.
+// Finds the groups of connected bodies in a RigidWorld, and puts groups at rest to sleep.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-constexpr int kCrowd = 32;         // bodies: a group of as many counts as large
-constexpr double kCreep = 1e-6;    // cells per tick that a group at rest may gain while it is watched
-constexpr double kMinKick = 1e-5;  // cells per tick: a floor for tolerances where nothing accelerates
+constexpr int kCrowd = 32;         // minimum number of bodies in a large group
+constexpr double kCreep = 1e-6;    // cells per tick: a still group that gains more speed does not sleep
+constexpr double kMinKick = 1e-5;  // cells per tick: minimum of Island::kick, which is the unit of tolerances
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void RigidWorld::findIslands() {
   });
 }
 
-// −1 if neither moves.
+// Returns the index of the island of two bodies; −1 if neither is movable and active.
 int RigidWorld::islandOf(int a, int b) {
   for (const int id : {a, b}) {
     if (id >= 0 && m_extras[at(id)].is_active && isMovable(id)) return m_island_of[at(m_sets.rootOf(id))];
@@ -35,7 +35,7 @@ int RigidWorld::islandOf(int a, int b) {
   return -1;
 }
 
-// Bodies, constraints and joints by island, in the order that they had.
+// Lists bodies, constraints and joints by island; within an island the order does not change.
 void RigidWorld::gatherIslands() {
   m_first_late = m_constraints.size();
   m_islands.clear();
@@ -92,8 +92,8 @@ void RigidWorld::gatherIslands() {
   }
 }
 
-// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
-// move holds it, or nothing pulls at it at all.
+// Puts groups to sleep. All bodies of the group must have been still for sleep_delay without becoming faster.
+// No kinematic body may drive the group. An immovable body must hold it, or all its speeds must be 0.
 void RigidWorld::sleep(double dt) {
   if (!m_options.may_sleep) return;
   for (const int id : m_active) {
@@ -116,7 +116,7 @@ void RigidWorld::sleep(double dt) {
     m_island_still[at(root)] = std::min(m_island_still[at(root)], extra.still);
     if (isMoving(id)) m_island_flags[at(root)] |= kIsAdrift;
   }
-  const auto lean = [&](int on, int member) {  // `on` may be what holds the member
+  const auto lean = [&](int on, int member) {  // an immovable `on` holds or drives the member
     if (isMovable(on) || !m_extras[at(member)].is_active || !isMovable(member)) return;
     m_island_flags[at(m_sets.rootOf(member))] |= isMoving(on) ? kIsDriven : kIsHeld;
   };
@@ -176,7 +176,7 @@ void RigidWorld::wakeRing(int id) {
   } while (member != id);
 }
 
-// Bodies that may lean on it.
+// Wakes the bodies that touch this one or are joined to it, because they may lean on it.
 void RigidWorld::wakeNeighbours(int id) {
   for (const Pair& pair : m_pairs) {
     if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;

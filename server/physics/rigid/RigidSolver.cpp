@@ -9,14 +9,14 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kPushRate = 0.3;  // of an overlap, undone in a sub-step
-// In sub-steps of the acceleration: a slower bounce ends in rest, since its flight would not last a sub-step.
+constexpr double kPushRate = 0.3;  // fraction of an overlap undone in a sub-step
+// A bounce slower than the speed gained in this many sub-steps ends at rest: its flight is too short.
 constexpr double kRestSteps = 2;
-constexpr double kBend =
-    1e-6;  // of an impact's speed: a larger share of turning bends the path off its parabola
-constexpr double kAnySpeed = -1e12;  // a target that no contact reaches: it does not push
+constexpr double kBend = 1e-6;       // part of the impact speed: with more rotation, the path is not a
+                                     // parabola
+constexpr double kAnySpeed = -1e12;  // a target speed that every contact exceeds, so it does not push
 
-/// What a contact changes of a body, and by how much: kept in registers while it is solved.
+/// The part of a body's state that a contact changes, in registers while the contact is solved.
 struct Pushed {
   explicit Pushed(const RigidState& state)
       : velocity(state.velocity),
@@ -56,7 +56,7 @@ void pushPoint(const ContactConstraint& c, const ContactPoint& p, RigidState& a,
   push(a, b, perpendicular(c.normal), p.tangent_a, p.tangent_b, friction_impulse);
 }
 
-// Levers and masses for points at `arm_a` and `arm_b` from the centres.
+// Sets the levers and masses of a point whose positions relative to the centres are `arm_a` and `arm_b`.
 void setLevers(ContactPoint& p, Vec2 n, Vec2 arm_a, Vec2 arm_b, const RigidState& a, const RigidState& b) {
   const Vec2 t = perpendicular(n);
   p.normal_a = cross(arm_a, n), p.normal_b = cross(arm_b, n);
@@ -71,7 +71,7 @@ void setLevers(ContactPoint& p, Vec2 n, Vec2 arm_a, Vec2 arm_b, const RigidState
   p.tangent_mass = tangent > 0 ? 1 / tangent : 0;
 }
 
-// Two normals of one manifold as one system, if they are not nearly the same.
+// Prepares the two normals of a manifold for their solution as one system, unless they are nearly dependent.
 void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
   c.inverse_determinant = 0;
   if (c.count < 2) return;
@@ -84,8 +84,8 @@ void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
   if (determinant > 1e-3 * product) c.inverse_determinant = 1 / determinant;
 }
 
-// How a point that is about to touch would bounce: along the normal everything is a fall with constant
-// acceleration, so both where it ends and how fast are known.
+// Predicts the bounce of a point that is about to touch. It moves along the normal with constant
+// acceleration, so its position and speed at the end of the sub-step are known.
 void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState& a, const RigidState& b,
                    double h) {
   const double speed = normalSpeed(p, c.normal, a, b), gap = std::max(p.separation, 0.0);
@@ -97,7 +97,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
   if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
-  // It turns, or will by the bounce.
+  // Speed by rotation, which is present or which the bounce causes.
   const double turning =
       std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
       impact * p.normal_mass *
@@ -134,17 +134,17 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   return p.normal_mass > 0 ? std::fabs(more) / p.normal_mass : 0;
 }
 
-// The complementarity problem of two points, by looking at its four cases.
+// Solves the complementarity problem of two points by a test of its four cases.
 [[gnu::always_inline]] inline double solveTwo(ContactConstraint& c, double target_p, double target_q,
                                               Pushed& a, Pushed& b) {
   ContactPoint &p = c.points[0], &q = c.points[1];
   const double kp = p.normal_resistance, kq = q.normal_resistance;
   const double missing_p = target_p - normalSpeed(p, c.normal, a, b);
   const double missing_q = target_q - normalSpeed(q, c.normal, a, b);
-  // What is missing if neither pushed.
+  // The speeds that would be missing if neither point pushed.
   const double rp = missing_p + kp * p.normal_impulse + c.coupling * q.normal_impulse;
   const double rq = missing_q + c.coupling * p.normal_impulse + kq * q.normal_impulse;
-  // First the change from what there is, so that nothing changes where nothing is missing.
+  // First tries to change the present impulses, so that nothing changes if no speed is missing.
   double x = p.normal_impulse + c.inverse_determinant * (kq * missing_p - c.coupling * missing_q);
   double y = q.normal_impulse + c.inverse_determinant * (kp * missing_q - c.coupling * missing_p);
   if (!(x >= 0 && y >= 0)) {
@@ -265,7 +265,7 @@ bool beginSubstep(ContactConstraint& c, std::span<const RigidState> bodies, doub
     if (!p.is_bouncing) {
       p.target = p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
     }
-    // What does not overlap may not be pushed together, either.
+    // A point without overlap has a limit, too, so that the push of other points does not make it overlap.
     p.push = p.separation < -c.slop ? std::min(-kPushRate * (p.separation + c.slop) / h, c.max_push_speed)
                                     : -(p.separation + c.slop) / h;
     p.push_impulse = 0;
@@ -313,7 +313,7 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
       p.after = 0;
       if (p.separation > 0) {
         p.after = -p.separation / h;
-        if (c.restitution > 0 && p.normal_impulse == 0) {  // it will bounce, in the next sub-step
+        if (c.restitution > 0 && p.normal_impulse == 0) {  // it will bounce in the next sub-step
           p.after = kAnySpeed;
           p.normal_warm = p.friction_warm = 0;
         }
@@ -329,7 +329,7 @@ double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_
   RigidState &state_a = bodies[at(c.a)], &state_b = bodies[at(c.b)];
   Pushed a(state_a), b(state_b);
   if (c.friction > 0) {
-    // Friction needs something to press on.
+    // Friction needs normal impulses, so these are found first.
     const ContactPoint &p = c.points[0], &q = c.points[1];
     if (p.normal_warm + q.normal_warm == 0) {
       const double change = solveNormals(c, a, b, is_second);

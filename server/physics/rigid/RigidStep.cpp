@@ -1,4 +1,4 @@
-// A RigidWorld's step and its sub-steps: how far each body moves, and in which order.
+// The step of a RigidWorld and its sub-steps: the movement of bodies, and the order of the solver's stages.
 #include <algorithm>
 #include <cmath>
 
@@ -9,16 +9,15 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e9;      // metric cells in one step: the limit of timeOfImpact()
-constexpr double kFarthestTurn = 1e9;  // rad, likewise
-// Distances below are in thicknesses of a body: the least half width of its shapes.
-constexpr double kSlack = 0.02;  // least margin of the search for contacts
-constexpr double kBoundsSlack =
-    0.1;                        // by which the tree's bounds are wider, so that small moves leave them alone
-constexpr double kFast = 0.25;  // a large group in which one moves so far in a step is given up
+constexpr double kFarthest = 1e9;      // metric cells in one step; the limit of timeOfImpact()
+constexpr double kFarthestTurn = 1e9;  // rad in one step; if a body turns farther, it is frozen
+// Distances in units of a body's thickness, the smallest half width of its shapes:
+constexpr double kSlack = 0.02;       // minimum margin of the search for contacts
+constexpr double kBoundsSlack = 0.1;  // margin of bounds in the broad phase; smaller moves do not change them
+constexpr double kFast = 0.25;        // a large group is abandoned if a body moves farther in a step
 
-// Kicks whose accelerations grow, from below their mean to above it. The last factor makes the path end where
-// that of an acceleration ends which grows steadily: half a kick at both ends of a sub-step is not that.
+// Makes the kicks grow steadily, from below their mean to above it. The factor square / (square − 1) corrects
+// the error of half kicks, so that the path has the same end as with a steadily growing acceleration.
 void bendKicks(RigidState& state, Vec2 jerk, double h, double substeps) {
   if (substeps < 2) return;
   const double square = substeps * substeps;
@@ -115,8 +114,8 @@ void RigidWorld::kick(bool is_second) {
   }
 }
 
-// When the velocities are those that contacts and joints allow. What they leave of the push is found by
-// solving for the same rows once more, of these groups alone.
+// Applies magnets when the velocities are those that contacts and joints allow. Then groups with a magnet are
+// solved again, to find how much of the magnet's push contacts and joints leave.
 void RigidWorld::turnByMagnets(double h) {
   m_magnets.clear();
   for (const int id : m_active) {
@@ -140,7 +139,7 @@ void RigidWorld::turnByMagnets(double h) {
   }
 }
 
-// As often as each group needs, and no oftener because of another one.
+// Undoes overlap, with the number of sweeps that each group needs.
 void RigidWorld::pushOut(double h) {
   const auto sweepsOf = [&](int id) {
     return m_extras[at(id)].is_active && isMovable(id) ? m_extras[at(id)].push_sweeps : 0;
@@ -176,7 +175,7 @@ void RigidWorld::move(int id, double h) {
   s.turn = turned(s.turn, h * s.spin);
 }
 
-// A body that moves farther than its contacts were searched for goes from impact to impact.
+// Moves the bodies. Those that move farther than contacts were searched for move from impact to impact.
 void RigidWorld::drift(double h) {
   m_flights.clear();
   for (const int id : m_active) {
@@ -208,7 +207,7 @@ void RigidWorld::drift(double h) {
     Extra& extra = m_extras[at(flight.id)];
     extra.flight = -1;
     if (flight.impacts == 0) continue;
-    // What it was hit by may have made it faster.
+    // Impacts may have made the body faster.
     const RigidState& s = m_states[at(flight.id)];
     const double roll = h * std::fabs(s.spin) * extra.reach;
     extra.rolled += roll;
@@ -221,8 +220,8 @@ bool RigidWorld::isFlying(int id) const {
   return extra.is_active && extra.moved > extra.margin;
 }
 
-// A contact of fast bodies says nothing any more once they have parted and what it was measured by has
-// turned: its plane lies somewhere else by then. They are swept, and make another one if they meet again.
+// Drops contacts of fast bodies that are not close any more, because rotation may have moved the contact's
+// plane. These bodies are swept, and make a new contact if they touch again.
 void RigidWorld::dropParted() {
   for (ContactConstraint& c : m_constraints) {
     if (c.count == 0 || c.points[0].is_bouncing || c.points[1].is_bouncing) continue;

@@ -1,4 +1,4 @@
-// Base of RigidWorld and SubstepWorld, which move rotating bodies step by step.
+// Common base of RigidWorld and SubstepWorld, which move rotating bodies step by step.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace naiad::physics {
 
-/// A contact of two bodies began or ended. Counts as one, however many of their shapes touch.
+/// The begin or end of a contact of two bodies, which is one contact even if several of their shapes touch.
 struct RigidEvent {
-  double time = 0;  ///< ticks since the start of the step: a sub-step's begin, or a fast impact
+  double time = 0;  ///< ticks since the start of the step: start of the sub-step, or moment of a fast impact
   int first = 0;    ///< the lower id
   int second = 0;
   bool is_begin = false;
-  double impulse = 0;  ///< begin only: on second, along the normal, until the end of the step
-  Vec2 normal;         ///< begin only: direction from first to second
+  double impulse = 0;  ///< begin only: impulse on `second` along the normal until the end of the step
+  Vec2 normal;         ///< begin only: direction from `first` to `second`
 };
 
 /// Not thread-safe.
@@ -29,44 +29,44 @@ class RigidStepper {
 
   /// Reserves memory for this many bodies.
   virtual void expect(std::size_t /*bodies*/) {}
-  /// Adds a body. `order` is unique. Shapes are relative to the centre of mass; without shapes the body
-  /// touches nothing and is only for joints. Returns the id, or −1 if the body is invalid.
+  /// Adds a body. `order` is unique. Shapes are relative to the centre of mass; a body without shapes touches
+  /// nothing and is only for joints. Returns the id, or −1 if the body is invalid.
   virtual int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) = 0;
-  /// Replaces a body's state, thaws it, and wakes it and its neighbours. No effect if the state is equal.
-  /// Returns false and changes nothing if the id or `body` is invalid.
+  /// Replaces a body's state, unfreezes it, and wakes it and its neighbours. Has no effect if the state is
+  /// equal. Returns false and changes nothing if the id or `body` is invalid.
   virtual bool set(int id, const RigidBody& body) = 0;
   virtual bool setShapes(int id, std::span<const ConvexShape> shapes) = 0;
   /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
   virtual bool remove(int id) = 0;
   virtual const RigidBody& body(int id) const = 0;
   virtual bool exists(int id) const = 0;
-  /// All ids are below this.
+  /// Returns a number that is larger than all ids.
   virtual int idLimit() const = 0;
-  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
+  /// True if the body is in quarantine: it does not move and collides with nothing until set().
   virtual bool isFrozen(int id) const = 0;
-  /// True if it moved only a part of its way in the last step, although nothing pushed it.
+  /// True if the body did only a part of its movement in the last step, although nothing pushed it.
   virtual bool isStopped(int id) const = 0;
 
   /// Adds a joint between existing bodies; `joint.a` and `joint.b` are ids. Joined bodies do not touch each
   /// other unless `may_touch`. Returns the joint's id, or −1 if it is invalid.
   int addJoint(const Joint& joint, bool may_touch = false);
-  /// Changes targets, speeds, strengths and lengths, but not the kind or the bodies. Wakes the bodies.
+  /// Changes target, speed, strength or length, but not the kind or the bodies. Wakes the bodies.
   bool setJoint(int id, const Joint& joint);
   bool removeJoint(int id);
   bool jointExists(int id) const { return joints().exists(id); }
-  /// Returns the joint with the results of the last step: force, torque, is_broken. A broken joint stays,
+  /// Returns the joint with the results of the last step: force, torque, is_broken. A broken joint exists,
   /// without effect, until it is removed.
   const Joint& joint(int id) const { return joints().joint(id); }
 
   /// Sets whether groups at rest may sleep.
   virtual void setSleeping(bool may_sleep) = 0;
-  /// True if the last step gave up the body and all that it touches, for a SubstepWorld.
+  /// True if the last step abandoned the body and all bodies that it touches: a SubstepWorld must move them.
   virtual bool isGivenUp(int id) const = 0;
-  /// True if crowding ever made some bodies pass through others.
+  /// True if, since construction, crowding has made some bodies pass through others.
   virtual bool hasThinned() const = 0;
   /// Advances by a tick.
   virtual void step() = 0;
-  /// Events of the last step, by (time, ids).
+  /// Returns the events of the last step, sorted by (time, ids).
   const std::vector<RigidEvent>& events() const { return m_events; }
 
  protected:
@@ -79,7 +79,7 @@ class RigidStepper {
  private:
   virtual const JointStore& joints() const = 0;
   virtual JointStore& joints() = 0;
-  /// Wakes the body and those that fell asleep with it.
+  /// Wakes the body and the bodies that fell asleep with it.
   virtual void wakeRing(int id) = 0;
   void wakeEnds(const Joint& joint);
 };

@@ -1,4 +1,4 @@
-// Fast bodies: through a sub-step from impact to impact, so that none passes another and no time is lost.
+// Moves fast bodies through a sub-step from impact to impact, so that none passes another or loses time.
 #include <algorithm>
 #include <cmath>
 
@@ -10,25 +10,25 @@ namespace naiad::physics {
 
 namespace {
 
-// Of a body in a sub-step: after kMaxBounces impacts it bounces no more, after kMaxImpacts it waits for the
-// next sub-step. They bound the cost of a body that is caught in a corner.
+// Limits per body and sub-step, for bodies in a corner: after kMaxBounces impacts a body does not bounce any
+// more, after kMaxImpacts it waits for the next sub-step.
 constexpr int kMaxImpacts = 64;
 constexpr int kMaxBounces = 32;
-// Times that a pair is asked for its time of impact again, from where the iterations ended: bounds the cost
-// of two that turn fast around each other.
+// Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
+// the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
-constexpr int kImpactSweeps = 8;  // over the two points of an impact
-// In thicknesses of the thinner body.
-constexpr double kTouch = 1e-6;  // gap at which an impact is found
-constexpr double kLanded = 0.5;  // how far a body moves at most after it has landed in a large group
+constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact
+// Lengths in units of the thinner body's thickness:
+constexpr double kTouch = 1e-6;  // the gap at which an impact is found
+constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
 
-// Where it is after a part of its motion, and what is left of it.
+// Returns what remains of a motion after this part of it.
 RigidMotion after(const RigidMotion& motion, double part) {
   return {(1 - part) * motion.displacement, turned(motion.start, part * motion.turn),
           (1 - part) * motion.turn};
 }
 
-// As timeOfImpact(), asked again from where its iterations ended.
+// Like timeOfImpact(), but if the iterations ended too early, calls it again from there.
 TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
                                  const RigidMotion& motion_b, Vec2 offset) {
   TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset);
@@ -78,7 +78,7 @@ void RigidWorld::hold(int id) {
   flight.is_held = true;
 }
 
-// Does the solver keep these two shapes apart already?
+// True if these two shapes have a contact by which the solver keeps them apart.
 bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
   const std::int32_t index = findPair(a, b);
   if (index < 0 || !m_pairs[at(index)].is_seen) return false;
@@ -104,13 +104,13 @@ void RigidWorld::forecastPair(int one, int other, double h) {
     const double time = flight != nullptr ? left * flight->part : left;
     return {time * s.velocity, rotation, time * s.spin};
   };
-  // Of what has turned far since the step began, other corners come to touch than those that were found then.
+  // Once a body has turned far since the step began, other corners may touch than those found at its start.
   const bool is_bending =
       (flight_a != nullptr && flight_a->is_bending) || (flight_b != nullptr && flight_b->is_bending);
   const bool has_turned =
       is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
-  // At the start of the step they were farther apart than contacts were searched for, if nothing keeps them
-  // apart now. Do they come nearer by more than that, or have they already?
+  // At the start of the step, shapes without a contact were farther apart than the distance to which contacts
+  // were searched. They cannot touch unless they approach by more than that distance.
   if (!has_met && !has_turned) {
     const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
     const auto isNear = [&](double time) {
@@ -157,7 +157,7 @@ void RigidWorld::forecast(int id, double h) {
   }
 }
 
-// Hit in its sleep: it moves at once, what it lies among wakes in the next step.
+// Wakes a sleeping body that was hit. It moves at once; other bodies of its group move from the next step on.
 void RigidWorld::wakeInFlight(int id) {
   Extra& extra = m_extras[at(id)];
   if (extra.is_active || !isMovable(id)) return;
@@ -165,7 +165,7 @@ void RigidWorld::wakeInFlight(int id) {
   extra.is_active = true;
   m_active.push_back(id);
   extra.push_sweeps = 1;
-  extra.margin = extra.moved = extra.rolled = 0;  // nothing was searched around it
+  extra.margin = extra.moved = extra.rolled = 0;  // no contacts were searched around this body
   m_states[at(id)] = {};
   m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
   m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
@@ -190,13 +190,13 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   const Vec2 start = m_bodies[at(b)].place - m_bodies[at(a)].place,
              offset = start + (other.displacement - one.displacement);
   Manifold manifold;
-  // What a double resolves of where they are, of the moment, and of the angles then.
+  // Rounding error of the places, of the time of impact, and of the rotations at that time.
   const double resolved = 1e-12 * (length(offset) + of_a.reach + of_b.reach) +
                           1e-15 * h *
                               (length(other.velocity - one.velocity) + std::fabs(one.spin) * of_a.reach +
                                std::fabs(other.spin) * of_b.reach);
   const double touch = kTouch * std::min(of_a.thickness, of_b.thickness) + resolved;
-  // What waits before a wall that moves would be inside it by then: it goes along.
+  // A body that waited in front of a moving wall would end up inside the wall, so it moves with the wall.
   const auto giveUp = [&] {
     hold(a);
     hold(b);
@@ -223,8 +223,8 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   }
 }
 
-// A body that has hit something in a large group, or on joints, is swept no more in this sub-step, or every
-// body of the group would be: it moves on a little.
+// Ends the sweep of a body of a large group, or of a group with joints, after an impact; otherwise all bodies
+// of the group would be swept. The body moves only a little more in this sub-step.
 void RigidWorld::land(int id, double h) {
   const Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];
@@ -235,8 +235,8 @@ void RigidWorld::land(int id, double h) {
   flight.has_landed = true;
 }
 
-// The impact's impulses, at once. Velocities are those of the middle of the sub-step: what acceleration adds
-// until then, or has added since, is not there at the impact.
+// Applies the impulses of an impact. The velocities are those of the middle of the sub-step, so they are
+// corrected by the acceleration between the middle and the impact.
 void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const RigidState a_before = a, b_before = b;
@@ -268,8 +268,8 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     return gain;
   };
   meet(restitution);
-  // To leave as fast as it should, what slides or tilts may take energy that was not there. 1 + e times the
-  // impulses that only stop it never do; the energy of what lies between is at most between.
+  // With friction, the impulses of a bounce may add energy. The impulses that only stop the bodies, times 1 +
+  // e, never do, and a mix of both adds at most the mix of their energies. So the mix that adds none is used.
   const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;
@@ -319,7 +319,7 @@ void RigidWorld::sweep(double h) {
       return isOf(next.a) || isOf(next.b);
     });
     for (const int id : {next.a, next.b}) {
-      if (isMovable(id)) forecast(id, h);  // nothing changes the path of the others
+      if (isMovable(id)) forecast(id, h);  // nothing changes the paths of the other bodies
     }
   }
 }

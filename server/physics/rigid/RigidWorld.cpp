@@ -14,7 +14,7 @@ void RigidWorld::expect(std::size_t bodies) {
 }
 
 int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) {
-  if (!isSound(body)) return -1;
+  if (!isValid(body)) return -1;
   int id = m_first_free;
   while (id < idLimit() && m_extras[at(id)].exists) ++id;
   m_first_free = id + 1;
@@ -40,7 +40,7 @@ int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) 
 }
 
 bool RigidWorld::set(int id, const RigidBody& body) {
-  if (!exists(id) || !isSound(body)) return false;
+  if (!exists(id) || !isValid(body)) return false;
   Extra& extra = m_extras[at(id)];
   RigidBody& own = m_bodies[at(id)];
   if (own == body && !extra.is_frozen) return true;
@@ -52,7 +52,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   extra.still = 0;
   if (extra.is_frozen || was_movable != isMovable(id)) {
     leave(id);
-    forgetPairs(id);  // they are in another order now
+    forgetPairs(id);  // its pairs must be found again, because their order has changed
     enter(id);
   } else if (!was_movable) {
     if (!extra.is_dirty) m_dirty.push_back(id);
@@ -108,7 +108,7 @@ Bounds RigidWorld::turnShapes(int id, Rotation rotation) {
   return bounds;
 }
 
-// Into the broad phase, with what has to be known of it when it does not move.
+// Resets the body's state and adds it to the broad phase.
 void RigidWorld::enter(int id) {
   Extra& extra = m_extras[at(id)];
   extra.is_frozen = extra.is_asleep = false;
@@ -125,7 +125,7 @@ void RigidWorld::enter(int id) {
   extra.proxy = m_broad.add(rankOf(id), gridBounds(body.place, bounds, 0), isMovable(id), rankOf(id));
 }
 
-// Out of the broad phase; its contacts are forgotten.
+// Removes the body from the broad phase and drops its contacts.
 void RigidWorld::leave(int id) {
   Extra& extra = m_extras[at(id)];
   if (extra.proxy >= 0) m_broad.remove(extra.proxy);

@@ -2,8 +2,8 @@
 //
 // A step is divided into a few sub-steps. Contacts are found once per step and followed in closed form
 // through the sub-steps (RigidSolver.h); contacts and joints are solved together. A body that moves farther
-// than contacts were searched for is swept from impact to impact (RigidSweep.cpp). Groups at rest sleep, with
-// velocity zero. Results depend only on ids, relative places and inputs.
+// than the distance to which contacts were searched is swept from impact to impact (RigidSweep.cpp). Groups
+// at rest sleep, with velocity zero. Results depend only on ids, relative places and inputs.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,16 @@ namespace naiad::physics {
 /// Counters since the world was made.
 struct RigidCounters {
   std::int64_t ticks = 0;
-  std::int64_t contacts = 0;         ///< manifolds solved, once per step each
+  std::int64_t contacts = 0;         ///< manifolds solved; each counts once per step
   std::int64_t sweeps = 0;           ///< pairs tested for a time of impact
   std::int64_t impacts = 0;          ///< impacts of fast bodies
   std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
-  std::int64_t unresolved = 0;       ///< times of impact not found within the iteration limit
+  std::int64_t unresolved = 0;       ///< times of impact for which the iteration limit was reached
   std::int64_t direct_solves = 0;    ///< groups solved at once
-  std::int64_t direct_rounds = 0;    ///< approximate number of factorisations for these
-  std::int64_t direct_failures = 0;  ///< direct solves that were given up
-  std::int64_t direct_refusals = 0;  ///< groups not solved directly because of the possible cost
-  std::int64_t quarantined = 0;      ///< bodies frozen
+  std::int64_t direct_rounds = 0;    ///< approximate number of factorisations in all direct solutions
+  std::int64_t direct_failures = 0;  ///< direct solutions that failed
+  std::int64_t direct_refusals = 0;  ///< groups not solved directly because it might cost too much
+  std::int64_t quarantined = 0;      ///< number of times that a body was frozen
   std::int64_t broken = 0;           ///< broken joints
 };
 
@@ -43,7 +43,7 @@ struct RigidOptions {
   int substeps = 4;  ///< 1 … 64
   bool may_sleep = true;
   double sleep_speed = 3e-4;  ///< cells per tick: maximum speed of every point of a still body
-  double sleep_delay = 15;    ///< ticks that a group must be still, without gaining speed, before it sleeps
+  double sleep_delay = 15;    ///< ticks that a group must be still, without becoming faster, before it sleeps
 };
 
 /// Not thread-safe. After a warm-up, step() does not allocate.
@@ -51,7 +51,7 @@ class RigidWorld final : public RigidStepper {
  public:
   explicit RigidWorld(RigidOptions options = {}) : m_options(options) {}
 
-  /// Adds a body. Shapes are relative to the centre of mass; without shapes the body touches nothing and is
+  /// Adds a body. Shapes are relative to the centre of mass; a body without shapes touches nothing and is
   /// only for joints. Returns the lowest free id, or −1 if the body is invalid.
   int add(const RigidBody& body, std::span<const ConvexShape> shapes);
   void expect(std::size_t bodies) override;
@@ -60,8 +60,8 @@ class RigidWorld final : public RigidStepper {
     return add(body, shapes);
   }
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
-  /// Replaces a body's state, thaws it, and wakes it and its neighbours. No effect if the state is equal.
-  /// Returns false and changes nothing if the id or `body` is invalid.
+  /// Replaces a body's state, unfreezes it, and wakes it and its neighbours. Has no effect if the state is
+  /// equal. Returns false and changes nothing if the id or `body` is invalid.
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
   /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
@@ -70,13 +70,13 @@ class RigidWorld final : public RigidStepper {
   const RigidBody& body(int id) const override { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
   bool exists(int id) const override { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
-  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
+  /// True if the body is in quarantine: it does not move and collides with nothing until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isStopped(int /*id*/) const override { return false; }
   bool isGivenUp(int id) const override { return m_extras[at(id)].is_given_up; }
   bool hasThinned() const override { return m_broad.hasThinned(); }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
-  /// Wakes the body and those that fell asleep with it.
+  /// Wakes the body and the bodies that fell asleep with it.
   void wake(int id);
   int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
@@ -86,28 +86,28 @@ class RigidWorld final : public RigidStepper {
   const RigidCounters& counters() const { return m_counters; }
   const RigidOptions& options() const { return m_options; }
 
-  /// Depth of the deepest overlap at the start of the last step.
+  /// Returns the depth of the deepest overlap at the start of the last step.
   double deepest() const { return m_deepest; }
 
  private:
-  /// Limit of a direct solution of a group, in multiplications per constraint and sub-step: enough for a
-  /// stack's band, not for a wide heap's.
+  /// Limit of the cost of a group's direct solution, in multiplications per constraint and sub-step. It is
+  /// enough for the narrow matrix of a stack, but not for the wide one of a heap.
   static constexpr double kDirectBudget = 5000;
-  /// Part of a body's thickness: corners may move this far by rotation before other ones may touch.
+  /// Part of a body's thickness by which corners may move by rotation before other corners may touch.
   static constexpr double kMaxRoll = 0.5;
   static constexpr int kPushSweeps = 8;  // sweeps that undo overlap in a group with joints; others need one
 
   struct Extra {
     std::vector<ConvexShape> shapes;
     std::vector<RotatedShape> turned;
-    double reach = 0;         // of all shapes, from the centre
-    double margin = 0;        // distance to which contacts were searched in this step
+    double reach = 0;         // maximum distance of a point of its shapes from the centre
+    double margin = 0;        // distance to which contacts are searched in this step
     double thickness = 0;     // smallest half width of a shape
-    double moved = 0;         // upper bound of the movement of any of its points in this step
+    double moved = 0;         // upper bound of the movement of any of its points in this step up to now
     double rolled = 0;        // part of `moved` due to rotation
-    double still = 0;         // ticks for which it has been still
+    double still = 0;         // number of ticks for which it has been still
     double first_speed = 0;   // speed when it became still
-    std::int32_t proxy = -1;  // in the broad phase
+    std::int32_t proxy = -1;  // index in the broad phase
     int ring = -1;            // next body that fell asleep with it
     bool exists = false;
     bool is_frozen = false;
@@ -115,45 +115,45 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
-    bool is_in_crowd = false;  // in the last step, in a large group or one with joints
-    bool is_given_up = false;  // with its group, in the last step
-    int push_sweeps = 1;       // number for its group
+    bool is_in_crowd = false;  // true if, in the last step, it was in a large group or one with joints
+    bool is_given_up = false;  // true if the last step abandoned its group
+    int push_sweeps = 1;       // number of sweeps that undo overlap in its group
     int flight = -1;           // index in m_flights if it moves from impact to impact in this sub-step
   };
   struct Pair {
     std::int32_t a, b;
-    std::int32_t first = -1;  // first of its contacts
+    std::int32_t first = -1;  // index of the pair's first contact
     std::int32_t event = -1;  // index of its begin event in this step
     bool is_touching = false;
-    bool is_seen = false;     // in this step
-    bool is_jointed = false;  // a joint keeps them from touching
-    bool is_pushing = false;  // in this step
-    bool is_near = false;     // at the end of this step
+    bool is_seen = false;     // examined in this step
+    bool is_jointed = false;  // a joint prevents contacts of the two bodies
+    bool is_pushing = false;  // true if a contact has pushed in this step
+    bool is_near = false;     // true if the bodies are near each other at the end of this step
   };
   struct Late {  // a contact found within the step
     std::int32_t a, b;
     friend constexpr bool operator==(const Late&, const Late&) = default;
   };
-  struct Flight {  // a swept body within a sub-step, which lasts from 0 to 1
+  struct Flight {  // a swept body within a sub-step; time is 0 at its start and 1 at its end
     std::int32_t id;
     int impacts = 0;
     double time = 0;
-    double part = 1;          // part of the rest of the sub-step that it moves
-    bool has_landed = false;  // moves on, but is not swept any more
-    bool is_bending = false;  // it must bounce, but contacts cannot predict that
+    double part = 1;          // part of the remaining sub-step by which it moves
+    bool has_landed = false;  // true if it moves on without being swept
+    bool is_bending = false;  // true if it must bounce, but contacts cannot predict the impact
     bool is_held = false;
   };
   struct Island {
-    int first_body = 0, bodies = 0;  // in m_island_bodies
+    int first_body = 0, bodies = 0;  // part of m_island_bodies
     int first_constraint = 0, constraints = 0;
     int first_link = 0, links = 0;
     int hard_links = 0;  // number of links other than springs and mice
     double kick = 0;     // largest kick of its bodies
-    double budget = 0;   // for a direct solution in this step
+    double budget = 0;   // multiplications that a direct solution may need in this step
     bool has_fast = false;
-    bool rests_anew = false;  // in this sub-step: no known impulses and no fast impacts
+    bool rests_anew = false;  // in this sub-step it has no known impulses and no fast impacts
   };
-  struct Gain {  // maximum speed in a group when it became still, and now
+  struct Gain {  // maximum speeds in a group: when it became still, and now
     double before = 0, now = 0;
   };
   struct Impact {
@@ -164,8 +164,8 @@ class RigidWorld final : public RigidStepper {
   };
 
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
-  // Order of the bodies in a pair and of pairs: movable bodies by id, then immovable ones. Obstacle ids
-  // depend on which body came near first, so they must not decide the order.
+  // Order of the bodies in a pair and of pairs: movable bodies by id, then immovable ones. The ids of
+  // obstacles depend on which body was near them first, so they must not decide the order.
   static constexpr std::uint32_t kImmovable = std::uint32_t{1} << 31;
   std::uint32_t rankOf(int id) const {
     return static_cast<std::uint32_t>(id) | (isMovable(id) ? 0 : kImmovable);
@@ -174,7 +174,7 @@ class RigidWorld final : public RigidStepper {
   bool isBefore(int a, int b) const { return rankOf(a) < rankOf(b); }
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 
-  // RigidWorld.cpp
+  // Defined in RigidWorld.cpp:
   void measure(int id);
   void enter(int id);
   void leave(int id);
@@ -185,7 +185,7 @@ class RigidWorld final : public RigidStepper {
   JointStore& joints() override { return m_joints; }
   Bounds turnShapes(int id, Rotation rotation);
 
-  // RigidStep.cpp
+  // Defined in RigidStep.cpp:
   void stepOnce(double dt);
   void beginStep(double dt);
   void beginBody(int id, double dt);
@@ -200,7 +200,7 @@ class RigidWorld final : public RigidStepper {
   bool isFlying(int id) const;
   void dropParted();
 
-  // RigidPairs.cpp
+  // Defined in RigidPairs.cpp:
   void updatePairs();
   void dropPair(Pair& pair);
   void forgetPairs(int id);
@@ -215,7 +215,7 @@ class RigidWorld final : public RigidStepper {
   void publishBegin(const ContactConstraint& constraint, double dt);
   void publishEnds(double dt);
 
-  // RigidSweep.cpp
+  // Defined in RigidSweep.cpp:
   struct Pose {
     Vec2 displacement;
     Rotation turn;
@@ -233,12 +233,12 @@ class RigidWorld final : public RigidStepper {
   void wakeInFlight(int id);
   void hold(int id);
 
-  // RigidSleep.cpp
+  // Defined in RigidSleep.cpp:
   void findIslands();
   void gatherIslands();
   int islandOf(int a, int b);
 
-  // RigidIslands.cpp
+  // Defined in RigidIslands.cpp:
   void solveIsland(Island& island, bool is_second);
   bool solveAtOnce(Island& island, bool is_second);
   void giveUp(Island& island);
@@ -262,22 +262,22 @@ class RigidWorld final : public RigidStepper {
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
-  UnionFind m_sets;              // over bodies
+  UnionFind m_sets;              // sets of bodies
   std::vector<int> m_island_of;  // by root
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
-  std::size_t m_first_late = 0;  // in m_constraints
+  std::size_t m_first_late = 0;  // index in m_constraints of the first one found within the step
   RigidDirect m_direct;
   std::vector<double> m_island_still;
   std::vector<Gain> m_island_gain;
   std::vector<std::uint8_t> m_island_flags;
   RigidCounters m_counters;
-  double m_time = 0;    // within the step
-  Manifold m_manifold;  // of the current pair; a member, because one on the stack would be set to zero first
+  double m_time = 0;    // time within the step
+  Manifold m_manifold;  // of the current pair; a member, because a local one would be set to zero first
   double m_deepest = 0;
   double m_h = 0;
   bool m_active_changed = false;
-  bool m_has_flown = false;  // a body was swept in this step
+  bool m_has_flown = false;  // true if a body was swept in this step
 };
 
 }  // namespace naiad::physics

@@ -14,7 +14,7 @@ bool isLoad(double x) {
 
 }  // namespace
 
-bool isSound(const SoftBody& body) {
+bool isValid(const SoftBody& body) {
   const int count = static_cast<int>(body.nodes.size());
   if (count < 1 || count > kMaxSoftNodes || body.boundary.size() > body.nodes.size()) return false;
   const auto isNode = [count](int i) { return i >= 0 && i < count; };

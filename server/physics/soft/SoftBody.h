@@ -1,7 +1,7 @@
 // Data of a soft body: mass points connected by springs, with stiffness in physical units.
 //
 // Time is in ticks, lengths in metric cells, mass in the game's unit. So a stretch stiffness k is in mass per
-// tick², EA in mass · cell per tick² and EI in mass · cell³ per tick². SoftBuild.h makes common bodies.
+// tick², EA in mass · cell per tick² and EI in mass · cell³ per tick². SoftBuild.h makes the usual bodies.
 #pragma once
 
 #include <cmath>
@@ -15,31 +15,31 @@ namespace naiad::physics {
 struct SoftNode {
   Vec2 offset;  ///< relative to the body's place
   Vec2 velocity;
-  Vec2 force;       ///< external force in addition to gravity, until changed
+  Vec2 force;       ///< external force in addition to gravity; acts until it is changed
   double mass = 1;  ///< > 0
-  /// Immovable by forces: it stays, or continues with its velocity.
+  /// True if forces do not move the node: it stays, or continues with its velocity.
   bool is_pinned = false;
 };
 
-/// A spring between two nodes: force = stiffness · (distance − rest length) + damping · its rate.
+/// A spring between two nodes: force = stiffness · (distance − rest length) + damping · rate of the distance.
 struct SoftStretch {
   int a = 0;
   int b = 0;
   double rest_length = 1;  ///< > 0
   double stiffness = 1;    ///< EA / rest length for a bar; >= 0
   double damping = 0;      ///< >= 0
-  /// Limit of strain, > 0: stretched further, the spring is taut and kTautSoft times as stiff. 0: no limit.
+  /// Limit of strain, > 0: a spring stretched beyond it is taut and kTautSoft times as stiff. 0: no limit.
   double limit = 0;
 };
 
-/// A spring against bending at b, in the corner a, b, c: moment = stiffness · (angle − rest angle) + damping
-/// · its rate. The angle is 0 for a straight corner.
+/// A spring against bending at node b of the corner a, b, c: moment = stiffness · (angle − rest angle) +
+/// damping · rate of the angle. The angle is 0 for a straight corner.
 struct SoftBend {
-  int a = 0;  ///< −1: a clamp; `direction` then replaces the direction from a to b
+  int a = 0;  ///< −1: a clamp, for which `direction` replaces the direction from a to b
   int b = 0;
   int c = 0;
   double rest_angle = 0;  ///< −π … π
-  double stiffness = 1;   ///< EI over the length of beam that this corner represents; >= 0
+  double stiffness = 1;   ///< EI divided by the length of beam that this corner represents; >= 0
   double damping = 0;     ///< >= 0
   Vec2 direction = {1, 0};
 };
@@ -49,12 +49,12 @@ struct SoftBody {
   std::vector<SoftNode> nodes;  ///< 1 … kMaxSoftNodes
   std::vector<SoftStretch> stretches;
   std::vector<SoftBend> bends;
-  /// The surface that others touch: nodes in order, with straight lines between neighbours. If closed, it has
-  /// an inside, and runs in the sense from x to y.
+  /// The surface that other bodies touch: nodes in order, with straight lines between neighbours. If it is
+  /// closed, it has an inside, and is ordered from x to y (clockwise on the screen).
   std::vector<int> boundary;
   bool is_closed = false;
   double radius = 0.1;  ///< radius of nodes and lines of the boundary in contacts; > 0
-  double friction = 0;  ///< >= 0; for a pair the geometric mean counts
+  double friction = 0;  ///< >= 0; a pair has the geometric mean of its two
   double drag = 0;      ///< per tick: the speed of a free node decays as exp(−drag · t); >= 0
   /// The inside of the boundary presses outwards with `pressure` + `bulk` · (1 − area / rest_area).
   double pressure = 0;   ///< force per length
@@ -62,10 +62,10 @@ struct SoftBody {
   double rest_area = 0;  ///< > 0 if pressure or bulk is not 0
 };
 
-inline constexpr int kMaxSoftNodes = 16'384;  ///< cost of a tick: see SoftElastic.h
-inline constexpr double kTautSoft = 100;      ///< factor of the stiffness of a stretch beyond its limit
+inline constexpr int kMaxSoftNodes = 16'384;  ///< limit of nodes; SoftElastic.h describes the cost of a tick
+inline constexpr double kTautSoft = 100;      ///< factor for the stiffness of a stretch beyond its limit
 inline constexpr double kLargestSoft = 1e12;  ///< limit of sizes, speeds, masses, forces and stiffness
-/// Returns false for NaN.
+/// True if |x| is within kLargestSoft; false for NaN.
 inline bool isSmallSoft(double x) {
   return std::fabs(x) <= kLargestSoft;
 }
@@ -73,11 +73,11 @@ inline bool isSmallSoft(Vec2 v) {
   return isSmallSoft(v.x) && isSmallSoft(v.y);
 }
 
-/// True if valid: all numbers finite and within kLargestSoft, indices in range, no sizes of zero.
-bool isSound(const SoftBody& body);
+/// True if the body is valid: all numbers finite and within kLargestSoft, indices in range, no sizes of zero.
+bool isValid(const SoftBody& body);
 
-/// Returns the energy: kinetic, of the springs and the pressure, and −force · offset for gravity and the
-/// nodes' forces.
+/// Returns the body's energy: the kinetic energy, that of the springs and the pressure, and −force · offset
+/// for gravity and the nodes' forces.
 double energyOf(const SoftBody& body, Vec2 gravity);
 
 }  // namespace naiad::physics

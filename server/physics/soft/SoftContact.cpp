@@ -10,7 +10,7 @@ namespace naiad::physics {
 
 namespace {
 
-// What a node does relative to an obstacle, in the obstacle's axes.
+// A node's path relative to an obstacle, in the obstacle's axes.
 struct LocalPath {
   Vec2 from;
   Vec2 displacement;
@@ -23,7 +23,7 @@ LocalPath localPath(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& ri
 }
 
 std::uint64_t keyOf(int body, int feature, int other, int other_feature) {
-  static_assert(2 * kMaxSoftNodes < 32771);  // nodes, and the lines between them
+  static_assert(2 * kMaxSoftNodes < 32771);  // features are nodes, and the lines between them
   return ((static_cast<std::uint64_t>(body) * 32771 + static_cast<std::uint64_t>(feature)) << 32) ^
          (static_cast<std::uint64_t>(other) * 8209 + static_cast<std::uint64_t>(other_feature));
 }
@@ -49,7 +49,7 @@ SoftRow rowAgainst(const SoftPose& rigid, const SoftBody& body, Vec2 point, Vec2
   return row;
 }
 
-// The plane that keeps a node out of a shape, if it comes near.
+// Appends a row for the plane that keeps a node out of a shape, if the node may be near it in the sub-step.
 void findNode(const SoftView& soft, int node, const SoftPose& rigid, int shape_index, double h,
               std::vector<SoftRow>& rows) {
   const SoftBody& body = *soft.body;
@@ -60,7 +60,7 @@ void findNode(const SoftView& soft, int node, const SoftPose& rigid, int shape_i
   double gap = near.distance - body.radius;
   Vec2 normal = near.normal;
   if (gap > travel + skin || gap + dot(normal, local.displacement) > skin) return;
-  if (gap > body.radius) {  // from afar: where it would hit
+  if (gap > body.radius) {  // the node starts farther away than its radius: find the point that it would hit
     ConvexShape thick = shape;
     thick.radius += body.radius;
     const RayHit hit = castRay(thick, local.from, local.displacement);
@@ -76,7 +76,7 @@ void findNode(const SoftView& soft, int node, const SoftPose& rigid, int shape_i
   rows.push_back(row);
 }
 
-// A shape's corner between two nodes.
+// Appends rows for corners of the shape that may touch the line between two nodes.
 void findCorners(const SoftView& soft, int segment, const SoftPose& rigid, int shape_index, double h,
                  std::vector<SoftRow>& rows) {
   const SoftBody& body = *soft.body;
@@ -90,7 +90,7 @@ void findCorners(const SoftView& soft, int segment, const SoftPose& rigid, int s
   for (int i = 0; i < shape.count; ++i) middle += shape.vertices[at(i)] / shape.count;
   middle = rigid.rotation * middle;
   const double side = cross(along, origin + middle - first);
-  const Vec2 out = (side > 0 ? -1 : 1) * perpendicular(along) / far;  // away from the obstacle
+  const Vec2 out = (side > 0 ? -1 : 1) * perpendicular(along) / far;  // direction away from the obstacle
   for (int i = 0; i < shape.count; ++i) {
     const Vec2 lever = rigid.rotation * shape.vertices[at(i)], corner = origin + lever - first;
     const double t = dot(corner, along) / (far * far);
@@ -111,12 +111,12 @@ void findCorners(const SoftView& soft, int segment, const SoftPose& rigid, int s
 
 struct Nearest {
   int segment = -1;
-  double part = 0;      // of its length
-  double distance = 0;  // negative inside
+  double part = 0;      // part of the segment's length
+  double distance = 0;  // distance of the surface; negative inside
   Vec2 normal;
 };
 
-// Of the boundary: by distance, and inside by counting crossings.
+// Finds the nearest point of the boundary. `point` is inside if its ray crosses an odd number of lines.
 Nearest nearestOn(const SoftBody& body, Vec2 point) {
   Nearest best;
   double least = 1e300;
@@ -160,7 +160,7 @@ bool overlap(Vec2 lower, Vec2 upper, Vec2 other_lower, Vec2 other_upper) {
 
 }  // namespace
 
-bool isSound(const SoftObstacle& obstacle) {
+bool isValid(const SoftObstacle& obstacle) {
   const auto isFine = [&](Vec2 v) { return isSmallSoft(v.x) && isSmallSoft(v.y); };
   const double square = lengthSquared({obstacle.rotation.c, obstacle.rotation.s});
   return isFine(obstacle.velocity) && isSmallSoft(obstacle.spin) && isFine(obstacle.acceleration) &&
@@ -272,13 +272,13 @@ double freeFraction(const SoftBody& body, Vec2 from, Vec2 to, const SoftPose& ri
   double free = 1;
   if (!(lengthSquared(local.displacement) > 0)) return free;
   for (const ConvexShape& shape : rigid.obstacle->shapes) {
-    // It stops a little before the surface, so that it is not found inside the next time; if it is nearer
-    // than that already, a little less before it.
+    // The node stops a little before the surface, so that it does not start inside the next time. If it
+    // starts closer than that, it stops at a smaller distance.
     for (const double part : {0.5, 0.25, 0.1, 0.01, 0.0}) {
       ConvexShape thick = shape;
       thick.radius += part * body.radius;
       const RayHit hit = castRay(thick, local.from, local.displacement);
-      if (hit.hit && hit.normal == Vec2{}) continue;  // it starts in it
+      if (hit.hit && hit.normal == Vec2{}) continue;  // the node starts inside
       if (hit.hit && hit.fraction < free) free = hit.fraction;
       break;
     }

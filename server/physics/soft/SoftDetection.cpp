@@ -1,4 +1,4 @@
-// Collision detection of a SoftWorld at the start of a sub-step: where everything is, and what may touch.
+// Collision detection of a SoftWorld at the start of a sub-step: positions, and contacts that may occur.
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace naiad::physics {
 
-// Where everything is, and would be; a body out of all bounds is frozen before another can touch it.
+// Collects present and unimpeded positions. Freezes bodies that are out of range before others touch them.
 void SoftWorld::updateViews(double h, std::span<SoftObstacle> obstacles) {
   std::size_t nodes = 0;
   for (int id = 0; id < idLimit(); ++id) nodes += m_bodies[at(id)].nodes.size();
@@ -17,7 +17,7 @@ void SoftWorld::updateViews(double h, std::span<SoftObstacle> obstacles) {
   for (int id = 0; id < idLimit(); ++id) {
     if (isLive(id) && isWide(id)) patches += m_bodies[at(id)].nodes.size() / kSoftPatch + 1;
   }
-  m_patches.reserve(patches);  // so that views may point into it
+  m_patches.reserve(patches);  // the vector must not move, because views point into it
   std::size_t used = 0;
   for (int id = 0; id < idLimit(); ++id) {
     if (!isLive(id)) continue;
@@ -83,7 +83,7 @@ void SoftWorld::findAttachments(std::span<SoftObstacle> obstacles) {
     if (held.body < 0 || !isLive(held.body)) continue;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
       if (obstacles[k].id != held.obstacle) continue;
-      // A body that is attached to it does not collide with it, as with joints.
+      // A body attached to an obstacle does not collide with it, like bodies joined by joints.
       std::erase_if(m_rows, [&](const SoftRow& row) {
         return row.obstacle == static_cast<int>(k) && !row.is_attachment && row.a.body == held.body;
       });

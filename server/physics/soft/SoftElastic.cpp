@@ -9,13 +9,13 @@ namespace naiad::physics {
 
 namespace {
 
-// An iteration that moves the body by less than so much of a radius is close to the solution: the next one
-// does with the decomposition that there is. If that moves it by more than a tenth of that, those that follow
-// have each its own.
+// Part of a radius. An iteration that moves the body by less is close to the solution, so the next iteration
+// uses its decomposition again. If that one moves the body by more than kContraction times as much, the
+// further iterations of the sub-step compute their own decompositions.
 constexpr double kClose = 1e-3;
 constexpr double kContraction = 0.1;
 
-// Along a line nodes are neighbours as they are. Around a ring, the two directions alternate.
+// Returns an order of a ring's nodes with a narrow band, in which the two directions alternate.
 std::vector<int> folded(int count) {
   std::vector<int> order(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ int spread(const SoftBody& body, const std::vector<int>& order) {
   return widest;
 }
 
-// Have its springs few different distances of numbers, so that its gradients cost little (kMaxDiagonals)?
+// True if the springs have few different distances of node numbers, so gradients are cheap (kMaxDiagonals).
 bool isMesh(const SoftBody& body) {
   std::vector<ConjugateGradients::Pair> pairs;
   for (const SoftStretch& s : body.stretches) pairs.push_back({s.a, s.b});
@@ -122,7 +122,7 @@ bool SoftElastic::assemble(const SoftBody& body, bool is_alone) {
     addStretches(body);
     return true;
   }
-  // What rounding may have made singular gets a little more inertia.
+  // If rounding has made the matrix singular, retries with slightly more inertia.
   for (const double extra : {0.0, 1e-12, 1e-9, 1e-6}) {
     if (!m_is_kept) m_band.clear();
     std::fill(m_change.begin(), m_change.end(), 0);
@@ -182,10 +182,10 @@ void SoftElastic::addEntry(int i, int j, double xx, double xy, double yx, double
   if (m_is_kept || m_pinned[at(i)] || m_pinned[at(j)]) return;
   if (m_is_wide) {
     if (i == j) m_gradients.addDiagonal(i, {xx, xy, yy});
-    return;  // pairs are set as a whole
+    return;  // the blocks of pairs are set by addLink()
   }
   const int row = rowOf(i), column = rowOf(j);
-  if (row < column) return;  // its mirror image comes too
+  if (row < column) return;  // upper half, which the call with i and j exchanged adds
   m_band.entry(row, column) += xx;
   m_band.entry(row + 1, column) += yx;
   m_band.entry(row + 1, column + 1) += yy;
@@ -212,7 +212,7 @@ void SoftElastic::addMass(const SoftBody& body) {
   }
 }
 
-// A spring that does `force` times the slopes on its nodes, and more by `stiffness` as they follow.
+// Adds a spring: its force on a node is −`force` · slope, with the derivative `stiffness` along the slopes.
 void SoftElastic::addSpring(const int* nodes, const Vec2* slopes, int count, double force, double stiffness) {
   for (int i = 0; i < count; ++i) {
     if (m_pinned[at(nodes[i])]) continue;
@@ -236,7 +236,7 @@ void SoftElastic::addStretches(const SoftBody& body) {
     m_hardness[i] = s.stiffness + s.damping / m_beta;
     const double over = tautBeyond(s, span.length - s.rest_length);
     if (over > 0) m_elastic[i] += kTautSoft * s.stiffness * over, m_hardness[i] += kTautSoft * s.stiffness;
-    // Under tension it also resists turning. Under pressure it helps to turn, which is left to the iteration.
+    // A stretched spring also resists turning. A compressed one assists it, which is left to the iteration.
     const double taut = m_tensions[i] / span.length;
     if (m_is_wide) {
       addLink(s, static_cast<int>(i), along, m_elastic[i], m_hardness[i], std::max(0.0, taut));

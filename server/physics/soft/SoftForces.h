@@ -1,4 +1,4 @@
-// Deformation of a soft body's springs and the direction of their forces, for the step and the energy.
+// Deformations of a soft body's springs and the directions of their forces, used by its step and its energy.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ struct SoftSpan {
   Vec2 direction;  ///< unit length, from a to b
 };
 
-/// Nodes at one place count as a millionth of the rest length apart.
+/// Returns length and direction of a spring. The length is at least a millionth of the rest length.
 inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
   const Vec2 offset =
       body.nodes[static_cast<std::size_t>(s.b)].offset - body.nodes[static_cast<std::size_t>(s.a)].offset;
@@ -23,14 +23,14 @@ inline SoftSpan spanOf(const SoftBody& body, const SoftStretch& s) {
   return far > least ? SoftSpan{far, offset / far} : SoftSpan{least, {1, 0}};
 }
 
-/// Returns the stretch beyond the limit; `longer` is the stretch beyond the rest length.
+/// Returns the part of the stretch that is beyond the limit; `longer` is the stretch beyond the rest length.
 inline double tautBeyond(const SoftStretch& s, double longer) {
   return s.limit > 0 ? std::max(0.0, longer - s.limit * s.rest_length) : 0;
 }
 
 struct SoftCorner {
-  double bent;     ///< angle minus rest angle, −π … π
-  Vec2 slopes[3];  ///< derivatives of the angle by the offsets of c, b and a
+  double bent;     ///< present angle minus rest angle, −π … π
+  Vec2 slopes[3];  ///< derivatives of the angle with respect to the offsets of c, b and a
 };
 
 inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
@@ -51,7 +51,7 @@ inline SoftCorner cornerOf(const SoftBody& body, const SoftBend& s) {
   return corner;
 }
 
-/// Area inside the boundary; negative if it runs from y to x.
+/// Returns the area inside the boundary; negative if the boundary is ordered from y to x.
 inline double areaOf(const SoftBody& body) {
   double twice = 0;
   const Vec2 from = body.nodes[static_cast<std::size_t>(body.boundary[0])].offset;

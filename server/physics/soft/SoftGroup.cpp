@@ -1,4 +1,4 @@
-// A sub-step of a SoftWorld: groups of what touches, and their solution.
+// A sub-step of a SoftWorld: finds groups of bodies that touch, and solves each.
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +8,10 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxIterations = 12;  // of Newton; links of stiffness 1e10 take three (docs/physics/soft.md)
-/// With contacts an iteration costs more, and the next sub-step makes good what is left.
+constexpr int kMaxIterations = 12;  // for Newton's method; stiffness 1e10 needs three (docs/physics/soft.md)
+/// Limit of iterations with contacts, which cost more; the next sub-step corrects the remaining error.
 constexpr int kMaxContactIterations = 4;
-/// Offsets are found to this part of a radius, and with contacts or attachments to that.
+/// Required accuracy of offsets, as a part of the radius: without contacts and attachments, and with them.
 constexpr double kTolerance = 1e-9;
 constexpr double kContactTolerance = 1e-6;
 
@@ -29,7 +29,7 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
   for (const SoftView& view : m_views) {
     State& state = m_states[at(view.id)];
     state.is_worked_on = false;
-    // Contact is no smooth history. An attachment is.
+    // A contact interrupts the smooth history of the motion; an attachment does not.
     const bool is_touched = std::any_of(m_rows.begin(), m_rows.end(), [&](const SoftRow& row) {
       return !row.is_attachment && (row.a.body == view.id || row.b.body == view.id);
     });
@@ -58,7 +58,7 @@ void SoftWorld::substep(double h, std::span<SoftObstacle> obstacles) {
             [](const SoftRow& a, const SoftRow& b) { return a.key < b.key; });
 }
 
-// Groups are what rows connect, through bodies and movable obstacles.
+// Finds the groups of bodies that are connected by rows, directly or through movable obstacles.
 void SoftWorld::findGroups() {
   const int bodies = idLimit();
   m_links.reset(at(bodies) + m_obstacle_motions.size());
@@ -86,7 +86,7 @@ void SoftWorld::solveGroups(double h) {
       }
       is_done = solveGroup(h);
       if (is_done) continue;
-      for (const int id : m_group) {  // one of them is frozen now: the others once more
+      for (const int id : m_group) {  // a body was frozen: solve the group again without it
         m_elastics[at(id)].revert(m_bodies[at(id)]);
         if (!isLive(id)) continue;
         m_elastics[at(id)].forgetHistory();
@@ -96,7 +96,7 @@ void SoftWorld::solveGroups(double h) {
   }
 }
 
-// False if a body had to be frozen.
+// Solves the current group. Returns false if a body had to be frozen.
 bool SoftWorld::solveGroup(double h) {
   const bool is_touched = std::any_of(m_group_rows.begin(), m_group_rows.end(),
                                       [](const SoftRow* row) { return !row->is_attachment; });
@@ -134,7 +134,7 @@ bool SoftWorld::iterate(double h, bool& is_settled) {
   return true;
 }
 
-// What a row has done: on obstacles, for the energy's account, and for events.
+// Records the effects of a row on obstacles, on the limit of energy, and on events.
 void SoftWorld::recordRow(const SoftRow& row, double h, std::span<SoftObstacle> obstacles) {
   if (row.forces[0] == 0 && row.forces[1] == 0) return;
   const Vec2 impulse = h * (row.forces[0] * row.axes[0] + row.forces[1] * row.axes[1]);
@@ -173,7 +173,7 @@ void SoftWorld::moveObstacles(double h, std::span<SoftObstacle> obstacles) {
   }
 }
 
-// No node ends its path through an obstacle, whatever led it there.
+// Stops the nodes whose path still crosses an obstacle.
 void SoftWorld::stopNodes(int id, double h, std::span<SoftObstacle> obstacles) {
   SoftBody& body = m_bodies[at(id)];
   for (const int node : body.boundary) {
@@ -199,7 +199,7 @@ void SoftWorld::stopNode(int id, int node, const SoftPose& pose, double h, SoftO
   }
   const double free = freeFraction(body, from, offset, pose, h);
   if (free == 1) return;
-  const Vec2 carried = h * (pose.velocity + cross(pose.spin, apart));  // it goes where the surface goes
+  const Vec2 carried = h * (pose.velocity + cross(pose.spin, apart));  // the surface carries the node along
   const Vec2 stopped = from + carried + free * (displacement - carried);
   const Vec2 impulse = body.nodes[at(node)].mass / m_elastics[at(id)].beta() * (stopped - offset);
   const double twist = cross(apart, impulse);
@@ -213,9 +213,9 @@ void SoftWorld::stopNode(int id, int node, const SoftPose& pose, double h, SoftO
   ++m_counters.stopped;
 }
 
-// A body on its own, or against what stands still, has at the end no more energy than at the start. What it
-// has too much is taken from the motion within it. If that is not enough the body is where it was, which is
-// what is returned.
+// Prevents a body from gaining energy in a sub-step in which nothing does work on it. Removes the excess from
+// the motion relative to its mean velocity. If that is not enough, moves the body back to its start, and
+// returns true.
 bool SoftWorld::limitEnergy(int id) {
   SoftBody& body = m_bodies[at(id)];
   State& state = m_states[at(id)];

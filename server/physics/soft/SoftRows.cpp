@@ -9,13 +9,13 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxSweeps = 60;  // of Gauss and Seidel in an iteration; the next one goes on from there
-/// In a crowd there are fewer: sweeps times rows stay below this, but eight sweeps are always done.
+constexpr int kMaxSweeps = 60;  // Gauss–Seidel sweeps per iteration; the next one continues from there
+/// Limit of sweeps times rows, so that large groups have fewer sweeps, but at least kMinSweeps.
 constexpr int kMaxSettlings = 40'000;
 constexpr int kMinSweeps = 8;
-/// Sweeps end when no force moves its row by more than this part of a radius …
+/// Sweeps end when no force moves its row by more than this part of a radius.
 constexpr double kSettled = 1e-7;
-/// … and are counted as failed if one still moves by more than this.
+/// The solution counts as failed if the last sweep moved a row by more than this part of a radius.
 constexpr double kNearlySettled = 1e-4;
 
 double along(const SoftElastic& elastic, const SoftPoint& point, Vec2 axis, const double* rows) {
@@ -67,7 +67,7 @@ void SoftRowSolver::respond(const Scene& scene, SoftRow& row) {
   }
 }
 
-// Adds a force along a row's axis to what moves its two sides.
+// Adds a force along a row's axis to the motion of both sides.
 void SoftRowSolver::push(const Scene& scene, const SoftRow& row, int axis, double force) {
   if (force == 0) return;
   for (int side = 0; side < 2; ++side) {
@@ -84,7 +84,7 @@ void SoftRowSolver::push(const Scene& scene, const SoftRow& row, int axis, doubl
   rigid.spin -= rigid.inverse_inertia * cross(row.lever, impulse);
 }
 
-// By how much the two sides part within this iteration's changes and the obstacle's motion.
+// Returns how far the two sides of a row separate, by this iteration's changes and the obstacle's motion.
 double SoftRowSolver::moved(const Scene& scene, const SoftRow& row, int axis) const {
   double sum = 0;
   for (int side = 0; side < 2; ++side) {
@@ -126,7 +126,7 @@ double SoftRowSolver::compliance(const Scene& scene, const SoftRow& row, int axi
   return sum + scene.h * scene.h * (rigid.inverse_mass + rigid.inverse_inertia * twist * twist);
 }
 
-// Makes one row right as things stand. Returns by how far that moved it.
+// Solves one row while all others are fixed. Returns how far the row has moved.
 double SoftRowSolver::settle(const Scene& scene, std::size_t index, SoftRow& row) {
   double most = 0;
   for (int axis = 0; axis < 2; ++axis) {

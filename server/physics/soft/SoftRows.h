@@ -2,7 +2,7 @@
 //
 // Each row has the implicit compliance of all bodies of the group: a column of the inverse of the bodies' own
 // systems. So a stiff beam on two supports is as easy as a ball. What remains is a complementarity problem
-// with friction in the number of contacts, solved by Gauss–Seidel sweeps forwards and backwards.
+// with friction, of the size of the number of contacts, solved by Gauss–Seidel sweeps in both directions.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ struct SoftObstacleMotion {
 
 class SoftRowSolver {
  public:
-  /// Input of a group's solution; indexed by body id and by obstacle index.
+  /// The input for the solution of a group, indexed by body id and by obstacle index.
   struct Scene {
     const std::vector<SoftBody>& bodies;
     const std::vector<SoftElastic>& elastics;
@@ -31,9 +31,9 @@ class SoftRowSolver {
     double h;
   };
 
-  /// Finds the rows' forces, starting from their present values. False if the sweeps did not converge.
+  /// Finds the rows' forces, starting from their present ones. Returns false if the sweeps did not converge.
   bool solve(const Scene& scene, const std::vector<int>& group, std::vector<SoftRow*>& rows);
-  /// Returns the change of a body of the group, contacts included, by rows of its system.
+  /// Returns the change of a body's offsets, including that by contacts, by rows of the body's own system.
   std::span<const double> changeOf(int body) const {
     return {&m_changes[m_begins[static_cast<std::size_t>(body)]], m_sizes[static_cast<std::size_t>(body)]};
   }
@@ -47,9 +47,9 @@ class SoftRowSolver {
   double compliance(const Scene& scene, const SoftRow& row, int axis) const;
   double settle(const Scene& scene, std::size_t index, SoftRow& row);
 
-  std::vector<double> m_responses;    // to a unit force along each axis of each row
+  std::vector<double> m_responses;    // responses to a unit force along each axis of each row
   std::vector<double> m_changes;      // changes of the bodies' offsets
-  std::vector<std::size_t> m_begins;  // by body: begin of its part of m_changes
+  std::vector<std::size_t> m_begins;  // by body: start of its part of m_changes
   std::vector<std::size_t> m_sizes;
   std::vector<SoftObstacleMotion> m_motions;  // obstacles' motion
   std::vector<double> m_gaps;                 // two per row: the constant part of the gaps

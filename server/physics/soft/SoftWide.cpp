@@ -1,4 +1,4 @@
-// A wide body's systems: solved by conjugate gradients (SoftElastic.h).
+// Solves the systems of a wide body by conjugate gradients (SoftElastic.h).
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +8,12 @@ namespace naiad::physics {
 
 namespace {
 
-/// Per tick², over the lighter node's mass: at four sub-steps that is 3e4 times what the mass itself resists
-/// with. Floats tell them apart to some digits.
+/// Limit of a spring's stiffness divided by the lighter node's mass, per tick². With four sub-steps it is 3e4
+/// times the resistance of the mass itself, and floats still resolve both to some digits.
 constexpr double kStiffest = 1e6;
-/// Of one solution; a sub-step has two (SoftWideStep.cpp).
+/// Limit of iterations in one solution; a sub-step has two solutions (SoftWideStep.cpp).
 constexpr int kMaxGradients = 64;
-constexpr double kGradientTolerance = 1e-3;  // of its error at first
+constexpr double kGradientTolerance = 1e-3;  // part of the initial error
 
 }  // namespace
 
@@ -62,7 +62,7 @@ bool SoftElastic::solveWide(const SoftBody& body, bool is_free, bool& is_settled
   for (std::size_t i = 0; i < m_change.size(); i += 2) push += {m_change[i], m_change[i + 1]};
   const int steps = m_gradients.solve(m_change, kMaxGradients, kGradientTolerance);
   is_settled = steps < kMaxGradients;
-  // Springs push as much as they pull: what is left of the sum belongs to the motion of the whole.
+  // The springs' forces cancel in the sum of all forces. The remaining sum must move the body as a whole.
   double inertia = 0;
   for (std::size_t i = 0; i < body.nodes.size(); ++i) {
     const double own = body.nodes[i].mass * (1 + body.drag * m_beta) / (m_beta * m_beta);

@@ -1,8 +1,8 @@
-// A sub-step of a wide body (SoftElastic.h), before those of the others.
+// A sub-step of a wide body (SoftElastic.h), which is done before the sub-steps of other bodies.
 //
-// A contact is a stiff implicit spring within the body's own system, so its price is that of one more spring.
-// What is on its other side gives way as its mass does; a mass with several contacts is shared between them
-// (mass splitting), so that together they do not push more than is needed. The others get the impulses.
+// A contact is a stiff implicit spring within the body's own system, so it costs as much as one more spring.
+// The other side yields according to its mass. If a mass has several contacts, it is divided between them
+// (mass splitting), so that together they do not push too much. At last the other sides get the impulses.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,13 +13,13 @@ namespace naiad::physics {
 
 namespace {
 
-/// The second finds the threads that have become taut and contacts that open and close. What a linear
-/// solution leaves is made good in the next sub-step.
+/// Iterations in a sub-step. The second one finds threads that have become taut, and contacts that open or
+/// close. The next sub-step corrects the error of the linear solution.
 constexpr int kWideIterations = 2;
-/// Stiffness of a contact and of an attachment, over that of the node with its springs.
+/// Stiffness of a contact and of an attachment, relative to the stiffness of the node with its springs.
 constexpr double kContactStiffness = 20, kAttachmentStiffness = 100;
 
-// Of a point of a body, in this sub-step so far.
+// Returns the movement of a point of a body in this sub-step so far.
 Vec2 movementOf(const SoftBody& body, const SoftElastic& elastic, const SoftPoint& point) {
   Vec2 sum;
   for (int k = 0; k < 2 && point.nodes[k] >= 0; ++k) {
@@ -28,7 +28,7 @@ Vec2 movementOf(const SoftBody& body, const SoftElastic& elastic, const SoftPoin
   return sum;
 }
 
-// By how much A has left B.
+// Returns how far A has moved away from B in this sub-step.
 Vec2 apartOf(const SoftPush& push, const SoftBody& body, const SoftElastic& elastic) {
   return push.sign * (movementOf(body, elastic, *push.p_own) - push.gone);
 }
@@ -42,7 +42,7 @@ Vec2 changeOf(const SoftElastic& elastic, const SoftPoint& point) {
   return sum;
 }
 
-// Chooses its forces.
+// Chooses the push's forces for the next solution. Those of an open or sliding axis ignore the gap.
 void choose(SoftPush& push, Vec2 apart) {
   SoftRow& row = *push.p_row;
   for (int axis = 0; axis < 2; ++axis) {
@@ -68,14 +68,14 @@ void addTo(SoftElastic& elastic, const SoftPush& push) {
   }
 }
 
-// Of what it did, what the next iteration or sub-step starts from.
+// Limits the resulting forces, which are the first guess of the next iteration or sub-step.
 void limit(SoftPush& push, Vec2 apart) {
   SoftRow& row = *push.p_row;
   if (row.is_attachment) return;
   row.forces[0] = std::max(0.0, row.forces[0]);
   const double most = row.friction * row.forces[0], slid = dot(row.axes[1], apart);
   const bool is_sliding = push.yield[1] == 0 && push.force[1] != 0;
-  if (is_sliding) {  // friction is against the motion, or there is none to be against
+  if (is_sliding) {  // friction in the direction of the motion is set to zero
     row.forces[1] = push.force[1] * slid < 0 ? std::copysign(most, push.force[1]) : 0;
   } else {
     row.forces[1] = std::clamp(row.forces[1], -most, most);
@@ -84,7 +84,7 @@ void limit(SoftPush& push, Vec2 apart) {
 
 }  // namespace
 
-// Their rows are solved with them alone.
+// Moves the rows of wide bodies to m_wide_rows, because these are solved for one body at a time.
 void SoftWorld::separateWide() {
   m_wide_rows.clear();
   if (m_patches.empty()) return;
@@ -117,14 +117,14 @@ SoftPush SoftWorld::pushOf(SoftRow& row, int id, double h) const {
   return push;
 }
 
-// The pushes of a body, and how many share what they push against.
+// Collects the pushes of a body, and counts how many act on each obstacle or node of another body.
 void SoftWorld::gatherPushes(const SoftView& view, double h) {
   m_pushes.clear();
   m_sharing.assign(m_obstacle_motions.size() + m_ends.size(), 0);
   for (SoftRow& row : m_wide_rows) {
     if (row.a.body != view.id && row.b.body != view.id) continue;
     const int other = row.a.body == view.id ? row.b.body : row.a.body;
-    if (other >= 0 && other < view.id && isWide(other)) continue;  // it has been solved with that one
+    if (other >= 0 && other < view.id && isWide(other)) continue;  // the row was solved with `other`
     m_pushes.push_back(pushOf(row, view.id, h));
     if (row.obstacle >= 0) ++m_sharing[at(row.obstacle)];
     for (int k = 0; k < 2 && row.obstacle < 0 && m_pushes.back().p_other->nodes[k] >= 0; ++k) {
@@ -133,14 +133,14 @@ void SoftWorld::gatherPushes(const SoftView& view, double h) {
   }
 }
 
-// Index in m_sharing of a node of another body.
+// Returns the index in m_sharing for a node of another body.
 std::size_t SoftWorld::sharedBy(const SoftPoint& point, int which) const {
   const auto view = std::lower_bound(m_views.begin(), m_views.end(), point.body,
                                      [](const SoftView& v, int id) { return v.id < id; });
   return m_obstacle_motions.size() + at(view->ends - m_ends.data()) + at(point.nodes[which]);
 }
 
-// By how much what it pushes against gives way, per force.
+// Returns how far the other side of a push yields, per unit of force.
 double SoftWorld::yieldOf(const SoftPush& push, double h) const {
   const SoftRow& row = *push.p_row;
   double sum = 0;
@@ -157,7 +157,7 @@ double SoftWorld::yieldOf(const SoftPush& push, double h) const {
   return h * h * sum;
 }
 
-// Gives the other side's nodes their part of the impulse; obstacles get theirs by recordRow().
+// Applies the impulse of a push to the other side's nodes. (recordRow() applies impulses to obstacles.)
 void SoftWorld::pushOthers(const SoftPush& push, double h) {
   const SoftRow& row = *push.p_row;
   if (row.obstacle >= 0) return;
@@ -169,7 +169,7 @@ void SoftWorld::pushOthers(const SoftPush& push, double h) {
   }
 }
 
-// False if it has no solution.
+// Does one iteration of a wide body. Returns false if there is no solution.
 bool SoftWorld::iterateWide(int id, double h) {
   SoftBody& body = m_bodies[at(id)];
   SoftElastic& elastic = m_elastics[at(id)];

@@ -12,7 +12,7 @@ void SoftWorld::start(int id) {
 }
 
 int SoftWorld::add(const SoftBody& body) {
-  if (!isSound(body)) return -1;
+  if (!isValid(body)) return -1;
   int id = 0;
   while (id < idLimit() && m_states[at(id)].exists) ++id;
   if (id == idLimit()) {
@@ -26,7 +26,7 @@ int SoftWorld::add(const SoftBody& body) {
 }
 
 bool SoftWorld::set(int id, const SoftBody& body) {
-  if (!exists(id) || !isSound(body)) return false;
+  if (!exists(id) || !isValid(body)) return false;
   m_bodies[at(id)] = body;
   start(id);
   return true;
@@ -60,7 +60,7 @@ bool SoftWorld::pin(int id, int node, bool is_pinned) {
     start(id);
     return true;
   }
-  m_elastics[at(id)].setPinned(node, is_pinned);  // the rest is as it was
+  m_elastics[at(id)].setPinned(node, is_pinned);  // the body needs no other change
   m_states[at(id)].is_fresh = true;
   return true;
 }
@@ -118,9 +118,9 @@ void SoftWorld::freeze(int id) {
   ++m_counters.quarantined;
 }
 
-// The place follows, so that offsets keep their digits.
+// Moves the place along with the body, so that offsets stay small and exact.
 void SoftWorld::recentre(int id) {
-  constexpr double kFar = 1024;  // metric cells: offsets keep 13 digits behind the point
+  constexpr double kFar = 1024;  // metric cells: up to this, offsets have 13 digits after the decimal point
   SoftBody& body = m_bodies[at(id)];
   const Vec2 first = body.nodes[0].offset;
   if (std::fabs(first.x) < kFar && std::fabs(first.y) < kFar) return;
@@ -135,7 +135,7 @@ void SoftWorld::recentre(int id) {
 SoftStatus SoftWorld::step(double dt, std::span<SoftObstacle> obstacles) {
   if (!(dt > 0 && dt <= 1e6)) return SoftStatus::kRefused;
   for (const SoftObstacle& obstacle : obstacles) {
-    if (!isSound(obstacle)) return SoftStatus::kRefused;
+    if (!isValid(obstacle)) return SoftStatus::kRefused;
   }
   ++m_counters.steps;
   m_has_frozen = false;
@@ -189,7 +189,7 @@ void SoftWorld::publish() {
   const std::size_t touching = m_touching.size();
   for (const Touch& touch : m_touched) {
     if (isOut(touch)) {
-      m_touching.push_back(touch);  // those contacts go on, and do not begin again later
+      m_touching.push_back(touch);  // these contacts continue, so they must not begin again later
     } else if (!std::binary_search(m_touching.begin(),
                                    m_touching.begin() + static_cast<std::ptrdiff_t>(touching), touch,
                                    [](const Touch& a, const Touch& b) { return a.key < b.key; })) {

@@ -1,7 +1,7 @@
 // Simulation of soft bodies: implicit sub-steps, contacts with rigid and soft bodies, attachments.
 //
-// Bodies that touch each other or a common movable obstacle form a group, which is solved as one; groups are
-// independent. Results depend only on ids, relative places and inputs.
+// Bodies that touch each other or a common movable obstacle form a group, which is solved together; groups
+// are independent. Results depend only on ids, relative places and inputs.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@
 
 namespace naiad::physics {
 
-/// The contact of two bodies began or ended in this step.
+/// The begin or end of a contact of two bodies in this step.
 struct SoftEvent {
   int body;   ///< a soft body's id
-  int other;  ///< obstacle id, or id of a soft body higher than `body`
+  int other;  ///< id of an obstacle, or of a soft body with a higher id than `body`
   bool is_other_soft;
   bool is_begin;
-  double impulse;  ///< begin only: sum along the normals in this step
+  double impulse;  ///< begin only: sum of the impulses along the normals in this step
 };
 
-/// A node attached to a point of an obstacle; each pulls at the other.
+/// A node that is attached to a point of an obstacle; each pulls the other.
 struct SoftAttachment {
   int body = -1;
   int node = 0;
-  int obstacle = 0;  ///< obstacle id; no effect in steps without this obstacle
+  int obstacle = 0;  ///< id of the obstacle; the attachment has no effect in steps without this obstacle
   Vec2 anchor;       ///< relative to the obstacle's centre of mass, in its axes
 };
 
@@ -39,17 +39,17 @@ struct SoftAttachment {
 struct SoftCounters {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;      ///< systems solved
-  std::int64_t decompositions = 0;  ///< decompositions for these, of bodies that are not wide
+  std::int64_t decompositions = 0;  ///< decompositions for these systems, only for bodies that are not wide
   std::int64_t unconverged = 0;     ///< sub-steps of groups that did not reach the required accuracy
   std::int64_t limited = 0;  ///< sub-steps of bodies that were slowed because they would have gained energy
-  std::int64_t stopped = 0;  ///< nodes finally stopped at a surface because forces did not do it
-  std::int64_t crowded = 0;  ///< sub-steps of bodies without some contacts, because of crowding (SoftCrowd)
-  std::int64_t quarantined = 0;  ///< bodies frozen
+  std::int64_t stopped = 0;  ///< nodes stopped at a surface because forces had not stopped them
+  std::int64_t crowded = 0;  ///< sub-steps of bodies that lost contacts because of crowding (SoftCrowd)
+  std::int64_t quarantined = 0;  ///< number of times that a body was frozen
 };
 
 enum class SoftStatus : std::uint8_t {
   kDone,
-  kQuarantined,  ///< done, but at least one body had to be frozen
+  kQuarantined,  ///< the step is complete, but at least one body had to be frozen
   kRefused       ///< invalid time or obstacle; nothing happened
 };
 
@@ -57,63 +57,63 @@ enum class SoftStatus : std::uint8_t {
 class SoftWorld {
  public:
   static constexpr int kDefaultSubsteps = 4;  ///< per tick
-  /// Cells. A body with a node that would go farther than this within a sub-step is frozen.
+  /// A body is frozen if a node would move farther than this within a sub-step, in cells.
   static constexpr double kFarthest = 1e12;
 
-  /// Returns the lowest free id, or −1 if the body is invalid.
+  /// Adds a body. Returns its id, the lowest free one, or −1 if the body is invalid.
   int add(const SoftBody& body);
-  /// Replaces a body and thaws it; its contacts last. Returns false and changes nothing if the id or `body`
-  /// is invalid.
+  /// Replaces a body and unfreezes it; its contacts continue. Returns false and changes nothing if the id or
+  /// `body` is invalid.
   bool set(int id, const SoftBody& body);
   /// Removes a body and its attachments; its contacts end without events.
   bool remove(int id);
   bool exists(int id) const { return id >= 0 && id < idLimit() && m_states[at(id)].exists; }
-  /// Offsets are from body(id).place, which follows the body in whole cells.
+  /// Returns the body. Its offsets are relative to body(id).place, which follows the body in whole cells.
   const SoftBody& body(int id) const { return m_bodies[at(id)]; }
-  /// True if the body is in quarantine: it is unchanged and collides with nothing until set().
+  /// True if the body is in quarantine: it does not move and collides with nothing until set().
   bool isFrozen(int id) const { return m_states[at(id)].is_frozen; }
   int idLimit() const { return static_cast<int>(m_bodies.size()); }
-  /// Excludes the body from steps: it stays, collides with nothing, and its contacts last. set() resets this.
+  /// Excludes the body from steps: it neither moves nor collides, but its contacts last. set() resets this.
   void setOut(int id, bool is_out) { m_states[at(id)].is_out = is_out; }
   /// True if it touched anything in the last step in which it took part.
   bool isTouching(int id) const;
-  /// Like the above, for one obstacle.
+  /// Like isTouching(id), for one obstacle.
   bool isTouching(int id, int obstacle) const;
 
-  /// Sets a force that acts until changed. False if the force or node is invalid.
+  /// Sets a force on a node that acts until it is changed. Returns false if the force or node is invalid.
   bool setForce(int id, int node, Vec2 force);
-  /// Stops the node, and pins or releases it. False if the node does not exist.
+  /// Stops the node, and pins or releases it. Returns false if the node does not exist.
   bool pin(int id, int node, bool is_pinned);
-  /// Applies an impulse to a node. False if the impulse or node is invalid.
+  /// Applies an impulse to a node. Returns false if the impulse or node is invalid.
   bool applyImpulse(int id, int node, Vec2 impulse);
-  /// Returns false for values that are not finite or too large.
+  /// Sets the gravity, in cells per tick². Returns false if it is not finite or too large.
   bool setGravity(Vec2 gravity);
-  /// Sets the number per tick: 1 … 64.
+  /// Sets the number of sub-steps per tick: 1 … 64.
   bool setSubsteps(int substeps);
 
-  /// Returns the attachment's id, or −1 if it is invalid.
+  /// Adds an attachment. Returns its id, or −1 if it is invalid.
   int attach(const SoftAttachment& attachment);
   bool detach(int attachment);
 
   /// Advances by `dt` > 0 ticks, in at most 64 sub-steps of at most 1 / substeps tick.
   SoftStatus step(double dt = 1, std::span<SoftObstacle> obstacles = {});
 
-  /// Events of the last step, by ids.
+  /// Returns the events of the last step, sorted by ids.
   const std::vector<SoftEvent>& events() const { return m_events; }
   const SoftCounters& counters() const { return m_counters; }
 
  private:
   struct State {
-    double budget = 0;  // upper limit of its energy
+    double budget = 0;  // upper limit of the body's energy
     bool exists = false;
     bool is_frozen = false;
     bool is_out = false;
-    bool is_fresh = true;       // changed from outside: the budget must be computed again
-    bool is_worked_on = false;  // in this sub-step something outside the body does work on it
+    bool is_fresh = true;       // changed from outside, so that the budget must be computed again
+    bool is_worked_on = false;  // true if something outside the body does work on it in this sub-step
     int group = -1;
   };
   struct Touch {
-    std::uint64_t key;  // body, kind and other
+    std::uint64_t key;  // body, kind and id of the other
     double impulse;
 
     int body() const { return static_cast<int>(key >> 33); }
@@ -135,12 +135,12 @@ class SoftWorld {
   void recentre(int id);
   void start(int id);
 
-  // SoftDetection.cpp
+  // Defined in SoftDetection.cpp:
   void updateViews(double h, std::span<SoftObstacle> obstacles);
   void findRows(double h, std::span<SoftObstacle> obstacles);
   void findAttachments(std::span<SoftObstacle> obstacles);
 
-  // SoftGroup.cpp
+  // Defined in SoftGroup.cpp:
   void substep(double h, std::span<SoftObstacle> obstacles);
   void findGroups();
   void solveGroups(double h);
@@ -150,7 +150,7 @@ class SoftWorld {
   void stopNodes(int id, double h, std::span<SoftObstacle> obstacles);
   void stopNode(int id, int node, const SoftPose& pose, double h, SoftObstacle& obstacle);
   bool limitEnergy(int id);
-  // SoftWideStep.cpp
+  // Defined in SoftWideStep.cpp:
   void separateWide();
   void solveWide(const SoftView& view, double h, std::span<SoftObstacle> obstacles);
   bool iterateWide(int id, double h);
@@ -173,8 +173,8 @@ class SoftWorld {
   bool m_has_frozen = false;
   SoftCounters m_counters;
   std::vector<SoftEvent> m_events;
-  std::vector<Touch> m_touching;  // in this step
-  std::vector<Touch> m_touched;   // in the last step
+  std::vector<Touch> m_touching;  // contacts in this step
+  std::vector<Touch> m_touched;   // contacts in the last step
 
   // State of the current sub-step.
   std::vector<SoftView> m_views;
@@ -188,8 +188,8 @@ class SoftWorld {
   std::vector<SoftRow> m_earlier;    // rows of the previous sub-step, by key
   std::vector<SoftRow> m_wide_rows;  // rows of wide bodies, moved from m_rows
   std::vector<SoftPush> m_pushes;
-  std::vector<int> m_sharing;  // number of pushes on an obstacle or a node of another body
-  UnionFind m_links;           // over bodies and obstacles
+  std::vector<int> m_sharing;  // by obstacle or node of another body: number of pushes that act on it
+  UnionFind m_links;           // groups of bodies and obstacles
   std::vector<int> m_group;
   std::vector<SoftRow*> m_group_rows;
   SoftRowSolver m_solver;

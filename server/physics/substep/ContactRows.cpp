@@ -13,18 +13,17 @@ namespace naiad::physics {
 
 namespace {
 
-// Of the spring that undoes an overlap. Contacts with what cannot move swing twice as fast as others.
+// Damping ratio of the spring that undoes overlap. With an immovable body, it oscillates twice as fast.
 constexpr float kContactDamping = 10;
-// Of contacts that last. One sweep carries a push by one body, so what moves as a whole, as a pile does, is
-// pushed late. That leaves nothing of its damping from .22 turns on, and a pile would swing for ever.
+// Oscillations per sub-step and damping ratio of lasting contacts. A sweep moves an impulse only to the next
+// body. From 0.22 oscillations on, this delay cancels the damping, and a pile would oscillate without end.
 constexpr float kLastingTurns = 0.19f;
 constexpr float kLastingDamping = 4;
-// Of the trend of such an impulse: what is left of it after a sub-step; how much of it is added for good, so
-// that a pile is carried after fewer sub-steps; and how much for one sub-step only, against its swing.
-constexpr float kTrendKept = 0.7f;
-constexpr float kGiven = 0.35f;
-constexpr float kLent = 0.5f;
-constexpr float kExists = 1;  // of a point, as its mass until the block is finished
+// Fractions of the trend of a lasting contact's impulse:
+constexpr float kTrendKept = 0.7f;  // remains after a sub-step
+constexpr float kGiven = 0.35f;     // added to the impulse, so that a pile is supported after fewer sub-steps
+constexpr float kLent = 0.5f;       // added for one sub-step only, against oscillation
+constexpr float kExists = 1;        // value of normal_mass for an existing point, until the block is finished
 
 struct Body {
   Lanes vx, vy, spin, unused;
@@ -154,7 +153,7 @@ KnownImpulse ContactRows::Impulse::known(int lane) const {
   return {now[lane] - kLent * trend[lane], kTrendKept * trend[lane] + (now[lane] - start[lane])};
 }
 
-// What was lent goes back, and what the trend says now is added: within the bounds of the impulse.
+// Removes the lent part of the old trend and adds both parts of the new trend, within the impulse's bounds.
 void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_trend) {
   const Lanes own = now - kLent * trend;
   trend = kTrendKept * trend + (now - start);
@@ -164,7 +163,7 @@ void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_tren
   trend = (1 / kLent) * (now - kept);
 }
 
-// A trend is what both ends of the last sub-step had: a blow has none.
+// Limits the trend to the smaller of the impulses before and after the last sub-step: a blow has none.
 void ContactRows::warmStart(std::span<SubstepState> states) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
   for (Block& k : m_blocks) {
@@ -187,7 +186,7 @@ void ContactRows::warmStart(std::span<SubstepState> states) {
   }
 }
 
-// Bodies have moved; levers turn with them.
+// Updates the gaps after the bodies have moved; the levers rotate with their bodies.
 void ContactRows::updateGaps(Block& k, std::span<const SubstepState> states, float time) {
   const Moved at_a = gatherMoved(states, k.a), at_b = gatherMoved(states, k.b);
   const Lanes x = at_b.x - at_a.x + time * k.vx, y = at_b.y - at_a.y + time * k.vy;
@@ -230,8 +229,8 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
       const Lanes speed = vx * k.nx + vy * k.ny;
-      // What comes fast is stopped at once: the rest that softness leaves of its speed would carry it
-      // through. Fast for what lies still is a blow.
+      // Fast approaches are stopped without softness, because with the speed that softness leaves, the body
+      // would pass through. The limit is lower for lasting contacts, for which a blow already counts as fast.
       const LaneMask is_hard = is_open | (speed < -k.fast);
       const Lanes mass_scale = kIsSoft ? select(is_hard, one, k.mass_scale) : one;
       const Lanes impulse_scale = kIsSoft ? select(is_hard, zero, k.impulse_scale) : zero;
@@ -245,7 +244,7 @@ void ContactRows::solveRows(std::span<SubstepState> states, float h, float time)
       a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
       b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
       b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
-      // What the soft solution pushes apart without a lasting impulse has touched, too.
+      // An impulse of the soft solution counts as a touch, too, even if relaxation removes it.
       k.first = select((now > zero) & (k.first < zero), lanesOf(time), k.first);
       if constexpr (!kIsSoft) p.total += now;
     }

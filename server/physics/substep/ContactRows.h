@@ -1,10 +1,10 @@
 // Contacts as rows of a step of soft sub-steps, four pairs of bodies in parallel.
 //
 // Each sub-step first solves velocities with soft contacts, which push overlap out like a damped spring.
-// After the bodies have moved it solves without that push, so that no speed remains from it ("soft step" with
-// relaxation: E. Catto, "Solver2D", 2024; the softness: "Soft constraints", 2011). A contact that is still a
-// gap allows its bodies to close it, but no more. Numbers are relative to the pair and do not include the
-// common speed of two bodies.
+// After the bodies have moved it solves without that push, so that the speed it caused does not remain ("soft
+// step" with relaxation: E. Catto, "Solver2D", 2024; the softness: "Soft constraints", 2011). A contact with
+// a gap allows its bodies to close the gap, but no more. Numbers are relative to the pair and do not include
+// the common speed of two bodies.
 #pragma once
 
 #include <array>
@@ -19,24 +19,24 @@
 
 namespace naiad::physics {
 
-/// Input of one contact for a step; one of the bodies may be immovable.
+/// Input of one contact for a step. At most one of its bodies is immovable.
 struct ContactRow {
-  std::int32_t a = 0, b = 0;  ///< states
+  std::int32_t a = 0, b = 0;  ///< indices of states
   float inverse_mass_a = 0, inverse_mass_b = 0, inverse_inertia_a = 0, inverse_inertia_b = 0;
   Vec2 velocity;  ///< velocity of b's centre relative to a's, at the start of the step
   float friction = 0, restitution = 0;
-  float max_push = 0;            ///< maximum speed of undoing overlap
-  float rest = 0;                ///< slower impacts do not bounce
+  float max_push = 0;            ///< maximum speed at which overlap is undone
+  float rest = 0;                ///< impacts slower than this do not bounce
   float spin_a = 0, spin_b = 0;  ///< spins at the start of the step
-  bool is_held = false;          ///< one body is immovable: the row is stiffer
-  bool is_lasting = false;       ///< carries a resting load: uses its own softness, and impulses with a trend
-  float fast = 1e9f;             ///< faster approaches are stopped at once
+  bool is_held = false;          ///< one of the bodies is immovable, so that the row is stiffer
+  bool is_lasting = false;       ///< carries a resting load: has its own softness, and trends of impulses
+  float fast = 1e9f;             ///< approaches faster than this are stopped at once
 };
 
-/// An impulse as known from sub-step to sub-step.
+/// An impulse as it is known from the sub-steps before.
 struct KnownImpulse {
-  float kept = 0;   ///< initial value in the next sub-step
-  float trend = 0;  ///< recent change
+  float kept = 0;   ///< first guess in the next sub-step
+  float trend = 0;  ///< change in the last sub-steps
 };
 
 /// Impulses of both points of a contact; 0 for a missing point.
@@ -52,9 +52,9 @@ struct ContactPush {
 
 class ContactRows {
  public:
-  /// Starts a step of sub-steps over `h`, with memory for this many blocks.
+  /// Starts a step whose sub-steps have the length `h`, and reserves memory for this many blocks.
   void clear(std::size_t blocks, float h);
-  /// Begins a block of at most kLanes rows without common movable bodies.
+  /// Begins a block of at most kLanes rows that have no movable body in common.
   void beginBlock();
   /// Ends the block; no further rows may be added to it.
   void finishBlock();
@@ -62,7 +62,8 @@ class ContactRows {
   std::int32_t add(const ContactRow& row, const Manifold& manifold, const KnownImpulses& known);
 
   void warmStart(std::span<SubstepState> states);
-  /// `time` is since the step began. Soft before the bodies move, without softness after it.
+  /// Solves velocities. `time` is since the step began. `is_soft` is true before the bodies move, false
+  /// after.
   void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
     is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
   }
@@ -79,16 +80,16 @@ class ContactRows {
   struct Impulse {
     Lanes now = {};
     Lanes start = {};  // at the start of the sub-step
-    Lanes trend = {};  // recent changes, older ones with less weight
+    Lanes trend = {};  // recent changes, with less weight for older ones
     void set(int lane, KnownImpulse known);
     void begin();  // call when all lanes are set
     KnownImpulse known(int lane) const;
     void beginSubstep(Lanes least, Lanes most, Lanes most_trend);
   };
   struct Point {
-    Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about both centres
-    Lanes gap = {};                            // at the start, minus the part given by the levers
-    Lanes gap_now = {};                        // since bodies last moved
+    Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about the centres of a and b
+    Lanes gap = {};                            // gap at the start, minus the part given by the levers
+    Lanes gap_now = {};                        // gap after the bodies last moved
     Lanes normal_mass = {}, tangent_mass = {};
     Impulse normal, friction;
     Lanes total = {};
@@ -97,20 +98,20 @@ class ContactRows {
   struct Block {
     std::array<std::int32_t, kLanes> a = {}, b = {};
     std::int32_t count = 0;
-    std::int32_t points = 0;  // 2 if any row has two
+    std::int32_t points = 0;  // 2 if any row has two points
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
     Lanes spin_a = {}, spin_b = {};                        // at the start of the step
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
-    Lanes follows = {};              // 1 if its impulses have a trend, else 0
+    Lanes follows = {};              // 1 if the row's impulses have a trend, else 0
     Lanes first = {-1, -1, -1, -1};  // time of the first impulse
     bool bounces = false;            // true if any row bounces
     std::array<Point, 2> point;
   };
   static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
-  std::array<Softness, 2> m_softness, m_lasting_softness;  // index 1: with an immovable body
+  std::array<Softness, 2> m_softness, m_lasting_softness;  // index 1: for contacts with an immovable body
 };
 
 }  // namespace naiad::physics

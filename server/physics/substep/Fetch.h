@@ -1,4 +1,4 @@
-// Prefetches memory that is needed soon.
+// Prefetches memory that will soon be needed.
 #pragma once
 
 #include <cstddef>

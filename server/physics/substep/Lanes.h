@@ -27,7 +27,7 @@ inline Lanes smaller(Lanes a, Lanes b) {
   return select(a < b, a, b);
 }
 
-/// Exchanges rows and columns.
+/// Exchanges rows and columns of the 4 × 4 matrix whose rows are a, b, c and d.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);

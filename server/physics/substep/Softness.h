@@ -1,13 +1,13 @@
 // A constraint as a damped spring that is stable at any sub-step length.
 //
-// Defined by oscillation frequency and damping ratio, independent of the masses (E. Catto, "Soft
-// constraints", 2011): a spring by backward Euler, expressed as the fractions of an error, of a mass and of
-// an impulse.
+// The spring is defined by oscillation frequency and damping ratio, independent of the masses (E. Catto,
+// "Soft constraints", 2011). It is solved by backward Euler, expressed as the fractions of an error, of a
+// mass and of an impulse.
 #pragma once
 
 namespace naiad::physics {
 
-/// Oscillations per sub-step: the fastest that sub-steps can follow.
+/// The fastest oscillation that sub-steps can follow, in oscillations per sub-step.
 inline constexpr float kFastestTurns = 0.25f;
 
 struct Softness {
@@ -16,7 +16,7 @@ struct Softness {
   float impulse_scale = 0;  ///< fraction of the previous impulse that is removed
 };
 
-/// `turns` is the number of oscillations in a sub-step over `h`.
+/// Returns the softness of a spring with `turns` oscillations in a sub-step of length `h`.
 inline Softness softnessOf(float turns, float damping_ratio, float h) {
   constexpr float kTurn = 6.2831853f;
   const float swing = kTurn * turns;

@@ -1,4 +1,4 @@
-// A SubstepWorld's contacts, kept from step to step: which are looked at, and what they are now.
+// Contacts of a SubstepWorld, kept from step to step: chooses the pairs to test and updates their manifolds.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,31 +14,30 @@ namespace naiad::physics {
 
 namespace {
 
-// In thicknesses of the thinner body.
-constexpr double kSlowMargin = 0.12;  // what moves by less throws nothing off its path
-constexpr double kLinger = 0.01;      // a larger gap ends a contact
-constexpr double kCalmDepth = 0.1;    // what moves slowly and overlaps by less may lie for long
-constexpr double kKept = 0.005;  // by how much bodies move against each other before they are looked at again
-constexpr double kPushedAgain = 0.5;   // of what pushed a body in the last step: it may again
-constexpr double kEverywhere = 1e300;  // metric cells
-constexpr double kLarge = 4;           // times the size of another body
-// Over the pairs that fly past each other. A push that has not gone all its way by then may reach all of
-// them.
+// Lengths in units of the thinner body's thickness:
+constexpr double kSlowMargin = 0.12;   // bodies with smaller margins do not push others off their paths
+constexpr double kLinger = 0.01;       // a contact ends if its gap is larger
+constexpr double kCalmDepth = 0.1;     // slow bodies with less overlap may be at rest
+constexpr double kKept = 0.005;        // after this relative movement, a manifold is computed again
+constexpr double kPushedAgain = 0.5;   // fraction of the last step's push that is expected again
+constexpr double kEverywhere = 1e300;  // metric cells: a deviation by which a body may reach every other
+constexpr double kLarge = 4;           // ratio of reaches above which one body is much larger than the other
+// Limit of the sweeps over separated pairs. If deviations still spread then, they count as unlimited.
 constexpr int kMaxSweeps = 32;
 
-// Of any two of their points, at the start of a step.
+// Returns an upper bound of the relative speed of any two points of the bodies at the start of a step.
 double speedBetween(const SubstepBody& a, const SubstepBody& b) {
   return length(b.body.velocity - a.body.velocity) + std::fabs(a.body.spin) * a.reach +
          std::fabs(b.body.spin) * b.reach;
 }
 
-// They are at least so far apart.
+// Returns a lower bound of the distance between two boxes; negative if they overlap.
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
   return std::max(std::max(offset.x + b.lower.x - a.upper.x, a.lower.x - b.upper.x - offset.x),
                   std::max(offset.y + b.lower.y - a.upper.y, a.lower.y - b.upper.y - offset.y));
 }
 
-// Of the speed at which two bodies meet: by how much the speed of the lighter one may change.
+// Returns the maximum change of the lighter body's speed, as a multiple of the speed at which they touch.
 double reboundOf(const SubstepBody& a, const SubstepBody& b) {
   return 1 + std::max(a.body.restitution, b.body.restitution);
 }
@@ -130,7 +129,7 @@ void SubstepWorld::updatePairs() {
   m_joints_changed = false;
 }
 
-// Brings the gaps up to date, if the bodies have hardly moved against each other since they were found.
+// Updates the manifold's gaps. True if the bodies hardly moved relative to each other since it was found.
 bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const SubstepBody& b, Vec2 offset,
                                  double margin) {
   const double most = kKept * std::min(a.thickness, b.thickness);
@@ -150,7 +149,7 @@ bool SubstepWorld::keepsManifold(Memory& memory, const SubstepBody& a, const Sub
   return true;
 }
 
-// An impulse goes with the corners that touch.
+// Returns the known impulses of the old points whose ids (made of the touching corners) also occur in `now`.
 KnownImpulses SubstepWorld::carriedOver(const Memory& memory, const Manifold& now) {
   KnownImpulses known;
   for (std::int32_t k = 0; k < now.count; ++k) {
@@ -163,7 +162,7 @@ KnownImpulses SubstepWorld::carriedOver(const Memory& memory, const Manifold& no
   return known;
 }
 
-// Do the two shapes touch, or nearly? Their contact is made if there is none yet, or freed.
+// Makes or updates the contact of two shapes. Returns false, and frees it, if the gap exceeds the margin.
 bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBody& b, std::int32_t shape_a,
                                 std::int32_t shape_b, Vec2 offset) {
   const double margin = marginOf(a, b);
@@ -189,7 +188,7 @@ bool SubstepWorld::findManifold(std::int32_t& memory, SubstepBody& a, SubstepBod
   return true;
 }
 
-// A long body that lies aslant is far from most of what its box holds: the faces of its shapes say more.
+// Returns a lower bound of the distance. Uses the faces of a much larger body, as its box is mostly empty.
 double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
   const double gap = gapBetween(a.box, b.box, offset);
   const bool is_a_large = a.reach > kLarge * b.reach;
@@ -206,30 +205,30 @@ double SubstepWorld::gapOf(SubstepBody& a, SubstepBody& b, Vec2 offset) {
   return nearest;
 }
 
-// How far around two bodies their contacts are searched for.
+// Returns the distance of two bodies up to which their contacts are searched.
 double SubstepWorld::marginOf(const SubstepBody& a, const SubstepBody& b) const {
   const double full = a.margin + b.margin;
   if (a.is_busy && b.is_busy) return std::min(full, calmMargin(a, b) + kPushedAgain * (a.push + b.push));
-  return std::min(full, calmMargin(a, b) + m_stirs[at(a.state)] + m_stirs[at(b.state)]);
+  return std::min(full, calmMargin(a, b) + m_deviations[at(a.state)] + m_deviations[at(b.state)]);
 }
 
 void SubstepWorld::stir(const SubstepBody& b, double by) {
   if (!(by > 0) || b.state == 0 || !isMovable(b)) return;
-  double& own = m_stirs[at(m_sets.rootOf(b.state))];
+  double& own = m_deviations[at(m_sets.rootOf(b.state))];
   m_has_stirred = m_has_stirred || own < by;
   own = std::max(own, by);
 }
 
-// May they meet in this step? If they do as soon as one is pushed, that is put off.
+// True if two bodies may touch in this step. Pairs that touch only if pushed are decided later (m_calm).
 bool SubstepWorld::mayMeet(Pair& pair) {
   SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
   const bool is_met = a.state > 0 || b.state > 0 || a.is_changed || b.is_changed;
   if (!is_met || (!isMovable(a) && !isMovable(b))) return false;
   const Vec2 offset = b.body.place - a.body.place;
-  if (a.is_busy && b.is_busy) {  // they mostly do
+  if (a.is_busy && b.is_busy) {  // such pairs mostly touch, so the boxes are a sufficient test
     const double margin = marginOf(a, b);
     if (gapBetween(a.box, b.box, offset) > margin) return false;
-    // However they turn, they stay within their circles.
+    // Bodies stay within the circles around their centres at any rotation.
     if (length(offset) > margin - a.roll - b.roll + a.reach + b.reach) return false;
     const bool are_slow = a.margin <= kSlowMargin * a.thickness && b.margin <= kSlowMargin * b.thickness;
     const double by = are_slow ? 0 : reboundOf(a, b) * calmMargin(a, b);
@@ -239,41 +238,41 @@ bool SubstepWorld::mayMeet(Pair& pair) {
   }
   const double gap = gapOf(a, b, offset);
   if (gap > a.margin + b.margin) return false;
-  // However they turn, they stay within their circles.
+  // Bodies stay within the circles around their centres at any rotation.
   const double rolled = calmMargin(a, b), straight = rolled - a.roll - b.roll;
   const double nearer = std::min(rolled - gap, straight + a.reach + b.reach - length(offset));
   if (nearer < 0) {
     m_calm.push_back({nearer, static_cast<std::int32_t>(&pair - m_pairs.data())});
     return false;
   }
-  const double by = std::max({stirOf(a), stirOf(b), reboundOf(a, b) * rolled});
+  const double by = std::max({deviationOf(a), deviationOf(b), reboundOf(a, b) * rolled});
   unite(a, b);
   stir(a, by);
   stir(b, by);
   return true;
 }
 
-// Bodies that fall or fly together do not meet, however fast they are. What may meet something on its own
-// path may come off it, as far as the speed at which they meet says, and with it all that it touches; that is
-// how far around its path further ones are searched for, and then around the paths of those.
+// Chooses the pairs that may touch. Bodies that fall or fly together do not, at any speed. A body that may
+// touch another one may be pushed off its path, by a distance that depends on their relative speed, with all
+// bodies that it touches. Pairs within that distance may touch as well, and so on.
 void SubstepWorld::choosePairs() {
   m_calm.clear();
-  m_stirs.assign(m_states.size(), 0);
+  m_deviations.assign(m_states.size(), 0);
   m_sets.reset(m_states.size());
   for (Pair& pair : m_pairs) pair.is_examined = !pair.is_jointed && mayMeet(pair);
   passStirsOn();
   for (const Calm& calm : m_calm) m_pairs[at(calm.pair)].is_examined = isReached(calm);
 }
 
-// The same again where bodies have woken, which have states from this one on: only their pairs, and those
-// that the stirs reach now.
+// Like choosePairs(), for bodies that have just woken, whose states are those from `first_state` on. Examines
+// only their pairs (m_woken_pairs), and adds the pairs that deviations can reach now.
 void SubstepWorld::choosePairsOfWoken(std::size_t first_state) {
   const auto isOfWoken = [&](const Calm& calm) {
     const Pair& pair = m_pairs[at(calm.pair)];
     return at(std::max(m_bodies[at(pair.a)].state, m_bodies[at(pair.b)].state)) >= first_state;
   };
   std::erase_if(m_calm, isOfWoken);
-  m_stirs.resize(m_states.size(), 0);
+  m_deviations.resize(m_states.size(), 0);
   m_sets.extend(m_states.size());
   for (const std::int32_t i : m_woken_pairs) {
     Pair& pair = m_pairs[at(i)];
@@ -291,11 +290,13 @@ void SubstepWorld::choosePairsOfWoken(std::size_t first_state) {
 
 bool SubstepWorld::isReached(const Calm& calm) const {
   const Pair& pair = m_pairs[at(calm.pair)];
-  return calm.nearer + (m_stirs[at(m_bodies[at(pair.a)].state)] + m_stirs[at(m_bodies[at(pair.b)].state)]) >=
+  return calm.nearer +
+             (m_deviations[at(m_bodies[at(pair.a)].state)] + m_deviations[at(m_bodies[at(pair.b)].state)]) >=
          0;
 }
 
-// There and back: along a row the pairs stand in the order of its bodies, or in that order reversed.
+// Spreads deviations (m_deviations) to touching bodies, alternately forwards and backwards over the pairs,
+// because a row of bodies may be listed in either order.
 void SubstepWorld::passStirsOn() {
   m_joints.visitWorking([&](int a, int b) {
     if (a >= 0) stir(m_bodies[at(a)], kEverywhere);
@@ -304,12 +305,12 @@ void SubstepWorld::passStirsOn() {
   const auto pass = [this](const Calm& calm) {
     const Pair& pair = m_pairs[at(calm.pair)];
     const SubstepBody &a = m_bodies[at(pair.a)], &b = m_bodies[at(pair.b)];
-    stir(b, stirOf(a) + calm.nearer);
-    stir(a, stirOf(b) + calm.nearer);
+    stir(b, deviationOf(a) + calm.nearer);
+    stir(a, deviationOf(b) + calm.nearer);
   };
   m_has_stirred = !m_calm.empty();
   for (int sweep = 0; std::exchange(m_has_stirred, false); ++sweep) {
-    if (sweep == kMaxSweeps) return m_stirs.assign(m_stirs.size(), kEverywhere);
+    if (sweep == kMaxSweeps) return m_deviations.assign(m_deviations.size(), kEverywhere);
     ++m_counters.sweeps;
     if (sweep % 2 == 0) {
       std::for_each(m_calm.begin(), m_calm.end(), pass);
@@ -317,8 +318,8 @@ void SubstepWorld::passStirsOn() {
       std::for_each(m_calm.rbegin(), m_calm.rend(), pass);
     }
   }
-  for (std::size_t i = 1; i < m_stirs.size(); ++i)
-    m_stirs[i] = m_stirs[at(m_sets.rootOf(static_cast<int>(i)))];
+  for (std::size_t i = 1; i < m_deviations.size(); ++i)
+    m_deviations[i] = m_deviations[at(m_sets.rootOf(static_cast<int>(i)))];
 }
 
 void SubstepWorld::updatePair(std::int32_t index) {
@@ -370,7 +371,7 @@ void SubstepWorld::updatePair(std::int32_t index) {
   if (pair.first >= 0) shake(a, b, deepest);
 }
 
-// Do they move against each other, or overlap, so much that neither only lies there?
+// Marks both bodies as shaken, unless they are slow relative to each other and overlap little.
 void SubstepWorld::shake(SubstepBody& a, SubstepBody& b, double depth) {
   const double thickness = std::min(a.thickness, b.thickness);
   if (depth < kCalmDepth * thickness && speedBetween(a, b) < kCalm * thickness) return;
@@ -378,7 +379,7 @@ void SubstepWorld::shake(SubstepBody& a, SubstepBody& b, double depth) {
   b.is_shaken = b.is_shaken || isMovable(b);
 }
 
-// Wakes what is touched by what moves, and all that fell asleep with it. Was there any?
+// Wakes the sleeping bodies of contacts from `first_contact` on, with their groups. True if any woke.
 bool SubstepWorld::wakeTouched(std::size_t first_contact) {
   const std::size_t before = m_active.size();
   for (std::size_t i = first_contact; i < m_contacts.size(); ++i) {
@@ -396,7 +397,7 @@ bool SubstepWorld::wakeTouched(std::size_t first_contact) {
   return m_active.size() > before;
 }
 
-// The pairs of these bodies, each once.
+// Lists each pair of these bodies once in m_woken_pairs.
 void SubstepWorld::listPairsOf(std::span<const std::int32_t> bodies) {
   if (m_pair_ends.empty()) {
     m_pair_ends.assign(m_bodies.size() + 1, 0);
@@ -418,7 +419,7 @@ void SubstepWorld::listPairsOf(std::span<const std::int32_t> bodies) {
   m_woken_pairs.erase(std::unique(m_woken_pairs.begin(), m_woken_pairs.end()), m_woken_pairs.end());
 }
 
-// A pair of which one body wakes the other may give work to further pairs.
+// Repeats the update until no more bodies wake, because a woken body may wake others.
 void SubstepWorld::updateContacts() {
   m_contacts.clear();
   m_deepest = 0;
@@ -451,7 +452,7 @@ void SubstepWorld::updateContacts() {
   sequence(!m_is_shuffled && !have_woken);
 }
 
-// By the order of the bodies, which may not be that of their ids.
+// Sorts contacts by the order of their bodies, which may differ from the order of their ids.
 void SubstepWorld::sequence(bool is_sorted) {
   m_sequence.resize(m_contacts.size());
   for (std::size_t i = 0; i < m_sequence.size(); ++i) m_sequence[i] = {0, 0, static_cast<std::int32_t>(i)};

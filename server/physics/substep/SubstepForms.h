@@ -13,15 +13,16 @@ namespace naiad::physics {
 
 struct SubstepForm {
   std::vector<ConvexShape> shapes;
-  double reach = 0;         ///< farthest point of a shape from the centre
+  double reach = 0;         ///< maximum distance of a point of the shapes from the centre
   double thickness = 0;     ///< smallest half width of a shape
-  std::size_t corners = 0;  ///< number for all shapes, as turn() writes them
+  std::size_t corners = 0;  ///< number of entries for all shapes in the output of turn()
   int users = 0;
 };
 
 class SubstepForms {
  public:
-  /// Returns the number of these shapes; release it with giveBack().
+  /// Returns the number of these shapes in this store; call giveBack() when a body does not use them any
+  /// more.
   std::int32_t take(std::span<const ConvexShape> shapes);
   void giveBack(std::int32_t form);
   const SubstepForm& operator[](std::int32_t form) const { return m_forms[static_cast<std::size_t>(form)]; }
@@ -31,7 +32,7 @@ class SubstepForms {
 
   std::vector<SubstepForm> m_forms;
   std::vector<std::int32_t> m_free;
-  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // recently used ones, which are searched
+  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // the last ones used, which are searched first
   std::size_t m_next_recent = 0;
 };
 

@@ -11,14 +11,14 @@ namespace {
 
 constexpr float kJointDamping = 2;
 
-// A hinge's rows follow from its frame alone: that saves a look at the joint itself.
+// Used in place of every hinge: its rows depend only on its frame, so the joint itself is not read.
 constexpr Joint kAnyHinge = [] {
   Joint joint;
   joint.kind = JointKind::kHinge;
   return joint;
 }();
 
-constexpr float kResolved = 0.25f;  // up to this (h·ω)² sub-steps follow a swing
+constexpr float kResolved = 0.25f;  // maximum (h·ω)² of an oscillation that sub-steps resolve
 
 void take(const SubstepBody& of, float& inverse_mass, float& inverse_inertia) {
   if (of.state == 0) return;
@@ -53,9 +53,9 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
   }
 }
 
-// A body that is pulled at both ends swings about its middle, faster the harder it is pulled. What sub-steps
-// cannot follow gets as much more inertia as backward Euler would give it. (S. Andrews, M. Teichmann, P. Kry,
-// "Geometric stiffness for real-time constrained multibody dynamics", 2017.)
+// Adds inertia to bodies that oscillate faster than sub-steps can resolve, as much as backward Euler would. A
+// body that is pulled at both ends oscillates about its centre, and faster if the pull is stronger. (S.
+// Andrews, M. Teichmann, P. Kry, "Geometric stiffness for real-time constrained multibody dynamics", 2017.)
 void SubstepJoints::stiffen(std::span<SubstepBody> bodies) {
   for (const Link& link : m_links) {
     const Memory& memory = memoryOf(link.id);
@@ -72,7 +72,7 @@ void SubstepJoints::stiffen(std::span<SubstepBody> bodies) {
   const auto slow = [&](int id) {
     if (id < 0) return;
     SubstepBody& b = bodies[at(id)];
-    const float swing = b.pull * b.inverse_inertia;  // the square of its angle in a sub-step
+    const float swing = b.pull * b.inverse_inertia;  // (h·ω)²
     if (swing > kResolved) b.inverse_inertia /= 1 + (swing - kResolved);
     b.pull = 0;
   };
@@ -166,10 +166,10 @@ void SubstepJoints::prepare(Row& row, const Joint& joint) const {
     return;
   }
   if (row.is_spring) {
-    // Backward Euler: bounded for any stiffness.
+    // Backward Euler is stable for any stiffness.
     const double k = joint.stiffness, c = joint.damping, h = m_h;
     const double hold = h * (c + h * k);
-    const double softness = hold > 0 ? 1 / hold : kNoLimit;  // of the constraint, in inverse masses
+    const double softness = hold > 0 ? 1 / hold : kNoLimit;  // softness as an inverse mass
     if (row.mass == 0 || hold == 0) {
       row.mass_scale = row.impulse_scale = 0;
       return;
@@ -185,7 +185,7 @@ void SubstepJoints::prepare(Row& row, const Joint& joint) const {
     return;
   }
   const bool is_free = static_cast<float>(row.side) * row.value > 0;
-  if (is_free) {  // it may come to the end, and no farther
+  if (is_free) {  // the joint may reach its limit, but not pass it
     row.bias = row.value / m_h;
     row.mass_scale = 1, row.impulse_scale = 0;
     row.is_spring = false;
@@ -207,7 +207,7 @@ void SubstepJoints::warmStart(std::span<SubstepState> states) {
   }
 }
 
-// Two rows that hold a point are solved for together.
+// Solves the two rows that hold a point as one system.
 void SubstepJoints::solvePoint(const Link& link, SubstepState& a, SubstepState& b, bool is_soft) {
   Row &x = m_rows[at(link.row)], &y = m_rows[at(link.row + 1)];
   const float mass_scale = is_soft ? x.mass_scale : 1, impulse_scale = is_soft ? x.impulse_scale : 0;
@@ -230,7 +230,7 @@ void SubstepJoints::solvePoint(const Link& link, SubstepState& a, SubstepState& 
 }
 
 void SubstepJoints::solveRow(const Link& link, Row& row, SubstepState& a, SubstepState& b, bool is_soft) {
-  if (row.is_spring && !is_soft) return;  // it has given its impulse
+  if (row.is_spring && !is_soft) return;  // springs are solved in the soft solution only
   const bool is_free = static_cast<float>(row.side) * row.value > 0;
   const bool has_bias = is_soft || is_free;
   const float bias = has_bias ? row.bias : 0;

@@ -1,4 +1,4 @@
-// A SubstepWorld's contacts as rows: divided into colours and batches, filled in, and what they say kept.
+// Contacts of a SubstepWorld as rows: divides them into colours and batches, fills rows, stores the results.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -12,21 +12,21 @@ namespace naiad::physics {
 
 namespace {
 
-// Bodies of one colour's contacts are all different, so these are solved for side by side. Contacts with what
-// cannot move have colours of their own, and come last: they hold the others.
+// Contacts of one colour have no movable body in common, so they are solved in parallel. Contacts with
+// immovable bodies have their own colours, which are solved last, because they hold the other bodies.
 constexpr std::int32_t kColours = 64;
-constexpr std::int32_t kUncoloured = 2 * kColours;  // one after the other
-constexpr std::size_t kBatch = 1024;                // rows: 220 kB
-// In thicknesses of the thinner body.
-constexpr double kMaxPush = 0.2;  // per tick: the greatest speed at which overlap is undone
-constexpr double kFast = 4;       // per tick: what comes so fast is stopped at once
+constexpr std::int32_t kUncoloured = 2 * kColours;  // without a colour: solved one after the other
+constexpr std::size_t kBatch = 1024;                // rows in a batch: 220 kB
+// Unit: the thinner body's thickness per tick.
+constexpr double kMaxPush = 0.2;  // maximum speed at which overlap is undone
+constexpr double kFast = 4;       // approaches faster than this are stopped at once
 constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;
-// In what acceleration adds to a speed in a tick: slower impacts do not bounce.
+// Slower impacts do not bounce; in units of the speed that acceleration adds in a tick.
 constexpr float kRest = 2;
 
-// Did it push in the last step, and does it only carry what lies still? What a blow drives deep into
-// something is to come out fast. All springs of a body are of one kind: what lies on it would press it into
-// the floor if the floor's were the weaker one.
+// True if the contact pushed in the last step and neither body is shaken, because a body that a blow drove
+// deep into another must leave it fast. All contacts of a shaken body have one softness. Otherwise a
+// load would press the body into the floor if the floor's contact were softer.
 bool isLasting(const KnownImpulses& known, const SubstepBody& a, const SubstepBody& b) {
   return known.normal[0].kept + known.normal[1].kept > 0 && !a.is_shaken && !b.is_shaken;
 }
@@ -54,17 +54,17 @@ void SubstepWorld::chooseColours() {
         contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
     if (!is_coloured) contact.colour = kUncoloured;
     contact.state = std::max(a.state, b.state);
-    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // also with what pushes its own way
+    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // also for kinematic bodies
   }
 }
 
-// Joints and magnets have one list, for all groups at once.
+// Divides contacts into batches; only one if there are joints or magnets, which are not listed by group.
 void SubstepWorld::chooseBatches() {
   m_batches.assign(1, {});
   m_batch_of.assign(m_states.size(), 0);
   m_by_batch.resize(m_states.size() - 1);
   if (m_contacts.size() > kBatch && m_joints.isEmpty() && m_magnets.empty()) {
-    m_turn_counts.assign(m_states.size(), 0);  // by root
+    m_turn_counts.assign(m_states.size(), 0);  // number of contacts, by root
     for (const Contact& contact : m_contacts) ++m_turn_counts[at(m_sets.rootOf(contact.state))];
     std::size_t rows = 0;
     for (std::size_t state = 1; state < m_states.size(); ++state) {
@@ -81,7 +81,7 @@ void SubstepWorld::chooseBatches() {
 }
 
 void SubstepWorld::sortByBatch() {
-  constexpr std::size_t kTurns = kUncoloured + 1;  // of a batch
+  constexpr std::size_t kTurns = kUncoloured + 1;  // number of colours of a batch
   m_turn_counts.assign(m_batches.size() * kTurns, 0);
   const auto turnOf = [&](const Contact& contact) {
     return at(m_batch_of[at(contact.state)]) * kTurns + at(contact.colour);
@@ -105,8 +105,8 @@ void SubstepWorld::sortByBatch() {
     m_by_batch[m_turn_counts[at(m_batch_of[state])]++] = static_cast<std::int32_t>(state);
 }
 
-// Contacts of a colour lie all over the memory. Returns the one that is some turns ahead and has been fetched
-// by now, so that what it refers to can be fetched, too; null at the end.
+// Returns the contact that is kFetched turns ahead, to prefetch the data that it refers to; null at the end.
+// The contact itself was prefetched earlier, because contacts of a colour are scattered in memory.
 [[gnu::always_inline]] inline const SubstepWorld::Contact* SubstepWorld::contactAhead(
     std::span<const std::int32_t> contacts, std::size_t turn) const {
   const std::size_t ahead = turn + kFetched;

@@ -1,4 +1,4 @@
-// Which bodies of a SubstepWorld form a group, and which groups may sleep.
+// Finds the groups of connected bodies in a SubstepWorld, and puts groups at rest to sleep.
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +8,9 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kCreep = 1e-6;  // cells per tick that a group at rest may gain while it is watched
-// Cells per tick: what floats at rest and touching in free space is left with by rounding. What drifts does
-// so faster, and never sleeps.
+constexpr double kCreep = 1e-6;  // cells per tick: a still group that gains more speed does not sleep
+// Cells per tick: maximum speed that rounding leaves to touching bodies at rest in free space. Bodies that
+// are faster drift and never sleep.
 constexpr double kAdrift = 1e-12;
 
 bool isMoving(const SubstepBody& b) {
@@ -26,8 +26,8 @@ void SubstepWorld::unite(const SubstepBody& a, const SubstepBody& b) {
   }
 }
 
-// Groups are what joints and contacts that push connect; what cannot move holds them, or drives them if it
-// goes its own way.
+// Finds the groups of bodies that are connected by joints and pushing contacts. An immovable body holds the
+// groups to which it is connected, and drives them if it moves (kinematic).
 void SubstepWorld::findGroups() {
   m_sets.reset(m_states.size());
   const auto forEachHold = [&](auto visit) {
@@ -55,8 +55,8 @@ void SubstepWorld::findGroups() {
   });
 }
 
-// A group sleeps when all of it has been still for a while and is not speeding up, and something that cannot
-// move holds it, or nothing pulls at it at all.
+// Puts groups to sleep. All bodies of the group must have been still for sleep_delay without becoming faster.
+// No kinematic body may drive the group. An immovable body must hold it, or it must not drift (kAdrift).
 void SubstepWorld::sleep() {
   if (!m_options.may_sleep) return;
   for (const std::int32_t id : m_active) {

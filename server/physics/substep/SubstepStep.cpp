@@ -1,4 +1,4 @@
-// A SubstepWorld's step: its sub-steps, and what moves too fast for them.
+// A step of a SubstepWorld: its sub-steps, and the handling of bodies that move too fast for them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,22 +10,24 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // metric cells in a step: the limit of timeOfImpact()
-constexpr double kMaxTurn = 40;    // rad in a step that are swept: bounds the iterations of timeOfImpact()
-// In thicknesses of a body.
-constexpr double kSlack = 0.02;       // least margin of the search for contacts
-constexpr double kSlow = 0.1;         // in a step: contacts are searched for as far as it and others may get
-constexpr double kMaxPass = 0.5;      // that it may go beyond what was searched: its centre passes nothing
-constexpr double kCore = 0.5;         // radius of the middle of a body that is swept against what it pushes
-constexpr std::size_t kFewFast = 4;   // of so many bodies one: then what is slow is asked by what is fast
-constexpr double kBoundsSlack = 0.2;  // by which the tree's bounds are wider: small moves leave them alone
+constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, the limit of timeOfImpact()
+constexpr double kMaxTurn = 40;    // rad: maximum swept rotation in a step; limits timeOfImpact()'s
+                                   // iterations
+// Lengths in units of the body's thickness:
+constexpr double kSlack = 0.02;       // minimum margin of the search for contacts
+constexpr double kSlow = 0.1;         // a body that moves less in a step is busy (SubstepBody::is_busy)
+constexpr double kMaxPass = 0.5;      // movement beyond the searched distance, so that the centre passes
+                                      // nothing
+constexpr double kCore = 0.5;         // radius of the core that is swept if the other body pushes this one
+constexpr std::size_t kFewFast = 4;   // the fast bodies are many if at least one body in this number is fast
+constexpr double kBoundsSlack = 0.2;  // margin of bounds in the broad phase; smaller moves do not change them
 
-constexpr double kHeld = 0.05;  // of a magnet's push on a body, that is left
-constexpr double kAhead = 1;    // … and further in the direction in which it goes, at most
-constexpr double kTicksAhead = 2;
-constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // at that speed it leaves its bounds in any case
+constexpr double kHeld = 0.05;     // a body is held if less than this part of a magnet's push remains
+constexpr double kAhead = 1;       // maximum further margin of the bounds, along the velocity
+constexpr double kTicksAhead = 2;  // ticks of movement in the additional margin
+constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // per tick: a faster body leaves its bounds anyway
 
-// How far turning moves a corner in this step.
+// Returns how far rotation moves a corner in this step.
 double rollOf(const SubstepBody& b) {
   return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
 }
@@ -37,7 +39,7 @@ double spinGainOf(const RigidBody& body) {
   return body.inverse_inertia > 0 ? body.inverse_inertia * body.torque : 0;
 }
 
-// By what it was pushed in a step over `dt`: of its velocity, corners included, as far as that takes it.
+// Returns how far the velocity gained from pushes moves a body and its corners in a step over `dt`.
 double pushOn(const SubstepBody& b, const SubstepState& s, double dt) {
   const double spun = double{s.spin} - b.body.spin - dt * spinGainOf(b.body);
   const Vec2 gained = Vec2{s.vx, s.vy} - dt * accelerationOf(b.body);
@@ -57,7 +59,7 @@ void SubstepWorld::listActive() {
   m_active_changed = false;
   m_active.clear();
   m_is_shuffled = false;
-  std::array<std::uint64_t, 2> last = {};  // of what moves, and of what does not
+  std::array<std::uint64_t, 2> last = {};  // `order` of the last movable and the last immovable body
   for (int id = 0; id < idLimit(); ++id) {
     SubstepBody& b = m_bodies[at(id)];
     b.state = 0;
@@ -103,13 +105,13 @@ void SubstepWorld::begin(int id) {
   forecast(b);
   boundNow(b);
   if (m_broad.isThinned(b.proxy)) {
-    m_broad.set(b.proxy, wideBounds(b));  // which finds out whether the crowd is still there
+    m_broad.set(b.proxy, wideBounds(b));  // so that updatePairs() tests again whether it is in a crowd
   } else {
     m_broad.move(b.proxy, gridBounds(body.place, b.box, b.margin), wideBounds(b));
   }
 }
 
-// How far it gets on its own.
+// Predicts how far the body moves in this step if nothing pushes it.
 void SubstepWorld::forecast(SubstepBody& b) const {
   const double angle = m_dt * (std::fabs(b.body.spin) + m_dt * std::fabs(spinGainOf(b.body)));
   b.drift = m_dt * (b.body.velocity + (0.5 * m_dt) * accelerationOf(b.body));
@@ -121,12 +123,13 @@ void SubstepWorld::forecast(SubstepBody& b) const {
   b.is_busy = !isMovable(b) || movement <= kSlow * b.thickness || was_pushed;
 }
 
-// Two bodies whose gap is wider do not meet, unless something pushes one of them.
+// Returns the gap above which two bodies cannot touch in this step, unless something pushes one of them.
 double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
   return length(b.drift - a.drift) + a.roll + b.roll + kSlack * (a.thickness + b.thickness);
 }
 
-// Room for the moves of the next steps. In a crowd it would hold more bodies each.
+// Returns bounds with room for the moves of the next steps. A fast body has none, because it would leave it
+// anyway, nor has one in a crowd, where the wide bounds of each body would overlap those of more others.
 GridBounds SubstepWorld::wideBounds(const SubstepBody& b) const {
   const double most = kAhead * b.thickness;
   const double speed = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y));
@@ -161,7 +164,7 @@ void SubstepWorld::undoMagnetWork() {
   }
 }
 
-// The rotation by the half angle's tangent: of length one for any angle.
+// Uses half the angle as the tangent of half the angle, so that the rotation has length one for any angle.
 void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
   for (const std::int32_t i : states) {
     SubstepState& s = m_states[at(i)];
@@ -281,8 +284,8 @@ void SubstepWorld::stopFast() {
   }
 }
 
-// So that they find one another, and what is slow if they are many: in a frame that moves along with them,
-// in which the paths are short. All that matters is how bodies move against each other.
+// Builds the tree of paths in which fast bodies find each other and, if there are many fast ones, the slow
+// bodies. Paths are relative to a frame that moves with the fast bodies (m_along), in which they are short.
 void SubstepWorld::treePaths() {
   m_paths.clear();
   m_path_values.clear();
@@ -313,7 +316,7 @@ void SubstepWorld::treePaths() {
   m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()), m_path_values);
 }
 
-// What a path may meet, without those that pass each other.
+// Calls visit() for the paths that overlap a path. Skips pairs of bodies in crowds, which pass each other.
 template <typename Visit>
 void SubstepWorld::visitPathsBeside(int own, Visit&& visit) const {
   const SweptBox& box = m_path_tree.box(own);
@@ -330,7 +333,7 @@ SweptBox SubstepWorld::seenPath(const Fast& fast) const {
   return relativeTo(origin, sweptBounds(m_bodies[at(fast.id)], fast.path - m_along));
 }
 
-// The median of the fast bodies' paths: one that is very fast does not count for more.
+// Returns the median of the fast bodies' paths, which a single very fast body does not change much.
 Vec2 SubstepWorld::middlePath() {
   m_path_order.resize(m_fast.size());
   const auto middle = m_path_order.begin() + static_cast<std::ptrdiff_t>(m_fast.size() / 2);
@@ -353,7 +356,7 @@ float SubstepWorld::crowdValue(const SubstepBody& b) const {
   return isMovable(b) && m_broad.isThinned(b.proxy) ? kInCrowd : 0;
 }
 
-// Bodies of a crowd pass each other until there is room, and what lies in one of them does, too.
+// True if the bodies may pass through each other: both are in a crowd, or one is and the other is inside it.
 bool SubstepWorld::passes(const SubstepBody& a, const SubstepBody& b) const {
   if (!isMovable(a) || !isMovable(b)) return false;
   const bool is_thinned = m_broad.isThinned(a.proxy), is_other = m_broad.isThinned(b.proxy);
@@ -368,8 +371,8 @@ void SubstepWorld::addNear(Fast& fast, std::int32_t id) {
   m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
 }
 
-// Two of the tree of paths, one < other: is one of them in the way of the other? Not of fast bodies that fly
-// together, until something stops or diverts one of them.
+// Adds each of two bodies of the path tree, one < other, to the possible obstacles of the other one. Skips
+// fast bodies that fly together until one of them is stopped or diverted.
 void SubstepWorld::approach(int one, int other) {
   const auto fast_ones = static_cast<int>(m_fast.size());
   if (one >= fast_ones) return;
@@ -387,7 +390,7 @@ void SubstepWorld::approach(int one, int other) {
   addNear(that, fast.id);
 }
 
-// It has been stopped, or goes another way.
+// Repeats approach() for a body that was stopped or diverted.
 void SubstepWorld::approachAgain(Fast& fast) {
   const int own = m_fast_numbers[at(fast.id)];
   visitPathsBeside(own, [&](int other) {
@@ -395,7 +398,7 @@ void SubstepWorld::approachAgain(Fast& fast) {
   });
 }
 
-// Does nothing touch it on this path that cannot be pushed, nor does now?
+// True if no immovable body touches the body, neither now nor on this path.
 bool SubstepWorld::isClear(const SubstepBody& b, Vec2 path) {
   bool is_clear = true;
   const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
@@ -413,14 +416,14 @@ bool SubstepWorld::isClear(const SubstepBody& b, Vec2 path) {
   return is_clear;
 }
 
-// From where it is, or from where it stops.
+// Returns the body's motion in this step. If the body was stopped, returns no motion, at its final rotation.
 RigidMotion SubstepWorld::motionOf(const SubstepBody& b) const {
   if (b.state == 0) return {{}, b.body.rotation, 0};
   if (b.part < 1) return {{}, turned(b.body.rotation, b.part * b.turn), 0};
   return {movedBy(b), b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
 }
 
-// Where it first touches anything that is near.
+// Stops a fast body where it first touches a possible obstacle, or moves both on a common path from there.
 void SubstepWorld::stop(Fast& fast) {
   const std::int32_t id = fast.id;
   SubstepBody& b = m_bodies[at(id)];
@@ -442,8 +445,8 @@ void SubstepWorld::stop(Fast& fast) {
     if (is_pushing && nearer <= b.margin + other.margin + pass) continue;
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
-    // The rows keep the points apart that they know, yet others may come down in the same tick: what is
-    // pushed may turn, but its middle passes nothing.
+    // Rows keep only the known points apart, and other corners may touch in this step. So a body that is
+    // pushed may rotate into the other body, but its core must not pass the other one.
     ConvexShape core;
     if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
     for (const ConvexShape& own : is_pushing ? std::span<const ConvexShape>(&core, 1) : own_shapes) {
@@ -461,8 +464,8 @@ void SubstepWorld::stop(Fast& fast) {
   ++m_counters.stopped;
   const std::int32_t number = m_fast_numbers[at(met)];
   Fast* const p_met = number == kSlowNumber || !isMovable(m_bodies[at(met)]) ? nullptr : &m_fast[at(number)];
-  if (p_met != nullptr && !p_met->is_stopped && goOnTogether(fast, *p_met, first)) return;
-  for (Fast* const p_fast : {&fast, p_met}) {  // what comes the other way stops, too
+  if (p_met != nullptr && !p_met->is_stopped && advanceTogether(fast, *p_met, first)) return;
+  for (Fast* const p_fast : {&fast, p_met}) {  // the fast body that was hit stops, too
     if (p_fast == nullptr) continue;
     double& part = m_bodies[at(p_fast->id)].part;
     part = std::min(part, first);
@@ -471,10 +474,10 @@ void SubstepWorld::stop(Fast& fast) {
   }
 }
 
-// Two fast bodies that meet at `time` go on together from there: if they stopped, what flies behind them
-// would run over them. Not where something is near that cannot be pushed, which they might get into.
-bool SubstepWorld::goOnTogether(Fast& one, Fast& other, double time) {
-  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;  // as parts of their sum
+// Gives two fast bodies that meet at `time` a common path from there on. If they stopped, bodies that fly
+// behind them would run into them. Returns false, without a change, if an immovable body is in the way.
+bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
+  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;  // only the ratio matters
   const double mass_of_one = m_bodies[at(other.id)].body.inverse_mass;
   const double sum = mass_of_one + mass_of_other;
   if (!(sum > 0)) return false;
@@ -498,8 +501,8 @@ bool SubstepWorld::goOnTogether(Fast& one, Fast& other, double time) {
   return true;
 }
 
-// Impulses are floats, which the two bodies of a contact do not feel exactly alike. A group that nothing
-// holds gets back what that has taken from its momentum.
+// Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both
+// bodies of a contact. finish() adds it to the groups that nothing holds.
 void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
@@ -514,7 +517,7 @@ void SubstepWorld::keepMomentum() {
     group.missing += mass * changeOf(b);
     group.mass += mass;
   }
-  for (const Magnet& magnet : m_magnets) {  // what turned a body is not missing
+  for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
     Group& group = groupOf(b);
     if (!group.is_held) group.missing += magnet.given / b.body.inverse_mass;

@@ -9,7 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kRollKept = 0.02;  // thicknesses that a corner may move before bounds are measured again
+constexpr double kRollKept = 0.02;  // thicknesses: the old bounds are used while corners rotate by less
 
 bool isPulled(const RigidBody& body) {
   return body.acceleration != Vec2{} || body.torque != 0;
@@ -25,7 +25,7 @@ void SubstepWorld::expect(std::size_t bodies) {
 
 int SubstepWorld::addInOrder(std::uint64_t order, const RigidBody& body,
                              std::span<const ConvexShape> shapes) {
-  if (!isSound(body)) return -1;
+  if (!isValid(body)) return -1;
   int id = idLimit();
   if (m_free.empty()) {
     m_bodies.emplace_back();
@@ -54,7 +54,7 @@ void SubstepWorld::measure(SubstepBody& b) {
   b.thickness = form.thickness;
 }
 
-// Its shapes as they are turned now; only if they are needed, and once.
+// Rotates the body's corners and bounds to its present rotation, unless they already have it.
 void SubstepWorld::turnShapes(SubstepBody& b) {
   if (b.turned_at == b.body.rotation && b.turned_version == b.version) return;
   b.turned_at = b.body.rotation;
@@ -70,7 +70,7 @@ void SubstepWorld::turnShapes(SubstepBody& b) {
   }
 }
 
-// As turnShapes() made it last.
+// Returns a shape with the rotation of the last turnShapes().
 RotatedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number) const {
   const ConvexShape* const p_shapes = m_forms[b.form].shapes.data();
   const Vec2* p_corners = b.turned.data();
@@ -79,7 +79,7 @@ RotatedView SubstepWorld::turnedShape(const SubstepBody& b, std::int32_t number)
   return {shape.count, shape.radius, shape.reach, p_corners, p_corners + shape.count};
 }
 
-// A body that has hardly turned since its shapes were keeps its bounds, by so much wider.
+// Updates the body's box. If the body has hardly rotated since turnShapes(), only widens the old bounds.
 void SubstepWorld::boundNow(SubstepBody& b) {
   const Rotation at = b.turned_at, now = b.body.rotation;
   const double roll = std::fabs(at.c * now.s - at.s * now.c) * b.reach;
@@ -90,12 +90,12 @@ void SubstepWorld::boundNow(SubstepBody& b) {
   b.box = {b.bounds.lower - Vec2{wider, wider}, b.bounds.upper + Vec2{wider, wider}};
 }
 
-// Into the broad phase.
+// Resets the body's state and adds it to the broad phase.
 void SubstepWorld::enter(int id) {
   SubstepBody& b = m_bodies[at(id)];
   b.is_frozen = b.is_asleep = false;
   b.ring = id;
-  // Where nothing pulls at it, it counts as still since long ago: what begins at rest sleeps at once.
+  // A body without acceleration and torque starts as nearly still: if it is at rest, it sleeps after a tick.
   b.still = isPulled(b.body) ? 0 : m_options.sleep_delay - 1;
   b.margin = b.roll = b.first_speed = 0;
   b.drift = {};
@@ -109,7 +109,7 @@ void SubstepWorld::enter(int id) {
   b.proxy = m_broad.add(static_cast<std::uint32_t>(id), wide, moves, b.order);
 }
 
-// Out of the broad phase; its contacts are forgotten.
+// Removes the body from the broad phase; the next step drops its contacts.
 void SubstepWorld::leave(int id) {
   SubstepBody& b = m_bodies[at(id)];
   if (b.proxy >= 0) m_broad.remove(b.proxy);
@@ -119,7 +119,7 @@ void SubstepWorld::leave(int id) {
   m_active_changed = true;
 }
 
-// What lies on it wakes in the next step.
+// Makes the next step wake the bodies that touch this one or are joined to it.
 void SubstepWorld::markChanged(int id) {
   SubstepBody& b = m_bodies[at(id)];
   if (!b.is_changed) m_changed.push_back(id);
@@ -137,7 +137,7 @@ bool SubstepWorld::set(int id, const RigidBody& body) {
   if (!exists(id)) return false;
   SubstepBody& b = m_bodies[at(id)];
   if (b.body == body && !b.is_frozen) return true;
-  if (!isSound(body)) return false;
+  if (!isValid(body)) return false;
   const bool was_movable = isMovable(b);
   wakeRing(id);
   b.still = 0;
@@ -171,7 +171,7 @@ bool SubstepWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
   return true;
 }
 
-// Its id is free again after the next step has dropped its pairs.
+// Removes a body. Its id can be used again after the next step has dropped its pairs.
 bool SubstepWorld::remove(int id) {
   if (!exists(id)) return false;
   wakeRing(id);

@@ -30,18 +30,18 @@ struct SubstepOptions {
   int substeps = 4;  ///< sub-steps per step, 1 … 64
   bool may_sleep = true;
   double sleep_speed = 1e-3;  ///< cells per tick: maximum speed of every point of a still body
-  double sleep_delay = 15;    ///< ticks that a group must be still, without gaining speed, before it sleeps
+  double sleep_delay = 15;    ///< ticks that a group must be still, without becoming faster, before it sleeps
 };
 
 /// Counters since the world was made.
 struct SubstepCounters {
   std::int64_t ticks = 0;
-  std::int64_t contacts = 0;     ///< manifolds solved, once per step each
+  std::int64_t contacts = 0;     ///< manifolds solved; each counts once per step
   std::int64_t blocks = 0;       ///< blocks of rows solved in parallel
-  std::int64_t sweeps = 0;       ///< over pairs that pass each other (choosePairs())
-  std::int64_t near = 0;         ///< bodies that fast ones might have met, tested by a sweep
+  std::int64_t sweeps = 0;       ///< sweeps of pairs that may pass each other (choosePairs())
+  std::int64_t near = 0;         ///< bodies that a fast one might touch, tested by a sweep
   std::int64_t stopped = 0;      ///< fast bodies stopped at their first contact
-  std::int64_t quarantined = 0;  ///< bodies frozen
+  std::int64_t quarantined = 0;  ///< number of times that a body was frozen
   std::int64_t broken = 0;       ///< broken joints
 };
 
@@ -51,7 +51,7 @@ class SubstepWorld final : public RigidStepper {
       : m_options(options), m_states(1), m_dt(1.0 / options.searches) {}
 
   void expect(std::size_t bodies) override;
-  /// Bodies with a lower `order` always come first.
+  /// Adds a body. Bodies with a lower `order` always come first.
   int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
@@ -68,15 +68,15 @@ class SubstepWorld final : public RigidStepper {
   void setSleeping(bool may_sleep) override;
   void step() override;
   const SubstepCounters& counters() const { return m_counters; }
-  /// Depth of the deepest overlap at the start of the last step.
+  /// Returns the depth of the deepest overlap at the start of the last step.
   double deepest() const { return m_deepest; }
 
  private:
   // A contact, kept from step to step. The data for its rows comes first, in as few cache lines as possible.
   struct alignas(64) Memory {
     Manifold manifold;
-    KnownImpulses known;  // of its points
-    // When the manifold was found. It is kept while its bodies hardly move relative to each other.
+    KnownImpulses known;  // impulses of its points
+    // When the manifold was found. It is used again while its bodies hardly move relative to each other.
     Vec2 offset;
     Rotation rotation_a, rotation_b;
     std::array<double, 2> gap = {};
@@ -87,26 +87,26 @@ class SubstepWorld final : public RigidStepper {
   };
   static_assert(sizeof(Memory) == 256);
   struct Pair {
-    std::int32_t low, high;  // ids, the order of the broad phase
-    std::int32_t a, b;       // these ids in the order of the bodies
+    std::int32_t low, high;  // ids, in the order of the broad phase
+    std::int32_t a, b;       // these two ids, in the order of the bodies
     std::int32_t first = -1;
     bool is_touching = false;
-    bool is_pushing = false;   // in the last step
-    bool is_jointed = false;   // a joint keeps them from touching
-    bool is_seen = false;      // in this step
-    std::int32_t event = -1;   // of this tick
-    bool is_examined = false;  // in this step: they may meet
+    bool is_pushing = false;   // true if it pushed in the last step
+    bool is_jointed = false;   // a joint prevents contacts of the two bodies
+    bool is_seen = false;      // examined in this step
+    std::int32_t event = -1;   // index of its event in this tick
+    bool is_examined = false;  // true if the bodies may touch in this step
   };
-  struct Calm {     // a near pair that does not meet unless pushed
-    double nearer;  // negative of the gap that would be left
+  struct Calm {     // a near pair that does not touch unless something pushes it
+    double nearer;  // negative of the gap that remains if nothing pushes the pair
     std::int32_t pair;
   };
-  struct Fast {  // a body that moves farther in this step than contacts were searched for
+  struct Fast {  // a body that moves farther in this step than the distance to which contacts were searched
     Vec2 path;
     double roll, thickness;
     std::int32_t id;
-    GridBounds way;          // area that it sweeps
-    std::int32_t near = -1;  // first of its list of possible obstacles in m_near
+    GridBounds way;          // bounds of its path
+    std::int32_t near = -1;  // index in m_near of the first of its possible obstacles; −1: none
     bool is_stopped = false;
   };
   struct Near {
@@ -122,7 +122,7 @@ class SubstepWorld final : public RigidStepper {
     std::uint64_t order_a, order_b;
     std::int32_t contact;
   };
-  struct Contact {  // within a step
+  struct Contact {  // a contact within a step
     std::int32_t pair, memory;
     std::int32_t a, b;
     std::int32_t state;  // state of one of its movable bodies
@@ -130,7 +130,7 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t place;  // row number
     ContactPush pushed;
   };
-  // Groups whose rows together fit a cache during all sub-steps.
+  // Some groups whose rows together fit into a cache during all sub-steps.
   struct Batch {
     std::size_t contacts = 0;  // number of its contacts in m_by_colour, after those of the previous batch
     std::size_t states = 0;    // number of its states in m_by_batch, after those of the previous batch
@@ -139,8 +139,8 @@ class SubstepWorld final : public RigidStepper {
 
   struct Magnet {  // a body turned by a magnet, within a step
     std::int32_t id;
-    MagnetTurn turn;  // in this sub-step
-    Vec2 given;       // added to its velocity since the step began
+    MagnetTurn turn;  // its push in this sub-step
+    Vec2 given;       // velocity that the magnet has added since the step began
   };
   struct Group {
     double still = 1e300;
@@ -151,10 +151,10 @@ class SubstepWorld final : public RigidStepper {
     double mass = 0;  // total mass of the bodies that lost it
   };
 
-  // Thicknesses per tick: contacts with less relative movement may be lasting.
+  // Contacts whose relative movement is slower may be lasting; in thicknesses of a body per tick.
   static constexpr double kCalm = 0.05;
 
-  // SubstepWorld.cpp
+  // Defined in SubstepWorld.cpp:
   void measure(SubstepBody& body);
   void turnShapes(SubstepBody& body);
   RotatedView turnedShape(const SubstepBody& body, std::int32_t number) const;
@@ -167,7 +167,7 @@ class SubstepWorld final : public RigidStepper {
   JointStore& joints() override { return m_joints; }
   void markChanged(int id);
 
-  // SubstepStep.cpp
+  // Defined in SubstepStep.cpp:
   void stepOnce();
   void listActive();
   void sortActive();
@@ -194,13 +194,13 @@ class SubstepWorld final : public RigidStepper {
   RigidMotion motionOf(const SubstepBody& body) const;
   bool isClear(const SubstepBody& body, Vec2 path);
   void stop(Fast& fast);
-  bool goOnTogether(Fast& one, Fast& other, double time);
+  bool advanceTogether(Fast& one, Fast& other, double time);
   void forecast(SubstepBody& body) const;
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
   GridBounds wideBounds(const SubstepBody& body) const;
   Vec2 movedBy(const SubstepBody& body) const;
 
-  // SubstepContacts.cpp
+  // Defined in SubstepContacts.cpp:
   void updatePairs();
   void endPair(Pair& pair);
   void wakeChanged();
@@ -214,7 +214,7 @@ class SubstepWorld final : public RigidStepper {
   void choosePairsOfWoken(std::size_t first_state);
   void passStirsOn();
   bool isReached(const Calm& calm) const;
-  double stirOf(const SubstepBody& b) { return m_stirs[at(m_sets.rootOf(b.state))]; }
+  double deviationOf(const SubstepBody& b) { return m_deviations[at(m_sets.rootOf(b.state))]; }
   double marginOf(const SubstepBody& a, const SubstepBody& b) const;
   void updatePair(std::int32_t pair);
   static void shake(SubstepBody& a, SubstepBody& b, double depth);
@@ -229,7 +229,7 @@ class SubstepWorld final : public RigidStepper {
   void dropMemory(Pair& pair);
   std::vector<Pair>::const_iterator findPair(std::int32_t one, std::int32_t other) const;
 
-  // SubstepRows.cpp
+  // Defined in SubstepRows.cpp:
   void chooseColours();
   void chooseBatches();
   void sortByBatch();
@@ -239,7 +239,7 @@ class SubstepWorld final : public RigidStepper {
   void storeImpulses(std::span<const std::int32_t> contacts);
   void reportContacts();
 
-  // SubstepSleep.cpp
+  // Defined in SubstepSleep.cpp:
   void findGroups();
   Group& groupOf(const SubstepBody& b) { return m_groups[at(m_sets.rootOf(b.state))]; }
   void unite(const SubstepBody& a, const SubstepBody& b);
@@ -254,27 +254,27 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Near> m_near;
   std::vector<Fast> m_fast;
   std::vector<std::int32_t> m_fast_numbers;  // by id: index in m_fast
-  std::vector<Slow> m_slow;                  // other bodies, if there are many fast ones
-  // Paths of fast, then slow bodies, in grid units relative to the first one, in a frame that moves with
-  // m_along.
+  std::vector<Slow> m_slow;                  // the bodies that are not fast, if there are many fast ones
+  // Paths of the fast bodies, then of the slow ones, in grid units relative to the first one, in a frame that
+  // moves with m_along.
   std::vector<SweptBox> m_paths;
-  Vec2 m_along;  // middle path of the fast bodies
+  Vec2 m_along;  // mean movement of the fast bodies in this step
   std::vector<double> m_path_order;
   std::vector<float> m_path_values;  // by path: kInCrowd or 0
-  bool m_are_many = false;           // the slow bodies are included
-  bool m_are_crowded = false;        // some of the fast bodies are in a crowd
+  bool m_are_many = false;           // true if m_paths includes the slow bodies
+  bool m_are_crowded = false;        // true if some of the fast bodies are in a crowd
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
   std::vector<SubstepKick> m_kicks;  // by state
   std::vector<Magnet> m_magnets;
   std::vector<double> m_turns;  // by state: rotation in rad since the step began
   std::vector<Calm> m_calm;
-  std::vector<double> m_stirs;         // by state: possible deviation from its own path in this step
+  std::vector<double> m_deviations;    // by state: how far it may deviate from its undisturbed path
   std::vector<SubstepState> m_states;  // the first one stands for all immovable bodies
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<std::int32_t> m_pair_ends,
-      m_pair_numbers;  // by id, pairs of each body; empty: not listed in this step
+      m_pair_numbers;  // by id: the pairs of each body; empty if they are not listed in this step
   std::vector<std::int32_t> m_woken_pairs;
   std::vector<Memory> m_memory;
   std::int32_t m_free_memory = -1;
@@ -285,19 +285,19 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_batch_of;    // by state
   std::vector<std::int32_t> m_by_batch;    // states by batch
   std::vector<std::size_t> m_turn_counts;  // by batch and colour
-  ContactRows m_rows;                      // rows of one batch
+  ContactRows m_rows;                      // rows of the present batch
   SubstepJoints m_joints;
-  UnionFind m_sets;             // over states
+  UnionFind m_sets;             // sets of states
   std::vector<Group> m_groups;  // by root
   SubstepCounters m_counters;
   double m_deepest = 0;
   double m_dt;        // length of a step in ticks
-  double m_time = 0;  // begin of this step within the tick
+  double m_time = 0;  // start of this step within the tick, in ticks
   float m_h = 0.25f;
   std::int64_t m_steps = 0;
   bool m_active_changed = false;
   bool m_has_stirred = false;
-  bool m_is_shuffled = false;  // ids are not in the order of the bodies, or of the bodies below them
+  bool m_is_shuffled = false;  // true if the order of ids is not that of the bodies, or of those below them
 };
 
 }  // namespace naiad::physics

@@ -21,14 +21,14 @@ class AddressPrefix {
 
   AddressPrefix() = default;
   explicit AddressPrefix(const Bytes& address);
-  /// The /32 of an IPv4 address (mapped into IPv6 or not), the /64 of an IPv6 address.
+  /// Returns the /32 of an IPv4 address (mapped into IPv6 or not), or the /64 of an IPv6 address.
   static AddressPrefix of(const asio::ip::address& address);
   /// Returns the prefix of "127.0.0.1:40000" or "[::1]:40000" (ReliableChannel::peerAddress()), else nullopt.
   static std::optional<AddressPrefix> ofEndpoint(std::string_view text);
 
-  /// The range of a small customer: the /24 of an IPv4 address, the /56 of an IPv6 network.
+  /// Returns the range of a small customer: the /24 of an IPv4 address, the /56 of an IPv6 network.
   AddressPrefix wide() const;
-  /// The range of a large customer: the /24 of an IPv4 address, the /48 of an IPv6 network.
+  /// Returns the range of a large customer: the /24 of an IPv4 address, the /48 of an IPv6 network.
   AddressPrefix widest() const;
 
   friend bool operator==(const AddressPrefix&, const AddressPrefix&) = default;
@@ -50,7 +50,7 @@ struct NumericEndpoint {
   asio::ip::address address;
   std::uint16_t port = 0;
 
-  /// Returns nullopt for other texts.
+  /// Parses the text; returns nullopt if it has another form.
   static std::optional<NumericEndpoint> parse(std::string_view text);
 };
 

@@ -33,8 +33,9 @@ class AddressRange {
  public:
   using Bytes = std::array<std::uint8_t, 16>;  ///< like those of AddressPrefix
 
-  /// Parses ADDRESS/BITS, or an address: IPv4 alone, IPv6 with its /64, the network of a household. IPv4
-  /// mapped into IPv6 counts as IPv4. Bits beyond the length are cleared. Returns nullopt for other texts.
+  /// Parses ADDRESS/BITS, or an address alone: an IPv4 address is a range by itself, an IPv6 address stands
+  /// for its /64, the network of a household. IPv4 mapped into IPv6 counts as IPv4. Bits beyond the length
+  /// are cleared. Returns nullopt for other texts.
   static std::optional<AddressRange> parse(std::string_view text);
   /// Returns the range that parse() returns for an address without /BITS.
   static AddressRange around(const asio::ip::address& address);
@@ -43,13 +44,13 @@ class AddressRange {
   bool isIPv4() const { return m_ipv4; }
   /// The length of the common prefix in bits, of 32 or 128.
   int bits() const { return m_ipv4 ? m_length - kMappedBits : m_length; }
-  /// "192.0.2.7", "192.0.2.0/24", "2001:db8::/64"; parse() accepts it.
+  /// Returns "192.0.2.7", "192.0.2.0/24" or "2001:db8::/64", which parse() accepts.
   std::string text() const;
 
   /// The prefix length among the 128 bits of a mapped address. With bytes() it identifies the range.
   int length() const { return m_length; }
   const Bytes& bytes() const { return m_bytes; }
-  /// Returns the first `length` bits of an address, the others zero.
+  /// Returns the first `length` bits of an address; the other bits are zero.
   static Bytes masked(Bytes bytes, int length);
   static Bytes bytesOf(const asio::ip::address& address);
 

@@ -41,13 +41,14 @@ class ReliableChannel {
   virtual void start(Callbacks callbacks) = 0;
   /// Queues one frame (<= the channel's send limit). Ignored after close().
   virtual void send(std::string_view frame) = 0;
-  /// Bytes accepted by send() that have not left this machine: in this queue and in the kernel's.
+  /// Returns the number of bytes accepted by send() that have not left this machine: those in this queue and
+  /// in the kernel's.
   virtual std::size_t unsentBytes() const = 0;
   /// Sends the queued frames for at most a second, then ends the connection.
   virtual void close() = 0;
-  /// "127.0.0.1:40000", for logs.
+  /// Returns the peer's address for logs, for example "127.0.0.1:40000".
   virtual std::string peerAddress() const = 0;
-  /// The largest frame accepted from the peer from now on, in bytes.
+  /// Sets the largest frame that is accepted from the peer from now on, in bytes.
   virtual void setReceiveLimit(std::size_t bytes) = 0;
   /// Returns a secret of `bytes` bytes that only the two ends of this connection know, equal at both. Other
   /// labels, contexts, lengths and connections give other secrets (TLS exporter, RFC 8446 7.5). Empty if the
@@ -63,9 +64,10 @@ class DatagramChannel {
   virtual void start(std::function<void(std::string_view packet)> on_packet) = 0;
   /// Sends one packet (<= 1200 bytes); it may be lost.
   virtual void send(std::string_view packet) = 0;
-  /// The largest packet in bytes that may be sent now; nullopt while the other end's address is unknown.
+  /// Returns the size of the largest packet that may be sent now; nullopt while the other end's address is
+  /// unknown.
   virtual std::optional<std::size_t> payloadBudget() const { return 1200; }
-  /// "127.0.0.1:40000", for logs.
+  /// Returns the peer's address for logs, for example "127.0.0.1:40000".
   virtual std::string peerAddress() const = 0;
 };
 

@@ -16,20 +16,21 @@ inline constexpr std::size_t kMaxServerFrame = std::size_t{16} * 1024;
 inline constexpr std::size_t kMaxClientFrame = std::size_t{4} * 1024;
 inline constexpr std::size_t kMaxHelloFrame = 1024;
 
-/// Longest name and chat line, in characters.
+/// Maximum length of a name and of a chat line, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
 inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< bytes of a name in UTF-8
-/// Longest message for people (refusals, goodbyes) and longest name of a game or program, in characters.
+/// Maximum length of a message for people (refusals, goodbyes), and of the name of a game or program, in
+/// characters.
 inline constexpr std::size_t kMaxMessageLength = 300;
 inline constexpr std::size_t kMaxProgramLength = 40;
-/// Number and length, in characters, of the game's lines on the help screen.
+/// Maximum number of the game's lines on the help screen, and maximum length of a line in characters.
 inline constexpr std::size_t kMaxHelpLines = 24;
 inline constexpr std::size_t kMaxHelpLength = 76;
-/// Most entries of a player list; it fits one frame.
+/// Maximum number of entries of a player list. A list of this size fits one frame.
 inline constexpr std::size_t kMaxPlayers = 200;
 
-/// Most sounds in one message, and most characters in a sound's label.
+/// Maximum number of sounds in one message, and of characters in a sound's label.
 inline constexpr std::size_t kMaxSounds = 16;
 inline constexpr std::size_t kMaxSoundLabel = 40;
 

@@ -7,10 +7,10 @@
 
 namespace naiad {
 
-/// Finds out whether datagrams pass on the current path, and when to probe it. Both ends run one.
+/// Finds out whether datagrams pass on the current path, and when to probe it. Each end has its own.
 ///
-/// Evidence that they pass is, for a server, an acknowledgement of a datagram that came in a datagram, and
-/// for a client, any datagram.
+/// Evidence that they pass is, for a server, that a datagram acknowledges an earlier datagram; for a client,
+/// any datagram.
 class PathProbe {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -18,10 +18,10 @@ class PathProbe {
 
   static constexpr Millis kOpenTime{1000};          ///< time for which the path counts as open after evidence
   static constexpr Millis kProbeInterval{1000};     ///< interval while datagrams do not pass
-  static constexpr Millis kFastProbeInterval{100};  ///< interval while open, and in a session's or path's
-                                                    ///< first second
-  /// Interval for kEagerTime after the last evidence, or always if there is no other way. On a line that
-  /// loses most packets, one probe a second rarely results in an acknowledgement.
+  static constexpr Millis kFastProbeInterval{100};  ///< interval while open, and in the first second of a
+                                                    ///< session or path
+  /// Interval until kEagerTime after the last evidence, or always if datagrams are the only way to the other
+  /// end. On a line that loses most packets, one probe a second rarely results in an acknowledgement.
   static constexpr Millis kEagerProbeInterval{250};
   static constexpr std::chrono::seconds kEagerTime{10};
 
@@ -80,7 +80,7 @@ class IdleTimer {
     if (away > Duration::zero()) m_since = std::min(m_since + away, now);
     m_polled = std::max(m_polled, now);
   }
-  /// The length of the silence.
+  /// Returns the length of the silence.
   Duration idleTime(Time now) const { return now - m_since; }
 
  private:
@@ -94,7 +94,7 @@ class LinkStats {
   using Time = std::chrono::steady_clock::time_point;
   using Millis = std::chrono::duration<double, std::milli>;
 
-  /// Half of the window of shortest().
+  /// Half of the time window of shortest().
   static constexpr std::chrono::seconds kShortestAge{5};
 
   void addSample(Millis sample, Time now) {

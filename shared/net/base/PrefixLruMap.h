@@ -22,8 +22,8 @@ class PrefixLruMap {
   PrefixLruMap(const PrefixLruMap&) = delete;
   PrefixLruMap& operator=(const PrefixLruMap&) = delete;
 
-  /// Returns the value of `prefix`, created if missing, and makes it the most recently used one. Valid until
-  /// it is erased or evicted.
+  /// Returns the value of `prefix`, created if missing, and makes it the most recently used one. The
+  /// reference is valid until the prefix is erased or evicted.
   T& use(const AddressPrefix& prefix) {
     if (const auto found = index_.find(prefix); found != index_.end()) {
       order_.splice(order_.end(), order_, found->second);

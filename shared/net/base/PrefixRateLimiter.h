@@ -1,7 +1,7 @@
 // Rate limits for an address and for its network.
 //
-// Per-connection limits restart when a client reconnects; these belong to the address. A client with many
-// addresses shares the limits of its network.
+// Limits per connection restart when a client reconnects; the limits here belong to the address. A client
+// with many addresses shares the limits of its network.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ class PrefixRateLimiter {
     BucketRate per_network;           ///< the /24 or /48 that contains it
     std::optional<BucketRate> total;  ///< nullopt: no limit
   };
-  static constexpr std::size_t kPrefixes = 1024;  ///< remembered prefixes; as many networks are remembered
+  static constexpr std::size_t kPrefixes = 1024;  ///< number of remembered prefixes, and also of networks
 
   explicit PrefixRateLimiter(const Rates& rates) : m_rates(rates) {}
 
-  /// Counts one more event and returns true, or returns false if that is over a limit.
+  /// Counts an event and returns true, or returns false if the event would exceed a limit.
   bool tryConsume(const AddressPrefix& prefix, Time now) {
-    // Narrowest first: an event over its own limit does not consume tokens of the wider ones.
+    // Narrowest first, so that an event over its prefix's limit does not consume tokens of the wider ones.
     return m_prefixes.use(prefix).tryConsume(m_rates.per_prefix, now) &&
            m_networks.use(prefix.widest()).tryConsume(m_rates.per_network, now) &&
            (!m_rates.total || m_all.tryConsume(*m_rates.total, now));
@@ -51,33 +51,34 @@ class PrefixRateLimiter {
   TokenBucket m_all;
 };
 
-/// The rates of a server that accepts `max_per_address` players per address. A class is this many players, at
-/// least 64, behind one address.
+/// The rates of a server that accepts `max_per_address` players per address. Bursts are sized for a school
+/// class behind one address: this many players, but at least 64.
 struct RateLimits {
-  /// TLS handshakes. Burst: a class connects twice, with second streams. Then one per player in 8 seconds.
+  /// TLS handshakes. Burst: a class connects twice, with second streams. After it: one per player in 8
+  /// seconds.
   static PrefixRateLimiter::Rates handshakes(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 8, 4 * crowd}, {crowd / 2, 16 * crowd}, std::nullopt};
   }
-  /// Joins. Burst: a class joins, leaves and joins again. Then two a second.
+  /// Joins. Burst: a class joins, leaves and joins again. After it: two a second.
   static PrefixRateLimiter::Rates joins(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{2, 2 * crowd}, {8, 8 * crowd}, std::nullopt};
   }
-  /// Private worlds, each a new process. Burst: two per player of a class. Then one a second.
+  /// Private worlds, each a new process. Burst: two per player of a class. After it: one a second.
   static PrefixRateLimiter::Rates worlds(int max_per_address, int max_players) {
     const double crowd = classSize(max_per_address);
     return {{1, 2 * crowd}, {4, 8 * crowd}, BucketRate{8, 2.0 * max_players}};
   }
-  /// Wake-ups of rooms, each a new process. Burst: four. Then one a second.
+  /// Wake-ups of rooms, each a new process. Burst: four. After it: one a second.
   static PrefixRateLimiter::Rates wakes() { return {{1, 4}, {4, 16}, BucketRate{8, 64}}; }
   /// Moves to another room, each of which sends a world. Burst: three per player of a class, through one
-  /// door. Then one per player in four seconds.
+  /// door. After it: one per player in four seconds.
   static PrefixRateLimiter::Rates moves(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};
   }
-  /// Chat lines. Burst: three per player of a class. Then one per player in four seconds.
+  /// Chat lines. Burst: three per player of a class. After it: one per player in four seconds.
   static PrefixRateLimiter::Rates chat(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   throw std::system_error(error, std::generic_category(), path.string());
 }
 
-/// Refuses the file: reading a pipe could block, and a device may never end.
+/// Throws for a path that is not a regular file: reading a pipe could block, and a device may never end.
 [[noreturn]] void refuseKind(const fs::path& path) {
   throw std::system_error(EINVAL, std::generic_category(),
                           path.string() + " is not a regular file, but a folder, a pipe or a device");
@@ -74,7 +74,7 @@ std::string randomSuffix() {
   return text;
 }
 
-/// Whether the file survives a system crash.
+/// kYes: the file survives a system crash, because it is synced.
 enum class Durable { kNo, kYes };
 
 /// A new file next to `path` with a unique name. The destructor deletes it unless it was renamed.

@@ -1,4 +1,4 @@
-// Small files that are replaced as a whole, if requested readable only by their owner; and a user's folders.
+// Small files that are replaced as a whole and may be private to their owner, and a user's folders.
 #pragma once
 
 #include <cstddef>
@@ -27,11 +27,11 @@ bool makeFile(const std::filesystem::path& path, std::string_view content);
 /// Throws if the path exists and is neither a regular file nor a link to one.
 void requireRegular(const std::filesystem::path& path);
 
-/// True if the file's group or others may read or write it.
+/// True if the file's group or other users have any right to the file.
 bool isOpenToOthers(const std::filesystem::path& path);
 
-/// A lock on a file (created if missing, 0600), held while this object lives, against other processes and
-/// threads. The constructor waits for it.
+/// A lock on a file (created if missing, 0600) against other processes and threads, held while this object
+/// lives. The constructor waits until it gets the lock.
 class FileLock {
  public:
   explicit FileLock(const std::filesystem::path& path);
@@ -45,7 +45,7 @@ class FileLock {
 
 /// Returns the folder for a user's files of one kind (XDG Base Directory Specification 0.8): $variable/naiad
 /// if that is an absolute path, else $HOME/fallback/naiad; nullopt if HOME is not an absolute path either.
-/// ("XDG_CONFIG_HOME", ".config"), ("XDG_DATA_HOME", ".local/share").
+/// The arguments are, for example, ("XDG_CONFIG_HOME", ".config") or ("XDG_DATA_HOME", ".local/share").
 std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback);
 
 }  // namespace naiad

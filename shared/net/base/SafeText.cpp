@@ -24,7 +24,7 @@ bool isPlainName(std::string_view text) {
 }
 
 std::string safeText(const std::string& text, std::size_t max_characters) {
-  // A character has at most four bytes: the rest of the text cannot matter and is not decoded.
+  // A character has at most four bytes, so bytes beyond four per character cannot matter and are not decoded.
   const std::u32string decoded = df::decodeUtf8(text.substr(0, max_characters * 4));
   std::string safe;
   std::size_t count = 0;

@@ -16,7 +16,7 @@ namespace naiad {
 inline constexpr std::size_t kMaxRoomName = 32;
 /// Maximum number of rooms of a server.
 inline constexpr std::size_t kMaxRooms = 64;
-/// The rule for room names, for error messages.
+/// The rule for room names, as a part of error messages.
 inline constexpr const char* kRoomNameRule =
     "1 to 32 of a-z, A-Z, 0-9, '-', '_' and '.', beginning with a letter or digit";
 
@@ -27,13 +27,14 @@ bool isRoomName(std::string_view name);
 /// characters (control, escape, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
 std::string safeText(const std::string& text, std::size_t max_characters);
 
-/// Returns a player's name: like safeText() with the limit of names, trimmed; "player" if nothing is left.
+/// Makes a player's name of any text: like safeText() with the limit of names, trimmed; "player" if nothing
+/// is left.
 std::string safeName(const std::string& name);
 
 /// Returns the number of columns that a safe text occupies.
 std::size_t columnsOf(const std::string& text);
 
-/// Returns the text with ASCII letters in lower case: DNS compares host names like that.
+/// Returns the text with ASCII letters in lower case, because DNS ignores the case of host names.
 std::string lowerCase(std::string_view text);
 /// True if the text has no characters but a-z, A-Z, 0-9, '-', '_' and '.'.
 bool isPlainName(std::string_view text);

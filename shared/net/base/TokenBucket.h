@@ -22,7 +22,7 @@ class TokenBucket {
     tokens_ -= 1;
     return true;
   }
-  /// True if there is a token to take.
+  /// True if tryConsume() would take a token now.
   bool canConsume(const BucketRate& rate, Time now) {
     refill(rate, now);
     return tokens_ >= 1;

@@ -15,12 +15,12 @@ inline constexpr std::string_view kSubprotocol = "naiad.1";
 enum class GatewayCloseCode : std::uint16_t {
   kEnded = 1000,        ///< the server closed the stream properly
   kGoingAway = 1001,    ///< the gateway shuts down
-  kNotBinary = 1003,    ///< a text message
-  kPolicy = 1008,       ///< no hello in time, or an invalid frame
+  kNotBinary = 1003,    ///< the browser sent a text message
+  kPolicy = 1008,       ///< the browser sent no hello in time, or an invalid frame
   kUnreachable = 4000,  ///< the server is unreachable, or the connection to it broke
-  kWrongKey = 4001,     ///< the server does not have the key of the link
+  kWrongKey = 4001,     ///< the server's key is not the one in the player's link
   kTooSlow = 4002,      ///< the browser reads too slowly
-  kFull = 4003,         ///< all places, or all those of this address, are taken
+  kFull = 4003,         ///< all places, or all places of this address, are taken
 };
 
 }  // namespace naiad

@@ -18,7 +18,7 @@ bool DatagramDemux::add(SealedLink& link, OnPayload on_payload) {
 void DatagramDemux::remove(ConnectionId id) {
   const auto found = registrations_.find(id);
   if (found == registrations_.end()) return;
-  if (&found->second == open_) {  // its callback runs now
+  if (&found->second == open_) {  // this session's callback runs now, see receive()
     leaving_ = registrations_.extract(found);
   } else {
     registrations_.erase(found);
@@ -69,11 +69,11 @@ bool DatagramDemux::allowed(Registration& door, const Path& path, Time now) {
     if (door.own.tryConsume(rates_.session, now)) return true;
     ++counters_.session_flood;
   } else if (!door.claimed.tryConsume(rates_.claimed, now)) {
-    ++counters_.claimed_flood;
+    ++counters_.unvalidated_session_flood;
   } else if (!prefixes_.use(path.remote.prefix()).tryConsume(rates_.prefix, now)) {
     ++counters_.prefix_flood;
   } else if (!strangers_.tryConsume(rates_.strangers, now)) {
-    ++counters_.stranger_flood;
+    ++counters_.unvalidated_flood;
   } else {
     return true;
   }

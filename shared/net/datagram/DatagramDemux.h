@@ -3,8 +3,8 @@
 //
 // The order of checks is: length, kind, connection id, replay window, token buckets, authentication. A forged
 // packet without a known connection id costs one look-up. One with a known id spends tokens shared by all
-// unproven addresses; each session and each prefix has only a part of them. Packets from a session's proven
-// path use the session's own bucket, which no other address can empty.
+// unproven addresses, of which each session and each prefix may use only a part. Packets from a session's
+// proven path use the session's own bucket, which no other address can empty.
 #pragma once
 
 #include <chrono>
@@ -21,18 +21,19 @@
 namespace naiad {
 
 /// Every packet is counted once: as delivered, as refused by its link (whose counters give the reason), or in
-/// one of the other counters.
+/// one of the other counters. `session`, `claimed` etc. are the rates of DatagramDemuxRates.
 struct DatagramDemuxCounters {
   std::uint64_t delivered = 0;
   std::uint64_t too_short = 0;
   std::uint64_t too_long = 0;
   std::uint64_t bad_kind = 0;
   std::uint64_t unknown_id = 0;
-  std::uint64_t session_flood = 0;   ///< over `session`: too many from a session's proven path
-  std::uint64_t claimed_flood = 0;   ///< over `claimed`: too many for one session from unproven addresses
-  std::uint64_t prefix_flood = 0;    ///< over `prefix`: too many from one unproven prefix
-  std::uint64_t stranger_flood = 0;  ///< over `strangers`: too many from all unproven addresses
-  std::uint64_t refused = 0;         ///< refused by the link
+  std::uint64_t session_flood = 0;  ///< over the rate `session`: too many from a session's proven path
+  std::uint64_t unvalidated_session_flood =
+      0;                                ///< over the rate `claimed`: for one session, from unproven addresses
+  std::uint64_t prefix_flood = 0;       ///< over the rate `prefix`: too many from one unproven prefix
+  std::uint64_t unvalidated_flood = 0;  ///< over the rate `strangers`: from all unproven addresses
+  std::uint64_t refused = 0;            ///< refused by the link
 };
 
 /// Packets per second and burst that may reach the authentication.
@@ -50,13 +51,13 @@ class DatagramDemux {
   /// Receives an authentic payload, valid during the call. May add and remove sessions, including its own.
   using OnPayload = std::function<void(std::string_view payload)>;
 
-  /// Number of unproven prefixes whose buckets are kept.
+  /// Number of unproven prefixes whose buckets are remembered.
   static constexpr std::size_t kPrefixes = 4096;
 
   explicit DatagramDemux(DatagramDemuxRates rates = {}) : rates_(rates) {}
 
   /// Adds a server's link, which handles packets with its id and must live until it is removed. Returns false
-  /// and changes nothing if the id exists; draw another one then.
+  /// and changes nothing if the id is in use; then retry with another id.
   bool add(SealedLink& link, OnPayload on_payload);
   void remove(ConnectionId id);
   bool has(ConnectionId id) const { return registrations_.contains(id); }

@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-/// Removes key and IV from the front of the material.
+/// Moves key and IV from the front of `material` to `key`.
 void take(std::string_view& material, SealKey& key) {
   const std::size_t size = aeadKeySize(key.aead);
   std::copy_n(material.begin(), size, key.key.begin());

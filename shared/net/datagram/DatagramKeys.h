@@ -18,7 +18,7 @@
 
 namespace naiad {
 
-/// The ciphers that can seal datagrams; the numbers are on the wire.
+/// The ciphers that can seal datagrams. The numbers are fixed, because they are part of the wire format.
 enum class AeadId : std::uint8_t { kAes128Gcm = 1, kChaCha20Poly1305 = 2 };
 
 /// Returns the cipher; nullopt for an unknown number.
@@ -40,8 +40,8 @@ struct SealKey {
 };
 
 struct DatagramKeys {
-  SealKey client;  ///< seals client to server
-  SealKey server;  ///< seals server to client
+  SealKey client;  ///< seals packets from the client to the server
+  SealKey server;  ///< seals packets from the server to the client
 };
 
 /// A TLS exporter: returns `bytes` bytes of keying material for label and context; empty if unavailable.
@@ -50,7 +50,7 @@ using KeyExporter =
 
 inline constexpr std::string_view kDatagramKeyLabel = "EXPERIMENTAL-naiad-datagram";
 
-/// The exporter returned a wrong number of bytes.
+/// Thrown if the exporter returns a wrong number of bytes.
 class KeyExportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

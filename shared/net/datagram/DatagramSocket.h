@@ -21,8 +21,8 @@ class DatagramSocket {
 
   /// Begins to receive. Call once.
   virtual void start(OnPacket on_packet) = 0;
-  /// Queues one packet of 1 … 1200 bytes (else std::length_error) to path.remote, from path.local; the system
-  /// chooses if that is any address. A full batch is sent at once, the rest by flush().
+  /// Queues one packet of 1 … 1200 bytes (else std::length_error) to path.remote, from path.local; if that is
+  /// any address, the system chooses the source. A full batch is sent at once, smaller ones by flush().
   virtual void send(const Path& path, std::string_view packet) = 0;
   /// Returns memory for the next packet, so that send() need not copy it: kMaxDatagram bytes, valid until the
   /// next call of send(), flush() or reopen(). Null if the socket has no such memory.
@@ -30,7 +30,8 @@ class DatagramSocket {
   /// Sends the queued packets. Those that the system does not accept at once are dropped.
   virtual void flush() = 0;
   /// Changes to another free port, as a client does after its network has changed. Queued and unread packets
-  /// are lost. Throws ListenError (TcpListener.h); the socket then has no port, and may try again.
+  /// are lost. Throws ListenError (TcpListener.h); then the socket has no port, and reopen() may be called
+  /// again.
   virtual void reopen() = 0;
   /// Returns the bound address and the actual port, even if port 0 was requested.
   virtual Endpoint localEndpoint() const = 0;

@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// The client's end. Only the newest ping counts: the next one replaces a lost one.
+/// The client's end. Only the newest ping is measured, so a new ping also replaces a lost one.
 class LinkPing {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -32,7 +32,7 @@ class LinkPing {
     m_sent = now;
     return ++m_token;
   }
-  /// Records an echo. Ignores those of older pings and duplicates.
+  /// Records an echo. Ignores echoes of older pings and duplicate echoes.
   void onEcho(const Echo& echo, Time now) {
     if (!m_sent || echo.token != m_token) return;
     const Millis held(echo.held_millis);

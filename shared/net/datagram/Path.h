@@ -23,7 +23,7 @@ struct Endpoint {
   std::uint16_t port = 0;
 
   friend auto operator<=>(const Endpoint&, const Endpoint&) = default;
-  /// Fast: runs several times per datagram.
+  /// Must be fast, because it runs several times per datagram.
   friend bool operator==(const Endpoint& a, const Endpoint& b) {
     return a.port == b.port && a.scope == b.scope && a.half(0) == b.half(0) && a.half(1) == b.half(1);
   }
@@ -36,7 +36,7 @@ struct Endpoint {
 
   bool isIPv4() const;
   AddressPrefix prefix() const { return AddressPrefix(address); }
-  /// True for no particular address: :: or 0.0.0.0.
+  /// True for :: and 0.0.0.0, which stand for any address.
   bool isAny() const;
 };
 
@@ -50,7 +50,7 @@ std::optional<Endpoint> endpointFromText(std::string_view text);
 /// Both ends of a datagram, as this side sees them. A reply uses the path of the packet it answers, so it
 /// leaves from the address to which that packet was sent.
 struct Path {
-  Endpoint local;  ///< any address: the system chooses
+  Endpoint local;  ///< any address: the system chooses one
   Endpoint remote;
   friend auto operator<=>(const Path&, const Path&) = default;
 };

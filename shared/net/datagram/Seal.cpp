@@ -23,7 +23,7 @@ detail::CipherContext makeContext(const SealKey& key, Mode mode) {
   detail::CipherContext context(EVP_CIPHER_CTX_new());
   if (!context || EVP_CipherInit_ex(context.get(), cipherOf(key.aead), nullptr, key.key.data(), nullptr,
                                     static_cast<int>(mode)) != 1) {
-    throw std::bad_alloc();  // both ciphers always exist
+    throw std::bad_alloc();  // out of memory, because both ciphers always exist
   }
   return context;
 }
@@ -64,7 +64,7 @@ ReplayWindow::Result ReplayWindow::check(std::uint64_t sequence) const {
 
 void ReplayWindow::mark(std::uint64_t sequence) {
   if (sequence >= expected_) {
-    // The skipped numbers take the bits of those that leave the window.
+    // Clears the bits of the skipped numbers, which belonged to the numbers that leave the window.
     if (sequence - expected_ >= kSize) {
       seen_.fill(0);
     } else {
@@ -105,7 +105,7 @@ std::size_t Sealer::seal(char* packet, std::size_t prefix, std::size_t size) {
       EVP_EncryptUpdate(context, text, &written, text, static_cast<int>(size)) == 1 &&
       EVP_EncryptFinal_ex(context, tag, &written) == 1 &&
       EVP_CIPHER_CTX_ctrl(context, EVP_CTRL_AEAD_GET_TAG, kSealTagSize, tag) == 1;
-  assert(done);  // this does not depend on the packet or the machine
+  assert(done);  // cannot fail: it depends neither on the packet nor on the machine
   return done ? header + size + kSealTagSize : 0;
 }
 
@@ -141,7 +141,7 @@ OpenResult Opener::open(std::string_view packet, std::size_t header, char* paylo
 
 bool Opener::decrypt(std::string_view packet, std::size_t header, char* payload, std::uint64_t sequence) {
   const std::size_t size = packet.size() - header - kSealTagSize;
-  unsigned char tag[kSealTagSize];  // OpenSSL needs it writable
+  unsigned char tag[kSealTagSize];  // a copy, because OpenSSL needs writable bytes
   std::memcpy(tag, packet.data() + header + size, sizeof tag);
   const Nonce nonce = nonceOf(iv_, sequence);
   EVP_CIPHER_CTX* const context = context_.get();

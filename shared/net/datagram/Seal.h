@@ -31,7 +31,7 @@ class ReplayWindow {
 
   enum class Result : std::uint8_t { kNew, kSeen, kTooOld };
 
-  /// Tells whether the number is new. Changes nothing.
+  /// Returns whether the number is new. Changes nothing.
   Result check(std::uint64_t sequence) const;
   /// Marks a number that was kNew as seen. Call after its packet was authenticated.
   void mark(std::uint64_t sequence);
@@ -46,14 +46,16 @@ class ReplayWindow {
   std::array<std::uint64_t, kSize / 64> seen_{};  // a ring: bit (n mod kSize) of the last kSize numbers
 };
 
-/// Numbers of packets after which a key should be replaced, and can seal no more. The defaults follow RFC
-/// 9001, 6.6 and appendix B: 2²³ AES-GCM packets of any size, 2²⁸ of at most 2 KiB.
+/// Numbers of packets after which a key should be replaced (new_epoch_after) and after which it seals no more
+/// (max). The defaults follow RFC 9001, 6.6 and appendix B: 2²³ AES-GCM packets of any size, 2²⁸ of at most 2
+/// KiB.
 struct SealLimits {
   std::uint64_t new_epoch_after = std::uint64_t{1} << 23;
   std::uint64_t max = std::uint64_t{1} << 28;
 };
 
-/// Returns the number of failed opens after which a key must not be used (RFC 9001, 6.6): 2⁵² or 2³⁶.
+/// Returns the number of failed opens after which a key must not be used (RFC 9001, 6.6): 2⁵² for AES-GCM,
+/// 2³⁶ for ChaCha20.
 std::uint64_t maxFailedOpens(AeadId aead);
 
 namespace detail {
@@ -111,7 +113,8 @@ class Opener {
   Opener(Opener&&) noexcept = default;
   Opener& operator=(Opener&&) noexcept = default;
 
-  /// Returns kOpened if open() would decrypt, else its result. Does no cryptography.
+  /// Returns kOpened if open() would decrypt the packet, else the result that open() would return. Decrypts
+  /// nothing.
   OpenResult check(std::uint16_t wire_sequence) const;
 
   /// Opens `packet`, whose header has `header` bytes. `payload` has space for packet.size() − header − 16

@@ -5,7 +5,7 @@
 namespace naiad {
 namespace {
 
-// All other values are reserved.
+// Returns the value of the field "kind". All other values are reserved.
 constexpr unsigned kindOf(SealDirection direction) {
   return direction == SealDirection::kClientToServer ? 1 : 2;
 }

@@ -35,7 +35,7 @@ inline constexpr Epoch kEpochMask = (1u << kEpochBits) - 1;
 /// The sender of a packet.
 enum class SealDirection : std::uint8_t { kClientToServer, kServerToClient };
 
-/// The header size in bytes, and the shortest valid packet: header, one byte of flags, tag.
+/// Return the size of the header, and of the shortest valid packet: header, one byte of flags, tag. In bytes.
 constexpr std::size_t sealedHeaderSize(SealDirection direction) {
   return direction == SealDirection::kClientToServer ? 11 : 3;
 }
@@ -45,11 +45,11 @@ constexpr std::size_t smallestSealedPacket(SealDirection direction) {
 
 struct SealedHeader {
   Epoch epoch_bits = 0;        ///< the low bits of the epoch
-  ConnectionId id;             ///< client to server only
+  ConnectionId id;             ///< only in packets from the client
   std::uint16_t sequence = 0;  ///< the low bits of the sequence number
 };
 
-/// The reason why bytes are not a sealed datagram. Tested in this order.
+/// The reason why bytes are not a sealed datagram, in the order in which the reasons are tested.
 enum class HeaderFault : std::uint8_t { kNone, kTooShort, kTooLong, kKind };
 
 /// Reads the header of a packet that travels in `direction`.

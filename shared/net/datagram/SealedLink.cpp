@@ -128,7 +128,8 @@ bool SealedLink::isPlausible(std::string_view packet, Time now) {
   return admit(packet, now) != nullptr;
 }
 
-/// Does the cheap checks, the cheapest first. Returns null and counts the packet if it is refused.
+/// Checks a packet without decrypting it, the cheapest checks first. If it is refused, counts it and returns
+/// null.
 SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   expire(now);
   SealedHeader header;
@@ -157,7 +158,7 @@ SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   return accept(keys->opener.check(header.sequence)) ? keys : nullptr;
 }
 
-/// Returns true for kOpened; counts other results.
+/// Returns true for kOpened; counts all other results and returns false.
 bool SealedLink::accept(OpenResult result) {
   switch (result) {
     case OpenResult::kOpened:
@@ -236,7 +237,7 @@ std::size_t SealedLink::maxPayload() const {
   return kMaxDatagram - smallestSealedPacket(sends()) - kFieldSize;
 }
 
-/// Returns the bytes of the next packet that are not payload.
+/// Returns the number of bytes of the next packet that are not payload.
 std::size_t SealedLink::overhead() const {
   const bool field = isServer() ? !validator_.validated() : pending_answer_.has_value();
   return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);
@@ -280,7 +281,7 @@ std::optional<SealedLink::Outgoing> SealedLink::seal(std::string_view payload, T
   return Outgoing{*validator_.current(), {sealed, size}};
 }
 
-/// Writes flags and fields, returns their size. `spare`: bytes left for a ping or echo.
+/// Writes flags and fields, and returns their size. `spare`: number of bytes left for a ping or echo.
 std::size_t SealedLink::writeFields(char* out, std::size_t spare, Time now) {
   std::size_t size = 1;
   out[0] = 0;

@@ -2,8 +2,8 @@
 //
 // It does no I/O and reads no clock. The owner passes it received packets and sends those that it returns. A
 // sealed text begins with a byte of flags, then the payload. Bit 0: an 8-byte path challenge precedes the
-// payload; bit 1: an 8-byte answer to one; bit 2: a ping of one byte; bit 3: its echo of two. The link adds
-// and removes them. Only servers challenge, only clients ping.
+// payload; bit 1: an 8-byte answer to a challenge; bit 2: a ping of one byte; bit 3: an echo of two bytes.
+// The link adds and removes these fields. Only servers challenge, only clients ping.
 //
 // Epochs: whenever the session's keys change, both ends call startEpoch(), the client first (its TLS
 // handshake also completes first). The server seals with the new keys at once; the client waits for a packet
@@ -42,15 +42,15 @@ class PathValidator {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Bytes allowed to an unproven path per byte from it.
+  /// Bytes that may be sent to an unproven path for each byte received from it.
   static constexpr std::uint64_t kAmplification = 3;
-  /// Interval after which an unanswered challenge is repeated, in an empty packet if need be.
+  /// Interval after which an unanswered challenge is repeated, in an empty packet if there is no payload.
   static constexpr std::chrono::milliseconds kChallengeInterval{250};
 
   /// Records the newest authentic packet, received on `path`. Returns true if that changes the path;
   /// `challenge` is then stored for it.
   bool onPacket(const Path& path, std::size_t bytes, PathChallenge challenge);
-  /// Records an authentic packet that is not the newest: only its bytes count.
+  /// Records an authentic packet that is not the newest: it can only increase the budget of the current path.
   void onLatePacket(const Path& path, std::size_t bytes);
   /// Checks an answer, received on any path. Returns true if it proves the current path.
   bool onResponse(PathChallenge answer);
@@ -68,22 +68,22 @@ class PathValidator {
   std::size_t budget() const;
   /// Subtracts this many bytes from the budget, if there is one.
   void onSent(std::size_t bytes, Time now);
-  /// True if a challenge is due, even with an empty payload.
+  /// True if a challenge is due, which is sent even without a payload.
   bool needsChallenge(Time now) const;
 
  private:
   std::optional<Path> current_;
   std::optional<Path> validated_path_;
-  bool validated_ = false;  // current_ and validated_path_ are equal
+  bool validated_ = false;  // true if current_ and validated_path_ are equal
   PathChallenge challenge_ = 0;
-  std::uint64_t bytes_in_ = 0;  // since this path became current
+  std::uint64_t bytes_in_ = 0;  // bytes received since this path became current
   std::uint64_t bytes_out_ = 0;
   std::optional<Time> challenged_;
 };
 
 /// Counters of a link: what happened to each datagram and payload.
 struct SealedLinkCounters {
-  std::uint64_t opened = 0;         ///< authentic and passed on
+  std::uint64_t opened = 0;         ///< authentic, and payload passed on
   std::uint64_t too_short = 0;      ///< shorter than any sealed datagram
   std::uint64_t too_long = 0;       ///< more than 1200 bytes
   std::uint64_t bad_kind = 0;       ///< a reserved kind, or that of the other direction
@@ -133,40 +133,41 @@ class SealedLink {
   SealedLink(const SealedLink&) = delete;
   SealedLink& operator=(const SealedLink&) = delete;
 
-  /// Adds the keys of a new epoch and drops those before the last. Returns false and changes nothing unless
-  /// `epoch` is 1 … 15 newer than the last; the first may be any.
+  /// Adds the keys of a new epoch and drops those before the previous epoch. Returns false and changes
+  /// nothing unless `epoch` is 1 … 15 newer than the previous one; the first epoch may have any number.
   bool startEpoch(Epoch epoch, const DatagramKeys& keys, Time now);
   /// Sets the server's address; only for clients. Servers learn their path from received packets.
   void setServerPath(const Path& path);
 
-  /// Returns the payload of an authentic packet, valid until the next open() with this scratch; nullopt if it
-  /// was refused. The payload may be empty: a probe, or a challenge by itself. A server follows the path of
-  /// the newest packet; a client accepts authentic packets from any address.
+  /// Returns the payload of an authentic packet, valid until the next open() with this scratch; nullopt if
+  /// the packet was refused. An empty payload is a probe, or came with a challenge only. A server follows the
+  /// path of the newest packet; a client accepts authentic packets from any address.
   std::optional<std::string_view> open(const Path& path, std::string_view packet, Time now);
-  /// True if open() would decrypt the packet. Otherwise the refusal is counted.
+  /// True if open() would decrypt the packet. If not, the refusal is counted.
   bool isPlausible(std::string_view packet, Time now);
 
   struct Outgoing {
     Path path;
     std::string_view packet;  ///< the packet, in `memory` or, until the next seal(), in the scratch
   };
-  /// Seals at most maxPayload() bytes. Returns nullopt if that may not be sent now; the reason is counted.
+  /// Seals at most maxPayload() bytes. Returns nullopt if they may not be sent now; the reason is counted.
   /// `memory`: buffer for the packet, kMaxDatagram bytes that do not overlap the payload; null: the scratch.
   std::optional<Outgoing> seal(std::string_view payload, Time now, char* memory = nullptr);
   /// Measures the round trip with the next packet that has a byte to spare; only for clients.
   void ping() { ping_.request(); }
   /// Returns the round trip measured since the last call, without the time that the server held the ping.
   std::optional<LinkPing::Millis> popRoundTrip() { return ping_.popRoundTrip(); }
-  /// True if a challenge or an answer is due: seal an empty payload if there is no other.
+  /// True if a challenge or an answer is due: seal an empty payload if there is no other payload.
   bool needsToSend(Time now) const;
 
   /// The largest payload that always fits a packet: 1164 bytes for clients, 1172 for servers.
   std::size_t maxPayload() const;
-  /// Returns the largest payload that seal() accepts now: less than maxPayload() until a new address is
-  /// validated; nullopt if not even an empty one.
+  /// Returns the size of the largest payload that seal() accepts now: less than maxPayload() until a new
+  /// address is validated; nullopt if it would not accept even an empty one.
   std::optional<std::size_t> payloadBudget() const;
 
-  /// True if a key of either direction nears its limit: start a new epoch. It is enough that one end asks.
+  /// True if a key of either direction nears its limit: start a new epoch. Only one of the two ends needs to
+  /// ask for it.
   bool needsNewEpoch() const {
     return newest_ && (newest_->sealer.needsNewEpoch() || newest_->opener.exhausted() ||
                        newest_->opener.expected() >= options_.limits.new_epoch_after);

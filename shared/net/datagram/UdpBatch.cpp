@@ -128,7 +128,7 @@ void UdpSendBatch::send(int descriptor, UdpCounters& counters) {
     } else if (errno == EINTR) {
       continue;
     } else if (errno == ECONNREFUSED && !refused) {
-      refused = true;  // an ICMP message about an earlier packet; this one was not sent yet
+      refused = true;  // caused by an ICMP message about an earlier packet; this one was not sent yet
     } else {
       ++counters.send_errors;  // the error concerns only the call's first packet
       ++next;
@@ -153,7 +153,7 @@ UdpReceiveBatch::UdpReceiveBatch(std::uint16_t local_port)
 }
 
 int UdpReceiveBatch::receive(int descriptor) {
-  for (mmsghdr& header : headers_) {  // the last call changed them
+  for (mmsghdr& header : headers_) {  // because the last recvmmsg() changed them
     header.msg_hdr.msg_namelen = sizeof(detail::SocketAddress);
     header.msg_hdr.msg_controllen = sizeof(detail::ControlBuffer);
     header.msg_hdr.msg_flags = 0;

@@ -42,15 +42,17 @@ struct ControlBuffer {
 
 }  // namespace detail
 
-/// `six`: for an IPv6 socket, which sends to IPv4 addresses in their mapped form.
+/// A batch of packets to send. `six`: for an IPv6 socket, which sends to IPv4 addresses in their mapped form.
 class UdpSendBatch {
  public:
   explicit UdpSendBatch(bool six);
 
   bool full() const { return count_ == kUdpBatch; }
-  /// Returns memory for the next packet, kMaxDatagram bytes, which add() need not copy. Not when full.
+  /// Returns memory for the next packet, kMaxDatagram bytes, which add() need not copy. Call only if the
+  /// batch is not full.
   char* nextPacket();
-  /// Adds a packet; false if a socket of this family cannot reach the address. Not when full.
+  /// Adds a packet; false if a socket of this family cannot reach the address. Call only if the batch is not
+  /// full.
   bool add(const Path& path, std::string_view packet);
   /// Passes all packets to the kernel without blocking. The batch is empty afterwards, even after errors.
   void send(int descriptor, UdpCounters& counters);
@@ -75,7 +77,8 @@ class UdpReceiveBatch {
  public:
   explicit UdpReceiveBatch(std::uint16_t local_port);
 
-  /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none; −1 on an error, see errno.
+  /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none waits; −1 on an error
+  /// (errno).
   int receive(int descriptor);
   /// Returns the n-th packet; empty and without a path if it was longer than 1200 bytes.
   std::string_view packet(int n) const;

@@ -20,7 +20,8 @@ int setOption(int descriptor, int level, int option, int value) {
   return ::setsockopt(descriptor, level, option, &value, sizeof value);
 }
 
-/// Returns false, with errno, if replies could leave from a wrong address or packets could be fragmented.
+/// Sets the options. Returns false, with errno, if replies could leave from a wrong address or packets be
+/// fragmented.
 bool setOptions(int descriptor, bool six, const UdpOptions& options) {
   setOption(descriptor, SOL_SOCKET, SO_RCVBUF, options.buffer);
   setOption(descriptor, SOL_SOCKET, SO_SNDBUF, options.buffer);
@@ -55,7 +56,7 @@ struct UdpSocket::State : std::enable_shared_from_this<State> {
   std::optional<UdpReceiveBatch> incoming;
   OnPacket on_packet;  // stored here because a callback may destroy the socket
   bool started = false;
-  std::uint64_t opened = 0;  // tells waits on an earlier descriptor from those on this one
+  std::uint64_t opened = 0;  // distinguishes waits on an earlier descriptor from those on this one
   UdpCounters counters;
 };
 
@@ -111,7 +112,7 @@ void UdpSocket::State::receive() {
   if (socket.is_open() && opened == number) wait();
 }
 
-/// Returns false if no packets are left or the socket was destroyed.
+/// Receives one batch. Returns false if no packets are left or the socket was destroyed.
 bool UdpSocket::State::receiveBatch() {
   const int count = incoming->receive(socket.native_handle());
   if (count < 0) {

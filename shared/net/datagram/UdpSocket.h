@@ -17,7 +17,7 @@ struct UdpOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: any free port
   bool v6_only = true;     ///< false: "::" also receives IPv4
-  /// Requested size of the kernel's receive and send buffers, in bytes; it may grant less.
+  /// Requested size of the kernel's receive and send buffers, in bytes; the kernel may grant less.
   int buffer = 4 * 1024 * 1024;
   /// A UDP socket already bound to `address` and `port`; the UdpSocket takes ownership. Negative: none.
   int inherited = -1;

@@ -10,7 +10,7 @@ namespace {
 
 using asio::ip::tcp;
 
-constexpr std::size_t kReadSize = 16'384;  // one read per turn of the loop; one TLS record
+constexpr std::size_t kReadSize = 16'384;  // bytes read per turn of the event loop: one TLS record
 constexpr unsigned kSwitchingProtocols = 101;
 constexpr unsigned kOk = 200;
 
@@ -119,7 +119,7 @@ void HttpExchange::checkProgress() {
 }
 
 void HttpExchange::await(Outcome wish, void (HttpExchange::*step)()) {
-  if (!m_done) return;  // a handler of the body cancelled
+  if (!m_done) return;  // a handler of the body has called cancel()
   auto resume = [self = shared_from_this(), step](const std::error_code&) {
     if (self->m_done) (*self.*step)();
   };

@@ -22,13 +22,13 @@ struct HttpRequest {
   std::string target = "/";                                      ///< path and query
   std::string host;                                              ///< value of the Host header
   std::vector<std::pair<std::string, std::string>> fields = {};  ///< must not contain CR or LF; not checked
-  std::string body = {};                                         ///< body; adds Content-Length unless empty
+  std::string body = {};  ///< the body; if not empty, Content-Length is added
 
   /// Returns the request's bytes.
   std::string text() const;
 };
 
-/// One exchange, one use. Make it with std::make_shared; it keeps itself alive while it runs.
+/// Each object makes one exchange. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
 /// If TLS is used, nothing is sent to a server with an invalid certificate (StreamTarget::tls is
 /// TlsContext::forWebClient()). Without TLS, only loopback addresses are connected to.
@@ -60,17 +60,18 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   explicit HttpExchange(asio::io_context& context, const HttpLimits& limits = {});
 
   /// Sends `request` to `server`. `done` is called once, from the event loop, unless cancelled. `timeout`
-  /// covers everything. With `on_body`, the body is not stored but passed on as it arrives, a status other
-  /// than 200 is a bad answer, and `timeout` covers only the time until the request is sent, not the answer.
+  /// covers the whole exchange. With `on_body`, the body is not stored but passed on as it arrives, a status
+  /// other than 200 is a bad answer, and `timeout` covers only the time until the request is sent, not the
+  /// answer.
   void run(const StreamTarget& server, const HttpRequest& request, std::chrono::milliseconds timeout,
            Done done, BodyHandler on_body = nullptr);
-  /// Gives up; `done` will not be called.
+  /// Ends the exchange; `done` will not be called.
   void cancel();
 
   const HttpResponseReader& answer() const { return m_reader; }
   /// Returns the stream, which now speaks the requested protocol, after status 101. Call in `done`.
   std::unique_ptr<ByteStream> releaseStream() { return std::move(m_stream); }
-  /// The first bytes of that protocol, received with the answer.
+  /// Returns the first bytes of that protocol, which were received together with the answer.
   const std::string& bytesBehind() const { return m_behind; }
 
  private:

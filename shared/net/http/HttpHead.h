@@ -32,7 +32,8 @@ struct HttpHead {
   /// Returns the value of the first field of this name (lower case); empty if it is missing.
   std::string_view value(std::string_view name) const;
   std::size_t count(std::string_view name) const;
-  /// True if a comma-separated list of such fields has this element (RFC 9110 5.6.1), in any case.
+  /// True if the comma-separated lists in the fields of this name contain the element (RFC 9110 5.6.1), in
+  /// upper or lower case.
   bool lists(std::string_view name, std::string_view element) const;
 };
 
@@ -63,7 +64,7 @@ class HttpLines {
 ///   if (reader.isDone()) use(reader.head());    // `bytes` begins with what follows the head
 class HttpHeadReader {
  public:
-  /// `limit`: bytes of the head, including its empty line.
+  /// `limit`: maximum bytes of the head, including its empty line.
   explicit HttpHeadReader(std::size_t limit) : m_lines(limit) {}
 
   /// Removes the bytes of the head from the front of `bytes`.

@@ -40,8 +40,8 @@ class HttpResponseReader {
 
   /// Removes the answer's bytes from the front of `bytes`; the remaining bytes follow the answer.
   void feed(std::string_view& bytes);
-  /// `in_order`: the peer marked the end (TLS: close_notify). Else a body ended by the connection is
-  /// truncated.
+  /// Call when the connection has ended. `in_order`: the peer marked the end (TLS: close_notify). If it did
+  /// not, a body whose end is that of the connection counts as truncated.
   void feedEnd(bool in_order);
 
   bool isDone() const { return m_state == State::kDone; }
@@ -54,7 +54,7 @@ class HttpResponseReader {
 
   /// The received part of the body that popBody() has not removed.
   const std::string& body() const { return m_body; }
-  /// Removes and returns it, for callers that use it piece by piece.
+  /// Removes and returns body(), for callers that use the body piece by piece.
   std::string popBody() { return std::exchange(m_body, {}); }
 
  private:

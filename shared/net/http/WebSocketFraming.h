@@ -60,7 +60,7 @@ class WebSocketFraming : public StreamFraming {
 
   /// The code of the peer's close frame; nullopt before that frame.
   std::optional<std::uint16_t> closeCode() const { return m_close_code; }
-  /// The text of that frame: at most 123 bytes of the peer, unchecked.
+  /// The text of the peer's close frame: at most 123 bytes, unchecked.
   const std::string& closeReason() const { return m_close_reason; }
   /// The reason why the peer's bytes are no longer read.
   std::optional<WebSocketClose> error() const { return m_error; }

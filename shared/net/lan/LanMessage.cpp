@@ -16,7 +16,7 @@ constexpr char kAnswer = 2;
 constexpr char kPasswordFlag = 1;
 constexpr std::size_t kHead = 24;   // bytes of both messages up to the end of the nonce
 constexpr std::size_t kTexts = 48;  // offset of the texts in an answer
-constexpr std::size_t kLonger = 1;  // size of a text's length field
+constexpr std::size_t kLonger = 1;  // bytes of the field with a text's length
 
 static_assert(kTexts + 2 * (kLonger + kMaxLanTextBytes) <= kLanQuerySize,
               "an answer must not be longer than a query");

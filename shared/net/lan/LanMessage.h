@@ -27,7 +27,8 @@ inline constexpr std::uint16_t kLanPort = 19876;
 /// 4.3).
 inline constexpr const char* kLanGroup4 = "224.0.0.254";
 inline constexpr const char* kLanGroup6 = "ff12::ee61:6961";
-/// Hop limit of all sent packets, required of received ones: a router would have lowered it (RFC 5082).
+/// Hop limit of all sent packets. Received packets must still have it, because a router would have lowered it
+/// (RFC 5082).
 inline constexpr int kLanHopLimit = 255;
 
 inline constexpr std::size_t kLanQuerySize = 512;
@@ -50,7 +51,7 @@ struct LanAnswer : ServerInfo {
 
 /// Returns a query of kLanQuerySize bytes.
 std::string writeLanQuery(const LanNonce& nonce);
-/// Returns the nonce; nullopt unless all of `bytes`, including the padding, is a valid query.
+/// Returns the nonce if all of `bytes`, including the padding, is a valid query; nullopt if not.
 std::optional<LanNonce> readLanQuery(std::string_view bytes);
 
 /// Encodes an answer. Texts are sanitized and truncated; the port must not be 0.

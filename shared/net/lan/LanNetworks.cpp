@@ -15,9 +15,9 @@
 namespace naiad {
 namespace {
 
-/// True if both have one family and equal first `bits`, of its 32 or 128.
+/// True if both addresses are of one family and their first `bits` bits, of 32 or 128, are equal.
 bool haveSameBegin(const asio::ip::address& a, const asio::ip::address& b, unsigned bits) {
-  const int length = static_cast<int>(bits) + (a.is_v4() ? 96 : 0);  // counted in a mapped address
+  const int length = static_cast<int>(bits) + (a.is_v4() ? 96 : 0);  // prefix length in a mapped address
   return a.is_v4() == b.is_v4() && AddressRange::masked(AddressRange::bytesOf(a), length) ==
                                        AddressRange::masked(AddressRange::bytesOf(b), length);
 }
@@ -55,10 +55,11 @@ unsigned prefixOf(const asio::ip::address& mask) {
   unsigned bits = 0;
   for (const unsigned char byte : AddressRange::bytesOf(mask))
     bits += static_cast<unsigned>(std::popcount(byte));
-  return mask.is_v4() ? bits - 16 : bits;  // minus the bits in front of a mapped address
+  return mask.is_v4() ? bits - 16 : bits;  // without the 16 ones before a mapped address
 }
 
-/// True if the address can be used. Systems have no route for IPv6 groups on loopback.
+/// True if an interface with these flags can use the address. Systems have no route for IPv6 groups on
+/// loopback.
 bool isSuitable(unsigned flags, const asio::ip::address& address) {
   if ((flags & IFF_UP) == 0 || (flags & IFF_POINTOPOINT) != 0) return false;
   return (flags & IFF_LOOPBACK) != 0 ? address.is_v4() : (flags & IFF_MULTICAST) != 0;

@@ -12,7 +12,7 @@ struct LanNetwork {
   unsigned interface = 0;     ///< the system's index of the interface, never 0
   std::string name;           ///< name of the interface: "eth0"
   asio::ip::address address;  ///< the address, without a zone
-  unsigned prefix = 0;        ///< number of address bits that the whole network shares
+  unsigned prefix = 0;        ///< number of address bits that are equal in the whole network
   bool is_loopback = false;
   bool is_private = false;  ///< see markPrivate()
 

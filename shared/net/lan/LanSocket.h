@@ -25,7 +25,7 @@ struct LanPacket {
   std::string_view bytes;  ///< truncated to kLanQuerySize + 1
 };
 
-/// Never blocks. Thread: one at a time.
+/// Never blocks. Not thread-safe.
 class LanSocket {
  public:
   enum class Family { kIPv4, kIPv6 };
@@ -41,11 +41,13 @@ class LanSocket {
   Family family() const { return m_family; }
   int descriptor() const { return m_descriptor; }
 
-  /// False if the system refuses. Joining again changes nothing.
+  /// Begins to receive queries from this interface. Returns false if the system refuses. Joining again
+  /// changes nothing.
   bool joinGroup(unsigned interface);
-  /// Returns the next packet, if one waits; its bytes are valid until the next call.
+  /// Returns the next packet; nullopt if none waits. Its bytes are valid until the next call.
   std::optional<LanPacket> receivePacket();
-  /// Sends a query to the group through the network's interface, from its address. False if that failed.
+  /// Sends a query to the group through the network's interface, from its address. Returns false if that
+  /// failed.
   bool sendQuery(const LanNetwork& from, std::string_view bytes);
   /// Sends an answer to a neighbour in this network.
   bool sendAnswer(const LanNetwork& from, const asio::ip::udp::endpoint& to, std::string_view bytes);
@@ -59,8 +61,8 @@ class LanSocket {
   std::array<char, kLanQuerySize + 1> m_bytes{};
 };
 
-/// Opens the sockets of both families with LanSocket::forServer or forClient. A machine may lack IPv6: throws
-/// only if both fail, the last error.
+/// Opens the sockets of both families with LanSocket::forServer or forClient. A machine may lack IPv6, so
+/// this throws (the last error) only if both fail.
 std::vector<LanSocket> openLanSockets(LanSocket (*p_open)(LanSocket::Family family));
 
 }  // namespace naiad

@@ -10,7 +10,7 @@
 
 namespace naiad {
 
-/// Pause of a listener that ran out of descriptors or memory.
+/// Time for which a listener pauses after it ran out of descriptors or memory.
 inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 
 /// Base of a listener's state. Accepts until its acceptor is closed. If descriptors or memory run out, it

@@ -41,8 +41,8 @@ class ByteStream {
   ByteStream& operator=(const ByteStream&) = delete;
 
   virtual Progress read(std::span<char> into) = 0;
-  /// `bytes`: not empty. After kWantsRead or kWantsWrite, the next call must begin with equal bytes, at any
-  /// address, and may add more.
+  /// Writes as many bytes as possible without waiting. `bytes`: not empty. After kWantsRead or kWantsWrite,
+  /// the next call must begin with equal bytes, at any address, and may add more.
   virtual Progress write(std::string_view bytes) = 0;
   /// Tells the peer that nothing more follows. read() still works. May be called again.
   virtual Outcome end() = 0;

@@ -66,9 +66,9 @@ class FrameReader {
   std::optional<std::string_view> next();
 
   FrameError error() const { return error_; }
-  /// True if the stream may not end here: a part of a frame was received.
+  /// True after a part of a frame: the stream may not end here.
   bool midFrame() const { return !partial_.empty() && !yielded_; }
-  /// Bytes of an incomplete frame in memory.
+  /// Returns the number of bytes of an incomplete frame in memory.
   std::size_t buffered() const { return partial_.size(); }
 
  private:
@@ -96,7 +96,7 @@ class StreamFraming {
   virtual std::optional<std::string_view> next() = 0;
   /// True after a protocol error of the peer; next() then always returns nullopt.
   virtual bool isBroken() const = 0;
-  /// True if the stream may not end here: a part of a frame was received.
+  /// True after a part of a frame: the stream may not end here.
   virtual bool midFrame() const = 0;
   /// Returns the reason to report if a frame announced that the peer closes; nothing is received after it.
   virtual std::optional<CloseReason> peerClosed() const { return std::nullopt; }

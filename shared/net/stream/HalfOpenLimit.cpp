@@ -18,10 +18,10 @@ HalfOpenLimit::Result HalfOpenLimit::check(const AddressPrefix& prefix) const {
     return oldest ? Result{Kind::kEvictFirst, *oldest} : Result{Kind::kFullForPrefix};
   }
   if (count() < limits_.total) return {};
-  return {Kind::kEvictFirst, *oldestOfMostCrowded()};  // there is a silent one, otherwise kFull was returned
+  return {Kind::kEvictFirst, *oldestOfMostCrowded()};  // some are silent, else kFull was returned
 }
 
-// Tests only the widest prefix, which has at least as many connections as those in it.
+// Tests only the widest prefix, which has at least as many connections as the narrower ones in it.
 bool HalfOpenLimit::exceedsShare(const AddressPrefix& prefix) const {
   const auto group = groups_.back().find(prefix.widest());
   return group != groups_.back().end() && group->second.greeted >= limits_.total - greeted_;

@@ -16,7 +16,7 @@
 
 namespace naiad {
 
-/// The reason why a text is not a valid link: the end of a message, without text of the link.
+/// The reason why a text is not a valid link. `message` ends a sentence, and contains no text of the link.
 struct LinkError {
   std::string message;
 };

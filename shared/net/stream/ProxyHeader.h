@@ -14,7 +14,7 @@
 //     …     2    destination port
 //     …          anything (TLVs): not used
 //
-// LOCAL, other families and UDP are refused: limits need an address.
+// The command LOCAL, other families and UDP are refused, because limits need an address.
 #pragma once
 
 #include <asio/ip/tcp.hpp>
@@ -27,15 +27,16 @@ namespace naiad {
 
 /// Size of the first part of the header, which contains the length of the rest.
 inline constexpr std::size_t kProxyHeaderBegin = 16;
-/// Largest size of the rest, in bytes.
+/// Largest size of the rest of the header, in bytes.
 inline constexpr std::size_t kMaxProxyHeaderRest = 216;
 
-/// Returns the size of the rest, given the first kProxyHeaderBegin bytes; nullopt if they are invalid.
+/// Returns the size of the rest of the header, given its first kProxyHeaderBegin bytes; nullopt if they are
+/// invalid.
 std::optional<std::size_t> proxyHeaderRest(std::string_view begin);
 /// Returns the visitor's address from a complete header, mapped IPv4 as IPv4. Returns nullopt if `header` is
 /// invalid, or has port 0 or an address that no visitor has (unspecified, multicast, broadcast).
 std::optional<asio::ip::tcp::endpoint> readProxyHeader(std::string_view header);
-/// Like readProxyHeader(), for "192.0.2.7:40000" or "[2001:db8::1]:40000".
+/// Like readProxyHeader(), but from a text "192.0.2.7:40000" or "[2001:db8::1]:40000".
 std::optional<asio::ip::tcp::endpoint> proxiedPeerFromText(std::string_view text);
 /// Returns the header for this visitor, without TLVs. The destination is all zero.
 std::string proxyHeader(const asio::ip::tcp::endpoint& visitor);

@@ -156,7 +156,7 @@ struct ProxyListener::State : AcceptLoop<State, stream_protocol> {
   Counters counters;
 };
 
-// No process can connect before the mode is set: that needs write permission and listen().
+// No process can connect before the mode is set, because connecting needs write permission and listen().
 void ProxyListener::State::listen(asio::io_context& context) {
   const fs::path& path = options.path;
   if (path.string().size() >= sizeof(sockaddr_un::sun_path))

@@ -1,6 +1,6 @@
 // Accepts connections from local programs between the server and its visitors: an ssh door, a gateway for
-// browsers. Each begins with the visitor's address (ProxyHeader.h), then continues like a connection from
-// there.
+// browsers. Each connection begins with the visitor's address (ProxyHeader.h), then continues like a
+// connection from that address.
 //
 // It listens on a Unix domain socket. Only processes that can open this socket may state a visitor's address;
 // no other listener reads such a header.
@@ -35,7 +35,7 @@ struct ProxyListenerOptions {
 /// time.
 class ProxyListener {
  public:
-  /// Receives a connection from the visitor at `address`; the visitor's own bytes come next.
+  /// Receives a connection from the visitor at `address`. The next bytes to read are the visitor's own.
   using PeerHandler = std::function<void(asio::generic::stream_protocol::socket socket,
                                          const asio::ip::tcp::endpoint& address)>;
 
@@ -44,9 +44,9 @@ class ProxyListener {
     std::uint64_t visitors = 0;        ///< delivered
     std::uint64_t bad_headers = 0;     ///< dropped: an invalid header, or one without a visitor's address
     std::uint64_t late_headers = 0;    ///< dropped: not complete in time
-    std::uint64_t crowded = 0;         ///< dropped: too many waited
-    std::uint64_t refused_peers = 0;   ///< dropped: ProxyListenerOptions::is_refused
-    std::uint64_t failed_accepts = 0;  ///< out of descriptors or memory: retried later
+    std::uint64_t crowded = 0;         ///< dropped: too many connections waited
+    std::uint64_t refused_peers = 0;   ///< dropped: ProxyListenerOptions::is_refused() returned true
+    std::uint64_t failed_accepts = 0;  ///< no descriptors or memory; accepting is retried later
   };
 
   /// Starts to listen. The file has mode 0660 (and the folder's group if the folder has the set-group-id

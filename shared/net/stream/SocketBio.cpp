@@ -60,7 +60,7 @@ long control(BIO* bio, int command, long, void*) {
   return 0;
 }
 
-/// Created once and never freed, like OpenSSL's own methods.
+/// Returns the BIO's functions. Created once and never freed, like OpenSSL's own methods.
 const BIO_METHOD* method() {
   static const BIO_METHOD* const made = [] {
     BIO_METHOD* fresh = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "naiad socket");

@@ -1,8 +1,8 @@
 // A timeout for a peer's answer that excludes stalls of this process.
 //
-// After a process got no CPU time for a while, both are there: the answer, which is not read yet, and its
-// timeout, which has expired. So the timer divides the time into parts. A part that took too long counts only
-// with its planned length (see also IdleTimer).
+// After this process got no CPU time for a while, the answer may have arrived unread although the timeout has
+// expired. So the timer divides the time into parts. A part that took too long counts only with its planned
+// length (see also IdleTimer).
 #pragma once
 
 #include <asio/any_io_executor.hpp>
@@ -20,7 +20,7 @@ class StallTolerantTimer {
  public:
   using Duration = asio::steady_timer::duration;
 
-  /// The number of parts.
+  /// Number of parts into which a timeout is divided.
   static constexpr int kParts = 8;
 
   explicit StallTolerantTimer(const asio::any_io_executor& executor) : m_timer(executor) {}

@@ -86,12 +86,13 @@ void StreamAttempt::choose(const std::vector<tcp::endpoint>& addresses) {
   fail(End::kOtherMachine, addresses.empty() ? "no address" : addresses.front().address().to_string());
 }
 
-/// A small "happy eyeballs" (RFC 8305 without the races): a silent address costs its share of the timeout.
+/// Tries the next address, like "happy eyeballs" (RFC 8305) but one at a time: a silent one costs its share
+/// of the timeout.
 void StreamAttempt::tryNext() {
   disconnect();
   if (turn_ == endpoints_.size()) return fail(last_end_, last_detail_);
   const std::size_t mine = ++turn_;
-  if (mine < endpoints_.size()) {  // the last one has all remaining time
+  if (mine < endpoints_.size()) {  // the last address has all remaining time
     share_.start(timeout_ / static_cast<int>(endpoints_.size()), [self = shared_from_this(), mine] {
       if (self->done_ && self->turn_ == mine) self->tryNext();
     });
@@ -122,7 +123,7 @@ void StreamAttempt::onProxyConnected(const std::error_code& error, const std::st
                                      const tcp::endpoint& visitor) {
   std::error_code failed = error;
   const std::string header = proxyHeader(visitor);
-  // The header fits into the socket's empty buffer.
+  // Does not block, because the header fits into the socket's empty buffer.
   if (!failed) asio::write(proxy_socket_, asio::buffer(header), failed);
   if (!failed) return startHandshake(std::move(proxy_socket_));
   fail(End::kUnusable, "Could not connect through " + path + " (" + failed.message() + ").",
@@ -145,7 +146,7 @@ void StreamAttempt::startHandshake(ByteStream::Socket connected) {
 
 void StreamAttempt::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream,
                                 const std::string& problem) {
-  if (!done_ || end == TlsHandshake::End::kTimedOut) return;  // the attempt's own timer reports it
+  if (!done_ || end == TlsHandshake::End::kTimedOut) return;  // the attempt's timer reports timeouts
   auto facts = stream ? stream->peerIdentity() : std::nullopt;
   if (!facts) return fail(End::kHandshake, problem, end == TlsHandshake::End::kDisconnected);
   finish({.stream = std::move(stream), .peer_identity = std::move(facts)});

@@ -52,7 +52,7 @@ struct StreamTarget {
   std::string text() const;
 };
 
-/// One attempt, one use. Make it with std::make_shared; it keeps itself alive while it runs.
+/// Each object makes one attempt. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
 /// Tries the addresses in turn, each for its share of `timeout`, which covers the whole attempt. The next
 /// address is tried if one is silent or unreachable, not if the handshake with a server fails.
@@ -75,7 +75,7 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   /// Connects through a visitors' socket (ProxyListener.h) for a player at `visitor`. Only with TLS.
   void connectThroughProxy(const std::string& path, const asio::ip::tcp::endpoint& visitor);
 
-  /// Gives up; `done` will not be called.
+  /// Ends the attempt; `done` will not be called.
   void cancel();
 
  private:
@@ -102,7 +102,7 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
   asio::ip::tcp::socket socket_;
   asio::local::stream_protocol::socket proxy_socket_;  // used by connectThroughProxy() instead of `socket_`
   StallTolerantTimer timer_;
-  StallTolerantTimer share_;  // ends the turn of the current address
+  StallTolerantTimer share_;  // limits the time for the current address
   std::shared_ptr<TlsHandshake> handshake_;
   std::vector<asio::ip::tcp::endpoint> endpoints_;
   std::size_t turn_ = 0;  // endpoints_[turn_ - 1] is being tried

@@ -76,7 +76,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
 
 using asio::ip::tcp;
 
-constexpr std::size_t kReadSize = 16'384;      // one read per turn of the loop, for fairness; one TLS record
+constexpr std::size_t kReadSize = 16'384;      // bytes read per turn, for fairness: one TLS record
 constexpr std::size_t kKeptCapacity = 65'536;  // a queue that grew beyond this frees its memory
 
 tcp::socket::wait_type waitFor(ByteStream::Outcome wish) {
@@ -195,8 +195,8 @@ std::size_t StreamConnection::unsentBytes() {
   return queuedBytes() + bytesInKernel();
 }
 
-// Unix domain sockets support only SIOCOUTQ: the memory of bytes that the other program has not read, which
-// is more than their number.
+// Unix domain sockets support only SIOCOUTQ, which returns the memory that unread bytes take at the other
+// program: more than their number.
 std::size_t StreamConnection::bytesInKernel() {
   const int socket = stream_->socket().native_handle();
   int bytes = 0;
@@ -243,7 +243,8 @@ void StreamConnection::dropWritten() {
   if (queue_.empty() && queue_.capacity() > kKeptCapacity) std::string().swap(queue_);
 }
 
-/// Frames received before the failure may still wait in the kernel; reading finds the end after them.
+/// Continues to read, because frames received before the failure may still wait in the kernel. The stream's
+/// end follows them.
 void StreamConnection::onWriteFailed() {
   write_failed_ = true;
   if (phase_ == Phase::kClosing) finish(CloseReason::kLocal, false);

@@ -13,7 +13,7 @@ std::string inWords(std::chrono::milliseconds time) {
   return std::to_string(time.count()) + " ms";
 }
 
-/// Returns why there is no channel to `target`, for people.
+/// Returns the reason, for people, why there is no channel to `target`.
 std::string errorText(const StreamResult& result, const StreamTarget& target,
                       std::chrono::milliseconds timeout) {
   const std::string where = target.text();

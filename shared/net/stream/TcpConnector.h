@@ -71,8 +71,8 @@ class TcpConnector {
   /// Servers do this if too many come from one address; a retry may succeed.
   bool closedDuringHandshake() const { return closed_during_handshake_; }
 
-  /// Gives up; `done` will not be called. Has no effect without an attempt. (A name look-up continues on its
-  /// own thread until the resolver's timeout; the io_context's destructor waits for it.)
+  /// Ends the attempt, if there is one; `done` will not be called. (A name look-up continues on its own
+  /// thread until the resolver's timeout; the io_context's destructor waits for it.)
   void cancel();
 
  private:

@@ -62,7 +62,7 @@ void TcpListener::State::requireEncryption(const asio::ip::address& address) con
 
 void TcpListener::State::deferAccepts() {
   if (!tls.context || tls.defer_accept.count() <= 0) return;
-  const int seconds = static_cast<int>(tls.defer_accept.count());  // on failure silence is accepted
+  const int seconds = static_cast<int>(tls.defer_accept.count());  // on failure, silent peers are accepted
   setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_DEFER_ACCEPT, &seconds, sizeof seconds);
 }
 
@@ -198,7 +198,7 @@ bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& pe
       return false;
     }
     const std::shared_ptr<TlsHandshake> handshake = handshakes.at(verdict.id);
-    handshake->readAhead();  // its hello may wait to be read
+    handshake->readAhead();  // because its hello may have arrived unread
     if (!places.isSilent(verdict.id)) continue;
     hangUp(places, verdict.id);
     ++counters.half_open_ended;

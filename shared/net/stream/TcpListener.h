@@ -26,7 +26,7 @@ enum class StreamRefusal {
   kBanned,      ///< is_banned() refused it
   kTooOften,    ///< try_handshake() or can_handshake() refused it
   kFull,        ///< no free place, and none of the connections was silent
-  kPrefixFull,  ///< the prefix uses its share of the places
+  kPrefixFull,  ///< the prefix has used up its share of the places
 };
 
 /// The TLS options of a listener. Its functions may be empty, and are called from the listener's event loop.
@@ -35,16 +35,16 @@ struct TlsListenerOptions {
   /// Time limit from accepting a connection to the end of its handshake. While more than half of the places
   /// are taken, new connections get a quarter of it until their hello is complete, then half of it.
   std::chrono::milliseconds handshake_timeout{5000};
-  /// Limits of half-open connections, in all and from one IPv4 address or IPv6 /64 (HalfOpenLimit.h). Beyond
-  /// them, silent ones are ended for new ones.
+  /// Limits of half-open connections, in all and from one IPv4 address or IPv6 /64 (HalfOpenLimit.h). When
+  /// they are reached, silent connections are ended to make room for new ones.
   std::size_t max_half_open = 256;
   std::size_t max_half_open_per_prefix = 64;
-  /// True for prefixes with their own max_half_open_known places, which no others can take. Called once per
-  /// connection.
+  /// True for prefixes whose connections have places of their own, max_half_open_known, that no others can
+  /// take. Called once per connection.
   std::function<bool(const AddressPrefix& prefix)> is_known = nullptr;
   std::size_t max_half_open_known = 256;
-  /// Returns true, and counts it, if a connection of this prefix may have an answer to its complete hello,
-  /// which costs a signature. Called once per connection that has a place.
+  /// Returns true, and counts it, if the complete hello of a connection of this prefix may be answered, which
+  /// costs a signature. Called once per connection that has a place.
   std::function<bool(const AddressPrefix& prefix)> try_handshake = nullptr;
   /// Returns the value that try_handshake() would return now, without counting. Called once per connection.
   std::function<bool(const AddressPrefix& prefix)> can_handshake = nullptr;
@@ -85,11 +85,11 @@ class TcpListener {
   struct Counters {
     std::uint64_t failed_accepts = 0;       ///< out of descriptors or memory: retried later
     std::uint64_t handshakes = 0;           ///< TLS: done and delivered
-    std::uint64_t handshakes_failed = 0;    ///< TLS: no TLS 1.3, no common protocol, disconnected …
+    std::uint64_t handshakes_failed = 0;    ///< TLS: for example no TLS 1.3, no common protocol, disconnected
     std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
     std::uint64_t half_open_ended = 0;      ///< TLS: silent ones, ended because another one needed the place
     std::uint64_t refused_half_open = 0;    ///< TLS: no free place, and none of the connections was silent
-    std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix uses its share of the places
+    std::uint64_t refused_from_prefix = 0;  ///< TLS: the prefix has used up its share of the places
     std::uint64_t refused_too_often = 0;    ///< TLS: try_handshake() or can_handshake() refused it
     std::uint64_t refused_banned = 0;       ///< TLS: is_banned() refused it
   };

@@ -11,15 +11,15 @@
 namespace naiad {
 namespace {
 
-constexpr std::size_t kMaxCertificates = 32'768;  // most bytes of a server's chain
-constexpr int kMaxChain = 10;                     // most certificates above the server's own
+constexpr std::size_t kMaxCertificates = 32'768;  // maximum bytes of a server's chain
+constexpr int kMaxChain = 10;                     // maximum number of certificates above the server's own
 
 using Bio = std::unique_ptr<BIO, decltype([](BIO* bio) { BIO_free(bio); })>;
 using Certificate = std::unique_ptr<X509, decltype([](X509* x509) { X509_free(x509); })>;
 using Key = std::unique_ptr<EVP_PKEY, decltype([](EVP_PKEY* key) { EVP_PKEY_free(key); })>;
 
-/// Called before a hello is answered. A stream's first call stops the handshake (TlsStream::handshake). A
-/// hello without the ALPN extension fails here: OpenSSL would not call chooseAlpn().
+/// Called before a hello is answered. The first call for a stream stops the handshake (TlsStream::handshake).
+/// A hello without the ALPN extension fails here, because OpenSSL would not call chooseAlpn().
 int judgeHello(SSL* ssl, int* alert, void*) {
   if (bool* const p_judged = static_cast<bool*>(SSL_get_app_data(ssl)); p_judged && !*p_judged) {
     *p_judged = true;
@@ -51,7 +51,7 @@ int chooseAlpn(SSL*, const unsigned char** out, unsigned char* out_size, const u
   return SSL_TLSEXT_ERR_ALERT_FATAL;
 }
 
-/// Replaces OpenSSL's callback, which would ask at the terminal.
+/// Replaces OpenSSL's callback, which would ask for a password at the terminal.
 int noPassword(char*, int, int, void*) {
   return -1;
 }
@@ -127,9 +127,9 @@ std::shared_ptr<const TlsContext> TlsContext::forWebClient() {
   SSL_CTX* const c = made->get();
   if (SSL_CTX_set_min_proto_version(c, TLS1_2_VERSION) != 1 ||
       SSL_CTX_set1_groups_list(c, "X25519:P-256:P-384:P-521") != 1)
-    throw TlsError("This machine's OpenSSL does not offer TLS 1.2.");
+    throw TlsError("This machine's OpenSSL does not offer TLS 1.2 with X25519 or P-256 to P-521.");
   SSL_CTX_set_verify(c, SSL_VERIFY_PEER, nullptr);
-  SSL_CTX_set_default_verify_paths(c);  // if this machine has none, no chain verifies
+  SSL_CTX_set_default_verify_paths(c);  // without a trust store, no chain verifies
   ERR_clear_error();
   return made;
 }
@@ -138,7 +138,7 @@ std::shared_ptr<const TlsContext> TlsContext::forClient(const std::string& trust
   std::shared_ptr<TlsContext> made(new TlsContext(false));
   made->offer(kAlpn);
   if (trust_file.empty()) {
-    SSL_CTX_set_default_verify_paths(made->get());  // without any, no chain verifies and keys are pinned
+    SSL_CTX_set_default_verify_paths(made->get());  // without a store, no chain verifies and keys are pinned
   } else if (SSL_CTX_load_verify_file(made->get(), trust_file.c_str()) != 1) {
     throw TlsError("The trusted certificates in " + trust_file + " cannot be read.");
   }
@@ -158,7 +158,7 @@ void TlsContext::useCertificate(const std::string& pem) {
       throw TlsError("OpenSSL refuses the chain of certificates.");
     }
   }
-  // The end of the file, or text after the chain that is not a certificate.
+  // PEM_R_NO_START_LINE is no error: the file ends, or other text follows the chain.
   if (ERR_GET_REASON(ERR_peek_last_error()) != PEM_R_NO_START_LINE) {
     throw TlsError("The chain of certificates is damaged.");
   }

@@ -14,18 +14,18 @@ struct ssl_ctx_st;
 
 namespace naiad {
 
-/// The protocol that both ends must agree on.
+/// ALPN name of the protocol that both ends must agree on.
 inline constexpr std::string_view kAlpn = "naiad/1";
-/// The protocol of browsers (RFC 7301 6).
+/// ALPN name of the protocol of browsers (RFC 7301 6).
 inline constexpr std::string_view kHttpAlpn = "http/1.1";
 
-/// A key, certificate or trust store is unusable. what() is one sentence for people.
+/// Thrown if a key, certificate or trust store is unusable. what() is one sentence for people.
 class TlsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Immutable; connections keep it alive. All must be on one thread.
+/// Immutable; connections keep it alive. All its connections must be on one thread.
 class TlsContext {
  public:
   /// `certificate_pem`: the server's certificate, then those above it, if any. `key_pem`: its private key,

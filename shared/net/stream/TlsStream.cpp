@@ -11,7 +11,7 @@ namespace {
 
 using asio::ip::tcp;
 
-/// `required`: empty accepts any protocol.
+/// True if the ends agreed on the protocol `required`; if that is empty, on any protocol or none.
 bool negotiated(const SSL* ssl, std::string_view required) {
   const unsigned char* data = nullptr;
   unsigned int size = 0;
@@ -35,7 +35,7 @@ std::string inWords(unsigned long error, const SSL* ssl) {
       return X509_verify_cert_error_string(SSL_get_verify_result(ssl));
     case SSL_R_TLSV1_ALERT_NO_APPLICATION_PROTOCOL:
     case SSL_R_NO_APPLICATION_PROTOCOL:
-    case SSL_R_CALLBACK_FAILED:  // judgeHello()
+    case SSL_R_CALLBACK_FAILED:  // judgeHello() failed
       return "it does not speak " + std::string(kAlpn);
     default:
       const char* reason = ERR_reason_error_string(error);

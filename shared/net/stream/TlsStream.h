@@ -24,9 +24,9 @@ namespace naiad {
 
 class TlsStream : public ByteStream {
  public:
-  /// A client or server, depending on the context. A client names the server: a name goes into the hello
-  /// (SNI, RFC 6066 3), and the certificate must be for this name or address. Throws TlsError if out of
-  /// memory.
+  /// Makes the stream of a client or a server, depending on the context. A client passes the server's name: a
+  /// host name goes into the hello (SNI, RFC 6066 3), and the certificate must be for this name or address.
+  /// Throws TlsError if out of memory.
   TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, const std::string& server_name = {},
             std::string peer = {});
   ~TlsStream() override;
@@ -70,7 +70,7 @@ class TlsStream : public ByteStream {
 
 /// Completes a TLS handshake within a time limit, without blocking.
 ///
-/// One handshake, one use. Make it with std::make_shared; it keeps itself alive while it runs.
+/// Each object makes one handshake. Make it with std::make_shared; it keeps itself alive while it runs.
 ///
 /// Thread: the one that runs the socket's io_context, which must outlive it. Steps never wait; the longest
 /// one, which signs or verifies, takes about 0.25 ms.
@@ -80,7 +80,7 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
     kDone,
     kTimedOut,
     kDisconnected,  ///< the other end disconnected, or the connection broke
-    kFailed,        ///< no TLS 1.3, no common protocol …
+    kFailed,        ///< for example no TLS 1.3, no common protocol
   };
   /// `stream`: only with kDone. `problem`: with kDisconnected and kFailed, the reason as the end of a
   /// sentence.

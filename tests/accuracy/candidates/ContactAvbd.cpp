@@ -17,8 +17,8 @@ constexpr double kKept = 0.99;   // α: part of an initial error that is not cor
 constexpr double kDecay = 0.99;  // γ: decay of multipliers and penalties from step to step
 constexpr double kMinPenalty = 1e3;
 constexpr double kMaxPenalty = 1e9;
-constexpr double kMargin = 5e-4;    // overlap in metres at which contacts rest
-constexpr double kSticking = 0.01;  // m
+constexpr double kMargin = 5e-4;    // overlap of resting contacts, in metres
+constexpr double kSticking = 0.01;  // m; a contact with less slip sticks
 
 using naiad::physics::at;
 using Row = std::array<double, 3>;  // components x, y, angle
@@ -44,7 +44,7 @@ struct Contact {
 
 struct Moving {
   std::vector<int> contacts;
-  Vec2 start, aim;  // position at the start, and without contacts
+  Vec2 start, aim;  // position at the start of the step, and at its end without contacts
   double start_angle = 0, aim_angle = 0;
   Vec2 last_velocity;
 };
@@ -99,7 +99,7 @@ class Avbd : public ContactSolver {
         contact.b = pair.b;
         contact.friction = pair.friction;
         contact.p_point = &point;
-        // A sticking contact may also have slid along the normal, but its gap is the one found.
+        // The anchors of a sticking contact may have moved along the normal, but the gap found now counts.
         contact.normal = {rowOf(-pair.normal, arms.a),
                           rowOf(pair.normal, arms.b),
                           point.gap + kMargin,
@@ -121,7 +121,7 @@ class Avbd : public ContactSolver {
 
   static Row rowOf(Vec2 direction, Vec2 arm) { return {direction.x, direction.y, cross(arm, direction)}; }
 
-  // Starts from where the last step's acceleration would lead, limited to gravity's part.
+  // Places the bodies where the last step's acceleration would move them, limited to at most gravity.
   void begin(ContactScene& scene, double h) {
     for (std::size_t i = 0; i < m_bodies.size(); ++i) {
       ContactBody& body = scene.bodies[i];
@@ -154,7 +154,7 @@ class Avbd : public ContactSolver {
     }
   }
 
-  // A push is negative, because opening the gap lowers the energy.
+  // Returns the normal force. A push is negative, because opening the gap lowers the energy.
   static double pushOf(const Contact& contact) {
     return std::min(contact.normal.penalty * contact.normal.value + contact.normal.force, 0.0);
   }

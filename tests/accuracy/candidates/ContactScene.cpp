@@ -21,7 +21,7 @@ auto keyOf(const ContactPair& pair) {
   return std::tuple(pair.a, pair.b, pair.shape_a, pair.shape_b);
 }
 
-bool isSound(const Body& body) {
+bool isValid(const Body& body) {
   const double numbers[] = {body.position.x, body.position.y, body.velocity.x, body.velocity.y,
                             body.angle,      body.spin,       body.mass};
   for (const double number : numbers) {
@@ -30,8 +30,8 @@ bool isSound(const Body& body) {
   return body.mass > 1e-9 && !body.shapes.empty();
 }
 
-// Returns the moment of inertia per mass. For a compound it is that of the last shape, because no compound
-// here can be pushed.
+// Adds the shapes and returns the moment of inertia per mass. With several shapes it is that of the last one,
+// because no such body can be pushed here.
 double addShapes(const Body& body, ContactBody& made) {
   double inertia = 0;
   for (const Shape& shape : body.shapes) {
@@ -96,7 +96,7 @@ ContactScene::ContactScene(const Scene& scene) : gravity(length(scene.gravity)) 
 bool ContactScene::canExpress(const Scene& scene) {
   if (!scene.rigid() || scene.field || !scene.joints.empty() || !scene.collides) return false;
   return std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return isSound(body) && body.restitution == 0; });
+                     [](const Body& body) { return isValid(body) && body.restitution == 0; });
 }
 
 void ContactScene::kick(double h) {
@@ -113,7 +113,7 @@ void ContactScene::drift(double h) {
   }
 }
 
-// Sorts along x. The order hardly changes from step to step.
+// Finds pairs by sorting the bodies along x. Their order hardly changes from step to step.
 void ContactScene::find(double h, double reach) {
   for (ContactBody& body : bodies) {
     body.lower = {1e300, 1e300};

@@ -1,5 +1,5 @@
 // The common part of the contact candidates, so that they differ only in their solvers: bodies, their
-// contacts, and the data kept of a contact from step to step. Metres, seconds, kilograms.
+// contacts, and the data that a contact keeps from step to step. In metres, seconds and kilograms.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ struct ContactBody {
   Rotation rotation;
   double angle = 0;
   double spin = 0;
-  double inverse_mass = 0;  ///< both 0 for bodies that nothing can push
+  double inverse_mass = 0;  ///< 0 for bodies that nothing can push, as is inverse_inertia
   double inverse_inertia = 0;
   Vec2 gravity;
   double drag = 0;  ///< 1/s
   double friction = 0;
   std::vector<naiad::physics::ConvexShape> shapes;
   std::vector<naiad::physics::RotatedShape> turned;
-  Vec2 lower, upper;  ///< bounds, enlarged for the step
+  Vec2 lower, upper;  ///< bounding box of the whole step's motion
   double room = 0;    ///< largest distance it may move in the step
 
   bool isPushed() const { return inverse_mass > 0; }
@@ -40,13 +40,13 @@ struct ContactBody {
 };
 
 struct ContactArms {
-  Vec2 a, b;  ///< relative to the bodies' centres, in world axes
+  Vec2 a, b;  ///< contact point relative to each body's centre, in world axes
 };
 
 struct ContactPoint {
-  Vec2 anchor_a, anchor_b;  ///< anchors in the bodies' own axes; equal places when found
-  ContactArms found;        ///< the anchors when found, in world axes
-  double gap = 0;           ///< gap when found
+  Vec2 anchor_a, anchor_b;  ///< the contact point in each body's own axes, as found
+  ContactArms found;        ///< the anchors in world axes, as found
+  double gap = 0;           ///< gap as found
   double normal_mass = 0, tangent_mass = 0;
   double normal_impulse = 0, tangent_impulse = 0;  ///< impulse or force, depending on the solver
   double normal_penalty = 0, tangent_penalty = 0;
@@ -77,30 +77,30 @@ struct ContactScene {
   /// keep their impulses.
   void find(double h, double reach);
 
-  /// v += h g, with drag.
+  /// Changes all velocities by gravity and drag: v += h g.
   void kick(double h);
-  /// x += h v.
+  /// Moves all bodies by their velocities: x += h v.
   void drift(double h);
 
   std::vector<ContactBody> bodies;
   std::vector<ContactPair> pairs;  ///< sorted by ids
-  double gravity = 0;              ///< magnitude
+  double gravity = 0;              ///< magnitude of the acceleration, in m/s²
 
  private:
   void findPair(int a, int b, double reach);
   std::vector<ContactPair> m_before;
-  std::vector<int> m_order;  // indices sorted by lower x
+  std::vector<int> m_order;  // indices of bodies, sorted by lower.x
 };
 
-/// Return the arms and the gap at this moment.
+/// Return the arms and the gap for the bodies' present positions.
 ContactArms armsOf(const ContactScene& scene, const ContactPair& pair, const ContactPoint& point);
 double gapOf(const ContactScene& scene, const ContactPair& pair, const ContactPoint& point,
              const ContactArms& arms);
-/// Returns the relative velocity of b against a at the contact.
+/// Returns the velocity of b relative to a at the contact.
 Vec2 speedOf(const ContactScene& scene, const ContactPair& pair, const ContactArms& arms);
 /// Returns the effective mass: the impulse along `direction` per change of that velocity.
 double massOf(const ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 direction);
-/// Apply an impulse to the velocities, or to the positions.
+/// Apply an impulse to the velocities (push), or to the positions (shift).
 void push(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 void shift(ContactScene& scene, const ContactPair& pair, const ContactArms& arms, Vec2 impulse);
 

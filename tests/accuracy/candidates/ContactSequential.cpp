@@ -1,7 +1,8 @@
 // Sequential impulses in small sub-steps, one sweep each, starting from the last sub-step's impulses.
-// Contacts are found once a tick. The variants remove overlap by moving the bodies apart (nonlinear
-// Gauss-Seidel), or by a damped spring in the velocities, whose effect a second sweep removes. From Catto,
-// Solver2D (2024): TGS-NGS and Soft Step, with the parameters of Solver2D and Box2D 3.
+// Contacts are found once a tick. One variant removes overlap by moving the bodies apart (nonlinear
+// Gauss-Seidel), the other by a damped spring that changes velocities; a second sweep then removes its part
+// of the velocities. From Catto, Solver2D (2024): TGS-NGS and Soft Step, with the parameters of Solver2D and
+// Box2D 3.
 #include <algorithm>
 #include <numbers>
 
@@ -42,9 +43,10 @@ class Sequential : public ContactSolver {
  protected:
   virtual void substep(ContactScene& scene, double h) = 0;
 
-  // `p_soft` points to two values: for contacts with unpushable bodies, and for others. Null: rigid.
+  // `p_soft` points to two values: the first for contacts with bodies that nothing can push, the second for
+  // all others. Null: rigid.
   void sweep(ContactScene& scene, double h, const Softness* p_soft) const {
-    constexpr double kFastestPush = 3;  // m/s
+    constexpr double kFastestPush = 3;  // m/s; limit of the speed at which overlaps are removed
     for (ContactPair& pair : scene.pairs) {
       const bool is_held = !scene.bodies[static_cast<std::size_t>(pair.a)].isPushed() ||
                            !scene.bodies[static_cast<std::size_t>(pair.b)].isPushed();
@@ -105,7 +107,7 @@ class Projecting : public Sequential {
     sweep(scene, h, nullptr);
     scene.drift(h);
     constexpr double kPart = 0.2;      // part of the overlap that a sub-step removes
-    constexpr double kFarthest = 0.2;  // m
+    constexpr double kFarthest = 0.2;  // m; limit of such a shift
     for (const ContactPair& pair : scene.pairs) {
       for (const ContactPoint& point : pair.used()) {
         const ContactArms arms = armsOf(scene, pair, point);

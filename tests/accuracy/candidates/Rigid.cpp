@@ -56,7 +56,7 @@ class Rigid : public Simulation {
   long failures() const override { return static_cast<long>(m_world.counters().direct_failures); }
 
  private:
-  // Creates the world late, because the number of sub-steps is known only at the first step.
+  // Creates the world. Called in the first step, because the number of sub-steps is unknown before.
   void make(int substeps) {
     m_is_made = true;
     m_world = physics::RigidWorld(optionsFor(m_scene, substeps));

@@ -18,7 +18,7 @@ namespace {
 namespace physics = naiad::physics;
 using physics::at;
 
-constexpr double kPerSecond = 30;  // ticks
+constexpr double kPerSecond = 30;  // ticks per second
 constexpr double kPerSecondSquared = kPerSecond * kPerSecond;
 /// Stiffness of a rod in N/m. The loads here stretch it by less than 1e-6.
 constexpr double kRod = 1e9;
@@ -40,7 +40,7 @@ physics::SoftBody beamOf(const Beam& beam) {
   return body;
 }
 
-// Makes points on rods. The ground's anchors become pinned nodes.
+// Makes a net of the scene's points and rods. Anchors on the ground become pinned nodes.
 physics::SoftBody netOf(const Scene& scene) {
   physics::SoftBody body;
   for (const Body& point : scene.bodies) {

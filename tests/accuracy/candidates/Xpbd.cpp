@@ -1,5 +1,5 @@
 // Extended position-based dynamics for points on rods: small sub-steps, one iteration (Macklin et al. 2019,
-// Small Steps in Physics Simulation). The reference of problem 11's time.
+// Small Steps in Physics Simulation). Its run time is the unit for the times of problem 11.
 #include <algorithm>
 #include <vector>
 
@@ -53,7 +53,7 @@ class Xpbd : public Simulation {
     double length;
   };
 
-  // The ground is a fixed point at the anchor.
+  // Returns the index of the body's point. For the ground, adds a fixed point at the anchor.
   std::size_t indexOf(int body, Vec anchor) {
     if (body >= 0) return static_cast<std::size_t>(body);
     m_points.push_back({anchor, {}, 0, 0});

@@ -48,7 +48,7 @@ double orderOf(const std::string& method) {
 }
 
 TEST(Laboratory, MethodsConvergeWithTheirOrder) {
-  // The order of semi_implicit is that of its phase; its positions have order 1.
+  // orderOf() measures the phase, in which semi_implicit has order 2; its positions have order 1.
   for (const char* method : {"semi_implicit", "verlet", "tr_bdf2"})
     EXPECT_NEAR(orderOf(method), 2, 0.1) << method;
   for (const char* method : {"rk4", "yoshida4"}) EXPECT_NEAR(orderOf(method), 4, 0.1) << method;
@@ -67,7 +67,8 @@ TEST(Laboratory, VerletStaysSecondOrderWithDrag) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
 }
 
-// Runs an integrator as the product, with and without an error, which lines, CSV and exit code must show.
+// Runs an integrator as if it was the product, with and without an error. The printed lines, the CSV file and
+// the exit code must show the error.
 TEST(Laboratory, PlantedErrorMissesItsTarget) {
   const Problem problem = problemOf("1");
   const Case& flight = problem.cases[0];
@@ -162,7 +163,7 @@ TEST(Laboratory, TickTimeLimitGrowsWithItsContents) {
   const TickBound bound;
   EXPECT_EQ(bound.allowedUs(0, 0, 0, 0), 1000);
   EXPECT_EQ(bound.allowedUs(100, 200, 50, 300), 1000 + 5 * 350 + 300);
-  EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // limited by the reserve
+  EXPECT_EQ(bound.allowedUs(2, 0, 0, 1e9), 1000 + 10 + 20'000);  // only 20,000 impacts count
 }
 
 TEST(Laboratory, OnlyProductMethodsAreJudged) {
@@ -237,7 +238,7 @@ void expectStart(const Scene& scene, const Simulation& simulation, double tolera
   }
 }
 
-// Every engine starts from the scene's own state.
+// Every engine must start from exactly the scene's state.
 TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
   for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17", "25", "27"}) {
     for (const Case& its_case : problemOf(id).cases) {
@@ -254,7 +255,7 @@ TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
   }
 }
 
-// The equations of the textbooks' methods start from it, too.
+// The equations of the textbooks' methods must start from the scene's state, too.
 TEST(Laboratory, EquationsStartFromTheSceneState) {
   for (const char* id : {"1", "2", "3", "4", "5", "6"}) {
     for (const Case& its_case : problemOf(id).cases)

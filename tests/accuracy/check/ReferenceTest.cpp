@@ -59,14 +59,14 @@ TEST(Reference, SolversAgreeOnRobertson) {
   expectSolversAgree(Robertson(), 1, 40, Stiffness::STIFF);
 }
 
-// Compares the coordinate only, because the speed jumps by 1e6 within 1e-6 s.
+// Compares only the coordinate, not the speed, which jumps by 1e6 within 1e-6 s.
 TEST(Reference, SolversAgreeOnVanDerPolAndPublishedResult) {
   const auto equations = equationsOf(VanDerPol());
   const Trajectory exact = equations->byExtrapolation(kTick, 60, Stiffness::STIFF);
   const Trajectory other = equations->byCvode(kTick, 60, sharp(true));
   for (std::size_t tick = 0; tick < exact.size(); ++tick)
     EXPECT_NEAR(exact[tick][0], other[tick][0], 2 * kAgree);
-  // Test Set for Initial Value Problem Solvers, VDPOL.
+  // Published by the "Test Set for Initial Value Problem Solvers" for its problem VDPOL.
   EXPECT_NEAR(exact.back()[0], 1.706167732170483, 1e-12);
   EXPECT_NEAR(exact.back()[1], -0.8928097010247975, 1e-12);
 }
@@ -77,7 +77,7 @@ TEST(Reference, SolversAgreeOnHiresAndPublishedResult) {
   const auto equations = equationsOf(Hires());
   const Trajectory exact = equations->byExtrapolation(kEnd / kTicks, kTicks, Stiffness::STIFF);
   EXPECT_LT(difference(exact, equations->byCvode(kEnd / kTicks, kTicks, sharp(true))), kAgree);
-  // Test Set for Initial Value Problem Solvers, HIRES.
+  // Published by the "Test Set for Initial Value Problem Solvers" for its problem HIRES.
   const double published[] = {0.7371312573325668e-3, 0.1442485726316185e-3, 0.5888729740967575e-4,
                               0.1175651343283149e-2, 0.2386356198831331e-2, 0.6238968252742796e-2,
                               0.2849998395185769e-2, 0.2850001604814231e-2};
@@ -130,7 +130,7 @@ TEST(Reference, ExtrapolationReturnsToTheStartAfterOneOrbit) {
   EXPECT_NEAR(path.back()[1], path.front()[1], 1e-12);
 }
 
-// CVODE's solution of a scene's equations as a method, judged by each problem's own reference.
+// A method that shows CVODE's solution of a scene's equations, to be judged by each problem's own reference.
 class Replay : public Simulation {
  public:
   Replay(const Scene& scene, bool stiff)
@@ -148,18 +148,18 @@ class Replay : public Simulation {
 TEST(Reference, CvodeMatchesTheReferenceOfEveryEquationProblem) {
   int judged = 0;
   for (const ProblemEntry& entry : allProblems()) {
-    if (entry.id.size() > 2) continue;  // maps repeat problem 4
+    if (entry.id.size() > 2) continue;  // skips maps, which repeat problem 4
     for (const Case& its_case : entry.make().cases) {
       if (its_case.scene.equations == nullptr) continue;
-      // A million radians, or a jumping layer: these have their own tests, or use a neighbouring case's
-      // formula.
+      // Skips a phase of a million radians and a speed that jumps: these have tests of their own, or use the
+      // formula of a similar case.
       if (its_case.name.starts_with("k1e10") || its_case.name == "van_der_pol") continue;
       const bool stiff = entry.id == "4" || entry.id == "4b";
       const Method method{"cvode", "CVODE", "6", Method::Kind::CANDIDATE,
                           [stiff](const Scene& scene) { return std::make_unique<Replay>(scene, stiff); }};
       const std::vector<double> errors = its_case.judge(Trial(method, 1));
-      // CVODE's errors add up over 10,000 radians or 20 close passes of the sun. Other tests hold both to
-      // 1e-9 over shorter times.
+      // CVODE's errors add up over 10,000 radians or 20 close passes of the sun. Other tests require 1e-9 of
+      // both over shorter times.
       const bool long_phase = its_case.name == "k1e6_zeta0" || its_case.name == "kepler";
       EXPECT_LT(errors[0], long_phase ? 1e-6 : kAgree) << entry.id << ' ' << its_case.name;
       ++judged;
@@ -168,7 +168,8 @@ TEST(Reference, CvodeMatchesTheReferenceOfEveryEquationProblem) {
   EXPECT_EQ(judged, 1 + 2 + 3 + 8 + 4 + 1 + 2);
 }
 
-// Compares dual numbers with differences, for the equations with most kinds of operations.
+// Compares derivatives by dual numbers with finite differences, for the equations with most kinds of
+// operations.
 TEST(Reference, JacobianMatchesFiniteDifferences) {
   DoublePendulum system;
   const double y[] = {0.3, -1.1, 2.0, 0.7};

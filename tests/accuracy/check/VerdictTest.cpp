@@ -1,4 +1,4 @@
-// The product's targets that can be checked without a clock. The limits are the targets of the problems.
+// Checks the product's targets that do not depend on a clock. The limits are the targets of the problems.
 #include <gtest/gtest.h>
 
 #include <algorithm>

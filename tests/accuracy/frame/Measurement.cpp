@@ -19,12 +19,13 @@
 namespace lab {
 namespace {
 
-// A shorter run is repeated on fresh copies of the scene up to this time, because reading the clock takes a
-// quarter of a microsecond.
+// Runs that take less are repeated on fresh copies of the scene until they take this long together, because
+// reading the clock takes a quarter of a microsecond.
 constexpr double kShortestRunNs = 400000;
 constexpr int kMaxCopies = 256;
 
-// A longer run is only timed tick by tick, because reading the clock is then negligible.
+// Runs that take more are only timed tick by tick, because reading the clock for each tick is then
+// negligible.
 constexpr double kLongRunNs = 1e8;
 
 double runNs(const Case& its_case, const Method& method, int substeps, int copies) {
@@ -39,8 +40,8 @@ double runNs(const Case& its_case, const Method& method, int substeps, int copie
 }
 
 struct TickTimes {
-  std::vector<double> us;       // per tick
-  std::vector<double> allowed;  // limit per tick; empty: not available
+  std::vector<double> us;       // time of each tick, in microseconds
+  std::vector<double> allowed;  // limit of each tick; empty: not available
 
   double total() const { return std::accumulate(us.begin(), us.end(), 0.0); }
 };
@@ -90,7 +91,7 @@ CpuTime timeRuns(const Case& its_case, const Method& method, int substeps, int r
   std::vector<double> totals;
   if (by_tick[0].total() * 1e3 >= kLongRunNs) {
     for (const TickTimes& run : by_tick) totals.push_back(run.total());
-  } else {  // the timed ticks were the warm-up
+  } else {  // the runs timed tick by tick were the warm-up
     const double first = runNs(its_case, method, substeps, 1);
     const int copies = std::clamp(static_cast<int>(kShortestRunNs / std::max(first, 1.0)), 1, kMaxCopies);
     for (int i = 0; i < runs; ++i) totals.push_back(runNs(its_case, method, substeps, copies) * 1e-3);
@@ -107,7 +108,7 @@ constexpr CpuTime unknownTime() {
   return {kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
 }
 
-// Carries a child's results: its errors as soon as they are known, then the times.
+// Carries the results of a child process: the errors as soon as they are known, then the times.
 class Pipe {
  public:
   Pipe() {
@@ -127,7 +128,7 @@ class Pipe {
   void put(const void* data, std::size_t size) const {
     if (write(m_ends[1], data, size) != static_cast<ssize_t>(size)) _exit(1);
   }
-  /// False if the child has ended before writing that much.
+  /// False if the child ended before it had written `size` bytes.
   bool get(void* data, std::size_t size) const {
     char* to = static_cast<char*>(data);
     while (size > 0) {

@@ -15,7 +15,7 @@ struct CpuTime {
   double median = 0;
   double least = 0;
   double most = 0;
-  double worst = 0;  ///< the slowest tick, including the first, by the minimum over all runs
+  double worst = 0;  ///< slowest tick, including the first; the time of each is its minimum over all runs
   double worst_part = std::numeric_limits<double>::quiet_NaN();  ///< largest tick time relative to its limit
   double first_part = std::numeric_limits<double>::quiet_NaN();  ///< first tick relative to the median
 };
@@ -30,7 +30,8 @@ struct Measurement {
 /// Computes only errors, without timing.
 Measurement judge(const Case& its_case, const Method& method, int substeps);
 
-/// Judges once, then times `runs` runs of the case's scene without judging.
+/// Computes the errors in one run, then times `runs` further runs of the case's scene without computing
+/// errors.
 Measurement measure(const Case& its_case, const Method& method, int substeps, int runs);
 
 /// Like measure(), in its own process, so that a crash or more than `most_seconds` of CPU time is only a

@@ -8,7 +8,7 @@
 namespace lab {
 namespace {
 
-// Created by whichever method registers first. A deque, because others keep pointers into it.
+// Created when the first method registers. A deque, because callers keep pointers to its elements.
 std::deque<Method>& registry() {
   static std::deque<Method> s_methods;
   return s_methods;

@@ -16,18 +16,18 @@ struct Method {
   enum class Kind {
     PRODUCT,    ///< the product's automatic choice, judged by Metric::target
     FAST,       ///< the product at its fast level, judged by Metric::fast_target
-    CANDIDATE,  ///< an alternative for the product
+    CANDIDATE,  ///< a method that the product could use instead
     PEER,       ///< another library
     TEXTBOOK,   ///< an integrator for the scene's equations
   };
   std::string name;   ///< value of `method=…`
-  std::string label;  ///< name for readers
+  std::string label;  ///< name in the report
   std::string version;
   Kind kind = Kind::CANDIDATE;
-  /// Makes the scene; null if the method cannot express it.
+  /// Builds the scene; returns null if the method cannot express it.
   std::function<SimulationPtr(const Scene&)> build;
-  /// If positive, the method chooses its sub-steps itself and is judged only at this number; a larger number
-  /// means more, shorter ticks (ScenePace). If 0, it is measured at 1, 2, 4 … 64.
+  /// If positive, the method chooses its sub-steps itself and is judged only at this number; at a larger
+  /// number it gets more, shorter ticks (ScenePace). If 0, it is measured at 1, 2, 4 … 64.
   int own_substeps = 0;
 
   bool isProduct() const { return kind == Kind::PRODUCT || kind == Kind::FAST; }

@@ -13,7 +13,8 @@ std::vector<ProblemEntry>& registry() {
   return s_problems;
 }
 
-// Sorts ids with numbers first, by value and then by their suffix, and words last.
+// Returns a sort key: ids that begin with a number come first, by its value and then by their suffix, words
+// last.
 std::tuple<bool, long, std::string> order(const std::string& id) {
   char* rest = nullptr;
   const long number = std::strtol(id.c_str(), &rest, 10);

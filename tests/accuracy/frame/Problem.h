@@ -33,19 +33,19 @@ struct CpuBound {
   std::string method;       ///< method whose time is the unit
   int substeps = 1;         ///< sub-steps of that method
   double target = -1;       ///< limit for the product, in units; negative: none
-  double fast_target = -1;  ///< limit for its fast level
+  double fast_target = -1;  ///< limit for the product's fast level, in units; negative: none
   std::string peers = {};   ///< known results of peers, in words
-  // Without a method, the unit is one of these:
-  std::string of_case = {};     ///< the method's own time in the problem's case of this name
-  double unit_us = 0;           ///< this many microseconds
-  bool is_of_later = false;     ///< the method's median tick, as a unit for the first tick
+  // If `method` is empty, the unit is one of these:
+  std::string of_case = {};     ///< the measured method's time in the problem's case of this name
+  double unit_us = 0;           ///< this number of microseconds
+  bool is_of_later = false;     ///< the first tick is compared with the method's median tick
   std::string unit_label = {};  ///< description of the unit
 
   Metric metric() const;
 };
 
-/// Time limit of a tick: 1 ms, 5 µs for each body, contact and joint, and 1 µs for each impact up to a
-/// maximum.
+/// Time limit of a tick: 1 ms, and 5 µs for each body, contact and joint, and 1 µs for each impact up to
+/// `most_impacts`.
 struct TickBound {
   double base_us = 1000;
   double each_us = 5;
@@ -58,16 +58,16 @@ struct TickBound {
 /// A scene and its metrics.
 struct Case {
   std::string name;   ///< suffix of its metrics; empty if the problem has only one case
-  std::string label;  ///< name for readers; empty: `name`
+  std::string label;  ///< name in the report; empty: `name`
   Scene scene;        ///< the timed scene; a judge may run others
   std::vector<Metric> metrics;
-  /// Returns the error of each metric, in their order. NaN or infinity is drawn as a failure.
+  /// Returns the errors in the order of the metrics. NaN or infinity is drawn as a failure.
   std::function<std::vector<double>(const Trial&)> judge;
   std::vector<CpuBound> cpu_bounds;
   bool long_run = false;   ///< skipped by --quick
-  int most_substeps = 64;  ///< limit where more would take minutes without new insight
-  double x = 0;            ///< its position in a map: stiffness, mass ratio
-  /// Also draws the product with more, shorter ticks, without targets, so that it is a curve.
+  int most_substeps = 64;  ///< limit; lower where more would take minutes without new insight
+  double x = 0;            ///< position of the case in a map: its stiffness or mass ratio
+  /// The product is also measured with more, shorter ticks, without targets, so that its diagram has a curve.
   bool draws_levels = false;
   bool is_crowd = false;  ///< too many bodies for candidates and textbook methods
   TickBound tick_bound;
@@ -85,7 +85,7 @@ struct Problem {
   std::string id;    ///< value of `problem=…`
   std::string name;  ///< the id as a word
   std::string title;
-  std::string text;       ///< events of the problem
+  std::string text;       ///< what happens in the problem
   std::string reference;  ///< the correct result and its source
   std::string why;        ///< purpose, as a sentence
   std::string quoted;     ///< figures measured elsewhere, with their source, in Markdown

@@ -1,4 +1,4 @@
-// A progress bar on stderr if that is a terminal.
+// A progress bar on stderr, shown only on a terminal.
 #pragma once
 
 #include <unistd.h>
@@ -17,7 +17,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows that `part` of the whole is done, from 0 to 1, and `what` is in progress.
+  /// Shows the part of the work that is done, 0 to 1, and a text that says what is in progress.
   void show(double part, const std::string& what) const {
     if (!m_shown) return;
     constexpr std::size_t kWidth = 30;

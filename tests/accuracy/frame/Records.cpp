@@ -134,7 +134,7 @@ void Records::add(const Problem& problem, const Case& its_case, const Method& me
     add(problem, its_case, its_case.metrics[i], method, substeps, measurement.errors[i], measurement);
   const bool counts_ticks = problem.kind == Problem::Kind::DIAGRAM && method.isJudgedAt(substeps);
   if (counts_ticks && !std::isnan(measurement.cpu.worst_part)) {
-    Measurement timed;  // without the reason of a failure
+    Measurement timed;  // only the times, without the reason of a failure
     timed.cpu = measurement.cpu;
     add(problem, its_case, Case::worstTick(), method, substeps, timed.cpu.worst_part, timed);
   }

@@ -1,4 +1,4 @@
-// Writes measurements: a line each on stdout, and the files from which the report is made.
+// Writes measurements: each as a line on stdout, and all into the files from which the report is made.
 #pragma once
 
 #include <cstdio>
@@ -13,8 +13,9 @@ std::string metricName(const Case& its_case, const Metric& metric);
 
 class Records {
  public:
-  /// Writes `points.csv` and `problems.json` into `directory`, which is created; only lines if it is empty.
-  /// Throws std::runtime_error on failure. `runs` is how often each point is timed, if not the default.
+  /// Writes `points.csv` and `problems.json` into `directory`, which is created; if it is "", writes only
+  /// lines. Throws std::runtime_error on failure. `runs` is the number of timed runs of each point; 0: the
+  /// default.
   explicit Records(const std::string& directory, int runs = 0);
   ~Records();
   Records(const Records&) = delete;
@@ -26,7 +27,8 @@ class Records {
   void add(const Problem& problem, const Case& its_case, const Method& method, int substeps,
            const Measurement& measurement);
 
-  /// Adds a time relative to the unit of the bound. Prints lines for the product and its candidates.
+  /// Adds `part`, a time in units of the bound. Prints a line for it if the method is the product or a
+  /// candidate.
   void add(const Problem& problem, const Case& its_case, const CpuBound& bound, const Method& method,
            int substeps, const Measurement& measurement, double part);
 

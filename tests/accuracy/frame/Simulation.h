@@ -1,4 +1,4 @@
-// A scene as run by a method.
+// A scene that a method runs.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ class Simulation {
   virtual long frozen() const { return 0; }
   /// Returns the work of all ticks so far; nullopt if not counted.
   virtual std::optional<Work> work() const { return {}; }
-  /// Returns how often an iteration in the method did not converge.
+  /// Returns how often an iteration inside the method has not converged so far.
   virtual long failures() const { return 0; }
 };
 

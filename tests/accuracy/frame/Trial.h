@@ -1,4 +1,4 @@
-// One method at one number of sub-steps, for use by a problem's judge.
+// One method at one number of sub-steps. A problem's judge uses it to run scenes.
 #pragma once
 
 #include <stdexcept>
@@ -18,8 +18,8 @@ struct Inexpressible : std::runtime_error {
   Inexpressible() : std::runtime_error("the method cannot express the scene") {}
 };
 
-/// A scene at a method's pace. A method that chooses its sub-steps itself gets more of them by shorter ticks,
-/// like a faster world: `each` of these make one tick of the original scene.
+/// A scene with the ticks that a method gets. A method that chooses its sub-steps itself gets shorter ticks
+/// instead of more sub-steps: `each` of them make one tick of the original scene.
 struct ScenePace {
   Scene scene;
   int each = 1;
@@ -30,11 +30,11 @@ class Trial {
  public:
   Trial(const Method& method, int substeps) : m_method(method), m_substeps(substeps) {}
 
-  /// Builds the scene. Throws Inexpressible.
+  /// Builds the scene. Throws Inexpressible if the method cannot express it.
   SimulationPtr build(const Scene& scene) const;
 
-  /// Advances by one tick. Throws Failure unless all positions are then below 1e12 m (and coordinates below
-  /// 1e30).
+  /// Advances by one tick. Throws Failure if a position is then not below 1e12 m, or a coordinate not below
+  /// 1e30.
   void step(Simulation& simulation, const Scene& scene) const;
 
   /// Runs the whole scene and calls `after(tick, simulation)` after each tick, with tick = 1, 2, … Returns

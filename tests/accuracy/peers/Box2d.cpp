@@ -77,7 +77,7 @@ class Box2d : public Simulation {
     definition.fixedRotation = !body.rotates;
     definition.bullet = body.fast;
     b2Body* made = m_world.CreateBody(&definition);
-    double inertia = 0;  // per mass, of the last shape
+    double inertia = 0;  // of the last shape, per mass
     for (const Shape& shape : body.shapes) {
       addShape(*made, body, shape);
       inertia = inertiaOf(shape);
@@ -148,7 +148,7 @@ class Box2d : public Simulation {
   float m_skin;
   double m_time = 0;
   b2Body* m_ground = nullptr;
-  std::vector<b2Body*> m_bodies;  // owned by the world, by index
+  std::vector<b2Body*> m_bodies;  // owned by the world, indexed by scene body
 };
 
 const RegisteredMethod method({"box2d", "Box2D 2.4", "2.4.1", Method::Kind::PEER,

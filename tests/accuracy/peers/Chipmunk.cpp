@@ -1,6 +1,6 @@
 // Chipmunk 7.0.3 as built by Debian. `substeps` are whole steps of tick / substeps with its 10 iterations.
-// Its collision slop is set to Box2D's, because its default is a tenth of a body in these scenes. Other
-// defaults are unchanged; with these nothing sleeps.
+// Its collision slop is set to Box2D's, because the default would be a tenth of a body in these scenes. Other
+// settings are the defaults, with which nothing sleeps.
 #include <chipmunk/chipmunk.h>
 
 #include <cmath>
@@ -134,7 +134,7 @@ class Chipmunk : public Simulation {
   bool m_collides;
   double m_time = 0;
   long m_contacts = 0;
-  std::vector<cpBody*> m_bodies;  // by index
+  std::vector<cpBody*> m_bodies;  // indexed by scene body
   std::vector<cpShape*> m_shapes;
   std::vector<cpConstraint*> m_constraints;
 };

@@ -1,4 +1,4 @@
-// 21: rotating bars, shot at long walls.
+// Problem 21: rotating bars that are shot at long walls.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,13 +10,13 @@ namespace lab {
 namespace {
 
 constexpr Vec kBar{0.3, 0.05};  // half width and half height
-constexpr double kWallAt = 50;  // m
+constexpr double kWallAt = 50;  // x of the wall, m
 constexpr double kHalfWall = 0.5;
 constexpr double kHeavy = 100;         // the wall's mass relative to a bar's
-constexpr double kFastest = 6;         // exponent of 10, in cells per tick
-constexpr double kTicksAfter = 2;      // ticks in which it must have met the wall
-constexpr double kMaxTicksToWall = 3;  // ticks in which it arrives there
-constexpr double kTurned = 0.5;        // rad per tick, above which the bar may have passed the wall's end
+constexpr double kFastest = 6;         // the highest speed is 10 to this power, in cells per tick
+constexpr double kTicksAfter = 2;      // ticks after its arrival, at whose end the bar must have met the wall
+constexpr double kMaxTicksToWall = 3;  // the bar starts so near that it arrives within these ticks
+constexpr double kTurned = 0.5;  // rad, or rad per tick; if the wall turns more, the bar may pass its end
 constexpr int kShots = 1000;
 constexpr int kProductShots = 10000;
 
@@ -56,7 +56,8 @@ Scene shot(Motion motion, int number, naiad::SplitMix64& random) {
   return scene;
 }
 
-// True if the bar is beyond the wall and level with it. Uses the wall's axes, because it may turn.
+// True if the bar is behind the wall and not beyond its ends. Uses the wall's axes, because the wall may
+// turn.
 bool isThrough(const Scene& scene, const BodyState& bar, const BodyState& target) {
   const Vec d = bar.position - target.position;
   const double c = std::cos(target.angle), s = std::sin(target.angle);

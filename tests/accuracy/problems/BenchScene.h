@@ -16,7 +16,7 @@ bench::physics::Pose poseOf(const BodyState& state);
 /// Returns the poses of all bodies of the scene.
 std::vector<bench::physics::Pose> posesOf(const bench::physics::Scene& scene, const Simulation& simulation);
 
-/// Counts dynamic bodies outside the scene's room, and those that the method no longer moves.
+/// Returns the number of dynamic bodies outside the scene's Room, plus those that the method no longer moves.
 long countLost(const bench::physics::Scene& scene, const Simulation& simulation);
 
 }  // namespace lab

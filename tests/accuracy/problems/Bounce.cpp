@@ -1,4 +1,4 @@
-// 7: a bouncing ball. 15: a bounce within a tick, at 200 m/s.
+// Problem 7: a bouncing ball. Problem 15: a bounce within a tick, at 200 m/s.
 #include "Path.h"
 
 namespace lab {
@@ -7,7 +7,7 @@ namespace {
 constexpr double kGravity = 10;
 constexpr double kRadius = 0.5;
 
-// Makes a ball above ground at 0. Heights are those of its lowest point.
+// Makes a ball above ground at height 0. `height` is that of the ball's lowest point.
 Scene ballOverGround(double height, double restitution, int ticks) {
   Scene scene;
   Body bouncing = ball({0, height + kRadius}, {0, 0}, kRadius);
@@ -26,7 +26,7 @@ double apexOf(const BodyState& state) {
 Case dying() {
   constexpr double kHeight = 10;
   constexpr double kRestitution = 0.8;
-  constexpr double kSlow = 1e-3;  // m/s: rest
+  constexpr double kSlow = 1e-3;  // m/s; a slower ball is at rest
   Case bouncing;
   bouncing.name = "e0.8";
   bouncing.label = "restitution 0.8";

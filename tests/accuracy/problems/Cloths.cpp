@@ -1,4 +1,4 @@
-// 28: cloths that hang by two corners.
+// Problem 28: cloths that hang by two corners.
 #include <algorithm>
 #include <string>
 
@@ -7,7 +7,7 @@
 namespace lab {
 namespace {
 
-constexpr double kMesh = 1;  // m
+constexpr double kMesh = 1;  // side of a mesh, m
 
 // Returns the largest stretch of a thread relative to its rest length.
 double stretchOf(const Scene& scene, const Simulation& simulation) {
@@ -21,9 +21,9 @@ double stretchOf(const Scene& scene, const Simulation& simulation) {
 
 Scene clothOf(int side) {
   Scene scene;
-  scene.gravity = {0, -18};  // m/s²: .02 cells a tick²
+  scene.gravity = {0, -18};  // m/s²; 0.02 cells per tick²
   scene.ticks = 300;
-  scene.cloths = {{side, side, kMesh, 1, 4500}};  // 5 cells a tick²
+  scene.cloths = {{side, side, kMesh, 1, 4500}};  // stiffness: 5 cells per tick²
   for (int i = 0; i < side * side; ++i) {
     scene.bodies.push_back(point({kMesh * (i % side), -kMesh * (i / side)}, {}, 1.0 / (side * side)));
     if (i == 0 || i == side - 1) scene.bodies.back().motion = Motion::FIXED;
@@ -67,7 +67,7 @@ Problem makeCloths() {
       "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of "
       "its weight, through threads of a ten-thousandth of it each.";
   problem.cases = {cloth(25), cloth(50), cloth(100)};
-  constexpr double kDearestTick = 60'000;  // µs
+  constexpr double kDearestTick = 60'000;  // limit of the slowest tick, µs
   problem.cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
   return problem;
 }

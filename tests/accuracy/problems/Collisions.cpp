@@ -1,4 +1,5 @@
-// 8: Newton's cradle. 8b: oblique elastic billiard. 8c: Galperin's billiard, which counts the digits of π.
+// Problem 8: Newton's cradle. 8b: oblique elastic billiard. 8c: Galperin's billiard, which counts the digits
+// of π.
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +41,8 @@ Case freeCradle() {
   return cradle;
 }
 
-// A cradle on rods of 5 m, whose first ball is released at 30°. After the impact each ball's speed, computed
-// from its energy, must be 0 or the first one's.
+// A cradle on rods of 5 m, whose first ball is released at 30°. After the impact the last ball must have the
+// first one's speed, and all others none. Speeds are computed from energies.
 Case hungCradle() {
   constexpr double kRod = 5;
   constexpr double kGravity = 10;
@@ -57,7 +58,7 @@ Case hungCradle() {
     cradle.scene.joints.push_back(rod(-1, pivot, i, cradle.scene.bodies.back().position));
   }
   cradle.scene.gravity = {0, -kGravity};
-  cradle.scene.ticks = 45;  // it meets the others after 1.13 s
+  cradle.scene.ticks = 45;  // the first ball hits the second after 1.13 s
   cradle.metrics = {
       {"velocity", "largest error of a speed, of the first ball's at the impact", 1e-3, 1e-15, ""}};
   cradle.judge = [scene = cradle.scene](const Trial& trial) {
@@ -88,7 +89,7 @@ Problem makeCradle() {
   return problem;
 }
 
-// Pairs with different offsets, too far apart to affect each other.
+// Shoots balls at resting balls with different offsets. The pairs are too far apart to affect each other.
 Case billiard(double speed, const std::string& peers) {
   constexpr int kPairs = 24;
   constexpr double kApart = 32;
@@ -104,7 +105,8 @@ Case billiard(double speed, const std::string& peers) {
     shot.fast = true;
     shots.scene.bodies.push_back(shot);
     shots.scene.bodies.push_back(elasticBall({kWay + 2 * kRadius, y}, {0, 0}));
-    // The struck ball gets the velocity along the line of centres: no friction, and equal masses.
+    // There is no friction, and masses are equal, so the struck ball gets the velocity along the line of
+    // centres.
     const Vec normal{std::sqrt(4 * kRadius * kRadius - offset * offset), -offset};
     right.push_back(dot(normal, {speed, 0}) / dot(normal, normal) * normal);
   }

@@ -1,4 +1,4 @@
-// The cost of a body by the features that it uses: the columns of the cost page.
+// The cost of a body, depending on the features that it uses. Each case is a column of the page "cost".
 #include <algorithm>
 #include <array>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// 24: bodies that receive collision events but push nothing.
+// Problem 24: bodies that receive collision events but push nothing.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@ namespace {
 constexpr double kRadius = 0.5;
 constexpr int kTicks = 60;
 
-// Measures the share of wrong pairs: those that overlap without an event, or have an event without overlap.
+// Measures the difference between the numbers of pairs with an event and of pairs that overlap, relative to
+// the latter.
 Case hearing(const std::string& name, Scene scene, long pairs) {
   Case heard;
   heard.name = name;
@@ -30,7 +31,7 @@ Case hearing(const std::string& name, Scene scene, long pairs) {
 }
 
 Scene grid(int side) {
-  constexpr double kApart = 3;  // m
+  constexpr double kApart = 3;  // distance of neighbours, m
   Scene scene;
   for (int i = 0; i < side * side; ++i) {
     scene.bodies.push_back(ball({kApart * (i % side), kApart * (i / side)}, {}, kRadius));
@@ -38,7 +39,7 @@ Scene grid(int side) {
   return scene;
 }
 
-// The bodies of the other case, but HARD, as a reference for the time.
+// The bodies are those of the case "apart", but HARD. Its time is the reference for that case's.
 Case hardApart(int side) {
   Case hard = hearing("hard" + std::to_string(side * side), grid(side), 0);
   hard.label = std::to_string(side * side) + " apart, HARD";
@@ -68,7 +69,7 @@ Case together(int count) {
     const double x = kRadius * random.unit(), y = kRadius * random.unit();
     scene.bodies.push_back(ball({x, y}, {}, kRadius));
   }
-  constexpr double kPair = 0.1;  // µs
+  constexpr double kPair = 0.1;  // time limit for a pair, µs
   const long pairs = static_cast<long>(count) * (count - 1) / 2;
   Case soft = hearing("together" + std::to_string(count), scene, pairs);
   soft.label = std::to_string(count) + " together";

@@ -1,4 +1,4 @@
-// 29: thousands of bodies in one cell.
+// Problem 29: thousands of bodies in one cell.
 #include <cmath>
 #include <string>
 
@@ -9,7 +9,7 @@ namespace lab {
 namespace {
 
 constexpr int kTicks = 60;
-constexpr double kFastest = 0.1;  // m/s
+constexpr double kFastest = 0.1;  // limit of the Objects' speeds, m/s
 
 Vec somewhere(naiad::SplitMix64& random) {
   const double x = random.unit(), y = random.unit();
@@ -38,7 +38,7 @@ Case circles(int count) {
   return crush("circles" + std::to_string(count), std::to_string(count) + " circles", std::move(scene));
 }
 
-// Small circles inside large ones.
+// Circles of different sizes, so that many small ones are inside large ones.
 Case sizes(int count) {
   naiad::SplitMix64 random(32);
   Scene scene;
@@ -60,9 +60,9 @@ Case boxes(int count) {
   return crush("boxes" + std::to_string(count), std::to_string(count) + " boxes that turn", std::move(scene));
 }
 
-// Plain Objects of the book, each moving a little.
+// Objects without physics, each moving a little.
 Case objects(int count, bool is_hard) {
-  constexpr double kEach = 2;  // µs
+  constexpr double kEach = 2;  // time limit for an Object, µs
   naiad::SplitMix64 random(31);
   Scene scene;
   scene.massless = true;

@@ -6,10 +6,10 @@ namespace lab {
 namespace {
 
 constexpr int kTicks = 60;
-constexpr double kLinear = 2;    // kg/s
-constexpr double kStart = 10;    // m/s
+constexpr double kLinear = 2;    // coefficient of linear drag, kg/s
+constexpr double kStart = 10;    // initial speed, m/s
 constexpr double kGravity = 10;  // m/s²
-constexpr double kTerminal = 5;  // m/s
+constexpr double kTerminal = 5;  // terminal speed, m/s
 constexpr double kQuadratic = kGravity / (kTerminal * kTerminal);
 
 Case linear() {
@@ -48,7 +48,7 @@ Case quadratic() {
   system.quadratic = kQuadratic;
   falling.scene.equations = equationsOf(system);
   falling.metrics = pathMetrics(1e-8, 1e-16);
-  // Compares position and speed, each in its own scale.
+  // Compares position and speed, each relative to its own scale.
   const Path path = pathOf(kTicks, [](Quad t) {
     const Quad s = Quad(kGravity) * t / kTerminal;
     const Quad log_cosh = s + log((1 + exp(-2 * s)) / 2);

@@ -1,4 +1,4 @@
-// 12: friction on a slope and on a floor. 13: a disc rolling down.
+// Problem 12: friction on a slope and on a floor. Problem 13: a disc that rolls down a slope.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ Scene crateOnSlope(double angle, int ticks) {
 
 Case threshold() {
   constexpr int kTicks = 120;
-  constexpr double kStill = 1e-3;  // m/s; 0.0013° beyond the threshold it would be faster after 4 s
+  constexpr double kStill = 1e-3;  // m/s; on a slope 0.0013° too steep, it is exceeded after 4 s
   constexpr double kDegree = M_PI / 180;
   Case slope;
   slope.name = "";

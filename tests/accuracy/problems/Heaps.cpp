@@ -1,4 +1,4 @@
-// 25: heaps that fall, turn and are smashed, compared with Box2D. 26: heaps that stand.
+// Problem 25: heaps that fall, turn and are smashed, compared with Box2D. Problem 26: heaps that stand.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,8 +24,8 @@ double meanOf(const std::vector<double>& values) {
 }
 
 struct Seen {
-  double overlap = 0;  ///< mean of the deepest overlap over all checks, m
-  double lost = 0;     ///< maximum of lost bodies over all checks and the end
+  double overlap = 0;  ///< mean over all checks of the deepest overlap, m
+  double lost = 0;     ///< largest number of lost bodies at any check or at the end
 };
 
 Seen watch(const Trial& trial, const heaps::Scene& scene, const Scene& own) {
@@ -42,9 +42,9 @@ Seen watch(const Trial& trial, const heaps::Scene& scene, const Scene& own) {
 }
 
 struct Asked {
-  double least_ratio = 1;  ///< Box2D's time relative to the fast level's
+  double least_ratio = 1;  ///< minimum of Box2D's time divided by the fast level's
   double most_overlap = 0;
-  std::string peers;  ///< overlap of peers
+  std::string peers;  ///< known overlap of peers, in words
   std::string peers_time;
 };
 
@@ -129,7 +129,7 @@ Problem makeHeaps() {
   return problem;
 }
 
-// Makes a pyramid with this many rows that touch.
+// Makes a pyramid with this many rows, which touch each other.
 heaps::Scene pyramidOf(int rows) {
   heaps::Scene scene = heaps::makePyramid60();
   const heaps::Body box = scene.bodies[1];

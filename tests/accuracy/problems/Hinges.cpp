@@ -1,4 +1,4 @@
-// 27: bodies on hinges: a chain with a heavy end, and a net.
+// Problem 27: bodies on hinges: a chain with a heavy end, and a net.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -57,10 +57,10 @@ Case net() {
   return falling;
 }
 
-// Long enough for the net to fall to the end.
+// Runs long enough for the net to fall as far as its hinges allow.
 Case longNet() {
   constexpr int kTicks = 300;
-  constexpr double kBounded = 10;  // m: a tenth of its side, so it has not come apart
+  constexpr double kBounded = 10;  // m; a tenth of the net's side: with less, it has not come apart
   heaps::Scene scene = heaps::makeGrid100();
   scene.ticks = kTicks;
   Case falling = hanging("grid100_long", "the net for 10 s", scene);

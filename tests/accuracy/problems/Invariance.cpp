@@ -1,4 +1,5 @@
-// 16: far from the origin. 17: a closed system.
+// Problem 16: scenes far from the origin. Problem 17: a closed system, whose momentum and energy must not
+// change.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -61,12 +62,12 @@ struct Total {
   Vec momentum;
   double spin = 0;
   double energy = 0;
-  double size = 0;       ///< Σ |p|
-  double spin_size = 0;  ///< Σ |L|
+  double size = 0;       ///< sum of the magnitudes of the bodies' momenta
+  double spin_size = 0;  ///< sum of the magnitudes of their angular momenta
 };
 
 constexpr double kRadius = 0.5;
-constexpr double kInertia = kRadius * kRadius / 2;  // of 1 kg
+constexpr double kInertia = kRadius * kRadius / 2;  // of a disc of 1 kg
 
 Total totalOf(const Simulation& simulation, int count) {
   Total total;

@@ -1,4 +1,4 @@
-// 23: a group alone, and with another one far away.
+// Problem 23: a group of bodies must move exactly alike alone and with another group far away.
 #include <cmath>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// 22: bodies in a magnetic field, free and constrained.
+// Problem 22: bodies in a magnetic field, free and constrained.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,12 +8,12 @@
 namespace lab {
 namespace {
 
-constexpr double kSpeed = 3;   // m/s: a tenth of a cell a tick
-constexpr double kLength = 5;  // length of the rod
+constexpr double kSpeed = 3;   // m/s; a tenth of a cell per tick
+constexpr double kLength = 5;  // length of the rod, m
 constexpr double kRadius = 0.25;
 constexpr int kTicks = 100;
 
-// Turns a velocity by `rate` rad per tick, clockwise if y points up.
+// Returns a field that turns velocities by `rate` rad per tick, clockwise if y points up.
 Field magnet(double rate) {
   return [rate](double /*t*/, const BodyState& state) {
     const double omega = rate / kTick;

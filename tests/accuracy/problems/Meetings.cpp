@@ -1,4 +1,4 @@
-// 19: bodies that meet in a point or touch from the start.
+// Problem 19: bodies that meet in a point or touch from the start.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,13 +11,13 @@ namespace lab {
 namespace {
 
 constexpr double kHalf = 0.5;    // half a box's side
-constexpr double kApproach = 3;  // m/s: a tenth of a cell a tick
+constexpr double kApproach = 3;  // m/s; a tenth of a cell per tick
 
-// Sums over all bodies.
+// Momentum and energy, summed over all bodies.
 struct Whole {
   Vec momentum;
   double energy = 0;
-  double sum = 0;  // sum of the momenta's magnitudes, relative to which rounding is measured
+  double sum = 0;  // sum of the magnitudes of momenta; errors are relative to it
 };
 
 Whole motionOf(const Scene& scene, const Simulation& simulation) {
@@ -70,7 +70,7 @@ Scene inwards(int count, double radius, double first_angle) {
 // Touching circles in a row, each heavier than the one before.
 Scene heavierAndHeavier() {
   constexpr int kCount = 100;
-  constexpr double kHeaviest = 4;  // exponent of 10
+  constexpr double kHeaviest = 4;  // the last circle's mass is 10 to this power
   Scene scene;
   scene.ticks = 120;
   for (int i = 0; i < kCount; ++i) {
@@ -84,7 +84,7 @@ Scene heavierAndHeavier() {
 
 // Boxes next to and on top of each other, each with its own velocity.
 Scene block(int side, std::uint64_t seed) {
-  constexpr double kFastest = 0.6;  // m/s
+  constexpr double kFastest = 0.6;  // limit of a box's speed on each axis, m/s
   naiad::SplitMix64 random(seed);
   Scene scene;
   scene.ticks = 60;

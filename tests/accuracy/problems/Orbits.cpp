@@ -1,4 +1,4 @@
-// 6: Kepler's ellipse, and the double pendulum.
+// Problem 6: Kepler's ellipse, and the double pendulum.
 #include <algorithm>
 
 #include "Path.h"
@@ -18,7 +18,7 @@ double keplerMu() {
   return rate * rate;
 }
 
-// Returns the planet's position after this many orbits, by Kepler's equation.
+// Returns the planet's position after `orbits` orbits, by Kepler's equation.
 std::vector<double> keplerPlace(Quad orbits) {
   const Quad mean = 2 * kQuadPi * (orbits - floorq(orbits));
   Quad anomaly = mean;
@@ -46,7 +46,7 @@ Case kepler() {
     const double distance = length(state.position);
     return -mu / (distance * distance * distance) * state.position;
   };
-  // Steps have equal lengths in time. The rounding of 10,000 steps is unavoidable.
+  // All steps have equal lengths in time. The floor of 1e-12 is the unavoidable rounding of 10,000 steps.
   orbit.metrics = {{"end_error", "distance from the start after 20 orbits, of the semi-major axis", 1e-5,
                     1e-12, "semi-implicit Euler .11, Verlet .047, RK4 1.8e-6"},
                    {"sup_error", "largest distance from the true place", -1, 1e-12, ""},

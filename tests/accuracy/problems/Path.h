@@ -1,4 +1,4 @@
-// Measures how far a run deviates from a known path.
+// Measures how far a run deviates from a known path, that is, from exact values at the ends of ticks.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace lab {
 /// Reference values at the end of each tick, from tick 0 on.
 using Path = std::vector<std::vector<double>>;
 
-/// Computes the path by a closed form of time, rounded to double.
+/// Computes the path by `place`, a closed formula in time, and rounds it to double.
 Path pathOf(int ticks, const std::function<std::vector<Quad>(Quad t)>& place);
 
 using Read = std::function<std::vector<double>(const Simulation&)>;
@@ -23,7 +23,7 @@ struct PathErrors {
   double l2 = 0;   ///< root mean square over the run
 };
 
-/// Compares the values in the Euclidean norm, divided by `scale`.
+/// Compares the values that `read` returns with the path: Euclidean distances, divided by `scale`.
 PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference, double scale,
                    const Read& read);
 
@@ -35,7 +35,7 @@ std::vector<double> coordinatesOf(const Simulation& simulation);
 /// Returns end_error, sup_error and l2_error. The target applies to the first two.
 std::vector<Metric> pathMetrics(double target, double floor, const std::string& peers = "");
 std::vector<double> inOrder(const PathErrors& errors);
-/// Returns a judge for these metrics.
+/// Returns a judge (Case::judge) for pathMetrics().
 std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,
                                                            const Read& read);
 

@@ -1,4 +1,4 @@
-// 5: a pendulum from 90°, for a minute.
+// Problem 5: a pendulum released at 90°, for a minute.
 #include <algorithm>
 
 #include "Path.h"
@@ -37,8 +37,8 @@ Swing swingOf(const BodyState& state) {
   return {std::atan2(state.position.x, -state.position.y), cross(state.position, state.velocity) / square};
 }
 
-// Returns when the angle passes 0 between two ticks, in ticks, by the quintic through angle, rate and the
-// acceleration that follows from the angle.
+// Returns when the angle passes 0 between two ticks, in ticks. Uses the quintic polynomial through the
+// angles, rates and accelerations at both; the accelerations follow from the angles.
 double crossing(const Swing& a, const Swing& b, double h) {
   const double da = a.rate * h;
   const double db = b.rate * h;
@@ -77,7 +77,8 @@ std::vector<double> judgePendulum(const Trial& trial, const Scene& scene) {
       ++crossings;
     }
     before = now;
-    // The start is at rest and horizontal, so the energy is 0. Its possible range is g × length.
+    // The pendulum starts at rest and horizontally, so its energy is 0. The error is relative to g × length,
+    // the range of its potential energy.
     const double energy = dot(state.velocity, state.velocity) / 2 + kGravity * state.position.y;
     worst_energy = std::max(worst_energy, std::abs(energy) / kGravity);
     worst_length = std::max(worst_length, std::abs(length(state.position) - 1));

@@ -1,4 +1,4 @@
-// 10b: general piles. A pyramid that stands, and a rotating drum full of boxes.
+// Problem 10b: a pyramid that stands, and a rotating drum full of boxes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,9 +18,9 @@ constexpr int kRows = 30;
 constexpr double kCrate = 0.5;  // half the width of a crate in the pyramid
 constexpr int kBoxes = 500;
 constexpr double kBox = 0.125;  // half the width of a box in the drum
-constexpr double kDrum = 10;    // from its centre to the middle of each wall
-constexpr int kFallen = 30;     // ticks until the boxes in the drum have met
-constexpr double kOut = 16;     // distance from its centre, in metres, of a box that got out
+constexpr double kDrum = 10;    // distance from its centre to each wall, m
+constexpr int kFallen = 30;     // ticks until the boxes in the drum have fallen onto each other
+constexpr double kOut = 16;     // a box at this distance from the drum's centre, in metres, is outside
 
 // Returns the deepest overlap of two squares, among all bodies except the first.
 double deepest(const Simulation& simulation, int count, double half) {

@@ -1,4 +1,4 @@
-// 18: values that no world should be given.
+// Problem 18: invalid values, such as NaN, and an extremely long tick. Neither may harm a pile.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -12,7 +12,7 @@ constexpr int kTicks = 60;
 constexpr int kPile = 5;
 constexpr double kGravity = 10;
 
-// A pile that must not be affected.
+// A pile that the invalid values must not affect.
 Scene pile() {
   Scene scene;
   for (int i = 0; i < kPile; ++i) scene.bodies.push_back(crate({0, 0.5 + i}, {0.5, 0.5}, 0.5));
@@ -52,7 +52,7 @@ Case poisoned(const std::string& name, const Body& poison) {
 }
 
 Case spike() {
-  constexpr double kLong = 1e4;  // s
+  constexpr double kLong = 1e4;  // length of a tick, s
   Case bad;
   bad.name = "dt_spike";
   bad.label = "a tick of a thousand";
@@ -67,7 +67,7 @@ Case spike() {
     for (int i = 0; i < kPile; ++i) {
       const double distance =
           length(simulation->body(i).position - scene.bodies[static_cast<std::size_t>(i)].position);
-      displaced += distance <= 1 ? 0 : 1;  // counts NaN, too
+      displaced += distance <= 1 ? 0 : 1;  // also counts NaN
     }
     return std::vector<double>{static_cast<double>(displaced)};
   };

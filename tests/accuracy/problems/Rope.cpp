@@ -1,4 +1,4 @@
-// 11: a rope with a heavy end.
+// Problem 11: a rope with a heavy end.
 #include <algorithm>
 
 #include "Path.h"
@@ -22,7 +22,7 @@ Case rope(double ratio) {
   }
   scene.gravity = {0, -kGravity};
   scene.ticks = 300;
-  double scale = 0;  // change of the energy if everything hung straight down
+  double scale = 0;  // loss of potential energy if the whole rope hung straight down
   for (const Body& body : scene.bodies) scale += body.mass * kGravity * body.position.x;
   swinging.judge = [scene, scale](const Trial& trial) {
     double stretch = 0;
@@ -41,7 +41,8 @@ Case rope(double ratio) {
     });
     return std::vector<double>{stretch, drift};
   };
-  // 20 sub-steps of a tick of 1/60 s equal 40 of this one; the next lower measured number is used.
+  // The unit should be XPBD with 20 sub-steps in a tick of 1/60 s, which are 40 in this tick; 32 is the next
+  // lower number that is measured.
   if (ratio <= 1e3) swinging.cpu_bounds = {{"cpu_ratio", "xpbd", 32, 1.5}};
   const std::string peers = ratio == 1     ? "Box2D .097, XPBD 20×1 .0039, direct solve 4e-13"
                             : ratio == 100 ? "Box2D .14, XPBD 20×1 .018, direct solve 4e-13"

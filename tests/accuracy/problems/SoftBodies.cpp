@@ -1,4 +1,4 @@
-// 11b: the catenary, and the cantilever's deflection and first frequency.
+// Problem 11b: the catenary, and the cantilever's deflection and first frequency.
 #include <algorithm>
 #include <complex>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGravity = 10;
 
-// Returns a of y = a cosh(x/a) for a rope of this length between points at equal heights, by Newton.
+// Returns a of y = a cosh(x/a) for a rope of this length between points at equal heights, by Newton's method.
 double catenaryOf(double span, double its_length) {
   Quad a = span / 2;
   for (int i = 0; i < 200; ++i) {
@@ -25,12 +25,12 @@ double catenaryOf(double span, double its_length) {
 Case catenary(int links) {
   constexpr double kSpan = 10;
   constexpr double kLength = 12;
-  constexpr double kDrag = 2;  // 1/s
+  constexpr double kDrag = 2;  // drag per mass, 1/s
   Case hanging;
   hanging.name = "catenary" + std::to_string(links);
   hanging.label = "catenary of " + std::to_string(links) + " links";
   Scene& scene = hanging.scene;
-  // Starts as a V with straight arms.
+  // The rope starts as a V with straight arms.
   const double depth = std::sqrt(kLength * kLength - kSpan * kSpan) / 2;
   const auto place = [&](int i) {
     const double part = 2.0 * i / links;  // 0 … 2
@@ -66,7 +66,7 @@ Beam slender(int elements) {
 }
 
 double stiffnessOf(const Beam& beam) {
-  return beam.modulus * std::pow(beam.thickness, 3) / 12;  // EI, for a depth of 1 m
+  return beam.modulus * std::pow(beam.thickness, 3) / 12;  // bending stiffness EI, for a depth of 1 m
 }
 
 Case bending(int elements) {
@@ -98,8 +98,8 @@ Quad firstRoot() {
   return beta;
 }
 
-// Returns the amplitude of a frequency in a motion sampled at the ends of ticks, with a window that fades in
-// and out.
+// Returns the amplitude of `frequency` in a motion that is sampled at the ends of ticks, weighted by a window
+// that fades in and out.
 double presence(const std::vector<double>& motion, double tick, double frequency) {
   constexpr double kTurn = 2 * 3.14159265358979323846;
   std::complex<double> sum;

@@ -1,4 +1,4 @@
-// 3: an undamped spring.
+// Problem 3: an undamped spring.
 #include "Problem.h"
 #include "SpringScene.h"
 

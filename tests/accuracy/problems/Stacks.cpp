@@ -1,5 +1,5 @@
-// 9: a stack. 10: a heavy body on a light one, and a stability map. 20: crates that stand a little to the
-// side.
+// Problem 9: a stack. Problem 10: a heavy body on a light one, and a stability map. Problem 20: crates that
+// stand a little to the side of each other.
 #include <algorithm>
 
 #include "Path.h"
@@ -123,7 +123,7 @@ Problem makePress() {
   int i = 0;
   for (const double ratio : {10.0, 100.0, 1e3, 1e4}) {
     Case pressed = press(ratio);
-    const double bound = ratio > 1e3 ? 0.5 : 0.01;  // "bounded" means half a crate
+    const double bound = ratio > 1e3 ? 0.5 : 0.01;  // m; for large ratios half a crate: merely bounded
     pressed.metrics = {{"penetration_m", "deepest overlap in the last second, m", bound, 1e-15, peers[i++]}};
     problem.cases.push_back(pressed);
   }
@@ -150,7 +150,7 @@ Problem makeMap() {
 }
 
 Case offset(int boxes, const char* peers) {
-  constexpr double kShift = 0.025;  // m
+  constexpr double kShift = 0.025;  // sideways distance of neighbouring crates, m
   constexpr double kMoreFriction = 0.6;
   Case standing;
   standing.name = std::to_string(boxes);

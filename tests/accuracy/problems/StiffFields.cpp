@@ -1,4 +1,4 @@
-// 4b: stiff force fields, and two stiff systems from chemistry and biology with their integrators.
+// Problem 4b: stiff force fields, and two stiff systems of equations from chemistry and biology.
 #include <algorithm>
 
 #include "Path.h"
@@ -46,7 +46,7 @@ Case caseOf(const std::string& name, const System& system, const Scene& scene, i
   return field;
 }
 
-// Adds a body in a field, which peers can express, too.
+// Makes a scene of one body in a field, which peers can also express.
 template <class System>
 Scene fieldScene(const System& system, Field acceleration) {
   Scene scene;
@@ -79,10 +79,10 @@ Case stiffPendulum() {
   return caseOf("stiff_pendulum", system, scene, kTicks, kTick, path);
 }
 
-// The path of a drift across the fields with a gyration far faster than the tick.
+// Returns the path of a charge that drifts across the fields and gyrates far faster than the tick.
 Path chargePath(const Charge& charge, int ticks) {
   const Quad omega = charge.frequency;
-  const Quad drift = -Quad(charge.push) / omega;  // along y
+  const Quad drift = -Quad(charge.push) / omega;  // velocity of the drift, along y
   const Quad u = charge.velocity.x;
   const Quad w = charge.velocity.y - drift;
   return pathOf(ticks, [&](Quad t) {

@@ -1,4 +1,4 @@
-// 4: a stiff damped spring with gravity, and a stability map.
+// Problem 4: a stiff damped spring with gravity, and a stability map.
 #include <limits>
 
 #include "Path.h"
@@ -22,7 +22,8 @@ SpringLine springOf(double stiffness, double zeta) {
   return system;
 }
 
-// Returns the distance of the mass from the rest length, from the most exact source.
+// Returns the distance of the mass from the rest length: from the coordinates if the method has them, else
+// from the body.
 std::vector<double> offsetOf(const Simulation& simulation) {
   const auto coordinates = simulation.coordinates();
   return {coordinates.empty() ? -simulation.body(0).position.y - kRest : coordinates[0]};

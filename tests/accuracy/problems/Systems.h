@@ -32,15 +32,15 @@ struct Flight {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// A mass of 1 kg on a spring that hangs down, or lies, along a line. y[0] is its distance from `rest`, which
-/// is `direction` × rest length from the anchor at 0.
+/// A mass of 1 kg on a spring along a line, which hangs down or lies. y[0] is the mass's distance from
+/// `rest`, which is `direction` × rest length from the anchor at 0.
 struct SpringLine {
   static constexpr int kDimension = 2;
   static constexpr bool kSecondOrder = true;
   double stiffness = 1;
   double damping = 0;
-  double gravity = 0;  ///< along the line, away from the anchor
-  double offset = 1;   ///< initial value
+  double gravity = 0;  ///< acceleration along the line, away from the anchor
+  double offset = 1;   ///< initial value of y[0]
   Vec direction{1, 0};
   double rest_length = 0;
 
@@ -61,7 +61,7 @@ struct Pendulum {
   static constexpr bool kSecondOrder = true;
   double gravity = 10;
   double length = 1;
-  double angle = 0;  ///< initial value
+  double angle = 0;  ///< initial angle
 
   std::vector<double> start() const { return {angle, 0}; }
   template <class Real>
@@ -95,7 +95,8 @@ struct StiffPendulum {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// A charge in a uniform magnetic field (its cyclotron frequency) and a uniform electric field along x.
+/// A charge in a uniform magnetic field, given by the cyclotron frequency, and a uniform electric field along
+/// x.
 struct Charge {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
@@ -114,7 +115,7 @@ struct Charge {
   BodyState body(int, const double* y) const { return {{y[0], y[1]}, {y[2], y[3]}, 0, 0}; }
 };
 
-/// x'' = ((1 − x²)x' − x)/ε.
+/// The Van der Pol oscillator: x'' = ((1 − x²)x' − x)/ε.
 struct VanDerPol {
   static constexpr int kDimension = 2;
   static constexpr bool kSecondOrder = true;
@@ -129,7 +130,7 @@ struct VanDerPol {
   BodyState body(int, const double* y) const { return {{y[0], 0}, {y[1], 0}, 0, 0}; }
 };
 
-/// Three species with rates from 0.04 to 3e7.
+/// Robertson's chemical reaction: three species with rates from 0.04 to 3e7.
 struct Robertson {
   static constexpr int kDimension = 3;
   static constexpr bool kSecondOrder = false;
@@ -147,7 +148,7 @@ struct Robertson {
   BodyState body(int, const double*) const { return {}; }
 };
 
-/// "High irradiance response" of a plant: eight species (Hairer & Wanner II, IV.10).
+/// The "high irradiance response" of a plant, with eight species (Hairer & Wanner, Solving ODEs II, IV.10).
 struct Hires {
   static constexpr int kDimension = 8;
   static constexpr bool kSecondOrder = false;
@@ -168,7 +169,7 @@ struct Hires {
   BodyState body(int, const double*) const { return {}; }
 };
 
-/// A planet around a fixed sun at 0, from its nearest point.
+/// A planet around a fixed sun at 0. It starts at its point nearest to the sun.
 struct Kepler {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
@@ -195,7 +196,7 @@ struct DoublePendulum {
   static constexpr int kDimension = 4;
   static constexpr bool kSecondOrder = true;
   double gravity = 10;
-  double angle = 0;  ///< initial value of both
+  double angle = 0;  ///< initial angle of both rods
 
   std::vector<double> start() const { return {angle, angle, 0, 0}; }
   template <class Real>
@@ -204,7 +205,7 @@ struct DoublePendulum {
     const Real s = sin(difference);
     const Real c = cos(difference);
     const Real g = Real(gravity);
-    // M (α, β) = (p, q) with M = [2 c; c 1].
+    // Solves M (α, β) = (p, q) for the angular accelerations α and β, with M = [2 c; c 1].
     const Real p = -s * y[3] * y[3] - Real(2) * g * sin(y[0]);
     const Real q = s * y[2] * y[2] - g * sin(y[1]);
     const Real determinant = Real(2) - c * c;

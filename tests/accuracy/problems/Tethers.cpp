@@ -1,4 +1,4 @@
-// 30: springs and fields that pull a body in contact with another.
+// Problem 30: springs and fields that pull a body while it touches another.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kGravity = 10;
 constexpr double kHalf = 0.5;
-constexpr double kStart = 1;  // m
+constexpr double kStart = 1;  // initial distance from the spring's anchor, m
 constexpr int kTicks = 300;
 
 enum class Pull { SPRING, FIELD };
 
-// `per_tick` is the stiffness in kg per tick².
+// Pulls a crate on a floor by a spring or a field. `per_tick` is the stiffness in kg per tick².
 Case pulled(Pull pull, double per_tick, const std::string& name) {
   const double stiffness = per_tick / (kTick * kTick);
   Case swinging;
@@ -57,7 +57,7 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
   return swinging;
 }
 
-// ω·h = 0.1: the oscillation is resolved, and must not decay.
+// A slow oscillation (0.1 rad per tick), which the ticks resolve, so it must not decay.
 Case resolved(Pull pull, const std::string& name) {
   constexpr double kSlow = 0.01;
   Case swinging = pulled(pull, kSlow, name);

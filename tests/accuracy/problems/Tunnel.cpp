@@ -1,4 +1,4 @@
-// 14: fast bodies against all kinds of obstacles.
+// Problem 14: fast bodies against all kinds of obstacles.
 #include <cmath>
 #include <random>
 
@@ -21,8 +21,8 @@ double uniform(std::mt19937_64& bits) {
   return static_cast<double>(bits() >> 11) * 0x1p-53;
 }
 
-// Makes a ball from the left and an obstacle at 0, which may move towards it. They start up to two ticks
-// apart, at random.
+// Makes a ball that comes from the left and an obstacle at 0, which may move towards it. They start at a
+// random distance that they cover in up to two ticks.
 Scene shot(Pair pair, std::mt19937_64& bits) {
   const double speed = kSlowest * std::pow(kFastest / kSlowest, uniform(bits));
   const double offset = 2 * uniform(bits) - 1;

@@ -1,4 +1,5 @@
-// Builds scenes with the product like a game, a function per kind. Each returns null for other scenes.
+// Builds scenes in the product like a game does. There is a function for each kind of scene; it returns null
+// for scenes of another kind.
 #pragma once
 
 #include "Scene.h"
@@ -9,7 +10,7 @@ namespace lab {
 
 /// Uses df::Body Objects in a World, and WM.update(), for bodies and joints.
 SimulationPtr bodiesAt(df::Accuracy accuracy, const Scene& scene);
-/// Uses the book's Objects in a World without a layer.
+/// Uses plain Objects, which move by their velocities, in a World without a physics layer.
 SimulationPtr objectsByDefault(const Scene& scene);
 /// Uses a df::Cloth in a World, and WM.update().
 SimulationPtr clothByDefault(const Scene& scene);

@@ -96,7 +96,7 @@ class DefaultBodies : public ProductWorld {
     return m_collides && isPlain(body) && body.friction == m_friction && body.restitution == m_restitution;
   }
 
-  // Massless Objects share one surface, the first one's.
+  // Sets friction and restitution of plain Objects. All of them share those of the first one in the scene.
   void chooseObstacles(const Scene& scene) {
     for (const Body& body : scene.bodies) {
       if (!isPlain(body)) continue;
@@ -140,7 +140,8 @@ class DefaultBodies : public ProductWorld {
     if (m_field) made.setField(m_field.get(), cells(m_origin));
   }
 
-  // Part centres are relative to the mass centre of the parts before; in a scene, to that of the whole body.
+  // Adds parts. Their centres are relative to the mass centre of the parts added so far; in a scene, to that
+  // of the whole body.
   static void addShapes(CountingBody& made, const std::vector<Shape>& shapes) {
     double area = 0;
     Vec middle;

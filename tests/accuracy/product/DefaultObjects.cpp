@@ -1,4 +1,4 @@
-// The book's Objects, which move by their velocities, for scenes without physics.
+// Plain Objects, which move by their velocities, for scenes without physics.
 #include "Default.h"
 #include "ProductWorld.h"
 

@@ -9,7 +9,7 @@
 namespace lab {
 namespace {
 
-// y points down here and up in the scene.
+// Here y points down, and in the scene up.
 class DefaultCloth : public ProductWorld {
  public:
   explicit DefaultCloth(const Scene& scene) : ProductWorld(scene), m_corner(scene.bodies.front().position) {

@@ -25,7 +25,8 @@ class ProductWorld : public Simulation {
   std::optional<Work> work() const override { return Work{}; }
 
  protected:
-  /// Makes an Object in the world, which must be the current one. It lives as long as this.
+  /// Makes an Object in the world, which must be the current one. It exists until clear() or the end of this
+  /// ProductWorld.
   template <class Made, class... Arguments>
   Made& make(Arguments&&... arguments) {
     auto made = std::make_unique<Made>(std::forward<Arguments>(arguments)...);
@@ -38,13 +39,13 @@ class ProductWorld : public Simulation {
     const df::World::Scope scope(m_world);
     m_objects.clear();
   }
-  /// Converts from cells and cells per tick.
+  /// Converts a position in cells and a velocity in cells per tick to metres and seconds.
   BodyState stateOf(df::Vector position, df::Vector velocity) const {
     return {{position.x(), position.y()}, {velocity.x() / m_tick, velocity.y() / m_tick}, 0, 0};
   }
 
   df::World m_world;
-  const double m_tick;  // s
+  const double m_tick;  // length of a tick, s
 
  private:
   std::vector<std::unique_ptr<df::Object>> m_objects;

@@ -29,7 +29,7 @@ void demand(int status, const char* what) {
   if (status < 0) throw std::runtime_error(std::string("CVODE: ") + what + ": " + std::to_string(status));
 }
 
-// Resources of the C interface, in the order in which they must be released.
+// Objects of CVODE's C interface. The destructor frees them in the order that CVODE requires.
 struct Session {
   Session() { demand(SUNContext_Create(nullptr, &context), "context"); }
   ~Session() {

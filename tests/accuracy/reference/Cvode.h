@@ -14,9 +14,9 @@ struct OdeFunctions {
 };
 
 struct CvodeOptions {
-  bool stiff = false;       ///< backward differences with the Jacobian; otherwise Adams
-  double relative = 1e-12;  ///< tolerance
-  double absolute = 1e-14;  ///< tolerance, in each coordinate's unit
+  bool stiff = false;       ///< true: backward differences with the Jacobian; false: Adams
+  double relative = 1e-12;  ///< relative tolerance
+  double absolute = 1e-14;  ///< absolute tolerance, in each coordinate's unit
 };
 
 /// Returns the states at the ends of ticks 0 … `ticks`. Throws std::runtime_error if CVODE fails.

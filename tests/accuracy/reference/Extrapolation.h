@@ -40,7 +40,7 @@ class Extrapolation {
       if (error <= kTolerance) {
         m_y = next;
         m_t = last ? end : m_t + h;
-        // A step shortened by the end says little about the next one's length.
+        // The last step was shortened to hit the end, so it may only reduce the step length, not raise it.
         if (!last || factor < 1)
           m_h = h * factor * 0.9;
         else if (h * factor * 0.9 > m_h)
@@ -62,8 +62,8 @@ class Extrapolation {
 
   static Quad parts(int row, bool stiff) { return stiff ? row + 1 : 2 * (row + 1); }
 
-  // The error is relative to the largest value of each component so far. A component that is still nearly 0
-  // compared with the others is only rounding.
+  // Tries a step of length h and returns its error relative to the largest value of each component so far. A
+  // component that is still nearly 0 compared with the others counts as rounding.
   Quad attempt(Quad h, State& next) {
     if (m_stiff) findJacobian();
     std::vector<State> column;  // the last row of the tableau

@@ -1,5 +1,5 @@
-// Number types for equations of motion that are written once: double, quad precision (113 bits), and dual
-// numbers that also compute derivatives.
+// Number types, so that equations of motion need to be written only once: double, quad precision (113 bits),
+// and dual numbers, which also compute derivatives.
 #pragma once
 
 #include <quadmath.h>
@@ -51,7 +51,7 @@ struct Dual {
   std::array<double, static_cast<std::size_t>(N)> slope{};
 
   Dual() = default;
-  Dual(double its_value) : value(its_value) {}  // implicit: constants in equations
+  Dual(double its_value) : value(its_value) {}  // implicit, for constants in equations
   static Dual variable(double value, int index) {
     Dual dual(value);
     dual.slope[static_cast<std::size_t>(index)] = 1;

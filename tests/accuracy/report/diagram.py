@@ -182,7 +182,7 @@ def goals(x, metric, has_left, has_right):
             out.append(line(at, TOP - 14 * row, at, bottom, INK, 1.3, "6 4"))
         else:
             at = LEFT + STRIP / 2
-        # Centred, without covering the names of the edges.
+        # The label is centred at the line, but moved so far that it does not cover the names of the edges.
         least = LEFT + (STRIP + 4 if has_left and row == 0 else 0) + half
         most = right - (STRIP + 12 if has_right and row == 0 else 0) - half
         out.append(text(min(max(at, least), most), TOP - 6 - 14 * row, name, 12, INK, "middle"))
@@ -207,7 +207,7 @@ def guides(x, y, points):
     rise = min(0.7, 0.18 * high)
     drawn = [p["method"] for p in points if p["cpu_us"] > 0 and SMALLEST < p["error"] < LARGEST]
     if len(drawn) == len(set(drawn)):
-        return []  # no curve to compare with
+        return []  # there is no curve to compare with
     orders = [order for order in ORDERS if order * rise < 0.5 * wide]
     if not orders:
         return []
@@ -224,7 +224,7 @@ def guides(x, y, points):
     places = [place for place in places if place[0] - reach > x.low + 0.03 * wide]
     if not places:
         return []
-    foot_x, foot_y = min(places, key=crowded)  # the first of the least crowded places
+    foot_x, foot_y = min(places, key=crowded)  # the first of the places with the fewest points and curves
     x1, y1 = x(10**foot_x), y(10**foot_y)
     out = [text(x1, y1 + 15, "order", 11, MUTED, "middle")]
     for order in orders:

@@ -9,7 +9,7 @@ from svg import INK, MUTED, number, page, text
 CELL, GAP, PER_ROW = 24, 56, 3
 SIDE = CELL - 1.5
 LEFT, TOP, HEAD = 64, 112, 26
-# Largest error, colour (Okabe and Ito), character for print, meaning.
+# Each class of errors has a largest error, a colour (Okabe and Ito), a character for print, and a meaning.
 BOUNDED = 1.0
 CLASSES = [(1e-2, "#0072b2", "", "error below 0.01"), (BOUNDED, "#9fd0ee", "", "bounded: below 1"),
            (100.0, "#f2c14e", "!", "wrong: 1 and more"), (math.inf, "#c44e00", "×", "failed, or 100 and more")]

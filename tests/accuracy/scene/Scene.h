@@ -12,7 +12,7 @@ namespace lab {
 
 class Equations;
 
-/// Length of a tick: the product has 30 per second.
+/// Length of a tick in seconds: the product has 30 ticks per second.
 constexpr double kTick = 1.0 / 30;
 
 enum class Motion {
@@ -26,7 +26,7 @@ struct Shape {
   Kind kind = Kind::CIRCLE;
   double radius = 0;  ///< radius of a circle
   Vec half;           ///< half width and half height of a box
-  Vec centre{};       ///< relative to the body's; other than (0, 0) only for bodies that nothing can push
+  Vec centre{};       ///< relative to the body's centre; not (0, 0) only for bodies that nothing can push
 };
 
 struct Body {
@@ -36,10 +36,10 @@ struct Body {
   Vec velocity;
   double spin = 0;  ///< radians per second
   double mass = 1;
-  bool rotates = false;       ///< false: infinite inertia; true: that of its shapes together
+  bool rotates = false;       ///< false: infinite moment of inertia; true: that of its shapes together
   std::vector<Shape> shapes;  ///< empty: a point that touches nothing
-  double friction = 0;        ///< a pair has the square root of the product
-  double restitution = 0;     ///< a pair has the larger value
+  double friction = 0;        ///< that of a pair is the square root of the product
+  double restitution = 0;     ///< that of a pair is the larger value
   bool fast = false;          ///< uses the engine's protection against tunnelling
   double linear_drag = 0;     ///< force per speed, in kg/s
 };
@@ -91,14 +91,14 @@ struct Beam {
   int elements = 0;      ///< number of elements along its length
 };
 
-/// Square meshes of threads, hung by its two upper corners. A node is the scene's body of number row ×
-/// columns + column. Methods without cloths see these bodies, connected by rods.
+/// A net of square meshes of threads, hung by its two upper corners. Each node is also the scene's body with
+/// the index row × columns + column. Methods without cloths use these bodies, connected by rods.
 struct Cloth {
   int columns = 0;       ///< number of columns of nodes
   int rows = 0;          ///< number of rows of nodes
-  double mesh = 0;       ///< m
+  double mesh = 0;       ///< side of a mesh, m
   double mass = 0;       ///< total mass in kg
-  double stiffness = 0;  ///< m/s²: stiffness of the product's threads, per their part of the mass
+  double stiffness = 0;  ///< stiffness of the product's threads divided by their part of the mass, m/s²
 };
 
 struct BodyState {
@@ -121,17 +121,20 @@ struct Scene {
   Vec origin;   ///< position of the scene in the world, in whole metres
   double tick = kTick;
   int ticks = 0;
-  /// Bodies at rest may sleep, as by default in each engine.
+  /// If true, bodies at rest may sleep, which is the default of each engine.
   bool may_sleep = false;
-  /// False: nothing touches anything.
+  /// If false, nothing touches anything.
   bool collides = true;
-  /// Box2D's boxes have their full sides, and its skin adds to them. Otherwise they are smaller by the skin.
+  /// If true, Box2D's boxes have their full sides, and its polygon skin adds to them; else they are smaller
+  /// by the skin.
   bool has_full_sides = false;
-  /// The bodies are the book's Objects, which have no mass and move by themselves. For the product only.
+  /// If true, the bodies are plain Objects, which have no mass and move by their velocities. For the product
+  /// only.
   bool massless = false;
-  /// Massless Objects are HARD and block each other. Without this and `hearing`, they are SPECTRAL.
+  /// If true, massless Objects are HARD and block each other. If this and `hearing` are false, they are
+  /// SPECTRAL.
   bool blocks = false;
-  /// Bodies receive collision events, and nothing pushes them. For the product only.
+  /// If true, bodies receive collision events, and nothing pushes them. For the product only.
   bool hearing = false;
   /// The scene in generalised coordinates, for methods that solve ordinary differential equations; null for
   /// scenes with contacts.

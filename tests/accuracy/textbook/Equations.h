@@ -30,9 +30,9 @@ class Equations {
   virtual BodyState body(int index, const double* y) const = 0;
   /// Returns the coordinates at t = 0.
   virtual std::vector<double> start() const = 0;
-  /// Returns rates and Jacobian in double precision, valid as long as this object.
+  /// Returns functions for rates and Jacobian in double precision, valid as long as this object.
   virtual OdeFunctions functions() const = 0;
-  /// Integrates by this rule. Null if the rule does not apply.
+  /// Returns a simulation that integrates by this rule; null if the rule does not apply to these equations.
   virtual SimulationPtr integrate(Rule rule) const = 0;
   /// Solves by CVODE with BDF or Adams, with a relative tolerance of at most 1e-12. Throws std::runtime_error
   /// on failure.

@@ -20,7 +20,7 @@ enum class Rule {
   RUNGE_KUTTA_4,
   BACKWARD_EULER,
   TR_BDF2,        ///< trapezoidal rule, then a backward difference: order 2, L-stable
-  PLANTED_ERROR,  ///< RUNGE_KUTTA_4 with a weight of 1/5 instead of 1/6, which must be detected
+  PLANTED_ERROR,  ///< RUNGE_KUTTA_4 with a weight of 1/5 instead of 1/6, an error that must be detected
 };
 
 template <class System>

@@ -15,7 +15,8 @@ using Matrix = std::array<std::array<Real, static_cast<std::size_t>(N)>, static_
 template <class Real, int N>
 using Column = std::array<Real, static_cast<std::size_t>(N)>;
 
-/// Gaussian elimination with partial pivoting. For a singular matrix, returns infinities.
+/// Replaces `column` by the solution, by Gaussian elimination with partial pivoting; for a singular matrix,
+/// by infinities.
 template <class Real, std::size_t N>
 void solveInPlace(std::array<std::array<Real, N>, N> matrix, std::array<Real, N>& column) {
   for (std::size_t k = 0; k < N; ++k) {

@@ -1,4 +1,4 @@
-// The methods that solve a scene's equations.
+// Registers the textbooks' methods, which solve a scene's equations.
 #include "Equations.h"
 #include "Method.h"
 

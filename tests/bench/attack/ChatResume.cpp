@@ -18,9 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kReady = 8;  // streams prepared ahead
-constexpr auto kStale = 3s;        // the server waits 5 s for a hello
-constexpr auto kBetween = 10ms;    // between two streams
+constexpr std::size_t kReady = 8;  // streams kept ready for the next resumes
+constexpr auto kStale = 3s;        // discards older ones: the server waits 5 s for a hello
+constexpr auto kBetween = 10ms;    // time between two new streams
 constexpr auto kAfterHangUp = 100ms;
 constexpr int kLines = 30;  // lines on each stream
 
@@ -53,7 +53,7 @@ class ChatResume : public Attack {
   }
 
  private:
-  /// A stream after its handshake, so that only a hello is missing.
+  /// A stream that connects and does its handshake, so that later only a hello needs to be sent.
   struct Stream {
     std::unique_ptr<naiad::TcpConnector> connector;
     std::unique_ptr<naiad::ReliableChannel> channel;  ///< null until it is connected
@@ -135,17 +135,17 @@ class ChatResume : public Attack {
 
   asio::io_context* m_p_context = nullptr;
   std::unique_ptr<Relay> m_relay;
-  std::deque<std::unique_ptr<Stream>> m_ready;  ///< ready or connecting
-  std::deque<std::unique_ptr<Stream>> m_used;   ///< the last one has the session, or has requested it
-  bool m_waiting = false;                       ///< an answer to the last hello is due
+  std::deque<std::unique_ptr<Stream>> m_ready;  ///< streams that are ready or connecting
+  std::deque<std::unique_ptr<Stream>> m_used;   ///< the last stream has the session, or has asked for it
+  bool m_waiting = false;                       ///< the last hello has not been answered
   Time m_next_stream{};
   std::string m_token;
-  std::uint32_t m_received = 0;  ///< number of the newest reliable frame
+  std::uint32_t m_received = 0;  ///< number of the newest reliable frame received
   std::uint32_t m_sent = 0;      ///< number of our newest reliable frame
   long long m_resumes = 0;
   long long m_refusals = 0;
   long long m_said = 0;
-  long long m_streams = 0;     ///< streams opened, or dropped before that
+  long long m_streams = 0;     ///< streams that were opened or failed to open
   long long m_handshakes = 0;  ///< streams with a complete handshake
 };
 

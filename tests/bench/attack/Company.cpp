@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kJoinTime = 30s;
 constexpr auto kReturnTime = 10s;
-constexpr auto kServing = 20ms;    // handler time per call of serve()
-constexpr auto kFarDelay = 100ms;  // each way
+constexpr auto kServing = 20ms;    // time for which one call of serve() runs handlers
+constexpr auto kFarDelay = 100ms;  // delay of the distant player in each direction
 
 }  // namespace
 

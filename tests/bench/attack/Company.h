@@ -12,38 +12,39 @@
 
 namespace bench::attack {
 
-/// Their results.
+/// Results of the players.
 struct Fate {
   std::uint64_t wrong_cells = 0;
   std::uint64_t compared_ticks = 0;
   int thrown_out = 0;  ///< honest players that lost their sessions
   int newcomers = 0;
   int newcomers_out = 0;   ///< newcomers that were refused, disconnected, or gave up
-  double newcomer_ms = 0;  ///< longest wait of a newcomer
-  double pause_ms = 0;     ///< longest pause of the world for the player nearest to the server
+  double newcomer_ms = 0;  ///< longest wait of a newcomer, in ms
+  double pause_ms = 0;     ///< longest pause between ticks for the player nearest to the server, in ms
   std::size_t crowd = 0;   ///< maximum number of players with the watched name in the player list
   std::uint64_t chat = 0;  ///< chat lines received by the player nearest to the server
 };
 
 class Company {
  public:
-  /// The player `away` loses its stream and datagrams from `from` to `until`, counted from the beginning.
+  /// Times since the beginning between which the player `away` has no stream and no datagrams.
   struct Absence {
     std::chrono::milliseconds from;
     std::chrono::milliseconds until;
   };
 
-  /// Records the number of players whose names begin with `watched`.
+  /// Also records the largest number of players whose names begin with `watched`.
   Company(Whereabouts server, std::string watched);
 
-  /// Joins all honest players. Throws std::runtime_error.
+  /// Lets all honest players join. Throws std::runtime_error if one cannot.
   void join();
   /// Plays for this time, and up to ten seconds longer until all honest players have their streams and all
   /// newcomers have succeeded or failed.
   void play(std::chrono::milliseconds duration, Absence absence);
-  /// Leaves. Returns the results, except those of compare().
+  /// Lets all players leave. Returns the results, except those of compare().
   Fate leave();
-  /// Compares pictures after the server has ended and its truth file is complete.
+  /// Compares the players' pictures with the server's. Call after the server has ended, when its truth file
+  /// is complete.
   void compare(const std::string& truth_file, Fate& fate) const;
 
  private:

@@ -1,4 +1,4 @@
-// fork300: the game's children, and which of them outlive it.
+// fork300: counts the children of a game, and those that outlive it.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -18,9 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kChild = "attack-fork";  // name set by the game
+constexpr const char* kChild = "attack-fork";  // name that the game gives to its children
 constexpr int kNetwork = 9;
-constexpr std::chrono::milliseconds kEndTime = 3s;  // time for the children of an ended world to end
+constexpr std::chrono::milliseconds kEndTime = 3s;  // time that the children have to end after their world
 
 struct Process {
   pid_t parent = 0;
@@ -28,7 +28,7 @@ struct Process {
   std::string name;
 };
 
-/// Returns all visible processes.
+/// Returns all processes listed in /proc.
 std::map<pid_t, Process> allProcesses() {
   std::map<pid_t, Process> all;
   std::error_code gone;
@@ -73,9 +73,9 @@ class ForkingWorld : public Attack {
 
   ServerSetup setup() const override {
     const std::string game = std::string(NAIAD_BINARY_DIR) + "/../lib/naiad_attack_forker.so";
-    return {.arguments = {"--game", game, "--players", "private"}, .password = {}};
+    return {.arguments = {"--game", game, "--input-mode", "private"}, .password = {}};
   }
-  // The world ends in the middle of the attack. Children that are left after some time are counted.
+  // Lets the world end in the middle of the attack. Children that still exist kEndTime later are counted.
   void begin(const Target& target) override {
     m_leave_at = std::chrono::steady_clock::now() + target.duration / 2;
     m_patience = std::min<std::chrono::milliseconds>(kEndTime, target.duration / 4);

@@ -17,7 +17,7 @@ naiad::TcpOptions clientChannel() {
 
 }  // namespace
 
-// A context belongs to one thread.
+// Each thread has its own context, because a context must not be shared by threads.
 std::shared_ptr<const naiad::TlsContext> clientTls() {
   thread_local const std::shared_ptr<const naiad::TlsContext> s_context = naiad::TlsContext::forClient();
   return s_context;

@@ -21,19 +21,20 @@ class Guest {
     kPlaying,
     kRefusedForNow,
     kRefused,
-    kLost  ///< disconnected, timed out or ended
+    kLost  ///< the client was disconnected, timed out, or has ended
   };
 
-  /// Begins to connect from the address `source`. Destroying it acts as if its process was killed.
+  /// Begins to connect from the address `source`. Its destructor acts, for the server, like killing the
+  /// client's process.
   Guest(asio::io_context& context, std::uint16_t server_port, const std::string& source,
         const naiad::SessionOptions& options);
 
   void update(Time now);
   State state() const { return m_state; }
   bool isOver() const { return m_state != State::kJoining && m_state != State::kPlaying; }
-  /// True if it has received a picture.
+  /// True if the client is in the game and has received a picture.
   bool hasPicture(Time now) const { return m_state == State::kPlaying && m_session->hasPicture(now); }
-  /// Returns the session; null before it is connected.
+  /// Returns the session; null before the client is connected.
   naiad::ClientSession* session() { return m_session.get(); }
 
  private:
@@ -48,13 +49,14 @@ class Guest {
 /// Returns options for a guest of this name.
 naiad::SessionOptions guestOptions(const std::string& name, const std::string& password);
 
-/// Returns a chat line of maximum length, in characters of three bytes.
+/// Returns a chat line of maximum length that consists of characters of three bytes.
 std::string longLine();
 
-/// Returns the TLS context of all guests, made once because it reads the system's certificates.
+/// Returns the TLS context of all guests of this thread. It is made once, because making it reads the
+/// system's certificates.
 std::shared_ptr<const naiad::TlsContext> clientTls();
 
-/// Returns the n-th address of a network: 127.`network`.x.y, from 127.`network`.0.1 on.
+/// Returns address `n` of a network: 127.`network`.x.y, beginning with 127.`network`.0.1 for 0.
 std::string addressIn(int network, int n);
 
 }  // namespace bench::attack

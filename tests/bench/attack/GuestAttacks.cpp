@@ -61,7 +61,7 @@ class Chatters : public GuestAttack {
   }
 
  private:
-  static constexpr auto kBetweenLines = 125ms;  // more than twice the allowed rate
+  static constexpr auto kBetweenLines = 125ms;  // time between two lines: more than twice the allowed rate
 
   std::vector<std::unique_ptr<Guest>> m_guests;
   Time m_next_line{};
@@ -108,7 +108,7 @@ class LogReader : public GuestAttack {
     GuestAttack::begin(target);
     m_fault == LogFault::kStalls ? target.server.stallLog() : target.server.closeLog();
   }
-  // Players join and leave, which causes a line each time.
+  // Lets a player join and leave repeatedly, because the server logs a line each time.
   void update(Time now) override {
     if (m_guest) {
       m_guest->update(now);

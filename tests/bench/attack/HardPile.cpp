@@ -41,8 +41,8 @@ constexpr std::chrono::microseconds kTick{33'333};
 constexpr int kSnapshotsPerTick = 8;  // until all objects are sent
 constexpr std::size_t kSendCap = std::size_t{16} << 20;
 
-// Small boxes on a fine grid with equal velocities: they never touch, but all paths cross, so a client that
-// predicts has to compare each with each.
+// The objects are small boxes on a fine grid with equal velocities. They never touch, but all their paths
+// cross, so a client that predicts collisions has to compare each with each other.
 constexpr std::uint32_t kRow = 220;
 constexpr df::Fixed kSpacing = df::kFixedOne >> 11;
 constexpr df::Fixed kBox = df::kFixedOne >> 14;
@@ -60,7 +60,7 @@ ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
   return object;
 }
 
-/// A server without a game: welcomes a client and sends it a pile of objects.
+/// A server without a game. It welcomes a client and sends it a pile of objects.
 class PileServer {
  public:
   static constexpr std::uint32_t kObjects = 48'000;
@@ -94,7 +94,7 @@ class PileServer {
 
   std::uint16_t port() const { return m_listener->port(); }
   const std::string& fingerprint() const { return m_fingerprint; }
-  /// Returns the number of objects sent to the present client.
+  /// Returns the number of objects sent so far to the present client.
   std::uint32_t sent() const { return m_sent; }
 
  private:
@@ -133,7 +133,7 @@ class PileServer {
       if (!stopped) tick();
     });
   }
-  // Sends as many objects as fit, or none if all have been sent.
+  // Sends a snapshot with as many objects as fit, or with none if all have been sent.
   void sendSnapshot() {
     SnapshotHeader header;
     header.number = ++m_number;
@@ -172,9 +172,10 @@ class PileServer {
   std::thread m_thread;
 };
 
-constexpr auto kSendTime = 60s;  // timeout for sending everything
+constexpr auto kSendTime = 60s;  // timeout for sending all objects
 
-/// Shows the pile for this time, then calls `interrupt`. Returns the milliseconds until dfclient ends.
+/// Lets dfclient show the pile for this time, then calls `interrupt`. Returns the milliseconds until dfclient
+/// ends.
 double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
                 const std::function<void(PtyTerminal&)>& interrupt) {
   PileServer server(folder + "/identity");

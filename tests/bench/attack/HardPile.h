@@ -7,15 +7,16 @@
 namespace bench::attack {
 
 struct PileResult {
-  double sigterm_ms = 0;  ///< time until dfclient ended; kPilePatience if it did not
+  double sigterm_ms = 0;  ///< time from the signal until dfclient ended; kPilePatience if it did not
   double ctrl_c_ms = 0;
-  long long objects = 0;  ///< objects sent to it
-  bool ended = false;     ///< it ended by itself
+  long long objects = 0;  ///< objects sent to dfclient
+  bool ended = false;     ///< dfclient ended before the signal
 };
 
 inline constexpr std::chrono::milliseconds kPilePatience{10000};
 
-/// Runs both cases, each half of this time before the signal. Throws std::runtime_error on failure.
+/// Tests SIGTERM and Ctrl-C, each after half of this time, at least 2 s. Throws std::runtime_error on
+/// failure.
 PileResult runHardPile(std::chrono::seconds duration);
 
 }  // namespace bench::attack

@@ -9,7 +9,7 @@
 namespace bench::attack {
 namespace {
 
-constexpr std::chrono::milliseconds kNoRush{250};  // keys missed in a longer pause are skipped
+constexpr std::chrono::milliseconds kNoRush{250};  // after a longer pause, the keys missed in it are skipped
 
 double millisBetween(HonestPlayer::Time from, HonestPlayer::Time to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
@@ -98,7 +98,7 @@ double HonestPlayer::pauseMillis(Time now) const {
 }
 
 void HonestPlayer::leave() {
-  // After another session has replaced the first, the first one's replica is gone.
+  // If another session has replaced the first one, the replica of the first is gone.
   if (!m_thrown_out && session() != nullptr) m_recorder.finish(session()->replica());
   m_connection->leave();
 }

@@ -1,4 +1,4 @@
-// A harmless player: plays at random and compares its pictures with the truth.
+// A harmless player, which plays at random and compares its pictures with the server's.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -27,7 +27,7 @@ class HonestPlayer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// With a relay, it connects from another address.
+  /// If `relay` is given, the player connects through a relay, from another address.
   HonestPlayer(asio::io_context& context, const Whereabouts& server, const std::string& name,
                std::optional<Relay::Options> relay);
 
@@ -35,13 +35,13 @@ class HonestPlayer {
   /// Returns the relay; null without one.
   Relay* relay() { return m_relay.get(); }
   bool isJoined() const { return m_connection->state() == naiad::Connection::State::kJoined; }
-  /// True if it plays in its original session.
+  /// True if the player is still in its first session.
   bool isInItsSession();
-  /// True if the connection is over, or continues as another player.
+  /// True if the connection has ended, or has joined again as another player.
   bool isThrownOut();
-  /// Returns the reason, for people.
+  /// Returns why the connection has ended, as a text for people.
   const std::string& message() const { return m_connection->message(); }
-  /// Measures pauses from now on.
+  /// Starts measuring pauses.
   void watchPauses(Time now);
   /// Returns the longest time without a new tick until now, in milliseconds.
   double pauseMillis(Time now) const;

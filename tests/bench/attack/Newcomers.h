@@ -1,4 +1,4 @@
-// A new player each second, from its own address, joins and leaves. Measures how long they wait.
+// Each second, a new player joins from its own address and leaves. Measures how long these players wait.
 #pragma once
 
 #include <algorithm>
@@ -40,14 +40,14 @@ class Newcomers {
   bool isBusy() const { return !m_guests.empty(); }
 
   int count() const { return m_count; }
-  /// Returns the number that were refused, disconnected, or gave up.
+  /// Returns the number of newcomers that were refused or disconnected, or gave up.
   int failed() const { return m_failed; }
-  /// Returns the longest time from the first byte to the picture; at least kPatience if any failed.
+  /// Returns the longest time from a newcomer's first byte to its picture; at least kPatience if one failed.
   double slowestMillis() const { return m_slowest_ms; }
 
  private:
   static constexpr int kNetwork = 90;
-  // Delay of a newcomer that the server asks to wait, like dfclient's.
+  // Time after which a newcomer that the server asked to wait tries again, as long as dfclient's.
   static constexpr std::chrono::milliseconds kRetryDelay{250};
   static constexpr std::chrono::milliseconds kLeaveTime{500};  // time for the goodbye to arrive
 

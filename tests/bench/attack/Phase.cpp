@@ -35,7 +35,7 @@ class Assault {
     if (m_thread.joinable()) m_thread.join();
   }
 
-  /// Rethrows an exception of the thread.
+  /// Waits for the end of the thread, and throws the thread's exception if it had one.
   void finish() {
     m_over = true;
     m_thread.join();
@@ -54,7 +54,7 @@ class Assault {
   asio::io_context m_context{1};
   std::atomic<bool> m_over{false};
   std::exception_ptr m_failure;
-  std::thread m_thread;  // last, because it uses the others
+  std::thread m_thread;  // last member, because it uses the others
 };
 
 /// Measures the server's CPU time in the second half, when an attack has used up its initial burst.
@@ -66,7 +66,7 @@ class CpuMeter {
           return Reading{Clock::now(), server.cpuSeconds()};
         })) {}
 
-  /// Returns the share of one core until now, in percent.
+  /// Returns the share of one core that the server used in the second half so far, in percent.
   double percent() {
     const Reading half = m_half.get();
     const std::chrono::duration<double> elapsed = Clock::now() - half.time;
@@ -83,7 +83,7 @@ class CpuMeter {
   std::future<Reading> m_half;
 };
 
-/// Returns the middle five sixths: 50 s of 60.
+/// Returns the middle five sixths of the duration, for example 50 s of 60 s.
 Company::Absence absenceIn(std::chrono::milliseconds duration) {
   return {duration / 12, duration * 11 / 12};
 }

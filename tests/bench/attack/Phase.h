@@ -1,4 +1,4 @@
-// A server with honest players for some time, with or without an attack.
+// Runs a server with honest players for some time, with or without an attack.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace bench::attack {
 struct PhaseResult {
   Fate fate;
   double seconds = 0;
-  double ticks = -1;       ///< the server's ticks; -1: it ended without its last line
+  double ticks = -1;       ///< number of the server's ticks; -1: it ended without its last log line
   double late_ticks = -1;  ///< ticks that began more than 5 ms late
   double cpu_percent = 0;  ///< the server's share of one core in the second half
   bool died = false;       ///< the server ended by itself

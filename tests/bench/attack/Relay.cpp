@@ -17,7 +17,7 @@ using asio::ip::tcp;
 using asio::ip::udp;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxQueued = std::size_t{4} << 20;  // bytes under way, above which reading stops
+constexpr std::size_t kMaxQueued = std::size_t{4} << 20;  // waiting bytes above which reading stops
 constexpr std::size_t kMaxHoses = 64;
 constexpr int kPortAttempts = 50;
 
@@ -46,7 +46,7 @@ class Line : public std::enable_shared_from_this<Line> {
   }
 
  private:
-  /// Bytes received from this socket; empty: the end.
+  /// Bytes received from a socket; an empty Chunk is the end of the stream.
   struct Chunk {
     Clock::time_point due;
     std::string bytes;
@@ -111,7 +111,7 @@ class Line : public std::enable_shared_from_this<Line> {
   std::array<Half, 2> m_halves;
 };
 
-/// Datagrams from one port of the client.
+/// Passes on datagrams of one port of the client.
 struct Hose {
   Hose(asio::io_context& context, udp::endpoint whose) : client(std::move(whose)), to_server(context) {}
   udp::endpoint client;

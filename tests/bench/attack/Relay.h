@@ -20,7 +20,7 @@ class Relay {
     bool datagrams = false;              ///< relay datagrams, too
   };
 
-  /// Runs in `context`, which must outlive it. Throws std::system_error.
+  /// Runs in `context`, which must outlive the relay. Throws std::system_error if no port is free.
   Relay(asio::io_context& context, std::uint16_t server_port, const Options& options);
   /// Calls cut().
   ~Relay();
@@ -31,7 +31,7 @@ class Relay {
   std::uint16_t port() const;
   /// Closes both ends of all present connections.
   void cut();
-  /// If closed, later connections end at once and datagrams are lost.
+  /// If `open` is false, later connections are closed at once, and datagrams are lost.
   void setOpen(bool open);
 
  private:

@@ -26,9 +26,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMaxLog = std::size_t{1} << 20;  // bytes kept
+constexpr std::size_t kMaxLog = std::size_t{1} << 20;  // bytes of the log that are kept
 
-/// Returns our environment without server settings, with this password.
+/// Returns this process's environment, without server settings but with this password.
 std::vector<std::string> environmentWith(const std::string& password) {
   std::vector<std::string> entries;
   for (char** p = environ; *p != nullptr; ++p) {
@@ -44,8 +44,8 @@ ServerProcess::ServerProcess(const ServerSetup& setup, const std::string& folder
     : m_password(setup.password), m_truth_file(folder + "/truth") {
   const std::string join_file = folder + "/join";
   std::vector<std::string> command{
-      serverProgram(),   "--port",      "0",       "--identity", folder + "/identity", "--state",
-      folder + "/state", "--join-file", join_file, "--truth",    m_truth_file};
+      serverProgram(),   "--port",      "0",       "--identity",   folder + "/identity", "--state",
+      folder + "/state", "--join-file", join_file, "--truth-file", m_truth_file};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("a pipe cannot be made");
@@ -142,7 +142,8 @@ void ServerProcess::setMode(LogMode mode) {
 
 void ServerProcess::stallLog() {
   setMode(LogMode::kStalled);
-  // Opened again, because O_NONBLOCK belongs to an open file, and the server's must block.
+  // The pipe is opened again, because O_NONBLOCK affects all descriptors of an open file, and writes by the
+  // server must block.
   const std::string name = "/proc/self/fd/" + std::to_string(m_log_out);
   const int filler = open(name.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
   if (filler < 0) throw std::runtime_error("the pipe of the log cannot be filled");

@@ -12,7 +12,7 @@
 
 namespace bench::attack {
 
-/// Settings that differ from a server without options.
+/// Settings of a server, in addition to the defaults.
 struct ServerSetup {
   std::vector<std::string> arguments;
   std::string password;  ///< empty: none
@@ -33,20 +33,20 @@ class ServerProcess {
   const std::string& password() const { return m_password; }
   const std::string& truthFile() const { return m_truth_file; }
   bool isRunning();
-  /// Returns the CPU time of all its threads since its start; 0 if it does not run.
+  /// Returns the CPU time of all the server's threads since its start; 0 if it does not run.
   double cpuSeconds() const;
 
   /// Stops reading the log and fills its pipe.
   void stallLog();
-  /// Ends the reader of the log.
+  /// Closes the read end of the log's pipe, like a reader that exits.
   void closeLog();
 
   /// Asks the server to stop (its log is read again), and kills it after ten seconds. Returns the counters of
   /// its last line; empty if that line is missing.
   Counters stop();
-  /// True if it ended before it was asked to.
+  /// True if the server ended before it was asked to.
   bool hasDied() const { return m_died; }
-  /// Returns the end of its log.
+  /// Returns the last part of the server's log.
   const std::string& log() const { return m_log; }
 
  private:
@@ -64,7 +64,7 @@ class ServerProcess {
   int m_log_in = -1;   ///< read end of the pipe
   int m_log_out = -1;  ///< the server's end, kept to fill the pipe
   std::atomic<LogMode> m_mode{LogMode::kRead};
-  std::atomic<LogMode> m_mode_seen{LogMode::kRead};  ///< mode that the thread has seen
+  std::atomic<LogMode> m_mode_seen{LogMode::kRead};  ///< mode that the log's thread now uses
   std::string m_log;                                 ///< owned by the thread until it has finished
   std::thread m_reader;
 };

@@ -14,7 +14,7 @@ using asio::ip::tcp;
 constexpr int kPerSource = 64;
 constexpr std::chrono::milliseconds kAgain{500};
 
-/// A connection that is made again whenever it ends.
+/// A connection that never sends anything and is made again whenever it ends.
 class Mute : public std::enable_shared_from_this<Mute> {
  public:
   Mute(asio::io_context& context, asio::ip::address source, tcp::endpoint server, long long& connects)

@@ -23,20 +23,22 @@ namespace {
 using namespace bench::attack;
 using namespace std::chrono_literals;
 
-/// Limit of a newcomer's wait and of a pause of the world.
+/// Limit of a newcomer's wait, and of the world's pauses, in ms.
 constexpr double kMaxWaitMillis = 1000;
-/// Allowed factor between the worst times with and without an attack on a slow machine, because an attack
-/// lasts four times as long.
+/// On a slow machine, the worst time during an attack may be this factor times the one without, because an
+/// attack lasts four times as long.
 constexpr double kBusyFactor = 4;
-/// Minimum for the three honest players together, which see about 90 ticks per second.
+/// Minimum number of compared ticks per second for the three honest players together, which receive about 90.
 constexpr double kMinComparedPerSecond = 5;
-/// Allowed increase of the late ticks' share. Not checked if many ticks are late without the attack.
+/// Allowed increase of the late ticks' share. Not checked if it is above kMaxCalmLateShare without the
+/// attack.
 constexpr double kMaxLateShare = 0.1;
 constexpr double kMaxCalmLateShare = 0.05;
 
 /// Percent of one core that the attacking player may add to the server's load, on a quiet machine.
 constexpr double kMaxCpuPercent = 2;
-/// Minimum length of an attack for the CPU limit. A shorter one has not used up its initial burst.
+/// Minimum length of an attack in seconds for checking kMaxCpuPercent. A shorter one has not used up its
+/// initial burst.
 constexpr double kMinCpuSeconds = 30;
 
 struct Effort {
@@ -79,7 +81,7 @@ bool isDear(const PhaseResult& calm, const PhaseResult& hot) {
   return hot.cpu_percent - calm.cpu_percent > limit;
 }
 
-/// Returns the keys of results that an attack must not cause.
+/// Returns the keys of the results whose values are a failure.
 std::vector<std::string> faultsOf(const PhaseResult& calm, const PhaseResult& hot) {
   std::vector<std::string> faults;
   if (hot.fate.wrong_cells > 0) faults.emplace_back("wrong_cells");

@@ -1,4 +1,4 @@
-// The pictures that both ends of the suite `capacity` compare, and their checksums.
+// Which pictures the suite `capacity` compares at both ends, and their checksums.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,13 @@
 
 namespace bench::capacity {
 
-/// A player's screen is compared in one of this many ticks, because drawing it costs server time.
+/// Each checked player's screen is compared in one of this number of ticks, because drawing it costs server
+/// time.
 inline constexpr std::uint32_t kCheckEvery = 32;
 inline bool isChecked(std::uint32_t player, std::uint32_t tick) {
   return (player + tick) % kCheckEvery == 0;
 }
-/// Beginning of the names of players that are checked.
+/// The names of checked players begin with this.
 inline constexpr const char* kCheckedName = "check";
 
 /// Returns a checksum over all cells, characters and colours (FNV-1a).

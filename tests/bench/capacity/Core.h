@@ -16,7 +16,7 @@ inline bool pinTo(int core) {
   return sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
-/// Returns the microseconds of processor time counted by a clock.
+/// Returns the processor time that a clock has counted, in microseconds.
 inline double cpuMicros(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
   timespec time{};
   clock_gettime(clock, &time);

@@ -53,10 +53,11 @@ class Bot {
   std::uint32_t player() { return m_connection.session()->welcome().player; }
   void leave() { m_connection.leave(); }
 
-  /// Returns the time from the first redirect to the first picture; nullopt without a redirect.
+  /// Returns the time from the first redirect to the first picture; nullopt if there was no redirect.
   std::optional<std::chrono::milliseconds> redirectTime() const { return m_redirect; }
 
-  /// Records that its server was killed. isBack() is true once the bot has lost the server and plays again.
+  /// Records that the bot's server is killed now. isBack() is true when the bot has lost its server and plays
+  /// again.
   void noteKill(Time now) {
     m_killed_at = now;
     m_back_at = {};
@@ -69,7 +70,7 @@ class Bot {
   std::chrono::milliseconds backTime() const {
     return std::chrono::duration_cast<std::chrono::milliseconds>(m_back_at - m_killed_at);
   }
-  /// Returns how often it has lost its server.
+  /// Returns how often the bot has lost its server.
   int losses() const { return m_losses; }
 
  private:

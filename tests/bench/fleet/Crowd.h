@@ -7,8 +7,8 @@
 //   state                                               PLAYING LOSSES; "problem SENTENCE": one cannot join
 //   kill PORT      that server is about to be killed    number of players on it
 //   waiting                                             number of these that are not back yet
-//   result                                              RETURNED DISTURBED MS... of those that are back
-//   redirects                                           MS... of redirected players
+//   result                                              RETURNED DISTURBED MS... (times of return)
+//   redirects                                           MS... (times of redirects)
 //   leave          the process ends                     0
 #pragma once
 
@@ -26,14 +26,14 @@ namespace bench {
 /// All functions throw std::runtime_error if one of the processes has ended, or a player cannot join.
 class Crowd {
  public:
-  /// `folder` is for the keys that the players pin, in a file for each process.
+  /// Each process has a file in `folder` for the keys that its players pin.
   Crowd(const std::string& link, const std::filesystem::path& folder, int players, int processes);
 
   /// Lets the players join, at most `at_once` at a time. False if they have not all joined in time.
   bool joinAll(int at_once, std::chrono::seconds most);
   struct State {
     int playing = 0;
-    int losses = 0;  ///< how often players have lost their servers
+    int losses = 0;  ///< total number of times that players have lost their servers
   };
   State state();
   /// Returns each redirected player's time from the directory's answer to the first picture, in milliseconds.
@@ -41,12 +41,12 @@ class Crowd {
 
   /// Call before the server at this port is killed. Returns how many players it has.
   int noteKill(std::uint16_t port);
-  /// Waits until all of them play again, or for this time.
+  /// Waits until all players of the killed server play again, but at most for this time.
   void waitUntilBack(std::chrono::milliseconds most);
   struct Return {
-    int returned = 0;        ///< players that kept their identity
-    int disturbed = 0;       ///< times that players of other servers lost theirs
-    std::vector<long> back;  ///< milliseconds, for each that plays again
+    int returned = 0;        ///< players of the killed server that play again as the same players
+    int disturbed = 0;       ///< how often players of other servers lost their servers
+    std::vector<long> back;  ///< milliseconds until the player was back, for each that plays again
   };
   Return result();
   void leaveAll();
@@ -60,8 +60,8 @@ class Crowd {
   int m_players;
 };
 
-/// Runs one of these processes until "leave" or the end of its input. Throws std::runtime_error for an
-/// invalid link.
+/// Runs one of the crowd's processes until it reads "leave" or its input ends. Throws std::runtime_error for
+/// an invalid link.
 void serveCrowd(const std::string& link, const std::filesystem::path& known_servers, int first, int count);
 
 }  // namespace bench

@@ -69,7 +69,8 @@ class Players {
   std::size_t playing() const {
     return static_cast<std::size_t>(std::ranges::count_if(m_bots, &Bot::isPlaying));
   }
-  /// A player that ends after all have joined counts as not returned, so it is not a problem here.
+  /// Returns the answer to "state". A player that ends after all have joined is not a problem here, because
+  /// it will count as not returned.
   std::string state() {
     m_have_come = m_have_come || playing() == m_count;
     const auto over = std::ranges::find_if(m_bots, &Bot::isOver);
@@ -83,7 +84,8 @@ class Players {
     for (const Bot* p_bot : m_others) losses += p_bot->losses();
     return losses;
   }
-  /// A bot may move to another server for good. It still counts as one that lost its server.
+  /// Prepares result(), which counts these bots even if they move to another server for good. Returns their
+  /// number.
   std::string noteKill(std::uint16_t port) {
     m_there.clear();
     m_others.clear();
@@ -120,13 +122,13 @@ class Players {
   std::size_t m_count;
   std::size_t m_at_once = 0;
   std::deque<Bot> m_bots;
-  bool m_have_come = false;   ///< all have joined
+  bool m_have_come = false;   ///< true once all players have joined
   std::vector<Bot*> m_there;  ///< players of the last killed server
   std::vector<Bot*> m_others;
-  int m_before = 0;  ///< losses of the others when it was killed
+  int m_before = 0;  ///< losses of m_others when the server was killed
 };
 
-/// Appends the available input. False at its end.
+/// Appends the available input to `text`. False at the end of the input.
 bool readInput(std::string& text) {
   pollfd ready{STDIN_FILENO, POLLIN, 0};
   if (::poll(&ready, 1, 0) != 1) return true;

@@ -42,7 +42,8 @@ std::uint16_t portIn(const fs::path& path) {
   return static_cast<std::uint16_t>(std::atoi(textOf(path).c_str()));
 }
 
-/// Returns the counter from the last line that has it. Lines omit counters that are 0.
+/// Returns the counter `name` from the last line that has it; nullopt if none has it, because lines omit
+/// counters that are 0.
 std::optional<std::uint64_t> counter(const std::string& log, const std::string& name) {
   const std::size_t at = log.rfind(" " + name + "=");
   if (at == std::string::npos) return std::nullopt;
@@ -135,7 +136,7 @@ void Fleet::startServer(std::size_t number) {
   server.log_begin = textOf(server.folder / "log").size();
   const std::vector<std::string> words{"dfserver",
                                        "--address=127.0.0.1",
-                                       "--link-host=127.0.0.1",
+                                       "--public-host=127.0.0.1",
                                        "--lan=off",
                                        "--game=" + m_setup.game,
                                        "--port=" + std::to_string(server.port),
@@ -153,7 +154,7 @@ void Fleet::startServer(std::size_t number) {
   server.process.emplace(words, server.folder / "log");
 }
 
-// Reads the counters first, because a killed process loses them. A hanging server has none.
+// Reads the counters before the kill, because a killed process loses them. A hanging server does not answer.
 void Fleet::killServer(std::size_t number) {
   Server& server = m_servers.at(number);
   try {
@@ -167,7 +168,7 @@ void Fleet::killServer(std::size_t number) {
   server.process->kill();
 }
 
-// Sends only one signal each, because a second one may end a server before its last line.
+// Sends each program only one signal, because a second one may end a server before it writes its last line.
 void Fleet::end() {
   for (Server& server : m_servers) server.process->signal(SIGTERM);
   for (Server& server : m_servers) {

@@ -22,7 +22,7 @@ struct FleetSetup {
 
 class Fleet {
  public:
-  /// Throws std::runtime_error if a part does not start.
+  /// Starts all programs. Throws std::runtime_error if one does not start.
   explicit Fleet(const FleetSetup& setup);
   ~Fleet();
 
@@ -52,7 +52,7 @@ class Fleet {
     std::filesystem::path folder;
     std::uint16_t port = 0;
     std::optional<Process> process;
-    std::size_t log_begin = 0;  ///< start of this process's part of the log
+    std::size_t log_begin = 0;  ///< where the log of the present process begins in the file
   };
   std::string busUrl() const { return "nats://127.0.0.1:" + std::to_string(m_bus_port); }
   void startDirectory();

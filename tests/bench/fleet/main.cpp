@@ -28,11 +28,11 @@ constexpr std::chrono::milliseconds kPlay{2'000};  ///< time between two kills
 constexpr std::chrono::milliseconds kReturnTimeout{60'000};
 constexpr int kJoiningAtOnce = 25;
 
-// Requirements for a run on a machine that keeps up with the ticks.
+// Limits that a run must meet if the machine keeps up with the ticks.
 
-constexpr double kMaxLatePercent = 5;  ///< above this the run is invalid
+constexpr double kMaxLatePercent = 5;  ///< if more ticks are late, the run is invalid
 constexpr long kMaxBackMillis = 3'000;
-constexpr long kMaxRedirectMillis = 2'000;  ///< p99
+constexpr long kMaxRedirectMillis = 2'000;  ///< limit of the 99th percentile
 
 /// Returns the number of processes for these players, because a thread can serve at most 250 in time.
 int processesFor(int players) {
@@ -42,8 +42,8 @@ int processesFor(int players) {
 struct Result {
   int kills = 0;
   int players = 0;    ///< players of killed servers
-  int returned = 0;   ///< those of them that kept their identity
-  int disturbed = 0;  ///< times that players of other servers lost theirs
+  int returned = 0;   ///< of these, players that play again as the same players
+  int disturbed = 0;  ///< how often players of other servers lost their servers
   std::vector<long> back;
   std::vector<long> redirects;
   int lost_without_bus = 0;

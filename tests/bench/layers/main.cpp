@@ -4,8 +4,8 @@
 //     naiad_layers SCENE LAYER one|sixteen|all TICKS
 //
 // The scene has an additional moving Object far from all others, or sixteen that stand scattered among them.
-// Only these use the layer, or all do. None reaches a border. Prints `allocations_per_tick=…
-// bytes_per_object=…`.
+// Only the additional Objects use the layer ("one", "sixteen"), or all do ("all"). No Object reaches a
+// border. Prints `allocations_per_tick=… bytes_per_object=…`.
 #include <malloc.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@
 namespace {
 
 long s_allocations = 0;
-long s_bytes = 0;  // presently allocated, as rounded by the allocator
+long s_bytes = 0;  // bytes presently allocated, as rounded up by the allocator
 
 void* take(std::size_t size) {
   void* p = std::malloc(size > 0 ? size : 1);
@@ -41,7 +41,7 @@ void give(void* p) {
 
 }  // namespace
 
-// Only replaced operators see every allocation in the process.
+// The global operators are replaced, because only these see every allocation in the process.
 void* operator new(std::size_t size) {
   return take(size);
 }

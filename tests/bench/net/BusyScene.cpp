@@ -17,7 +17,7 @@ namespace bench {
 namespace {
 
 constexpr int kFine = 1'000'000;
-constexpr int kTwoMinutes = 120 * 30;  // ticks
+constexpr int kTwoMinutes = 120 * 30;  // in ticks
 
 /// Returns a uniform number in -most … most.
 double within(double most) {
@@ -64,7 +64,8 @@ class Walker : public df::Object {
     }
     if (m_kind == BusyScene::Kind::kStraight) stayForTwoMinutes();
   }
-  // Walks to the farther side without reaching it, because leaving the map would be a change.
+  // Walks towards the farther side so slowly that it does not arrive in two minutes, because leaving the map
+  // would be a change.
   void stayForTwoMinutes() {
     const df::Vector p = getPosition();
     const df::Vector v = getVelocity();

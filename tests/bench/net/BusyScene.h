@@ -1,4 +1,4 @@
-// The worlds of the network measurements: `busy1000`, and two that should cost nothing.
+// The worlds of the network measurements: `busy1000`, and two in which nothing changes that must be sent.
 //
 // 1000 single characters on 320 by 96 cells. 80 % walk at up to ±0.5 cells per tick across and ±0.25 down, 10
 // % stand, 10 % run at ±1 across; they bounce at the edges. In each tick 1 % turn, 2 % change their
@@ -24,7 +24,8 @@ class BusyScene {
     kStill,     ///< no changes at all
   };
 
-  /// Each player's view is `width` by `height` cells. The players see the parts of the world in turn.
+  /// Each player's view is `width` by `height` cells. The views are spread over the parts of the world in
+  /// turn.
   BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed);
   ~BusyScene();
 

@@ -34,10 +34,10 @@ class LinkedClient {
 
   const naiad::Replica& replica() const { return m_replica; }
   naiad::DisplayClock& displayClock() { return m_display; }
-  /// Returns the virtual time as a time of the display clock.
+  /// Returns the present virtual time as a time for the display clock.
   Time now() const { return Time{} + m_clock.now(); }
 
-  /// Figures since the last resetFigures().
+  /// Measured since the last resetFigures(): bytes on the line, and times.
   std::size_t bytes_down = 0;
   std::size_t bytes_up = 0;
   std::size_t packets_down = 0;

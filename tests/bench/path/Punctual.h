@@ -6,8 +6,8 @@
 
 namespace bench::path {
 
-/// Requests that this process, but not its later children, is woken exactly on time and before others. Has no
-/// effect without the permission to set a priority.
+/// Requests that this process, but not its later children, is woken exactly on time and before other
+/// processes. Has no effect without the permission to set a priority.
 inline void becomePunctual() {
   prctl(PR_SET_TIMERSLACK, 1UL);
   sched_param priority{};

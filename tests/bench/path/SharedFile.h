@@ -1,4 +1,5 @@
-// A file with a T that several processes map. The programs of this folder use it to observe each other.
+// A file that contains a T and that several processes map into memory. The programs of this folder use it to
+// observe each other.
 #pragma once
 
 #include <fcntl.h>
@@ -13,7 +14,8 @@
 
 namespace bench::path {
 
-/// T must consist of plain data and lock-free atomics. Throws std::runtime_error.
+/// T must consist of plain data and lock-free atomics. create() and open() throw std::runtime_error on
+/// failure.
 template <class T>
 class SharedFile {
  public:

@@ -20,10 +20,10 @@ struct Obstacle {
 // Sum of the half sizes of an obstacle and the mover.
 constexpr float kReach = 1;
 
-// Receives obstacles that the ray may hit, each nearer than the last hit.
+// Callback of the tree's ray cast: tests each obstacle that the ray may hit before the nearest hit so far.
 struct Ray {
   const b2DynamicTree& tree;
-  b2Vec2 inverse;  // reciprocal of the way's components
+  b2Vec2 inverse;  // reciprocals of the components of the way
   Answer answer;
 
   float RayCastCallback(const b2RayCastInput& input, std::int32_t handle) {
@@ -42,7 +42,7 @@ struct Ray {
   }
 };
 
-// Returns the position of a cell on Morton's curve, with the bits of its coordinates alternating.
+// Returns the position of a cell on Morton's curve: the bits of its two coordinates, alternating.
 std::uint64_t alongCurve(b2Vec2 middle) {
   std::uint64_t place = 0;
   const auto x = static_cast<std::uint32_t>(std::max(middle.x, 0.0F));
@@ -61,9 +61,9 @@ struct Box2dCasts::Tree {
   std::vector<Obstacle> obstacles;
 };
 
-// The tree adds a margin to each box for moving objects, which fixed ones do not need. Obstacles are added
-// along a curve, neighbour after neighbour, which makes the tree two to four times faster than a random
-// order.
+// The tree enlarges each box by a margin for moving objects. Fixed obstacles do not need it, so it is
+// subtracted. Obstacles are added along a curve, neighbour after neighbour, which makes the tree two to four
+// times faster than a random order.
 Box2dCasts::Box2dCasts(const Field& field) : m_p_tree(std::make_unique<Tree>()) {
   const b2Vec2 reach(kReach - b2_aabbExtension, kReach - b2_aabbExtension);
   for (const df::FixedBox& box : field.obstacles) {

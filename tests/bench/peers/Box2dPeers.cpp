@@ -1,4 +1,4 @@
-// Box2D's tree alone, its world as an index, and its world's Step().
+// Three peers: Box2D's tree alone, its world as an index of boxes, and its world's Step().
 #include <box2d/b2_dynamic_tree.h>
 #include <box2d/box2d.h>
 
@@ -21,8 +21,8 @@ b2AABB boxAt(const Object& object, float x, float y) {
 }
 
 // Boxes have the tree's default margin of a tenth of a cell. Passing a predicted displacement to MoveProxy
-// would save some reinsertions, but makes the queries slower: with 1/4, 1/2 and the whole velocity it was
-// never clearly faster, and twice as slow at worst.
+// would save some reinsertions, but make queries slower: with 1/4, 1/2 and the whole velocity, ticks were
+// never clearly faster, and up to twice as slow.
 class Box2dTree {
  public:
   using Real = float;
@@ -86,7 +86,7 @@ class Box2dWorld {
   void moved(Object& object) { static_cast<b2Body*>(object.shape)->SetTransform({object.x, object.y}, 0); }
 
  private:
-  // The world compares slightly enlarged boxes, so this compares the exact ones.
+  // The world finds boxes by enlarged copies of them, so the query compares the exact boxes.
   class Query final : public b2QueryCallback {
    public:
     Query(const Object& mover, Real x, Real y, std::vector<Object*>& out)
@@ -111,7 +111,7 @@ constexpr float kTickLength = 1;  // velocities are per tick
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
-// Kinematic bodies: they move by their velocities and nothing pushes them, like here.
+// Kinematic bodies, which move by their velocities and are not pushed, like the Objects of these scenes.
 class Box2dMotion : public Engine {
  public:
   explicit Box2dMotion(const Scene& scene) : m_world(b2Vec2_zero), m_side(static_cast<float>(scene.side)) {

@@ -1,4 +1,4 @@
-// Chipmunk's spatial hash alone, and its space as an index.
+// Two peers: Chipmunk's spatial hash alone, and its space as an index of boxes.
 #include <chipmunk/chipmunk.h>
 
 #include "PeerWorld.h"
@@ -53,13 +53,13 @@ class ChipmunkHash {
   cpSpatialIndex* m_index;
 };
 
-// Static bodies have positions and boxes, but the space never moves or pairs them, which is the least work
-// for it. (With kinematic ones the tree takes 1.3 times as long, because it maintains their pairs.)
+// Uses static bodies: they have positions and boxes, but the space never moves or pairs them, so it has the
+// least work. (With kinematic bodies the tree takes 1.3 times as long, because it maintains their pairs.)
 class ChipmunkSpace {
  public:
   using Real = cpFloat;
 
-  /// A table of length 0 selects the trees.
+  /// `table` is the length of the hash table; 0 selects the trees instead.
   ChipmunkSpace(const Scene& /*scene*/, double cell, int table) : m_space(cpSpaceNew()) {
     if (table > 0) cpSpaceUseSpatialHash(m_space, cell, table);
   }
@@ -99,7 +99,7 @@ class ChipmunkSpace {
   }
 
  private:
-  // The space has compared the boxes, including edges, and these doubles are exact.
+  // No further test is needed: the space has compared the boxes, including edges, and doubles are exact here.
   static void found(cpShape* shape, void* p_query) {
     auto* query = static_cast<Query*>(p_query);
     auto* other = static_cast<Object*>(cpShapeGetUserData(shape));

@@ -12,7 +12,7 @@ namespace bench {
 namespace {
 
 constexpr int kMaxObjects = 100'000;
-constexpr int kObjectTurns = 200'000;  // per trial
+constexpr int kObjectTurns = 200'000;  // turns of objects in a trial
 
 int ticksFor(const Scene& scene) {
   return std::max(2, kObjectTurns / std::max(1, scene.countMoving()));
@@ -27,7 +27,8 @@ double timeOf(const Scene& scene, double cell, int table_per_object) {
   return cpuNanoseconds() - begin;
 }
 
-// Tries cell sizes with the table length that the manual recommends, then table lengths.
+// Tries cell sizes with the table length that the manual recommends, then table lengths with the best cell
+// size.
 ChipmunkTuning tryAll(const Scene& scene) {
   std::vector<double> cells = {1, 1.5, 2, 3, 4, 6};
   if (scene.mix == Mix::SPRITES) cells = {2, 3, 4, 6, 8, 12, 16};

@@ -1,5 +1,5 @@
-// State per object of a game that uses a peer's library: its own position and velocity in the library's
-// number type, and a virtual handler that receives collisions like an Object's eventHandler.
+// An object in a game that uses a peer, that is, another library: position and velocity in the library's
+// number type, and a virtual handler for collisions, like an Object's eventHandler.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct PeerBody {
   struct Collision {
     PeerBody* mover;
     PeerBody* other;
-    Real x;  ///< target of the mover
+    Real x;  ///< x of the mover's target
     Real y;
   };
 
@@ -43,7 +43,7 @@ struct PeerBody {
 
   bool isSolid() const { return solidness != df::SPECTRAL; }
   bool blocks(const PeerBody& other) const { return solidness == df::HARD && other.solidness == df::HARD; }
-  /// True if the two boxes would touch with this one at (at_x, at_y).
+  /// True if the two boxes would touch if this one was at (at_x, at_y).
   bool touches(const PeerBody& other, Real at_x, Real at_y) const {
     return std::abs(other.x - at_x) <= half_width + other.half_width &&
            std::abs(other.y - at_y) <= half_height + other.half_height;
@@ -56,10 +56,10 @@ struct PeerBody {
   Real half_width;
   Real half_height;
   std::uint32_t id;
-  std::int32_t handle = 0;  ///< used by libraries with numeric handles
-  void* shape = nullptr;    ///< used by libraries with pointers
+  std::int32_t handle = 0;  ///< this object in a library with numeric handles
+  void* shape = nullptr;    ///< this object in a library with pointers
   df::Solidness solidness;
-  std::uint64_t turned = 0;  ///< last tick in which it was blocked
+  std::uint64_t turned = 0;  ///< last tick in which this object was blocked
   Tally& tally;
 };
 

@@ -1,6 +1,6 @@
-// The workload's tick on a peer's spatial index: turns in the order of WM.update(), without the work that a
-// careful programmer would avoid (objects at rest are skipped, the list of hits is reused, and objects that
-// would leave the world are not moved out and back).
+// The workload's tick with a peer's spatial index. Objects move in the order of WM.update(). Work that a
+// careful programmer would avoid is left out: objects at rest are skipped, the list of hits is reused, and
+// objects that would leave the world are not moved out and back.
 //
 // An Index has a number type `Real`, a constructor from Scene&, and
 //   void add(PeerBody<Real>&)            a solid body enters;
@@ -26,7 +26,8 @@ class PeerWorld : public Engine {
   using Real = typename Index::Real;
   using Object = PeerBody<Real>;
 
-  /// `turns` is the number of objects, evenly spaced, that take a turn per tick(), if less than all.
+  /// `turns` is the number of objects that move in each tick(). If that is less than all, they are evenly
+  /// spaced among all.
   template <class... Arguments>
   explicit PeerWorld(const Scene& scene, int turns, Arguments... arguments)
       : m_index(scene, arguments...),

@@ -7,20 +7,20 @@
 namespace bench {
 
 /// A Chipmunk spatial hash alone: cpSpatialIndexQuery, then cpSpatialIndexReindexObject. `cell` is the size
-/// of its cells, `table` the length of its hash table; tuneChipmunk() finds the best.
+/// of its cells, `table` the length of its hash table; tuneChipmunk() finds the best values.
 EnginePtr makeChipmunkHash(const Scene& scene, double cell, int table);
 /// A Chipmunk space that uses a spatial hash: cpSpaceBBQuery, then cpSpaceReindexShape.
 EnginePtr makeChipmunkSpace(const Scene& scene, double cell, int table);
 /// A Chipmunk space with its default bounding box trees.
 EnginePtr makeChipmunkTree(const Scene& scene);
 
-/// A Box2D world: b2World::QueryAABB, then b2Body::SetTransform. `turns` is the number of objects, evenly
-/// spaced, that take a turn per tick(), if less than all.
+/// A Box2D world: b2World::QueryAABB, then b2Body::SetTransform. `turns` is the number of objects that move
+/// in each tick(); if less than all, they are evenly spaced among all.
 EnginePtr makeBox2dWorld(const Scene& scene, int turns);
 /// A Box2D tree alone: b2DynamicTree::Query, then MoveProxy.
 EnginePtr makeBox2dTree(const Scene& scene);
 /// Bodies without shapes in a Box2D world, moved by b2World::Step, for scenes without collisions. (Three
-/// quarters of its time are clock readings for Step's profile, one set per body here.)
+/// quarters of its time are clock readings for Step's profile, which are made for each body here.)
 EnginePtr makeBox2dMotion(const Scene& scene);
 
 /// Cell and table size at which Chipmunk's spatial hash is fastest.

@@ -15,7 +15,7 @@ namespace bench::physics {
 namespace {
 
 constexpr double kTicks = Scene::kTicksPerSecond;
-constexpr double kWorldSide = 1e6;  // cells, so large that nothing leaves it
+constexpr double kWorldSide = 1e6;  // side of the world in cells, so large that nothing leaves it
 
 void demand(bool holds, const char* what) {
   if (!holds) throw std::runtime_error(std::string("a scene of bodies: ") + what);
@@ -58,14 +58,14 @@ class NaiadSimulation : public Simulation {
   }
 
  private:
-  // One of the two pointers is set. The world owns the object.
+  // An object of the scene. One of the two pointers is set; the world owns the object.
   struct Thing {
     df::Body* p_body = nullptr;
     df::Object* p_wall = nullptr;
   };
 
   void add(const Body& body, bool collide) {
-    // Only bodies can have hinges.
+    // If nothing collides, a static body may have hinges, which only a df::Body can have.
     if (body.motion == Motion::STATIC && collide) {
       addWall(body);
     } else {
@@ -100,7 +100,8 @@ class NaiadSimulation : public Simulation {
     m_things.push_back({.p_body = p_body});
   }
 
-  // Part centres are relative to the mass centre of the parts before; in a scene, to that of the whole body.
+  // Adds parts. Their centres are relative to the mass centre of the parts added so far; in a scene, to that
+  // of the whole body.
   static void addShapes(df::Body& made, const std::vector<Part>& parts) {
     double area = 0;
     double x = 0;

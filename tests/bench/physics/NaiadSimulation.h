@@ -1,5 +1,5 @@
-// df::Body Objects in their own World; a metre is a cell in both directions. Static bodies are ordinary HARD
-// Objects.
+// Builds a scene of df::Body Objects in its own World, in which a metre is a cell in both directions. Static
+// bodies are ordinary HARD Objects.
 #pragma once
 
 #include "Simulation.h"

@@ -44,7 +44,7 @@ double reachAlong(const Placed& box, double x, double y) {
          box.half_height * std::abs(box.pose.cosine * y - box.pose.sine * x);
 }
 
-// The least shift that separates two boxes is along a side of one of them.
+// Returns the length of the shortest shift that separates two boxes. It is along a side of one of them.
 double depthOfBoxes(const Placed& a, const Placed& b) {
   const double dx = b.pose.x - a.pose.x;
   const double dy = b.pose.y - a.pose.y;
@@ -94,7 +94,7 @@ double deepestOverlap(const std::vector<Body>& bodies, const std::vector<Pose>& 
       all.back().dynamic = bodies[i].motion == Motion::DYNAMIC;
     }
   }
-  // Sweep and prune along x.
+  // Finds the pairs that may overlap by sorting all parts along x.
   std::sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) { return a.left() < b.left(); });
   double deepest = 0;
   for (auto a = all.begin(); a != all.end(); ++a) {

@@ -11,15 +11,15 @@ namespace bench::physics {
 struct Run {
   std::vector<double> tick_ms;   ///< CPU time of each tick
   std::vector<double> overlaps;  ///< deepest overlap in metres at each check, in scenes with collisions
-  double joint_error = 0;        ///< largest error of a hinge in metres, over all checks
+  double joint_error = 0;        ///< largest gap in a hinge at any check, in metres
   int looks = 0;
-  int failed = 0;    ///< maximum number of frozen, not finite or escaped bodies, at the checks and the end
+  int failed = 0;    ///< largest number of frozen, not finite or escaped bodies at any check or at the end
   bool cut = false;  ///< stopped at the time limit
 
-  /// Returns the mean of the first `ticks` ticks.
+  /// Returns the mean time of the first `ticks` ticks.
   double meanMs(std::size_t ticks) const;
   double worstMs() const;
-  /// Returns the mean of all checks. There must be at least one.
+  /// Returns the mean of `overlaps`, which must not be empty.
   double meanOverlap() const;
 };
 

@@ -12,8 +12,8 @@ namespace bench::physics {
 struct Part {
   double half_width = 0;
   double half_height = 0;
-  double radius = 0;  ///< > 0: a circle
-  double x = 0;       ///< its centre relative to the body's centre of mass
+  double radius = 0;  ///< if above 0, the part is a circle
+  double x = 0;       ///< x of its centre, relative to the body's centre of mass
   double y = 0;
 
   bool isCircle() const { return radius > 0; }
@@ -35,11 +35,11 @@ struct Body {
   double mass() const;
 };
 
-/// Two bodies that turn about a common point.
+/// A point at which two bodies are connected, and about which they can turn.
 struct Hinge {
   int a = kWorld;
   int b = 0;
-  double x = 0;  ///< position at the start, in the world
+  double x = 0;  ///< x of the point at the start, in the world
   double y = 0;
 
   static constexpr int kWorld = -1;
@@ -58,16 +58,16 @@ struct Pose {
   }
 };
 
-/// Region of the centres of dynamic bodies. A body outside has passed through a wall, or is more than half
-/// inside it.
+/// Region in which the centres of all dynamic bodies must be. A body outside has passed through a wall, or is
+/// more than half inside a wall.
 struct Room {
   double left = -std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();
   double top = -std::numeric_limits<double>::infinity();
   double bottom = std::numeric_limits<double>::infinity();
-  int frame = Hinge::kWorld;  ///< the rotating body in whose axes the region is given; otherwise the world
+  int frame = Hinge::kWorld;  ///< rotating body in whose axes the region is given; kWorld: the world's axes
 
-  /// True if the pose is inside. `poses` are those of all bodies.
+  /// True if `pose` is inside the region. `poses` are the poses of all bodies.
   bool holds(const std::vector<Pose>& poses, const Pose& pose) const;
 };
 

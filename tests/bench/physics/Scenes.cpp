@@ -7,7 +7,7 @@
 namespace bench::physics {
 namespace {
 
-// Makes a box from its full sides, as in descriptions of scenes.
+// Makes a box from the lengths of its sides.
 Body box(double x, double y, double width, double height, Motion motion = Motion::DYNAMIC) {
   Body body;
   body.parts.push_back({.half_width = width / 2, .half_height = height / 2});
@@ -39,7 +39,8 @@ void addPyramid(Scene& scene, double centre, int rows) {
   }
 }
 
-// Uses raw numbers of std::mt19937, which are equal in every library, unlike those of distributions.
+// Draws random shifts from raw numbers of std::mt19937, which are equal in every library, unlike those of
+// distributions.
 class Shift {
  public:
   double next() { return (static_cast<double>(m_random()) / kNumbers - 0.5) * 2 * kLargest; }
@@ -159,7 +160,7 @@ Scene makeChain100() {
   scene.collide = false;
   for (int i = 0; i < kLinks; ++i) {
     scene.bodies.push_back(box(i + 0.5, 0, 1, 0.25));
-    scene.hinges.push_back({i - 1, i, static_cast<double>(i), 0});  // the first hinge is at the world
+    scene.hinges.push_back({i - 1, i, static_cast<double>(i), 0});  // the first is at the world
   }
   Body load = box(kLinks + 0.5, 0, 1, 1);
   load.density = 100 * scene.bodies.front().mass();

@@ -1,4 +1,4 @@
-// A world that runs a Scene, in our engine or Box2D.
+// A world that runs a Scene, in this project's engine or in Box2D.
 #pragma once
 
 #include <cstddef>

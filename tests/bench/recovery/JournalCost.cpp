@@ -21,7 +21,7 @@ using naiad::Round;
 
 constexpr int kTicks = 20'000;
 constexpr int kRuns = 5;
-constexpr std::size_t kAnswer = 400;  ///< bytes of a busy scene's changes in one tick
+constexpr std::size_t kAnswer = 400;  ///< bytes in a world's answer, for a busy scene
 
 struct Nowhere : naiad::JournalSink {
   void write(std::string_view /*bytes*/) override {}
@@ -29,7 +29,7 @@ struct Nowhere : naiad::JournalSink {
   void setFlags(std::uint16_t /*flags*/) override {}
 };
 
-/// Answers at once. With `hashes`, like a journaled world.
+/// A world that answers at once. If `hashes` is true, it hashes its answers like a journaled world.
 class StubWorld : public naiad::WorldPort {
  public:
   explicit StubWorld(bool hashes) : m_hashes(hashes) {}

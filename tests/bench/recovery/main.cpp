@@ -5,7 +5,7 @@
 //   naiad_recovery long GAME COUNT SEED    kills in a round of ten minutes
 //   naiad_recovery scores COUNT SEED       kills in a game that adds scores, which the server must keep
 //   naiad_recovery worlds GAME COUNT SEED  kills of the world's process while the server lives
-//   naiad_recovery hangs COUNT SEED        hangs of worlds, with the server's own --hang-time
+//   naiad_recovery hangs COUNT SEED        hangs of worlds, with the server's own --tick-timeout
 //   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
 #include <chrono>
@@ -34,14 +34,15 @@ using std::chrono::milliseconds;
 
 constexpr int kPlayers = 4;
 constexpr const char* kHangingModule = NAIAD_BINARY_DIR "/../lib/hanging_module.so";
-/// Kills per round. Each kill compares pictures by replaying the round from its beginning.
+/// Kills per round. They are limited, because each compares pictures by replaying the round from its
+/// beginning.
 constexpr int kKillsInARound = 10;
 constexpr milliseconds kMaxPlay{1500};
-/// The ticks of ten minutes, which take 2 ms each here.
+/// The number of ticks in ten minutes at 30 Hz. Here a tick takes only 2 ms.
 constexpr std::uint32_t kLongTurns = 18'000;
 constexpr std::chrono::microseconds kShortFrame{2'000};
 constexpr std::chrono::seconds kReplayTimeout{300};
-/// Two deaths of a world within a second would end the round.
+/// Time between two kills of a world. Two within a second would end the round.
 constexpr milliseconds kBetweenDeaths{1500};
 constexpr milliseconds kBetweenCopies{10'000};
 
@@ -57,7 +58,7 @@ struct Total {
   std::size_t scores = 0;
   std::size_t missing = 0;
   std::size_t foreign = 0;
-  std::vector<long> took;  ///< milliseconds
+  std::vector<long> took;  ///< times until all players were back, in milliseconds
 };
 
 void add(const KillResult& result, Total& total) {
@@ -86,13 +87,13 @@ void verify(RecoveryRun& run, const std::string& game, Total& total) {
   total.foreign += check.foreign;
 }
 
-/// Kills the server; or also its successor; or also its world.
+/// Kills the server, in some cases also its world before it, or its successor after it.
 KillResult killSomehow(RecoveryRun& run, std::mt19937_64& random) {
   switch (random() % 4) {
     case 0:
       return run.killBoth();
     case 1:
-      // While it is starting, or while clients return.
+      // The second kill is while the server is starting, or while clients return.
       return run.killTwice(milliseconds(random() % 700));
     default:
       return run.kill();
@@ -111,7 +112,7 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
   verify(run, game, total);
 }
 
-/// Replays the whole round after each kill.
+/// Kills in a round of ten minutes. The whole round is replayed after each kill.
 Total runLongRound(const std::string& game, int kills, std::uint64_t seed) {
   Total total;
   RecoveryRun run(game, kPlayers, seed, kShortFrame);

@@ -27,7 +27,7 @@ using Millis = std::chrono::duration<double, std::milli>;
 
 constexpr int kRooms = 16;
 constexpr const char* kGames[] = {NAIAD_BINARY_DIR "/../lib/room_module.so", "hello", "chase", "tron"};
-constexpr int kBurns = 0, kCrashes = 4, kHangs = 8;  ///< rooms of the first game
+constexpr int kBurns = 0, kCrashes = 4, kHangs = 8;  ///< numbers of the failing rooms
 constexpr std::chrono::microseconds kTick{33'333};
 constexpr std::chrono::seconds kWarmUp{3};
 constexpr std::chrono::milliseconds kBetweenMoves{700};
@@ -41,7 +41,7 @@ bool isBad(int number) {
   return number == kBurns || number == kCrashes || number == kHangs;
 }
 
-/// A player. Records the arrival times of its world's ticks.
+/// A player that records the arrival times of its world's ticks.
 class Player {
  public:
   Player(asio::io_context& context, std::uint16_t port, naiad::test::ClientSetup setup,
@@ -65,16 +65,17 @@ class Player {
     session().sendKey(key, df::KEY_PRESSED, Clock::now());
     session().sendKey(key, df::KEY_RELEASED, Clock::now());
   }
-  /// Starts a measurement.
+  /// Starts recording `gaps`.
   void measure() {
     m_measures = true;
     gaps.clear();
   }
-  /// True if the world of the newest snapshot is complete.
+  /// True if the player has received the complete world of the newest snapshot.
   bool isComplete() const { return m_complete; }
   std::uint8_t epoch() const { return m_epoch; }
 
-  /// Milliseconds between snapshots of consecutive ticks. The time of ticks without changes is subtracted.
+  /// Milliseconds between consecutive snapshots. If ticks without changes are between them, the length of
+  /// these ticks is subtracted.
   std::vector<double> gaps;
 
  private:
@@ -187,7 +188,8 @@ class Run {
     }
     return true;
   }
-  /// Moves something in each room, and makes the failing rooms fail again after they have returned.
+  /// Presses keys so that something moves in each room, and makes the failing rooms fail again when they have
+  /// recovered.
   void playOn() {
     constexpr df::Keyboard::Key kKeys[] = {df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
                                            df::Keyboard::UPARROW, df::Keyboard::DOWNARROW};
@@ -218,7 +220,7 @@ class Run {
   std::unique_ptr<naiad::test::GameProgram> m_server;
   std::vector<std::unique_ptr<Player>> m_players;  ///< indexed by room; the traveller is last
   naiad::SplitMix64 m_random{7};
-  std::vector<double> m_moves;  ///< times in milliseconds
+  std::vector<double> m_moves;  ///< times of moves between rooms, in milliseconds
   bool m_moving = false;
   int m_target = 0;
   int m_turns = 0;

@@ -1,4 +1,4 @@
-// Book, Listing 4.51.
+// Listing 4.51 of the Dragonfly book.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Book, Listing 4.105, without the setters.
+// Listing 4.105 of the Dragonfly book, without the setters.
 #pragma once
 
 #include "Event.h"

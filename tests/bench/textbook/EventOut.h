@@ -1,4 +1,4 @@
-// Book, Listing 4.112.
+// Listing 4.112 of the Dragonfly book.
 #pragma once
 
 #include "Event.h"

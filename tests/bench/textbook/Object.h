@@ -1,5 +1,5 @@
-// Book, Listings 4.34, 4.99, 4.103, 4.104, 4.110, without the getters and setters that the workload does not
-// call.
+// Listings 4.34, 4.99, 4.103, 4.104 and 4.110 of the Dragonfly book, without the getters and setters that the
+// workload does not call.
 #pragma once
 
 #include <string>

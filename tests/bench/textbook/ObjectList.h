@@ -1,4 +1,4 @@
-// Book, Listing 4.39, with the optional growing array in place of MAX_OBJECTS entries.
+// Listing 4.39 of the Dragonfly book, with the optional growing array in place of MAX_OBJECTS entries.
 #pragma once
 
 namespace textbook {

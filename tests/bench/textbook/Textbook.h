@@ -1,5 +1,6 @@
-// The book's engine as written from its listings: one class per file, accessors for everything, and a loop
-// over all Objects for every move. It knows only single characters, so it cannot run SPRITES.
+// The engine of the Dragonfly book, as written from its listings: one class per file, accessors for
+// everything, and a loop over all Objects for every move. It has only Objects of one character, so it cannot
+// run SPRITES.
 #pragma once
 
 #include "../Engine.h"
@@ -7,13 +8,14 @@
 
 namespace textbook {
 
-/// At most one may exist. `turns` is the number of Objects, evenly spaced in the list, that take a turn per
-/// tick; all of the scene's for a whole tick.
+/// At most one engine may exist. `turns` is the number of Objects, evenly spaced in the list, that move in
+/// each tick; for whole ticks, it is the number of all Objects.
 bench::EnginePtr makeEngine(const bench::Scene& scene, int turns);
 
 }  // namespace textbook
 
-/// A copy compiled as one translation unit, so that the compiler can inline every getter: inlined.cpp.
+/// A copy of the engine, compiled as one translation unit (inlined.cpp), so that the compiler can inline
+/// every getter.
 namespace textbook_inlined {
 
 bench::EnginePtr makeEngine(const bench::Scene& scene, int turns);

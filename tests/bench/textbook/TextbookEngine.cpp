@@ -31,7 +31,7 @@ class Ball : public Object {
     m_tally.event(m_number);
     const bool is_mover = p_e->getObject1() == this;
     if (!is_mover || getSolidness() != HARD || p_e->getObject2()->getSolidness() != HARD) return 1;
-    if (m_turned == m_tally.tick) return 1;  // it met several boxes in this tick
+    if (m_turned == m_tally.tick) return 1;  // it collided with several boxes in this tick
     m_turned = m_tally.tick;
     ++m_tally.blocked;
     const Vector v = getVelocity();
@@ -91,7 +91,7 @@ class TextbookEngine : public bench::Engine {
   }
 
  private:
-  // Like update(), for Objects evenly spaced in the list.
+  // Like update(), but only for m_turns Objects, evenly spaced in the list.
   void updateSome() {
     const int distance = WM.getCount() / m_turns;
     const int first = static_cast<int>(m_tally.tick) % distance;

@@ -1,4 +1,4 @@
-// Book, Listing 4.26 and following.
+// Listing 4.26 and following ones of the Dragonfly book.
 #pragma once
 
 namespace textbook {

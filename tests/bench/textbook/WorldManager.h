@@ -1,4 +1,4 @@
-// Book, Listings 4.54, 4.101, 4.106; the boundary is that of section 4.13.4.
+// Listings 4.54, 4.101 and 4.106 of the Dragonfly book, with the boundary of its section 4.13.4.
 #pragma once
 
 #include "Object.h"

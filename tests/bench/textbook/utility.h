@@ -1,4 +1,4 @@
-// Book, Listing 4.107.
+// Listing 4.107 of the Dragonfly book.
 #pragma once
 
 #include "Vector.h"

@@ -16,8 +16,8 @@ BotScript parse(const std::string& text) {
   return std::get<BotScript>(result);
 }
 
-/// Returns a letter and details per action: "P0" SPACE pressed, D down, R released, C click, M move, T text.
-/// Blanks separate ticks.
+/// Runs a script. Returns a letter and details for each action: "P0" SPACE pressed, D down, R released, C
+/// click, M move, T text. Blanks separate ticks.
 std::string play(const std::string& text, int ticks) {
   ScriptPlayer player(parse(text));
   std::string out;

@@ -118,7 +118,7 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   TruthWriter writer(path);
   writer.write(9, 1, starAt(4));
   writer.write(10, 1, starAt(5));
-  writer.write(10, 2, starAt(50));  // of another player
+  writer.write(10, 2, starAt(50));  // a picture of another player
   writer.write(11, 1, starAt(6));
   writer.write(12, 1, starAt(7));
   writer.write(13, 1, starAt(20));
@@ -156,7 +156,7 @@ TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
   take(5, false, false);
   take(7, true, true);  // on the stream, so 8 and 9 may have been skipped
   take(10, true, false);
-  take(9, false, true);  // late, so it tells nothing about 10
+  take(9, false, true);  // a late snapshot, so it says nothing about tick 10
   take(12, true, false);
   recorder.finish(replica);
   const TruthRecorder::Comparison result = recorder.compare(path, 1);

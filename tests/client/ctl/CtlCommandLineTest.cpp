@@ -38,7 +38,7 @@ TEST(CtlCommandLine, HelpCompletionsAndManualHaveEveryCommand) {
   const std::string help = ctlHelp();
   const std::string manual = ctlManSections();
   for (const AdminCommand& command : adminCommands()) {
-    const bool here = command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Place::kSocket);
+    const bool here = command.isFor(AdminCommand::Level::kAdmin, AdminCommand::Frontend::kSocket);
     EXPECT_EQ(help.find("\n  " + command.name) != std::string::npos, here) << command.name;
     for (const char* shell : {"bash", "zsh", "fish"})
       EXPECT_TRUE(!here || ctlCompletion(shell)->find(command.name) != std::string::npos) << command.name;

@@ -94,7 +94,7 @@ TEST(DiscoveredServers, AreSortedByName) {
   EXPECT_EQ(names, "abc");
 }
 
-// ---- packets that are accepted as answers from the link ---------------------------------------------------
+// ---- packets that are accepted as answers -----------------------------------------------------------------
 
 LanNetwork own(unsigned interface, const std::string& address, unsigned prefix) {
   const auto parsed = make_address(address);

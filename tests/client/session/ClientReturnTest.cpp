@@ -1,4 +1,5 @@
-// The client's part in resuming a session: in another process, and the data that it keeps for that.
+// Tests that a client resumes a session: on another stream or in another process, from the data that it
+// stored.
 #include "ClientSessionFixture.h"
 
 namespace naiad::test {

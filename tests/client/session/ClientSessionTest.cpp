@@ -274,7 +274,7 @@ TEST_F(ClientSessionTest, GreetingTimesOutAfterFiveSeconds) {
 
 TEST_F(ClientSessionTest, TimeoutIgnoresTimeWhileTheProcessWasSuspended) {
   session->update(now);
-  session->update(now += 20s);  // the answer has arrived and is read next
+  session->update(now += 20s);  // the server's answer has arrived and will be read next
   EXPECT_EQ(session->state(), State::kGreeting) << session->message();
   receive(welcomeMessage());
   session->update(now += 60s);

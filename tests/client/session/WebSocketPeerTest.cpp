@@ -1,4 +1,4 @@
-// WebSockets of dfclient and dfbot with an independent server, Debian's python3-websockets.
+// The WebSockets of dfclient and dfbot work with an independent server, Debian's python3-websockets.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -51,7 +51,7 @@ class WebSocketPeer : public testing::Test {
     EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty() || recorder.closed; }));
     return recorder.frames.empty() ? "nothing" : recorder.frames.front();
   }
-  /// Sends a message and waits for the end.
+  /// Sends a message and waits for the end of the stream. Returns the reason.
   std::optional<CloseReason> endBy(const std::string& message) {
     channel->send(message);
     EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));

@@ -29,7 +29,7 @@ void append(Events& all, const Events& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Decodes `bytes`, which arrive in two pieces, and lets time pass.
+/// Decodes `bytes`, which arrive in two pieces, split at `at`; then lets time pass.
 Events decodeSplit(const std::string& bytes, std::size_t at) {
   InputDecoder decoder;
   Events events = decoder.feed(bytes.substr(0, at), kFed);
@@ -204,7 +204,7 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-// Also at the end, that is, in one piece.
+// `at` is also the end of the bytes, so that they arrive in one piece.
 TEST(InputDecoder, SequencesMayBeSplitAnywhere) {
   for (const Case& c : cases()) {
     for (std::size_t at = 0; at <= c.bytes.size(); ++at)

@@ -51,7 +51,7 @@ TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
     return controls.status();
   };
   EXPECT_EQ(controls.status(), StatusMode::kAuto);
-  controls.onShown({.status = false});  // no space for it, and its time is over
+  controls.onShown({.status = false});  // the status line has no space, and its time is over
   EXPECT_EQ(press(), StatusMode::kAlways);
   controls.onShown({.status = true});
   EXPECT_EQ(press(), StatusMode::kNever);

@@ -30,7 +30,7 @@ TEST_F(EarlySignalWatcherTest, FirstSignalIsReportedAndRestoresDefaultHandlers) 
 }
 
 TEST_F(EarlySignalWatcherTest, SignalQueuedAtDestructionIsStillReported) {
-  asio::signal_set probe(context, SIGINT);  // the newest set reports first; the other's report is then queued
+  asio::signal_set probe(context, SIGINT);  // the newest set reports first; the watcher's report is queued
   int next = 0;
   bool gone = false;
   probe.async_wait([&](const std::error_code&, int) {

@@ -30,7 +30,7 @@ ScreenModel modelWith(Panel panel) {
   return m;
 }
 
-/// Returns the first row with this text; −1 if missing.
+/// Returns the first row with this text; −1 if there is none.
 int rowWith(const ScreenBuffer& picture, const std::string& text) {
   for (int y = 0; y < picture.height(); ++y) {
     if (picture.rowText(y).find(text) != std::string::npos) return y;
@@ -278,7 +278,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   layout = composeScreen(m, 76, 24);
   EXPECT_FALSE(contains(layout.picture, "line 0."));
   EXPECT_TRUE(contains(layout.picture, "close the help"));
-  m.scroll = 1000;  // from a smaller terminal
+  m.scroll = 1000;  // left over from a smaller terminal
   EXPECT_TRUE(contains(composeScreen(m, 76, 24).picture, "close the help"));
   EXPECT_TRUE(contains(composeScreen(m, 20, 10).picture, "Down"));
 }

@@ -1,4 +1,4 @@
-// A browser page and the server behind its gateway, played by the test.
+// Plays the part of a browser page, and of the server behind its gateway.
 #pragma once
 
 #include <map>

@@ -54,7 +54,7 @@ class EpochReplicasTest : public testing::Test {
   }
 };
 
-// Farther behind than the 16 bits of the tick in a snapshot can express.
+// The expected world is farther behind than the 16 bits of a snapshot's tick can express.
 TEST_F(EpochReplicasTest, ExpectedWorldMayBeManyTicksBehind) {
   tick = 500'000;
   feed.advanceTick(tick);

@@ -48,7 +48,7 @@ TEST_F(ExtrapolationClampTest, ObjectFlyingIntoAWallStopsBeforeIt) {
   add(cellsAt(14, 5));
   EXPECT_EQ(clamped(ball, 0), cellsAt(10, 5));
   EXPECT_EQ(clamped(ball, 2), cellsAt(12, 5));
-  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // it would touch the wall at 13
+  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // the ball would touch the wall at 13
   EXPECT_EQ(clamped(ball, 8), cellsAt(12, 5));
 }
 
@@ -70,7 +70,7 @@ TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
 
 TEST_F(ExtrapolationClampTest, MovingWallsAreExtrapolatedToo) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
-  add(cellsAt(14, 5), cellsAt(0, 2));  // it moves out of the way in time
+  add(cellsAt(14, 5), cellsAt(0, 2));  // this object moves out of the way in time
   EXPECT_EQ(clamped(ball, 6), cellsAt(16, 5));
 }
 

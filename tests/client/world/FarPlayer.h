@@ -60,7 +60,7 @@ class FarPlayer {
   int wrong = 0;                    ///< compared frames that showed the object in a wrong place
   int wrong_views = 0;              ///< compared frames with a wrong view
   int inputs = 0;
-  int late_inputs = 0;  ///< applied after their tick
+  int late_inputs = 0;  ///< inputs applied after their requested tick
   int states = 0;       ///< states of the player that arrived
   int ticks = 0;
 
@@ -95,7 +95,7 @@ class FarPlayer {
   std::map<std::uint32_t, Input> m_waiting;  // inputs on the server by id
   std::uint32_t m_applied = 0;
 
-  std::uint32_t m_table_known = 0;  // like in ClientSession
+  std::uint32_t m_table_known = 0;  // as in ReceivedWorld
   std::uint32_t m_control_known = 0;
   AckWindow m_acks;
   std::uint32_t m_next_id = 1;

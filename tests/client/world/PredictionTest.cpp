@@ -141,7 +141,7 @@ TEST_F(PredictionTest, ControlStateRemovesConfirmedInputs) {
 TEST_F(PredictionTest, LateInputIsExpectedInTheNextTick) {
   press(1, D, KEY_PRESSED, kFirstTick + 2);
   EXPECT_EQ(at(kFirstTick + 6), cells(11, 10));
-  prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // the input has not arrived
+  prediction.applyControl(state(kFirstTick + 4, 0, cells(10, 10)));  // the server has not received the input
   EXPECT_EQ(prediction.counters().mispredicted, 1u);
   EXPECT_EQ(at(kFirstTick + 4), cells(10, 10));
   EXPECT_EQ(at(kFirstTick + 5), cells(11, 10));

@@ -1,5 +1,5 @@
-// Payloads from the bus and from a sidecar: each is read within its bounds or rejected, and a valid one
-// survives being written and read again.
+// Payloads from the bus and from a sidecar: each is rejected or has values in range, and a valid one is equal
+// after being written and read again.
 //
 //   input   0 a presence, 1 a result or redirected players, 2 the sidecar's answer, 3 a line of its watch,
 //           4 messages to a directory, each a line "SUBJECT PAYLOAD" (1) | the text
@@ -64,7 +64,7 @@ void requireFacts(const std::string& text, bool is_line) {
   }
 }
 
-/// Requires that the room is one of the server's own, with a free place.
+/// Requires that the assigned room is one of the server's own and has space for a player.
 void requirePlace(const FleetRegistry::Assignment& place) {
   REQUIRE(place.room.empty() == place.p_server->rooms.empty());
   if (place.room.empty()) return;

@@ -43,7 +43,7 @@ class Play {
                        REQUIRE(room.size() <= kMaxClientFrame);
                        m_moves = true;
                      }});
-    // Controls that make their keys wait for the tick that they name.
+    // With declared controls, an input waits for the tick that it names.
     auto controls = std::make_shared<df::ControlTable>();
     controls->rows.push_back(
         {kSteering, df::KEY_PRESSED, df::ControlEffect::kStep, true, false, {df::kFixedOne, 0}, 0, 0});
@@ -52,11 +52,11 @@ class Play {
 
   void hear(std::string_view frame) {
     if (m_on_second) return hearSecond(frame);
-    if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // cannot get here
+    if (m_line.closed || frame.empty() || frame.size() > m_line.receive_limit) return;  // never arrives
     m_last = frame;
     const Exactly bytes(m_last);
     m_line.callbacks.on_frame(bytes.view());
-    // This host answers a hello at once, before any other frame.
+    // This host answers a hello at once, so the session does not wait for its answer after a frame.
     REQUIRE(m_session.state() != Session::State::kGreeting);
     REQUIRE((m_session.state() == Session::State::kEnding) == m_line.closed);
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
@@ -66,7 +66,7 @@ class Play {
     if (frame.empty() || frame.size() > m_second.receive_limit) return;
     m_last = frame;
     const Exactly bytes(m_last);
-    const auto on_frame = m_second.callbacks.on_frame;  // the callee may destroy the channel
+    const auto on_frame = m_second.callbacks.on_frame;  // a copy, because the callee may destroy the channel
     on_frame(bytes.view());
     REQUIRE(m_second.closed == !m_session.hasSecondStream());
     REQUIRE(m_gone == (m_line.closed ? 1 : 0));
@@ -130,7 +130,7 @@ class Play {
     m_session.enterRoom(welcome);
     REQUIRE(m_session.player() == welcome.player() && m_session.sender().epoch() != epoch);
   }
-  // Opens the second stream, only once, because its channel keeps its state.
+  // Opens the second stream; only the first call has an effect, because the channel cannot be reset.
   void openSecond() {
     if (m_session.state() != Session::State::kPlaying || m_second.callbacks.on_frame) return;
     Session other(std::make_unique<FakeChannel>(m_second), m_counters, m_now);
@@ -157,7 +157,7 @@ class Play {
   bool m_on_second = false;
   bool m_moves = false;
   FakeAir m_sealed;
-  std::string m_last;  ///< the last frame
+  std::string m_last;  ///< the last frame passed to the session
   Counters m_counters;
   Session m_session;
   int m_hellos = 0;

@@ -1,4 +1,4 @@
-// Declared controls, and the exact state of what a player steers.
+// Declared controls, and the exact state of the object that a player steers.
 //
 //   input   0 table, 1 state (1) | tick (4) | the bytes
 #include "Target.h"

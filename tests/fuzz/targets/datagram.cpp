@@ -63,8 +63,8 @@ class Play {
     for (int steps = 0; steps < 200 && !m_script.atEnd(); ++steps) step();
     const DatagramDemuxCounters& gate = m_gate.counters();
     const std::uint64_t counted = gate.delivered + gate.too_short + gate.too_long + gate.bad_kind +
-                                  gate.unknown_id + gate.session_flood + gate.claimed_flood +
-                                  gate.prefix_flood + gate.stranger_flood + gate.refused;
+                                  gate.unknown_id + gate.session_flood + gate.unvalidated_session_flood +
+                                  gate.prefix_flood + gate.unvalidated_flood + gate.refused;
     REQUIRE(counted == m_received);
     m_gate.remove(kSession);
     toServer(std::string(40, '\x10'), pathOf(1));
@@ -109,7 +109,7 @@ class Play {
     if (good) m_sealers.clear();
   }
 
-  /// Sends like the product does.
+  /// Sends a packet like the product does.
   void say(SealedLink& link, const Path& path) {
     const bool up = &link == &m_client;
     const std::string payload = m_script.bytes(m_script.byte() * std::size_t{5});
@@ -120,7 +120,7 @@ class Play {
     send(up, std::string(outgoing->packet), path);
   }
 
-  /// Sends any header and text, sealed with the correct key of the newest epoch.
+  /// Sends a packet with any header and content, sealed with the correct key of the newest epoch.
   void sealAnything(SealDirection direction, const Path& path) {
     const bool up = direction == SealDirection::kClientToServer;
     std::array<char, kMaxDatagram + 64> packet{};
@@ -202,7 +202,7 @@ class Play {
   DatagramDemux m_gate;
   SealedLink::Time m_now{1h};
   Epoch m_epoch = 0;
-  std::vector<Sealer> m_sealers;  ///< server to client, then client to server
+  std::vector<Sealer> m_sealers;  ///< element 0: server to client; 1: client to server
   std::vector<Sent> m_sent;
   std::set<std::pair<bool, std::string>> m_opened;
   std::optional<std::string> m_heard;

@@ -1,5 +1,5 @@
 // The list of games of an ssh door: each line that is not a comment is a game, or else the whole list is
-// invalid. A valid list survives being written and read again.
+// invalid. A valid list is equal after being written and read again.
 //
 //   input   the file
 #include <algorithm>

@@ -26,7 +26,7 @@ struct Outcome {
 /// The end of the connection after the stream.
 enum class Ending : std::uint8_t { kOpen, kInOrder, kBroken };
 
-/// Reads the whole stream at once by simple searches.
+/// Finds the expected result: reads the whole stream at once by simple searches.
 class Oracle {
  public:
   Oracle(const std::string& stream, const HttpLimits& limits, Ending ending)
@@ -48,7 +48,7 @@ class Oracle {
     return false;
   }
 
-  /// Reads the next line, if `m_left` bytes allow it. False if none is complete or valid.
+  /// Reads the next line. False if it is incomplete, invalid, or longer than `m_left` bytes.
   bool line(std::string& into) {
     const std::size_t end = m_stream.find('\n', m_at);
     const std::size_t size = (end == std::string::npos ? m_stream.size() : end + 1) - m_at;
@@ -84,7 +84,7 @@ class Oracle {
            });
   }
 
-  /// Reads interim heads and the final one.
+  /// Reads all interim heads (1xx) and the final head.
   bool readHeads() {
     m_left = m_limits.head;
     do {

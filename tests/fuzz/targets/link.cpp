@@ -1,5 +1,5 @@
 // Addresses written by strangers: links to games, keys, and addresses of servers and pages. An accepted one
-// has only allowed parts, and its own text has an equal meaning.
+// has only allowed parts, and the text made from it has an equal meaning.
 //
 //   input   the text
 #include <algorithm>
@@ -39,7 +39,7 @@ void readLink(std::string_view text) {
   REQUIRE(std::holds_alternative<JoinLink>(again) && std::get<JoinLink>(again) == link);
 }
 
-/// Requires that each key has exactly one text, except for upper case.
+/// Requires that each key has exactly one valid text, apart from upper and lower case.
 void readKey(std::string_view text) {
   const auto key = ShortKey::parse(text);
   if (!key) return;
@@ -48,7 +48,7 @@ void readKey(std::string_view text) {
   REQUIRE(key->text() == lower);
 }
 
-/// Requires that only a fragment, which stays in the browser, follows the host.
+/// Requires that only a slash and a fragment, which stays in the browser, may follow the host.
 void readPage(const std::string& text) {
   const auto address = GatewayAddress::parse(text);
   if (!address) return;

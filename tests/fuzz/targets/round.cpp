@@ -12,7 +12,7 @@
 namespace naiad::fuzz {
 namespace {
 
-/// Requires that the turn survives being written and read again.
+/// Requires that the turn is equal after being written and read again.
 void tryAgain(const WorldTurn& turn) {
   std::string first;
   std::string second;

@@ -1,7 +1,7 @@
 // Network text cleaned for a terminal: for every input, the output is drawable, within the length limit, and
 // unchanged when cleaned again.
 //
-//   input   characters at most 1 | the text
+//   input   maximum number of characters 1 | the text
 #include "Target.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"

@@ -62,7 +62,7 @@ void requireGood(const SoundsMessage& message) {
   }
 }
 template <class Other>
-void requireGood(const Other&) {}  // nothing in it can be wrong, or other code reads it
+void requireGood(const Other&) {}  // other messages have no values to check, or other code reads them
 
 }  // namespace
 

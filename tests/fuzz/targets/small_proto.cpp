@@ -20,7 +20,7 @@ void compare(std::string_view bytes) {
   const bool good = real.ParseFromArray(exactly.view().data(), size);
   REQUIRE(small.ParseFromArray(exactly.view().data(), size) == good);
   if (!good) return;
-  Twins::copy(real, known);  // a copy without unknown fields
+  Twins::copy(real, known);  // `known`: a copy of `real` without unknown fields
   const std::string written = small.SerializeAsString();
   REQUIRE(written == known.SerializeAsString());
   REQUIRE(again.ParseFromString(written) && again.SerializeAsString() == written);

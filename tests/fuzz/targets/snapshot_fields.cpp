@@ -1,5 +1,5 @@
-// Like the target `snapshot`, with snapshots that have one bad field: the snapshot is rejected, or its values
-// are in range.
+// Like the target `snapshot`, but each snapshot has one bad field: it is rejected, or its values are in
+// range.
 //
 //   input   numbers for HostileWriter, one snapshot after another, for a client that knows the prelude
 #include "HostileWriter.h"

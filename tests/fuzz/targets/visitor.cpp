@@ -1,5 +1,5 @@
-// The header of a connection to the visitors' socket. An accepted one names an address that limits can count,
-// and all its spellings are read alike.
+// The header of a connection to the visitors' socket. An accepted header names an address that limits can
+// count, and all spellings of that address are read alike.
 //
 //   input   a header; also read as a text like "192.0.2.7:50312", which other doors pass on
 #include "Target.h"
@@ -23,7 +23,7 @@ void readHeader(std::string_view bytes) {
   const auto rest = proxyHeaderRest(begin.view());
   if (rest) REQUIRE(*rest >= 12 && *rest <= kMaxProxyHeaderRest);
   const auto visitor = readProxyHeader(bytes);
-  // A listener reads exactly this many bytes.
+  // A listener reads exactly this many bytes before it parses the header.
   const Exactly whole(bytes.substr(0, kProxyHeaderBegin + rest.value_or(0)));
   const auto cut = readProxyHeader(whole.view());
   if (visitor) REQUIRE(rest && bytes.size() == kProxyHeaderBegin + *rest && cut == visitor);

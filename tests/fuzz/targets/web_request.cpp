@@ -98,7 +98,7 @@ void requireOwnPage(const WebRequest& request) {
           std::string::npos);
 }
 
-/// Answers like WebConnection does.
+/// Answers a request like WebConnection does.
 void serve(const std::string& bytes) {
   Parser parser;
   parser.header_limit(8 * 1024);

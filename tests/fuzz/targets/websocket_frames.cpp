@@ -25,7 +25,7 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// The frame at the front of the bytes, from either end.
+/// The first frame in the bytes, written by a client or a server.
 struct Frame {
   unsigned first = 0;
   bool is_masked = false;
@@ -156,7 +156,7 @@ void tryInput(Script script) {
     writer.append(written, message);
     REQUIRE(writtenPayload(written, 0x82) == message);
   }
-  if (limit % 64 == 0) {  // rarely, because it takes time
+  if (limit % 64 == 0) {  // only for one input in 64, because it takes time
     std::string written;
     const std::string longest(0x10000, stream.empty() ? 'x' : stream[0]);
     writer.append(written, longest);

@@ -36,7 +36,7 @@ void tryTurn(std::string_view bytes) {
   REQUIRE(again == record);
 }
 
-/// Returns the fields' beginning with this build's id, which no input could have by chance.
+/// Returns the beginning of a message with this build's id, which no input would contain by chance.
 std::string ownBegin() {
   std::string frame;
   FieldWriter out(frame);
@@ -60,7 +60,7 @@ void tryReady(std::string_view bytes) {
   REQUIRE(again == frame);
 }
 
-/// Reads the answers of one world in order.
+/// Reads the answers of one world in order, like a host.
 class Host {
  public:
   /// Returns false if the host would end the world.

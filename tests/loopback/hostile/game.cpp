@@ -1,6 +1,6 @@
 // A game that attacks its server before its main() begins. It writes each attempt and its result into the
-// file "report" in its working directory, which is allowed; HostileGameTest.cpp reads it. Without a sandbox
-// it harms that server only.
+// file "report" in its working directory, which is allowed. HostileGameTest.cpp reads this file. Without a
+// sandbox the game harms only that server.
 #include <fcntl.h>
 #include <linux/fs.h>
 #include <linux/fsverity.h>
@@ -40,7 +40,7 @@ void report(const std::string& line) {
   std::ofstream("report", std::ios::app) << getpid() << " " << line << std::endl;
 }
 
-/// `result` is that of a system call.
+/// Reports an attempt. `result` is the result of its system call, −1 if it failed with errno.
 void attempt(const std::string& name, long result) {
   const bool refused = result < 0 && (errno == EPERM || errno == EACCES || errno == ENOSYS || errno == EXDEV);
   report(name + (result >= 0 ? ": done" : refused ? ": refused" : ": error " + std::to_string(errno)));
@@ -107,7 +107,8 @@ void attackCalls(pid_t front) {
   attempt("a call of tomorrow", syscall(999));
 }
 
-/// Attacks the metadata of a file that it may open for reading. Without a sandbox these calls change nothing.
+/// Attacks the metadata of a file that games may open for reading. Without a sandbox these calls change
+/// nothing.
 void attackOpenFiles() {
   const int server = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
   struct stat facts {};
@@ -124,7 +125,7 @@ void attackOpenFiles() {
   close(server);
 }
 
-/// The server's log is in its standard error or in its own file.
+/// Attacks the server's log, which goes to its standard error or to a file.
 void attackLog() {
   attempt("write into the log", tryOpen("../log", O_WRONLY));
   attempt("write into the output", tryOpen("../output", O_WRONLY));
@@ -175,11 +176,12 @@ void leaveChildren() {
   }
   close(ends[1]);
   char byte = 0;
-  [[maybe_unused]] const ssize_t none = read(ends[0], &byte, 1);  // until all have reported
+  [[maybe_unused]] const ssize_t none = read(ends[0], &byte, 1);  // returns when both children have reported
   close(ends[0]);
 }
 
-// Sanitizers record every block, and the memory limit does not apply with them.
+// Sanitizers record every block, and the memory limit does not apply to programs with them, so fewer blocks
+// are tried.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::size_t kMaxBlocks = 64;
 #else

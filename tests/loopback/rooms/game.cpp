@@ -17,7 +17,8 @@ namespace {
 
 volatile bool g_hangs = true;
 
-/// Returns the drawing process; a constant where rounds are replayed, because replays must be equal.
+/// Returns the id of this process, to be drawn. In tests with replays it is a constant, because replays must
+/// be equal.
 int process() {
   return getenv("ROOM_REPEATS") != NULL ? 1 : getpid();
 }
@@ -69,7 +70,7 @@ class Teller : public Object {
   bool m_dozes = false;
 };
 
-// Aborts in its first tick. Created if a file of this name exists, so that each new world fails at once.
+// Aborts in its first tick. Created in each new world while a file "fails" exists.
 class Failing : public Object {
  public:
   Failing() { registerInterest(STEP_EVENT); }

@@ -17,7 +17,7 @@
 
 using namespace df;
 
-int mains = 0;  // incremented by main(); a value other than 1 shows that a global outlived a round
+int mains = 0;  // incremented by main(); a value other than 1 shows that a global variable outlived a round
 int steps = 0;
 bool over = false;
 

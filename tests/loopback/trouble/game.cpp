@@ -42,7 +42,7 @@ class Trouble : public Object {
     if (p_k->getKey() == Keyboard::A) abort();
     if (p_k->getKey() == Keyboard::D) m_crashes = true;
     if (p_k->getKey() == Keyboard::K) raise(SIGKILL);
-    if (p_k->getKey() == Keyboard::Z) m_rest = 7 / g_zero;  // 1 / x needs no division
+    if (p_k->getKey() == Keyboard::Z) m_rest = 7 / g_zero;  // 1 / x is compiled without a division
     if (p_k->getKey() == Keyboard::N) {
       Event inner;
       inner.setType("inner");
@@ -76,7 +76,7 @@ class Exits : public Object {
   int eventHandler(const Event*) { exit(0); }
 };
 
-/// Makes a mistake that needs no player, chosen by the environment. Returns 0 if none is chosen.
+/// Makes the mistake named in the variable TROUBLE, which needs no player. Returns 0 if none is chosen.
 int makeMistake() {
   const char* p_which = getenv("TROUBLE");
   if (p_which == NULL) return 0;

@@ -1,4 +1,4 @@
-// Fixture with the real nats-server in a temporary folder.
+// A test fixture that runs the real nats-server in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

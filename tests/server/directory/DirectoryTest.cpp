@@ -33,7 +33,7 @@ class DirectoryTest : public BusFixture {
   static std::map<std::string, std::string> serverOf(const NatsServer& bus, const std::string& id) {
     return {{"NAIAD_GAME", "hello"},   {"NAIAD_BUS", bus.url()},
             {"NAIAD_BUS_ID", id},      {"NAIAD_BUS_INTERVAL", kQuickInterval},
-            {"NAIAD_SERVER_NAME", id}, {"NAIAD_LINK_HOST", "127.0.0.1"}};
+            {"NAIAD_SERVER_NAME", id}, {"NAIAD_PUBLIC_HOST", "127.0.0.1"}};
   }
 };
 
@@ -61,7 +61,7 @@ TEST_F(DirectoryTest, ServersAreListedWhileTheyAreThere) {
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0) << directory->printed();
   EXPECT_FALSE(std::filesystem::exists(folder / "servers.json")) << "a list that is not kept up";
-  EXPECT_NE(directory->printed().find("counters: heard="), std::string::npos) << directory->printed();
+  EXPECT_NE(directory->printed().find("counters: heartbeats="), std::string::npos) << directory->printed();
 }
 
 TEST_F(DirectoryTest, HostilePayloadsAreCountedAndIgnored) {
@@ -84,7 +84,8 @@ TEST_F(DirectoryTest, HostilePayloadsAreCountedAndIgnored) {
   EXPECT_TRUE(waitUntil([&] { return listed().size() == 1; })) << listText();
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0);
-  for (const char* count : {" heard=1", " unreadable=1", " foreign=1", " bus_received=4", " bus_ignored=1"})
+  for (const char* count :
+       {" heartbeats=1", " unreadable=1", " wrong_subject=1", " bus_received=4", " bus_ignored=1"})
     EXPECT_NE(directory->printed().find(count), std::string::npos) << count << directory->printed();
 }
 

@@ -1,4 +1,5 @@
-// A fake bus: published messages, messages to receive, and whether it is connected.
+// A fake bus: records published messages, delivers messages of the test, and is connected or not, as the test
+// chooses.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Removes the store section, because NatsServer sets its own store.
+/// Removes the section "jetstream" from nats-server's configuration, because NatsServer sets its own store.
 std::string withoutStore(std::string conf) {
   const std::size_t begin = conf.find("jetstream {");
   return conf.erase(begin, conf.find("}\n", begin) + 2 - begin);
@@ -104,7 +104,7 @@ TEST_F(FleetFilesTest, BusConnectionFailsWithoutPasswordTrustedAuthorityOrTls) {
   const std::string url = urlIn("servers/tron-1.conf");
   const std::string without = "tls://" + url.substr(url.find('@') + 1);
   const auto stranger = connectBus({without, "", folder / "bus" / "ca.pem"});
-  const auto trusting = connectBus({url, "", ""});  // trusts only the system's authorities
+  const auto trusting = connectBus({url, "", ""});  // trusts only the system's certificate authorities
   const auto plain = connectBus({"nats" + url.substr(3), "", ""});
   for (const auto* const p_bus : {&stranger, &trusting, &plain}) {
     EXPECT_TRUE(waitUntil([&] { return (*p_bus)->counters().failures > 0; }));

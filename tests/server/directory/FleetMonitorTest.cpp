@@ -1,4 +1,5 @@
-// A server list that follows the bus, and its behaviour without a bus.
+// FleetMonitor: the list of servers follows the messages of the bus, and stays for some time when the bus is
+// down.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -69,7 +69,7 @@ TEST(FleetRegistryTest, PresenceUnderAnotherSubjectIsIgnoredAndCounted) {
   EXPECT_FALSE(list.handleHeartbeat("naiad.results.a", presenceOf("a").payload(), kStart));
   EXPECT_FALSE(list.handleHeartbeat(presenceSubject("a"), "{}", kStart));
   EXPECT_EQ(list.size(), 0u);
-  EXPECT_EQ(list.counters().foreign, 2u);
+  EXPECT_EQ(list.counters().wrong_subject, 2u);
   EXPECT_EQ(list.counters().unreadable, 1u);
 }
 
@@ -79,7 +79,7 @@ TEST(FleetRegistryTest, ServerFloodDoesNotEvictAListedServer) {
   for (std::size_t i = 0; i < 2 * FleetRegistry::kMaxServers; ++i)
     handleHeartbeat(list, presenceOf("x" + std::to_string(i)));
   EXPECT_EQ(list.size(), FleetRegistry::kMaxServers);
-  EXPECT_EQ(list.counters().crowded, FleetRegistry::kMaxServers + 1);
+  EXPECT_EQ(list.counters().over_limit, FleetRegistry::kMaxServers + 1);
   handleHeartbeat(list, presenceOf("honest", 7));
   EXPECT_EQ(list.servers().front().players, 7u);
 }

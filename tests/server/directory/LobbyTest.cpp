@@ -49,7 +49,7 @@ class LobbyTest : public BusFixture {
                                                        {"NAIAD_BUS_ID", id},
                                                        {"NAIAD_BUS_INTERVAL", kQuickInterval},
                                                        {"NAIAD_MAX_PLAYERS", std::to_string(places)},
-                                                       {"NAIAD_LINK_HOST", "127.0.0.1"}});
+                                                       {"NAIAD_PUBLIC_HOST", "127.0.0.1"}});
   }
   /// Starts dfdir with a lobby and waits until it knows this many servers.
   void startDirectory(int servers) {
@@ -98,7 +98,7 @@ TEST_F(LobbyTest, PlayersAreSentToAServerOfTheirGame) {
   EXPECT_TRUE(has(eve->connection().message(), "chess"));
   directory->signal(SIGTERM);
   EXPECT_EQ(directory->finish(), 0);
-  EXPECT_TRUE(has(directory->printed(), " hellos=3 sent_on=2 no_game=1"));
+  EXPECT_TRUE(has(directory->printed(), " hellos=3 redirected=2 no_game=1"));
 }
 
 TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
@@ -106,7 +106,7 @@ TEST_F(LobbyTest, PlayersAreSentToARoomOfTheirGame) {
                           {{"NAIAD_BUS", bus.url()},
                            {"NAIAD_BUS_ID", "rooms"},
                            {"NAIAD_BUS_INTERVAL", kQuickInterval},
-                           {"NAIAD_LINK_HOST", "127.0.0.1"}},
+                           {"NAIAD_PUBLIC_HOST", "127.0.0.1"}},
                           {"--room=hall=hello", "--room=small=maze,max-players=1", "--room=large=maze"});
   ASSERT_NE(rooms.port(), 0) << rooms.log();
   ASSERT_NO_FATAL_FAILURE(startDirectory(1));
@@ -127,7 +127,7 @@ TEST_F(LobbyTest, FullServerRedirectsToAServerWithFreeSlots) {
   ASSERT_NO_FATAL_FAILURE(startDirectory(2));
   const auto ann = join(small->port(), "ann");
   ASSERT_TRUE(ann->joined());
-  // Retries until directory and server have learned of each other's state.
+  // Retries, because the directory and the servers learn of each other's state only after some time.
   std::unique_ptr<TestClient> bob;
   for (int tries = 0; tries < 200; ++tries) {
     bob = join(small->port(), "bob");
@@ -206,7 +206,7 @@ TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
   const LobbyCounters met = running.end();
   EXPECT_EQ(met.hellos, 2u);
   EXPECT_EQ(met.malformed, 1u);
-  EXPECT_EQ(met.late, 1u);
+  EXPECT_EQ(met.timeouts, 1u);
 }
 
 }  // namespace

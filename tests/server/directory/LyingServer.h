@@ -15,7 +15,7 @@
 
 namespace naiad::test {
 
-/// Runs on the test's event loop.
+/// Uses the event loop of the test.
 class LyingServer {
  public:
   LyingServer(asio::io_context& context, const std::filesystem::path& identity,
@@ -32,7 +32,7 @@ class LyingServer {
     m_answer.mutable_refused()->set_redirect(redirect);
     m_answer.mutable_refused()->set_redirect_room(room);
   }
-  /// Redirects players to this port of 127.0.0.1, claiming that the server there has this key.
+  /// Redirects players to this port of 127.0.0.1, and claims that the server there has this key.
   void sendTo(std::uint16_t port, const Fingerprint& key, const std::string& room = "") {
     answer(wire::Refused::REDIRECT, "Go on.", linkTo("127.0.0.1", port, key), room);
   }

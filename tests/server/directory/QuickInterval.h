@@ -3,7 +3,7 @@
 
 namespace naiad::test {
 
-/// Milliseconds: changes of servers are noticed within some tenths of a second.
+/// Milliseconds; short, so that changes of servers are noticed within some tenths of a second.
 inline constexpr const char* kQuickInterval = "100";
 
 }  // namespace naiad::test

@@ -1,4 +1,5 @@
-// Redirected clients: how they join the other server, and what a lying server cannot make them do.
+// Redirected clients: they join the other server, but a malicious server cannot make them reveal or lose
+// anything.
 #include <gtest/gtest.h>
 #include <signal.h>
 

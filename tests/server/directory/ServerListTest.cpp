@@ -1,4 +1,4 @@
-// A directory's server list, read as by a client.
+// The server list of a directory, read with the code of the client.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Fixtures of the engine's tests: a world for each test, and an Object that logs its events.
+// Fixtures of the engine's tests: a world for each test, and an Object that records its events.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ class WorldTest : public ::testing::Test {
   }
 
   std::vector<std::string> lines;
-  Received received;  // "name:event", written by the Probes that get this list
+  Received received;  // "name:event" entries of the Probes that share this list
   World world;
   World::Scope scope;
 };
@@ -87,7 +87,7 @@ class Probe : public Object {
 
   int eventHandler(const Event* p_e) override {
     if (m_p_received != nullptr) m_p_received->push_back(getType() + ":" + p_e->getType());
-    const Handler handler = on_event;  // it may delete this
+    const Handler handler = on_event;  // a copy, because the handler may delete this
     if (handler) handler(*this, *p_e);
     return 1;
   }
@@ -97,7 +97,7 @@ class Probe : public Object {
     return 0;
   }
 
-  /// Registers interest in these events, and runs `handler` for every event.
+  /// Registers interest in events of this type, and runs `handler` for every event.
   void hear(const std::string& type, Handler handler) {
     registerInterest(type);
     on_event = std::move(handler);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace df;
 
-/// Keeps the paddle where the ball that is nearest to its side is going.
+/// Moves the paddle towards the point at which the nearest ball will reach its side.
 std::set<Keyboard::Key> follow(const World& world, const Object& paddle) {
   const Vector at = paddle.getPosition();
   const bool lies = paddle.getBox().getHorizontal() > paddle.getBox().getVertical();
@@ -25,7 +25,7 @@ std::set<Keyboard::Key> follow(const World& world, const Object& paddle) {
     if (p_ball == nullptr || gap(*balls[i]) < gap(*p_ball)) p_ball = balls[i];
   if (p_ball == nullptr) return {};
   const Vector way = p_ball->getPosition() - at;
-  // Not with its middle: that would send the ball the same way for ever.
+  // Hits the ball off the paddle's middle, because the middle would always send it in one direction.
   const double aside = (world.getStepCount() / 90 % 5) - 2;
   if (lies && std::abs(way.x() + aside) > 1)
     return {way.x() + aside > 0 ? Keyboard::RIGHTARROW : Keyboard::LEFTARROW};

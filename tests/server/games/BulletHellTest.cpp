@@ -12,7 +12,7 @@ namespace {
 
 using namespace df;
 
-/// How near bullets come to this place in the next ticks; small is near.
+/// Returns the smallest distance of bullets from this place in the next ticks.
 double danger(const World& world, Vector ship, Vector velocity) {
   double nearest = 100;
   const ObjectList shots = world.objects().objectsOfType("Theirs");
@@ -28,7 +28,7 @@ double danger(const World& world, Vector ship, Vector velocity) {
   return nearest;
 }
 
-/// Goes where the bullets are not; of good places to the one beneath the boss.
+/// Moves to where there are no bullets; if several places are equally good, to the one below the boss.
 std::set<Keyboard::Key> dodge(const World& world, const Object& ship) {
   struct Way {
     std::set<Keyboard::Key> keys;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace df;
 
-/// Runs for the nearest gold, and looks neither left nor right.
+/// Runs to the nearest gold, and does not avoid hounds.
 std::set<Keyboard::Key> greedy(const World& world, const Object& hare) {
   const Vector at = hare.getPosition();
   const Object* p_best = nullptr;

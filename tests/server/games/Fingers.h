@@ -1,4 +1,4 @@
-// The keys that a bot holds, sent to the world as a client would send them.
+// The keys that a bot holds down, sent to the world as a client would send them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class Fingers {
  public:
   Fingers(df::World& world, std::uint32_t player) : m_world(world), m_player(player) {}
 
-  /// Holds these keys and releases all others.
+  /// Holds these keys down and releases all others.
   void hold(const std::set<df::Keyboard::Key>& keys) {
     for (const df::Keyboard::Key key : m_down) {
       if (!keys.contains(key)) m_world.input().key(m_player, key, df::KEY_RELEASED);

@@ -1,4 +1,4 @@
-// The main()s of the shipped games, renamed so that all fit into one program.
+// The main() functions of the shipped games, renamed so that all of them can be in one program.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ int tron_main();
 
 namespace naiad {
 
-/// Returns the main()s by game name.
+/// Returns the main() functions by the name of their game.
 inline const std::map<std::string, int (*)()>& gameMains() {
   static const std::map<std::string, int (*)()> s_mains = {
       {"breakout", breakout_main}, {"bullethell", bullethell_main},

@@ -38,7 +38,7 @@ TEST(Hello, WalkerLeavesWithItsPlayer) {
     world.tick();
     const int objects = world.store().countInWorld();
     world.input().leave(ann);
-    tap(world, bob, df::Keyboard::UPARROW);  // ann's walker hears of it, too, in its last tick
+    tap(world, bob, df::Keyboard::UPARROW);  // ann's walker gets this event, too, in its last tick
     world.tick();
     EXPECT_EQ(world.store().countInWorld(), objects - 1);
   });

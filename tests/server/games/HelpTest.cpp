@@ -1,4 +1,4 @@
-// The help of all shipped games.
+// Tests the help text of all shipped games.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace {
 
 TEST(Help, EveryGamesHelpFitsItsWindowAndProtocol) {
   for (const auto& [game, game_main] : gameMains()) {
-    const std::string name = game;  // clang captures no structured binding
+    const std::string name = game;  // because clang cannot capture structured bindings
     bool played = false;
     hostGame(
         game_main, 1,

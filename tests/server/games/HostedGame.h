@@ -1,4 +1,4 @@
-// Runs a game's main() in its own world, as dfserver does, and lets a test play it.
+// Runs a game's main() in a world of its own, as dfserver does, and lets a test play it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@
 
 namespace naiad {
 
-/// Calls `play` where GM.run() would wait for players.
+/// Calls `play` at the point where GM.run() would wait for players.
 class TestRunner : public df::Runner {
  public:
   explicit TestRunner(std::function<void(df::World&)> play) : m_play(std::move(play)) {}
@@ -31,8 +31,8 @@ class TestRunner : public df::Runner {
   std::function<void(df::World&)> m_play;
 };
 
-/// Runs the game with this seed until its shutDown(). `folder`: the folder in server/games with the files it
-/// loads.
+/// Runs the game with this seed until its shutDown(). `folder` is the folder in server/games with the files
+/// that it loads.
 inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(df::World&)> play,
                      const std::string& folder = {}) {
   df::World world;
@@ -46,7 +46,7 @@ inline void hostGame(int (*game_main)(), std::uint64_t seed, std::function<void(
   game_main();
 }
 
-/// True if the player's picture contains this text.
+/// True if the screen of this player shows this text.
 inline bool shows(const df::World& world, std::uint32_t player, const std::string& text) {
   return world.picture().renderPlayer(player).text().find(text) != std::string::npos;
 }
@@ -55,7 +55,7 @@ inline void tick(df::World& world, int count) {
   for (int i = 0; i < count; ++i) world.tick();
 }
 
-/// Joins a player "ann" and runs this many ticks. Returns the player's id.
+/// Adds a player "ann" and runs this many ticks. Returns the player's id.
 inline std::uint32_t joinAnn(df::World& world, int ticks = 1) {
   const std::uint32_t ann = world.input().join("ann", df::RED);
   tick(world, ticks);

@@ -1,5 +1,5 @@
 // Properties of all shipped games: players press random keys, join and leave at random, and after 1,000 ticks
-// the pictures are identical on every compiler.
+// the hash of their pictures is equal for every compiler.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -9,7 +9,7 @@
 namespace naiad {
 namespace {
 
-/// Reads the screen for the middle of a pad, as a pilot would.
+/// Finds the middle of the nearest pad on the screen, as a pilot would.
 std::optional<df::Vector> nearestPad(const df::Canvas& screen, double x) {
   std::optional<df::Vector> best;
   for (int row = 0; row < screen.height(); ++row) {
@@ -25,7 +25,7 @@ std::optional<df::Vector> nearestPad(const df::Canvas& screen, double x) {
   return best;
 }
 
-/// Flies by what the instruments say: first across, then down, the slower the lower.
+/// Steers by position and speed: first across, then down, and slower near the ground.
 void pilot(df::World& world, std::uint32_t player, df::Vector pad) {
   constexpr double kTicks = 30;
   const df::Object& ship = *world.views().player(player)->getObject();

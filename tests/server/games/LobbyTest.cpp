@@ -16,7 +16,7 @@ void keep(World& world, const GameRoom& room) {
   world.input().push({.kind = InputQueue::kRoom, .player = 0, .room = room});
 }
 
-/// Where the game has sent the player in the last tick; empty: nowhere.
+/// Returns the room to which the game sent the player in the last tick, or "".
 std::string sentTo(World& world, std::uint32_t player) {
   for (const RoomTransfer& sent : world.extras().rooms.sent()) {
     if (sent.player == player) return sent.room;
@@ -24,7 +24,7 @@ std::string sentTo(World& world, std::uint32_t player) {
   return {};
 }
 
-/// Walk to the door of this number; where the game sends the player on that path.
+/// Walks to the door with this number. Returns the room to which the game sends the player on the way.
 std::string walkTo(World& world, std::uint32_t player, int door) {
   const Vector goal = world.objects().objectsOfType("Door")[door]->getPosition();
   for (int i = 0; i < 200; ++i) {

@@ -27,7 +27,7 @@ bool isWall(const World& world, const Object& walker, Vector at) {
   return false;
 }
 
-/// The keys of a shortest way to the exit; none if there is no way.
+/// Returns the keys of a shortest path to the exit; none if there is no path.
 std::vector<Keyboard::Key> solve(const World& world, const Object& walker) {
   const Vector exit = world.objects().objectsOfType("Exit")[0]->getPosition();
   const auto name = [](Vector v) { return std::pair(v.x(), v.y()); };

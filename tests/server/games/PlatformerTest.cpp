@@ -16,7 +16,7 @@ bool isThere(Box box, const char* type) {
   return false;
 }
 
-/// Runs to the right, and jumps where there is a step, a gap or something sharp before it.
+/// Returns the keys to run to the right, and to jump in front of steps, gaps and spikes.
 std::set<Keyboard::Key> run(const Object& runner) {
   const Vector at = runner.getPosition();
   const bool step = isThere(Box(at + Vector(0.6, -0.3), 1, 0.6), "Ground");
@@ -49,7 +49,8 @@ TEST(Platformer, JumpReachesFiveRowsAndLandsExactly) {
     const std::uint32_t ann = joinAnn(world, 40);
     const Object* p_runner = world.views().player(ann)->getObject();
     const double ground = p_runner->getPosition().y();
-    EXPECT_NEAR(ground, 19.05, 1e-6);  // 0.9 high, on ground whose upper edge is at 19.5
+    EXPECT_NEAR(ground, 19.05, 1e-6);  // half of its height of 0.9 above the ground, whose upper edge is at
+                                       // 19.5
     EXPECT_EQ(p_runner->getVelocity(), Vector());
     EXPECT_EQ(p_runner->getAcceleration(), Vector());
     tap(world, ann, Keyboard::SPACE);
@@ -68,7 +69,7 @@ TEST(Platformer, NoPlayerSticksToAWall) {
   hostGame(platformer_main, 1, [](World& world) {
     const std::uint32_t ann = joinAnn(world, 2);
     Object* p_runner = world.views().player(ann)->getObject();
-    p_runner->setPosition(Vector(34.5, 19.6));  // in a gap, before the wall that its far side is
+    p_runner->setPosition(Vector(34.5, 19.6));  // in a gap, left of the wall at its far side
     Fingers fingers(world, ann);
     int t = 0;
     for (; t < 30 && p_runner->getPosition().x() > 30; ++t) {

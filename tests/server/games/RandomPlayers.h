@@ -1,4 +1,4 @@
-// Players that press random keys, join and leave at random, and a hash of their pictures.
+// Players that press random keys, join and leave at random, and a hash of the pictures that they see.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace naiad {
 
-/// Makes random key, mouse, join and leave inputs.
+/// Sends random key and mouse inputs, and lets players join and leave at random.
 class RandomPlayers {
  public:
   RandomPlayers(df::World& world, std::uint64_t seed, std::size_t most)
@@ -30,7 +30,7 @@ class RandomPlayers {
           df::Keyboard::SPACE,   df::Keyboard::W,         df::Keyboard::A,         df::Keyboard::S,
           df::Keyboard::D,       df::Keyboard::P,         df::Keyboard::LEFTARROW, df::Keyboard::RIGHTARROW,
           df::Keyboard::UPARROW, df::Keyboard::DOWNARROW, df::Keyboard::RETURN,    df::Keyboard::N};
-      // One draw per statement, because the order in which arguments are evaluated is unspecified.
+      // Draws one number per statement, because the order in which arguments are evaluated is unspecified.
       if (m_random.below(4) == 0) {
         const auto action = static_cast<df::EventKeyboardAction>(m_random.below(3));
         const Key key = kKeys[m_random.below(12)];
@@ -58,7 +58,7 @@ class RandomPlayers {
   std::vector<std::uint32_t> m_players;
 };
 
-/// FNV-1a over the characters of pictures.
+/// A FNV-1a hash of the characters of pictures.
 class PictureHash {
  public:
   void add(const df::Canvas& canvas) {

@@ -31,7 +31,7 @@ int score(df::World& world, std::uint32_t player) {
   return world.views().player(player)->getScore();
 }
 
-/// Joins, begins a round, and is in it.
+/// Adds a player "ann" and begins a round. Returns the player's id.
 std::uint32_t joinAndFly(df::World& world) {
   const std::uint32_t player = world.input().join("ann", df::RED);
   tap(world, player, df::Keyboard::P);
@@ -39,14 +39,14 @@ std::uint32_t joinAndFly(df::World& world) {
   return player;
 }
 
-/// The same, and waits until the new ship can be hit.
+/// Like joinAndFly(), but also waits until the new ship can be hit.
 std::uint32_t joinAndWait(df::World& world) {
   const std::uint32_t player = joinAndFly(world);
   tick(world, kShieldTicks + 1);
   return player;
 }
 
-/// So many ticks without a saucer near the ship.
+/// Runs this many ticks, and in each of them moves the saucers away from the ship.
 void tickInPeace(df::World& world, int count) {
   for (int t = 0; t < count; ++t) {
     const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
@@ -58,7 +58,7 @@ void tickInPeace(df::World& world, int count) {
   }
 }
 
-/// A saucer hits the ship.
+/// Moves a saucer into the ship.
 void crash(df::World& world, std::uint32_t player) {
   const df::Object* p_hero = world.views().player(player)->getObject();
   const df::ObjectList saucers = world.objects().objectsOfType("Saucer");
@@ -67,7 +67,7 @@ void crash(df::World& world, std::uint32_t player) {
   world.tick();
 }
 
-/// Presses a random key or uses the mouse at random, now and then.
+/// Presses a random key or clicks the mouse in some ticks.
 void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
   static constexpr Key kKeys[] = {df::Keyboard::SPACE, df::Keyboard::W, df::Keyboard::A, df::Keyboard::S,
                                   df::Keyboard::D,     df::Keyboard::N, df::Keyboard::Z};
@@ -81,7 +81,7 @@ void playAtRandom(df::World& world, df::Random& random, std::uint32_t player) {
   }
 }
 
-/// All of what the first player saw while four played at random, as one number.
+/// Returns a hash of all pictures that the first player saw while four players played at random.
 std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
   std::uint64_t hash = 14695981039346656037u;
   host(seed, [&](df::World& world) {
@@ -102,10 +102,12 @@ std::uint64_t hashOfARandomGame(std::uint64_t seed, int ticks) {
 TEST(SaucerShoot, SaucersAvoidTheTextRows) {
   host(1, [](df::World& world) {
     const std::uint32_t first = joinAndFly(world);
-    for (int i = 0; i < 11; ++i) world.input().join("pilot", df::RED);  // many pilots, many saucers
+    for (int i = 0; i < 11; ++i)
+      world.input().join("pilot", df::RED);  // because many pilots get many
+                                             // saucers
     int outside = 0;
     for (int t = 0; t < 6000; ++t) {
-      if (t % 100 == 0) tap(world, first, df::Keyboard::P);  // another round, if this one is over
+      if (t % 100 == 0) tap(world, first, df::Keyboard::P);  // begins another round if this one is over
       world.tick();
       const df::ObjectList saucers = WM.objectsOfType("Saucer");
       for (int i = 0; i < saucers.getCount(); ++i) {
@@ -181,7 +183,7 @@ TEST(SaucerShoot, LeavingPlayersShipIsRemoved) {
     const std::uint32_t bob = world.input().join("bob", df::GREEN);
     tick(world, 20);
     EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 2);
-    tap(world, ann, df::Keyboard::SPACE);  // the bullet outlives its ship
+    tap(world, ann, df::Keyboard::SPACE);  // this bullet exists longer than its ship
     world.input().leave(ann);
     tick(world, 100);
     ASSERT_EQ(world.objects().objectsOfType("Hero").getCount(), 1);
@@ -233,7 +235,7 @@ ControlRecord recordOf(df::World& world, std::uint32_t player) {
           f.state};
 }
 
-/// What a client gets is enough to compute where the ship flies, until it is hit.
+/// The data that a client has are enough to compute the ship's path until the ship is hit.
 TEST(SaucerShoot, ControlsPredictTheShipsPath) {
   int foretold = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -257,7 +259,7 @@ TEST(SaucerShoot, ControlsPredictTheShipsPath) {
         world.tick();
         if (world.views().player(player)->getObject() == nullptr) break;  // the round is over
         const ControlRecord now = recordOf(world, player);
-        if (could_steer != now.state.steering) continue;  // hit, or launched
+        if (could_steer != now.state.steering) continue;  // the ship was hit, or launched
         EXPECT_EQ(now, copy.now());
         ++foretold;
       }
@@ -276,7 +278,7 @@ TEST(SaucerShoot, TheTitleWaitsForAKey) {
     world.tick();
     EXPECT_EQ(world.objects().objectsOfType("Hero").getCount(), 0);
     tap(world, player, df::Keyboard::P);
-    tap(world, player, df::Keyboard::P);  // one round, not two
+    tap(world, player, df::Keyboard::P);  // begins only one round, not two
     tick(world, 2);
     EXPECT_FALSE(shows(world, player, "SPACE or P: play"));
     EXPECT_TRUE(shows(world, player, "Points 0"));
@@ -297,7 +299,7 @@ TEST(SaucerShoot, LostShipIsReplacedTwiceThenTitleReturns) {
       df::Object* p_hero = world.views().player(player)->getObject();
       for (int ships = 2; ships >= 0; --ships) {
         tickInPeace(world, kShieldTicks);
-        ASSERT_EQ(p_hero->getSolidness(), df::SOFT);  // no shield any more
+        ASSERT_EQ(p_hero->getSolidness(), df::SOFT);  // the shield has ended
         crash(world, player);
         ASSERT_FALSE(p_hero->isVisible());
         EXPECT_TRUE(shows(world, player, "Hit!"));
@@ -340,7 +342,7 @@ TEST(SaucerShoot, TeamPointsAreTheScoresPlusSeconds) {
     const df::ObjectList points = world.objects().objectsOfType("Points");
     ASSERT_EQ(points.getCount(), 1);
     const int team = static_cast<const df::ViewObject*>(points[0])->getValue();
-    EXPECT_EQ(team, score(world, player) + 10);  // and a point for each second
+    EXPECT_EQ(team, score(world, player) + 10);  // 10 seconds give the team 10 points more
   });
 }
 

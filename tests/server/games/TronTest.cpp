@@ -18,7 +18,7 @@ int freeCells(const Object& cycle, Vector way) {
   return 30;
 }
 
-/// Turns to where there is most room as soon as something is in the way.
+/// A player that turns to the side with more free cells if something is in front.
 class CarefulRider {
  public:
   CarefulRider(World& world, std::uint32_t player) : m_world(world), m_player(player) {}
@@ -29,7 +29,7 @@ class CarefulRider {
     const Vector at = p_cycle->getPosition();
     if (at != m_before) m_way = at - m_before;
     m_before = at;
-    if (std::abs(m_way.x()) + std::abs(m_way.y()) != 1) return;  // set down for a new round
+    if (std::abs(m_way.x()) + std::abs(m_way.y()) != 1) return;  // the cycle was placed for a new round
     if (freeCells(*p_cycle, m_way) >= 2) return;
     const bool level = m_way.y() == 0;
     const Vector one = level ? Vector(0, -1) : Vector(-1, 0);

@@ -1,4 +1,4 @@
-// Stands in for dfserver behind a gateway: a visitors' socket with TLS, which records the addresses and
+// Replaces dfserver behind a gateway: listens on a visitors' socket with TLS, and records the addresses and
 // frames of its clients.
 #pragma once
 
@@ -27,10 +27,10 @@ namespace naiad::test {
 
 class FakeGame {
  public:
-  /// Handles a frame on the game's thread. By default, the frame is sent back.
+  /// Handles a frame on the game's thread. If it is empty, frames are sent back.
   using OnFrame = std::function<void(ReliableChannel& channel, const std::string& frame)>;
 
-  /// Listens on `socket`. The key is in the folder `identity` and created if missing.
+  /// Listens on `socket`. The key is in the folder `identity`; creates it if it is missing.
   FakeGame(const std::filesystem::path& identity, const std::filesystem::path& socket, OnFrame on_frame = {});
   ~FakeGame();
   FakeGame(const FakeGame&) = delete;

@@ -14,20 +14,20 @@
 
 namespace naiad::test {
 
-/// A temporary folder with a page and room for sockets and keys.
+/// A temporary folder with a page, in which tests also put sockets and keys.
 class GatewayHome {
  public:
   GatewayHome();
 
   std::filesystem::path path(const std::string& name) const { return m_folder / name; }
-  /// Returns settings of a gateway on a free port to a server with this key.
+  /// Returns settings of a gateway that listens on a free port and connects to a server with this key.
   GatewaySettings settings(const ShortKey& key) const;
 
  private:
   TempFolder m_folder;
 };
 
-/// Contents of the page's files.
+/// Return the contents of the page's files.
 std::string indexText();
 std::string wasmBytes();
 
@@ -64,7 +64,7 @@ class GatewayRun {
       return 0;
     });
   }
-  /// Waits until the gateway has ended by itself.
+  /// Waits until the gateway has ended, without stopping it.
   void join() { m_thread.join(); }
   std::vector<std::string> lines();
 

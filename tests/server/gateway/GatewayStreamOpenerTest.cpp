@@ -1,4 +1,4 @@
-// The client's end of a gateway's WebSocket outside a browser, as in dfclient and dfbot.
+// GatewayStreamOpener: WebSockets to a gateway that dfclient and dfbot open, without a browser.
 #include <gtest/gtest.h>
 
 #include <asio/io_context.hpp>
@@ -26,7 +26,7 @@ class GatewayStreamOpenerTest : public testing::Test {
   GatewayAddress address() const {
     return *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
   }
-  /// Waits for the channel or the error message.
+  /// Opens a stream. Waits until there is a channel or an error message.
   void open(StreamOpener& streams) {
     error.reset();
     streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
@@ -104,7 +104,8 @@ TEST_F(GatewayStreamOpenerTest, GatewayLossWithPendingWritesIsReportedOnce) {
   open(streams);
   ASSERT_TRUE(channel) << *error;
   channel->send(std::string(100, 'x'));
-  // The game reads nothing, so finally the gateway stops reading too, and a write stays pending.
+  // The game reads nothing, so at last the gateway stops reading, too, and a write of the client stays
+  // pending.
   ASSERT_TRUE(runUntil(context, [&] { return game->frameCount() > 0; }));
   ASSERT_TRUE(runUntil(context, [&] {
     channel->send(std::string(4000, 'x'));

@@ -1,4 +1,4 @@
-// The gateway's replies to HTTP requests and to anything else.
+// The gateway's replies to HTTP requests, and to bytes that are not HTTP.
 #include <gtest/gtest.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
@@ -15,7 +15,7 @@
 namespace naiad::test {
 namespace {
 
-/// No test here reaches a server, so any key will do.
+/// Returns an arbitrary key, because no test here connects to a server.
 ShortKey anyKey() {
   return *ShortKey::parse("aaaaaaaaaaaaaaaaaaaaaaaaaa");
 }
@@ -226,7 +226,7 @@ TEST_F(GatewayPage, SlowRequestHeadTimesOut) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   EXPECT_TRUE(silent.waitForHangup());
-  EXPECT_EQ(gateway.counters().late, 2u);
+  EXPECT_EQ(gateway.counters().timeouts, 2u);
 }
 
 TEST_F(GatewayPage, RequestsOfOneConnectionAreBounded) {

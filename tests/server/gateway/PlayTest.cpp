@@ -20,7 +20,8 @@ class GatewayPlay : public testing::Test {
     const auto answer = browser.frame();
     return answer && answer->opcode == 2 && answer->payload == text;
   }
-  /// Returns the close code of a WebSocket after `send`; `plays`: after a hello was echoed.
+  /// Opens a WebSocket, calls `send`, and returns the close code. `plays`: first sends a hello and waits for
+  /// its echo.
   static int codeAfter(std::uint16_t port, bool plays, const std::function<void(WebClient&)>& send) {
     WebClient browser(port);
     if (!browser.play() || (plays && !echoes(browser, "hello"))) return -2;
@@ -234,7 +235,7 @@ TEST_F(GatewayPlay, SilentBrowserIsPingedAndDeadOneIsDisconnected) {
     alive.sendFrame(10, ping->payload);
   }
   EXPECT_TRUE(dead.waitForHangup());
-  EXPECT_EQ(gateway->counters().gone_silent, 1u);
+  EXPECT_EQ(gateway->counters().ping_timeouts, 1u);
   EXPECT_TRUE(echoes(alive, "still there"));
 }
 
@@ -332,7 +333,7 @@ TEST_F(GatewayPlay, PendingMessagesAreSentInOneWrite) {
   EXPECT_EQ(after.writes_down - before.writes_down, 1u);
 }
 
-// Beast writes the pongs and the gateway writes the messages, to a socket that accepts only parts of either.
+// Beast writes the pongs and the gateway writes the messages, to a socket that accepts only a part at a time.
 TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
   constexpr int kMessages = 40;
   constexpr int kPings = 12;
@@ -363,12 +364,13 @@ TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
   }
 }
 
-// 400 ms at 256 kbit/s are 12,800 bytes: no more may be in flight, whatever the game sends.
+// At most 12,800 bytes may be in flight, which take 400 ms at 256 kbit/s, whatever the game sends.
 TEST_F(GatewayPlay, SlowLineGetsFreshPicturesWithoutABacklog) {
   constexpr std::size_t kPicture = 2000;
   constexpr std::size_t kLine = 32'000;  // bytes per second
   constexpr std::size_t kMaxUnderWay = kLine * 4 / 10;
-  const auto sent = std::make_shared<std::atomic<std::size_t>>(0);  // shared: the game outlives the test
+  const auto sent =
+      std::make_shared<std::atomic<std::size_t>>(0);  // a shared pointer, because the game outlives the test
   start(ignore);
   WebClient slow(gateway->port(), "127.0.0.1", 2048);
   ASSERT_TRUE(slow.play());
@@ -389,12 +391,12 @@ TEST_F(GatewayPlay, SlowLineGetsFreshPicturesWithoutABacklog) {
     if (allowed > received) slow.takeSome(std::min<std::size_t>(allowed - received, 640));
     while (const auto frame = slow.takeFrame()) {
       received += frame->payload.size();
-      if (received > kLine) worst = std::max(worst, *sent - received);  // once the line is busy
+      if (received > kLine) worst = std::max(worst, *sent - received);  // not before the line is busy
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // pace of the line
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the speed of the line
   }
   EXPECT_LE(worst, kMaxUnderWay);
-  EXPECT_EQ(gateway->counters().too_slow, 0u);
+  EXPECT_EQ(gateway->counters().stalled, 0u);
   RecordProperty("bytes_under_way", std::to_string(worst));
 }
 
@@ -406,7 +408,7 @@ TEST_F(GatewayPlay, BrowserThatReadsNothingIsDisconnected) {
   game->every(std::chrono::milliseconds(5), [](ReliableChannel& channel) {
     if (channel.unsentBytes() == 0) channel.send(std::string(10'000, 'p'));
   });
-  EXPECT_TRUE(waitUntil([&] { return gateway->counters().too_slow == 1; }));
+  EXPECT_TRUE(waitUntil([&] { return gateway->counters().stalled == 1; }));
   EXPECT_TRUE(waitUntil([&] { return gateway->connections() == 0; })) << "though it never answers the close";
 }
 
@@ -421,7 +423,7 @@ TEST_F(GatewayPlay, GatewayStopsReadingWhileTheServerIsSlow) {
     for (int i = 0; i < 5000; ++i)
       browser.sendFrame(2, std::string(kMaxClientFrame, static_cast<char>('a' + i % 26)));
   });
-  // The count stops growing: it is equal after many turns of the loop.
+  // Waits until the count is equal before and after many turns of the loop.
   std::uint64_t before = 0;
   EXPECT_TRUE(waitUntil([&] {
     const std::uint64_t now = gateway->counters().messages_up;

@@ -29,24 +29,25 @@ class DfwebProgram : public testing::Test {
 };
 
 TEST_F(DfwebProgram, InvalidOptionsPrintAMessageAndSetExitCode) {
-  expectRefusal({"--help"}, 0, "--visitors");
+  expectRefusal({"--help"}, 0, "--proxy-socket");
   expectRefusal({}, 2, "link");
-  expectRefusal({"http://game.test", "--visitors", "visitors"}, 2, "naiad://");
-  expectRefusal({link}, 2, "--visitors is required");
-  expectRefusal({link, "--visitors", std::string(200, 'v')}, 2, "too long");
-  expectRefusal({link, "--visitors", "visitors", "--certificate", "certificate"}, 2, "together");
-  expectRefusal({link, "--visitors", "visitors", "--listen", "localhost:80"}, 2, "ADDRESS:PORT");
-  expectRefusal({link, "--visitors", "visitors", "--origin", "https://a/b"}, 2, "https://NAME");
-  expectRefusal({link, "--visitors", "visitors", "--visitor", "x"}, 2, "--visitors");
-  expectRefusal({link, "--visitors", "visitors", "--page", home.path("none")}, 3, "page");
-  expectRefusal({link, "--visitors", "visitors", "--page", home.path("page/folder")}, 3, "index.html");
-  expectRefusal({link, "--visitors", "visitors", "--page", page, "--listen", "0.0.0.0:0"}, 4, "loopback");
+  expectRefusal({"http://game.test", "--proxy-socket", "visitors"}, 2, "naiad://");
+  expectRefusal({link}, 2, "--proxy-socket is required");
+  expectRefusal({link, "--proxy-socket", std::string(200, 'v')}, 2, "too long");
+  expectRefusal({link, "--proxy-socket", "visitors", "--certificate", "certificate"}, 2, "together");
+  expectRefusal({link, "--proxy-socket", "visitors", "--listen", "localhost:80"}, 2, "ADDRESS:PORT");
+  expectRefusal({link, "--proxy-socket", "visitors", "--origin", "https://a/b"}, 2, "https://NAME");
+  expectRefusal({link, "--proxy-socket", "visitors", "--proxy-for", "x"}, 2,
+                "there is no option --proxy-for");
+  expectRefusal({link, "--proxy-socket", "visitors", "--page", home.path("none")}, 3, "page");
+  expectRefusal({link, "--proxy-socket", "visitors", "--page", home.path("page/folder")}, 3, "index.html");
+  expectRefusal({link, "--proxy-socket", "visitors", "--page", page, "--listen", "0.0.0.0:0"}, 4, "loopback");
 }
 
 TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   FakeGame game(home.path("identity"), home.path("visitors"));
   const std::string real = "naiad://game.test#" + game.key().text();
-  RunningProgram dfweb({"dfweb", real, "--visitors", home.path("visitors"), "--page", page, "--listen",
+  RunningProgram dfweb({"dfweb", real, "--proxy-socket", home.path("visitors"), "--page", page, "--listen",
                         "127.0.0.1:0", "--port-file", home.path("port"), "--origin", "https://play.example"});
   ASSERT_TRUE(dfweb.prints("connects browsers")) << dfweb.printed();
   std::uint16_t port = 0;

@@ -1,7 +1,7 @@
 // Bytes that are put into or written to a SecureSocket arrive complete and in order, even if the kernel
 // accepts little at a time.
 //
-// This source uses Boost's Asio, so it must not include anything that includes the standalone one.
+// This source uses Boost's Asio, so it must not include headers that include the standalone Asio.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
@@ -23,7 +23,7 @@ namespace {
 namespace net = boost::asio;
 using Local = net::basic_stream_socket<net::local::stream_protocol, GatewayExecutor>;
 
-/// Two connected sockets, the first with a small send buffer in the kernel.
+/// Two connected sockets. The kernel's send buffer of `from` is small.
 class SocketPair {
  public:
   explicit SocketPair(bool has_tls) {
@@ -132,7 +132,9 @@ TEST_P(SecureSocketTest, PutsAndWritesDoNotInterleave) {
       put.push_back(
           record(static_cast<char>(letter | 0x20), random.below(random.below(9) == 0 ? 20'000 : 300)));
       pair.from->put(put.back());
-      if (random.below(2) == 0) ASSERT_TRUE(pair.from->flush());
+      if (random.below(2) == 0) {
+        ASSERT_TRUE(pair.from->flush());
+      }
     }
     most_kept = std::max(most_kept, pair.from->queuedBytes());
     pair.turn();

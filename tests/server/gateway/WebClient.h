@@ -1,5 +1,5 @@
-// A browser's connection that can send any bytes: HTTP, WebSocket frames, or neither. Blocking, with
-// timeouts; plain TCP.
+// A browser's connection that can send any bytes: HTTP, WebSocket frames, or neither. Uses plain TCP. Its
+// functions block, with timeouts.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -48,7 +48,7 @@ class WebClient {
 
   /// Sends a WebSocket request. `changes` replaces headers of the same name; "Name:" removes one.
   void requestPlay(const std::string& changes = "");
-  /// Opens a WebSocket as the page does. False if the server refuses it.
+  /// Opens a WebSocket as the page does. Returns false if the server refuses it.
   bool play();
   static std::string frameBytes(int opcode, std::string_view payload, bool is_last = true,
                                 bool is_masked = true);
@@ -57,7 +57,7 @@ class WebClient {
   void sendMessage(const wire::ClientMessage& message) { sendFrame(2, message.SerializeAsString()); }
   /// Returns the next frame; nullopt if the connection ended, or after 30 s.
   std::optional<WebFrame> frame();
-  /// Returns the next binary message and answers pings. nullopt if the WebSocket was closed.
+  /// Returns the next binary message; answers pings before it. Returns nullopt if the WebSocket was closed.
   std::optional<wire::ServerMessage> message();
   /// Reads until the WebSocket is closed. Returns the close code, 0 without close frame, -1 after 30 s.
   int waitForClose();
@@ -65,13 +65,13 @@ class WebClient {
   bool join(const std::string& name);
   static wire::ClientMessage hello(const std::string& name);
 
-  /// Reads until the other end closes the connection. False after 30 s.
+  /// Reads until the other end closes the connection. Returns false if it has not after 30 s.
   bool waitForHangup();
   /// True if the other end is known to have closed the connection. Discards unread bytes.
   bool isHungUp();
-  /// Reads at most `most` of the bytes that have arrived. Returns how many.
+  /// Reads at most `most` bytes of those that have arrived. Returns the number of bytes read.
   std::size_t takeSome(std::size_t most);
-  /// Bytes that were read but not used yet.
+  /// Returns the bytes that were read but not used yet.
   std::string& unread() { return m_unread; }
   /// Removes and returns the first frame of unread(); nullopt if it is incomplete.
   std::optional<WebFrame> takeFrame();

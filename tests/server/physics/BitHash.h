@@ -1,4 +1,4 @@
-// Hashes the exact bits of numbers, to compare runs of different compilers.
+// Hashes the exact bits of numbers, to compare the results of different compilers.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Fixtures with a world of bodies. A unit is a metre on both axes, and times are in seconds.
+// Fixtures with a world of bodies. One unit is a metre on both axes; times are in seconds.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 
 namespace df::test {
 
-/// A world that is current during a test, with cells twice as high as wide, and its log lines.
+/// A world that is current during a test, with cells twice as high as wide. Records its log lines.
 class PhysicsWorld : public testing::Test {
  protected:
   PhysicsWorld() : scope(world) {
@@ -69,7 +69,7 @@ class PhysicsWorld : public testing::Test {
     p_crate->setTurning();
     return p_crate;
   }
-  /// Sets gravity to 10 units per second² and makes a floor whose surface is y = 0.
+  /// Sets the gravity to 10 units per second² and makes a floor with its surface at y = 0.
   static Object* layFloor(double half_width = 50, double half_height = 5) {
     PM.setGravity(perSecondSquared(Vector(0, 10)));
     return wall(Vector(0, half_height), Vector(half_width, half_height));
@@ -82,7 +82,7 @@ class BodyScene : public PhysicsWorld {
   void ticks(int n) {
     for (int i = 0; i < n; ++i) world.update();
   }
-  /// Returns the layer, for the solvers' counters. It exists once there is a body.
+  /// Returns the layer, which has the solvers' counters. It exists after the first body was made.
   const naiad::physics::BodyLayer& layer() { return *world.findLayer<naiad::physics::BodyLayer>(); }
 
  public:
@@ -130,7 +130,7 @@ class Listener : public Body {
     }
     return 1;
   }
-  /// Checks that begin and end events of each pair alternate. Returns which pairs are in contact.
+  /// Checks that begin and end events alternate for each pair. Returns which pairs are in contact now.
   std::map<std::pair<const Object*, const Object*>, bool> expectTurns() const {
     std::map<std::pair<const Object*, const Object*>, bool> touches;
     for (const Note& note : notes) {

@@ -1,5 +1,5 @@
-// A force field of a spring with a rest length, attached to a fixed point. In the plane it has no closed
-// form.
+// A force field of a spring with a rest length, attached to a fixed point. The motion in the plane has no
+// closed form.
 #pragma once
 
 #include "physics/flight/FlightField.h"
@@ -14,9 +14,9 @@ inline Mat22 scaled(const Mat22& m, double s) {
   return {m.xx * s, m.xy * s, m.yx * s, m.yy * s};
 }
 
-/// Pulls towards the field's origin beyond `rest_length`, pushes away within it, and damps motion along the
-/// spring. At the origin, where the direction is undefined, the spring has no force. For a rest length of
-/// zero, SpringFlow is exact and far cheaper.
+/// Pulls towards the field's origin from beyond `rest_length`, pushes away from within it, and damps motion
+/// along the spring. At the origin, where its direction is undefined, the spring has no force. If the rest
+/// length is zero, SpringFlow is exact and much faster.
 class ElasticField final : public ForceField {
  public:
   /// `push` is an additional constant acceleration, such as gravity.
@@ -35,8 +35,8 @@ class ElasticField final : public ForceField {
                 Mat22& by_velocity) const override;
 
  private:
-  double m_stiffness;    // per mass, per unit of time squared
-  double m_damping;      // per mass, per unit of time
+  double m_stiffness;    // force over length and mass, per unit of time squared
+  double m_damping;      // force over velocity and mass, per unit of time
   double m_rest_length;  // metric cells
   Vec2 m_push;
 };
@@ -53,8 +53,8 @@ inline bool ElasticField::jacobian(Vec2 position, Vec2 velocity, double /*time*/
   const Mat22 across = kIdentity + scaled(along, -1);
   const double radial = dot(velocity, outward);
   const double pull = m_stiffness * (distance - m_rest_length) + m_damping * radial;
-  // Along the spring, the pull changes with the stiffness and, because the spring turns, with the velocity
-  // across it. The pull's direction turns with the position.
+  // Along the spring, the pull changes by the stiffness and, because the spring turns, by the velocity across
+  // the spring. The pull's direction turns with the position.
   const Vec2 turning = (velocity - radial * outward) / distance;
   by_position = scaled(along, -m_stiffness) + scaled(outer(outward, turning), -m_damping) +
                 scaled(across, -pull / distance);

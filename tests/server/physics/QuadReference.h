@@ -1,4 +1,4 @@
-// Reference solutions in quadruple precision, for tests: slow, simple, and independent of the tested code.
+// Reference solutions in quadruple precision for tests: slow and simple, and independent of the tested code.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ using QuadVector = std::array<Quad, N>;
 template <int N>
 using QuadSystem = std::function<QuadVector<N>(Quad t, const QuadVector<N>& y)>;
 
-/// Solves a smooth system with the classical Runge-Kutta method, with `steps`, 2·steps, … steps, extrapolated
-/// `levels` times. The error contains all powers of the step size from the fourth on.
+/// Solves a smooth system by the classical Runge-Kutta method with `steps`, 2·steps, … steps, extrapolated
+/// `levels` times. The error contains all powers of the step length from the fourth on.
 template <int N>
 QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVector<N>& start, int steps,
                         int levels = 5) {
@@ -43,7 +43,7 @@ QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVect
       for (int i = 0; i < N; ++i) y[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
     }
     Quad factor = 16;
-    for (auto& before : row) {  // row: results of level − 1, extrapolated 0, 1, 2, … times
+    for (auto& before : row) {  // row: the results of level − 1, extrapolated 0, 1, 2, … times
       const QuadVector<N> better = [&] {
         QuadVector<N> z = y;
         for (int i = 0; i < N; ++i) z[i] += (y[i] - before[i]) / (factor - 1);
@@ -58,8 +58,8 @@ QuadVector<N> quadSolve(const QuadSystem<N>& f, Quad t0, Quad t1, const QuadVect
   return row.back();
 }
 
-/// Solves a stiff system with the extrapolated linearly implicit Euler method (Deuflhard 1985). The error
-/// estimate sets the step size, and the Jacobian comes from differences in quadruple precision.
+/// Solves a stiff system by the extrapolated linearly implicit Euler method (Deuflhard 1985). The error
+/// estimate determines the step length; the Jacobian is computed by differences in quadruple precision.
 template <int N>
 QuadVector<N> quadSolveStiff(const QuadSystem<N>& f, Quad t, Quad end, QuadVector<N> y, Quad tolerance,
                              Quad floor) {

@@ -1,4 +1,4 @@
-// Random shapes of every kind, and slow but simple reference functions for them.
+// Random shapes of every kind, and reference functions for them, which are slow but simple.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline Rotation anyRotation(SplitMix64& random) {
   return rotationBy(between(random, -3.14, 3.14));
 }
 
-/// Returns the corners of the convex hull, counted from x to y (A. Andrew's monotone chains).
+/// Returns the corners of the convex hull, ordered from x to y (A. Andrew's monotone chains).
 inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),
             [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
@@ -41,8 +41,8 @@ inline std::vector<Vec2> hullOf(std::vector<Vec2> points) {
   return hull;
 }
 
-/// Returns a circle, capsule, box or polygon, sharp or rounded, of size about 1. Half of them are off their
-/// origin.
+/// Returns a circle, capsule, box or polygon, sharp or rounded, of size about 1. Half of the shapes are not
+/// centred on their origin.
 inline ConvexShape anyShape(SplitMix64& random) {
   for (;;) {
     ConvexShape shape;
@@ -50,7 +50,7 @@ inline ConvexShape anyShape(SplitMix64& random) {
     const double radius = random.unit() < 0.5 ? 0 : between(random, 0.01, 0.5);
     ShapeStatus status = ShapeStatus::kTooFew;
     const double kind = random.unit();
-    // Drawn before the calls, because compilers evaluate arguments in different orders.
+    // Draws the numbers before the calls, because compilers evaluate arguments in different orders.
     const double first = between(random, 0.1, 1), second = between(random, 0.1, 1);
     if (kind < 0.2) {
       status = makeCircle(first, centre, shape);
@@ -112,7 +112,7 @@ inline double slowDistance(const std::vector<Vec2>& a, const std::vector<Vec2>& 
   return best;
 }
 
-/// Returns the gap between the surfaces; ≤ 0 if they overlap, and −(sum of the radii) if the cores do.
+/// Returns the gap between the surfaces; ≤ 0 if they overlap, and −(sum of the radii) if the cores overlap.
 inline double slowGap(const ConvexShape& a, Rotation qa, const ConvexShape& b, Rotation qb, Vec2 offset) {
   return slowDistance(placed(a, qa, {}), placed(b, qb, offset)) - (a.radius + b.radius);
 }

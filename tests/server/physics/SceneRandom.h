@@ -1,4 +1,4 @@
-// Simple random numbers for scenes, not for any other use.
+// Simple random numbers, only for the scenes of tests.
 #pragma once
 
 #include <cstdint>

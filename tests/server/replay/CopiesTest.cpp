@@ -1,5 +1,5 @@
-// Copies of a world's process (WorldCheckpoints.h): one resumes where the world crashed or hung, and none is
-// left over.
+// Copies of a world's process (WorldCheckpoints.h): if the world crashes or hangs, a copy continues the
+// round. No copy outlives the round.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -32,8 +32,8 @@ bool isAlive(pid_t process) {
   return kill(process, 0) == 0;
 }
 
-/// Rounds shorter than DeterminismCheck::kDelay ticks have one world; longer ones have a second, which is
-/// compared with it.
+/// Rounds shorter than DeterminismCheck::kDelay ticks have one world; longer rounds have a second world,
+/// which is compared with the first.
 class CopiesTest : public FrailRound {
  protected:
   void SetUp() override {
@@ -46,13 +46,13 @@ class CopiesTest : public FrailRound {
   static std::vector<pid_t> find(const std::string& name) {
     return test::processesBelow(getpid(), name);
   }
-  /// Plays, and then waits until new copies have their name and sleep, even on a busy machine.
+  /// Plays, and then waits until new copies have their name and sleep, which takes time on a busy machine.
   void play(int ticks) {
     FrailRound::play(ticks);
     EXPECT_TRUE(test::waitUntil(isSettled));
   }
-  // A copy has a world's name until it takes its own, and a supervisor has one world. Worlds are listed
-  // first, so that each copy is found under one of its names.
+  // A new copy has a world's name until it sets its own name. Each supervisor has one world. Worlds are
+  // listed first, so that each copy is found under one of its two names.
   static bool isSettled() {
     std::set<pid_t> supervisors;
     for (const pid_t one : find(kWorld)) {
@@ -61,7 +61,7 @@ class CopiesTest : public FrailRound {
     }
     return std::ranges::all_of(find(kCopy), [](pid_t copy) { return test::stateOf(copy) == 'S'; });
   }
-  /// Plays until there is a copy. After a failover this takes until the supervisor has ended the other
+  /// Plays until there is a copy. After a failover, that is not before the supervisor has ended the other
   /// processes.
   void playToACopy() {
     for (int i = 0; i < 1000 && find(kCopy).empty(); ++i) play(1);
@@ -103,7 +103,7 @@ TEST_F(CopiesTest, CheckpointReplaysTheTicksSinceItWasMade) {
   EXPECT_EQ(find(kCopy).size(), 1u);
   const std::vector<pid_t> copy = find(kCopy);
   survive(df::Keyboard::Q);
-  EXPECT_TRUE(logs(std::string(kByCopy) + "71 ticks again")) << log << "31 to 101";
+  EXPECT_TRUE(logs(std::string(kByCopy) + "71 ticks in ")) << log << "31 to 101";
   EXPECT_EQ(find(kWorld), copy) << "that is the world now";
   play(60);
   EXPECT_EQ(verify(), "") << "byte for byte what it answered before";
@@ -117,7 +117,8 @@ TEST_F(CopiesTest, CrashInDrawIsRecoveredToo) {
   EXPECT_EQ(verify(), "");
 }
 
-// The second hang is waited for, because the game may only be slow. It does not end, so the third is not.
+// The server waits longer at the second hang, because the game may only be slow. That hang does not end, so
+// at the third one it does not wait.
 TEST_F(CopiesTest, FirstHangOfARoundIsRecoveredAtOnce) {
   constexpr const char* kAtOnce = "the game did not answer within ";
   constexpr const char* kLate = "did not answer in time in tick";
@@ -136,7 +137,7 @@ TEST_F(CopiesTest, FirstHangOfARoundIsRecoveredAtOnce) {
   EXPECT_EQ(verify(), "");
 }
 
-/// With the key S, ticks seem to hang, but they end if they are waited for.
+/// With the key S, ticks take longer than the hang time, but end if the server waits.
 class SlowGameTest : public CopiesTest {
  protected:
   SlowGameTest() { hang_time = 0.3; }
@@ -225,7 +226,7 @@ TEST_F(CopiesTest, RoundIsReplayedFromTheStartWithoutCheckpoints) {
   EXPECT_EQ(copies.size(), 1u);
   for (const pid_t copy : copies) EXPECT_EQ(kill(copy, SIGKILL), 0);
   survive(df::Keyboard::Q);
-  EXPECT_TRUE(logs(std::string(kByAnother) + "61 ticks again")) << log;
+  EXPECT_TRUE(logs(std::string(kByAnother) + "61 ticks in ")) << log;
   play(20);
   EXPECT_EQ(verify(), "");
 }
@@ -271,7 +272,7 @@ TEST_F(CopiesTest, AtMostTwoCheckpointsAreKept) {
        find(kCopy).size() != WorldCheckpoints::kMaxCheckpoints && std::chrono::steady_clock::now() < end;
        ++i) {
     if (i < 50) play(1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before the next count
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // a pause before copies are counted again
   }
   EXPECT_EQ(find(kCopy).size(), WorldCheckpoints::kMaxCheckpoints);
 }
@@ -282,7 +283,7 @@ TEST_F(CopiesTest, PausedWorldHasNoCheckpointUntilItsNextTick) {
   ASSERT_EQ(copies.size(), 2u);
   world->dropCheckpoints();
   waitUntilGone(copies);
-  play(2);  // the world forks after its answer, so the copy exists once it answers again
+  play(2);  // the world forks after an answer, so after its next answer the copy exists
   EXPECT_EQ(find(kCopy).size(), 1u);
   survive(df::Keyboard::Q);
   EXPECT_EQ(count(kByCopy), 1u) << log;
@@ -303,7 +304,7 @@ TEST_F(CopiesTest, GameWithThreadsHasNoCheckpoints) {
   press(df::Keyboard::T);
   play(static_cast<int>(RoundHistory::kCheckpointInterval));
   EXPECT_TRUE(find(kCopy).empty());
-  EXPECT_EQ(count("no copies are kept: it has threads"), 1u) << log;
+  EXPECT_EQ(count("no copies of this game's world are kept: the game has threads"), 1u) << log;
 }
 
 TEST_F(CopiesTest, NoProcessIsLeftWhenTheRoundEnds) {

@@ -1,5 +1,5 @@
 // The program dfreplay --until T --debug: a debugger gets the round's world before tick T. A small script
-// stands in for gdb.
+// replaces gdb.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -32,7 +32,7 @@ std::string restAfter(const std::string& text, const std::string& mark) {
 
 class DebugTest : public FrailRound {
  protected:
-  /// Plays a round that crashes twice at one place, in two ticks.
+  /// Plays a round in which the key Q crashes the world twice, in two different ticks.
   void playToTheLastDeath() {
     play(50);
     press(df::Keyboard::Q);
@@ -50,7 +50,7 @@ class DebugTest : public FrailRound {
     const std::size_t q = last ? text.rfind("key=Q") : text.find("key=Q");
     return std::atoi(text.c_str() + text.rfind("tick=", q) + 5);
   }
-  /// Makes a gdb that records its arguments and the state of the world, and lets the world continue.
+  /// Makes a script named gdb that records its arguments and the world's state, and makes the world continue.
   void makeDebugger(const std::string& last_line = "exit 0") {
     const fs::path script = recorder.folder() / "bin" / "gdb";
     fs::create_directory(script.parent_path());
@@ -64,7 +64,7 @@ class DebugTest : public FrailRound {
                           << last_line << "\n";
     fs::permissions(script, fs::perms::owner_all);
   }
-  /// Runs a shell line with dfreplay in its PATH, and gdb if there is a script.
+  /// Runs a shell command. Its PATH has dfreplay and the script gdb, if that was made.
   std::pair<int, std::string> runLine(const std::string& line) const {
     return test::runProgram("PATH=" + (recorder.folder() / "bin").string() +
                             ":" NAIAD_BINARY_DIR ":/bin:/usr/bin " + line + " 2>&1 </dev/null");
@@ -119,7 +119,7 @@ TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
   makeDebugger("exit 7");
   const auto [code, said] = runLine(command(20));
   EXPECT_EQ(code, 3) << said;
-  EXPECT_TRUE(test::has(said, "gdb ended with code 7"));
+  EXPECT_TRUE(test::has(said, "gdb exited with code 7"));
 }
 
 TEST_F(DebugTest, MissingDebuggerPrintsTheCommandToType) {

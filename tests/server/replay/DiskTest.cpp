@@ -1,5 +1,5 @@
 // A server whose disk stalls, is full, cannot be written, or loses unsynced data. A preloaded library
-// (disk/disk.cpp) stands between the server and its disk.
+// (disk/disk.cpp) replaces the server's calls for its files.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -28,12 +28,13 @@ using test::countIn;
 using test::waitUntil;
 
 constexpr std::chrono::milliseconds kFrame{5};
-/// Time after which the writer runs by its own timer; the start of a round wakes it before.
+/// The writer's syncs before this time are left out: the start of a round wakes it, later its own timer.
 constexpr std::int64_t kWakeNanos = 1'500'000'000;
-/// Limit between a busy disk and a sleeping writer.
+/// A longer pause between two syncs means that the writer slept, a shorter one that the disk was busy.
 constexpr std::int64_t kSleepNanos = 100'000'000;
 
-/// Returns times from the start of a sync to the end of the next with a sleep in between: the possible loss.
+/// Returns the times from the start of a sync to the end of the next one, if the writer slept between them. A
+/// power cut can lose this much.
 std::vector<std::int64_t> periodsOf(const std::vector<SyncNote>& notes) {
   std::vector<std::int64_t> periods;
   for (std::size_t i = 0; i + 1 < notes.size(); ++i) {
@@ -64,8 +65,8 @@ class DiskTest : public test::ServerFixture {
     ASSERT_TRUE(waitUntil([this] { return !contentOf(folder / "port").empty(); })) << log();
     if (player == 0) startPlayer();
   }
-  /// Starts a player, because without players the journal is written only every half minute. The player
-  /// reconnects by itself.
+  /// Starts a player that reconnects by itself. Needed because without players the journal is written only
+  /// every half minute.
   void startPlayer() {
     player = run({"dfbot", "127.0.0.1:" + port(), "--insecure", "--rejoin", "--random=1", "--seconds=3600"},
                  "player.txt");
@@ -111,7 +112,8 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
   std::size_t kept = 0;
   for (int cut = 0; cut < cuts; ++cut) {
     start();
-    // A round that fails on three servers in a row is given up, so each server gets further than the last.
+    // A round on which three servers in a row fail is given up, so each server gets further than the last
+    // one.
     ASSERT_TRUE(waitUntil([&] { return countIn(log(), goes_on) == cut; })) << log();
     const std::size_t before = cut == 0 ? 0 : syncs().size() + 2;
     ASSERT_TRUE(waitUntil([&] {
@@ -128,14 +130,15 @@ TEST_F(DiskTest, APowerCutLosesNoMoreThanASecond) {
     const SyncNote last = syncs().back();
     const fs::path file = round();
     const std::string on_disk = contentOf(file).substr(0, static_cast<std::size_t>(last.size));
-    salvageRounds((folder / "rounds").string());  // complete, from memory that a power cut would lose
+    salvageRounds(
+        (folder / "rounds").string());  // completes the file from memory that a power cut would lose
     const std::size_t all = countTurns(file);
     std::ofstream(file, std::ios::binary | std::ios::trunc) << on_disk << std::string(100, '\0');
     kept = countTurns(file);
     ASSERT_GT(kept, 0u);
     const double seconds = static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9 -
                            static_cast<double>(last.began) / 1e9;
-    // Lost are the turns since the last sync began, and late ticks that were caught up.
+    // The power cut loses the turns since the last sync began. The 0.25 s allow for late ticks.
     EXPECT_LE(static_cast<double>(all - kept) * 0.005, seconds + 0.25) << cut;
   }
   start();
@@ -176,7 +179,7 @@ TEST_F(DiskTest, RoundWithAStoppedJournalIsNotHandedOver) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
   set("full");
-  for (int i = 0; i < 2; ++i) {  // first found by the check, then known before it
+  for (int i = 0; i < 2; ++i) {  // the first restart finds the failure, the second one already knows it
     const std::string said =
         test::Talk(folder / "control.sock").ask(R"({"command":"restart","arguments":{"when":"keep"}})");
     EXPECT_TRUE(test::has(said, "Cannot keep the round: its journal has stopped"));

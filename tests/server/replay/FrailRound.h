@@ -54,7 +54,7 @@ class FrailRound : public testing::Test {
     input.key_action = df::KEY_PRESSED;
     world->addInput(input);
   }
-  /// Plays a tick. True if it has ended.
+  /// Plays a tick. Returns true if the tick has ended.
   bool tick() {
     const int before = ended;
     world->tick(true, false);
@@ -81,7 +81,8 @@ class FrailRound : public testing::Test {
     return verifyRound(round, stage, out) ? "" : out.str();
   }
 
-  /// Longer in sanitized builds, whose crash reports take time.
+  /// Seconds without an answer after which the world counts as hung. Longer in sanitized builds, because
+  /// their crash reports take time.
   double hang_time = 0.2 * test::kSlowness;
   Recorder recorder;
   std::filesystem::path rounds = recorder.folder() / "rounds";

@@ -46,7 +46,7 @@ bool isGone(pid_t process) {
   return state == 'X' || state == 'Z';
 }
 
-/// Returns the targets of a process's descriptors.
+/// Returns the targets of a process's open descriptors, as in /proc.
 std::multiset<std::string> descriptorsOf(pid_t process) {
   std::multiset<std::string> found;
   std::error_code error;
@@ -88,7 +88,7 @@ class Visitor {
       ++m_refused;
     return socket;
   }
-  // A refused datagram shows in the next call.
+  // If the port refuses a datagram, the next call on the socket fails.
   void run() {
     const int datagrams = connectedSocket(SOCK_DGRAM);
     while (!m_ends) {
@@ -110,7 +110,7 @@ class Visitor {
   std::thread m_thread;
 };
 
-/// A dfreplay that never ends.
+/// The script of a dfreplay that never ends.
 constexpr const char* kHangs = "echo $$ > replay.pid; exec sleep 300";
 
 class KeepTest : public test::ServerFixture {
@@ -159,7 +159,8 @@ class KeepTest : public test::ServerFixture {
   bool areBack(int times) const {
     return waitUntil([&] { return countIn(log(), kIsBack) >= times; });
   }
-  /// Installs a copy of dfserver and this script as dfreplay in a folder, and uses them from now on.
+  /// Installs a copy of dfserver, and this script as dfreplay, in a folder. Later programs are started from
+  /// it.
   void installPrograms(const std::string& replay_script) {
     fs::create_directories(folder / "bin");
     fs::copy_file(NAIAD_BINARY_DIR "/dfserver", folder / "bin/dfserver");
@@ -254,7 +255,7 @@ TEST_F(KeepTest, PlayersStayInTheRoundAndPortsStayOpen) {
   }
   EXPECT_TRUE(test::has(log(), "replaying the round that was handed over: "));
   EXPECT_FALSE(test::has(log(), "server was killed"));
-  // Each waiting copy of the world has a descriptor here; the first may have been made since.
+  // The server has a descriptor for each waiting copy of the world, of which new ones may have been made.
   EXPECT_TRUE(waitUntil([&] {
     return descriptorsOf(server).size() <= open_before + WorldCheckpoints::kMaxCheckpoints + 1;
   })) << open_before
@@ -279,7 +280,7 @@ TEST_F(KeepTest, RebuiltGameContinuesTheRoundAndSurvivesAKill) {
 }
 
 TEST_F(KeepTest, ChangedGameIsRefusedAndPlayersFinishTheRound) {
-  start("rounds", {"--game=./mine.so", "--grace=1"});
+  start("rounds", {"--game=./mine.so", "--reconnect-time=1"});
   startBots();
   ASSERT_TRUE(playTicks(100));
   install(contentOf(NAIAD_BINARY_DIR "/../lib/games/maze.so"));

@@ -78,7 +78,7 @@ void waitFor(asio::io_context& home, Round& world, const bool& done) {
   }
 }
 
-/// Waits for a complete file. A busy disk may take longer than a server waits at its end.
+/// Waits for a complete file. On a busy disk that may take longer than a server waits for it when it ends.
 fs::path waitForFile(const fs::path& folder) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < end) {

@@ -1,5 +1,5 @@
-// Records rounds as dfserver does, without a network: a world in a process of its own, with a journal, and
-// players who press keys at random.
+// Records rounds as dfserver does, but without a network: a world in a process of its own, with a journal and
+// players that press random keys.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Recording {
   std::size_t players = 4;
 };
 
-/// Records into a temporary folder, which it removes at the end.
+/// Records rounds in a temporary folder, which the destructor removes.
 class Recorder {
  public:
   const std::filesystem::path& folder() const { return m_folder.path(); }

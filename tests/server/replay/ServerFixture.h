@@ -1,4 +1,4 @@
-// Fixture with a dfserver as installed, in a temporary folder, and helpers for other programs.
+// A test fixture that runs a real dfserver and other programs in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ class ServerFixture : public testing::Test {
     execv(pointers[0], pointers.data());
     _exit(127);
   }
-  /// Ends a process; `process` is 0 afterwards.
+  /// Ends a process with a signal, and sets `process` to 0.
   static void end(pid_t& process, int signal) {
     kill(process, signal);
     waitpid(std::exchange(process, 0), nullptr, 0);
@@ -55,7 +55,8 @@ class ServerFixture : public testing::Test {
   }
   /// Returns the port in the server's --port-file=port; "0" if there was no server yet.
   std::string port() const { return std::to_string(std::atoi(contentOf(folder / "port").c_str())); }
-  /// Returns a number of `dfctl status`, from the server's --control=control.sock.
+  /// Returns the number with this name in the reply to `dfctl status`, from the server's
+  /// --control=control.sock.
   long status(const std::string& name) const {
     const std::string answer = Talk(folder / "control.sock").ask(R"({"command":"status"})");
     const std::size_t at = answer.find("\"" + name + "\":");

@@ -50,7 +50,7 @@ TEST_F(ServerRoundTest, RoundOfTwoBotsReplaysIdentically) {
 }
 
 TEST_F(ServerRoundTest, RoundOfAKilledServerGetsItsUnwrittenTurns) {
-  startServer("--grace=5");
+  startServer("--reconnect-time=5");
   pid_t bots = startBots();
   EXPECT_TRUE(waitUntil([this] { return countTurns(round()) >= 30; })) << log();
   kill(server, SIGKILL);

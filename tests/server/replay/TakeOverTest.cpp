@@ -1,4 +1,4 @@
-// A key makes the world crash or hang: another world takes over, without that key.
+// If a key makes the world crash or hang, another world takes over, without that key.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -21,7 +21,7 @@ TEST_F(TakeOverTest, CrashByAKeyIsRecoveredWithoutTheKey) {
   ASSERT_TRUE(tick()) << log;
   EXPECT_EQ(world->nextTick(), next + 1) << "its players notice nothing but a pause";
   EXPECT_EQ(world->view().players.size(), 2u) << "who joined in that tick is there";
-  // A sanitizer catches the signal and ends the process.
+  // In sanitized builds, the sanitizer catches the signal and ends the process with a code.
   const std::string how = test::kSanitized ? "ended with code" : "crashed (SIGSEGV)";
   EXPECT_TRUE(test::has(log, "the game " + how));
   EXPECT_TRUE(test::has(log, "recovering it without the input of that tick"));

@@ -1,5 +1,5 @@
-// Replayed rounds: all shipped games replay identically, and the tick of a difference is found in a game that
-// does not.
+// Replayed rounds: all shipped games replay identically. For games that do not, the first tick that differs
+// is found.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Copies the module to a name that says in which way it is unsteady.
+/// Copies the module unsteady.so to a name with `way`, which selects how it differs in each run.
 std::string unsteady(const fs::path& folder, const std::string& way) {
   const fs::path module = folder / ("unsteady_" + way + ".so");
   if (!fs::exists(module)) fs::copy_file(NAIAD_BINARY_DIR "/../lib/unsteady.so", module);
@@ -70,7 +70,7 @@ TEST_P(UnsteadyGameTest, DifferenceIsFoundAtItsTick) {
   const ReplayEnvironment stage(round, module);
   Replay replay(round, stage);
   while (replay.firstDifference() == 0 && replay.step()) continue;
-  // A check has eight bits, so one wrong tick in 256 is not noticed.
+  // The check of a tick has eight bits, so it misses one of 256 differences.
   EXPECT_GE(replay.firstDifference(), 47u);
   EXPECT_LE(replay.firstDifference(), 49u);
   std::ostringstream out;
@@ -153,7 +153,7 @@ TEST_F(RoundTest, TruncatedFileStillVerifies) {
   bool same = false;
   const std::string text = verify(file, "", same);
   EXPECT_TRUE(same) << text;
-  EXPECT_TRUE(test::has(text, "a file that has no end"));
+  EXPECT_TRUE(test::has(text, "a truncated file"));
 }
 
 TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {

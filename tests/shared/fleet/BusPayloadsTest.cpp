@@ -43,7 +43,7 @@ GameResult fullResult() {
   return result;
 }
 
-/// Returns the payload with another value for one member.
+/// Returns the payload with another value for the member `name`.
 std::string with(std::string payload, const std::string& name, const std::string& value) {
   const std::size_t begin = payload.find("\"" + name + "\":") + name.size() + 3;
   std::size_t end = begin;

@@ -52,7 +52,7 @@ inline SocketPair connectedSockets(asio::io_context& context, const std::string&
   return {std::move(near), acceptor.accept()};
 }
 
-/// The streams that carry the frames.
+/// Whether channels run over plain TCP or over TLS.
 enum class Kind { kPlain, kTls };
 
 inline std::string nameOf(const testing::TestParamInfo<Kind>& info) {

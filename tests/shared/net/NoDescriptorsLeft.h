@@ -1,4 +1,4 @@
-// A process without free descriptors.
+// Lets this process run out of descriptors.
 #pragma once
 
 #include <sys/resource.h>

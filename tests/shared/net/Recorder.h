@@ -9,7 +9,7 @@
 
 namespace naiad::test {
 
-/// Must outlive the channel that it records.
+/// Records the frames and the end of a channel. Must outlive the channel.
 struct Recorder {
   std::vector<std::string> frames;
   std::optional<CloseReason> closed;

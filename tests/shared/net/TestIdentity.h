@@ -13,11 +13,11 @@ struct TestIdentity {
   std::string certificate;
   std::string key;
 
-  /// Makes one for `host` (a DNS name), signed by `authority` or, if null, by itself.
+  /// Makes an identity for `host` (a DNS name), signed by `authority` or, if that is null, by itself.
   static TestIdentity make(const std::string& host, const TestIdentity* authority = nullptr);
 };
 
-/// Returns a self-signed one for "naiad.test" that the tests share.
+/// Returns a self-signed identity for "naiad.test" that the tests share.
 const TestIdentity& testIdentity();
 std::shared_ptr<const TlsContext> testServerContext();
 std::shared_ptr<const TlsContext> testClientContext();

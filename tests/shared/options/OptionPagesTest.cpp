@@ -1,4 +1,4 @@
-// Man pages, completions and the example configuration are made from the table of options. They have all
+// Man pages, completions and the example configuration are made from the table of options. They contain all
 // options, and no help text can break their format.
 #include <gtest/gtest.h>
 
@@ -108,7 +108,7 @@ TEST_F(OptionPagesTest, CompletionsOfferWordsAndFiles) {
       << page("fish");
 }
 
-// The real bash runs the completion.
+// Runs the completion in the real bash.
 TEST_F(OptionPagesTest, BashRunsTheCompletion) {
   const test::TempFolder base;
   std::ofstream(base / "completion") << page("bash");

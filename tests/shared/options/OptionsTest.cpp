@@ -17,8 +17,11 @@ namespace {
 
 class OptionsTest : public testing::Test {
  protected:
-  OptionsTest() { unsetenv("OPTIONS_TEST_PORT"); }
-  ~OptionsTest() override { unsetenv("OPTIONS_TEST_PORT"); }
+  OptionsTest() { clearVariables(); }
+  ~OptionsTest() override { clearVariables(); }
+  static void clearVariables() {
+    for (const char* name : {"OPTIONS_TEST_PORT", "NAIAD_RECONNECT_TIME", "NAIAD_GRACE"}) unsetenv(name);
+  }
 
   /// Parses these words and returns the output on stderr.
   std::string parse(std::vector<std::string> words) {
@@ -35,6 +38,10 @@ class OptionsTest : public testing::Test {
         {.name = "--thing", .target = &things, .help = "", .joins = true},
         {.name = "--server-name", .target = &name, .help = "", .p_location = &place},
         {.name = "--quiet", .target = &quiet, .help = "", .p_given = &given},
+        {.name = "--reconnect-time",
+         .target = &reconnect_time,
+         .help = "",
+         .environment = "NAIAD_RECONNECT_TIME"},
         {.name = "--secret", .target = &secret, .help = "", .hidden = true}};
     testing::internal::CaptureStderr();
     result = parseOptions({"dfthing", "", "", true}, options, static_cast<int>(argv.size()), argv.data());
@@ -62,11 +69,31 @@ class OptionsTest : public testing::Test {
   std::string name;
   std::string place;
   std::string things;
+  int reconnect_time = 60;
   bool quiet = false;
   bool given = false;
   bool secret = false;
   bool from_environment = false;
 };
+
+TEST_F(OptionsTest, FormerNamesWorkWithANote) {
+  const std::string note =
+      "dfthing: --grace is now --reconnect-time; the old name will be removed in the next version\n";
+  EXPECT_EQ(parse({"--grace", "5"}), note);
+  EXPECT_EQ(reconnect_time, 5);
+  EXPECT_EQ(parse({"--grace=6"}), note);
+  EXPECT_EQ(reconnect_time, 6);
+  EXPECT_EQ(parseFile("grace = 7\n"), note);
+  EXPECT_EQ(reconnect_time, 7);
+  setenv("NAIAD_GRACE", "8", 1);
+  EXPECT_EQ(parse({}), "");
+  EXPECT_EQ(reconnect_time, 8);
+  setenv("NAIAD_RECONNECT_TIME", "9", 1);
+  parse({});
+  EXPECT_EQ(reconnect_time, 9) << "the present variable counts more";
+  EXPECT_EQ(parse({"--link-host", "x"}), said("there is no option --link-host")) << "not of this program";
+  EXPECT_NE(parse({"--grace", "x"}).find("--reconnect-time"), std::string::npos);
+}
 
 TEST_F(OptionsTest, EnvironmentVariableCanSupplyAnArgument) {
   const std::vector<Option> options{

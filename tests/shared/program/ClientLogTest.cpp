@@ -1,4 +1,4 @@
-// Clients can cause only log lines of their own kind, and only few.
+// Clients can cause only a limited number of log lines, and only of their own kinds.
 #include <gtest/gtest.h>
 
 #include <chrono>

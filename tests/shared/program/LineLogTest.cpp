@@ -130,7 +130,8 @@ TEST_F(LineLogTest, StalledReaderDoesNotBlockAndLossIsReported) {
   LineLog log("");
   const std::string line(1000, 'x');
   const int kLines = 3 * static_cast<int>(LineLog::kMaxWaiting / line.size());
-  for (int i = 0; i < kLines; ++i) log("line " + std::to_string(i) + ";" + line);  // no reader yet
+  for (int i = 0; i < kLines; ++i)
+    log("line " + std::to_string(i) + ";" + line);  // nothing reads the pipe yet
   std::string said = pipe.readUntil(" log lines were lost: the log could not be written");
   EXPECT_NE(said.find("line 0;"), std::string::npos) << "what fits is kept";
   log("it goes on");
@@ -153,7 +154,7 @@ TEST_F(LineLogTest, LogContinuesAfterAFullDiskAndReportsLoss) {
   LineLog log(path);
   log("before");
   ASSERT_TRUE(comes("before\n"));
-  // Files may not grow, as on a full disk.
+  // Forbids files to grow, as if the disk were full.
   signal(SIGXFSZ, SIG_IGN);
   rlimit limit{};
   getrlimit(RLIMIT_FSIZE, &limit);

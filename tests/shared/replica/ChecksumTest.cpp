@@ -126,7 +126,7 @@ TEST(Checksum, IdsChangeTheSumOfEveryGroup) {
   EXPECT_NE(bodySum(1, state.body), bodySum(2, state.body));
 }
 
-// Otherwise an exchange of groups between two objects would go unnoticed.
+// If the sum stayed equal, an exchange of groups between two objects would go unnoticed.
 TEST(Checksum, SwappingGroupsBetweenObjectsChangesTheSum) {
   RandomRecords random(2);
   for (int i = 0; i < 500; ++i) {

@@ -121,7 +121,7 @@ TEST(ControlCodec, NumbersOutOfRangeAreRefused) {
   EXPECT_TRUE(refused([](df::ControlTable& t) { t.bounds.size.x = -1; }));
   EXPECT_TRUE(refused([](df::ControlTable& t) { t.bounded = false; }));
 
-  // An unknown key, an unknown action, a position outside any world.
+  // Unknown keys, actions, effects and flags, and a position outside any world, are refused.
   std::string bytes = written(df::ControlTable{{df::ControlRow{}}, false, {}, false, 0});
   ASSERT_TRUE(readControlTable(bytes));
   for (const auto& [at, value] :

@@ -142,7 +142,7 @@ TEST(LookCodec, OnlyDrawableCharactersAreRead) {
       ASSERT_TRUE(back == ch) << static_cast<std::uint32_t>(ch);
     }
   }
-  // Characters that 14 bits cannot name.
+  // Characters of more than 14 bits cannot be encoded, so none of them may be drawable.
   for (char32_t ch = 1u << 14; ch < 0x110000; ++ch) ASSERT_FALSE(df::isDrawable(ch));
 }
 
@@ -159,7 +159,8 @@ TEST(LookCodec, GlyphsBeyondTheOffsetLimitAreRefused) {
   EXPECT_FALSE(isRead(0, -most - 1));
 }
 
-// Each glyph follows the last at the implied distance, so only the sum exceeds the limit.
+// Each glyph is at the implied distance from the previous one, so only the sum of distances exceeds the
+// limit.
 TEST(LookCodec, GlyphsSummingBeyondTheOffsetLimitAreRefused) {
   const auto start = static_cast<std::int32_t>(kMaxGlyphOffset) - 256;
   Look look{{{{start, 0, U'a', df::RED}, {start + 256, 0, U'b', df::RED}}}, 2};
@@ -275,7 +276,7 @@ TEST(LookCodec, OutOfRangeSelectorsAreRefused) {
   EXPECT_FALSE(spin(63));
 }
 
-// A clock has only one valid age per tick, because an equal picture with another age would be another look.
+// A clock has only one valid age per tick, so that looks with equal pictures have equal encodings.
 TEST(LookCodec, ClocksOlderThanOneCycleAreRefused) {
   const Appearance a{{256, 0, U'a', df::RED}};
   const Sequence three{a, {}, a};

@@ -6,7 +6,7 @@
 namespace naiad {
 namespace {
 
-// Compares with a simple clock that counts ticks and turns the page.
+// Compares the selector with a simple clock that counts ticks and changes the frame.
 TEST(LookSelector, ClockAdvancesTheFrameEveryInterval) {
   for (const std::uint32_t begin : {0u, 1000u, 0xFFFFFFF0u}) {  // tick numbers may wrap
     for (const bool loop : {true, false}) {
@@ -31,13 +31,13 @@ TEST(LookSelector, BeforeStartLoopsWrapOneShotsShowFirstFrame) {
   EXPECT_EQ(Selector::clock(100, 2, false).at(7, 5), 0u);
 }
 
-// Shows the frame whose middle is nearest, computed exactly; the higher one in a tie.
+// The selector must show the frame whose angle is nearest, or the higher one of two that are equally near.
 TEST(LookSelector, AnAngleShowsTheNearestFrame) {
   test::RandomRecords random(1);
   for (int i = 0; i < 200'000; ++i) {
     const std::size_t frames = 2 + random.rng().below(kMaxFrames - 1);
     auto angle = static_cast<std::uint32_t>(random.rng().next());
-    if (i % 2 == 0) {  // close to a change of frames
+    if (i % 2 == 0) {  // choose an angle close to a change of frames
       const std::uint64_t edge = ((2 * random.rng().below(frames) + 1) << 31) / frames;
       angle = static_cast<std::uint32_t>(edge + random.rng().below(5) - 2);
     }

@@ -33,7 +33,7 @@ Motion randomMotion(SplitMix64& rng, int bits) {
 TEST(Motion, ClosedFormEqualsSteppingBitForBit) {
   SplitMix64 rng(1);
   for (int i = 0; i < 300; ++i) {
-    const Motion start = randomMotion(rng, 20 + i % 45);  // the last ones overflow and wrap
+    const Motion start = randomMotion(rng, 20 + i % 45);  // the last motions overflow and wrap
     Motion m = start;
     for (int n = 0; n < 200; ++n) {
       ASSERT_EQ(positionAt(start, m.tick), m.position) << "motion " << i << " after " << n << " ticks";

@@ -1,4 +1,4 @@
-// PROTOCOL.md agrees with the code: the test makes its worked examples and reads its table of limits.
+// Checks PROTOCOL.md against the code: makes its worked examples and reads its table of limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -179,7 +179,7 @@ TEST(ProtocolBytes, SoundsMatchTheDocument) {
   EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
 }
 
-// A second copy of the bytes. It reveals a change of the protocol when page and code change together.
+// A second copy of the page's bytes. It reveals a change of the protocol if page and code change together.
 TEST(ProtocolBytes, Version4BytesNeverChange) {
   EXPECT_EQ(kProtocolVersion, 4u);
   EXPECT_EQ(hex(exampleSnapshot()),

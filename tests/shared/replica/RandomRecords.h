@@ -105,7 +105,7 @@ class RandomRecords {
   ObjectState state(std::uint32_t tick) {
     return {chance(0.2) ? m_rng.next() >> 16 : m_rng.below(5000), motion(tick), rebase(look(), tick), body()};
   }
-  /// Returns a record in which only the named groups have values.
+  /// Returns a record in which only the parts that `groups` lists have values.
   ObjectRecord object(std::uint32_t tick) {
     ObjectRecord record;
     record.id = static_cast<std::uint32_t>(m_rng.below(chance(0.2) ? kMaxSlots : 300));

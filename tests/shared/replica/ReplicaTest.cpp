@@ -229,7 +229,7 @@ TEST(Replica, ObjectCountIsBoundedAndOverflowCounted) {
 }
 
 TEST(Replica, DrawnGlyphsAreLimitedToTheTopmost) {
-  // All objects share it, so it takes little memory but much drawing.
+  // All objects share this sequence, so it takes little memory but much drawing.
   const Sequence large{Appearance(8192, Glyph{0, 0, U'#', df::RED})};
   const std::uint32_t fits = kMaxDrawnGlyphs / 8192;
   Records records;
@@ -283,13 +283,13 @@ TEST(Replica, TotalLookSizeIsBounded) {
   const std::uint32_t fits = kMaxReplicaGlyphs / 8192;
   std::uint32_t number = 0;
   for (std::uint32_t id = 0; id < fits + 10; ++id) {
-    makeCopy();  // equal, but not shared
+    makeCopy();  // an equal sequence that is not shared
     apply(replica, ++number, 0, birth(id, 1, huge));
   }
   EXPECT_EQ(replica.overflowCount(), 10u);
   EXPECT_EQ(replica.find(fits - 1)->state.look, huge.look);
   EXPECT_TRUE(replica.find(fits)->state.look.sequence.empty());
-  // Deaths, new births of an id and changed looks free space.
+  // Deaths, a new birth with an id in use, and changed looks free space.
   apply(replica, ++number, 0, death(0));
   apply(replica, ++number, 0, birth(1, 2, character(1, 1, U'x')));
   Records look;

@@ -151,7 +151,7 @@ TEST(SnapshotCodec, EverySingleBitFlipIsRefusedOrLegal) {
   for (int i = 0; i < 60; ++i) {
     const SnapshotHeader head = random.header();
     std::string bytes = writeSnapshot(head, random.records(head.tick));
-    if (bytes.size() > 1200) continue;  // more than a datagram holds; slow, and tests nothing new
+    if (bytes.size() > 1200) continue;  // larger than a datagram: slow, and tests nothing new
     for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
       bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
       Snapshot out;

@@ -77,7 +77,7 @@ TEST_F(SnapshotNames, SnapshotsOwnDefinitionTakesPrecedence) {
   look(3, "new", {kNamed, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("new").look);
-  know(60, 7, "newer still");  // a definition of a newer snapshot that arrived earlier
+  know(60, 7, "newer still");  // a definition by a newer snapshot, which arrived earlier
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("new").look);
 }

@@ -191,10 +191,10 @@ TEST_F(Steering, ASilentKeyboardReleasesItsDrives) {
   PredictedObject copy = ship();
   press(copy, A);
   pass(copy, 3);
-  press(copy, B, KEY_DOWN);  // any key is a sign of life
+  press(copy, B, KEY_DOWN);  // any pressed or held key shows that the player is there
   pass(copy, 3);
   EXPECT_EQ(copy.velocity(), cells(1, 0));
-  press(copy, B, KEY_RELEASED);  // its release is not, and the drive ends one tick later
+  press(copy, B, KEY_RELEASED);  // a release does not, and the drive ends one tick later
   EXPECT_EQ(copy.velocity(), cells(1, 0));
   pass(copy, 1);
   EXPECT_EQ(copy.velocity(), cells(0, 0));

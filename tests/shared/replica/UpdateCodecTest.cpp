@@ -88,7 +88,7 @@ TEST(UpdateCodec, MaximumInputsAlwaysFit) {
   input.snapshot = update.acks.newest - 32768;
   for (std::size_t i = 0; i < kMaxUpdateInputs; ++i, ++input.id) {
     update.inputs.push_back(input);
-    input.tick += 32768;  // the longest encoding
+    input.tick += 32768;  // a difference with the longest encoding
   }
   const std::string bytes = writeUpdate(update);
   EXPECT_LE(bytes.size(), kMaxUpdate);

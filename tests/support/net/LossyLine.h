@@ -30,11 +30,11 @@ class LossyLine {
   /// Sends a packet of `size` bytes.
   Fate send(Time now, std::size_t size);
 
-  /// Counts a copy that reached a receiver; dropped() counts one for which there was none.
+  /// Counts a copy that reached a receiver; dropped() counts a copy for which there was no receiver.
   void delivered(std::uint64_t number);
   void dropped() { ++counters_.dropped; }
 
-  /// Applies to packets sent from now on, not to those under way.
+  /// Sets the conditions of packets sent from now on, not of those under way.
   void setConditions(const LinkConditions& conditions) { conditions_ = conditions; }
   const LinkCounters& counters() const { return counters_; }
 

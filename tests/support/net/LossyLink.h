@@ -31,7 +31,7 @@ class LossyDatagramLink {
   /// std::length_error above 1200 bytes.
   std::unique_ptr<DatagramChannel> takeEnd(LinkEnd end);
 
-  /// Applies to packets sent from now on, not to those under way.
+  /// Sets the conditions of packets sent from now on, not of those under way.
   void setConditions(LinkEnd from, const LinkConditions& conditions);
   const LinkCounters& counters(LinkEnd from) const;
 
@@ -61,7 +61,7 @@ class VirtualStreamLink {
   /// Hands over one end. Throws std::logic_error if it was taken before.
   std::unique_ptr<ReliableChannel> takeEnd(LinkEnd end);
 
-  /// Applies to frames that leave, and losses that happen, from now on.
+  /// Sets the conditions of frames that leave, and of losses that happen, from now on.
   void setConditions(LinkEnd from, const LinkConditions& conditions);
   const LinkCounters& counters(LinkEnd from) const;
 

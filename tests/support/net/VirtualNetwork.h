@@ -34,13 +34,14 @@ class VirtualNetwork {
   void rebind(const DatagramSocket& socket, const Endpoint& address);
   /// Blocks packets from the socket, to it, or both. Checked when a packet leaves and when it arrives.
   void block(const DatagramSocket& socket, bool outgoing, bool incoming);
-  /// Applies to packets that leave from now on: between all sockets, or from one to another.
+  /// Sets the conditions of packets that leave from now on: between all sockets, or from one to another.
   void setConditions(const LinkConditions& conditions);
   void setConditions(const DatagramSocket& from, const DatagramSocket& to, const LinkConditions& conditions);
 
   /// Sends a packet with a forged sender. It arrives at the next advance, whatever the conditions.
   void spoof(const Endpoint& from, const Endpoint& to, std::string_view packet);
-  /// Is called with each packet that a socket sends, when it leaves, lost or not, but not with forged ones.
+  /// A function called with each packet that a socket sends, when it leaves, lost or not, but not with forged
+  /// ones.
   using Tap = std::function<void(const Endpoint& from, const Endpoint& to, std::string_view packet)>;
   void setTap(Tap tap);
 

@@ -66,7 +66,7 @@ struct VirtualStreamLink::Side {
   LinkCounters counters;
   SplitMix64 rng;
   std::deque<Item> queue;  // the first may be on the line
-  std::size_t queued = 0;  // bytes
+  std::size_t queued = 0;  // bytes in the queue
   bool on_line = false;
   nanoseconds line_free{0};
   std::size_t under_way = 0;  // bytes sent and not acknowledged
@@ -250,7 +250,7 @@ void VirtualStreamLink::State::finish(Side& side, CloseReason reason) {
     side.queue.pop_back();
     --side.numbered;
   }
-  // If the end of the stream has left already, this comes after it and the receiver ignores it.
+  // If the end of the stream has left already, this item comes after it and the receiver ignores it.
   push(side, reason == CloseReason::kPeer ? Kind::kEndOfStream : Kind::kReset, {});
   side.arrived.clear();
   report(side);

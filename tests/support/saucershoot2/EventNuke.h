@@ -1,4 +1,4 @@
-// Tells every saucer that a nuke went off.
+// An event that tells every saucer that a nuke went off.
 #pragma once
 
 #include "Event.h"

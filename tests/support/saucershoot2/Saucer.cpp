@@ -18,7 +18,7 @@ Saucer::Saucer() {
 }
 
 Saucer::~Saucer() {
-  // Ten points each.
+  // Adds ten points for this saucer.
   df::EventView ev(POINTS_STRING, 10, true);
   WM.onEvent(&ev);
 }
@@ -52,7 +52,7 @@ void Saucer::hit(const df::EventCollision* p_c) {
   df::Object* p_other = p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1();
   if (p_other->getType() == "Saucer") return;
   if (p_other->getType() == "Bullet" && !shot) {
-    shot = true;  // it may collide with the bullet again in this update
+    shot = true;  // because it may collide with the bullet again in this update
     new Explosion(getPosition());
     df::Sound* p_sound = RM.getSound("explode");
     if (p_sound != NULL) p_sound->play();

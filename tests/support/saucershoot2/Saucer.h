@@ -1,4 +1,5 @@
-// A saucer that comes in from the right. Shot ones are replaced; each that gets through brings one more.
+// A saucer that comes in from the right. A shot saucer is replaced by another; each that gets through brings
+// one more.
 #pragma once
 
 #include "EventCollision.h"

@@ -1,5 +1,5 @@
-// The complete Saucer Shoot of the book's tutorial, written as for the published engine: a single implied
-// player, sprites from files, sounds, a title and an end.
+// The complete Saucer Shoot of the Dragonfly book's tutorial, written as for the published engine: a single
+// implied player, sprites from files, sounds, a title and an end.
 #include "GameManager.h"
 #include "GameStart.h"
 #include "LogManager.h"

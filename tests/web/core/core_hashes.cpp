@@ -63,7 +63,7 @@ class Hash {
   std::uint64_t m_value = 0xcbf29ce484222325;
 };
 
-/// Exits if a round trip fails, because there is no result to compare then.
+/// Exits if a condition is false, because the results could not be compared then.
 void require(bool is_so, const char* what) {
   if (is_so) return;
   std::printf("failed: %s\n", what);
@@ -112,7 +112,7 @@ Hash snapshots() {
     Snapshot read;
     require(readSnapshot(bytes, test::near(header), SnapshotDictionary(), read) == ReadResult::kOk,
             "a snapshot comes back");
-    // Damaged bytes must be accepted or rejected alike.
+    // Both builds must accept, or both must reject, the damaged bytes.
     std::string changed = bytes;
     changed[random.rng().below(changed.size())] ^= static_cast<char>(1 << random.rng().below(8));
     hash.add(static_cast<int>(readSnapshot(changed, test::near(header), SnapshotDictionary(), read)));
@@ -120,7 +120,7 @@ Hash snapshots() {
   return hash;
 }
 
-/// A client's replica: its state and its picture.
+/// Returns a hash of a client's replica: its state and its picture.
 Hash replica() {
   test::RandomRecords random(21);
   EpochReplicas feed({0, 1000, 0});
@@ -164,7 +164,7 @@ Hash updates() {
   return hash;
 }
 
-/// Control tables and states, and the effect of keys on them.
+/// Returns a hash of control tables and states, and of the effect of keys on them.
 Hash controls() {
   SplitMix64 random(5);
   Hash hash;
@@ -188,7 +188,8 @@ Hash controls() {
   return hash;
 }
 
-/// The player's own object, predicted beyond the snapshots and among others.
+/// Returns a hash of the predictions of the player's own object, beyond the snapshots and among other
+/// objects.
 Hash prediction() {
   constexpr std::uint32_t kTick = 1000;
   constexpr std::uint32_t kOwn = 7;

@@ -1,10 +1,10 @@
-// naiad_capacity_bare: the cost of the sockets alone. Sends datagrams of the server's sizes to the sockets of
-// its clients, with equal batches and frequency, from buffers prepared in advance.
+// naiad_capacity_bare: the cost of the sockets alone. Sends datagrams to the sockets of the server's clients,
+// with the server's sizes, batches and frequency, from buffers prepared in advance.
 //
 //   naiad_capacity_bare CORE FOLDER PER-TICK TICKS
 //
-// FOLDER/sizes, FOLDER/endpoints: written by naiad_capacity_bots. PER-TICK: datagrams in a tick. Prints
-// `datagrams=… cpu_us=…`.
+// naiad_capacity_bots has written FOLDER/sizes and FOLDER/endpoints. PER-TICK is the number of datagrams in a
+// tick. Prints `datagrams=… cpu_us=…`.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -27,7 +27,7 @@ class Checker {
     std::uint64_t sum;
   };
 
-  /// Joins. `address` is its own, numeric.
+  /// Joins from `address`, a numeric address.
   Checker(asio::io_context& context, const naiad::ServerAddress& server,
           const naiad::Fingerprint& fingerprint, const std::string& address, int index,
           const std::string& known_servers)
@@ -92,7 +92,7 @@ class Checker {
 
   naiad::Connection m_connection;
   std::vector<Picture> m_pictures;
-  std::uint32_t m_recorded = 0;  ///< the newest tick considered
+  std::uint32_t m_recorded = 0;  ///< newest tick whose picture was considered
   Time m_next_key{};
   naiad::SplitMix64 m_random;
   bool m_left = false;

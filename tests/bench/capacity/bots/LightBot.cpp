@@ -18,7 +18,7 @@ using namespace naiad;
 using namespace std::chrono_literals;
 
 std::string addressOf(int index) {
-  const int n = index + 2;  // 127.0.0.1 is the server's
+  const int n = index + 2;  // 127.0.0.1 is the server's address
   return "127." + std::to_string(n >> 16 & 255) + "." + std::to_string(n >> 8 & 255) + "." +
          std::to_string(n & 255);
 }

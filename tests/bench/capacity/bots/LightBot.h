@@ -1,5 +1,5 @@
-// A player without a picture: logs in, acknowledges every snapshot and presses keys. So little work that
-// thousands of them fit on a core.
+// A player without a picture: logs in, acknowledges every snapshot and presses keys. This is so little work
+// that one core can run thousands of them.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -36,20 +36,20 @@ class LightBot {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kInputEvery{200};
-  static constexpr int kTurnsOneIn = 16;  ///< share of inputs that change direction
+  static constexpr int kTurnsOneIn = 16;  ///< one in this number of inputs changes the direction
 
   LightBot(const Harbour& harbour, int index);
   ~LightBot();
 
   /// Begins to log in.
   void start();
-  /// True if snapshots arrive as datagrams.
+  /// True if the bot receives snapshots as datagrams.
   bool isReady() const { return m_ready; }
-  /// True if it was refused or disconnected.
+  /// True if the bot was refused or disconnected.
   bool isOver() const { return m_over; }
-  /// Returns its socket; -1 before it has joined.
+  /// Returns the descriptor of the bot's UDP socket; -1 before it has joined.
   int descriptor() const { return m_descriptor; }
-  /// Returns its address and port, for example "127.0.0.2:40000".
+  /// Returns the bot's address and port, for example "127.0.0.2:40000".
   std::string endpoint() const;
   /// Receives a datagram if one has arrived. Returns its size; 0 if none has.
   std::size_t receive(Time now);
@@ -58,7 +58,7 @@ class LightBot {
   /// Sends a probe while no datagram has arrived. Call from time to time.
   void update(Time now);
 
-  /// Figures since resetFigures().
+  /// Numbers of datagrams and bytes received since resetFigures().
   std::uint64_t received = 0;
   std::uint64_t bytes = 0;
   /// Returns the number of snapshots that were sent but did not arrive.
@@ -89,7 +89,7 @@ class LightBot {
   Time m_probed{};
   naiad::SplitMix64 m_random;
   bool m_left = false;
-  std::uint32_t m_first = 0;  ///< first snapshot since resetFigures()
+  std::uint32_t m_first = 0;  ///< number of the first snapshot since resetFigures()
   std::uint64_t m_snapshots = 0;
 };
 

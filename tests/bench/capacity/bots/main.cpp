@@ -33,7 +33,7 @@ namespace {
 using namespace bench::capacity;
 using Clock = std::chrono::steady_clock;
 
-/// Simultaneous handshakes. A server allows 64 per address.
+/// Limit of simultaneous handshakes. A server allows 64 per address.
 constexpr int kLoggingIn = 32;
 constexpr std::size_t kSizes = 8192;
 constexpr std::chrono::seconds kPatience{180};
@@ -213,7 +213,7 @@ class Crowd {
   std::array<epoll_event, 512> m_events{};
   std::vector<std::unique_ptr<LightBot>> m_bots;
   std::vector<std::unique_ptr<Checker>> m_checkers;
-  std::size_t m_watched = 0;  ///< number of bots in m_epoll, from the first
+  std::size_t m_watched = 0;  ///< number of bots that m_epoll watches, from the first on
   std::size_t m_wanted = 1;
   int m_next = 0;
   bool m_joined = true;

@@ -35,7 +35,7 @@ using namespace bench::capacity;
 
 constexpr double kSpeed = 0.3;
 
-/// A player's object. Moves back and forth at 0.3 cells per tick.
+/// A player's object. It moves back and forth at 0.3 cells per tick.
 class Runner : public df::Object {
  public:
   Runner() {
@@ -151,7 +151,7 @@ int serve(const std::string& identity, int most) {
   options.port = 0;
   options.identity = identity;
   options.max_players = options.max_per_address = most;  // streams come from one address, datagrams from many
-  options.grace = 0;                                     // frees slots before a trial with fewer players
+  options.grace = 0;                                     // frees the slots of bots that left after a trial
   naiad::Host host(options, "capacity", [](const std::string& line) {
     const bool routine = line.ends_with(" left") || line.find(" joined with ") != std::string::npos ||
                          line.find(" lines about players were not logged") != std::string::npos;

@@ -19,7 +19,7 @@ std::vector<std::uint8_t> packet(std::size_t size, std::uint8_t protocol = kTcp)
   return bytes;
 }
 
-/// Returns when the packets under way come out.
+/// Returns when all packets that are under way come out.
 std::vector<Nanoseconds> deliveries(Direction& direction) {
   std::vector<Nanoseconds> times;
   while (const auto due = direction.next()) {

@@ -22,7 +22,7 @@ class FrameJudgeTest : public testing::Test {
     }
   }
   const Picture& scene(std::uint32_t tick) const { return m_truth->find(tick)->picture; }
-  /// Returns the crowd of one tick with the counter of another.
+  /// Returns a picture with the crowd of one tick and the counter of another.
   Picture mixed(std::uint32_t crowd_tick, std::uint32_t counter) const {
     Picture picture = scene(crowd_tick);
     for (int x = 0; x < kEchoColumn; ++x) picture.at(x, kStatusRow) = scene(counter).at(x, kStatusRow);
@@ -98,7 +98,7 @@ TEST(Fluency, MissingFramesCountAsFreezeAndStaleness) {
           {fromMilliseconds(100.0 * i + 50), fromMilliseconds(100.0 * i), static_cast<std::uint32_t>(i + 1)});
   }
   const Fluency fluency = fluencyOf(shown, fromMilliseconds(50), fromMilliseconds(1050));
-  EXPECT_DOUBLE_EQ(fluency.frames_per_second, 7);  // the first one was shown before
+  EXPECT_DOUBLE_EQ(fluency.frames_per_second, 7);  // of eight frames, the first is shown at the start
   EXPECT_NEAR(fluency.freeze_ms, 300, 1);
   EXPECT_NEAR(fluency.staleness_p50_ms, 113, 15);
   EXPECT_NEAR(fluency.staleness_p99_ms, 340, 2);

@@ -11,7 +11,8 @@ std::uint32_t EchoJudge::press(Nanoseconds now) {
 
 void EchoJudge::look(std::optional<std::uint32_t> number, Nanoseconds now) {
   if (!number || (m_next > 0 && (m_next - 1) % m_period == *number)) return;
-  // Two keys may appear in one frame. Then the earlier one is there, too.
+  // Two keys may have arrived between two frames. Then the frame shows only the later key, and the earlier
+  // one has arrived, too.
   const std::size_t end = std::min(m_keys.size(), m_next + m_period - 1);
   for (std::size_t i = m_next; i < end; ++i) {
     if (i % m_period != *number) continue;

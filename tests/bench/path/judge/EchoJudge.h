@@ -12,18 +12,18 @@ namespace bench::path {
 
 class EchoJudge {
  public:
-  /// The screen shows the number of the last key modulo `period`. Fewer than `period` keys may appear at a
-  /// time.
+  /// The screen shows the number of the last key modulo `period`. Between two frames, fewer than `period`
+  /// keys may arrive.
   explicit EchoJudge(std::uint32_t period) : m_period(period) {}
 
   /// Records a pressed key. Returns its number, from 0 on.
   std::uint32_t press(Nanoseconds now);
-  /// Records the number on the screen; nullopt if none is shown or it is being painted.
+  /// Records the number on the screen; nullopt if none is shown or the number is being painted.
   void look(std::optional<std::uint32_t> number, Nanoseconds now);
 
   /// Returns the times of the keys pressed in [from, to), in ms.
   std::vector<double> latencies(Nanoseconds from, Nanoseconds to) const;
-  /// Returns how many keys pressed in [from, to) did not appear.
+  /// Returns how many of the keys pressed in [from, to) did not appear.
   std::size_t unanswered(Nanoseconds from, Nanoseconds to) const;
 
  private:

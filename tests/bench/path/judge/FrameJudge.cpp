@@ -11,7 +11,7 @@ namespace bench::path {
 
 void FrameJudge::look(const Picture& screen, Nanoseconds now) {
   const auto counter = counterIn(screen);
-  if (!counter) return;  // it is being painted
+  if (!counter) return;  // the counter is being painted
   if (!m_shown.empty() && *counter <= m_shown.back().tick) return;
   const Truth::Moment* moment = m_truth.find(*counter);
   if (moment == nullptr) return;  // a number that is half painted

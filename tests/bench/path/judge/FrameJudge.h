@@ -13,26 +13,27 @@ namespace bench::path {
 
 /// A tick that appeared on the screen.
 struct Shown {
-  Nanoseconds at{};     ///< when it appeared
+  Nanoseconds at{};     ///< when the tick appeared on the screen
   Nanoseconds start{};  ///< start of the tick in the simulation
   std::uint32_t tick = 0;
 };
 
 class FrameJudge {
  public:
-  /// Minimum percentage of right cells, among those not blank on the screen or in the truth.
+  /// Minimum percentage of right cells, among the cells that are not blank on the screen or not blank in the
+  /// truth.
   static constexpr double kLikenessPercent = 97;
-  /// A cell is right if it equals the truth of any tick within this distance of the counter, because clients
-  /// may draw moving objects where they are now, but new characters only when they learn of them.
+  /// A cell is right if it equals the truth of any tick at most this far from the counter's, because clients
+  /// may draw moving objects where they are now, but new characters only when they have received them.
   static constexpr int kTolerance = 2;
 
   explicit FrameJudge(const Truth& truth) : m_truth(truth) {}
 
-  /// Records the present screen. A frame counts from the moment when it is right.
+  /// Records the present screen. A frame counts when enough of its cells are right.
   void look(const Picture& screen, Nanoseconds now);
   /// Returns the ticks that counted, in ascending order.
   const std::vector<Shown>& shown() const { return m_shown; }
-  /// Returns the times at which another counter appeared although the last one's frame had not counted.
+  /// Returns the times at which a new counter appeared before the frame of the previous counter had counted.
   const std::vector<Nanoseconds>& refused() const { return m_refused; }
   /// Returns the best likeness of the last frame that did not count, in percent.
   double lastLikeness() const { return m_best; }
@@ -43,14 +44,14 @@ class FrameJudge {
   const Truth& m_truth;
   std::vector<Shown> m_shown;
   std::vector<Nanoseconds> m_refused;
-  std::optional<std::uint32_t> m_pending;  // the counter on the screen until its frame counts
+  std::optional<std::uint32_t> m_pending;  // counter of the present frame, until the frame counts
   double m_best = 0;
 };
 
-/// Fluency as perceived by people in [from, to).
+/// Measures of how fluent the game looks to people in [from, to).
 struct Fluency {
   double frames_per_second = 0;
-  double staleness_p50_ms = 0;  ///< age of the tick on screen, sampled every millisecond
+  double staleness_p50_ms = 0;  ///< age of the tick on the screen, sampled every millisecond
   double staleness_p99_ms = 0;
   double freeze_ms = 0;  ///< longest time between two increases of the counter
 };

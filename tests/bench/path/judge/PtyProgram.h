@@ -1,4 +1,4 @@
-// A program on a terminal of 80×24.
+// A program that runs in a terminal of 80×24 cells.
 #pragma once
 
 #include <poll.h>
@@ -62,7 +62,7 @@ class PtyProgram {
   void write(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t size = ::write(m_terminal, bytes.data(), bytes.size());
-      if (size <= 0) return;  // it has ended, which read() notices
+      if (size <= 0) return;  // the program has ended, which read() notices
       bytes.remove_prefix(static_cast<std::size_t>(size));
     }
   }

@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint8_t kWhite = 7;
 constexpr std::uint8_t kColors = 8;  // colours of the game; their eight bright forms follow
 
-/// A bright colour counts as its plain form: where possible, dfclient draws blue bright because plain blue on
-/// black is hard to read.
+/// Returns the colour's number. A bright colour counts as its plain form, because dfclient draws blue bright
+/// where possible: plain blue on black is hard to read.
 std::uint8_t colorOf(const VTermColor& color) {
   if (VTERM_COLOR_IS_DEFAULT_FG(&color) || !VTERM_COLOR_IS_INDEXED(&color)) return kWhite;
   const std::uint8_t index = color.indexed.idx;

@@ -17,12 +17,13 @@ class Terminal {
  public:
   Terminal();
 
-  /// Processes output of the program, up to the byte that changes the counter's row left of the echo, or all
-  /// of it. Returns the rest.
+  /// Processes output of the program up to the byte that changes the counter, that is, its row left of the
+  /// echo. Returns the rest of the output; "" if all was processed.
   std::string_view feed(std::string_view bytes);
   /// Returns the screen. Characters outside ASCII become '?'; the default colour counts as white.
   Picture picture() const;
-  /// Presses the n-th of right, down, left, up, right, …; see takeAnswers().
+  /// Presses arrow key `n` of the sequence right, down, left, up, right and so on. takeAnswers() then returns
+  /// its bytes.
   void pressArrow(std::uint32_t n);
   /// Returns the terminal's bytes for the program since the last call: answers to queries, and arrow keys in
   /// the mode that the program has set.

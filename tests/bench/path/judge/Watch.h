@@ -1,4 +1,4 @@
-// A simulated person at the terminal: types, and records when what appears on the screen.
+// A simulated person at the terminal. Types, and records when each frame and each key appears on the screen.
 #pragma once
 
 #include <algorithm>
@@ -45,13 +45,13 @@ class Watch {
   const EchoJudge& arrows() const { return m_arrows; }
 
  private:
-  /// Processes the next output.
+  /// Waits for output of the program until `end`, and processes it.
   void lookUntil(Nanoseconds end) {
     const std::string_view bytes = m_program.read(end);
     if (m_program.hasEnded()) throw std::runtime_error("the program has ended");
     if (!bytes.empty()) look(bytes);
   }
-  /// Looks at each frame, because several may come at once.
+  /// Processes output frame by frame, because it may contain several frames.
   void look(std::string_view bytes) {
     const Nanoseconds now = monotonicNow();
     Picture screen;

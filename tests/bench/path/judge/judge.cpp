@@ -21,7 +21,7 @@ namespace {
 using namespace bench::path;
 
 constexpr Nanoseconds kStarts{30'000'000'000};  // timeout for the first frame
-constexpr Nanoseconds kDrain{3'000'000'000};    // time for keys that are still on their way
+constexpr Nanoseconds kDrain{3'000'000'000};    // time in which the last keys may still appear
 
 struct Options {
   std::string truth;
@@ -79,7 +79,7 @@ void print(const char* key, double value) {
   if (!std::isnan(value)) std::printf("%s=%.4f ", key, value);
 }
 
-/// Prints the figures of [from, to).
+/// Prints the figures measured in [from, to).
 void report(const Watch& watch, Nanoseconds from, Nanoseconds to) {
   const Fluency fluency = fluencyOf(watch.frames().shown(), from, to);
   print("fps", fluency.frames_per_second);

@@ -6,7 +6,7 @@
 namespace bench::path {
 namespace {
 
-constexpr std::size_t kHeader = 20;  // of IPv4, in bytes
+constexpr std::size_t kHeader = 20;  // length of an IPv4 header, in bytes
 constexpr std::uint8_t kUdp = 17;
 
 bool isUdp(std::span<const std::uint8_t> packet) {

@@ -52,7 +52,7 @@ class Link {
       const Nanoseconds now = monotonicNow();
       const Direction::Delivery delivery = direction.pop(now);
       if (delivery.packet.empty()) return;
-      // A network that has just ended takes no packet. Its owner notices that.
+      // The write fails if the network has just ended, which its owner notices.
       [[maybe_unused]] const ssize_t taken = write(tun, delivery.packet.data(), delivery.packet.size());
       const auto step = static_cast<std::size_t>((now - delivery.due).count() / LinkCounters::kLateStepNanos);
       ++m_counters.late[std::min(step, LinkCounters::kLateSteps - 1)];

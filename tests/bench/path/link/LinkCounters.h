@@ -10,15 +10,15 @@ namespace bench::path {
 
 /// Counters of one direction since the link began.
 struct DirectionCounters {
-  std::atomic<std::uint64_t> bytes{0};       ///< of IP packets sent, including headers and lost ones
-  std::atomic<std::uint64_t> packets{0};     ///< sent
+  std::atomic<std::uint64_t> bytes{0};       ///< bytes of IP packets sent, with headers, including lost ones
+  std::atomic<std::uint64_t> packets{0};     ///< packets sent, including lost ones
   std::atomic<std::uint64_t> lost{0};        ///< packets lost by chance
   std::atomic<std::uint64_t> overflowed{0};  ///< packets for which the queue had no space
   std::atomic<std::uint64_t> blocked{0};     ///< packets dropped because they were UDP
 };
 
 struct LinkCounters {
-  DirectionCounters down;  ///< server to client
+  DirectionCounters down;  ///< from server to client
   DirectionCounters up;
 
   static constexpr std::size_t kLateSteps = 1000;

@@ -1,4 +1,4 @@
-// A network for a process and its children, with one end of the link in it.
+// A network namespace for a process and its children, which contains one end of the link.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@
 
 namespace bench::path {
 
-/// The machine does not allow a link. what() is a reason without blanks, for `skipped=`.
+/// Thrown if the machine does not allow a link. what() is a reason without blanks, for `skipped=`.
 class NotAllowed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -23,9 +23,10 @@ void unshareProcesses();
 /// A network with a loopback device and a tun device, MTU 1500.
 class NetworkNamespace {
  public:
-  /// Creates the network and moves the calling process into it. The addresses may be loopback ones (127/8
-  /// except 127.0.0.1): these are then on the link, for servers that listen only on loopback. TCP's
-  /// congestion control is the machine's, because a namespace cannot choose it. Throws NotAllowed.
+  /// Creates the network and moves the calling process into it. The addresses may be loopback addresses
+  /// (127/8 except 127.0.0.1), which are then reached over the link, for servers that listen only on
+  /// loopback. TCP's congestion control is the machine's, because a namespace cannot choose it. Throws
+  /// NotAllowed.
   NetworkNamespace(const std::string& address, const std::string& peer);
   ~NetworkNamespace();
   NetworkNamespace(const NetworkNamespace&) = delete;

@@ -35,7 +35,7 @@ using namespace bench::path;
 constexpr int kFailed = 1;
 constexpr int kNotAllowed = 77;
 const std::string kSeparator = ":::";
-constexpr Nanoseconds kRound{10'000'000};  // time between two checks of the children
+constexpr Nanoseconds kRound{10'000'000};  // time between two checks whether children have ended
 constexpr Nanoseconds kServerStarts{15'000'000'000};
 
 struct Options {
@@ -97,7 +97,7 @@ int carry(const Options& options) {
   const pid_t server = server_network.start(options.server, options.server_log);
   const Nanoseconds late = monotonicNow() + kServerStarts;
   while (!isThere(options.ready_file)) {
-    // A process that succeeds may have left a server in the background.
+    // Success is not a failure here, because the command may have left a server in the background.
     const bool failed = reap(server).value_or(0) != 0;
     if (failed || monotonicNow() > late) {
       throw std::runtime_error("the server did not start: " + textOf(options.server_log));
@@ -124,7 +124,7 @@ int guarded(const Options& options) {
 }
 
 int run(const Options& options) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // when the parent ends
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // kills this process when its parent ends
   try {
     unshareProcesses();
   } catch (const NotAllowed& reason) {
@@ -144,7 +144,7 @@ int run(const Options& options) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
 }
 
-/// Splits "own options ::: server ::: client" into three parts.
+/// Splits the arguments "own options ::: server ::: client" into three parts.
 std::vector<std::vector<std::string>> cut(int argc, char** argv) {
   std::vector<std::vector<std::string>> parts(1);
   for (int i = 1; i < argc; ++i) {

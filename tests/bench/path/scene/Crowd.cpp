@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kRight = (kWidth - 1) * kUnits;
 constexpr int kBottom = (kHeight - 1) * kUnits;
-constexpr int kAcross = kUnits / 2;  // fastest walk
+constexpr int kAcross = kUnits / 2;  // fastest walk: half a cell per tick
 constexpr int kDown = kUnits / 4;
 
 constexpr std::uint32_t kTurnPerMille = 10;
@@ -51,7 +51,7 @@ void Crowd::turn(Walker& walker) {
   }
 }
 
-// Starts far enough from the edges that the first move stays inside.
+// Makes a walker so far from the edges that its first move stays inside.
 Walker Crowd::newborn() {
   Walker walker;
   walker.id = m_next_id++;

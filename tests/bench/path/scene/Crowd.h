@@ -1,5 +1,5 @@
-// The scene of the suite `path`: 200 coloured characters that walk about on 80×24, 30 times a second. Every
-// program under test shows this simulation. It depends only on its seed and the number of ticks.
+// The scene of the suite `path`: 200 coloured characters that walk about on 80×24, 30 times a second. All
+// compared programs show this simulation. It depends only on its seed and the number of ticks.
 //
 // 80 % walk at up to ±0.5 cells per tick across and ±0.25 down, 10 % stand still, 10 % run at ±1 across. In
 // each tick 1 % of them turn, 2 % change their character, 0.2 % die while another one is born elsewhere; at
@@ -23,7 +23,7 @@ struct Walker {
   std::uint32_t id = 0;  ///< ascending by birth, never reused
   int x = 0;             ///< drawn in the cell floor(x / kUnits + 0.5)
   int y = 0;
-  int vx = 0;  ///< per tick
+  int vx = 0;  ///< units per tick
   int vy = 0;
   char ch = ' ';
   std::uint8_t color = 0;

@@ -26,14 +26,15 @@ inline constexpr int kMarkerRow = kHeight - 2;
 inline constexpr std::uint8_t kStatusColor = 7;
 inline constexpr char kNoKey = '-';  ///< shown before the first key
 
-/// The cell of the marker after this many of the keys right, down, left, up, in this order.
+/// The cell of the marker. markerAfter() returns it for a number of arrow keys: right, down, left, up, and so
+/// on.
 struct MarkerCell {
   int x = kMarkerColumn;
   int y = kMarkerRow;
 };
 MarkerCell markerAfter(std::uint32_t arrows);
-/// Returns how many arrows, modulo 4, have been obeyed in this picture. Nullopt unless there is exactly one
-/// marker; there may be two while it is being painted.
+/// Returns how many arrow keys, modulo 4, have moved the marker in this picture. Nullopt unless there is
+/// exactly one marker; there may be two while it is being painted.
 std::optional<std::uint32_t> markerIn(const Picture& picture);
 
 /// Returns the text, for example "tick=0001234:".
@@ -44,10 +45,11 @@ std::optional<std::uint32_t> counterIn(const Picture& picture);
 /// Returns the true picture: crowd and counter.
 Picture drawScene(const Crowd& crowd);
 
-/// True if the cell must be equal in all programs at a tick: not part of counter, echo and marker.
+/// True if all programs must show this cell equally at a tick, that is, if it is not part of counter, echo or
+/// marker.
 bool isJudged(int x, int y);
-/// Returns the percentage of equal cells among the judged cells that are not blank in both pictures; 100 if
-/// all are blank.
+/// Returns the percentage of equal cells, among the judged cells that are not blank in at least one of the
+/// two pictures; 100 if all are blank.
 double likeness(const Picture& a, const Picture& b);
 /// Like likeness(a, b), but a cell also counts as equal if it equals any picture in `around`.
 double likeness(const Picture& screen, const Picture& truth, std::span<const Picture* const> around);

@@ -21,14 +21,15 @@ class Truth {
     Picture picture;
   };
 
-  /// Publishes a tick. There may be only one writer; tick 0 means nothing yet.
+  /// Publishes a tick, at least 1. There may be only one writer.
   void publish(std::uint32_t tick, Nanoseconds start, const Picture& picture) {
     m_moments[tick % kMoments] = {tick, start, picture};
     m_newest.store(tick, std::memory_order_release);
   }
-  /// Returns the newest tick, 0 before the first.
+  /// Returns the newest published tick; 0 before the first.
   std::uint32_t newest() const { return m_newest.load(std::memory_order_acquire); }
-  /// Returns null for ticks that have not begun, and for those half a minute ago, which may be overwritten.
+  /// Returns the moment of a tick; null for ticks that have not begun, and for ticks half a minute ago, which
+  /// may be overwritten.
   const Moment* find(std::uint32_t tick) const {
     const std::uint32_t last = newest();
     if (tick == 0 || tick > last || last - tick > kMoments - 32) return nullptr;

@@ -50,7 +50,7 @@ class Screen {
       for (int x = 0; x < kWidth; ++x) put(x, y, scene.at(x, y));
     }
     put(kEchoColumn, kStatusRow, {echo, kStatusColor});
-    // The four corner cells belong to the marker.
+    // The marker is on one of the four corner cells. The others are cleared.
     for (std::uint32_t corner = 0; corner < 4; ++corner) putMarker(corner, corner == arrows % 4 ? '@' : ' ');
     refresh();
   }
@@ -80,7 +80,7 @@ class Screen {
   }
 };
 
-/// Waits for a key or the deadline. False if the terminal is gone.
+/// Waits for a key until the deadline. False if the terminal is closed.
 bool waitForKey(Nanoseconds deadline) {
   const Nanoseconds left = deadline - monotonicNow();
   pollfd input{0, POLLIN, 0};
@@ -109,7 +109,8 @@ void run(Truth& truth, std::uint64_t seed) {
       scene = drawScene(crowd);
       truth.publish(crowd.ticks(), now, scene);
       changed = true;
-      // If a whole tick behind (the terminal did not take the bytes), continue from now.
+      // If this is a whole tick late, because the terminal did not accept the bytes, the next tick is due a
+      // tick from now.
       next = now - next > kTick ? now + kTick : next + kTick;
     }
     if (changed) screen.show(scene, echo, arrows);

@@ -1,4 +1,5 @@
-// The scene as a game for dfserver: the crowd as Objects that fly by themselves between decisions.
+// The scene as a game for dfserver. The crowd consists of Objects, which the engine moves between their
+// decisions.
 //
 // Environment: NAIAD_SCENE_TRUTH names the file for the Truth, NAIAD_SCENE_SEED the crowd. Both are needed.
 #include <cassert>
@@ -36,7 +37,7 @@ double cells(int units) {
 /// A walker of the crowd.
 class Figure : public df::Object {
  public:
-  /// Starts `moves` moves before the walker's position.
+  /// Places the Object where the walker was `moves` moves ago.
   Figure(const Walker& walker, int moves) {
     setSolidness(df::SPECTRAL);
     setPosition(df::Vector(cells(walker.x - moves * walker.vx), cells(walker.y - moves * walker.vy)));
@@ -50,7 +51,7 @@ class Figure : public df::Object {
     }
     m_walker = walker;
   }
-  /// True if the world moved it like the crowd. Call before the next decision.
+  /// True if the world has moved this Object like the crowd its walker. Call before the next decision.
   bool isInStep() const { return getPosition() == df::Vector(cells(m_walker.x), cells(m_walker.y)); }
 
   int draw() override {
@@ -78,7 +79,7 @@ class Marker : public df::Object {
   int draw() override { return DM.drawCh(getPosition(), '@', df::WHITE); }
 };
 
-/// Returns Marker::step as a table, with which a client need not wait for the server.
+/// Returns Marker::step as declared controls, with which a client need not wait for the server.
 df::Controls markerControls() {
   using namespace df::Keyboard;
   return df::Controls()

@@ -22,12 +22,12 @@ struct Effort {
   int seeds = 5;
 };
 
-/// Median over the seeds of each figure that the judge reports.
+/// The median over all seeds, for each figure that the judge reports, by its key.
 using Figures = std::map<std::string, double>;
 
-/// Returns why this machine allows no measurement; nullopt if it does.
+/// Returns why this machine does not allow measurements; nullopt if it does.
 std::optional<std::string> notAllowedBecause();
-/// True if dfserver listens on other addresses than loopback ones. Otherwise the link joins two loopback
+/// True if dfserver listens on addresses other than loopback addresses. Otherwise the link joins two loopback
 /// addresses, and its traffic is not encrypted.
 bool servesOthers();
 /// Measures all seeds at once. Throws std::runtime_error if a run failed.

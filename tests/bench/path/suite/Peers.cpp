@@ -38,7 +38,7 @@ void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Returns options from the environment, split at blanks.
+/// Returns the words in an environment variable, split at blanks.
 Words fromEnvironment(const char* name) {
   const char* value = std::getenv(name);
   std::istringstream text(value != nullptr ? value : "");
@@ -100,7 +100,7 @@ Peer ssh(const Place& place, bool compressed) {
   return peer;
 }
 
-/// mosh-server leaves a server in the background and prints the key for mosh-client, so ssh is not needed.
+/// mosh-server starts a server in the background and prints the key for mosh-client, so ssh is not needed.
 Peer mosh(const Place& place) {
   Peer peer;
   const std::string answer = place.file("mosh");
@@ -117,13 +117,14 @@ Peer mosh(const Place& place) {
   return peer;
 }
 
-/// Its own HOME keeps a run's certificates and pins separate from the user's.
+/// The run has its own HOME, so that its certificates and pins are separate from the user's.
 Peer dfclient(const Place& place, bool udp) {
   Peer peer;
   peer.ready_file = place.file("port");
   peer.server = {"env", "HOME=" + place.folder, "NAIAD_SCENE_TRUTH=" + place.truth(),
                  "NAIAD_SCENE_SEED=" + std::to_string(place.seed)};
-  // The scene writes its truth file, which a game in its own process may not.
+  // The option --in-process is needed because the scene writes its truth file, which a sandboxed game must
+  // not.
   append(peer.server,
          {place.bin + "/dfserver", "--in-process", "--game", place.bin + "/../lib/naiad_scene_game.so"});
   append(peer.server, {"--address", place.address, "--port", kGamePort, "--port-file", peer.ready_file});
@@ -158,11 +159,11 @@ std::string makeFolder(const Place& place, const std::string& name) {
   return place.file(name);
 }
 
-/// Makes a sh script that starts the server with a visitors' socket and then runs `then`. It may use $link,
-/// the link printed by dfserver.
+/// Makes a sh script that starts the server with a visitors' socket and then runs `then`, which may use
+/// $link, the link printed by dfserver.
 void leadThrough(const Place& place, Peer& peer, const std::string& then) {
   const std::string printed = quoted({place.file("server.out")});
-  append(peer.server, {"--visitors", place.file("visitors")});
+  append(peer.server, {"--proxy-socket", place.file("visitors")});
   writeFile(place.file("script"), quoted(peer.server) + ">" + printed +
                                       "2>&1 &\nuntil link=$(grep -om1 'naiad://[^ ]*' " + printed +
                                       ") && [ -S " + quoted({place.file("visitors")}) +
@@ -180,7 +181,7 @@ Peer web(const Place& place) {
   const std::string page = makeFolder(place, "page");
   writeFile(page + "/index.html", "");
   peer.ready_file = place.file("web-port");
-  Words gateway = {place.bin + "/dfweb", "--visitors", place.file("visitors"), "--page", page};
+  Words gateway = {place.bin + "/dfweb", "--proxy-socket", place.file("visitors"), "--page", page};
   append(gateway, {"--listen", place.address + ":" + kWebPort, "--certificate", certificate, "--key", key});
   append(gateway, {"--origin", origin, "--port-file", peer.ready_file});
   leadThrough(place, peer, quoted(gateway) + "\"$link\" &\n");
@@ -223,7 +224,7 @@ bool isOurs(const std::string& program) {
   return program.starts_with("dfclient") || program == "web" || program == "ssh-door";
 }
 
-// An sshd without root takes its own user's account for locked (OpenSSH 9.2).
+// If sshd does not run as root, it considers its own user's account locked (OpenSSH 9.2).
 std::optional<std::string> notPossibleBecause(const std::string& program) {
   if (program.starts_with("ssh") && geteuid() != 0) return "sshd-needs-root";
   return std::nullopt;

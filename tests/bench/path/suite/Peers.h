@@ -8,7 +8,7 @@
 
 namespace bench::path {
 
-/// Environment of one run.
+/// Folders and addresses of one run.
 struct Place {
   std::string bin;      ///< folder of our programs
   std::string folder;   ///< this run's own folder for keys, logs and truth
@@ -19,22 +19,22 @@ struct Place {
   std::string truth() const { return file("truth"); }
 };
 
-/// Commands for both ends.
+/// Commands for both ends of the link, and how to use the client.
 struct Peer {
-  std::vector<std::string> server;  ///< keeps running, or leaves a server in the background
-  std::string ready_file;           ///< exists when clients may connect
+  std::vector<std::string> server;  ///< runs the server, or starts one in the background
+  std::string ready_file;           ///< file that exists when clients may connect
   std::vector<std::string> client;  ///< shows the scene in its terminal
-  std::string type_ahead;           ///< typed at the start
-  std::string first_keys;           ///< typed once the scene is shown
-  bool arrows = false;              ///< has arrow keys whose effect the client may predict
+  std::string type_ahead;           ///< bytes typed at the start
+  std::string first_keys;           ///< bytes typed when the scene is first shown
+  bool arrows = false;              ///< the scene accepts arrow keys, whose effect the client may predict
   bool udp = true;                  ///< false: the link drops UDP
 };
 
-/// Returns the available programs. ssh is first, because it validates the runs.
+/// Returns the names of the available programs. ssh is first, because its result validates the runs.
 const std::vector<std::string>& peerNames();
-/// True if it is one of ours.
+/// True if the program is a client of this project.
 bool isOurs(const std::string& program);
-/// Returns why it cannot be measured here, without blanks; nullopt if it can.
+/// Returns why the program cannot be measured on this machine, without blanks; nullopt if it can.
 std::optional<std::string> notPossibleBecause(const std::string& program);
 /// Writes the program's files into the folder and returns its commands. Throws std::runtime_error.
 Peer preparePeer(const std::string& program, const Place& place);

@@ -12,10 +12,10 @@ struct Finished {
   std::string output;  ///< its stdout
 };
 
-/// Runs a command to its end. Its stderr is ours. Throws std::runtime_error if it cannot be started.
+/// Runs a command to its end. Its stderr goes to ours. Throws std::runtime_error if it cannot be started.
 Finished runProgram(const std::vector<std::string>& command);
 
-/// Returns the numbers of "word key=value key=value".
+/// Returns the values of a line "word key=value key=value", by key.
 std::map<std::string, double> figuresOf(const std::string& line);
 
 }  // namespace bench::path

@@ -48,7 +48,7 @@ TEST(Overlap, RotatedBoxesAreMeasuredAlongTheirSides) {
   const double corner = std::sqrt(0.5);
   EXPECT_NEAR(depth(unitBox(), {0, 0}, unitBox(), turned(0.5 + corner - 0.1, 0, eighth)), 0.1, kEps);
   EXPECT_NEAR(depth(unitBox(), turned(0, 0, eighth), unitBox(), turned(0.5, 0.5, eighth)), 1 - corner, kEps);
-  // Their upright bounding boxes overlap, but there is a gap along the turned one's side.
+  // The upright bounding boxes of the two overlap, but along the turned box's side there is a gap.
   for (const double x : {-0.9, 0.9}) {
     EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, 0.9, eighth)), 0);
     EXPECT_EQ(depth(unitBox(), {0, 0}, unitBox(), turned(x, -0.9, eighth)), 0);
@@ -72,7 +72,7 @@ TEST(Overlap, CompoundPartsAreMeasuredButNotAgainstEachOther) {
   const double quarter = std::acos(-1.0) / 2;
   EXPECT_EQ(depth(corner, {0, 0}, unitBox(), {0, 0.5}), 0);
   EXPECT_NEAR(depth(corner, {0, 0}, unitBox(), {0, 1}), 0.1, kEps);
-  // After a quarter turn, the lower part is at the left.
+  // A quarter turn has moved the lower part to the left.
   EXPECT_NEAR(depth(corner, turned(0, 0, quarter), unitBox(), {-1.1, 0}), 0.2, kEps);
 }
 
@@ -110,7 +110,7 @@ TEST(WidestHinge, IsTheLargestDistanceBetweenAnchors) {
   scene.hinges = {{0, 1, 0.5, 0}, {Hinge::kWorld, 0, -0.5, 0}};
   EXPECT_EQ(widestHinge(scene, {{0, 0}, {1, 0}}), 0);
   EXPECT_NEAR(widestHinge(scene, {{0, 0}, {1.3, 0.4}}), 0.5, kEps);
-  // Two hanging bodies, the second one upside down below the first.
+  // The poses are those of two hanging bodies, the second one upside down below the first.
   EXPECT_NEAR(widestHinge(scene, {{-0.5, 0.5, 0, 1}, {-1, 1.25, -1, 0}}), 0.25, kEps);
   EXPECT_NEAR(widestHinge(scene, {{0, 0.7}, {1, 0.7}}), 0.7, kEps);
 }

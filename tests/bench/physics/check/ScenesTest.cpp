@@ -78,7 +78,7 @@ TEST(Run, SamplesOverlapEveryTenTicks) {
 TEST(Run, CountsTunnelledFrozenAndNonFiniteBodies) {
   const Scene scene = boxOverFloor();
   Scripted sinking(scene), frozen(scene), lost(scene), dizzy(scene);
-  sinking.fall = 0.021;  // only at the end its centre is in the floor
+  sinking.fall = 0.021;  // its centre is in the floor only at the end
   frozen.frozen = 1;
   lost.fall = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(run(scene, sinking, 1000).failed, 1);

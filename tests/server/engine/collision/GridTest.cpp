@@ -40,7 +40,8 @@ struct Filed {
     grid.remove(s);
     filed[s] = false;
   }
-  /// Steps to `where` if free. Returns the slots touched there, after comparing the grid with a test of all.
+  /// Steps to `where` if that is free. Returns the slots touched there, after comparing the grid's result
+  /// with a test of all boxes.
   std::vector<Grid::Slot> step(Grid::Slot s, FixedVector where) {
     const std::vector<Grid::Slot> expected = touching(translate(boxes[s], where), s);
     Grid::Steps steps(grid);
@@ -69,7 +70,7 @@ FixedVector randomPosition(Random& random, int spread) {
 
 FixedBox randomBox(Random& random) {
   const auto number = [&](int below) { return static_cast<Fixed>(random.below(below)) * (kFixedOne / 4); };
-  // Half characters, some sprites and walls, and a few boxes of the maximum size.
+  // Half of the boxes are characters, some sprites and walls, and a few have the maximum size.
   const int kind = random.below(20);
   if (kind < 10) return kCharacterBox;
   const int size = kind == 10 ? 4000000 : kind < 14 ? 400 : kind < 18 ? 60 : 5;
@@ -101,8 +102,8 @@ TEST(Grid, FindsTouchingBoxesOfAnySizeAnywhere) {
 TEST(Grid, StepIsFreeIfNothingTouches) {
   Random random(8);
   for (const int spread : {12, 60, 700, 2000000000}) {
-    for (const int others : {0, 25, 100}) {  // percent: none, some, nearly all
-      Filed it(1500);                        // enough for the level to grow during the test
+    for (const int others : {0, 25, 100}) {  // percent of boxes that are not characters
+      Filed it(1500);                        // the level grows during the test
       for (int round = 0; round < 6000 / naiad::test::kShare; ++round) {
         const auto slot = static_cast<Grid::Slot>(random.below(1500));
         if (!it.filed[slot]) {
@@ -136,13 +137,13 @@ TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
     Filed it(60);
     for (int round = 0; round < 20000; ++round) {
       const auto slot = static_cast<Grid::Slot>(random.below(count));
-      // The middle of a block, far from its border.
+      // A position in the middle of a block, far from its border.
       FixedVector where{fromCells(30) + number(), fromCells(30) + number()};
       if (!it.filed[slot]) {
         it.put(slot, where, kCharacterBox);
         continue;
       }
-      // Half of the coordinates are a cell from another Object's, within a unit.
+      // Half of the coordinates differ from another Object's by a cell, to within a unit.
       const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
       if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
       if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
@@ -156,8 +157,8 @@ TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
   EXPECT_GT(touched, 10000);
 }
 
-// Few boxes among many characters. Where no box is near, a step does not search the other levels, but it must
-// not miss a contact.
+// Tests few boxes among many characters. If no box is near, a step does not search the other levels, but it
+// must not miss a contact.
 TEST(Grid, CharactersAmongFewBoxesMissNoContact) {
   Random random(13);
   constexpr Grid::Slot kCount = 430, kCharacters = 400;
@@ -170,14 +171,14 @@ TEST(Grid, CharactersAmongFewBoxesMissNoContact) {
   int met = 0;
   for (const std::int64_t far : {0, 1000, 1 << 28}) {
     Filed it(kCount);
-    // Positions around the corner of four blocks, some of them far away but mapped to the same cells.
+    // Positions around the common corner of four blocks, some of them far away but mapped to equal cells.
     const auto place = [&] {
       const Fixed apart = random.below(8) == 0 ? fromCells(static_cast<int>(far)) : 0;
       return FixedVector{number(60) - fromCells(30) + apart, number(60) - fromCells(30) - apart};
     };
     for (Grid::Slot s = 0; s < kCharacters; ++s) it.put(s, place(), kCharacterBox);
     for (int round = 0; round < 20000; ++round) {
-      if (random.below(4) == 0) {  // add, move or remove a box
+      if (random.below(4) == 0) {  // adds, moves or removes a box
         const auto slot = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
         const int what = random.below(8);
         if (what == 0) {

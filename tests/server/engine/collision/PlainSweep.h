@@ -35,7 +35,7 @@ struct Masks {
   const Mask* p_others = nullptr;
 };
 
-// The mover is at `position` from `time` on.
+// A position on the path, which the mover reaches at `time`.
 struct Visit {
   Moment time;
   FixedVector position;
@@ -46,7 +46,7 @@ inline std::uint64_t magnitude(Fixed from, Fixed to) {
                    : static_cast<std::uint64_t>(from) - static_cast<std::uint64_t>(to);
 }
 
-inline Fixed goOn(Fixed from, Fixed to, std::uint64_t steps) {
+inline Fixed advance(Fixed from, Fixed to, std::uint64_t steps) {
   const auto start = static_cast<std::uint64_t>(from);
   return static_cast<Fixed>(from < to ? start + steps : start - steps);
 }
@@ -64,8 +64,8 @@ inline std::vector<Visit> everyVisit(const Move& move) {
     const Moment time = is_x ? Moment{static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(way_x)}
                              : Moment{static_cast<std::uint64_t>(y), static_cast<std::uint64_t>(way_y)};
     visits.push_back({time,
-                      {goOn(move.from.x, move.to.x, static_cast<std::uint64_t>(x)),
-                       goOn(move.from.y, move.to.y, static_cast<std::uint64_t>(y))}});
+                      {advance(move.from.x, move.to.x, static_cast<std::uint64_t>(x)),
+                       advance(move.from.y, move.to.y, static_cast<std::uint64_t>(y))}});
   }
   return visits;
 }
@@ -111,7 +111,8 @@ inline std::vector<Visit> tellingVisits(const Move& move, const FixedBox& other,
                                         time.denominator);
     };
     visits.push_back(
-        {time, {goOn(move.from.x, move.to.x, along(way_x)), goOn(move.from.y, move.to.y, along(way_y))}});
+        {time,
+         {advance(move.from.x, move.to.x, along(way_x)), advance(move.from.y, move.to.y, along(way_y))}});
   }
   visits.push_back({{1, 1}, move.to});
   return visits;
@@ -159,8 +160,8 @@ inline Wide gapOf(const FixedBox& a, const FixedBox& b, Wide scale = 1, Wide dx 
                   onAxis(a.corner.y, a.size.y, b.corner.y, b.size.y, dy));
 }
 
-// Compares the gap after a very short part of the move. Gaps are whole units, and the displacement is less
-// than half a unit, so the larger gap cannot change to another axis.
+// Compares the gaps at the start and after a very short part of the move. Gaps are whole units, and the
+// displacement is less than half a unit, so the axis with the larger gap cannot change.
 inline bool closesPlainly(const Move& move, const FixedBox& other) {
   const Wide dx = static_cast<Wide>(move.to.x) - move.from.x;
   const Wide dy = static_cast<Wide>(move.to.y) - move.from.y;
@@ -169,7 +170,8 @@ inline bool closesPlainly(const Move& move, const FixedBox& other) {
   return gapOf(move.at(move.from), other, scale, dx, dy) < gapOf(move.at(move.from), other, scale);
 }
 
-// Returns the first time at which `meets` holds, by the rule for the start. `may_meet_again` is for masks.
+// Returns the first time at which `meets` is true. At the start it counts only by the rule of firstTouch().
+// `may_meet_again` is for masks.
 template <typename Meets>
 inline std::optional<Moment> firstPlainly(const Move& move, const FixedBox& other,
                                           const std::vector<Visit>& visits, bool may_meet_again,

@@ -16,7 +16,7 @@ class RandomSweeps : public testing::Test {
     const std::uint64_t offset = random.below(magnitude(least, most) + 1);
     return static_cast<Fixed>(static_cast<std::uint64_t>(least) + offset);
   }
-  // A fixed share of the moves is straight or has no length.
+  // A fixed share of the moves is along an axis or has no length.
   FixedVector displacement(Fixed most) {
     const Fixed kind = number(8);
     return {kind == 0 ? 0 : between(-most, most), kind == 1 ? 0 : between(-most, most)};
@@ -174,7 +174,7 @@ TEST_F(RandomSweeps, WorldWideSweepsMatchAReferenceWalk) {
     const auto aim = [&](Fixed from, Fixed to, Fixed corner) {
       const double distance = static_cast<double>(magnitude(from, to)) * share;
       const Fixed point =
-          goOn(from, to, static_cast<std::uint64_t>(distance)) + corner + between(-largest, largest);
+          advance(from, to, static_cast<std::uint64_t>(distance)) + corner + between(-largest, largest);
       return std::clamp(point, -kFar, kFar);
     };
     const FixedBox other = {
@@ -188,7 +188,7 @@ TEST_F(RandomSweeps, WorldWideSweepsMatchAReferenceWalk) {
     ASSERT_FALSE(intersects(move.at(sweep.before(*found)), other)) << i;
     const auto after = [&](Fixed from, Fixed to) {
       const WideUnsigned steps = static_cast<WideUnsigned>(magnitude(from, to)) * found->numerator;
-      return goOn(from, to, static_cast<std::uint64_t>(steps / found->denominator));
+      return advance(from, to, static_cast<std::uint64_t>(steps / found->denominator));
     };
     const FixedVector then = {after(move.from.x, move.to.x), after(move.from.y, move.to.y)};
     ASSERT_TRUE(intersects(move.at(then), other)) << i;

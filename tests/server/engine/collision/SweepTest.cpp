@@ -31,7 +31,7 @@ TEST(SweptMove, FastArrowHitsTheWindow) {
   ASSERT_FALSE(intersects(translate(arrow, cells(25, 0)), window));
   const std::optional<Moment> touch = sweep.firstTouch(window);
   ASSERT_TRUE(touch);
-  EXPECT_EQ(*touch, (Moment{17, 30}));  // from its tip at 12 to the glass at 20.5: 8.5 of 15 cells
+  EXPECT_EQ(*touch, (Moment{17, 30}));  // the arrow's tip moves from 12 to the glass at 20.5: 8.5 of 15 cells
   EXPECT_EQ(sweep.before(*touch), (FixedVector{fromCells(10) + 17 * (kFixedOne / 2) - 1, 0}));
 }
 
@@ -50,7 +50,7 @@ TEST(SweptMove, BoxesOffThePathAreNotHit) {
 }
 
 TEST(SweptMove, AxisMovesOnlyAfterAFullUnit) {
-  // Two units to the right during three units down: x is 1 from t = 1/2 on, while y is 1.
+  // Moves two units to the right and three down: x becomes 1 at t = 1/2, while y is 1.
   const Sweep sweep({{}, {}}, {0, 0}, {2, 3});
   EXPECT_EQ(sweep.firstTouch({{1, 1}, {}}), (Moment{1, 2}));
   EXPECT_EQ(sweep.firstTouch({{0, 1}, {}}), (Moment{1, 3}));
@@ -103,7 +103,7 @@ TEST_F(AtTheWall, MoverOneUnitAwaySlidesFreely) {
 }
 
 TEST_F(AtTheWall, InsideMoverLeavesFreelyByShortestPath) {
-  // Half a cell deep from the left, five cells from above and below.
+  // A position half a cell deep from the left, and five cells from above and below.
   const FixedVector inside = cells(0, 5);
   const auto touch_from = [&](FixedVector by) {
     return Sweep(kCharacter, inside, inside + by).firstTouch(wall);
@@ -167,7 +167,7 @@ TEST_F(MaskedMove, ArrowFliesThroughAHoleOfItsHeight) {
   for (int y = 0; y < 4; ++y) {
     const Sweep move = sweep(arrow, cells(0, y), cells(30, y));
     EXPECT_TRUE(move.firstTouch(box)) << y;
-    // Its tip enters the gate's cell after 7 cells.
+    // The arrow's tip enters the gate's cell after 7 cells.
     const auto expected = y == 2 ? std::nullopt : std::optional(Moment{7, 30});
     EXPECT_EQ(move.firstShare(&arrow, box, &gate), expected) << y;
   }
@@ -227,7 +227,7 @@ TEST_F(MaskedMove, LargestBoxIsHitOnlyBySetCells) {
   // The ship sinks by one cell on the way, so its upper row is level with the wall at the end.
   const Sweep sinking = sweep(ship, cells(0, -1), cells(900000, 0));
   EXPECT_EQ(sinking.firstShare(&ship, wall, nullptr), (Moment{1, 1}));
-  // Roles exchanged: the wall moves up.
+  // The wall moves up instead of the ship down.
   const Sweep rising(boxAt(0, 0, 1000000, 1), cells(-900000, 0), cells(0, -1));
   EXPECT_EQ(rising.firstShare(nullptr, boxAt(0, -1, 4, 2), &ship),
             (Moment{1, static_cast<std::uint64_t>(kFixedOne)}));
@@ -235,7 +235,8 @@ TEST_F(MaskedMove, LargestBoxIsHitOnlyBySetCells) {
 
 // ---- The largest distances and speeds.
 
-// Tests `base` at the origin and at all ends of the world: the results differ only by the offset.
+// Expects that `base`, at the origin and at all ends of the world, gives results that differ only by the
+// offset.
 void expectSameEverywhere(const Move& base, const FixedBox& other, Masks masks = {}) {
   const Sweep here = base.sweep();
   for (const Fixed x : {-kFar + fromCells(3000000), Fixed{0}, kFar - fromCells(3000000)}) {
@@ -279,7 +280,7 @@ TEST(FarAndFast, SweepAcrossTheWholeWorldIsExact) {
     const Sweep sweep = is_back ? Sweep(kCharacter, last, first) : Sweep(kCharacter, first, last);
     const FixedVector target = is_back ? first : last;
     const Fixed unit = is_back ? -1 : 1;
-    // An Object in the middle: half of the path, less one cell.
+    // An Object in the middle is hit after half of the path, less one cell.
     const FixedBox middle = translate(kCharacter, {});
     const auto way = static_cast<std::uint64_t>(kFar) * 2;
     const Moment touch = {static_cast<std::uint64_t>(kFar - kFixedOne), way};
@@ -287,13 +288,13 @@ TEST(FarAndFast, SweepAcrossTheWholeWorldIsExact) {
     EXPECT_EQ(sweep.before(touch), (FixedVector{-unit * (kFixedOne + 1), -unit * (kFixedOne + 1)}));
     EXPECT_TRUE(sweep.closesGap(middle));
     EXPECT_FALSE(sweep.movesOutOf(middle));
-    // At the target, one cell before the end of the path.
+    // An Object at the target is hit one cell before the end of the path.
     EXPECT_EQ(sweep.firstTouch(translate(kCharacter, target)), (Moment{way - kFixedOne, way}));
     const FixedBox beyond = translate(kCharacter, target + FixedVector{unit * kFixedOne, unit * kFixedOne});
     EXPECT_EQ(sweep.firstTouch(beyond), (Moment{1, 1}));
     EXPECT_EQ(sweep.before({1, 1}), (FixedVector{target.x - unit, target.y - unit}));
     EXPECT_EQ(sweep.firstTouch(translate(beyond, {unit, 0})), std::nullopt);
-    // Leaves an Object that it touches at the start.
+    // The move leaves an Object that it touches at the start, which is not hit.
     const FixedBox behind = translate(kCharacter, is_back ? last : first);
     EXPECT_EQ(sweep.firstTouch(behind), std::nullopt);
     EXPECT_TRUE(sweep.movesOutOf(behind));
@@ -305,7 +306,7 @@ TEST(FarAndFast, SlowAxisBesideTheFastestOneIsExact) {
   const Sweep sweep({{}, {}}, {-kFar, 0}, {kFar, 3});
   const auto way = static_cast<std::uint64_t>(kFar) * 2;
   const std::uint64_t third = way / 3 + 1;  // `way` is not a multiple of 3
-  const auto at = [](std::uint64_t steps) { return goOn(-kFar, kFar, steps); };
+  const auto at = [](std::uint64_t steps) { return advance(-kFar, kFar, steps); };
   EXPECT_EQ(sweep.firstTouch({{at(third), 1}, {}}), (Moment{third, way}));
   EXPECT_EQ(sweep.firstTouch({{at(third - 1), 1}, {}}), (Moment{1, 3})) << "between two steps of x";
   EXPECT_EQ(sweep.firstTouch({{at(third - 2), 1}, {}}), std::nullopt);

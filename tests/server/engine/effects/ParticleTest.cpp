@@ -105,7 +105,7 @@ TEST_F(ParticleTest, AFrameExplodesIntoItsCharacters) {
   EXPECT_EQ(explode(&s, 1, Vector(), 5, 1, 0), -1);
   EXPECT_EQ(explode(nullptr, 0, Vector(), 5, 1, 0), -1);
   for (int i = 0; i < 5; ++i) world.tick();
-  // Backwards: the pieces start apart and come together.
+  // With a negative speed, the pieces start apart and fly together.
   explode(&s, 0, Vector(10, 10), 5, -1, 0);
   for (int i = 0; i < 4; ++i) world.tick();
   EXPECT_EQ(at(9 - 1, 10), 'a');

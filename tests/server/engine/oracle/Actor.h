@@ -1,5 +1,5 @@
-// The calls of a script to a world and the results that are compared: one interface, implemented over the
-// engine and over the oracle. Objects are named by numbers, in creation order.
+// The interface by which a script acts on a world and reads the results that are compared. It is implemented
+// for the engine and for the oracle. Objects are numbered in creation order.
 #pragma once
 
 #include <optional>
@@ -40,7 +40,8 @@ class Actor {
   // The functions below require an existing `id`.
   virtual void markForDelete(int id) = 0;
   virtual void deleteByHand(int id) = 0;
-  /// Takes the Object out of the world, alive. Afterwards only insert() and deleteByHand() are called for it.
+  /// Removes the Object from the world without deleting it. Afterwards only insert() and deleteByHand() are
+  /// called for it.
   virtual void remove(int id) = 0;
   virtual void insert(int id) = 0;
   virtual int moveObject(int id, FixedVector where) = 0;
@@ -53,7 +54,7 @@ class Actor {
   virtual void setActive(int id, bool active) = 0;
   virtual void setOptions(int id, Options options) = 0;
   virtual void setMask(int id, const Mask& mask) = 0;
-  /// Sets the world's switch, which applies to all Objects.
+  /// Sets the world's setting for all Objects (WM.setSweptCollisions()).
   virtual void setSweptCollisions(bool swept) = 0;
 
   virtual FixedVector getPosition(int id) const = 0;

@@ -14,7 +14,7 @@ TEST_F(BookTest, UpdateAddsVelocityToPosition) {
   EXPECT_EQ(p_saucer->position, cells(39, 12));
 }
 
-// x = 10, 10, 10.1, 10.3 for a = 0.1: the position takes the old velocity.
+// x = 10, 10, 10.1, 10.3 for an acceleration of 0.1: each move uses the old velocity.
 TEST_F(BookTest, PositionMovesBeforeVelocityGrows) {
   Object* p_o = make(10, 5);
   const Fixed tenth = *df::toFixed(0.1);

@@ -46,7 +46,7 @@ std::uint64_t hashOf(const std::vector<Snapshot>& states, std::uint64_t hash) {
   return hash;
 }
 
-/// Calls firstContact() of both and returns the difference as text, "" if none.
+/// Calls firstContact() of both worlds. Returns the difference as text; "" if there is no difference.
 std::string compareContact(Actor& engine, Actor& oracle, int id, FixedVector where, Comparison& result) {
   const Meeting a = engine.firstContact(id, where);
   const Meeting b = oracle.firstContact(id, where);
@@ -100,7 +100,8 @@ std::string compareQuestions(const RandomWorld& world, EngineDriver& engine, Ora
   return difference;
 }
 
-/// Runs both worlds until they differ. With `explain`, keeps all log entries to name the first difference.
+/// Runs both worlds to the end or until they differ. With `explain`, keeps all log entries to name the first
+/// difference.
 Comparison run(const RandomWorld& world, bool explain) {
   EngineDriver engine(world);
   OracleDriver oracle(world);

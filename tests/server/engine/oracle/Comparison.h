@@ -1,4 +1,4 @@
-// Runs engine and oracle in one random world and compares them after each tick.
+// Runs one random world in the engine and in the oracle, and compares them after each tick.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,8 @@ struct Comparison {
   df::MoverStats paths;  ///< paths taken by the engine
 };
 
-/// Runs the world of `seed` in both and compares, after each tick, all new events and the state of every
-/// Object, in the world's order. In worlds with options it also compares firstContact() and findFree() every
-/// 8 ticks.
+/// Runs the world of `seed` in both. After each tick, compares all new events and the state of every Object,
+/// in the world's order. In worlds with options it also compares firstContact() and findFree() every 8 ticks.
 Comparison compareWorld(std::uint64_t seed, bool with_options);
 
 }  // namespace oracle

@@ -9,9 +9,9 @@ struct Counters {
   std::int64_t moves = 0;         ///< calls of moveObject(), by update() and by handlers
   std::int64_t nested_moves = 0;  ///< moves made in a handler of another move
   std::int64_t too_deep = 0;      ///< moves refused because of kDeepestMove
-  std::int64_t blocked_hard = 0;  ///< moves refused, HARD onto HARD
-  std::int64_t blocked_soft = 0;  ///< moves refused, no_soft onto SOFT
-  std::int64_t met_soft = 0;      ///< moves that collided with SOFT, as mover or as other
+  std::int64_t blocked_hard = 0;  ///< moves refused because a HARD mover touched a HARD Object
+  std::int64_t blocked_soft = 0;  ///< moves refused because a no_soft mover touched a SOFT Object
+  std::int64_t met_soft = 0;      ///< moves with collisions of a SOFT mover or other
   std::int64_t outs = 0;          ///< moves that sent an out event
   std::int64_t collisions = 0;    ///< pairs of mover and other to which collision events were sent
 
@@ -19,7 +19,7 @@ struct Counters {
   std::int64_t swept_moves = 0;       ///< moves tested along the whole path
   std::int64_t swept_blocked = 0;     ///< swept moves that were refused
   std::int64_t swept_stopped = 0;     ///< refused swept moves that advanced along the path
-  std::int64_t swept_passed_on = 0;   ///< further searches, because the blocking Object was gone
+  std::int64_t swept_passed_on = 0;   ///< further searches after no pair blocked
   std::int64_t precise_pairs = 0;     ///< pairs with touching boxes and compared masks
   std::int64_t precise_rejected = 0;  ///< precise pairs that shared no cell
   std::int64_t rest_moves = 0;        ///< moves of resting Objects, made by update()

@@ -32,7 +32,7 @@ class EngineDriver::Numbered : public df::Object {
   int m_number;
 };
 
-/// An Object whose handler is the script. The handler may delete it: do not use the Object afterwards.
+/// An Object whose handler calls the script. The script may delete the Object, so do not use it afterwards.
 class EngineDriver::Scripted : public Numbered {
  public:
   using Numbered::Numbered;

@@ -14,7 +14,7 @@ enum class Happening { STEP, COLLISION, OUT, MOVED, DESTROYED };
 
 struct Entry {
   Happening what = Happening::STEP;
-  int receiver = 0;            ///< receiver of the event; for MOVED the mover
+  int receiver = 0;            ///< Object that receives the event; for MOVED the mover
   int object1 = 0;             ///< mover of a COLLISION
   int object2 = 0;             ///< other Object of a COLLISION
   df::FixedVector where = {};  ///< position of a COLLISION; target of MOVED

@@ -1,4 +1,4 @@
-// Tests the oracle's geometry by trying every position of a path.
+// Compares the oracle's geometry with tests of every position of a path.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -145,7 +145,7 @@ TEST(GeometryTest, FirstShareMatchesTestingEveryPosition) {
   EXPECT_GT(passed, 500);
 }
 
-// Compares with a move so short that the largest of the four distances stays the largest.
+// Compares with the gap after a move so short that the largest of the four distances stays the largest.
 TEST(GeometryTest, ClosingGapIsSmallerAMomentLater) {
   constexpr Fixed kMoment = 1000;
   Rng rng(3);

@@ -1,4 +1,4 @@
-// Options of an Object beyond the book (docs/collisions.md), and how frequent each is in a world.
+// The options of an Object beyond the book (docs/collisions.md), and the frequency of each in a world.
 #pragma once
 
 #include "OracleMask.h"
@@ -24,12 +24,12 @@ struct OptionMix {
   int masked = 0;
   int rest_contacts = 0;
   int may_move_out = 0;
-  bool sweep_all = false;      ///< the world's switch at the start
-  bool scripts_sweep = false;  ///< scripts may turn the switch
+  bool sweep_all = false;      ///< the world's setSweptCollisions() at the start
+  bool scripts_sweep = false;  ///< scripts may change setSweptCollisions()
 
   /// Draws a mix; half of all mixes have no options.
   static OptionMix random(Rng& rng);
-  /// Draws the options of one Object. Every mix uses as many random numbers.
+  /// Draws the options of one Object. Every mix draws an equal number of random numbers.
   Options randomOptions(Rng& rng) const;
   Mask randomMask(Rng& rng) const;
 };

@@ -65,7 +65,7 @@ void World::update() {
   m_deletions.clear();
 }
 
-// A handler that moves on every collision would never come back, so there is a deepest move.
+// A handler that moves its Object at every collision would never return, so nested moves have a limit.
 int World::moveObject(Object* p_o, FixedVector where) {
   ++m_counters.moves;
   if (m_depth > 0) ++m_counters.nested_moves;
@@ -79,12 +79,12 @@ int World::moveObject(Object* p_o, FixedVector where) {
   return result;
 }
 
-/// Puts the Object where its move ends (Listing 4.113).
+/// Sets the Object's position to the end of its move (Listing 4.113).
 void World::place(Object* p_o, FixedVector where) {
   const bool was_inside = isInside(p_o->position);
   p_o->position = where;
 
-  // One event when the Object leaves the world.
+  // Sends one event when the Object leaves the world.
   if (was_inside && !isInside(where)) {
     ++m_counters.outs;
     if (p_o->active) m_handlers.out(p_o);

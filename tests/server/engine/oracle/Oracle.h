@@ -1,6 +1,6 @@
-// The book's world, written as plainly as the book prints it, with the options of docs/collisions.md: a loop
-// over all Objects. The engine is compared with it bit for bit. It uses nothing of the engine but its number
-// type.
+// The oracle: the book's world, written as plainly as in the book, with the options of docs/collisions.md. It
+// tests all Objects in a loop. The engine is compared with it bit for bit. Of the engine it uses only the
+// number type.
 //
 // Listing 4.100 predictPosition, 4.101 update, 4.104 isSolid, 4.107 positionsIntersect (with boxes, section
 // 4.13), 4.108 getCollisions, 4.109 moveObject, 4.111 no soft, 4.113 out of bounds. The listings leave two
@@ -36,7 +36,7 @@ struct Object {
   Solidness solidness = df::HARD;
   bool no_soft = false;
   bool active = true;
-  bool gone = false;  ///< deleted or removed from the world; only older lists still point here
+  bool gone = false;  ///< deleted or removed from the world; only older lists still contain it
 
   // Options beyond the book (docs/collisions.md).
   bool swept = false;
@@ -88,7 +88,7 @@ class World {
   void markForDelete(Object* p_o);
   /// Deletes the Object at once, as `delete p_o` does.
   void destroy(Object* p_o);
-  /// Takes the Object out without deleting it. Older lists and the mark for deletion no longer apply to it.
+  /// Removes the Object without deleting it. Older lists and the mark for deletion no longer apply to it.
   void remove(Object* p_o);
   /// Puts a removed Object back, at the end of the list. Returns its new pointer.
   Object* insert(const Object* p_o);

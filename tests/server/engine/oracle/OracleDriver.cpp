@@ -2,7 +2,7 @@
 
 namespace oracle {
 
-// Rounds to doubles, as games and scripts do. Doubles lose digits beyond 2^21 cells.
+// Rounds a position to doubles, which games and scripts use. Beyond 2^21 cells, this changes its last digits.
 static FixedVector inDoubles(FixedVector position) {
   return {*df::toFixed(df::toCells(position.x)), *df::toFixed(df::toCells(position.y))};
 }

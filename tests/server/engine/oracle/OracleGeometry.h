@@ -1,5 +1,5 @@
 // The geometry of docs/collisions.md in its plainest form: the gap between two boxes, and the times at which
-// a box on a straight path hits another. It uses nothing of the engine but its number type.
+// a box on a straight path hits another. Of the engine it uses only the number type.
 #pragma once
 
 #include <cstdint>

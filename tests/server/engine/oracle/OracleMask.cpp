@@ -6,7 +6,8 @@ namespace oracle {
 
 namespace {
 
-/// Returns the first cell that is drawn: the one after the cell of the box's corner, as the engine rounds.
+/// Returns the first cell that is drawn. By the engine's rounding, it is the one after the cell of the box's
+/// corner.
 std::int64_t firstCell(Fixed corner) {
   return (corner >> df::kFixedBits) + 1;
 }

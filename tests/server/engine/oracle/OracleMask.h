@@ -15,7 +15,7 @@ using df::FixedBox;
 /// rows, the whole box is covered.
 using Mask = std::vector<std::string>;
 
-/// True if set characters of the two share a cell. Boxes are in world coordinates and need not touch.
+/// True if the two masks have set characters in one cell. Boxes are in world coordinates and need not touch.
 bool shareCell(const FixedBox& box_a, const Mask& mask_a, const FixedBox& box_b, const Mask& mask_b);
 
 }  // namespace oracle

@@ -5,7 +5,7 @@ namespace oracle {
 
 // Listings 4.109, 4.111 and 4.113.
 int World::moveNow(Object* p_o, FixedVector where) {
-  if (!p_o->active) {  // takes no part in collisions and gets no events, so it is only placed
+  if (!p_o->active) {  // an inactive Object does not collide and gets no events
     p_o->position = where;
     return 0;
   }
@@ -30,7 +30,7 @@ void World::sendToBoth(Object* p_o, Object* p_other, FixedVector where) {
 
 /// Returns whether the other Object blocks the mover, in their present state.
 World::Verdict World::judge(const Object* p_o, const Object* p_other, const SweepPath& path) const {
-  // If both HARD, then cannot move.
+  // If both are HARD, the mover cannot move.
   const bool hard_block = p_o->solidness == df::HARD && p_other->solidness == df::HARD;
   // A mover with no_soft cannot move onto SOFT.
   const bool soft_block = p_o->no_soft && p_other->solidness == df::SOFT;
@@ -66,7 +66,7 @@ ObjectList World::getCollisions(const Object* p_o, FixedVector where) {
   const FixedBox box = p_o->getWorldBox(where);
   for (Object* p_temp_o : m_updates) {
     if (!boxIntersectsBox(p_temp_o->getWorldBox(p_temp_o->position), box)) continue;
-    if (p_temp_o == p_o) continue;  // not with itself
+    if (p_temp_o == p_o) continue;  // an Object does not collide with itself
     if (p_temp_o->active && p_temp_o->isSolid() &&
         (!isPrecise(p_o, p_temp_o) || shareCellAt(p_o, where, p_temp_o))) {
       collision_list.push_back(p_temp_o);

@@ -5,10 +5,10 @@
 
 namespace oracle {
 
-/// Returns when the move hits the other; nullopt if it does not.
+/// Returns when the move hits the other Object; nullopt if it does not.
 std::optional<Time> World::hitTime(const Object* p_o, const SweepPath& path, const Object* p_other) {
   const FixedBox others = p_other->getWorldBox(p_other->position);
-  // Most Objects are far away.
+  // A quick test first, because most Objects are far away.
   const FixedBox& box = p_o->box;
   if (others.corner.x > std::max(path.from.x, path.to.x) + box.corner.x + box.size.x ||
       others.corner.y > std::max(path.from.y, path.to.y) + box.corner.y + box.size.y ||
@@ -65,7 +65,7 @@ int World::moveSwept(Object* p_o, const SweepPath& path) {
 
     std::optional<Time> blocked;
     for (const Hit& hit : hits) {
-      if (blocked && *blocked < hit.time) break;  // the mover does not get that far
+      if (blocked && *blocked < hit.time) break;  // the mover stops before this hit
       if (hit.p_other->gone) continue;
       met.push_back(hit.p_other);
       if (!met_soft && (p_o->solidness == df::SOFT || hit.p_other->solidness == df::SOFT)) {

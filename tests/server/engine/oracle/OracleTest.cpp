@@ -1,11 +1,10 @@
-// The property: in random worlds whose handlers create, delete, move and resize Objects, the engine's
-// positions and events equal those of the oracle bit for bit. Half of the worlds use the options of
-// docs/collisions.md.
+// Tests that, in random worlds whose handlers create, delete, move and resize Objects, the engine's positions
+// and events equal those of the oracle bit for bit. Half of the worlds use the options of docs/collisions.md.
 //
 // NAIAD_ORACLE_WORLDS sets the number of worlds, NAIAD_ORACLE_SEED the seed of the first. Each further world
 // has the next seed, so a failing world runs alone with NAIAD_ORACLE_SEED=its seed and NAIAD_ORACLE_WORLDS=1.
-// NAIAD_ORACLE_OPTIONS=0 runs these worlds without options: if a world passes then, the cause is an
-// option.
+// NAIAD_ORACLE_OPTIONS=0 runs these worlds without options: if a failing world then passes, an option is the
+// cause.
 #include <gtest/gtest.h>
 
 #include <algorithm>

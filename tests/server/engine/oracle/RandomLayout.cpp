@@ -63,7 +63,7 @@ RandomWorld::RandomWorld(std::uint64_t world_seed, bool with_options) : seed(wor
 
   Rng own(rng.next());
   options = OptionMix::random(own);
-  if (options.precise > 0 && large_percent == 20) large_percent = 50;  // a character has no holes
+  if (options.precise > 0 && large_percent == 20) large_percent = 50;  // because a character has no holes
   if (!with_options) options = {};
 
   for (int i = 0; i < population; ++i) objects.push_back(randomSpec(rng));

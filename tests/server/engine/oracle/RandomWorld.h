@@ -1,5 +1,5 @@
-// A random world, drawn from a seed: its size, density and first Objects. The same seed gives the same world
-// on every machine. Script.h defines what the handlers do.
+// A random world, drawn from a seed: its size, density and first Objects. A seed gives an equal world on
+// every machine. Script.h defines what the handlers do.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline constexpr df::Fixed kOne = df::kFixedOne;
 enum class Temper {
   QUIET,     ///< Rarely does anything.
   LIVELY,    ///< Makes a random change at about every second collision.
-  BULLET,    ///< Usually dies at a collision, and may kill a HARD other.
+  BULLET,    ///< Usually deletes itself at a collision, and may delete the other Object, if that is HARD.
   PARENT,    ///< Creates other Objects at collisions.
   STUBBORN,  ///< Usually repeats the refused move in its collision handler.
   GLASS,     ///< Usually deletes, removes or disables itself when it is hit.
@@ -62,7 +62,7 @@ struct RandomWorld {
   OptionMix options;
   int ticks = 100;
   FixedBox boundary;
-  std::vector<FixedBox> areas;  ///< Objects are put here; may extend beyond the boundary
+  std::vector<FixedBox> areas;  ///< Objects are put in these areas, which may extend beyond the boundary
   Fixed grain = 1;              ///< grid of positions and sizes; a coarse one makes edges touch
   Fixed speed_limit = 1;        ///< maximum speed, per axis and tick
   int moving_percent = 70;

@@ -1,4 +1,4 @@
-// Random numbers that are the same everywhere: splitmix64 (Steele, Lea, Flood 2014).
+// Random numbers that are equal on every machine: splitmix64 (Steele, Lea, Flood 2014).
 #pragma once
 
 #include <cstdint>

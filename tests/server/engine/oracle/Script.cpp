@@ -26,7 +26,7 @@ void Script::beginTick() {
   readmit();
   Rng rng(mix(m_world.seed ^ mix(static_cast<std::uint64_t>(~m_tick++))));
   while (m_present.size() < 2) create(m_world.randomSpec(rng));
-  for (const int id : m_present) {  // DEAF Objects have no handler that brings them home
+  for (const int id : m_present) {  // because DEAF Objects have no handler that does this
     if (m_cast[static_cast<std::size_t>(id)].temper == Temper::DEAF) comeHome(rng, id);
   }
 }
@@ -43,7 +43,7 @@ void Script::onStep(int id) {
   m_colliding = false;
   const int what = rng.below(1000);
   if (what < 25) act(rng, id, -1);
-  if (what == 25) {  // a level load
+  if (what == 25) {  // like a game that loads a level
     for (int i = rng.below(30); i >= 0; --i) bear(rng, m_world.randomPosition(rng));
   }
   if (!isPresent(id)) return;

@@ -1,7 +1,7 @@
 // The handlers of a random world, written once for engine and oracle: what each Object does at each event.
 //
 // Every decision is drawn from the world's seed, the Object's number and the number of its earlier events. So
-// worlds with equal events make equal decisions, and a first difference never comes from the script.
+// worlds with equal events make equal decisions, and the first difference is never the script's.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class Script {
 
   /// Creates the world's first Objects.
   void begin();
-  /// Call at the start of each tick: restarts the limits on moves and births per tick.
+  /// Resets the limits of moves and births per tick. Call at the start of each tick.
   void beginTick();
 
   // Event handlers.
@@ -30,7 +30,8 @@ class Script {
 
   EventLog& log() { return m_log; }
   const EventLog& log() const { return m_log; }
-  /// Returns the number of collision and out events handled; below, what their handlers did.
+  /// Returns the number of collision and out events handled. The next functions count what their handlers
+  /// did.
   std::int64_t handled() const { return m_handled; }
   std::int64_t births() const { return m_births; }
   std::int64_t deaths() const { return m_deaths; }

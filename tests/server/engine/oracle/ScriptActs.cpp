@@ -31,7 +31,7 @@ void Script::act(Rng& rng, int self, int other) {
     case 4:
     case 5:
       return move(id, nearby(rng, m_actor.getPosition(id)));
-    case 6:  // moves nothing, but tests for collisions
+    case 6:  // no displacement, but a test for collisions
       return move(id, m_actor.getPosition(id));
     case 7:
       return m_actor.setPosition(id, nearby(rng, m_actor.getPosition(id)));
@@ -72,7 +72,7 @@ void Script::act(Rng& rng, int self, int other) {
   }
 }
 
-/// Does what a GLASS Object does when it is hit.
+/// Lets a GLASS Object react to a hit.
 void Script::give(Rng& rng, int id) {
   const int what = rng.below(10);
   if (what < 5) die(id, true);

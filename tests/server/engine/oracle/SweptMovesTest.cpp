@@ -34,7 +34,7 @@ TEST_F(SweptMovesTest, SweptArrowStopsJustBeforeTheGlass) {
   EXPECT_EQ(m_world.getAllObjects()[0]->position, cells(55, 20));
   EXPECT_EQ(m_world.getAllObjects()[2]->position, cells(30.5, 10) - kUnit);
   EXPECT_EQ(m_where, cells(30.5, 10) - kUnit);
-  EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hit in flight, and again from where it stopped
+  EXPECT_EQ(m_events, "2:2>1 1:2>1 2:2>1 1:2>1 ");  // hit in flight, and again from its last position
 }
 
 TEST_F(SweptMovesTest, WorldSettingSweepsAllMoves) {
@@ -81,7 +81,7 @@ TEST_F(SweptMovesTest, NoSoftMoverStopsBeforeSoft) {
   EXPECT_EQ(p_mover->position, cells(19, 10) - kUnit);
 }
 
-// "the last position before that time": holds for both axes, even if only one of them leads to the contact.
+// "the last position before that time" applies to both axes, even if only one of them leads to the contact.
 TEST_F(SweptMovesTest, BothAxesStopJustBeforeTheContact) {
   Object* p_mover = makeSwept(0, 0);
   make(20, 10);

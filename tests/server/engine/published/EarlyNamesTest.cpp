@@ -76,7 +76,7 @@ int earlyNames() {
   crate.setVelocity(df::Vector(1, 0));
   df::Object* p_o = &crate;
   p_o->setVelocity(df::Vector(2, 0));
-  if (crate.times_moved != 2) return 1;  // called through the base class: overridden, as from version 4.20 on
+  if (crate.times_moved != 2) return 1;  // called by the base class: virtual as from 4.20 on
   if (!p_o->isModified(df::ID) || !p_o->isModified(df::ObjectAttribute::POSITION) ||
       !p_o->isModified(df::SPRITE))
     return 2;

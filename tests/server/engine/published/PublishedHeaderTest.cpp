@@ -66,7 +66,7 @@ int stepsOfTheEngineSpelledTwice() {
   return df::GM.getStepCount() + df::WM.getAllObjects().getCount();
 }
 
-// Microsoft's string functions.
+// Calls Microsoft's string functions.
 std::string ping(int count) {
   char line[12];
   sprintf_s(line, "Ping %d", count);
@@ -77,7 +77,7 @@ std::string ping(int count) {
   return line;
 }
 
-// SFML calls that bypass the engine, without including a header of the graphics library.
+// Makes SFML calls that bypass the engine, without including a header of the graphics library.
 void pastTheEngine() {
   const sf::Vector2f from(spacesToPixels(Vector(1, 2)).getX(), 3);
   const sf::Vertex line[]{{{from}, sf::Color::Red}, {{from + sf::Vector2f(1, 1)}, colorToSFML(df::GREEN)}};
@@ -90,7 +90,7 @@ void pastTheEngine() {
     circle.move(sf::Mouse::getPosition(*DM.getWindow()).x * 1.0f, 0);
 }
 
-// Calls with arguments that printf() does not accept.
+// Logs arguments that printf() does not accept.
 int logStrings(const Object& o) {
   const std::string name = "ann";
   LM.writeLog("%s has %d of %s", name, 3, o.getType());

@@ -146,7 +146,7 @@ TEST_F(AnimationTest, PreciseCollisionsUseTheShownFrame) {
   wall.setSpriteIndex(1);
   EXPECT_EQ(WM.getCollisions(&mover, Vector(19, 10)).getCount(), 0);
   EXPECT_EQ(WM.getCollisions(&mover, Vector(21, 10)).getCount(), 1);
-  // A box that differs from the sprite's counts as full.
+  // If the box differs from the sprite's, all of its cells count.
   wall.setBox(Box(Vector(-2, -0.5), 4, 1.5));
   EXPECT_EQ(WM.getCollisions(&mover, Vector(19, 10)).getCount(), 1);
 }

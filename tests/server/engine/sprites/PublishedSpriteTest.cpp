@@ -80,7 +80,7 @@ TEST_F(PublishedSprite, SlowdownWithoutAValueIsZero) {
   ASSERT_EQ(load(withHeader("slowdown \r\n"), "t"), 0);
   EXPECT_EQ(RM.getSprite("t")->getSlowdown(), 0);
   EXPECT_EQ(logged("slowdown has no number"), 2);
-  // Like above, in the old format.
+  // The file above in the old format.
   ASSERT_EQ(load("frames 1\nwidth 1\nheight 1\ncolor red\nslowdown\na\nend\neof\n", "old"), 0);
   EXPECT_EQ(RM.getSprite("old")->getFrame(0).getString(), "a");
 }

@@ -4,7 +4,7 @@
 namespace df {
 namespace {
 
-// A game's own Object class, used as the base of a PlayerObject.
+// A class derived from Object, used as the base of a PlayerObject.
 struct Boat : Object {
   Boat() { setType("Boat"); }
   int eventHandler(const Event* p_e) override {

@@ -90,8 +90,8 @@ TEST_F(CompatDefaults, ACircleInsideABoxDoesNotIntersectIt) {
   EXPECT_FALSE(circleIntersectsBox(Circle(Vector(-3, 5), 2), box));
 }
 
-// 505 steps of 0.1, rounded, end at 50.5 within 2e-9 cells, where the box's upper edge touches the boundary.
-// Exact numbers are then outside, floats are not.
+// 505 rounded steps of 0.1 end within 2e-9 cells of 50.5, where the box's upper edge touches the boundary. In
+// exact numbers the box is then outside, in floats it is not.
 TEST_F(CompatDefaults, ABoxThatTouchesTheBoundaryIsStillInside) {
   world.setCompat();
   WM.setBoundary(Box(Vector(), 80, 50));

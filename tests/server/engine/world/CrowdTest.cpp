@@ -1,5 +1,5 @@
 // Crowds in one place. If no handler gets the collisions of a move, the move is decided without listing the
-// Objects that it touches. The result must equal that with handlers.
+// Objects that it touches. The result must equal the result with handlers.
 #include <cstdint>
 #include <sstream>
 
@@ -9,12 +9,12 @@
 namespace df::test {
 namespace {
 
-/// Has a handler, which does nothing.
+/// An Object with a handler that does nothing.
 struct Listener : Object {
   int eventHandler(const Event*) override { return 0; }
 };
 
-/// Records its collisions and the positions of both Objects.
+/// An Object that records its collisions, with the positions of both Objects.
 struct Diary : Object {
   explicit Diary(std::ostringstream& its_pages) : pages(its_pages) {}
   int eventHandler(const Event* p_e) override {
@@ -38,7 +38,8 @@ struct Crowd {
   bool odd_is_hard = true;  ///< odd: HARD among SOFT Objects; else no-soft SOFT among HARD Objects
 };
 
-/// Returns positions, velocities and Diary entries after each tick. `ears`: every Object has a handler.
+/// Runs a crowd. Returns positions, velocities and Diary entries after each tick. `ears`: every Object has a
+/// handler.
 std::vector<std::string> play(const Crowd& crowd, std::uint64_t seed, bool ears,
                               MoverStats* p_stats = nullptr) {
   naiad::SplitMix64 random(seed);
@@ -119,7 +120,7 @@ TEST(Crowd, MovesMatchACrowdWithHandlersEverywhere) {
   }
 }
 
-// An odd Object needs no list, whether or not other odd ones are near.
+// The move of an odd Object needs no list of the crowd, whether or not other odd Objects are near.
 TEST(Crowd, SoftCrowdIsNotListedForAHardObject) {
   for (const bool is_hard : {true, false}) {
     for (const int every : {1000, 20}) {

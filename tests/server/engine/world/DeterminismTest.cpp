@@ -1,5 +1,6 @@
-// A world is a pure function of its seed, inputs and tick count: one long run that uses everything the engine
-// can do to Objects has one hash, for every compiler, optimisation level and machine.
+// A world is a pure function of its seed, inputs and tick count: a long run that uses everything the engine
+// can do to Objects must have the expected hash with every compiler and optimisation level, and on every
+// machine.
 #include <gtest/gtest.h>
 
 #include <cinttypes>

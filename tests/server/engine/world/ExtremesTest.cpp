@@ -1,4 +1,4 @@
-// The ends of the ranges: far away, very fast, very large, very many.
+// Tests the ends of the ranges: Objects that are far away, very fast, very large or very many.
 #include "tests/server/engine/Probe.h"
 #include "tests/support/NotANumber.h"
 
@@ -53,7 +53,7 @@ std::vector<FixedVector> pathAround(Vector origin, bool swept, int& collisions) 
   return path;
 }
 
-// Positions are read from the store, because a double cannot hold 2^-32 cells at 2e9.
+// Reads positions from the store, because a double cannot hold 2^-32 cells at 2e9.
 TEST_F(Extremes, PathsAtTwoBillionCellsMatchTheOrigin) {
   for (const bool swept : {false, true}) {
     int here = 0;

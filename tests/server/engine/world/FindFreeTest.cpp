@@ -106,7 +106,7 @@ TEST_F(FindFree, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(WM.findFree(Box(Vector(), -1, 1), Vector()), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), 1, 2e6), Vector()), std::nullopt);
   EXPECT_EQ(world.log().refusals(), 4u);
-  EXPECT_EQ(WM.findFree(kCharacter, Vector(2e9, -2e9)), std::nullopt);  // in range, but too far away
+  EXPECT_EQ(WM.findFree(kCharacter, Vector(2e9, -2e9)), std::nullopt);  // valid, but far from the boundary
   EXPECT_EQ(world.log().refusals(), 4u);
 }
 

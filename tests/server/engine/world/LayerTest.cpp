@@ -6,7 +6,7 @@
 namespace df {
 namespace {
 
-/// Lets its bodies fall: each tick moves them by their velocity plus half a tick's gravity.
+/// A layer that lets its bodies fall: each tick moves them by their velocity plus half a tick's gravity.
 class Falling : public Layer {
  public:
   static constexpr double kGravity = 0.25;

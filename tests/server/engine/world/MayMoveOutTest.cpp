@@ -35,7 +35,7 @@ TEST_F(MayMoveOut, LeavesStepByStepAndBothGetTheEvent) {
 TEST_F(MayMoveOut, DoesNotAllowMovingDeeper) {
   a->setMayMoveOut();
   EXPECT_EQ(WM.moveObject(a, Vector(22, 10)), -1);
-  EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // neither less nor more deep
+  EXPECT_EQ(WM.moveObject(a, Vector(23, 11)), -1);  // remains equally deep, so it is blocked
   expectAt(*a, 23, 10);
 }
 

@@ -1,5 +1,5 @@
-// Mistakes of beginners. Each logs one line that names the cause, and docs/when-it-goes-wrong.md lists that
-// line. Mistakes that need a process of their own are in tests/loopback/TroubleTest.cpp.
+// Tests mistakes of beginners. Each logs one line that names the cause, and docs/when-it-goes-wrong.md lists
+// that line. Mistakes that need a process of their own are in tests/loopback/TroubleTest.cpp.
 
 #include <fstream>
 #include <iterator>
@@ -44,7 +44,7 @@ const std::string& page() {
   return text;
 }
 
-/// Removes the namespace, because a game's own classes are outside all namespaces.
+/// Removes the tests' namespace from a line, because a game's own classes are outside all namespaces.
 std::string withoutNamespace(std::string line) {
   const std::string prefix = "df::test::";
   for (std::size_t at = 0; (at = line.find(prefix)) != std::string::npos;) line.erase(at, prefix.size());

@@ -79,13 +79,13 @@ TEST_F(ObjectCopy, EntersTheWorldWhenInserted) {
   Card copy = card;
   EXPECT_EQ(WM.insertObject(&copy), 0);
   EXPECT_EQ(WM.getAllObjects().getCount(), 2);
-  card.setPosition(Vector(20, 20));  // out of the copy's way
+  card.setPosition(Vector(20, 20));  // so that it does not touch the copy
   copy.setVelocity(Vector(1, 0));
   world.update();
   expectAt(copy, 1, 0);
 }
 
-// A member that is assigned a temporary: `reticle = Reticle();`
+// Games assign temporaries to members: `reticle = Reticle();`
 TEST_F(ObjectCopy, AssignmentKeepsIdAndInterests) {
   Card card(1);
   const int id = card.getId();

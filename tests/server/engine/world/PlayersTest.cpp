@@ -157,7 +157,7 @@ TEST_F(Players, ViewFollowsTheObjectThroughMovesOnly) {
   WM.moveObject(p_ship, Vector(250, 112));  // within the view's inner third
   EXPECT_EQ(player.getViewCorner(), Vector(200, 100));
   p_ship->setVelocity(Vector(30, 0));
-  WM.update();  // x = 280, outside it
+  WM.update();  // x = 280, outside the inner third
   EXPECT_NEAR(player.getViewCorner().x(), 280 - 80.0 * 2 / 3, 1e-6);
   const Vector before = player.getViewCorner();
   delete p_ship;

@@ -94,7 +94,7 @@ TEST_F(Precise, SweptMoverStopsAtCharactersInside) {
   Probe* a = make("a", 30, 12);
   a->setSwept();
   EXPECT_EQ(WM.moveObject(a, Vector(0, 12)), -1);
-  // One step further it would enter the cell of the left column.
+  // One step further, `a` would enter the cell of the left column.
   EXPECT_EQ(a->getPosition().y(), 12);
   EXPECT_EQ(a->getPosition().x(), 10.5);
 }

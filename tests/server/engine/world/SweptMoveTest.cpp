@@ -192,7 +192,7 @@ TEST_F(SweptMoves, MoverIsStoppedAtTheNumberLimit) {
   Probe* a = makeSwept("a", far - 40, -far);
   Probe* b = make("b", far, -far);
   EXPECT_EQ(WM.moveObject(a, Vector(2e9, -far)), -1);
-  // Doubles have no higher precision here.
+  // A double has no higher precision at such positions.
   EXPECT_NEAR(a->getPosition().x(), far - 1, 1e-6);
   delete b;
   a->setPosition(Vector(-2e9, 2e9));

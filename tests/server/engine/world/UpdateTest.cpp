@@ -55,7 +55,7 @@ TEST_F(Update, ObjectStopsAtTheNumberLimit) {
   WM.update();
   expectAt(*a, 1999999999, 0);
   EXPECT_EQ(world.log().refusals(), 2u);
-  EXPECT_EQ(logged("update"), 1);
+  EXPECT_EQ(logged("the next position"), 1);
 }
 
 TEST_F(Update, EarlierMovesAreSeenByLaterOnes) {

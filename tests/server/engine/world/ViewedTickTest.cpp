@@ -15,8 +15,8 @@ Names names(const ObjectList& list) {
   return out;
 }
 
-/// Claims that every Object was drawn ten cells to the left of its position, except `hidden`, which was not
-/// drawn.
+/// A record of what players saw: every Object was drawn ten cells to the left of its position, except
+/// `hidden`, which was not drawn.
 class TenToTheLeft : public LagCompensation {
  public:
   explicit TenToTheLeft(const World& world) : m_world(world) {}
@@ -97,7 +97,7 @@ TEST_F(SeenAt, ClickUsesTheViewThePlayerSaw) {
   dot.on_event = [&](Probe&, const Event& e) {
     clicks.push_back(static_cast<const EventMouse&>(e).getMousePosition());
   };
-  compensation.corner = toFixed(Vector(6.6, -2));  // shown as cell 7
+  compensation.corner = toFixed(Vector(6.6, -2));  // the view begins with cell 7
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});
   world.input().mouse(ann, CLICKED, Mouse::LEFT, 30, 5);
   world.input().mouse(bob, CLICKED, Mouse::LEFT, 30, 5, {true, 70, 74});

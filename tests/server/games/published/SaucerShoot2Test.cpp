@@ -1,4 +1,4 @@
-// Saucer Shoot for the published engine, played headless from title to title.
+// Plays Saucer Shoot for the published engine without a screen, from the title to the next title.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 
-/// The game's main(), compiled into this test under another name.
+/// The game's main(), compiled into this test with another name.
 int saucershoot2_main(int argc, char* argv[]);
 
 namespace naiad {
@@ -25,7 +25,8 @@ namespace {
 
 class SaucerShoot2 : public ::testing::Test, public df::Runner {
  protected:
-  /// From the start of the game to its shutDown(); `play` where GM.run() would wait for players.
+  /// Runs the game from its start to its shutDown(). Calls `play` at the point where GM.run() would wait for
+  /// players.
   void host(std::function<void()> play) {
     m_play = std::move(play);
     const df::World::Scope scope(world);
@@ -93,14 +94,14 @@ TEST_F(SaucerShoot2, HeldKeyMovesTheShipAndMouseFires) {
       press(df::Keyboard::W, df::KEY_DOWN);
       tick();
     }
-    EXPECT_EQ(p_hero->getPosition().y(), y - 2);  // every second tick, from the third on
+    EXPECT_EQ(p_hero->getPosition().y(), y - 2);  // one row in every second tick, from the third tick on
     tick(15);
     click(p_hero->getPosition() + df::Vector(20, 0));
     EXPECT_EQ(count("Bullet"), 1);
     click(p_hero->getPosition() + df::Vector(20, 0));
-    EXPECT_EQ(count("Bullet"), 1);  // the gun is hot
+    EXPECT_EQ(count("Bullet"), 1);  // the gun is not ready yet
     tick(100);
-    EXPECT_EQ(count("Bullet"), 0);  // out, or spent
+    EXPECT_EQ(count("Bullet"), 0);  // the bullet has left the world or hit something
   });
 }
 

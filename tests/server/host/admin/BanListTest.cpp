@@ -101,7 +101,7 @@ TEST_F(BanListTest, BanExpiresAtItsEndTime) {
   now += 1s;
   EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
   AdminWorker other;
-  EXPECT_TRUE(BanList(other, folder, clock()).now()->all().empty());
+  EXPECT_TRUE(BanList(other, folder, clock()).currentSet()->all().empty());
 }
 
 TEST_F(BanListTest, NameBanAppliesToLookalikeNames) {
@@ -136,8 +136,8 @@ TEST_F(BanListTest, BansLastBeyondARestart) {
   }
   AdminWorker other;
   BanList again(other, folder, clock());
-  ASSERT_EQ(again.now()->all().size(), 2u);
-  const auto set = again.now();
+  ASSERT_EQ(again.currentSet()->all().size(), 2u);
+  const auto set = again.currentSet();
   const Ban* p_ban = set->find(at("192.0.2.200"), now);
   ASSERT_NE(p_ban, nullptr);
   EXPECT_EQ(p_ban->reason, "a 'quoted' reason; DROP TABLE bans");
@@ -156,18 +156,18 @@ TEST_F(BanListTest, NewBanOfSameRangeReplacesTheOld) {
   add(list, ban);
   ban.until.reset();
   add(list, ban);
-  EXPECT_EQ(list.now()->all().size(), 1u);
+  EXPECT_EQ(list.currentSet()->all().size(), 1u);
   AdminWorker other;
   BanList again(other, folder, clock());
-  ASSERT_EQ(again.now()->all().size(), 1u);
-  EXPECT_FALSE(again.now()->all().front().until);
+  ASSERT_EQ(again.currentSet()->all().size(), 1u);
+  EXPECT_FALSE(again.currentSet()->all().front().until);
 }
 
 TEST_F(BanListTest, ABanIsLiftedByItsNumber) {
   BanList list(worker, {}, clock());
   add(list, ofRange("192.0.2.7"));
   add(list, ofRange("192.0.2.8"));
-  const std::uint64_t number = list.now()->all().back().number;
+  const std::uint64_t number = list.currentSet()->all().back().number;
   EXPECT_EQ(remove(list, "#" + std::to_string(number)), 1u);
   EXPECT_EQ(remove(list, "#" + std::to_string(number)), 0u);
   EXPECT_FALSE(list.isBanned(at("192.0.2.8")));

@@ -29,7 +29,7 @@ class ControlSocketTest : public testing::Test {
  protected:
   ControlSocketTest() { options.path = folder / "control.sock"; }
 
-  /// Answers each command with its text; "say" waits for release() while `held`.
+  /// Opens a socket that answers each command with its text. While `held`, "say" waits for release().
   std::unique_ptr<ControlSocket> open() {
     return std::make_unique<ControlSocket>(
         options,
@@ -55,7 +55,7 @@ class ControlSocketTest : public testing::Test {
     }
     for (const auto& done : all) done(AdminAnswer::done("at last"));
   }
-  /// Waits until a command is held.
+  /// Waits until a command waits for release().
   void awaitCommand() {
     for (;; std::this_thread::yield()) {
       const std::lock_guard lock(mutex);

@@ -150,7 +150,7 @@ class AdmissionTest : public testing::Test {
     return *p_fake;
   }
   void endRecovery(FakeWorld& fake, int percent) {
-    fake.answer(kTurns - percent + 1);  // plus one for the closing turn
+    fake.answer(kTurns - percent + 1);  // one more answer for the closing turn
     rooms.checkWorlds();
   }
   bool waitsAfter(const Client& client, std::chrono::milliseconds time) {
@@ -292,7 +292,7 @@ TEST_F(AdmissionTest, DisconnectedPlayersCountAgainstTheAddressLimit) {
   ann.drop();
   EXPECT_EQ(greet(helloOf("Bob")).refusal(), wire::Refused::FULL);
   EXPECT_EQ(counters.refused_address, 1u);
-  EXPECT_EQ(sessions.playing(), 1u);
+  EXPECT_EQ(sessions.playingCount(), 1u);
   EXPECT_TRUE(greet(returning(ann)).isWelcome()) << "coming back takes no place";
   admission().forgetSession(sessionOf(1));
   EXPECT_TRUE(greet(helloOf("Cid")).isWelcome());
@@ -328,7 +328,7 @@ TEST_F(AdmissionTest, TokenResumesItsSessionOnAnotherStream) {
   EXPECT_EQ(back.welcome().player(), ann.welcome().player());
   EXPECT_NE(back.welcome().resume_token(), ann.welcome().resume_token());
   EXPECT_FALSE(sessionOf(1).isDetached());
-  EXPECT_EQ(sessions.playing(), 1u);
+  EXPECT_EQ(sessions.playingCount(), 1u);
 }
 
 TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
@@ -359,7 +359,7 @@ TEST_F(AdmissionTest, RapidResumeIsRefusedAndKeepsItsToken) {
   ASSERT_TRUE(back.isWelcome());
   EXPECT_EQ(back.welcome().player(), player);
   EXPECT_EQ(counters.resumed, 4u);
-  EXPECT_EQ(sessions.playing(), 1u);
+  EXPECT_EQ(sessions.playingCount(), 1u);
 }
 
 TEST_F(AdmissionTest, OldTokenIsInvalidOnceTheNextIsConfirmed) {
@@ -382,7 +382,7 @@ TEST_F(AdmissionTest, ClientIsRefusedAfterItsSessionResumedElsewhere) {
   EXPECT_TRUE(sendsList()) << "the new process has none";
   admission().confirmToken(sessionOf(1));
   EXPECT_EQ(greet(returning(ann)).refusal(), wire::Refused::SESSION_MOVED);
-  EXPECT_EQ(counters.refused_elsewhere, 1u);
+  EXPECT_EQ(counters.refused_session_moved, 1u);
 }
 
 TEST_F(AdmissionTest, ForgottenSessionCannotBeResumed) {
@@ -390,7 +390,7 @@ TEST_F(AdmissionTest, ForgottenSessionCannotBeResumed) {
   admission().forgetSession(sessionOf(1));
   greet(returning(ann));
   EXPECT_EQ(counters.unknown_tokens, 1u);
-  EXPECT_EQ(sessions.playing(), 2u);
+  EXPECT_EQ(sessions.playingCount(), 2u);
 }
 
 TEST_F(AdmissionTest, SecondStreamNeedsTokenOfAConnectedSession) {
@@ -418,7 +418,7 @@ TEST_F(AdmissionTest, RapidSecondStreamsAreRefusedAsBusy) {
     sessions.sweep();
   }
   EXPECT_EQ(counters.second_streams, 4u);
-  EXPECT_EQ(counters.seconds_deferred, 100u);
+  EXPECT_EQ(counters.second_streams_deferred, 100u);
   EXPECT_EQ(counters.unknown_tokens, 0u);
   EXPECT_TRUE(sessionOf(1).hasSecondStream()) << "the one it has stays";
   EXPECT_FALSE(sessionOf(1).isDetached());

@@ -193,10 +193,10 @@ TEST_F(RoomTransfersTest, MoveSwitchesWorldsAndChangesThePlayerId) {
   EXPECT_EQ(ports["lobby"]->count(df::InputQueue::kLeave, before), 1u);
   EXPECT_EQ(ports["quiet"]->count(df::InputQueue::kJoin, after), 1u);
   EXPECT_EQ(sessionOf(ann).welcomed().room(), "quiet") << "as a welcome back says it";
-  EXPECT_EQ(counters.room_moves, 1u);
+  EXPECT_EQ(counters.room_transfers, 1u);
   enter(ann, "quiet");
   tick();
-  EXPECT_EQ(counters.room_moves, 1u) << "they are there";
+  EXPECT_EQ(counters.room_transfers, 1u) << "they are there";
 }
 
 TEST_F(RoomTransfersTest, RefusedMoveKeepsTheRoomAndTellsTheReason) {
@@ -215,7 +215,7 @@ TEST_F(RoomTransfersTest, RefusedMoveKeepsTheRoomAndTellsTheReason) {
   enter(ann, "\033[2J" + std::string(500, 'x'));
   tick();
   EXPECT_EQ(lastLine(ann).find('\033'), std::string::npos);
-  EXPECT_EQ(counters.room_moves, 0u);
+  EXPECT_EQ(counters.room_transfers, 0u);
   EXPECT_EQ(counters.room_moves_refused, 4u);
 }
 

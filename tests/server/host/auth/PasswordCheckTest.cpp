@@ -35,7 +35,7 @@ struct PasswordCheckTest : testing::Test {
   void ask(int from, const std::string& password) {
     ask(prefix(from), password, [this](Answer answer) { answers.push_back(answer); });
   }
-  /// Runs until all answers have arrived: then the loop has no work left.
+  /// Runs until all answers have arrived, because then the loop has no work left.
   std::vector<Answer> run() {
     context.restart();
     context.run();
@@ -144,7 +144,7 @@ TEST_F(PasswordCheckTest, ImpossiblePasswordsAreNotComparedAndUseNoTries) {
   for (int i = 0; i < 100; ++i) ask(1, i % 2 == 0 ? std::string() : std::string(kMaxPassword + 1, 'x'));
   EXPECT_TRUE(answers.empty());
   EXPECT_EQ(run(), std::vector(100, Answer::kWrong));
-  EXPECT_EQ(check->counters().unfit, 100u);
+  EXPECT_EQ(check->counters().malformed, 100u);
   EXPECT_EQ(check->counters().wrong, 0u);
   EXPECT_EQ(check->remembered(), 0u);
   ask(1, "open sesame");
@@ -176,7 +176,7 @@ TEST_F(PasswordCheckTest, EightyGuessingAddressesDoNotBlockNewPlayers) {
     EXPECT_EQ(*answer, Answer::kRight);
     EXPECT_LE(check->counters().wrong - before, 1u) << "it waits for the guess that is being made";
   }
-  // A player who comes together with the attackers is one of 81, and retries when refused.
+  // A player who joins together with the attackers is one of 81, and retries when refused.
   now += 60s;
   ask(network(2000), "open sesame", [&](Answer a) { EXPECT_EQ(a, Answer::kRight); });
   over = true;

@@ -14,7 +14,7 @@ AddressPrefix of(const std::string& text) {
 
 class PasswordQueueTest : public testing::Test {
  protected:
-  /// Adds an entry. Returns the id of the entry that had to leave; 0: none.
+  /// Adds an entry. Returns the id of the entry that was dropped; 0: none.
   PasswordQueue::Id add(const std::string& from, bool known = false, int wrong = 0, int busy = 0) {
     return queue.add({++newest, of(from), known, wrong, busy}).value_or(0);
   }

@@ -24,7 +24,7 @@ std::pair<int, std::string> well(const std::string& request) {
   return {200, request == "GET /gameserver" ? kServer : "{}"};
 }
 
-/// A server that ticks while this exists. Without ticks for half a second, it would not count as healthy.
+/// A server that ticks while this exists. After half a second without ticks it would not count as healthy.
 class Ticks {
  public:
   explicit Ticks(AgonesPlatform& platform)

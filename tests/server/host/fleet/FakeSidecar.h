@@ -128,7 +128,7 @@ class FakeSidecar {
       m_watchers.push_back(socket);
       note(request);
     } else {
-      {  // before the answer: the client may then end, and the test ask for its requests
+      {  // before the answer, after which the test may ask for the requests
         const std::lock_guard lock(m_mutex);
         note(request);
       }

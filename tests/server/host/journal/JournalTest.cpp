@@ -85,7 +85,7 @@ std::shared_ptr<Journal> journalOn(Disk& disk, std::size_t ring = kRing) {
                                    ring, false);
 }
 
-/// A journal on this disk, and its writer.
+/// A journal whose sink is the disk in memory, and its writer.
 class JournalTest : public testing::Test {
  protected:
   void begin(std::size_t ring = kRing) {
@@ -128,7 +128,7 @@ TEST_F(JournalTest, FactsPrecedeRecordsAddedLater) {
   EXPECT_TRUE(reader.next());
 }
 
-// Adding returns although the disk stalls; otherwise this test would hang.
+// add() returns although the disk stalls; otherwise this test would hang.
 TEST_F(JournalTest, StalledDiskDoesNotBlockTheTick) {
   begin(std::size_t{1} << 20);
   disk.setStalled(true);

@@ -31,7 +31,7 @@ TEST(HostHealth, NoTickForOverOneSecondIsAHang) {
   stages.enter(Stage::kWorld);
   const HostHealth::Result verdict = pulse.health(kStart + 1501ms);
   EXPECT_FALSE(verdict.is_good);
-  EXPECT_EQ(verdict.sentence, "no tick has begun for 1.0 s; since tick 17 the stage is: world");
+  EXPECT_EQ(verdict.sentence, "no tick has begun for 1.0 s; in tick 17, stage world");
   EXPECT_FALSE(pulse.readiness(kStart + 1501ms).is_good);
   stages.beginTick(18, kStart + 2s, kStart + 2s);
   EXPECT_TRUE(pulse.health(kStart + 2s).is_good);

@@ -23,7 +23,7 @@ namespace {
 using asio::ip::tcp;
 using asio::ip::udp;
 
-/// First descriptor, far above those that the process has anyway.
+/// First descriptor of the sockets, far above those that the process has anyway.
 constexpr int kFirst = 700;
 
 class InheritedSocketsTest : public WithIdentity {
@@ -137,7 +137,7 @@ TEST_F(InheritedSocketsTest, DifferentOrMissingAddressesAreRefused) {
   for (const int end : pair) ::close(end);
 }
 
-// Also for both address families: systemd's "[::]:9876".
+// Tests IPv4 and, as with systemd's "[::]:9876", a socket for both address families.
 TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
   for (const char* address : {"127.0.0.1", "::"}) {
     const std::uint16_t port = openBoth(address);
@@ -199,7 +199,7 @@ void checkNextProgram(const std::string& expected) {
   EXPECT_FALSE(InheritedSockets::importSockets()) << "only once";
 }
 
-// Threads of the log and the journal open and close files until exec.
+// Until exec, the threads of a server's log and journal open and close files.
 TEST_F(InheritedSocketsTest, SurviveExecWhileThreadsOpenAndCloseFiles) {
   if (const char* p_expected = std::getenv(kExpected)) return checkNextProgram(p_expected);
   openBoth();

@@ -105,7 +105,7 @@ TEST_F(LanQueryFilterTest, SenderGetsTwoAnswersASecondWithoutStarvingOthers) {
   EXPECT_GE(answered, 4 + 2 * 9);
   EXPECT_LE(answered, 4 + 2 * 10);
   EXPECT_TRUE(answers(Query("192.168.1.21").packet, kBegin + 10s));
-  EXPECT_EQ(judge.counters().too_often, 10'000u - static_cast<unsigned>(answered));
+  EXPECT_EQ(judge.counters().rate_limited, 10'000u - static_cast<unsigned>(answered));
 }
 
 TEST_F(LanQueryFilterTest, SpoofedNeighbourFloodIsAnsweredTenTimesASecond) {

@@ -170,7 +170,7 @@ TEST_F(NetworkThreadTest, OutputOverflowClosesTheStreamAndIsCounted) {
 
 TEST_F(NetworkThreadTest, ConnectionsThatAreNotServedAreBounded) {
   NetworkThread::Limits limits;
-  limits.unmet = 3;
+  limits.unaccepted = 3;
   listen(limits);
   std::vector<std::unique_ptr<Far>> far;
   for (int i = 0; i < 5; ++i) far.push_back(connect(true));
@@ -180,7 +180,7 @@ TEST_F(NetworkThreadTest, ConnectionsThatAreNotServedAreBounded) {
   far.push_back(connect());
   ASSERT_TRUE(runUntil([&] { return near.size() == 4; })) << "met, they count no longer";
   network->stop();
-  EXPECT_EQ(network->counters().unmet, 2u);
+  EXPECT_EQ(network->counters().unaccepted, 2u);
 }
 
 /// The client's end of a session's datagrams.
@@ -293,7 +293,7 @@ TEST_F(NetworkThreadTest, FullMailboxDropsAndCountsDatagrams) {
   EXPECT_LE(network->counters().datagrams_out_dropped, 12u);
   for (int i = 0; i < 60; ++i) client_end.send(std::string(1000, 'x'));
   EXPECT_TRUE(runUntil(
-      [&] {  // received, but not taken by the tick thread
+      [&] {  // the network thread receives, but the tick thread takes nothing
         network->start();
         client.run_for(1ms);
         network->stop();

@@ -167,7 +167,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
                                                   {"kick", "Bob"},
                                                   {"password", ""},
                                                   {"set"},
-                                                  {"set", "grace", "3"},
+                                                  {"set", "reconnect-time", "3"},
                                                   {"reload"},
                                                   {"restart"},
                                                   {"drain"},

@@ -13,33 +13,33 @@ using namespace std::chrono_literals;
 
 class ShutdownSchedulerTest : public testing::Test {
  protected:
-  std::string news() { return ending.popNotice(now).value_or(""); }
+  std::string news() { return scheduler.popNotice(now).value_or(""); }
 
-  ShutdownScheduler shutdown_scheduler;
+  ShutdownScheduler scheduler;
   const ShutdownScheduler::Time begin{1h};
   ShutdownScheduler::Time now = begin;
 };
 
 TEST_F(ShutdownSchedulerTest, IsNotDueWithoutAPlan) {
-  EXPECT_FALSE(ending.isDue(now, true));
-  EXPECT_TRUE(ending.acceptsPlayers());
+  EXPECT_FALSE(scheduler.isDue(now, true));
+  EXPECT_TRUE(scheduler.acceptsPlayers());
   EXPECT_EQ(news(), "");
-  EXPECT_EQ(ending.sentence(), "");
-  EXPECT_FALSE(ending.cancel());
+  EXPECT_EQ(scheduler.sentence(), "");
+  EXPECT_FALSE(scheduler.cancel());
 }
 
 TEST_F(ShutdownSchedulerTest, DrainEndsWhenEmptyOrAtItsDeadline) {
-  ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
-  EXPECT_FALSE(ending.acceptsPlayers()) << "who comes now would keep it from ending";
-  EXPECT_FALSE(ending.isDue(now, false));
-  EXPECT_TRUE(ending.isDue(now, true));
-  EXPECT_FALSE(ending.isDue(begin + 60s - 1ns, false));
-  EXPECT_TRUE(ending.isDue(begin + 60s, false));
-  EXPECT_EQ(ending.sentence(), "The server is shutting down.");
+  scheduler.setPlan({.at = begin + 60s, .when_empty = true}, now);
+  EXPECT_FALSE(scheduler.acceptsPlayers()) << "who comes now would keep it from ending";
+  EXPECT_FALSE(scheduler.isDue(now, false));
+  EXPECT_TRUE(scheduler.isDue(now, true));
+  EXPECT_FALSE(scheduler.isDue(begin + 60s - 1ns, false));
+  EXPECT_TRUE(scheduler.isDue(begin + 60s, false));
+  EXPECT_EQ(scheduler.sentence(), "The server is shutting down.");
 }
 
 TEST_F(ShutdownSchedulerTest, ShutdownIsAnnouncedAtOnceAndTenSecondsBefore) {
-  ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
+  scheduler.setPlan({.at = begin + 60s, .when_empty = true}, now);
   EXPECT_EQ(news(), "The server shuts down when all players have left, or in 60 seconds at the latest.");
   for (; now < begin + 50s; now += 33ms) EXPECT_EQ(news(), "");
   EXPECT_EQ(news(), "The server shuts down when all players have left, or in 10 seconds at the latest.");
@@ -47,34 +47,34 @@ TEST_F(ShutdownSchedulerTest, ShutdownIsAnnouncedAtOnceAndTenSecondsBefore) {
 }
 
 TEST_F(ShutdownSchedulerTest, ShortNoticeIsAnnouncedOnce) {
-  ending.setPlan({.is_restart = true, .at = begin + 1s}, now);
+  scheduler.setPlan({.is_restart = true, .at = begin + 1s}, now);
   EXPECT_EQ(news(), "The server restarts in 1 second. Your client reconnects automatically.");
   for (; now < begin + 2s; now += 33ms) EXPECT_EQ(news(), "");
 }
 
 TEST_F(ShutdownSchedulerTest, ImmediateShutdownSendsOnlyTheFinalMessage) {
-  ending.setPlan({.at = now, .sentence = "Bye."}, now);
+  scheduler.setPlan({.at = now, .sentence = "Bye."}, now);
   EXPECT_EQ(news(), "");
-  EXPECT_TRUE(ending.isDue(now, false));
-  EXPECT_EQ(ending.sentence(), "Bye.");
+  EXPECT_TRUE(scheduler.isDue(now, false));
+  EXPECT_EQ(scheduler.sentence(), "Bye.");
 }
 
 TEST_F(ShutdownSchedulerTest, RestartAtRoundEndWaitsAndAdmitsPlayers) {
-  ending.setPlan({.is_restart = true, .at_round_end = true}, now);
-  EXPECT_TRUE(ending.acceptsPlayers() && ending.isRestart());
+  scheduler.setPlan({.is_restart = true, .at_round_end = true}, now);
+  EXPECT_TRUE(scheduler.acceptsPlayers() && scheduler.isRestart());
   EXPECT_EQ(news(), "The server restarts when this round is over. Your client reconnects automatically.");
   EXPECT_EQ(news(), "");
-  EXPECT_FALSE(ending.isDue(begin + 24h, true));
-  EXPECT_EQ(ending.sentence(), "The server is restarting. Your client reconnects automatically.");
+  EXPECT_FALSE(scheduler.isDue(begin + 24h, true));
+  EXPECT_EQ(scheduler.sentence(), "The server is restarting. Your client reconnects automatically.");
 }
 
 TEST_F(ShutdownSchedulerTest, PlanCanBeCancelledAndSetAgain) {
-  ending.setPlan({.at = begin + 60s, .when_empty = true}, now);
+  scheduler.setPlan({.at = begin + 60s, .when_empty = true}, now);
   news();
-  EXPECT_TRUE(ending.cancel());
-  EXPECT_TRUE(ending.acceptsPlayers());
-  EXPECT_FALSE(ending.isDue(begin + 1h, true));
-  ending.setPlan({.at = begin + 30s}, now);
+  EXPECT_TRUE(scheduler.cancel());
+  EXPECT_TRUE(scheduler.acceptsPlayers());
+  EXPECT_FALSE(scheduler.isDue(begin + 1h, true));
+  scheduler.setPlan({.at = begin + 30s}, now);
   EXPECT_EQ(news(), "The server shuts down in 30 seconds.");
 }
 

@@ -1,4 +1,4 @@
-// The parts of a world's report that reach the players of other worlds.
+// Which parts of a world's report reach the players of other worlds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,7 @@ df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
   return facts;
 }
 
-/// Players in worlds of their own, unless the constructor is told otherwise.
+/// Players in worlds of their own, unless the constructor gets another input mode.
 class RoomManagerTest : public testing::Test {
  protected:
   explicit RoomManagerTest(const std::string& players = "private") {
@@ -143,7 +143,7 @@ TEST_F(EmptyWorldTest, PausesAfterAMinuteUntilAPlayerJoins) {
   EXPECT_FALSE(rooms.rest());
   EXPECT_TRUE(ticks(7200s)) << "ann is there";
   ann.drop();
-  ASSERT_EQ(sessions.playing(), 0u);
+  ASSERT_EQ(sessions.playingCount(), 0u);
   EXPECT_TRUE(ticks(7201s)) << "the minute begins when she has left";
   EXPECT_TRUE(ticks(7260s));
   EXPECT_FALSE(ticks(7261s));
@@ -152,7 +152,7 @@ TEST_F(EmptyWorldTest, PausesAfterAMinuteUntilAPlayerJoins) {
 TEST_F(EmptyWorldTest, DisconnectedPlayerKeepsTheWorldRunning) {
   options.grace = 1000;
   join("ann").drop();
-  ASSERT_EQ(sessions.playing(), 1u);
+  ASSERT_EQ(sessions.playingCount(), 1u);
   EXPECT_TRUE(ticks(0s));
   EXPECT_TRUE(ticks(900s));
 }
@@ -184,7 +184,8 @@ class AuditTurnsTest : public RoomManagerTest {
   void tick(int count) {
     for (int i = 0; i < count; ++i, ++counters.ticks) rooms.beginTicks();
   }
-  /// Returns in how many ticks the world's own player was rendered; checks that no other player was.
+  /// Returns the number of ticks in which the world's own player was rendered. Checks that no other player
+  /// was.
   std::size_t wanted(std::size_t number, const Client& client) const {
     const std::vector<std::uint32_t>& all = ports[number]->rendered_player;
     const auto own = std::ranges::count(all, client.welcome().player());

@@ -44,7 +44,7 @@ class SessionTableTest : public testing::Test {
   Counters counters;
   std::vector<std::uint64_t> removed;
   std::uint32_t players = 0;
-  bool judges = true;  ///< answers hellos at once
+  bool judges = true;  ///< true: hellos are answered at once
   SessionTable table{3, counters, [this](Session& session) { removed.push_back(session.id()); }};
 };
 
@@ -54,15 +54,15 @@ TEST_F(SessionTableTest, FindsSessionsByIdAndCountsPlayers) {
   EXPECT_EQ(table.find(1)->player(), 1u);
   EXPECT_NE(table.find(2), nullptr);
   EXPECT_EQ(table.find(3), nullptr);
-  EXPECT_EQ(table.playing(), 1u);
+  EXPECT_EQ(table.playingCount(), 1u);
   EXPECT_EQ(counters.connections, 2u);
 }
 
 TEST_F(SessionTableTest, DetachedSessionStillPlaysButIsNotConnected) {
   play().drop();
   play();
-  EXPECT_EQ(table.playing(), 2u);
-  EXPECT_EQ(table.connected(), 1u);
+  EXPECT_EQ(table.playingCount(), 2u);
+  EXPECT_EQ(table.connectedCount(), 1u);
 }
 
 TEST_F(SessionTableTest, FullTableEvictsTheOldestSilentConnection) {
@@ -74,7 +74,7 @@ TEST_F(SessionTableTest, FullTableEvictsTheOldestSilentConnection) {
   EXPECT_EQ(removed, std::vector<std::uint64_t>{2});
   EXPECT_EQ(table.find(2), nullptr);
   EXPECT_NE(table.find(4), nullptr);
-  EXPECT_EQ(counters.turned_away, 1u);
+  EXPECT_EQ(counters.connections_rejected, 1u);
 }
 
 TEST_F(SessionTableTest, EvictionPrefersTheAddressWithMostConnections) {
@@ -115,8 +115,8 @@ TEST_F(SessionTableTest, PlayersAreNotReplacedByNewConnections) {
   for (int i = 0; i < 3; ++i) play();
   EXPECT_TRUE(connect().destroyed);
   EXPECT_TRUE(removed.empty());
-  EXPECT_EQ(table.playing(), 3u);
-  EXPECT_EQ(counters.turned_away, 1u);
+  EXPECT_EQ(table.playingCount(), 3u);
+  EXPECT_EQ(counters.connections_rejected, 1u);
 }
 
 TEST_F(SessionTableTest, EndedSessionIsDestroyedOnlyBySweep) {

@@ -55,7 +55,7 @@ class EchoWorld : public WorldPort {
     sent += turn.record;
     most_ahead = std::max(most_ahead, turns.size() - answered);
   }
-  /// Answers the turns, which a world in another process does later.
+  /// Answers the turns. A world in another process does so later, too.
   void answer() {
     while (answered < turns.size()) {
       if (answered + 1 == dies_at) {
@@ -153,8 +153,8 @@ class RecoveryTest : public testing::Test {
     world->checkProcess(1);
     p_echo->answer();
   }
-  /// Writes a round in whose second turn a world crashed, with the next world's answer to turn `answered_as`,
-  /// and replays it.
+  /// Writes a round in whose second turn the world crashed, and replays it. The next world's recorded answer
+  /// to that turn is EchoWorld's answer to turn `answered_as`.
   void crashInSecondTurn(std::uint32_t answered_as) {
     turn({joinOf(1)});
     turn({keyOf(1, df::Keyboard::A, df::KEY_PRESSED)}, false);

@@ -80,7 +80,7 @@ TEST_F(SandboxPolicyTest, LinksToSpritesAreFollowedWithinAProject) {
   fs::create_directory_symlink(m_folder / "game/sprites", m_folder / "build/game/sprites");
   place.folders = {(m_folder / "build/game").string()};
   EXPECT_TRUE(reads(m_folder / "game/sprites"));
-  // A link to the user's own files, or to the server's.
+  // A link to the user's own files or to the server's is not followed.
   setenv("HOME", m_folder.c_str(), 1);
   EXPECT_FALSE(reads(m_folder / "game/sprites"));
   unsetenv("HOME");

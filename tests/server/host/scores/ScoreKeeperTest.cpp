@@ -214,7 +214,8 @@ TEST_F(ScoreKeeperTest, LockedFileQueuesScoresUntilItIsFree) {
   }
 }
 
-/// Kills such a writer after `words` reports. Returns the last reported number of rows on disk.
+/// Kills a process that runs addWithoutEnd() after `words` reports. Returns the last reported number of rows
+/// on disk.
 std::uint64_t killAfter(int words, const fs::path& folder, const std::string& round) {
   int ends[2] = {-1, -1};
   if (::pipe(ends) != 0) return 0;

@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using Time = Session::Clock::time_point;
 
-/// A client behind a line with delay, which acknowledges as real clients do, or never.
+/// A client on a connection with delay. It acknowledges as real clients do, or never.
 struct Listener {
   static constexpr std::size_t kMuch = std::size_t{8} * 1024;
 
@@ -85,7 +85,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
     hello.mutable_hello()->set_last_frame(received);
     line.receive(hello);
   }
-  /// Like Host::sendChat().
+  /// Sends a chat line to all listeners, as Host::sendChat() does.
   void say(const std::string& text) {
     ++said;
     wire::ServerMessage message;
@@ -116,7 +116,7 @@ class ChatOfOthers : public testing::TestWithParam<int> {
   Listener far_end, away_end, mute_end, back_end;
   std::unique_ptr<Session> far = make(far_end.line), away = make(away_end.line), mute = make(mute_end.line);
   std::unique_ptr<Session> returned;
-  std::deque<test::MessageLine<wire::ServerMessage>> lines;  ///< lines of the chatting players
+  std::deque<test::MessageLine<wire::ServerMessage>> lines;  ///< connections of the chatting players
   std::vector<std::unique_ptr<Session>> chatters;
   bool talking = true;
 };

@@ -46,7 +46,7 @@ wire::ServerMessage soundOf(const std::string& label, wire::Sound::Action action
 struct Reader {
   ReliableFrameReceiver heard;
   std::vector<std::string> lines;  ///< chat of players
-  std::uint64_t left_out = 0;      ///< reported by the server
+  std::uint64_t left_out = 0;      ///< number of dropped lines that the server reported
   std::vector<std::uint64_t> notices;
   std::uint32_t list = 0;
   std::map<std::string, int> sounds;
@@ -95,7 +95,7 @@ TEST_F(ReliableOutboxTest, FramesStayUntilTheyAreAcknowledged) {
   outbox.acknowledge(2);
   outbox.acknowledge(1);
   outbox.acknowledge(0);
-  outbox.acknowledge(77);  // never sent
+  outbox.acknowledge(77);  // a number that was never sent
   outbox.restartStream();
   reader = {};
   deliver();
@@ -135,7 +135,7 @@ TEST_F(ReliableOutboxTest, OnlyTheNewestStateOfASoundIsKept) {
   EXPECT_LT(outbox.bytes(), 200u);
   deliver();
   EXPECT_EQ(reader.sounds, (std::map<std::string, int>{{"theme", wire::Sound::STOP}, {"siren", 0}}));
-  EXPECT_EQ(counters.kept_overflows, 0u);
+  EXPECT_EQ(counters.outbox_sounds_dropped, 0u);
 }
 
 TEST_F(ReliableOutboxTest, FullOutboxDropsOldestChatAndReportsTheCount) {
@@ -151,7 +151,7 @@ TEST_F(ReliableOutboxTest, FullOutboxDropsOldestChatAndReportsTheCount) {
   EXPECT_EQ(reader.lines.size() + reader.left_out, 500u);
   EXPECT_EQ(reader.lines.front().substr(0, 4), std::to_string(reader.left_out) + "x");
   EXPECT_EQ(reader.lines.back().substr(0, 4), "499x");
-  EXPECT_EQ(counters.chat_left_out, reader.left_out);
+  EXPECT_EQ(counters.outbox_chat_dropped, reader.left_out);
 }
 
 TEST_F(ReliableOutboxTest, NoMoreThanAWindowIsUnacknowledged) {
@@ -164,7 +164,7 @@ TEST_F(ReliableOutboxTest, NoMoreThanAWindowIsUnacknowledged) {
   EXPECT_NE(outbox.next(), nullptr);
 }
 
-/// Joins, leaves and scores of others, on a line on which chat is always waiting.
+/// Other players join, leave and score, while chat lines always wait to be sent.
 TEST_F(ReliableOutboxTest, ConstantlyChangingListIsStillSent) {
   for (std::uint32_t version = 1; version <= 2'000; ++version) {
     outbox.add(listOf(200, version));
@@ -185,7 +185,7 @@ TEST_F(ReliableOutboxTest, SoundFloodUsesAtMostHalfTheOutbox) {
   for (int i = 0; i < 100'000; ++i)
     outbox.add(soundOf(std::to_string(i) + std::string(100, 's'), wire::Sound::PLAY));
   EXPECT_LE(outbox.bytes(), ReliableOutbox::kMax / 2);
-  EXPECT_GT(counters.kept_overflows, 90'000u);
+  EXPECT_GT(counters.outbox_sounds_dropped, 90'000u);
   outbox.add(chatOf("line"));
   deliverAll();
   EXPECT_EQ(reader.list, 7u);
@@ -243,7 +243,7 @@ TEST_F(ReliableOutboxTest, EveryLineArrivesOnceOrIsCountedOnce) {
       one.acknowledge(client.heard.newest());
     }
     EXPECT_EQ(client.lines.size() + client.left_out, said) << "seed " << seed;
-    EXPECT_EQ(client.left_out, counters.chat_left_out);
+    EXPECT_EQ(client.left_out, counters.outbox_chat_dropped);
     EXPECT_GT(client.left_out, 100u);
     EXPECT_EQ(client.list, version);
     EXPECT_EQ(client.sounds, sounds);

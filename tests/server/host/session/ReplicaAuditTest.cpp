@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 /// A server that audits its client, connected by a bad network.
 class AuditedPair {
  public:
-  /// `begins`: the audit starts with the first world.
+  /// `begins`: true if the audit starts with the first world.
   AuditedPair(const LinkConditions& conditions, std::uint64_t seed, bool begins = true)
       : m_world(config(), seed),
         m_link(m_clock, conditions, seed),
@@ -34,7 +34,7 @@ class AuditedPair {
     if (begins) audit.restart();
   }
 
-  /// `hides`: the publisher is not told of some changes, like a faulty one.
+  /// `hides`: true to withhold some changes from the publisher, as if it were faulty.
   void tick(bool hides = false) {
     m_world.tick();
     df::WorldView view = m_world.view();

@@ -99,7 +99,7 @@ class SessionReturn : public testing::Test {
     }
     return texts;
   }
-  /// Returns the inputs taken, as "key action", in order.
+  /// Takes the inputs that are due and returns them as "key action", in order.
   std::vector<std::string> taken() {
     std::vector<std::string> inputs;
     session->drainInputs(1, [&](const Input& input) {

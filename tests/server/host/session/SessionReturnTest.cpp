@@ -142,11 +142,11 @@ TEST_F(SessionReturn, UnacknowledgingClientIsToldTheDroppedChatCount) {
   ASSERT_GT(rest.size(), 200u);
   EXPECT_EQ(rest.back(), said(9'999));
   EXPECT_EQ(rest.front(), std::to_string(10'000 - seen - (rest.size() - 1)) + " lines of chat were dropped.");
-  EXPECT_GT(counters.chat_left_out, 9'000u);
+  EXPECT_GT(counters.outbox_chat_dropped, 9'000u);
   EXPECT_EQ(gone, 0);
 }
 
-/// Only a little chat may wait in the stream of a slow line, so that snapshots get through.
+/// Only a little chat may wait in the stream of a slow connection, so that snapshots get through.
 TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   constexpr std::size_t kPerTick = 300;  // bytes: 72 kbit/s
   test::SimulatedWorld world({}, 7);
@@ -172,7 +172,7 @@ TEST_F(SessionReturn, ChatNeitherClogsASlowStreamNorBlocksPictures) {
   EXPECT_LT(most, 16'000u);
   EXPECT_GT(pictures, 60u) << "one a second";
   EXPECT_GT(chatOf(first).size(), 500u);
-  EXPECT_EQ(counters.stuck_streams, 0u);
+  EXPECT_EQ(counters.stalled_streams, 0u);
 }
 
 TEST_F(SessionReturn, ResumesAreLimitedToOneASecond) {
@@ -231,7 +231,7 @@ TEST_F(SessionReturn, AClientThatAcknowledgesMissesNothing) {
   }
   EXPECT_EQ(session->state(), Session::State::kPlaying);
   EXPECT_EQ(chatOf(first).size(), 1000u);
-  EXPECT_EQ(counters.chat_left_out, 0u);
+  EXPECT_EQ(counters.outbox_chat_dropped, 0u);
 }
 
 TEST_F(SessionReturn, AnAcknowledgementOfUnsentMessagesIsIgnored) {
@@ -255,7 +255,7 @@ TEST_F(SessionReturn, ClientThatSendsButNeverReadsIsDisconnected) {
     session->checkDeadlines(now);
   }
   EXPECT_EQ(session->state(), Session::State::kEnding);
-  EXPECT_EQ(counters.stuck_streams, 1u);
+  EXPECT_EQ(counters.stalled_streams, 1u);
   EXPECT_EQ(first.sent.back().goodbye().message(), "Disconnected: your connection is too slow.");
 }
 
@@ -263,7 +263,7 @@ TEST_F(SessionReturn, SilentClientWithAStuckStreamMayResume) {
   first.unsent = 100'000;
   for (int i = 0; i < 160; ++i, now += 100ms) session->checkDeadlines(now);
   EXPECT_TRUE(session->isDetached());
-  EXPECT_EQ(counters.stuck_streams, 0u);
+  EXPECT_EQ(counters.stalled_streams, 0u);
   EXPECT_EQ(counters.detached, 1u);
 }
 

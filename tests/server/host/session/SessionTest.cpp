@@ -46,7 +46,7 @@ class SessionTest : public testing::Test {
 
   void hear(const wire::ClientMessage& message) { hearBytes(message.SerializeAsString()); }
   void hearBytes(const std::string& bytes) { line.callbacks.on_frame(bytes); }
-  /// Ticks the server until `after` has passed, from `now` or from where the last call ended.
+  /// Calls checkDeadlines() until `after` has passed since `now`. Begins where the last call ended.
   void listenUntil(Session& listener, Session::Clock::duration after) {
     for (; listened < after; listened += 100ms) listener.checkDeadlines(now + listened);
     listened = after;
@@ -497,7 +497,7 @@ TEST_F(SessionTest, FifteenSilentSecondsDetachAResumableSession) {
   EXPECT_EQ(session.state(), Session::State::kPlaying);
   listenUntil(session, 60s + 1ms);
   EXPECT_EQ(session.state(), Session::State::kGone);
-  EXPECT_EQ(counters.graces_expired, 1u);
+  EXPECT_EQ(counters.reconnect_timeouts, 1u);
   EXPECT_EQ(gone, 1);
 }
 

@@ -43,8 +43,8 @@ TEST_F(DefaultFoldersTest, RoundsAreRecordedUnlessAnOptionPreventsIt) {
   EXPECT_FALSE(parse({"--journal", "elsewhere"}).default_journal);
   EXPECT_FALSE(journals({"--journal", "off"}));
   EXPECT_FALSE(journals({"--in-process"}));
-  EXPECT_FALSE(journals({"--players", "private"})) << "such rounds are not gone on with";
-  EXPECT_TRUE(journals({"--players", "private", "--journal", "elsewhere"}));
+  EXPECT_FALSE(journals({"--input-mode", "private"})) << "such rounds are not gone on with";
+  EXPECT_TRUE(journals({"--input-mode", "private", "--journal", "elsewhere"}));
 }
 
 TEST_F(DefaultFoldersTest, GameProgramsRecordNoRoundsByDefault) {

@@ -64,7 +64,8 @@ TEST(HostOptions, ReloadAppliesChangeableOptions) {
   next.password = "xyzzy";
   next.grace = 12.5;
   next.log_chat = true;
-  EXPECT_EQ(applyReloadable(next, now).text(), "max-players, password, grace and log-chat have changed");
+  EXPECT_EQ(applyReloadable(next, now).text(),
+            "max-players, password, reconnect-time and log-chat have changed");
   EXPECT_EQ(now.max_players, 7);
   EXPECT_EQ(now.password, "xyzzy");
   EXPECT_EQ(now.grace, 12.5);
@@ -110,11 +111,11 @@ std::string complaintOf(const std::vector<const char*>& rooms) {
 TEST(HostOptions, RoomsAreReadInTheirOrder) {
   const Games games;
   HostOptions options;
-  ASSERT_EQ(
-      parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
-             "--max-players", "40", "--room-sleep", "2.5"},
-            options),
-      CommandLine::kRun);
+  ASSERT_EQ(parse({"--room", "first=hello", "--room",
+                   "Second_2=tron,max-players=3,input-mode=first,world-memory=512", "--max-players", "40",
+                   "--room-sleep", "2.5"},
+                  options),
+            CommandLine::kRun);
   const std::vector<RoomOptions> rooms = parseRooms(options);
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].name, "first");
@@ -148,7 +149,7 @@ TEST(HostOptions, InvalidRoomIsRejectedWithTheNearestMatch) {
             "dfserver: --room a: unknown room setting \"max-player\"; did you mean max-players?");
   EXPECT_EQ(complaintOf({"a=hello,max-players"}), "dfserver: --room a: max-players: expected KEY=VALUE");
   EXPECT_TRUE(test::has(complaintOf({"a=hello,max-players=many"}), "--room a: max-players: "));
-  EXPECT_TRUE(test::has(complaintOf({"a=hello,players=private"}), "--room a: players: "));
+  EXPECT_TRUE(test::has(complaintOf({"a=hello,input-mode=private"}), "--room a: input-mode: "));
   std::vector<std::string> many;
   for (int i = 0; i < 65; ++i) many.push_back("room-" + std::to_string(i) + "=hello");
   std::vector<const char*> all;
@@ -159,13 +160,13 @@ TEST(HostOptions, InvalidRoomIsRejectedWithTheNearestMatch) {
 TEST(HostOptions, OptionsIncompatibleWithRoomsAreErrors) {
   const Games games;
   HostOptions options;
-  EXPECT_EQ(parse({"--room", "a=hello", "--players", "private"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--room", "a=hello", "--input-mode", "private"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(
-      parse({"--room", "a=hello", "--players", "together", "--on-game-over", "leave", "--truth", "/tmp/t"},
-            options),
-      CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--truth", "", "--journal", "/tmp"}, options), CommandLine::kRun);
+  EXPECT_EQ(parse({"--room", "a=hello", "--input-mode", "together", "--on-game-over", "leave", "--truth-file",
+                   "/tmp/t"},
+                  options),
+            CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--truth-file", "", "--journal", "/tmp"}, options), CommandLine::kRun);
 }
 
 TEST(HostOptions, UnknownRoomMessageSuggestsTheNearest) {
@@ -195,8 +196,8 @@ TEST(HostOptions, PerAddressLimitMayEqualTheServerLimit) {
 
 TEST(HostOptions, UnknownOptionValueIsAnError) {
   HostOptions options;
-  EXPECT_EQ(parse({"--players", "nobody"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--players", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
+  EXPECT_EQ(parse({"--input-mode", "nobody"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--input-mode", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
   EXPECT_EQ(options.players, "first");
   EXPECT_EQ(options.on_game_over, "exit");
 }
@@ -217,17 +218,17 @@ TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
   EXPECT_EQ(parse({"--metrics", "localhost:9100"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--metrics", "127.0.0.1"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--audit", "perhaps"}, options), CommandLine::kUsageError);
+  EXPECT_EQ(parse({"--replica-audit", "perhaps"}, options), CommandLine::kUsageError);
 }
 
 TEST(HostOptions, AddressesPrintedForPlayersAreValidated) {
   HostOptions options;
-  EXPECT_EQ(parse({"--link-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
+  EXPECT_EQ(parse({"--public-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
                    "--web-address", "https://game.example/play", "--qr"},
                   options),
             CommandLine::kRun);
-  const std::vector<std::vector<const char*>> all = {{"--link-host", "a b"},
-                                                     {"--link-host", "http://x"},
+  const std::vector<std::vector<const char*>> all = {{"--public-host", "a b"},
+                                                     {"--public-host", "http://x"},
                                                      {"--ssh-door", "game.example"},
                                                      {"--ssh-door", "a;b@x"},
                                                      {"--ssh-door=-oX@y"},
@@ -297,7 +298,7 @@ class ProgramOptions : public testing::Test {
 TEST_F(ProgramOptions, ComeFromTheConfigFile) {
   config = {
       {"port", "1234"}, {"max_players", "3"}, {"server_name", "den"}, {"headless", "true"}, {"grace", "1.5"}};
-  const std::set<std::string> expected{"port", "max-players", "server-name", "headless", "grace"};
+  const std::set<std::string> expected{"port", "max-players", "server-name", "headless", "reconnect-time"};
   EXPECT_EQ(read(), expected);
   EXPECT_EQ(options.port, 1234);
   EXPECT_EQ(options.max_players, 3);
@@ -403,7 +404,7 @@ std::string printed(const std::vector<const char*>& arguments, CommandLine wante
   return testing::internal::GetCapturedStdout();
 }
 
-// Each line of the example is valid without its leading # and sets the default.
+// Checks that each line of the example is valid without its leading #, and sets the default.
 TEST(HostOptions, TheExampleOfAConfigurationHasTheDefaults) {
   const std::string path = testing::TempDir() + "naiad-example-" + std::to_string(getpid());
   std::istringstream lines(printed({"--option-page", "config"}));

@@ -11,7 +11,7 @@ constexpr std::size_t kLargest = kMaxDictionaryGlyphs / 2 / 8;
 
 class AppearanceIdsTest : public testing::Test {
  protected:
-  /// Writes the appearance in the form that is due, and marks its name as used.
+  /// Writes the appearance in the form that formOf() returns, and marks its id as used.
   LookForm write(std::uint64_t hash, std::uint32_t snapshot, std::size_t glyphs = 10) {
     const LookForm form = names.formOf(hash, glyphs, snapshot);
     if (form.kind != LookForm::kInline) names.markUsed(hash, snapshot);
@@ -63,7 +63,7 @@ TEST_F(AppearanceIdsTest, TheLeastRecentlyUsedIdIsReassigned) {
     names.confirmArrival(form.id, hash, snapshot);
     if (hash == 2) second = form.id;
   }
-  EXPECT_EQ(write(1, ++snapshot, 2).kind, LookForm::kNamed);  // now 2 is the oldest
+  EXPECT_EQ(write(1, ++snapshot, 2).kind, LookForm::kNamed);  // now appearance 2 is the least recently used
   const LookForm form = write(9999, ++snapshot, 2);
   EXPECT_EQ(form.kind, LookForm::kDefined);
   EXPECT_EQ(form.id, second);
@@ -74,18 +74,19 @@ TEST_F(AppearanceIdsTest, TheLeastRecentlyUsedIdIsReassigned) {
 TEST_F(AppearanceIdsTest, LateArrivalDoesNotConfirmAReassignedId) {
   std::uint32_t snapshot = 0;
   for (std::uint64_t hash = 1; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
-  const LookForm next = write(9, ++snapshot, kLargest);  // takes the id of 1
+  const LookForm next = write(9, ++snapshot, kLargest);  // gets the id of appearance 1
   names.confirmArrival(next.id, 1, 1);
   EXPECT_EQ(write(9, ++snapshot, kLargest).kind, LookForm::kDefined);
 }
 
-// The appearance gets its earlier id again, but the client may hold another one that had it in between.
+// The appearance gets its earlier id again, but the client may still have stored the one that had this id in
+// between.
 TEST_F(AppearanceIdsTest, AnEarlierDefinitionDoesNotConfirmALaterOne) {
   const LookForm first = write(1, 1, kLargest);
   std::uint32_t snapshot = 1;
-  for (std::uint64_t hash = 2; hash <= 9; ++hash) write(hash, ++snapshot, kLargest);  // 9 takes the id of 1
+  for (std::uint64_t hash = 2; hash <= 9; ++hash) write(hash, ++snapshot, kLargest);  // 9 gets the id of 1
   for (std::uint64_t hash = 2; hash <= 8; ++hash) write(hash, ++snapshot, kLargest);
-  const LookForm again = write(1, ++snapshot, kLargest);  // takes the id of 9
+  const LookForm again = write(1, ++snapshot, kLargest);  // gets the id of appearance 9
   ASSERT_EQ(again.id, first.id);
   names.confirmArrival(first.id, 1, 1);
   EXPECT_EQ(write(1, ++snapshot, kLargest).kind, LookForm::kDefined);
@@ -107,7 +108,7 @@ TEST_F(AppearanceIdsTest, TotalGlyphsAreLimited) {
   EXPECT_EQ(write(12, 100, kLargest).kind, LookForm::kDefined);
 }
 
-// Otherwise the client would draw the new appearance where the snapshot names the old one.
+// If an id had two, the client would draw the new appearance where the snapshot names the old one.
 TEST_F(AppearanceIdsTest, AnIdHasOneMeaningInASnapshot) {
   for (std::uint64_t hash = 1; hash <= 8; ++hash) names.confirmArrival(write(hash, 1, kLargest).id, hash, 1);
   for (std::uint64_t hash = 1; hash <= 8; ++hash) EXPECT_EQ(write(hash, 2, kLargest).kind, LookForm::kNamed);

@@ -13,7 +13,7 @@
 
 namespace naiad::test {
 
-/// Connects a sender and a replica without a link; the test sends acknowledgements itself.
+/// Connects a sender and a replica without a network; the test sends acknowledgements itself.
 class DirectSender {
  public:
   explicit DirectSender(std::size_t objects) {

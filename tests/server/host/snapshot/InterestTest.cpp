@@ -10,7 +10,7 @@
 namespace naiad {
 namespace {
 
-/// A window that stands, slides and jumps at random.
+/// A window that stays, slides and jumps at random.
 class Window {
  public:
   explicit Window(SplitMix64& rng) : m_rng(rng) {}
@@ -36,8 +36,8 @@ class Window {
   std::int64_t m_dy = 0;
 };
 
-// Checks in every tick: an object that the plain rule admits is known, and an object that the rule has not
-// admitted for more than kSearchInterval ticks is not known.
+// Checks in every tick: an object that isVisible() accepts is known, and an object that was not accepted,
+// with kHysteresis, for more than kSearchInterval ticks is not known.
 void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stands, std::size_t& compared) {
   SplitMix64 rng(seed);
   test::SimulatedWorld world(config, seed);
@@ -46,7 +46,7 @@ void expectPlain(const test::WorldConfig& config, std::uint64_t seed, bool stand
   KnownObjects known;
   Window window(rng);
   CellRect rect = window.next();
-  std::map<std::uint64_t, std::uint32_t> near;  // slot and generation -> last tick in which it was admitted
+  std::map<std::uint64_t, std::uint32_t> near;  // slot and generation -> last tick in which it was accepted
   for (int i = 0; i < 300; ++i) {
     world.tick(i % 100 > 60);
     publisher.update(world.view());

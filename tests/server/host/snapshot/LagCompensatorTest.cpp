@@ -30,7 +30,7 @@ class LagCompensatorTest : public testing::Test {
   test::SimulatedWorld world{{}, 5};
   Publisher publisher;
   LagCompensator compensator;
-  std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // by tick and slot
+  std::map<std::uint32_t, std::map<std::uint32_t, Publisher::Model>> published;  // keyed by tick and slot
 };
 
 TEST_F(LagCompensatorTest, ReturnsThePositionTheClientDrew) {

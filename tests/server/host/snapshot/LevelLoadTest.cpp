@@ -1,4 +1,4 @@
-// A level load: hundreds of births in one tick, over a line of one megabit per second.
+// A level load: hundreds of births in one tick, over a connection of one megabit per second.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ constexpr auto kTick = 33'333us;
 constexpr auto kDelay = 50ms;
 /// The limits that Session uses for datagrams.
 constexpr PacketLimits kLimits{4, kMaxDatagramSnapshot, true};
-/// Overhead of IP, UDP and the seal per datagram.
+/// Overhead of IP and UDP and of the seal per datagram, in bytes.
 constexpr std::size_t kPacketBytes = 28 + 28;
 
-/// A client on its own line. The bottleneck has a queue that drops datagrams when it is full.
+/// A client on a connection of its own, whose queue drops datagrams when it is full.
 class Client {
  public:
   Client(VirtualClock& clock, std::uint64_t seed)

@@ -44,7 +44,7 @@ class PublisherTest : public testing::Test {
     changed(slot, position, velocity);
     drew(slot, position);
   }
-  /// The object declares its look and draws the frame that is due in the next tick.
+  /// Lets the object declare its look and draw the frame that is due in the next tick.
   void showed(std::uint32_t slot, df::FixedVector position, const Look& look) {
     std::vector<df::DrawCommand> commands;
     for (const Glyph& glyph : *look.select(m_view.tick + 1)) {
@@ -84,7 +84,7 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
   return 0xFF;
 }
 
-// Holds for repeated calls and in every tick.
+// Repeated calls return equal motions, and it is so in every tick.
 TEST_F(PublisherTest, SharedMotionEqualsTheModelAtTheTick) {
   const auto expectShared = [&](std::uint32_t slot) {
     const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
@@ -217,7 +217,7 @@ TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
   drew(0, cellsAt(10, 10));
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
   EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
-  for (int i = 0; i < 10; ++i) {  // not reported again while it stands still
+  for (int i = 0; i < 10; ++i) {  // the object is not reported again while it stands still
     drew(0, cellsAt(10, 10));
     EXPECT_TRUE(publish().empty());
   }
@@ -286,7 +286,7 @@ TEST_F(PublisherTest, HalfCellSpriteInFlightNeedsFewCorrections) {
     corrections += i > 0 ? changes : 0;
     position = position + velocity;
   }
-  // The first rounded numbers hold for the usual length of a path, corrected ones for eight times as long.
+  // The first rounded numbers fit for kMinHorizon ticks; corrected ones, for eight times the path's age.
   EXPECT_LE(corrections, 2u);
 }
 

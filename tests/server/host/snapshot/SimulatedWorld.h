@@ -79,7 +79,7 @@ class SimulatedWorld {
   df::WorldView m_view;
 };
 
-/// Returns both canvases as text for failure messages, for all rows that differ.
+/// Returns, as text for failure messages, the rows of both canvases that differ.
 std::string explain(const df::Canvas& wanted, const df::Canvas& seen);
 
 }  // namespace naiad::test

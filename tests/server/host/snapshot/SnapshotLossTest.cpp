@@ -94,7 +94,7 @@ class LossyPair {
   std::size_t snapshots = 0;
   std::size_t births = 0;  ///< objects born in the replica
   std::size_t reuses = 0;  ///< births under an id that was used before
-  std::size_t checks = 0;  ///< checksums compared
+  std::size_t checks = 0;  ///< number of checksums compared
 
  private:
   void serverHears(std::string_view packet) {
@@ -147,10 +147,10 @@ class LossyPair {
   std::unique_ptr<DatagramChannel> m_client_end;
   AckWindow m_acks;
   std::vector<std::string> m_late;
-  std::map<std::uint32_t, bool> m_alive;           ///< index: id
+  std::map<std::uint32_t, bool> m_alive;           ///< keyed by id
   std::map<std::uint32_t, std::uint32_t> m_lives;  ///< number of objects that have used an id
   std::map<std::uint32_t, std::vector<std::uint32_t>>
-      m_births;  ///< m_lives when a snapshot was sent, by number and id
+      m_births;  ///< m_lives as each snapshot was sent, by its number and by id
 };
 
 TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {

@@ -95,7 +95,7 @@ TEST(SnapshotSender, LostSnapshotIsResentWithTheNewestState) {
     if (snapshots.empty()) continue;
     if (!direct.decoded(snapshots[0]).objects.empty()) {
       again = snapshots;
-    } else {  // a keep-alive arrives: acknowledges number 3 and later ones, but not 2
+    } else {  // a keep-alive has arrived: number 3 and later ones are acknowledged, but not 2
       direct.acknowledge(snapshots[0].number, (std::uint64_t{1} << empty++) - 1);
     }
   }

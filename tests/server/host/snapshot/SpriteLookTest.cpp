@@ -120,7 +120,7 @@ std::size_t flight(int slowdown) {
     p_o->setPosition(df::Vector(53 + i % 25, 2 + i % 19 + 0.25 * (i % 3)));
     p_o->setVelocity(df::Vector(-0.125, 0));
   }
-  show.ticks(100);  // until all are published and fitted
+  show.ticks(100);  // until all saucers are published and fitted
   return show.ticks(300);
 }
 
@@ -195,9 +195,9 @@ TEST(SpriteLook, AnimationChangeShowsInTheSameTick) {
   place(object, sprite, 20);
   const std::vector<std::function<void()>> meddling = {
       [&] { object.setSpriteIndex(2); },
-      [&] { object.setSpriteSlowdownCount(-1); },  // stopped
+      [&] { object.setSpriteSlowdownCount(-1); },  // stops the animation
       [&] { object.setSpriteIndex(1); },
-      [&] { object.setSpriteSlowdownCount(0); },  // continues
+      [&] { object.setSpriteSlowdownCount(0); },  // continues the animation
       [&] { object.setSpriteSlowdownCount(99); },
       [&] { sprite.setSlowdown(0); },
       [&] { sprite.setSlowdown(3); },
@@ -209,7 +209,7 @@ TEST(SpriteLook, AnimationChangeShowsInTheSameTick) {
       [&] { object.setVisible(true); },
       [&] { object.setActive(false); },
       [&] { object.setActive(true); },
-      [&] { object.setPosition(df::Vector(500, 10)); },  // continues outside the view
+      [&] { object.setPosition(df::Vector(500, 10)); },  // the animation continues outside the view
       [&] { object.setPosition(df::Vector(30.5, 10)); },
       [&] { object.setStaticLook(); },
       [&] { object.setSprite(&sprite); },

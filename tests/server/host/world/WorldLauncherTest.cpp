@@ -94,7 +94,7 @@ void closeBoth(const StartedWorld& world) {
 bool isGone(pid_t process) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMillis);
   while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // before the next test
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next check
   return kill(process, 0) == -1 && errno == ESRCH;
 }
 
@@ -154,7 +154,7 @@ TEST(WorldLauncher, EndlesslyForkingGameIsEnded) {
   program.arguments.insert(program.arguments.end(), {script, "0"});
   const WorldLauncher launcher(program);
   const StartedWorld world = launcher.start();
-  while (readLine(world.socket) != "7") continue;  // then most of the 255 have begun
+  while (readLine(world.socket) != "7") continue;  // at "7", most of the 255 processes have begun
   shutdown(world.supervisor, SHUT_WR);
   EXPECT_GT(waitForStart(world), 1);
   EXPECT_EQ(waitForEnd(world), SIGKILL);
@@ -246,7 +246,7 @@ TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
   closeBoth(world);
 }
 
-/// A world that ends and leaves two processes, which the supervisor takes for its copies.
+/// Tests with a world that ends and leaves two processes, which the supervisor takes for its copies.
 class LeftCopies : public testing::Test {
  protected:
   LeftCopies() {

@@ -442,12 +442,12 @@ long mostMemory() {
 }
 
 TEST(WorldMessages, OversizedListIsRejectedBeforeAllocation) {
-  constexpr long kMuch = 100;  // 16 Mi strings would take 512
+  constexpr long kMuch = 100;  // in MiB; 16 Mi strings would take 512 MiB
   WorldReady ready;
   std::string frame;
   writeReady(ready, frame);
   std::string fields(fieldsOf(frame));
-  fields.pop_back();  // remove the number of help lines
+  fields.pop_back();  // removes the number of help lines
   const std::string lines(kMaxWorldFrame - 64, '\0');
   const long before = mostMemory();
   EXPECT_FALSE(readReady(fields + countOf(lines.size()) + lines));

@@ -125,14 +125,14 @@ TEST_F(WorldProcessTest, GarbageActivityPageIsReadAsPrintableText) {
 }
 
 TEST_F(WorldProcessTest, ActivityPageCannotBeTruncated) {
-  // Reading beyond the new end would raise SIGBUS.
+  // If it could, reading beyond the new end would raise SIGBUS.
   const WorldEnd end = play(isReady() + takesTurn() + "truncate -s 0 /proc/self/fd/4 2>&1; kill -SEGV $$");
   EXPECT_EQ(end.when, "in tick 1");
   EXPECT_FALSE(printed.empty()) << "the attempt fails";
 }
 
 TEST_F(WorldProcessTest, WorldSendingAMalformedFrameIsKilled) {
-  // Four gigabytes, two malformed ready frames, an answer without a turn, and a malformed answer.
+  // A frame of four gigabytes, two malformed ready frames, an answer without a turn, and a malformed answer.
   for (const char* p_sent :
        {"\\377\\377\\377\\377", "\\1\\0\\0\\0x", "\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0"}) {
     EXPECT_EQ(play("printf '" + std::string(p_sent) + "' >&3; exec sleep 100").why, WorldEnd::kBroken)
@@ -263,7 +263,7 @@ TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
   EXPECT_EQ(ticks, 1);
 }
 
-/// It is stopped for longer than a hanging world would survive.
+/// The game is stopped for longer than a hanging world would survive.
 TEST_F(HangingWorldTest, StoppedGameIsReportedAndGetsMoreTime) {
   const std::string goes_on = "(sleep 1.2; kill -CONT $$) & ";
   const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));

@@ -1,4 +1,4 @@
-// Contact events of bodies, and the calls that handlers may make.
+// Contact events of bodies, and the functions that handlers may call.
 #include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"
@@ -111,7 +111,7 @@ TEST_F(BodyContacts, HandlerMayDeleteBothBodies) {
   };
   ball<Bomb>(Vector(0, 0), Vector(6, 0));
   ball(Vector(2, 0), Vector(0, 0));
-  auto* p_third = ball<Listener>(Vector(3, 0), Vector(0, 0));  // the blow is handed on to it
+  auto* p_third = ball<Listener>(Vector(3, 0), Vector(0, 0));  // it gets the impulse that the first two have
   ticks(20);
   EXPECT_EQ(PM.getBodyCount(), 1);
   EXPECT_NEAR(speedOf(p_third).x(), 6, 1e-9);
@@ -156,7 +156,7 @@ TEST_F(BodyContacts, HandlerMaySetTheBodysVelocity) {
 
 TEST_F(BodyContacts, ChangedBoxBecomesTheShape) {
   layFloor();
-  auto* p_body = new Body;  // its box: a character, one by one here
+  auto* p_body = new Body;  // it has the box of one character, which is one by one here
   p_body->setPosition(Vector(0, -3));
   ticks(60);
   EXPECT_NEAR(p_body->getPosition().y(), -0.5, 1e-9);
@@ -174,7 +174,7 @@ TEST_F(BodyContacts, DragAndSpringsActDuringContact) {
   ticks(30);
   EXPECT_EQ(p_drop->getPosition().y(), -0.5);
   EXPECT_NEAR(speedOf(p_drop).x(), 6 * std::exp(-1.5), 1e-9);
-  Body* p_held = crate(Vector(20, -0.5));  // pulled into the floor
+  Body* p_held = crate(Vector(20, -0.5));  // it is pulled into the floor
   p_held->setSpring(Vector(20, 3), 0.5, 0.1);
   ticks(60);
   EXPECT_NEAR(p_held->getPosition().y(), -0.5, 1e-9);
@@ -184,7 +184,7 @@ TEST_F(BodyContacts, AspectRatioAppliesToCollisions) {
   OwnWorld there(2);
   wall(Vector(0, 11), Vector(10, 1));
   auto* p_ball = new Body;
-  p_ball->setCircle(2);  // one cell high to either side
+  p_ball->setCircle(2);  // the radius is two cell widths, so that it is one cell high on each side
   p_ball->setPosition(Vector(0, 5));
   p_ball->setVelocity(Vector(0, 0.5));
   for (int i = 0; i < 20; ++i) there.world.update();

@@ -1,4 +1,4 @@
-// Newton's cradle and related scenes through WM.update(): jointed circles hit one another in turn.
+// Newton's cradle and similar scenes through WM.update(): jointed circles hit one another in sequence.
 #include <array>
 
 #include "tests/server/physics/BodyScene.h"
@@ -15,7 +15,8 @@ class BodyCradle : public BodyScene {
  protected:
   BodyCradle() { PM.setGravity(perSecondSquared(Vector(0, kGravity))); }
 
-  /// Balls of diameter 1 on rods, side by side; the first `raised` are let go at 30°. y grows downward.
+  /// Hangs balls of diameter 1 on rods, side by side, and releases the first `raised` ones at 30°. y grows
+  /// downward.
   void hang(int raised, double apart = 1, double restitution = 1, Vector origin = Vector()) {
     for (int i = 0; i < kBalls; ++i) {
       const Vector pivot = origin + Vector(i * apart, 0);
@@ -27,7 +28,7 @@ class BodyCradle : public BodyScene {
       hung.at(static_cast<std::size_t>(i)) = pivot + Vector(0, kRod);
     }
   }
-  /// How fast it was or will be at its lowest, of what the first one is there.
+  /// Returns the speed that a ball's energy gives at its lowest place, over that of a ball released at 30°.
   double speedOfEnergy(int i) const {
     const Listener* p_ball = balls.at(static_cast<std::size_t>(i));
     const Vector v = speedOf(p_ball),
@@ -40,7 +41,7 @@ class BodyCradle : public BodyScene {
   std::array<Vector, kBalls> hung = {};
 };
 
-// Problem 8.
+// This is problem 8 of the laboratory (docs/physics/lab.md).
 TEST_F(BodyCradle, OneBallStrikesAndOneLeaves) {
   hang(1);
   ticks(45);
@@ -60,7 +61,7 @@ TEST_F(BodyCradle, SwingsForAMinuteWithoutLoss) {
     if (is_first != was_first) ++changes;
     was_first = is_first;
   }
-  EXPECT_EQ(changes, 27);  // half a swing takes 2.260 s, and the first strike comes after half of that
+  EXPECT_EQ(changes, 27);  // half a swing takes 2.260 s, and the first impact is after half of that
 }
 
 TEST_F(BodyCradle, TwoBallsStrikeAndTwoLeave) {
@@ -94,7 +95,7 @@ TEST_F(BodyCradle, EveryImpactSendsBothBallsOneEvent) {
   }
 }
 
-// So fast that balls that are hit leave the region that was searched for them.
+// The balls that are hit are so fast that they leave the area that was searched around them.
 TEST_F(BodyCradle, FreeBallPassesItsSpeedThroughTheCradle) {
   PM.setGravity(Vector());
   hang(0);
@@ -120,16 +121,16 @@ TEST_F(BodyCradle, BehavesTheSameFarAway) {
     EXPECT_EQ(balls.at(i)->getDisplacementFrom(hung.at(i)), near.at(i)) << i;
 }
 
-// Half the speed of approach is left: of each pair the impact takes a quarter of what moves against its
-// centre.
+// With restitution 0.5, each impact transfers 3/4 of the speed.
 TEST_F(BodyCradle, EnergyLossMatchesEachImpact) {
   hang(1, 1, 0.5);
-  ticks(36);  // the first strike comes within the 35th tick
+  ticks(36);  // the first impact is in the 35th tick
   const double left = std::pow(0.75, kBalls - 1);
   EXPECT_NEAR(speedOfEnergy(kBalls - 1), left, 1e-3);
 }
 
-// Too near for their rods: they press on one another, and no sequence of bounces solves that.
+// The balls are nearer than their rods allow, so they press on each other and no sequence of bounces is a
+// solution.
 TEST_F(BodyCradle, PressingBallsAreKeptApart) {
   for (const double restitution : {0.5, 1.0}) {
     hang(0, 0.99, restitution);

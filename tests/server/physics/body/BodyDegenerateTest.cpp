@@ -10,7 +10,8 @@ namespace {
 
 using BodyDegenerate = BodyScene;
 
-// Refused, unless convex with an area: a sheet of a fiftieth falls on a floor and lies there.
+// Polygons are refused unless they are convex and have an area. A sheet 1/50 high falls on a floor and rests
+// there.
 TEST_F(BodyDegenerate, DegeneratePolygonsAreRefusedAndThinOnesRest) {
   PM.setGravity(Vector(0, 0.01));
   wall(Vector(0, 5), Vector(500, 5));
@@ -23,7 +24,7 @@ TEST_F(BodyDegenerate, DegeneratePolygonsAreRefusedAndThinOnesRest) {
       {Vector(-1e8, 0), Vector(1e8, 0), Vector(0, 1e-9)},
       {Vector(0, 0), Vector(4, 0), Vector(2, 1e-12)},
       {Vector(0, 0), Vector(2, 2), Vector(2, 0), Vector(0, 2)},                  // crosses itself
-      {Vector(0, 0), Vector(2, 0), Vector(2, 2), Vector(1, 0.1), Vector(0, 2)},  // hollow
+      {Vector(0, 0), Vector(2, 0), Vector(2, 2), Vector(1, 0.1), Vector(0, 2)},  // not convex
       {Vector(0, 0), Vector(2, 0), Vector(2, 0), Vector(2, 1), Vector(0, 1), Vector(0, 1)},
       {Vector(0, 0), Vector(4, 0), Vector(4, 0.02), Vector(0, 0.02)},  // a sheet
   };
@@ -49,8 +50,8 @@ TEST_F(BodyDegenerate, DegeneratePolygonsAreRefusedAndThinOnesRest) {
   }
 }
 
-// Bodies in one place: a rod or a rope of no length is refused, and so is a slider without a direction; what
-// may have no length (spring, hinge, weld, slider) holds them.
+// With two bodies in one place, a rod or rope of length zero is refused, and so is a slider without a
+// direction. Joints that may have length zero (spring, hinge, weld, slider) hold the bodies.
 TEST_F(BodyDegenerate, ZeroLengthJointsAreRefusedOrHold) {
   PM.setGravity(Vector(0, 0.01));
   const auto here = Vector(3, 4);
@@ -82,7 +83,7 @@ TEST_F(BodyDegenerate, ZeroLengthJointsAreRefusedOrHold) {
   EXPECT_EQ(PM.getJointCount(), 0);
 }
 
-// Springs of 1e10, of every mass: bounded, and as long as they should be.
+// Springs of stiffness 1e10 keep their length for bodies of any mass.
 TEST_F(BodyDegenerate, StiffSpringsKeepTheirLength) {
   PM.setGravity(Vector(0, 0.01));
   for (const double mass : {1e-3, 1.0, 1e3}) {
@@ -105,7 +106,8 @@ TEST_F(BodyDegenerate, StiffSpringsKeepTheirLength) {
   }
 }
 
-// A millionfold mass on compounds, on hinges and on soft bodies; and light on heavy.
+// One of the bodies has a million times the mass: in compounds, on hinges and with soft bodies, above or
+// below.
 TEST_F(BodyDegenerate, MassRatiosOfAMillionStayBounded) {
   PM.setGravity(Vector(0, 0.01));
   wall(Vector(0, 5), Vector(500, 5));
@@ -135,7 +137,8 @@ TEST_F(BodyDegenerate, MassRatiosOfAMillionStayBounded) {
     for (int i = 0; i < 200; ++i) {
       ticks(1);
       for (const Object* p_object : all) {
-        // A fall from 40 gives .9; a light link at the end of heavy ones is a whip, and may be faster.
+        // A fall from 40 gives a speed of 0.9. A light link at the end of heavy links is a whip, and may be
+        // faster.
         ASSERT_LT(p_object->getVelocity().getMagnitude(), 1.8) << p_object->getType() << ' ' << i;
         ASSERT_LT(p_object->getPosition().y(), 2) << p_object->getType() << ' ' << i;
       }

@@ -1,5 +1,5 @@
-// Misuse of each kind of body. Every body stays bounded, and every run is identical. A body that cannot be
-// computed is frozen, counted and logged, and affects no other body.
+// Invalid and extreme use of each kind of body. Every body stays bounded, and repeated runs are identical. A
+// body that cannot be computed is frozen, counted and logged, and affects no other body.
 
 #include <bit>
 #include <cstdint>
@@ -19,7 +19,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Made = std::vector<Object*>;
 
-// A kind of body, and how to make one of it; joined ones come with a partner.
+// A kind of body and a function that makes one. For joined bodies, it also makes the partner.
 struct Kind {
   const char* p_name;
   Made (*make)(Vector where);
@@ -101,7 +101,7 @@ void add(Bits& bits, Vector v) {
   bits.push_back(std::bit_cast<std::uint64_t>(v.y()));
 }
 
-// A world of its own with a bit of everything in it, far from where the tests do their worst.
+// A world with all kinds of bodies, far from the place at which the tests misuse a body.
 class Witnesses {
  public:
   Witnesses() : scope(world) {
@@ -153,7 +153,7 @@ const Bits& undisturbed(int ticks) {
   return bits;
 }
 
-// A blow that is no number, or larger than a velocity may be, is refused, and nothing has happened.
+// Impulses that are NaN or beyond the limit of velocities are refused without any effect.
 TEST(BodyExtremes, ExcessiveImpulsesAreRefusedByEveryKind) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
@@ -179,8 +179,8 @@ TEST(BodyExtremes, ExcessiveImpulsesAreRefusedByEveryKind) {
   }
 }
 
-// The hardest blow that is taken: nearly as fast as a velocity may be, away from the others. They fly, or are
-// frozen, alone.
+// The strongest allowed impulse gives a body nearly the maximum speed, away from the others. It flies or is
+// frozen, without an effect on other bodies.
 TEST(BodyExtremes, StrongestAllowedImpulseAffectsNoOtherBody) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
@@ -207,8 +207,8 @@ TEST(BodyExtremes, StrongestAllowedImpulseAffectsNoOtherBody) {
   }
 }
 
-// A force of 1e30, where it is taken, moves a body as fast as one can be. One on joints, and a soft one, is
-// frozen. Both are counted and named. Where it is not taken, it is refused.
+// If a force of 1e30 is accepted, it gives a free body the maximum speed, and a jointed or soft body is
+// frozen. Both are counted, and the log names them. Otherwise the force is refused.
 TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
   constexpr int kTicks = 20;
   for (const Kind& kind : kinds()) {
@@ -231,7 +231,8 @@ TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
   }
 }
 
-// Hundreds of one kind in one place. None flies off, none is frozen, and it is the same every time.
+// Hundreds of bodies of one kind in one place. None is thrown away or frozen, and repeated runs are
+// identical.
 class InOnePlace : public testing::TestWithParam<Kind> {};
 
 TEST_P(InOnePlace, HundredsOfBodiesStayBounded) {
@@ -255,9 +256,9 @@ TEST_P(InOnePlace, HundredsOfBodiesStayBounded) {
       add(bits, p_object->getPosition());
       add(bits, velocity);
     }
-    EXPECT_NEAR(momentum / many, kFall, 0.01);  // as a whole they fall
+    EXPECT_NEAR(momentum / many, kFall, 0.01);  // the centre of mass falls
     EXPECT_EQ(those.seen, undisturbed(kTicks));
-    EXPECT_LE(those.log.size(), 1u);  // of soft ones: that it is a crowd
+    EXPECT_LE(those.log.size(), 1u);  // only the message about crowded soft bodies is allowed
     return bits;
   };
   EXPECT_EQ(run(), run());

@@ -1,4 +1,4 @@
-// The level ACCURACY_FAST, through the public API: events, free flight, changes of level, sleep.
+// The level ACCURACY_FAST through the public functions: events, free flight, changes of level, sleep.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -49,7 +49,7 @@ TEST_F(BodyFast, AccuracyLevelIsKeptPerWorld) {
 
   World other;
   const World::Scope other_scope(other);
-  EXPECT_EQ(PM.getAccuracy(), ACCURACY_DEFAULT);  // at first, and each world has its own
+  EXPECT_EQ(PM.getAccuracy(), ACCURACY_DEFAULT);  // the default level, because each world has its own level
   EXPECT_TRUE(PM.isSleeping());
 }
 
@@ -82,7 +82,7 @@ TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
       if (i == 4) p_body->setDrag(0.02);
       bodies.push_back(p_body);
     }
-    Body* p_resting = crate(Vector(-50, 34.5));  // something is touched, elsewhere
+    Body* p_resting = crate(Vector(-50, 34.5));  // has a contact, far from the others
     p_resting->setTurning();
     std::vector<FlightBits> seen;
     for (int tick = 0; tick < 60; ++tick) {
@@ -124,7 +124,7 @@ TEST_F(BodyFast, LevelChangeRepeatsNoContactEvents) {
   for (const std::string& line : log) EXPECT_EQ(line.find("frozen"), std::string::npos) << line;
 }
 
-// With joints, and what hangs on the world: they hold on both sides of a change.
+// Joints between bodies and to the world hold before and after a change of level.
 TEST_F(BodyFast, JointsSurviveALevelChange) {
   Body* p_plank = turningCrate(Vector(2, 0), Vector(2, 0.2));
   Joint hinge = PM.addHinge(nullptr, p_plank, Vector(0, 0));
@@ -167,7 +167,7 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
   EXPECT_EQ(layer().substepCounters().contacts, contacts);
   PM.setSleeping(false);
   ticks(10);
-  EXPECT_GE(layer().substepCounters().contacts, contacts + 80);  // each of them, in each tick
+  EXPECT_GE(layer().substepCounters().contacts, contacts + 80);  // every contact is solved in every tick
 }
 
 TEST_F(BodyFast, DeletedFloorLetsBodiesFall) {

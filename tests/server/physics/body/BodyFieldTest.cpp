@@ -1,4 +1,4 @@
-// Force fields of any stiffness: their cost, and how much of the energy they preserve.
+// Force fields of any stiffness: their cost, and how well the energy is conserved.
 #include <cstdint>
 
 #include "physics/body/Field.h"
@@ -9,8 +9,8 @@ namespace {
 
 class BodyFields : public BodyScene {};
 
-// Pulls as the distance, or its third power, or is van der Pol's: smooth, then stiff, then a jump within a
-// tick.
+// A field by `kind`: proportional to the distance, to its third power, or van der Pol's field, which is
+// smooth, then stiff, then jumps within a tick.
 class CountedField : public Field {
  public:
   explicit CountedField(int kind, double stiffness) : m_kind(kind), m_stiffness(stiffness) {}
@@ -28,8 +28,8 @@ class CountedField : public Field {
   double m_stiffness;
 };
 
-// However stiff it is and however many bodies are in it, a tick calls it a bounded number of times: one body
-// in the air, one that is about to touch a floor, and a hundred.
+// The number of calls per tick is limited at any stiffness and number of bodies: for a body in the air, a
+// body that is about to touch a floor, and a hundred bodies.
 TEST_F(BodyFields, FieldCallsPerTickAreBounded) {
   wall(Vector(0, 0.5), Vector(50, 0.5));
   for (const int count : {1, 100}) {
@@ -59,7 +59,7 @@ TEST_F(BodyFields, FieldCallsPerTickAreBounded) {
   }
 }
 
-// What is linear swings on, by formula, at any stiffness.
+// A body in a linear field oscillates without loss at any stiffness, because it moves by a formula.
 TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
   for (const double k : {1.0, 1e3, 1e4, 1e6, 1e10}) {
     const CountedField field(0, k);

@@ -1,5 +1,5 @@
-// A world with bodies is a pure function of its seed: one long run with all kinds of bodies has one hash, for
-// every compiler.
+// A world with bodies is a pure function of its seed: a long run with all kinds of bodies has one hash
+// with every compiler.
 #include <bit>
 #include <cstdint>
 
@@ -102,7 +102,7 @@ std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT
   return hash.value();
 }
 
-// gcc and clang, every level. (RigidWorld is hashed in its own tests.)
+// The hash is equal for gcc and clang at every optimisation level. (RigidWorld is hashed in its own tests.)
 TEST(BodyHash, IsTheSameOnEveryPlatform) {
   EXPECT_EQ(run(false, 50), kHash);
   EXPECT_EQ(run(true, 50, ACCURACY_FAST), kFastHash);

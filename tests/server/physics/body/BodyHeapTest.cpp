@@ -1,5 +1,5 @@
-// Large groups at ACCURACY_DEFAULT: a group that moves, or costs too much for one solution, continues in soft
-// sub-steps, and the change of solver sends no event.
+// Large groups at ACCURACY_DEFAULT. If a group moves, or costs too much for a direct solution, it continues
+// in soft sub-steps, and this change of solver sends no event.
 #include <algorithm>
 
 #include "tests/server/physics/BodyScene.h"
@@ -42,7 +42,7 @@ TEST_F(BodyHeap, FallingHeapMovesInSubstepsAndComesToRest) {
     most = std::min(most, energy());
   }
   EXPECT_GT(layer().heapCounters().ticks, 100);
-  EXPECT_LT(layer().rigidCounters().ticks, 60);  // while it is in the air and where it lands
+  EXPECT_LT(layer().rigidCounters().ticks, 60);  // while it is in the air, and when it lands
   expectTurns();
   for (const Body* p_body : bodies) {
     EXPECT_EQ(p_body->getVelocity(), Vector());
@@ -66,7 +66,7 @@ TEST_F(BodyHeap, PyramidOfTouchingBoxesComesToRest) {
   EXPECT_NEAR(bodies.back()->getPosition().y(), 0.5 - kRows, 0.2);
 }
 
-// A few, even fast ones, are solved for at once.
+// A few bodies, even fast ones, are solved exactly.
 TEST_F(BodyHeap, FewFallingBodiesAreSolvedExactly) {
   for (int i = 0; i < 8; ++i) put(Vector(0.1 * (i % 2), -1 - 1.5 * i));
   ticks(200);

@@ -1,5 +1,5 @@
-// Impacts of bodies through WM.update(): the problems of the laboratory (docs/physics/lab.md) without
-// rotation, with its targets as bounds.
+// Impacts of bodies through WM.update(): those problems of the laboratory (docs/physics/lab.md) that have no
+// rotation. Their targets are the bounds.
 #include <bit>
 #include <cstdint>
 #include <numbers>
@@ -63,7 +63,7 @@ TEST_F(BodyImpacts, ObliqueImpactActsAlongTheLineOfCentres) {
   }
 }
 
-// Problem 8c: the struck ball flies far within the tick, to walls that were not near.
+// Problem 8c. The ball that is hit flies far within the tick, to walls that were not near before.
 TEST_F(BodyImpacts, GalperinsBilliardCountsTheDigitsOfPi) {
   long right = 3;
   double mass = 1;
@@ -81,7 +81,7 @@ TEST_F(BodyImpacts, GalperinsBilliardCountsTheDigitsOfPi) {
   }
 }
 
-// Problems 9 and 10, upright.
+// Problems 9 and 10, but without rotation.
 TEST_F(BodyImpacts, StackedCratesStayInPlace) {
   layFloor(100);
   const auto stands = [&](const std::vector<double>& masses) {
@@ -104,7 +104,7 @@ TEST_F(BodyImpacts, StackedCratesStayInPlace) {
   for (const double ratio : {10.0, 100.0, 1e3, 1e4, 1e6}) EXPECT_LE(stands({1, ratio}), 1e-9) << ratio;
 }
 
-// Problem 12: gravity leans instead of the slope.
+// Problem 12. The direction of gravity is tilted instead of the slope.
 TEST_F(BodyImpacts, FrictionHoldsUpToItsAngleAndSlidesBeyond) {
   wall(Vector(0, 5), Vector(200, 5));
   const auto slides = [&](double angle, int n) {
@@ -128,7 +128,7 @@ TEST_F(BodyImpacts, FrictionHoldsUpToItsAngleAndSlidesBeyond) {
   EXPECT_EQ(p_crate->getVelocity(), Vector());
 }
 
-// Problem 14, a sample.
+// A part of problem 14.
 TEST_F(BodyImpacts, FastBodiesDoNotTunnel) {
   naiad::SplitMix64 random(14);
   for (int i = 0; i < 2000; ++i) {
@@ -192,7 +192,7 @@ TEST_F(BodyImpacts, BehavesTheSameFarAway) {
   for (const double distance : {1e4, 1e6, 1e9}) EXPECT_EQ(run(distance), home) << distance;
 }
 
-// Problem 17, without rotation.
+// Problem 17, but without rotation.
 TEST_F(BodyImpacts, AClosedSystemKeepsItsMomentum) {
   naiad::SplitMix64 random(17);
   std::vector<Body*> discs;

@@ -1,5 +1,5 @@
-// Groups that do not touch have no effect on each other: two jointed bodies move identically, bit for bit,
-// alone and with another pair far away, whatever that pair does.
+// Groups that do not touch have no effect on each other. Two jointed bodies move identically, bit for bit,
+// alone and with another pair far away that moves in any way.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,7 +13,8 @@ namespace df::test {
 namespace {
 
 constexpr int kTicks = 200;
-// Cells between the pairs: more than the other gets in a tick, or where it flies is for one solver to say.
+// Returns the cells between the pairs. If the other pair could come near in a tick, one solver would have to
+// move both.
 double farFor(double speed) {
   return std::max(2000.0, 10 * speed);
 }
@@ -23,7 +24,7 @@ constexpr std::array<const char*, 5> kLinkNames = {"Distance", "Rope", "Hinge", 
 enum class Added { kBefore, kAfter, kMidway };
 constexpr std::array<const char*, 3> kAddedNames = {"Before", "After", "Midway"};
 
-constexpr double kOnAFloor = -1, kOnTheFloor = -2, kNobody = -3;  // instead of a speed
+constexpr double kOnAFloor = -1, kOnTheFloor = -2, kNobody = -3;  // codes that replace the other pair's speed
 
 struct Pair {
   Body* p_a = nullptr;
@@ -75,7 +76,7 @@ Pair addOthers(const Others& others) {
   return pair;
 }
 
-// Those who share a floor have it from different ticks on: the watched pair falls from higher up.
+// The pairs reach a shared floor in different ticks, because the watched pair falls from a larger height.
 std::vector<std::uint64_t> bitsOf(Link link, const Others& others, bool shares_floor = false) {
   OwnWorld own;
   PM.setGravity(perSecondSquared(Vector(0, 10)));
@@ -124,7 +125,7 @@ TEST_P(BodyIsolation, PairMovesTheSameAloneAndBesideAnother) {
   }
 }
 
-// Then another solver moves it, and all jointed bodies are collected again.
+// The other pair changes its solver when it leaves the floor. Then all jointed bodies are collected again.
 TEST_P(BodyIsolation, AirbornePairMovesTheSameWhenAnotherTakesOff) {
   const auto [link, other_link] = GetParam();
   const Others others = {other_link, kOnTheFloor, Added::kBefore, false, true};

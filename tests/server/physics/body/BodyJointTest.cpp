@@ -1,4 +1,4 @@
-// Jointed bodies through WM.update(), with the targets of the laboratory (docs/physics/lab.md) as bounds.
+// Jointed bodies through WM.update(). The bounds are the targets of the laboratory (docs/physics/lab.md).
 #include <limits>
 #include <numbers>
 
@@ -30,7 +30,7 @@ TEST_F(BodyJoints, PendulumKeepsLengthAndEnergyForAMinute) {
   }
 }
 
-// Problem 3: a spring joint that one body hangs on alone is no joint but a formula.
+// Problem 3. The spring joint of a single body is computed by a formula, not by the JointSolver.
 TEST_F(BodyJoints, AnUndampedSpringKeepsAmplitudeAndPhase) {
   for (const int hertz : {1, 5, 15}) {
     const double omega = 2 * std::numbers::pi * hertz;
@@ -45,7 +45,7 @@ TEST_F(BodyJoints, AnUndampedSpringKeepsAmplitudeAndPhase) {
   }
 }
 
-// Problem 4, where a double still resolves the phase.
+// Problem 4, up to the stiffness at which a double still resolves the phase.
 TEST_F(BodyJoints, AStiffSpringIsExactAtAnyStiffness) {
   PM.setGravity(perSecondSquared(Vector(0, 10)));
   for (const double stiffness : {1e2, 1e6, 1e10}) {

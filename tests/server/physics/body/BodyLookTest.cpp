@@ -1,4 +1,4 @@
-// The look of bodies: sprites at some angles, rotations composed of sprites, and the published looks.
+// The look of bodies: frames at some angles, turns made of frames, and the looks that are published.
 
 #include <string>
 
@@ -25,7 +25,7 @@ using test::circleShape;
 constexpr double kPi = 3.141592653589793;
 constexpr double kAspect = 2;
 
-/// The rows that an appearance touches, as text.
+/// Returns the rows that an appearance covers, as text.
 std::vector<std::string> textOf(const Appearance& appearance) {
   std::int32_t left = 1 << 20, top = 1 << 20, right = -left, bottom = -top;
   for (const Glyph& glyph : appearance) {
@@ -85,7 +85,7 @@ TEST(BodyLook, SpritesRotateToTheNearestCell) {
   EXPECT_EQ(at(90), (Rows{"ea", "fb", "gc", "hd"}));
 }
 
-// What is filled covers about its area, at any angle.
+// The area of the filled cells is about that of the shape, at any angle.
 TEST(BodyLook, FilledAreaMatchesTheShape) {
   FrameStyle style;
   style.how = df::BodyDrawing::FILL;
@@ -132,7 +132,7 @@ BodyGeometry form(const ConvexShape& shape, double angle, double spin) {
   return its;
 }
 
-/// Signed, in radians, the short way round.
+/// Returns the signed difference in radians, in [−π, π].
 double between(double a, double b) {
   double off = a - b;
   while (off > kPi) off -= 2 * kPi;
@@ -140,7 +140,7 @@ double between(double a, double b) {
   return off;
 }
 
-// Ten minutes of it: the error of the integer spin never adds up to a part of a frame in that time.
+// Ten minutes of game time. The error of the integer spin stays below a part of a frame.
 TEST(BodyLook, SteadilyTurningBodyKeepsItsSelector) {
   for (const double spin : {0.1, -0.031, 3.0, 1e-5}) {
     BodyLook look;
@@ -153,7 +153,7 @@ TEST(BodyLook, SteadilyTurningBodyKeepsItsSelector) {
   }
 }
 
-// However it is jerked about, what is shown is the angle to within three quarters of a frame.
+// The shown angle has an error of at most three quarters of a frame, for any motion of the body.
 TEST(BodyLook, ShownFrameIsNearTheAngle) {
   SplitMix64 random(1);
   for (const ConvexShape& shape : {boxShape(6, 3), boxShape(4, 4), circleShape(5)}) {
@@ -193,7 +193,7 @@ TEST(BodyLook, AnglesBecomeIntegersThatWrap) {
   EXPECT_EQ(integerAngle(7 * kPi), 1u << 31);
 }
 
-/// A world with one body, and what is published of it.
+/// A world with one body, and its publisher.
 class DrawnBody : public testing::Test {
  protected:
   DrawnBody() : scope(world) {
@@ -202,7 +202,7 @@ class DrawnBody : public testing::Test {
     body.setPosition(df::Vector(30, 12));
     body.setSolidness(df::SPECTRAL);
   }
-  /// How many looks are published in `ticks`; checks that what is published draws what the world drew.
+  /// Returns how many looks are published in `ticks`. Checks that each of them draws what the world drew.
   int countLooks(int ticks, double spin) {
     int looks = 0;
     body.setSpin(spin);
@@ -241,7 +241,7 @@ TEST_F(DrawnBody, TurningBodyIsPublishedOncePerSpinChange) {
   EXPECT_EQ(countLooks(1000, 0), 1);
 }
 
-// The engine turns it: after its birth only its path is published, ever more rarely.
+// If the engine turns the body, only its path is published after its creation, and less and less often.
 TEST_F(DrawnBody, FreelyFlyingTurningBodyPublishesOnlyMotion) {
   body.setBoxShape(10, 4);
   body.setTurning();

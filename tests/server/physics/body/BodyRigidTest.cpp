@@ -1,4 +1,4 @@
-// Turning bodies through WM.update(): they reach their solver, and games get their events.
+// Turning bodies through WM.update(): their solver moves them, and games get their events.
 #include <numbers>
 
 #include "engine/world/Capture.h"
@@ -11,7 +11,7 @@ namespace {
 class BodyRigids : public BodyScene {
  protected:
   BodyRigids() { PM.setGravity(perSecondSquared(Vector(0, 10))); }
-  /// A slope through the origin that falls to the right.
+  /// Makes a slope through the origin that descends to the right.
   static Body* slope(double angle) {
     auto* p_slope = new Body;
     p_slope->setKinematic();
@@ -50,7 +50,7 @@ TEST_F(BodyRigids, ACrateSlidesDownASlope) {
       1, 1e-3);
 }
 
-// Problem 12: and what has hardly begun to slide does not fall asleep.
+// Problem 12. A crate that has only begun to slide does not sleep.
 TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
   const auto wayAt = [&](double angle) {
     Body* p_slope = slope(angle);
@@ -69,7 +69,7 @@ TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
   EXPECT_GT(wayAt(threshold + hundredth), 5e-3);
 }
 
-// Problem 10, as far as games need it.
+// Problem 10, with a mass ratio that games need.
 TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   layFloor(100);
   Body* p_light = crate(Vector(0, -0.5));
@@ -82,7 +82,7 @@ TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   world.store().setWatched(true);
   world.tick();
   world.tick();
-  EXPECT_TRUE(world.picture().view().changed.empty());  // asleep
+  EXPECT_TRUE(world.picture().view().changed.empty());  // the crates sleep
 }
 
 TEST_F(BodyRigids, LoneBodyFliesExactly) {
@@ -109,7 +109,7 @@ TEST_F(BodyRigids, NonTurningBodiesKeepTheExactSolver) {
   EXPECT_GT(layer().impactCounters().impacts, 3);
 }
 
-// A crate that does not turn lies on the floor; one that does comes, and both are handed to the RigidWorld.
+// A crate that cannot turn lies on the floor. One that can turn falls on it, so the RigidWorld moves both.
 TEST_F(BodyRigids, SolverChangeRepeatsNoContactEvents) {
   Object* p_floor = layFloor(100);
   auto* p_crate = crate<Listener>(Vector(0, -0.75));
@@ -118,7 +118,7 @@ TEST_F(BodyRigids, SolverChangeRepeatsNoContactEvents) {
   ASSERT_EQ(p_crate->notes.size(), 1u);
   auto* p_other = turningCrate<Listener>(Vector(0, -3));
   ticks(90);
-  // It may hop, but each contact begins once before it ends.
+  // The crate may hop, but begins and ends of each contact alternate.
   auto touches = p_crate->expectTurns();
   EXPECT_TRUE((touches[{p_crate, p_floor}]));
   EXPECT_FALSE(p_other->notes.empty());
@@ -126,14 +126,14 @@ TEST_F(BodyRigids, SolverChangeRepeatsNoContactEvents) {
   EXPECT_NEAR(p_other->getPosition().y(), -1.5, 1e-2);
 }
 
-// A plank on a hinge, and something that falls onto its end.
+// A crate hits the end of a plank on a hinge.
 TEST_F(BodyRigids, JointedBodyCollides) {
   auto* p_plank = new Listener;
   p_plank->setBoxShape(6, 0.5);
   p_plank->setTurning();
   ASSERT_TRUE(PM.addHinge(nullptr, p_plank, Vector()).exists());
   ticks(30);
-  EXPECT_EQ(layer().rigidCounters().ticks, 0);  // nothing is near
+  EXPECT_EQ(layer().rigidCounters().ticks, 0);  // nothing is near the plank
   EXPECT_NEAR(p_plank->getAngle(), 0, 1e-12);
   Body* p_crate = crate(Vector(2.5, -4));
   ticks(35);
@@ -174,7 +174,7 @@ TEST_F(BodyRigids, StackedBodiesMayBeDeleted) {
   EXPECT_NEAR(p_new->getPosition().y(), -0.5, 1e-2);
 }
 
-// What it hangs on need not be HARD itself.
+// The nail that holds the lamp does not have to be HARD.
 TEST_F(BodyRigids, LampHangsFromASpectralNail) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     PM.setAccuracy(accuracy);
@@ -183,7 +183,7 @@ TEST_F(BodyRigids, LampHangsFromASpectralNail) {
     p_nail->setKinematic();
     Body* p_lamp = turningCrate(Vector(0, 3));
     PM.addDistance(p_nail, p_lamp);
-    Object* p_wall = wall(Vector(1, 3), Vector(0.5, 2));  // it leans against this
+    Object* p_wall = wall(Vector(1, 3), Vector(0.5, 2));  // the lamp leans against it
     ticks(90);
     EXPECT_NEAR(p_lamp->getPosition().y(), 3, 0.01);
     for (Object* p_object : {static_cast<Object*>(p_nail), static_cast<Object*>(p_lamp), p_wall}) {

@@ -1,5 +1,5 @@
-// Scenes that once failed: bodies that meet in a point, blocks, springs of any stiffness on held bodies,
-// nets, leaning stacks, crowds. No body is frozen or gains energy, and the work is bounded.
+// Scenes that failed once: bodies that meet at a point, touching blocks, springs of any stiffness on held
+// bodies, nets, leaning stacks, crowds. No body is frozen or gains energy, and the work is limited.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -11,7 +11,7 @@
 namespace df::test {
 namespace {
 
-constexpr double kFall = 10;  // per second²
+constexpr double kFall = 10;  // cells per second²
 
 class BodyScenes : public BodyScene {
  protected:
@@ -36,7 +36,7 @@ class BodyScenes : public BodyScene {
     }
     return sum;
   }
-  // A closed system: no energy is gained, momentum stays, and nothing is frozen.
+  // Checks a closed system: energy does not grow, momentum is constant, and nothing is frozen.
   void expectClosed(int count, double tolerance) {
     const Vector start = momentum();
     double least = kinetic(), size = 0;
@@ -91,8 +91,8 @@ TEST_F(BodyScenes, TouchingBlocksKeepMomentumWithFewImpacts) {
   }
 }
 
-// More than the reserve: the group is moved as a whole in soft sub-steps. Each pair still hears of begin and
-// end by turns.
+// The group exceeds the limit of work, so it moves as a whole in soft sub-steps. Begin and end events of each
+// pair still alternate.
 TEST_F(BodyScenes, GroupOverTheImpactLimitMovesInSubsteps) {
   for (const double side : {-1, 1}) {
     wall(Vector(side * 5.5, 0), Vector(0.5, 6));
@@ -132,7 +132,8 @@ class LinearField : public Field {
 
 constexpr std::array<double, 9> kStiffnesses = {0.01, 0.1, 1, 4.5, 10, 100, 1e4, 1e8, 1e12};
 
-// A box slides on ice, pulled to a point: how far from it does it get, and how far at the end?
+// A box on ice that a spring pulls to a point: its largest distance from the point, in the whole run and at
+// its end.
 struct Swing {
   double farthest = 0, late = 0, gained = 0, sunk = 0;
 };
@@ -159,7 +160,7 @@ class PulledBox : public BodyScenes {
       if (i >= 200) swing.late = std::max(swing.late, away);
       swing.gained = std::max(swing.gained, energy() / start - 1);
       swing.sunk = std::max(swing.sunk, std::abs(p_box->getPosition().y() + 0.5));
-      // Beyond that, a unit in the last place of a place is a force that throws it.
+      // If it is stiffer, one unit in the last place of a position is a force that throws the box.
       if (stiffness <= 1e8) {
         EXPECT_NEAR(p_box->getPosition().y(), -0.5, 5e-3) << stiffness << ' ' << i;
       }
@@ -177,7 +178,7 @@ TEST_F(PulledBox, ASpringIsBoundedAtAnyStiffness) {
     const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
     EXPECT_LE(its.gained, 1e-5) << k;
     EXPECT_LE(its.farthest, 1 + 1e-5) << k;
-    if (k <= 10) {  // what sub-steps follow goes on; some ends fall between ticks
+    if (k <= 10) {  // the sub-steps resolve the swing, but some of its ends are between ticks
       EXPECT_GE(its.late, 0.98) << k;
     }
   }
@@ -212,8 +213,8 @@ TEST_F(BodyScenes, RodAndSpringStayBoundedAtAnyStiffness) {
   }
 }
 
-// Whether the spring pulls along the circle or off it: the joints' solver follows the swing, of up to some
-// radians a tick, to order 6, and above it is damped.
+// The spring pulls along the circle or away from it. The joint solver follows swings of up to some radians
+// per tick with order 6, and damps faster swings.
 TEST_F(BodyScenes, RodAndSpringGainNoEnergy) {
   const double g = perSecondSquared(Vector(0, kFall)).y();
   PM.setGravity(Vector(0, g));
@@ -246,14 +247,14 @@ class Magnet : public Field {
   }
 };
 
-// A magnet presses what slides onto the floor, and what goes round against its rod: at right angles to the
-// way, so that nothing becomes slower or faster.
+// A magnet presses sliding bodies onto the floor and rotating bodies against their rod. Its force is
+// perpendicular to the path, so the speed must not change.
 TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
   Magnet magnet;
   wall(Vector(0, 0.5), Vector(500, 0.5));
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     ASSERT_EQ(PM.setAccuracy(accuracy), 0);
-    // The fast level is soft: a strong magnet's first push takes some.
+    // The fast level is soft, so the first push of a strong magnet reduces the speed a little.
     const double least = accuracy == ACCURACY_DEFAULT ? 0.1 * (1 - 1e-4) : 0.07;
     for (const double rate : {0.01, 1.0, 100.0, 1e4, -1.0, -1e4}) {
       SCOPED_TRACE(testing::Message() << accuracy << ' ' << rate);
@@ -269,7 +270,8 @@ TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
         ticks(1);
         for (const Body* p_body : bodies) {
           ASSERT_LE(p_body->getVelocity().getMagnitude(), 0.1 * (1 + 1e-6)) << i;
-          const bool may_land = rate < 0 && p_body != bodies[0];  // it comes off the floor and falls back
+          const bool may_land = rate < 0 && p_body != bodies[0];  // such a body may leave the floor and fall
+                                                                  // back
           if (!may_land) {
             ASSERT_GE(p_body->getVelocity().getMagnitude(), least) << i;
           }
@@ -281,7 +283,7 @@ TEST_F(BodyScenes, MagnetKeepsTheSpeedOfHeldBodies) {
   }
 }
 
-// A magnet however strong freezes nothing, at both levels, in flight, on a floor, on a rod and in a
+// A magnet of any strength freezes no body: at both levels, in flight, on a floor, on a rod and in a
 // collision.
 TEST_F(BodyScenes, StrongMagnetFreezesNoBodies) {
   Magnet magnet;
@@ -311,7 +313,8 @@ TEST_F(BodyScenes, StrongMagnetFreezesNoBodies) {
   }
 }
 
-// A spring joint with a length, off its line: no integrator follows it, and nothing need be frozen.
+// A spring joint with a rest length pulls a body off the spring's line. No integrator can follow it, but no
+// body is frozen.
 TEST_F(BodyScenes, StiffSpringJointHoldsABodyOnAFloor) {
   layFloor(50, 0.5);
   for (const double k : kStiffnesses) {
@@ -327,7 +330,7 @@ TEST_F(BodyScenes, StiffSpringJointHoldsABodyOnAFloor) {
   }
 }
 
-// The same in the air, at both levels, whatever else it may touch.
+// A spring joint in the air, at both levels, for a HARD and a SPECTRAL body.
 TEST_F(BodyScenes, StiffSpringJointHoldsABodyInTheAir) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
     ASSERT_EQ(PM.setAccuracy(accuracy), 0);
@@ -347,7 +350,7 @@ TEST_F(BodyScenes, StiffSpringJointHoldsABodyInTheAir) {
   }
 }
 
-// A belt drags a box that a spring holds back.
+// A moving belt drags a box that a spring pulls back.
 TEST_F(BodyScenes, StickAndSlipStaysBounded) {
   PM.setGravity(perSecondSquared(Vector(0, kFall)));
   for (const double omega : {0.01, 0.1, 1.0, 10.0}) {
@@ -356,7 +359,7 @@ TEST_F(BodyScenes, StickAndSlipStaysBounded) {
     p_belt->setVelocity(Vector(0.05, 0));
     Body* p_box = turningCrate(Vector(0, -0.5));
     p_box->setSpring(Vector(0, -0.5), omega * omega);
-    const double most = 0.05 * 301;  // it never gets farther than the belt
+    const double most = 0.05 * 301;  // it cannot move farther than the belt
     for (int i = 0; i < 300; ++i) {
       ticks(1);
       ASSERT_LE(std::abs(p_box->getPosition().x()), most) << omega << ' ' << i;
@@ -384,16 +387,16 @@ TEST_F(BodyScenes, ZigzagStackStands) {
   }
 }
 
-// However fast it swings, the floor holds it with its whole width.
+// The floor supports the whole width of the box, at any speed.
 TEST_F(PulledBox, FastSlidingBoxDoesNotSinkIntoTheFloor) {
-  for (double k = 0.01; k <= 2; k *= 1.1) {  // up to 1.4 times its width a tick
+  for (double k = 0.01; k <= 2; k *= 1.1) {  // up to 1.4 times its width per tick
     const Swing its = swing(k, [&](Body* p_box) { p_box->setSpring(Vector(0, -0.5), k); });
     EXPECT_LE(its.gained, 1e-6) << k;
     EXPECT_LE(its.sunk, 1e-6) << k;
   }
 }
 
-// Up to 10⁹ times as heavy, it lies on a light one as on a stone.
+// A body of up to 10⁹ times the mass rests on light ones as on an immovable one.
 TEST_F(BodyScenes, AHeavyBodyLiesOnLightOnes) {
   layFloor(50, 0.5);
   for (const double ratio : {10.0, 1e3, 1e6, 1e7, 1e9}) {
@@ -412,9 +415,9 @@ TEST_F(BodyScenes, AHeavyBodyLiesOnLightOnes) {
   }
 }
 
-// A heavy body lies, off the middle or on it, or falls, on light ones. None is thrown away. Up to 10⁶ times
-// their mass, none is pressed into the floor by half its height; beyond, none gets half-way through the
-// floor. The fast level promises no place: it squeezes them.
+// A heavy body lies or falls on light ones, on their middle or off it. No body is thrown away. Up to a
+// mass ratio of 10⁶, none is pressed into the floor by half its height; above, none gets half-way through the
+// floor. The fast level guarantees no positions, because it squeezes bodies.
 TEST_F(BodyScenes, HeavyBodyDoesNotThrowLightOnes) {
   const double g = perSecondSquared(Vector(0, kFall)).y();
   PM.setGravity(Vector(0, g));
@@ -448,7 +451,7 @@ TEST_F(BodyScenes, HeavyBodyDoesNotThrowLightOnes) {
   }
 }
 
-// So many loops of hinges that a direct solution is too dear; and again when one hinge goes.
+// The net has too many loops of hinges for a direct solution, even after one hinge is removed.
 TEST_F(BodyScenes, ANetOfManyLoopsIsMovedInSubsteps) {
   constexpr int kSide = 12;
   PM.setGravity(perSecondSquared(Vector(0, kFall)));
@@ -487,7 +490,7 @@ TEST_F(BodyScenes, ANetOfManyLoopsIsMovedInSubsteps) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-// Each is pushed by the nearest only, so that a tick's work grows with their number and not with its square.
+// Each box is pushed only by the nearest others, so the work of a tick is proportional to their number.
 TEST_F(BodyScenes, TurningBoxesInOneCellNeedLinearWork) {
   constexpr int kCount = 800;
   naiad::SplitMix64 random(1);
@@ -501,7 +504,7 @@ TEST_F(BodyScenes, TurningBoxesInOneCellNeedLinearWork) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-// Nor are all pairs of a crowd that moves looked at before it is known that they are too many.
+// A moving crowd has too many pairs; this is known before all of them are examined.
 TEST_F(BodyScenes, MovingCirclesInOneCellNeedLinearWork) {
   constexpr int kCount = 1500;
   naiad::SplitMix64 random(1);
@@ -516,8 +519,8 @@ TEST_F(BodyScenes, MovingCirclesInOneCellNeedLinearWork) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-// It is moved in sub-steps: the centre of mass goes as its momentum says, which stays, and nobody stops where
-// a free one would go on. What passes by sees nothing of it.
+// The crowd moves in sub-steps. Its momentum is constant, its centre of mass moves accordingly, and no body
+// stops where a free one would move on. A body that passes the crowd is not affected.
 TEST_F(BodyScenes, MovingCrowdKeepsMomentumAndNeverStalls) {
   constexpr int kCount = 900;
   naiad::SplitMix64 random(3);

@@ -1,4 +1,4 @@
-// SOFT bodies: they get every begin and end of a contact on their path, and distant bodies cost nothing.
+// SOFT bodies: they get every begin and end of a contact on their path, and distant bodies need no work.
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -12,14 +12,14 @@ using test::Listener;
 
 class BodySensorScene : public test::BodyScene {};
 
-// A circle on a straight path, as the test knows it.
+// A circle on a straight path, moved by the test itself.
 struct Track {
   Listener* p_body = nullptr;
   double x = 0, y = 0, vx = 0, vy = 0, radius = 0;
   bool is_soft = false;
 };
 
-// The smallest gap of two tracks while a tick goes by, and that at its end.
+// Returns the smallest gap of two tracks during a tick, and the gap at the end of the tick.
 std::pair<double, double> gapsOf(const Track& a, const Track& b) {
   const double x = b.x - a.x, y = b.y - a.y, vx = b.vx - a.vx, vy = b.vy - a.vy, square = vx * vx + vy * vy;
   const double when = square > 0 ? std::clamp(-(x * vx + y * vy) / square, 0.0, 1.0) : 0;
@@ -90,7 +90,7 @@ TEST_F(BodySensorScene, TeleportedObjectEndsItsContacts) {
   EXPECT_FALSE(p_soft->notes[3].is_begin);
 }
 
-// More than three hundred slots and two thousand pairs.
+// The scene has more than three hundred slots and two thousand pairs.
 TEST_F(BodySensorScene, CrowdedSensorsGetEachBeginAndEndOnce) {
   constexpr std::size_t kCount = 66;
   for (int i = 0; i < 250; ++i) ball(Vector(-10 - 2 * i, 0), Vector(0, 0));

@@ -91,7 +91,7 @@ TEST_F(BodyShapes, JointsAreDeletedWithTheirBodies) {
   EXPECT_EQ(rod.remove(), 0);
   EXPECT_EQ(rod.remove(), -1);
   Joint spring = PM.addSpring(p_a, p_b, 1);
-  EXPECT_FALSE(rod.exists());  // though the number is used again
+  EXPECT_FALSE(rod.exists());  // the rod's joint does not exist, although its index is reused
   delete p_b;
   EXPECT_FALSE(spring.exists());
   EXPECT_TRUE(hinge.exists());

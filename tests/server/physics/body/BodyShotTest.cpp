@@ -1,5 +1,5 @@
-// Spinning boxes shot at walls. At any speed, spin and length of the wall, no box passes through the wall,
-// misses it, gains energy or is frozen.
+// Spinning boxes are shot at walls. At any speed, spin and length of the wall, no box passes through the
+// wall, misses it, gains energy or is frozen.
 //
 // NAIAD_SHOTS sets the number of shots, for example 100000.
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace df::test {
 namespace {
 
-constexpr double kWidth = 0.6, kHeight = 0.1;  // of the box
+constexpr double kWidth = 0.6, kHeight = 0.1;  // size of the box
 constexpr double kWallAt = 50, kHalfWall = 0.5;
 constexpr double kHeavy = 100;
 
@@ -26,7 +26,7 @@ struct Shot {
   double length = 10;
   double speed = 1, spin = 0, angle = 0, y = 0;
   double restitution = 0, friction = 0;
-  bool ends_inside = false;  // a tick, if nothing stops it
+  bool ends_inside = false;  // without contacts, the box would be in the wall at the end of the tick
 };
 
 std::ostream& operator<<(std::ostream& out, const Shot& shot) {
@@ -69,7 +69,7 @@ struct Found {
   bool isBad() const { return is_through || is_unmet || is_frozen || has_gained || has_lost; }
 };
 
-// Is the box beyond the wall, and level with it?
+// True if the box is behind the wall, and within the wall's length.
 bool isThrough(const Body* p_box, const Object* p_wall, double angle, double length) {
   const Vector d = p_box->getPosition() - p_wall->getPosition();
   const double c = std::cos(angle), s = std::sin(angle);
@@ -116,8 +116,8 @@ Found shoot(const Shot& shot) {
   const double before = energy();
   const int arrival = static_cast<int>(std::ceil((room - kHalfWall) / closing));
   Found found;
-  bool has_turned = false;  // the wall, far enough to show its other side
-  bool is_limited = false;  // its spin: what is taken off it is lost
+  bool has_turned = false;  // the wall has turned so far that it shows its other side
+  bool is_limited = false;  // the box's spin was limited, which reduces the energy
   for (int tick = 0; tick < arrival + 2; ++tick) {
     own.world.update();
     const double angle = is_dynamic ? p_body->getAngle() : 0;

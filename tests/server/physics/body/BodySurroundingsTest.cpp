@@ -15,7 +15,7 @@ struct Answer {
   bool operator==(const Answer&) const = default;
 };
 
-// One by one, as it would be without.
+// Searches each region by itself; this is the reference.
 std::vector<Answer> oneByOne(const WorldStore& store, const std::vector<FixedBox>& regions) {
   std::vector<Answer> all;
   for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -41,7 +41,7 @@ FixedBox boxAt(Vector corner, Vector size) {
   return {*toFixed(corner), *toFixed(size)};
 }
 
-// Heaps and single ones, on both sides of the origin, small and large, whole cells and parts of them.
+// Heaps and single Objects, small and large, on both sides of the origin, at whole and fractional cells.
 TEST_F(BodySurrounding, BatchSearchMatchesSingleSearches) {
   naiad::SplitMix64 random(11);
   const auto in = [&](double least, double most) { return least + (most - least) * random.unit(); };
@@ -79,7 +79,7 @@ TEST_F(BodySurrounding, OnlyNonBodyObjectsAreFound) {
   const Object* p_wall = wall(Vector(4, 4), Vector(1, 1));
   const std::vector<Answer> found = together(
       surroundings, world.store(), {boxAt(Vector(9, 9), Vector(1, 1)), boxAt(Vector(2, 2), Vector(1, 1))});
-  EXPECT_EQ(found, (std::vector<Answer>{{1, p_wall->key()}}));  // edges touch
+  EXPECT_EQ(found, (std::vector<Answer>{{1, p_wall->key()}}));  // because edges that touch count
 }
 
 }  // namespace

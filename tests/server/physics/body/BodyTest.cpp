@@ -24,7 +24,7 @@ TEST_F(Bodies, WorldWithoutBodiesHasNoLayer) {
   EXPECT_EQ(world.findLayer<naiad::physics::BodyLayer>(), nullptr);
 }
 
-// Problem 1 of the laboratory, through the public interface.
+// Problem 1 of the laboratory, through the public functions.
 TEST_F(Bodies, FreeFallFollowsTheFormula) {
   PM.setAspect(1);
   PM.setGravity(perSecondSquared(Vector(0, -10)));
@@ -134,7 +134,7 @@ TEST_F(Bodies, AFieldHoldsASatelliteInItsOrbit) {
   p_moon->setField(&planet, Vector(40, 12));
   p_moon->setPosition(Vector(41, 12));
   p_moon->setVelocity(perSecond(Vector(0, 1)));
-  ticks(30 * 44);  // seven times round takes 43.98 s
+  ticks(30 * 44);  // seven revolutions take 43.98 s
   const double angle = 44.0;
   expectNear(p_moon->getPosition(), Vector(40 + std::cos(angle), 12 + std::sin(angle)), 1e-9);
 }
@@ -148,7 +148,7 @@ TEST_F(Bodies, BodyInASingularityFreezesAlone) {
   auto* p_other = new Body;
   p_other->setPosition(Vector(5, 5));
   p_other->setVelocity(Vector(0.25, 0));
-  ticks(1);  // it sits in the centre: 0/0
+  ticks(1);  // the body is in the centre, where the field is 0/0
   EXPECT_TRUE(p_doomed->isFrozen());
   EXPECT_EQ(PM.getQuarantineCount(), 1u);
   ASSERT_FALSE(log.empty());
@@ -192,7 +192,7 @@ TEST_F(Bodies, ExcessiveForceIsClampedToMaximumSpeed) {
   ticks(1);
   EXPECT_FALSE(p_rocket->isFrozen());
   EXPECT_EQ(p_rocket->getVelocity(), Vector(16777216, 0));
-  EXPECT_EQ(PM.getLimitCount(), 2U);  // its push, and then its speed
+  EXPECT_EQ(PM.getLimitCount(), 2U);  // first the force was limited, then the speed
   expectNear(p_other->getPosition(), Vector(0.5, 0), 1e-15);
 }
 

@@ -17,7 +17,7 @@ BodyContact contactOf(df::ObjectKey first, df::ObjectKey second, bool is_begin) 
 
 using Pair = std::pair<df::ObjectKey, df::ObjectKey>;
 
-// Contacts begin and end at random, slots change hands, bodies vanish: the same as from a plain list.
+// Contacts begin and end at random, bodies are deleted, and slots are reused. The reference is a plain list.
 TEST(BodyTouching, MatchesAPlainListOfContacts) {
   constexpr std::uint32_t kSlots = 12;
   SplitMix64 random(9);
@@ -44,7 +44,7 @@ TEST(BodyTouching, MatchesAPlainListOfContacts) {
         plain.push_back(pair);
       }
     }
-    if (below(10) == 0) {  // a body is deleted, and its slot is used again; its contacts may end late
+    if (below(10) == 0) {  // delete a body and reuse its slot; its contacts may end later
       const std::uint32_t slot = below(kSlots);
       const df::ObjectKey gone = {slot, generation[slot]};
       if (below(2) == 0) {

@@ -1,5 +1,5 @@
-// Uses every type that a public physics function takes or returns, with only the headers that a game has.
-// tests/install/public-headers also compiles this file against the installed tree.
+// Uses every type that a public function of the physics takes or returns, with only the headers that a game
+// has. tests/install/public-headers also compiles this file with the installed headers.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// df::Cloth with any number of threads.
+// Tests df::Cloth with different numbers of threads.
 #include <algorithm>
 
 #include "physics/body/SoftObject.h"

@@ -1,4 +1,4 @@
-// Soft bodies as Objects: rest, events, objects that lie or hang on them, stiffness and drawing.
+// Soft bodies as Objects: rest, events, Objects that lie or hang on them, stiffness and drawing.
 #include <algorithm>
 
 #include "engine/world/Capture.h"
@@ -15,7 +15,7 @@ class SoftObjects : public test::PhysicsWorld {
  protected:
   SoftObjects() { PM.setGravity(Vector(0, 0.02)); }
 
-  /// A rope between two pins, 20 long.
+  /// Makes a rope between two pins, 20 cells long.
   static Rope* bridge() {
     auto* p_rope = new Rope(Vector(10, 10), Vector(30, 10), 1, 50);
     p_rope->pin(0);
@@ -139,11 +139,11 @@ TEST_F(SoftObjects, ACrateLiesOnARopeBridge) {
   const Rope* p_rope = bridge();
   auto* p_crate = crate<Hearing<Body>>(Vector(20, 8), Vector(2, 0.5));
   ticks(900);
-  EXPECT_LE(p_crate->heard, 3);  // it bounces
+  EXPECT_LE(p_crate->heard, 3);  // the crate may bounce
   EXPECT_EQ(p_crate->p_other, p_rope);
   EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
   EXPECT_LT(p_crate->getVelocity().getMagnitude(), 1e-4);
-  // Its lower edge lies on the rope, which is bent by its weight.
+  // The crate's lower edge lies on the rope, which its weight bends.
   const double y = p_crate->getPosition().y();
   EXPECT_GT(y + 0.5, 10.1);
   EXPECT_LT(y + 0.5, 12);
@@ -185,7 +185,7 @@ TEST_F(SoftObjects, ATurningStackLiesOnACloth) {
   EXPECT_NEAR(p_crate->getAngle(), 0, 0.1);
   EXPECT_NEAR(p_below->getPosition().y() - p_crate->getPosition().y(), 1, 0.05);
   EXPECT_NEAR(p_crate->getPosition().x(), 20, 0.5);
-  EXPECT_GT(p_below->getPosition().y(), 11.37);  // 12, less half a crate and the thickness of the cloth
+  EXPECT_GT(p_below->getPosition().y(), 11.37);  // 12, less half of the crate and the thickness of the cloth
   EXPECT_LT(p_below->getPosition().y(), 13.5);
   const double y_before = p_below->getPosition().y();
   ticks(60);
@@ -314,7 +314,7 @@ TEST_F(SoftObjects, InvalidNumbersAreRefused) {
   EXPECT_EQ(p_blob->applyForce(1000, Vector(0, 1)), -1);
   EXPECT_EQ(p_blob->applyForce(0, Vector(0, 1e30)), -1);
   EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), 0);
-  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), -1);  // the sum
+  EXPECT_EQ(p_blob->applyForce(0, Vector(0.8e9, 0)), -1);  // because the sum exceeds the limit
   EXPECT_EQ(p_blob->applyForce(0, Vector(-0.8e9, 0)), 0);
   EXPECT_EQ(p_blob->setFriction(-1), -1);
   EXPECT_EQ(p_blob->setDrag(kNan), -1);
@@ -429,8 +429,8 @@ TEST_F(SoftObjects, RepeatedRunsAreIdentical) {
 }
 
 TEST_F(SoftObjects, StiffnessDeterminesTheSag) {
-  constexpr double kGravity = 0.04;  // in widths of a cell
-  const double rows = 0.5;           // a width of a cell
+  constexpr double kGravity = 0.04;  // in cell widths per tick²
+  const double rows = 0.5;           // rows per cell width
   auto* p_rope = new Rope(Vector(5, 2), Vector(5, 12), 3, 1);
   p_rope->pin(0);
   auto* p_beam = new Beam(Vector(10, 2), Vector(30, 2), 5, 2, true);
@@ -440,12 +440,12 @@ TEST_F(SoftObjects, StiffnessDeterminesTheSag) {
   EXPECT_NEAR(p_beam->getNodePosition(beam_end).y() - 2, 20 * kGravity / 2 * rows, 0.01);
 }
 
-// A force at the end of a clamped beam bends it by FL³/3EI, at any number of elements.
+// A force at the end of a clamped beam bends it by FL³/3EI, for any number of elements.
 TEST_F(SoftObjects, EndForceBendsABeamByTheFormula) {
   PM.setGravity(Vector(0, 0));
   constexpr double kMass = 2, kStiffness = 1, kLength = 20, kForce = 0.02;  // rows
   constexpr double kEi = kStiffness * kMass * kLength * kLength / 8;
-  const double rows = 0.5;  // a width of a cell
+  const double rows = 0.5;  // rows per cell width
   const double expected = kForce / rows * kLength * kLength * kLength / (3 * kEi) * rows;
   for (const int elements : {8, 16, 32}) {
     auto* p_beam = new Beam(Vector(0, 100.0 * elements), Vector(kLength, 100.0 * elements), kMass, kStiffness,
@@ -458,7 +458,7 @@ TEST_F(SoftObjects, EndForceBendsABeamByTheFormula) {
     }
     EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, expected, 0.01 * expected)
         << elements;
-    for (int i = 0; i < 1000; ++i) ticks(1);  // it was published each time
+    for (int i = 0; i < 1000; ++i) ticks(1);  // a force acts for one tick only
     EXPECT_NEAR(p_beam->getNodePosition(elements).y() - 100.0 * elements, 0, 0.05 * expected) << elements;
   }
 }

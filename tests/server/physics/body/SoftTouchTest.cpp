@@ -1,4 +1,4 @@
-// The contact events of soft bodies.
+// Tests the contact events of soft bodies.
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
@@ -6,7 +6,7 @@
 namespace df::test {
 namespace {
 
-// Counts contacts that begin and end.
+// Counts the contacts of an Object that begin and end.
 template <class Base>
 struct Hearing : Base {
   using Base::Base;
@@ -35,7 +35,7 @@ struct Hearing : Base {
 
 using SoftTouch = BodyScene;
 
-// The begin says how hard: what the crate has gained in that tick. The end comes once, when they part.
+// The begin has the impulse that the crate got in that tick. The end is sent once, when the two separate.
 TEST_F(SoftTouch, ImpactReportsItsImpulseAndLaterItsEnd) {
   auto* p_blob = new Hearing<Blob>(Vector(0, 0), 2);
   p_blob->setContactEnds();
@@ -59,7 +59,7 @@ TEST_F(SoftTouch, ImpactReportsItsImpulseAndLaterItsEnd) {
   EXPECT_EQ(p_crate->begun, p_blob->begun);
 }
 
-// At rest there is one begin more than there are ends; taken away, as many.
+// A resting contact has one more begin than ends. After it is removed, the numbers are equal.
 TEST_F(SoftTouch, RestingContactHasBegunButNotEnded) {
   PM.setGravity(Vector(0, 0.02));
   auto* p_floor = wall(Vector(0, 5), Vector(20, 1));
@@ -91,7 +91,7 @@ TEST_F(SoftTouch, EndsAreSentOnlyOnRequest) {
   EXPECT_EQ(p_right->ended, p_right->begun);
 }
 
-// A deleted body ends no contact; another body that gets its id in the solver begins new ones.
+// Deleting a body sends no contact end. A new body with its id in the solver begins new contacts.
 TEST_F(SoftTouch, DeletedBodySendsNoContactEnd) {
   PM.setGravity(Vector(0, 0.02));
   auto* p_floor = new Hearing<Body>;

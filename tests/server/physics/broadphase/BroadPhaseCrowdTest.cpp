@@ -1,4 +1,4 @@
-// Crowds in the broad phase: the rule that limits their pairs, and a cost that grows only with their number.
+// Crowds in the broad phase: the rule that limits their pairs, and a cost that is proportional to the bodies.
 
 #include <cstdlib>
 #include <set>
@@ -23,7 +23,7 @@ struct Member {
 };
 using OrderPairs = std::set<std::pair<std::size_t, std::size_t>>;
 
-// Whole numbers, so that many are equally far from each other.
+// Makes bounds of whole numbers, so that many of them have equal distances.
 GridBounds around(SplitMix64& random, Vec2 where, double spread, double size) {
   const auto whole = [&](double most) { return static_cast<std::int64_t>(between(random, 0, most)); };
   const auto x = static_cast<std::int64_t>(where.x) + whole(spread);
@@ -32,7 +32,7 @@ GridBounds around(SplitMix64& random, Vec2 where, double spread, double size) {
   return {x - half, y - longer, x + half, y + longer};
 }
 
-// By the rule, of every two: of members by order, the older ones first.
+// Finds pairs by the rule, by comparison of all members. Members are sorted by order, the oldest first.
 class Rule {
  public:
   OrderPairs update(const std::vector<Member>& members) {
@@ -45,7 +45,7 @@ class Rule {
     }
     return m_pairs = found;
   }
-  // Of those larger than another one, how many it has been spared so far.
+  // Returns how many pairs with larger members the rule has dropped so far.
   std::size_t sparedLarger() const { return m_spared_larger; }
 
  private:
@@ -67,14 +67,15 @@ class Rule {
     const std::int64_t one = areaOf(members[i]), other = areaOf(members[j]);
     return one != other ? one < other : i < j;
   }
-  // Of two that have changed the smaller one finds the pair, and of those of one size the older one.
+  // If both have changed, the smaller one finds the pair; if they are of like size, the older one.
   static bool finds(std::size_t i, std::size_t j, const std::vector<Member>& members, Kind kind) {
     if (!members[j].is_changed) return true;
     return kind == Kind::kUnlike ? isSmaller(i, j, members) : i < j;
   }
 
   void addOf(std::size_t i, const std::vector<Member>& members, OrderPairs& found) {
-    using Near = std::vector<std::tuple<std::int64_t, std::size_t>>;  // by square of the distance
+    using Near = std::vector<std::tuple<std::int64_t, std::size_t>>;  // square of the distance, and index of
+                                                                      // the other
     Near near, larger;
     std::size_t heaped = 0, found_heaped = 0;
     for (std::size_t j = 0; j < members.size(); ++j) {
@@ -104,7 +105,7 @@ class Rule {
     keep(larger, heaped > kMaxHeaped);
     m_spared_larger += all - larger.size();
   }
-  // Twice the distance of the middles, and both widths.
+  // Returns twice the distance of the centres, and both widths, along one axis.
   static std::tuple<std::int64_t, std::int64_t, std::int64_t> along(std::int64_t a, std::int64_t b,
                                                                     std::int64_t c, std::int64_t d) {
     return {std::abs(a + b - c - d), b - a, d - c};
@@ -115,8 +116,8 @@ class Rule {
   std::size_t m_spared_larger = 0;
 };
 
-// Three crowds, one of them of all sizes, that move through each other, among others and what never moves;
-// all of them, or a few.
+// Three crowds, one of mixed sizes, move through each other and through other bodies, some of them immovable.
+// In some ticks most of them move, in others only a few.
 TEST(BroadPhaseCrowd, PairLimitMatchesTheReferenceRule) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SplitMix64 random(seed);
@@ -131,7 +132,7 @@ TEST(BroadPhaseCrowd, PairLimitMatchesTheReferenceRule) {
     addSome(100, {30, 40}, 40, 4, 100, true);
     addSome(60, {-200, -200}, 500, 20, 40, true);
     addSome(30, {-100, -100}, 300, 20, 60, false);
-    std::vector<std::size_t> sequence(members.size());  // in which they come
+    std::vector<std::size_t> sequence(members.size());  // order in which they are added
     for (std::size_t i = 0; i < sequence.size(); ++i) sequence[i] = (i * 7) % sequence.size();
     for (const std::size_t i : sequence) {
       members[i].proxy = broad.add(static_cast<std::uint32_t>(i), members[i].bounds, members[i].moves, i);
@@ -159,15 +160,15 @@ TEST(BroadPhaseCrowd, PairLimitMatchesTheReferenceRule) {
 
 struct CrowdOf {
   double spread;
-  double least;  // half widths, up to 32
+  double least;  // smallest half width; the largest is 32
 };
 
-// In one cell, in a tenth of it, and in one place: of like size, and of many.
+// Crowds in one cell, in a tenth of a cell, and in one place, of like and of mixed sizes.
 TEST(BroadPhaseCrowd, CostGrowsWithBodiesNotPairs) {
   for (const auto& [spread, least] : {CrowdOf{64, 32}, CrowdOf{6.4, 32}, CrowdOf{0, 32}, CrowdOf{64, 3.2},
                                       CrowdOf{6.4, 3.2}, CrowdOf{0, 3.2}}) {
     const double most_pairs = least < 32 ? 2 * kNearest + 1 : kNearest + 1;
-    std::vector<double> looks;  // of each body in a tick
+    std::vector<double> looks;  // per body and tick
     for (const int count : {1000, 4000}) {
       SplitMix64 random(7);
       BroadPhase broad(true);

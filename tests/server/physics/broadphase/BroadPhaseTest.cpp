@@ -10,7 +10,7 @@ namespace {
 using test::anyVec;
 using test::between;
 
-// Bodies that fly about in a field, some of them at rest, with their entries in the broad phase.
+// Bodies that fly in a field, some of them at rest, with their entries in the broad phase.
 struct Body {
   Place place;
   Vec2 velocity;
@@ -45,7 +45,7 @@ std::vector<Body> someBodies(SplitMix64& random, int count, double field, std::i
 }
 
 std::uint32_t idOf(std::size_t i) {
-  return static_cast<std::uint32_t>(7 * i % 1009 + (i << 10));  // unique, and not in order of creation
+  return static_cast<std::uint32_t>(7 * i % 1009 + (i << 10));  // unique, and not in the order of creation
 }
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -90,7 +90,7 @@ TEST(BroadPhase, PairsMatchABruteForceSearchInOrder) {
         broad.remove(body.proxy);
         body.proxy = -1;
       }
-      // Blown to another place now and then.
+      // Moves some bodies to another place.
       if (body.proxy >= 0 && random.unit() < 0.01) {
         body.place = body.place + anyVec(random, 30);
         broad.move(body.proxy, tight(body), wide(body));
@@ -101,7 +101,7 @@ TEST(BroadPhase, PairsMatchABruteForceSearchInOrder) {
     ASSERT_EQ(idsOf(pairs), slowPairs(broad, bodies)) << tick;
     most = std::max(most, pairs.size());
     for (const BroadPhasePair& pair : pairs) {
-      // The proxies belong to the ids.
+      // Checks that each proxy belongs to its id.
       const auto has = [&](std::uint32_t id, std::int32_t proxy) {
         for (std::size_t i = 0; i < bodies.size(); ++i) {
           if (idOf(i) == id) return bodies[i].proxy == proxy;
@@ -148,7 +148,7 @@ TEST(BroadPhase, DistantScenesFindTheSamePairs) {
     step(far, there);
     const auto a = near.updatePairs(), b = far.updatePairs();
     ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << tick;
-    std::vector<std::uint32_t> seen_near, seen_far;  // in the same order, too
+    std::vector<std::uint32_t> seen_near, seen_far;  // the order in which bodies are found must be equal, too
     GridBounds area = gridBounds(placeAt({25, 25}), {{-9, -9}, {9, 9}}, 0), moved = area;
     const std::int64_t by = 1'000'000'000 * kGridUnits;
     moved.lower_x += by, moved.upper_x += by, moved.lower_y -= by, moved.upper_y -= by;
@@ -179,7 +179,7 @@ TEST(BroadPhase, AllocatesNothingOnceWarm) {
   EXPECT_EQ(naiad::test::allocationsSoFar(), before);
 }
 
-// In a row, left to right; then all in one place.
+// Places bodies in a row from left to right, then all in one place.
 TEST(BroadPhase, FindsThePairsOfRowsAndHeaps) {
   BroadPhase broad;
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
@@ -191,7 +191,7 @@ TEST(BroadPhase, FindsThePairsOfRowsAndHeaps) {
   EXPECT_EQ(heap.updatePairs().size(), 500U * 499 / 2);
 }
 
-// Of 300 in one place, by the order of the bodies: whatever ids they have, and whenever these were given.
+// 300 bodies in one place: pairs depend on the bodies' order, not on their ids or the order of adding.
 TEST(BroadPhase, CrowdedBodiesFindTheNearestRegardlessOfIds) {
   constexpr std::size_t kCount = 300, kKept = 16;
   const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
@@ -199,7 +199,7 @@ TEST(BroadPhase, CrowdedBodiesFindTheNearestRegardlessOfIds) {
     BroadPhase broad(true);
     std::vector<std::size_t> order_of(2000);
     std::vector<std::int32_t> proxies;
-    if (is_shuffled) {  // proxies that are used again
+    if (is_shuffled) {  // removes and adds bodies before, so that proxies are reused
       const GridBounds bounds = gridBounds({}, unit, 0);
       for (std::uint32_t i = 0; i < 50; ++i) proxies.push_back(broad.add(1000 + i, bounds, true));
       broad.updatePairs();
@@ -223,11 +223,11 @@ TEST(BroadPhase, CrowdedBodiesFindTheNearestRegardlessOfIds) {
     return pairs;
   };
   const auto pairs = pairsOf(false);
-  EXPECT_LE(pairs.size(), (kKept + 2) * kCount);  // and all, of those that come last
+  EXPECT_LE(pairs.size(), (kKept + 2) * kCount);  // the last bodies keep all their pairs
   EXPECT_EQ(pairs, pairsOf(true));
 }
 
-// A place with 20 and one with 60, of which the 27 oldest find more than 32 that are younger.
+// There are 20 bodies in one place and 60 in another. Of these, the 27 oldest find more than 32 younger ones.
 TEST(BroadPhase, OnlyCrowdedBodiesAreLimitedToTheNearest) {
   SplitMix64 random(6);
   BroadPhase broad(true);

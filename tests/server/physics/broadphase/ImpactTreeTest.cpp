@@ -14,7 +14,7 @@ struct Boxes {
   int limit = 0;
 };
 
-// Most of them small, some large, some in one place; every third id is free.
+// Returns small and some large boxes, some of them in one place. Every third id is unused.
 Boxes randomBoxes(SplitMix64& random, int count, double spread) {
   Boxes made;
   for (int i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ TEST(ImpactTree, FindsEveryPairOnce) {
   EXPECT_GT(found, 10'000u);
 }
 
-// Also when the boxes have moved, and the tree is the old one.
+// The boxes move, and the tree is refitted or rebuilt.
 TEST(ImpactTree, FindsEveryPairAfterBoxesMove) {
   SplitMix64 random(6);
   ImpactTree tree;
@@ -74,7 +74,7 @@ TEST(ImpactTree, FindsEveryPairAfterBoxesMove) {
   }
 }
 
-// What hangs together, by the pairs that are found: each is the least of those that it hangs together with.
+// The groups connected by the pairs found. Each group is named by its lowest id.
 class Together {
  public:
   explicit Together(int limit) : m_parent(static_cast<std::size_t>(limit)) {
@@ -110,7 +110,8 @@ TEST(ImpactTree, FindsGroupsWithoutListingAllPairs) {
       };
       tree.queryGroups(join, [&](int i, int j) { return found.of(i) == found.of(j); });
       for (int i = 0; i < made.limit; ++i) ASSERT_EQ(found.of(i), expected.of(i)) << count << ' ' << spread;
-      ASSERT_LT(pairs.size(), made.ids.size() + 1);  // no pair within what hung together already
+      ASSERT_LT(pairs.size(), made.ids.size() + 1);  // there are no pairs within a group that is already
+                                                     // connected
       std::sort(pairs.begin(), pairs.end());
       const ItemPairs all = allPairs(made);
       ASSERT_TRUE(std::includes(all.begin(), all.end(), pairs.begin(), pairs.end()));
@@ -118,7 +119,7 @@ TEST(ImpactTree, FindsGroupsWithoutListingAllPairs) {
   }
 }
 
-// Those of which nothing is known to hang together are found with every pair, once.
+// Each pair of boxes that are in no known group is found once.
 TEST(ImpactTree, UngroupedBoxesGetEveryPairOnce) {
   SplitMix64 random(8);
   ImpactTree tree;

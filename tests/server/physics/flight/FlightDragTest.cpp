@@ -11,7 +11,7 @@
 namespace naiad::physics {
 namespace {
 
-// ∫∫ of e^−ct in quadruple precision, by a series where the formula would cancel.
+// Returns ∫∫ of e^−ct in quadruple precision; uses a series where the formula would cancel.
 Quad wayOfPush(Quad c, Quad t) {
   const Quad z = c * t;
   if (z > q(1e-3)) return (z + expm1q(-z)) / (c * c);
@@ -62,7 +62,7 @@ TEST(LinearDrag, ManyStepsMatchTheFormula) {
   }
 }
 
-// Quadratic drag along a line, by other formulas than the product's.
+// Flight with quadratic drag along a line, by other formulas than those of the product.
 FlownOnLine referenceOnLine(double velocity, double acceleration, double drag, double time) {
   Quad v = q(velocity), t = q(time), displacement = 0;
   const Quad a = q(acceleration), c = q(drag);
@@ -70,7 +70,7 @@ FlownOnLine referenceOnLine(double velocity, double acceleration, double drag, d
     return {static_cast<double>((v < 0 ? -1 : 1) * logq(1 + c * fabsq(v) * t) / c),
             static_cast<double>(v / (1 + c * fabsq(v) * t))};
   }
-  const Quad limit = sqrtq(a / c);  // for a > 0 here
+  const Quad limit = sqrtq(a / c);  // here a > 0
   if (v < 0) {
     const Quad angle = atanq(-v / limit), rate = sqrtq(a * c);
     const Quad until = angle / rate;
@@ -97,7 +97,7 @@ TEST(QuadraticDrag, StraightFlightMatchesTheClosedForm) {
           if (a == 0 && v == 0) continue;
           const FlownOnLine own = flyQuadraticDragOnLine(v, a, c, t);
           const FlownOnLine truth = referenceOnLine(v, a, c, t);
-          // the paths there and back may cancel
+          // The movements back and forth may cancel.
           const double scale = std::fmax(std::fabs(truth.displacement),
                                          v < 0 ? 0.01 * std::fabs(v) * t / (1 + c * -v * t) : 0);
           const double error = std::fmax(

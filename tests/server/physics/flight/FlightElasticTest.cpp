@@ -28,8 +28,8 @@ TEST(ElasticField, JacobianMatchesItsAcceleration) {
   }
 }
 
-// Of the last one a tick is 53 turns, for which the calls of a tick are too few: it is followed as well as
-// they allow.
+// In the stiffest case, a tick has 53 oscillations, too many for the limit of calls, so its error may be
+// larger.
 TEST(ElasticField, LineMotionMatchesTheClosedForm) {
   const struct {
     double k;

@@ -38,7 +38,7 @@ TEST(Place, FractionStaysWithinHalfACell) {
     EXPECT_LE(std::fabs(next.dy), 0.5);
     place = next;
   }
-  for (const double x : {0.5, 1.5, -0.5, -1.5, 2.5}) {  // one way to say where
+  for (const double x : {0.5, 1.5, -0.5, -1.5, 2.5}) {  // each place has only one pair of cell and remainder
     EXPECT_EQ(placeAt({x, 0}).dx, -0.5);
     EXPECT_EQ(placeAt({x, 0}), (placeAt({x + 1, 0}) + Vec2{-1, 0}));
   }
@@ -52,7 +52,7 @@ TEST(Place, DifferencesAreExact) {
   EXPECT_EQ(placeAt({2.25, -1.5}) - Place{}, (Vec2{2.25, -1.5}));
 }
 
-// Everything that flies, far away and here: the same bits.
+// All kinds of flight have equal bits far away and at the origin.
 TEST(Place, FlightIsTheSameAtABillionCells) {
   const auto fly = [](std::int64_t far) {
     const Place anchor = {far, -far, 0.125, 0.25};

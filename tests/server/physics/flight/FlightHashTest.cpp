@@ -25,7 +25,7 @@ struct Whirl : ForceField {
   }
 };
 
-// One number for all that flies. Whatever compiled this, at whatever level: the same.
+// All kinds of flight together have one hash, for every compiler and optimisation level.
 TEST(Flight, HashIsTheSameOnEveryPlatform) {
   SplitMix64 random(1);
   Hash hash;

@@ -10,7 +10,7 @@
 namespace naiad::physics {
 namespace {
 
-// x and v at t of x″ = a − kx − cx′, from the characteristic roots.
+// The solution x and v at t of x″ = a − kx − cx′, from the characteristic roots.
 struct QuadState {
   Quad x, v;
 };
@@ -26,7 +26,7 @@ QuadState reference(double k, double c, double a, double x0, double v0, Quad t) 
     return {rest + decay * (d + b * t), decay * (b - half * (d + b * t))};
   }
   const Quad w = sqrtq(disc), fast = half + w, slow = q(k) / fast;
-  if (w * t < 1) {  // nearly critical: two decays would cancel
+  if (w * t < 1) {  // nearly critical damping: two decays would cancel
     const Quad s = sinhq(w * t) / w, co = coshq(w * t);
     return {rest + decay * (d * (co + half * s) + q(v0) * s),
             decay * (q(v0) * (co - half * s) - q(k) * d * s)};
@@ -74,7 +74,7 @@ TEST(Spring, StiffAndDampedMatchesTheExactSolution) {
           v = f.velocity.x;
           if (rate == 480 && i % 16 != 0) continue;
           const QuadState truth = reference(k, c, gravity, 1, 0, i * q(h));
-          // Without much of a spring the body falls far: relative to the displacement.
+          // The error is relative to the displacement, because on a weak spring the body falls far.
           const double scale = std::fmax(1, std::fabs(static_cast<double>(truth.x)));
           worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)) / scale);
           worst = std::fmax(worst,
@@ -106,7 +106,7 @@ TEST(Spring, OneStepIsExactForAnyParameters) {
                 pushed = flow({0, 0}, {0, 0}, {1, 0});
     const QuadState kick = reference(k, c, 0, 0, 1, q(t)), pull = reference(k, c, 0, 1, 0, q(t)),
                     push = reference(k, c, 1, 0, 0, q(t));
-    // Units: what the quantity can be at most within t.
+    // The errors are in units of the largest possible values within t.
     const double time = 1 / std::fmax(1 / t, std::fmax(omega, c / 2));
     const double reach = std::fmin(t, 1 / omega);
     for (const double error :

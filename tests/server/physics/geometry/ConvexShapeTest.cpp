@@ -38,7 +38,7 @@ TEST(Rotation, TurningIsAccurateAndStaysNormalised) {
     const double off = std::fabs(
         static_cast<double>(static_cast<Quad>(q.c) * sinq(whole) - static_cast<Quad>(q.s) * cosq(whole)));
     worst = std::max(worst, off);
-    EXPECT_LE(off, 3e-12) << angle;  // 10,000 turns: 3e-16 each
+    EXPECT_LE(off, 3e-12) << angle;  // 10,000 rotations with an error of 3e-16 each
   }
   std::printf("rotation: %.2g rad off after 10,000 turns\n", worst);
 }
@@ -94,7 +94,7 @@ TEST(Mass, MatchesTextbookValues) {
   EXPECT_NEAR(mass.mass, kPi * 0.49, 1e-15);
   EXPECT_NEAR(mass.inertia, mass.mass * 0.49 / 2, 1e-15);
   EXPECT_EQ(mass.centre, (Vec2{3, 4}));
-  // A capsule: a rectangle and a disc cut in two, each half's centre 4r/3π beyond its edge.
+  // A capsule is a rectangle and two half discs. The centre of each half disc is 4r/3π beyond its edge.
   const double r = 0.5, d = 2;
   ASSERT_EQ(makeCapsule({-1, 0}, {1, 0}, r, shape), ShapeStatus::kOk);
   mass = massOf(shape, 1);
@@ -197,7 +197,7 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
       ASSERT_LE(length(closestPoint(shape, from + hit.fraction * displacement).normal - hit.normal), 1e-3)
           << i;
     }
-    // No part of the ray before the hit is inside: as a capsule without a radius it keeps its distance.
+    // The part of the ray before the hit is never nearer to the core than the radius, so it is not inside.
     const Vec2 end = from + (hit.hit ? hit.fraction : 1) * displacement;
     ASSERT_GE(test::slowDistance(core, {from, end}), shape.radius - 1e-12) << i;
   }
@@ -207,7 +207,7 @@ TEST(ShapeQuery, ARayStopsAtTheSurface) {
 
 TEST(ShapeQuery, DistantRayHitsAtTheRightPoint) {
   const ConvexShape shape = test::boxShape(0.5, 0.5);
-  // Through the corner between two edges, too.
+  // Some of the rays hit near the corners.
   for (const double y : {0.0, 0.25, -0.5 + 1e-9, 0.5 - 1e-9}) {
     const RayHit hit = castRay(shape, {-1e6, y}, {1e9, 0});
     ASSERT_TRUE(hit.hit) << y;

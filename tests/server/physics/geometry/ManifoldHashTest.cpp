@@ -9,7 +9,7 @@
 namespace naiad::physics {
 namespace {
 
-// One number for all of the geometry. Whatever compiled this, at whatever level: the same.
+// All geometry functions together have one hash, for every compiler and optimisation level.
 TEST(Manifold, GeometryHashIsTheSameOnEveryPlatform) {
   SplitMix64 random(1);
   test::BitHash hash;

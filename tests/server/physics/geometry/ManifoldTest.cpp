@@ -43,7 +43,7 @@ TEST(ShapeDistance, MatchesBruteForceCornerEdgeDistances) {
     } else {
       ++overlapping;
       ASSERT_LE(s.distance, 1e-13) << i;
-      // Moved out along the normal they only touch.
+      // After a movement by the overlap along the normal, the shapes only touch.
       const Vec2 out = offset + (1e-9 - s.distance) * s.normal;
       ASSERT_NEAR(test::slowDistance(test::placed(a, qa, {}), test::placed(b, qb, out)), 1e-9, 1e-12) << i;
     }
@@ -57,7 +57,7 @@ TEST(ShapeDistance, MatchesBruteForceCornerEdgeDistances) {
 TEST(ShapeDistance, IsExactForParallelEdgesAndCollinearPoints) {
   SplitMix64 random(2);
   for (int i = 0; i < 100000; ++i) {
-    // Multiples of 1/4, turned alike: ties everywhere, broken by rounding.
+    // Multiples of 1/4 with equal rotations make many equal distances, of which rounding chooses one.
     const auto coarse = [&](double most) { return std::round(between(random, -4 * most, 4 * most)) / 4; };
     ConvexShape shapes[2];
     for (ConvexShape& shape : shapes) {
@@ -128,7 +128,7 @@ TEST(Manifold, AxisAlignedBoxesAreExact) {
       }
     }
   }
-  // Sizes that are no binary fractions: 0.3 + 0.5 rounds, the gap of bodies so far apart is still zero.
+  // The sizes are not binary fractions: 0.3 + 0.5 is rounded, but at this distance the gap must be zero.
   Manifold m;
   ASSERT_TRUE(collide(plank, {}, big, {}, {1, -(0.3 + 0.5)}, 0, m));
   EXPECT_EQ(m.points[0].separation, 0);
@@ -160,7 +160,7 @@ TEST(Manifold, SmallestSeparationEqualsTheGap) {
       const ManifoldPoint& point = m.points[static_cast<std::size_t>(k)];
       EXPECT_LE(point.separation, speculative);
       EXPECT_LE(length(point.anchor_a - point.anchor_b - offset), 1e-14);
-      // Half the gap on either side of the point there is a surface or what lies behind it.
+      // Each shape contains the point that is half the gap away on the shape's side.
       const Vec2 on_a = point.anchor_a - 0.5 * point.separation * m.normal;
       const Vec2 on_b = point.anchor_b + 0.5 * point.separation * m.normal;
       EXPECT_LE(test::slowDistance(test::placed(a, qa, {}), {on_a}), a.radius + 1e-10) << i;
@@ -260,7 +260,7 @@ TEST(Manifold, IdsAndNormalStayWhileBoxesRock) {
     EXPECT_EQ(m.points[1].id, first.points[1].id);
     EXPECT_LE(length(m.normal - first.normal), 2e-5);
     kept = m.reference;
-    // Without memory the owner may change, the corners that touch do not.
+    // Without a kept one, the reference face may change, but not the ids of the corners that touch.
     ASSERT_TRUE(collide(a, b, {0.1, -0.999}, 0.05, {}, m));
     ASSERT_EQ(m.count, 2);
     const auto has = [&](std::uint32_t id) { return m.points[0].id == id || m.points[1].id == id; };

@@ -14,10 +14,10 @@ using test::anyShape;
 using test::anyVec;
 using test::between;
 
-/// Beside a sanitizer, which takes ten times as long, a part of the cases.
+/// A sanitizer needs ten times as long, so that only a part of the cases is tested.
 constexpr int kShare = naiad::test::kSanitized ? 5 : 1;
 
-// A longer run than the usual one: NAIAD_SWEEPS=1000000.
+// Returns the number of sweeps. Set NAIAD_SWEEPS=1000000 for a longer run.
 int sweeps(int usual) {
   const char* wish = std::getenv("NAIAD_SWEEPS");
   return wish ? std::atoi(wish) : usual / kShare;
@@ -29,7 +29,7 @@ struct Scene {
   Vec2 offset;
 };
 
-// The gap at a time, by the slow method and with the library's own sine.
+// Returns the gap at time t by the slow method and the standard library's sine.
 double gapAt(const Scene& s, double t) {
   const auto rotation = [&](const RigidMotion& m) {
     return m.start * Rotation{std::cos(m.turn * t), std::sin(m.turn * t)};
@@ -38,7 +38,7 @@ double gapAt(const Scene& s, double t) {
                        s.offset + t * (s.motion_b.displacement - s.motion_a.displacement));
 }
 
-// Aimed so that about half of them hit: the paths cross near the origin of A at some time.
+// Makes a random scene. In about half of the scenes the shapes hit, because the paths cross near A's origin.
 Scene anyScene(SplitMix64& random, double speed, double spin) {
   Scene s = {anyShape(random), anyShape(random), {}, {}, {}};
   s.motion_a = {anyVec(random, speed), anyRotation(random), between(random, -spin, spin)};
@@ -54,7 +54,7 @@ struct Tally {
   int most = 0;
 };
 
-// Judges one scene against `samples` slow samples of it.
+// Compares the result for a scene with the gaps at `samples` times by the slow method.
 void judge(const Scene& s, int samples, Tally& tally, int i) {
   const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
   const Vec2 displacement = s.motion_b.displacement - s.motion_a.displacement;
@@ -70,15 +70,15 @@ void judge(const Scene& s, int samples, Tally& tally, int i) {
     ++tally.unresolved;
   } else if (result.status == TimeOfImpactStatus::kHit) {
     ++tally.hits;
-    // They do touch then …
+    // At the time of the result, the shapes touch.
     ASSERT_LE(gapAt(s, result.time), tolerance) << i;
     ASSERT_NEAR(length(result.normal), 1, 1e-14);
   } else {
     ++tally.apart;
     ASSERT_EQ(result.time, 1);
   }
-  // … and never before. What could touch are the circles around the origins: sampled finely while they
-  // overlap.
+  // Before that time, they do not touch. They can touch only while the circles around the origins overlap, so
+  // only that time is sampled.
   const double reach = s.a.reach + s.b.reach + s.a.radius + s.b.radius, speed = length(displacement);
   const double middle = speed > 0 ? -dot(s.offset, displacement) / (speed * speed) : 0.5;
   const double half = speed > 0 ? reach / speed : 1;
@@ -136,7 +136,7 @@ TEST(TimeOfImpact, MatchesTheClosedFormForCircles) {
     } else {
       ++hits;
       ASSERT_EQ(result.status, TimeOfImpactStatus::kHit) << i;
-      // The error of the place, not of the time, is what matters.
+      // Tests the error of the position, not that of the time.
       ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(displacement),
                 40 * impactTolerance(s.a, s.b, s.offset, displacement));
     }
@@ -158,12 +158,12 @@ TEST(TimeOfImpact, TouchingPairHitsOnlyWhenApproaching) {
     EXPECT_LE(result.time * length(displacement), 1e-5);
     EXPECT_NEAR(result.normal.y, -1, 1e-12);
   }
-  // Overlapping and parting; overlapping and sinking in.
+  // The shapes overlap: once they separate, once they move into each other.
   EXPECT_EQ(timeOfImpact(a, {}, b, {{0, -3}, {}, 0}, {0, -0.9}).status, TimeOfImpactStatus::kApart);
   EXPECT_EQ(timeOfImpact(a, {}, b, {{0, 0.3}, {}, 0}, {0, -0.9}).status, TimeOfImpactStatus::kHit);
 }
 
-// Pairs that touch at the start: what counts from there on is whether they come nearer.
+// Pairs that touch at the start hit only if they approach.
 TEST(TimeOfImpact, TouchingPairsNeverPenetrateBeforeTheHit) {
   SplitMix64 random(7);
   int hits = 0, late = 0, apart = 0;
@@ -175,12 +175,12 @@ TEST(TimeOfImpact, TouchingPairsNeverPenetrateBeforeTheHit) {
     s.offset = anyVec(random, 3);
     const Separation first = separation(a, b, s.offset);
     s.offset -= (first.distance - (s.a.radius + s.b.radius)) * first.normal;
-    // Moved along the normal of overlapping or distant shapes they need not touch yet.
+    // If the shapes overlap or are distant, a movement along the normal may not make them touch.
     if (std::fabs(gapAt(s, 0)) > 1e-12) continue;
     const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
     ASSERT_TRUE(result.touched_before);
     ASSERT_NE(result.status, TimeOfImpactStatus::kUnresolved) << i;
-    // Cores that overlap have no gap for the slow method: below minus the radii it is the same for all.
+    // The slow method gives no depth for overlapping cores: it returns minus the sum of the radii.
     const double tolerance = 8 * impactTolerance(s.a, s.b, s.offset, s.motion_b.displacement) + 1e-12;
     for (int k = 0; k <= 400; ++k) {
       const double t = k / 400.0;

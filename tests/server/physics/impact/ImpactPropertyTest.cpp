@@ -15,7 +15,7 @@ namespace {
 
 struct Scene {
   std::vector<ImpactBody> bodies;
-  bool is_elastic = false;  // nothing in it takes energy or momentum away
+  bool is_elastic = false;  // energy and momentum are conserved in the scene
 };
 
 double spread(SplitMix64& random, double size) {
@@ -128,7 +128,7 @@ TEST(ImpactProperty, NothingOverlapsAndConservedQuantitiesStay) {
   EXPECT_LE(static_cast<double>(unconverged), 1e-3 * static_cast<double>(solves));
 }
 
-// Row 16: to the last bit.
+// Problem 16 of the laboratory (docs/physics/lab.md), compared bit for bit.
 TEST(ImpactProperty, DistantScenesGiveTheSameBits) {
   for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed);
@@ -149,7 +149,7 @@ TEST(ImpactProperty, DistantScenesGiveTheSameBits) {
   }
 }
 
-// A scene far off changes nothing here, whether its bodies come first or last, are frozen or well.
+// A distant scene has no effect on this one, whether its bodies are added first or last, and frozen or not.
 TEST(ImpactProperty, SeparateSceneChangesNothing) {
   for (std::uint64_t seed = 0; seed < 200 / test::kShare; ++seed) {
     const Scene scene = randomScene(seed), other = randomScene(seed + 5000);
@@ -157,7 +157,7 @@ TEST(ImpactProperty, SeparateSceneChangesNothing) {
     fill(alone, scene);
     fill(first, other, 100000);
     ImpactBody wild;
-    wild.velocity = {1e29, 0};  // passes through every scene in its first tick, if nothing stops it
+    wild.velocity = {1e29, 0};  // crosses every scene in its first tick, unless it is frozen
     wild.place = placeAt({-1e6, 0});
     first.add(wild);
     const int offset = first.idLimit();
@@ -178,7 +178,7 @@ TEST(ImpactProperty, SeparateSceneChangesNothing) {
   }
 }
 
-// Row 17.
+// Problem 17.
 TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
   SplitMix64 random(17);
   ImpactWorld world;
@@ -188,7 +188,8 @@ TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
     body.place = placeAt({spread(random, 15), spread(random, 15)});
     body.shape = random.below(2) == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
     const Vec2 at = body.place - Place{};
-    body.velocity = -0.01 * at + Vec2{spread(random, 0.1), spread(random, 0.1)};  // inwards
+    body.velocity = -0.01 * at + Vec2{spread(random, 0.1), spread(random, 0.1)};  // velocity towards the
+                                                                                  // middle
     body.inverse_mass = 0.2 + random.unit();
     body.restitution = 1;
     if (!isFree(bodies, body)) continue;
@@ -203,7 +204,7 @@ TEST(ImpactProperty, AClosedSystemKeepsItsMomentum) {
   EXPECT_GT(world.counters().impacts, 100);
 }
 
-// One that came for ever: a bounce of a height that a double does not resolve.
+// In one of these scenes, bounces too low for a double were repeated without end.
 TEST(ImpactProperty, ScenesThatOnceFailedNowWork) {
   for (const std::uint64_t seed : {98U, 371U, 377U, 758U, 9444U}) {
     ImpactWorld world;
@@ -215,12 +216,12 @@ TEST(ImpactProperty, ScenesThatOnceFailedNowWork) {
   }
 }
 
-// Row 14: a projectile at every speed against everything; through means that they have changed sides.
+// Problem 14. Shoots at all kinds of bodies at all speeds, and checks on which side each projectile ends.
 TEST(ImpactProperty, FastBodiesDoNotTunnel) {
   SplitMix64 random(14);
   int shots = 0;
   for (int i = 0; i < 20000 / test::kShare; ++i) {
-    const double speed = std::pow(10, 1 + 3.5 * random.unit()) / 30 * 10;  // to 1e6 per second
+    const double speed = std::pow(10, 1 + 3.5 * random.unit()) / 30 * 10;  // up to 1e6 cells per second
     ImpactBody bullet, target;
     for (ImpactBody* body : {&bullet, &target}) {
       body->shape = random.below(2) == 0 ? ImpactShape::kCircle : ImpactShape::kBox;
@@ -229,16 +230,16 @@ TEST(ImpactProperty, FastBodiesDoNotTunnel) {
     }
     const double angle = spread(random, 3), c = std::cos(angle), s = std::sin(angle);
     const Vec2 direction = {c, s};
-    const double meeting = random.unit();  // in the tick
+    const double meeting = random.unit();  // time within the tick
     const Vec2 middle = {spread(random, 100), spread(random, 100)};
-    const auto kind = random.below(4);  // static, kinematic, dynamic, as fast
+    const auto kind = random.below(4);  // static, kinematic, dynamic, or as fast as the bullet
     if (kind == 1 || kind == 3) target.velocity = {spread(random, speed), spread(random, speed)};
     if (kind < 2) target.inverse_mass = 0;
     bullet.velocity = speed * direction;
     const Vec2 relative = bullet.velocity - target.velocity;
     const double away = length(relative);
     if (away < 10) continue;
-    // They would be in one another at `meeting`, nearly central, and start clearly apart.
+    // Without a contact, they would overlap almost centrally at the time `meeting`. They start clearly apart.
     const Vec2 off = 0.5 * std::fmin(std::fmin(bullet.half.x, bullet.half.y), target.half.x) *
                      Vec2{spread(random, 0.5), spread(random, 0.5)};
     bullet.place = placeAt(middle + off - meeting * bullet.velocity);
@@ -285,7 +286,8 @@ TEST(ImpactProperty, InvalidNumbersAreRefused) {
   EXPECT_EQ(world.step(1e6), ImpactStepStatus::kDone);
 }
 
-// Hundreds of bodies in one place: bounded, deterministic, and none of them flies off.
+// Hundreds of bodies in one place: the work is limited, results are deterministic, and no body is thrown
+// away.
 TEST(ImpactProperty, ManyBodiesInOnePlaceStayBounded) {
   ImpactWorld one, two;
   for (int i = 0; i < 300; ++i) {
@@ -307,7 +309,8 @@ TEST(ImpactProperty, ManyBodiesInOnePlaceStayBounded) {
   }
 }
 
-// Pairs of a crowd that do not fit into a tick are not looked at one by one, nor all counted; others are.
+// If a crowd has more pairs than a tick's work allows, they are neither examined nor all counted. Other pairs
+// are.
 TEST(ImpactProperty, OversizedCrowdIsAbandonedBeforeTestingItsPairs) {
   constexpr int kCrowd = 2000;
   SplitMix64 random(4);
@@ -338,7 +341,7 @@ TEST(ImpactProperty, OversizedCrowdIsAbandonedBeforeTestingItsPairs) {
   EXPECT_NEAR(world.body(struck).velocity.x, 3, 1e-12);
 }
 
-// Ids that are free are given again, the lowest first.
+// Free ids are reused; the lowest one first.
 TEST(ImpactProperty, LowestFreeIdIsReused) {
   ImpactWorld world;
   for (int i = 0; i < 5; ++i) EXPECT_EQ(world.add({}), i);

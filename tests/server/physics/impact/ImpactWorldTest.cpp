@@ -40,16 +40,17 @@ Vec2 at(const ImpactWorld& world, int id) {
   return world.body(id).place - Place{};
 }
 
-// Row 7: e = 0.8 from a height of 10, against the closed form, with the stop at Zeno's time.
+// Problem 7 of docs/physics/lab.md: e = 0.8 from a height of 10, compared with the closed form, up to the
+// stop.
 TEST(ImpactWorld, BouncingBallMatchesTheClosedFormAndStops) {
   ImpactWorld world;
-  world.add(fixed(box({0, 1}, {5, 1})));  // its top is y = 0
+  world.add(fixed(box({0, 1}, {5, 1})));  // its upper edge is y = 0
   const int id = world.add(falling(moving(ball({0, -10.5}), {0, 0}, 0.8)));
   const double fall = std::sqrt(2 * 10 / 10.0) * kTicks, bounce = std::sqrt(2 * kGravity * 10);
   double stopped = -1;
   for (int tick = 1; tick < 600; ++tick) {
     ASSERT_EQ(world.step(), ImpactStepStatus::kDone);
-    // Where the closed form says: the flight that this moment lies in.
+    // Computes the height in the flight that contains this tick, by the closed form.
     double begin = fall, speed = 0.8 * bounce, height = 0;
     if (tick < fall) {
       height = 10 - 0.5 * kGravity * tick * tick;
@@ -74,14 +75,14 @@ TEST(ImpactWorld, ElasticBallKeepsBouncing) {
   const Quad period = 2 * sqrtq(2 * static_cast<Quad>(5) / static_cast<Quad>(kGravity));
   for (int tick = 1; tick <= 3000; ++tick) {
     world.step();
-    Quad t = tick;  // since the nearest peak
+    Quad t = tick;  // time since the nearest peak
     while (t > period / 2) t -= period;
     const Quad height = 5 - static_cast<Quad>(kGravity) * t * t / 2;
     EXPECT_NEAR(-0.5 - at(world, id).y, static_cast<double>(height), 1e-9) << tick;
   }
 }
 
-// Row 8.
+// Problem 8.
 TEST(ImpactWorld, NewtonsCradlePassesTheSpeedThrough) {
   for (const double gap : {0.0, 0.01}) {
     ImpactWorld world;
@@ -96,7 +97,7 @@ TEST(ImpactWorld, NewtonsCradlePassesTheSpeedThrough) {
   }
 }
 
-// Row 8b: the struck ball leaves along the line of centres at the moment of impact.
+// Problem 8b. The ball that is hit leaves along the line of centres at the moment of impact.
 TEST(ImpactWorld, AnObliqueImpactFollowsItsGeometry) {
   for (const double v : {5 / kTicks, 50 / kTicks, 1e6 / kTicks}) {
     for (const double offset : {0.0, 0.1, 0.5, 0.9, 0.999, -0.7}) {
@@ -116,7 +117,7 @@ TEST(ImpactWorld, AnObliqueImpactFollowsItsGeometry) {
   }
 }
 
-// Row 8c.
+// Problem 8c.
 TEST(ImpactWorld, GalperinsBilliardCountsTheDigitsOfPi) {
   const std::int64_t digits[] = {3, 31, 314, 3141, 31415};
   for (int k = 0; k <= 4; ++k) {
@@ -141,7 +142,7 @@ TEST(ImpactWorld, GalperinsBilliardCountsTheDigitsOfPi) {
   }
 }
 
-// Row 15.
+// Problem 15.
 TEST(ImpactWorld, BounceUsesTheRestOfTheTick) {
   for (const double speed : {200 / kTicks, 1e6 / kTicks}) {
     ImpactWorld world;
@@ -156,7 +157,7 @@ TEST(ImpactWorld, BounceUsesTheRestOfTheTick) {
   }
 }
 
-// Row 9, axis-aligned, and row 10.
+// Problem 9 for boxes along the axes, and problem 10.
 TEST(ImpactWorld, AStackStands) {
   for (const int count : {10, 30, 100}) {
     for (const double friction : {0.0, 0.5}) {
@@ -193,7 +194,7 @@ std::vector<int> addStack(ImpactWorld& world, int count, double above) {
   return ids;
 }
 
-// Not crate by crate, each time with a solution for all below it. Also where others stood before.
+// The stack is not solved crate by crate. It is made twice, the second time where another stack was.
 TEST(ImpactWorld, NewStackIsSolvedOnlyOnce) {
   constexpr int kCount = 100;
   ImpactWorld world;
@@ -212,8 +213,8 @@ TEST(ImpactWorld, NewStackIsSolvedOnlyOnce) {
   }
 }
 
-// Each impact that goes through a large stack costs a solution for all of it: such a tick takes what its
-// bodies and events allow, and what does not fit is given up.
+// Each impact on a large stack costs a solution of the whole stack. So the work of a tick is limited by the
+// numbers of bodies and events, and the other bodies are abandoned.
 TEST(ImpactWorld, TickWorkIsLimitedByBodiesAndEvents) {
   for (const int count : {30, 100, 300}) {
     ImpactWorld world;
@@ -231,7 +232,7 @@ TEST(ImpactWorld, TickWorkIsLimitedByBodiesAndEvents) {
   }
 }
 
-// Boxes with air between them fall on one another and come to rest as a stack.
+// Boxes with gaps between them fall on one another and come to rest as a stack.
 TEST(ImpactWorld, FallingBoxesComeToRestAsAStack) {
   for (const double restitution : {0.0, 0.3}) {
     ImpactWorld world;
@@ -245,7 +246,7 @@ TEST(ImpactWorld, FallingBoxesComeToRestAsAStack) {
   }
 }
 
-// Row 12: gravity is turned instead of the slope.
+// Problem 12. The direction of gravity is tilted instead of the slope.
 TEST(ImpactWorld, FrictionHoldsUpToItsAngle) {
   const double threshold = std::atan(0.5);
   for (const double off : {-0.0001, 0.0001}) {  // 0.0057°
@@ -284,12 +285,12 @@ TEST(ImpactWorld, SlidingBoxStopsAtTheFrictionDistance) {
   }
 }
 
-// A kinematic body carries and pushes, and nothing pushes it.
+// A kinematic body carries and pushes other bodies, but these do not push it.
 TEST(ImpactWorld, APlatformCarriesAndPushes) {
   ImpactWorld world;
   ImpactBody platform = fixed(box({0, 1}, {5, 1}));
   platform.friction = 1;
-  platform.velocity = {0.001, -0.1};  // up
+  platform.velocity = {0.001, -0.1};  // velocity: slowly to the right, and up
   const int lift = world.add(platform);
   ImpactBody load = falling(box({0, -0.5}));
   load.friction = 1;
@@ -303,12 +304,12 @@ TEST(ImpactWorld, APlatformCarriesAndPushes) {
   EXPECT_EQ(world.body(lift).velocity, platform.velocity);
   platform.place = world.body(lift).place;
   platform.velocity = {};
-  world.set(lift, platform);  // it stops: the load goes on up, as it must
+  world.set(lift, platform);  // the platform stops, and its load continues upwards
   world.step();
   EXPECT_LT(world.body(id).velocity.y, -0.08);
 }
 
-// Over seams of tiles at any speed: no edge to stumble on, no force along the way.
+// Seams between tiles neither stop nor slow a sliding body, at any speed.
 TEST(ImpactWorld, TileSeamsDoNotDisturbSliding) {
   for (const bool is_ball : {false, true}) {
     for (const double v : {0.013, 0.3, 7.0}) {
@@ -335,7 +336,7 @@ TEST(ImpactWorld, UnsupportedBodiesFall) {
   EXPECT_NEAR(at(world, upper).y, -1.5 + 0.5 * kGravity * 100, 1e-12);
 }
 
-// A box slides off a table's edge and flies from there, on the parabola that begins at the edge.
+// A box slides over a table's edge and flies from there, on the parabola that starts at the edge.
 TEST(ImpactWorld, BoxLeavesTheTableExactlyAtItsEdge) {
   ImpactWorld world;
   world.add(fixed(box({0, 1}, {2, 1})));
@@ -366,7 +367,7 @@ TEST(ImpactWorld, ReportsWhenContactsBeginAndEnd) {
   world.step();
   EXPECT_TRUE(world.events().empty());
 
-  ImpactWorld resting;  // one that stays: begins once, and ends when it is lifted
+  ImpactWorld resting;  // of a box that rests: its contact begins once, and ends when it is lifted
   resting.add(fixed(box({0, 1}, {5, 1})));
   const int lying = resting.add(falling(box({0, -0.6})));
   int begun = 0, ended = 0;
@@ -378,11 +379,11 @@ TEST(ImpactWorld, ReportsWhenContactsBeginAndEnd) {
       EXPECT_EQ(begun - ended, 1);
     }
   }
-  EXPECT_EQ(begun, 2);  // it falls back
+  EXPECT_EQ(begun, 2);  // the box falls back, which begins a second contact
   EXPECT_EQ(ended, 1);
 }
 
-// Balls heaped on two others: each force along its line of centres, until the lower ones slide apart.
+// A ball lies on two others. Each force is along a line of centres, until the lower balls slide apart.
 TEST(ImpactWorld, BallOnTwoBallsRestsOrPartsThem) {
   for (const bool is_held : {true, false}) {
     ImpactWorld world;
@@ -401,10 +402,10 @@ TEST(ImpactWorld, BallOnTwoBallsRestsOrPartsThem) {
     if (is_held) {
       EXPECT_NEAR(at(world, id).y, -height, 1e-9);
     } else {
-      // Energy: what the upper ball loses in height is motion now, for nothing bounces and nothing rubs.
+      // Without friction and bounces, the upper ball's loss of potential energy became kinetic energy.
       double energy = 0;
       for (int i = 1; i <= 3; ++i) energy += 0.5 * lengthSquared(world.body(i).velocity);
-      // The force keeps its direction from one event of the contact to the next: first order.
+      // The force keeps its direction between events, so the error is of first order.
       EXPECT_NEAR(energy / (kGravity * (at(world, id).y + height)), 1, 3e-2);
       EXPECT_GT(at(world, 2).x, 0.7);
       EXPECT_NEAR(at(world, 1).x, -at(world, 2).x, 1e-9);
@@ -412,7 +413,7 @@ TEST(ImpactWorld, BallOnTwoBallsRestsOrPartsThem) {
   }
 }
 
-// Whoever was put deep into something that cannot be pushed goes out by the nearest face, without a quarrel.
+// A body deep inside an immovable one leaves it through the nearest face, without a bounce.
 TEST(ImpactWorld, BallInsideAWallIsPushedOut) {
   for (const double restitution : {0.0, 0.12, 1.0}) {
     for (const double speed : {0.3, -0.3, 0.0}) {
@@ -429,7 +430,7 @@ TEST(ImpactWorld, BallInsideAWallIsPushedOut) {
   }
 }
 
-// An impact that sends a body farther than obstacles were searched ends the step there.
+// The step ends when an impact sends a body out of the area of setReach().
 TEST(ImpactWorld, StepEndsWhereTheSearchedReachEnds) {
   ImpactWorld world;
   world.add(moving(ball({-2, 0}), {3, 0}, 1));
@@ -439,7 +440,7 @@ TEST(ImpactWorld, StepEndsWhereTheSearchedReachEnds) {
   EXPECT_NEAR(world.stepped(), 1 / 3.0, 1e-12);
   EXPECT_NEAR(world.body(struck).velocity.x, 3, 1e-12);
   EXPECT_NEAR(at(world, struck).x, 0, 1e-12);
-  world.step(1 - world.stepped());  // a reach counts for one step
+  world.step(1 - world.stepped());  // a reach is only valid for one step
   EXPECT_NEAR(at(world, struck).x, 2, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// The properties of each kind of joint, tested with one or two bodies.
+// The properties of each kind of joint, tested with one body or two.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"
@@ -41,7 +41,7 @@ TEST(JointKinds, SliderAllowsOneDirectionAndNoRotation) {
   scene.bodies[1].torque = 3;
   scene.connect();
   for (int i = 0; i < 60; ++i) scene.step(kDown);
-  EXPECT_NEAR(length(scene.at(1)), 0.5 * 6 * 4, 1e-9);  // g·sin of the slope, exactly as in free flight
+  EXPECT_NEAR(length(scene.at(1)), 0.5 * 6 * 4, 1e-9);  // g · sine of the slope, as exact as in free flight
   EXPECT_LE(scene.worstGap(), 1e-10);
   EXPECT_NEAR(scene.joints[0].torque, -3, 1e-9);
   EXPECT_NEAR(dot(scene.joints[0].force, slider.axis), 0, 1e-9);
@@ -147,7 +147,7 @@ TEST(JointKinds, MouseDragsWithAtMostItsForce) {
   EXPECT_NEAR(scene.joints[0].force.x, 6, 1e-9);
   for (int i = 0; i < 300; ++i) scene.step({});
   EXPECT_NEAR(scene.at(0).x, 4, 1e-6);
-  scene.joints[0].target = placeAt({4, 3});  // it moves without connecting again
+  scene.joints[0].target = placeAt({4, 3});  // no call of connect() is needed
   for (int i = 0; i < 300; ++i) scene.step({});
   EXPECT_NEAR(scene.at(0).y, 3, 1e-6);
 }
@@ -213,7 +213,7 @@ TEST(JointKinds, InvalidJointsBodiesAndStepsAreRefused) {
   EXPECT_EQ(scene.step({nan, 0}), -1);
   EXPECT_EQ(scene.step(kDown, {JointMethod::kRattle, 0}), -1);
   scene.point({5, 5});
-  EXPECT_EQ(scene.step(kDown), -1);  // not connected again
+  EXPECT_EQ(scene.step(kDown), -1);  // connect() was not called again after the new body
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Pendulums, compared with the period by Gauss's mean and, for double pendulums, with a formulation in
+// Pendulums, compared with the period by Gauss's mean; double pendulums, compared with equations for the
 // angles.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ JointScene pendulum() {
   return scene;
 }
 
-// 4·√(L/g)·K(sin(θ₀/2)), K by the arithmetic-geometric mean.
+// Returns the period 4·√(L/g)·K(sin(θ₀/2)), with K by the arithmetic-geometric mean.
 double periodOf(double length, double g, double start) {
   __float128 a = 1, b = std::cos(start / 2);
   for (int i = 0; i < 10; ++i) {
@@ -32,8 +32,8 @@ double periodOf(double length, double g, double start) {
   return 2 * std::acos(-1.0) * std::sqrt(length / g) / static_cast<double>(a);
 }
 
-// The time of the last crossing of the vertical to the left, and how many there were, by the cubic that
-// places and velocities of two ticks define.
+// Times of the first and last crossing of the vertical to the left, and their number. Between two ticks, it
+// interpolates by the cubic of their places and velocities.
 struct Crossings {
   double first = 0, last = 0;
   int count = 0;
@@ -68,7 +68,7 @@ TEST(JointPendulum, KeepsEnergyAndLengthForAMinute) {
     stretch = std::max(stretch, scene.worstGap());
   }
   EXPECT_LE(drift, 1e-4);
-  EXPECT_LE(drift, 1e-5);  // what it is
+  EXPECT_LE(drift, 1e-5);  // the result of the present method
   EXPECT_LE(stretch, 1e-10);
   EXPECT_EQ(scene.solver.counters().refined, 0u);
   EXPECT_LE(scene.solver.counters().stages, 1800u * 8);
@@ -105,7 +105,7 @@ TEST(JointPendulum, MethodsConvergeWithTheirOrder) {
 
 TEST(JointPendulum, HingedRigidBodyHasAPhysicalPendulumsPeriod) {
   JointScene scene = test::nailed();
-  scene.rigid({1, 0}, 2, 0.5);  // I/m·r + r = 1.25: the equivalent length
+  scene.rigid({1, 0}, 2, 0.5);  // I/m·r + r = 1.25 is the equivalent length
   scene.joinAt(JointKind::kHinge, 0, 1, {0, 0});
   scene.connect();
   double drift = 0;
@@ -122,7 +122,8 @@ TEST(JointPendulum, HingedRigidBodyHasAPhysicalPendulumsPeriod) {
   EXPECT_NEAR(period / periodOf(1.25, 10, std::acos(-1.0) / 2), 1, 1e-5);
 }
 
-// Two equal masses on equal rods, by the angles from the vertical and Runge–Kutta of order 4 in long double.
+// A double pendulum of equal masses on equal rods, computed by its angles with Runge–Kutta of order 4 in long
+// double.
 std::array<double, 4> doublePendulum(double time, int steps) {
   using State = std::array<long double, 4>;
   const auto rate = [](const State& s) {
@@ -174,13 +175,12 @@ TEST(JointPendulum, DoublePendulumMatchesTheAngleEquations) {
   EXPECT_LE(drift, 1e-10);
 }
 
-// The cradle's part that joints have: pendulums of one length keep in step, to the last bit, whatever else
-// swings.
+// Pendulums of one length swing equally to the last bit, whatever else swings, as a cradle requires.
 TEST(JointPendulum, EqualPendulumsStayInStep) {
   JointScene scene;
   for (int i = 0; i < 5; ++i) {
     scene.point({static_cast<double>(i), 0}, 0);
-    scene.point({i - 3.0, 4});  // whole numbers: all start alike to the last bit, too
+    scene.point({i - 3.0, 4});  // whole numbers, so that all pendulums start with equal bits
     scene.join(JointKind::kDistance, 2 * i, 2 * i + 1, 5);
   }
   scene.connect();

@@ -1,4 +1,4 @@
-// Ropes of rods: with a weight at the end, at rest, and with weights beyond double precision.
+// Ropes of rods: with a weight at the end, at rest, and with mass ratios beyond double precision.
 #include <gtest/gtest.h>
 
 #include "JointScene.h"
@@ -41,8 +41,8 @@ TEST(JointRope, MillionfoldWeightStaysBoundedAndCountsFallbacks) {
   EXPECT_EQ(scene.solver.counters().quarantined, 0u);
 }
 
-// Rods in a line have a method of their own, which must do what the general one does: that is asked for by a
-// post that turns, which its rods do not feel.
+// Rods in a line have their own method, which must agree with the general one. A post that rotates selects
+// the general method, without another effect on its rods.
 TEST(JointRope, ChainAndGeneralMethodsAgree) {
   for (const bool is_bridge : {false, true}) {
     JointScene scenes[2];
@@ -53,7 +53,7 @@ TEST(JointRope, ChainAndGeneralMethodsAgree) {
                     i == 0 || (is_bridge && i == 10) ? 0 : 1.0 / (1 + i % 3));
       }
       scene.bodies[0].spin = is_general ? 1 : 0;
-      for (const int i : {4, 0, 9, 3, 1, 8, 2, 7, 5, 6}) {  // neither in order nor all one way round
+      for (const int i : {4, 0, 9, 3, 1, 8, 2, 7, 5, 6}) {  // order and directions are mixed
         scene.join(JointKind::kDistance, i % 2 == 0 ? i : i + 1, i % 2 == 0 ? i + 1 : i, 1);
       }
       scene.connect();
@@ -73,11 +73,11 @@ TEST(JointRope, ChainAndGeneralMethodsAgree) {
   }
 }
 
-// A chain between two points, at rest after some drag, against a·cosh(x/a).
+// Returns the sag of a chain between two points, at rest after some drag, for comparison with a·cosh(x/a).
 double sagOf(int links) {
   const double span = 10, total = 12;
   JointScene scene = test::nailed();
-  for (int i = 1; i < links; ++i) {  // the two sides of a triangle that is as long
+  for (int i = 1; i < links; ++i) {  // at the start, the chain is two sides of a triangle of this length
     const double s = static_cast<double>(i) / links;
     const double depth = std::sqrt(0.25 * (total * total - span * span));
     scene.point({span * s, depth * (1 - std::abs(1 - 2 * s))}, links / total);
@@ -96,7 +96,7 @@ double sagOf(int links) {
 
 TEST(JointRope, HangsAsACatenary) {
   const double half = 5, total = 12;
-  double low = 0.1, high = 1000;  // of a: the length falls with it
+  double low = 0.1, high = 1000;  // range of a; the chain's length decreases as a grows
   for (int i = 0; i < 200; ++i) {
     const double a = 0.5 * (low + high);
     (2 * a * std::sinh(half / a) > total ? low : high) = a;
@@ -104,7 +104,7 @@ TEST(JointRope, HangsAsACatenary) {
   const double sag = low * (std::cosh(half / low) - 1);
   const double coarse = std::abs(sagOf(20) / sag - 1), fine = std::abs(sagOf(40) / sag - 1);
   EXPECT_LE(coarse, 1e-2);
-  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.3);  // straight links: order 2
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.3);  // the error is of order 2, because the links are straight
 }
 
 TEST(JointRope, PullsButDoesNotPush) {
@@ -113,7 +113,7 @@ TEST(JointRope, PullsButDoesNotPush) {
   scene.join(JointKind::kRope, 0, 1, 2);
   scene.connect();
   scene.step(kDown);
-  EXPECT_NEAR(scene.at(1).y, 0.5 + 5.0 / 900, 1e-12);  // falls freely
+  EXPECT_NEAR(scene.at(1).y, 0.5 + 5.0 / 900, 1e-12);  // it falls freely
   EXPECT_EQ(scene.joints[0].force, Vec2{});
   for (int i = 0; i < 60; ++i) {
     scene.step(kDown);

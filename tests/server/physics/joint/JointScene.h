@@ -1,4 +1,4 @@
-// Scenes of jointed bodies for tests, with functions that measure them.
+// Scenes of jointed bodies for tests, and functions that measure them.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace naiad::physics::test {
 
 inline constexpr double kTick = 1.0 / 30;
-inline constexpr Vec2 kDown = {0, 10};  // gravity
+inline constexpr Vec2 kDown = {0, 10};  // gravity in cells per second²
 
 struct JointScene {
   std::vector<JointBody> bodies;
@@ -40,7 +40,7 @@ struct JointScene {
     joints.push_back(joint);
     return joints.back();
   }
-  /// Joins two bodies, which are not rotated, with both anchors at this point of the world.
+  /// Joins two bodies, which must not be rotated, with both anchors at this point of the world.
   Joint& joinAt(JointKind kind, int a, int b, Vec2 where) {
     Joint& joint = join(kind, a, b);
     joint.anchor_a = placeAt(where) - bodies[static_cast<std::size_t>(a)].place;
@@ -88,7 +88,7 @@ struct JointScene {
     const JointBody &a = body(joint.a), &b = body(joint.b);
     return (b.place - a.place) + (b.rotation * joint.anchor_b - a.rotation * joint.anchor_a);
   }
-  /// Returns the largest error of the hard joints, in lengths or sines of angles.
+  /// Returns the largest error of the hard joints, as a length or the sine of an angle.
   double worstGap() const {
     double worst = 0;
     for (const Joint& joint : joints) {
@@ -116,7 +116,7 @@ inline JointScene nailed() {
   return scene;
 }
 
-/// Makes a rope of `links` rods from (0, 0) along x. Its last point is `ratio` times as heavy as the others.
+/// Makes a rope of `links` rods from (0, 0) along x. Its last point has `ratio` times the mass of the others.
 inline JointScene ropeOf(int links, double ratio) {
   JointScene scene = nailed();
   for (int i = 1; i <= links; ++i) {

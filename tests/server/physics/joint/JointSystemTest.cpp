@@ -11,7 +11,7 @@ using test::JointScene;
 using test::kDown;
 using test::SceneRandom;
 
-// A tree of `count` bodies, free or hung on an immovable one, with any of the hard joints.
+// Makes a tree of `count` bodies, free or hung on an immovable one, with random hard joints.
 JointScene randomTree(SceneRandom& random, int count, bool is_free) {
   JointScene scene;
   is_free ? scene.rigid({0, 0}, 1, 0.5) : scene.point({0, 0}, 0);
@@ -24,7 +24,7 @@ JointScene randomTree(SceneRandom& random, int count, bool is_free) {
     scene.bodies.back().velocity = {random.between(-1, 1), random.between(-1, 1)};
     if (scene.body(child).inverse_inertia > 0) scene.bodies.back().spin = random.between(-1, 1);
     const double choice = random();
-    // A body that cannot turn takes any torque, so it gets none: only rods at its centre.
+    // A body that cannot rotate resists any torque, so it has only rods at its centre.
     const bool may_turn = scene.body(child).inverse_inertia > 0 && scene.body(parent).inverse_inertia > 0;
     if (choice < 0.25 || !may_turn) {
       scene.join(JointKind::kDistance, parent, child, length(scene.at(child) - scene.at(parent)));
@@ -65,7 +65,7 @@ TEST(JointSystem, RandomLoopsKeepTheirJoints) {
   for (int round = 0; round < 30; ++round) {
     const int count = 4 + random.below(8);
     JointScene scene = test::nailed();
-    for (int i = 1; i < count; ++i) {  // a closed chain
+    for (int i = 1; i < count; ++i) {  // the bodies of a closed chain
       const double angle = 2 * std::acos(-1.0) * i / count;
       scene.point({2 * std::cos(angle) - 2, 2 * std::sin(angle)}, random.between(0.3, 3));
     }
@@ -73,7 +73,7 @@ TEST(JointSystem, RandomLoopsKeepTheirJoints) {
       scene.join(JointKind::kDistance, a, b, length(scene.at(b) - scene.at(a)));
     };
     for (int i = 0; i < count; ++i) rod(i, (i + 1) % count);
-    if (count > 6) rod(1, 4);  // a brace: a loop in a loop
+    if (count > 6) rod(1, 4);  // a brace, which makes a second loop
     ASSERT_EQ(scene.connect(), 0);
     for (int i = 0; i < 150; ++i) {
       scene.step(kDown);
@@ -134,7 +134,7 @@ TEST(JointSystem, ContradictionsStayBoundedAndAreCounted) {
   scene.point({1, 0});
   scene.point({2.5, 0}, 0);
   scene.join(JointKind::kDistance, 0, 1, 1);
-  scene.join(JointKind::kDistance, 1, 2, 1);  // half a cell too short
+  scene.join(JointKind::kDistance, 1, 2, 1);  // the rod is half a cell too short
   ASSERT_EQ(scene.connect(), 0);
   for (int i = 0; i < 100; ++i) {
     scene.step(kDown);
@@ -211,7 +211,7 @@ TEST(JointSystem, SameStartGivesTheSameBits) {
   for (int i = 0; i < 100; ++i) {
     one.step(kDown);
     two.step(kDown);
-    if (i == 50) two.connect();  // nothing hides in the solver
+    if (i == 50) two.connect();  // this must not change anything, because the solver keeps no hidden state
   }
   for (std::size_t i = 0; i < one.bodies.size(); ++i) {
     EXPECT_EQ(one.bodies[i].place, two.bodies[i].place);

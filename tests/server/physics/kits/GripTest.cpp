@@ -46,7 +46,7 @@ TEST_F(Grips, GrabbedSoftBodyFollows) {
   EXPECT_FALSE(p_blob->isGrabbed());
 }
 
-// As hard as the mass asks for: a heavy one comes as fast as a light one.
+// The grip's force is proportional to the mass.
 TEST_F(Grips, HeavyAndLightBodiesFollowEquallyFast) {
   double gone[2] = {};
   for (int i = 0; i < 2; ++i) {
@@ -66,7 +66,7 @@ TEST_F(Grips, GrabFailsWithoutAFreeBody) {
   wall(Vector(20, 20), Vector(1, 1));
   Grip mine, yours;
   EXPECT_EQ(mine.grab(Vector(40, 40)), -1);
-  EXPECT_EQ(mine.grab(Vector(20, 20)), -1);  // a wall
+  EXPECT_EQ(mine.grab(Vector(20, 20)), -1);  // a wall is there, which is not a body
   EXPECT_EQ(mine.grab(Vector(kNan, 0)), -1);
   EXPECT_EQ(mine.grab(Vector(3, 4), kNan), -1);
   EXPECT_FALSE(mine.isHolding());

@@ -22,7 +22,7 @@ void print(const char* name, double error, const IntegratorCounters& c) {
       static_cast<long long>(c.newton_failures), static_cast<long long>(c.stiff_calls));
 }
 
-// What flies in a field, tick after tick.
+// A body that flies in a field, one tick after the other.
 struct Flyer {
   Vec2 p, v;
   IntegratorCounters counters = {};
@@ -33,7 +33,7 @@ struct Flyer {
     p += flown.displacement;
     v = flown.velocity;
   }
-  /// Two seconds, 30 ticks each.
+  /// Flies for 60 ticks of 1/30: two seconds.
   void flyOn(const ForceField& field) {
     for (int i = 0; i < 60; ++i) fly(field, i / 30.0, 1 / 30.0);
   }
@@ -52,7 +52,7 @@ struct VanDerPol : ForceField {
   }
 };
 
-// x = 2, v = 0 at first. Through T = 2: published, and by a second solver here.
+// The start is x = 2, v = 0. The results at T = 2 are the published ones, and those of another solver here.
 TEST(Stiff, VanDerPolMatchesThePublishedResult) {
   const QuadSystem<2> system = [](Quad, const QuadVector<2>& y) {
     return QuadVector<2>{y[1], ((1 - y[0] * y[0]) * y[1] - y[0]) / q(1e-6)};
@@ -81,7 +81,7 @@ TEST(Stiff, VanDerPolMatchesThePublishedResult) {
   }
 }
 
-// A mass on a rod that is a spring of stiffness k, from the horizontal, as one does it without joints.
+// Returns the field of a rod with stiffness k. The pendulum starts horizontally. (Games should use a joint.)
 ElasticField rod(double k) {
   return {k, 0, 1, {0, 10}};
 }
@@ -105,10 +105,10 @@ TEST(Stiff, ElasticPendulumIsAccurate) {
   elasticPendulum(1e6, 10000, 1e-8);
 }
 
-// k where the reference would take minutes: the rod's oscillation is smaller than what is asked for, and the
-// swing is that of a rigid pendulum.
+// The reference would take minutes for these k. The oscillation of the rod is smaller than the tolerance, so
+// the swing is that of a rigid pendulum.
 TEST(Stiff, NearlyRigidElasticPendulumSwingsLikeARod) {
-  // theta'' = 10 cos(theta), angle from the horizontal
+  // theta'' = 10 cos(theta), where theta is the angle from the horizontal
   const QuadSystem<2> rigid = [](Quad, const QuadVector<2>& y) {
     return QuadVector<2>{y[1], 10 * cosq(y[0])};
   };
@@ -122,7 +122,8 @@ TEST(Stiff, NearlyRigidElasticPendulumSwingsLikeARod) {
   }
 }
 
-// A charge in a magnetic field across the plane and an electric one in it: gyration and drift.
+// A charge in a magnetic field perpendicular to the plane and an electric field in the plane gyrates and
+// drifts.
 TEST(Stiff, ChargedParticleMatchesTheClosedForm) {
   struct Charged : ForceField {
     double b = 1000;
@@ -136,7 +137,7 @@ TEST(Stiff, ChargedParticleMatchesTheClosedForm) {
     field.b = b;
     Flyer its = {{}, {1, 0}};
     its.flyOn(field);
-    // v' = E − B·(−v_y, v_x): drift (5/B, 0), and (1 − 5/B, 0) turning backwards at B
+    // v' = E − B·(−v_y, v_x) has the drift (5/B, 0), and (1 − 5/B, 0) turns backwards at the rate B
     const Quad t = 2, w = q(b), u = 1 - 5 / w;
     const Vec2 end = {static_cast<double>(5 / w * t + u * sinq(w * t) / w),
                       static_cast<double>(-u * (1 - cosq(w * t)) / w)};
@@ -147,8 +148,8 @@ TEST(Stiff, ChargedParticleMatchesTheClosedForm) {
   }
 }
 
-// A magnet however strong turns and does not brake, and costs a stated number of calls. One that is stronger
-// on one side makes the body drift along it; a wind or a slope across it, too.
+// A magnet of any strength turns the velocity without braking, in a fixed number of calls. A gradient of its
+// strength, a wind or a slope makes the body drift perpendicular to it.
 TEST(Stiff, StrongMagnetTurnsButDoesNotBrake) {
   struct Magnet : ForceField {
     double rate = 1, slope = 0;
@@ -180,7 +181,8 @@ TEST(Stiff, StrongMagnetTurnsButDoesNotBrake) {
     field.across = {0, 0.01};
     Flyer its;
     for (int i = 0; i < 100; ++i) its.fly(field, i, 1);
-    EXPECT_NEAR(its.p.x * rate, -1, 0.05) << rate;  // 100 ticks at 0.01 / rate, within a turn's diameter
+    EXPECT_NEAR(its.p.x * rate, -1, 0.05) << rate;  // 100 ticks at a drift of 0.01 / rate, within the
+                                                    // diameter of a turn
     EXPECT_NEAR(its.p.y * rate, 0, 0.05) << rate;
   }
 }
@@ -267,7 +269,8 @@ TEST(Stiff, StopsAtItsLimitsAndReportsIt) {
   EXPECT_EQ(counters.failed_calls, 1);
 }
 
-// Nonlinear, and stiffer than any limit follows: it is not thrown, and not given up.
+// The field is nonlinear, and too stiff for the integrator. The body is not thrown, and the call does not
+// fail.
 TEST(Stiff, ProblemsBeyondTheLimitsAreSolvedCoarsely) {
   struct Cubic : ForceField {
     double stiffness = 1;
@@ -297,7 +300,7 @@ TEST(Stiff, ProblemsBeyondTheLimitsAreSolvedCoarsely) {
   }
 }
 
-// No hidden memory: a call in between, or another order, changes nothing.
+// Calls in between, or calls in another order, do not change the result.
 TEST(Stiff, KeepsNoStateBetweenCalls) {
   VanDerPol field;
   IntegratorCounters counters;

@@ -28,7 +28,7 @@ struct OrbitResult {
   double evaluations_per_orbit = 0;
 };
 
-// e = 0.6 from the perihelion, ticks of 1/30.
+// Integrates an orbit of eccentricity 0.6 from the perihelion, in ticks of 1/30.
 OrbitResult orbit(const IntegratorOptions& options, int orbits) {
   const Kepler field;
   const Vec2 p0 = {0.4, 0}, v0 = {0, 2};
@@ -75,7 +75,8 @@ TEST(Integrator, KeplerErrorFollowsTheTolerance) {
   }
 }
 
-// Angles and their velocities of two rods of length 1 with masses 1 at their ends, g = 9.81.
+// The rates of the angles and angular velocities of two rods of length 1 with masses 1 at their ends, g =
+// 9.81.
 template <class Real, class Sine, class Cosine>
 std::array<Real, 4> doublePendulum(const std::array<Real, 4>& y, Sine sine, Cosine cosine) {
   const Real g = static_cast<Real>(9.81), d = y[0] - y[1], s = sine(d), c = cosine(d);
@@ -123,7 +124,7 @@ TEST(Integrator, FieldGetsTheWorldsTime) {
   }
 }
 
-// A zone with another gravity, entered anywhere within the tick, in a world that has been running for years.
+// A body enters a zone with another gravity, anywhere within the tick, in a world that has run for years.
 TEST(Integrator, HandlesAJumpOfTheForce) {
   struct Zone : ForceField {
     double border = 0;
@@ -150,7 +151,7 @@ TEST(Integrator, NonFiniteForcesFailAndSingularitiesStop) {
   struct Broken : ForceField {
     Vec2 acceleration(Vec2 p, Vec2, double) const override { return {std::sqrt(p.x), 0}; }
   } broken;
-  struct Blow : ForceField {  // reaches infinity within the tick
+  struct Blow : ForceField {  // its motion reaches infinity within the tick
     Vec2 acceleration(Vec2, Vec2 v, double) const override { return v * length(v) * 2; }
   } blow;
   for (const IntegratorMethod method :

@@ -1,4 +1,4 @@
-// The factors of J·M⁻¹·Jᵀ; their solutions are checked with the matrix itself.
+// The factors of J·M⁻¹·Jᵀ. Their solutions are checked by multiplication with the matrix itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct System {
   std::vector<JointMass> masses;
 };
 
-/// Two rows between two bodies, as a hinge has.
+/// Adds two rows between two bodies, like those of a hinge.
 void addHinge(System& system, int a, int b, df::Random& random) {
   const auto number = [&] { return 0.01 * static_cast<double>(random.below(200) - 100); };
   system.rows.push_back({{1, 0}, number(), number(), a, b});
@@ -28,7 +28,7 @@ void addHinge(System& system, int a, int b, df::Random& random) {
 System chainOfHinges(int links) {
   df::Random random(3);
   System system;
-  system.masses.push_back({});  // the wall
+  system.masses.push_back({});  // body 0 is an immovable wall
   for (int i = 1; i <= links; ++i) {
     system.masses.push_back({1 + 0.5 * (i % 3), 2});
     addHinge(system, i - 1, i, random);
@@ -36,7 +36,7 @@ System chainOfHinges(int links) {
   return system;
 }
 
-/// All hang on the first one.
+/// Returns a system in which all bodies hang on the first one.
 System star(int arms) {
   df::Random random(4);
   System system;
@@ -55,7 +55,7 @@ System inOrder(const System& system) {
   return sorted;
 }
 
-/// J·M⁻¹·Jᵀ·x.
+/// Returns J·M⁻¹·Jᵀ·x.
 std::vector<double> multiplied(const System& system, const std::vector<double>& x) {
   struct Motion {
     Vec2 velocity;
@@ -82,7 +82,7 @@ std::vector<double> multiplied(const System& system, const std::vector<double>& 
   return result;
 }
 
-/// The largest difference between a solution that is known and the one that is found.
+/// Returns the largest difference between the computed solution and a known one.
 double errorOf(const System& system, const JointMatrix& matrix, const std::vector<std::uint8_t>& is_out) {
   std::vector<double> known;
   for (std::size_t i = 0; i < system.rows.size(); ++i)
@@ -116,7 +116,7 @@ TEST(JointMatrix, SolvesMatricesThatAreNoBand) {
   JointMatrix matrix;
   EXPECT_LT(errorOf(inOrder(star(6)), matrix), 1e-9);
   EXPECT_FALSE(matrix.isBand());
-  // The same chain, whose ends and middle come by turns.
+  // Interleaves the rows of the chain's ends and its middle.
   System mixed = chainOfHinges(12);
   std::vector<JointRow> rows;
   for (std::size_t i = 0; i < 8; ++i) {
@@ -136,7 +136,7 @@ TEST(JointMatrix, BandRowsCanBeExcluded) {
   is_out[4] = is_out[5] = is_out[11] = 1;
   matrix.factor(system.rows.data(), system.masses.data(), is_out.data(), nullptr);
   EXPECT_LT(errorOf(system, matrix, is_out), 1e-9);
-  // And all are there again.
+  // Now no row is excluded.
   is_out.assign(system.rows.size(), 0);
   matrix.factor(system.rows.data(), system.masses.data(), is_out.data(), nullptr);
   EXPECT_LT(errorOf(system, matrix, is_out), 1e-9);

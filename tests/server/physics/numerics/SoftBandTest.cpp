@@ -11,12 +11,13 @@ namespace {
 
 struct BandSystem {
   int size, band;
-  std::vector<double> matrix;  // lower triangle, row by row
+  std::vector<double> matrix;  // the lower triangle, row by row
 
   double& at(int i, int j) { return matrix[static_cast<std::size_t>(i * size + j)]; }
 };
 
-// Positive definite: its diagonal outweighs all else in its row. A third of the other entries are 0.
+// Makes a positive definite matrix: each diagonal entry exceeds the sum of its row. A third of the other
+// entries are 0.
 BandSystem randomSystem(SplitMix64& random, int size, int band) {
   BandSystem made = {size, band, std::vector<double>(static_cast<std::size_t>(size * size), 0)};
   for (int i = 0; i < size; ++i) {
@@ -36,7 +37,7 @@ SoftBand bandOf(BandSystem& system) {
   return band;
 }
 
-// As textbooks print it, column after column, in place: L, and 1/D.
+// Factors the matrix in place as in textbooks, column by column: L, and 1/D.
 void decomposePlainly(BandSystem& system) {
   for (int j = 0; j < system.size; ++j) {
     const double inverse = 1 / system.at(j, j);
@@ -49,7 +50,7 @@ void decomposePlainly(BandSystem& system) {
   }
 }
 
-// Whether pivots are taken one at a time or four, and wherever the band ends.
+// In the product, pivots are eliminated one at a time or four together, and a band may end at any column.
 TEST(SoftBand, MatchesThePlainDecompositionBitForBit) {
   SplitMix64 random(4);
   for (const int size : {1, 2, 3, 4, 5, 7, 8, 20, 41, 90}) {

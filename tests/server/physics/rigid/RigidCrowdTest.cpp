@@ -1,4 +1,4 @@
-// Bodies created in one place: the work is bounded, and bodies that can lie side by side are not affected.
+// Bodies created in one place: the work is limited, and bodies that can lie side by side are not affected.
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 namespace naiad::physics::test {
 namespace {
 
-// Two boxes across each other and a disc beside them.
+// Returns two crossed boxes, and a disc beside them.
 std::vector<ConvexShape> cross() {
   std::vector<ConvexShape> shapes(3);
   makeBox(1, 0.5, {}, {}, 0, shapes[0]);
@@ -31,7 +31,7 @@ double spread(const RigidWorld& world) {
 }
 
 TEST(RigidCrowd, ContactsGrowWithBodiesNotPairs) {
-  constexpr int kMaxOthers = 32, kPoints = 9;  // shapes of one times shapes of the other
+  constexpr int kMaxOthers = 32, kPoints = 9;  // kPoints: shapes of one body times shapes of the other
   for (const int count : {50, 100, 200}) {
     RigidWorld world(sleepless());
     for (int i = 0; i < count; ++i) world.add(afloat({}), cross());
@@ -56,7 +56,7 @@ TEST(RigidCrowd, OverlappingBodiesComeApartGently) {
     for (int id = 0; id < kMany; ++id) {
       RigidBody body = world.body(id);
       fastest = std::max(fastest, length(body.velocity));
-      body.velocity *= 0.95;  // they come to rest
+      body.velocity *= 0.95;  // makes the bodies come to rest
       world.set(id, body);
     }
   }
@@ -67,7 +67,7 @@ TEST(RigidCrowd, OverlappingBodiesComeApartGently) {
   EXPECT_LT(spread(world), 100);
 }
 
-// Thin planks in a pile have many others within their length; all their contacts count.
+// Thin planks in a pile have many others within their length, but all their contacts are kept.
 TEST(RigidCrowd, PileOfPlanksKeepsAllContacts) {
   RigidWorld world = onFloor();
   const ConvexShape plank = boxShape(5, 0.1), crate = boxShape(0.5, 0.5);
@@ -78,7 +78,7 @@ TEST(RigidCrowd, PileOfPlanksKeepsAllContacts) {
   EXPECT_FALSE(world.hasThinned());
 }
 
-// A tray that holds a hundred marbles is near all of them.
+// A tray with a hundred marbles is near all of them, but not in a crowd.
 TEST(RigidCrowd, TrayHoldsAHundredMarbles) {
   RigidWorld world = onFloor();
   std::vector<ConvexShape> tray(3);
@@ -98,7 +98,7 @@ TEST(RigidCrowd, TrayHoldsAHundredMarbles) {
   }
 }
 
-// Rows of crates that lie on one another, and also touch side by side if `apart` is 1.
+// Makes rows of crates that lie on one another, and also touch side by side if `apart` is 1.
 RigidWorld pyramid(int rows, double apart = 1) {
   RigidWorld world = onFloor();
   for (int row = 0; row < rows; ++row) {
@@ -109,8 +109,8 @@ RigidWorld pyramid(int rows, double apart = 1) {
   return world;
 }
 
-// Its rounds cost a fixed number of multiplications for each contact. Where all of them would cost more,
-// the first ones would be wasted.
+// The direct solution has a fixed cost in multiplications per contact and round. It is skipped if all rounds
+// together would cost too much, because the first ones would be wasted.
 TEST(RigidCrowd, DirectSolutionIsSkippedWhenTooExpensive) {
   RigidWorld wide = pyramid(30);
   wide.step();
@@ -126,11 +126,11 @@ TEST(RigidCrowd, DirectSolutionIsSkippedWhenTooExpensive) {
   }
 }
 
-// What half a sub-step of gravity needs, the other half needs too.
+// The second half of a sub-step starts from the impulses of the first half.
 TEST(RigidCrowd, NewHeapReusesImpulsesOfTheFirstHalf) {
   RigidWorld world = pyramid(10);
   world.step();
-  EXPECT_EQ(world.counters().direct_solves, 2);  // one sub-step; then the impulses are known
+  EXPECT_EQ(world.counters().direct_solves, 2);  // only in one sub-step; after it, the impulses are known
   EXPECT_LE(world.counters().direct_rounds, 18);
   EXPECT_EQ(world.counters().direct_failures, 0);
 }

@@ -1,5 +1,5 @@
-// Groups that do not touch have no effect on each other: whether one is swept, or solved at once, does not
-// change another.
+// Groups that do not touch have no effect on each other: it does not matter to a group whether another one is
+// solved by sweeps or directly.
 
 #include <string>
 #include <tuple>
@@ -14,9 +14,9 @@ using namespace test;
 
 constexpr int kGroupTicks = 200;
 constexpr double kFar = 2000;  // cells between the groups
-constexpr int kShotAt = 90;    // when what has gone to sleep is hit
+constexpr int kShotAt = 90;    // tick in which the bullet is shot at the sleeping crates
 
-// What happens elsewhere.
+// The kinds of the other, distant group.
 enum class Elsewhere { kNothing, kRest, kJoints, kHeap, kJointedHeap, kBullets };
 enum class Added { kBefore, kAfter, kMidway };
 
@@ -60,7 +60,8 @@ class Scene {
     joint.stiffness = 0.1;
     EXPECT_GE(m_world.addJoint(joint), 0);
   }
-  // A stack, two pairs on joints that fall onto the floor, a crate that sleeps, and what hits it.
+  // Adds a stack, two pairs that fall onto the floor, a row of crates that falls asleep, and a bullet shot at
+  // them.
   void addWatched() {
     m_world.add(immovable({0, 5}), boxShape(100, 5));
     for (int i = 0; i < 4; ++i) m_watched.push_back(add({0.1 * i, -0.5 - 1.0 * i}, boxShape(0.5, 0.5)));

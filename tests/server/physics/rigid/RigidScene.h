@@ -1,4 +1,4 @@
-// Scenes of rigid bodies: crates of 1 cell, 30 ticks per second, g = 10 cells/s².
+// Scenes of rigid bodies: crates of 1 cell, 30 ticks per second, g = 10 cells per second².
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ inline Vec2 whereIs(const RigidWorld& world, int id) {
   return world.body(id).place - Place{};
 }
 
-/// Returns kinetic plus potential energy for a mass of 1 (speed in cells per tick).
+/// Returns the sum of kinetic and potential energy for a mass of 1 (speeds in cells per tick).
 inline double energyOf(const RigidBody& body) {
   return -kGravityPerTick * (body.place - Place{}).y + 0.5 * lengthSquared(body.velocity) +
          0.5 / body.inverse_inertia * body.spin * body.spin;
@@ -73,14 +73,14 @@ inline RigidOptions sleepless() {
   return options;
 }
 
-/// Makes a world with a floor as body 0, whose surface is y = 0.
+/// Makes a world whose body 0 is a floor with its surface at y = 0.
 inline RigidWorld onFloor(RigidOptions options = sleepless()) {
   RigidWorld world(options);
   world.add(immovable({0, 5}), boxShape(1000, 5));
   return world;
 }
 
-/// Adds a slope through the origin as body 0, which falls to the right by `angle`. Returns its upward normal.
+/// Adds a slope through the origin as body 0; it descends to the right by `angle`. Returns its upward normal.
 inline Vec2 addSlope(RigidWorld& world, double angle) {
   const Rotation turn = rotationBy(angle);
   const Vec2 up = turn * Vec2{0, -1};

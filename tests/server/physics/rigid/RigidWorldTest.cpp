@@ -1,4 +1,4 @@
-// Properties of rigid bodies. Each bound is a target of the laboratory (docs/physics/lab.md).
+// Properties of rigid bodies. The bounds are targets of the laboratory (docs/physics/lab.md).
 
 #include <limits>
 
@@ -48,7 +48,7 @@ TEST(RigidWorld, LightBodyBearsAHeavyOne) {
   }
 }
 
-// A crate that lies on the slope by `up`.
+// Adds a crate that lies on the slope whose upward normal is `up`.
 int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
   const ConvexShape crate = boxShape(0.5, 0.25);
   RigidBody body = movable(0.25 * up, crate);
@@ -115,7 +115,7 @@ TEST(RigidWorld, TumblingElasticBoxKeepsItsEnergy) {
   EXPECT_GT(world.counters().impacts, 20);
 }
 
-// Nothing is passed, at any speed, turning or not, whichever body moves.
+// No body passes through another one, at any speed, if one of them or both move or rotate.
 TEST(RigidWorld, FastBodiesDoNotTunnel) {
   SceneRandom uniform;
   for (int kind = 0; kind < 3; ++kind) {
@@ -138,7 +138,7 @@ TEST(RigidWorld, FastBodiesDoNotTunnel) {
       for (int tick = 0; tick < 4; ++tick) {
         world.step();
         has_met = has_met || !world.events().empty();
-        if (std::fabs(whereIs(world, 0).y) > 2.5) break;  // it may leave past the end
+        if (std::fabs(whereIs(world, 0).y) > 2.5) break;  // the body may move past the end of the wall
         ASSERT_LT(whereIs(world, 0).x, whereIs(world, 1).x) << kind << ' ' << shot;
       }
       ASSERT_TRUE(has_met) << kind << ' ' << shot;
@@ -176,7 +176,7 @@ std::uint64_t hashOf(const RigidWorld& world, const Place& origin, int count) {
   return hash.value();
 }
 
-// A heap of boxes, discs and a chain. `poison`: an id that gets a force that nothing can be done with.
+// Makes a heap of boxes, discs and a chain. If `has_poison`, one body has a force that cannot be computed.
 std::uint64_t heapAt(const Place& origin, bool has_poison) {
   RigidWorld world;
   const auto put = [&](RigidBody body, const ConvexShape& shape) {
@@ -220,7 +220,7 @@ std::uint64_t heapAt(const Place& origin, bool has_poison) {
 TEST(RigidWorld, HashIsTheSameEverywhereAndFarAway) {
   const std::uint64_t here = heapAt({}, false);
   EXPECT_EQ(here, heapAt({1'000'000'000, -1'000'000'000, 0, 0}, false));
-  EXPECT_EQ(here, 12217238143877681386ULL);  // whatever compiled this
+  EXPECT_EQ(here, 12217238143877681386ULL);  // the hash is equal for every compiler
 }
 
 TEST(RigidWorld, InvalidBodyAffectsNoOtherBody) {
@@ -240,7 +240,7 @@ TEST(RigidWorld, HundredsOfOverlappingCratesComeApart) {
     world.step();
     for (int i = 1; i <= 200; ++i) fastest = std::max(fastest, length(world.body(i).velocity));
   }
-  EXPECT_LT(fastest, 2);  // a fall from 20 gives 0.67
+  EXPECT_LT(fastest, 2);  // a fall from a height of 20 gives 0.67
   EXPECT_LT(world.deepest(), 0.1);
 }
 
@@ -256,9 +256,9 @@ TEST(RigidWorld, SleepsAtRestAndWakesWhenDisturbed) {
   const std::int64_t contacts = world.counters().contacts;
   for (int tick = 0; tick < 10; ++tick) world.step();
   EXPECT_EQ(world.body(upper), before);
-  EXPECT_EQ(world.counters().contacts, contacts);  // nothing was solved for
+  EXPECT_EQ(world.counters().contacts, contacts);  // no contact was solved
 
-  RigidBody ball = movable({-3, -0.5}, circleShape(0.3));  // what moves wakes what it hits
+  RigidBody ball = movable({-3, -0.5}, circleShape(0.3));  // a moving body wakes the body that it hits
   ball.velocity = {0.3, 0};
   ball.friction = 0;
   const int id = world.add(ball, circleShape(0.3));
@@ -267,7 +267,7 @@ TEST(RigidWorld, SleepsAtRestAndWakesWhenDisturbed) {
   world.remove(id);
   for (int tick = 0; tick < 150; ++tick) world.step();
   ASSERT_TRUE(world.isAsleep(lower) && world.isAsleep(upper));
-  world.remove(0);  // and so does losing what it lies on
+  world.remove(0);  // a body also wakes when its support is removed
   const double height = whereIs(world, upper).y;
   for (int tick = 0; tick < 10; ++tick) world.step();
   EXPECT_NEAR(whereIs(world, upper).y - height, 0.5 * kGravityPerTick * 100, 1e-6);
@@ -298,7 +298,8 @@ TEST(RigidWorld, ReportsWhenContactsBeginAndEnd) {
   EXPECT_EQ(begin.second, id);
   EXPECT_NEAR(begin.impulse, 2 * 0.8 * 1.5, 1e-9);
   EXPECT_EQ(begin.normal, (Vec2{-1, 0}));
-  EXPECT_NEAR(whereIs(world, id).x, 8.5 - 0.4 * (1 - 0.5 / 0.8), 1e-9);  // the rest of the tick is used
+  EXPECT_NEAR(whereIs(world, id).x, 8.5 - 0.4 * (1 - 0.5 / 0.8), 1e-9);  // the body moves for the rest of the
+                                                                         // tick after the impact
   world.step();
   ASSERT_EQ(world.events().size(), 1U);
   EXPECT_FALSE(world.events()[0].is_begin);
@@ -323,7 +324,7 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
     joint.anchor_a = on_a, joint.anchor_b = on_b;
     EXPECT_EQ(world.addJoint(joint), joints++);
   };
-  Vec2 end = {0, 0};  // it hangs in a V, to begin with
+  Vec2 end = {0, 0};  // at the start, the chain hangs in a V
   for (int i = 0; i < 20; ++i) {
     const double rise = std::sqrt(1 - 0.95 * 0.95) * (i < 10 ? 1 : -1);
     RigidBody body = movable(end + Vec2{0.475, 0.5 * rise}, plank);
@@ -341,7 +342,7 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
     for (int i = 0; i < joints; ++i) worst = std::max(worst, gapOf(world, i));
   }
   EXPECT_LE(worst, 0.01);
-  EXPECT_LT(whereIs(world, load).y, 4);  // it lies on the bridge
+  EXPECT_LT(whereIs(world, load).y, 4);  // the load lies on the bridge
 }
 
 TEST(RigidWorld, StepAllocatesNothing) {

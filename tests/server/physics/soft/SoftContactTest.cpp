@@ -55,13 +55,13 @@ TEST(SoftContact, BlobRestsOnAnotherBlob) {
   EXPECT_NEAR((box[0].impulse.y + box[1].impulse.y + box[2].impulse.y) / (20 * kGravity), 1, 0.01);
   EXPECT_GT(test::centreOf(world, lower).y - test::centreOf(world, upper).y, 2);
   EXPECT_LT(test::fastest(world.body(upper)), 1e-2);
-  // No node of one is in the other.
+  // No node of one blob is inside the other.
   for (int i = 0; i < 24; ++i) {
     EXPECT_GT(length(test::nodeAt(world, upper, i) - test::centreOf(world, lower)), 1);
   }
 }
 
-// A crate of any weight lies on a rope between two pins, and the rope carries exactly that.
+// A crate of any weight lies on a rope between two pins, which carries exactly that weight.
 TEST(SoftContact, CrateLiesOnARopeBridge) {
   const ConvexShape cube = test::boxShape(1, 1);
   for (const double mass : {4.0, 40.0, 400.0}) {
@@ -75,7 +75,7 @@ TEST(SoftContact, CrateLiesOnARopeBridge) {
     SoftObstacle crate = test::crateAt(3, cube, {0.2, -1.5}, mass, 1.5);
     for (int i = 0; i < 1500; ++i) {
       world.step(1, {&crate, 1});
-      test::goOn(crate);
+      test::advance(crate);
     }
     EXPECT_NEAR(-crate.impulse.y / (mass * kGravity), 1, 1e-2) << mass;
     EXPECT_LT(length(crate.velocity), 1e-2) << mass;
@@ -96,14 +96,14 @@ TEST(SoftContact, CrateLiesOnACloth) {
   SoftObstacle crate = test::crateAt(3, cube, {0, -1.3}, 10, 1.5);
   for (int i = 0; i < 1200; ++i) {
     world.step(1, {&crate, 1});
-    test::goOn(crate);
+    test::advance(crate);
   }
   EXPECT_NEAR(-crate.impulse.y / (10 * kGravity), 1, 1e-2);
   EXPECT_LT(length(crate.velocity), 1e-2);
   EXPECT_LT((crate.place - Place{}).y, 1);
 }
 
-// What one loses the other gets.
+// The momentum that the blob loses is that which the crate gains.
 TEST(SoftContact, SoftRigidContactConservesMomentum) {
   const ConvexShape cube = test::boxShape(1, 1);
   SoftBody blob = softBlob({-4, 0.3});
@@ -115,7 +115,7 @@ TEST(SoftContact, SoftRigidContactConservesMomentum) {
   crate.inverse_mass = 1 / 7.0;
   crate.inverse_inertia = 1.5 / 7;
   const Vec2 before = test::momentumOf(world.body(id));
-  const auto twist = [&] {  // about the origin
+  const auto twist = [&] {  // angular momentum about the origin
     double sum = 7 / 1.5 * crate.spin + 7 * cross(crate.place - Place{}, crate.velocity);
     for (int i = 0; i < 24; ++i) {
       const SoftNode& node = world.body(id).nodes[static_cast<std::size_t>(i)];
@@ -126,7 +126,7 @@ TEST(SoftContact, SoftRigidContactConservesMomentum) {
   const double twist_before = twist();
   for (int i = 0; i < 100; ++i) {
     world.step(1, {&crate, 1});
-    test::goOn(crate);
+    test::advance(crate);
   }
   EXPECT_GT(crate.velocity.x, 0.05);
   EXPECT_LT(length(test::momentumOf(world.body(id)) + 7 * crate.velocity - before) / length(before), 1e-9);
@@ -134,7 +134,7 @@ TEST(SoftContact, SoftRigidContactConservesMomentum) {
   EXPECT_NEAR(twist() / twist_before, 1, 0.02) << crate.spin;
 }
 
-// A soft slab on a slope: friction holds it below its angle, and lets it go beyond at g (sin θ − µ cos θ).
+// A soft slab lies on a slope. Friction holds it up to its angle; above, it slides with g (sin θ − µ cos θ).
 TEST(SoftContact, FrictionHoldsAndSlides) {
   const ConvexShape slab = test::boxShape(200, 1);
   for (const double slope : {0.45, 0.6}) {
@@ -158,7 +158,7 @@ TEST(SoftContact, FrictionHoldsAndSlides) {
   }
 }
 
-// Row 14 for nodes: none ends behind a wall, up to 1e6 cells a second and more.
+// Problem 14 of docs/physics/lab.md: no node passes through a wall, at 1e6 cells per second and more.
 TEST(SoftContact, NoNodePassesAWall) {
   SplitMix64 random(5);
   constexpr int kShots = 1000 / naiad::test::kShare;
@@ -176,7 +176,7 @@ TEST(SoftContact, NoNodePassesAWall) {
     const int id = world.add(body);
     for (int tick = 0; tick < 12; ++tick) {
       ASSERT_EQ(world.step(1, {&obstacle, 1}), SoftStatus::kDone);
-      test::goOn(obstacle);
+      test::advance(obstacle);
       const double x = (obstacle.place - Place{}).x;
       for (int node = 0; node < static_cast<int>(body.nodes.size()); ++node) {
         const Vec2 at = test::nodeAt(world, id, node);
@@ -188,7 +188,7 @@ TEST(SoftContact, NoNodePassesAWall) {
   }
 }
 
-// A crate on a rope's end: it hangs there, and the rope's other end holds both.
+// A crate hangs on one end of a rope, and the other end holds both.
 TEST(SoftContact, CrateHangsOnARope) {
   const ConvexShape cube = test::boxShape(0.5, 0.5);
   SoftBody rope = makeRope({}, {0, 5}, 10, 1, 1e4);
@@ -201,7 +201,7 @@ TEST(SoftContact, CrateHangsOnARope) {
   ASSERT_GE(held, 0);
   for (int i = 0; i < 300; ++i) {
     world.step(1, {&crate, 1});
-    test::goOn(crate);
+    test::advance(crate);
     const Vec2 anchor = (crate.place - Place{}) + crate.rotation * Vec2{0, -0.5};
     ASSERT_LT(length(anchor - test::nodeAt(world, id, 10)), i < 10 ? 0.12 : 5e-3) << i;
     crate.velocity *= 0.97;
@@ -211,7 +211,7 @@ TEST(SoftContact, CrateHangsOnARope) {
   ASSERT_TRUE(world.detach(held));
   for (int i = 0; i < 60; ++i) {
     world.step(1, {&crate, 1});
-    test::goOn(crate);
+    test::advance(crate);
   }
   EXPECT_GT((crate.place - Place{}).y, 10);
 }

@@ -6,7 +6,7 @@
 namespace naiad::physics {
 namespace {
 
-// Blobs of 8 nodes side by side, `apart` from one another, and what they find of each other.
+// A row of blobs of 8 nodes, at distances of `apart`, and the contacts between them.
 class Crowd {
  public:
   Crowd(int count, double apart) {
@@ -23,14 +23,14 @@ class Crowd {
     for (std::size_t i = 0; i < m_views.size(); ++i)
       m_left_out += crowd.findContacts(m_views, i, rows) ? 0 : 1;
   }
-  // Of a body's nodes with others.
+  // Returns the number of contacts of a body's nodes with other bodies.
   int rowsOf(int id) const {
     int count = 0;
     for (const SoftRow& row : rows) count += row.a.body == id ? 1 : 0;
     return count;
   }
   int leftOut() const { return m_left_out; }
-  /// Every contact there is.
+  /// Returns all contacts, as they would be without the limits.
   std::vector<SoftRow> all() const {
     std::vector<SoftRow> found;
     for (const SoftView& a : m_views) {
@@ -73,7 +73,7 @@ TEST(SoftCrowd, ContactsGrowWithBodiesNotPairs) {
   }
 }
 
-// In one place each begins with another one, so that all have as many contacts.
+// If all bodies are in one place, each begins with a different neighbour, so that contacts are shared evenly.
 TEST(SoftCrowd, ContactsAreSharedAmongTheBodies) {
   constexpr int kMany = 60;
   const Crowd many(kMany, 0);
@@ -83,7 +83,8 @@ TEST(SoftCrowd, ContactsAreSharedAmongTheBodies) {
   EXPECT_GT(*std::min_element(times_touched.begin(), times_touched.end()), 0);
 }
 
-// In a row where each overlaps a score of others, the nearest count, and of their contacts the deepest.
+// Each body overlaps about twenty others in the row, but has only the deepest contacts with the nearest of
+// them.
 TEST(SoftCrowd, OnlyTheNearestBodiesTouch) {
   const Crowd row(100, 0.1);
   for (const SoftRow& contact : row.rows) {

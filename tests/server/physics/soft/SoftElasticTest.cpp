@@ -10,14 +10,15 @@ namespace {
 using test::kGravity;
 
 constexpr double kPi = 3.14159265358979323846;
-// A beam in ticks: EI 14, EA 3e3, 25 per length, 10 long. Its first mode takes some 240 ticks.
+// A beam with times in ticks: EI 14, EA 3e3, mass 25 per length, length 10. Its first mode takes about 240
+// ticks.
 constexpr double kEi = 14, kEa = 3e3, kDensity = 25, kLength = 10;
 
 SoftBody clamped(int elements) {
   return makeBeam({}, {kLength, 0}, elements, kEi, kEa, kDensity, true);
 }
 
-// Bent by a ten-thousandth of its length: there the linear theory holds to 1e-8.
+// Bends the beam by a ten-thousandth of its length, for which the linear theory is right to 1e-8.
 double relativeDeflection(int elements) {
   SoftBody beam = clamped(elements);
   beam.drag = 0.1;
@@ -31,7 +32,7 @@ double relativeDeflection(int elements) {
   return test::nodeAt(world, id, elements).y / expected - 1;
 }
 
-// Row 11b: FL³/3EI within 1 %, and the error falls with the cube of the number of elements.
+// Problem 11b of docs/physics/lab.md: FL³/3EI within 1 %. The error is proportional to elements^−3.
 TEST(SoftBody, CantileverBendsByTheFormula) {
   const double coarse = relativeDeflection(8), medium = relativeDeflection(16), fine = relativeDeflection(32);
   EXPECT_LT(std::fabs(coarse), 1e-3);
@@ -40,7 +41,7 @@ TEST(SoftBody, CantileverBendsByTheFormula) {
   EXPECT_NEAR(medium / fine, 8, 1);
 }
 
-// Started in the shape of its first mode; the time between passages.
+// The beam starts in the shape of the first mode; measures the time between its passages through the middle.
 double relativeFrequency(int elements, int substeps) {
   const double beta = 1.8751040687119612,
                sigma = (std::cosh(beta) + std::cos(beta)) / (std::sinh(beta) + std::sin(beta));
@@ -68,7 +69,7 @@ double relativeFrequency(int elements, int substeps) {
   return measured / expected - 1;
 }
 
-// Row 11b: f₁ within 1 %, and of second order.
+// Problem 11b: f₁ within 1 %, and an error of second order.
 TEST(SoftBody, CantileverSwingsAtItsFirstFrequency) {
   EXPECT_LT(std::fabs(relativeFrequency(4, 4)), 0.01);
   EXPECT_LT(std::fabs(relativeFrequency(8, 4)), 1e-3);
@@ -102,7 +103,7 @@ double relativeSag(int links) {
   return test::nodeAt(world, id, links / 2).y / sag - 1;
 }
 
-// Row 11b.
+// Problem 11b.
 TEST(SoftBody, RopeHangsAsACatenary) {
   const double coarse = relativeSag(16), medium = relativeSag(32), fine = relativeSag(64);
   EXPECT_LT(std::fabs(coarse), 0.01);
@@ -111,7 +112,7 @@ TEST(SoftBody, RopeHangsAsACatenary) {
   EXPECT_NEAR(medium / fine, 4, 0.3);
 }
 
-// A ring under pressure: tension = pressure · radius (and the polygon's cosine), tension = EA · strain.
+// A ring under pressure: tension = pressure · radius (times the polygon's cosine) = EA · strain.
 TEST(SoftBody, BlobSwellsToTheSkinPressureBalance) {
   constexpr int kNodes = 24;
   constexpr double kRadius = 2, kSkin = 1, kPressure = 0.1;
@@ -125,7 +126,7 @@ TEST(SoftBody, BlobSwellsToTheSkinPressureBalance) {
 }
 
 double springError(int substeps) {
-  SoftBody pair = makeRope({}, {1, 0}, 1, 2, 0.01);  // a mass of 1 on a spring of 0.01: ω = 0.1
+  SoftBody pair = makeRope({}, {1, 0}, 1, 2, 0.01);  // a mass of 1 on a spring of stiffness 0.01: ω = 0.1
   pair.nodes[0].is_pinned = true;
   pair.nodes[1].offset.x = 1.1;
   SoftWorld world;
@@ -146,8 +147,8 @@ TEST(SoftBody, StepConvergesWithSecondOrder) {
   EXPECT_NEAR(medium / fine, 4, 0.4);
 }
 
-// Any stiffness to 1e10 (and a beam as stiff), any step to 100 ticks: energy does not grow, nothing flies
-// off.
+// Energy does not grow and nothing is thrown, at any stiffness up to 1e10 (also of beams) and step up to 100
+// ticks.
 TEST(SoftBody, EnergyNeverGrowsAtAnyStiffnessOrStep) {
   for (const double stiffness : {1e-3, 1.0, 1e3, 1e6, 1e10}) {
     for (const double dt : {0.1, 1.0, 10.0, 100.0}) {
@@ -171,8 +172,8 @@ TEST(SoftBody, EnergyNeverGrowsAtAnyStiffnessOrStep) {
   }
 }
 
-// At 1e10 links keep their length, whatever hangs on them: 2e-12 for each unit of weight, and a jerk is some
-// ten times that.
+// Links of stiffness 1e10 keep their length under any load: to 2e-12 per unit of weight, and to about ten
+// times that after a jerk.
 TEST(SoftBody, StiffRopeKeepsItsLength) {
   for (const double end : {1.0, 1e3, 1e6}) {
     SoftBody rope = makeRope({}, {10, 0}, 20, 20, 0.5e10);

@@ -12,7 +12,7 @@ using test::kGravity;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// A bit of everything, `east` cells from the origin.
+// A scene with all kinds of soft bodies, `east` cells from the origin.
 class Scene {
  public:
   explicit Scene(std::int64_t east = 0)
@@ -39,7 +39,7 @@ class Scene {
   void step(double dt = 1) {
     world.step(dt, obstacles);
     for (SoftObstacle& o : obstacles) {
-      if (o.inverse_mass > 0) test::goOn(o, dt);
+      if (o.inverse_mass > 0) test::advance(o, dt);
     }
   }
   Place place(Vec2 at) const {
@@ -66,14 +66,14 @@ class Scene {
   ConvexShape m_slab, m_cube;
 };
 
-// Whatever compiled this, at whatever level: the same.
+// The hash is equal for every compiler and optimisation level.
 TEST(SoftWorld, HashIsTheSameOnEveryPlatform) {
   Scene scene;
   for (int i = 0; i < 200; ++i) scene.step();
   EXPECT_EQ(scene.hash(), 17057286927604812260U);
 }
 
-// Row 16.
+// Problem 16 of docs/physics/lab.md.
 TEST(SoftWorld, MovesTheSameFarAway) {
   Scene here, there(1'000'000'000);
   for (int i = 0; i < 200; ++i) {
@@ -83,8 +83,7 @@ TEST(SoftWorld, MovesTheSameFarAway) {
   }
 }
 
-// The place follows a body, and it falls as all things do: x + vt + gt²/2, but for the first sub-step's
-// Euler.
+// The place follows a body that falls by x + vt + gt²/2, except for the Euler method of the first sub-step.
 TEST(SoftWorld, FollowsABodyThatFallsFar) {
   SoftWorld world;
   world.setGravity({0, kGravity});
@@ -93,7 +92,7 @@ TEST(SoftWorld, FollowsABodyThatFallsFar) {
   const int id = world.add(rope);
   constexpr int kLong = 2000;
   for (int i = 0; i < kLong; ++i) world.step();
-  // d at the start is 3/2 d ever after.
+  // An error of d at the start becomes 3/2 d and stays so.
   const double first = 1.5 * 0.5 * kGravity / SoftWorld::kDefaultSubsteps / SoftWorld::kDefaultSubsteps;
   for (int i = 0; i <= 8; ++i) {
     EXPECT_NEAR(test::nodeAt(world, id, i).x, 3.0 * kLong + 0.5 * i, 1e-8);
@@ -112,7 +111,7 @@ TEST(SoftWorld, AllocatesNothingOnceWarm) {
   EXPECT_EQ(naiad::test::allocationsSoFar(), before);
 }
 
-// Row 18, at the call.
+// Problem 18: functions refuse invalid numbers.
 TEST(SoftWorld, InvalidBodiesAndNumbersAreRefused) {
   SoftWorld world;
   const SoftBody rope = makeRope({}, {4, 0}, 4, 1, 10);
@@ -143,7 +142,7 @@ TEST(SoftWorld, InvalidBodiesAndNumbersAreRefused) {
   EXPECT_EQ(world.step(1, {&obstacle, 1}), SoftStatus::kRefused);
 }
 
-// Row 18: what cannot be worked out is frozen; all others move as in a world without it.
+// Problem 18: a body that cannot be computed is frozen. All other bodies move as in a world without it.
 TEST(SoftWorld, UnsolvableBodyFreezesAlone) {
   Scene without, with;
   SoftBody doomed = makeRope(placeAt({0, -30}), {4, 0}, 8, 1, 1e10);
@@ -166,7 +165,7 @@ TEST(SoftWorld, UnsolvableBodyFreezesAlone) {
   EXPECT_FALSE(with.world.isFrozen(id));
 }
 
-// Spikes of the step, and hundreds of bodies in one place: bounded, and counted.
+// Sudden long steps, and hundreds of bodies in one place: results stay bounded, and failures are counted.
 TEST(SoftWorld, StaysBoundedInExtremes) {
   Scene scene;
   for (const double dt : {1.0, 1e3, 1e-6, 10.0, 1e-3, 100.0, 1.0}) scene.step(dt);
@@ -183,7 +182,7 @@ TEST(SoftWorld, StaysBoundedInExtremes) {
   }
 }
 
-// Light against heavy, 1 to 1e6 both ways.
+// Mass ratios from 1 to 1e6, with the light body on the heavy one and vice versa.
 TEST(SoftWorld, BearsMassRatiosToAMillion) {
   const ConvexShape cube = test::boxShape(1, 1), slab = test::boxShape(20, 1);
   for (const double mass : {1e-3, 1e3, 1e6}) {
@@ -195,8 +194,8 @@ TEST(SoftWorld, BearsMassRatiosToAMillion) {
     const int id = world.add(blob);
     for (int i = 0; i < 600; ++i) {
       world.step(1, all);
-      test::goOn(all[1]);
-      // Nothing is faster than by all of the crate's fall.
+      test::advance(all[1]);
+      // No kinetic energy is larger than that of the crate after its whole fall.
       double kinetic = 0;
       for (const SoftNode& node : world.body(id).nodes)
         kinetic += 0.5 * node.mass * lengthSquared(node.velocity);

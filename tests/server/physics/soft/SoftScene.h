@@ -1,4 +1,4 @@
-// Helpers for tests of soft bodies.
+// Functions for tests of soft bodies.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace naiad::physics::test {
 
 constexpr double kTicks = 30;                        // per second
-constexpr double kGravity = 10 / (kTicks * kTicks);  // 10 per second²
+constexpr double kGravity = 10 / (kTicks * kTicks);  // 10 cells per second²
 
 inline Vec2 nodeAt(const SoftWorld& world, int id, int node) {
   const SoftBody& body = world.body(id);
@@ -43,7 +43,7 @@ inline SoftObstacle obstacleAt(int id, const ConvexShape& shape, Vec2 at, double
   obstacle.friction = friction;
   return obstacle;
 }
-/// Makes an obstacle of this mass with gravity. `inverse_inertia` is for a mass of 1.
+/// Makes an obstacle of this mass with gravity. `inverse_inertia` is that for a mass of 1.
 inline SoftObstacle crateAt(int id, const ConvexShape& shape, Vec2 at, double mass, double inverse_inertia,
                             double friction = 0.5) {
   SoftObstacle crate = obstacleAt(id, shape, at, friction);
@@ -52,8 +52,8 @@ inline SoftObstacle crateAt(int id, const ConvexShape& shape, Vec2 at, double ma
   crate.acceleration = {0, kGravity};
   return crate;
 }
-/// Moves the obstacle after a step, as the layer of rigid bodies would.
-inline void goOn(SoftObstacle& o, double dt = 1) {
+/// Moves the obstacle after a step, as the BodyLayer would.
+inline void advance(SoftObstacle& o, double dt = 1) {
   o.velocity += dt * o.acceleration + o.inverse_mass * o.impulse;
   o.spin += o.inverse_inertia * o.angular_impulse;
   o.place = o.place + o.displacement;

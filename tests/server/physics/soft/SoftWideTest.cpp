@@ -1,4 +1,4 @@
-// Bodies too wide for a direct solution (SoftElastic.h).
+// Bodies that are too wide for a direct solution (SoftElastic.h).
 
 #include <random>
 
@@ -80,7 +80,8 @@ TEST(SoftWide, OnlyExpensiveBodiesAreSolvedIteratively) {
 }
 
 TEST(SoftWide, PinnedSheetStretchesByAtMostFivePercent) {
-  constexpr int kThreads = naiad::test::kSanitized ? 40 : 100;  // a sanitizer takes minutes for all
+  constexpr int kThreads = naiad::test::kSanitized ? 40 : 100;  // with a sanitizer, 100 threads would take
+                                                                // minutes
   SoftBody sheet = makeSheet(kThreads, 0.4);
   pinCorners(sheet, kThreads);
   SoftWorld world;
@@ -90,7 +91,7 @@ TEST(SoftWide, PinnedSheetStretchesByAtMostFivePercent) {
   for (int i = 0; i < 300; ++i) {
     world.step();
     const SoftBody& body = world.body(id);
-    ASSERT_LE(stretchOf(body), 0.05) << i;  // false for NaN, too
+    ASSERT_LE(stretchOf(body), 0.05) << i;  // false if it is NaN, too
     ASSERT_LE(energyOf(body, {0, kPull}), start + 1e-6 * std::fabs(start)) << i;
     ASSERT_EQ(test::nodeAt(world, id, 0), Vec2{}) << i;
   }
@@ -124,7 +125,7 @@ TEST(SoftWide, FallingSheetPutsNoNodeInTheBox) {
   const ConvexShape shape = test::boxShape(5, 3);
   SoftObstacle box[] = {test::obstacleAt(0, shape, {14.75, 34}, 0.5)};
   int begun = 0;
-  constexpr int kTicks = naiad::test::kSanitized ? 50 : 150;  // it falls on the box in the 20th
+  constexpr int kTicks = naiad::test::kSanitized ? 50 : 150;  // the sheet reaches the box in the 20th tick
   for (int i = 0; i < kTicks; ++i) {
     world.step(1, box);
     for (const SoftEvent& event : world.events()) begun += event.is_begin ? 1 : 0;
@@ -152,7 +153,7 @@ TEST(SoftWide, SheetCarriesAMovableBox) {
   crate[0].acceleration = {0, kPull};
   for (int i = 0; i < 300; ++i) {
     world.step(1, crate);
-    test::goOn(crate[0]);
+    test::advance(crate[0]);
   }
   EXPECT_TRUE(world.isTouching(id, 3));
   EXPECT_LT(std::fabs(crate[0].velocity.y), 0.02);
@@ -171,7 +172,7 @@ TEST(SoftWide, AnAttachedNodeFollowsItsObstacle) {
   world.attach({id, 0, 5, {}});
   for (int i = 0; i < 100; ++i) {
     world.step(1, hook);
-    test::goOn(hook[0]);
+    test::advance(hook[0]);
     ASSERT_LE(length(test::nodeAt(world, id, 0) - (hook[0].place - Place{})), 0.05) << i;
   }
 }
@@ -211,8 +212,8 @@ TEST(SoftWide, GainsNoEnergyAtAnyStiffnessAndMass) {
   }
 }
 
-// The stiffest does not always converge with an earlier decomposition. One iteration at most in a sub-step is
-// lost by that: 4 % more of them than with a decomposition for each.
+// For the stiffest cloth, iterations with an earlier decomposition do not always converge. This costs at most
+// one iteration per sub-step: in all 4 % more than a decomposition for each iteration.
 TEST(SoftWide, DefaultClothReusesItsDecompositionWhileItConverges) {
   for (const double stiffness : {5.0, 5e10}) {
     SoftBody sheet = makeSheet(25, 0.1, stiffness);
@@ -232,7 +233,7 @@ TEST(SoftWide, DefaultClothReusesItsDecompositionWhileItConverges) {
   }
 }
 
-// A sheet hung by two corners over a box, after 100 ticks.
+// Returns a hash of a sheet that hangs by two corners over a box, after 100 ticks.
 std::uint64_t hashOfSheet(int threads, bool& has_touched) {
   SoftBody sheet = makeSheet(threads, 0.5);
   if (threads <= 25) {
@@ -254,7 +255,7 @@ std::uint64_t hashOfSheet(int threads, bool& has_touched) {
   return hash.value();
 }
 
-// Whatever compiled it.
+// The hashes are equal for every compiler.
 TEST(SoftWide, SheetHashesAreTheSameOnEveryPlatform) {
   for (const auto& [threads, hash] : {std::pair{30, 0x430d960ec7c94411u}, {25, 10971624823872805848u}}) {
     bool has_touched = false;

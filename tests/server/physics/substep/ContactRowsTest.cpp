@@ -1,5 +1,5 @@
-// Contact rows solved side by side: each gets the result it would get alone, only pushes, and keeps its
-// friction within the cone.
+// Contact rows that are solved in parallel: each has the result that it would have alone, only pushes, and
+// its friction stays within the cone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Trial {
   Manifold manifold;
   KnownImpulses known;
   SubstepState a, b;
-  float kick = 0;  // what a sub-step adds to b's speed along y
+  float kick = 0;  // speed that a sub-step adds to b along y
 };
 
 Trial trialOf(std::uint64_t seed) {
@@ -69,7 +69,7 @@ Trial trialOf(std::uint64_t seed) {
 }
 
 struct Outcome {
-  std::vector<std::uint32_t> bits;  // of both bodies and the impulses
+  std::vector<std::uint32_t> bits;  // bits of both bodies and the impulses
   KnownImpulses known;
   ContactPush pushed;
 };
@@ -79,7 +79,7 @@ void moveState(SubstepState& s) {
   s.c = std::cos(kSubstep * s.spin), s.s = std::sin(kSubstep * s.spin);
 }
 
-// A step of all of them; a colour's rows are packed as many to a block as are asked for.
+// Solves all trials in one step. The rows of a colour are divided into blocks of `in_block` rows.
 std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_block) {
   std::vector<SubstepState> states(1);
   ContactRows rows;
@@ -175,7 +175,7 @@ TEST(ContactRows, ContactsOnlyPushAndFrictionStaysInCone) {
     }
   }
   EXPECT_GT(pushing, 50);
-  // Pressed evenly by a force of 0.2 per tick: the cone is as wide as the normal impulse says.
+  // The bodies are pressed together by 0.2 per tick: the limit of friction is given by this normal impulse.
   for (const float slip : {0.0f, 0.1f, 1.0f}) {
     Trial trial;
     ContactRow& row = trial.row;
@@ -199,7 +199,7 @@ TEST(ContactRows, ContactsOnlyPushAndFrictionStaysInCone) {
   EXPECT_EQ(sliding, 1);
 }
 
-// On a floor, pressed by `kick` in each sub-step; it was pressed so before by a tenth of it less.
+// Makes a body on a floor, pressed by `kick` in each sub-step. The known impulse is smaller by a tenth.
 Trial lyingOne(float kick) {
   Trial trial;
   trial.row.is_held = true;
@@ -234,7 +234,7 @@ TEST(ContactRows, OnlyLastingContactsUseTheTrend) {
   }
 }
 
-// Whatever is remembered: where nothing pushed before, there is no trend to go on with.
+// A contact that did not push before ignores its stored trend.
 TEST(ContactRows, NewImpactIgnoresAStoredTrend) {
   Trial trial = lyingOne(0), flat;
   trial.row.is_lasting = true;
@@ -271,7 +271,7 @@ TEST(ContactRows, GapClosesButNoFurther) {
     trial.manifold.count = 1;
     trial.manifold.points[0].separation = 0.1;
     const Outcome outcome = stepOf({trial}, 1)[0];
-    const float y = std::bit_cast<float>(outcome.bits[9]);  // of b, less what it moves at its first velocity
+    const float y = std::bit_cast<float>(outcome.bits[9]);  // movement of b, less that by its first velocity
     EXPECT_NEAR(y - speed, speed < 0.1f ? -0.05f : -0.1f, 1e-5f) << speed;
   }
 }
@@ -283,7 +283,7 @@ TEST(ContactRows, OverlapIsResolvedWithinTheSpeedLimit) {
   const float y = std::bit_cast<float>(outcome.bits[9]);
   EXPECT_GT(y, 0.01f);
   EXPECT_LE(y, 0.1f * 1.001f);
-  EXPECT_NEAR(std::bit_cast<float>(outcome.bits[6]), 0, 1e-6f);  // no speed is left behind
+  EXPECT_NEAR(std::bit_cast<float>(outcome.bits[6]), 0, 1e-6f);  // no speed remains
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bodies created in one place at the fast level: the work is bounded, and the bodies separate.
+// Bodies created in one place at the fast level: the work is limited, and the bodies separate.
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ SubstepScene crowd(int count, double spread) {
   return scene;
 }
 
-// They are fast as soon as they are pushed, and pass each other.
+// The bodies become fast when they are pushed, and pass through each other.
 TEST(SubstepCrowd, WorkGrowsWithBodiesNotPairs) {
   constexpr int kNearest = 16, kMargin = 2,
                 kInTheWay = 64;  // of a body: few others are near once it is not thinned
@@ -42,7 +42,7 @@ TEST(SubstepCrowd, WorkGrowsWithBodiesNotPairs) {
   }
 }
 
-// Small discs in large ones: of those that are larger each keeps the nearest, too.
+// Small discs lie in large ones. Each of them has contacts only with the nearest of the larger discs, too.
 TEST(SubstepCrowd, MixedSizesKeepFewContactsEach) {
   constexpr int kKept = 2 * 16 + 2, kInTheWay = 128;  // of a body
   for (const int count : {500, 2000}) {
@@ -75,7 +75,7 @@ TEST(SubstepCrowd, OverlappingBodiesComeApart) {
   EXPECT_LT(fastest, 3);
 }
 
-// What is as fast as they are but not of them still stops at what it meets: at a crowd, too.
+// A fast body that is not part of a crowd is stopped by the crowd.
 TEST(SubstepCrowd, FastBodyStopsAtTheCrowd) {
   SubstepScene scene = crowd(300, 1);
   const ConvexShape disc = circleShape(0.5);
@@ -85,7 +85,8 @@ TEST(SubstepCrowd, FastBodyStopsAtTheCrowd) {
   EXPECT_TRUE(scene.world.isStopped(id));
 }
 
-// The youngest are not thinned, as they find few that are younger: one that lies in others which are.
+// The body that leaves finds few younger ones, so its pairs are not limited, unlike those of the bodies
+// around it.
 TEST(SubstepCrowd, BodyInsideACrowdCanLeaveIt) {
   SubstepScene scene = crowd(300, 0.3);
   const ConvexShape disc = circleShape(0.5);
@@ -96,7 +97,7 @@ TEST(SubstepCrowd, BodyInsideACrowdCanLeaveIt) {
   EXPECT_GT(length(scene.at(leaving)), 5);
 }
 
-// A heavy one stays where the crowd was. Another crowd that flies at it does not pass.
+// A heavy body stays where the crowd was. Another crowd that flies towards it does not pass through it.
 TEST(SubstepCrowd, RemainingBodyOfACrowdStopsAnotherCrowd) {
   SubstepScene scene(awake());
   const ConvexShape disc = circleShape(0.5);

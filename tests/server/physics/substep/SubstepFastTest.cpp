@@ -10,13 +10,13 @@ using namespace test;
 
 enum class BulletKind { kStick, kDisc };
 
-// How many of the shots have their centre beyond the wall at any time.
+// Returns how many shots have their centre behind the wall at any time.
 int through(BulletKind kind, double speed, double restitution, int shots) {
   SceneRandom uniform{7};
   int passed = 0;
   for (int shot = 0; shot < shots; ++shot) {
     SubstepScene scene;
-    scene.add(immovable({0, 0}), boxShape(0.5, 1e5));  // 1 thick
+    scene.add(immovable({0, 0}), boxShape(0.5, 1e5));  // a wall 1 cell thick
     const ConvexShape bullet = kind == BulletKind::kStick ? boxShape(0.6, 0.1) : circleShape(0.25);
     RigidBody flying = movable({-1.5 - 3 * speed * uniform(), 0}, bullet);
     const double slant = 1.2 * uniform() - 0.6;
@@ -66,7 +66,7 @@ TEST(SubstepFast, FastBodyStopsAtContactAndContinuesNextTick) {
   EXPECT_NEAR(scene.world.body(id).velocity.x, -100, 1e-2);
 }
 
-// Two that meet at once, and one that hits a sleeping stack.
+// Two bodies hit each other in flight, and a body hits a sleeping stack.
 TEST(SubstepFast, FastBodiesDoNotPassEachOther) {
   for (const double speed : {2.0, 30.0, 1e3}) {
     SubstepScene scene;
@@ -97,7 +97,7 @@ TEST(SubstepFast, FastBodyWakesAndPushesASleepingOne) {
   EXPECT_GT(scene.world.body(crate).velocity.x, 5);
 }
 
-// What is hit flies on with what it meets in its way: the ram behind it, just as fast, does not run over it.
+// The crates that are hit push others. The ram behind them is as fast, but does not move into them.
 TEST(SubstepFast, RamDoesNotPenetrateThePushedCrates) {
   SubstepScene scene;
   const ConvexShape block = boxShape(4, 4);
@@ -109,7 +109,7 @@ TEST(SubstepFast, RamDoesNotPenetrateThePushedCrates) {
     crates.push_back(scene.add(floating({4.67 + 0.4 * (i / 40), 0.4 * (i % 40 - 19.5)}, crate), crate));
   }
   scene.ticks(20);
-  double deepest = 0;  // of the crates' middles in the ram
+  double deepest = 0;  // the largest depth of the centre of a crate in the ram
   for (int tick = 0; tick < 12; ++tick) {
     scene.ticks(1);
     for (const int id : crates) {

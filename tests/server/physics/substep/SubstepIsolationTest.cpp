@@ -1,5 +1,5 @@
 // Groups that do not touch have no effect on each other: a group moves identically, bit for bit, alone and
-// among others.
+// with others.
 
 #include <algorithm>
 #include <utility>
@@ -19,8 +19,8 @@ struct GroupKind {
   double mass = 1;
 };
 
-// A floor, a group that is watched, and another one that comes and goes. The watched bodies' orders rise with
-// their number; those of the others lie between.
+// A floor, a watched group, and another group that is added and removed. The watched bodies have ascending
+// orders; the orders of the other bodies are between them.
 class Neighbours {
  public:
   Neighbours(GroupKind watched, bool has_others, GroupKind others)
@@ -75,7 +75,7 @@ class Neighbours {
     joint.anchor_a = {0.55, 0}, joint.anchor_b = {-0.55, 0};
     EXPECT_GE(m_world.addJoint(joint, false), 0);
   }
-  // The last three hang together: joints that share a body are solved for in the order of their addition.
+  // Joins the last three bodies. Joints that share a body are solved in the order of their addition.
   void chain(const std::vector<int>& of) {
     hinge(of[of.size() - 3], of[of.size() - 2]);
     hinge(of[of.size() - 2], of.back());
@@ -87,7 +87,7 @@ class Neighbours {
     }
     chain(m_watched);
   }
-  // It is asleep by then, or nearly.
+  // Pushes a watched body, which sleeps or is about to sleep.
   void pushWatched() {
     RigidBody body = m_world.body(m_watched[3]);
     body.velocity = {-0.3, -0.2};
@@ -122,7 +122,7 @@ void expectSameBits(GroupKind watched, GroupKind others) {
   ASSERT_EQ(one.size(), other.size());
   const auto first = std::mismatch(one.begin(), one.end(), other.begin()).first - one.begin();
   EXPECT_EQ(one, other) << "the first difference is entry " << first << " of " << one.size();
-  // The scene is what it says: ids were used again, and differ.
+  // Checks that the scene has reused ids, and different ones.
   EXPECT_NE(alone.watched(), among.watched());
   EXPECT_FALSE(std::is_sorted(among.watched().begin(), among.watched().end()));
 }
@@ -133,13 +133,13 @@ TEST(SubstepIsolation, GroupMovesTheSameAmongOthersOfAnyMass) {
   expectSameBits({}, {.mass = 1e-6});
 }
 
-// The rows of those that bounce lie beside the rows of those that do not.
+// Rows of contacts that bounce are beside rows of inelastic ones.
 TEST(SubstepIsolation, BouncingAndInelasticGroupsDoNotInteract) {
   expectSameBits({}, {.restitution = 0.7});
   expectSameBits({.restitution = 0.4}, {});
 }
 
-// Masses that no float can invert, on the same floor.
+// Bodies with masses whose inverse a float cannot hold lie on the floor of the watched group.
 TEST(SubstepIsolation, ExtremeMassesChangeNoOtherGroup) {
   for (const double mass : {1e30, 1e37, 1e40, 1e44, 1e60}) {
     SCOPED_TRACE(mass);
@@ -147,7 +147,7 @@ TEST(SubstepIsolation, ExtremeMassesChangeNoOtherGroup) {
   }
 }
 
-// Four that meet within one tick: who is stopped first follows from their order, whatever their ids are.
+// Four bodies touch within one tick. Which is stopped first depends on their order, not on their ids.
 TEST(SubstepIsolation, FastBodiesDoNotDependOnIds) {
   const auto meet = [](std::array<std::size_t, 4> added) {
     SubstepWorld world;

@@ -1,4 +1,4 @@
-// Joints in a SubstepWorld.
+// Tests the joints of a SubstepWorld.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// A crate that hangs on a fixed point, and the point.
+// A crate that hangs on a fixed point, the nail.
 struct Hanging : SubstepScene {
   explicit Hanging(Vec2 where, double spin = 0) : SubstepScene(awake()) {
     nail = world.addInOrder(++order, immovable({0, 0}), {});
@@ -36,7 +36,7 @@ TEST(SubstepJoints, AHingeKeepsAPendulumsLength) {
   }
   EXPECT_LE(worst, 1e-2);
   EXPECT_GT(lowest, 1.9);
-  EXPECT_LT(farthest, -1.8);  // it swings to the other side
+  EXPECT_LT(farthest, -1.8);  // the crate swings to the other side
 }
 
 TEST(SubstepJoints, DistanceJointKeepsItsLength) {
@@ -51,7 +51,7 @@ TEST(SubstepJoints, DistanceJointKeepsItsLength) {
 TEST(SubstepJoints, ARopeOnlyPulls) {
   Hanging scene({0, 0.5});
   const int rope = scene.join({.length = 2}, JointKind::kRope, scene.nail, scene.crate);
-  scene.ticks(10);  // slack: it falls freely
+  scene.ticks(10);  // the rope is slack, so that the crate falls freely
   EXPECT_NEAR(scene.at(scene.crate).y, 0.5 + 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
   EXPECT_NEAR(scene.body().velocity.y, 10 * kGravityPerTick, 1e-6);
   double farthest = 0;
@@ -92,7 +92,7 @@ TEST(SubstepJoints, AMotorReachesItsSpeed) {
                                JointKind::kMotor, scene.nail, scene.crate);
   ASSERT_GE(motor, 0);
   scene.ticks(5);
-  EXPECT_NEAR(scene.body().spin, 0.05, 1e-4);  // no more than its torque
+  EXPECT_NEAR(scene.body().spin, 0.05, 1e-4);  // the torque of the motor is limited
   scene.ticks(20);
   EXPECT_NEAR(scene.body().spin, 0.1, 1e-4);
   Joint joint = scene.world.joint(motor);
@@ -114,7 +114,7 @@ TEST(SubstepJoints, AnAngleLimitHolds) {
       ASSERT_GT(angle, -0.51) << spin << ' ' << tick;
       ASSERT_LT(angle, 0.81) << spin << ' ' << tick;
       if (tick != 5) continue;
-      EXPECT_NEAR(scene.body().spin, spin, 1e-6);  // free within it
+      EXPECT_NEAR(scene.body().spin, spin, 1e-6);  // the spin is free within the limits
     }
     EXPECT_NEAR(scene.body().spin, 0, 0.01);
   }
@@ -187,7 +187,7 @@ TEST(SubstepJoints, JointedBodiesDoNotCollide) {
     EXPECT_EQ(scene.world.counters().contacts > 0, may_touch);
     ASSERT_TRUE(scene.world.removeJoint(rope));
     scene.ticks(30);
-    EXPECT_GT(length(scene.at(b) - scene.at(a)), 0.9);  // now they do
+    EXPECT_GT(length(scene.at(b) - scene.at(a)), 0.9);  // the bodies collide now
   }
 }
 
@@ -227,7 +227,7 @@ TEST(SubstepJoints, AChainBearsALoad) {
   EXPECT_NEAR(scene.world.joint(hinges[0]).force.y / -kGravityPerTick, 17, 0.5);
 }
 
-// A chain at rest sleeps, and wakes whole when its end is pulled.
+// A chain at rest sleeps. All of it wakes when its end is pulled.
 TEST(SubstepJoints, AChainSleepsAndWakes) {
   Hanging scene({0, 0.4});
   scene.world.setSleeping(true);

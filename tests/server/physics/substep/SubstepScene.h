@@ -1,4 +1,4 @@
-// Scenes in a SubstepWorld: crates of 1 cell, 30 ticks per second, g = 10 cells/s².
+// Scenes in a SubstepWorld: crates of 1 cell, 30 ticks per second, g = 10 cells per second².
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace naiad::physics::test {
 
-/// Settings of a joint other than its kind and bodies.
+/// Settings of a joint, except its kind and bodies.
 struct JointSettings {
   double length = 0;
   Vec2 axis = {1, 0};
@@ -21,14 +21,14 @@ struct JointSettings {
   double break_force = kNoLimit;
 };
 
-/// A world whose bodies get consecutive orders.
+/// A world that gives its bodies consecutive orders.
 struct SubstepScene {
   explicit SubstepScene(SubstepOptions options = {}) : world(options) {}
 
   int add(const RigidBody& body, const ConvexShape& shape) {
     return world.addInOrder(++order, body, std::span(&shape, 1));
   }
-  /// Adds a floor whose surface is y = 0.
+  /// Adds a floor with its surface at y = 0.
   int addFloor() { return add(immovable({0, 5}), boxShape(1000, 5)); }
   int addCrate(Vec2 where, double half = 0.5) {
     const ConvexShape shape = boxShape(half, half);
@@ -52,7 +52,7 @@ struct SubstepScene {
   }
   Vec2 at(int id) const { return world.body(id).place - Place{}; }
   double speed(int id) const { return length(world.body(id).velocity); }
-  /// Returns the distance between the joint's anchors.
+  /// Returns the distance of the joint's anchors.
   double gap(int joint_id) const {
     const Joint& joint = world.joint(joint_id);
     const RigidBody &a = world.body(joint.a), &b = world.body(joint.b);

@@ -1,4 +1,4 @@
-// The pairs that a SubstepWorld examines, and bodies that have equal shapes.
+// The pairs that a SubstepWorld examines, and bodies with equal shapes.
 
 #include <algorithm>
 #include <numeric>
@@ -27,7 +27,7 @@ TEST(SubstepSearch, BodiesFallingTogetherNeedNoContacts) {
   EXPECT_EQ(scene.world.counters().contacts, 0);
 }
 
-// Those above meet in the same tick the ones that have been stopped by the floor.
+// The upper bodies touch those that the floor has stopped in the same tick.
 TEST(SubstepSearch, FallingBodiesFindStoppedOnesInTheTick) {
   SubstepScene scene(awake());
   scene.addFloor();
@@ -41,7 +41,7 @@ TEST(SubstepSearch, FallingBodiesFindStoppedOnesInTheTick) {
   EXPECT_LT(deepest, 0.1);
 }
 
-// One comes from the side and faster than the cloud moves.
+// One body flies into the cloud from the side, faster than the cloud moves.
 TEST(SubstepSearch, BodyHitInFlightHitsTheNext) {
   SubstepScene scene(awake());
   const std::vector<int> ids = addCloud(scene, 0.9);
@@ -56,11 +56,10 @@ TEST(SubstepSearch, BodyHitInFlightHitsTheNext) {
     deepest = std::max(deepest, scene.world.deepest());
   }
   EXPECT_LT(deepest, 0.1);
-  EXPECT_GT(scene.world.body(ids[9]).velocity.x, 0.1);  // the last of the row that it ran into
+  EXPECT_GT(scene.world.body(ids[9]).velocity.x, 0.1);  // the last body of the row that it hit
 }
 
-// The work is bounded: along a row whose pairs stand in no order, a push would be passed on by one body a
-// sweep.
+// The work is limited. In a row whose pairs are not sorted, a sweep propagates a push by only one body.
 TEST(SubstepSearch, PushAlongAShuffledRowHasBoundedWork) {
   constexpr int kCrates = 400;
   SubstepScene scene(awake());

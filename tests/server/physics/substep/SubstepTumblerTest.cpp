@@ -1,4 +1,4 @@
-// A moving heap in a rotating drum.
+// Tests a moving heap in a rotating drum.
 
 #include <algorithm>
 
@@ -9,11 +9,11 @@ namespace {
 
 using namespace test;
 
-constexpr double kHalf = 0.125;  // of a box
-constexpr double kRadius = 6;    // of the drum: from its centre to the middle of each wall
-constexpr double kDrumTurn = 0.05 * 2 * std::numbers::pi / 30;  // rad per tick: a turn in 20 s
+constexpr double kHalf = 0.125;  // half the width of a box
+constexpr double kRadius = 6;    // distance of the middle of each wall from the drum's centre
+constexpr double kDrumTurn = 0.05 * 2 * std::numbers::pi / 30;  // rad per tick: a revolution in 20 s
 
-// A square drum, as body 0, that turns about the origin.
+// Adds a square drum as body 0, which rotates about the origin.
 void addDrum(SubstepScene& scene) {
   std::vector<ConvexShape> walls(4);
   makeBox(kRadius + 0.5, 0.5, {0, kRadius}, {}, 0, walls[0]);
@@ -47,9 +47,9 @@ TEST(SubstepTumbler, TurningDrumKeepsItsBoxesInside) {
     deepest = std::max(deepest, scene.world.deepest());
     sum += scene.world.deepest();
   }
-  EXPECT_LT(deepest, 0.3 * 2 * kHalf);  // as Box2D with four times the steps: 0.076 of 0.25
+  EXPECT_LT(deepest, 0.3 * 2 * kHalf);  // like Box2D with four times the steps: 0.076 of 0.25
   EXPECT_LT(sum / (kTicks - kFallen), 0.1 * 2 * kHalf);
-  EXPECT_LT(fastest, std::sqrt(2 * kGravityPerTick * 4 * kRadius));  // nothing is thrown
+  EXPECT_LT(fastest, std::sqrt(2 * kGravityPerTick * 4 * kRadius));  // no box is thrown
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bodies in a SubstepWorld: they rest, sleep, wake, push, bounce and send events.
+// Bodies in a SubstepWorld: they rest, sleep, wake, push, bounce and have events.
 
 #include <algorithm>
 #include <limits>
@@ -32,7 +32,7 @@ TEST(SubstepWorld, ADroppedBoxRestsAndSleeps) {
     EXPECT_TRUE(scene.world.events().empty());
   }
   EXPECT_EQ(scene.world.body(crate), before);
-  EXPECT_EQ(scene.world.counters().contacts, contacts);  // nothing was solved for
+  EXPECT_EQ(scene.world.counters().contacts, contacts);  // no contact was solved
 }
 
 TEST(SubstepWorld, APyramidStandsAndSleeps) {
@@ -57,7 +57,7 @@ TEST(SubstepWorld, APyramidStandsAndSleeps) {
   for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
 }
 
-// More contacts than are solved for at a time: none of them is forgotten.
+// There are more contacts than in one batch, but none is missed.
 TEST(SubstepWorld, SixHundredStacksStandTouchOnceAndSleep) {
   constexpr int kStacks = 600;
   SubstepScene scene;
@@ -80,7 +80,7 @@ TEST(SubstepWorld, SixHundredStacksStandTouchOnceAndSleep) {
   }
 }
 
-// A pile's slow swings are damped, and it does not creep sideways.
+// The slow swings of a pile are damped, and it does not creep to a side.
 TEST(SubstepWorld, TallPyramidOfTouchingBoxesComesToRest) {
   constexpr int kRows = 20;
   SubstepScene scene;
@@ -95,7 +95,7 @@ TEST(SubstepWorld, TallPyramidOfTouchingBoxesComesToRest) {
   EXPECT_NEAR(scene.at(ids.back()).x, 0.5 * (kRows - 1), 0.05);
 }
 
-// It is set down on three light ones, wherever on the top one.
+// The body is placed on three light ones, at different positions on the top one.
 TEST(SubstepWorld, HeaviestBodyPressesNothingThroughTheFloor) {
   for (double off = 0; off < 0.5; off += 0.0127) {
     SubstepScene scene;
@@ -113,7 +113,7 @@ TEST(SubstepWorld, HeaviestBodyPressesNothingThroughTheFloor) {
   }
 }
 
-// Where nothing holds them: rounding leaves them a speed, but what drifts goes on.
+// Bodies without contacts sleep if they are at rest except for rounding; drifting ones continue.
 TEST(SubstepWorld, FloatingBodiesSleepAtRestDriftingOnesDoNot) {
   for (const double drift : {0.0, 1e-9}) {
     SubstepScene scene;
@@ -132,7 +132,7 @@ TEST(SubstepWorld, FloatingBodiesSleepAtRestDriftingOnesDoNot) {
   }
 }
 
-// Not what gravity pulls, nor what has just been woken.
+// A body with gravity does not sleep at once, nor does one that has just been woken.
 TEST(SubstepWorld, BodyStartedAtRestWithoutGravitySleepsAtOnce) {
   SubstepScene scene;
   const ConvexShape shape = boxShape(0.2, 0.2);
@@ -180,7 +180,8 @@ TEST(SubstepWorld, SleepingCanBeSwitchedOff) {
   EXPECT_TRUE(scene.world.isAsleep(crate) && scene.world.isAsleep(other));
 }
 
-// Of all pairs in a pile that comes to rest: at most one begin more than ends at any time, and none at rest.
+// While a pile comes to rest, each pair has at most one more begin than ends. At rest, there are no more
+// events.
 TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
   SubstepScene scene(awake());
   const int floor = scene.addFloor();
@@ -201,7 +202,7 @@ TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
     EXPECT_LT(event.first, event.second);
     const bool is_with_floor = event.first == floor;
     EXPECT_EQ(event.second, is_with_floor ? lower : upper);
-    EXPECT_NEAR(event.normal.y, -1, 1e-6);  // to the second one, which lies above
+    EXPECT_NEAR(event.normal.y, -1, 1e-6);  // towards `second`, which lies above
   }
   RigidBody lifted = scene.world.body(upper);
   lifted.velocity = {0, -0.5};
@@ -212,7 +213,7 @@ TEST(SubstepWorld, AContactBeginsOnceAndEndsOnce) {
   EXPECT_EQ(std::pair(events[0].first, events[0].second), std::pair(lower, upper));
 }
 
-// It slides along a wall that it does not press: that is one contact, until it leaves.
+// The body slides along the floor without pressure. This is one contact, until the body leaves the floor.
 TEST(SubstepWorld, ContactLastsWithoutPressure) {
   SubstepScene scene(awake());
   scene.addFloor();
@@ -281,7 +282,7 @@ TEST(SubstepWorld, KinematicBodyPushes) {
   EXPECT_FALSE(scene.world.isAsleep(crate));
 }
 
-// Slower than what counts as still; it lies on a floor that stands.
+// The piston is slower than the sleep speed; the crate lies on an immovable floor.
 TEST(SubstepWorld, SlowlyPushedBodyDoesNotSleep) {
   SubstepScene scene;
   scene.addFloor();
@@ -296,7 +297,7 @@ TEST(SubstepWorld, SlowlyPushedBodyDoesNotSleep) {
   EXPECT_NEAR(scene.at(crate).x, 0.1, 0.02);
 }
 
-// A platform that carries: friction takes the crate along, and it does not sleep on what moves.
+// A platform carries the crate by friction. The crate does not sleep, because the platform moves.
 TEST(SubstepWorld, MovingPlatformCarriesTheCrate) {
   SubstepScene scene;
   RigidBody platform = immovable({0, 0.5});
@@ -311,7 +312,7 @@ TEST(SubstepWorld, MovingPlatformCarriesTheCrate) {
   EXPECT_NEAR(scene.at(crate).x, scene.at(carrier).x, 0.5);
   EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.05, 1e-3);
   platform = scene.world.body(carrier);
-  platform.velocity = {5e-4, 0};  // slower than what counts as still
+  platform.velocity = {5e-4, 0};  // slower than the sleep speed
   ASSERT_TRUE(scene.world.set(carrier, platform));
   scene.ticks(30);
   const double start = scene.at(crate).x;
@@ -426,7 +427,7 @@ TEST(SubstepWorld, APileGainsNoEnergy) {
     highest = std::max(highest, energy());
   }
   EXPECT_LE(highest, start * (1 + 1e-3));
-  EXPECT_LT(energy(), 0.5 * start);  // it has fallen together
+  EXPECT_LT(energy(), 0.5 * start);  // the pile has collapsed
   EXPECT_LT(scene.world.deepest(), 0.03);
 }
 
@@ -475,7 +476,7 @@ TEST(SubstepWorld, IdsAreReused) {
   EXPECT_FALSE(scene.world.exists(first));
   EXPECT_FALSE(scene.world.remove(first));
   scene.ticks(1);
-  EXPECT_TRUE(scene.world.events().empty());  // contacts with it end without an event
+  EXPECT_TRUE(scene.world.events().empty());  // the contacts of the removed body end without an event
   const int third = scene.addCrate({10, -3});
   EXPECT_EQ(third, first);
   const int limit = scene.world.idLimit();

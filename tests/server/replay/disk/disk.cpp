@@ -1,5 +1,5 @@
-// A preloaded library that gives a server a disk for its round files (.dfr) that stalls, is full, or cannot
-// be written. $DF_TEST_DISK is a folder with these files:
+// A preloaded library with which a server's disk seems to stall, to be full, or not to be writable, for round
+// files (.dfr) only. $DF_TEST_DISK is a folder with these files:
 //
 //   stall, full, read-only   while the file exists, calls wait, or fail with ENOSPC or EROFS
 //   stalled                  created when a call begins to wait

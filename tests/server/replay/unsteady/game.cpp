@@ -98,7 +98,7 @@ std::uint64_t number() {
   return value;
 }
 
-/// Uses 0.45 s of processor time, by a system call, because the clocks of a game stand still within a tick.
+/// Uses 0.45 s of processor time. Reads it by a system call, because a game's clocks stop within a tick.
 void takeTime() {
   const auto now = [] {
     timespec time{};
@@ -109,7 +109,7 @@ void takeTime() {
   while (now() < end) continue;
 }
 
-/// Moves with each key except those that end it.
+/// Moves with each key, except the keys that crash or hang the game.
 class Frail : public df::Object {
  public:
   Frail() {
@@ -155,7 +155,7 @@ class Wanderer : public df::Object {
     m_text = std::to_string(value);
     return 1;
   }
-  // Draws the number itself, because two numbers may lead to one column.
+  // Draws the number itself, because different numbers may give equal columns.
   int draw() override { return DM.drawString(df::Vector(5, 10), m_text, df::LEFT_JUSTIFIED, df::YELLOW); }
 
  private:

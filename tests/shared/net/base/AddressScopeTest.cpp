@@ -1,4 +1,4 @@
-// The distance of addresses (own machine, local network, elsewhere), in all their spellings.
+// The scope of addresses (own machine, private network, public), in all their spellings.
 #include <gtest/gtest.h>
 
 #include <string>

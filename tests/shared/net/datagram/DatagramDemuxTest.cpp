@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A session at the gate and its client.
+/// A session of the DatagramDemux and its client.
 struct Guest {
   Guest(DatagramDemux& door, std::uint64_t number)
       : client({.role = SealedLink::Role::kClient, .id = {number}, .random = {}, .limits = {}}),
@@ -161,7 +161,8 @@ TEST(DatagramDemux, ForgedFloodLeavesAProvenSessionUnharmed) {
   ben.settle();
   SplitMix64 rng(3);
   int said = 0;
-  for (int tick = 0; tick < 300; ++tick) {  // 10 s, 300,000 forged packets from many addresses, with ann's id
+  for (int tick = 0; tick < 300;
+       ++tick) {  // 10 s, 300,000 forged packets from many addresses, with the id of ann's session
     for (int i = 0; i < 1000; ++i) gate.receive(anywhere(rng), forgedFor({1}, rng), ann.now);
     for (Guest* guest : {&ann, &ben}) {
       guest->now += 33ms;
@@ -172,9 +173,9 @@ TEST(DatagramDemux, ForgedFloodLeavesAProvenSessionUnharmed) {
   }
   EXPECT_EQ(ann.heard.size(), static_cast<std::size_t>(said));
   EXPECT_EQ(ben.heard.size(), static_cast<std::size_t>(said));
-  EXPECT_LT(ann.server.counters().forged, 64 + 32 * 11u);  // only so few of 300,000 were decrypted
+  EXPECT_LT(ann.server.counters().forged, 64 + 32 * 11u);  // only this many of the 300,000 were decrypted
   EXPECT_GT(ann.server.counters().forged, 300u);
-  EXPECT_GT(gate.counters().claimed_flood, 290'000u);
+  EXPECT_GT(gate.counters().unvalidated_session_flood, 290'000u);
 }
 
 TEST(DatagramDemux, FloodOnOneSessionDoesNotStopOthersRoaming) {
@@ -218,7 +219,7 @@ TEST(DatagramDemux, UnprovenAddressesShareOneLimit) {
   for (int i = 0; i < 10'000; ++i)
     gate.receive(anywhere(rng), forgedFor({1 + rng.below(20)}, rng), guests[0]->now);
   EXPECT_EQ(forgedForAll(guests), 98u);  // settle() used two of the rate
-  EXPECT_GT(gate.counters().stranger_flood, 0u);
+  EXPECT_GT(gate.counters().unvalidated_flood, 0u);
   for (int i = 0; i < 100; ++i) guests[0]->say("unharmed");
   EXPECT_EQ(guests[0]->heard.size(), 100u);
 }
@@ -261,7 +262,7 @@ TEST(DatagramDemux, EveryPacketIsCountedOnce) {
   }
   const DatagramDemuxCounters& c = gate.counters();
   EXPECT_EQ(c.delivered + c.too_short + c.too_long + c.bad_kind + c.unknown_id + c.session_flood +
-                c.claimed_flood + c.prefix_flood + c.stranger_flood + c.refused,
+                c.unvalidated_session_flood + c.prefix_flood + c.unvalidated_flood + c.refused,
             20'000u);
   EXPECT_EQ(c.delivered, ann.heard.size());
   EXPECT_GT(c.delivered, 100u);

@@ -20,7 +20,7 @@ TEST(LinkPing, MeasuresRoundTripWithoutServerDelay) {
   EXPECT_EQ(pair.fromClient("key").size(), before) << "once";
   pair.now += 40ms;
   EXPECT_EQ(pair.toServer(ping), "key");
-  pair.now += 33ms;  // wait for the tick
+  pair.now += 33ms;  // time for which the server waits for its tick
   const std::string echo = pair.fromServer("world");
   EXPECT_EQ(pair.fromServer("world").size(), echo.size() - 2) << "once";
   pair.now += 60ms;

@@ -10,7 +10,7 @@ namespace {
 
 using Result = ReplayWindow::Result;
 
-/// Computes the expected verdict from all marked numbers.
+/// Computes the expected result of check() from all marked numbers.
 Result plainly(const std::set<std::uint64_t>& marked, std::uint64_t sequence) {
   if (marked.contains(sequence))
     return *marked.rbegin() - sequence < ReplayWindow::kSize ? Result::kSeen : Result::kTooOld;
@@ -32,7 +32,8 @@ TEST(ReplayWindow, MatchesASetOfAllNumbers) {
       const std::uint64_t sequence = around > back ? around - back : 0;
       const Result verdict = window.check(sequence);
       ASSERT_EQ(verdict, plainly(marked, sequence)) << "round " << round << ", number " << sequence;
-      if (verdict != Result::kNew || rng.below(4) == 0) continue;  // some are not marked, like forged ones
+      if (verdict != Result::kNew || rng.below(4) == 0)
+        continue;  // some numbers are not marked, like those of forged packets
       window.mark(sequence);
       marked.insert(sequence);
       ASSERT_EQ(window.expected(), *marked.rbegin() + 1);

@@ -75,10 +75,10 @@ struct Ends {
 struct KnownAnswer {
   AeadId aead;
   SealDirection direction;
-  std::vector<std::string> packets;  // numbers 0, 1 and 258 with "hello", "" and "\0world"
+  std::vector<std::string> packets;  // packets 0, 1 and 258, with the payloads "hello", "" and "\0world"
 };
 
-// Made with Python's "cryptography" by a program written only from the protocol page.
+// Made with Python's "cryptography" by a program written from PROTOCOL.md alone.
 const KnownAnswer kKnownAnswers[] = {
     {AeadId::kAes128Gcm,
      SealDirection::kClientToServer,

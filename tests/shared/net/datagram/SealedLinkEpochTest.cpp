@@ -104,7 +104,7 @@ TEST(SealedLinkEpoch, KeyLimitIsReportedAndEnforced) {
   EXPECT_EQ(pair.toServer(pair.fromClient("on we go")), "on we go");
 }
 
-// Only the client makes new streams, so it also watches the limit of the server's key.
+// Only the client can open a new stream for new keys, so it also watches the limit of the server's key.
 TEST(SealedLinkEpoch, ClientWatchesTheServersKeyLimit) {
   LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .max = 100});
   pair.settle(pair.home);  // otherwise the server may send only three times the bytes received

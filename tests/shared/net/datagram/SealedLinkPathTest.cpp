@@ -17,7 +17,7 @@ TEST(SealedLinkPath, NewestPacketSetsThePeerAddress) {
   const std::string late = pair.fromClient("late");
   EXPECT_EQ(pair.toServer(pair.fromClient("new"), roamed), "new");
   EXPECT_EQ(pair.server.path(), roamed);
-  EXPECT_EQ(pair.toServer(late), "late");  // from home, but sent earlier
+  EXPECT_EQ(pair.toServer(late), "late");  // a packet from home, sent before the client moved
   EXPECT_EQ(pair.server.path(), roamed);
   EXPECT_EQ(pair.server.counters().path_changes, 2u);
 }
@@ -67,7 +67,7 @@ TEST(SealedLinkPath, UnprovenAddressGetsAtMostThreeTimesItsBytes) {
         out += sent->bytes.size();
       }
       ASSERT_LE(out, 3 * in);
-      ASSERT_GT(out + 28, 3 * in);  // and it uses the allowance
+      ASSERT_GT(out + 28, 3 * in);  // and the allowance is used up
     }
     EXPECT_FALSE(pair.server.isValidated(victim));
   }

@@ -1,4 +1,4 @@
-// Sockets, gate, links, roaming, new keys and forgers together, over a bad network in virtual time.
+// Sockets, DatagramDemux, links, roaming, new keys and forgers together, over a bad network in virtual time.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -83,7 +83,7 @@ struct Player {
   std::set<int> heard_up, heard_down;
 };
 
-/// Bytes seen by the network, to and from each address.
+/// Number of bytes seen by the network, to and from each address.
 struct Ledger {
   std::map<Endpoint, std::uint64_t> to, from;
   std::deque<std::string> copies;  // newest packets from clients

@@ -214,7 +214,7 @@ TEST_F(UdpSocketTest, PayloadSizeLimitsAreEnforced) {
   EXPECT_EQ(server.received[0].packet, std::string(1200, 'x'));
 }
 
-/// Sends with a plain socket what UdpSocket would not send.
+/// Sends with a plain socket, for packets that UdpSocket would not send.
 void sendRaw(const Endpoint& to, std::string_view packet) {
   const int descriptor = ::socket(AF_INET, SOCK_DGRAM, 0);
   sockaddr_in address{};

@@ -1,4 +1,4 @@
-// Answers of web servers: however they are split, the result is equal. Ambiguous ones are rejected.
+// Answers of web servers: the result does not depend on how they are split. Ambiguous answers are rejected.
 #include <gtest/gtest.h>
 
 #include <string>

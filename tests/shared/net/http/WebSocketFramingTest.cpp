@@ -1,4 +1,5 @@
-// WebSocket frames read by a client: those that a server may send, however split, and those it may not.
+// WebSocket frames read by a client: those that a server may send, in any pieces, and those that it must not
+// send.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -35,7 +35,7 @@ TEST(ClientHelloGuard, PassesHellosUpToTheLimitInAnyPieces) {
   for (const std::size_t piece : {1u, 3u, 5u, 7u, 100000u}) {
     EXPECT_TRUE(acceptsInPieces(whole, piece));
     EXPECT_TRUE(acceptsInPieces(cut, piece));
-    EXPECT_TRUE(acceptsInPieces(whole + whole, piece));  // after a HelloRetryRequest
+    EXPECT_TRUE(acceptsInPieces(whole + whole, piece));  // a second hello follows a HelloRetryRequest
   }
 }
 

@@ -74,7 +74,7 @@ TEST(Framing, EmptyFrameIsAPermanentError) {
 }
 
 TEST(Framing, OversizedFrameFailsBeforeItsPayload) {
-  for (const std::size_t first : {1u, 2u, 7u}) {  // bytes that arrive before the others
+  for (const std::size_t first : {1u, 2u, 7u}) {  // number of bytes that arrive before the others
     FrameReader reader(4);
     std::vector<std::string> frames;
     feed(reader, framed("four"), frames);

@@ -19,7 +19,7 @@ AddressPrefix of(const std::string& text) {
   return AddressPrefix::of(asio::ip::make_address(text));
 }
 
-/// Returns a /64 in its own /56. The customer has a /48.
+/// Returns a /64 in a /56 of its own, for a customer who has a /48.
 AddressPrefix customersNetwork(int customer, int network) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "2001:db8:%x:%x00::1", customer, network);
@@ -28,7 +28,7 @@ AddressPrefix customersNetwork(int customer, int network) {
 
 class HalfOpenLimitTest : public testing::Test {
  protected:
-  /// Admits a connection like a listener. Returns the id of the one ended for it; 0: none.
+  /// Admits a connection like a listener. Returns the id of the connection that was ended for it; 0: none.
   Id come(const AddressPrefix& prefix) {
     auto verdict = limit.check(prefix);
     const Id ended = verdict.kind == Kind::kEvictFirst ? verdict.id : 0;
@@ -38,7 +38,7 @@ class HalfOpenLimitTest : public testing::Test {
     limit.admit(++newest, prefix);
     return ended;
   }
-  /// Admits a connection together with its ClientHello. False if it is refused.
+  /// Admits a connection whose ClientHello is already complete. Returns false if it is refused.
   bool comeWithHello(const AddressPrefix& prefix) {
     const auto verdict = limit.check(prefix);
     if (verdict.kind == Kind::kEvictFirst) limit.release(verdict.id);
@@ -98,7 +98,7 @@ TEST_F(HalfOpenLimitTest, MostCrowdedPrefixLosesItsOldest) {
 TEST_F(HalfOpenLimitTest, AddressesOfOneNetworkCountTogether) {
   for (int i = 0; i < 10; ++i) come(of("203.0.113.7"));  // the address with most connections
   const Id crowd = newest + 1;
-  for (int i = 0; i < 246; ++i) come(of("198.51.100." + std::to_string(i)));  // in the most crowded /24
+  for (int i = 0; i < 246; ++i) come(of("198.51.100." + std::to_string(i)));  // all in the most crowded /24
   EXPECT_EQ(come(of("192.0.2.1")), crowd);
 }
 
@@ -210,7 +210,7 @@ TEST_F(HalfOpenLimitTest, OnlyAdmittedConnectionsCanBeReleased) {
   EXPECT_FALSE(limit.isSilent(1));
 }
 
-/// The rules of HalfOpenLimit, with all counts made anew for each question.
+/// The rules of HalfOpenLimit, computed in the simplest way: counts all connections again for each question.
 class NaiveLimit {
  public:
   struct Entry {

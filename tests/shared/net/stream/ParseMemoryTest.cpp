@@ -1,4 +1,4 @@
-// Memory used by a message within its size limit: protobuf can make an object of two bytes, so the limit of a
+// Memory used by a message within its size limit. Protobuf can make an object of two bytes, so the limit of a
 // frame must be small enough for the worst content.
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -32,7 +32,7 @@ std::size_t heapOf(const std::string& bytes) {
 
 /// Returns a message whose field `outer` (its key) repeats `part` as often as it fits.
 std::string filled(char outer, const std::string& part, std::size_t limit) {
-  const std::size_t room = limit - 4;  // without the outer key and its length
+  const std::size_t room = limit - 4;  // space without the outer key and its length
   std::string inner;
   while (inner.size() + part.size() <= room) inner += part;
   std::string bytes(1, outer);
@@ -67,7 +67,7 @@ TEST_F(ParseMemory, LargestClientMessageFitsTheMemoryLimit) {
 }
 
 TEST_F(ParseMemory, LargestServerMessageFitsTheMemoryLimit) {
-  // Empty entries, each of which becomes an object.
+  // Empty entries take the least bytes, but each becomes an object.
   const std::string players = filled('\x22', std::string("\x0a\x00", 2), kMaxServerFrame);
   const std::size_t heap = heapOf<wire::ServerMessage>(players);
   EXPECT_GT(heap, 100u * 1024) << "this is the dear one";

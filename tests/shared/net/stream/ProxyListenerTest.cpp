@@ -223,7 +223,7 @@ TEST_F(ProxyListenerTest, AnotherProgramsSocketIsNotRemoved) {
   EXPECT_TRUE(fs::exists(m_options.path));
 }
 
-/// A server skips snapshots while bytes are unsent, so these must be counted on such a socket, too.
+/// A server skips snapshots while bytes are unsent, so these must also be counted on a visitors' socket.
 TEST(VisitorsChannel, BytesUnreadByTheProxyCountAsUnsent) {
   asio::io_context context;
   Local::socket near(context);

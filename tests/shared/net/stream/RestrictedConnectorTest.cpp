@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Returns the error of an attempt to connect; empty if it succeeds.
+/// Tries to connect. Returns the error; empty if it succeeds.
 std::string connectError(const std::string& host,
                          const std::function<bool(const asio::ip::address&)>& allowed) {
   asio::io_context context;

@@ -52,7 +52,7 @@ TEST_F(TlsConnectorTest, ChainVerifiesOnlyForItsOwnName) {
     EXPECT_EQ(trusting.peerIdentity()->chain_verifies, verifies) << host;
     EXPECT_EQ(trusting.peerIdentity()->chain_problem.empty(), verifies) << host;
   }
-  joinAs("game.test", connector);  // this client does not trust the authority
+  joinAs("game.test", connector);  // this connector does not trust the authority
   EXPECT_FALSE(connector.peerIdentity()->chain_verifies);
 }
 

@@ -119,7 +119,7 @@ TEST_F(TlsListenerTest, SendsNoSessionTickets) {
   RawTls client;
   client.shakeHands(context, socket);
   ASSERT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
-  accepted[0]->send("after the handshake");  // session tickets would have been sent before this
+  accepted[0]->send("after the handshake");  // session tickets would have been sent before this frame
   char byte = 0;
   EXPECT_TRUE(runUntil(context, [&] {
     std::array<char, 4096> in;
@@ -239,7 +239,7 @@ TEST_F(TlsListenerTest, ReceivedButUnreadHelloPreventsEviction) {
   listen();
   tcp::socket slow = knock();
   ASSERT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; }));
-  tcp::socket next = knock();  // the listener sees it before the hello
+  tcp::socket next = knock();  // the listener accepts this one before it reads the hello
   RawTls client;
   asio::write(slow, asio::buffer(client.advance()));
   client.shakeHands(context, slow);
@@ -266,7 +266,7 @@ TEST_F(TlsListenerTest, HelloFloodOfFewPrefixesLeavesFreeSlots) {
 }
 
 /// Opens 16 connections from four addresses of one network. They begin their ClientHellos, and complete them
-/// when they hold all slots.
+/// when they have all places.
 std::vector<tcp::socket> finishHellosTogether(TlsFixture& t) {
   const std::string hello = RawTls().advance();
   std::vector<tcp::socket> flood;
@@ -452,7 +452,7 @@ TEST_F(TlsListenerTest, SilentConnectionIsDeferredByTheKernel) {
   ASSERT_GT(tls.defer_accept.count(), 0) << "as shipped";
   listen();
   tcp::socket silent = knock();
-  join();  // later, but accepted first because it sends data
+  join();  // connected later, but accepted first because it sends data
   EXPECT_EQ(listener->halfOpen(), 0u);
   EXPECT_TRUE(runUntil(context, [&] { return listener->halfOpen() == 1; })) << "but it is not forgotten";
 }

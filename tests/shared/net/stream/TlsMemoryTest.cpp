@@ -62,7 +62,7 @@ struct TlsMemoryTest : TlsFixture {
     listen();
     accepted.reserve(2 * kConnections);
     sockets.reserve(2 * kConnections);
-    finishOne();  // makes everything that is allocated only once
+    finishOne();  // allocates everything that is allocated only once
     accepted.clear();
   }
   /// Prints the bytes per connection since `before` and compares them with the limits.
@@ -106,7 +106,7 @@ TEST_F(TlsMemoryTest, IdleConnectionUsesLittleMemory) {
 
 TEST_F(TlsMemoryTest, UnfinishedHelloUsesLittleMemory) {
   const Heap before;
-  // The longest accepted hello without its last byte, in one record.
+  // All of the longest accepted hello except its last byte, in one record.
   const std::string start = "\x16\x03\x01\x10\x04\x01\x00\x10\x00"s;
   sendFromAll(start + std::string(4095, 'x'));
   expectSmall("within the hello", before);
