@@ -170,7 +170,7 @@ void Hero::fireNuke() {
   WM.onEvent(&nuke);
 }
 
-// --- life and death
+// --- launch and loss of ships
 
 void Hero::launch() {
   m_lost = false;

@@ -315,7 +315,7 @@ AdminAnswer AdminConsole::listBans() const {
     rows.push_back({{"number", static_cast<std::int64_t>(ban.number)},
                     {"who", ban.target()},
                     {"kind", std::string(ban.kind == Ban::Kind::kException ? "allowed" : "banned")},
-                    {"until", ban.until ? timeText(*ban.until) : std::string("for ever")},
+                    {"until", ban.until ? timeText(*ban.until) : std::string("permanent")},
                     {"since", timeText(ban.made)},
                     {"by", ban.by},
                     {"reason", ban.reason}});

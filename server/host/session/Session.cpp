@@ -238,7 +238,7 @@ void Session::checkSilence(Clock::time_point now) {
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
-    // Often neither end notices in an outage that the stream is broken.
+    // During an outage, neither end may notice that the stream is broken.
     if (m_grace.count() > 0) return detach(now);
     setLeaveReason(&Counters::left_silent);
     sendGoodbye("Disconnected: no data from your client.");

@@ -45,7 +45,7 @@ class RestSolver {
   }
 
  private:
-  static constexpr double kRounding = 1e-14;  // part of the sum of all pushes: about 50 last places
+  static constexpr double kRounding = 1e-14;  // part of all pushes' sum: about 50 units in the last place
   enum class Side : std::uint8_t { kFree, kLow, kHigh };
 
   bool solveWithinBounds();

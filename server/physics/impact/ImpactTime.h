@@ -27,7 +27,7 @@ enum class ImpactAxis : std::uint8_t { kNearest, kX, kY };
 struct ImpactTouch {
   Vec2 normal;           ///< direction from the first body to the second
   double gap;            ///< distance of the surfaces along the normal; negative: overlap
-  double curvature = 0;  ///< of the normal's turning: one over the distance of the centres; 0 if flat
+  double curvature = 0;  ///< 1 / distance of the centres about which the normal turns; 0 if flat
   double overlap = 1;    ///< for boxes, across the normal: how far they can slide until they lose contact
 };
 

@@ -76,7 +76,7 @@ class JointImpacts {
   std::vector<int> m_bodies;    // sorted: bodies of these islands, and free bodies
   std::vector<int> m_free;
   std::vector<int> m_joints;
-  std::vector<JointBody> m_first, m_before;  // at the start of the step, and of the present flight
+  std::vector<JointBody> m_first, m_before;  // states at the start of the step, and of the present flight
   std::vector<Vec2> m_force;                 // by joint: sums of impulses during the step
   std::vector<double> m_torque;
   std::vector<Change> m_change;   // by m_bodies: change of the body's motion by a unit impulse

@@ -10,8 +10,7 @@ namespace naiad::physics {
 
 bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
              JointCounters& counters) {
-  constexpr double kStretched = 1e-6;    // of |(length / rest length)² − 1|: beyond it, Newton's method is
-                                         // needed
+  constexpr double kStretched = 1e-6;    // limit of |(length / rest length)² − 1| for this method
   constexpr double kNearlyUnit = 1e-10;  // this near to 1, two terms of the inverse root's series are exact
   const double sum = a.inverse_mass + b.inverse_mass;
   const double per_length = 1 / joint.length;

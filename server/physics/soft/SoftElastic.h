@@ -30,7 +30,7 @@ class SoftElastic {
   static constexpr double kMaxDirectPrice = 2e6;
   static constexpr double kKeptPrice = 1e5;  ///< from this nodes · band² on they are reused: below 12 × 12
                                              ///< nodes
-  /// Limit for a wide body's matrix (ConjugateGradients.h). A cloth has four: along, across, two oblique.
+  /// Limit of diagonals of a wide body's matrix. A cloth has four: along, across, and two oblique.
   static constexpr int kMaxDiagonals = 8;
 
   /// Prepares a body. In a wide body, reduces the stiffness of springs that is too high for floats.

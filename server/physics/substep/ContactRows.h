@@ -101,7 +101,7 @@ class ContactRows {
     std::int32_t points = 0;  // 2 if any row has two points
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
-    Lanes spin_a = {}, spin_b = {};                        // at the start of the step
+    Lanes spin_a = {}, spin_b = {};                        // spins at the start of the step
     Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
     Lanes follows = {};              // 1 if the row's impulses have a trend, else 0

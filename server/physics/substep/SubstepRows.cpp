@@ -17,7 +17,7 @@ namespace {
 constexpr std::int32_t kColours = 64;
 constexpr std::int32_t kUncoloured = 2 * kColours;  // without a colour: solved one after the other
 constexpr std::size_t kBatch = 1024;                // rows in a batch: 220 kB
-// Unit: the thinner body's thickness per tick.
+// Speeds in units of the thinner body's thickness per tick.
 constexpr double kMaxPush = 0.2;  // maximum speed at which overlap is undone
 constexpr double kFast = 4;       // approaches faster than this are stopped at once
 constexpr std::size_t kFetchedOfBody = 5 * kCacheLine;

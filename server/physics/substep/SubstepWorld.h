@@ -118,7 +118,7 @@ class SubstepWorld final : public RigidStepper {
     GridBounds bounds;  // bounds in the broad phase
     std::int32_t id;
   };
-  struct Turn {  // the order in which contacts are solved
+  struct Turn {  // place of a contact in the order of solution
     std::uint64_t order_a, order_b;
     std::int32_t contact;
   };

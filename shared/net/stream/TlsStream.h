@@ -80,7 +80,7 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
     kDone,
     kTimedOut,
     kDisconnected,  ///< the other end disconnected, or the connection broke
-    kFailed,        ///< for example no TLS 1.3, no common protocol
+    kFailed,        ///< no TLS 1.3, no common protocol, or a similar cause
   };
   /// `stream`: only with kDone. `problem`: with kDisconnected and kFailed, the reason as the end of a
   /// sentence.
