@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kShieldTicks = 75;
 constexpr int kPatternTicks = 180;  // ticks after which the boss changes its pattern
-constexpr int kLives = 3;           // in each level
+constexpr int kLives = 3;           // lives at the start of each level
 const Box kPoint(Vector(-0.2, -0.2), 0.4, 0.4);
 
 /// A shot of a player or of the boss. It flies straight until it leaves the world.

@@ -19,7 +19,7 @@ constexpr int kHeight = 24;
 constexpr int kDoorsInRow = 4;
 constexpr int kDoorWidth = kWidth / kDoorsInRow;
 constexpr int kDoorHeight = 5;
-constexpr int kFirstDoor = 6;                  // row
+constexpr int kFirstDoor = 6;                  // row of the first door
 constexpr int kPatience = 60;                  // ticks after which a door that did not open is tried again
 constexpr std::size_t kSign = kDoorWidth - 2;  // characters of a line of the sign
 

@@ -86,7 +86,7 @@ struct Runner : Object {
   const Color color;
   bool beside = false;  // a wall stopped the runner in this tick
   bool done = false;    // the runner is at the flag or in the spikes
-  int age = 0;          // in ticks
+  int age = 0;          // ticks since it was made
 
   explicit Runner(Player& its) : player(its.getId()), color(its.getColor()) {
     setType("Runner");

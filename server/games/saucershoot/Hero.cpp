@@ -113,7 +113,7 @@ void Hero::step() {
     if (m_lost) {
       launch();
     } else {
-      setSolidness(df::SOFT);  // the shield ends
+      setSolidness(df::SOFT);  // the shield has ended
     }
   }
   if (!m_lost && m_trigger.isPulled()) fire(aimAhead());

@@ -62,7 +62,7 @@ void Spawner::step(int tick) {
   const df::ObjectList saucers = WM.objectsOfType("Saucer");
   const int wanted = std::min(kSaucersAtRest + kSaucersPerPilot * pilots + m_level, kMaxSaucers);
   const int missing = wanted - saucers.getCount();
-  const int wave = std::min(missing, 1 + pilots / 2);  // more pilots shoot more saucers
+  const int wave = std::min(missing, 1 + pilots / 2);  // larger for more pilots: they shoot more
   for (int i = 0; i < wave; ++i) new Saucer;
   if (missing < 0) retireOne(saucers);
 }

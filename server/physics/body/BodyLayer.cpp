@@ -140,7 +140,8 @@ Vec2 BodyLayer::pushBesideMagnet(State& state) {
 // Computes the flight of a body by itself. The evaluations of fields are limited: each body has some, and all
 // bodies share more, oldest bodies first. When these are used up, a body gets only a few implicit steps.
 IntegratorStatus BodyLayer::flyFreely(const State& state, Flown& flown) {
-  constexpr std::int64_t kSharedEvaluations = 8000, kOwnEvaluations = 200;  // smooth fields need fewer
+  constexpr std::int64_t kSharedEvaluations = 8000,
+                         kOwnEvaluations = 200;  // limits; smooth fields need fewer
   constexpr int kFewSteps = 16;
   const BodyRow& row = m_table->row(state.index);
   const BodyMedium& medium = std::as_const(*m_table).medium(state.index);

@@ -60,7 +60,7 @@ struct BodyState {
   Vec2 velocity;
   Rotation rotation;
   double spin = 0;
-  Vec2 acceleration;  ///< used by the clients' extrapolation
+  Vec2 acceleration;  ///< published for the clients' extrapolation
 
   /// True if `pull` acts on the body while a solver other than its own flight moves it.
   bool isPulled() const { return is_sprung && (pull.spring.stiffness > 0 || pull.spring.damping > 0); }

@@ -32,7 +32,7 @@ class BodySurroundings {
   };
   struct Found {
     std::uint32_t number;
-    std::uint32_t turn;  // number in creation order
+    std::uint32_t turn;  // index in creation order
     ObjectKey key;
   };
   struct Other {

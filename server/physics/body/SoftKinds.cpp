@@ -18,7 +18,7 @@ using naiad::physics::Place;
 using naiad::physics::Vec2;
 
 constexpr double kMinMaterial = 1e-6, kMaxMaterial = 1e6;  // limits of mass and stiffness
-constexpr double kUsualDrag = 0.02;                        // per tick
+constexpr double kUsualDrag = 0.02;                        // default drag per tick
 constexpr double kUsualFriction = 0.5;
 
 naiad::physics::SoftBody withUsual(naiad::physics::SoftBody body) {
@@ -39,7 +39,7 @@ struct Line {
 
 // Returns the line between two points. If they are equal, it is one cell long.
 Line lineOf(Vector from, Vector to) {
-  constexpr double kLongest = 1e5;  // metric cells
+  constexpr double kLongest = 1e5;  // maximum length in metric cells
   const Metric metric(PM.getAspect());
   Line line = {metric.placeAtCells(from), {}};
   line.displacement = metric.placeAtCells(to) - line.from;

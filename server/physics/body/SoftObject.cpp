@@ -62,7 +62,7 @@ double SoftBody::checked(const char* what, double value, double least, double mo
 }
 
 Vector SoftBody::checked(const char* what, Vector position) const {
-  constexpr double kFarthest = 1e9;  // cells from the origin
+  constexpr double kFarthest = 1e9;  // maximum distance from the origin in cells
   if (std::fabs(position.x()) <= kFarthest && std::fabs(position.y()) <= kFarthest) return position;
   refuseAs(what);
   return {};

@@ -30,7 +30,7 @@ class SoftSleep {
   void findGroups(SoftTable& table, Allows allows);
 
   std::vector<Vec2> m_reaches;  // by id of the soft body
-  UnionFind m_groups;           // groups of ids
+  UnionFind m_groups;           // groups of bodies near each other, by id
   std::vector<char> m_allows;   // by root of m_groups: 1 if the group may sleep
 };
 

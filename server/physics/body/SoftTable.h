@@ -46,7 +46,7 @@ struct SoftEntry {
   bool is_in = false;       ///< true if it takes part in this tick
   bool is_frozen = false;
   bool is_asleep = false;
-  bool is_loaded = false;         ///< something movable presses on it
+  bool is_loaded = false;         ///< true if something movable presses on it
   int still = 0;                  ///< number of ticks with hardly any motion
   int since_touch = 0;            ///< ticks since the last contact
   std::uint64_t surrounding = 0;  ///< SoftObstacles::surrounding() when it fell asleep

@@ -351,7 +351,8 @@ void BroadPhase::findPairs(std::int32_t proxy) {
     if (m_crowds.empty()) return false;
     const Crowd& crowd = m_crowds[index(below.node)];
     const Vec2 over = middle - crowd.middles.high, under = crowd.middles.low - middle;
-    const Vec2 span = {std::max(-over.x, -under.x), std::max(-over.y, -under.y)};  // to the farthest centre
+    const Vec2 span = {std::max(-over.x, -under.x),
+                       std::max(-over.y, -under.y)};  // distance to the farthest centre
     const bool are_heaped =
         span.x < std::min(crowd.narrowest.x, width.x) && span.y < std::min(crowd.narrowest.y, width.y);
     // True if none of them is so large that it would be in m_larger.

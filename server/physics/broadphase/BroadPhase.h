@@ -83,7 +83,7 @@ class BroadPhase {
   struct Crowd {
     SweptBox middles;           // box around the centres of their bounds
     Vec2 narrowest, widest;     // smallest and largest widths; infinite if one of the bodies never moves
-    Vec2 widths;                // sum of widths
+    Vec2 widths;                // sum of the bodies' widths
     std::uint64_t first, last;  // minimum and maximum of `order`; the maximum is used for unchanged bodies
   };
   void markChanged(std::int32_t proxy);

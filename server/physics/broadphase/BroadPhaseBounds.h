@@ -42,7 +42,7 @@ constexpr std::int64_t perimeter(const GridBounds& a) {
 /// every side. Accepts any numbers, because a body that was hit very hard has bounds before it is frozen.
 inline GridBounds gridBounds(const Place& place, const Bounds& bounds, double margin) {
   const auto whole = [](double units) {
-    const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // also if `units` is NaN
+    const double bound = units < kMaxGridUnits ? units : kMaxGridUnits;  // the limit also replaces NaN
     return static_cast<std::int64_t>(bound > -kMaxGridUnits ? bound : -kMaxGridUnits);
   };
   const auto down = [&whole](double x) { return whole(std::floor(x * kGridUnits)); };

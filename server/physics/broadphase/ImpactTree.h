@@ -230,9 +230,9 @@ class ImpactTree {
   std::vector<int> m_leaf_of;
   std::vector<int> m_ids;  // ids of the last build, in the caller's order
   std::vector<int> m_order;
-  std::vector<int> m_member;                       // by node, during queryGroups()
-  std::vector<Leaf> m_near;                        // during queryPairs()
-  const std::vector<SweptBox>* m_boxes = nullptr;  // during update()
+  std::vector<int> m_member;  // by node: result of memberOf(); only valid during queryGroups()
+  std::vector<Leaf> m_near;   // bodies near the small group; only valid during queryPairs()
+  const std::vector<SweptBox>* m_boxes = nullptr;  // argument of update(); only valid during it
   double m_built_size = 0;
 };
 

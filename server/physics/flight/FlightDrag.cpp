@@ -25,7 +25,7 @@ FlownOnLine fall(double v, double a, double q, double t) {
   if (phase < 20) {
     const double half = math::sinh(0.5 * phase);
     const double path = t * quotient(math::sinh(phase), phase);
-    const double growth = 2 * half * half + q * v * path;  // increase of the denominator
+    const double growth = 2 * half * half + q * v * path;  // denominator minus 1
     return {math::log1p(growth) / q, (v * math::cosh(phase) + a * path) / (1 + growth)};
   }
   // cosh and sinh, divided by their common factor e^phase / 2:

@@ -14,7 +14,7 @@ enum class ImpactShape : std::uint8_t { kBox, kCircle };
 /// A body. Time is in ticks, lengths are in metric cells.
 struct ImpactBody {
   Place place;              ///< place of the centre
-  Vec2 velocity;            ///< per tick
+  Vec2 velocity;            ///< metric cells per tick
   Vec2 acceleration;        ///< gravity plus force over mass, constant within a tick
   Vec2 half = {0.5, 0.5};   ///< half size of the box, or the radius in x; >= 0; a box may be flat but not a
                             ///< point

@@ -220,7 +220,7 @@ void ImpactWorld::addRows(const Contact& contact, Purpose purpose) {
   rows.push_back(row);
 }
 
-// Applies an impact without a bounce to all bodies that rest on each other there. Returns its impulse.
+// Applies an impact without a bounce to all bodies that rest on each other. Returns the impulse of `contact`.
 double ImpactWorld::pushGroupOf(int contact, double now) {
   gather(-1, now, true, contact);
   solveGroup(Purpose::kImpact);

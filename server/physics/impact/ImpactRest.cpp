@@ -145,7 +145,7 @@ bool RestSolver::solveFree() {
       m_right[k] = -rateOf(m_rows[m_free[k]]);
       worst = std::max(worst, std::fabs(m_right[k]));
     }
-    if (worst == 0 || (round > 1 && worst > 0.5 * error)) break;  // the accuracy cannot become better
+    if (worst == 0 || (round > 1 && worst > 0.5 * error)) break;  // the accuracy cannot be improved further
     error = worst;
     for (int k = 0; k < count; ++k) {
       const double* const line = m_factor.data() + m_start[k];

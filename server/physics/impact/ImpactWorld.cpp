@@ -7,9 +7,9 @@ namespace naiad::physics {
 namespace {
 
 // Prices of work, in multiplications:
-constexpr double kForecastPrice = 80;  // per examined pair
+constexpr double kForecastPrice = 80;  // for each examined pair
 constexpr double kEventPrice = 200;    // per event, in addition to its examined pairs
-constexpr double kBodyPrice = 50;      // per body and step
+constexpr double kBodyPrice = 50;      // for each body in each step
 
 constexpr double kFarthest = 1e15;  // metric cells in one tick; less than 2^51, the limit for moving a Place
 

@@ -24,7 +24,7 @@ struct ImpactEvent {
   bool is_begin;
   double impulse;  ///< impulse on `second` along the normal; 0 for an end
   Vec2 normal;     ///< direction from `first` to `second`
-  int order = 0;   ///< index in the list
+  int order = 0;   ///< index in events()
 };
 
 /// Counters since the world was made.
@@ -112,7 +112,7 @@ class ImpactWorld {
  private:
   struct Motion {
     double time = 0;    // time within the tick at which place and velocity are valid
-    Vec2 acceleration;  // including contacts
+    Vec2 acceleration;  // includes that by contacts
     unsigned generation = 0;
     int first_contact = -1;
     double work = 0;         // multiplications in this tick
@@ -228,13 +228,13 @@ class ImpactWorld {
   bool m_has_given_up = false;
   static constexpr double kUnbounded = 1e300;
   double m_reserve = kUnbounded;
-  double m_work = 0, m_most_work = 0;           // in this tick
-  double m_reserve_left = 0;                    // in this tick
+  double m_work = 0, m_most_work = 0;           // done and allowed in this tick
+  double m_reserve_left = 0;                    // rest of the reserve in this tick
   int m_lowest_free = 0;                        // all lower ids are in use
   std::vector<int> m_ending;                    // scratch memory of remove()
   std::vector<Candidate> m_candidates;          // pairs with overlapping boxes at the beginning of the tick
   std::int64_t m_origin_x = 0, m_origin_y = 0;  // origin of the broad phase
-  std::vector<int> m_ids;                       // bodies that take part
+  std::vector<int> m_ids;                       // ids of the bodies in this tick
   std::vector<SweptBox> m_boxes;
   ImpactTree m_tree;
   std::vector<Pending> m_queue;

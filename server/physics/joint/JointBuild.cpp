@@ -21,7 +21,7 @@ double calmForceOf(const JointMotion& motion, const JointConstraints::Link& link
   const double arm = joint.length > 0 ? joint.length : std::max(arm_a, arm_b);
   if (!(arm > 0)) return kNoLimit;
   const JointMass b = motion.mass[at(link.b)];
-  double inverse_mass = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;  // effective, at the anchors
+  double inverse_mass = b.inverse_mass + b.inverse_inertia * arm_b * arm_b;  // effective one at the anchors
   if (link.a >= 0) {
     const JointMass a = motion.mass[at(link.a)];
     inverse_mass += a.inverse_mass + a.inverse_inertia * arm_a * arm_a;

@@ -78,7 +78,7 @@ struct JointConstraints {
   std::vector<JointRow> rows;
   std::vector<Kind> kind;
   std::vector<int> link_of;
-  std::vector<double> value;  // C
+  std::vector<double> value;  // C, the position error
   std::vector<double> value_before;
   std::vector<double> multiplier;        // impulse of the first half of a stage
   std::vector<double> softness, memory;  // soft rows: multiplier·softness + C + memory·C before
@@ -86,7 +86,7 @@ struct JointConstraints {
   std::vector<double> low, high;         // bounds of the multiplier
   std::vector<std::int8_t> side;         // bound at which the multiplier is held: −1 lower, +1 upper
   std::vector<std::uint8_t> is_out;      // true if the row is excluded from the matrix for positions
-  std::vector<int> one_sided, soft;      // lists of rows
+  std::vector<int> one_sided, soft;      // indices of one-sided and of soft rows
   bool is_smooth = false;                // true if no row is one-sided or soft
   const Joint* joints = nullptr;         // the caller's joints, during a step
 

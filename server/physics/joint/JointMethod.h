@@ -47,7 +47,7 @@ struct JointCounters {
   std::uint64_t dependent = 0;    ///< redundant rows, counted at each factorisation
   std::uint64_t unsettled = 0;    ///< active sets that kept changing up to the limit of iterations
   std::uint64_t quarantined = 0;  ///< islands frozen because their numbers are out of range
-  std::uint64_t broken = 0;       ///< broken joints
+  std::uint64_t broken = 0;       ///< joints that broke
 };
 
 }  // namespace naiad::physics

@@ -55,7 +55,7 @@ struct IntegratorOptions {
 /// Counters added up over calls; only the owner resets them.
 struct IntegratorCounters {
   std::int64_t evaluations = 0;      ///< evaluations of the derivative, also for finite-difference Jacobians
-  std::int64_t steps = 0;            ///< accepted steps
+  std::int64_t steps = 0;            ///< steps accepted by the error estimate
   std::int64_t rejected = 0;         ///< steps rejected by the error estimate
   std::int64_t jacobians = 0;        ///< Jacobians computed, by implicit methods only
   std::int64_t newton_failures = 0;  ///< steps repeated because Newton's method did not converge

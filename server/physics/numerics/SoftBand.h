@@ -62,7 +62,7 @@ class SoftBand {
 
   int m_size = 0;
   int m_band = 0;
-  int m_stride = 0;               // distance between columns in m_entries
+  int m_stride = 0;               // distance of two columns in m_entries
   std::vector<double> m_entries;  // by column, from the diagonal down; after decompose(): L and 1/D
 };
 

@@ -15,7 +15,7 @@ struct alignas(64) RigidState {
   double inverse_mass = 0;  ///< 0 for immovable bodies, as is inverse_inertia
   double inverse_inertia = 0;
   Vec2 push;             ///< velocity that undoes overlap, only for one sub-step
-  double push_spin = 0;  ///< spin that undoes overlap
+  double push_spin = 0;  ///< spin that undoes overlap, for one sub-step
   Vec2 displacement;     ///< movement since the beginning of the step
   Rotation turn;         ///< rotation since the beginning of the step
   Vec2 kick;             ///< change of the velocity by half a sub-step of acceleration
@@ -67,7 +67,7 @@ struct alignas(64) ContactConstraint {
   ContactKind kind = ContactKind::kPoints;
   bool may_fly = false;  ///< the bodies rotate or bounce, so that they may fly from impact to impact
   bool is_deep = false;  ///< true if there is overlap to undo
-  Vec2 normal;           ///< present normal
+  Vec2 normal;           ///< normal at the present positions
   double friction = 0;
   double coupling = 0;             ///< coupling of the two points' normals
   double inverse_determinant = 0;  ///< of the two normals' matrix; 0: they are solved one after the other

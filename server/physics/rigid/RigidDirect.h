@@ -91,7 +91,7 @@ class RigidDirect {
   std::vector<Side> m_side;
   double m_largest_mass = 0;
   std::vector<double> m_held_mass;  // by body: effective mass including the springs of its rows
-  std::vector<double> m_stiffness;  // by row
+  std::vector<double> m_stiffness;  // stiffness of each row
 };
 
 }  // namespace naiad::physics

@@ -161,7 +161,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
   const double margin = a.margin + b.margin;
   const double reach = a.reach + b.reach + margin;
   const bool is_far = lengthSquared(offset) > reach * reach;
-  if (is_far && pair.first < 0 && !pair.is_touching) {  // so for most pairs
+  if (is_far && pair.first < 0 && !pair.is_touching) {  // true for most pairs
     pair.is_seen = true;
     return;
   }

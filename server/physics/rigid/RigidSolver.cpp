@@ -151,7 +151,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
     x = std::max(rp * p.normal_mass, 0.0), y = 0;
     if (c.coupling * x < rq) {
       x = 0, y = std::max(rq * q.normal_mass, 0.0);
-      if (c.coupling * y < rp) x = std::max(rp * p.normal_mass, 0.0);  // rounding
+      if (c.coupling * y < rp) x = std::max(rp * p.normal_mass, 0.0);  // possible only by rounding
     }
   }
   const double more_p = x - p.normal_impulse, more_q = y - q.normal_impulse;

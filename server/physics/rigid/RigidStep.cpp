@@ -96,7 +96,7 @@ void RigidWorld::beginStep(double dt) {
     }
   }
   for (std::size_t i = 0; i < m_active.size(); ++i) beginBody(m_active[i], dt);
-  if (m_active_changed) {  // a body was frozen
+  if (m_active_changed) {  // a body was frozen, and must be removed
     std::erase_if(m_active, [&](int id) {
       Extra& extra = m_extras[at(id)];
       if (extra.is_frozen) extra.is_active = false;

@@ -31,12 +31,12 @@ struct RigidCounters {
   std::int64_t impacts = 0;          ///< impacts of fast bodies
   std::int64_t held = 0;             ///< times that a fast body had to wait for the next sub-step
   std::int64_t unresolved = 0;       ///< times of impact for which the iteration limit was reached
-  std::int64_t direct_solves = 0;    ///< groups solved at once
+  std::int64_t direct_solves = 0;    ///< groups solved by RigidDirect
   std::int64_t direct_rounds = 0;    ///< approximate number of factorisations in all direct solutions
   std::int64_t direct_failures = 0;  ///< direct solutions that failed
   std::int64_t direct_refusals = 0;  ///< groups not solved directly because it might cost too much
   std::int64_t quarantined = 0;      ///< number of times that a body was frozen
-  std::int64_t broken = 0;           ///< broken joints
+  std::int64_t broken = 0;           ///< joints that broke
 };
 
 struct RigidOptions {
@@ -148,7 +148,7 @@ class RigidWorld final : public RigidStepper {
     int first_constraint = 0, constraints = 0;
     int first_link = 0, links = 0;
     int hard_links = 0;  // number of links other than springs and mice
-    double kick = 0;     // largest kick of its bodies
+    double kick = 0;     // maximum speed of RigidState::kick of its bodies
     double budget = 0;   // multiplications that a direct solution may need in this step
     bool has_fast = false;
     bool rests_anew = false;  // in this sub-step it has no known impulses and no fast impacts
@@ -263,7 +263,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
   UnionFind m_sets;              // sets of bodies
-  std::vector<int> m_island_of;  // by root
+  std::vector<int> m_island_of;  // index of the island, by root of m_sets
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
   std::size_t m_first_late = 0;  // index in m_constraints of the first one found within the step

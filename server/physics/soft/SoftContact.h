@@ -20,7 +20,7 @@ struct SoftObstacle {
   std::span<const ConvexShape> shapes;
   Place place;  ///< place of the centre of mass, the shapes' origin
   Rotation rotation;
-  Vec2 velocity;      ///< per tick
+  Vec2 velocity;      ///< metric cells per tick
   double spin = 0;    ///< rad per tick
   Vec2 acceleration;  ///< from all forces except those of soft bodies, so that a body at rest stays at rest
   double inverse_mass = 0;

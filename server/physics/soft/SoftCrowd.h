@@ -23,8 +23,8 @@ class SoftCrowd {
 
  private:
   struct Other {
-    std::size_t index;  // index of its view
-    double square;      // squared distance
+    std::size_t index;  // index of its view in `views`
+    double square;      // square of the distance
     std::size_t turn;   // decides at equal distances; differs between bodies in one place
   };
   void gather(const std::vector<SoftView>& views, std::size_t which);

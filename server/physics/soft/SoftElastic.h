@@ -109,7 +109,7 @@ class SoftElastic {
   std::vector<double> m_elastic;   // forces of the stretches at the last assemble()
   std::vector<double> m_hardness;  // derivatives of the forces m_elastic with respect to length
   std::vector<Vec2> m_base;        // x̃: velocity = (x − x̃) / β
-  std::vector<Vec2> m_inertial;    // x̂
+  std::vector<Vec2> m_inertial;    // x̂ of the equation at the top
   std::vector<Vec2> m_start, m_start_velocity;
   std::vector<Vec2> m_before, m_before_velocity;  // state one sub-step earlier
   Vec2 m_gravity;

@@ -51,7 +51,7 @@ class SoftRowSolver {
   std::vector<double> m_changes;      // changes of the bodies' offsets
   std::vector<std::size_t> m_begins;  // by body: start of its part of m_changes
   std::vector<std::size_t> m_sizes;
-  std::vector<SoftObstacleMotion> m_motions;  // obstacles' motion
+  std::vector<SoftObstacleMotion> m_motions;  // motions by index of the obstacle
   std::vector<double> m_gaps;                 // two per row: the constant part of the gaps
   std::vector<double> m_compliances;          // two per row: displacement by a unit force
 };

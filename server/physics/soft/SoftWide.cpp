@@ -13,7 +13,7 @@ namespace {
 constexpr double kStiffest = 1e6;
 /// Limit of iterations in one solution; a sub-step has two solutions (SoftWideStep.cpp).
 constexpr int kMaxGradients = 64;
-constexpr double kGradientTolerance = 1e-3;  // part of the initial error
+constexpr double kGradientTolerance = 1e-3;  // part of the initial error that may remain
 
 }  // namespace
 

@@ -38,7 +38,7 @@ struct SoftAttachment {
 /// Counters since the world was made.
 struct SoftCounters {
   std::int64_t steps = 0;
-  std::int64_t iterations = 0;      ///< systems solved
+  std::int64_t iterations = 0;      ///< linear systems solved
   std::int64_t decompositions = 0;  ///< decompositions for these systems, only for bodies that are not wide
   std::int64_t unconverged = 0;     ///< sub-steps of groups that did not reach the required accuracy
   std::int64_t limited = 0;  ///< sub-steps of bodies that were slowed because they would have gained energy
@@ -180,7 +180,7 @@ class SoftWorld {
   std::vector<SoftView> m_views;
   std::vector<Vec2> m_ends;
   std::vector<SoftPose> m_poses;
-  std::vector<SoftPatch> m_patches;  // of wide bodies
+  std::vector<SoftPatch> m_patches;  // patches of wide bodies
   std::vector<SoftPatch> m_stop_patches;
   std::vector<SoftObstacleMotion> m_obstacle_motions;
   SoftCrowd m_crowd;

@@ -20,7 +20,7 @@ constexpr float kContactDamping = 10;
 constexpr float kLastingTurns = 0.19f;
 constexpr float kLastingDamping = 4;
 // Fractions of the trend of a lasting contact's impulse:
-constexpr float kTrendKept = 0.7f;  // remains after a sub-step
+constexpr float kTrendKept = 0.7f;  // part that remains after a sub-step
 constexpr float kGiven = 0.35f;     // added to the impulse, so that a pile is supported after fewer sub-steps
 constexpr float kLent = 0.5f;       // added for one sub-step only, against oscillation
 constexpr float kExists = 1;        // value of normal_mass for an existing point, until the block is finished

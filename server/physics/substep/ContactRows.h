@@ -102,7 +102,7 @@ class ContactRows {
     Lanes inverse_mass_a = {}, inverse_mass_b = {}, inverse_inertia_a = {}, inverse_inertia_b = {};
     Lanes nx = {}, ny = {}, vx = {}, vy = {};
     Lanes spin_a = {}, spin_b = {};                        // spins at the start of the step
-    Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // softness
+    Lanes rate = {}, mass_scale = {}, impulse_scale = {};  // Softness of the rows
     Lanes friction = {}, restitution = {}, max_push = {}, rest = {}, fast = {};
     Lanes follows = {};              // 1 if the row's impulses have a trend, else 0
     Lanes first = {-1, -1, -1, -1};  // time of the first impulse

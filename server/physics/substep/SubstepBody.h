@@ -41,7 +41,7 @@ struct alignas(64) SubstepBody {
   std::uint32_t version = 0;
   std::uint64_t colours = 0, held_colours = 0;  ///< colours used by its contacts in this step
   SubstepKick kick;
-  float inverse_mass = 0, inverse_inertia = 0;  ///< values for this step
+  float inverse_mass = 0, inverse_inertia = 0;  ///< body's values as floats, for this step
   float pull = 0;       ///< forces of joints times their levers, times the square of the sub-step's length
   bool is_busy = true;  ///< true if it hardly moves, or was pushed in the last step
   bool exists = false, is_asleep = false, is_frozen = false;

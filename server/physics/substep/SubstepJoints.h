@@ -36,7 +36,7 @@ class SubstepJoints : public JointStore {
     float speed = 0;  // speed along the row by the velocities at the start of the step
     float mass = 0;
     float value = 0;
-    float bias = 0, mass_scale = 1, impulse_scale = 0;  // for the soft solution
+    float bias = 0, mass_scale = 1, impulse_scale = 0;  // used by the soft solution
     float low = 0, high = 0;
     float impulse = 0;
     float target = 0;
@@ -47,7 +47,7 @@ class SubstepJoints : public JointStore {
   struct Link {
     int id;
     std::int32_t a, b;              // ids of bodies
-    std::int32_t state_a, state_b;  // states within the step
+    std::int32_t state_a, state_b;  // indices of states
     float inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
     int row, count;
     JointFrame frame;  // frame at the start of the step; its offset is from centre to centre

@@ -42,7 +42,7 @@ struct SubstepCounters {
   std::int64_t near = 0;         ///< bodies that a fast one might touch, tested by a sweep
   std::int64_t stopped = 0;      ///< fast bodies stopped at their first contact
   std::int64_t quarantined = 0;  ///< number of times that a body was frozen
-  std::int64_t broken = 0;       ///< broken joints
+  std::int64_t broken = 0;       ///< joints that broke
 };
 
 class SubstepWorld final : public RigidStepper {
@@ -105,7 +105,7 @@ class SubstepWorld final : public RigidStepper {
     Vec2 path;
     double roll, thickness;
     std::int32_t id;
-    GridBounds way;          // bounds of its path
+    GridBounds way;          // bounds of its path in this step
     std::int32_t near = -1;  // index in m_near of the first of its possible obstacles; −1: none
     bool is_stopped = false;
   };
@@ -113,7 +113,7 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
-  static constexpr float kInCrowd = 1;  // value in m_path_values
+  static constexpr float kInCrowd = 1;  // value in m_path_values for a body in a crowd
   struct Slow {
     GridBounds bounds;  // bounds in the broad phase
     std::int32_t id;
@@ -127,7 +127,7 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t a, b;
     std::int32_t state;  // state of one of its movable bodies
     std::int32_t colour;
-    std::int32_t place;  // row number
+    std::int32_t place;  // number of its row in m_rows
     ContactPush pushed;
   };
   // Some groups whose rows together fit into a cache during all sub-steps.
@@ -265,7 +265,7 @@ class SubstepWorld final : public RigidStepper {
   bool m_are_crowded = false;        // true if some of the fast bodies are in a crowd
   std::vector<int> m_path_ids;
   ImpactTree m_path_tree;
-  std::vector<SubstepKick> m_kicks;  // by state
+  std::vector<SubstepKick> m_kicks;  // kick of each state
   std::vector<Magnet> m_magnets;
   std::vector<double> m_turns;  // by state: rotation in rad since the step began
   std::vector<Calm> m_calm;
@@ -282,13 +282,13 @@ class SubstepWorld final : public RigidStepper {
   std::vector<Turn> m_sequence;
   std::vector<std::int32_t> m_by_colour;  // contacts by batch and colour
   std::vector<Batch> m_batches;
-  std::vector<std::int32_t> m_batch_of;    // by state
+  std::vector<std::int32_t> m_batch_of;    // index of the batch, by state
   std::vector<std::int32_t> m_by_batch;    // states by batch
-  std::vector<std::size_t> m_turn_counts;  // by batch and colour
+  std::vector<std::size_t> m_turn_counts;  // by batch and colour: numbers of contacts
   ContactRows m_rows;                      // rows of the present batch
   SubstepJoints m_joints;
   UnionFind m_sets;             // sets of states
-  std::vector<Group> m_groups;  // by root
+  std::vector<Group> m_groups;  // by root of m_sets
   SubstepCounters m_counters;
   double m_deepest = 0;
   double m_dt;        // length of a step in ticks
