@@ -150,7 +150,7 @@ std::optional<std::string> ctlCompletion(const std::string& shell) {
 std::string ctlManSections() {
   return ".SH OPTIONS\n"
          ".TP\n\\fB\\-\\-control\\fR \\fIPATH\\fR\nThe control socket; default: that of the only running "
-         "server of this user or in /run/naiad/admin.\n"
+         "server, among this user's and those in /run/naiad/admin.\n"
          ".TP\n\\fB\\-\\-json\\fR\nPrint the answer as JSON.\n"
          ".TP\n\\fB\\-\\-help\\fR, \\fB\\-\\-version\\fR\nPrint the help or the version, and exit.\n" +
          adminManSection() +

@@ -347,7 +347,7 @@ std::vector<naiad::Option> optionsOf(DoorOptions& door) {
        .shows_default = true},
       {.name = "--max-per-address",
        .target = &door.limits.per_prefix,
-       .help = "Maximum number of them from one IPv4 address or IPv6 network (/64)",
+       .help = "Maximum number of visitors from one IPv4 address or IPv6 network (/64)",
        .range = naiad::OptionRange{1, 1000},
        .shows_default = true},
       {.name = "--idle-limit",

@@ -67,7 +67,7 @@ void ClientSession::handle(SnapshotMessage&& message, Time now) {
 }
 
 void ClientSession::handle(PlayersMessage&& message, Time) {
-  if (m_state != State::kPlaying) return reject("players before the welcome");
+  if (m_state != State::kPlaying) return reject("a player list before the welcome");
   m_inbox.handlePlayers(std::move(message));
 }
 

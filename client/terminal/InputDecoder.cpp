@@ -250,7 +250,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
   if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
-    if (final == '^' || final == '@') m_parameters += ";5";  // 5: with Control, as rxvt writes it
+    if (final == '^' || final == '@') m_parameters += ";5";  // 5: Control. rxvt's '@' also has Shift
     if (final == '$') m_parameters += ";2";
     finishTilde(out);
     return enterState(State::kGround);

@@ -17,7 +17,7 @@ namespace naiad {
 
 class BrowserKeys {
  public:
-  /// Limit on remembered keys that are down; a further key may be released as another key.
+  /// Maximum number of remembered held keys. The release of a further key may be reported as another key.
   static constexpr std::size_t kMaxDown = 32;
   /// Limit on the bytes of `key` and `code`; longer ones are unknown keys.
   static constexpr std::size_t kMaxName = 32;

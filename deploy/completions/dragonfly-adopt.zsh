@@ -4,7 +4,7 @@ _arguments \
   '--keep=[keep the changed copy in this new folder]:folder:_files -/' \
   '--main=[source with the main() to build, if there are several]:file:_files' \
   '--seconds=[how long to run the game]:seconds: ' \
-  '--seed=[seed of the random keys]:seed: ' \
+  '--seed=[seed of the random key presses]:seed: ' \
   '--keys=[press these keys instead]:script:_files' \
   '--players=[number of players that join]:number: ' \
   '--book[build with the rules of the book]' \

@@ -3,7 +3,7 @@ _arguments \
   '(-h --help)'{-h,--help}'[print help, and exit]' \
   '--seconds=[how long to play each game]:seconds: ' \
   '--players=[number of players in each game]:number: ' \
-  '--seed=[seed of the random keys]:seed: ' \
+  '--seed=[seed of the random key presses]:seed: ' \
   '--keys=[press these keys instead]:script:_files' \
   '--jobs=[number of games to play in parallel]:number: ' \
   '--report=[also write a Markdown table]:file:_files' \

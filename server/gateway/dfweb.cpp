@@ -99,7 +99,7 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
            .shows_default = true},
           {.name = "--max-per-address",
            .target = &web.max_per_address,
-           .help = "Maximum number of them from one IPv4 address or IPv6 network (/64)",
+           .help = "Maximum number of players from one IPv4 address or IPv6 network (/64)",
            .range = naiad::OptionRange{1, 20'000},
            .shows_default = true},
           naiad::typedOption("--port-file", "FILE", &web.port_file,

@@ -1,7 +1,7 @@
 // The checksum that server and client compare to find out whether their worlds are equal.
 //
-// Every group of every object that a client has contributes 64 bits. Their sum modulo 2^64 does not depend on
-// the order, and each side updates it group by group. It detects mistakes, not attacks.
+// Every group of attributes of every object that a client has contributes 64 bits. Their sum modulo 2^64 does
+// not depend on the order, and each side updates it group by group. It detects mistakes, not attacks.
 #pragma once
 
 #include <cstdint>

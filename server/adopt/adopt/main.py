@@ -59,7 +59,7 @@ def _parser():
     parser.add_argument("--main", metavar="FILE", help="source with the main() to build, if the folder has several programs")
     parser.add_argument("--seconds", metavar="N", type=float, default=10.0,
                         help="how long to run the game (default 10; 0: only build it)")
-    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the random keys (default 1)")
+    parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the random key presses (default 1)")
     parser.add_argument("--keys", metavar="SCRIPT",
                         help="press these keys instead: a script, or a file with one, as for dfbot --script")
     parser.add_argument("--players", metavar="N", type=int, default=1,

@@ -85,7 +85,7 @@ class InputQueue {
   void setGameOverLeaves(bool leaves) { m_game_over_leaves = leaves; }
   /// Handles a game over. True if it only means that the player whose input is being handled wants to leave.
   bool handleGameOver();
-  /// Returns the players that wanted to leave since the last call (setGameOverLeaves()).
+  /// Removes and returns the players that wanted to leave (see setGameOverLeaves()).
   std::vector<std::uint32_t> popLeavers() { return std::exchange(m_leavers, {}); }
 
   /// Whether the game uses lag compensation. If it does not, the host need not record what players saw.

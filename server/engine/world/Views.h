@@ -92,8 +92,8 @@ class Views {
   FixedVector m_corner;  // corner of the world's view
   ObjectKey m_followed;  // Object that the world's view follows
   Players m_players;
-  /// Players with the slot that their own view follows, so that moved() does not search all of the many
-  /// players.
+  /// The players whose own view follows an Object, each with the slot of the Object, so that moved() need not
+  /// search all players.
   std::vector<std::pair<std::uint32_t, Player*>> m_followers;
   bool m_followers_known = false;
 };

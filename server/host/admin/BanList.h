@@ -84,7 +84,7 @@ class BanSet {
   explicit BanSet(std::vector<Ban> bans);
 
   /// Returns the ban that applies to this address now; null if none does. Loopback addresses are never
-  /// banned, because the server's own doors and admins use them.
+  /// banned, because all players on this machine have them.
   const Ban* find(const asio::ip::address& address, Ban::Time now) const;
   /// Returns the ban that applies to a name now; null if none does. `skeletons`: nameSkeletons(name)
   /// (NameSanitizer.h).

@@ -202,7 +202,7 @@ class NetworkThread {
     std::uint64_t number = 0;  ///< the limit, the epoch, or the time when the tick began
   };
 
-  // Members used on the tick thread.
+  // Members used on the tick thread; wakeHome() also on the network thread.
   bool renewDatagrams(NetworkSideDatagrams& end, const ReliableChannel& stream, Epoch epoch);
   void postCommand(const Command& order, std::string_view bytes = {}) { m_commands.add(order, bytes); }
   bool isCommandMailboxFull() const {

@@ -100,8 +100,8 @@ BanPlan planRange(Ban ban, const AddressRange& range) {
                                             "."));
   const asio::ip::address first = unmapped(asio::ip::address_v6(range.bytes()));
   if (first.is_loopback() || range.contains(asio::ip::address_v6::loopback()))
-    return refusedPlan(AdminAnswer::refused(
-        "Loopback addresses cannot be banned: this machine's ssh and web doors connect from them."));
+    return refusedPlan(
+        AdminAnswer::refused("Loopback addresses cannot be banned: all players on this machine have them."));
   ban.range = range;
   return {{std::move(ban)}, ""};
 }

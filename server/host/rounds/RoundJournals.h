@@ -93,8 +93,8 @@ class RoundJournals {
   bool sync(std::chrono::milliseconds most) { return m_shared->writer->drain(most); }
   /// Leaves the journal as a killed server would. From now on nothing is recorded.
   void suspend();
-  /// Announces `rounds` to the program that this process runs next, in its environment: modules with these
-  /// hashes (hashOfModule) replayed them with equal answers, so they may resume them.
+  /// Announces `rounds`, in the environment, to the program that this process runs next. The module with a
+  /// round's hash (hashOfModule) has replayed the round with equal answers, so it may resume it.
   static void exportHandedOverRounds(const HandedOverRounds& rounds);
 
  private:

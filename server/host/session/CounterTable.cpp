@@ -103,7 +103,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {FIELD(C, inputs), "naiad_inputs_total", "", "Keys and clicks received."},
     {FIELD(C, late_inputs), "naiad_late_inputs_total", "", "Keys and clicks that came after their tick."},
     {FIELD(C, repeated_inputs), "naiad_repeated_total", R"(kind="input")",
-     "Duplicates received and ignored."},
+     "Duplicate inputs and reliable frames, which were ignored."},
     {FIELD(C, repeated_frames), "naiad_repeated_total", R"(kind="frame")", ""},
     {FIELD(C, snapshots), "naiad_snapshots_total", R"(path="stream")", "Snapshots sent, by path.",
      &C::datagram_snapshots},

@@ -86,7 +86,7 @@ struct HostOptions {
   // Only for games that are programs themselves:
   bool headless = false;     ///< no network and no players
   bool local_client = true;  ///< attach a client if started in a terminal
-  bool is_public = false;    ///< listen on every address unless `address` is given; else on loopback
+  bool is_public = false;  ///< listen on every address, not only on loopback; not used if `address` is given
 };
 
 /// True if each round is recorded.

@@ -43,7 +43,7 @@ class ModelIndex {
   }
 
  private:
-  /// Cells covered in `ticks` at this speed, rounded up.
+  /// Returns an upper bound of the cells covered in `ticks` at this speed: rounded down, plus 1.
   static std::int64_t cellsIn(std::uint32_t ticks, df::Fixed speed) {
     return (std::int64_t{ticks} * speed >> df::kFixedBits) + 1;
   }

@@ -196,7 +196,7 @@ struct ViewFields {
     f.number(view.shake_y, -kMaxShake, kMaxShake);
   }
 
-  // Parts that get numbers. A new number is one more than the last one.
+  // Parts that are sent in full once, with the next free number, and only by that number afterwards.
 
   static void table(FieldWriter& out, ViewWriter& known,
                     const std::shared_ptr<const df::ControlTable>& p_table) {

@@ -50,7 +50,8 @@ class WorldPort {
   virtual std::uint32_t nextTick() const = 0;
   /// Returns the tick number minus the world's own count of ticks. Call before the world's first tick.
   virtual std::uint32_t ticksBefore() const { return nextTick() - 1; }
-  /// Returns how many ticks may be in progress at once; it is 1 until a world's first tick has ended.
+  /// Returns how many ticks may be in progress at once after the world's first tick has ended. Until then,
+  /// the caller may begin only one.
   virtual std::uint32_t turnsAhead() const { return 1; }
 
   // Results of the last tick.

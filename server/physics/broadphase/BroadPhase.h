@@ -90,7 +90,7 @@ class BroadPhase {
   SweptBox relative(const GridBounds& bounds) const;
   float halfOf(const Proxy& proxy) const;
   void fileAll();
-  // True if a new tree is worth its cost: too many bodies are outside the tree, or too wide in it.
+  // True if updating the tree is worth its cost: too many bodies are outside it, or too wide in it.
   bool isUntidy() const {
     return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
   }
@@ -134,7 +134,7 @@ class BroadPhase {
 
   // Refitting the tree takes about as long as comparing this many bounds per body.
   static constexpr std::size_t kScannedPerBody = 8;
-  // A new tree is made if more than one in this many bodies has too wide bounds in the tree.
+  // The tree is updated if bounds in it were widened more than once per this many bodies.
   static constexpr std::size_t kWidenedShare = 4;
 
   bool m_thins_crowds;

@@ -9,8 +9,8 @@ namespace naiad::physics {
 
 namespace {
 
-// The ends of that part of a horizontal line that is in a shape. The border is made of lines and of arcs of
-// discs that are in the shape, so the outermost crossings with all of these are those with the shape.
+// The ends of the part of a horizontal line that is inside a shape. The border consists of straight lines and
+// of arcs of discs inside the shape, so the outermost crossings with these lines and discs are the ends.
 struct Crossing {
   double from = 1;
   double to = 0;

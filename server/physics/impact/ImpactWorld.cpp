@@ -11,7 +11,8 @@ constexpr double kForecastPrice = 80;  // for each examined pair
 constexpr double kEventPrice = 200;    // per event, in addition to its examined pairs
 constexpr double kBodyPrice = 50;      // for each body in each step
 
-constexpr double kFarthest = 1e15;  // metric cells in one tick; less than 2^51, the limit for moving a Place
+constexpr double kFarthest =
+    1e15;  // metric cells (Vec2.h) in one tick; less than 2^51, the limit for moving a Place
 
 // Returns in `low` and `high` how far a body moves along one axis within `t`.
 void widen(double v, double a, double t, double& low, double& high) {

@@ -22,7 +22,7 @@ struct ImpactEvent {
   int first;    ///< the lower id
   int second;
   bool is_begin;
-  double impulse;  ///< impulse on `second` along the normal; 0 for an end
+  double impulse;  ///< impulse on `second` along the normal; 0 if the contact ends
   Vec2 normal;     ///< direction from `first` to `second`
   int order = 0;   ///< index in events()
 };

@@ -58,7 +58,7 @@ void JointChain::load(std::span<const Vec2> place, std::span<const Vec2> velocit
 }
 
 void JointChain::store(std::span<Vec2> place, std::span<Vec2> velocity, std::span<double> multiplier,
-                       std::span<Vec2> force, std::span<const int> place_of) const {
+                       std::span<Vec2> force, std::span<const int> index_of) const {
   for (const Node& node : m_nodes) {
     const auto body = static_cast<std::size_t>(node.body);
     place[body] = {node.place[0], node.place[1]};
@@ -67,7 +67,7 @@ void JointChain::store(std::span<Vec2> place, std::span<Vec2> velocity, std::spa
   for (std::size_t i = 0; i < m_rods.size(); ++i) {
     const double sign = m_rods[i].is_backward ? -1 : 1;
     multiplier[i] = m_rods[i].multiplier;
-    force[static_cast<std::size_t>(place_of[i])] = {sign * m_rods[i].force[0], sign * m_rods[i].force[1]};
+    force[static_cast<std::size_t>(index_of[i])] = {sign * m_rods[i].force[0], sign * m_rods[i].force[1]};
   }
 }
 
