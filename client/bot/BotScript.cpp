@@ -155,7 +155,7 @@ std::optional<df::Keyboard::Key> keyByName(const std::string& name) {
   return std::nullopt;
 }
 
-/// Parses a script by recursive descent, with a stack of open loops instead of recursion.
+/// Parses a script statement by statement, with a stack of open loops.
 class BotScriptParser {
  public:
   explicit BotScriptParser(const std::string& text) : m_text(text) {}

@@ -43,7 +43,7 @@ struct WelcomeMessage {
   bool resumed = false;                     ///< the server has resumed an earlier session
   std::chrono::milliseconds grace{0};       ///< how long the server keeps a session without a stream
   std::optional<ResumeState> resume_state;  ///< set if a new client process resumed the session
-  std::uint32_t last_frame = 0;             ///< else: newest reliable frame that the server received
+  std::uint32_t last_frame = 0;             ///< else: newest reliable frame received by the server
   bool second_stream = false;               ///< second streams are accepted, or this is one
   std::string room;                         ///< the player's room; empty: the server has no rooms
 };

@@ -49,7 +49,7 @@ Option serverOption(ServerChoice& server);
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
 
 /// Finds the address in `server`, and for links the key that the server must have. Call after parseOptions().
-/// Returns an error message, with which the caller must not connect; empty if all is right.
+/// Returns an error message; empty if all is right. After an error, the caller must not connect.
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session);
 

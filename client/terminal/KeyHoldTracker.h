@@ -36,7 +36,7 @@ struct HoldRule {
   enum class First : std::uint8_t {
     kTap,      ///< released after the release delay; the first repeat is a new press
     kUsual,    ///< held for kUsualPause, unless another key comes
-    kLearned,  ///< held for the pause seen in this terminal, unless another key comes; before that, a tap
+    kLearned,  ///< held for the pause learned in this terminal, unless another key comes; a tap until then
   };
   First first = First::kTap;
   /// Time for which a repeating key stays down after another key was pressed, because keyboards repeat only
@@ -88,7 +88,7 @@ class KeyHoldTracker {
  private:
   struct Held {
     Time last;
-    Time until;              ///< time of its release, if it types nothing before
+    Time until;              ///< time of its release, unless it is typed again before
     bool repeating = false;  ///< reports KEY_DOWN
     bool bridging = false;   ///< kept down during the pause before the first repeat
     bool silenced = false;   ///< another key was pressed after its last repeat

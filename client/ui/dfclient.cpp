@@ -210,7 +210,7 @@ int printServers(const CommandLine& line) {
 
 /// Lets the player choose a server on the screen. Returns the exit code if the player joins none.
 std::optional<int> chooseServer(CommandLine& line) {
-  // A door always names the server, so there is nothing to choose from.
+  // A door must name the server, because its visitors get no list. Without a terminal, none can be shown.
   const bool is_visit = !line.server.visitors.empty() || !line.server.visitor.empty();
   if (is_visit || !naiad::TerminalGuard::isTerminal())
     return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
@@ -333,7 +333,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .range = naiad::OptionRange{0, 86'400}},
       {.name = "--attached",
        .target = &line.attached,
-       .help = "Started by the game, to end with it",
+       .help = "Exit when the game that started this client exits",
        .hidden = true}};
   options.insert(options.end(), own.begin(), own.end());
   return options;
@@ -347,7 +347,8 @@ int join(CommandLine& line) {
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (line.ask_password) {
     const auto password = naiad::askPassword(passwordQuestion(options.address));
-    if (!password) return complain(naiad::kExitNoTerminal, "no password was typed.");
+    if (!password)
+      return complain(naiad::kExitNoTerminal, "no password was typed, or one longer than 255 bytes.");
     options.session.password = *password;
   }
   options.mouse = !line.no_mouse;

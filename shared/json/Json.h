@@ -54,7 +54,7 @@ class Json {
   const bool* boolean() const { return std::get_if<bool>(&m_value); }
   /// Returns an integer that fits 64 bits with a sign; nullopt for a fraction or an exponent too (1.0, 1e3).
   std::optional<std::int64_t> integer() const;
-  /// Returns any number, rounded to a double.
+  /// Returns a number of any kind, rounded to a double.
   std::optional<double> number() const;
   const std::string* text() const { return std::get_if<std::string>(&m_value); }
   const Array* array() const { return std::get_if<Array>(&m_value); }

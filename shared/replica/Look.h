@@ -67,7 +67,8 @@ class Sequence {
   std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }
   /// True if all glyphs are whole cells apart, and whole or half cells from the object on each axis.
   bool isWhole() const { return empty() || m_p_data->whole; }
-  /// Returns the fraction of a cell by which all glyphs are off, in glyph units. Only if isWhole().
+  /// Returns the part of a cell, in glyph units, by which every glyph's offset exceeds whole cells. Call only
+  /// if isWhole().
   CellPosition fraction() const { return empty() ? CellPosition{} : m_p_data->fraction; }
   /// True if both share their memory; then they are equal.
   bool isSharedWith(const Sequence& other) const { return m_p_data == other.m_p_data; }

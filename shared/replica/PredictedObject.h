@@ -14,7 +14,7 @@
 
 namespace naiad {
 
-/// The obstacles of a copy.
+/// The obstacles that block the predicted copy of an object.
 class Barriers {
  public:
   virtual ~Barriers() = default;

@@ -121,7 +121,7 @@ class Treatments:
             if "-DDF_DRAW=void" not in self._compiler.definitions:
                 self._compiler.definitions.append("-DDF_DRAW=void")
                 self.changes.append(Change(diagnostic.file, diagnostic.line, "void draw()", "-DDF_DRAW=void",
-                                           "draw() returns nothing, as in the earliest engines: one flag for all"))
+                                           "draw() returns nothing, as in the earliest engines; this option suits all of them"))
             return True
         done = False
         declared = rf"\b{re.escape(old)}(\s+(?:{match.group('class')}\s*::\s*)?{name}\s*\()"

@@ -50,7 +50,7 @@ class SweepBounds {
 
   struct Axis {
     double centre;
-    double half;      // half of the size
+    double half;      // half of the size, plus kSlack
     double per_unit;  // time per unit; negative if the move goes backward
 
     Axis(Fixed corner, Fixed size, std::uint64_t length, bool back)

@@ -157,7 +157,8 @@ int Object::setAnimation(Animation new_animation, bool set_box) {
   return 0;
 }
 
-// Sets the box to the sprite's. For one character around the position, its corner is (-0.5,-0.5).
+// Sets the box to the sprite's. If the sprite is not centred, its first character is around the position, so
+// the box's corner is (-0.5,-0.5).
 void Object::fitBox() {
   Box box = m_p_extras->animation.getBox();
   if (!m_p_extras->is_centered) box.setCorner(Vector(-0.5, -0.5));

@@ -88,7 +88,7 @@ struct Walker : Object {
 
 /// Builds the doors, and makes a walker for each new player.
 struct Porter : Object {
-  std::size_t known = 0;  // number of rooms that have a door
+  std::size_t known = 0;  // number of rooms looked at; each but this one has a door
   int doors = 0;
 
   Porter() {

@@ -116,9 +116,9 @@ class BanSet {
 /// only from the host's thread. Only the worker accesses the disk.
 class BanList {
  public:
-  /// Called when a change was written, on the worker's thread; if there is nothing to write, or too many jobs
-  /// wait, called at once by the caller. `problem` is empty, or says in one sentence why the change ends with
-  /// the server.
+  /// Called on the worker's thread when a change was written or could not be; called at once, on the caller's
+  /// thread, if there is nothing to write or too many jobs wait. `problem` is empty, or says in one sentence
+  /// why the change will be lost when the server ends.
   using Saved = std::function<void(const std::string& problem)>;
   /// A wall clock; tests pass their own. May be called from any thread.
   using Clock = std::function<Ban::Time()>;

@@ -54,6 +54,7 @@ class ResumeTokens {
     bool restarted = false;  ///< true if another process redeemed `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
+  /// Removes the hash's session entry, and empties the string.
   void drop(std::string& hash);
   void dropRedeemed(Hashes& hashes);
 

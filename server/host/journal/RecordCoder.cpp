@@ -126,7 +126,8 @@ void RecordModel::update(bool bit) {
   beginByte();
 }
 
-// Misreads a length of more than one byte, which costs only some bits, because packer and unpacker both do.
+// Misreads a length of more than one byte; packer and unpacker misread it alike, so this only costs some
+// bits.
 void RecordModel::followRecord(std::uint8_t byte) {
   if (m_left == 0) {
     m_left = byte;

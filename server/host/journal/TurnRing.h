@@ -84,7 +84,7 @@ class TurnRing {
   std::size_t size() const { return sizeof(Head) + m_capacity + m_prologue_size; }
 
   std::size_t m_capacity;
-  std::size_t m_prologue_size;  ///< size of the beginning, in bytes
+  std::size_t m_prologue_size;  ///< size of the beginning of the round's file, in bytes
   std::string m_path;
   bool m_handed_over = false;
   int m_file = -1;  ///< file of the shared memory, locked as long as this process lives

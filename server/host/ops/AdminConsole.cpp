@@ -124,7 +124,7 @@ BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, cons
   BanPlan plan = planName(ban, choice.player->name);
   const auto address = endpointAddress(choice.player->address);
   if (!address || address->is_loopback()) {
-    plan.note = "Only by name: they play on this machine.";
+    plan.note = "Only by name, because they play on this machine.";
     return plan;
   }
   const AddressRange range = AddressRange::around(*address);

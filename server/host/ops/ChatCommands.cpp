@@ -110,7 +110,7 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
       refuse(*p_session, "That is not the admin password.");
       return reply(*p_session, {"That is not the admin password."});
     case PasswordCheck::Answer::kTooMany:
-      refuse(*p_session, "Too many wrong passwords for admins.");
+      refuse(*p_session, "Too many wrong admin passwords.");
       return reply(*p_session, {"Too many wrong passwords. Try again in a minute."});
     case PasswordCheck::Answer::kBusy:
       return reply(*p_session, {"The server is busy. Try again in a moment."});

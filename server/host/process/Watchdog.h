@@ -62,7 +62,7 @@ class HangDetector {
     kExitNow,   ///< end without the game: an end was requested twice
   };
 
-  /// Returns what to do. `tick` and `since`: number and begin of the running tick, if any. `stops`: number of
+  /// Returns what to do. `tick` and `since`: number and start of the running tick, if any. `stops`: number of
   /// signals so far that ask for the end.
   Step check(std::optional<std::uint64_t> tick, Time since, int stops, Time now) {
     if (stops > 0 && !m_asked_at) m_asked_at = now;

@@ -429,8 +429,8 @@ void Round::requestCheckpoint() {
     logCheckpoints("no copies of this game's world are kept: " + *problem);
 }
 
-void Round::logCheckpoints(const std::string& sentence_of_copies) const {
-  if (m_binding.on_copies) m_binding.on_copies(sentence_of_copies);
+void Round::logCheckpoints(const std::string& sentence) const {
+  if (m_binding.on_copies) m_binding.on_copies(sentence);
 }
 
 }  // namespace naiad

@@ -213,7 +213,7 @@ class Round {
   bool replayInNewWorld();
   void prepareReplay(std::size_t records);
   void requestCheckpoint();
-  void logCheckpoints(const std::string& sentence_of_copies) const;
+  void logCheckpoints(const std::string& sentence) const;
   void finishFailover(const std::string& problem);
 
   std::unique_ptr<WorldPort> m_world;

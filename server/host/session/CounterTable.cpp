@@ -165,7 +165,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
      "Pictures of players that were compared with the world's."},
     {FIELD(C, audited_cells), "naiad_audit_cells_total", "", "Cells of these pictures."},
     {FIELD(C, wrong_cells), "naiad_audit_wrong_cells_total", "",
-     "Cells of these pictures that differed from the world's."},
+     "Cells of the audited pictures that differed from the world's."},
 });
 static_assert(hasAll(kHostRows));
 
@@ -212,7 +212,7 @@ static_assert(hasAll(kVisitorRows));
 using R = RelayCounters;
 constexpr auto kRelayRows = std::to_array<CounterRow<R>>({
     {FIELD(R, datagrams_in_dropped), "naiad_relay_datagrams_dropped_total", R"(direction="in")",
-     "Datagrams dropped between the threads because one was behind."},
+     "Datagrams dropped because the tick thread (in) or the network thread (out) was behind."},
     {FIELD(R, datagrams_out_dropped), "naiad_relay_datagrams_dropped_total", R"(direction="out")", ""},
     {FIELD(R, streams_overflowed), "naiad_relay_streams_ended_total", R"(direction="in")",
      "Streams ended because the tick thread (in) or the network thread (out) was behind."},
@@ -261,7 +261,8 @@ constexpr auto kTrafficRows = std::to_array<CounterRow<T>>({
     {FIELD(T, stream_bytes_out), "naiad_network_bytes_total", R"(direction="out",transport="tcp")", ""},
     {FIELD(T, datagram_bytes_in), "naiad_network_bytes_total", R"(direction="in",transport="udp")", ""},
     {FIELD(T, datagram_bytes_out), "naiad_network_bytes_total", R"(direction="out",transport="udp")", ""},
-    {FIELD(T, frames_in), "naiad_network_frames_total", R"(direction="in")", "Frames on streams."},
+    {FIELD(T, frames_in), "naiad_network_frames_total", R"(direction="in")",
+     "Frames sent and received on streams."},
     {FIELD(T, frames_out), "naiad_network_frames_total", R"(direction="out")", ""},
 });
 static_assert(hasAll(kTrafficRows));

@@ -57,7 +57,7 @@ bool isWebAddress(const std::string& text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
 }
 
-/// Returns the problem of the addresses that are printed for players; empty if they are valid.
+/// Returns what is wrong with the addresses that are printed for players; empty if they are valid.
 std::string announcementComplaint(const HostOptions& options) {
   if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
     return "--public-host: expected HOST or HOST:PORT, IPv6 in brackets";

@@ -99,7 +99,7 @@ void Publisher::update(const df::WorldView& view) {
     applyDrawing(view, drawn, declares ? (declared++)->p_look.get() : nullptr);
   }
   applyFreeDraw(view);
-  correctUndrawn(view);
+  correctUndrawnObjects(view);
   if (controls) setExactSolids(true);
   if (m_exact.popNewSolids()) keepSolidsExact();
   for (const df::ObjectKey key : m_exact.keys()) keepExact(key);

@@ -224,8 +224,8 @@ class Publisher {
   void correctLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn,
                    const Look* declared);
   void captureLook(std::uint32_t slot, Tracked& tracked, std::span<const df::DrawCommand> drawn);
-  void correctUndrawn(const df::WorldView& view);
-  void correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
+  void correctUndrawnObjects(const df::WorldView& view);
+  void correctUndrawnObject(std::uint32_t slot, Tracked& tracked, const df::WorldView& view);
   void applyPath(Tracked& tracked, const Motion& truth);
   void keepSolidsExact();
   void keepExact(df::ObjectKey key);
@@ -235,7 +235,7 @@ class Publisher {
   void finishChange(Change& change);
 
   std::vector<Tracked> m_models;
-  std::vector<std::uint32_t> m_examine_at;  ///< tick of the next correctUndrawn() of each slot
+  std::vector<std::uint32_t> m_examine_at;  ///< tick of the next correctUndrawnObjects() of each slot
   ViewMoves m_views;
   Tracked m_free_draw;
   std::vector<df::DrawCommand> m_off_view;  ///< scratch

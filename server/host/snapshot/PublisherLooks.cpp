@@ -54,7 +54,8 @@ void Publisher::applyDrawing(const df::WorldView& view, const df::DrawnObject& d
   Tracked& tracked = m_models[drawn.key.slot];
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
-  m_examine_at[drawn.key.slot] = m_tick + 1;  // correctUndrawn() examines it then, unless it is drawn again
+  m_examine_at[drawn.key.slot] =
+      m_tick + 1;  // correctUndrawnObjects() examines it then, unless it is drawn again
   std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
   if (drawn.on_view) commands = relativeToView(commands, view.corner);
   correctLook(drawn.key.slot, tracked, commands, declared);
@@ -134,7 +135,7 @@ void Publisher::applyFreeDraw(const df::WorldView& view) {
   correctLook(kFreeDrawSlot, m_free_draw, loose, nullptr);
 }
 
-void Publisher::correctUndrawn(const df::WorldView& view) {
+void Publisher::correctUndrawnObjects(const df::WorldView& view) {
   const bool jumped = m_views.updateViews(view);
   for (std::uint32_t slot = 0; slot < m_examine_at.size(); ++slot) {
     if (isNewer(m_examine_at[slot], m_tick) && !(jumped && m_models[slot].drawn != m_tick)) continue;
@@ -142,7 +143,7 @@ void Publisher::correctUndrawn(const df::WorldView& view) {
     m_examine_at[slot] = m_tick + kNeverExamine;
     if (!tracked.model.alive) continue;
     if (jumped) tracked.off_views = m_tick;
-    correctUndrawn(slot, tracked, view);
+    correctUndrawnObjects(slot, tracked, view);
     const bool standing = !isMoving(tracked.model.state.motion);
     const bool blank = tracked.model.state.look.sequence.empty();
     m_examine_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverExamine : tracked.off_views;
@@ -150,7 +151,7 @@ void Publisher::correctUndrawn(const df::WorldView& view) {
   }
 }
 
-void Publisher::correctUndrawn(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
+void Publisher::correctUndrawnObjects(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
   ObjectState& state = tracked.model.state;
   if (!isSameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
     state.motion = truthNow(tracked);

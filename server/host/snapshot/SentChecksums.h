@@ -23,7 +23,7 @@ class SentChecksums {
     m_clean_from = number;
     m_repairing = false;
   }
-  /// Call when the newest snapshot is not sent after all.
+  /// Call when snapshot `number`, the newest, is not sent after all.
   void removeNewest(std::uint32_t number) { at(number) = {}; }
   /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest snapshot's
   /// number.

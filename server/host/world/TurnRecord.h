@@ -131,7 +131,8 @@ class TurnRecordReader {
 /// Appends a message to a world's process to `out`: a turn's record, and whether a copy is to be made after
 /// its tick (WorldCheckpoints.h).
 void appendTurnMessage(std::string_view record, bool copied, std::string& out);
-/// Reads the fields of such a message. Call for all turns in order. Returns nullopt if they are malformed.
+/// Reads the fields of a message of appendTurnMessage(). Call for all turns in order. Returns nullopt if the
+/// fields are malformed.
 std::optional<WorldTurn> readTurnMessage(std::string_view fields, TurnRecordReader& records, bool& copied);
 
 }  // namespace naiad

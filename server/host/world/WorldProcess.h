@@ -161,7 +161,7 @@ class WorldProcess : public WorldPort {
   bool m_fast_failover = false;
   bool m_warned = false;      ///< true if a hang of this tick was reported
   bool m_was_slow = false;    ///< true if a hang of the previous tick was reported
-  bool m_stop_noted = false;  ///< true if a stop in this tick was reported
+  bool m_stop_noted = false;  ///< true if a stop of the process in this tick was reported
   std::optional<std::string> m_warning;
   bool m_expected = false;         ///< true if the end is expected: the game is over, or the host closed it
   const bool m_hashes;             ///< true if answers are hashed

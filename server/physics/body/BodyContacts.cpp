@@ -21,7 +21,7 @@ void BodyContacts::add(const BodyContact& contact) {
     return;
   }
   m_changes.push_back(contact);
-  if (is_in_slots) count(at->second.contact, -1);  // the contact ends, or was one of deleted Objects
+  if (is_in_slots) count(at->second.contact, -1);  // the contact ends, or its Objects were deleted
   if (!contact.is_begin) {
     m_touching.erase(at);
     return;

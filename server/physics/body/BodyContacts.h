@@ -20,7 +20,7 @@ class BodyContacts {
     if (contacts > m_changes.capacity()) m_touching.reserve(m_touching.size() + contacts);
     reserveFor(m_changes, contacts);
   }
-  /// Adds the begin or end of a contact. Each solver adds its own in order of time. Known changes are
+  /// Adds the start or end of a contact. Each solver adds its own in order of time. Known changes are
   /// ignored.
   void add(const BodyContact& contact);
   /// Call when the body or obstacle is gone: its contacts end with this tick.

@@ -250,7 +250,8 @@ void BodyLinks::store(BodyTable& table, std::vector<BodyState>& states) {
     state.spin = body.spin;
     state.acceleration = state.contacts_changed ? Vec2{} : body.velocity - state.start_velocity;
     const bool is_held = body.inverse_mass == 0 && table.row(state.index).inverse_mass > 0;
-    if (is_held || !m_is_connected) state.p_failure = "its values are out of range for joints";
+    if (is_held || !m_is_connected)
+      state.p_failure = "its position, velocity, mass or force is out of range for joints";
   }
   for (const JointIsland& island : m_solver.islands()) {
     if (!island.isFrozen()) continue;

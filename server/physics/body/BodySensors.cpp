@@ -162,7 +162,7 @@ void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric)
   if (m_pairs.size() > listed) sortPairs();
 }
 
-// Tests whether the pair touches now and since when, and adds the begin or end of its contact.
+// Tests whether the pair touches now and since when, and adds the start or end of its contact.
 void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts) {
   const Mover &first = m_movers[pair.a], &second = m_movers[pair.b];
   const Vec2 offset = second.shape.place - first.shape.place;

@@ -82,7 +82,7 @@ struct MovedObject {
   FixedVector where;
 };
 
-/// The begin or end of a contact.
+/// The start or end of a contact.
 struct BodyContact {
   double time = 0;  ///< 0 … 1, within the tick
   ObjectKey first, second;

@@ -25,7 +25,7 @@ enum class FlightKind : std::uint8_t {
   kLinearDrag,
   kQuadraticDrag,
   kSpring,  ///< a spring to a point; linear drag is added to its damping
-  kField,   ///< defined by the game; linear and quadratic drag also act
+  kField,   ///< any mix: the game's field, both drags, or a spring with quadratic drag
 };
 
 /// Default friction of bodies and Objects without mass.

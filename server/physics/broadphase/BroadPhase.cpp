@@ -242,8 +242,8 @@ bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   return spread.x < crowd.widths.x && spread.y < crowd.widths.y && crowd.widest.x < kBeyond;
 }
 
-// Marks all bodies that touch the bounds of a crowd as crowded. Skips the cheap test if the last update found
-// a crowd.
+// Marks all bodies that touch the bounds of a crowd as crowded. If the last update found a crowd, skips
+// mayBeCrowd().
 void BroadPhase::findCrowds() {
   const auto comeTo = [](int /*proxy*/) {};
   m_crowds.clear();

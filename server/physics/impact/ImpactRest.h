@@ -13,7 +13,7 @@ struct RestRow {
   int first;            ///< index into the masses given to solve(); −1: immovable
   int second;           ///< index like `first`, or −1; at most one of the two is −1
   Vec2 direction;       ///< unit length, from first to second
-  double bias;          ///< difference of velocities (or accelerations) along `direction` without any push
+  double bias;          ///< relative velocity or acceleration, or gap, along `direction` without any push
   int normal = -1;      ///< friction row: index of its contact's normal row, which is before it; else −1
   double friction = 0;  ///< friction row: coefficient of friction
   double slip = 0;  ///< friction row: 0 if it may hold within the cone; ±1 if it slides in this direction

@@ -149,7 +149,7 @@ bool areCircles(const ImpactBody& a, const ImpactBody& b) {
 
 // Returns when |r + v·s + ½a·s²| first crosses `half`; −1 if it never does, or is there now.
 double crossingOf(double r, double v, double a, double half, double horizon) {
-  constexpr double kClear = 1e-12;  // metric cells; if it is nearer, it is on the edge within rounding
+  constexpr double kClear = 1e-12;  // metric cells; a point this near to the edge is on it, within rounding
   const double off = std::fabs(r) - half;
   if (std::fabs(off) <= kClear) return -1;
   Interval stretches[3];

@@ -274,7 +274,7 @@ void ImpactWorld::listCandidates() {
     const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what earlier bodies did not
                                                                           // use
     const std::size_t left = all > m_candidates.size() ? all - m_candidates.size() : 0;
-    // A body that cannot be pushed cannot be abandoned.
+    // A body that cannot be pushed is never given up, so its number of pairs is not limited.
     const std::size_t most = isPushed(id) ? std::max(left, kOwnShare) : m_ids.size();
     if (listCandidates(id, most)) continue;
     giveUp(id);

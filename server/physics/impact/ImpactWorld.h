@@ -16,7 +16,7 @@
 
 namespace naiad::physics {
 
-/// The begin or end of a contact. A bounce has both.
+/// The start or end of a contact. A bounce has both.
 struct ImpactEvent {
   double time;  ///< time since the start of the tick
   int first;    ///< the lower id

@@ -18,7 +18,7 @@ struct JointConstraints {
   enum class Kind : std::uint8_t { kHard, kRope, kSoft, kMotor, kLimit };
   using Rod = JointChain::Rod;
 
-  struct Link {  // a joint, with data that is constant within a step
+  struct Link {  // a joint, with data for a step; the arms and `bound` change within it
     JointKind kind;
     bool is_plain;     // both anchors are at the bodies' centres
     bool holds_angle;  // holds the angle of b relative to a

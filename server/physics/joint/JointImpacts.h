@@ -79,7 +79,7 @@ class JointImpacts {
   std::vector<JointBody> m_first, m_before;  // states at the start of the step, and of the present flight
   std::vector<Vec2> m_force;                 // by joint: sums of impulses during the step
   std::vector<double> m_torque;
-  std::vector<Change> m_change;   // by m_bodies: change of the body's motion by a unit impulse
+  std::vector<Change> m_change;   // by index in m_bodies: change of the body's motion by a unit impulse
   std::vector<int> m_responding;  // indices in m_bodies that the unit impulse changes
   std::vector<JointImpact> m_impacts;
 };

@@ -33,7 +33,7 @@ namespace newton {
 
 inline constexpr int kMaxIterations = 25;  ///< enough for ten digits at the slowest rate that kSlow accepts
 inline constexpr int kFree = 3;            ///< number of first iterations whose convergence is not checked
-inline constexpr double kSlow = 0.4;  ///< the iteration fails if a residual exceeds this part of the last
+inline constexpr double kSlow = 0.4;       ///< fails if a residual exceeds this fraction of the previous one
 
 }  // namespace newton
 

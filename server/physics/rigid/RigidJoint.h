@@ -28,7 +28,7 @@ struct RigidRow : SpeedRow {
   double inverse_effective_mass = 0;  ///< J·M⁻¹·Jᵀ
   bool is_soft = false;               ///< it has no first guess of its impulse
   double impulse = 0;                 ///< impulse of this sub-step so far; between sub-steps, of the last one
-  double before = 0;                  ///< during the second half: impulse of the first half
+  double before = 0;                  ///< impulse of the sub-step before this half: 0 in the first half
   double warm = 0;                    ///< first guess of the impulse for each half
   std::array<RigidRowHalf, 2> half;
 };

@@ -12,7 +12,7 @@
 
 namespace naiad::physics {
 
-/// The begin or end of a contact of two bodies, which is one contact even if several of their shapes touch.
+/// The start or end of a contact of two bodies, which is one contact even if several of their shapes touch.
 struct RigidEvent {
   double time = 0;  ///< ticks since the start of the step: start of the sub-step, or moment of a fast impact
   int first = 0;    ///< the lower id

@@ -18,7 +18,7 @@
 
 namespace naiad::physics {
 
-/// The begin or end of a contact of two bodies in this step.
+/// The start or end of a contact of two bodies in this step.
 struct SoftEvent {
   int body;   ///< a soft body's id
   int other;  ///< id of an obstacle, or of a soft body with a higher id than `body`

@@ -29,7 +29,7 @@ struct ContactRow {
   float rest = 0;                ///< impacts slower than this do not bounce
   float spin_a = 0, spin_b = 0;  ///< spins at the start of the step
   bool is_held = false;          ///< one of the bodies is immovable, so that the row is stiffer
-  bool is_lasting = false;       ///< carries a resting load: has its own softness, and trends of impulses
+  bool is_lasting = false;       ///< carries a resting load: own softness, and its impulses have a trend
   float fast = 1e9f;             ///< approaches faster than this are stopped at once
 };
 

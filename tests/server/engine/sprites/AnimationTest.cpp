@@ -26,7 +26,7 @@ TEST_F(AnimationTest, EachFrameIsShownForSlowdownTicks) {
   EXPECT_EQ(shown(10, 9), "aabbccaab");
 }
 
-TEST_F(AnimationTest, SlowdownZeroOrCountMinusOneStopsAnimation) {
+TEST_F(AnimationTest, SlowdownZeroOrSlowdownCountMinusOneStops) {
   Sprite still = sprite({"a", "b"}, 0);
   PlacedObject o(Vector(10, 10));
   o.setSprite(&still);

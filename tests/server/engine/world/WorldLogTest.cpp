@@ -43,7 +43,7 @@ TEST_F(Log, DifferentLinesAreBounded) {
   EXPECT_EQ(lines.back(), "always");
 }
 
-TEST_F(Log, NotedLineWithoutAPageIsDropped) {
+TEST_F(Log, ActivityLineWithoutAnActivityPageIsDropped) {
   log.addActivityLineOnce("line");
   log.writeOnce("line");
   EXPECT_EQ(lines, std::vector<std::string>{"line"});

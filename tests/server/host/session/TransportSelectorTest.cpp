@@ -97,7 +97,7 @@ TEST_F(TransportSelectorTest, ClosesAfterASecondWithoutAcknowledgement) {
   EXPECT_TRUE(selector.wantsProbe(now));
 }
 
-TEST_F(TransportSelectorTest, TheSameAcknowledgementDoesNotKeepItOpen) {
+TEST_F(TransportSelectorTest, RepeatedAcknowledgementDoesNotKeepDatagramsOpen) {
   open();
   for (int i = 0; i < 12; ++i) {
     now += 100ms;
@@ -106,7 +106,7 @@ TEST_F(TransportSelectorTest, TheSameAcknowledgementDoesNotKeepItOpen) {
   EXPECT_FALSE(selector.isOpen(now));
 }
 
-TEST_F(TransportSelectorTest, AcknowledgementAfterTwoSecondsDoesNotOpenIt) {
+TEST_F(TransportSelectorTest, AcknowledgementAfterTwoSecondsDoesNotOpenDatagrams) {
   const std::uint32_t old = send(true);
   now += 2000ms;
   hear(old);

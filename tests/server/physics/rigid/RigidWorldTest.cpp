@@ -217,7 +217,7 @@ std::uint64_t heapAt(const Place& origin, bool has_poison) {
   return hashOf(world, origin, has_poison ? poisoned : world.idLimit());
 }
 
-TEST(RigidWorld, HashIsTheSameEverywhereAndFarAway) {
+TEST(RigidWorld, HashIsEqualForEveryCompilerAndFarAway) {
   const std::uint64_t here = heapAt({}, false);
   EXPECT_EQ(here, heapAt({1'000'000'000, -1'000'000'000, 0, 0}, false));
   EXPECT_EQ(here, 12217238143877681386ULL);  // the hash is equal for every compiler
