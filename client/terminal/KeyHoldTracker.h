@@ -80,7 +80,8 @@ class KeyHoldTracker {
   /// Releases all keys, e.g. when a text line opens or the program is suspended.
   std::vector<KeyAction> releaseAll();
 
-  /// Returns the silence after which a repeating key counts as released.
+  /// Returns the silence after which a repeating key counts as released: 1.5 times the interval at which it
+  /// repeats, between kMinRelease and kMaxRelease.
   Duration releaseDelay() const;
   /// Returns the keyboard's pause before the first repeat; zero until one was seen.
   Duration pause() const { return m_pause; }

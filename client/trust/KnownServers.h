@@ -60,7 +60,8 @@ class KnownServers {
   /// because links come from strangers. Writes nothing.
   TrustResult verify(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
                      const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
-  /// Like verify(), but pins the key if the server is accepted. Both happen in one atomic step.
+  /// Like verify(), but if the server is accepted, pins its key in place of an earlier one. Both happen in
+  /// one atomic step. If it is refused, writes nothing.
   TrustResult admit(const std::string& host, std::uint16_t port, const PeerIdentity& facts,
                     const std::optional<Fingerprint>& given, const std::optional<ShortKey>& link = {}) const;
 

@@ -62,7 +62,7 @@ class ClientControls {
   enum class Result {
     kGame,       ///< pass the key to the game
     kHandled,    ///< do nothing, but the picture may have changed
-    kOpened,     ///< a chat line was opened: release the game's keys, switch to text
+    kOpened,     ///< a chat line was opened: release the game's keys, turn off the terminal's key releases
     kClosed,     ///< the chat line was closed without text
     kSendChat,   ///< the chat line was closed with Return: send popChat()
     kEnterRoom,  ///< the list of rooms was closed with Return: enter room roomChoice()

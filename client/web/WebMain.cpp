@@ -1,7 +1,7 @@
 // The client as a WebAssembly module: the functions that page/module.js calls, and those that it provides.
 //
-// The page passes texts and messages in buffer(), with their size in bytes. Returned pointers are addresses in
-// the module's memory. One client at a time, on the page's only thread.
+// The page passes texts and messages in buffer(), with their size in bytes. Returned pointers are addresses
+// in the module's memory. One client at a time, on the page's only thread.
 #include <array>
 #include <chrono>
 #include <cstdint>

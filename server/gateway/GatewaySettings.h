@@ -38,7 +38,7 @@ struct GatewaySettings {
   std::chrono::milliseconds hello_timeout{10'000};  ///< timeout from the upgrade request to the first message
   std::chrono::milliseconds connect_timeout{
       5'000};  ///< timeout until the server is connected and has proved its key
-  std::chrono::milliseconds stall_timeout{20'000};  ///< timeout of a browser that does not read its data
+  std::chrono::milliseconds stall_timeout{20'000};  ///< timeout until a browser has taken the last data
   std::chrono::milliseconds close_timeout{3'000};   ///< timeout of a browser's answer to a close
   /// Idle time before a ping; twice this disconnects the browser.
   std::chrono::milliseconds ping_interval{20'000};

@@ -6,7 +6,8 @@
 //
 //   down   Read at most 4 KiB from dfserver, write the complete messages at once, and wait until at most
 //          4 KiB are unsent to the browser before the next read. So the server notices a slow browser and
-//          skips snapshots, instead of old snapshots queueing here.
+//          skips snapshots, instead of old snapshots queueing here. After stall_timeout of waiting, the
+//          WebSocket is closed (4002).
 //   up     Read all available messages of the browser, and write them to dfserver as frames, at once.
 //
 // Data is never held back to wait for more. The buffers hold at most one frame and 4 KiB down, and one frame

@@ -241,8 +241,8 @@ bool clearText(const Option& option) {
       option.target);
 }
 
-/// Reads all options, and adds a note on each former name. Returns false after it printed --help or
-/// --version. Throws OptionError.
+/// Reads all options, and adds a note on each former name on the command line or in the --config file, but
+/// not of a variable. Returns false after it printed --help or --version. Throws OptionError.
 bool readAll(const Program& program, const std::vector<Option>& options, int argc, const char* const* argv,
              std::vector<std::string>& notes) {
   CLI::App app(program.purpose, program.name);

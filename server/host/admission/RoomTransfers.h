@@ -22,8 +22,8 @@ class RoomTransfers {
   void ask(const Session& session, const std::string& room);
   /// Like ask(), on request of the game. Rate-limited, because games may ask as often as they like.
   void askByGame(Session& session, const std::string& room);
-  /// Call when this room was closed. Moves its players to the first room; ends sessions that cannot move. If
-  /// it is the first room, ends all of its sessions.
+  /// Call when this room was closed. Tells its players `sentence` (the reason), and moves them to the first
+  /// room; ends sessions that cannot move. If it is the first room, ends all of its sessions.
   void evacuate(const Room& room, const std::string& sentence);
   /// Call once a tick, outside of session callbacks.
   void update();

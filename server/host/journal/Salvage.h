@@ -1,4 +1,5 @@
-// Completes the rounds of a killed server: appends to their files the records that waited in shared memory.
+// Completes the rounds of a killed server: appends to their files the records that waited in
+// shared memory, and removes them there.
 #pragma once
 
 #include <set>

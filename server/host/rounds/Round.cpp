@@ -301,7 +301,9 @@ void Round::endRecovery(const std::string& problem) {
 
 // ---- a world that crashed or hangs ------------------------------------------------------------------------
 
-// Returns false if the round ends with its world.
+// Lets another world take over after a crash or hang; the players stay connected. Returns false, and the
+// round ends, if the world had not begun, the round is not recorded or has no new_world, or the last failure
+// was less than kSameFailureTicks ago.
 bool Round::startFailover(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_binding.new_world || !m_is_recording || !m_began) return false;

@@ -164,7 +164,8 @@ class Session {
   /// Time limit for the answer to a hello; less than the 5 s that a client waits for it.
   static constexpr std::chrono::seconds kAdmissionTimeout{4};
   static constexpr std::chrono::seconds kIdleTimeout{15};
-  /// After this much silence of a detached player, the keys they hold are released.
+  /// Silence after which the keys of a detached player are released, if datagrams passed when the stream
+  /// broke. Otherwise detach() releases them at once.
   static constexpr std::chrono::seconds kKeyReleaseDelay{1};
   /// Rate limit of resumes, on another stream or by another process. Players do not notice a connection that
   /// breaks once a second, but each resume may send a world from the beginning.
@@ -316,6 +317,7 @@ class Session {
   void onSecondClosed(CloseReason reason);
   void onDatagram(std::string_view bytes);
   void onClosed(CloseReason reason);
+  /// Continues without a stream: over datagrams if they pass; otherwise releases the player's keys now.
   void detach(Clock::time_point now);
   void adoptStream(Session& other);
   void sendWelcome(const wire::Welcome& welcome);

@@ -143,7 +143,7 @@ void Publisher::correctUndrawnObjects(const df::WorldView& view) {
     m_examine_at[slot] = m_tick + kNeverExamine;
     if (!tracked.model.alive) continue;
     if (jumped) tracked.off_views = m_tick;
-    correctUndrawnObjects(slot, tracked, view);
+    correctUndrawnObject(slot, tracked, view);
     const bool standing = !isMoving(tracked.model.state.motion);
     const bool blank = tracked.model.state.look.sequence.empty();
     m_examine_at[slot] = !standing ? m_tick + 1 : blank ? m_tick + kNeverExamine : tracked.off_views;
@@ -151,7 +151,7 @@ void Publisher::correctUndrawnObjects(const df::WorldView& view) {
   }
 }
 
-void Publisher::correctUndrawnObjects(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
+void Publisher::correctUndrawnObject(std::uint32_t slot, Tracked& tracked, const df::WorldView& view) {
   ObjectState& state = tracked.model.state;
   if (!isSameCell(positionAt(state.motion, m_tick), tracked.truth.position)) {
     state.motion = truthNow(tracked);
