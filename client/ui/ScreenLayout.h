@@ -43,7 +43,7 @@ struct ScreenModel {
   std::string room;               ///< the player's room; empty: the server has no rooms
   std::vector<RoomLine> rooms;    ///< list of rooms for the panel
   int room_choice = 0;            ///< index of the chosen line in `rooms`
-  std::vector<std::string> help;  ///< lines of the game for the help
+  std::vector<std::string> help;  ///< help lines of the game
   bool browser = false;           ///< shown by a browser page, not a terminal
   bool key_releases = false;      ///< the terminal reports key releases
 

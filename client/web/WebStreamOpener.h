@@ -64,7 +64,8 @@ class WebStreamOpener : public StreamOpener {
 
   /// Handles timeouts. Call about ten times a second.
   void update(Time now);
-  /// Returns why the gateway refused the newest stream, for people; empty once a stream works.
+  /// Returns the gateway's reason for refusing the newest stream, as a sentence for the player; empty once a
+  /// stream works.
   const std::string& refusal() const { return m_refusal; }
   /// True if the refusal is final: a retry would fail in this way, too.
   bool isRefusalFinal() const { return m_final; }

@@ -34,8 +34,8 @@ class Prediction {
   static constexpr std::size_t kMaxInputs = 64;
 
   struct Counters {
-    std::uint64_t confirmed = 0;     ///< exact states equal to the prediction for their tick
-    std::uint64_t mispredicted = 0;  ///< exact states that differ from the prediction
+    std::uint64_t confirmed = 0;     ///< exact states with the position predicted for their tick
+    std::uint64_t mispredicted = 0;  ///< exact states with another position
     std::uint64_t unpredicted = 0;   ///< inputs beyond kMaxInputs
   };
 

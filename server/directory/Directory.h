@@ -32,7 +32,7 @@ struct DirectorySettings {
   std::string key;          ///< PEM file of the certificate's private key
 };
 
-/// Does its work only in run(), on the thread that calls it.
+/// Serves in run(), on the thread that calls it. Only the list is written by a thread of its own.
 class Directory {
  public:
   /// Throws std::runtime_error if the list cannot be written, ListenError, and TlsError for the lobby's key.

@@ -152,7 +152,7 @@ HttpResponse HttpResponses::refusal(int status, std::string_view message) const 
 
 const HttpResponses::Refusal* HttpResponses::validateHost(const WebRequest& request) const {
   static constexpr Refusal kVersion{505, "Only HTTP/1.1 is supported.\n"};
-  static constexpr Refusal kHost{421, "Unknown host name. The host can add it with dfweb --origin.\n"};
+  static constexpr Refusal kHost{421, "Unknown server name. The host can add it with dfweb --origin.\n"};
   if (request.version() != 11) return &kVersion;
   const bool is_ours =
       request.count(http::field::host) == 1 && m_origins.allowsHost(headerOf(request, http::field::host));

@@ -24,7 +24,7 @@ struct GameServer {
 };
 
 /// A link for one use. Make it with std::make_shared: pending handlers share it. Until the server has proved
-/// its key, only the header and the TLS handshake are sent.
+/// that it has its key, only the header given to open() and the TLS handshake are sent.
 ///
 /// Use on the thread that runs the io_context.
 class UpstreamLink : public std::enable_shared_from_this<UpstreamLink> {

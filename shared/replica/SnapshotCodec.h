@@ -23,7 +23,7 @@ struct SnapshotHeader {
   bool complete = true;          ///< true if no records are pending after this snapshot
   bool has_input = false;        ///< `input` and `input_tick` are set
   std::uint32_t input = 0;       ///< newest input that reached the game
-  std::uint32_t input_tick = 0;  ///< tick that applied it, or tick − 63 if that was earlier
+  std::uint32_t input_tick = 0;  ///< tick that applied `input`, or `tick` − 63 if that is later
 };
 
 /// The newest known numbers, from which shortened ones are restored.

@@ -143,7 +143,7 @@ TEST_F(LanListTest, HiddenServerIsNotListed) {
   EXPECT_FALSE(has(listOnce(), m_name));
 }
 
-TEST_F(LanListTest, WithNaiadServerItJoinsAndListsNothing) {
+TEST_F(LanListTest, NaiadServerVariableJoinsWithoutListing) {
   serve();
   const auto ann = client({}, {{"NAIAD_SERVER", m_link}});
   expectPlays(*ann);

@@ -26,7 +26,7 @@ function wasi(memory) {
     fd_close: () => 0,
     fd_seek: () => 0,
     proc_exit(code) {
-      throw new Error(`The client ended with ${code}.`);
+      throw new Error(`The client ended with exit code ${code}.`);
     },
   };
 }

@@ -249,7 +249,7 @@ inline void Grid::Steps::found(Slot t) {
 }
 
 inline void Grid::Steps::fileAtTarget(Slot s) {
-  if (m_plain) {  // from a cell that it had alone, marked empty by isFree(), to an empty one
+  if (m_plain) {  // to an empty cell, from one that held only it and that isFree() has marked empty
     m_p_records[s].cell = m_cell;
     m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);
     m_p_heads[m_cell] = s;

@@ -40,7 +40,7 @@ inline constexpr float FONT_SCALE_DEFAULT = 2;
 /// Returns the size of a character, in pixels of the window that the published engine would open.
 float charHeight();
 float charWidth();
-/// Convert a vector in cells to these pixels, and back.
+/// Convert a vector from cells to pixels of that window, and back.
 Vector spacesToPixels(Vector spaces);
 Vector pixelsToSpaces(Vector pixels);
 

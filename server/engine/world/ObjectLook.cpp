@@ -248,7 +248,8 @@ std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
-// Null if the box is not the sprite's own, because the mask would not lie where the characters are drawn.
+// Null unless the sprite is drawn untransformed and centred in its own box, because otherwise the mask would
+// not lie where the characters are drawn.
 const Mask* spriteMaskOf(const Object& object) {
   const Sprite* p_sprite = object.getSprite();
   const bool as_drawn = p_sprite != nullptr && object.isCentered() && object.getBox() == p_sprite->getBox() &&

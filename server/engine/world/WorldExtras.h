@@ -84,7 +84,7 @@ class Animations {
   /// Makes advance() advance the animation of the Object in this slot. A second call has no effect.
   void add(std::uint32_t slot, ObjectExtras& extras);
   void remove(ObjectExtras& extras);
-  /// Advances all animations by one tick.
+  /// Advances the animations of the active, visible Objects by one tick.
   void advance();
 
  private:

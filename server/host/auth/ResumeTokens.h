@@ -51,7 +51,7 @@ class ResumeTokens {
     std::string newest;
     std::string redeemed;    ///< empty: none, or void
     std::string superseded;  ///< newest void token that another process had redeemed
-    bool restarted = false;  ///< true if another process redeemed `redeemed`
+    bool restarted = false;  ///< true if another process of the client redeemed the token of `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
   /// Removes the hash's session entry, and empties the string.

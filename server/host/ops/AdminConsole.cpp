@@ -133,8 +133,8 @@ BanPlan planPlayer(const Ban& ban, const std::vector<AdminPlayer>& players, cons
     return other.session != choice.player->session && theirs && range.contains(*theirs);
   });
   if (others > 0) {
-    plan.note = "Only by name: " + counted(static_cast<std::size_t>(others), "other") + " of " +
-                range.text() + " would be banned, too.";
+    plan.note = "Only by name, because a ban of " + range.text() + " would also affect " +
+                counted(static_cast<std::size_t>(others), "other player") + ".";
     return plan;
   }
   Ban of_range = ban;

@@ -349,7 +349,7 @@ void RoomManager::countEnd(WorldEnd::Why why) {
     case WorldEnd::kNotRecovered:
       ++m_counters.rounds_unrecovered;
       break;
-    case WorldEnd::kForeign:  // the round has not begun
+    case WorldEnd::kForeign:  // of another build: refused before its round began
       break;
   }
 }

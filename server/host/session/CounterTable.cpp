@@ -135,7 +135,8 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
      "Requests for the room list or another room that were too frequent."},
     {FIELD(C, chat_muted), "naiad_chat_muted_total", "",
      "Lines of chat of muted players, which were not delivered."},
-    {FIELD(C, idle_kicks), "naiad_idle_kicks_total", "", "Players disconnected because of no input."},
+    {FIELD(C, idle_kicks), "naiad_idle_kicks_total", "",
+     "Players disconnected because they sent no input for too long."},
     {FIELD(C, resizes_deferred), "naiad_resizes_deferred_total", "",
      "Terminal sizes replaced by a newer one."},
     {FIELD(C, rounds_over), "naiad_world_ends_total", R"(reason="game_over")",
@@ -149,7 +150,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {FIELD(C, failovers_by_replay), "naiad_failovers_total", R"(source="replay")", ""},
     {FIELD(C, scores), "naiad_scores_total", "", "Scores added by games."},
     {FIELD(C, scores_refused), "naiad_scores_refused_total", "",
-     "Scores that were invalid or of too many tables."},
+     "Scores refused because they were invalid or the game has too many tables."},
     {FIELD(C, scores_written), "naiad_scores_written_total", "", "Scores written to disk."},
     {FIELD(C, scores_dropped), "naiad_scores_dropped_total", "",
      "Scores not written because too many waited for the disk."},
@@ -192,7 +193,7 @@ constexpr auto kStreamRows = std::to_array<CounterRow<S>>({
     {FIELD(S, refused_too_often), "naiad_streams_refused_total", R"(reason="rate_limited")", ""},
     {FIELD(S, refused_banned), "naiad_streams_refused_total", R"(reason="banned")", ""},
     {FIELD(S, failed_accepts), "naiad_failed_accepts_total", "",
-     "Failed accepts because no descriptors were free; retried."},
+     "Connections that could not be accepted, for example without free descriptors; retried."},
 });
 static_assert(hasAll(kStreamRows));
 
@@ -200,7 +201,7 @@ using V = ProxyListener::Counters;
 constexpr auto kVisitorRows = std::to_array<CounterRow<V>>({
     {FIELD(V, visitors), "naiad_proxied_connections_total", "", "Connections from doors of this machine."},
     {FIELD(V, bad_headers), "naiad_proxied_connections_refused_total", R"(reason="bad_header")",
-     "Connections dropped at the visitors' socket, by reason."},
+     "Connections dropped at the socket for doors (--proxy-socket), by reason."},
     {FIELD(V, late_headers), "naiad_proxied_connections_refused_total", R"(reason="late")", ""},
     {FIELD(V, crowded), "naiad_proxied_connections_refused_total", R"(reason="crowded")", ""},
     {FIELD(V, refused_peers), "naiad_proxied_connections_refused_total", R"(reason="peer")", ""},

@@ -85,7 +85,7 @@ struct Counters {
   std::uint64_t rounds_hung = 0;
   std::uint64_t rounds_broken = 0;
   std::uint64_t rounds_unrecovered = 0;
-  std::uint64_t failovers_by_checkpoint = 0;  ///< worlds that failed while a copy continued their round
+  std::uint64_t failovers_by_checkpoint = 0;  ///< worlds that failed and were replaced by a copy of them
   std::uint64_t failovers_by_replay = 0;
   // Scores added by games (HighScores.h):
   std::uint64_t scores = 0;          ///< accepted scores

@@ -130,7 +130,8 @@ using ConfigLocation = std::function<std::string(const std::string& key)>;
 
 /// Fills `options` for a game that is a program itself, from the environment, else from df-config.txt.
 /// Returns the names of the options that were given, without dashes. Such a game listens on loopback by
-/// default. Throws OptionError, whose text begins with the variable or with location_of(key).
+/// default. Throws OptionError, whose text begins with the variable or location of an invalid value, or is
+/// that of validateHostOptions().
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigLocation& location_of = {});
 

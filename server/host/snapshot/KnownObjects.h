@@ -78,7 +78,7 @@ class KnownObjects {
   /// Returns the checksum of a client's replica that has received everything sent.
   std::uint64_t checksum() const { return m_checksum; }
 
-  /// Calls `visit(id, known)` for all objects that are born or alive.
+  /// Calls `visit(id, known)` for all objects in the states kBorn and kAlive.
   template <class Visit>
   void forEachAlive(Visit visit) const {
     for (std::uint32_t id = 0; id < m_known.size(); ++id) {

@@ -14,7 +14,7 @@ CellPosition cellOfCommand(const df::DrawCommand& command) {
   return {df::cellOf(command.position.x), df::cellOf(command.position.y)};
 }
 
-/// Appends a glyph unless it is too far away to be encoded.
+/// Appends a glyph unless it is too far away to be encoded, or `out` has kMaxGlyphs already.
 void append(Appearance& out, std::int64_t dx, std::int64_t dy, const df::DrawCommand& command) {
   if (std::max(std::abs(dx), std::abs(dy)) > kMaxGlyphOffset || out.size() >= kMaxGlyphs) return;
   out.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy), command.ch, command.color});

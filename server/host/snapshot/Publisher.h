@@ -191,7 +191,7 @@ class Publisher {
 
   /// Number of models corrected because they would have drawn a wrong cell, since the start.
   std::uint64_t correctionCount() const { return m_corrections; }
-  /// Number of reports of objects that were ignored because their slot is beyond kMaxSlots.
+  /// Number of reports of objects that were ignored because their slot is not below kFreeDrawSlot.
   std::uint64_t refusedCount() const { return m_refused; }
 
  private:

@@ -45,7 +45,7 @@ std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, c
   return free <= 0 ? 0 : static_cast<std::uint32_t>(free / (speed + 1));
 }
 
-/// Number of ticks after which an object that stands still and shows nothing is examined again.
+/// An object that stands still and shows nothing is examined again only after this many ticks.
 constexpr std::uint32_t kNeverExamine = 1u << 20;
 }  // namespace
 

@@ -27,7 +27,7 @@ struct ProcessRunState {
 /// Returns the state of a process; nullopt if it does not exist, or the kernel does not say.
 std::optional<ProcessRunState> readProcessRunState(pid_t process);
 
-/// Adds up the time of one tick. Time is a parameter.
+/// Adds up the time that a tick has taken. Reads no clock: callers pass the time.
 class TickStallMeter {
  public:
   using Nanos = std::chrono::nanoseconds;

@@ -106,7 +106,7 @@ class WorldProcess : public WorldPort {
   enum class SupervisorState : std::uint8_t {
     kStarting,
     kWatching,
-    kClearing,  ///< it ends the rest of the previous world
+    kClearing,  ///< it kills what is left of the previous world
     kEnded,     ///< it has ended all descendants of the world, and itself
   };
 

@@ -126,7 +126,7 @@ std::optional<int> CheckpointForker::makeCopy(int world_socket) const {
     beCopy(socket, world_socket, supervisor);
     return socket;
   }
-  close(socket);  // if there is no copy, the front sees that its end is closed
+  close(socket);  // if the fork failed, this closes the last descriptor of this end, and the front notices
   return std::nullopt;
 }
 
@@ -181,7 +181,8 @@ void WorldServer::run(df::World& world) {
   close();
 }
 
-// The copy returns here when it takes over, with another socket.
+// Forks a copy of this process if one was requested. In the copy, this returns only when the copy takes over,
+// with a socket of its own.
 void WorldServer::makeCopy() {
   if (const auto socket = m_checkpoints.makeCopy(m_socket)) m_socket = *socket;
 }

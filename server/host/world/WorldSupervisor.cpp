@@ -143,7 +143,7 @@ int watchChildren() {
   return signalfd(-1, &child, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-/// Raises the OOM score: if memory runs out, worlds are killed before the front.
+/// Raises the OOM score: if memory runs out, the kernel kills worlds before the front (the server's process).
 void raiseOomScore() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;

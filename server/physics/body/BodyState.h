@@ -48,8 +48,8 @@ struct BodyState {
   bool turns_alone = true;          ///< true if only the torque applied by the game turns it
   int group = -1;                   ///< kJointImpacts only: bodies that may hit each other have one number
   const char* p_failure = nullptr;  ///< reason to freeze the body, or null
-  double radius = 0;                ///< radius if it is a circle about its place that does not turn; else 0
-  Place start;                      ///< place at the beginning of the tick
+  double radius = 0;  ///< radius if it is a circle that an ImpactWorld can move (is_simple); else 0
+  Place start;        ///< place at the beginning of the tick
   Vec2 start_velocity;
   Vec2 push;    ///< gravity plus applied force over mass
   Pull pull;    ///< valid if is_sprung

@@ -8,10 +8,11 @@
 //   p_rope->attach(10, p_crate);
 //
 // A soft body consists of nodes, which are points with mass, and of springs and beams between them. Its
-// position is its centre of mass, its velocity that of the centre, and its box encloses it. Setting position
-// or velocity moves the whole body, pinned nodes too. It collides with HARD bodies, HARD Objects and other
-// soft bodies. Both sides get an EventCollision when a contact begins, and on request an EventContactEnd when
-// it ends. Because it is SPECTRAL, Objects that move by the book's rules pass through it.
+// position is its centre of mass, its velocity that of the centre, and its box encloses it. Setting the
+// position moves the whole body, pinned nodes too; setting the velocity does not move pinned nodes. It
+// collides with HARD bodies, HARD Objects and other soft bodies. Both sides get an EventCollision when a
+// contact begins, and on request an EventContactEnd when it ends. Because it is SPECTRAL, Objects that move
+// by the book's rules pass through it.
 //
 // Units: positions in cells, lengths in cell widths, times in ticks, mass in the game's unit. Stiffness is an
 // acceleration (cell widths per tick²), so that it does not depend on the mass.

@@ -189,8 +189,8 @@ BroadPhase::Kind BroadPhase::kindOf(const Proxy& a, const Proxy& b) const {
   return areAlike(widthOf(a.bounds), width, width) ? Kind::kAlike : Kind::kUnlike;
 }
 
-// Returns which of the two finds the pair: the changed one; if both are, the smaller, or the first of like
-// sizes.
+// Returns which of the two finds the pair: the changed one. If both have changed, the smaller one for
+// kUnlike, otherwise the first one (isBefore()).
 std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) const {
   const bool is_one = m_proxies[index(a)].changed, is_other = m_proxies[index(b)].changed;
   if (is_one != is_other) return is_one ? a : b;

@@ -37,7 +37,7 @@ class BroadPhase {
   /// Moves a body to `tight`. If its present bounds contain `tight`, they stay; otherwise they become `wide`,
   /// which is `tight` with room for later moves. Returns true if they became `wide`.
   bool move(std::int32_t proxy, const GridBounds& tight, const GridBounds& wide);
-  /// Sets the bounds of a body in any case.
+  /// Sets the bounds of a body, even if its present bounds contain them.
   void set(std::int32_t proxy, const GridBounds& bounds);
   const GridBounds& bounds(std::int32_t proxy) const { return m_proxies[index(proxy)].bounds; }
 

@@ -33,7 +33,8 @@ struct FieldSystem {
 // If a field turns the velocity by more radians than this in one call, as a strong magnet does, the
 // integrator does not follow every turn.
 constexpr double kManyRadians = 64;
-constexpr int kTurningSteps = 16;  // number of steps used instead; each calls the field four times
+constexpr int kTurningSteps =
+    16;  // number of steps that flyTurning() takes instead; each calls the field four times
 
 constexpr Vec2 times(Vec2 a, Vec2 b) {
   return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};

@@ -256,8 +256,8 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
   return false;
 }
 
-// Lists all pairs whose paths may cross. Thousands of bodies in one place have too many pairs, which must be
-// known before any is examined. So after the first body whose pairs exceed the tick's shared budget, each
+// Lists all pairs whose paths may cross. All pairs are listed before any is examined, and
+// thousands of bodies in one place have too many. So after the first body whose pairs exceed the tick's shared budget, each
 // body has only its own share.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);

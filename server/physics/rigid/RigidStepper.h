@@ -18,8 +18,8 @@ struct RigidEvent {
   int first = 0;    ///< the lower id
   int second = 0;
   bool is_begin = false;
-  double impulse = 0;  ///< begin only: impulse on `second` along the normal until the end of the step
-  Vec2 normal;         ///< begin only: direction from `first` to `second`
+  double impulse = 0;  ///< impulse on `second` along the normal until the step ends; only at the start
+  Vec2 normal;         ///< direction from `first` to `second`; only at the start
 };
 
 /// Not thread-safe.

@@ -84,7 +84,7 @@ class TcpListener {
   /// Counters of connections.
   struct Counters {
     std::uint64_t failed_accepts = 0;       ///< out of descriptors or memory: retried later
-    std::uint64_t handshakes = 0;           ///< TLS: done and delivered
+    std::uint64_t handshakes = 0;           ///< TLS: completed, and the channel was delivered
     std::uint64_t handshakes_failed = 0;    ///< TLS: for example no TLS 1.3, no common protocol, disconnected
     std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
     std::uint64_t half_open_ended = 0;      ///< TLS: silent ones, ended because another one needed the place

@@ -135,7 +135,7 @@ TEST(TrustOptions, ListedServerUsesListKeyWithoutEnvironmentPassword) {
   }
 }
 
-TEST(TrustOptions, OptionsThatContradictAListAreErrors) {
+TEST(TrustOptions, OptionsThatContradictAListedKeyAreErrors) {
   ServerTrust trust;
   trust.insecure = true;
   ServerAddress address;

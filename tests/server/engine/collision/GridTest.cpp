@@ -159,7 +159,7 @@ TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
 
 // Tests few boxes among many characters. If no box is near, a step does not search the other levels, but it
 // must not miss a contact.
-TEST(Grid, CharactersAmongFewBoxesMissNoContact) {
+TEST(Grid, OneCellObjectsAmongFewBoxesMissNoContact) {
   Random random(13);
   constexpr Grid::Slot kCount = 430, kCharacters = 400;
   const auto number = [&](int cells) {

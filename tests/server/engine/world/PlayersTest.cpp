@@ -143,7 +143,7 @@ TEST_F(Players, InputHandlersSeeThePlayersView) {
   EXPECT_EQ(WM.getView().getCorner(), Vector(0, 0));
 }
 
-TEST_F(Players, ViewFollowsTheObjectThroughMovesOnly) {
+TEST_F(Players, ViewFollowsTheObjectOnlyWhenItMoves) {
   WM.setBoundary(Box(Vector(0, 0), 500, 500));
   const std::uint32_t ann = joined("ann");
   const Player& player = *WM.getPlayer(ann);

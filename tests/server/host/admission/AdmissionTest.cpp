@@ -512,7 +512,7 @@ TEST_F(AdmissionTest, JoinsFromManyAddressesShareTheNetworkLimit) {
   EXPECT_TRUE(visit("[2001:db8:2::1]:1")) << "another network";
 }
 
-TEST_F(AdmissionTest, ClassOf64RejoinsPrivateWorldsImmediately) {
+TEST_F(AdmissionTest, SchoolClassOf64RejoinsPrivateWorldsImmediately) {
   options.max_players = 64;
   playInPrivate();
   EXPECT_EQ(joinClass(64), 64);

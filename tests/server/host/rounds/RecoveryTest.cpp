@@ -181,7 +181,7 @@ class RecoveryTest : public testing::Test {
   int reported = 0;
 };
 
-TEST_F(RecoveryTest, FileTellsPlayersSessionsAndPressedKeys) {
+TEST_F(RecoveryTest, FileContainsPlayersSessionsAndPressedKeys) {
   play();
   session({.player = 2, .over = true});
   session(sessionOf(3));  // welcomed, but not yet known to the world
