@@ -1,4 +1,4 @@
-// The gateway's responses to HTTP requests. An response depends only on the request, the page and the
+// The gateway's responses to HTTP requests. A response depends only on the request, the page and the
 // settings.
 //
 // HTTP/1.1 (RFC 9110, 9112). Every response has the headers that keep a browser from running foreign scripts,
@@ -45,7 +45,8 @@ class HttpResponses {
     int status;
     std::string_view message;
   };
-  /// Returns null if the request may become a WebSocket, else the refusal.
+  /// Returns null if the request may become a WebSocket, else the refusal: 403 for an Origin that is missing,
+  /// repeated or not allowed, 421 for a wrong Host.
   const Refusal* validateUpgrade(const WebRequest& request) const;
 
   using Header = std::pair<std::string_view, std::string_view>;

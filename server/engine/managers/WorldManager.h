@@ -90,7 +90,8 @@ class WorldManager : public Manager {
   [[deprecated("say isLagCompensated")]] bool isLookingBack() const { return isLagCompensated(); }
 
   /// Whether a host continues to tick the world while it has no players. If not, ticks stop after a minute
-  /// without players until the next player joins. Off by default. Call before GM.run(). Only hosts use it.
+  /// without players until the next player joins. Off by default. Call before GM.run(). Only hosts use it. A
+  /// named room without players sleeps even so (--room-sleep): its world ends.
   void setRunsEmpty(bool runs_empty = true);
   bool getRunsEmpty() const;
 

@@ -45,7 +45,8 @@ class Journal {
   void suspend();
   /// True if the round is not over and all of it so far was recorded.
   bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_suspended; }
-  /// True if the journal stopped before the round was over.
+  /// True if the journal stopped before the round was over. Then the round continues, but can be neither
+  /// resumed, handed over, nor taken over by another world.
   bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// True if more than half of the ring is full, so that the writer should be woken.
   bool isFilling() const { return m_ring.isFilling(); }

@@ -44,7 +44,7 @@ class HostHealth {
   };
   /// Returns whether ticks begin in time.
   Result health(Clock::time_point now) const;
-  /// Returns whether new players can join.
+  /// Returns whether new players can join: not while the host starts, is full, drains, ends or hangs.
   Result readiness(Clock::time_point now) const;
 
  private:

@@ -2,7 +2,7 @@
 //
 // A game reads its own folder and those of its resources, and writes into the working directory. A folder
 // that is too wide (the user's home, or one that holds the server's key) is not given as a whole: a game gets
-// only sprites/ and sounds/ in it.
+// only sprites/ and sounds/ in it. A folder with files of the running program is readable, but not writable.
 #pragma once
 
 #include <string>

@@ -47,8 +47,9 @@ class PressedKeys {
 
 class ReceivedInputs {
  public:
+  /// Maximum number of waiting inputs; one more is kTooMany, which ends the session (Session::handleInput()).
   static constexpr std::size_t kMaxQueued = 64;
-  static constexpr int kPerTick = 16;
+  static constexpr int kPerTick = 16;  ///< maximum number of inputs applied in a tick; others wait
   /// Number of ticks: an input for a tick further ahead than this is applied at once.
   static constexpr std::int32_t kMaxEarly = 8;
 

@@ -132,6 +132,8 @@ bool Session::handleUpdate(std::string_view bytes, bool by_datagram) {
   return true;
 }
 
+// An input beyond ReceivedInputs::kMaxQueued ends the session with a goodbye: the player leaves at once,
+// without a time to reconnect.
 void Session::handleInput(const Input& input) {
   if (m_state != State::kPlaying) return;
   switch (m_inputs.add(input)) {

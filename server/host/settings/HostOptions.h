@@ -41,7 +41,7 @@ struct HostOptions {
   std::string recover = "on";     ///< whether the round of a killed server is resumed: "on" or "off"
   double hang_time = 1;           ///< seconds after which a tick of a world process counts as hung
   std::string world_environment;  ///< names of more variables for world processes, separated by commas
-  double room_sleep = 60;         ///< seconds without players after which a room sleeps
+  double room_sleep = 60;         ///< seconds without players after which a room sleeps: its world ends
   bool insecure = false;          ///< plain TCP, loopback only, no datagrams: for tests
   std::string certificate;        ///< PEM file; requires `key`. Empty: self-signed, made on the first start
   std::string key;                ///< PEM file

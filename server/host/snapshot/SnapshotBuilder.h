@@ -45,7 +45,9 @@ class RedundantResend {
 /// The order in which one client's pending objects are written, the most urgent first.
 class PendingQueue {
  public:
-  /// Adds all pending ids: by id if one snapshot of `limit` bytes holds them all, otherwise by urgency.
+  /// Adds all pending ids: by id if one snapshot of `limit` bytes holds them all, otherwise by urgency:
+  /// deaths, the player's own objects, then by the distance from the middle of the view, less the time they
+  /// waited.
   void fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit);
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
