@@ -25,8 +25,7 @@ class SentChecksums {
   }
   /// Call when snapshot `number`, the newest, is not sent after all.
   void removeNewest(std::uint32_t number) { at(number) = {}; }
-  /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest snapshot's
-  /// number.
+  /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest number.
   void recordLost(const InFlightSnapshots::Snapshot& snapshot, bool pending, std::uint32_t newest) {
     m_repairing = m_repairing || pending;
     // If nothing is pending, newer snapshots have already carried the contents.

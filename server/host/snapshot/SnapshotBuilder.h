@@ -46,8 +46,7 @@ class RedundantResend {
 class PendingQueue {
  public:
   /// Adds all pending ids: by id if one snapshot of `limit` bytes holds them all, otherwise by urgency:
-  /// deaths, the player's own objects, then by the distance from the middle of the view, less the time they
-  /// waited.
+  /// deaths, the player's own objects, then by distance from the middle of the view, less the time waited.
   void fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit);
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
