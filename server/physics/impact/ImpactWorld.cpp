@@ -257,8 +257,8 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
 }
 
 // Lists all pairs whose paths may cross. All pairs are listed before any is examined, and
-// thousands of bodies in one place have too many. So after the first body whose pairs exceed the tick's shared budget, each
-// body has only its own share.
+// thousands of bodies in one place have too many. So after the first body whose pairs exceed the tick's
+// shared budget, each body has only its own share.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
   constexpr double kEnough = 1e15;
