@@ -13,8 +13,8 @@
 
 namespace naiad {
 
-/// True if the packet comes from a machine on this network link. `networks`: those of this machine. Packets
-/// of this machine itself may come over loopback.
+/// True if the packet comes from a machine on this network link. `networks`: networks of this machine, whose
+/// own packets may come over loopback.
 bool isFromLink(const LanPacket& packet, const std::vector<LanNetwork>& networks);
 
 /// Never blocks. Use from one thread at a time.

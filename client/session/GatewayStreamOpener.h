@@ -16,9 +16,9 @@ namespace naiad {
 
 class HttpExchange;
 
-/// With https, the system's trust store must accept the gateway's certificate. Without https, the gateway
-/// must be on this machine. A channel ends with CloseReason::kPeer if the gateway closed it with code 1000,
-/// as it does when the server ended the stream in order.
+/// The system's trust store must accept the certificate of an https gateway; any other gateway must be on
+/// this machine. A channel ends with CloseReason::kPeer if the gateway closed it with code 1000, as it does
+/// when the server ended the stream in order.
 ///
 /// Use from the thread that runs `context`, which must outlive this and the channels that it made.
 class GatewayStreamOpener : public StreamOpener {

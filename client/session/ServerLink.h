@@ -143,8 +143,8 @@ class ServerLink {
   bool isStalled() const { return hasStream() && m_channel->unsentBytes() > kMaxUnsent; }
   /// Sends a message on the stream, if there is one.
   void send(const wire::ClientMessage& message);
-  /// Sends a message on the stream, and again on later streams until it is acknowledged. Returns false,
-  /// without sending it, if too much is unacknowledged.
+  /// Sends a message on the stream, and again on later streams until it is acknowledged. Returns false
+  /// and does not send it if too much is unacknowledged.
   bool sendReliable(wire::ClientMessage& message);
   void acknowledgeReliable(std::uint32_t number) { m_unacknowledged.acknowledge(number); }
   void resendReliable();

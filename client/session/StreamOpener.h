@@ -48,7 +48,7 @@ class StreamOpener {
   virtual void cancel() = 0;
 
   /// Returns the key of the server behind the newest stream of open(), so that no other gets a token. Nullopt
-  /// without encryption.
+  /// if the stream is not encrypted.
   virtual std::optional<Fingerprint> key() const = 0;
   /// Like key(), for openSecond().
   virtual std::optional<Fingerprint> keyOfSecond() const = 0;

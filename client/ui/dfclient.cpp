@@ -40,8 +40,8 @@ namespace {
 constexpr std::size_t kMaxPassword = 255;  // bytes
 constexpr char kControlC = 3;
 
-/// For its lifetime, switches off the terminal's echo and the keyboard's signals, because a signal would end
-/// the process and leave the terminal without echo.
+/// Switches off the terminal's echo and the keyboard's signals until it is destroyed, because a signal would
+/// end the process and leave the terminal without echo.
 class Unseen {
  public:
   explicit Unseen(int terminal) : m_terminal(terminal) {

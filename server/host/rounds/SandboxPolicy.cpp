@@ -37,7 +37,7 @@ const char* const kVariables[] = {
     "PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TZ", "TERM", "TMPDIR", "LD_LIBRARY_PATH",
     "ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS",
     // Variables of the engine, for a game that is a program itself.
-    "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_INPUT_MODE", "NAIAD_SEED"};
+    "DF_COMPAT", "DRAGONFLY_CONFIG", "NAIAD_ON_GAME_OVER", "NAIAD_INPUT_MODE", "NAIAD_PLAYERS", "NAIAD_SEED"};
 
 /// Variables among kVariables that differ between users and terminals.
 const char* const kPersonal[] = {"PATH", "HOME", "USER", "LOGNAME", "LANG", "LANGUAGE", "TERM", "TMPDIR"};

@@ -188,7 +188,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "seconds before; 0: never",
           OptionRange{0, 86400}),
       row("--platform", &o.platform,
-          "Platform that runs the server and is told when it is ready, healthy, in use and stopping: "
+          "Platform to which the server reports that it is ready, healthy, in use or stopping: "
           "systemd; agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = "
           "detect it by its environment variable",
           OneOf{"auto", "none", "systemd", "agones"}),

@@ -168,6 +168,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
                                                   {"password", ""},
                                                   {"set"},
                                                   {"set", "reconnect-time", "3"},
+                                                  {"set", "grace", "3"},
                                                   {"reload"},
                                                   {"restart"},
                                                   {"drain"},

@@ -112,10 +112,12 @@ TEST_F(SandboxPolicyTest, GameGetsOnlyAllowedVariablesAndNoPassword) {
   setenv("NAIAD_PASSWORD", "open-sesame", 1);
   setenv("SOMETHING_ELSE", "1", 1);
   setenv("WANTED", "1", 1);
+  setenv("NAIAD_PLAYERS", "first", 1);  // the former name of NAIAD_INPUT_MODE
   options.world_environment = "WANTED,NAIAD_PASSWORD";
   const auto entries = makeWorldEnvironment(options);
-  for (const char* name : {"NAIAD_PASSWORD", "SOMETHING_ELSE"}) unsetenv(name);
+  for (const char* name : {"NAIAD_PASSWORD", "SOMETHING_ELSE", "NAIAD_PLAYERS"}) unsetenv(name);
   EXPECT_TRUE(has(entries, "WANTED=1"));
+  EXPECT_TRUE(has(entries, "NAIAD_PLAYERS=first"));
   EXPECT_FALSE(has(entries, "SOMETHING_ELSE=1"));
   EXPECT_FALSE(has(entries, "NAIAD_PASSWORD=open-sesame"));
   options.world_environment.clear();

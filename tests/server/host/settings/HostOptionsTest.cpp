@@ -111,11 +111,11 @@ std::string complaintOf(const std::vector<const char*>& rooms) {
 TEST(HostOptions, RoomsAreReadInTheirOrder) {
   const Games games;
   HostOptions options;
-  ASSERT_EQ(parse({"--room", "first=hello", "--room",
-                   "Second_2=tron,max-players=3,input-mode=first,world-memory=512", "--max-players", "40",
-                   "--room-sleep", "2.5"},
-                  options),
-            CommandLine::kRun);
+  ASSERT_EQ(
+      parse({"--room", "first=hello", "--room", "Second_2=tron,max-players=3,players=first,world-memory=512",
+             "--max-players", "40", "--room-sleep", "2.5"},
+            options),
+      CommandLine::kRun);
   const std::vector<RoomOptions> rooms = parseRooms(options);
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].name, "first");
