@@ -82,7 +82,7 @@ void ClientSession::handle(SoundsMessage&& message, Time) {
 }
 
 void ClientSession::handle(const PongMessage& message, Time now) {
-  // Refuses it, because a server could otherwise postpone the timeout of its welcome again and again.
+  // Refuses it, because a server could otherwise postpone the timeout of its welcome without limit.
   if (m_state != State::kPlaying) return reject("a pong before the welcome");
   m_link.acknowledgeReliable(message.last_frame);
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.addRttSample(*sample);

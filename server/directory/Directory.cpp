@@ -190,9 +190,11 @@ void Directory::publishRedirects(Time now) {
         m_fleet.servers().leastLoaded({full.game, full.protocol, full.id});
     if (!other) continue;
     const auto link = JoinLink::parse(linkOf(*other.p_server, other.room));
-    if (const auto* const p_link = std::get_if<JoinLink>(&link))
-      for (const std::string& subject : {redirectSubject(full.id), formerRedirectSubject(full.id)})
-        m_fleet.bus().publish({subject, Redirect{other.p_server->id, *p_link}.payload()});
+    const auto* const p_link = std::get_if<JoinLink>(&link);
+    if (p_link == nullptr) continue;
+    const std::string payload = Redirect{other.p_server->id, *p_link}.payload();
+    for (const std::string& subject : {redirectSubject(full.id), formerRedirectSubject(full.id)})
+      m_fleet.bus().publish({subject, payload});
   }
 }
 
