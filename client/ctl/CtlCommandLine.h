@@ -23,8 +23,7 @@ struct CtlCommandLine {
 };
 
 /// Parses dfctl's arguments. dfctl's own options come before the command; --json may also be the last word.
-/// If --control is not given, `control` is the value of NAIAD_CONTROL. Throws AdminUsageError
-/// (AdminRequest.h).
+/// The default of `control` is the value of NAIAD_CONTROL. Throws AdminUsageError (AdminRequest.h).
 CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words);
 
 /// Returns the text of --help.
