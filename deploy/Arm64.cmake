@@ -15,6 +15,6 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
 # The compiler searches these folders after its own ones, which have the C library.
 set(CMAKE_CXX_FLAGS_INIT "-idirafter ${NAIAD_ARM64_ROOT}/usr/include -idirafter ${NAIAD_ARM64_ROOT}/usr/include/aarch64-linux-gnu")
-# Archives on which other archives depend; shared libraries would name them. The plain dfclient needs them, whose objects the
-# static dfclient uses.
+# Archives on which other archives depend. Shared libraries name the libraries that they need; archives do not. The build of the
+# static dfclient includes the plain one, whose objects it uses and which needs them, too.
 set(CMAKE_CXX_STANDARD_LIBRARIES "${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libtinfo.a ${NAIAD_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/libz.a")

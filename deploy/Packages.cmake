@@ -1,7 +1,7 @@
 # Settings with which deploy/package and CPack make four Debian packages. COMPONENT at each install() names the package of a
 # file; this file has the files that only packages need, and the descriptions and dependencies of the packages.
 set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
-# This revision sorts before 1, that of an official Debian package. Packages for a newer Debian sort after those for an older.
+# This revision sorts before 1, that of an official Debian package. Packages for a newer Debian sort after those for an older one.
 set(revision 0naiad1)
 file(STRINGS ${debian}/changelog first LIMIT_COUNT 1)
 if(NOT first MATCHES "^naiad \\(${PROJECT_VERSION}-${revision}\\)")

@@ -93,8 +93,8 @@ build() {
   # GCC writes addresses of its own memory into precompiled headers. Without address randomisation the bytes of a header
   # never change, so ccache still finds objects compiled with an earlier build of it.
   command -v ccache >/dev/null && options=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(setarch -R true 2>/dev/null && echo 'setarch;-R;')ccache")
-  # All scripts use the same build folder for the preset `release`. Only deploy/check turns its tests on; other scripts leave
-  # the setting as it is.
+  # All scripts use the same build folder for the preset `release`. Only deploy/check turns its tests on; other scripts turn
+  # them off in a new folder, and else leave the setting as it is.
   if [ "$preset" = release ] && [ "$(basename "$0")" = check ]; then
     options+=(-DNAIAD_TESTS=ON)
   elif [ "$preset" = release ] && [ ! -e "$root/build/release/CMakeCache.txt" ]; then

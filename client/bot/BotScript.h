@@ -9,9 +9,9 @@
 //   repeat N { … }         run the statements N times (1 to 1000000)
 //   repeat                 restart the script, without end; only as the last statement
 //
-// Statements are separated by ';' or line ends; '#' begins a comment. KEY is a name of df::Keyboard::Key
-// (LEFTARROW, SPACE, F1, A, NUM1), in any case, or a digit. Every statement but repeat takes at least a
-// tick, so a script cannot flood a server.
+// Statements are separated by ';' or line ends; '#' begins a comment, except in TEXT. KEY is a name of
+// df::Keyboard::Key (LEFTARROW, SPACE, F1, A, NUM1), in upper or lower case, or a digit. Every statement but
+// repeat takes at least a tick, so a script cannot flood a server.
 #pragma once
 
 #include <cstdint>
@@ -78,7 +78,7 @@ class ScriptPlayer {
 
   /// Advances the script by one tick. Returns the actions to send in this tick.
   std::vector<BotAction> tick();
-  /// True if all steps have run and no key is down.
+  /// True if all steps have begun and no key is down; a last `wait` may still have ticks left.
   bool isDone() const { return m_at >= m_script.steps().size() && m_down == df::Keyboard::UNDEFINED_KEY; }
 
  private:
@@ -91,7 +91,8 @@ class ScriptPlayer {
   df::Keyboard::Key m_down = df::Keyboard::UNDEFINED_KEY;
 };
 
-/// Presses and holds keys and clicks at random. Equal seeds give equal actions on every platform.
+/// Presses and holds keys and clicks at random. Equal seeds and view sizes give equal actions on every
+/// platform.
 class RandomPlayer {
  public:
   RandomPlayer(std::uint64_t seed, int view_width, int view_height);

@@ -64,12 +64,12 @@ class TruthRecorder {
   explicit TruthRecorder(std::size_t max_cells = kMaxCells) : m_max_cells(max_cells) {}
 
   /// Call before a snapshot of `tick` is applied to `replica`: records the pictures of the ticks before
-  /// `tick`.
+  /// `tick`, from that of the last snapshot, if it was complete.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
   /// Call after a snapshot of `tick` was applied. `complete`: CompletenessTracker::isComplete(). `skips`: the
   /// server may skip ticks after this one.
   void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
-  /// Records the tick of the newest snapshot. Call when no further snapshot will come.
+  /// Records the tick of the newest snapshot, if it was complete. Call when no further snapshot will come.
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }

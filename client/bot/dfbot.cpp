@@ -25,11 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Length of a turn, in which frames are handled as they arrive, and at its end each bot is updated once.
-/// Updating all bots after each frame would cost the square of their number.
+/// Length of a turn of the main loop: frames are handled as they arrive, and at its end each bot is updated
+/// once. The time for updating all bots after each frame would grow with the square of their number.
 constexpr std::chrono::milliseconds kTurn{5};
 /// A server sends a snapshot at least every kKeepAliveTicks, later if the connection is bad. If at the end of
-/// play no snapshot comes for kSnapshotTimeout longer than that, the server has crashed or hangs.
+/// play no snapshot comes for twice that time and kSnapshotTimeout, the server has crashed or hangs.
 constexpr std::chrono::seconds kSnapshotTimeout{5};
 constexpr int kKeepAliveTicks = 5;
 
@@ -94,7 +94,7 @@ class Bot {
     }
   }
 
-  /// Returns the number of the server's ticks since the first picture.
+  /// Returns the number of the server's ticks since the first snapshot; 0 before the first picture.
   std::uint32_t ticks() {
     naiad::ClientSession* session = m_connection.session();
     return session != nullptr && m_first_tick ? session->clock().newestTick() - *m_first_tick : 0;
@@ -105,7 +105,7 @@ class Bot {
   }
   naiad::Connection& connection() { return m_connection; }
   const naiad::TruthRecorder& recorder() const { return m_recorder; }
-  /// Returns how many times the bot joined again: it resumed a lost session or became another player.
+  /// Returns the number of streams that the bot has opened after the first, to resume a session or to join.
   int rejoined() const { return m_sessions > 0 ? m_sessions - 1 : 0; }
   Clock::time_point joinedAt() const { return m_joined_at; }
 

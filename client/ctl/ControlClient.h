@@ -13,7 +13,7 @@
 
 namespace naiad {
 
-/// Thrown if there is no server or it does not answer. what() is one sentence.
+/// Thrown if there is no server, or it does not answer as a server does. what() is one sentence.
 class ServerUnreachable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,26 +22,27 @@ class ServerUnreachable : public std::runtime_error {
 /// A connection to a server's control socket. All calls block.
 class ControlClient {
  public:
-  /// Time limit for an answer, because a server whose game hangs sends none.
+  /// Time without data after which a request fails, because a server whose game hangs sends no answer.
   static constexpr std::chrono::seconds kResponseTimeout{10};
-  /// Time limit for the answer to a "restart keep", before which the server replays its rounds. It aborts a
-  /// replay after an hour. If the server ends, it closes the connection, so the limit is not reached.
+  /// Like kResponseTimeout, for "restart keep": before its answer, the server replays its rounds. The server
+  /// aborts a replay after an hour. If it ends, it closes the connection, so the limit is not reached.
   static constexpr std::chrono::seconds kReplayTimeout{4000};
 
-  /// Throws ServerUnreachable.
+  /// Connects. Throws ServerUnreachable if that fails.
   explicit ControlClient(const std::filesystem::path& path);
   ~ControlClient();
   ControlClient(const ControlClient&) = delete;
   ControlClient& operator=(const ControlClient&) = delete;
 
-  /// Throws ServerUnreachable.
+  /// Sends a request and waits for its answer. Throws ServerUnreachable if none comes.
   AdminAnswer sendRequest(const AdminRequest& request);
-  /// Call after "watch" was answered. Calls `show` for each line of the log until the server ends.
+  /// Call after "watch" was answered. Until the connection ends, calls `show` for each line of the log, and
+  /// with a note for lines that the server dropped.
   void follow(const std::function<void(const std::string& line)>& show);
 
  private:
-  /// Returns false if the connection has ended. Throws ServerUnreachable after `timeout`; negative: no time
-  /// limit.
+  /// Returns false if the connection has ended. Throws ServerUnreachable after `timeout` without data;
+  /// negative: no time limit.
   bool readLine(std::string& line, std::chrono::milliseconds timeout);
 
   int m_socket;

@@ -13,8 +13,8 @@
 namespace naiad {
 
 /// Returns the folder name of the first key in `auth_info` (sshd's ExposeAuthInfo: lines "publickey TYPE
-/// BASE64"): its SHA-256 as 64 hexadecimal digits. Nullopt if there is no key, or if `auth_info` is longer
-/// than 16,384 bytes.
+/// BASE64"): the SHA-256 of its line as 64 hexadecimal digits. Nullopt if there is no key, or if `auth_info`
+/// is longer than 16,384 bytes.
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
 /// Folder with a visitor's data: the name they played under, and the files with which dfclient resumes a
@@ -28,7 +28,8 @@ class VisitorFolder {
   static constexpr std::size_t kMaxFolders = 10'000;
 
   /// Opens the folder in `folder` for the key of this name, and creates it with mode 0700 if it does not
-  /// exist. Returns null if there are already `max_folders`. Throws std::system_error.
+  /// exist. Returns null if it does not exist and there are already `max_folders` in use. Throws
+  /// std::system_error.
   static std::unique_ptr<VisitorFolder> open(const std::filesystem::path& folder, const std::string& name,
                                              std::size_t max_folders = kMaxFolders);
   /// Makes a folder for a visitor without a key. The destructor removes it.
@@ -57,7 +58,8 @@ class VisitorFolder {
   int m_lock = -1;
 };
 
-/// A visitor's place at the door, for the lifetime of this object. Child processes do not inherit it.
+/// A visitor's place at the door, for the lifetime of this object. Programs that this process executes do not
+/// inherit the place.
 class DoorSlot {
  public:
   struct Limits {

@@ -162,7 +162,8 @@ void ignoreStops() {
   for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
 }
 
-/// Makes SIGHUP (the terminal is gone) and SIGTERM (the door closes) go to the client, which must end first.
+/// Passes SIGHUP (the terminal is gone) and SIGTERM (the door closes) on to the client, which must end first.
+/// Ignores SIGINT and SIGQUIT.
 void passOnEnds() {
   for (const int signal : {SIGINT, SIGQUIT}) ::signal(signal, SIG_IGN);
   struct sigaction action {};
@@ -177,7 +178,8 @@ std::string variable(const char* name) {
   return value != nullptr ? value : "";
 }
 
-/// Returns the visitor's address from SSH_CONNECTION: "192.0.2.7 50312 198.51.100.1 22", last sshd's own.
+/// Returns the visitor's address from SSH_CONNECTION: "192.0.2.7 50312 198.51.100.1 22", of which the second
+/// half is sshd's own address. Throws Refusal if it is malformed.
 asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   const std::size_t blank = connection.find(' ');
   const std::string address = connection.substr(0, blank);
@@ -189,7 +191,7 @@ asio::ip::tcp::endpoint visitorOf(const std::string& connection) {
   return *visitor;
 }
 
-/// Returns `asked` if it is a safe file name, else a default: ncurses opens a file of that name.
+/// Returns `asked` if it is a safe file name, else a default, because ncurses opens a file of that name.
 std::string terminalType(const std::string& asked) {
   const bool is_plain =
       !asked.empty() && asked.size() <= kMaxTerm && asked.front() != '.' &&
@@ -217,7 +219,8 @@ std::unique_ptr<naiad::DoorSlot> takePlace(const DoorOptions& options,
 }
 
 /// Asks a visitor already playing whether to continue in this terminal. If so, ends the other client, which
-/// may have a dead connection. Returns true if this process has then locked `folder`.
+/// may have a dead connection. Returns true if this process has then locked `folder`. Throws Refusal without
+/// an answer.
 bool takeOver(naiad::VisitorFolder& folder) {
   const auto yes =
       naiad::promptYes("You are already playing here. Continue that game in this terminal?", kPromptTimeout);
@@ -255,7 +258,8 @@ struct ClientStart {
 ClientStart clientStart(const DoorOptions& options, const naiad::OfferedGame& game, const std::string& name,
                         const asio::ip::tcp::endpoint& visitor, const fs::path& folder) {
   ClientStart start;
-  // Each key has its own file of known servers, because the host puts a server's new key into games.list.
+  // Each server key has its own file of known servers: when a server's key changes, the host puts the new one
+  // into games.list, and an old pin must not refuse it.
   start.words = {options.client,
                  game.link.text(),
                  "--name=" + name,
@@ -278,7 +282,8 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// Runs the client to its end and returns its exit code. Calls only async-signal-safe functions after fork().
+/// Runs the client to its end and returns its exit code, or 128 and the number of the signal that ended it.
+/// The child calls only async-signal-safe functions.
 int runClient(ClientStart start) {
   const std::vector<char*> words = pointersTo(start.words);
   const std::vector<char*> environment = pointersTo(start.environment);

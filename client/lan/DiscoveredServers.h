@@ -36,8 +36,9 @@ class DiscoveredServers {
   static constexpr std::size_t kMax = 64;
   static constexpr std::size_t kMaxPerAddress = 16;
 
-  /// Adds the server that answered from `source`, or replaces the entry with its key. The best address of a
-  /// server is kept: IPv4, then IPv6, then IPv6 with a zone, then loopback. Returns true if the list changed.
+  /// Adds the server that answered from `source`, or replaces the entry with its key unless that entry has
+  /// another address that is as good or better. From best to worst: IPv4, IPv6, IPv6 with a zone, loopback.
+  /// Returns true if the list changed.
   bool addAnswer(const asio::ip::udp::endpoint& source, const LanAnswer& answer);
   /// Like addAnswer(), for a server from a list on the web.
   bool addServer(const DiscoveredServer& server);
@@ -62,8 +63,9 @@ class DiscoveredServers {
 /// Lists come from strangers, so memory and nesting depth are bounded and texts are made safe. Nullopt unless
 /// `json` is a JSON object or an array of objects (RFC 8259), in UTF-8, at most 8 levels deep. Reads the
 /// members name, game, players, max_players, password, protocol and link. Numbers are clamped to 16 bits;
-/// members of another type count as empty, 0 or false. Objects without a link to a server are skipped, and so
-/// are servers beyond the limits of DiscoveredServers.
+/// members of another type count as empty, 0 or false, and so do missing ones, except that without `protocol`
+/// the server counts as playable. Objects without a valid link to a server, or with a link to a room, are
+/// skipped, and so are servers beyond the limits of DiscoveredServers.
 std::optional<DiscoveredServers> readServerList(std::string_view json);
 
 /// Message for people if no server was found: what to do.

@@ -1,7 +1,7 @@
 // Finds the servers of the local network: sends queries and collects answers (LanMessage.h).
 //
 // An answer is accepted only if it repeats this browser's nonce, has passed no router, and comes from a
-// network of the interface on which it arrived.
+// network of the interface on which it arrived, or from this machine over loopback.
 #pragma once
 
 #include <chrono>

@@ -74,7 +74,8 @@ struct Download {
       std::make_shared<HttpExchange>(io, HttpLimits{.body = kMaxListBytes});
 };
 
-/// Destroys `download` on another thread: its io_context waits for the system's resolver, perhaps for long.
+/// Destroys `download` on another thread, because the destructor of its io_context waits for the system's
+/// resolver, perhaps for long.
 void dropLater(std::unique_ptr<Download> download) {
   std::thread([kept = std::move(download)] {}).detach();
 }

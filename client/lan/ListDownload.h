@@ -17,11 +17,11 @@ struct ListUrl {
   std::uint16_t port = 443;
   std::string target = "/";  ///< path and query, as in the request
 
-  /// Parses the address, without the part from '#' on. Nullopt for another scheme, a user name, a character
-  /// that is not printable ASCII, or more than 2000 characters.
+  /// Parses the address, without the part from '#' on. Nullopt for another scheme, an invalid host or port, a
+  /// user name, a blank or a character that is not printable ASCII, or more than 2000 characters.
   static std::optional<ListUrl> parse(std::string_view text);
-  /// Returns the target of a redirect: an https address, or a path on this host. Nullopt for anything
-  /// else, so a redirect cannot turn encryption off.
+  /// Returns the target of a redirect: an https address, or a path on this host that begins with '/'. Nullopt
+  /// for anything else, so a redirect cannot turn encryption off.
   std::optional<ListUrl> redirected(std::string_view location) const;
   /// Returns the value of the header Host.
   std::string hostText() const;
@@ -39,7 +39,7 @@ inline constexpr std::chrono::seconds kListTimeout{5};  ///< limit on the whole 
 inline constexpr int kMaxListRedirects = 3;
 
 /// Downloads the list; blocks for up to kListTimeout. The system's trust store must accept the certificate.
-/// Follows redirects that ListUrl::redirected() allows.
+/// Follows up to kMaxListRedirects redirects that ListUrl::redirected() allows. Returns the document.
 std::variant<std::string, DownloadError> downloadList(const ListUrl& url);
 
 }  // namespace naiad

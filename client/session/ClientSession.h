@@ -4,8 +4,13 @@
 //       |                     +--channel closed, 15 s of silence--> kLost
 //       +--Refused--> kRefused          (a bad message ends any state in kEnded; leave() in kLeft)
 //
-// The session uses neither sockets nor a clock: its owner passes each frame and the time to it (Connection
-// in the programs; the tests themselves). Everything received passes readServerMessage() first.
+// kLost is also the state after a Goodbye that announces a restart, after silence or a closed channel in
+// kGreeting, and if no picture comes. If the server has given a token, a session in kPlaying outlives its
+// stream (isDetached()).
+//
+// For streams, the session uses neither sockets nor a clock: its owner passes each frame and the time to it
+// (Connection in the programs; the tests themselves). Datagrams use SessionOptions::open_socket and ::now.
+// Everything received but snapshots, which the replica checks, passes readServerMessage() first.
 // Not thread-safe. Memory is bounded whatever the server sends.
 #pragma once
 
@@ -72,7 +77,8 @@ class ClientSession {
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
   /// True if datagrams arrive from the server.
   bool hasDatagrams(Time now) const { return m_link.hasDatagrams() && m_timing.hasDatagrams(now); }
-  /// True if the server has sent anything in the last UpdateTiming::kDatagramTimeout, on any path.
+  /// True if the session is playing, and something has arrived in the last UpdateTiming::kDatagramTimeout, on
+  /// the first stream or by datagram.
   bool isReceiving(Time now) const {
     return m_state == State::kPlaying && m_liveness.silence(now) < UpdateTiming::kDatagramTimeout;
   }
@@ -84,19 +90,22 @@ class ClientSession {
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
 
   // Actions of the player.
-  /// Sends a key or mouse action of the player immediately. Returns false if it was not sent: the session is
-  /// not playing, or there are too many inputs.
+  /// Sends a key or mouse action of the player immediately or, without a stream and datagrams, later. Returns
+  /// false if it is not sent: the session is not playing, the action is invalid, there are too many inputs,
+  /// or the stream is stuck.
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
-  /// Sends a line of chat to all players, unless it has no drawable character. Without a stream, the line
-  /// waits for the next stream.
+  /// Sends a line of chat to all players, unless it is blank or too much chat is unacknowledged. Without a
+  /// stream, the line waits for the next stream.
   void sendChat(const std::string& text);
   void sendResize(int columns, int rows);
-  /// Requests the list of rooms, at most every kRoomListInterval. Call often while the list is shown.
+  /// Requests the list of rooms, at most every kRoomListInterval, but at once after a change of the room.
+  /// Call often while the list is shown.
   void refreshRooms(Time now);
   static constexpr std::chrono::seconds kRoomListInterval{2};
-  /// Asks the server to move the player to that room. Ignores invalid names.
+  /// Asks the server to move the player to that room. Ignores invalid names, and all names if the server has
+  /// no rooms.
   void enterRoom(const std::string& room);
   /// Leaves on purpose: sends a leave message, and closes the channel after everything queued is sent.
   void leave();
@@ -105,7 +114,7 @@ class ClientSession {
   State state() const { return m_state; }
   /// After a refusal: the reason, and perhaps a link to another server. The link is unchecked.
   const RefusedMessage& refusal() const { return m_refusal; }
-  /// After a loss: time within which the server announced to be back; 0 if it announced nothing.
+  /// After a loss: time within which the server has said that it will be back; 0 if it has not said so.
   std::chrono::seconds restartDelay() const { return m_restart_delay; }
   /// True if the session neither waits for the server nor plays any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
@@ -131,7 +140,8 @@ class ClientSession {
   // The world.
   /// True if there is a picture to show: the whole world or, after half a second, the part that has arrived.
   bool hasPicture(Time now) const { return m_world.worlds().hasPicture(now); }
-  /// Returns how long the session has waited for a picture since the welcome; zero if there is one.
+  /// Returns how long the session has waited for a picture since the welcome; zero if there is one, or the
+  /// session is not playing.
   IdleTimer::Duration pictureWait(Time now) const;
   const Replica& replica() const { return m_world.replica(); }
   const DisplayClock& clock() const { return m_world.clock(); }

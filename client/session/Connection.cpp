@@ -64,7 +64,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
 }
 
 // A token is sent only to the server that gave it. A session that has ended for this client may still exist
-// on the server: one that replays a long round, for example, starts the players' grace time after the replay.
+// on the server: for example, a server that replays a long round starts the players' grace time after that.
 void Connection::chooseToken(SessionOptions& options) const {
   if (m_session && m_session->isDetached()) {
     if (m_token_key != m_key) return;
@@ -107,8 +107,8 @@ void Connection::onAttemptFailed(const std::string& message) {
   retryLater(now);
 }
 
-/// True if a lost redirect target did not answer for m_original_retry_delay: the original server may know
-/// another target.
+/// True if a lost redirect target did not answer for m_original_retry_delay, and the original server was not
+/// asked for as long: the original server may know another target.
 bool Connection::isOriginalRetryDue(Time now) const {
   return m_redirected && now - m_lost_at >= m_original_retry_delay && now >= m_original_retry_at;
 }
@@ -296,8 +296,8 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& message) {
-  // The token is kept in the other final states: the session may still exist on a server that was lost or
-  // refused.
+  // The token is kept in the other final states, because the session may still exist on a server that was
+  // lost or that refused this client.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
   m_opener->cancel();

@@ -1,24 +1,26 @@
 // Joins a server and stays joined: connects, makes a ClientSession, and rejoins when that is lost.
 //
 //   kJoining --picture--> kJoined --lost--> kReconnecting --picture--> kJoined
-//   kJoining --no answer; handshakes dropped for 4 s--> kUnreachable
+//   kJoining --no answer, or handshakes dropped for 4 s--> kUnreachable
 //   kJoining --Refused (BUSY)--> kJoining --60 s of such refusals--> kRefused
 //   kJoining --Refused with a redirect--> kJoining the redirect target (StreamOpener::follow()), once
-//   kJoining the target --Refused (FULL), no answer for 4 s--> kJoining the original server, once
+//   kJoining the target --Refused (FULL), or no answer for 4 s--> kJoining the original server, once
 //   kReconnecting the target --no answer for 10 s--> kReconnecting, both servers in turn
-//   any --any other Refused--> kRefused
+//   any --any other Refused, or a server that is not trusted--> kRefused
 //   any --Goodbye--> kEnded
 //   kJoined --Goodbye of a server that restarts--> kReconnecting
 //   kReconnecting --60 s without success (longer if a restarting server announced it)--> kLost
+//   kJoined --lost, without `rejoin`--> kLost; any --leave()--> kLeft
 //
-// The original server may redirect again while both servers are asked. A BUSY server restarts the time limit.
+// While both servers are asked, the original server may redirect again; any other Refused from it counts as
+// no answer. Otherwise, a BUSY server restarts the time limit of kReconnecting.
 //
 // While reconnecting, session() is still the lost session, so that its last picture can stay on the screen
 // under a banner. A session that outlives its stream (ClientSession::isDetached) continues: another stream is
 // opened, and if the server still knows the session, the player notices nothing. The pause between attempts
-// doubles from 0.25 s to 2 s, also after BUSY refusals. Any other refusal is final.
+// doubles from 0.25 s to 2 s, also after BUSY refusals.
 //
-// A StreamOpener opens the streams: by TCP in the terminal, by WebSocket in a browser.
+// A StreamOpener opens the streams: by TCP, or by WebSocket to a gateway, as in a browser.
 //
 // Use from the thread that calls the opener's callbacks.
 #pragma once
@@ -51,7 +53,8 @@ class Connection {
   /// another target. A server restarts with its round in less time.
   static constexpr std::chrono::milliseconds kOriginalRetryDelay{10'000};
 
-  /// `rejoin`: reconnect if the server is lost. `address`: for messages. Nothing happens before start().
+  /// `rejoin`: reconnect if the server is lost. `address`: the server to which `opener` opens streams.
+  /// Nothing happens before start().
   Connection(std::unique_ptr<StreamOpener> opener, ServerAddress address, SessionOptions options,
              bool rejoin);
   /// Connects by TCP (TcpStreamOpener.h), with datagrams where these pass, or through a gateway
@@ -60,7 +63,7 @@ class Connection {
              bool rejoin, const ServerTrust& trust = {});
 
   /// Saves the session's token in `tokens`, which must outlive the Connection, and resumes the session saved
-  /// there. Call before start().
+  /// there. After a redirect, `tokens` is not used. Call before start().
   void setTokenStore(TokenStore& tokens) { m_p_tokens = &tokens; }
   /// Replaces kOriginalRetryDelay, and for redirect targets kHandshakeRetryTimeout if `time` is shorter. Call
   /// before start().
@@ -83,9 +86,11 @@ class Connection {
   const std::string& message() const { return m_message; }
   /// True after a BUSY refusal; a retry is scheduled.
   bool isDeferred() const { return m_deferred; }
-  /// True if the server refused because its password was missing or wrong.
+  /// True if the server refused because its password was missing or wrong. False for the target of a
+  /// redirect.
   bool isPasswordRefused() const { return m_password_refused; }
-  /// The key of the server on the newest stream; nullopt without TLS.
+  /// The key of the server on the newest stream (StreamOpener::key()); nullopt without TLS, or before the
+  /// first stream to this server.
   const std::optional<Fingerprint>& key() const { return m_key; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }
@@ -93,9 +98,10 @@ class Connection {
   Clock::duration pictureWait(Time now) const {
     return m_pending ? m_pending->pictureWait(now) : Clock::duration::zero();
   }
-  /// Counts changes of the state and of session(), which change only in update() and the opener's callbacks.
+  /// Counts changes of the state, of message() and of session(). They change only in update(), in leave(),
+  /// and in callbacks of the opener and its channels.
   std::uint64_t revision() const { return m_revision; }
-  /// Address of the server; after a redirect, of its target.
+  /// Address of the server that is asked or joined: the original one, or the target of a redirect.
   const ServerAddress& address() const { return m_address; }
   /// True if address() is the target of a redirect.
   bool isRedirected() const { return m_redirected; }

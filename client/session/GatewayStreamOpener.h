@@ -32,7 +32,7 @@ class GatewayStreamOpener : public StreamOpener {
   void open(Done done) override { begin(m_first, std::move(done)); }
   void openSecond(Done done) override { begin(m_second, std::move(done)); }
   void cancel() override;
-  /// Returns a constant: the gateway, verified by the system's trust store, is trusted in the server's place.
+  /// Returns a constant, because the gateway is trusted in the server's place.
   std::optional<Fingerprint> key() const override { return keyBehindGateway(); }
   std::optional<Fingerprint> keyOfSecond() const override { return key(); }
   std::string trustError() const override { return {}; }

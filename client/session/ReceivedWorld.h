@@ -31,7 +31,8 @@ class ReceivedWorld {
 
   /// Call when the player moves to another world. Its snapshots have this epoch; its tick is near `tick_now`.
   void enter(std::uint8_t epoch, std::uint32_t tick_now, Time now);
-  /// Reads and applies a snapshot; `before` is called just before. Removes acknowledged inputs from `inputs`.
+  /// Reads and applies a snapshot; `before` is called just before it is applied. Removes acknowledged inputs
+  /// from `inputs`.
   Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
                        const std::function<void(std::uint32_t tick)>& before);
   /// Header of the snapshot that was applied last.

@@ -19,7 +19,7 @@ namespace naiad {
 
 /// A line of chat.
 struct ChatEntry {
-  std::string name;  ///< name of the speaker; empty: the server or this client
+  std::string name;  ///< name of the speaker; "?": unknown; empty: the server or this client
   df::Color color = df::COLOR_DEFAULT;
   std::string text;
   std::chrono::steady_clock::time_point at;  ///< time of arrival
@@ -31,7 +31,7 @@ class ReliableInbox {
 
   static constexpr std::size_t kMaxChat = 500;   ///< number of stored lines
   static constexpr std::size_t kMaxSounds = 32;  ///< number of sounds stored for popSounds()
-  /// Unacknowledged bytes of reliable frames above which they are acknowledged before the next regular ping.
+  /// This many unacknowledged bytes of reliable frames are acknowledged before the next regular ping.
   static constexpr std::size_t kAckThreshold = std::size_t{8} * 1024;
 
   /// `counters` must outlive the inbox.
@@ -51,7 +51,7 @@ class ReliableInbox {
   void onAcknowledged() { m_unacknowledged_bytes = 0; }
 
   const std::vector<PlayerLine>& players() const { return m_players; }
-  /// Returns the points of this player in the newest list.
+  /// Returns the points of this player in the newest list; 0 if the player is not in it.
   std::int32_t scoreOf(std::uint32_t player) const;
   /// The newest lines, oldest first.
   const std::deque<ChatEntry>& chat() const { return m_chat; }

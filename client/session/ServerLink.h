@@ -29,7 +29,8 @@ namespace naiad {
 /// and updates use both streams, which are seldom delayed at once. Messages that need order (chat,
 /// players, music) use the first stream only.
 ///
-/// The owner opens the connection and passes the time as a parameter.
+/// The owner opens the connection. The time is a parameter or, in start() and for frames,
+/// SessionOptions::now.
 class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -136,7 +137,7 @@ class ServerLink {
   bool ownsStream(const ReliableChannel* channel) const { return m_channel.get() == channel; }
   /// Takes over the stream of `other`; closes this link's second stream.
   void adoptStream(ServerLink& other);
-  /// Call when the stream has ended, unless closeStreams() closed it.
+  /// Call when the stream has ended, unless closeStreams() closed it. Also closes the second stream.
   void dropStream();
   /// Closes the streams; queued data is still sent.
   void closeStreams();
@@ -148,7 +149,7 @@ class ServerLink {
   bool sendReliable(wire::ClientMessage& message);
   void acknowledgeReliable(std::uint32_t number) { m_unacknowledged.acknowledge(number); }
   void resendReliable();
-  /// Sends an update on the stream, and on the second one if it is open.
+  /// Sends an update on the stream, and on the second one if that is open and has nothing unsent.
   void sendUpdate(std::string bytes);
 
   SecondStream& second() { return m_second; }

@@ -1,8 +1,9 @@
 // Messages from a server, with checked contents.
 //
-// A server may be hostile or broken. readServerMessage() is the only place where bytes from the network
-// become values: numbers out of range, too many entries or malformed records make the whole message bad.
-// Texts are made safe for a terminal (SafeText.h), never rejected.
+// A server may be hostile or broken. Except in snapshots, readServerMessage() is the only place where bytes
+// of a stream become values: numbers out of range, too many entries or malformed records make the whole
+// message bad. Texts are not rejected but made safe for a terminal (SafeText.h). Names of rooms that the
+// player enters, or that are listed, must be valid.
 #pragma once
 
 #include <chrono>
@@ -34,7 +35,7 @@ struct WelcomeMessage {
   int view_width = 80;
   int view_height = 24;
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;            ///< lines of the game for the help
+  std::vector<std::string> help;            ///< help lines of the game
   std::uint32_t tick_now = 0;               ///< the world's approximate current tick
   std::uint64_t connection_id = 0;          ///< connection id of datagrams
   std::uint32_t aead = 0;                   ///< cipher of datagrams; 0: no datagrams
@@ -43,9 +44,10 @@ struct WelcomeMessage {
   bool resumed = false;                     ///< the server has resumed an earlier session
   std::chrono::milliseconds grace{0};       ///< how long the server keeps a session without a stream
   std::optional<ResumeState> resume_state;  ///< set if a new client process resumed the session
-  std::uint32_t last_frame = 0;             ///< else: newest reliable frame received by the server
-  bool second_stream = false;               ///< second streams are accepted, or this is one
-  std::string room;                         ///< the player's room; empty: the server has no rooms
+  /// Number of the newest reliable frame that the server received, if it resumed the session of this process.
+  std::uint32_t last_frame = 0;
+  bool second_stream = false;  ///< second streams are accepted, or this is one
+  std::string room;            ///< the player's room; empty: the server has no rooms
 };
 
 /// Message that the player has entered another room.

@@ -5,7 +5,8 @@
 
 namespace naiad {
 
-/// Byte counts are the sizes of frame payloads, plus two bytes of header for each frame.
+/// Byte counts are the sizes of frame payloads, plus two bytes of header for each frame; datagrams count
+/// without headers.
 struct SessionCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;
@@ -17,7 +18,7 @@ struct SessionCounters {
   std::uint64_t sounds = 0;
   std::uint64_t chat_dropped = 0;     ///< not sent: too many unacknowledged frames
   std::uint64_t repeated_frames = 0;  ///< reliable frames received before: ignored
-  std::uint64_t datagrams_in = 0;     ///< snapshots by datagram; bytes_in includes them, without headers
+  std::uint64_t datagrams_in = 0;     ///< snapshots received by datagram
   std::uint64_t resets = 0;           ///< number of worlds after the first one
   std::uint64_t bad_messages = 0;
 };

@@ -47,8 +47,8 @@ class StreamOpener {
   /// Cancels all attempts; no `done` will be called.
   virtual void cancel() = 0;
 
-  /// Returns the key of the server behind the newest stream of open(), so that no other gets a token. Nullopt
-  /// if the stream is not encrypted.
+  /// Returns the key of the server behind the newest stream of open(), so that no other server gets a token:
+  /// nullopt if the stream is not encrypted, keyBehindGateway() if it uses a gateway.
   virtual std::optional<Fingerprint> key() const = 0;
   /// Like key(), for openSecond().
   virtual std::optional<Fingerprint> keyOfSecond() const = 0;
@@ -62,7 +62,7 @@ class StreamOpener {
     std::chrono::milliseconds wait{0};  ///< wait before the first attempt
   };
   /// Returns how to reach the server of `link` (JoinLink.h; untrusted text), to which the newest stream's
-  /// server has redirected the client. A redirect from there to a third server is not followed.
+  /// server has redirected the client. A redirect from that server to a third one is not followed.
   virtual RedirectTarget follow(const std::string& /*link*/) { return {}; }
 
   /// True if the newest attempt of open() was dropped in the handshake, e.g. at a per-address limit; a retry

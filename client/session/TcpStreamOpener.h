@@ -30,8 +30,9 @@ class TcpStreamOpener : public StreamOpener {
   std::optional<Fingerprint> key() const override { return keyOf(m_connector); }
   std::optional<Fingerprint> keyOfSecond() const override { return keyOf(m_second_connector); }
   std::string trustError() const override;
-  /// Refuses redirects for visitors of a door, without TLS, after a redirect, and to ports below 1024. The
-  /// target's addresses must not have a narrower scope than this server's (mayRedirectTo()).
+  /// Refuses redirects for visitors of a door, without TLS, with ServerTrust::ignore_redirects, after a
+  /// redirect, and by links with a room or a port below 1024. The target's addresses must not have a narrower
+  /// scope than this server's (mayRedirectTo()).
   RedirectTarget follow(const std::string& link) override;
   bool closedDuringHandshake() const override { return m_connector.closedDuringHandshake(); }
 

@@ -33,14 +33,14 @@ inline constexpr const char* kExitCodeHelp =
 
 /// The server as given by the command line and the environment.
 struct ServerChoice {
-  std::string text = {};                  ///< HOST[:PORT][/ROOM], link (JoinLink.h) or page address
-  std::string visitors = {};              ///< path of a visitors' socket; empty: connect directly
-  std::string visitor = {};               ///< ADDRESS:PORT of the remote player, given with `visitors`
-  bool is_password_ambient = false;       ///< it is from the environment, perhaps for another server
+  std::string text = {};             ///< HOST[:PORT][/ROOM], link (JoinLink.h) or page address
+  std::string visitors = {};         ///< path of a visitors' socket; empty: connect directly
+  std::string visitor = {};          ///< ADDRESS:PORT of the remote player, given with `visitors`
+  bool is_password_ambient = false;  ///< the password is from the environment, perhaps for another server
   std::optional<ShortKey> list_key = {};  ///< `text` was chosen from a list that names this key
 
   /// True if the password is from the environment and the server from a link, page or list. Then the password
-  /// must not be sent, because strangers make these.
+  /// must not be sent, because strangers may have made these.
   bool dropsPassword() const;
 };
 
@@ -48,8 +48,10 @@ struct ServerChoice {
 Option serverOption(ServerChoice& server);
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
 
-/// Finds the address in `server`, and for links the key that the server must have. Call after parseOptions().
-/// Returns an error message; empty if all is right. After an error, the caller must not connect.
+/// Sets the results of the choice `server`: the address, the key that the server of a link or list must have,
+/// the gateway, the room and the proxy. Clears a password that must not be sent (dropsPassword()). Call after
+/// parseOptions(). Returns an error message; empty if all is right. After an error, the caller must not
+/// connect.
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session);
 

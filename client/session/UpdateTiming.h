@@ -1,5 +1,5 @@
 // Timing of a client: when it sends acknowledgements and inputs, whether datagrams pass, whether the server
-// still answers. Time is a parameter.
+// still answers. The caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ class StreamLiveness {
 
   explicit StreamLiveness(Time now) : m_last_ping(now), m_idle(now) {}
 
-  /// Call when something arrived from the server, on any path.
+  /// Call when something arrived from the server, except on a second stream.
   void onReceived(Time now) { m_idle.onActivity(now); }
   /// Call before deadlines are checked (IdleTimer).
   void poll(Time now) { m_idle.poll(now); }
@@ -46,7 +46,8 @@ class StreamLiveness {
   std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// Adds a round trip measured with datagrams.
   void addRttSample(Millis sample, Time now) { m_stats.addSample(sample, now); }
-  /// Returns the smoothed round trip in whole milliseconds, rounded up. Zero before the first measurement.
+  /// Returns the smoothed round trip in whole milliseconds, rounded up, at most 99,999. Zero before the first
+  /// measurement.
   std::chrono::milliseconds roundTrip() const;
 
  private:
@@ -62,16 +63,18 @@ class UpdateTiming {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Time after a datagram for which datagrams count as passing.
+  /// Time after the last received datagram during which datagrams count as passing.
   static constexpr std::chrono::milliseconds kDatagramTimeout = PathProbe::kOpenTime;
-  /// Time without datagrams after which a second stream is worth opening.
+  /// Time without received datagrams after which a second stream is worth opening.
   static constexpr std::chrono::milliseconds kSecondStreamDelay{3000};
-  /// Pause between datagrams before a probe is sent, because the server may have lost the client's address.
+  /// Time without received datagrams after which a probe is sent, because the server may have lost the
+  /// client's address.
   static constexpr std::chrono::milliseconds kProbeDelay{400};
-  /// Time after a snapshot on the stream for which it is undecided whether the server receives datagrams.
+  /// Time after a snapshot on the stream during which the client assumes that the server may not receive its
+  /// datagrams.
   static constexpr std::chrono::milliseconds kUndecidedWindow{500};
   static constexpr std::chrono::milliseconds kInputResendDelay{10};  ///< delay before an input is sent again
-  static constexpr int kSnapshotsPerAck = 3;                         ///< snapshots until an acknowledgement
+  static constexpr int kSnapshotsPerAck = 3;                         ///< snapshots per acknowledgement
   static constexpr std::chrono::milliseconds kAckDelay{50};          ///< maximum delay of an acknowledgement
   static constexpr std::chrono::milliseconds kDatagramPingInterval{1000};  ///< interval of pings by datagram
 
@@ -93,7 +96,8 @@ class UpdateTiming {
   bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
   /// True if the server has just sent a snapshot on the stream: it may not receive datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecidedWindow; }
-  /// True if datagrams have not passed for kSecondStreamDelay, so that snapshots come on the stream.
+  /// True if the server has just sent a snapshot on the stream, and for kSecondStreamDelay no datagram has
+  /// arrived and no new stream has begun.
   bool isOnStreamOnly(Time now) const {
     return isUndecided(now) && now - m_probe.lastChange() >= kSecondStreamDelay;
   }

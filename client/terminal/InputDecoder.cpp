@@ -250,7 +250,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
   if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
-    if (final == '^' || final == '@') m_parameters += ";5";  // 5: Control. rxvt's '@' also has Shift
+    if (final == '^' || final == '@') m_parameters += ";5";  // 5: Control. The Shift of rxvt's '@' is ignored
     if (final == '$') m_parameters += ";2";
     finishTilde(out);
     return enterState(State::kGround);
@@ -286,7 +286,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (final >= 'a' && final <= 'd') event.modifiers |= ss3 ? kControl : kShift;
   if (final == 'Z') event.modifiers |= kShift;
   if (m_meta) event.modifiers |= kAlt;
-  // A cursor position report has a row as its first number; a key has 1 or none.
+  // The first number of a cursor position report is a row; that of a key is 1 or missing.
   const bool is_key = ss3 || numbers.field[0][0] <= 1;
   if (event.key != df::Keyboard::UNDEFINED_KEY && is_key) emitKey(out, event);
   enterState(State::kGround);
@@ -307,8 +307,9 @@ void InputDecoder::finishTilde(Events& out) {
   if (event.key != df::Keyboard::UNDEFINED_KEY) emitKey(out, event);
 }
 
-// Windows Terminal sends pastes, mouse reports and replies as one key record without a key for each byte, and
-// the text of a paste as records of the keys that type it. m_record_decoder decodes these bytes.
+// Windows Terminal sends mouse reports, replies and the marks around a paste byte by byte, each byte in a key
+// record without a key, and the text of a paste as records of the keys that type it. m_record_decoder decodes
+// these.
 void InputDecoder::decodeKeyRecord(const Numbers& numbers, Events& out) {
   if (m_is_record_decoder) return;
   if (!m_record_decoder) {

@@ -1,4 +1,4 @@
-// Decodes the bytes of the player's terminal into events, in all encodings that terminals use.
+// Decodes the bytes of the player's terminal into events, in the encodings that common terminals use.
 //
 // ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
 // second after an ESC. So the client reads fd 0 itself. This decoder uses neither a terminal nor a clock. It
@@ -84,11 +84,11 @@ class InputDecoder {
   std::vector<TerminalEvent> flush(Time now);
   /// Returns when flush() will next have something to do; nullopt while no sequence is open.
   std::optional<Time> deadline() const;
-  /// Returns the number of bytes of an incomplete sequence; at most 128.
+  /// Returns the number of stored bytes of incomplete sequences; at most 128.
   std::size_t pendingBytes() const {
     return m_parameters.size() + m_utf8.size() + (m_record_decoder ? m_record_decoder->pendingBytes() : 0);
   }
-  /// True once a key record of Windows Terminal was received: keys are reported with their releases.
+  /// True once a key record of Windows Terminal was received: then keys are reported with their releases.
   bool hasKeyRecords() const { return m_record_decoder != nullptr; }
 
  private:

@@ -40,7 +40,7 @@ std::vector<KeyAction> KeyHoldTracker::handleKey(const KeyEvent& event, Time now
   std::vector<KeyAction> out = expire(now);
   const auto held = m_held.find(event.key);
   if (event.action == KeyEvent::Action::kRelease) {
-    // The key is not held if it was pressed while a text line was open.
+    // The key is not held if it was pressed while a chat line was open.
     if (held == m_held.end()) return out;
     m_held.erase(held);
     out.push_back({event.key, df::KEY_RELEASED});

@@ -4,8 +4,8 @@
 // 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real releases arrive,
 // and nothing is guessed. docs/terminals.md has the rules that were compared.
 //
-// The repeat interval and the pause belong to the keyboard, so they are learned from all keys together. Time
-// is a parameter.
+// The repeat interval and the pause belong to the keyboard, so they are learned from all keys together. The
+// caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -35,12 +35,13 @@ struct HoldRule {
   /// Treatment of the first press of a direction key (arrows, WASD). A press of any other key is a tap.
   enum class First : std::uint8_t {
     kTap,      ///< released after the release delay; the first repeat is a new press
-    kUsual,    ///< held for kUsualPause, unless another key comes
-    kLearned,  ///< held for the pause learned in this terminal, unless another key comes; a tap until then
+    kUsual,    ///< held a little longer than kUsualPause, unless another key releases it (see below)
+    kLearned,  ///< like kUsual, with the pause learned in this terminal; a tap until one was learned
   };
   First first = First::kTap;
   /// Time for which a repeating key stays down after another key was pressed, because keyboards repeat only
-  /// the key pressed last. Zero: the first key is released like any key that falls silent.
+  /// the key pressed last. Zero: a key that has repeated is released like any key that falls silent; one
+  /// that is held by kUsual or kLearned is released at once.
   std::chrono::milliseconds companion{kCompanion};
   /// If true, a direction key is released when the opposite one is pressed.
   bool opposites = true;
@@ -51,9 +52,9 @@ class KeyHoldTracker {
   using Time = std::chrono::steady_clock::time_point;
   using Duration = std::chrono::steady_clock::duration;
 
-  /// Minimum silence after a key's last byte before a release is guessed.
+  /// Minimum of releaseDelay().
   static constexpr std::chrono::milliseconds kMinRelease{80};
-  /// Maximum silence before a release is guessed, even if the repeats are slow.
+  /// Maximum of releaseDelay(), even if the repeats are slow.
   static constexpr std::chrono::milliseconds kMaxRelease{250};
   /// Pause of most keyboards before the first repeat.
   static constexpr std::chrono::milliseconds kUsualPause{500};
@@ -77,7 +78,7 @@ class KeyHoldTracker {
   Time deadline() const;
   /// Returns the KEY_DOWN actions of one tick. Call once per tick.
   std::vector<KeyAction> tick() const;
-  /// Releases all keys, e.g. when a text line opens or the program is suspended.
+  /// Releases all keys, e.g. when a chat line opens or the program is suspended.
   std::vector<KeyAction> releaseAll();
 
   /// Returns the silence after which a repeating key counts as released: 1.5 times the interval at which it
@@ -107,7 +108,7 @@ class KeyHoldTracker {
   Duration m_interval = std::chrono::milliseconds(35);
   Duration m_pause{};
   std::map<df::Keyboard::Key, Held> m_held;
-  /// The last two times at which a key typed.
+  /// Times of a key's last two presses or repeats.
   struct Past {
     Time first;  ///< time before `last`
     Time last;

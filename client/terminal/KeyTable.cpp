@@ -31,7 +31,7 @@ Key keyOfDigit(int digit) {
 }  // namespace
 
 KeyEvent keyOfCharacter(char32_t ch) {
-  // Characters that the keys type, plain and with shift. 0x7F: none.
+  // Characters that the keys type, plain and with shift. 0x7F stands for no character.
   static constexpr std::string_view kPlain = " 0123456789-=`.,/';[]\\\x7F";
   static constexpr std::string_view kShifted = " )!@#$%^&*(_\x7F~><?\":{}|+";
   static constexpr std::array kKeys = {

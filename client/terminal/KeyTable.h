@@ -10,10 +10,12 @@ namespace naiad {
 /// shift). Undefined beyond ASCII.
 KeyEvent keyOfCharacter(char32_t ch);
 
-/// Returns the key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, or Control with a letter or sign.
+/// Returns the key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, Escape, or Control with another
+/// key.
 KeyEvent keyOfControl(unsigned char byte);
 
-/// Returns the key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4, the keypad.
+/// Returns the key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4; Tab with shift
+/// (CSI); the keypad (SS3).
 df::Keyboard::Key keyOfFinal(char final, bool ss3);
 
 /// Returns the key of `CSI number ~`: editing and function keys, with the numbers of xterm and rxvt.

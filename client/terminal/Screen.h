@@ -6,7 +6,7 @@
 // factors are 1.4 and 2.4.
 //
 // ncurses is used only for output: it never reads the keyboard and sets no signal handlers (the
-// TerminalGuard's are installed before). One Screen at a time; all calls on one thread.
+// TerminalGuard's are installed before). Only one Screen may exist at a time, used on one thread.
 #pragma once
 
 #include <string>
@@ -35,8 +35,8 @@ class Screen {
   /// 80 x 24.
   static Size terminalSize();
 
-  /// Enters the alternate screen. Throws std::runtime_error, with a sentence for people, if the terminal
-  /// cannot do this.
+  /// Prepares ncurses for this terminal. Throws std::runtime_error, with a sentence for people, if that
+  /// fails.
   explicit Screen(const Options& options);
   ~Screen();
   Screen(const Screen&) = delete;
@@ -45,7 +45,7 @@ class Screen {
   int columns() const { return m_columns; }
   int rows() const { return m_rows; }
 
-  /// Shows the picture. Enters the alternate screen again after end().
+  /// Shows the picture. Enters the alternate screen at the first call, and again after end().
   void show(const ScreenBuffer& picture);
   /// Rings the terminal's bell.
   void ring();

@@ -80,8 +80,9 @@ pid_t shellOfGroup() {
 }
 
 /// Waits until the process group is in the foreground: it may have been continued in the background. Returns
-/// false if the process must end, because a signal asks it to, or its shell or terminal is gone. It does not
-/// stop again, because the shell takes it for running and would not send SIGCONT after a terminating signal.
+/// false if the process must end, because a signal asks it to, or its shell or terminal is gone. The process
+/// does not stop itself again: the shell takes it for running and would send no SIGCONT after a terminating
+/// signal.
 bool waitForForeground(pid_t shell) {
   while (!g_end_asked) {
     const pid_t foreground = tcgetpgrp(STDIN_FILENO);
@@ -192,7 +193,7 @@ void TerminalGuard::setRaw() {
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
 }
 
-// TCSAFLUSH, so that mouse reports still arriving do not end up in the shell's command line.
+// Uses TCSAFLUSH, so that mouse reports still arriving do not end up in the shell's command line.
 void TerminalGuard::setOriginal() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
   g_taken = 0;

@@ -1,4 +1,5 @@
-// File of the keys of the servers that this user has played on: a server that changes its key is not trusted.
+// File of the keys of the servers that this user has played on. A server that changes its key is not trusted
+// any more, unless its certificate verifies or the player gives the new key.
 //
 // One line for each server, "host:port fingerprint" (ServerAddress.h, Fingerprint.h); empty lines and lines
 // that begin with '#' are comments. Any other line stays in the file and is reported: a pin may be damaged.

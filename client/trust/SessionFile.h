@@ -1,8 +1,9 @@
 // Stores a running client's session, so that a later client can resume it if this one is killed. Each client
 // has a file, locked while it runs, so that a second terminal cannot take the session of the first.
 //
-// Files have mode 0600 in a directory that only the user can access. A damaged file, or one that others can
-// read, is reported and not used: the player then joins as a new one. Nothing here throws.
+// Files have mode 0600 in a directory that only the user can access. A file that others can access is
+// reported and not used, and a damaged one is removed, too: the player then joins as a new one. Nothing here
+// throws.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ class SessionFile : public TokenStore {
   static std::optional<std::filesystem::path> defaultDirectory();
 
   /// Takes over the newest file of a client that no longer runs and played at `server`
-  /// (ServerAddress::canonicalText()), under `name` if given. Removes files past their grace time. The first
-  /// save() creates the directory.
+  /// (ServerAddress::canonicalText()), under `name` if given. Removes such clients' files past their grace
+  /// time. Examines at most 1000 files. The first save() creates the directory.
   SessionFile(std::filesystem::path directory, std::string server, const std::optional<std::string>& name,
               Time now);
   /// Keeps the file; a client that leaves on purpose calls remove().

@@ -12,7 +12,8 @@ constexpr std::string_view kFirstLine = "naiad session 1";
 constexpr std::size_t kMaxToken = 64;
 constexpr std::int64_t kMaxGrace = 3'600'000;  // ms
 
-/// Removes the next line from `text` and returns its value. Nullopt unless it begins with `key` and a blank.
+/// Removes the next line from `text` and returns its value. Nullopt if there is no line end, or the line does
+/// not begin with `key` and a blank.
 std::optional<std::string_view> takeLine(std::string_view& text, std::string_view key) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return std::nullopt;

@@ -30,7 +30,8 @@ struct SavedSession {
 /// Bytes of a stored session. The size is constant, so that one write replaces another.
 inline constexpr std::size_t kSavedSessionSize = 1024;
 
-/// Returns the session as text; nullopt if a value is too long or contains a line end.
+/// Returns the session as text; nullopt if it is too long, or if readSavedSession() would not accept it, for
+/// example because a value contains a line end.
 std::optional<std::string> writeSavedSession(const SavedSession& session);
 /// Parses the text of writeSavedSession(). Nullopt if any byte is not as expected.
 std::optional<SavedSession> readSavedSession(std::string_view text);
@@ -43,9 +44,10 @@ class TokenStore {
 
   /// Returns the token of an earlier session with the server that has this key; empty without a session.
   virtual std::string tokenFor(const Fingerprint& key) const = 0;
-  /// Stores a new token. The store sets `session.server` and `alive` itself.
+  /// Stores a new token; an empty one removes the stored session. The store sets `session.server` and `alive`
+  /// itself.
   virtual void save(SavedSession session, Time now) = 0;
-  /// Records that the session is alive. Call about once a second.
+  /// Records that the session is alive. Call about once a second or more often.
   virtual void refresh(Time now) = 0;
   /// Removes the stored session, because it is over.
   virtual void remove() = 0;

@@ -16,10 +16,10 @@
 namespace naiad {
 namespace {
 
-constexpr std::chrono::milliseconds kFrame{16};  // at most 60 frames a second
+constexpr std::chrono::milliseconds kFrame{16};  // minimum interval of frames
 constexpr std::chrono::milliseconds kHousekeeping{100};
 constexpr std::chrono::milliseconds kFarewell{500};
-constexpr std::chrono::seconds kPictureNotice{2};  // wait for the first picture until a notice is shown
+constexpr std::chrono::seconds kPictureNotice{2};  // a notice is shown after this wait for the first picture
 
 SessionOptions withTerminalSize(SessionOptions options) {
   const Screen::Size size = Screen::terminalSize();

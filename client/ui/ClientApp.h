@@ -1,7 +1,7 @@
 // Main loop of dfclient: connects a player's terminal with a server.
 //
-// run() waits for bytes from the player, frames from the server, or the next deadline, and handles them. It
-// draws at most 60 times a second, and only when something changed.
+// run() waits for bytes from the player, frames from the server, signals, or the next deadline, and handles
+// them. It draws at most once in 16 ms, and only when something changed.
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -71,7 +71,7 @@ class ClientApp {
   void handleSignals();
   void handleEvents(const std::vector<TerminalEvent>& events, Time now);
   void handleKey(const KeyEvent& event, Time now);
-  /// Call when the terminal reports key releases. Returns false and ignores them while a text line is open.
+  /// Call when the terminal reports key releases. Returns false and ignores them while a chat line is open.
   bool acceptKeyReleases(Time now);
   void handleSounds(Time now);
   void suspend();

@@ -1,7 +1,7 @@
 // Separates the client's own keys from the game's, and holds the state that they change.
 //
 // A prefix (Ctrl-]) starts the client's commands, so that the game gets every other key but Ctrl-C and
-// Ctrl-Z. While a chat line is open, keys write text.
+// Ctrl-Z. But while a chat line is open, keys write text, and while a panel is open, some keys control it.
 #pragma once
 
 #include <string>
@@ -63,7 +63,7 @@ class ClientControls {
     kGame,       ///< pass the key to the game
     kHandled,    ///< do nothing, but the picture may have changed
     kOpened,     ///< a chat line was opened: release the game's keys, turn off the terminal's key releases
-    kClosed,     ///< the chat line was closed without text
+    kClosed,     ///< the chat line was closed with Esc or without text
     kSendChat,   ///< the chat line was closed with Return: send popChat()
     kEnterRoom,  ///< the list of rooms was closed with Return: enter room roomChoice()
     kLeave,

@@ -16,7 +16,7 @@
 namespace naiad {
 
 /// Decides when the status is shown over the game, on a terminal without space outside the game: for a moment
-/// after joining, and when the connection has become bad.
+/// after joining, after a change of the terminal's size, and when the connection has become bad.
 class StatusTimer {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -55,7 +55,8 @@ class FrameComposer {
   FrameComposer(Connection& connection, const ClientControls& controls, const SoundIndicator& sounds)
       : m_connection(connection), m_controls(controls), m_sounds(sounds) {}
 
-  /// True if a frame composed now would differ from the last one. Ignores changes of the controls.
+  /// True if a frame composed now would differ from the last one. Does not notice all changes of the
+  /// controls.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
   /// Shows a line of the client itself among the chat lines, for as long as a chat line.

@@ -28,7 +28,8 @@ std::string asUtf8(const std::u32string& text) {
   return utf8;
 }
 
-/// Returns the column at which the explanation in a line like "Ctrl-] h   this help" begins.
+/// Returns the column at which the explanation in a line like "Ctrl-] h   this help" begins; 2 without an
+/// explanation, or if it begins in the right half of `width` columns.
 std::size_t indentOf(const std::u32string& line, std::size_t width) {
   const std::size_t gap = line.find(U"  ");
   const std::size_t text = gap != std::u32string::npos ? line.find_first_not_of(U' ', gap) : gap;
@@ -80,7 +81,8 @@ int drawPlayerRows(ScreenBuffer& picture, const ScreenModel& model, int x, int y
   return y + 1;
 }
 
-/// Draws the help with its last line in row `bottom`. Returns the last free row above it.
+/// Draws the help with its last line in row `bottom`. Returns the last row for the chat above it: the row
+/// between them stays blank.
 int drawHelpRows(ScreenBuffer& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
@@ -122,7 +124,7 @@ void drawChatRow(ScreenBuffer& picture, const ChatRow& row, int x, int y, int wi
   picture.write(x, y, name.empty() ? "*" : name + ":", width, row.p_entry->color, Style::kBold);
 }
 
-/// Returns the columns of the side panel; 0 if there is not enough space, or in a browser.
+/// Returns the columns of the side panel; 0 if there is not enough space, without a status, or in a browser.
 int sidePanelColumns(int columns, int rows, const ScreenModel& model) {
   const int room = columns - model.view.width() - 2;  // 2: the columns of the view's frame
   if (model.browser || !model.status_shown || rows < kMinPanelRows || rows < model.view.height() ||
@@ -140,7 +142,7 @@ void drawSidePanel(ScreenBuffer& picture, const ScreenModel& model, int x, int r
   const int bottom = drawHelpRows(picture, model, left, rows - 1, width, rows / 3);
   drawHeading(picture, "Chat", left, top, width);
   const int room = bottom - top;
-  // One page more than is shown, so that it can be scrolled further.
+  // Get one page more than is shown, so that the chat can be scrolled further.
   const std::vector<ChatRow> lines = chatRows(model.history, width, 2 * room + model.chat_scroll);
   const int count = static_cast<int>(lines.size());
   max_scroll = std::max(count - room, 0);

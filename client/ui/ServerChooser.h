@@ -32,7 +32,7 @@ class ServerChooser {
     std::function<std::variant<DiscoveredServers, DownloadError>()> fetch{};
   };
   struct Outcome {
-    std::optional<DiscoveredServer> server;  ///< nullopt: the player left
+    std::optional<DiscoveredServer> server;  ///< nullopt: the player left, or a signal came
     int signal = 0;                          ///< signal that ended the chooser, to be raised again; 0: none
   };
 

@@ -39,7 +39,7 @@ void writeColumns(ScreenBuffer& picture, int y, const std::array<std::string, 4>
   }
 }
 
-/// Breaks a text at blanks into lines of at most `columns`.
+/// Breaks a text at blanks into lines of at most `columns` bytes; a longer word is a line of its own.
 std::vector<std::string> wrapped(const std::string& text, int columns) {
   std::vector<std::string> lines{""};
   std::istringstream words(text);

@@ -29,7 +29,7 @@ class ServerMenu {
   /// `searching`: the search is not over, so an empty list shows "Looking ..." instead of the sentences.
   void setSearching(bool searching) { m_searching = searching; }
   /// Arrows (or j and k), Page Up and Down, Home and End choose; Enter joins, r refreshes, q, Esc and Ctrl-C
-  /// leave.
+  /// leave, Ctrl-Z suspends.
   Result handleKey(const KeyEvent& event);
   /// Returns the chosen server; null if the list is empty.
   const DiscoveredServer* chosen() const;

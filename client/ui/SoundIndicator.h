@@ -26,8 +26,8 @@ class SoundIndicator {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// A note is shown for kShown. Within kMin, only a note of this player's sound, or of no player's, can
-  /// replace it, and only if it is of another player's sound.
+  /// A note is shown for kShown. Within its first kMin, a note of another player's sound is replaced only by
+  /// a sound of this player or of no player; other notes are not replaced.
   static constexpr std::chrono::milliseconds kShown{1500};
   static constexpr std::chrono::milliseconds kMin{300};
   /// Minimum interval between two rings of the bell.

@@ -7,7 +7,8 @@
 namespace naiad {
 namespace {
 
-/// Places the view on one axis. `room`: cells of the terminal; `extent`: of the view; `focus`: stays visible.
+/// Places the view on one axis. `room`, `extent`: number of cells of the terminal and of the view. `focus`:
+/// view cell that stays visible.
 void placeAxis(int room, int extent, int focus, int& start, int& view_start, int& shown) {
   shown = std::min(room, extent);
   start = (room - shown) / 2;

@@ -25,7 +25,7 @@ struct ViewPlacement {
   int height = 0;
   bool framed = false;       ///< a frame of one cell surrounds the view
   bool status_row = false;   ///< the last row of the terminal is reserved for the status
-  bool status_side = false;  ///< instead, the last kSideColumns columns are reserved for it
+  bool status_side = false;  ///< the last kSideColumns columns are reserved for the status
 
   /// Returns the view cell shown at a terminal cell; nullopt outside the view.
   std::optional<CellPosition> toView(int column, int row) const;

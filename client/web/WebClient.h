@@ -1,8 +1,8 @@
 // The client in a browser, corresponding to ClientApp in a terminal. The page passes it keys, pointer and
 // messages, and draws its picture.
 //
-// Session, replica, prediction, controls and layout are those of dfclient. Time is a parameter; nothing here
-// blocks.
+// Session, replica, prediction, controls and layout are those of dfclient. The caller passes the time, but
+// Connection also reads the clock. Nothing here blocks.
 #pragma once
 
 #include <chrono>
@@ -77,7 +77,7 @@ class WebClient {
 
   /// Handles timeouts, held keys and sounds. Call at least ten times a second, and after every message.
   void update(Time now);
-  /// Composes the picture if it would differ from the last one. Returns true if it did.
+  /// Composes the picture if it would differ from the last one. Returns true if it was composed.
   bool compose(Time now);
   /// Returns the newest picture.
   const ScreenBuffer& picture() const { return m_layout.picture; }

@@ -1,7 +1,7 @@
 // The client as a WebAssembly module: the functions that page/module.js calls, and those that it provides.
 //
 // The page passes texts and messages in buffer(), with their size in bytes. Returned pointers are addresses
-// in the module's memory. One client at a time, on the page's only thread.
+// in the module's memory. There is one client at a time, on the page's main thread.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -147,7 +147,8 @@ NAIAD_EXPORT(closed) void webClosed(int stream, int code, std::size_t size) {
   if (module().client) module().client->streams().closed(stream, code, input(0, size));
 }
 
-/// buffer() has KeyboardEvent.key, followed by KeyboardEvent.code. `action`: 0 down, 1 repeat, 2 up.
+/// buffer() contains KeyboardEvent.key, `key` bytes long, followed by KeyboardEvent.code, `code` bytes long.
+/// `action`: 0 down, 1 repeat, 2 up.
 NAIAD_EXPORT(key) void webKey(std::size_t key, std::size_t code, int action, int modifiers) {
   if (!module().client || action < 0 || action > 2) return;
   module().client->pressKey(input(0, key), input(key, code), static_cast<naiad::KeyEvent::Action>(action),

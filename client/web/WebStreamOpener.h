@@ -35,7 +35,7 @@ class PageBridge {
   virtual void close(int stream) = 0;
   /// Stores the token as long as the tab exists, reloads included; empty: removes it.
   virtual void saveToken(std::string_view token) = 0;
-  /// Called when the game played a sound. `own`: this player caused it, or no player did.
+  /// Called when the game played, paused or stopped a sound. `own`: this player caused it, or no player did.
   virtual void sound(const SoundLine& sound, bool own) = 0;
 };
 
@@ -64,8 +64,8 @@ class WebStreamOpener : public StreamOpener {
 
   /// Handles timeouts. Call about ten times a second.
   void update(Time now);
-  /// Returns the gateway's reason for refusing the newest stream, as a sentence for the player; empty once a
-  /// stream works.
+  /// Returns why the gateway last refused a stream, as a sentence for the player; empty once a stream has
+  /// received a message.
   const std::string& refusal() const { return m_refusal; }
   /// True if the refusal is final: a retry would fail in this way, too.
   bool isRefusalFinal() const { return m_final; }

@@ -1,12 +1,12 @@
 // Chooses the tick to draw now.
 //
 // Snapshots describe the world at a tick; between them the replica extrapolates. This clock estimates when
-// each tick should arrive. Early arrivals correct the estimate at once, late ones by a sixteenth of the
-// difference, so that jitter does not shake the picture. The clock runs ahead of the estimate by the
-// snapshots' delay, at most 250 ms beyond the newest snapshot. After 500 ms without a snapshot, a banner says
-// that the connection is silent.
+// each tick should arrive. Early arrivals, and those more than a second late, correct the estimate at once;
+// others by a sixteenth of the difference, so that jitter does not shake the picture. The clock runs ahead of
+// the estimate by the snapshots' delay (setDelay()), at most 250 ms beyond the newest snapshot. After 500 ms
+// without a snapshot, a banner says that the connection is silent.
 //
-// Ticks are compared as serial numbers. Time is a parameter.
+// Ticks are compared as serial numbers. The caller passes the time.
 #pragma once
 
 #include <algorithm>
@@ -30,15 +30,16 @@ class DisplayClock {
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
   /// Sets the age of a snapshot on arrival: half the shortest round trip. The picture makes up for it, up to
-  /// kMaxLead, because a longer lead makes more cells wrong, by objects that change course, than it makes
-  /// right.
+  /// kMaxLead. With a longer lead, objects that change course would make more cells wrong than the lead
+  /// corrects.
   void setDelay(Duration delay) { m_lead = std::clamp<Duration>(delay, Duration::zero(), kMaxLead); }
   /// Call when a snapshot of `tick` arrives.
   void onSnapshot(std::uint32_t tick, Time now);
   /// Returns the tick to draw: never lower than the last one returned, unless that is more than kMaxAhead
   /// beyond the newest snapshot.
   std::uint32_t displayTick(Time now);
-  /// Returns the time since the newest tick should have arrived, in ticks, at most kMaxAhead.
+  /// Returns the time since the newest tick should have arrived, in ticks, at most kMaxAhead; 0 before the
+  /// first snapshot.
   double ticksSinceNewest(Time now) const;
   /// Returns the newest tick of any snapshot; 0 before the first.
   std::uint32_t newestTick() const { return m_newest; }
@@ -46,7 +47,7 @@ class DisplayClock {
   bool isSilent(Time now) const { return m_started && now - m_last_arrival >= kSilence; }
   /// Returns the time since the last snapshot; zero before the first.
   Duration silence(Time now) const { return m_started ? now - m_last_arrival : Duration::zero(); }
-  /// Returns when displayTick() will next return another tick, for a timer.
+  /// Returns the earliest time at which displayTick() may return another tick, for a timer.
   Time nextTick(Time now) const;
 
  private:

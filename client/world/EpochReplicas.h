@@ -21,7 +21,7 @@ class EpochReplicas {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Time after which an incomplete world is shown.
+  /// Time after its first snapshot, or after expectWorld(), for which a world is not shown while incomplete.
   static constexpr std::chrono::milliseconds kIncompleteTimeout{500};
   /// Number of consecutive stale snapshots after which the client requests the world again.
   static constexpr int kMaxStale = 30;
@@ -41,7 +41,7 @@ class EpochReplicas {
     kStale,      ///< it uses an origin or a definition that a newer snapshot has replaced
     kMalformed,  ///< not a valid snapshot: the server is broken
   };
-  /// Reads and applies a snapshot; sets `header` to its header. `before` is called just before it is applied.
+  /// Reads and applies a snapshot. If it can be applied, sets `header` to its header, then calls `before`.
   Result applySnapshot(std::string_view bytes, Time now, SnapshotHeader& header,
                        const std::function<void(std::uint32_t tick)>& before);
 
@@ -54,8 +54,8 @@ class EpochReplicas {
 
   /// Returns the replica to show.
   const Replica& shown() const { return m_replica; }
-  /// True if the first world is complete or has been awaited for kIncompleteTimeout. Once true, it stays
-  /// true.
+  /// True if the first world is complete, or its first snapshot arrived kIncompleteTimeout ago or earlier.
+  /// Once true, it stays true.
   bool hasPicture(Time now) const {
     return m_first_complete || (m_first_at && now - *m_first_at >= kIncompleteTimeout);
   }
@@ -63,7 +63,7 @@ class EpochReplicas {
   bool isChanging() const { return m_next.has_value(); }
   /// True if kMaxStale or more consecutive snapshots were stale, so that the world should be sent again.
   bool needsReset() const { return m_stale_in_a_row >= kMaxStale; }
-  /// True if the number of stale snapshots is just a multiple of kMaxStale: request the world now.
+  /// True if the number of consecutive stale snapshots is a multiple of kMaxStale: request the world now.
   bool shouldRequestReset() const { return needsReset() && m_stale_in_a_row % kMaxStale == 0; }
   /// Returns the number of worlds after the first.
   std::uint64_t resets() const { return m_resets; }

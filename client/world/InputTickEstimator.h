@@ -29,7 +29,7 @@ class InputTickEstimator {
   void addRttSample(Millis sample);
   /// Call when the server has applied an input in tick `taken` that requested tick `asked`.
   void onInputApplied(std::uint32_t asked, std::uint32_t taken);
-  /// Returns the estimated tick for a key pressed at `now`.
+  /// Returns the estimated tick for a key pressed at `now`, at most 61 ticks after the newest snapshot's.
   std::uint32_t tickFor(const DisplayClock& clock, DisplayClock::Duration tick_length, Time now) const;
 
   Millis shortestRoundTrip() const;

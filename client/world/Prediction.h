@@ -9,7 +9,8 @@
 // run() should run to the tick in which the server will apply a key pressed now: ahead of the newest snapshot
 // by a round trip and a margin for jitter. So a key shows in the next frame, whatever the round trip.
 //
-// No clock, no I/O; ticks are serial numbers. Not thread-safe. Memory is bounded whatever the server sends.
+// Uses no clock and no I/O. Ticks are serial numbers. Not thread-safe. Memory is bounded whatever the server
+// sends.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ namespace naiad {
 
 class Prediction {
  public:
-  /// Limit on replayed ticks: kMaxDeadReckoning and a round trip of two seconds.
+  /// Limit on replayed ticks: kMaxDeadReckoning, plus a round trip of two seconds at 30 ticks a second.
   static constexpr std::uint32_t kMaxAhead = 90;
   /// Limit on pending inputs; further ones are not predicted.
   static constexpr std::size_t kMaxInputs = 64;
@@ -43,13 +44,14 @@ class Prediction {
   void setTable(df::ControlTable table) { m_table = std::move(table); }
   /// Takes an exact state of the object; ignores it if it is not newer than the last one.
   void applyControl(const ControlRecord& record);
-  /// Adds a key input that was sent. Its id must be newer than all before. The server should apply it in the
-  /// tick that ends as `input.tick`.
+  /// Adds a key input that was sent. Its id must be newer than all before. The prediction assumes that the
+  /// server applies it in tick `input.tick`, but not before an earlier input.
   void addInput(Input input);
   /// Forgets everything but the counters, for another world.
   void reset();
 
-  /// Predicts the object's state at the end of `tick`. The replica should be as new as the last state.
+  /// Predicts the object's state at the end of `tick`. The replica should be as new as the last exact
+  /// state.
   void run(const Replica& replica, std::uint32_t tick);
 
   /// True if the last run() found an object to predict.

@@ -21,7 +21,7 @@ df::FixedBox unite(const df::FixedBox& a, const df::FixedBox& b) {
 }  // namespace
 
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position) {
-  // Boxes are within 10^6 cells (LookCodec), so no box around two positions within this overflows.
+  // Boxes are within 10^6 cells (LookCodec), so no box around two positions within kFar overflows.
   constexpr df::Fixed kFar = df::fromCells(1'000'000'000);
   if (position.x < -kFar || position.x > kFar || position.y < -kFar || position.y > kFar) return std::nullopt;
   return df::translate(body.box, position);

@@ -35,7 +35,7 @@ class Message {
   /// Resets all fields to their defaults.
   void Clear();
 
-  /// Returns the fields of the class. With an inner capital, the name cannot clash with a schema's fields.
+  /// Returns the fields of the class. Its name cannot clash with a schema's fields, which have no capitals.
   virtual const FieldTable& fieldTable() const = 0;
 
   /// Makes this a deep copy of `other`, which must be of this class.

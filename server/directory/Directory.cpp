@@ -181,7 +181,7 @@ void Directory::poll(Time now) {
   if (const std::string line = m_file->popLogMessage(); !line.empty()) m_log(line);
 }
 
-/// Tells servers that are nearly full to which server they can redirect players.
+/// Once per heartbeat interval, tells servers that are nearly full or closed where they can redirect players.
 void Directory::publishRedirects(Time now) {
   if (now - m_published_at < m_settings.interval) return;
   m_published_at = now;

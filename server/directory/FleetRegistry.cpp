@@ -64,7 +64,7 @@ void FleetMonitor::update(Time now) {
       logLimited(message.subject.substr(presenceSubject("").size()) + " joined the fleet", now);
   }
   if (m_bus->isConnected()) m_connected_at = now;
-  // No heartbeats arrive without the bus, so no server expires unless the bus is down longer than
+  // No heartbeats arrive without the bus. So no server expires while the bus is down, but at most for
   // kMaxBusOutage.
   const bool is_bus_down = m_connected_at != now;
   if (is_bus_down && now - m_connected_at < kMaxBusOutage) return m_servers.resetTimeouts(now);

@@ -1,7 +1,7 @@
 // The servers of a fleet, known by their heartbeats on the bus, and the choice of a server for a player.
 //
-// Heartbeats are untrusted: they are parsed strictly (BusPayloads.h), must have the name of their subject,
-// and expire.
+// Heartbeats are untrusted: they are parsed strictly (BusPayloads.h), must have the id in their subject, and
+// expire.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::string serverListText(std::vector<Presence> servers);
 struct FleetCounters {
   std::uint64_t heartbeats = 0;     ///< valid heartbeats
   std::uint64_t unreadable = 0;     ///< heartbeats that cannot be parsed
-  std::uint64_t wrong_subject = 0;  ///< heartbeats with another name than their subject
+  std::uint64_t wrong_subject = 0;  ///< heartbeats with another id than their subject
   std::uint64_t over_limit = 0;     ///< heartbeats of new servers while kMaxServers are known
   std::uint64_t expired = 0;        ///< servers removed because their heartbeats stopped
 };
@@ -56,9 +56,9 @@ class FleetRegistry {
   explicit FleetRegistry(std::chrono::milliseconds interval = Presence::kInterval)
       : m_timeout(3 * interval) {}
 
-  /// Handles a heartbeat. Returns true if the server is new.
+  /// Handles a heartbeat. Returns true if it is valid and the server is new.
   bool handleHeartbeat(const std::string& subject, std::string_view payload, Time now);
-  /// Removes the servers whose heartbeats have stopped. Returns their names.
+  /// Removes the servers whose heartbeats have stopped. Returns their ids.
   std::vector<std::string> removeExpired(Time now);
   /// Restarts the timeouts of all servers. Call while the bus is down, because no heartbeats arrive then.
   void resetTimeouts(Time now);
@@ -77,11 +77,11 @@ class FleetRegistry {
     explicit operator bool() const { return p_server != nullptr; }
   };
   /// Chooses a server for a player and reserves a place on it until the server has counted the player. The
-  /// server must be open, have no password, a known address and key, an unprivileged port and a free place.
-  /// Prefers the fullest server that is less than three quarters full, because players look for company; if
-  /// there is none, the one with the most free places. On a server with rooms, chooses a room of the
-  /// requested game by the same rule, the requested room, or, without a request, the first room with a free
-  /// place.
+  /// server must fit the request, be open, have no password, a known address and key, an unprivileged port
+  /// and a free place. Prefers, of those less than three quarters full, the one with the most players,
+  /// because players look for company; if there is none, the one with the most free places. On a server with
+  /// rooms, chooses a room of the requested game by the same rule, the requested room, or, without a request,
+  /// the first room with a free place.
   Assignment choose(const PlayerRequest& request);
 
   /// Like choose(), for players of a server that is nearly full: chooses the server with the most free
@@ -120,7 +120,7 @@ class FleetRegistry {
   static bool fits(const RegisteredServer& entry, const PlayerRequest& request);
   /// Returns the room to choose for the request; null if no fitting room has a free place.
   static const PresenceRoom* findRoom(const RegisteredServer& entry, const PlayerRequest& request);
-  /// Returns the load of the server or room that fits the request; nullopt if it has no place for the player.
+  /// Returns the load of the server, or of its room, for the request; nullopt if it does not fit or is full.
   static std::optional<Load> loadFor(const RegisteredServer& entry, const PlayerRequest& request);
   static Assignment assignmentOn(const RegisteredServer& entry, const PlayerRequest& request);
 
@@ -140,7 +140,7 @@ class FleetMonitor {
   /// Longest outage of the bus during which the list stays unchanged: the servers still run, and players
   /// still find them.
   static constexpr std::chrono::minutes kMaxBusOutage{10};
-  /// Rate limit of log lines about servers that join or leave; needed because names may be faked.
+  /// Rate limit of log lines about servers that join or leave; needed because ids may be faked.
   static constexpr BucketRate kLogRate{5, 100};
 
   /// `bus` must subscribe to presence. `interval`: heartbeat interval of the servers.

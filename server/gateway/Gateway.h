@@ -38,7 +38,7 @@ class Gateway {
 
   std::uint16_t port() const;
   /// Returns the URLs for players, like "http://127.0.0.1:8080/#KEY": first those of the settings' origins,
-  /// then that of the listening address.
+  /// then that of the listening address, unless that is 0.0.0.0 or [::].
   std::vector<std::string> addresses() const;
   const GatewayCounters& counters() const;
   /// Number of current connections and WebSockets.
@@ -54,7 +54,7 @@ class Gateway {
   /// Reloads certificate and key for new connections. If they cannot be used, keeps the old ones and logs the
   /// reason.
   void reloadCertificate();
-  /// Stops listening, closes WebSockets with code 1001, and logs the counters.
+  /// Stops listening, closes WebSockets with code 1001 and other connections at once, and logs the counters.
   void stop();
 
  private:

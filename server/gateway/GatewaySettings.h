@@ -16,7 +16,7 @@ namespace naiad {
 
 struct GatewaySettings {
   std::optional<JoinLink> link;       ///< link to the server; must be set
-  std::string visitors;               ///< path of the server's visitors' socket
+  std::string visitors;               ///< path of the server's visitors' socket (dfserver --proxy-socket)
   std::string address = "127.0.0.1";  ///< numeric address to listen on
   std::uint16_t port = 8080;          ///< 0: any free port
   std::string certificate;            ///< PEM file of the web server's certificate chain; empty: plain HTTP
@@ -37,7 +37,7 @@ struct GatewaySettings {
   std::chrono::milliseconds idle_timeout{15'000};   ///< timeout from an answer to the end of the next request
   std::chrono::milliseconds hello_timeout{10'000};  ///< timeout from the upgrade request to the first message
   std::chrono::milliseconds connect_timeout{
-      5'000};  ///< timeout until the server is connected and has proved its key
+      5'000};  ///< timeout until the server is connected and has proved that it has its key
   std::chrono::milliseconds stall_timeout{20'000};  ///< timeout until a browser has taken the last data
   std::chrono::milliseconds close_timeout{3'000};   ///< timeout of a browser's answer to a close
   /// Idle time before a ping; twice this disconnects the browser.
@@ -59,7 +59,7 @@ struct GatewayCounters {
   std::uint64_t websockets = 0;         ///< opened WebSockets
   std::uint64_t played = 0;             ///< WebSockets connected to the server
   std::uint64_t full = 0;               ///< WebSockets closed with code 4003: too many players
-  std::uint64_t unreachable = 0;        ///< WebSockets closed with code 4000: server not reachable
+  std::uint64_t unreachable = 0;        ///< WebSockets closed with code 4000: server not reachable or lost
   std::uint64_t wrong_keys = 0;         ///< WebSockets closed with code 4001: wrong key of the server
   std::uint64_t ping_timeouts = 0;      ///< dropped: no answer to a ping
   std::uint64_t stalled = 0;            ///< WebSockets closed with code 4002: browser too slow

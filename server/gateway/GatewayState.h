@@ -201,7 +201,7 @@ inline GatewayConnection::~GatewayConnection() {
   m_connections->m_all.erase(this);
 }
 
-/// Use on the gateway's thread. Each GatewayConnection keeps it alive.
+/// Use on the gateway's thread. Each GatewayConnection keeps this state alive.
 struct GatewayState : std::enable_shared_from_this<GatewayState> {
   GatewayState(GatewaySettings given, const AllowedOrigins& allowed, LogLine line);
 

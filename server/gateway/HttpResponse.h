@@ -45,8 +45,9 @@ class HttpResponses {
     int status;
     std::string_view message;
   };
-  /// Returns null if the request may become a WebSocket, else the refusal: 403 for an Origin that is missing,
-  /// repeated or not allowed, 421 for a wrong Host.
+  /// Returns null if the request may become a WebSocket, else the refusal: 505 for another version of HTTP,
+  /// 421 for a wrong Host, 404 for a wrong path, 403 for an Origin that is missing, repeated or not allowed,
+  /// 400 without the subprotocol.
   const Refusal* validateUpgrade(const WebRequest& request) const;
 
   using Header = std::pair<std::string_view, std::string_view>;

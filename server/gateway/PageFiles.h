@@ -14,7 +14,7 @@ struct PageFile {
   std::string type;        ///< Content-Type
   std::string tag;         ///< ETag with its quotes, a hash of the content (RFC 9110 8.8.3)
   std::string content;     ///< the file, uncompressed
-  std::string compressed;  ///< the file compressed with gzip; empty if that saves no space
+  std::string compressed;  ///< the file compressed with gzip; empty if not smaller, or for types like PNG
 };
 
 /// Thrown if the page cannot be read. what() is a one-sentence message.

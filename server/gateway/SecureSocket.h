@@ -57,7 +57,7 @@ class SecureSocket {
   executor_type get_executor() { return m_socket.get_executor(); }
   Socket& socket() { return m_socket; }
   /// True if the kernel has more than `limit` bytes that it has not sent to the peer; false if the kernel
-  /// cannot tell. Asks the kernel only if more than `limit` bytes may be unsent since the last call.
+  /// cannot tell. Asks the kernel only if its last answer plus the bytes written since then exceed `limit`.
   bool hasUnsent(std::size_t limit);
 
   /// Queues these bytes for the next flush(). They are sent after pending writes and before later ones, never

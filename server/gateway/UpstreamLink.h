@@ -30,15 +30,15 @@ struct GameServer {
 class UpstreamLink : public std::enable_shared_from_this<UpstreamLink> {
  public:
   enum class End { kOpen, kUnreachable, kWrongKey };
-  /// Called once from the event loop, unless close() comes first. `problem`: reason of a failure, for the
+  /// Called once from the event loop, unless close() is called first. `problem`: reason of a failure, for the
   /// log.
   using Done = std::function<void(End end, const std::string& problem)>;
 
   UpstreamLink(GatewayExecutor executor, const GameServer& server);
 
-  /// Connects. The server first reads `header`, which has the visitor's address. If the server closes the
-  /// connection before it has proved its key, retries for a few seconds. The caller must enforce a time
-  /// limit.
+  /// Connects. The server first reads `header`, which has the visitor's address. Retries for a few seconds if
+  /// the server's backlog is full, or the server closes the connection before it has proved that it has its
+  /// key. The caller must enforce a time limit.
   void open(std::string header, Done done);
   /// Returns the stream for both directions. Call only after End::kOpen.
   SecureSocket& stream() { return *m_stream; }

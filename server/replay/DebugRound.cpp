@@ -27,7 +27,7 @@ constexpr const char* kDebugger = "gdb";
 /// Makes the first `continue` run the tick, and not only report the signal that has stopped the world.
 constexpr const char* kNoStop = "handle SIGSTOP nostop noprint nopass";
 
-/// Time limit for the world to stop. Its state is polled, because only a child would report that it stopped.
+/// Time limit for the world to stop. Its state is polled, because only its parent is told that it stopped.
 constexpr std::chrono::seconds kStopTimeout{10};
 
 /// Returns the process's state letter from /proc; 0 if the process has ended. Searches from the end, because
@@ -63,8 +63,8 @@ class ScopedDescriptor {
   int m_number;
 };
 
-/// Starts gdb in this terminal, and ignores Ctrl-C, which is meant for gdb. Returns 0 if gdb is not
-/// installed.
+/// Starts gdb in this terminal, and ignores Ctrl-C, which is meant for gdb. Returns 0 if gdb cannot be
+/// started.
 pid_t startDebugger(pid_t world) {
   const std::string number = std::to_string(world);
   const char* words[] = {kDebugger, "-q", "-p", number.c_str(), "-ex", kNoStop, nullptr};

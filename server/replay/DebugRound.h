@@ -13,9 +13,10 @@
 
 namespace naiad {
 
-/// Debugs a round until the debugger ends; without gdb, until the world or the user (SIGINT, SIGTERM) ends
-/// it. `out` gets messages for the user. Throws RoundError if the round has no tick `until`, or if its world
-/// ends before it or cannot be stopped; std::system_error.
+/// Debugs a round until the debugger ends; without gdb, until the world or the file ends, or the user ends it
+/// (SIGINT, SIGTERM, SIGHUP). `out` gets messages for the user. Throws std::system_error, or RoundError if
+/// the game does not run, the round has no tick `until`, its world ends before it or cannot be stopped, or
+/// gdb fails.
 void debugRound(const RecordedRound& round, const ReplayEnvironment& environment, std::uint32_t until,
                 std::ostream& out);
 

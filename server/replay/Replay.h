@@ -28,19 +28,19 @@ class ReplayWorld {
   ReplayWorld(const ReplayWorld&) = delete;
   ReplayWorld& operator=(const ReplayWorld&) = delete;
 
-  /// Returns the game's settings; nullopt if it ended before GM.run().
+  /// Returns the game's settings; nullopt if it failed before GM.run() (see failure()).
   const std::optional<WorldReady>& ready() const { return m_ready; }
   /// Executes a turn. Returns the fields of the world's answer, valid until the next turn; nullopt if the
   /// world has failed (see failure()).
   std::optional<std::string_view> step(const WorldTurn& turn);
   /// Returns how the world failed, for example "stopped answering"; empty while it answers.
   const std::string& failure() const { return m_failure; }
-  /// Returns the id of its process; -1: it never started.
+  /// Returns the id of the world's process; -1 if the game never ran (see ready()).
   int process() const { return m_process; }
   /// Removes the time limit of answers. Instead, the world counts as hung when this descriptor is readable.
   void setCancelDescriptor(int descriptor) { m_cancel_descriptor = descriptor; }
-  /// Call after a failure: returns the exit status of the world's process, in the format of waitpid();
-  /// nullopt if the process has not ended.
+  /// Call after a failure: returns the exit status of the world's process, in the format of waitpid().
+  /// Returns nullopt if the process has not ended, or its end is not reported within 2 s.
   std::optional<int> popExitStatus();
   /// Returns the last part of the world's output.
   const std::string& printed() const { return m_printed; }
@@ -69,7 +69,7 @@ class Replay {
 
   /// Executes the next recorded turn. `pictures`: requests the pictures of all players; if the turn did not
   /// ask for them, only the state is compared, because the answer is not the recorded one. Returns false if
-  /// there are no more turns, or the world has ended.
+  /// there are no more turns, or the world has failed.
   bool step(bool pictures = false);
   /// True if the file has a turn after those that were executed.
   bool hasNextTurn() const { return m_next && std::holds_alternative<WorldTurn>(*m_next); }
@@ -99,7 +99,7 @@ class Replay {
   const std::string& differenceText() const { return m_difference_text; }
   /// Returns how the world failed before its recorded end; empty if it did not.
   const std::string& failure() const { return m_failure; }
-  /// Returns the files that the game reads and that have changed since the recording.
+  /// Returns the files that the game has read before GM.run() and that are not the recorded ones.
   const std::vector<std::string>& changedFiles() const { return m_changed_files; }
   /// True if the world has its recorded addresses.
   bool hasFixedAddresses() const { return m_world.ready()->fixed_addresses; }

@@ -1,4 +1,4 @@
-// Plays a round in the terminal: at any speed, with jumps of 5 s, as seen by any player.
+// Plays a round in the terminal: at 1/4 to 64 times its speed, with jumps of 5 s, as seen by any player.
 #pragma once
 
 #include <chrono>
@@ -49,7 +49,7 @@ class FrameHistory {
   const RecordedRound& m_round;
   const ReplayEnvironment& m_environment;
   std::unique_ptr<Replay> m_replay;
-  std::deque<Frame> m_frames;  ///< of consecutive ticks
+  std::deque<Frame> m_frames;  ///< pictures of consecutive ticks
   std::size_t m_cells = 0;
   std::uint32_t m_tick = 0;
   std::uint32_t m_count = 0;
@@ -71,7 +71,7 @@ class RoundControls {
 
   /// Handles a key. Returns false if the key ends the RoundPlayer.
   bool handleKey(const KeyEvent& key, Time now);
-  /// Advances the round to this time. Returns true if the picture has changed.
+  /// Advances the round to this time. Returns true if the picture or the status line has changed.
   bool update(Time now);
   /// Returns the time at which to call update() again.
   Time deadline(Time now) const;
@@ -107,7 +107,7 @@ class RoundPlayer {
               std::uint32_t from)
       : m_round(round), m_environment(environment), m_player(player), m_from(from) {}
   /// Plays until a key or a signal ends it. Throws std::runtime_error with a sentence if the terminal cannot
-  /// show pictures.
+  /// show pictures or the game does not run.
   void run();
 
   static bool hasTerminal();

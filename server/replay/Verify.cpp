@@ -50,7 +50,8 @@ void printRows(const df::Canvas& recorded, const df::Canvas& again, std::ostream
   out << "  " << same << " of " << height << " rows are equal\n";
 }
 
-/// Prints the differences between the next picture in the file and the world's picture at that tick.
+/// Prints the differences between the file's picture of this tick, or the next one in the file, and the
+/// world's.
 void showDifference(Replay& replay, std::ostream& out) {
   do {
     if (!replay.recordedPicture()) continue;

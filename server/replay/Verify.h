@@ -17,8 +17,8 @@ bool verifyRound(const RecordedRound& round, const ReplayEnvironment& environmen
 void printInputs(const RecordedRound& round, std::ostream& out);
 
 /// Replays the round, and prints one line for each score that the game adds: "tick=N number=N table=…
-/// name="…" points=N", which identify its row in the server's file of scores. Returns false if the round
-/// differs from the file; then the last line names the first tick that differs.
+/// name="…" points=N"; tick and number identify its row in the server's file of scores. Returns false if the
+/// round differs from the file; then the last line names the first tick that differs.
 bool printScores(const RecordedRound& round, const ReplayEnvironment& environment, std::ostream& out);
 
 /// Prints a player's picture after this tick; player 0: the first one. Returns false if the round has no such

@@ -32,8 +32,9 @@ struct AdminAnswer {
   static AdminAnswer refused(std::string text) { return {false, std::move(text), {}, {}, false, {}}; }
 };
 
-/// Returns the answer as lines for people: the sentence; facts as "name: value"; rows in columns under a line
-/// of headings. Control characters are escaped because names and reasons come from untrusted people.
+/// Returns the answer as lines for people: the sentence; the candidates; facts as "name: value"; rows in
+/// columns under a line of headings. Control characters are escaped because names and reasons come from
+/// untrusted people.
 std::vector<std::string> answerText(const AdminAnswer& answer);
 
 /// Returns "yes" or "" for a bool, a number as "3" or "0.25" (3 digits), or the text itself.

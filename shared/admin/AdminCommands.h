@@ -14,7 +14,7 @@ struct AdminArgument {
     kPlayer,  ///< a player: #ID, a name, or the beginning of a name
     kTarget,  ///< the target of a ban: a player, a name, an address or an address range
     kSpan,    ///< a time span: 90s, 30m, 2h, 7d; if optional, skipped if the word is not a span
-    kChoice,  ///< one of the words `one_of`; a leading "--" is ignored
+    kChoice,  ///< one of the words `one_of`, also after "--"; if optional, skipped if the word is another
     kSecret,  ///< a password, which no log contains
     kText,    ///< the rest of the line
   };

@@ -27,14 +27,15 @@ std::string argumentText(const std::string& name, const Json& value) {
   throw AdminUsageError("The argument \"" + name + "\" must be a text or an integer.");
 }
 
-// Shortens the text to at most `most` bytes and appends "…". Never splits a character.
+// If the text is longer than `most` bytes, shortens it to that and appends "…". Never splits a character.
 std::string cut(std::string_view text, std::size_t most) {
   if (text.size() <= most) return std::string(text);
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;
   return std::string(text.substr(0, most)) + "…";
 }
 
-/// Like cut(), but until the text as JSON has at most `json_bytes`, because an escape takes up to six bytes.
+/// Shortens the text to kMaxTextBytes like cut(), then further until it has at most `json_bytes` as JSON. An
+/// escape takes up to six bytes.
 std::string cutToFit(std::string_view text, std::size_t json_bytes = kMaxRowBytes) {
   std::string kept = cut(text, kMaxTextBytes);
   for (std::size_t most = kMaxTextBytes; Json(kept).toString().size() > json_bytes;)

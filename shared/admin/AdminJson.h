@@ -1,7 +1,7 @@
 // The lines of the control socket: one JSON object (RFC 8259) each, at most kMaxControlLine bytes, then \n.
 //
 //   to the server    {"command":"ban","arguments":{"who":"Ann","for":"2h"}}
-//   from the server  {"rows":[{"id":1,"name":"Ann"}],"more":true}      rows that do not fit one line
+//   from the server  {"rows":[{"id":1,"name":"Ann"}],"more":true}      some of the rows; more lines follow
 //                    {"ok":true,"text":"…","facts":{…},"rows":[…]}     ends the answer
 //                    {"ok":false,"error":"…","candidates":["…"]}       ends the answer to a refused command
 //                    {"event":"log","text":"…"}  {"dropped":12}        after "watch"

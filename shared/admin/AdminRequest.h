@@ -1,4 +1,4 @@
-// One command with its arguments, parsed from the words of a shell command line or of a chat line.
+// One command with its arguments, parsed from the words of a shell command line or a chat line, or from JSON.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ struct AdminRequest {
   /// Returns the argument's text; empty if the argument was omitted.
   std::string of(const std::string& name) const;
   bool has(const std::string& name) const { return arguments.contains(name); }
-  /// Returns the command for logs and history: secrets are "***", texts in quotes.
+  /// Returns the command for logs and history: secrets as "***", all other arguments in quotes.
   std::string redacted() const;
 };
 

@@ -8,9 +8,10 @@
 
 namespace naiad {
 
-/// Returns the naiad folder in $XDG_RUNTIME_DIR, else in ~/.local/state; nullopt without a home directory.
+/// Returns the naiad folder in $XDG_RUNTIME_DIR, else in $HOME/.local/state; nullopt if neither variable is
+/// an absolute path.
 std::optional<std::filesystem::path> controlFolder();
-/// Returns the path of control-PORT.sock in controlFolder().
+/// Returns the path of control-PORT.sock in controlFolder(); nullopt without that folder.
 std::optional<std::filesystem::path> controlPath(std::uint16_t port);
 /// True if the file name is of the form control-*.sock.
 bool isControlName(const std::filesystem::path& path);

@@ -31,9 +31,10 @@ std::string validateBusSettings(const BusSettings& settings);
 
 inline constexpr std::size_t kMaxBusPayload = 2048;
 
-/// Reads a payload of the bus: one flat JSON object (RFC 8259) of at most kMaxBusPayload bytes. Payloads are
-/// as untrusted as a client's: a missing, mistyped or out-of-range member makes the whole payload invalid.
-/// Unknown members are ignored, so that a fleet may mix two versions of servers.
+/// Reads a payload of the bus: one flat JSON object (RFC 8259) of at most kMaxBusPayload bytes, whose
+/// integers fit 63 bits and a sign. Payloads are as untrusted as a client's: a missing, mistyped or
+/// out-of-range member makes the whole payload invalid. Unknown members are ignored, so that a fleet may mix
+/// two versions of servers.
 class BusFields {
  public:
   explicit BusFields(std::string_view payload);
@@ -41,7 +42,7 @@ class BusFields {
   /// True if the payload is a valid object and all members read so far were present and valid.
   bool ok() const { return m_ok; }
 
-  /// True if the payload has the member as a text, a number or a flag.
+  /// True if the payload has the member as a text, an integer or a flag.
   bool has(std::string_view name) const;
 
   // Each returns a member. If it is missing or invalid, ok() is false and the result empty, false or `least`.
@@ -58,14 +59,14 @@ class BusFields {
   bool m_ok = true;
 };
 
-// Server ids on the bus.
+/// Maximum length of a server's id on the bus, in characters.
 inline constexpr std::size_t kMaxServerId = 48;
 
 /// True for 1 to kMaxServerId characters a-z, 0-9 and '-', beginning with a letter or digit: one word of a
 /// subject, whose words are separated by dots.
 bool isServerId(std::string_view text);
-/// Makes an id of any text: letters become lower case, other characters '-'; too long texts are truncated.
-/// Returns "server" if nothing is left.
+/// Makes an id of any text: letters become lower case, and characters other than letters and digits become
+/// '-', or are omitted at the beginning. Truncates too long texts. Returns "server" if nothing is left.
 std::string serverIdOf(std::string_view text);
 
 /// Returns "naiad.presence.ID", "naiad.results.ID" and "naiad.redirect.ID".
@@ -142,7 +143,8 @@ inline constexpr std::size_t kMaxRoomsText = 900;
 
 /// Returns the text of the first rooms that fit. Omits rooms whose game has a name that cannot be written.
 std::string roomsText(const std::vector<PresenceRoom>& rooms);
-/// Parses the format of roomsText(); nullopt for other texts. Two names must not differ only in case.
+/// Parses the format of roomsText(). Returns nullopt for other texts, for more than kMaxRooms rooms, and if
+/// two names are equal or differ only in case.
 std::optional<std::vector<PresenceRoom>> readRooms(std::string_view text);
 
 /// A server's heartbeat on the bus: its address, its key, its players.

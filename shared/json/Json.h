@@ -66,7 +66,7 @@ class Json {
   std::string textOrEmpty() const { return text() != nullptr ? *text() : std::string(); }
   /// Returns the member, or nullptr if it is missing or this is not an object. Time is linear in the members.
   const Json* find(std::string_view name) const;
-  /// Like find(), but returns null if the member is missing: json["status"]["ports"].
+  /// Like find(), but returns a JSON null instead of nullptr: json["status"]["ports"].
   const Json& operator[](std::string_view name) const;
   /// Sets a member; an existing one keeps its position. Other values than objects become an empty object
   /// first.

@@ -28,7 +28,7 @@ constexpr std::array<DoubleDouble, 17> kAngles = [] {
   return angles;
 }();
 
-// Returns the angle of (x, y) for 0 <= y <= x, both within 2^±100 and y not below 2^-70 of x.
+// Returns the angle of (x, y) for 0 <= y <= x, with x within 2^±100, and y = 0 or at least 2^-70 · x.
 DoubleDouble angleInOctant(DoubleDouble y, DoubleDouble x) {
   const double steps = rounded(y.hi / x.hi * 16), c = steps / 16;
   const int index = static_cast<int>(steps);

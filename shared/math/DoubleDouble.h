@@ -2,15 +2,16 @@
 //
 // Used by the elementary functions, for which one double is too short. The exact sum is Knuth's, the exact
 // product Dekker's with Veltkamp's splitting (T. J. Dekker, "A floating-point technique for extending the
-// available precision", 1971). Without fused multiply-add, every machine gets the same bits. Everything is
-// constexpr, so that the compiler can compute tables.
+// available precision", 1971). Without fused multiply-add, every machine gets the same bits. Everything
+// except squareRoot() is constexpr, so that the compiler can compute tables.
 #pragma once
 
 #include <cmath>
 
 namespace df::math {
 
-/// Rounds `x` to the nearest whole number, ties to even, for |x| < 2^51: the sum with kShift has no fraction.
+/// Rounds `x` to the nearest whole number, ties to even, for |x| < 2^51, because the sum with kShift has no
+/// fraction.
 constexpr double rounded(double x) {
   constexpr double kShift = 0x1.8p52;
   return (x + kShift) - kShift;
@@ -22,7 +23,7 @@ struct DoubleDouble {
   double lo = 0;
 };
 
-/// Returns a + b exactly, for any order of magnitudes; no overflow.
+/// Returns a + b exactly, for any order of magnitudes, unless a + b overflows.
 constexpr DoubleDouble twoSum(double a, double b) {
   const double sum = a + b;
   const double from_b = sum - a;
@@ -41,7 +42,8 @@ constexpr double upperHalf(double a) {
   return scaled - (scaled - a);
 }
 
-/// Returns a · b exactly, if the product is above 2^-968 and both are below 2^996.
+/// Returns a · b exactly, if the product is finite and above 2^-968, and both factors are below 2^996 (all in
+/// magnitude).
 constexpr DoubleDouble twoProduct(double a, double b) {
   const double product = a * b;
   const double a1 = upperHalf(a), b1 = upperHalf(b);

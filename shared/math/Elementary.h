@@ -39,7 +39,7 @@ double sinh(double x);
 double cosh(double x);
 
 /// The angle of the point (x, y) in [−π, π]. Zeros and infinities as in C99's annex F: atan2(±0, x > 0) = ±0,
-/// atan2(±0, x < 0 or −0) = ±π, atan2(±∞, +∞) = ±π/4, and so on
+/// atan2(±0, x < 0 or −0) = ±π, atan2(±∞, +∞) = ±π/4, and so on.
 double atan2(double y, double x);
 /// The angle in [−π/2, π/2] whose tangent is x. atan(±0) = ±0.
 double atan(double x);

@@ -15,7 +15,8 @@ struct ScaledExponential {
 /// Returns e^x for |x| <= 800, with a relative error below 2^-60.
 ScaledExponential scaledExponential(double x);
 
-/// Returns value · 2^exponent, rounded once (to a subnormal), or ±∞ on overflow; |exponent| <= 2000.
+/// Returns value · 2^exponent, rounded only if the result is subnormal, and then once; ±∞ on overflow.
+/// |exponent| <= 2000.
 double scaledBy(double value, int exponent);
 
 }  // namespace df::math

@@ -21,7 +21,7 @@ std::optional<std::string> optionPage(std::string_view kind, const Program& prog
 std::string roff(std::string_view text);
 
 /// Returns "name = value" with the option's current value, as a line for the --config file, in quotes where
-/// needed. A secret becomes a comment without its value.
+/// needed. A secret that is set becomes a comment without its value.
 std::string configLine(const Option& option);
 
 /// True if a --config file can set the option: it has an environment variable and is not hidden.

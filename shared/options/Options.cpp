@@ -79,7 +79,7 @@ constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"--inactive-kick", "--idle-kick"}, {"--link-host", "--public-host"}, {"--audit", "--replica-audit"},
     {"--truth", "--truth-file"},        {"--log", "--log-file"}};
 
-/// Replaces former names of this program's options by the present ones, and adds a note on each to `notes`.
+/// If `word` begins with the former name of an option, replaces that by the present name and adds a note.
 void replaceFormerName(std::string& word, const std::vector<Option>& options,
                        std::vector<std::string>& notes) {
   const std::string typed = word.substr(0, word.find('='));
@@ -146,8 +146,8 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-/// Parses the text after the `=`: a value in quotes, or one that ends at a # after a blank. Returns nullopt
-/// if the quotes do not end or other text follows them.
+/// Parses the text after the `=`: a value in quotes, or one that ends at a # that begins the text or follows
+/// a blank. Returns nullopt if the quotes do not end, or other text than a # comment follows them.
 std::optional<std::string> configValue(const std::string& text) {
   if (text.starts_with('"') || text.starts_with('\'')) {
     const std::size_t end = text.find(text.front(), 1);
@@ -216,7 +216,7 @@ void readConfig(const std::string& path, const std::vector<Option>& options,
 
 // ---- pages for the build ----------------------------------------------------------------------------------
 
-/// Handles `PROGRAM --option-page KIND`, which requires no other option or argument.
+/// Handles `PROGRAM --option-page KIND`. Returns nullopt for any other command line.
 std::optional<ParseResult> printPage(const Program& program, const std::vector<Option>& options, int argc,
                                      const char* const* argv) {
   if (argc != 3 || std::string_view(argv[1]) != "--option-page") return std::nullopt;
@@ -226,8 +226,8 @@ std::optional<ParseResult> printPage(const Program& program, const std::vector<O
   return ParseResult::kDone;
 }
 
-/// Empties a text or path, for a line without a value, which the parser would reject. False for other
-/// options.
+/// Empties a text or path, for a line without a value, which the parser would reject. Returns false for other
+/// options, and for those with a list of values.
 bool clearText(const Option& option) {
   if (!option.one_of.empty()) return false;
   return std::visit(

@@ -15,8 +15,10 @@
 
 namespace naiad {
 
-/// Returns the name that begins with `typed` or needs the fewest changes: a character inserted, deleted or
-/// replaced, or two swapped. Empty if that is more than a third of the length of `typed`.
+/// Returns the name that needs the fewest changes: a character inserted, deleted or replaced, or two
+/// neighbours swapped. If `typed` is the beginning of a name, at least 4 characters long, that counts as one
+/// change. Returns "" if the changes are more than a third of the length of `typed`, or `typed` has over 64
+/// bytes.
 std::string nearestName(const std::string& typed, const std::vector<std::string>& names);
 
 /// Returns a message, with the nearest known name, for each environment variable that begins with `prefix`
@@ -46,7 +48,7 @@ struct OptionRange {
 };
 
 struct Option {
-  std::string name;  ///< "--port"; without dashes: a required argument
+  std::string name;  ///< "--port"; without dashes: an argument, required unless is_optional
   OptionTarget target;
   std::string help;
   std::string environment{};           ///< environment variable that also sets the option; empty: none
@@ -89,18 +91,20 @@ enum class ParseResult {
 };
 
 /// Stores the options from the command line, the environment and the --config file; the first of these that
-/// sets an option has precedence. Prints help, version and usage errors. Errors go to stderr, prefixed by the
-/// program's name, with file and line for an option in a file and the nearest name for an unknown one.
+/// sets an option has precedence. Prints help, version, usage errors and notes on former names. Errors and
+/// notes go to stderr, prefixed by the program's name, with file and line for an option in a file and the
+/// nearest name for an unknown one.
 ParseResult parseOptions(const Program& program, const std::vector<Option>& options, int argc,
                          const char* const* argv);
 /// Returns the exit code after parsing: 0, or 2 for wrong usage; nullopt if the program is to run.
 std::optional<int> exitCodeOf(ParseResult parsed);
 
-/// Like parseOptions(), but prints no errors: for a running program. Throws OptionError.
+/// Like parseOptions(), but prints no errors or notes: for a running program. Throws OptionError.
 void readOptions(const Program& program, const std::vector<Option>& options, int argc,
                  const char* const* argv);
 
-/// An unknown option or an invalid value; what() is a sentence that names the option.
+/// An unknown option, an invalid value or an unreadable --config file. what() has a sentence that names it;
+/// for the lines of a file, one sentence per wrong line, separated by newlines.
 class OptionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -112,10 +116,11 @@ std::string environmentValue(const Option& option);
 /// Stores a value in the option's target. Throws OptionError with `place`, the value's origin, in front.
 void storeValue(const Option& option, const std::string& value, const std::string& place);
 
-/// Copies the value in the target of `from` to that of `to`; their types must be equal.
+/// Copies the value in the target of `from` to that of `to`; their types must be equal. A StoreText has no
+/// value to copy.
 void copyValue(const Option& from, const Option& to);
 
-/// Returns the value in the option's target as text.
+/// Returns the value in the option's target as text; "" for a StoreText or an unset optional.
 std::string currentValue(const Option& option);
 
 }  // namespace naiad

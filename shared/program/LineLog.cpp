@@ -71,7 +71,7 @@ std::string asJson(const LogEvent& event, std::string_view text, const std::stri
 constexpr std::chrono::milliseconds kRetry{200};        ///< pause after a failed write
 constexpr std::chrono::milliseconds kLastChance{1000};  ///< time for writers to finish when the process ends
 constexpr int kPollMillis = 100;                        ///< interval of checks whether the thread must end
-constexpr std::size_t kPipePiece = 4096;                ///< PIPE_BUF: other writers cannot split these
+constexpr std::size_t kPipePiece = 4096;  ///< PIPE_BUF: bytes that a pipe accepts without splitting
 constexpr std::size_t kFilePiece = std::size_t{64} << 10;
 
 constinit std::atomic<unsigned> g_openings = 0;       ///< number of reopenAll() calls

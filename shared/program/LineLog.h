@@ -1,4 +1,4 @@
-// Log lines with the time of day, written to a file or stderr by their own thread: callers never wait.
+// Log lines, written to a file or stderr by a thread of the log, or by the caller: callers never wait.
 #pragma once
 
 #include <chrono>
@@ -49,8 +49,8 @@ std::string formatEvent(const LogEvent& event, LogFormat format, std::chrono::sy
 /// A function that receives log events.
 using LogLine = std::function<void(const LogEvent& event)>;
 
-/// If a reader stalls, a disk is full or a pipe has no reader, lines are lost but no writer waits: lines
-/// beyond kMaxWaiting are dropped, writing is retried, and afterwards a line reports how many were lost.
+/// If a reader stalls, a disk is full or a pipe has no reader, lines are lost but no caller waits. The thread
+/// retries; lines beyond kMaxWaiting are dropped, and afterwards a line reports how many were lost.
 class LineLog {
  public:
   /// The writer of the lines. kCaller is for a world process, which has no further threads: the caller writes
@@ -80,7 +80,8 @@ class LineLog {
   /// The descriptor that lines are written to. Does not change when the file is reopened.
   int descriptor() const;
 
-  /// Makes every log of this process reopen its file before its next line, for log rotation. Thread-safe.
+  /// Makes every log of this process that has a thread and a file reopen the file before its next line, for
+  /// log rotation. Thread-safe.
   static void reopenAll();
   /// Waits until all logs of this process have written their lines, at most this time. Thread-safe.
   static void waitUntilWritten(std::chrono::milliseconds most);

@@ -8,11 +8,11 @@
 namespace naiad {
 
 /// Raises the limit of open files and sockets to `wanted`, or as far as the system allows; never lowers it.
-/// Returns the new limit, which may be lower.
+/// Returns the new limit, which may be lower or higher than requested; 0 if it cannot be read.
 std::size_t raiseOpenFileLimit(std::size_t wanted);
 
-/// Makes writes to a pipe without a reader fail with EPIPE, unless the process already handles SIGPIPE.
-/// Programs started by this process get SIGPIPE's default action.
+/// Makes writes to a pipe without a reader fail with EPIPE. Does nothing if the process handles or ignores
+/// SIGPIPE. Programs started by this process get SIGPIPE's default action.
 void ignoreBrokenPipes();
 
 /// Runs `job` on a new thread that blocks all signals, so that only other threads handle them. Throws

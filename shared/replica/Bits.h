@@ -18,7 +18,7 @@
 
 namespace naiad {
 
-/// clear() keeps the memory, so that a reused writer allocates nothing.
+/// clear() keeps the memory, so a reused writer allocates only when it needs more than before.
 class BitWriter {
  public:
   /// Appends the `count` low bits of `value`; the others must be zero. count: 0 … 64.
@@ -126,7 +126,8 @@ class BitReader {
   bool ok() const { return m_ok; }
   void fail() { m_ok = false; }
   std::size_t remainingBits() const { return m_bytes.size() * 8 - m_at; }
-  /// True if nothing is left but the padding of the last byte.
+  /// True if ok() and nothing is left but the padding of the last byte, which must be zeros. Reads the
+  /// padding.
   bool atEnd() {
     const int left = static_cast<int>(remainingBits());
     return m_ok && remainingBits() < 8 && bits(left) == 0;

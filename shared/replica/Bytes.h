@@ -25,8 +25,8 @@ class ByteWriter {
   std::string& m_out;
 };
 
-/// Reads the bytes of a ByteWriter. After a missing, overlong or out-of-range number, ok() is false and all
-/// reads return 0.
+/// Reads the bytes of a ByteWriter. After a number that is missing, longer than 64 bits or out of range, ok()
+/// is false, and all reads return 0 or no bytes.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : m_bytes(bytes) {}

@@ -14,7 +14,7 @@ Mixer mixerOf(Group group, std::uint32_t id) {
   return mixer;
 }
 
-/// Adds the numbers that define a selector of its kind; they are equal at any tick.
+/// Adds the selector's kind and the fields that this kind uses, in a form that is equal at any tick.
 void addTo(Mixer& mixer, const Selector& selector, std::size_t frames) {
   mixer.add(selector.kind);
   switch (selector.kind) {

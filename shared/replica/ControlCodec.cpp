@@ -61,7 +61,7 @@ ControlRow readRow(ByteReader& in) {
   return row;
 }
 
-// Begins with a flag for the usual case that the axis's target velocity equals the object's velocity.
+// A target velocity that equals the object's velocity, which is usual, takes only a flag.
 void writeLever(BitWriter& out, const df::ControlAxis& lever, df::Fixed velocity) {
   out.flag(lever.is_released);
   out.flag(lever.target_velocity != 0);

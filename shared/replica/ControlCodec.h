@@ -11,9 +11,9 @@
 // Every snapshot may have a state, so states are bits (Bits.h):
 //
 //   state   generation: exp-Golomb(1) | slot: exp-Golomb(6) | position, velocity, acceleration: a motion
-//           (MotionCodec.h) | steering 1 | lever x | lever y | silence: exp-Golomb(2) | groups that wait 1
-//           (a bit each 8 | each that does: ticks: exp-Golomb(3))
-//   lever   let go 1 | pulled 1 (as the velocity 1, else signed exp-Golomb(33))
+//           (MotionCodec.h) | steering 1 | lever x | lever y | silence: exp-Golomb(2) | a group waits 1
+//           (8 bits, one for each group | ticks of each group that waits: exp-Golomb(3))
+//   lever   released 1 | target velocity is not 0: 1 (equal to the velocity 1, else signed exp-Golomb(33))
 #pragma once
 
 #include <cstddef>

@@ -10,8 +10,8 @@ namespace naiad {
 inline constexpr std::size_t kMaxSnapshot = std::size_t{15} * 1024;
 inline constexpr std::size_t kMaxDatagramSnapshot = 1150;
 
-/// Number of slots that are replicated. If a world has more Objects, the server ignores the others and counts
-/// them.
+/// Number of slots that are replicated; the last one is for drawings without an Object (kFreeDrawSlot). If a
+/// world has more Objects, the server ignores the others and counts them.
 inline constexpr std::uint32_t kMaxSlots = 1u << 20;
 /// Maximum glyphs of a sequence, and maximum bytes of its encoding (so that a birth fits a snapshot).
 inline constexpr std::size_t kMaxGlyphs = 8192;

@@ -105,7 +105,7 @@ struct Look {
   const Appearance* select(std::uint32_t tick) const {
     return sequence.empty() ? nullptr : &sequence[selector.at(tick, sequence.size())];
   }
-  /// True if the look always shows one appearance.
+  /// True if the selector is kFixed, so the look always shows one appearance.
   bool isConstant() const { return selector.kind == Selector::kFixed; }
   friend bool operator==(const Look&, const Look&) = default;
 };

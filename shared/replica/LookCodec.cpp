@@ -14,7 +14,7 @@ namespace naiad {
 // The layout, drawn out in PROTOCOL.md:
 //
 //   look        altitude 2: 1, else 0 and 8 bits | kind 2: 0 nothing, 1 a character (character, colour),
-//               2 spelled (named 1 | id 12 if named | sequence | selector), 3 named (id 12 | selector)
+//               2 in full (named 1 | id 12 if named | sequence | selector), 3 named (id 12 | selector)
 //   sequence    one: 1, else 0 and count - 2: exp-Golomb(3) | whole 1 (half x 1, half y 1)
 //               | each: appearance
 //   appearance  glyphs: exp-Golomb(3) | each: if whole: plain 1 | unless plain: moved 1, recoloured 1
@@ -82,8 +82,8 @@ df::Color readColor(BitReader& in) {
 
 namespace {
 
-// Neighbouring characters of a string differ only by one cell in x. So offsets are encoded relative to one
-// cell to the right, and colour and row only if they change.
+// Neighbouring characters of a string differ only by one cell in x. So offsets are encoded relative to the
+// cell right of the previous character, and colour and row only if they change.
 void writeAppearance(BitWriter& out, const Appearance& glyphs, bool whole, CellPosition fraction) {
   out.golomb(glyphs.size(), kGlyphCountOrder);
   Glyph last = beforeFirst(fraction);
@@ -197,7 +197,7 @@ void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick,
   out.signedBits(selector.spin, width);
 }
 
-// Does not check whether the selector fits its sequence: a name may be defined later.
+// Does not check whether the selector fits its sequence, because the sequence's id may be defined later.
 Selector readSelector(BitReader& in, std::uint32_t tick) {
   Selector selector;
   if (in.flag()) return selector;

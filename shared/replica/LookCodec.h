@@ -17,11 +17,11 @@ struct LookForm {
   std::uint32_t id = 0;
 };
 
-/// `tick`: the snapshot's tick, from which clocks count.
+/// `tick`: the snapshot's tick, to which the starts of clocks are relative.
 void writeLook(BitWriter& out, const Look& look, LookForm form, std::uint32_t tick);
-/// `define` is called for a sequence with a new id, `find_named` for an id. `find_named` returns its
-/// sequence, or null if it is not known yet; then the caller must look it up later, and check that the
-/// selector isCanonical().
+/// Calls `define` for a sequence with a new id, and `find_named` for an id without a sequence. `find_named`
+/// returns the id's sequence, or null if it is not known yet; then the caller must look it up later, and
+/// check that the selector isCanonical().
 template <class Define, class FindNamed>
 Look readLook(BitReader& in, std::uint32_t tick, Define define, FindNamed find_named);
 
@@ -31,7 +31,7 @@ Sequence readSequence(BitReader& in);
 void writeSelector(BitWriter& out, const Selector& selector, std::uint32_t tick, std::size_t frames);
 Selector readSelector(BitReader& in, std::uint32_t tick);
 
-/// True for one character at the object's position: the most frequent look, shorter than an id.
+/// True for one character at the object's position: the most frequent look, usually shorter than an id.
 bool isSingleCharacter(const Sequence& sequence);
 
 void writeCharacter(BitWriter& out, char32_t ch);

@@ -41,10 +41,10 @@ struct Selector {
   /// Returns the angle at `tick`; only for kAngle.
   std::uint32_t angleAt(std::uint32_t tick) const;
 
-  /// True if the selector is valid for this many frames. For a single frame, only kFixed is.
+  /// True if the selector is valid for this many frames. For fewer than two frames, only kFixed is.
   bool fits(std::size_t frames) const;
-  /// Returns the ticks from `start` to `tick`, below frames · ticks_per_frame; only for clocks. If the clock
-  /// loops, modulo a whole round; else at most up to the first tick of the last frame.
+  /// Returns the ticks from `start` to `tick`; only for clocks. If the clock loops, modulo
+  /// frames · ticks_per_frame; else limited to 0 … (frames − 1) · ticks_per_frame.
   std::uint32_t age(std::uint32_t tick, std::size_t frames) const;
   /// Returns a selector that shows the same frames from `tick` on, with the latest possible start.
   Selector rebased(std::uint32_t tick, std::size_t frames) const;

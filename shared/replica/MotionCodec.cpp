@@ -13,7 +13,7 @@ namespace naiad {
 //   motion    near 1 | cell: x_bits, y_bits if near, else two signed exp-Golomb(10) | kind 2 | position's
 //             fraction | velocity if kind >= 1 | acceleration if kind = 2
 //   fraction  code 4 | bits of x, bits of y
-//   velocity  code 4 | width − bits: signed exp-Golomb(1) | x, y: width bits each
+//   velocity  code 4 | width − fractional bits: signed exp-Golomb(1) | x, y: width bits each
 namespace {
 
 enum MotionKind : std::uint8_t { kStill = 0, kLinear = 1, kAccelerated = 2 };
@@ -114,7 +114,7 @@ CellPosition readCell(BitReader& in, const Origin& origin) {
   return {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
 }
 
-// Returns the coordinate with this cell and fraction. The cell is that of c + 1/2, so it is one above the
+// Returns the coordinate c with this cell and fraction. The cell is that of c + 1/2, so it is one above the
 // whole part of c if the fraction is at least 1/2.
 df::Fixed joined(std::int32_t cell, std::uint64_t fraction) {
   // Unsigned, because the smallest or largest cell may overflow: it wraps to a position that is refused.

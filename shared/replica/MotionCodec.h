@@ -1,8 +1,8 @@
 // Encodes motions as bits, and decodes them: exactly, with as few bits as the numbers need.
 //
-// A position is a cell, relative to an origin, and a fraction of it; a velocity is a number of steps. Both
-// have only as many fractional bits as are not zero, so motions on a coarse grid are short and others are
-// still exact.
+// A position is a cell, relative to an origin, and a fraction of a cell; a velocity is in cells per tick.
+// Most zero bits at the end of fractions are omitted, so motions on a coarse grid are short, and all others
+// are still exact.
 #pragma once
 
 #include "shared/replica/Bits.h"

@@ -25,7 +25,8 @@ class Barriers {
 
 class PredictedObject : public SteeringTarget {
  public:
-  /// Starts at the end of `known.tick`. Without barriers nothing blocks. The arguments must outlive the copy.
+  /// Starts at the end of `known.tick`. Without barriers nothing blocks. `table` and `*p_barriers` must
+  /// outlive the copy.
   PredictedObject(const ControlRecord& known, const df::ControlTable& table,
                   const Barriers* p_barriers = nullptr);
 

@@ -23,8 +23,8 @@ namespace naiad {
 /// Maximum number of objects, including dead ones, that a replica remembers; records of further ones are
 /// counted only.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
-/// Maximum glyphs of all looks together (16 bytes each): a shared sequence counts once, and each appearance
-/// after its first as three more. A look beyond the limit is ignored and counted.
+/// Maximum glyphs of all looks together (16 bytes each). A shared sequence counts once, and each appearance
+/// after its first counts as three more glyphs. A look beyond the limit is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
 /// Maximum objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 cells has 60,000

@@ -14,10 +14,10 @@ namespace naiad {
 //
 //   snapshot  number 16 | tick 16 | epoch 2 | complete 1 | has input 1 (input 16, age 6) | origin slot 2
 //             | extras 1 | objects: exp-Golomb(3) | order of ids 4, if any | each object
-//   extras    rare ones 1 (world 1, view 1, table 1, origins 2, texts 5, then those) | control 1
+//   extras    rare ones 1 (world 1, view 1, table 1, origins 2, texts 5, then these records) | control 1
 //   table     length 10 | bytes (ControlCodec.h)
 //   control   newest input 16, unless the header has it | state (ControlCodec.h)
-//   object    id − last id − 1: exp-Golomb(order) | kind | parts
+//   object    id − previous id − 1: exp-Golomb(order) | kind | parts
 //   kind      00 motion, 01 look, 10 birth, 110 death, 111 and a bit each for motion, look, body
 //   birth     generation 2 | order − origin's: signed exp-Golomb(10) | motion | look | body
 namespace {
@@ -42,7 +42,7 @@ int idOrder(std::uint32_t last_id, std::size_t count) {
   return std::clamp(static_cast<int>(std::bit_width(gap)) - 1, 0, (1 << kIdOrderBits) - 1);
 }
 
-/// Writes the size in 64 bits: that of a boundary may exceed the largest position.
+/// Writes the size in 64 bits, because the size of a boundary may exceed the largest position.
 void writeBox(BitWriter& out, const df::FixedBox& box) {
   writeVector(out, box.corner);
   out.bits(static_cast<std::uint64_t>(box.size.x), 64);
@@ -173,7 +173,8 @@ class ObjectReader {
         });
   }
 
-  // Looks up the named sequences. An id may be used before its definition because objects are sorted by id.
+  // Looks up the named sequences. Objects are sorted by their ids, so a sequence may be used before the
+  // object that defines it.
   void resolve() {
     for (const auto& [object, id] : m_named) {
       const Sequence* sequence = find(id);
@@ -410,8 +411,9 @@ void SnapshotWriter::commit(std::uint32_t id) {
   m_bits += bits;
 }
 
-// n ids up to M in exp-Golomb codes of order k, which is about log2(M/n): k + 1 bits each, and two more for
-// each doubling of a gap beyond 2^k; the gaps add up to M, so there are fewer than 2n such doublings.
+// The gaps between n ids up to M have exp-Golomb codes of order k, which is about log2(M/n). They take k + 1
+// bits each, and two more for each doubling of a gap beyond 2^k. The gaps add up to M, so there are fewer
+// than 2n such doublings.
 bool SnapshotWriter::hasSpace(std::size_t more, std::uint32_t last_id, std::size_t bytes) const {
   const std::size_t count = m_objects.size() + 1;
   const auto order = static_cast<std::size_t>(std::bit_width(last_id / count));

@@ -40,7 +40,7 @@ struct Snapshot {
 
 enum class ReadResult {
   kOk,
-  kStale,      ///< uses an id that a newer snapshot has replaced: drop it, do not acknowledge it
+  kStale,      ///< uses an origin or sequence that a newer snapshot has replaced: drop it unacknowledged
   kMalformed,  ///< bytes that no honest server sends; `out` is unspecified
 };
 
@@ -74,7 +74,8 @@ class SnapshotWriter {
   /// Adds an encoded record. Call at most once for each id.
   void object(std::uint32_t id, const BitWriter& bits);
 
-  /// Like encode() and object() without a copy: returns the record's bits; then call commit() or drop().
+  /// Like encode() and object() without a copy. Returns the record's size in bits; then call commit() or
+  /// drop().
   std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
                     const SharedMotion& motion, LookForm form = {});
   void commit(std::uint32_t id);
@@ -117,11 +118,11 @@ class SnapshotWriter {
   BitWriter m_control;
   BitWriter m_encoded;     ///< the objects, in the order in which they were added
   std::size_t m_kept = 0;  ///< bits of m_encoded without the staged record
-  BitWriter m_out;         ///< a member to reuse its memory
+  BitWriter m_out;         ///< the finished snapshot; a member, so that its memory is reused
   unsigned m_origin_count = 0;
   unsigned m_text_count = 0;
   std::vector<Object> m_objects;
-  std::size_t m_bits = 0;  ///< size of the snapshot so far without ids
+  std::size_t m_bits = 0;  ///< size of the snapshot so far in bits, without ids
 };
 
 }  // namespace naiad

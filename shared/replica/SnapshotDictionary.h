@@ -10,7 +10,7 @@
 
 namespace naiad {
 
-/// Size of sequence ids: 0 … 4095.
+/// Size of sequence ids in bits. Ids are 0 … 4095.
 inline constexpr int kAppearanceIdBits = 12;
 inline constexpr std::uint32_t kMaxAppearances = 1u << kAppearanceIdBits;
 /// Limit of the glyphs of all named sequences together (Sequence::weight); a definition beyond it is refused.

@@ -51,7 +51,7 @@ bool isOutside(const ControlTable& table, df::FixedVector p) {
                            isOutside(p.y, table.bounds.corner.y, table.bounds.size.y));
 }
 
-/// Sets the velocity of the drives. Any velocity, of a drive or not, ends at the bounds, axis by axis.
+/// Sets the velocity of the drives. On an axis on which it would leave the bounds, any velocity becomes 0.
 void setOff(const ControlTable& table, const ControlState& state, SteeringTarget& object) {
   const Axes axes = driven(table);
   const df::FixedVector at = object.position();

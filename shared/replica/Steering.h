@@ -26,7 +26,8 @@ class SteeringTarget {
 void beginControlTick(const df::ControlTable& table, df::ControlState& state, SteeringTarget& object);
 
 /// Applies an action of a key. A drive acts immediately when its key is pressed, and with the next tick when
-/// the key is reported as held or released. Returns true if a row is for the key and an object is steered.
+/// the key is reported as held or released. Returns true if an object is steered and a row is for the key,
+/// and also for this action unless the row is a drive.
 bool applyControlKey(const df::ControlTable& table, df::ControlState& state, df::Keyboard::Key key,
                      df::EventKeyboardAction action, SteeringTarget& object);
 

@@ -9,8 +9,8 @@ namespace naiad {
 
 // The layout, drawn out in PROTOCOL.md:
 //
-//   update  acks 1 (newest 16, many missing 1, then the mask 64, or how many: exp-Golomb(0), and 6 each) |
-//           | checksum 1 (64 bits)
+//   update  acks 1 (newest 16, more than 8 missing 1, then the mask 64; else their number: exp-Golomb(0), and
+//           6 each) | checksum 1 (64 bits)
 //           | reset 1 | inputs: exp-Golomb(0) | id of the first 16, if any | each input
 //   input   tick 16, or for later ones signed exp-Golomb(2) from the one before | snapshots before the newest
 //           acknowledged: exp-Golomb(3) | mouse 1 | key 7, action 2, or action 2, button 2, x 9, y 8

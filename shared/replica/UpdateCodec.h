@@ -30,8 +30,8 @@ struct Input {
 struct ClientUpdate {
   AckWindow acks;                         ///< newest 0: nothing arrived yet
   std::optional<std::uint64_t> checksum;  ///< checksum of the replica with exactly the snapshots in `acks`
-  bool needs_reset = false;               ///< true if the replica is unusable: send the whole world again
-  std::vector<Input> inputs;              ///< unacknowledged inputs, with consecutive ids
+  bool needs_reset = false;   ///< true if the replica is unusable: the server must send the whole world again
+  std::vector<Input> inputs;  ///< unacknowledged inputs, with consecutive ids
 };
 
 /// Maximum number of inputs in one update.
@@ -48,7 +48,7 @@ struct UpdateContext {
   std::uint32_t tick = 0;      ///< newest published tick
   std::uint32_t input = 0;     ///< newest received input
 };
-/// Decodes an update; nullopt if a byte is malformed or a number out of its range.
+/// Decodes an update; nullopt if it is malformed, longer than kMaxUpdate, or a number is out of its range.
 std::optional<ClientUpdate> readUpdate(std::string_view bytes, const UpdateContext& context);
 
 }  // namespace naiad

@@ -41,7 +41,8 @@ class Canvas {
   /// Returns all rows, each followed by a newline, without trailing blanks.
   std::string text() const;
 
-  /// Returns the number of different cells; for different sizes, all cells of the larger area.
+  /// Returns the number of different cells. If the sizes differ, returns the larger width times the larger
+  /// height.
   friend int countDifferences(const Canvas& a, const Canvas& b);
 
  private:
@@ -56,8 +57,9 @@ void appendUtf8(std::string& out, char32_t ch);
 /// Decodes UTF-8; malformed bytes become U+FFFD.
 std::u32string decodeUtf8(const std::string& text);
 
-/// True if the character can be drawn in one cell: printable, one column wide, not a control, bidi or
-/// zero-width character. All characters sent to a terminal pass this test.
+/// True if the character is in one of the ranges that may be drawn. They have only printable characters that
+/// are one column wide: no control, bidi or zero-width characters. All characters sent to a terminal pass
+/// this test.
 bool isDrawable(char32_t ch);
 
 }  // namespace df

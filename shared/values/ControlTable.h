@@ -38,7 +38,7 @@ struct ControlRow {
   bool x = true;  ///< true if the row affects the x axis (kStep: always both)
   bool y = true;
   FixedVector value;       ///< kStep: distance in cells; else velocity in cells per tick; 0 on other axes
-  std::uint16_t wait = 0;  ///< ticks between two effects of the group's rows; 0 and 1: no wait
+  std::uint16_t wait = 0;  ///< minimum ticks from one effect of the group's rows to the next; 0: none
   std::uint8_t group = 0;
 
   friend bool operator==(const ControlRow& a, const ControlRow& b) {
@@ -62,7 +62,7 @@ struct ControlTable {
   friend bool operator!=(const ControlTable& a, const ControlTable& b) { return !(a == b); }
 };
 
-/// True if every number of the table is in its range.
+/// True if every number of the table is in its range, and the fields of each row fit together.
 bool isValid(const ControlTable& table);
 
 /// The state of an axis that keys drive.
@@ -81,7 +81,7 @@ struct ControlState {
   bool steering = false;  ///< keys have effects; otherwise they are only recorded
   ControlAxis x;
   ControlAxis y;
-  std::uint16_t silence = 0;                         ///< ticks since the last key, if `patience` is set
+  std::uint16_t silence = 0;  ///< ticks since a key was pressed or held, if `patience` is set
   std::array<std::uint16_t, kControlGroups> wait{};  ///< ticks until the group may act again
 
   friend bool operator==(const ControlState& a, const ControlState& b) {

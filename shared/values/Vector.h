@@ -54,7 +54,7 @@ class Vector {
   /// True for (0,0).
   bool operator!() const { return m_x == 0 && m_y == 0; }
 
-  /// Write and read both components. Return 0, or -1 if the stream failed.
+  /// Write and read both components. Return 0, or -1 if the stream is null or failed.
   int serialize(std::stringstream* p_ss) const;
   int deserialize(std::stringstream* p_ss);
 

@@ -1,4 +1,4 @@
-// Loads client.wasm and passes strings and bytes to and from it. client/web/WebMain.cpp has its exports.
+// Loads client.wasm and passes strings and bytes to and from it. client/web/WebMain.cpp defines its exports.
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -11,7 +11,7 @@ function wasi(memory) {
       view().setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
       return 0;
     },
-    // The module writes only when it fails; the console shows it.
+    // The module writes a text only when it fails; the console shows the text.
     fd_write(_fd, vectors, count, out) {
       let written = 0;
       for (let i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ export function hostFunctions(page, memory) {
   return {
     page: {
       open: page.open,
-      // A copy, because the socket may send it after the module's memory has changed.
+      // Passes a copy, because the socket may send it after the module's memory has changed.
       send: (stream, from, size) => page.send(stream, bytes(from, size).slice()),
       unsent: page.unsent,
       close: page.close,

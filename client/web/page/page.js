@@ -147,7 +147,7 @@ async function claimTab() {
   await hold(tab);
 }
 
-/** Takes a lock for the lifetime of the page. Resolves to false if another page has it. */
+/** Takes a lock for the lifetime of the page. Resolves to false if another page has the lock. */
 function hold(tab) {
   if (navigator.locks === undefined) return Promise.resolve(true);  // e.g. a page loaded without encryption
   return new Promise((resolve) => {

@@ -46,8 +46,9 @@ def missing_file(text):
 class Blame:
     """Judges errors of the compiler and the linker.
 
-    with_engine(unit) compiles a unit against the engine headers in the folder and returns its diagnostics; None if there are no
-    such headers. `own_engine`: the author wrote that engine. `main_code`: code of the program's main file.
+    with_engine(unit) compiles a unit against the engine headers in the folder and returns its diagnostics, or None if there are
+    no such headers or the compilation proves nothing. `own_engine`: the author wrote that engine. `main_code`: code of the
+    program's main file.
     """
 
     def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):

@@ -44,7 +44,7 @@ def limit_to(what, most, for_good=True):
 
 
 def run(argv, cwd=None, env=None, timeout=120.0):
-    """Runs argv without input, in a process group of its own, and kills the group when argv has ended."""
+    """Runs argv without input for at most `timeout` seconds, in a process group of its own, and kills the group at the end."""
     process = subprocess.Popen(argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     kept, timed_out = bytearray(), False

@@ -145,7 +145,7 @@ class Compiler:
     def check_with(self, unit, include):
         """Returns the diagnostics of a unit compiled against another engine's headers. Returns None if the compiler did not reach
         the unit's end or those headers do not compile, because then lines without an error prove nothing."""
-        forced, unit.forced = unit.forced, []  # these are Naiad's headers
+        forced, unit.forced = unit.forced, []  # these may be Naiad's headers
         command = [word for word in self._command(unit, max_errors=0) if word != "-c"]
         unit.forced = forced
         at = command.index("-I")

@@ -12,7 +12,7 @@ from .folder import is_source
 _SEPARATORS = re.compile(r"[\s\"'<>|;,()=:]+")
 _SOURCE_WORD = re.compile(r".+\.(?:cpp|cc|cxx|c\+\+|C)(?!\w)")
 _OBJECT_WORD = re.compile(r"([\w./-]+)\.o(?!\w)")
-MAX_PROJECT_FILE = 1 << 20
+MAX_PROJECT_FILE = 1 << 20  # maximum bytes; larger project files are not read
 MAX_PROJECT_FILES = 60  # maximum number read: those in the fewest subfolders
 MAX_WORD = 300  # maximum characters of a source's path
 MAX_WORDS = 5000
@@ -80,7 +80,7 @@ def _words(name, text):
 
 
 def _definitions(text):
-    """Returns the -D options of a Makefile, except those for other systems."""
+    """Returns the -D options in the text of a project file, except those for other systems."""
     found = _DEFINITION.findall(re.sub(r"(?m)(?<!\\)#.*$", "", text))
     return [f"-D{one}" for one in dict.fromkeys(found) if not _OTHER_SYSTEM.match(one)][:MAX_DEFINITIONS]
 
@@ -106,7 +106,7 @@ def _with_variables(text):
 
 
 def _expanded(text):
-    """Returns the sources that a Makefile names, including patterns. If it names none, derives them from the object files."""
+    """Returns the sources that a Makefile or the like names, with patterns. If it names none, derives them from object files."""
     here = "wildcard|CMAKE_CURRENT_SOURCE_DIR|CMAKE_SOURCE_DIR|PROJECT_SOURCE_DIR"
     plain = re.sub(r"\$[({](?:" + here + r")[)}]?", " ./ ", text)
     words = [word for word in _SEPARATORS.split(re.sub(r"\./\s+/?", "./", plain)) if len(word) <= MAX_WORD]

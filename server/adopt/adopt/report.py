@@ -19,7 +19,7 @@ class Row:
 
 
 class Report:
-    """Rows and a result: "runs", "builds" (but does not run, or cannot be run here), "builds; not run" (--seconds 0),
+    """The rows and the result of a run: "runs", "builds" (but does not run, or cannot be run here), "builds; not run" (--seconds 0),
     "does not build", "not a game"."""
 
     def __init__(self, folder):
@@ -63,7 +63,7 @@ class Report:
 
 
 def _wrapped(out, text, label=""):
-    """Writes text in lines of 100 columns with the table's indentation."""
+    """Writes text in lines of at most 100 columns with the table's indentation."""
     line = label.ljust(_INDENT)
     for word in text.split():
         if len(line) + len(word) > 100 and line.strip():

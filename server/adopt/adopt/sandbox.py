@@ -63,7 +63,7 @@ def _enter_namespaces():
     user, group = os.geteuid(), os.getegid()
     _call("unshare", _NEWUSER | _NEWNS | _NEWPID | _NEWIPC | _NEWNET | _NEWUTS | _NEWCGROUP)
     _write("/proc/self/setgroups", "deny")
-    # Never maps to root, even for root: a program executed as root gets all capabilities of its namespace.
+    # Maps no user to root, not even root, because a program executed as root gets all capabilities of its namespace.
     _write("/proc/self/uid_map", f"1000 {user} 1")
     _write("/proc/self/gid_map", f"1000 {group} 1")
 
@@ -134,8 +134,8 @@ def _drop_privileges():
 
 
 def limits(seconds, memory=MEMORY, confined=True):
-    """Sets the limits of a program, in the child before exec. memory 0: no limit. Not `confined`: no limit of processes either,
-    because outside of a sandbox it would count all threads of the user."""
+    """Sets the limits of a program, in the child before exec, and drops its capabilities. memory 0: no limit. Not `confined`: no
+    limit of processes either, because outside of a sandbox it would count all threads of the user."""
     limit_to(resource.RLIMIT_CORE, 0)
     limit_to(resource.RLIMIT_FSIZE, 32 << 20)
     limit_to(resource.RLIMIT_NOFILE, 256)
@@ -158,7 +158,7 @@ def _drop_effective():
 
 def run(function, root, shown, timeout, megabytes=64):
     """Runs function() as process 1 of a new sandbox, with its root mounted on the empty folder `root`. `shown`: paths that it may
-    read. Returns its result, passed as JSON, or None if it did not end within `timeout` seconds.
+    read. Returns its result, passed as JSON, or None if it gave none within `timeout` seconds. Raises SandboxError, RuntimeError.
     """
     reader, writer = os.pipe()
     child = os.fork()

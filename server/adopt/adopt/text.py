@@ -67,7 +67,7 @@ class Sources:
         if encoding == "UTF-16":
             self.recoded.append(name)
         if encoding != "UTF-8":
-            self._write(name, lines)  # the compiler must count columns in the text that is read here
+            self._write(name, lines)  # so that the compiler's column numbers refer to the text as it was read here
         return lines
 
     def _write(self, name, lines):

@@ -133,7 +133,7 @@ class Treatments:
         return done
 
     def _clang_return_type(self, diagnostic):
-        """Like _return_type(), for clang, whose message names no class. Changes the declaration, later definitions that differ."""
+        """Like _return_type(), for clang, whose message names no class. Changes the declaration; a later message, the definition."""
         match = _CLANG_CONFLICT.search(diagnostic.text)
         if match:
             name, old, goal = match.group("name"), match.group("type"), match.group("goal")

@@ -13,7 +13,7 @@ from .text import shown
 
 START_SECONDS = 20  # time limit until the game listens
 END_SECONDS = 8  # time limit until the game has ended after SIGTERM
-MAX_ROUNDS = 20
+MAX_ROUNDS = 20  # maximum times that the game is started, if it ends normally before the time is over
 _TICKS = re.compile(r"\bbot ok .*\bticks=(\d+) objects=(\d+)")
 _LOG_BYTES = 64 << 10
 _ASAN = "detect_leaks=0:alloc_dealloc_mismatch=0:detect_odr_violation=0:handle_segv=2:handle_abort=2:handle_sigfpe=2:" \
@@ -59,7 +59,7 @@ class Trial:
         return Outcome(**answer)
 
     def inside(self):
-        """Runs in the sandbox as process 1. Returns the arguments of Outcome."""
+        """Plays the game until the time is over. In a sandbox, this is its process 1. Returns the arguments of Outcome."""
         shutil.copytree(self.tree, self.game, symlinks=True, dirs_exist_ok=True)
         started = time.monotonic()
         ticks = objects = rounds = 0

@@ -50,7 +50,8 @@ class Verdicts:
         return "\n".join(texts)
 
     def _against_engine(self, unit):
-        """Returns the diagnostics of a unit compiled against the engine headers in the folder; None without such headers."""
+        """Returns the diagnostics of a unit compiled against the engine headers in the folder; None without such headers, or if
+        check_with() returns None."""
         count = {}
         for name in self._game.engine.files:
             if not is_source(name):

@@ -18,7 +18,7 @@ constexpr int kFinerWidthBits = 2;
 constexpr int kFinerHeightBits = 1;
 
 constexpr double kWide = 64;  // largest number of cells per character with which spots pay
-constexpr double kFew = 512;
+constexpr double kFew = 512;  // characters; fewer count as this many in that comparison
 
 int bitsFor(Fixed size) {
   return size <= 1 ? 0 : std::bit_width(static_cast<std::uint64_t>(size - 1));
@@ -171,7 +171,7 @@ void Grid::drop(Slot slot) {
   }
 }
 
-// Sizes the arrays, and places the part of the torus that lies flat over the area where the boxes are now.
+// Sizes the arrays, and makes the part of the world that is mapped without a turn begin at the boxes' area.
 void Grid::Level::shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1,
                         std::int64_t y1) {
   assert(std::has_single_bit(word_count) && word_count >= 64);

@@ -9,12 +9,14 @@
 // A level has two arrays: one bit per cell, set if it is occupied, with 64 cells of a row in a word and then
 // the words of the rows below; and the first slot of each cell. Nine cells are looked up in three
 // neighbouring words. Level 0 has a third array with the spot of each cell: the place of its character within
-// the cell, in 15 bits. With the spots, only those of the nine characters are read that touch, or nearly so.
-// (The array is missing if characters are few and far apart.) Cells are mapped onto the arrays as onto a
-// torus. The part of the world over which the boxes of a level are spread lies flat on it, if there is room.
-// Cells a whole turn away share the same entries, shifted by a hash, and the exact test tells them apart. So
-// the arrays have 32 to 64 cells per box, wherever the boxes are. Queries read only occupied cells. Nothing
-// is allocated when a box moves.
+// the cell, in 15 bits. Because of the spots, only those of the nine characters are read that touch, or
+// almost touch. (The array is missing if characters are few and far apart.)
+//
+// The world's cells are mapped onto the arrays as onto a torus: the last column or row of the arrays is
+// followed by the first one again (a turn). The part of the world over which the boxes of a level are spread
+// is mapped without a turn, if there is room. Cells that are one or more turns apart share entries, shifted
+// by a hash; the exact test then distinguishes their boxes. So the arrays have 32 to 64 cells per box,
+// wherever the boxes are. Queries read only occupied cells. Nothing is allocated when a box moves.
 //
 // When a character moves, the other levels are searched only if a bit of its cell of level 0 says that one of
 // their boxes may be there (GridCoverageMask.h). The bits are kept while such boxes cover few cells.
@@ -92,8 +94,8 @@ class Grid {
   static constexpr std::size_t kRowOfSpots = 4;    // spots that are read at once; three are used
   static constexpr std::int64_t kBlock = 64;       // cells per side of a block
   static constexpr std::uint8_t kNotFiled = 0xff;  // value of Record::level
-  static constexpr std::size_t kMinWords = 256;
-  static constexpr std::size_t kBoxesPerWord = 2;  // maximum, on average over a level
+  static constexpr std::size_t kMinWords = 256;    // number of words of a level when it gets its first box
+  static constexpr std::size_t kBoxesPerWord = 2;  // maximum number of boxes per word, averaged over a level
 
   struct Record {
     std::uint32_t cell = 0;
@@ -107,9 +109,9 @@ class Grid {
   struct Level {
     int x_shift = kFixedBits;
     int y_shift = kFixedBits;
-    std::int64_t base_x = 0;  // first block of the part of the torus that lies flat
+    std::int64_t base_x = 0;  // first block of the part of the world that is mapped without a turn
     std::int64_t base_y = 0;
-    int x_bits = 0;  // log2 of the number of blocks in a turn of the torus
+    int x_bits = 0;  // log2 of the number of blocks in one turn of the torus
     int y_bits = 0;
     std::int64_t x_mask = 0;
     std::uint32_t word_mask = 0;

@@ -17,8 +17,8 @@ namespace df {
 /// necessary.
 class Grid::CoverageMask {
  public:
-  /// If all boxes together take more than this many cells per character, the cover is no longer exact. At
-  /// half as many it becomes exact again.
+  /// If all boxes of other levels together take more than this many cells per character, the cover is no
+  /// longer exact. At half as many cells it becomes exact again.
   static constexpr int kMaxCellsPerCharacter = 8;
   static constexpr std::uint64_t kMaxArea = 4096;  ///< limit of cells per box; a larger box sets all bits
 
@@ -30,7 +30,8 @@ class Grid::CoverageMask {
   bool isExact() const { return m_is_exact; }
   /// Sets whether all bits count as set. Keeps the filed boxes.
   void cover(bool is_covered);
-  /// Files a box at `world_box`, even if it is filed elsewhere already. The cover must be exact.
+  /// Files the slot's box at `world_box`, and removes it from where it was filed before. The cover must be
+  /// exact.
   void file(const Level& level, Slot slot, const FixedBox& world_box);
   void remove(const Level& level, Slot slot);
   /// Returns the bits, arranged like the words of the level.

@@ -2,7 +2,7 @@
 
 namespace df {
 
-// Finds the touching characters if the nine cells lie in more than one block.
+// Does the work of isCharacterFree() if the nine cells lie in more than one block or contain many characters.
 bool Grid::Steps::findAround(Slot s, FixedVector where) {
   --m_nine_cells;
   ++m_grid.m_mover_stats.far_cells;

@@ -100,8 +100,8 @@ class Grid::Steps::Nine {
     const Eight outer_x = outer & 0xFF;
     const Eight outer_y = outer >> 8 & 0x7F;
     const Eight inner_x = inner & 0xFF;
-    // A character on the left is too far if it is farther left in its cell than the middle one in its own;
-    // and so on.
+    // A character on the left is too far if it is farther left in its cell than the middle one is in its own
+    // cell; accordingly for the right, above and below.
     constexpr Eight kLeft{-1, 0, 0, 0, -1, 0, 0, 0};
     constexpr Eight kRight{0, 0, -1, 0, 0, 0, -1, 0};
     constexpr Eight kAbove{-1, -1, -1, -1, 0, 0, 0, 0};
@@ -110,8 +110,8 @@ class Grid::Steps::Nine {
     const Eight far_inner = ((inner_x < x) & kLeft) | ((inner_x > x) & kRight);
     m_near = ~bits(far_outer, far_inner) | bits(outer, inner);  // a cell with kSeveral always counts as near
   }
-  /// Returns the bits of the cells whose character may touch. It does touch, unless it misses by less than
-  /// the resolution of spots, or is a neighbour only on the torus.
+  /// Returns the bits of the cells whose character may touch. The character does touch, unless it misses by
+  /// less than the resolution of spots, or is a neighbour only on the torus (Grid.h).
   unsigned near() const { return m_near; }
 
  private:
@@ -249,7 +249,7 @@ inline void Grid::Steps::found(Slot t) {
 }
 
 inline void Grid::Steps::fileAtTarget(Slot s) {
-  if (m_plain) {  // to an empty cell, from one that held only it and that isFree() has marked empty
+  if (m_plain) {  // `s` was alone in its cell, which isFree() has marked empty, and the target cell is empty
     m_p_records[s].cell = m_cell;
     m_p_words[m_cell >> 6] |= std::uint64_t{1} << (m_cell & 63);
     m_p_heads[m_cell] = s;

@@ -16,7 +16,7 @@ class Mask {
   static constexpr int kMaxSide = 1024;
 
 #if __cplusplus >= 201703L
-  /// Makes a mask from one string words per row, UTF-8; a character is set unless it is a blank or `hole`.
+  /// Makes a mask from one UTF-8 string per row; a character is set unless it is a blank or `hole`.
   /// Shorter rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than
   /// kMaxSide.
   static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
@@ -38,7 +38,7 @@ class Mask {
 
   int m_width = 0;
   int m_height = 0;
-  int m_words = 0;                    // per row
+  int m_words = 0;                    // words per row of m_bits
   std::vector<std::uint64_t> m_bits;  // row by row, character x of a row in bit x % 64 of word x / 64
 };
 

@@ -1,5 +1,5 @@
 // Counts of the code paths that a world's moves have taken: tests check that each is taken, measurements show
-// which were measured. Many Objects that are moved together are counted together.
+// which were measured. Objects that are moved together are counted one by one, but added in one step.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@ namespace df {
 struct MoverStats {
   // Turns of Objects in update(), by what happened in them.
   std::uint64_t flown = 0;     ///< SPECTRAL Objects in consecutive slots, moved together
-  std::uint64_t walked = 0;    ///< solid Objects that touched nothing
+  std::uint64_t walked = 0;    ///< solid Objects that touched nothing, and those of `unheard` that moved
   std::uint64_t met = 0;       ///< solid Objects that touched another
   std::uint64_t unheard = 0;   ///< solid Objects that touched many others, none with a handler
   std::uint64_t deferred = 0;  ///< fliers and walkers that left the boundary, or whose masks shared no cell
-  std::uint64_t special = 0;   ///< Objects with an acceleration, an option, or a view that follows
-  // Moves that are tested along their whole path, and their further stages after a pair that did not block.
+  std::uint64_t special = 0;   ///< others, for example with an acceleration, an option or a following view
+  // Swept moves, and searches of such moves repeated because a pair that could block them did not.
   std::uint64_t swept = 0;
   std::uint64_t swept_again = 0;
   // Queries of the broad phase for a turn: characters at their nine cells, boxes at a few cells, and either

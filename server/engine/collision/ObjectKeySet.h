@@ -25,17 +25,17 @@ class ObjectKeySet {
     m_count = 0;
     if (m_places.size() <= kMax) {
       m_places.assign(m_places.size(), {});
-    } else {  // large: frees it, because every later clear() would have to wipe it all
+    } else {  // frees the large table, because every later clear() would have to wipe it all
       m_places = {};
     }
   }
 
  private:
-  static constexpr std::size_t kMin = 16;    // a power of two
+  static constexpr std::size_t kMin = 16;    // first size of the table; a power of two
   static constexpr std::size_t kMax = 1024;  // largest size that clear() keeps
 
-  // Returns the index of the key or of a free entry. Generation 0 marks a free one:
-  // those of Objects begin with 1.
+  // Returns the index of the key or of a free entry. Generation 0 marks a free entry; generations of Objects
+  // begin with 1.
   std::size_t find(ObjectKey key) const {
     const std::uint64_t hash =
         ((std::uint64_t{key.generation} << 32) | key.slot) * std::uint64_t{0x9E3779B97F4A7C15};

@@ -74,7 +74,7 @@ Sweep::Sweep(const FixedBox& box, FixedVector from, FixedVector to) : m_from(fro
   m_y = axis(box.corner.y, box.size.y, from.y, to.y);
 }
 
-// Returns when the low edge lies within [first, last], which the move reaches.
+// Returns the steps at which the low edge lies within [first, last], which the move reaches.
 Sweep::Stay Sweep::Axis::stayWithin(Fixed first, Fixed last) const {
   if (direction >= 0) return {low < first ? distance(first, low) : 0, distance(last, low) + 1};
   return {low > last ? distance(low, last) : 0, distance(low, first) + 1};
@@ -104,8 +104,8 @@ std::uint64_t Sweep::Axis::stepsBefore(Moment moment) const {
   return static_cast<std::uint64_t>((multiply(length, moment.numerator) - 1) / moment.denominator);
 }
 
-// Returns the steps until the mask's first character is drawn in `cell`, ahead of it. UINT64_MAX if nothing
-// moves.
+// Returns the number of steps until the mask's first character is drawn in `cell`, which lies ahead of the
+// character. Returns UINT64_MAX if the axis does not move.
 std::uint64_t Sweep::Axis::stepsToCell(std::int64_t cell) const {
   if (direction > 0) return distance(lowOfCell(cell), low);
   if (direction < 0) return distance(low, lowOfCell(cell + 1) - 1);
@@ -175,7 +175,7 @@ std::optional<Moment> Sweep::firstShare(const Mask* p_own, const FixedBox& other
     if (closesGap(other)) return enter;
     if (endsWithin(x, y) && share(cellAfter(m_x, m_x.length), cellAfter(m_y, m_y.length))) return enter;
   }
-  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // two full masks share cells only once
+  if (p_own == nullptr && p_others == nullptr) return std::nullopt;  // full masks share cells without a break
 
   // Visits one cell of the first character after another, in the order of time.
   const Still still_x(p_own == nullptr, own.width, p_others == nullptr, cells.x, cells.width);

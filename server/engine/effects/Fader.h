@@ -7,7 +7,7 @@ namespace df {
 
 class Fader : public Particle {
  public:
-  /// Makes a Particle whose opacity falls evenly while it lives.
+  /// Makes a Particle whose opacity falls by `opacity` / `age`, rounded down, in each tick.
   Fader(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b);
   Fader(float size, int age, unsigned char opacity, Color color);
 

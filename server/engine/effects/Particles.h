@@ -23,8 +23,8 @@ int addParticles(int count, int count_spread, Vector position, float position_sp
 /// Adds smoke, sparks, rings or fireworks; CUSTOM means their own colours. Returns 0, or -1 for an unknown
 /// type.
 int addParticles(ParticleType type, Vector position, float scale = 1.0, Color color = CUSTOM);
-/// Adds snow, rain or stars all over the world, which never end. Returns 0, or -1 for an unknown type or
-/// direction.
+/// Adds snow, rain or stars all over the world. These particles do not age. Returns 0, or -1 for an unknown
+/// type or direction.
 int addParticles(PrecipitationType type, Direction direction, float scale = 1.0, Color color = CUSTOM);
 /// Makes the characters of frame `index` fly apart (together, if `speed` is negative) for `age` ticks.
 /// Returns 0, or -1 if `p_sprite` is null or has no such frame.

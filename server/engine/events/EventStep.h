@@ -1,11 +1,12 @@
-// Sent once per tick, before anything else happens in the tick (book, Listing 4.53).
+// Sent once per tick, unless the game is paused, before anything else happens in the tick (book, Listing
+// 4.53).
 #pragma once
 
 #include "Event.h"
 
 namespace df {
 
-/// Register interest in this to be called in each tick, 30 times a second.
+/// Register interest in this to be called in each tick, 30 times a second by default.
 inline const EventType STEP_EVENT("df-step");
 
 class EventStep : public Event {

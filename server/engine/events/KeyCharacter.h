@@ -9,7 +9,7 @@ namespace df {
 
 /// Returns the character that a key types, with or without Shift; 0 if it types none.
 char characterOf(Keyboard::Key key, bool shift);
-/// Returns the key's name, such as "space", "a" or "f1".
+/// Returns the key's name, such as "space", "a" or "f1"; "undefined" for an unknown key.
 std::string nameOfKey(Keyboard::Key key);
 
 }  // namespace df

@@ -92,7 +92,8 @@ class Config {
 
   /// Writes the main settings to the log.
   void writeToLog() const;
-  /// Reads the configuration file and returns its contents without comments; empty if the file is missing.
+  /// Reads the configuration file and returns its contents without comments; empty if the file is missing or
+  /// is not a regular file.
   std::string readConfig();
   /// Applies the settings in the text `str` or, if it is empty, in the file. Logs and ignores invalid values.
   void loadConfig(const std::string& str = "");

@@ -23,8 +23,8 @@ namespace df {
 /// Alignment of a string to its position.
 enum Justification {
   LEFT_JUSTIFIED,    ///< the string begins at the position
-  CENTER_JUSTIFIED,  ///< its middle is at the position
-  RIGHT_JUSTIFIED,   ///< it ends just before the position
+  CENTER_JUSTIFIED,  ///< the middle of the string is at the position
+  RIGHT_JUSTIFIED,   ///< the string ends just before the position
 };
 
 /// Size of the published engine's window, in pixels. Naiad does not use it.
@@ -53,11 +53,11 @@ class DisplayManager : public Manager {
   /// draw in exactly one cell becomes '?'. Returns 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char ch, Color color = COLOR_DEFAULT) const;
   int drawCh(Vector world_pos, char32_t ch, Color color = COLOR_DEFAULT) const;
-  /// Draws the character with the code `ch`, for example `'0' + digit`.
+  /// Draws the character with the ASCII code `ch`, for example `'0' + digit`; '?' for other numbers.
   int drawCh(Vector world_pos, int ch, Color color = COLOR_DEFAULT) const;
   /// Like drawCh(world_pos, ch, color): ignores the rotation, because terminals do not turn characters.
   int drawCh(Vector world_pos, char ch, Color color, float rotation) const;
-  /// Draws in that of the eight terminal colours that is nearest to this mix of red, green and blue.
+  /// Draws in the terminal colour, one of eight, that is nearest to this mix of red, green and blue.
   int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
              float rotation = 0) const;
   /// Draws a UTF-8 string, one character per cell. Returns 0. If drawCh() would return -1, draws nothing and
@@ -66,7 +66,7 @@ class DisplayManager : public Manager {
                  Color color = COLOR_DEFAULT) const;
 
   /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150. Set it before GM.run(). A
-  /// boundary that was never set follows. setSize() returns 0, or -1 for a size out of range.
+  /// boundary that was never set gets this size, too. setSize() returns 0, or -1 for a size out of range.
   int setSize(int horizontal, int vertical);
   int getHorizontal() const;
   int getVertical() const;
@@ -81,8 +81,8 @@ class DisplayManager : public Manager {
   /// Returns true, or false for an unknown colour.
   bool setBackgroundColor(Color new_color);
   /// Shakes the picture for `duration` ticks by up to `scale_x` and `scale_y` pixels. If `delta`, these are
-  /// added to the present shake. The picture moves by whole cells of about 13 by 32 pixels; view objects do
-  /// not move.
+  /// added to the present shake. The picture moves by whole cells of about 13 by 32 pixels, so a scale above
+  /// 0 counts as at least one cell, and at most 20; view objects do not move.
   void shake(int scale_x, int scale_y, int duration, bool delta = false);
   /// Does nothing, because characters are shown at the end of the tick. Returns 0.
   int swapBuffers() { return 0; }

@@ -1,7 +1,8 @@
 // Writes log lines (book, Listing 4.6).
 //
 // Lines go to the current world's sink. If it has none, they go to the file dragonfly.log in the working
-// directory, which is opened and emptied for the first line of a process.
+// directory, or to the file in the setting `logfile`. This file is opened and emptied for the first line of a
+// process.
 #pragma once
 
 #include <functional>
@@ -37,6 +38,7 @@ class LogManager : public Manager {
     return writeLog(log_level, fmt, printable(printed)...);
   }
   /// Like writeLog(), but writes to another file in the working directory. A process's first line empties it.
+  /// Returns -1 also if the file cannot be written.
   int writeMyLog(const std::string& filename, const char* fmt, ...) const
       __attribute__((format(printf, 3, 4)));
   int writeMyLog(const std::string& filename, int log_level, const char* fmt, ...) const

@@ -1,7 +1,7 @@
 // Base class of the engine's managers, and of managers that a game adds (book, Listing 4.2).
 //
-// The engine's own managers hold no state: each call goes to the calling thread's current World. A reference
-// to one never becomes invalid.
+// The engine's own managers have no state: each call goes to the calling thread's current World. A reference
+// to such a manager never becomes invalid.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ class Manager {
 
   /// Starts the manager. Returns 0 if ok, else -1.
   virtual int startUp();
-  /// Releases what startUp() acquired.
+  /// Stops the manager. An override releases the resources that its startUp() acquired.
   virtual void shutDown();
   /// True between startUp() and shutDown().
   virtual bool isStarted() const;

@@ -1,7 +1,7 @@
 // Loads sprites, sounds and music and keeps them by their labels (book, Listings 4.141 and 4.172).
 //
-// File names are relative to the working directory. An error in a file is logged with the file's name and the
-// line. A label in use keeps what was loaded first.
+// Files are searched for in the working directory, then in the folders that the host has added. An error in a
+// file is logged with the file's name and the line. A label in use keeps the resource that was loaded first.
 #pragma once
 
 #include <string>

@@ -124,8 +124,8 @@ class WorldManager : public Manager {
   /// are.
   void setSweptCollisions(bool swept = true);
   bool getSweptCollisions() const;
-  /// Moves every active Object by its velocity, once, then deletes the marked Objects. Does nothing else that
-  /// a tick does; see GM.tick().
+  /// Moves every active Object by its velocity, once, including bodies, then deletes the marked Objects. Does
+  /// nothing else that a tick does; see GM.tick().
   void update();
   /// Draws all Objects in view. GM.tick() calls it.
   void draw();

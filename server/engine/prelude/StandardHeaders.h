@@ -1,5 +1,5 @@
-// The headers of the standard library that games of the published engine expect its headers to include, in
-// both spellings, because games call rand() and std::rand() alike.
+// The headers of the standard library that games of the published engine expect its headers to include. Those
+// of C are there in both spellings (stdlib.h, cstdlib), because games call rand() and std::rand() alike.
 #pragma once
 
 // NOLINTBEGIN(modernize-deprecated-headers)

@@ -1,5 +1,5 @@
 // The event of the published engine's sockets. The engine sends it only to games that are servers
-// (NetworkManager.h), when players come and go.
+// (NetworkManager.h), when players become connections or leave, and when the game closes a connection.
 #pragma once
 
 #include <string>

@@ -51,9 +51,10 @@ EventMouseNetwork fromNetwork(const EventMouse& mouse) {
   return event;
 }
 
-// Sends an input as a network event. Returns true if it must not be sent as a local event, too. If no Object
-// is interested in the network event, the local event is sent, so that a key to leave works in a game that is
-// played with the mouse. But a server that is a player itself gets local events only of its own player.
+// Sends the input of a connected player as a network event. Returns true if the input must not be sent as a
+// local event, too: if an Object got the network event, or if the server is a player itself and the input is
+// another player's. So if a game's Objects are interested only in the network events of the mouse, keys still
+// work as local events.
 template <class Local>
 bool handOn(World& world, const Local& local) {
   const Connections& c = world.extras().connections;
@@ -72,7 +73,7 @@ bool handOn(World& world, const Local& local) {
 /// Messages that the server sends are dropped, because all players see the server's world.
 ///
 /// If the server is a player itself, with keys that no client has, df-config.txt must have
-/// `server_plays:true,`. Then the first player sits at the server and is not a connection.
+/// `server_plays:true,`. Then the first player plays as the server and is not a connection.
 class NetworkServer {
  public:
   /// Makes this world's players connections, until end().
@@ -153,7 +154,7 @@ Connections& connections() {
   return World::current().extras().connections;
 }
 
-// Logs that `what` is not supported, once for each world. Returns -1.
+// Logs the line `what` about an unsupported call. Logs only the first such line of each world. Returns -1.
 int logUnsupportedOnce(const std::string& what) {
   World& world = World::current();
   bool& said = world.extras().network_logged;

@@ -5,9 +5,9 @@
 // Of a game that was written as two programs only the server's half runs: after setServer() each player that
 // joins is a connection. EventNetworkAccept reports it, with a socket (0, 1, …), and EventNetworkClose when
 // they leave. Their keys and mouse come as EventKeyboardNetwork and EventMouseNetwork with that socket, or as
-// local events if no Object is interested in those. Messages to clients count as sent and are dropped. The
-// client's half has nothing to do: connect() fails, with a line in the log. docs/bring-your-game.md has the
-// details.
+// EventKeyboard and EventMouse if no Object is interested in the former. Messages to clients count as sent
+// and are dropped. The client's half has nothing to do: connect() fails, with a line in the log.
+// docs/bring-your-game.md has the details.
 #pragma once
 
 #include <string>
@@ -36,7 +36,7 @@ class NetworkManager : public Manager {
   int accept();
   /// Returns -1.
   int connect(const std::string& host, const std::string& port = DRAGONFLY_PORT);
-  /// Drops the message. Returns 0 on the server, if the socket is connected, else -1.
+  /// Drops the message. Returns 0 on the server if the socket is connected or -1 (all sockets), else -1.
   int send(const void* buffer, int bytes, int sock = -1);
   int sendNow(const void* buffer, int bytes, int sock = 0) { return send(buffer, bytes, sock); }
   int sendDelayed() { return 0; }

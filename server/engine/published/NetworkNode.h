@@ -19,7 +19,7 @@ DF_ENUM MessageType{
 
 class NetworkNode : public Object {
  public:
-  /// Makes it SPECTRAL and interested in NETWORK_EVENT.
+  /// Makes a SPECTRAL Object that is interested in NETWORK_EVENT.
   NetworkNode();
 
   /// Passes a NETWORK_EVENT to one of the handlers below and returns its result.
@@ -30,9 +30,9 @@ class NetworkNode : public Object {
   virtual int handleClose(const EventNetwork* /*p_e*/) { return 0; }
   virtual Object* createObject(std::string /*object_type*/) { return nullptr; }
 
-  // On a server these return 1, 0 if no player is connected (`sock` -1), or -1 if socket `sock` is not
-  // connected. With result 1, synchronised attributes count as written (Object::isModified). Without a server
-  // they return -1.
+  // The functions below return 1; 0 if no player is connected (`sock` -1); -1 if socket `sock` is not
+  // connected, if `p_obj` is null, or if the game is not a server. With result 1, the attributes in a
+  // SYNC_OBJECT message count as written (Object::isModified).
 
   int sendMessage(MessageType msg_type, int sock = -1);
   int sendMessage(MessageType msg_type, Object* p_obj, unsigned int attr = 0, int sock = -1);

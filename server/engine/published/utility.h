@@ -34,7 +34,7 @@ std::string toString(bool b);
 std::string toString(Color color);
 std::string toString(const Shape& shape);
 std::string toString(const Path& path);
-/// Returns the key's name, such as "space", "a" or "f1".
+/// Returns the key's name, such as "space", "a" or "f1"; "undefined" for an unknown key.
 std::string toString(Keyboard::Key key_val);
 std::string toString(Solidness solid);
 std::string toString(ViewObjectLocation location);

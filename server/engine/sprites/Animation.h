@@ -2,7 +2,7 @@
 //
 // An Object's animation advances once per tick, after all Objects have been drawn, whether or not it is in a
 // view. It does not advance while the Object is inactive or invisible or the game is paused. An Animation
-// that a game holds itself advances with each draw().
+// that is not an Object's, but a game's own variable, advances with each draw().
 #pragma once
 
 #include <string>
@@ -45,15 +45,16 @@ class Animation {
   int getSlowdownCount() const { return m_slowdown_count; }
 
   /// Mirrors the frames when they are drawn. Characters with a mirror image, such as / and <, are replaced by
-  /// it. The box does not change. In collisions of such an Object, characters are not compared
-  /// (Object::setPrecise).
+  /// it. The box does not change. A precise test of collisions (Object::setPrecise) does not compare mirrored
+  /// frames, but takes the Object's mask or, without a mask, its whole box.
   void setTransform(Transform new_transform) { m_transform = new_transform; }
   Transform getTransform() const { return m_transform; }
 
   /// Returns the sprite's box; without a sprite, a box of 1 by 1 around the position.
   Box getBox() const;
 
-  /// Draws the frame around a position, then advances by a tick. Returns 0, or -1 without a frame.
+  /// Draws the frame around a position, then advances by a tick. Returns 0, or -1 without a frame or if a
+  /// character could not be drawn.
   int draw(Vector position);
   /// Draws the frame without advancing.
   int paint(Vector position) const;

@@ -35,9 +35,9 @@ class Sprite {
   void setColor(Color new_color);
   Color getColor() const { return m_color; }
 
-  /// Returns 0, or -1 if there are max_frames already.
+  /// Adds a frame at the end. Returns 0, or -1 if there are max_frames already.
   int addFrame(Frame new_frame);
-  int getFrameCount() const { return static_cast<int>(m_frames.size()); }  ///< Number of frames.
+  int getFrameCount() const { return static_cast<int>(m_frames.size()); }
   /// Returns a frame; an empty frame if `frame_number` is not in 0 … getFrameCount()-1.
   Frame getFrame(int frame_number) const;
 
@@ -58,12 +58,13 @@ class Sprite {
   void setTransparency(char new_transparency);
   char getTransparency() const { return m_transparency; }
 
-  /// Draws one frame around a position (Frame::draw). Returns 0, or -1 for a number without a frame.
+  /// Draws one frame around a position (Frame::draw). Returns 0, or -1 for a number without a frame or if a
+  /// character could not be drawn.
   int draw(int frame_number, Vector position, char transparency) const;
   int draw(int frame_number, Vector position) const { return draw(frame_number, position, m_transparency); }
 
   /// Returns the mask of a frame for precise collisions: set are the characters that are neither blank nor
-  /// transparent. Null for a number without a frame.
+  /// transparent. Null for a number without a frame, and for a frame of no size or above Mask::kMaxSide.
   const Mask* mask(int frame_number) const;
 
   /// Returns a text for log lines.

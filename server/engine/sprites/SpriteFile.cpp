@@ -75,7 +75,7 @@ struct Header {
   explicit Header(std::vector<std::string>* warnings)
       : p_warnings(warnings), slowdown(warnings != nullptr ? 0 : 1) {}
 
-  std::vector<std::string>* p_warnings;  // not null: accept more, and list it here (SpriteFile.h)
+  std::vector<std::string>* p_warnings;  // if not null, more is accepted and listed here (SpriteFile.h)
   std::optional<int> frames;
   std::optional<int> width;
   std::optional<int> height;

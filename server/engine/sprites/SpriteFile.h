@@ -1,9 +1,9 @@
 // Reads sprite files in the three formats that are in use (docs/dragonfly-api.md shows one of each):
 //
 // - header: <HEADER> frames, width, height, optionally color, slowdown, transparency, in any order </HEADER>
-//   <BODY> the rows of each frame, then a line "end" </BODY> <FOOTER> version </FOOTER>;
-// - old: lines frames, width, height, color, perhaps slowdown; the rows of each frame, then "end"; at last
-//   "eof";
+//   <BODY> the rows of each frame, then a line "end" </BODY> optionally <FOOTER> version </FOOTER>;
+// - old: lines frames, width, height, optionally color and slowdown; the rows of each frame, then "end"; at
+//   last, optionally, "eof";
 // - simple: five lines with the numbers of frames, width, height and slowdown and the colour; then all rows.
 //
 // Lines may end in LF or CR LF; the last one needs no end. A row has exactly `width` characters: blanks at

@@ -89,7 +89,8 @@ class GameThread : private Runner {
     m_in_run = m_has_run = true;
     switchTo(false, lock);
   }
-  /// Lets the other thread run until it hands back control. `game`: lets the game's thread run.
+  /// Lets the other thread run until it hands back control, or until main() ends. `game` is true for the
+  /// game's thread, false for the test's.
   void switchTo(bool game, std::unique_lock<std::mutex>& lock) {
     m_games_turn = game;
     m_turned.notify_all();

@@ -58,7 +58,7 @@ class GameTest {
   // Players.
 
   /// Adds a player; one tick passes. Returns the player's id: 1, 2, …; ids are not reused. An empty name
-  /// becomes "player 1" and so on. Players get the colours in turn.
+  /// becomes "player N" for the Nth player in the game at that time, and the colour also depends only on N.
   std::uint32_t join(const std::string& name = "");
   /// Removes a player; one tick passes.
   void leave(std::uint32_t player = 0);

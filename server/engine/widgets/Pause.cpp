@@ -12,7 +12,7 @@ namespace df {
 
 namespace {
 
-constexpr int kVoteTicks = 300;
+constexpr int kVoteTicks = 300;  // ticks for which a vote counts after the newest one: ten seconds
 
 /// Returns the players that can vote: those whose input the host passes on.
 std::vector<std::uint32_t> votersOf(const World& world) {
@@ -84,7 +84,8 @@ void Pause::leave(std::uint32_t player) {
   }
 }
 
-// Counts the votes and pauses or continues if they are enough. `announce`: shows the count in any case.
+// Counts the votes and pauses or continues if they are enough. Shows the count to the players if they are
+// enough or `announce` is true.
 void Pause::count(std::size_t voters, bool announce) {
   World& world = *getWorld();
   const bool enough = 2 * m_votes.size() > voters;

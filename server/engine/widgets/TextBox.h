@@ -1,4 +1,4 @@
-// Several lines of text in a box on the view. If the text is longer, its end is shown.
+// Several lines of text in a box on the view. If the text is longer than the box, its end is shown.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ class TextBox : public ViewObject {
   void addText(const std::string& new_text) { m_text += new_text; }
   const std::string& getText() const { return m_text; }
   void clearText() { m_text.clear(); }
-  /// Size inside the border, in characters: 1 by 1 to 400 by 150.
+  /// Size inside the border, in characters: 1 by 1 to 400 by 150. setSize() ignores other sizes.
   void setSize(Vector new_size);
   Vector getSize() const { return m_size; }
   /// Whether there is a blank on either side of each row.

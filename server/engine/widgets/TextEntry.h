@@ -41,7 +41,7 @@ class TextEntry : public ViewObject {
   void setText(std::string new_text);
   const std::string& getText() const { return m_text; }
   void clearText() { setText(""); }
-  /// Maximum length of the text, in characters.
+  /// Maximum length of the text, in characters. setLimit() truncates a longer text.
   void setLimit(int new_limit);
   int getLimit() const { return m_limit; }
   /// Index at which the next character is inserted, 0 to the length of the text.

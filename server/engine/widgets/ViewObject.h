@@ -48,10 +48,12 @@ class ViewObject : public Object {
 
   /// Draws the text and the value centred at its position, with the border if set. Returns 0, else -1.
   DF_DRAW draw() override;
-  /// Sets the value if the event is a VIEW_EVENT whose tag is the text. Returns 1 if it did so, else 0.
+  /// Sets the value, or adds to it, if the event is a VIEW_EVENT whose tag is the text. Returns 1 if it did
+  /// so, else 0.
   int eventHandler(const Event* p_e) override;
 
-  /// Sets the position to 1/6, 1/2 or 5/6 of the view's width, in the top, middle or bottom row.
+  /// Sets the position to 1/6, 1/2 or 5/6 of the view's width, in the top, middle or bottom row; a border at
+  /// the top or bottom takes that row, and the text is in the row next to it.
   virtual void setLocation(ViewObjectLocation new_location);
   /// Returns the location; UNDEFINED after setPosition().
   ViewObjectLocation getLocation() const { return m_location; }
@@ -82,7 +84,7 @@ class ViewObject : public Object {
   std::string toString() const { return m_view_string + " " + std::to_string(m_value); }
 
  protected:
-  /// Draws `text` centred at this ViewObject's position, with the border if there is one.
+  /// Draws `text` centred at this ViewObject's position, with the border if there is one. Returns 0, else -1.
   int drawText(const std::string& text) const;
 
  private:

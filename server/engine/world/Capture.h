@@ -28,11 +28,12 @@ class Capture {
 
   /// Clears the picture of the last tick.
   void clearPicture();
-  /// Draws the active visible Objects whose box intersects a view, by altitude, then creation order, as these
-  /// were when the call began. For Objects of class Object itself, draws only sprites, shapes and frames. A
-  /// static look (Object::setStaticLook) is drawn once and then repeated.
+  /// Draws the active visible Objects whose box intersects a view, and all active visible view objects, by
+  /// altitude, then creation order, as these were when the call began. For Objects of class Object itself,
+  /// draws only sprites, shapes and frames. A static look (Object::setStaticLook) is drawn once and then
+  /// repeated.
   void drawAll();
-  /// Adds one character, as drawn by the Object whose draw() is running.
+  /// Adds one character, as drawn by the Object whose draw() is running, or by no Object if none is.
   void add(FixedVector position, char32_t ch, Color color);
   /// Adds the present frame of the Object in this slot, as drawn by it.
   void addFrame(std::uint32_t slot);

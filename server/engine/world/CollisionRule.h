@@ -31,8 +31,8 @@ class CollisionRule {
     if (!m_store.hasPrecise() || !isPrecise()) return sweep.firstTouch(box);
     return sweep.firstShare(m_store.mask(m_mover), box, m_store.mask(m_other));
   }
-  /// True if the pair collides if the mover's box is `box`, which touches the other's: a precise pair must
-  /// share a cell.
+  /// True if the pair collides with the mover's box at `box`, which touches the other's box: a precise pair
+  /// must share a cell.
   bool collidesIn(const FixedBox& box) const {
     return !isPrecise() || shareCell(m_store.mask(m_mover), box, m_store.mask(m_other), otherBox());
   }

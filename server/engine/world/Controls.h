@@ -35,8 +35,9 @@ class Controls {
   Controls& velocityX(double vx);
   Controls& velocityY(double vy);
   /// While the key is down, whatever the action in onKey(), sets the velocity on those axes on which (vx,vy)
-  /// is not 0. If several keys drive one axis, the last one pressed wins. When a key goes up, the axis stops
-  /// with the next tick. The engine sets the velocity of a driven axis in every tick, so nothing else should.
+  /// is not 0. If several keys drive one axis, the last one pressed wins. When that key goes up, the axis
+  /// stops with the next tick. The engine sets the velocity of a driven axis in every tick, so nothing else
+  /// should.
   Controls& drive(double vx, double vy);
   /// Limits the step or velocity added last: all steps and velocities of one `group` (0 to 7) together act at
   /// most once in `ticks` ticks (up to 9000).
@@ -54,7 +55,8 @@ class Controls {
   Controls& releaseAfter(int ticks);
   [[deprecated("say releaseAfter")]] Controls& patience(int ticks) { return releaseAfter(ticks); }
 
-  /// Returns the table; nullopt if a number was not finite or out of range, or there are too many rows.
+  /// Returns the table; nullopt if a number was not finite or out of range, a key is unknown, every() was
+  /// called before a row or for a drive, or there are too many rows.
   std::optional<ControlTable> table() const;
 
  private:

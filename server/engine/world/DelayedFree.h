@@ -29,7 +29,8 @@ class PendingBlocks {
     }
     return false;
   }
-  /// Removes the block that begins at `p`. Call if a constructor threw before Object's constructor ran.
+  /// Removes the block that begins at `p`, if any: one for which a constructor threw before Object's
+  /// constructor ran.
   void cancel(const void* p) {
     for (std::size_t i = m_count; i-- > 0;) {
       if (m_blocks[i].begin == p) erase(i);

@@ -1,5 +1,5 @@
-// Sends events to the eventHandler()s of a world's Objects. The path of one event is inline, because a
-// crowded world spends most of its time there.
+// Sends events to the eventHandler()s of a world's Objects. The code that sends one event is inline, because
+// a crowded world spends most of its time there.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct WorldState;
 
 class EventDispatch {
  public:
-  /// `shut_down` is called after each handler while a shutdown is pending. Other arguments must outlive this.
+  /// `shut_down` is called after each handler while a shutdown is pending. The other arguments must outlive
+  /// this object.
   EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
                 std::function<void()> shut_down);
 
@@ -51,8 +52,8 @@ class EventDispatch {
     if (m_shutdown_pending) m_shut_down();
   }
   /// Sends a collision to the mover, then to the other Object, but not to one that is inactive or has no
-  /// handler. Stops if the first handler removes either. Both must be in the world. True if the mover still
-  /// is.
+  /// handler. Stops if the first handler removes either. Both must be in the world. Returns true if the mover
+  /// is still in the world.
   [[gnu::always_inline]] bool sendToBoth(ObjectKey mover, ObjectKey other, const EventCollision& event) {
     const WorldStore& store = m_store;
     if (store.handlesEvents(mover.slot)) {

@@ -40,7 +40,7 @@ std::optional<FixedVector> FreeSpaceSearch::nearest() {
   for (std::int64_t reach = kFirstReach;; reach = std::min(2 * reach, kReach)) {
     mark(xs.within({-reach, reach}), ys.within({-reach, reach}));
     const std::optional<Offset> found = nearestInTable();
-    // Not if it is further than `reach`: then an offset outside the square may be nearer.
+    // An offset further than `reach` is not the result yet, because one outside the square may be nearer.
     if (found && (found->square() <= reach * reach || reach == kReach)) {
       return FixedVector{found->x * kFixedOne, found->y * kFixedOne};
     }

@@ -1,7 +1,8 @@
 // Finds the nearest free position for a box: the smallest move by whole cells that lets it touch nothing.
 //
 // The offsets form a square, a table with one bit for each. Every solid Object nearby rules out a rectangle
-// of offsets. The square doubles until the nearest free offset is nearer than any outside it.
+// of offsets. The square doubles until the nearest free offset is nearer than any outside it, or until the
+// square has its maximum size.
 #pragma once
 
 #include <cstdint>

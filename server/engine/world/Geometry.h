@@ -44,8 +44,8 @@ bool lineIntersectsBox(Line line, Box b);
 /// True if the circle and the box share a point (compat: false if the circle lies wholly inside the box).
 bool circleIntersectsBox(Circle circle, Box b);
 /// Returns the normal of the side of Object 2 that Object 1, the mover, hit: a vector of length 1 away from
-/// Object 2, along the axis on which their boxes overlap least. Returns (0,0) if they do not touch, or if the
-/// middles of their boxes coincide.
+/// Object 2, along the axis on which their boxes overlap least. Returns (0,0) if they do not touch, if the
+/// middles of their boxes coincide, or if one is null.
 Vector getNormal(const Object* p_o1, const Object* p_o2);
 /// Returns the direction of a vector in degrees, 0 to 360: 0 to the right, 90 downward.
 float vectorToAngle(Vector v);

@@ -124,12 +124,12 @@ class SweepSegments {
     if (is_x) return {corner.x, path.lengthX(), path.to().x < path.from().x ? ~std::uint64_t{0} : 0};
     return {corner.y, path.lengthY(), path.to().y < path.from().y ? ~std::uint64_t{0} : 0};
   }
-  // Signed numbers are converted to doubles faster.
+  // Signed numbers are converted to doubles faster than unsigned ones.
   static double halfOf(std::uint64_t steps) {
     return static_cast<double>(static_cast<std::int64_t>(steps >> 1));
   }
-  // Returns the steps done on the shorter axis after `steps` on the longer one, plus 2 * slack, but at most
-  // its length.
+  // Returns the steps done on the shorter axis after `steps` on the longer one, plus 2 * slack, clamped to 0
+  // and the length of the shorter axis.
   std::uint64_t across(std::uint64_t steps, double slack) const {
     const double half = m_slope * halfOf(steps) + slack;
     if (half <= 0) return 0;
@@ -145,10 +145,10 @@ class SweepSegments {
 
 // Among many Objects a hit is near; among few, an empty piece costs little. So the first piece is short, and
 // each piece after an empty one is twice as long. Unit: the largest box of the level of the grid.
-constexpr Fixed kFirstPiece = 4;
+constexpr Fixed kFirstPiece = 4;  // in level 0; 1 in all other levels
 constexpr Fixed kMaxPiece = 16;
 constexpr Fixed kMaxFlatPiece = 64;  // for a path that hardly changes its row
-constexpr double kFlat = 0.25;
+constexpr double kFlat = 0.25;       // slope below which a path counts as such
 
 // Up to this many pieces cost less than testing all Objects, even if there are very few Objects.
 constexpr int kFewPieces = 32;
@@ -207,7 +207,7 @@ class HitList::Search {
         if (fronts[i].reached < front.reached) std::swap(front, fronts[i]);
       }
       const std::uint64_t from = front.reached;
-      // All levels are searched up to `from`: other Objects are hit after the end of the list.
+      // All levels are searched up to `from`, so all further Objects are hit after the end of the list.
       if (m_list.m_end && from != begin && *m_list.m_end <= pieces.at(from)) return;
       const bool is_last = pieces.length() - from <= front.stride || !isWorthMore(number);
       front.reached = is_last ? pieces.length() : from + front.stride;

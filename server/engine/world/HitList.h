@@ -26,8 +26,8 @@ class HitList {
   /// Where the list ends: at the first time at which a pair would block, or at the first hit.
   enum End { kBlock, kFirst };
 
-  /// Lists what `mover`, in the world and solid, hits on `path` at time `since` or later, except Objects in
-  /// `p_met`.
+  /// Lists the Objects that `mover`, in the world and solid, hits on `path` at time `since` or later, except
+  /// those in `p_met`.
   void fill(const WorldStore& store, WorldStore::Slot mover, const SweepPath& path, End end,
             Moment since = {}, const ObjectKeySet* p_met = nullptr);
 

@@ -43,7 +43,7 @@ class Interests {
  private:
   struct Table {
     std::vector<ObjectKey> entries;
-    std::size_t gone = 0;  // entries of Objects that unregistered or left
+    std::size_t gone = 0;  // number of entries of Objects that unregistered or left
     int walks = 0;         // visits in progress, during which no entry moves
   };
 

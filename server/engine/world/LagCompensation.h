@@ -17,7 +17,7 @@ namespace df {
 struct ViewedTick {
   bool known = false;       ///< false: the other fields mean nothing
   std::uint32_t base = 0;   ///< the newest tick of which the client had a snapshot
-  std::uint32_t drawn = 0;  ///< the tick that it drew, extrapolated from `base`
+  std::uint32_t drawn = 0;  ///< the tick that the client drew, extrapolated from `base`
 };
 
 class LagCompensation {

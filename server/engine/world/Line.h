@@ -20,7 +20,7 @@ class Line {
   Vector getP2() const { return m_p2; }
 
   /// Draws the line in the cells that it passes, with the character -, |, / or \ that fits its slope. A line
-  /// longer than 1000 cells is not drawn.
+  /// longer than 1000 cells on an axis is not drawn.
   void draw() const;
   /// Returns "(x,y)-(x,y)".
   std::string toString() const { return m_p1.toString() + "-" + m_p2.toString(); }

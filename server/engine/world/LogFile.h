@@ -10,11 +10,12 @@ namespace df {
 /// lines are tried again. Other processes may append to the file, too. Any thread may call it.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
-/// Makes writeToLogFile() empty no files, because another process of this game writes to them. Any thread.
+/// Makes writeToLogFile() empty no files, because another process of this game writes to them. Any thread may
+/// call it.
 void disableLogTruncation();
 
 /// Appends a line to a file of the game's own; the process's first line empties the file. Returns false on
-/// failure. Call on any thread.
+/// failure. Any thread may call it.
 bool writeToFile(const std::string& filename, const std::string& line);
 
 }  // namespace df

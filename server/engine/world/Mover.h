@@ -53,7 +53,7 @@ class SweptMove {
   static constexpr int kMaxStages = 1000;
 
   /// Where a move ends: at its target, just before a contact, or where the mover is already (kNone), because
-  /// a handler put it there or it cannot move.
+  /// a handler put it there or removed it, or it cannot move.
   enum class End { kTarget, kContact, kNone };
   /// Sends the events of all Objects that `mover`, in the world and solid, hits on its path to `where`. If a
   /// pair blocks and no handler has moved the mover, sets `where` to the mover's position just before the

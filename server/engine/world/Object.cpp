@@ -25,10 +25,10 @@ namespace {
 
 thread_local PendingBlocks t_pending;
 
-// Returns the function that this Object's eventHandler() is, to find out whether its class overrides it. Uses
-// the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address of its vtable, and on
-// x86-64 a pointer to a virtual member function begins with 1 + the function's offset there. Returns null on
-// other platforms.
+// Returns the address of the function that implements this Object's eventHandler(), to find out whether its
+// class overrides it. Uses the Itanium C++ ABI, which GCC and Clang follow: an Object begins with the address
+// of its vtable, and on x86-64 a pointer to a virtual member function begins with 1 + the function's offset
+// there. Returns null on other platforms.
 const void* handlerOf(const Object& object) {
 #if defined(__x86_64__) && defined(__GXX_ABI_VERSION)
   int (Object::*const p_member)(const Event*) = &Object::eventHandler;

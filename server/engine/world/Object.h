@@ -44,7 +44,8 @@
 /// Return type of five setters that classes may override: setVelocity(), setDirection(), setAcceleration(),
 /// setBox() and setAnimation(). It is void for games of the published engine, which override or hide a `void
 /// setVelocity()`. It is int, as for all setters, for games made for Naiad, which are compiled with
-/// -DDF_COMPAT=0 (dragonfly_game() does). -DDF_SETTER=int or =void overrides this. The library fits both.
+/// -DDF_COMPAT=0 (dragonfly_game() does). -DDF_SETTER=int or =void overrides this. The library works with
+/// both.
 #if !defined(DF_SETTER)
 #if defined(DF_COMPAT) && !DF_COMPAT
 #define DF_SETTER int
@@ -71,16 +72,17 @@ inline constexpr int MAX_OBJ_EVENTS = 100;
 class Object {
  public:
   /// Makes an active, visible, HARD Object of type "Object" at (0,0) (compat: "(Undefined)" at (1,1)),
-  /// altitude 2, at rest, with the box of a single character, last in the current world's creation order.
+  /// altitude 2, at rest, with the default box (setBox()), last in the current world's creation order.
   Object();
   /// Makes a copy that is not in the world, so that it is neither drawn nor moved and gets no events. It has
-  /// the same attributes, another id, and no interests, mask or path. WM.insertObject() inserts it.
+  /// the same attributes except receiveWhilePaused(), another id, and no interests, mask or path.
+  /// WM.insertObject() inserts it.
   Object(const Object& other);
-  /// Copies the other's attributes. Keeps its own id, interests and place in the creation order.
+  /// Copies the other's attributes. Keeps its own id, interests, mask, path and place in the creation order.
   Object& operator=(const Object& other);
   virtual ~Object();
 
-  /// Name by which game code tells its Objects apart.
+  /// Name by which game code distinguishes the kinds of its Objects.
   virtual void setType(std::string new_type);
   const std::string& getType() const { return m_p_profile->type; }
 
@@ -89,12 +91,13 @@ class Object {
   int getId() const;
   /// Replaces the id by a number of the game's choice. The creation order does not change.
   void setId(int new_id);
-  /// Converts to the highest id in the current world so far. Assignments have no effect.
+  /// Converts to the highest id that the current world has assigned so far, which excludes ids of setId().
+  /// Assignments have no effect.
   struct MaxId {
     operator int() const;
     MaxId& operator=(int /*id*/) { return *this; }
   };
-  /// The highest id in the current world so far.
+  /// The highest id that the current world has assigned so far.
   inline static MaxId max_id;
 
   // Position and box.
@@ -107,8 +110,8 @@ class Object {
   virtual int setAltitude(int new_altitude);
   int getAltitude() const;
   /// Bounding box, its corner relative to the position. It decides collisions (edges included) and whether
-  /// the Object is in view. Default: corner (-0.5,-0.5), 1 by 1, which equals the book's test for single
-  /// characters. Corner and size are up to 1e6 cells. setBox() returns 0, else -1.
+  /// the Object is in view. Default: corner (-0.5,-0.5), 1 by 1 (compat: 0.99 by 0.99), which equals the
+  /// book's test for single characters. Corner and size are up to 1e6 cells. setBox() returns 0, else -1.
   virtual DF_SETTER setBox(Box new_box);
   Box getBox() const;
 
@@ -155,8 +158,9 @@ class Object {
   void setPrecise(bool precise = true);
   bool isPrecise() const;
   /// Sets the characters that setPrecise() compares: a string (UTF-8) per row, from the box's upper left cell
-  /// on; blanks are holes. Without rows, as by default, the whole box counts. What draw() draws does not
-  /// matter. Returns 0, or -1 without change for rows without any character or a side above 1024.
+  /// on; blanks are holes. Without rows, as by default, the characters of the sprite's frame are compared if
+  /// they are drawn in the box, else the whole box counts. The characters that an override of draw() draws do
+  /// not matter. Returns 0, or -1 without change for rows without any character or a side above 1024.
   int setMask(const std::vector<std::string>& rows);
   /// If set, an Object at rest is tested for collisions in each update() as if it had moved to its position,
   /// so that it gets collision events with the Objects that touch it. Off by default.
@@ -182,7 +186,7 @@ class Object {
   /// to eventHandler(). Collision and out events need no registration. A second registration has no effect.
   /// Returns 0, or -1 if the Object is not in a world.
   int registerInterest(const std::string& event_type);
-  /// Ends an interest. Returns 0, or -1 if it was not registered (compat: 0).
+  /// Ends an interest. Returns 0; -1 if it was not registered (compat: 0) or the Object is not in a world.
   int unregisterInterest(const std::string& event_type);
   /// Returns the number of registered interests.
   int getEventCount() const { return static_cast<int>(m_p_profile->interests.size()); }
@@ -199,7 +203,8 @@ class Object {
 
   /// Shows this sprite (RM.loadSprite), from its first frame on. Unless `set_box` is false, the box becomes
   /// the sprite's: its size, the position in the middle. If characters are compared (setPrecise), they are
-  /// those of the frame. Returns 0, or -1 for a label that is not loaded.
+  /// those of the frame. Returns 0, or -1 for an Object without a world or a label that is not loaded. For
+  /// such a label, an Object without a sprite then shows a '?' (compat: nothing).
   virtual int setSprite(std::string sprite_label);
   int setSprite(const std::string& sprite_label, bool set_box);
   /// Shows a sprite owned by the game, which must keep it as long as it is shown; null: none.
@@ -234,11 +239,12 @@ class Object {
   /// Returns the shape; a white circle if none was set.
   Shape getShape() const;
   /// Promises that draw() always draws equal characters at equal places relative to the position. draw() is
-  /// then called only once, and the result moves with the Object. Each further setStaticLook() makes draw()
-  /// run once more.
+  /// then called only once, and the result moves with the Object. Each further setStaticLook(), and each
+  /// change of the sprite, its frame or the shape, makes draw() run once more.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
-  /// Number of frames of a body, and index of the frame that is shown in the present tick (0 if it has none).
+  /// Number of frames of a body, and index of the frame that is shown in the present tick. Both are 0 for
+  /// other Objects.
   int getFrameCount() const;
   int getFrame() const;
 
@@ -255,15 +261,18 @@ class Object {
   }
   /// Writes the attributes in the mask `attr`; 0 means the modified ones. Returns 0, or -1 for null.
   virtual int serialize(std::stringstream* p_ss, unsigned int attr = 0);
-  /// Sets the attributes in a text from serialize(). Returns 0, or -1 if a value was refused.
+  /// Sets the attributes in a text from serialize(), except events, direction, shape and those of paths.
+  /// Returns 0, or -1 if a value was refused.
   virtual int deserialize(std::string s);
-  /// Like deserialize(s); adds the attributes found to the mask *p_a, if that is not null.
+  /// Like deserialize(s); returns -1 also if p_ss is null. Adds the attributes found to the mask *p_a, if
+  /// `p_a` is not null.
   virtual int deserialize(std::stringstream* p_ss, unsigned int* p_a = nullptr);
-  /// True if the attribute (without an argument: any attribute) has changed since it was last written, or was
-  /// never written.
+  /// True if the attribute (without an argument: any attribute) has changed since it was last written, was
+  /// never written, or was marked by setModified().
   bool isModified(ObjectAttribute attribute) const;
   virtual bool isModified() const { return getModified() != 0; }
-  /// Mask of the modified attributes. setModified() marks further attributes as modified.
+  /// Mask of the modified attributes. setModified() makes the attributes in `new_modified` count as modified
+  /// even if they have not changed; this replaces the mask of an earlier call.
   virtual void setModified(unsigned int new_modified);
   virtual unsigned int getModified() const;
   /// Returns type, id and position, for log lines.
@@ -294,8 +303,9 @@ class Object {
   /// Returns the world in which the Object was made; null if that world or the Object has been destroyed.
   World* getWorld() const;
 
-  /// They record which Objects were made with `new`, because the world deletes them (but not the elements of
-  /// arrays). With compat they clear the memory, because games read members that they never set.
+  /// The operators record which Objects were made with `new`, because the world deletes these Objects (but
+  /// not the elements of arrays). With compat they clear the memory, because games read members that they
+  /// never set.
   static void* operator new(std::size_t size);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
@@ -308,7 +318,8 @@ class Object {
 #endif
 
  protected:
-  /// Makes the position mean a cell of every view, and the Object be drawn always (ViewObject.h).
+  /// Makes the position a cell of each view instead of the world, and makes the engine draw the Object always
+  /// (ViewObject.h).
   void showOnView();
   /// Makes the Object get events while the game is paused, too (Pause.h).
   void receiveWhilePaused();

@@ -23,14 +23,13 @@ class ObjectList {
   static constexpr int kInline = 16;
 
   ObjectList() = default;
-  /// An ObjectList can be copied and moved.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
   ObjectList& operator=(ObjectList other) noexcept;
   ~ObjectList();
 
   /// Appends an Object, which may be in the list more than once. Returns 0, or -1 for null and for an Object
-  /// that is not in the world of the entries.
+  /// of another world than that of the entries.
   int insert(Object* p_o);
   /// Removes the first entry of this Object; the others keep their order. Returns 0, or -1 if it is not in
   /// the list.
@@ -38,9 +37,9 @@ class ObjectList {
   /// Removes all entries.
   void clear();
 
-  /// Returns the number of entries, including those of dead Objects.
+  /// Returns the number of entries, including those of Objects that are gone.
   int getCount() const { return m_count; }
-  bool isEmpty() const { return m_count == 0; }  ///< True if there are no entries.
+  bool isEmpty() const { return m_count == 0; }
   /// Always false, because the list grows. (The book's list has a fixed size.)
   bool isFull() const { return false; }
 
@@ -102,7 +101,7 @@ class ObjectListIterator {
   }
 
   const ObjectList* m_p_list;
-  mutable int m_index = 0;  // currentObject() skips dead entries
+  mutable int m_index = 0;  // mutable, because currentObject() skips entries of Objects that are gone
 };
 
 }  // namespace df

@@ -47,8 +47,9 @@ naiad::Selector selectorOf(const Animation& animation, std::uint32_t tick) {
 // Clients get an animation as the pictures of its sprite, and a clock that selects the picture to show. While
 // only the clock decides, clients draw the animation without further messages.
 
-/// Returns a look that shows `animation` from `tick` on, until it is stopped, set or hidden. Null if there
-/// are no pictures for clients, or only one. Returns `before`, an earlier result, if it is still right.
+/// Returns a look that shows `animation` from `tick` on, until the animation is stopped, set or hidden. Null
+/// if there are no pictures for clients, or only one, if the animation is mirrored, or if its index is not
+/// that of a frame. Returns `before`, an earlier result, if that is still correct.
 std::shared_ptr<const naiad::Look> lookOf(const Animation& animation, std::uint32_t tick,
                                           const std::shared_ptr<const naiad::Look>& before) {
   const Sprite* p_sprite = animation.getSprite();
@@ -98,7 +99,7 @@ bool Object::receivesWhilePaused() const {
   return m_p_extras != nullptr && m_p_extras->receives_while_paused;
 }
 
-// Removes the Object from the world's lists.
+// Removes the Object from the world's lists of running animations and of Objects that walk.
 void Object::dropExtras() {
   World* p_world = getWorld();
   if (p_world == nullptr) return;
@@ -106,13 +107,14 @@ void Object::dropExtras() {
   if (m_p_extras->follows_path) p_world->setWalking(*this, false);
 }
 
-// Updates the world's lists. Call after the sprite or the shape has changed.
+// Updates the store's flag and the world's list of running animations. Call after the sprite or the shape has
+// changed.
 void Object::animate() {
   Sprite* p_sprite = m_p_extras->animation.getSprite();
   m_p_store->set(m_slot, WorldStore::kPainted, p_sprite != nullptr || m_p_extras->shape.has_value());
   World* p_world = getWorld();
   if (p_world == nullptr) return;
-  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also if the game made it
+  if (p_sprite != nullptr && p_world->compat()) p_sprite->setNeverStill();  // also a game's own sprite
   invalidateLook();
   if (p_sprite != nullptr && p_sprite->getFrameCount() > 1) {
     p_world->extras().animations.add(m_slot, *m_p_extras);
@@ -136,7 +138,7 @@ int Object::setSprite(const std::string& sprite_label, bool set_box) {
   if (getSprite() == nullptr && !p_world->compat()) {
     Animation animation;
     animation.setSprite(&resources.missingSprite());
-    Object::setAnimation(std::move(animation), false);  // not an override, which expects what was asked for
+    Object::setAnimation(std::move(animation), false);  // not an override, which expects the game's sprite
   }
   return -1;
 }
@@ -157,8 +159,8 @@ int Object::setAnimation(Animation new_animation, bool set_box) {
   return 0;
 }
 
-// Sets the box to the sprite's. If the sprite is not centred, its first character is around the position, so
-// the box's corner is (-0.5,-0.5).
+// Sets the box to the sprite's. If the sprite is not centred, the middle of its first character is at the
+// position, so the box's corner is (-0.5,-0.5).
 void Object::fitBox() {
   Box box = m_p_extras->animation.getBox();
   if (!m_p_extras->is_centered) box.setCorner(Vector(-0.5, -0.5));
@@ -241,15 +243,16 @@ int Object::draw() {
   return result;
 }
 
-// Returns the look that changes without draw(); null for none. It is used only if draw() draws what it shows.
+// Returns the look with which clients draw the Object's frames or animation themselves; null for none. It is
+// used only if draw() draws the characters that the look shows.
 std::shared_ptr<const naiad::Look> Object::publishedLook(std::uint32_t tick) {
   if (m_p_store->has(m_slot, WorldStore::kFrames)) return m_p_store->frames(m_slot);
   if (m_p_extras == nullptr || m_p_extras->shape || !m_p_extras->is_centered) return nullptr;
   return m_p_extras->p_look = lookOf(m_p_extras->animation, tick, m_p_extras->p_look);
 }
 
-// Null unless the sprite is drawn untransformed and centred in its own box, because otherwise the mask would
-// not lie where the characters are drawn.
+// Returns null unless a sprite is drawn untransformed and centred in its own box, because otherwise the mask
+// would not lie where the characters are drawn.
 const Mask* spriteMaskOf(const Object& object) {
   const Sprite* p_sprite = object.getSprite();
   const bool as_drawn = p_sprite != nullptr && object.isCentered() && object.getBox() == p_sprite->getBox() &&

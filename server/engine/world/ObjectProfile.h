@@ -15,7 +15,8 @@ inline constexpr const char* kUndefinedType = "(Undefined)";
 struct ObjectProfile {
   std::string type = "Object";
   // Values of setSpeed() and setDirection(). After an acceleration or setVelocity(), the store's flag kDerive
-  // says that they are derived from the velocity when they are read.
+  // says that they are derived from the velocity when they are read. If setVelocity() got a vector that the
+  // store had to round, they are derived from this vector, which is in `direction` (direction_is_velocity).
   double speed = 0;
   Vector direction;
   bool direction_is_velocity = false;

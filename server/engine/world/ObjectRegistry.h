@@ -36,8 +36,8 @@ class ObjectRegistry {
   Object* objectWithId(int id) const;
   ObjectList getCollisions(const Object* p_o, Vector where) const;
   Contact firstContact(const Object* p_o, Vector where) const;
-  /// Returns the Objects that `wanted` accepts, in creation order. Its argument is a slot; in pick(), an
-  /// Object.
+  /// Returns, in creation order, the Objects that `wanted` accepts. Its argument is a slot in collect(), an
+  /// Object in pick().
   template <class Wanted>
   ObjectList collect(Wanted wanted) const {
     ObjectList list;

@@ -49,8 +49,8 @@ class Player {
   Object* getObject() const;
 
   /// Makes the keys in `controls` move the Object that getObject() returns at the time (Controls.h). Controls
-  /// without rows end this. Keys held down and waits are reset. Returns 0, or -1 without change for controls
-  /// with a number that is not finite or out of range.
+  /// without rows end this. Keys held down and waits are reset. Returns 0, or -1 without change for invalid
+  /// controls (Controls::table).
   int setControls(const Controls& controls);
   /// Whether the controls have effects (default) or only record which keys are down, for example while a ship
   /// is lost. An inactive Object is not moved, either.
@@ -62,8 +62,9 @@ class Player {
   int getScore() const { return m_score; }
 
   /// Shows `text` to this player only, at cell `position` of the player's view, under number `id` (0 to 15);
-  /// an empty text removes it. Characters that no terminal draws in one cell become '?'. Returns 0, or -1
-  /// without change for an id, position or colour out of range.
+  /// an empty text removes it. Characters that no terminal draws in one cell become '?'; those beyond the
+  /// right edge of the view are dropped. Returns 0, or -1 without change for an id, position or colour out of
+  /// range.
   int setText(std::uint32_t id, Vector position, const std::string& text, Color color = COLOR_DEFAULT);
 
   /// Returns the upper left corner of this player's view, in world coordinates.
@@ -85,7 +86,7 @@ class Player {
   ObjectKey m_object;    // steered Object
   ObjectKey m_followed;  // Object that the player's own view follows
   FixedVector m_view_corner;
-  bool m_has_view = false;  // true since the first setObject(); false: shares the world's view
+  bool m_has_view = false;  // true since setObject() got an Object; false: shares the world's view
   std::map<std::uint32_t, PlayerText> m_texts;
   std::shared_ptr<const ControlTable> m_p_controls;  // null: no controls
   ControlState m_control_state;

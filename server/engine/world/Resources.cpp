@@ -37,7 +37,7 @@ std::vector<fs::path> matches(const fs::path& folder, const std::string& name) {
   return found;
 }
 
-/// "; loaded: saucer, ship"
+/// Returns the first kMaxShown labels as a text "; loaded: saucer, ship", or "; loaded: none".
 template <class Labels>
 std::string loadedAre(const Labels& labels) {
   constexpr std::size_t kMaxShown = 12;

@@ -57,12 +57,13 @@ class Resources {
   Sprite* spriteOrPlaceholder(const std::string& label);
   /// Returns the sprite that shows a '?'.
   Sprite& missingSprite();
-  /// Returns the loaded labels as text for a log line: "; loaded: saucer, ship".
+  /// Returns the loaded labels, at most 12, as text for a log line: "; loaded: saucer, ship".
   std::string spriteLabels() const;
   SoundBank<Sound>& sounds() { return m_sounds; }
   SoundBank<Music>& musics() { return m_musics; }
 
-  /// Removes all labels. Sprites are kept, because Objects may still show them.
+  /// Removes all sprites' labels, and all sounds and music. Sprites are kept, because Objects may still show
+  /// them.
   void clear();
   /// Adds a folder. Relative names are looked for in the working directory, then in the folders in order of
   /// the calls. clear() keeps the folders.

@@ -38,7 +38,8 @@ bool declareCompat(bool compat);
 /// Returns the compat setting before df-config.txt is read: the one given to declareCompat(), if any;
 /// otherwise true if `in_program`, else `compat`.
 bool beginCompat(bool compat, bool in_program);
-/// Returns the final compat setting: the environment variable DF_COMPAT (0 or 1), if set, else `compat`.
+/// Returns the final compat setting: the environment variable DF_COMPAT, if it is 0, 1, false or true, else
+/// `compat`.
 bool endCompat(bool compat);
 
 }  // namespace running

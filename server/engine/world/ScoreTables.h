@@ -31,8 +31,8 @@ class ScoreTables {
   const std::vector<HighScore>& rows(const std::string& table) const;
   const std::map<std::string, std::vector<HighScore>>& all() const { return m_tables; }
 
-  /// Returns and removes the rows added up to the end of the last tick, in order. The beginning of the next
-  /// tick removes them, too.
+  /// Returns and removes the rows added so far, in order. The beginning of a tick also removes the rows that
+  /// were added before the end of the tick before it.
   std::vector<AddedScore> popAdded();
   void beginTick(std::uint32_t tick);
   void endTick() { m_finished = m_added.size(); }
@@ -44,7 +44,7 @@ class ScoreTables {
   std::vector<AddedScore> m_added;
   std::uint32_t m_tick = 0;
   int m_number = 0;
-  std::size_t m_finished = 0;  ///< rows of m_added that were added before the end of the last tick
+  std::size_t m_finished = 0;  ///< number of rows of m_added from before the end of the last tick
 };
 
 /// Returns a player's name in the form for tables: characters that no terminal draws in one cell become '?',

@@ -26,7 +26,7 @@ struct ConfigSettings {
   int window_state = 0;  ///< 0: a window, 1: the whole screen
   bool signals = true;   ///< whether the engine catches signals
   std::string window_title = "Dragonfly";
-  int frame_time = 33;  ///< milliseconds
+  int frame_time = 33;  ///< length of a tick, in milliseconds
   float font_scale = 2;
   std::string font_file = "df-font.ttf";
   bool show_mouse = true;

@@ -109,7 +109,8 @@ void Tick::update() {
   const During during(m_in_update);
   m_events.classifyNewObjects();
   m_mover.moveAll();
-  for (std::size_t i = 0; i < m_state.layers.size(); ++i) m_state.layers[i]->step(m_world);  // may add one
+  // A step may add a layer.
+  for (std::size_t i = 0; i < m_state.layers.size(); ++i) m_state.layers[i]->step(m_world);
   m_objects.deleteMarked();
   m_objects.store().closeGaps();
   m_objects.store().age();

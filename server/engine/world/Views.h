@@ -1,8 +1,8 @@
 // The boundary, the window, the world's own view, and the players with their views.
 //
-// A view is defined by its corner; its size is the window's. A player shares the world's view until their
-// first Player::setObject(), and has their own view from then on. A view that follows an Object moves only
-// when moveObject() or update() moves that Object; beginning to follow an Object centres the view.
+// A view is defined by its corner; its size is the window's. A player shares the world's view until they get
+// their first Object (Player::setObject), and has their own view from then on. A view that follows an Object
+// moves only when moveObject() or update() moves that Object; beginning to follow an Object centres the view.
 #pragma once
 
 #include <cstdint>
@@ -68,8 +68,8 @@ class Views {
   void centre(Player* p_player, FixedVector position);
   /// Makes the view follow this Object; null: none. Returns 0, or -1 for an Object that is not in this world.
   int follow(Player* p_player, Object* p_o);
-  /// Gives the player their own view, which follows this Object; null leaves it where it is. Returns like
-  /// follow().
+  /// Makes the player steer this Object, and gives them their own view, which follows it. For null, the
+  /// player steers no Object, and their own view, if any, stays where it is. Returns like follow().
   int setObject(Player& player, Object* p_o);
   /// Moves the views that follow this Object. Call when the Object was moved.
   void moved(ObjectKey key, FixedVector position);

@@ -1,4 +1,5 @@
-// One game world: all Objects that interact, from its seed to its tick count.
+// One game world: the Objects that interact, and all other state of the engine for one game, such as the
+// players, the seed and the tick count.
 //
 // Game code rarely names it: the managers (WM, GM, DM, IM, LM) forward to the calling thread's current
 // world. Hosts and tests hold worlds directly, as many as they like, each on one thread at a time.
@@ -79,14 +80,14 @@ class World {
   /// Does nothing inside another update.
   void update();
   /// Begins a new picture: runs the draw() of all Objects in view, by altitude, then creation order. Does
-  /// nothing inside a tick, which draws at its end.
+  /// nothing inside another draw, or inside a tick, which draws at its end.
   void draw();
   /// True while a picture is being drawn.
   bool isDrawing() const;
   /// Runs the game: by the Runner if one is set, else by program(), else tick by tick until the game is over.
   /// Without a Runner, a second call after GM.startUp() continues a game that was over at the end of the
-  /// first run. If the game is over before the first run, that ends at once. Does nothing inside a tick,
-  /// update or draw.
+  /// first run. If the game is over before the first run, that run ends immediately. Does nothing inside a
+  /// tick, update or draw.
   void run();
   /// Returns the number of ticks begun since the world began.
   int getStepCount() const { return m_state.step_count; }
@@ -112,7 +113,7 @@ class World {
     }
     return nullptr;
   }
-  /// Restarts the random sequence.
+  /// Restarts the random sequence from this seed.
   void setSeed(std::uint64_t seed) {
     m_state.seed = seed;
     m_state.random = Random(seed);
@@ -172,9 +173,10 @@ class World {
   void setWalking(Object& object, bool walks);
   /// See Capture::addFrame().
   void drawFrame(std::uint32_t slot);
-  /// Records that a sound was played; see WorldView.
+  /// Records that a sound or music began, paused or stopped; see WorldView.
   void recordSound(SoundPlayed sound);
-  /// True if the sound or music was played in a loop and was neither stopped nor paused since.
+  /// True if the sound or music repeats: its last play() was a loop, and it was neither stopped nor paused
+  /// since, nor displaced by newer ones (WorldExtras::kMaxPlaying).
   bool isPlaying(const std::string& label, bool music);
   /// True if the file of a sound or a piece of music can be read; logs a line if not.
   bool findFile(const std::string& kind, const std::string& filename);

@@ -1,5 +1,5 @@
 // Parts of a world that only some games use. They are made at first use (World::extras), so that a world
-// without them only has a null pointer and tests it once in a tick.
+// without them only has a null pointer and tests it a few times in a tick.
 #pragma once
 
 #include <algorithm>
@@ -50,11 +50,11 @@ struct Connections {
   int limit = 16;
   /// True if the game's server is a player itself (server_plays).
   bool has_host = false;
-  /// With has_host, the player that sits at the server; 0 for none.
+  /// With has_host, the player that plays as the server and has no socket; 0 for none.
   std::uint32_t host = 0;
   /// Players whose connection the game has closed.
   std::vector<std::uint32_t> closed;
-  /// Players; the index is their socket. 0: the socket is free.
+  /// Ids of players; the index is the player's socket. 0: the socket is free.
   std::vector<std::uint32_t> players;
 
   /// Returns the socket of a player; -1 if they have none.
@@ -97,7 +97,7 @@ class Animations {
   std::vector<Entry> m_entries;
 };
 
-/// The part that World::shutDown() resets.
+/// The part of WorldExtras that World::shutDown() resets.
 struct RoundExtras {
   ConfigSettings settings;
   ScreenShake shake;
@@ -132,8 +132,8 @@ struct WorldExtras : RoundExtras {
   bool isPlaying(const std::string& label, bool music) const;
   /// Ends a tick, after it was drawn.
   void endTick(bool paused);
-  /// Restores the initial state, except scores and rooms. Sprites are kept, because Objects may still show
-  /// them.
+  /// Restores the initial state, except animations, scores and rooms. Sprites are kept without their labels,
+  /// because Objects may still show them.
   void reset() {
     resources.clear();
     static_cast<RoundExtras&>(*this) = RoundExtras();

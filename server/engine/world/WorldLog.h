@@ -21,7 +21,7 @@ class WorldLog {
   void setFile(const std::string* p_name) { m_p_file = p_name; }
   /// Copies further lines to this page, for the report of a crash. Not owned; null for none.
   void setPage(ActivityPage* p_page) { m_p_page = p_page; }
-  /// Lines of writeLog(level, …) with a level above this are dropped.
+  /// Lines of writeLog(level, …) with a level above this (compat: below) are dropped.
   void setLevel(int level) { m_level = level; }
   int level() const { return m_level; }
   void setFlush(bool flush) { m_flush = flush; }

@@ -12,7 +12,7 @@
 
 namespace df {
 
-/// The part that World::shutDown() resets.
+/// The part of WorldState that World::shutDown() resets.
 struct RoundState {
   bool paused = false;     ///< World::setPaused()
   bool game_over = false;  ///< World::isGameOver()

@@ -50,15 +50,15 @@ struct ObjectFlags {
     kNoSoft = 1 << 3,
     kHeap = 1 << 4,        ///< made with `new`: the world deletes it
     kMarked = 1 << 5,      ///< marked to be deleted after update
-    kLookCached = 1 << 6,  ///< its static look has been drawn and is repeated
-    kDirty = 1 << 7,       ///< it is in the list of changes
+    kLookCached = 1 << 6,  ///< the static look has been drawn and is repeated
+    kDirty = 1 << 7,       ///< the Object is in the list of changes (m_dirty)
     kReported = 1 << 8,    ///< the host knows the Object's state
     kDerive = 1 << 9,      ///< speed and direction are derived from the velocity
     kStaticLook = 1 << 10,
-    kNeverDraws = 1 << 11,      ///< its dynamic type is Object itself
+    kNeverDraws = 1 << 11,      ///< the dynamic type is Object itself
     kClassified = 1 << 12,      ///< kNeverDraws and kNoEventHandler are known
-    kFollowed = 1 << 13,        ///< a view follows it
-    kNoEventHandler = 1 << 14,  ///< its class does not override eventHandler()
+    kFollowed = 1 << 13,        ///< a view follows the Object
+    kNoEventHandler = 1 << 14,  ///< the class does not override eventHandler()
     kSwept = 1 << 15,
     kPrecise = 1 << 16,
     kRestContacts = 1 << 17,
@@ -66,7 +66,7 @@ struct ObjectFlags {
     kBody = 1 << 19,     ///< moved by a layer, not by the book's rules
     kPainted = 1 << 24,  ///< has a sprite or a shape, which Object::draw() shows
     kOnView = 1 << 25,   ///< a view object: drawn wherever its position is
-    kFrames = 1 << 28,   ///< it has frames (setFrames())
+    kFrames = 1 << 28,   ///< has frames (setFrames())
   };
 };
 
@@ -75,12 +75,12 @@ struct ObjectFlags {
 struct UpdateMasks {
   using Words = std::vector<std::uint64_t>;
 
-  Words turns;        ///< moves in update(): active, with a velocity, an acceleration or contacts at rest
+  Words turns;        ///< moves in update(): active, no body, with velocity, acceleration or contacts at rest
   Words fliers;       ///< turns of SPECTRAL Objects that only add their velocity
   Words walkers;      ///< turns of solid Objects that use only the book's test, at the end of a move
-  Words consecutive;  ///< its slot follows the slot of the entry before it
-  Words blocked;      ///< its last move in update() did not happen
-  Words handlers;     ///< solid, active, and its class overrides eventHandler(): gets collision events
+  Words consecutive;  ///< the entry's slot follows the slot of the entry before it
+  Words blocked;      ///< the last move in update() did not happen
+  Words handlers;     ///< solid, active, and the class overrides eventHandler(): gets collision events
   Words hards;        ///< active and HARD
   Words softs;        ///< active and SOFT
 
@@ -130,7 +130,7 @@ class WorldStore : public ObjectFlags {
 
   /// Allocates a slot with an Object's default state, not in the world yet.
   Slot allocateSlot(Object* p_o, bool heap);
-  /// Frees the slot of a destroyed Object, which must have left the world. It is not reused for
+  /// Frees the slot of a destroyed Object, which must have left the world. The slot is not reused for
   /// kSlotReuseDelay updates.
   void freeSlot(Slot s);
   /// Counts an update. Call once in each.
@@ -265,8 +265,8 @@ class WorldStore : public ObjectFlags {
   std::size_t fly(Slot first, std::size_t count, const FixedBox& boundary);
   /// Takes the turns of walkers, entry 64 * word + i of the creation order for each bit i of `walkers`,
   /// lowest first. Stops at a walker that would leave `boundary`, or touch Objects, unless these are many and
-  /// have no handlers. Returns the bits from this walker on. `met` lists the Objects that it would touch, in
-  /// order; none if it would leave.
+  /// touchingTarget() could decide the move without listing them. Returns the bits from this walker on; 0 if
+  /// none stopped. `met` lists the Objects that the walker would touch, in order; none if it would leave.
   std::uint64_t walk(std::size_t word, std::uint64_t walkers, const FixedBox& boundary,
                      std::vector<ObjectKey>& met);
 
@@ -276,8 +276,9 @@ class WorldStore : public ObjectFlags {
 
   /// Appends the solid Objects whose boxes touch `box`, except `self`, to `out` in creation order.
   void touching(const FixedBox& box, Slot self, std::vector<ObjectKey>& out) const;
-  /// Like touching(), for the target of a move. But if there are many such Objects, and neither the mover nor
-  /// any of them has a handler, lists none and returns whether the move happens.
+  /// Like touching(), for the target of a move; returns nullopt. But if there are many such Objects, neither
+  /// the mover nor any of them has a handler, no Object is precise and the mover has no kMayMoveOut, lists
+  /// none and returns whether the move happens.
   std::optional<bool> touchingTarget(Slot mover, const FixedBox& target, std::vector<ObjectKey>& out) const;
   const Grid& grid() const { return m_grid; }
   /// Returns the counters of moves so far.
@@ -311,7 +312,7 @@ class WorldStore : public ObjectFlags {
   };
   static_assert(sizeof(Card) == 32);
 
-  ~WorldStore() { assert(m_p_world == nullptr); }  // until then, the world holds a reference
+  ~WorldStore() { assert(m_p_world == nullptr); }  // the world has a reference until it is destroyed
   static bool within(FixedVector v, double cells) {
     const auto limit = static_cast<Fixed>(cells * static_cast<double>(kFixedOne));
     return v.x >= -limit && v.x <= limit && v.y >= -limit && v.y <= limit;

@@ -44,7 +44,7 @@ ObjectFacts WorldStore::facts(Slot s) const {
   f.key = key(s);
   f.order = m_cards[s].order;
   f.position = m_positions[s];
-  // An inactive Object stands still, whatever its velocity.
+  // An inactive Object does not move, whatever its velocity.
   if (has(s, kActive) && !isBlocked(s)) {
     f.velocity = m_velocities[s];
     if (isVelocity(f.velocity + m_accelerations[s])) f.acceleration = m_accelerations[s];

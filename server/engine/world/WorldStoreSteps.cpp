@@ -1,4 +1,4 @@
-// The part of WorldStore that moves many Objects at a time and lists what a box touches.
+// The part of WorldStore that moves many Objects at a time and lists the Objects that a box touches.
 
 #include <algorithm>
 #include <array>
@@ -118,8 +118,8 @@ bool WorldStore::isAnyAt(const UpdateMasks::Words& row, const FixedBox& box, Slo
   return false;
 }
 
-// True if an Object at `target` blocks. `some` are Objects that are known to be there. Tests either all
-// Objects that are there or all in the world that could block, whichever are fewer.
+// True if an Object at `target` blocks the mover. `some` are Objects that are known to be there. Tests either
+// all Objects that are there or all in the world that could block, whichever are fewer.
 bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const Slot> some) const {
   const bool hard = m_cards[mover].solidness == HARD;
   const bool no_soft = has(mover, kNoSoft);
@@ -138,8 +138,9 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
   return (hard && isAnyAt(m_bits.hards, target, mover)) || (no_soft && isAnyAt(m_bits.softs, target, mover));
 }
 
-// Returns whether a move happens, given some of the Objects that it touches; nullopt if one of them may have
-// a handler. Without handlers nothing changes during the move, so one Object that blocks decides.
+// Returns whether a move happens, given some of the Objects that it touches. Returns nullopt if the mover or
+// one of all that it touches has a handler, if any Object is precise, or if the mover may move out of others.
+// Without handlers nothing changes during the move, so one Object that blocks decides.
 std::optional<bool> WorldStore::moveWithoutHandlers(Slot mover, const FixedBox& target,
                                                     std::span<const Slot> some) const {
   if (handlesEvents(mover) || hasPrecise() || mayMoveOut(mover)) return std::nullopt;

@@ -27,8 +27,8 @@ struct ObjectFacts {
   ObjectKey key;
   std::uint64_t order = 0;   ///< place in the creation order of the world, never reused
   FixedVector position;      ///< position at the end of the tick
-  FixedVector velocity;      ///< added to the position in the next tick; zero if the last move was blocked
-  FixedVector acceleration;  ///< added to the velocity after each move; zero if blocked
+  FixedVector velocity;      ///< added to the position in the next tick; zero if inactive or just blocked
+  FixedVector acceleration;  ///< added to the velocity after moves; zero if inactive, blocked or too large
   FixedBox box;              ///< relative to the position
   Solidness solidness = HARD;
   bool no_soft = false;
@@ -75,7 +75,8 @@ struct PublishedLook {
 };
 using ToldLook [[deprecated("say PublishedLook")]] = PublishedLook;
 
-/// A text that only one player sees, in cells of that player's view. An empty text means that it was removed.
+/// A text that only one player sees, at cell (x,y) of that player's view. An empty `text` means that the text
+/// was removed.
 struct PlayerText {
   std::uint32_t id = 0;
   int x = 0;
@@ -105,7 +106,7 @@ struct PlayerFacts {
   Color color = COLOR_DEFAULT;
   int score = 0;
   ObjectKey followed;             ///< Object that the view follows; generation 0: none
-  FixedVector view_corner;        ///< upper left corner of the view, world coordinates; shaken
+  FixedVector view_corner;        ///< upper left corner of the view, in world coordinates, with the shake
   std::vector<PlayerText> texts;  ///< non-empty ones, by id
   SteeringFacts steering;
 };
@@ -123,7 +124,7 @@ struct WorldView {
   std::vector<PlayerFacts> players;   ///< all players, by id
   FixedVector corner;                 ///< corner of the world's own view, in which view objects were drawn
   std::vector<SoundPlayed> sounds;    ///< sounds in the order they were played
-  std::uint32_t sounds_lost = 0;      ///< sounds of this tick that were too many to record
+  std::uint32_t sounds_lost = 0;      ///< number of further sounds of this tick, which were not recorded
   std::vector<SoundPlayed> playing;   ///< repeating sounds, oldest first
   std::vector<std::string> notes;     ///< lines that the engine shows to all players
   Color background = BLACK;           ///< background colour of the window

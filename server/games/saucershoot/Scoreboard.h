@@ -1,7 +1,7 @@
 // Counts the points, and shows the best pilots, whose list the server stores.
 //
 // A saucer gives its points times the number of pilots (up to four) with a hit in the last three seconds, so
-// it is worth to keep friends in the game.
+// that it pays to keep friends in the game.
 #pragma once
 
 #include <cstdint>

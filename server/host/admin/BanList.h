@@ -41,8 +41,10 @@ struct Ban {
   bool persistent = true;       ///< true if the ban is saved on disk
 
   bool isExpired(Time now) const { return until && *until <= now; }
-  /// Returns "name:Ann" or "192.0.2.0/24". A new ban replaces an old one with the same target.
+  /// Returns "name:Ann" or "192.0.2.0/24".
   std::string target() const { return kind == Kind::kName ? "name:" + name : range->text(); }
+  /// True if adding one of these removes the other: their targets are equal, and both or neither are
+  /// exceptions.
   bool isSameTarget(const Ban& other) const {
     return (kind == Kind::kException) == (other.kind == Kind::kException) && target() == other.target();
   }
@@ -52,7 +54,7 @@ struct Ban {
 /// spam".
 std::string banMessage(const Ban& ban);
 
-/// Thrown if the file exists and cannot be used. what() is a one-sentence message.
+/// Thrown if the file cannot be created or used. what() is a one-sentence message.
 using BanFileError = StateFileError;
 
 /// The ban file: an SQLite database in the server's state folder. For one thread at a time. Servers with a
@@ -63,11 +65,11 @@ class BanStore {
   explicit BanStore(std::filesystem::path file);
 
   /// Returns all bans, without numbers; none if the file does not exist. Throws BanFileError, and leaves the
-  /// file unchanged, if it is damaged or unreadable. The server must not start then, or banned players could
-  /// join.
+  /// file unchanged, if it is unreadable or not a valid ban file. The server must not start then, or banned
+  /// players could join.
   std::vector<Ban> load();
-  /// Writes the ban, replacing one with the same target. Creates the file (0600) and its folder if necessary.
-  /// Waits for the disk. Throws BanFileError.
+  /// Writes the ban, replacing one of its kind and target. Creates the file (0600) and its folder if
+  /// necessary. Waits for the disk. Throws BanFileError.
   void save(const Ban& ban);
   /// Removes the ban, if it is there. Throws BanFileError.
   void erase(const Ban& ban);
@@ -113,12 +115,12 @@ class BanSet {
 };
 
 /// The bans in force. isBanned(), currentSet() and count() may be called from any thread, all other members
-/// only from the host's thread. Only the worker accesses the disk.
+/// only from the host's thread. The constructor reads the file; later only the worker accesses the disk.
 class BanList {
  public:
-  /// Called on the worker's thread when a change was written or could not be; called at once, on the caller's
-  /// thread, if there is nothing to write or too many jobs wait. `problem` is empty, or says in one sentence
-  /// why the change will be lost when the server ends.
+  /// Called on the worker's thread when a change was written or could not be. Called at once, on the caller's
+  /// thread, if the ban is not persistent, there is no file, or too many jobs wait. `problem` is empty, or
+  /// says in one sentence why the change will be lost when the server ends.
   using Saved = std::function<void(const std::string& problem)>;
   /// A wall clock; tests pass their own. May be called from any thread.
   using Clock = std::function<Ban::Time()>;
@@ -141,17 +143,19 @@ class BanList {
   /// Number of calls for which isBanned() returned true.
   std::uint64_t count() const { return m_hits; }
 
-  /// Adds a ban, replacing one with the same target, and removes expired ones. Returns false if there are
-  /// already kMaxBans.
+  /// Adds a ban, replacing one for which isSameTarget() is true, and removes expired ones. Returns false, and
+  /// does not call `saved`, if there are kMaxBans others already.
   bool add(Ban ban, Saved saved);
-  /// Removes the bans named by this text: #NUMBER, name:NAME, an address or a range. Returns the number
-  /// removed.
+  /// Removes the bans named by this text: #NUMBER, name:NAME, NAME, an address or a range. Returns the number
+  /// removed; if that is 0, does not call `saved`.
   std::size_t remove(const std::string& text, Saved saved);
-  /// Called on the worker's thread with the bans in the file, or with the reason why it cannot be read.
+  /// Called on the worker's thread with the bans in the file, or with the reason why it cannot be written or
+  /// read.
   using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
-  /// Retries failed writes and reads the file. False if there is no file or too many jobs wait for the disk.
+  /// Writes the bans that could not be written, then reads the file. False if there is no file or too many
+  /// jobs wait for the disk.
   bool reload(Loaded loaded);
-  /// Replaces the bans, keeping those held only in memory.
+  /// Replaces the persistent bans; all others stay.
   void replaceAll(std::vector<Ban> bans);
 
  private:

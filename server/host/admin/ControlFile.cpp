@@ -63,7 +63,7 @@ sockaddr_un addressOf(const fs::path& path) {
   return address;
 }
 
-/// True if no process listens on the socket. Does not wait: a server with a full backlog is alive.
+/// True if no process listens on the socket. Does not wait; a server with a full backlog counts as alive.
 bool isDead(const fs::path& path) {
   const int descriptor = openSocket();
   if (descriptor < 0) return false;

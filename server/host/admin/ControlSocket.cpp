@@ -186,7 +186,7 @@ class ControlConnection : public std::enable_shared_from_this<ControlConnection>
   Events m_events;
   std::array<char, kMaxControlLine> m_piece{};
   std::string m_in;         ///< input that is not served yet
-  bool m_too_long = false;  ///< skipping the rest of a line that is too long
+  bool m_too_long = false;  ///< true while the rest of a line that is too long is skipped
   std::string m_out;        ///< output that is not being written yet
   std::string m_writing;
   bool m_busy = false;  ///< true while a command is executed
@@ -291,7 +291,8 @@ void ControlSocket::State::onConnection(stream_protocol::socket socket) {
   connection->start(options.short_time);
 }
 
-// An answer may come after the socket and its connection are gone, so callbacks hold only weak pointers.
+// An answer may arrive after the socket and its connection are gone, so its callbacks have only weak
+// pointers.
 ControlConnection::Events ControlSocket::State::eventsOf() {
   return {[this](AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done) {
             if (request.command->name == "watch") return done(AdminAnswer::done("The log follows."));

@@ -24,17 +24,17 @@ struct ControlSocketOptions {
   /// refused on it, and it is closed after `short_time`.
   std::size_t max_connections = 8;
   std::chrono::milliseconds short_time{2000};
-  /// Returns true for processes that may not give commands, because the server started them. If empty, no
-  /// process is refused. Called on the socket's thread, once for each connection.
+  /// Returns true for processes that may not give commands, for example because the server started them. If
+  /// empty, no process is refused. Called on the socket's thread, once for each connection.
   std::function<bool(pid_t process)> is_refused = nullptr;
 };
 
-/// Runs on a thread of its own, so a client that stalls does not delay the tick. If a watcher stalls, its
-/// events are dropped; it gets their number when it reads again.
+/// Runs on a thread of its own, so a client that stalls does not delay the tick. If a watcher (a client that
+/// has given the command "watch") stalls, its events are dropped; it gets their number when it reads again.
 class ControlSocket {
  public:
-  /// Executes a command. Called on the socket's thread. `done` must be called once, from any thread, even
-  /// after the socket is gone.
+  /// Executes a command. Called on the socket's thread. `done` must be called once; any thread may call
+  /// it, even after the socket is gone.
   using Execute =
       std::function<void(AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done)>;
 
@@ -45,7 +45,7 @@ class ControlSocket {
   ControlSocket(const ControlSocket&) = delete;
   ControlSocket& operator=(const ControlSocket&) = delete;
 
-  /// Maximum unsent bytes of a watcher; further events are dropped.
+  /// With more unsent bytes than this, events for a watcher are dropped.
   static constexpr std::size_t kMaxUnread = std::size_t{64} << 10;
 
  private:

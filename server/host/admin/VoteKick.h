@@ -87,7 +87,7 @@ class VoteKick {
     return found != players.end() ? &*found : nullptr;
   }
   void count(const std::vector<AdminPlayer>& players) {
-    // Voters that have left since they agreed do not count.
+    // Voters that have left or lost the connection since they agreed do not count.
     std::set<AddressPrefix> voters;
     for (const AdminPlayer& player : players) {
       if (!player.detached) voters.insert(voterAt(player));

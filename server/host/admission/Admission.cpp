@@ -77,7 +77,7 @@ void Admission::log(const Session& session, LogEvent event) const {
   m_setup.context.client_log.logClientEvent(session.address(), std::move(event), session.now());
 }
 
-// Waiting guesses are compared with the new hash, or admitted if no password is needed any more.
+// Waiting guesses are compared with the new hash, or with the old one if no password is needed any more.
 void Admission::changePassword(std::optional<PasswordHash> hash) {
   m_needs_password = hash.has_value();
   if (!hash) return;
@@ -97,8 +97,9 @@ void Admission::evaluateHello(Session& session, const wire::Hello& hello) {
   admitPlayer(session, hello);
 }
 
-// While a round is in recovery, all hellos wait. With named rooms only those that resume a session wait,
-// because the session may be in a room in recovery; such a room refuses new players (RoomAdmission.h).
+// While a round is in recovery, all hellos wait. With named rooms only hellos with an unknown resume token
+// wait, because their session may be in a room in recovery; such a room refuses new players
+// (RoomAdmission.h).
 bool Admission::waitsForRound(const wire::Hello& hello) const {
   if (!m_setup.rooms.recovering()) return false;
   return !m_setup.rooms.isNamed() ||
@@ -288,9 +289,9 @@ void Admission::restoreSessions(Room& room, const std::vector<PersistedSession>&
   }
 }
 
-// The client goes on with a new session, that of its new stream. Neither of them has any state, so the world
-// is sent from the beginning. The welcome may be lost, so the previous token stays valid until the client has
-// read it.
+// The client continues with the session of its new stream. Neither the client nor this session has any state,
+// so the world is sent from the beginning. The welcome may be lost, so the previous token stays valid until
+// the client has read it.
 void Admission::replaceRestoredSession(Session& before, Session& session, const wire::Hello& hello) {
   Room* p_room = m_setup.rooms.roomOf(before);
   wire::Welcome welcome = before.welcomed();
@@ -390,7 +391,8 @@ bool Admission::checkLimits(Session& session) {
   return true;
 }
 
-// Refuses a session for lack of places. Adds a link if another server of the fleet has a free place.
+// Refuses a session because there is no free place or the server stops. Adds a link to a server with places,
+// if one is known.
 void Admission::refuseFull(Session& session, const std::string& sentence) {
   const auto link = m_find_redirect ? m_find_redirect() : std::nullopt;
   if (!link) return session.refuse(wire::Refused::FULL, sentence);

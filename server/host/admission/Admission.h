@@ -36,7 +36,7 @@ class Admission {
     RoomManager& rooms;
     PlayerListBroadcaster& player_list;
     PlayerPrefixes& prefixes;
-    /// Opens a datagram channel with keys from this stream; null if the server has no datagrams.
+    /// Opens a datagram channel with keys from this stream; returns null if the server has no datagrams.
     std::function<std::unique_ptr<SealedChannel>(const ReliableChannel& stream, AeadId aead)> open_datagrams;
     /// Creates a session without a stream, which waits for its client. Null: sessions are not restored.
     std::function<Session&(const wire::Welcome& welcome)> restore_session = {};
@@ -50,7 +50,8 @@ class Admission {
   using FindRedirect = std::function<std::optional<JoinLink>()>;
   void setFindRedirect(FindRedirect find_redirect) { m_find_redirect = std::move(find_redirect); }
 
-  /// Sets the world whose window and help go into welcomes. Call before the first hello.
+  /// Sets the world whose view size and help are sent in welcomes, except to named rooms. Call this before
+  /// the first hello.
   void setWorld(const df::World& world) { m_p_world = &world; }
 
   /// Time that a hello waits for a round in recovery; then its client is refused and told the progress.
@@ -59,8 +60,8 @@ class Admission {
   /// client might retry only after the end of the recovery. Less than Session::kAdmissionTimeout.
   static constexpr std::chrono::milliseconds kNearEndWait{3000};
 
-  /// Refuses or welcomes the session that received this hello: at once, after its password check, or after
-  /// the recovery of a killed server's round.
+  /// Refuses or welcomes the session that received this hello, or resumes an earlier session on its stream:
+  /// at once, after its password check, or after the recovery of a killed server's round.
   void evaluateHello(Session& session, const wire::Hello& hello);
   /// Makes new players get higher ids than this one.
   void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }

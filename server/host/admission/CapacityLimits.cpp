@@ -9,9 +9,9 @@ namespace naiad {
 
 namespace {
 
-/// Limits of half-open connections. Per prefix, at least a class behind one address, or the host's limit per
-/// address. In total, a few such groups, or all players when they reconnect at once. Each connection takes up
-/// to 192 KiB.
+/// Limits of half-open connections. Per prefix, they allow a school class behind one address, or the host's
+/// limit per address; in total, a few such groups, or all players when they reconnect at once. Each
+/// connection takes up to 192 KiB.
 constexpr std::size_t kMinHalfOpenPerPrefix = 64;
 constexpr std::size_t kMinHalfOpen = 256;
 constexpr std::size_t kMaxHalfOpen = 2048;

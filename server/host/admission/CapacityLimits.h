@@ -7,11 +7,11 @@
 
 namespace naiad {
 
-/// Maximum number of client connections: players, their reconnections, and some without a hello yet.
+/// Maximum number of client connections: players, their reconnections, and some connections without a hello.
 std::size_t maxConnections(const HostOptions& options);
 
-/// Limits of connections that have not finished TLS. Prefixes with players have places of their own, so that
-/// a flood from other prefixes does not stop players from reconnecting.
+/// Limits of connections that have not finished the TLS handshake. Prefixes with players have places of their
+/// own, so that a flood from other prefixes does not stop players from reconnecting.
 struct HalfOpenQuota {
   std::size_t total = 0;
   std::size_t known = 0;  ///< places for prefixes with players, in addition to `total`

@@ -30,8 +30,8 @@ class RoomAdmission {
   /// `game`, preferably one with a free place that is awake; without both, the first room. If there is none,
   /// returns null, and `refusal` says why.
   Room* findRoom(const std::string& name, const std::string& game, Refusal& refusal) const;
-  /// Wakes the room if it sleeps. Returns nullopt if a player from `prefix` may enter it, otherwise the
-  /// reason why not.
+  /// Opens the room to a player from `prefix`; wakes it if it sleeps. Returns nullopt on success, otherwise
+  /// the reason why the player may not enter.
   std::optional<Refusal> open(Room& room, const AddressPrefix& prefix, Time now);
   /// Counts a room change by a player from `prefix`. False if it is over the limit.
   bool tryMove(const AddressPrefix& prefix, Time now) { return m_moves.tryConsume(prefix, now); }

@@ -25,7 +25,7 @@ class RoomTransfers {
   /// Call when this room was closed. Tells its players `sentence` (the reason), and moves them to the first
   /// room; ends sessions that cannot move. If it is the first room, ends all of its sessions.
   void evacuate(const Room& room, const std::string& sentence);
-  /// Call once a tick, outside of session callbacks.
+  /// Performs the requested moves. Call once a tick, outside of session callbacks.
   void update();
   /// Sends the room list to the session, or drops it if it cannot be sent at once.
   void sendList(Session& session) const;

@@ -48,7 +48,7 @@ class LoginRateLimit {
     if (!tries.since || now - *tries.since >= window_) tries = {now, 0};
     ++tries.count;
   }
-  /// Number of wrong tries in the present window; 0 for unknown prefixes.
+  /// Number of wrong tries in the window of the last beginTry(); 0 for unknown prefixes.
   int wrong(const AddressPrefix& from) {
     const PrefixFailures* const entry = table_.find(from);
     return entry != nullptr ? entry->wrong : 0;

@@ -26,7 +26,7 @@ class PasswordCheck {
     kRight,
     kWrong,
     kTooMany,  ///< too many wrong guesses from this prefix lately; nothing was compared
-    kBusy,     ///< too many guesses at once; nothing was compared or counted; retry after a second
+    kBusy,     ///< too many guesses at once, or no memory to compare; not counted as wrong; retry later
   };
   struct Limits {
     std::size_t queue = 8;     ///< maximum number of guesses waiting or in progress; at least two

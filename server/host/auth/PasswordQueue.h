@@ -2,8 +2,8 @@
 //
 // The best guess is next; if the queue is full, the worst is dropped. In this order, a guess is better if its
 // prefix has players, has fewer guesses in the queue (by /24, or /48 and /56, then by address), was wrong
-// less often lately, was dropped less often lately, or if it came first. So the guesses of prefixes that
-// guess or retry a lot are dropped first.
+// less often lately, was dropped less often lately, or if the guess arrived first. So the guesses of prefixes
+// that guess or retry a lot are dropped first.
 #pragma once
 
 #include <algorithm>

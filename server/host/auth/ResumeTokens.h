@@ -17,8 +17,8 @@ class ResumeTokens {
  public:
   static constexpr std::size_t kBytes = 16;
 
-  /// Issues a token for a session. The token redeemed last stays valid until confirm(); all older ones become
-  /// void.
+  /// Issues a token for a session. The token redeemed last stays valid until confirm(), or until another one
+  /// is redeemed; all others become void.
   std::string issue(std::uint64_t session);
   /// Returns the session of a token; nullopt if it was never issued or is void.
   std::optional<std::uint64_t> find(const std::string& token) const;
@@ -54,7 +54,7 @@ class ResumeTokens {
     bool restarted = false;  ///< true if another process of the client redeemed the token of `redeemed`
   };
   std::optional<std::uint64_t> sessionOf(const std::string& hash) const;
-  /// Removes the hash's session entry, and empties the string.
+  /// Removes the hash from m_sessions, and empties the string.
   void drop(std::string& hash);
   void dropRedeemed(Hashes& hashes);
 

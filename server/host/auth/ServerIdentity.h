@@ -14,8 +14,6 @@
 
 namespace naiad {
 
-// Makes keys and self-signed certificates.
-
 /// Returns a new ECDSA P-256 key (RFC 5480) as PEM (PKCS #8). Throws TlsError.
 std::string makeKeyPem();
 

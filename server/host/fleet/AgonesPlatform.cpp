@@ -85,7 +85,7 @@ struct AgonesPlatform::Loop {
   bool failing = false;
 
   std::atomic<bool> wants_end = false;
-  std::atomic<Clock::rep> ticked = 0;  ///< end of the newest tick; 0: none yet
+  std::atomic<Clock::rep> ticked = 0;  ///< when the newest reported tick began; 0: none yet
   std::mutex mutex;
   std::condition_variable over;
   PlatformCounters counters;

@@ -1,5 +1,5 @@
 // Decides which request the Agones sidecar gets next, and when: one at a time, each repeated until it
-// succeeds. Time is passed in; AgonesPlatform.h sends the requests.
+// succeeds or the sidecar does not support it. Callers pass the time; AgonesPlatform.h sends the requests.
 //
 // Source: the interface's published description (sdk.swagger.json, beta.swagger.json of Agones).
 #pragma once
@@ -72,8 +72,8 @@ class AgonesRequestScheduler {
   std::size_t m_max_players = 0;
   ReportedState m_reported_state = ReportedState::kNothing;
   std::optional<Time> m_healthy;  ///< time of the last successful health request
-  std::string m_counter;          ///< body of the last successful counter request
-  std::string m_list;             ///< body of the last successful list request
+  std::string m_counter;          ///< body of the last counter request that succeeded or was unsupported
+  std::string m_list;             ///< body of the last list request that succeeded or was unsupported
   std::string m_missing;
   std::optional<GameServerInfo> m_facts;
   std::optional<SidecarRequest> m_pending;  ///< request that is not answered yet

@@ -24,7 +24,7 @@ struct BusCounters {
   std::uint64_t failures = 0;     ///< failed attempts to connect or publish
   std::uint64_t connections = 0;  ///< successful connects; more than 1 if the bus was lost and came back
   std::uint64_t received = 0;     ///< messages of the subscribed subjects
-  std::uint64_t ignored = 0;      ///< received messages that were too long or had too many subjects
+  std::uint64_t ignored = 0;  ///< received messages that were too long, or of a new subject beyond the limit
 };
 
 class Bus {

@@ -48,8 +48,8 @@ class BusInbox {
   std::uint64_t m_ignored = 0;
 };
 
-/// Messages to be sent. When the queue is full, the oldest message is dropped.
-/// Not thread-safe.
+/// Messages to be sent, in one queue for reliable messages and one for others. When a queue is full, its
+/// oldest message is dropped. Not thread-safe.
 class BusQueue {
  public:
   /// Adds a message. If it may be lost (no id), it replaces an older one with its subject.

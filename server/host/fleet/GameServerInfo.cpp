@@ -12,7 +12,7 @@ constexpr std::size_t kMaxDepth = 32;  ///< more than the JSON of any sidecar ne
 constexpr std::size_t kMaxText = 253;  ///< maximum length of Kubernetes names and host names
 constexpr int kMaxHealthSeconds = 3600;
 
-/// Returns a JSON string; empty if it is another type, too long or not printable.
+/// Returns a JSON string; empty if it is another type, too long, or has characters other than ! to ~.
 std::string textOf(const Json& value) {
   std::string text = value.textOrEmpty();
   const bool good = text.size() <= kMaxText &&

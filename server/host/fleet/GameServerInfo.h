@@ -22,8 +22,8 @@ struct GameServerInfo {
   std::uint16_t port = 0;  ///< first public port of the server; 0: unknown
   int health_seconds = 0;  ///< maximum time between health requests; 0: unknown
 
-  /// Returns nullopt for invalid text. Fields that are missing or of another type stay empty; unknown ones
-  /// are ignored. `is_line`: the text is a line of a watch, with the facts in its "result".
+  /// Returns nullopt for invalid text. Fields that are missing or have invalid values stay empty; unknown
+  /// ones are ignored. `is_line`: the text is a line of a watch, with the facts in its "result".
   static std::optional<GameServerInfo> parse(std::string_view text, bool is_line);
 };
 

@@ -9,16 +9,16 @@
 
 namespace naiad {
 
-/// Not thread-safe. Sending never blocks: if the manager's socket is full, the message is lost, except status
-/// and keep-alive, which are sent again at the next tick.
+/// Not thread-safe. Sending never blocks: if the manager's socket is full, the message is lost. A lost status
+/// or keep-alive is sent by the next call of notifyStatus() or keepAlive().
 class ServiceNotify {
  public:
   using Clock = std::chrono::steady_clock;
   /// Returns the value of an environment variable, or null.
   using Variable = std::function<const char*(const char* name)>;
 
-  /// Connects to NOTIFY_SOCKET; if it is not set, nothing is ever sent. The manager's keep-alive timeout is
-  /// WATCHDOG_USEC, if WATCHDOG_PID is absent or this process.
+  /// Connects to NOTIFY_SOCKET; if it is not set or connecting fails, nothing is ever sent. The manager's
+  /// keep-alive timeout is WATCHDOG_USEC, if WATCHDOG_PID is absent or this process.
   explicit ServiceNotify(const Variable& variable);
   ServiceNotify();
   ~ServiceNotify();

@@ -13,12 +13,14 @@
 
 namespace naiad {
 
-/// Describes the first difference between two views; empty if they match.
+/// Returns the first difference between two views in words: in the changed Objects, their positions or
+/// velocities, in scores, or in drawn characters. Empty if all of these are equal.
 std::string describeDifference(const df::WorldView& first, const df::WorldView& again);
 
 class DeterminismCheck {
  public:
-  /// Ticks that are compared, and ticks before the second world starts: two seconds, so that clocks differ.
+  /// Number of ticks that are compared, and of ticks before the second world starts: two seconds of a usual
+  /// game, so that the clocks of the worlds differ.
   static constexpr std::uint32_t kTicks = 900;
   static constexpr std::uint32_t kDelay = 60;
   /// Maximum number of turns for the second world per tick of the host: enough to catch up, in little time.

@@ -64,9 +64,9 @@ inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;
 
-/// A TURN chunk begins with the position of its first byte in the record stream, modulo 65,536 (2 bytes,
-/// because a small game's chunk of a second has barely 100), and a varint: twice the number of unpacked
-/// bytes, plus the DfrPacking.
+/// A TURN chunk begins with the position of its first byte in the record stream, modulo 65,536 (only 2 bytes,
+/// because one second of a small game makes a chunk of barely 100 bytes), and a varint: twice the number of
+/// unpacked bytes, plus the DfrPacking.
 inline constexpr std::size_t kDfrTurnPositionSize = 2;
 
 /// Packing of turns in a TURN chunk.

@@ -19,7 +19,7 @@ namespace naiad {
 enum class DfrEnd {
   kDone,     ///< the round is complete
   kTorn,     ///< the end is missing, or the round is still being played
-  kDamaged,  ///< a chunk is damaged
+  kDamaged,  ///< the header, a chunk or a record is damaged
 };
 
 class DfrReader {
@@ -29,14 +29,14 @@ class DfrReader {
   DfrReader(const DfrReader&) = delete;
   DfrReader& operator=(const DfrReader&) = delete;
 
-  /// Returns why the file cannot be read, in words: not a `.dfr` file, of another version, or damaged. Empty
-  /// if it can.
+  /// Returns why the file cannot be read, in words: not a `.dfr` file, truncated in its header, of another
+  /// version, or damaged. Empty if it can.
   const std::string& problem() const { return m_problem; }
   const DfrHeader& header() const { return m_header; }
   /// Returns the facts of the META chunks read so far; those before the first turn are always included.
   const DfrFacts& facts() const { return m_facts; }
 
-  /// Returns the next record; nullopt at the end, and end() says how it was reached.
+  /// Returns the next record; nullopt at the end, whose state end() then returns.
   std::optional<TurnRecord> next();
   DfrEnd end() const { return m_end; }
   /// Skips to the end without unpacking the remaining turns. wholeBytes(), streamBytes() and end() are then

@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Maximum bytes of records written at a time: less than a chunk.
+/// Maximum size of the records written at a time, in bytes: they fit into one chunk.
 constexpr std::size_t kMaxTaken = kMaxDfrPayload / 2;
 
 constexpr const char* kOverflow = "the disk is too slow";

@@ -19,7 +19,7 @@ namespace naiad {
 class Journal {
  public:
   /// Creates the journal of a round that begins, or of one that is resumed (`resumed`): then the file has all
-  /// earlier records. `facts`: those known before the world begins. `ring`: bytes of records that may wait
+  /// earlier records. `facts`: facts known before the world begins. `ring`: bytes of records that may wait
   /// for the disk, in memory that survives a crash if `shared`. `folder`: hash of the file's folder
   /// (TurnRing.h). `name`: the file's name, so that the next server can create the file if this one is killed
   /// before the first write; empty: not needed. Throws std::system_error if there is no memory.
@@ -32,9 +32,10 @@ class Journal {
 
   // The tick thread calls these.
 
-  /// Adds a record. Returns false if the journal has stopped or was left open.
+  /// Adds a record. Returns false if the journal was suspended or has stopped, and if it stops now because
+  /// the ring is full.
   bool add(std::string_view record);
-  /// Adds facts. In the file they come before all records that are added later.
+  /// Adds facts. In the file they precede all records that are added later.
   void addFacts(DfrFacts facts);
   /// Ends the journal: the round is over. `why` says how it ended.
   void finish(const std::string& why);
@@ -43,14 +44,14 @@ class Journal {
   /// Leaves the file to another program that resumes the round. Records added so far are still written, later
   /// ones are refused, and the file does not get an end.
   void suspend();
-  /// True if the round is not over and all of it so far was recorded.
+  /// True if the round is neither over nor suspended, and all of it so far was recorded.
   bool isOpen() const { return !m_stopped && !m_finished && !m_overflowed && !m_suspended; }
   /// True if the journal stopped before the round was over. Then the round continues, but can be neither
   /// resumed, handed over, nor taken over by another world.
   bool hasStopped() const { return (m_stopped && !m_finished) || m_overflowed; }
   /// True if more than half of the ring is full, so that the writer should be woken.
   bool isFilling() const { return m_ring.isFilling(); }
-  /// Returns why the journal stopped, once; nullopt while it has not.
+  /// Returns why the journal stopped; nullopt if it has not, or if this was returned before.
   std::optional<std::string> popProblem();
 
   // The writer's thread calls these.
@@ -59,7 +60,8 @@ class Journal {
   /// not write all day.
   static constexpr int kIdleFlushInterval = 33;
 
-  /// Writes all records to disk. `at_once`: even if there are no players. Returns false if no more will come.
+  /// Writes all records to disk. `at_once`: even if there are no players. Returns false if the journal has
+  /// stopped, or the round is over and all of it is written.
   bool flush(bool at_once = false);
 
  private:

@@ -7,7 +7,8 @@
 
 namespace naiad {
 
-/// Called on the writer's thread. Each call may block as long as the disk does, and throws std::system_error.
+/// Called on the writer's thread. Each call may block as long as the disk does. Throws std::system_error on
+/// failure.
 class JournalSink {
  public:
   virtual ~JournalSink() = default;
@@ -41,7 +42,7 @@ class JournalFileSink : public JournalSink {
   void sync() override;
   void setFlags(std::uint16_t flags) override;
 
-  /// Limits of one folder, in files and bytes. Beyond them a new file replaces the oldest.
+  /// Limits of one folder, in files and bytes. The creation of a file removes the oldest ones beyond them.
   static constexpr std::size_t kMaxFiles = 200;
   static constexpr std::uintmax_t kMaxFolder = std::uintmax_t{1} << 30;
 
@@ -49,7 +50,7 @@ class JournalFileSink : public JournalSink {
   void open();
 
   std::string m_path;
-  std::size_t m_size = 0;  ///< bytes of the file
+  std::size_t m_size = 0;  ///< size of the file, in bytes
   int m_file = -1;
 };
 

@@ -10,7 +10,8 @@ namespace naiad {
 
 class JournalWriter {
  public:
-  /// Interval of writes and syncs: a power cut loses at most this much.
+  /// Interval of writes and syncs: a power cut loses about this much of a round. For rounds without players
+  /// it is longer (Journal::kIdleFlushInterval).
   static constexpr std::chrono::milliseconds kFlushInterval{1000};
   /// Time limit of the last write, if the disk stalls.
   static constexpr std::chrono::milliseconds kFinalFlushTimeout{2000};
@@ -25,7 +26,8 @@ class JournalWriter {
   void add(std::shared_ptr<Journal> journal);
   /// Makes the thread write now.
   void wake();
-  /// Waits until everything added before is on the disk, at most `most`. Returns true if it is.
+  /// Waits until everything added before is on the disk, at most `most`. Returns true if it is, or if it
+  /// cannot be because a journal has stopped.
   bool drain(std::chrono::milliseconds most);
 
  private:

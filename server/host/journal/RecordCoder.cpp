@@ -141,7 +141,7 @@ void RecordModel::followRecord(std::uint8_t byte) {
   --m_left;
 }
 
-// The first byte is the number of inputs. Also misreads numbers of more than one byte.
+// The first byte is the number of inputs. Like followRecord(), misreads numbers of more than one byte.
 void RecordModel::followInput(std::uint8_t byte) {
   static constexpr std::uint32_t kLengths[4] = {2, 2, 4, 9};
   if (m_place == kBeforeInputs) {

@@ -39,16 +39,16 @@ class RecordModel {
   void followInput(std::uint8_t byte);
 
   std::unique_ptr<Tables> m_tables;
-  std::array<std::uint32_t, kContexts> m_hashes{};  ///< hashes of this byte's contexts
+  std::array<std::uint32_t, kContexts> m_hashes{};  ///< hashes of the next byte's contexts
   std::array<std::uint32_t, kContexts> m_slots{};
   std::array<std::int32_t, kContexts> m_inputs{};
-  std::uint32_t m_partial = 1;  ///< bits of the byte so far, with a 1 before them
+  std::uint32_t m_partial = 1;  ///< known bits of the next byte, with a 1 before them
   std::uint32_t m_history = 0;  ///< the last four bytes
-  std::uint32_t m_place = 0;  ///< number of the record's bytes before this one, not counting its length byte
-  std::uint64_t m_left = 0;   ///< bytes of the record that are left
-  std::uint32_t m_kind = 0;   ///< kind of the record plus 1; 0: not read yet
-  std::uint32_t m_input = 0;  ///< in a turn: kind of the input that the next byte belongs to
-  std::uint32_t m_field = 0;  ///< position of the byte in that input
+  std::uint32_t m_place = 0;    ///< number of the record's known bytes, without its length byte
+  std::uint64_t m_left = 0;     ///< bytes of the record that are left
+  std::uint32_t m_kind = 0;     ///< kind of the record plus 1; 0: not read yet
+  std::uint32_t m_input = 0;    ///< in a turn: kind of the input that the next byte belongs to
+  std::uint32_t m_field = 0;    ///< position of the next byte in that input
   std::uint32_t m_player =
       0;  ///< first byte of that input's player; until it is read, of the previous input's
   std::uint32_t m_predicted = 0;

@@ -42,7 +42,8 @@ class RoundHistory {
   /// `records`: the records so far of a round that is resumed.
   explicit RoundHistory(std::string records = {}) : m_records(std::move(records)) {}
 
-  /// Adds the next record. Returns false if the round is too long; then nothing of it is kept.
+  /// Adds the next record. Returns false if the records would exceed kMaxBytes and there is no copy, so that
+  /// none can be dropped; then nothing is kept.
   bool add(std::string_view record) {
     if (m_records.size() + record.size() > kMaxBytes && !dropOldRecords()) {
       *this = RoundHistory();
@@ -78,7 +79,8 @@ class RoundHistory {
     if (!m_has_beginning) dropOldRecords();
     return true;
   }
-  /// Returns the mark of the copy after `ticks` ticks, which takes over. Removes its mark and newer ones.
+  /// Returns the mark of the copy after `ticks` ticks, which takes over, or nullopt. Removes this mark and
+  /// newer ones.
   std::optional<CheckpointMark> popCheckpoint(std::uint32_t ticks) {
     // The next copy is due soon, because one copy fewer is left.
     m_in_progress.reset();

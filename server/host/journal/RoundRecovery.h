@@ -34,7 +34,7 @@ class RoundRecovery {
   /// Returns the number of turns that were taken and not yet answered.
   std::uint32_t unanswered() const { return static_cast<std::uint32_t>(m_results.size()); }
   /// Compares the answer to the oldest unanswered turn with the file. Returns the difference in words; empty
-  /// if there is none.
+  /// if there is none, or if the file lacks the result.
   std::string compareResult(const WorldAnswer& answer);
   /// True if the file lacks the result of the turn compared last: the server was killed before recording it.
   bool isResultMissing() const { return m_result_missing; }

@@ -200,7 +200,7 @@ int openRing(const std::string& path) {
 
 }  // namespace
 
-// A ring that is being made has no lock and no magic yet; it must not be locked here.
+// A ring that is being created has no lock and no magic yet; it must not be locked here.
 bool TurnRing::isRingOf(int file, std::uint64_t folder) {
   alignas(Head) char bytes[sizeof(Head)];
   struct stat facts {};

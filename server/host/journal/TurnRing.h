@@ -34,8 +34,8 @@ class TurnRing {
  public:
   /// Creates a ring of `capacity` bytes: in /dev/shm under the round's name if `shared` and if that works
   /// (see isShared()), otherwise in memory of this process alone. `position`: position of the first byte in
-  /// the record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: that of a file
-  /// that does not exist yet.
+  /// the record stream. `folder`: ringFolder() of the file's folder; 0: unknown. `beginning`: beginning of
+  /// the file, if it does not exist yet. Throws std::system_error if there is no memory.
   TurnRing(std::size_t capacity, const std::array<std::uint8_t, 16>& uuid, bool shared,
            std::uint64_t position = 0, std::uint64_t folder = 0, const FilePrologue& beginning = {});
   /// Removes the shared memory, unless handOver() was called.
@@ -50,7 +50,7 @@ class TurnRing {
   /// Leaves the shared memory to another process, which resumes the round from there (OrphanedRing).
   void handOver() { m_handed_over = true; }
 
-  /// Stores bytes. For one thread. Returns false, and stores none, if there is not enough space.
+  /// Stores bytes. Only one thread may call this. Returns false, and stores none, if space is lacking.
   bool store(std::string_view bytes);
   /// True if more than half of the ring is in use.
   bool isFilling() const;
@@ -104,7 +104,8 @@ class OrphanedRing {
 
   /// Returns the beginning of the round's file; nullopt if the file existed, or if no turn was stored.
   std::optional<FilePrologue> beginning() const;
-  /// Returns the bytes of the stream from this position on; nullopt if some of them were overwritten.
+  /// Returns the bytes of the stream from this position on; nullopt if some of them were overwritten,
+  /// or if the position is after the last stored byte.
   std::optional<std::string> bytesFrom(std::uint64_t position) const;
   const std::string& path() const { return m_path; }
   /// Removes the shared memory.

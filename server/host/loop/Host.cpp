@@ -37,8 +37,8 @@ constexpr std::chrono::seconds kDrainTime{1};
 constexpr std::chrono::milliseconds kDrainStep{10};  ///< interval of checks whether worlds have ended
 constexpr double kFirstPlayerSeconds = 60;           ///< minimum of --exit-when-empty until a player joins
 constexpr std::chrono::milliseconds kRestTime{400};  ///< time between two ticks while no world ticks
-constexpr int kMaxFrameTimeMillis = 1000;            ///< limit of --frame-time
-constexpr int kExitHung = 1;                         ///< exit code of a hung game, as of one that fails
+constexpr int kMaxFrameTimeMillis = 1000;  ///< limit of a game's frame_time, like that of --frame-time
+constexpr int kExitHung = 1;               ///< exit code of a hung game, as of one that fails
 constexpr const char* kShuttingDown = "The server is shutting down.";  // like ShutdownScheduler's sentence
 
 // Ends the process by the signal's default action, so that its exit status shows the signal.
@@ -156,8 +156,8 @@ bool Host::isResting() const {
   return m_clients->sessions().isEmpty() && m_clients->rooms().rest();
 }
 
-// Waits while no world ticks. Ticks then only serve the bus's heartbeat, at its interval. A connection ends
-// the wait.
+// Waits while no world ticks, for kRestTime or, if that is less, the interval of the bus's heartbeat, which
+// ticks send. A connection ends the wait.
 TickClock Host::rest() {
   const auto heartbeat = std::chrono::milliseconds(m_context->options.bus_interval_ms);
   const auto end = Clock::now() + std::min(kRestTime, heartbeat);

@@ -32,9 +32,9 @@ class Host : public df::Runner {
  public:
   using Log = std::function<void(const LogEvent& event)>;
 
-  /// Starts to listen; clients wait until run(). Throws ListenError (with HostOptions::lan "on" also for the
-  /// socket of LAN queries), TlsError for unusable keys, or std::runtime_error for a truth or status file
-  /// that cannot be written.
+  /// Starts to listen; clients wait until run(). Throws ListenError (also for the metrics port, a control
+  /// socket given by path and, with HostOptions::lan "on", LAN queries), TlsError for unusable keys,
+  /// PasswordError, BanFileError, or std::runtime_error for a truth or status file that cannot be written.
   Host(HostOptions options, std::string game, Log log);
   ~Host() override;
 
@@ -43,9 +43,11 @@ class Host : public df::Runner {
   HostClients& clients() const { return *m_clients; }
   HostControls& controls() const { return *m_controls; }
 
-  /// Ticks the world 30 times a second until the game is over, or a signal or option ends it. Then sends the
-  /// players a goodbye and waits until queued data is sent. If a signal comes while the game hangs in a tick,
-  /// the process exits with code 1; a second signal ends it by that signal. Both send a goodbye first.
+  /// Ticks the world, by default 30 times a second, until the game is over, or a signal, command or option
+  /// ends it. Then sends the players a goodbye, unless another program continues their round, and waits, at
+  /// most a second, until queued data is sent. If a signal arrives while the game hangs in a tick, the
+  /// process exits with code 1. A second signal ends it at once, by that signal unless the game hangs. Both
+  /// send a goodbye first.
   void run(df::World& world) override;
   /// Ends run() after the present tick, with this sentence to the players. Any thread.
   void stop(const std::string& sentence);

@@ -25,7 +25,8 @@
 
 namespace naiad {
 
-/// Ends sessions of players without any key, click or chat line. Not thread-safe. Time is a parameter.
+/// Ends sessions of players that send no key, click or chat line for too long. Not thread-safe. The time is
+/// Session::now().
 class InactivityCheck {
  public:
   /// Players are warned this long before the limit or, if the limit is less than twice this, at half of it.
@@ -88,7 +89,7 @@ class HostClients {
 
   /// Call for each accepted connection.
   void add(std::unique_ptr<ReliableChannel> channel);
-  /// Applies the player limit of the options in force. Logs a warning if too few files may be open for it.
+  /// Applies the player limit of the options in force. Logs it if too few files may be open for it.
   void applyCapacityLimits();
   /// Call once a tick, before worlds tick: serves deadlines, waiting hellos, and moves between rooms.
   void update(Clock::time_point now);

@@ -72,7 +72,7 @@ class HostControls {
   /// Call once a tick: tells players about a planned end, and plans a restart if the program was upgraded.
   void update(Clock::time_point now);
   /// Reacts to signals. The first SIGTERM gives players drain_time to finish; a second signal ends everything
-  /// at once (Watchdog.h). SIGHUP without a terminal reloads the options.
+  /// at once (Watchdog.h). SIGHUP without a terminal reopens the log and reloads the options.
   void handleSignals(StopSignals& signals);
 
   void setReload(Reload::ReadOptions read) { m_reload.emplace(std::move(read)); }
@@ -97,9 +97,9 @@ class HostControls {
 
   /// Sets the object that handOverRound() uses; it must outlive this.
   void setHandover(RoundHandover& handover) { m_p_handover = &handover; }
-  /// Restarts in the installed program, which continues the present round. `done` is called after a trial
-  /// replay of the round. If the program cannot continue the round, the server restarts when all have left.
-  /// If the trial cannot start, nothing changes.
+  /// Replays the round in the installed program as a trial, then restarts in that program, which continues
+  /// the round. If the trial fails, the server restarts without the round when all players have left. If the
+  /// trial cannot start, or the round cannot be handed over afterwards, nothing changes. Then calls `done`.
   void handOverRound(Done done);
   /// True if Host::run() has ended, or is about to end, so that another program continues the round.
   bool handsOverRound() const;

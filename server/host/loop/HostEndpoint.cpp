@@ -90,7 +90,8 @@ TlsListenerOptions HostEndpoint::listening() {
   return listening;
 }
 
-// Refuses world processes, because they may open the socket with this user's rights and claim any visitors.
+// Refuses world processes, because they may open the socket with this user's rights and could state any
+// address as a visitor's.
 ProxyListenerOptions HostEndpoint::visitors() const {
   ProxyListenerOptions visitors;
   visitors.path = m_context.options.visitors;

@@ -57,8 +57,8 @@ class HostEndpoint {
   std::optional<Fingerprint> fingerprint() const;
   /// Returns the dfclient arguments to join from this machine: "127.0.0.1:9876 --fingerprint …".
   std::string joinArguments() const;
-  /// Returns the link for players on this machine or, if `elsewhere`, on any machine, which needs
-  /// HostOptions::link_host. Nullopt without encryption.
+  /// Returns the link for players on this machine or, if `elsewhere`, on any machine. For the latter,
+  /// HostOptions::link_host is needed. Nullopt without it, or without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
 
   /// Uses this key and certificate for new connections.

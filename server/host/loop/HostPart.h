@@ -32,7 +32,7 @@ class HostPart {
   virtual void tick(Clock::time_point now) = 0;
   /// Called after the last tick, before the players' goodbyes.
   virtual void drain() {}
-  /// Called when no player is left. Must have written all promised data to disk when it returns.
+  /// Called when all connections have ended. Must have written all promised data to disk when it returns.
   virtual void finish() {}
 };
 

@@ -193,7 +193,7 @@ void MetricsServer::Loop::accept() {
       }
       return accept();
     }
-    // No descriptor is free, so accepts again later. Until then, new connections wait in the kernel's queue.
+    // Perhaps no descriptor is free, so accepts again later. Until then, connections wait in the kernel.
     retry.expires_after(kRetryDelay);
     retry.async_wait([this](error_code ended) {
       if (!ended) accept();

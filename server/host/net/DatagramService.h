@@ -53,8 +53,8 @@ class DatagramService {
     DatagramService& m_service;
     AeadId m_aead;
     SealedLink m_link;
-    bool m_registered = false;   ///< in the service's gate
-    bool m_unvalidated = false;  ///< in the service's m_unvalidated
+    bool m_registered = false;   ///< true if it is in the service's gate
+    bool m_unvalidated = false;  ///< true if it is in the service's m_unvalidated
     std::function<void(std::string_view)> m_on_packet;
   };
 
@@ -62,7 +62,8 @@ class DatagramService {
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead);
   /// Like open(exporter, aead), with a given id. Also null if the id is in use.
   std::unique_ptr<Channel> open(const KeyExporter& exporter, AeadId aead, ConnectionId id);
-  /// Passes packets sent since the last call to the kernel, and sends the channels' own control packets.
+  /// Passes packets sent since the last call to the kernel, and control packets that are due to addresses
+  /// that are not validated yet.
   void flush();
   /// True while an address is being challenged. Then call flush() regularly even if nothing is sent.
   bool hasUnvalidated() const { return !m_unvalidated.empty(); }

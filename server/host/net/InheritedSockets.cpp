@@ -53,7 +53,7 @@ asio::ip::tcp::endpoint endpointOf(int socket) {
   return endpoint;
 }
 
-/// Stores a socket according to its type, and closes it in child processes.
+/// Stores a socket according to its type, and sets its close-on-exec flag.
 void sort(int socket, InheritedSockets& sockets) {
   if (fcntl(socket, F_SETFD, FD_CLOEXEC) != 0)
     refuse("descriptor " + std::to_string(socket) + " is not open");
@@ -75,7 +75,7 @@ void setAddress(InheritedSockets& sockets) {
   sockets.port = streams.port();
 }
 
-/// Returns nullopt if the variable is missing or names another process.
+/// Returns nullopt if the variable is missing, malformed, or names another process.
 std::optional<InheritedSockets> readExported() {
   const char* p_text = std::getenv(kExported);
   if (p_text == nullptr) return std::nullopt;

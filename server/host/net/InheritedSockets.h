@@ -34,10 +34,10 @@ struct InheritedSockets {
   /// Returns the value of an environment variable, or null.
   using Variable = std::function<const char*(const char* name)>;
 
-  /// Returns the sockets described by LISTEN_PID and LISTEN_FDS; nullopt if these are missing or name another
-  /// process. Child processes do not inherit the descriptors. Call once per process. `first`: the lowest
-  /// descriptor. Throws ListenError (TcpListener.h) unless they are one listening TCP socket and one UDP
-  /// socket, in any order, on one address and port.
+  /// Returns the sockets described by LISTEN_PID and LISTEN_FDS; nullopt if these are missing, name another
+  /// process, or state no sockets. Child processes do not inherit the descriptors. Call once per process.
+  /// `first`: the lowest descriptor. Throws ListenError (TcpListener.h) unless they are one listening TCP
+  /// socket and one UDP socket, in any order, on one address and port.
   static std::optional<InheritedSockets> importSockets(pid_t process, const Variable& variable,
                                                        int first = 3);
   /// Returns the sockets that exportToExec() left open for this program, and removes their numbers from the

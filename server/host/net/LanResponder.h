@@ -1,8 +1,8 @@
 // Answers clients that search the local network for servers (LanMessage.h).
 //
-// It has its own thread and sockets, so LAN packets cost the game little processor time and nothing else,
-// because at most kMaxPackets packets are read per kPollInterval; the system drops further ones. It notices
-// new networks within kRefreshInterval.
+// It has its own thread and sockets, and reads at most kMaxPackets packets per kPollInterval and address
+// family; the system drops further ones. So LAN packets cost the game little processor time and nothing else.
+// It notices new networks within kRefreshInterval.
 #pragma once
 
 #include <atomic>

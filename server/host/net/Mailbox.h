@@ -1,8 +1,8 @@
 // Messages from one thread to another, in batches.
 //
 // A writer fills its own Batch and puts it into the Mailbox from time to time; the reader takes everything in
-// it at once. Both hold the lock only to swap or append vectors, so neither waits long for the other. Memory
-// is reused, so after a while nothing is allocated any more.
+// it at once. Both hold the lock only to swap or append vectors, so neither waits long for the other. While
+// the reader takes each batch before the next one is put in, memory is reused and nothing is allocated.
 #pragma once
 
 #include <atomic>
@@ -49,7 +49,7 @@ class Batch {
     Header header;
     std::uint32_t size;
   };
-  /// Memory above this many bytes is released after a burst.
+  /// A buffer larger than this is released after a batch that uses less than a quarter of it. In bytes.
   static constexpr std::size_t kMaxIdleCapacity = std::size_t{1} << 22;
 
   void clear() {

@@ -13,7 +13,8 @@
 //   a stream's frames             the stream ends (CloseReason::kOverflow) when more than Limits::stream_in
 //                                 bytes of it wait for the tick thread, or its own queue (TcpOptions) or the
 //                                 mailbox is full
-//   connections                   dropped while Limits::unaccepted wait for the tick thread
+//   connections                   dropped while Limits::unaccepted wait for the tick thread, or while the
+//                                 mailbox is full
 #pragma once
 
 #include <asio/executor_work_guard.hpp>
@@ -102,13 +103,13 @@ class NetworkThread {
   void start();
   /// Ends the thread at once. Nothing is sent or received afterwards.
   void stop();
-  /// Closes the listener, so that no new connections are accepted.
+  /// Closes the listener at the next flush(), so that no new connections are accepted.
   void closeListener();
   /// Sets the certificate and key for connections accepted from now on.
   void setTls(std::shared_ptr<const TlsContext> context);
 
   /// Calls the callbacks for received messages until the time `enough`, but for at least a minimum number of
-  /// messages. Returns false if messages are left.
+  /// messages. Returns false if it stopped at that time, so that messages may be left.
   bool serve(Clock::time_point enough);
   /// Passes everything that was sent since the last flush to the network thread.
   void flush() { sendCommands(std::nullopt); }
@@ -126,7 +127,7 @@ class NetworkThread {
   std::uint16_t port() const { return m_port.streams->port(); }
   std::string address() const { return m_port.streams->address(); }
 
-  /// Sends `frame` on all streams, closes them, and waits until they are empty, at most `timeout`. Call from
+  /// Sends `frame` on all streams, closes them, and waits until all is sent, at most `timeout`. Call from
   /// any thread but the network thread, while that runs. Used if the tick thread hangs.
   void broadcastAndClose(const std::string& frame, std::chrono::milliseconds timeout);
 
@@ -135,9 +136,9 @@ class NetworkThread {
   /// Counters of the gate after the network thread's last turn; all zero without datagrams. Thread-safe.
   DatagramDemuxCounters gateCounters() const;
   void resetTickTimes() { m_tick_times.reset(); }
-  /// Makes the network thread copy its counters in its next turn; latestCounters() then returns them.
+  /// Makes the network thread copy its counters after the next flush(); latestCounters() then returns them.
   void requestCounters() { postCommand({.kind = Command::kReportCounters}); }
-  /// The counters of the last request; all zero before the first.
+  /// The counters of the last request, zero before the first; those of the tick thread are the present ones.
   NetworkCounters latestCounters() const;
   /// CPU time used by the network thread; 0 while it does not run.
   std::chrono::nanoseconds cpuTime();
@@ -238,7 +239,7 @@ class NetworkThread {
   ServerPort m_port;
   std::unordered_map<const NetworkSideStream*, std::unique_ptr<NetworkSideStream>> m_streams;
   std::unordered_map<const NetworkSideDatagrams*, std::unique_ptr<NetworkSideDatagrams>> m_datagrams;
-  std::vector<NetworkSideStream*> m_busy;  ///< streams with unsent bytes at the last count
+  std::vector<NetworkSideStream*> m_busy;  ///< streams that may have unsent bytes
   Clock::time_point m_count_at{};          ///< earliest time of the next count
   Batch<Command> m_running_commands;
   Batch<Event> m_events;

@@ -57,7 +57,7 @@ class PlayerPrefixes {
 
   mutable std::mutex m_mutex;
   std::map<std::uint64_t, Places> m_sessions;
-  std::map<AddressPrefix, std::size_t> m_counts;  ///< never zero
+  std::map<AddressPrefix, std::size_t> m_counts;  ///< the numbers are never zero
 };
 
 }  // namespace naiad

@@ -43,7 +43,7 @@ class RelayedDatagrams : public SealedChannel {
   std::function<void(std::string_view)> m_on_packet;
 };
 
-/// Call on the tick thread. Callbacks come from NetworkThread::serve(), frames leave with its flush().
+/// Call on the tick thread. NetworkThread::serve() calls the callbacks; frames leave with its flush().
 /// unsentBytes() is the sum of the bytes on the way to the network thread and of those that were unsent there
 /// at its last count, every few milliseconds. exportSecret() returns nothing, because the network thread
 /// makes the keys (NetworkThread::openDatagrams).
@@ -73,8 +73,8 @@ class RelayedStream : public ReliableChannel {
   NetworkThread::NetworkSideStream& m_end;
   std::shared_ptr<Callbacks> m_callbacks;  ///< shared with a running callback
   std::uint64_t m_bytes_passed = 0;        ///< total bytes passed to the network thread
-  mutable bool m_idle = false;             ///< unsentBytes() was 0, and nothing was passed since
-  bool m_closed = false;                   ///< true if closed by this end, or after an overflow
+  mutable bool m_idle = false;             ///< true if unsentBytes() was 0, and nothing was passed since
+  bool m_closed = false;                   ///< true if this end closed the stream, or it has ended
 };
 
 }  // namespace naiad

@@ -28,7 +28,7 @@ ServerPort openServerPort(asio::io_context& context, const std::string& address,
                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
                           ProxyListenerOptions visitors = {});
 
-/// Like openServerPort(), with sockets that the service manager has opened; they now belong to the port.
+/// Like openServerPort(), with sockets that are open already; they now belong to the port.
 /// Throws ListenError without `tls`.
 ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
                            TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,

@@ -9,8 +9,8 @@
 
 namespace naiad {
 
-/// Counts durations from 1 µs to an hour in steps of 1/16 of the duration. Thread-safe; a reader may miss
-/// samples that are just being added.
+/// Counts durations up to 9 hours, in steps of 1 µs or of at most 1/16 of the duration. Thread-safe; a reader
+/// may miss samples that are just being added.
 class TickTimes {
  public:
   void add(std::chrono::nanoseconds duration) {

@@ -291,7 +291,7 @@ void AdminConsole::unban(const AdminRequest& request, const Done& done) {
     done(AdminAnswer::refused("There is no ban of \"" + who + "\"; \"bans\" lists them."));
 }
 
-// Called on the worker's thread, or on the host's thread if there is no file.
+// Called on the worker's thread, or on the host's thread if there is no file or too many jobs wait.
 void AdminConsole::answerSaved(const std::string& text, const std::string& problem, const Done& done) {
   post([this, text, problem, done] {
     if (!problem.empty()) m_context.log("bans: " + problem);

@@ -22,12 +22,13 @@ struct PlayerLookup {
   AdminAnswer problem{};
 };
 
-/// Finds the player meant by a typed #ID, name, or beginning of a name. Tries #ID only if the text has that
-/// form, so a player named "#7" cannot protect another one; otherwise tries the exact name, then the name
+/// Finds the player meant by a typed #ID, name, or beginning of a name. A text of the form #ID is never tried
+/// as a name, so a player named "#7" cannot protect player 7. Otherwise tries the exact name, then the name
 /// ignoring case, then its beginning. If several players match equally well, `problem` lists them.
 PlayerLookup resolvePlayer(const std::vector<AdminPlayer>& players, const std::string& typed);
 
-/// Carries out commands on the host's thread. Logs each admin's command with its caller, passwords as "***".
+/// Carries out commands on the host's thread. Logs refused commands, and commands for admins or from the
+/// control socket that change anything, with the caller; passwords as "***".
 class AdminConsole {
  public:
   using Done = std::function<void(AdminAnswer)>;

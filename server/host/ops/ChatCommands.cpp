@@ -148,7 +148,8 @@ void ChatCommands::vote(Session& session, const AdminRequest& request) {
   }
 }
 
-// Bans the name, and the address unless others play there. The ban is short, so it is not written to disk.
+// Bans the name, and the address unless it is this machine's or others play there. The ban is short, so it
+// is not written to disk.
 void ChatCommands::kickByVote(const AdminPlayer& player) {
   if (const Session* const p_session = m_access.clients.sessions().find(player.session))
     logClientEvent(*p_session, inQuotes(player.name) + " is kicked by a vote");

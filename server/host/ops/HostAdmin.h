@@ -39,7 +39,7 @@ class HostAdmin {
   /// The arguments must outlive it.
   HostAdmin(const HostAccess& access, HostScores& scores);
 
-  /// Returns the players, by id.
+  /// Returns the players, sorted by id.
   std::vector<AdminPlayer> players() const;
   AdminRow status() const;
   /// Returns a row for each named room.
@@ -52,8 +52,8 @@ class HostAdmin {
   void tell(std::uint64_t session, const std::string& text);
   void setMuted(std::uint64_t session, bool muted);
 
-  // The answer of each of the following is one sentence: the result, or the reason for a failure. `done` is
-  // called once, on the host's thread: at once, or when files have been read.
+  // The answer of each of the following, unless noted, has the result or the reason for a failure as text.
+  // `done` is called once, on the host's thread: at once, or when files have been read or the round replayed.
 
   AdminAnswer stop(const std::string& sentence);
   AdminAnswer restart(const AdminRestart& restart);

@@ -69,7 +69,7 @@ std::string busId(const HostOptions& options, std::uint16_t port) {
   return serverIdOf(std::string(host).substr(0, kMaxServerId - 6) + "-" + std::to_string(port));
 }
 
-/// Returns the named rooms of a server.
+/// Returns the named rooms of a server, if it has any.
 std::vector<PresenceRoom> presenceOfRooms(const RoomManager& rooms) {
   std::vector<PresenceRoom> all;
   if (!rooms.isNamed()) return all;

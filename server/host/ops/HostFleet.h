@@ -32,8 +32,8 @@ class HostFleet : public HostPart {
   std::chrono::milliseconds interval() const {
     return std::chrono::milliseconds(m_access.context.options.bus_interval_ms);
   }
-  /// Returns a link to another server of the fleet with free places, as the directory named it; nullopt:
-  /// none.
+  /// Returns the link to another server with free places, from the directory's newest redirect; nullopt
+  /// without one, or if it is too old.
   std::optional<JoinLink> redirectLink() const;
   /// Publishes a score row that is about to be written. Called once per row.
   void publishScore(const ScoreRow& row, const std::string& game);

@@ -78,7 +78,7 @@ void useDefaultSignals(posix_spawnattr_t& attributes) {
   sigfillset(&all);
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setpgroup(&attributes, 0);  // Ctrl-C at the server's terminal is for the server
+  posix_spawnattr_setpgroup(&attributes, 0);  // Ctrl-C in the terminal must not end the program
   posix_spawnattr_setflags(&attributes, static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
                                                            POSIX_SPAWN_SETPGROUP));
 }
@@ -125,7 +125,7 @@ ChildExit ChildProcess::run(const std::string& path, const std::vector<std::stri
   const pid_t child = start(path, arguments, input.get());
   input.close();
   if (child == 0) return result;
-  // glibc 2.36 declares pidfd_open() for C only.
+  // glibc 2.36 declares pidfd_open() without extern "C".
   const OwnDescriptor handle(static_cast<int>(syscall(SYS_pidfd_open, child, 0)));
   if (!readUntilEnd(handle.get(), output, end, result.output_text)) {
     result.timed_out = true;

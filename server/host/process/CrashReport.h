@@ -11,10 +11,11 @@ class World;
 
 namespace naiad::crash {
 
-/// While this exists, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) is reported on stderr and, if that
+/// After this is made, a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) is reported on stderr and, if that
 /// is another file, in `log`: one line, the last lines of the game's log, and a hint. Then the signal has its
 /// usual effect, with core dump and exit status. Signals that already have a handler (of a sanitizer or the
-/// game) are left alone. A stack overflow is reported only on the thread that makes this. One at a time.
+/// game) are left alone. A stack overflow is reported only on a thread that makes a Report. A further
+/// Report replaces name and log.
 class Report {
  public:
   /// `name`: the program's name. `log`: a descriptor; below 0: none.

@@ -1,4 +1,4 @@
-// Passes events of the server to those that watch it (`dfctl watch`), from any thread.
+// Passes events of the server to programs that watch it (`dfctl watch`), from any thread.
 #pragma once
 
 #include <atomic>

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kPort = "--port";
 
-/// Replaces the port on the command line, if any. run() sets the variable that overrides one in a config
-/// file.
+/// Replaces the port on the command line, if any. For a port in a config file, run() sets NAIAD_PORT, which
+/// overrides it.
 std::vector<std::string> withPort(std::vector<std::string> arguments, const std::string& port) {
   for (std::size_t i = 1; i < arguments.size(); ++i) {
     if (arguments[i] == kPort && i + 1 < arguments.size()) arguments[i + 1] = port;

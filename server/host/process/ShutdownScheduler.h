@@ -33,7 +33,7 @@ class ShutdownScheduler {
   /// True if new players may join. False if the server ends for good at a set time or when all have left.
   bool acceptsPlayers() const { return !m_plan || m_plan->is_restart || !(m_plan->when_empty || m_plan->at); }
 
-  /// True if it is time to end. `is_empty`: no players are left.
+  /// True if it is time to end because of `at` or `when_empty`. `is_empty`: no players are left.
   bool isDue(Time now, bool is_empty) const;
   bool isRestart() const { return m_plan && m_plan->is_restart; }
   /// Returns the last message to players; empty if nothing is planned.

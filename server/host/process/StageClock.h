@@ -55,7 +55,7 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr std::size_t kStages = 9;
 
-/// Upper bounds of the buckets of tick times, in seconds. The default tick, 33 ms, is one of them.
+/// Upper bounds of the buckets of tick times, in seconds. One is about the default tick, 1/30 s.
 inline constexpr std::array<double, 14> kTickBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01,
                                                     0.02,   0.033,   0.05,   0.1,   0.25,   0.5,   1};
 inline constexpr std::array<double, 11> kLatenessBounds{0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005,

@@ -80,10 +80,10 @@ class HangDetector {
   std::optional<std::uint64_t> m_reported;
 };
 
-/// The end of a server without its game.
+/// The reason why a server ends without waiting for its game.
 struct ForcedExit {
-  bool hung = false;       ///< true: the tick did not finish; false: there was a second signal
-  std::uint64_t tick = 0;  ///< the tick that did not finish; 0: none was running
+  bool hung = false;       ///< true: the tick took kHangTime or longer; false: only a second signal
+  std::uint64_t tick = 0;  ///< the running tick; 0: none
   int signal = 0;          ///< the last signal that asked for the end
 };
 

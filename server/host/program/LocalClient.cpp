@@ -64,7 +64,8 @@ bool meansFailure(int status) {
   return code != 0 && code != 4;
 }
 
-/// Returns this process's environment, without variables that would lead the client to another server.
+/// Returns this process's environment without variables about another server, and with NAIAD_PASSWORD if
+/// `password` is not empty.
 std::vector<std::string> environmentOfClient(const std::string& password) {
   std::vector<std::string> kept;
   for (char** p = environ; *p != nullptr; ++p) {
@@ -155,7 +156,7 @@ LocalClient::LocalClient(const fs::path& program, const std::vector<std::string>
 
 LocalClient::~LocalClient() {
   if (hasEnded()) return;
-  // glibc 2.36 declares pidfd_open as a C++ function.
+  // glibc 2.36 declares pidfd_open() without extern "C".
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, m_process, 0));
   pollfd ended{handle, POLLIN, 0};
   if (handle < 0 || poll(&ended, 1, kExitTimeoutMillis) <= 0) kill(m_process, SIGTERM);

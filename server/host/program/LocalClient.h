@@ -30,7 +30,7 @@ class OutputRedirect {
 
 class LocalClient {
  public:
-  /// True if standard input and output are a terminal with this process in the foreground.
+  /// True if standard input and output are a terminal with this process in the foreground, and TERM is set.
   static bool hasTerminal();
   /// Returns the client program: the one named by NAIAD_CLIENT, otherwise the one installed or built with
   /// this library, otherwise one on the PATH. Nullopt if there is none.

@@ -103,7 +103,7 @@ void addFolders(df::World& world) {
   world.extras().resources.addFolder(folder.parent_path().string());
 }
 
-/// Opens the usual port; if it is in use and no option set it, any free port.
+/// Opens the port of the options; if that fails and no option set the port, opens any free one.
 std::unique_ptr<Host> openHost(HostOptions options, bool port_given, const Host::Log& log) {
   try {
     return std::make_unique<Host>(options, programName(), log);
@@ -125,7 +125,8 @@ void addToHelp(df::World& world, const std::vector<std::string>& lines) {
   world.setHelp(std::move(help));
 }
 
-/// Connects the game and the client in the terminal, if there is one: the end of one ends the other.
+/// The client in the terminal, if there is one. Its end ends the game as soon as no other player is
+/// connected, unless it failed. The end of the game ends the client.
 class TerminalPlayer {
  public:
   TerminalPlayer(Host& host, const HostOptions& options, const std::string& log_file,
@@ -250,8 +251,9 @@ void ProgramHost::startUp(df::World& world) {
                     (m_options.headless ? ", headless" : ""));
 }
 
-// random_seed is for rand(): 0 uses the time, -1 leaves it unseeded. The engine's own random numbers differ
-// in each run, unless an option sets a seed; headless runs with -1 repeat.
+// Seeds the engine's random numbers: by an option or the host, else by a random_seed above 0, else anew in
+// each run; headless runs with random_seed -1 repeat. rand() gets that seed, but with random_seed -1 only if
+// an option or the host set it.
 void ProgramHost::seed(df::World& world) const {
   const int random_seed = df::Config::getInstance().getRandomSeed();
   std::uint64_t seed = takeWorldSeed().value_or(static_cast<std::uint64_t>(m_options.seed));

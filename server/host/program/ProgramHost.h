@@ -4,8 +4,8 @@
 // run() hosts the game like dfserver, prints how to join, and starts a client if there is a terminal. In a
 // process that such a host started for one of its worlds (WorldStart.h), both serve that host instead. After
 // a run that the game itself ends, another may follow, e.g. after the game's own title screen: players join
-// again, with a new client in the terminal. Exit codes, each with one line on stderr: 2 for invalid options,
-// 4 for an address that cannot be listened on, 5 for unusable files and keys.
+// again, with a new client in the terminal. Exit codes, each with one line on stderr: 1 for a failed game,
+// 2 for invalid options, 4 for an address that cannot be listened on, 5 for unusable files and keys.
 #pragma once
 
 #include <optional>
@@ -29,9 +29,9 @@ class ProgramHost : public df::running::Program {
 
   bool m_started = false;  ///< true after startUp()
   HostOptions m_options;
-  std::set<std::string> m_given;      ///< names of the options set by the environment or df-config.txt
-  int m_ticks = 0;                    ///< number of headless ticks in all runs
-  bool m_stopped = false;             ///< ended by a signal, an option or the last player, not by the game
+  std::set<std::string> m_given;  ///< names of the options set by the environment or df-config.txt
+  int m_ticks = 0;                ///< number of headless ticks in all runs
+  bool m_stopped = false;  ///< true if a signal, an option or the last player ended run(), not the game
   std::optional<int> m_world_socket;  ///< socket to the host, in a process started for a world
 };
 

@@ -61,7 +61,7 @@ struct Installed {
   Installed& operator=(const Installed&) = delete;
 };
 
-/// Runs the game. An exception that it throws means that the game failed.
+/// Runs the game's main(). The game failed if it throws, returns an error, or returns without GM.run().
 ExitCode play(const naiad::GameModule& game) {
   try {
     const int result = game.main();
@@ -108,7 +108,7 @@ void announce(const naiad::HostOptions& options, const naiad::Host& host) {
   for (const std::string& line : naiad::qrLines(options)) std::cout << line << std::endl;
 }
 
-/// Sets the window size and help that players get when they join. No game ticks in this world.
+/// Sets the window size, help and tick settings of the game for this server. No game ticks in this world.
 void setUp(df::World& world, const naiad::WorldReady& ready) {
   world.views().setWindow(ready.window_width, ready.window_height);
   world.setCompat(ready.compat);
@@ -288,7 +288,7 @@ int serve(Start& start) {
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::isGameOverPerPlayer(options));
     return play(naiad::GameModule(options.game), " in a separate process", world, options, log,
-                [&log](const naiad::LogEvent& event) { log(event); });  // the front adds time and "game: "
+                [&log](const naiad::LogEvent& event) { log(event); });  // the server adds time and "game: "
   }
   if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
     throw std::runtime_error("Cannot load the operator features (bans, scores, dfctl, metrics): " + problem);

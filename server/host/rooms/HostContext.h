@@ -33,7 +33,7 @@ struct HostContext {
   const LogLine log;  ///< also sends its lines to watchers of `feed`
   ClientLog client_log{log};
   Counters counters;
-  asio::io_context home{1};  ///< runs the handlers of the host's thread; no sockets
+  asio::io_context home{1};  ///< runs the handlers of the host's thread; no clients' sockets
   StageClock stages;
   ShutdownScheduler shutdown_scheduler;
 };

@@ -23,10 +23,10 @@ struct ListedPlayer {
   int score = 0;
 };
 
-/// With at most kMaxPlayers players, each gets the full list every half second if it has changed. With more,
-/// each gets the highest scores and their own entry every five seconds: the list stays a screenful, and the
-/// cost of all lists grows with the number of players, not with its square. A list that does not fit in a
-/// frame lacks its last entries. Not thread-safe.
+/// With at most kMaxPlayers players, each gets the full list every kInterval ticks if it has changed. With
+/// more, each gets the highest scores and their own entry every kCrowdInterval ticks: the list stays a
+/// screenful, and the cost of all lists grows with the number of players, not with its square. A list that
+/// does not fit in a frame lacks its last entries. Not thread-safe.
 class PlayerListBroadcaster {
  public:
   static constexpr std::uint32_t kInterval = 15;        ///< ticks

@@ -1,4 +1,4 @@
-// A room: a world, the players in it, and what has been sent to them.
+// A room: a world, the players in it, and the state of the data sent to them.
 //
 // A host has one room, one for each player (HostOptions::players), or named ones (--room). The host owns the
 // sessions. A room lists the sessions that play in it, until remove().
@@ -38,7 +38,8 @@ class InputFocus {
     m_before = std::exchange(m_player, player);
     return player != 0 && m_before != 0;
   }
-  /// True if this input may reach the game: the player has the turn, or had it before and releases a key.
+  /// True if this input may reach the game: input is not exclusive, or the player has the turn, or had it
+  /// before and releases a key.
   bool accepts(std::uint32_t player, const Input& input) const {
     if (!m_first_only || player == m_player) return true;
     return !input.is_mouse && input.action == df::KEY_RELEASED && player == m_before;
@@ -85,7 +86,7 @@ class Room {
   }
   /// Adds a session that was welcomed to this room.
   void add(Session& session);
-  /// Removes a session that is about to be destroyed, if it is in this room.
+  /// Removes a session that is about to be destroyed or to move to another room, if it is in this room.
   void remove(const Session& session);
   /// Stops this room's music and loops at the client of a session that is about to move to another room.
   void stopSounds(const Session& session) { m_sound_broadcaster.stopFor(session.player(), soundSender()); }
@@ -126,7 +127,7 @@ class Room {
   /// one. `truth`: true if publish() will get a TruthWriter. `audited_player`: player whose picture is
   /// audited, or 0.
   bool beginTick(bool truth, std::uint32_t audited_player = 0);
-  /// Sends snapshots, sounds and notes after the world's tick. Writes the truth to `p_truth` unless null.
+  /// Sends snapshots, sounds and notes after the world's tick. Writes pictures to `p_truth` unless null.
   void publish(TruthWriter* p_truth);
   /// True while a tick is running.
   bool isTicking() const { return m_ticking; }
@@ -137,7 +138,7 @@ class Room {
   /// Counts a tick of the host for which the world was not ready.
   void countLateTick() { ++m_late_ticks; }
   std::uint64_t lateTicks() const { return m_late_ticks; }
-  /// Number of ticks of the current world.
+  /// Number of ticks of the current round that have ended.
   std::uint64_t ticks() const { return m_ticks; }
 
   /// Counts a round that ended. Returns the number of consecutive short rounds.

@@ -265,7 +265,8 @@ void RoomManager::publish(Room& room) {
   }
 }
 
-// Says goodbye to players that pressed the key to end the game; the others continue to play.
+// Says goodbye to players that pressed the key to end the game; the others continue to play. With
+// setEndsWithLast(), the last connected player ends the game instead.
 void RoomManager::dismissLeavers(Room& room) {
   for (const std::uint32_t leaver : room.round().popLeavers()) {
     if (hasLastPlayer()) {

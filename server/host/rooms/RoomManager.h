@@ -37,11 +37,11 @@ class AuditScheduler {
 
   /// Begins to audit. Before this call the other functions do nothing.
   void start(std::uint32_t ticks_per_second) { m_ticks_per_second = ticks_per_second; }
-  /// Call it for a session that was welcomed and has not been sent anything else yet.
+  /// May begin the session's audit. Call it when the session was welcomed, before anything else is sent.
   void onJoin(Session& session, std::uint32_t tick);
-  /// Call it before all players of the room are sent another world.
+  /// May pass the audit on. Call it when a new round begins, before its first snapshots go to the players.
   void onRound(const Room& room, std::uint32_t tick);
-  /// Call it before the session is destroyed.
+  /// Ends the session's audit, if any. Call it before the session leaves its room or is destroyed.
   void forget(const Session& session);
   /// Returns the player whose picture is compared in this tick of the host, or 0.
   std::uint32_t auditedPlayer(std::uint32_t tick) const;
@@ -75,8 +75,9 @@ class RoomManager {
   void setOnTransfer(std::function<void(Session& session, const std::string& room)> on_sent) {
     m_on_sent = std::move(on_sent);
   }
-  /// Sets callbacks: `on_round` is called when the next round has begun in a room; `on_sessions`, when a
-  /// killed server's round was recovered, with its players' sessions. Call it before open().
+  /// Sets callbacks: `on_round` is called when the next round has begun in a room; `on_sessions`, when
+  /// the replay of a killed server's round has ended, also if it failed, with its players' sessions. Call it
+  /// before open().
   void setOnRound(std::function<void(Room&)> on_round,
                   std::function<void(Room&, const std::vector<PersistedSession>&)> on_sessions) {
     m_on_round = std::move(on_round);
@@ -125,7 +126,7 @@ class RoomManager {
   void add(Room& room, Session& session);
   /// Removes the player from the world, or ends the world if it is the player's own.
   void leave(const Session& session);
-  /// Call it before the session is destroyed.
+  /// Removes a session from its room, and ends its audit. Call it before the session is destroyed.
   void removeSession(const Session& session);
   std::size_t count() const { return m_rooms.size(); }
   /// Number of rooms that are not asleep.
@@ -145,13 +146,13 @@ class RoomManager {
   /// Opens the room or the named rooms. With private worlds, roomForNewPlayer() opens the rooms.
   void open(df::World& world);
   using Time = RoomSleepState::Time;
-  /// Time without players after which a world stands still, unless its game asks to run empty.
+  /// Time without players after which a world stands still, unless it ticks without players (runsEmpty()).
   static constexpr std::chrono::seconds kEmptyTime{60};
   /// Begins another round where a world has ended, stops worlds without players and resumes those that have
   /// players again. Call it once a tick.
   void checkWorlds(Time now = std::chrono::steady_clock::now());
   void beginTicks();
-  /// True if all worlds stand still or sleep and no world is starting, ending or being replayed.
+  /// True if all rooms stand still or sleep, and no world is in a tick, ending or being replayed.
   bool rest() const;
   /// True while any room's tick is running.
   bool isTicking() const;

@@ -1,4 +1,4 @@
-// Named rooms: opening them, sleep and wake-up, and closing a room whose game keeps failing.
+// Named rooms: opening them, sleep and wake-up, and closing a room whose game cannot continue.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -26,7 +26,7 @@ class NullWorld : public WorldPort {
   df::WorldView m_view;
 };
 
-/// Time that a room stays closed after its game failed repeatedly at the start of a round.
+/// Time that a room stays closed after its game has ended and no next round began.
 constexpr std::chrono::seconds kClosedTime{30};
 
 constexpr std::uint32_t kRoomListInterval = 15;  ///< ticks between updates of the room list that games see
@@ -119,7 +119,7 @@ void RoomManager::sendRoomList(Room& room) const {
   }
 }
 
-// Sends changes only, to all worlds. A delay of half a second does not matter to a game that shows this list.
+// Sends changes only, to all worlds that tick. A delay of half a second does not matter for the list.
 void RoomManager::publishRooms() {
   if (tickNumber() % kRoomListInterval != 0) return;
   m_game_rooms.resize(m_rooms.size());

@@ -16,7 +16,7 @@ namespace naiad {
 
 // Chat lines from the server to one player.
 
-/// Sends a chat line from the server, cut to kMaxChatLength characters. Thread: the host's.
+/// Sends a chat line from the server, truncated to kMaxChatLength characters. Thread: the host's.
 void sendServerLine(Session& session, const std::string& text);
 
 /// Not thread-safe. Only add() and sweep() destroy sessions: do not call them in a session's callback.
@@ -24,7 +24,7 @@ class SessionTable {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Holds at most `max_sessions`. `on_remove` is called before a session is destroyed.
+  /// add() keeps at most `max_sessions`. `on_remove` is called before add() or sweep() destroys a session.
   SessionTable(std::size_t max_sessions, Counters& counters, std::function<void(Session&)> on_remove);
 
   /// Starts a session on a new connection. If there are too many sessions, evicts one that neither plays nor

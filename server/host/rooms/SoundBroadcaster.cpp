@@ -79,8 +79,8 @@ void SoundBroadcaster::gatherSounds(const df::WorldView& view) {
   }
 }
 
-// If more sounds last than fit in one message, drops one that does not loop, because it has most likely
-// ended.
+// If more sounds last than fit in one message, drops the oldest that does not loop, because it has most
+// likely ended; if all loop, drops the oldest.
 void SoundBroadcaster::updateLasting(const df::SoundPlayed& sound) {
   if (!lasts(sound)) return;
   std::erase_if(m_lasting, [&sound](const df::SoundPlayed& other) {

@@ -44,7 +44,7 @@ class SoundBroadcaster {
  private:
   struct Listener {
     std::uint32_t player = 0;
-    std::uint32_t credit = 0;  ///< unit: ticks; a sound costs kTicksPerSound
+    std::uint32_t credit = 0;  ///< unit: ticks; a sound costs kTicksPerSound, a lasting one three times that
     std::uint32_t tick = 0;    ///< tick in which `credit` was updated
   };
 
@@ -59,7 +59,7 @@ class SoundBroadcaster {
   std::vector<Listener> m_listeners_before;   ///< scratch
   std::vector<const df::SoundPlayed*> m_now;  ///< different sounds of this tick
   std::vector<bool> m_chosen;                 ///< scratch, parallel to m_now
-  std::size_t m_overflowed = 0;               ///< sounds of this tick that did not fit in m_now
+  std::size_t m_overflowed = 0;               ///< sounds lost in this tick: too many for the view or m_now
   std::uint64_t m_sent = 0;
   std::uint64_t m_dropped = 0;
   std::vector<df::SoundPlayed> m_lasting;  ///< sounds that clients keep playing until they get a stop

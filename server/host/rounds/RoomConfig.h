@@ -1,4 +1,4 @@
-// Settings and sleep of a named room (--room), with or without a world.
+// Settings and sleep state of a named room (--room), which may have no world.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -26,7 +26,7 @@ struct RoomConfig {
   bool first_only = false;  ///< only the first player's input is used
   WorldReady ready;         ///< settings of the game, for the players that will join
   NewWorld new_world;
-  /// True if the first world resumes a killed server's round, so that the room does not wait for players.
+  /// True if the first world resumes a killed server's round, so that the room starts without players.
   bool resumes_round = false;
   std::uint32_t highest_player = 0;  ///< highest player id of the round to resume
 };
@@ -37,7 +37,7 @@ struct RoomSleepState {
   bool asleep = false;
   bool still = false;
   std::optional<Time> empty_since;  ///< nullopt: the room has players
-  Time closed_until{};              ///< the room is not woken before, because its game failed repeatedly
+  Time closed_until{};              ///< the room is not woken before this time: its game could not continue
 };
 
 }  // namespace naiad

@@ -26,7 +26,7 @@ LogLine lineOfRoom(const LogLine& log, const std::string& room) {
   };
 }
 
-/// Nice value of worlds. A game that uses all its time leaves the front, which serves all rooms, enough time.
+/// Worlds' nice value minus the front's: a busy game leaves the front, which serves all rooms, enough time.
 constexpr int kNice = 5;
 
 /// Returns the key of a room's launcher. Rooms that differ only in name and number of players share it.

@@ -1,4 +1,4 @@
-// Starts the launchers of rooms, and opens their journals.
+// Starts the launchers (WorldLauncher.h) of rooms, and opens the rooms' journals.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 namespace naiad {
 
 struct LaunchedRoom {
-  RoomConfig plan;  ///< all members except new_world
+  RoomConfig plan;  ///< all members except new_world, resumes_round and highest_player
   std::shared_ptr<const WorldLauncher> launcher;
 };
 
 /// Starts the launchers of rooms. Each game runs until GM.run(), in a world that is then ended; `print`
 /// returns the log for a room's output. Call it, if possible, before this process has threads and secrets.
-/// Throws GameError for a game that does not reach GM.run(), or std::system_error.
+/// Throws GameError for a game that is missing or does not reach GM.run(), or std::system_error.
 std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::string& config,
                                       const LogLine& log,
                                       const std::function<LogLine(const std::string& room)>& print);

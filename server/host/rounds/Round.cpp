@@ -113,7 +113,7 @@ void Round::choosePicture() {
 void Round::sendTurn(WorldTurn turn) {
   m_sent.turn = std::move(turn);
   m_sent.record.clear();
-  // The world rejects a turn that is too long for a record, too.
+  // A world in a process rejects a turn that is too long for a record, too.
   m_is_recording = m_writer.write(m_sent.turn, m_sent.record) && m_is_recording;
   if (m_is_recording) {
     m_binding.journal->setIdle(m_players.empty());
@@ -249,15 +249,16 @@ std::uint32_t Round::currentTick() const {
   return m_ticks - (std::max(unanswered, 1u) - 1);
 }
 
-// Keeps the scores of replayed turns, which a killed server may not have stored. In a failover, it already
-// has them.
+// Keeps the scores of replayed turns, which a killed server may not have stored. In a failover, this
+// server has them already.
 void Round::collectReplayedScores() {
   if (isFailingOver()) return;
   m_scores = popScores();
   if (m_scores.size() > kMaxScores) m_scores.erase(m_scores.begin(), m_scores.end() - kMaxScores);
 }
 
-// Stores the result of the last turn, which may be missing in the file, and that of the closing turn.
+// Compares a replayed result with the file. Stores the last turn's result, if it is missing in the file, and
+// that of the closing turn.
 void Round::endReplayedTick() {
   collectReplayedScores();
   if (m_closing) {
@@ -302,8 +303,9 @@ void Round::endRecovery(const std::string& problem) {
 // ---- a world that crashed or hangs ------------------------------------------------------------------------
 
 // Lets another world take over after a crash or hang; the players stay connected. Returns false, and the
-// round ends, if the world had not begun, the round is not recorded or has no new_world, or the last failure
-// was less than kSameFailureTicks ago.
+// round ends, if the world ended otherwise or had not begun, the round is not recorded or has no new_world,
+// the last failure was less than kSameFailureTicks ago, no other world can start, or a world that replays a
+// killed server's round failed before the last turn.
 bool Round::startFailover(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_binding.new_world || !m_is_recording || !m_began) return false;
@@ -336,7 +338,7 @@ void Round::onHang() {
   m_hangs = m_hangs == Hangs::kUnknown ? Hangs::kOneEnded : Hangs::kReal;
 }
 
-// The first tick does not count, because games load in it.
+// The first tick does not count, because games load files in it.
 void Round::onSlowTick() {
   if (currentTick() > 1 && std::exchange(m_hangs, Hangs::kSlow) != Hangs::kSlow)
     logCheckpoints("slow tick " + std::to_string(m_tick_offset + currentTick()) +

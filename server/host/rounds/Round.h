@@ -47,7 +47,7 @@ class Round {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Maximum number of inputs that wait for a tick; further keys and clicks are dropped.
+  /// If this many inputs wait for a tick, further keys and clicks are dropped; other inputs are not.
   static constexpr std::size_t kMaxInputs = 16'384;
 
   /// Ticks between two recorded hashes of the state and between two pictures, and the tick of the first
@@ -56,7 +56,7 @@ class Round {
   static constexpr std::uint32_t kPictureTicks = 900;
   static constexpr std::uint32_t kFirstPicture = 300;
 
-  /// A second crash or hang within this many ticks of the first one ends the round.
+  /// A crash or hang less than this many ticks after the previous one ends the round.
   static constexpr std::uint32_t kSameFailureTicks = 30;
 
   /// Maximum number of scores kept from replayed turns; older ones are in the server's file.
@@ -66,7 +66,7 @@ class Round {
   struct JournalBinding {
     std::shared_ptr<JournalWriter> writer = nullptr;
     std::shared_ptr<Journal> journal = nullptr;  ///< null: not recorded
-    /// Called when the world has begun; returns further facts. Empty: none.
+    /// Called when the world begins its first tick or a replay; returns further facts. Empty: none.
     std::function<DfrFacts()> late_facts = {};
     /// Called when the journal has stopped, with the reason; the game continues.
     std::function<void(const std::string& problem)> on_problem = {};
@@ -74,8 +74,8 @@ class Round {
     std::unique_ptr<RoundRecovery> recovery;  ///< null: a new round
     /// Called when a recovery's world has begun; returns why it is not the recorded world, or "" if it is.
     std::function<std::string()> find_difference = {};
-    /// Called at the end of a recovery, with the number of its ticks. If it failed, `problem` says why, and
-    /// `ticks` is the tick in which it failed.
+    /// Called at the end of a recovery. `ticks`: the number of recorded ticks that the world has replayed.
+    /// `problem`: why the recovery failed; empty: it has succeeded.
     std::function<void(std::uint32_t ticks, const std::string& problem)> on_recovered = {};
     std::string recording = {};    ///< path of the file below the folder of --journal
     std::string history = {};      ///< records of the round to recover
@@ -83,7 +83,7 @@ class Round {
     /// Starts another world of the round, if its world is a process; throws std::system_error. Empty: the
     /// round ends with its world.
     std::function<std::unique_ptr<WorldProcess>()> new_world = {};
-    /// Called when the world has crashed or hung in this tick. `goes_on`: true if another world takes over.
+    /// Called when the world has crashed or hung in this tick. `goes_on`: true if another is to take over.
     std::function<void(const WorldEnd& end, std::uint32_t tick, bool goes_on)> on_failure = {};
     /// Called when another world has taken over, with the time that it took.
     std::function<void(const Failover& done, std::chrono::milliseconds time)> on_failover = {};
@@ -108,7 +108,7 @@ class Round {
 
   /// Adds an input to the next turn. Drops keys and clicks beyond kMaxInputs.
   void addInput(df::InputQueue::Input input);
-  /// Accepts only this player's input in the next tick; 0: all players'.
+  /// Tells the world that the next turn has only this player's input; 0: all players'. Drops no input.
   void setInputPlayer(std::uint32_t player) { m_turn.input_player = player; }
   /// Ends the game: at once if its world is in this process, else at the end of the next tick.
   void endGame();
@@ -117,7 +117,7 @@ class Round {
 
   /// True if a tick may begin.
   bool isReady() const { return !m_binding.recovery && m_world->isReady(); }
-  /// Begins a tick. `watched`: view() will be read; the first watched tick reports every Object as changed.
+  /// Begins a tick. `watched`: view() will be read; after an unwatched tick it has all Objects as changed.
   /// `truth`: renderPlayer() will be called, too, for all players or only for `rendered_player`.
   void tick(bool watched, bool truth, std::uint32_t rendered_player = 0);
   /// Returns the number of the next tick to begin, as view() counts ticks.
@@ -134,7 +134,7 @@ class Round {
   /// (WorldPort::answer).
   std::vector<df::RoomTransfer> popSent() { return std::exchange(m_world->answer().sent, {}); }
   bool isGameOver() const { return m_world->answer().game_over; }
-  /// Returns this player's picture, as the engine drew it in the last tick.
+  /// Returns this player's picture, as the engine drew it in the last tick; blank if tick() asked for none.
   df::Canvas renderPlayer(std::uint32_t player) const;
 
   /// Ends the world's copies before a long pause, unless only they could resume the round. The next tick
@@ -149,7 +149,7 @@ class Round {
   std::optional<std::vector<PersistedSession>> popSessions() {
     return std::exchange(m_sessions, std::nullopt);
   }
-  /// Records a change of a player's session in the journal. Call before the client can know of the change.
+  /// Records a session's change in the journal, except in a recovery. Call before the client can know of it.
   void recordSession(const PersistedSession& session);
 
   // The round's end.
@@ -159,7 +159,7 @@ class Round {
   void checkProcess(std::uint32_t tick);
   /// Returns how the round ended; nullopt while it continues.
   std::optional<WorldEnd> end() const { return m_unrecovered ? m_unrecovered : m_world->end(); }
-  /// Returns a line for the log, once, if the current tick does not end.
+  /// Returns a line for the log, once, if the current tick takes too long or the world's process is stopped.
   std::optional<std::string> popWarning();
   /// Begins to end the world, which takes time: end() is set when it has ended.
   void close() { m_world->close(std::exchange(m_turn, WorldTurn())); }
@@ -170,7 +170,7 @@ class Round {
   /// Knowledge about ticks that seem to hang.
   enum class Hangs : std::uint8_t {
     kUnknown,
-    kOneEnded,  ///< a tick was ended early, for a copy to take over; it may only have been slow
+    kOneEnded,  ///< one tick was ended, perhaps early for a copy to take over; it may only have been slow
     kSlow,      ///< a tick that seemed to hang has ended
     kReal,      ///< a tick did not end within the full time limit
   };
@@ -224,7 +224,7 @@ class Round {
   bool m_is_recording;  ///< the journal is recording
   bool m_began = false;
   std::uint32_t m_tick_offset = 0;       ///< the host's tick numbers minus the world's own
-  std::uint32_t m_ticks = 0;             ///< ticks begun by this world
+  std::uint32_t m_ticks = 0;             ///< ticks begun by this world, with those before it was copied
   std::uint32_t m_recorded = 0;          ///< player whose picture the current tick records; 0: none
   std::vector<std::uint32_t> m_players;  ///< players in the world, in the order in which they joined
   WorldTurn m_turn;                      ///< the next turn

@@ -57,7 +57,7 @@ std::vector<int> openDescriptors() {
   return numbers;
 }
 
-/// Returns the socket of this type on that port, and on that address if one is given; -1: none.
+/// Returns the socket of this type on that port (and address, if given), for TCP a listening one; -1: none.
 int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>& address) {
   for (const int socket : openDescriptors()) {
     const auto endpoint = boundTo(socket);
@@ -72,7 +72,7 @@ int findSocket(int type, std::uint16_t port, const std::optional<StreamEndpoint>
 
 /// Returns copies of the socket that listens on this TCP port and of the one for datagrams on its address.
 /// The copies stay open when the originals are closed; the caller must close them. Returns nullopt if this
-/// process does not have both sockets, as without encryption. Reads /proc.
+/// process does not have both sockets, for example without encryption. Reads /proc.
 std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   InheritedSockets sockets;
   sockets.streams = findSocket(SOCK_STREAM, port, std::nullopt);

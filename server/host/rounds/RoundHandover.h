@@ -52,9 +52,9 @@ class RoundHandover {
 
   // Call these on the host's thread.
 
-  /// Returns why no round can be handed over now, as the rest of a sentence; empty if one can.
+  /// Returns why the rounds cannot be handed over now, as the rest of a sentence; empty if they can.
   std::string blocker() const;
-  /// Replays the rounds. `done` is called once, on a thread of this object, unless it is destroyed before.
+  /// Replays the rounds. `done` is called once, on a thread of this object, at the latest in the destructor.
   /// Call only if blocker() is empty.
   void verify(std::function<void(const Result& result)> done);
   /// Returns the change since a successful proof that makes the proof invalid; empty if nothing has changed.

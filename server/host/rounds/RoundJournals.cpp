@@ -85,7 +85,7 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   return facts;
 }
 
-/// Returns the file's header if its name, as made by pathOf(), is that of a round of this game; else nullopt.
+/// Returns a file's header if it is valid, and the name begins like that of a round of this game (pathOf()).
 std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
   const std::string name = path.filename().string();
   if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
@@ -164,7 +164,7 @@ std::string debugCommand(const std::string& file, std::uint32_t tick, const std:
   return line;
 }
 
-// Looks only at the newest round, because players have left the older ones.
+// Considers only the newest round of this port, because players have left the older ones.
 std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
                                                      std::uint64_t frame_nanos, std::string& said,
                                                      const HandedOverRounds& kept) {

@@ -29,7 +29,7 @@ namespace naiad {
 std::string debugCommand(const std::string& file, std::uint32_t tick, const std::string& game,
                          const std::filesystem::path& module);
 
-/// Returns `text` quoted as one word of a shell command.
+/// Returns `text` as one word of a shell command, quoted if necessary.
 std::string shellWord(const std::string& text);
 
 /// Rounds that the previous program of this process left open for this one: the uuid of each, and the hash of
@@ -65,8 +65,8 @@ class RoundJournals {
   std::optional<WorldStartOptions> resumeOptions() const;
   /// Returns the highest player id of the round to resume (UnfinishedRound::highestPlayer()); 0 without one.
   std::uint32_t highestPlayer() const;
-  /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded.
-  /// `another` starts a world that takes over from one that crashed or hangs.
+  /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded
+  /// or too many attempts failed. `another` starts a world that takes over from one that crashed or hangs.
   std::unique_ptr<Round> resumeRound(std::unique_ptr<WorldProcess> world, NewWorld another);
   /// Returns a new round of `world`, recorded unless the log says that this fails. `again` starts a second
   /// world from `order`, with which the first round of each game is compared. `another` starts a world that
@@ -112,14 +112,14 @@ class RoundJournals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
-  const bool m_checkpoints;  ///< worlds make copies; not if each player has a world: too many processes
+  const bool m_checkpoints;  ///< worlds make copies; false if each player has a world: too many processes
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
   std::string m_current_file;
   bool m_is_private = false;  ///< each player has a round of their own
   bool m_recovers = true;
-  /// False once the current round was found not to be repeatable.
+  /// False once a round of this game was found not to be repeatable.
   std::shared_ptr<bool> m_is_deterministic = std::make_shared<bool>(true);
   std::unique_ptr<UnfinishedRound> m_open;  ///< the round to resume
   std::shared_ptr<SharedJournals> m_shared;
@@ -150,13 +150,14 @@ inline constexpr const char* kFactGameOver = "on_game_over";
 inline constexpr const char* kFactAddresses = "addresses";  ///< "fixed" or "random"
 inline constexpr const char* kFactClocks = "clocks";        ///< "repeatable" or "real"
 inline constexpr const char* kFactSettings = "settings";    ///< the text of df-config.txt
-inline constexpr const char* kFactPort = "port";            ///< port by which players joined
+inline constexpr const char* kFactPort = "port";            ///< the server's port
 inline constexpr const char* kFactFirstTick =
     "first_tick";  ///< number of the round's first tick in the server's log
 inline constexpr const char* kFactRepeatable = "repeatable";  ///< "no": a second world answered differently
 inline constexpr const char* kFactAttempts =
-    "attempts";  ///< number of attempts to resume the round, and of its turns then
-inline constexpr const char* kFactFile = "file ";  ///< followed by a file's name: the hash of that file
-inline constexpr const char* kFactVariable = "variable ";  ///< followed by a variable's name: its value
+    "attempts";  ///< number of attempts to resume the round, and number of its turns at the last one
+inline constexpr const char* kFactFile = "file ";  ///< a file's name follows; the fact is its hash
+inline constexpr const char* kFactVariable =
+    "variable ";  ///< a variable's name follows; the fact is its value
 
 }  // namespace naiad

@@ -1,8 +1,9 @@
 // Chooses the files, variables and memory that the worlds of a server get (host/world/Sandbox.h).
 //
 // A game reads its own folder and those of its resources, and writes into the working directory. A folder
-// that is too wide (the user's home, or one that holds the server's key) is not given as a whole: a game gets
-// only sprites/ and sounds/ in it. A folder with files of the running program is readable, but not writable.
+// that is too wide (the user's home, or one with the server's key) is not given as a whole: a game gets only
+// sprites/ and sounds/ in it. A working directory with files of the running program is readable, but not
+// writable, unless that program is the game.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace naiad {
 
-/// Paths of a game's files. Relative paths begin in the directory in which the program was started.
+/// Paths of a game's files. Relative paths refer to the directory in which the program was started.
 struct GamePaths {
   std::vector<std::string> files;         ///< the game's module and settings
   std::vector<std::string> folders;       ///< the game's resources
@@ -39,7 +40,7 @@ std::vector<std::string> makeWorldEnvironment(const HostOptions& options);
 /// started the server are removed or fixed, unless the options name them.
 std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 
-/// True for "NAME=value" of a variable that changes the engine's behaviour, so that round files record it.
+/// True for "NAME=value" of a variable that changes the behaviour of games, so that round files record it.
 bool isGameVariable(const std::string& entry);
 
 /// Overwrites the values of --password and --admin-password, because every process of this machine can read a

@@ -35,7 +35,7 @@ std::vector<std::string> ownArguments() {
 std::vector<std::string> moduleArguments(const HostOptions& options, const std::string& module) {
   std::vector<std::string> words{"dfserver", "--game=" + module, "--input-mode=" + options.players,
                                  "--on-game-over=" + options.on_game_over};
-  // Worlds of recorded rounds get their seed otherwise, so that their arguments are equal in each run.
+  // Worlds of recorded rounds get their seed from WorldStartOptions, so that all runs have equal arguments.
   if (options.seed != 0 && !usesJournal(options)) words.push_back("--seed=" + std::to_string(options.seed));
   return words;
 }
@@ -76,7 +76,7 @@ RoundJournals::NewWorld replayLater(const std::shared_ptr<const WorldLauncher>& 
   };
 }
 
-/// Returns null if there is no round to resume.
+/// Returns null if there is no round to resume, or it cannot be resumed.
 std::unique_ptr<Round> resumeJournaledRound(const std::shared_ptr<const WorldLauncher>& launcher,
                                             const LogLine& print, RoundJournals& journals,
                                             asio::io_context& home) {

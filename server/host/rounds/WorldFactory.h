@@ -18,8 +18,8 @@ bool isGameOverPerPlayer(const HostOptions& options);
 
 /// Starts the launcher of worlds with this module, whose path is absolute; this process does not load it.
 /// `config`: the file of --config, or empty. `nice`: added to the worlds' nice value. Call it, if possible,
-/// before this process has threads and secrets; afterwards its worlds cannot read its memory. Throws
-/// std::system_error.
+/// before this process has threads and secrets. With a sandbox, worlds cannot read this process's memory
+/// afterwards. Throws std::system_error.
 std::shared_ptr<const WorldLauncher> launchModule(const HostOptions& options, const std::string& module,
                                                   const std::string& config, const LogLine& log,
                                                   int nice = 0);
@@ -38,7 +38,8 @@ std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
 HostOptions withFrameTime(HostOptions options, const WorldReady& ready);
 
 /// Starts the launcher of replays of this module, with `program` (dfserver's path) in place of this one.
-/// Apart from the game's own folders, worlds read and write only in `folder`. Throws std::system_error.
+/// Worlds read the files of makeSandboxPolicy(), and write only in `folder`. `variables` ("NAME=value")
+/// replace the game's variables (isGameVariable). Throws std::system_error.
 std::shared_ptr<const WorldLauncher> launchReplay(const HostOptions& options, const std::string& module,
                                                   const std::string& program, const std::string& folder,
                                                   const std::vector<std::string>& variables);

@@ -50,7 +50,8 @@ class ScoreKeeper {
   /// Sets the callback for each accepted row, called on the host's thread before the row is written.
   void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
   /// Adds scores from a world's round. The world may be an untrusted program, so all values are checked. A
-  /// replayed round may report a score again; it counts once. `recording`: the round's file name.
+  /// replayed round reports its scores again; those loaded from the file are ignored. `recording`: the
+  /// round's file name.
   void add(const std::string& round, const std::vector<df::AddedScore>& scores,
            const std::string& recording = "");
 

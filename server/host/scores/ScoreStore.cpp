@@ -107,7 +107,7 @@ void ScoreStore::insert(const std::vector<ScoreRow>& rows) {
   }
 }
 
-// The query walks the index past kMaxRows rows. Only a few rows lie beyond them, because each save() trims.
+// The query walks the index past kMaxRows rows. Only a few rows follow, because each save() trims.
 void ScoreStore::trim(const std::string& table) {
   StateStatement statement = m_file.prepare(kTrim);
   statement.bind(1, m_game);

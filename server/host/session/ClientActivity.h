@@ -1,4 +1,4 @@
-// Tracks when the server last heard from a client, and how many messages the client may still send.
+// Tracks when a client last sent something, and how many messages the client may still send.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ class ClientActivity {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Maximum burst of messages. An honest client that catches up after a stall sends fewer, because its
-  /// replies are limited by what it received.
+  /// replies are limited by the messages that it received.
   static constexpr int kMaxMessageBurst = 1024;
   /// Sustained rate of messages: the larger of the two limits. An honest client acknowledges each snapshot,
   /// on two streams, and sends a few inputs a tick. Messages at this rate cost about 1 % of a core.
@@ -25,9 +25,9 @@ class ClientActivity {
 
   /// Counts a message. False if it is over the limit.
   bool countMessage() { return --m_messages >= 0; }
-  /// Call for each message that came by datagram.
+  /// Call for each message that arrived by datagram.
   void onDatagram() { m_has_received = true; }
-  /// Call for each message that came on the first stream.
+  /// Call for each message that arrived on the first stream.
   void onFrame(Time now) {
     m_has_received = true;
     m_frame_at = now;
@@ -43,9 +43,9 @@ class ClientActivity {
     refill(now);
   }
 
-  /// How long the client has been silent, accurate to a tick (IdleTimer).
+  /// Returns how long the client has been silent, accurate to a tick (IdleTimer).
   auto silence(Time now) const { return m_idle.idleTime(now); }
-  /// When the newest frame came on the first stream.
+  /// Returns the time at which the newest frame arrived on the first stream; before the first one, the start.
   Time lastFrame() const { return m_frame_at; }
 
   /// Call when a welcome was sent: the next frame proves that the client has read it.
@@ -63,7 +63,7 @@ class ClientActivity {
     m_messages = std::min(m_messages + std::max(more, kMessagesPerTick), kMaxMessageBurst);
   }
 
-  bool m_has_received = false;  ///< a message came since the last tick
+  bool m_has_received = false;  ///< true if onDatagram() or onFrame() was called since the last tick
   bool m_expects_confirmation = false;
   bool m_welcome_confirmed = false;
   int m_messages = kMaxMessageBurst;  ///< number of messages that the client may send now

@@ -19,9 +19,9 @@ struct Counters {
   std::uint64_t malformed_frames = 0;         ///< oversized or empty frames: connection ended
   std::uint64_t malformed_messages = 0;       ///< not a message, or a value out of range: connection ended
   std::uint64_t login_timeouts = 0;           ///< no hello, or no decision on it, in time: connection ended
-  std::uint64_t idle_timeouts = 0;            ///< silent for too long
+  std::uint64_t idle_timeouts = 0;            ///< connections of players that were silent for too long
   std::uint64_t input_floods = 0;             ///< more inputs queued than allowed: session ended
-  std::uint64_t message_floods = 0;           ///< more messages between two ticks than allowed: session ended
+  std::uint64_t message_floods = 0;           ///< more messages than ClientActivity allows: session ended
   std::uint64_t detached = 0;                 ///< streams that broke while their session continues
   std::uint64_t resumed = 0;                  ///< sessions that continued on another stream
   std::uint64_t restarted = 0;                ///< part of resumed: by another process of the client
@@ -57,7 +57,7 @@ struct Counters {
   std::uint64_t idle_kicks = 0;             ///< no key, click or chat line for too long: connection ended
   std::uint64_t sounds = 0;                 ///< sounds sent, counted per player
   std::uint64_t sounds_dropped = 0;         ///< sounds not sent: too many, or the stream was broken or busy
-  std::uint64_t resizes_deferred = 0;       ///< replaced by a newer size before they were applied
+  std::uint64_t resizes_deferred = 0;       ///< terminal sizes replaced by a newer one, not applied
   std::uint64_t snapshots = 0;              ///< snapshots sent
   std::uint64_t snapshot_bytes = 0;         ///< bytes of the snapshots sent
   std::uint64_t skipped_ticks = 0;          ///< ticks after which a client was not up to date: unsent or
@@ -89,14 +89,14 @@ struct Counters {
   std::uint64_t failovers_by_replay = 0;
   // Scores added by games (HighScores.h):
   std::uint64_t scores = 0;          ///< accepted scores
-  std::uint64_t scores_refused = 0;  ///< invalid scores, and those of more tables than a game may have
+  std::uint64_t scores_refused = 0;  ///< invalid scores, and scores for more tables than a game may have
   std::uint64_t scores_written = 0;  ///< scores on disk
   std::uint64_t scores_dropped = 0;  ///< not written: too many waited for the disk
   // Requests to the platform (HostPlatform.h) and messages between servers (Bus.h):
   std::uint64_t platform_requests = 0;  ///< requests that succeeded
   std::uint64_t platform_failures = 0;  ///< attempts that failed; retried
   std::uint64_t bus_published = 0;      ///< messages delivered
-  std::uint64_t bus_dropped = 0;        ///< oldest messages of a full queue
+  std::uint64_t bus_dropped = 0;        ///< messages dropped because the queue was full, oldest first
   std::uint64_t bus_failures = 0;       ///< attempts that failed; retried
   std::uint64_t bus_connections = 0;    ///< connections made; more than one: the connection was lost
   std::uint64_t audited_pictures = 0;   ///< player pictures compared with the world's (ReplicaAudit.h)

@@ -55,8 +55,8 @@ std::string clean(const std::string& text, std::size_t longest) {
 
 }  // namespace
 
-// The inner skeleton comes before folding, because a foreign capital can look Latin while its small letter
-// does not. The outer one follows folding, because small letters have skeletons, too ("m" is "rn").
+// The inner skeleton is made before folding, because a foreign capital can look Latin while its small letter
+// does not. The outer one is made after folding, because small letters have skeletons, too ("m" is "rn").
 std::vector<std::string> nameSkeletons(const std::string& name) {
   const UnicodeString text = UnicodeString::fromUTF8(name);
   return {utf8(skeleton(folded(skeleton(text)))), utf8(skeleton(folded(text)))};

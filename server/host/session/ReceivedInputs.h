@@ -78,7 +78,7 @@ class ReceivedInputs {
       m_queue.push_back(input);
     });
   }
-  /// Drops keys, controls and queued inputs, for another world. Returns the last id dropped, if any.
+  /// Drops keys, controls and queued inputs, for another world. Returns the last dropped input's id, if any.
   std::optional<std::uint32_t> clear() {
     std::optional<std::uint32_t> last;
     if (!m_queue.empty()) last = m_queue.back().id;
@@ -88,8 +88,8 @@ class ReceivedInputs {
     return last;
   }
 
-  /// Sets the controls that the player steers with; null: none. Inputs of keys in them wait for the tick they
-  /// name, because the client's prediction applied them in that tick.
+  /// Sets the controls that the player steers with; null: none. An input of one of their keys waits for the
+  /// tick that it names, because the client's prediction applied the input in that tick.
   void setControls(const std::shared_ptr<const df::ControlTable>& controls) {
     if (m_controls != controls) m_controls = controls;
   }

@@ -49,8 +49,8 @@ void ReliableOutbox::append(wire::ServerMessage message, Kind kind, std::string 
 }
 
 // Replaces an unsent frame in its place in the queue. At the end of the queue, a frame that is often updated
-// would never be sent over a connection that is always busy. A sent frame is removed, and the new one goes to
-// the end.
+// would never be sent over a connection that is always busy. A sent frame is removed, and the new one is
+// added at the end.
 bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label) {
   if (kind == Kind::kChat) return false;
   const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const ReliableFrame& kept) {

@@ -2,7 +2,7 @@
 //
 // Each frame has a number and is kept until the client acknowledges it (receiver: ReliableFrames.h). Memory
 // is limited whatever other players and the game send, and a full outbox never ends a session: the oldest
-// unsent chat lines are dropped, and one line in their place says how many.
+// unsent sounds and chat lines are dropped, and one line in place of the chat lines says how many.
 #pragma once
 
 #include <cstddef>

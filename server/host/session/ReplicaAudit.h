@@ -5,7 +5,7 @@
 // shadow must draw cell by cell what the engine drew for the player in that tick.
 //
 // The shadow needs all snapshots of a world. So an audit starts with a session's first snapshot, or when its
-// world is sent again: after a reset, in a new round, or to another process of the client.
+// world is sent again: after a reset, for a new round or room, or to another process of the client.
 #pragma once
 
 #include <cstdint>

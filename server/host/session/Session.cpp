@@ -150,8 +150,8 @@ void Session::attachSecondStream(Session& other) {
   m_streams.sendSecond(message.SerializeAsString());
 }
 
-// Moves the first stream of `other` here. If this session still had one, `other` gets it and does not report
-// its end.
+// Moves the first stream of `other` here. If this session still has one, `other` gets it. `other` does not
+// report its end.
 void Session::adoptStream(Session& other) {
   m_supports_rooms = other.m_supports_rooms;
   m_streams.adoptFirst(other.m_streams);
@@ -257,8 +257,8 @@ void Session::beginWorld() {
   m_delivery.reset();
 }
 
-// Snapshots also use this stream until datagrams are confirmed again, so no snapshot of the new world arrives
-// before this message.
+// Snapshots use streams until datagrams are confirmed again, so on the first stream no snapshot of the new
+// world arrives before this message.
 void Session::enterRoom(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();

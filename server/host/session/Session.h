@@ -4,7 +4,7 @@
 // the client reconnects and resumeOn() moves the new stream to it, or until the grace time ends.
 //
 // All input from the client is checked here; each rejection is counted. A client that breaks a rule ends only
-// its own session. Time is a parameter. Single-threaded: the host's event loop and tick share a thread.
+// its own session. Single-threaded: the host's event loop and tick share a thread.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class Welcome;
 }  // namespace wire
 
 /// Rate limit of a client's chat lines. It lasts for the whole session: only time refills it, not a new
-/// stream. Time is a parameter.
+/// stream. Reads no clock: callers pass the time.
 class ChatRateLimiter {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -104,10 +104,10 @@ class ResizeRequest {
 
  private:
   std::optional<Size> m_wanted;
-  std::optional<Time> m_applied;  ///< when a size was last applied
+  std::optional<Time> m_applied;  ///< time at which a size was last applied
 };
 
-/// A player's join time, last activity and rights, which the game does not need. Time is a parameter.
+/// A player's join time, last activity and rights, which the game does not need. Callers pass the time.
 class SessionStatus {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -145,14 +145,15 @@ class Session {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Callbacks to the host, called from the event loop. A hello is answered within kAdmissionTimeout: by
-  /// refuse(), welcome(), or another session's resumeOn(), restart() or attachSecondStream().
+  /// Callbacks to the host, called from the event loop. The host must answer a hello by refuse(), welcome(),
+  /// or another session's resumeOn(), restart() or attachSecondStream(). After kAdmissionTimeout without an
+  /// answer, the session refuses the hello itself.
   struct Events {
     std::function<void(Session&, const wire::Hello&)> on_hello;
     std::function<void(Session&, const std::string& text)> on_chat;
-    std::function<void(Session&)> on_gone;   ///< the session is ending; called once
+    std::function<void(Session&)> on_gone;   ///< the session is ending; called at most once
     std::function<Clock::time_point()> now;  ///< the time; if empty, std::chrono::steady_clock is used
-    /// The client is being refused; `sentence` is the reason that the client is told.
+    /// The client is being refused; `sentence` is the reason that is sent to the client.
     std::function<void(Session&, const std::string& sentence)> on_refused = {};
     std::function<void(Session&)> on_list_rooms = {};
     std::function<void(Session&, const std::string& room)> on_enter_room = {};
@@ -209,7 +210,7 @@ class Session {
   void resumeOn(Session& other, wire::Welcome welcome, std::uint32_t received);
   /// Resumes in another client process, which has no state. Like resumeOn(), but the world is sent from the
   /// beginning, with `datagrams` for the new process (may be null). An old process that is still connected
-  /// gets a goodbye.
+  /// gets a goodbye through `other`, which is kEnding then.
   void restart(Session& other, wire::Welcome welcome, std::unique_ptr<SealedChannel> datagrams);
   /// Counts a second stream. False if it is over the limit (kSecondStreamRate).
   bool admitSecondStream();
@@ -224,10 +225,11 @@ class Session {
   bool admitRoomRequest() { return m_room_requests.tryConsume(kRoomRate, now()); }
   /// True if the client supports rooms, so it can be moved to another one.
   bool supportsRooms() const { return m_supports_rooms; }
-  /// Moves the session, which must have a stream, to another room's world, described by `welcome`. The client
-  /// is told before it is sent that world from the beginning.
+  /// Moves the session to another room's world, described by `welcome`. The client is sent a message about
+  /// the room, and then its world from the beginning; if detached, a welcome with the new room when it
+  /// resumes.
   void enterRoom(const wire::Welcome& welcome);
-  /// Call when another world begins: sends it from the beginning, drops inputs to the previous one.
+  /// Call when another world begins: sends it from the beginning, and drops the inputs to the previous one.
   void beginWorld();
   /// Sets how long to wait for the client after its stream broke; 0: the session ends at once.
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
@@ -241,7 +243,7 @@ class Session {
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
   /// Returns the first stream; null while detached.
   const ReliableChannel* stream() const { return m_streams.first(); }
-  /// Returns keying material of the stream (Channel.h).
+  /// Returns keying material of the stream (Channel.h); empty while detached.
   std::string exportSecret(std::string_view label, std::string_view context, std::size_t bytes) const;
   /// Sends the reason and ends the session. `again`: the server will be back within this time; 0: never.
   void sendGoodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
@@ -258,7 +260,7 @@ class Session {
     });
   }
 
-  /// Returns the picture in which the player clicked, if known. Only mouse inputs have one.
+  /// Returns which ticks the client showed when the player clicked; unknown for keys and forgotten snapshots.
   df::ViewedTick viewedTick(const Input& input) const;
 
   /// Sets the controls that the player steers with (ReceivedInputs::setControls).
@@ -283,7 +285,7 @@ class Session {
   /// dropped if too much is kept (ReliableOutbox.h). For chat, player lists and sounds.
   void sendReliable(const wire::ServerMessage& message);
 
-  /// Sends only if the message can arrive at once. Returns whether it was sent.
+  /// Sends if the first stream has at most kMaxUnsentForBestEffort unsent bytes. Returns whether it was sent.
   bool sendBestEffort(const wire::ServerMessage& message);
 
   State state() const { return m_state; }

@@ -40,8 +40,8 @@ void Session::onFrame(std::string_view frame) {
   if (!dispatch(message)) endMalformed();
 }
 
-// Only updates are allowed: messages that need order use the first stream. A frame here does not prove that
-// the first stream works.
+// Only updates are allowed: messages that need order use the first stream. A frame on the second stream
+// does not prove that the first one works.
 void Session::onSecondFrame(std::string_view frame) {
   if (!acceptMessage()) return;
   wire::ClientMessage message;
@@ -62,7 +62,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
   if (greeting != (message.payload_case() == What::kHello)) return false;
   switch (message.payload_case()) {
     case What::kHello:
-      // Only one hello is allowed, because each hello may cost a password check
+      // Only one hello is allowed, because each hello may cost a password check.
       if (message.hello().magic() != kHelloMagic || m_has_hello) return false;
       handleHello(message.hello());
       return true;

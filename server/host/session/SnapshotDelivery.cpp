@@ -68,8 +68,8 @@ void SnapshotDelivery::sendDatagrams(const Publisher& publisher, StreamPair& str
 
 void SnapshotDelivery::sendOnStreams(const Publisher& publisher, StreamPair& streams, Time now) {
   if (streams.first() == nullptr) return;
-  // While the first stream waits for a retransmission, the second one continues alone. A large snapshot goes
-  // on the first stream, and nothing may overtake it.
+  // While the first stream waits for a retransmission, the second one continues alone. A large snapshot
+  // uses the first stream, and nothing may overtake it.
   const bool first = streams.isFirstIdle();
   const bool second = streams.isSecondIdle() && !m_sender.hasLargeInFlight();
   m_blocked = !first && !second;

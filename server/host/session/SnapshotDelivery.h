@@ -49,14 +49,15 @@ class SnapshotDelivery {
   ReplicaAudit* audit() { return m_audit.get(); }
 
   void acknowledge(const AckWindow& acks, bool by_datagram, Time now);
-  /// Resets the client's world if the checksum does not match what was sent.
+  /// Resets the client's world (requestReset()) if the checksum does not match the sent snapshots. Ignores a
+  /// checksum less than kChecksumInterval after the last one.
   void compareChecksum(const AckWindow& acks, std::uint64_t checksum, Time now);
   /// Sends the client's world again, at most once per kResetInterval.
   void requestReset(Time now);
 
   /// Makes everything pending again, because the client starts from an empty world.
   void reset();
-  /// Call when the first stream broke: snapshots in flight on it are lost.
+  /// Call when the first stream broke: the contents of large snapshots in flight are pending again.
   void onStreamLost();
   /// Call when the client is on another stream: probes again whether datagrams pass.
   void renewTransport(Time now) { m_transport.renew(now); }

@@ -17,7 +17,7 @@ namespace naiad {
 
 /// Detects a peer that no longer reads its stream. A stream is stuck if more than kStallThreshold bytes are
 /// unsent and the number has not reached a new minimum for kStallTimeout. A slow stream is not stuck: each
-/// new minimum restarts the time. Pure: time is a parameter.
+/// new minimum restarts the time. Callers pass the time.
 class StallDetector {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -64,7 +64,8 @@ class StreamPair {
   /// Sets the maximum size of frames received from now on, in bytes.
   void setReceiveLimit(std::size_t limit) { m_first->setReceiveLimit(limit); }
 
-  /// Takes the first stream of `other`. If this pair still has one, `other` gets it in exchange.
+  /// Takes the first stream of `other`. If this pair still has one, `other` gets it in exchange. Closes the
+  /// second stream of this pair.
   void adoptFirst(StreamPair& other);
   /// Takes the first stream of `other` as the second one of this pair. An earlier second stream is closed.
   void adoptAsSecond(StreamPair& other, std::size_t limit);

@@ -1,10 +1,11 @@
 // Chooses whether a session's snapshots are sent as datagrams or on the stream, and how often, from the
 // connection's round-trip time and losses.
 //
-// A session starts on the stream. It probes with a snapshot sent as a datagram: once a second, at first more
-// often. Once a datagram acknowledges such a datagram, snapshots are datagrams. They use the stream again
-// after a second without such an acknowledgement. (An acknowledgement on the stream would prove one direction
-// only, and the player's keys would get lost in the other.) Pure: time is a parameter.
+// A session starts on the stream. It probes with a snapshot sent as a datagram: once a second, but more often
+// at first, after an outage, and while it has no stream. Once a datagram acknowledges such a datagram,
+// snapshots are datagrams. They use the stream again after a second without such an acknowledgement. (An
+// acknowledgement on the stream would prove one direction only, and the player's keys would get lost in the
+// other.) Callers pass the time.
 #pragma once
 
 #include <algorithm>

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sets the default journal, except for private worlds: they are not recovered after a crash, so their rounds
-/// are recorded only on request.
+/// Sets the default journal, except with --in-process, which has none, and for private worlds: they are not
+/// recovered after a crash, so their rounds are recorded only on request.
 void useDefaultJournal(HostOptions& options) {
   if (options.journal == kOffWord) return options.journal.clear();
   const bool has_none = options.in_process || options.players == "private";

@@ -200,7 +200,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "the port"),
       row("--bus-interval", &o.bus_interval_ms,
           "Heartbeat interval in milliseconds; must equal the directory's",
-          OptionRange{50, 60'000}),  // BusPayloads.h
+          OptionRange{50, 60'000}),  // as in BusPayloads.h
       row("--bus-credentials", &o.bus_credentials, "Credentials file for the bus, as written by nsc"),
       row("--bus-ca", &o.bus_ca, "CA certificates (PEM) to verify a tls:// bus; default: the system's"),
       row("--headless", &o.headless, "Run without network and players, as fast as possible", {},

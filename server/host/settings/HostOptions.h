@@ -27,17 +27,17 @@ struct HostOptions {
   int max_per_address = 64;          ///< players from one IPv4 address or IPv6 /64, including detached ones
   std::string name = "naiad";        ///< shown in the clients' status line
   std::int64_t seed = 0;             ///< random seed of the world; 0: a new one each time, logged
-  int frame_micros = 0;              ///< length of a tick in microseconds; 0: exactly 1/30 s
+  int frame_micros = 0;              ///< length of a tick in microseconds; 0: the game's, else exactly 1/30 s
   int ticks = 0;                     ///< the server stops after this many ticks; 0: never
   double exit_when_empty = 0;        ///< seconds from the last player's leaving to the end; 0: never
   std::string players = "together";  ///< input mode: "together", "first" or "private" (a world per player)
   std::string on_game_over =
-      "leave";                 ///< one of several players ends the game: "leave" (alone), "exit" or "restart"
-  std::string sandbox = "on";  ///< sandbox of world processes: "on" or "off"
-  int world_memory = 4096;     ///< address space of each world process in MiB; 0: no limit
-  bool in_process = false;     ///< true: dfserver runs the game in its own process
-  std::string journal;         ///< directory in which each round is recorded; empty: none
-  bool default_journal = false;   ///< not an option: `journal` is dfserver's default
+      "leave";  ///< effect if one of several players ends the game: "leave" (alone), "exit" or "restart"
+  std::string sandbox = "on";     ///< sandbox of world processes: "on" or "off"
+  int world_memory = 4096;        ///< address space of each world process in MiB; 0: no limit
+  bool in_process = false;        ///< true: dfserver runs the game in its own process
+  std::string journal;            ///< directory in which each round is recorded; empty: none
+  bool default_journal = false;   ///< not an option; true: `journal` is dfserver's default
   std::string recover = "on";     ///< whether the round of a killed server is resumed: "on" or "off"
   double hang_time = 1;           ///< seconds after which a tick of a world process counts as hung
   std::string world_environment;  ///< names of more variables for world processes, separated by commas
@@ -68,8 +68,8 @@ struct HostOptions {
   std::string log_level = "info";   ///< least severe level to log: "error", "warning" or "info"
   bool log_chat = false;            ///< also log the chat
   std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
-  bool control_by_port = false;     ///< not an option: use controlPath() of the port listened on
-  std::string platform = "auto";    ///< service manager: "auto", "none", "systemd", "agones" (HostPlatform.h)
+  bool control_by_port = false;     ///< not an option; true: use controlPath() of the port listened on
+  std::string platform = "auto";    ///< platform (HostPlatform.h): "auto", "none", "systemd" or "agones"
   std::string bus;                  ///< nats:// or tls:// address of the fleet's bus (Bus.h); empty: none
   std::string bus_id;               ///< name of this server on the bus; empty: made of machine and port
   int bus_interval_ms = 2000;       ///< heartbeat interval; must equal the directory's
@@ -80,8 +80,8 @@ struct HostOptions {
   bool vote_kick = false;           ///< players may vote to kick others
   int inactive_kick = 0;            ///< seconds without key, click or chat until a player is kicked; 0: never
   std::vector<std::string> warnings;  ///< warnings about these options, for the log
-  /// Not an option: sockets opened by the service manager. `address` and `port` are then those of the
-  /// sockets.
+  /// Not an option: sockets that were open when the program started. `address` and `port` are then those of
+  /// the sockets.
   std::optional<InheritedSockets> sockets;
   // Only for games that are programs themselves:
   bool headless = false;     ///< no network and no players
@@ -114,7 +114,7 @@ HostOptions readHostOptions(int argc, const char* const* argv);
 struct OptionChanges {
   std::vector<std::string> changed;
   std::vector<std::string> need_restart;  ///< options whose new value is not used before a restart
-  /// "max-players and password have changed; address needs a restart".
+  /// Returns text like "max-players and password have changed; address needs a restart".
   std::string text() const;
 };
 

@@ -26,7 +26,7 @@ std::string inProcessComplaint(const HostOptions& options) {
          "require game processes";
 }
 
-/// Returns the problem of the metrics options; empty if they are valid.
+/// Returns what is wrong with the metrics options; empty if they are valid.
 std::string metricsComplaint(const HostOptions& options) {
   if (!MetricsHosts::parse(options.metrics_hosts))
     return "--metrics-hosts: expected host names, separated by commas";
@@ -39,7 +39,7 @@ std::string metricsComplaint(const HostOptions& options) {
   return {};
 }
 
-/// Returns the problem of the bus options; empty if they are valid.
+/// Returns what is wrong with the bus options; empty if they are valid.
 std::string fleetComplaint(const HostOptions& options) {
   if (options.bus.empty()) {
     if (!options.bus_credentials.empty() || !options.bus_ca.empty() || !options.bus_id.empty())

@@ -15,8 +15,8 @@ struct SshDoor {
   LinkHost where;
 
   static std::optional<SshDoor> parse(std::string_view text);
-  /// "ssh OPTIONS -p 2222 play@::1": OpenSSH 9.5 and later sends a decoy packet every 20 ms while the
-  /// player types. The options disable that; older versions ignore them.
+  /// Returns "ssh OPTIONS -p 2222 play@::1". The options disable the decoy packets that OpenSSH 9.5 and later
+  /// sends every 20 ms while the player types; older versions ignore them.
   std::string command() const;
 };
 

@@ -12,8 +12,9 @@
 namespace naiad {
 
 /// An appearance is described, with an id, until a snapshot that carried the id is acknowledged; after that,
-/// snapshots carry only the id. When all ids are taken, the least recently used one is reassigned. A snapshot
-/// that still meant the old appearance is dropped by the client as stale, so it counts as lost.
+/// snapshots carry only the id. Appearances with very many glyphs get no id. If the limit of ids or glyphs is
+/// reached, the least recently used ids are reassigned. A snapshot in which such an id still has its old
+/// meaning is dropped by the client as stale, so it counts as lost.
 class AppearanceIds {
  public:
   /// Returns how to write the appearance with this hash and number of glyphs in the snapshot being built.
@@ -35,7 +36,7 @@ class AppearanceIds {
       m_glyphs += glyphs;
     }
     const Name& name = found->second;
-    const bool in_this_one = name.used == snapshot;  // already in this snapshot
+    const bool in_this_one = name.used == snapshot;  // true if already written in this snapshot
     return {name.confirmed || in_this_one ? LookForm::kNamed : LookForm::kDefined, name.id};
   }
   /// Call when the appearance was written in the form that formOf() returned.
@@ -53,8 +54,8 @@ class AppearanceIds {
   void clear() { *this = {}; }
 
  private:
-  /// Half of the client's limit of glyphs, because it keeps the old meaning of an id until the id has a new
-  /// one.
+  /// Limit of the glyphs of all appearances with an id: half of the client's limit, because the client keeps
+  /// the old meaning of an id until the id has a new one.
   static constexpr std::size_t kMaxGlyphs = kMaxDictionaryGlyphs / 2;
   struct Name {
     std::uint32_t id = 0;

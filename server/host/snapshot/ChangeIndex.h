@@ -54,7 +54,7 @@ class ChangeIndex {
     m_bottom.push_back(sweep.bottom);
   }
 
-  /// Marks exactly the changes whose sweeps meet the rectangle.
+  /// Marks the changes whose sweeps overlap the rectangle, and no others.
   void markMeeting(CompactRect rect, Marks& marks) const {
     marks.assign((m_left.size() + 7) / 8 * 8, 0);
     const std::size_t count = m_left.size();
@@ -69,7 +69,7 @@ class ChangeIndex {
           static_cast<int>(top[i] < rect.bottom) & static_cast<int>(rect.top < bottom[i]));
     }
   }
-  /// Also marks the changes of these slots, all of which must be below SlotBits::kBits.
+  /// Also marks the changes of these slots. The bits of all slots of the world must differ.
   void markShared(const SlotBits& slots, Marks& marks) const {
     m_slots.forEachShared(slots, [&](std::uint32_t bit) { marks[m_index[bit]] = 1; });
   }

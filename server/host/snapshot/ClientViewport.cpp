@@ -11,15 +11,16 @@ namespace naiad {
 
 namespace {
 
-/// Cells around the view whose objects a predicting client needs, because it may collide with them.
+/// Width in cells of the margin around the view whose objects a predicting client needs, because its player
+/// may collide with them.
 constexpr std::int32_t kCollisionMargin = 2;
-/// Ticks by which the player in the client's picture may be behind or ahead: clients draw the past or
-/// predict.
+/// Ticks by which the player in the client's picture may be behind the world or ahead of it, because clients
+/// draw the past or predict.
 constexpr double kOffTicks = 12;
 /// Minimum of Axis::spare, in cells: a key may move the player in steps, so the client's picture may differ
 /// from the world by this much at once.
 constexpr std::int64_t kMinSpare = 6;
-/// Ticks after which a spare that is larger than needed shrinks by a cell.
+/// Interval in ticks at which an Axis::spare that is larger than needed shrinks by a cell.
 constexpr std::uint32_t kShrinkInterval = 8;
 
 int clampedSize(std::uint32_t cells, int min_cells, int max_cells) {

@@ -1,5 +1,5 @@
 // The cells of the world that one client can show: its view, or if its terminal is smaller, the part around
-// the object that the view follows.
+// the object that the view follows, or around the middle of the view if it follows none.
 //
 // A terminal larger than the view does not show more of the world.
 #pragma once

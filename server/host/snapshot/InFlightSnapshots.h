@@ -16,12 +16,12 @@ class InFlightSnapshots {
  public:
   struct Snapshot {
     std::uint32_t number = 0;
-    bool large = false;  ///< uses a stream, so it may be late but is not lost
+    bool large = false;  ///< uses a stream: may be late, but is lost only if the stream breaks
     bool empty = true;
     bool probe = false;
     std::vector<KnownObjects::Sent> objects;
     std::vector<std::pair<std::uint32_t, std::uint64_t>>
-        names;  ///< id and checksum of appearances it defines
+        names;  ///< id and checksum of each appearance that the snapshot defines
   };
   /// Maximum number in flight. If one more is sent, the oldest counts as lost.
   static constexpr std::size_t kMaxSnapshots = 64;

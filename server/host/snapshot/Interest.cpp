@@ -38,7 +38,7 @@ CellPosition cellAt(const Motion& motion, std::uint32_t tick) {
   return {df::cellOf(at.x), df::cellOf(at.y)};
 }
 
-/// Returns a lower bound of the ticks that a coordinate stays between two cells; 0 if it is not between them.
+/// Returns a lower bound of the ticks that a coordinate stays in the cells low … high − 1; 0 if outside.
 std::uint32_t staysFor(df::Fixed position, df::Fixed velocity, std::int64_t low, std::int64_t high) {
   const std::int64_t cell = df::cellOf(position);
   if (cell < low || cell >= high) return 0;
@@ -161,7 +161,7 @@ void Interest::considerObject(std::uint32_t slot) {
 void Interest::checkCandidates() {
   std::erase_if(m_candidates, [this](std::uint32_t slot) {
     const Publisher::Forecast& forecast = this->forecast(slot);
-    if (!forecast.soon.meets(m_window)) return forecast.generation == 0;  // the usual result
+    if (!forecast.soon.meets(m_window)) return forecast.generation == 0;  // usual: not visible yet
     if (forecast.generation != 0 && !isKnown(slot)) addObject(slot, forecast.generation);
     return true;
   });
@@ -191,7 +191,8 @@ void Interest::searchView() {
                              });
 }
 
-// A view that has moved since the last search will probably move again; the next search then examines all.
+// A view that has moved since the last search will probably move again, so the next search then examines all
+// known objects.
 void Interest::removeOutside(const CellRect& outer, bool moves) {
   m_known_bits.clear();
   const CompactRect around(outer);

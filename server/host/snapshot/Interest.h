@@ -6,10 +6,10 @@
 //   enter   A changed object is checked at once. Every kSearchInterval ticks the blocks around the view are
 //           searched for candidates, which may enter it before the next search; only these few are checked in
 //           each tick. Blocks inside the view contain no unknown objects.
-//   leave   This search also examines the known objects whose straight path may have left the view. Removing
-//           an object late costs little.
+//   leave   This search also examines the known objects that may have left the view; for a straight path the
+//           first tick in which it may is computed. Removing an object late costs little.
 //
-// Around a moving view the search covers more cells. It is repeated at once when the view leaves this area.
+// Around a moving view the search covers more cells. It is repeated at once when the view leaves these cells.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class Interest {
  public:
   /// The area and objects of interest to the client.
   struct Focus {
-    CellRect window;                     ///< the view, and its expected position after look_ahead ticks
+    CellRect window;                     ///< cells that the client may show now or within look_ahead ticks
     std::array<df::ObjectKey, 2> own{};  ///< objects that the client knows wherever they are
     std::uint32_t look_ahead = 0;        ///< an object is known this many ticks before it may enter
     std::uint32_t stagger = 0;           ///< any number; spreads the searches of clients over the ticks
@@ -33,7 +33,7 @@ class Interest {
   /// Call after every update of the publisher. Births, deaths and changes become pending in `known`.
   void update(const Publisher& publisher, const Focus& focus, KnownObjects& known);
 
-  /// True if the object is in `window`, or may enter it within `look_ahead` ticks.
+  /// True if the object is in `window`, or may enter it within `look_ahead` ticks; always for wide models.
   static bool isVisible(const Publisher::Model& model, std::uint32_t tick, std::uint32_t look_ahead,
                         const CellRect& window);
 
@@ -44,7 +44,7 @@ class Interest {
   static constexpr std::int64_t kHysteresis = 2;
 
  private:
-  /// Cells searched in addition around a moving view.
+  /// Width in cells of the margin that is searched in addition around a moving view.
   static constexpr std::int64_t kSearchMargin = 4;
 
   using Changes = std::array<const Publisher::Change*, 32>;
@@ -80,13 +80,13 @@ class Interest {
   CompactRect m_window;    ///< m_focus.window, in compact form
   CellRect m_last_window;  ///< window of the previous update(): all objects in it are known
   CellRect m_searched;     ///< the window at the last search
-  CellRect m_covered;  ///< m_candidates has all objects that may enter a window inside this before the next
-                       ///< search
+  CellRect m_covered;  ///< m_candidates has all unknown objects that may enter a window inside this rectangle
+                       ///< before the next search
   bool m_has_searched = false;
   std::vector<std::uint32_t> m_candidates;  ///< slots of objects that may enter soon
   SlotBits m_known_bits;
   struct Stay {
-    std::uint32_t until = 0;                   ///< tick until which the object cannot leave m_searched
+    std::uint32_t until = 0;                   ///< tick before which the object need not be examined
     std::uint32_t slot = KnownObjects::kNone;  ///< slot of the object with this id
   };
   std::vector<Stay> m_stays;  ///< indexed by id

@@ -11,7 +11,7 @@
 
 namespace naiad {
 
-/// Cells left … right − 1, top … bottom − 1.
+/// A rectangle of cells: columns left … right − 1, rows top … bottom − 1.
 struct CellRect {
   std::int64_t left = 0;
   std::int64_t top = 0;
@@ -36,7 +36,7 @@ struct CompactRect {
         right(clamped(rect.right)),
         bottom(clamped(rect.bottom)) {}
   static CompactRect everywhere() { return CompactRect({INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX}); }
-  /// A rectangle that meets no other.
+  /// Returns a rectangle that overlaps no other.
   static CompactRect nowhere() { return CompactRect({INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN}); }
   bool meets(const CompactRect& other) const {
     // No branches, because they would be unpredictable.
@@ -84,7 +84,7 @@ class InterestGrid {
     m_entries[slot].filed = false;
   }
 
-  /// Calls `visit(slot)` for every slot in a block that meets `rect`, except blocks inside `inner`. So it
+  /// Calls `visit(slot)` for every slot in a block that overlaps `rect`, except blocks inside `inner`. So it
   /// visits all slots that are in `rect` but not in `inner`, and some other slots.
   template <class Visit>
   void forEachNear(const CellRect& rect, const CellRect& inner, Visit visit) const {

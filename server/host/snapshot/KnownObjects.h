@@ -43,7 +43,7 @@ class KnownObjects {
     return static_cast<std::uint8_t>(known.birth % 3 + 1);
   }
 
-  /// Returns the id of the object in `slot` if its birth was sent or is pending; otherwise kNone.
+  /// Returns the id of the object in `slot` if its state is kBorn or kAlive; otherwise kNone.
   std::uint32_t find(std::uint32_t slot) const { return m_ids.find(slot); }
   const Known& at(std::uint32_t id) const { return m_known[id]; }
   /// Prefetch the memory that find(slot) or at(id) reads.
@@ -63,10 +63,10 @@ class KnownObjects {
 
   /// Returns the ids with pending groups, unordered, and until trimPending() some ids without any.
   const std::vector<std::uint32_t>& pendingIds() const { return m_pending_ids; }
-  /// Returns the groups to write for an id: kDeath, kAllGroups or some of them.
+  /// Returns the groups to write for an id: kDeath, kAllGroups for a birth, or the pending ones.
   std::uint8_t groupsToSend(std::uint32_t id) const;
-  /// Call after the groups of groupsToSend() were written into `snapshot` of `tick`: those of `state`, with
-  /// `motion` as of `tick`, except for a death.
+  /// Call after the groups of groupsToSend() were written into `snapshot` of `tick`. Unless they are a death,
+  /// their contents are those of `state`, but with `motion` (as of `tick`) as the motion.
   Sent markSent(std::uint32_t id, std::uint32_t snapshot, const ObjectState& state, const Motion& motion,
                 std::uint32_t tick);
   void trimPending();
@@ -75,7 +75,7 @@ class KnownObjects {
   /// Call when the snapshot was lost. Returns whether anything is pending again because of it.
   bool requeueLost(const Sent& sent, std::uint32_t snapshot, std::uint32_t tick);
 
-  /// Returns the checksum of a client's replica that has received everything sent.
+  /// Returns the checksum of the client's replica after it has received everything sent.
   std::uint64_t checksum() const { return m_checksum; }
 
   /// Calls `visit(id, known)` for all objects in the states kBorn and kAlive.
@@ -87,8 +87,8 @@ class KnownObjects {
   }
 
  private:
-  /// Known plus what was sent of it, in one cache line. Snapshot numbers are stored as brief(), which
-  /// suffices because at most some hundred snapshots are in flight.
+  /// Known, and a record of the groups that were sent, in one cache line. Snapshot numbers are stored as
+  /// brief(), which suffices because at most InFlightSnapshots::kMaxSnapshots are in flight.
   struct alignas(64) KnownObject : Known {
     std::array<std::uint16_t, kGroupCount> sent{};  ///< newest snapshot that carried the group; 0: none
     std::array<std::uint8_t, kGroupCount>

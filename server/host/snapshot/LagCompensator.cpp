@@ -51,7 +51,7 @@ void LagCompensator::recordModel(std::uint32_t slot, const Publisher::Model& mod
   if (history.generation != model.generation) history = {model.generation, m_tick, {}};
   if (!moved && !history.motions.empty()) return;
   history.motions.push_back({m_tick, model.state.motion});
-  // Motions that were replaced before the oldest kept tick are not needed.
+  // Motions that were replaced before the oldest kept tick, or in it, are not needed.
   while (history.motions.size() > 1 && !isNewer(history.motions[1].since, m_tick - kTicks)) {
     history.motions.pop_front();
   }

@@ -2,8 +2,8 @@
 // players' views of the last ticks.
 //
 // All clients extrapolate the published models. So two ticks determine what a client drew: the newest tick
-// that it had received, and the tick that it drew. Older ticks are clamped: players must not gain from being
-// late.
+// that it had received, and the tick that it drew. Ticks that are too old are clamped, because players must
+// not gain from being late.
 #pragma once
 
 #include <array>
@@ -20,9 +20,10 @@ namespace naiad {
 
 class LagCompensator : public df::LagCompensation {
  public:
-  /// Number of ticks whose models are kept. A client that received none counts as having received the oldest.
+  /// Number of ticks whose models are kept. A client whose newest tick is older counts as having received the
+  /// oldest of them.
   static constexpr std::uint32_t kTicks = 32;
-  /// Number of ticks: a drawn tick older than this is clamped to this age; a future one, to the present tick.
+  /// Maximum age of a drawn tick, in ticks. An older one is clamped to this age, a future one to the present.
   static constexpr std::uint32_t kMaxBehind = 8;
 
   /// Records one tick. Call after Publisher::update() with this view. A gap between ticks clears the history.
@@ -30,8 +31,8 @@ class LagCompensator : public df::LagCompensation {
 
   /// Uses the published models, whose positions may be inexact, but never enough to draw a wrong cell.
   std::optional<df::FixedVector> positionOf(df::ObjectKey object, const df::ViewedTick& seen) const override;
-  /// Exact to the cell while the object that the view follows moves in a straight line. Returns nullopt if
-  /// the player steers that object by declared controls, because the client predicts both.
+  /// Exact to the cell while the object that the view follows moves in a straight line. Also returns nullopt
+  /// if the player steers that object by declared controls, because the client predicts both.
   std::optional<df::FixedVector> viewCornerOf(std::uint32_t player,
                                               const df::ViewedTick& seen) const override;
 

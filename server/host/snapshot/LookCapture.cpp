@@ -35,8 +35,8 @@ bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position
 
 Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawCommand> commands) {
   constexpr int kShift = df::kFixedBits - kGlyphUnitBits;
-  // Unsigned, because two legal positions may be farther apart than the type can hold. The wrapped offset is
-  // then far beyond kMaxGlyphOffset, like the true one.
+  // The subtraction is unsigned, because two legal positions may be farther apart than the signed type can
+  // hold. The wrapped offset is then far beyond kMaxGlyphOffset, like the true one.
   const auto offset = [](df::Fixed to, df::Fixed from) {
     constexpr std::uint64_t kHalf = std::uint64_t{1} << (kShift - 1);
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from) +

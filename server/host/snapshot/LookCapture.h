@@ -15,14 +15,16 @@ bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position
                   std::span<const df::DrawCommand> commands);
 
 /// Returns the appearance of an object at `position` that drew `commands`. Offsets are rounded to 1/256 cell,
-/// which removes the rounding errors of game code that computes in floats.
+/// which removes the rounding errors of game code that computes in floats. Characters too far away to be
+/// encoded, or beyond kMaxGlyphs, are omitted.
 Appearance captureAppearance(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// Like captureAppearance(), but with offsets in whole cells from the cell of `position`. It draws the right
-/// cells at this position, however the offsets would be rounded.
+/// Like captureAppearance(), but with offsets in whole cells from the cell of `position`. So it draws the
+/// right cells at this position even where rounded offsets would not.
 Appearance captureCells(df::FixedVector position, std::span<const df::DrawCommand> commands);
 
-/// Returns a sequence of only this appearance, without the last characters if all exceed kMaxLookBytes.
+/// Returns a sequence of only this appearance, without its last characters if otherwise the encoded sequence
+/// would exceed kMaxLookBytes.
 Sequence fitToRecord(Appearance appearance);
 
 }  // namespace naiad

@@ -84,7 +84,8 @@ class AxisFit {
     int position_bits = df::kFixedBits;
   };
 
-  /// Returns the pair whose velocity has `bits` fractional bits and whose position has the fewest.
+  /// Tries the velocities of `bits` fractional bits next to the true one, and returns the pair whose position
+  /// has the fewest; nullopt if none draws the right cells.
   std::optional<Pair> withVelocityBits(int bits) const {
     const Fixed step = Fixed{1} << (df::kFixedBits - bits);
     const Fixed below = m_velocity & ~(step - 1);

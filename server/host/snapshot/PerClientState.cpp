@@ -25,7 +25,7 @@ std::int32_t bitsFor(std::int32_t extent) {
   return static_cast<std::int32_t>(std::bit_width(static_cast<std::uint32_t>(extent + kMargin - 1)));
 }
 
-/// Returns the client's id of the object if its birth was sent or is pending; otherwise kNone.
+/// Returns the client's id of the object if its state is kBorn or kAlive; otherwise kNone.
 std::uint32_t idOf(df::ObjectKey object, const KnownObjects& known) {
   const std::uint32_t id = object.generation != 0 ? known.find(object.slot) : KnownObjects::kNone;
   const bool same = id != KnownObjects::kNone && known.at(id).generation == object.generation;
@@ -164,7 +164,7 @@ const Motion* PerClientState::followedMotion(const Publisher& publisher, const K
   return &publisher.find(m_player.followed.slot)->state.motion;
 }
 
-// Clients compute the view from the object that it follows. It is sent when this would show the wrong cells.
+// Clients compute the view from the object that it follows. A view is sent when this would show wrong cells.
 void PerClientState::queueView(const Publisher& publisher, const KnownObjects& known) {
   const Motion* motion = followedMotion(publisher, known);
   ViewRecord actual{m_player.view_corner, motion != nullptr, 0, 0};
@@ -176,7 +176,7 @@ void PerClientState::queueView(const Publisher& publisher, const KnownObjects& k
   bool correct = m_states[kView].sent != 0 && actual.follows == m_view.follows && actual.id == m_view.id &&
                  actual.generation == m_view.generation;
   if (correct && motion != nullptr && motion->tick != publisher.tick()) {
-    // A pending motion is sent with a new base tick; a view that follows it from there may end elsewhere.
+    // A pending motion is sent with a new base tick; a view that follows it from there may show other cells.
     correct = (known.at(id).pending & kMotion) == 0;
   }
   if (correct) {

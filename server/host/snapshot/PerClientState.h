@@ -1,8 +1,8 @@
 // The state that one client receives in addition to objects: the world, its view, its controls, its newest
 // input, its texts, and the origins that positions are relative to.
 //
-// Each part is pending as a whole when it changes, and until a snapshot carries it. If that snapshot is lost,
-// the part is pending again, in its newest state.
+// When a part changes, all of it is pending until a snapshot carries it. If that snapshot is lost, the part
+// is pending again, in its newest state.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace naiad {
 
 /// The origin of one client's positions: a window around its view, so that positions take few bits.
 ///
-/// When the view leaves the window, a new window is sent in another slot. Snapshots use the new slot only
-/// after the client has confirmed it.
+/// When the view leaves the window, or the newest creation orders are too far from the window's, a new window
+/// is sent in another slot. Snapshots use the new slot only after the client has confirmed it.
 class OriginChoice {
  public:
   /// Call when the view may have moved. Returns the slot whose window has to be sent; 0: none.
@@ -46,7 +46,7 @@ class ControlExtrapolator {
  public:
   /// Call when `record` was sent.
   void setSent(const ControlRecord& record);
-  /// True if `actual` follows from the newest record by this table. Ticks must not decrease.
+  /// True if a client computes `actual` from the newest record and this table. Ticks must not decrease.
   bool implies(const ControlRecord& actual, const df::ControlTable& table);
 
  private:
@@ -62,8 +62,8 @@ class PerClientState {
   void applyTick(const Publisher& publisher, const df::PlayerFacts& player);
   /// Sets the newest input that the game has applied, and its tick.
   void setNewestInput(std::uint32_t id, std::uint32_t tick);
-  /// Marks as pending what this client cannot compute: its view and the state of the object that it steers.
-  /// Call once a tick, before write() and after `known` was updated for the tick.
+  /// Marks the client's view and the state of the object that it steers as pending if the client cannot
+  /// compute them. Call once a tick, before write() and after `known` was updated for the tick.
   void queueCorrections(const Publisher& publisher, const KnownObjects& known);
 
   /// Puts the newest input into the header, until the client is known to have received it.
@@ -74,7 +74,7 @@ class PerClientState {
   /// Once a tick, marks the parts that write() chose to repeat as pending, unless they have arrived.
   void queueRepeats();
 
-  /// Call when the snapshot arrived. `probe`: it carried nothing.
+  /// Call when the snapshot arrived. `probe`: true if the snapshot was an empty probe.
   void confirmArrival(std::uint32_t number, bool probe);
   /// Call when the snapshot was lost. Returns whether anything is pending again because of it.
   bool requeueLost(std::uint32_t number);
@@ -129,14 +129,14 @@ class PerClientState {
   std::uint32_t m_to_repeat = 0;  ///< parts to repeat in the next tick
   std::uint32_t m_repeated = 0;   ///< parts repeated in this tick
   WorldRecord m_world;
-  ViewRecord m_view;              ///< view as last sent
+  ViewRecord m_view;              ///< view as last sent, or to be sent while pending
   std::uint32_t m_view_tick = 0;  ///< tick of m_view
   OriginChoice m_origins;
   std::uint32_t m_input = 0;
   std::uint32_t m_input_tick = 0;
   df::PlayerFacts m_player;
   std::array<df::PlayerText, kMaxTexts> m_texts;
-  std::string m_table;      ///< the player's controls as last sent, encoded; empty: none
+  std::string m_table;      ///< the player's controls, encoded, as last sent or pending; empty: none yet
   ControlRecord m_control;  ///< the newest state, to be sent while pending
   ControlExtrapolator m_control_extrapolator;
 };

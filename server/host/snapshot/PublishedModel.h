@@ -19,16 +19,16 @@ struct PublishedModel {
   std::uint32_t generation = 0;
   bool alive = false;
   ObjectState state;
-  std::uint64_t look_sum = 0;  ///< checksum of the sequence; 0 if it has at most one character
-  bool recurs = false;         ///< the look was published before or is animated, so naming it saves bytes
+  std::uint64_t look_sum = 0;  ///< checksum of the sequence; 0 if it is empty or a single character
+  bool recurs = false;         ///< the look was published before or is animated, so an id for it saves bytes
   std::int32_t reach = 0;      ///< upper bound of the distance of its characters from its position, in cells
 };
 
 /// The cells in which any part of a model may be drawn.
 struct DrawForecast {
   std::uint32_t generation = 0;  ///< 0: the slot is empty
-  CompactRect soon;              ///< cells now and exactly `soon` ticks later, and the cells between
-  CompactRect later;             ///< cells from now until `later` ticks later, and some more
+  CompactRect soon;              ///< box around the cells now and forecastOf()'s `soon` ticks later
+  CompactRect later;             ///< cells in all ticks from now until `later` ticks later, and some more
 };
 
 /// Computes PublishedModel::reach from the model's look and body.

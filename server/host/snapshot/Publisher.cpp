@@ -11,10 +11,11 @@ namespace naiad {
 
 namespace {
 
-/// Maximum number of remembered looks. Above it, looks not entered for kForgetAfter ticks are dropped.
+/// Maximum number of remembered looks. Above it, looks not entered for kForgetAfter ticks are dropped, or all
+/// if that is not enough.
 constexpr std::size_t kMaxRemembered = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
-/// Maximum number of shared sequences, including sequences that no object has any more. Then all are dropped.
+/// Number of shared sequences, including sequences that no object has any more, at which all are dropped.
 constexpr std::size_t kMaxShared = 2'048;
 
 /// Numbers of ticks: a path is fitted for at least kMinHorizon, and after a turn for at most
@@ -23,7 +24,8 @@ constexpr std::uint32_t kMinHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
 /// A path that outlives its model's horizon is fitted again, for a horizon of its age times this factor.
 constexpr std::uint32_t kHorizonFactor = 8;
-/// Models with more distinct glyph offsets are not fitted: this would be slow and rarely find coarse numbers.
+/// Models with more distinct glyph offsets (modulo a cell, and including 0) are not fitted: this would be
+/// slow and rarely find coarse numbers.
 constexpr std::size_t kMaxOffsets = 6;
 
 }  // namespace

@@ -90,7 +90,8 @@ class TickCache {
   const Value* find(std::size_t index) const {
     return index < m_entries.size() && m_entries[index].round == m_round ? &m_entries[index].value : nullptr;
   }
-  /// Stores a value. `size` must exceed all indices until the next clear(). Valid until the next put().
+  /// Stores a value. `size` must exceed all indices until the next clear(). The returned reference is valid
+  /// until the next put().
   const Value& put(std::size_t index, std::size_t size, Value value) {
     m_entries.resize(size);
     m_entries[index] = {m_round, std::move(value)};
@@ -109,7 +110,7 @@ class TickCache {
 /// Detects views that move too fast to predict which objects enter them.
 class ViewMoves {
  public:
-  /// Records one tick. Returns true if a view has appeared, moved by more than a cell, or was resized.
+  /// Records one tick. Returns true if views have appeared, vanished, moved by more than a cell, or resized.
   bool updateViews(const df::WorldView& view) {
     bool jumped = view.players.size() != m_corners.size();
     m_corners.resize(view.players.size());
@@ -166,7 +167,7 @@ class Publisher {
         soon == m_soon && later == m_later ? m_forecasts.find(cacheIndex(slot)) : nullptr;
     return cached != nullptr ? *cached : computeForecast(slot, soon, later);
   }
-  /// Returns the encoded motion, at tick(), of the live model in `slot`. Valid until the next call.
+  /// Returns the encoded motion, at tick(), of the live model in `slot`. It is valid until the next call.
   const SharedMotion& sharedMotion(std::uint32_t slot) const {
     const SharedMotion* cached = m_motions.find(cacheIndex(slot));
     return cached != nullptr ? *cached : shareMotionOf(slot);
@@ -189,7 +190,7 @@ class Publisher {
   /// them. Set automatically for the first player with controls.
   void setExactSolids(bool exact) { m_exact.setSolids(exact); }
 
-  /// Number of models corrected because they would have drawn a wrong cell, since the start.
+  /// Number of corrections of models that would have drawn a wrong cell, since the start.
   std::uint64_t correctionCount() const { return m_corrections; }
   /// Number of reports of objects that were ignored because their slot is not below kFreeDrawSlot.
   std::uint64_t refusedCount() const { return m_refused; }

@@ -55,7 +55,7 @@ void Publisher::applyDrawing(const df::WorldView& view, const df::DrawnObject& d
   if (!tracked.model.alive || tracked.model.generation != drawn.key.generation) return;
   tracked.drawn = tracked.off_views = m_tick;
   m_examine_at[drawn.key.slot] =
-      m_tick + 1;  // correctUndrawnObjects() examines it then, unless it is drawn again
+      m_tick + 1;  // correctUndrawnObjects() examines the object then, unless it is drawn again
   std::span<const df::DrawCommand> commands{view.commands.data() + drawn.first, drawn.count};
   if (drawn.on_view) commands = relativeToView(commands, view.corner);
   correctLook(drawn.key.slot, tracked, commands, declared);

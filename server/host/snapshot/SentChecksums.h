@@ -25,7 +25,8 @@ class SentChecksums {
   }
   /// Call when snapshot `number`, the newest, is not sent after all.
   void removeNewest(std::uint32_t number) { at(number) = {}; }
-  /// Call when the snapshot was lost. `pending`: its contents are pending. `newest`: newest number.
+  /// Call when the snapshot was lost. `pending`: true if its contents, or newer ones in their place, are
+  /// pending. `newest`: number of the newest snapshot.
   void recordLost(const InFlightSnapshots::Snapshot& snapshot, bool pending, std::uint32_t newest) {
     m_repairing = m_repairing || pending;
     // If nothing is pending, newer snapshots have already carried the contents.
@@ -35,8 +36,8 @@ class SentChecksums {
       moment.fate = snapshot.empty ? Moment::kNotMissed : Moment::kRepaired;
   }
 
-  /// True if this is the checksum of a replica that has the snapshots in `acks`, after acknowledge(). Returns
-  /// nullopt if too little is known about that moment.
+  /// True if this is the checksum of a replica that has the snapshots in `acks`; nullopt if too little is
+  /// known about that moment. Call after SnapshotSender::acknowledge().
   std::optional<bool> matches(const AckWindow& acks, std::uint64_t checksum) const {
     const std::uint32_t number = acks.newest;
     if (m_repairing || isNewer(m_clean_from, number)) return std::nullopt;
@@ -68,7 +69,7 @@ class SentChecksums {
 
   std::array<Moment, kMaxMoments> m_moments;  ///< indexed by number modulo kMaxMoments
   std::uint32_t m_clean_from;  ///< from this snapshot on, everything lost before it has been sent again
-  bool m_repairing = false;    ///< lost contents are pending
+  bool m_repairing = false;    ///< true while lost contents are pending
 };
 
 }  // namespace naiad

@@ -27,7 +27,8 @@ bool isOwn(const KnownObjects::Known& known, const df::PlayerFacts& player) {
   return player.followed == key || player.steering.object == key;
 }
 
-/// Urgency of an object's record for one client, in cells of distance from the middle of its view.
+/// Urgency of an object's record for one client, in cells: minus the distance from the middle of its view,
+/// plus kCellsPerTick for each tick waited.
 class Urgency {
  public:
   Urgency(const ClientReplica& replica, const Publisher& publisher)

@@ -20,7 +20,7 @@ namespace naiad {
 /// ones are sent a third time in the tick after, because sometimes two packets in a row are lost.
 class RedundantResend {
  public:
-  /// Total bits of the records repeated in a tick. The first record may exceed this limit.
+  /// Limit of the total bits of the records repeated in a tick. The first record may exceed it.
   static constexpr std::size_t kBits = 768;
   /// Records of at most this many bits are repeated twice.
   static constexpr std::size_t kShortBits = 32;
@@ -45,8 +45,9 @@ class RedundantResend {
 /// The order in which one client's pending objects are written, the most urgent first.
 class PendingQueue {
  public:
-  /// Adds all pending ids: by id if one snapshot of `limit` bytes holds them all, otherwise by urgency:
-  /// deaths, the player's own objects, then by distance from the middle of the view, less the time waited.
+  /// Replaces the contents by all pending ids, sorted by id if one snapshot of `limit` bytes holds them all,
+  /// otherwise by urgency: first deaths, then the player's own objects, then the others by distance from the
+  /// middle of the view, less the time waited.
   void fill(const ClientReplica& replica, const Publisher& publisher, std::size_t limit);
   bool empty() const { return m_ids.empty(); }
   std::uint32_t front() const { return m_ids.back(); }
@@ -77,7 +78,7 @@ class SnapshotBuilder {
     m_queue.fill(replica, publisher, limit);
   }
   /// Starts a snapshot. Everything written is marked as sent in `replica` and listed in `flight`; both must
-  /// outlive the snapshot. Records to repeat go to `redundancy`, unless it is null.
+  /// outlive the writing. Records to repeat are added to `redundancy`, unless it is null.
   void beginSnapshot(const SnapshotHeader& header, ClientReplica& replica,
                      InFlightSnapshots::Snapshot& flight, RedundantResend* redundancy = nullptr);
   /// Writes the pending state other than objects, as far as it fits into `limit` bytes.

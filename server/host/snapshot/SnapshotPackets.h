@@ -19,7 +19,7 @@ struct SnapshotPacket {
 
 /// Limits of the snapshots that one tick may send.
 struct PacketLimits {
-  /// Upper bound of the bits of a snapshot besides the record of its only object.
+  /// Upper bound of the bits that a snapshot of one object has in addition to the object's record.
   static constexpr std::size_t kMaxOverheadBits = 256;
 
   std::size_t packets = 64;                  ///< maximum number of snapshots

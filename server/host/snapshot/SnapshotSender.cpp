@@ -7,7 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Redundancy is off if the usual loss is at most this.
+/// Redundancy is off if the usual loss (0 … 1) is at most this.
 constexpr double kMinLossForRedundancy = 0.003;
 
 }  // namespace
@@ -141,8 +141,8 @@ void SnapshotSender::acknowledge(const AckWindow& acks) {
 void SnapshotSender::requeueLost(const InFlightSnapshots::Snapshot& snapshot) {
   const ClientReplica::Requeued requeued = m_replica.requeueLost(snapshot, m_tick);
   m_resent += requeued.objects;
-  // State changed or removed since then was already pending; until it is sent, the client lacks what was
-  // lost.
+  // State that has changed or was removed since the snapshot was sent is already pending; until it is sent,
+  // the client lacks the lost contents.
   const bool pending = requeued.any || (!snapshot.empty && m_replica.hasPending());
   m_checksums.recordLost(snapshot, pending, newestNumber());
 }
@@ -161,7 +161,7 @@ void SnapshotSender::reset() {
   next.m_epoch = static_cast<std::uint8_t>((m_epoch + 1) & 3);
   next.m_next_number = m_next_number;
   next.m_checksums = SentChecksums(m_next_number);
-  // Acknowledge the newest input again: a client that has not received this waits before it sends more.
+  // Acknowledge the newest input again: a client that lacks the acknowledgement waits before it sends more.
   next.setNewestInput(m_replica.state.input(), m_replica.state.inputTick());
   *this = std::move(next);
 }

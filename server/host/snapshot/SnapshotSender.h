@@ -1,9 +1,10 @@
 // One client's snapshots: writes the pending state, and sends it again if it is lost.
 //
-// A client receives the objects in its view, objects about to enter it, and the object that the view follows.
-// In each tick, Interest decides which objects the client knows, and SnapshotBuilder writes what is pending
-// in ClientReplica, most urgent first. Acknowledgements remove snapshots from InFlightSnapshots. Nothing here
-// depends on the channel, except that a snapshot may be too large for a datagram.
+// A client receives the objects in its view, objects about to enter it, and the objects that its view follows
+// and its player steers. In each tick, Interest decides which objects the client knows, and SnapshotBuilder
+// writes what is pending in ClientReplica, most urgent first. Acknowledgements remove snapshots from
+// InFlightSnapshots. Nothing here depends on the channel, except that a snapshot may be too large for a
+// datagram.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ namespace naiad {
 
 /// When unacknowledged records are sent again.
 enum class Resend {
-  kEveryTick,  ///< with every snapshot, until they are acknowledged
+  kEveryTick,  ///< in every tick, until they are acknowledged
   kOnGap,      ///< when later snapshots are acknowledged and the one that carried them is not
   kAhead,      ///< like kOnGap, and redundantly if the connection loses packets (RedundantResend)
 };
@@ -62,14 +63,15 @@ class SnapshotSender {
   /// Returns an empty snapshot that probes whether datagrams pass. Its loss does not count in loss().
   Packet probe(const Publisher& publisher);
 
-  /// Processes an acknowledgement. LossDetector decides when unconfirmed snapshots count as lost.
+  /// Processes an acknowledgement; ignores it if its newest number was never sent. LossDetector decides when
+  /// unconfirmed snapshots count as lost.
   void acknowledge(const AckWindow& acks);
-  /// Marks a snapshot, just built, that uses a stream: it may be late but is not lost.
+  /// Marks a snapshot, just built, that uses a stream: it may be late, but is lost only if the stream breaks.
   void markLarge(std::uint32_t number) { m_in_flight.markLarge(number); }
-  /// True if a large snapshot is unacknowledged. If a later one overtook it, the world would lack its
-  /// contents.
+  /// True if a large snapshot is unacknowledged. If a later one overtook it, the client's world would lack
+  /// its contents.
   bool hasLargeInFlight() const { return m_in_flight.hasLarge(); }
-  /// Call when the stream broke: everything it carried is pending again.
+  /// Call when the stream broke: the contents of the large snapshots in flight are pending again.
   void requeueLarge();
 
   /// True if this is the checksum of a client that has received the snapshots in `acks`; nullopt if too

@@ -12,7 +12,7 @@ struct sqlite3_stmt;
 
 namespace naiad {
 
-/// Thrown if the file exists and cannot be used. what() is a one-sentence message.
+/// Thrown if the file cannot be created or used. what() is a one-sentence message.
 class StateFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -50,7 +50,7 @@ class StateStatement {
 class StateFile {
  public:
   struct Kind {
-    const char* what;    ///< name in messages, like "file of bans"
+    const char* what;    ///< name in messages, like "ban file"
     int id;              ///< PRAGMA application_id
     int format;          ///< PRAGMA user_version
     const char* schema;  ///< statements that create the tables, run in one transaction

@@ -14,7 +14,7 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Returns the last name in a sequence of names like "5naiad4Ship"; empty if it has none.
+/// Returns the last name in a sequence like "5naiad4Ship"; empty if it has no name, or a wrong length.
 std::string_view lastOfNames(std::string_view rest) {
   std::string_view last;
   while (!rest.empty() && isDigit(rest.front())) {

@@ -25,8 +25,8 @@ class ActivityText {
   std::size_t m_size = 0;
 };
 
-/// Returns the name without namespaces: "EventStep" of "N2df9EventStepE" or "9EventStep". Other forms stay
-/// whole.
+/// Returns the class's own name, without namespaces or an enclosing function: "EventStep" of
+/// "N2df9EventStepE" or "9EventStep". Other forms stay whole.
 std::string_view classInMangled(std::string_view mangled);
 
 /// Returns ", while Ship handled EventStep" (`verb`: "handled"), ", while Ship ran draw()", or "" between
@@ -34,7 +34,7 @@ std::string_view classInMangled(std::string_view mangled);
 ActivityText describeActivity(const df::ActivityPage& page, std::string_view verb);
 
 /// Returns one of the last lines of the game's log. `back` counts from the newest line, which is 0. Empty if
-/// there are not that many lines.
+/// the page does not have that many lines.
 ActivityText logLine(const df::ActivityPage& page, std::size_t back);
 
 }  // namespace naiad

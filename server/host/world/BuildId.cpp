@@ -16,7 +16,7 @@ namespace naiad {
 namespace {
 
 constexpr std::size_t kNoteAlignment = 4;
-constexpr char kHere = 0;  ///< its address lies in the file that has this code
+constexpr char kHere = 0;  ///< a variable in the loaded file that contains this code
 
 std::size_t aligned(std::size_t size) {
   return (size + kNoteAlignment - 1) / kNoteAlignment * kNoteAlignment;

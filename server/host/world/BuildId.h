@@ -16,7 +16,7 @@ inline constexpr std::size_t kShownBuildId = 8;
 /// `file`: the beginning of its name, like "libc.so". Empty if there is no such file, or no id in it.
 std::string buildIdOf(const std::string& file);
 
-/// Returns the id of libdragonfly.so, which has this code. Any thread.
+/// Returns the id of libdragonfly.so, which contains this code; empty if it has no id. Any thread.
 const std::string& ownBuildId();
 
 }  // namespace naiad

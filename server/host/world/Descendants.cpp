@@ -24,8 +24,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kNapMillis = 2;
-constexpr std::chrono::seconds kKillTimeout{20};  ///< a process that waits for a dead disk cannot be ended
-constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< short, because players are waiting
+/// Time limit of killDescendants(), because a process that waits for a dead disk cannot be killed.
+constexpr std::chrono::seconds kKillTimeout{20};
+constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< limit of killOthers(): players wait
 
 std::optional<pid_t> processOf(const char* name) {
   pid_t process = 0;
@@ -34,7 +35,7 @@ std::optional<pid_t> processOf(const char* name) {
   return error == std::errc() && p_read == p_end ? std::optional(process) : std::nullopt;
 }
 
-/// Returns the parent of a process; 0 if it has none, or has ended.
+/// Returns the parent of a process; 0 if it has none, or does not exist.
 pid_t parentOf(pid_t process) {
   const int file = open(("/proc/" + std::to_string(process) + "/stat").c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
@@ -118,8 +119,8 @@ void killChild(pid_t child) {
 int killDescendants(pid_t leader) {
   int status = SIGKILL;
   if (leader > 0) {
-    kill(-leader, SIGKILL);  // the whole group at once, so that none of its processes can go on forking
-    kill(leader, SIGKILL);   // in case it has left its group
+    kill(-leader, SIGKILL);  // the whole group at once, so that none of its processes can fork again
+    kill(leader, SIGKILL);   // in case the leader has left its group
   }
   std::set<pid_t> ended;
   bool naps = false;
@@ -137,7 +138,7 @@ int killDescendants(pid_t leader) {
       killChild(one);
       news = true;
     }
-    if (news) continue;  // look again at once: a process may have forked before it was killed
+    if (news) continue;  // search again at once: a process may have forked before it was killed
     poll(nullptr, 0, kNapMillis);
     if (!std::exchange(naps, true)) continue;  // search /proc only if processes are left after a pause
     for (const Descendant& one : findDescendants()) kill(one.process, SIGKILL);

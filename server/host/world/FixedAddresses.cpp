@@ -13,7 +13,7 @@ namespace naiad {
 
 namespace {
 
-/// The environment is padded to a multiple of these entries and bytes; a usual one fits in a single multiple.
+/// Environment and arguments are padded to multiples of these numbers; usual ones fit in one multiple.
 constexpr std::size_t kEntries = 64;
 constexpr std::size_t kBytes = std::size_t{16} << 10;
 constexpr rlim_t kStack = rlim_t{8} << 20;

@@ -8,15 +8,15 @@
 
 namespace naiad {
 
-/// Pads the environment, so that it and the arguments together have a fixed number of entries and, with the
-/// program, of bytes.
+/// Pads the environment, so that it and the arguments together have a multiple of 64 entries and, with the
+/// program's path, a multiple of 16 KiB.
 void padEnvironment(const std::string& program, const std::vector<std::string>& arguments,
                     std::vector<std::string>& environment);
 
 /// True if disableAslr() works. Tries it in a process that then ends.
 bool canDisableAslr();
 
-/// True if the addresses of this process are fixed.
+/// True if address randomisation is off in this process.
 bool hasFixedAddresses();
 
 /// Fixes the addresses of the program that this process is about to execute. Returns false if the kernel, or

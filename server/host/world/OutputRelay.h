@@ -1,8 +1,8 @@
 // Passes the output of a world, which includes the game's log lines, to the server's log.
 //
-// A world has the writing end of a pipe as its standard output and error, and no right on the log file. So it
-// can add lines, each marked as the game's, and cannot change older ones. Lines above the rate are dropped
-// and counted; a world that prints faster than it is read waits.
+// A world has the writing end of a pipe as its standard output and error, and no access to the log file. So
+// it can add lines, each marked as the game's, and cannot change older ones. Lines above the rate are dropped
+// and counted; a world that prints faster than update() reads must wait.
 #pragma once
 
 #include <unistd.h>
@@ -30,10 +30,10 @@ class OutputRelay {
   static constexpr BucketRate kRate{100, 500};
   /// Maximum bytes of a line; the rest of it is dropped.
   static constexpr std::size_t kMaxLine = 1000;
-  /// Maximum bytes that one update() reads.
+  /// After this many bytes an update() stops; its last read may exceed them by less than 16 KiB.
   static constexpr std::size_t kMaxRead = std::size_t{128} << 10;
 
-  /// Takes over the reading end of a non-blocking pipe; below 0: none. If `line` is empty, drops all lines.
+  /// Takes over a pipe's non-blocking reading end; below 0: none. If `line` is empty, drops all lines.
   OutputRelay(int pipe, Line line) : m_pipe(pipe), m_line(std::move(line)) {}
   ~OutputRelay() {
     if (m_pipe >= 0) ::close(m_pipe);
@@ -52,7 +52,7 @@ class OutputRelay {
       done += static_cast<std::size_t>(got);
     }
   }
-  /// Like update(), for a world that has ended: also passes on a last line without a line end.
+  /// Like update(), for a world that has ended: also passes on an unfinished line, and reports dropped lines.
   void finish(Clock::time_point now) {
     update(now);
     if (!m_text.empty()) endLine(now);

@@ -48,7 +48,7 @@ constexpr std::uint64_t kReading = kExecute | kReadFile | kReadDir;
 constexpr std::uint64_t kWriting =
     kReading | kWriteFile | kRemoveDir | kRemoveFile | kMakeDir | kMakeRegular | kRefer | kTruncate;
 
-/// Returns all rights of a version, as bits.
+/// Returns all rights on files that a version of Landlock has, as bits.
 std::uint64_t rightsOf(int version) {
   if (version >= 5) return (kControlDevice << 1) - 1;
   if (version >= 3) return (kTruncate << 1) - 1;
@@ -92,8 +92,8 @@ class LandlockRules {
 
   /// Allows reading, listing and executing.
   void allowReading(const std::string& path) { allow(path, kReading); }
-  /// Like allowReading(), and allows writing, making and removing files and folders, but not links or
-  /// devices.
+  /// Like allowReading(), and allows writing, moving, making and removing files and folders, but not making
+  /// symbolic links, sockets, named pipes or devices.
   void allowWriting(const std::string& path) { allow(path, kWriting); }
   /// Allows writing into an existing file.
   void allowAppending(const std::string& path) { allow(path, kWriteFile); }
@@ -141,7 +141,7 @@ constexpr bool kSanitized = false;
 
 constexpr rlim_t kMaxOpenFiles = 1024;
 constexpr rlim_t kMaxFileSize = rlim_t{1} << 30;
-/// Limit of processes and threads. A lower one would fail, because all processes of the user count.
+/// Limit of processes and threads. A lower one could make worlds fail: all processes of the user count.
 constexpr rlim_t kMaxProcesses = 4096;
 
 const char* const kSystemFiles[] = {"/etc/ld.so.cache",        "/etc/ld.so.preload",
@@ -177,8 +177,8 @@ void dropCapabilities() {
   prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
   __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
   const __user_cap_data_struct none[2] = {};
-  // Otherwise the next program of root would get capabilities again, and the kernel would randomise its
-  // addresses.
+  // Without these bits, the next program that root executes would get capabilities again, and the kernel
+  // would randomise its addresses.
   prctl(PR_SET_SECUREBITS, SECBIT_NOROOT | SECBIT_NOROOT_LOCKED, 0, 0, 0);
   syscall(SYS_capset, &head, none);
 }
@@ -215,7 +215,7 @@ std::int32_t tryFilter() {
   return filterCalls(0) == 0 ? 1 : 0;
 }
 
-/// Returns the result of `p_find` in a process of its own; 0 if the system kills that for a forbidden call.
+/// Returns the result of `p_find` in a process of its own; 0 if that fails or is killed for a forbidden call.
 std::int32_t findInTrial(std::int32_t (*p_find)()) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return 0;

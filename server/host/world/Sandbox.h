@@ -11,10 +11,10 @@ namespace naiad {
 /// Permissions of a world. Libraries and programs of the system are always readable.
 struct Sandbox {
   bool on = true;
-  // Files, or folders with all their content. Missing ones are ignored.
+  // Files, or folders with all their content. Missing ones are ignored, except in `appendable`.
   std::vector<std::string> readable;    ///< readable and executable
-  std::vector<std::string> writable;    ///< readable and writable
-  std::vector<std::string> appendable;  ///< files only, created if they are missing
+  std::vector<std::string> writable;    ///< readable, executable and writable
+  std::vector<std::string> appendable;  ///< files only: writable, not readable; created if missing
   std::uint64_t memory = 0;  ///< limit of the address space in bytes; 0, or with a sanitizer: no limit
 };
 
@@ -25,10 +25,10 @@ struct SandboxSupport {
   std::int32_t addresses = 0;  ///< 1: addresses can be fixed (FixedAddresses.h)
 };
 
-/// Tries the features out in short-lived processes. For a process without threads.
+/// Tries out all features but `addresses`, in short-lived processes. For a process without threads.
 SandboxSupport findSandboxSupport();
 
-/// Returns a sentence for the log if something is missing; otherwise empty.
+/// Returns a sentence for the log if Landlock or the filter is missing; otherwise empty.
 std::string missingSandboxFeatures(const SandboxSupport& support);
 
 /// Enters the sandbox, permanently. For a process without threads that is about to execute a program. Returns

@@ -56,7 +56,7 @@ constexpr std::uint32_t kRefused[] = {
     __NR_move_pages,
     __NR_migrate_pages,
     __NR_perf_event_open,
-    __NR_setsid,  // all processes of a world must stay in its group, which is killed at once
+    __NR_setsid,  // all processes of a world must stay in its group, which is killed as a whole
     __NR_setpgid,
     // Memory that no limit counts, or that is shared with another process.
     __NR_memfd_create,
@@ -108,7 +108,7 @@ constexpr std::uint32_t kRefused[] = {
     // Access to the machine as a whole.
     __NR_bpf,
     __NR_userfaultfd,
-    425,  // io_uring_setup: opens and connects without system calls
+    425,  // io_uring_setup: opens files and connects sockets without system calls
     426,
     427,
     __NR_keyctl,
@@ -153,8 +153,8 @@ constexpr std::uint32_t kRefused[] = {
     __NR_syslog,
 };
 
-/// ioctl requests with which a world could change a terminal. They have equal numbers on all supported
-/// architectures.
+/// ioctl requests with which a world could change a terminal, or send signals. They have equal numbers on all
+/// supported architectures.
 constexpr std::uint32_t kRefusedControls[] = {
     0x5402,      0x5403,      0x5404,       // TCSETS, TCSETSW, TCSETSF
     0x5406,      0x5407,      0x5408,       // TCSETA, TCSETAW, TCSETAF
@@ -165,7 +165,7 @@ constexpr std::uint32_t kRefusedControls[] = {
     0x8901,      0x8902,  // FIOSETOWN, SIOCSPGRP: signals to other processes
 };
 
-/// ioctl requests by which its owner can change a file permanently, even by a descriptor opened for reading.
+/// ioctl requests with which a file's owner can change it permanently, even if it is only open for reading.
 constexpr std::uint32_t kRefusedFileControls[] = {
     0x4004'6602, 0x4008'6602,  // FS_IOC_SETFLAGS, with 32 and 64 bits
     0x4004'7602, 0x4008'7602,  // FS_IOC_SETVERSION
@@ -237,7 +237,8 @@ void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pi
   });
 }
 
-// Replaces Landlock's limit on signals. A world's children can then send signals only to their own group.
+// Replaces Landlock's limit on signals. A world's children can then send signals only to their whole group
+// or to the world itself.
 void limitSignals(FilterWriter& out, pid_t self) {
   out.forCall(__NR_kill, fails(EPERM), [&] {
     out.loadArgument(0);
@@ -251,7 +252,7 @@ void limitSignals(FilterWriter& out, pid_t self) {
   out.ifEqual(__NR_tkill, fails(EPERM));
 }
 
-// Refuses to open a file for reading with O_TRUNC, because that empties the file without a right to write.
+// Refuses truncate(), and to open a file for reading with O_TRUNC, which empties it without a right to write.
 void limitTruncation(FilterWriter& out) {
   const auto limit = [&out](std::uint32_t call, std::size_t flags) {
     out.forCall(call, kAllow, [&] {
@@ -296,7 +297,7 @@ void limitArguments(FilterWriter& out) {
     out.loadArgument(0);
     out.ifAnyOf(kNewNamespaces, fails(EPERM));
   });
-  // Refuses pairs of datagram sockets, which could send to any other socket of this machine with a name.
+  // Refuses other pairs, because those of datagram sockets could send to any named socket of this machine.
   out.forCall(__NR_socketpair, fails(EPERM), [&] {
     out.loadArgument(1);
     out.mask(0xF);
@@ -308,7 +309,7 @@ void limitArguments(FilterWriter& out) {
     for (const std::uint32_t control : kRefusedControls) out.ifEqual(control, fails(EPERM));
     for (const std::uint32_t control : kRefusedFileControls) out.ifEqual(control, fails(EPERM));
   });
-  // Refuses to send signals to others on events, and leases, which delay other processes that open the file.
+  // Refuses signals on events to other processes, and leases, which delay other processes that open the file.
   out.forCall(__NR_fcntl, kAllow, [&] {
     out.loadArgument(1);
     out.ifEqual(F_SETOWN, fails(EPERM));

@@ -10,7 +10,7 @@ namespace naiad {
 
 namespace {
 
-/// Returns the state letter of /proc/PID/stat. It comes after the program's name, which may contain anything.
+/// Returns the state letter of /proc/PID/stat. It follows the program's name, which may contain anything.
 char stateOf(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string line;

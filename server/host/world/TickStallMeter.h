@@ -19,7 +19,7 @@ struct ProcessRunState {
     kRuns,      ///< it computes, waits for a processor, or waits for a disk
     kWaits,     ///< it waits for something that it asked for: a time, a lock, bytes
     kStopped,   ///< stopped by a signal
-    kDebugged,  ///< stopped by a debugger, which a sandboxed world cannot be itself
+    kDebugged,  ///< stopped by a debugger; a sandboxed world cannot debug itself
   } doing = kRuns;
   std::chrono::nanoseconds cpu{0};  ///< processor time of all its threads since its start
 };
@@ -32,16 +32,16 @@ class TickStallMeter {
  public:
   using Nanos = std::chrono::nanoseconds;
 
-  /// A tick's time counts in full, and the process's state is not read, until it has taken this long.
+  /// A tick's time counts in full, and the process's state is not read, until the tick has taken this long.
   static constexpr Nanos kUninspectedTime = std::chrono::milliseconds(50);
-  /// One part in this many counts of the time in which a process is stopped by a signal, or waits for a
-  /// processor. If no part did, such a process would never count as hung.
+  /// The time in which a process is stopped by a signal, or waits for a processor or a disk, is divided by
+  /// this. If it did not count at all, such a process would never count as hung.
   static constexpr int kStarvedPart = 10;
 
   /// Begins another tick.
   void restart() { *this = TickStallMeter(); }
-  /// Adds the time `passed` since the last call. `look` returns the state of the process, and is called once
-  /// the tick takes longer than kUninspectedTime.
+  /// Adds the time `passed` since the last call. `look` returns the state of the process; it is called only
+  /// if the tick has taken longer than kUninspectedTime.
   template <class Look>
   void add(Nanos passed, Look look) {
     m_passed += passed;

@@ -11,7 +11,7 @@ namespace {
 
 enum RecordKind : std::uint8_t {
   kRecordedTurn = 0,     ///< a turn with the flags of the previous turn
-  kRecordedNewTurn = 1,  ///< a turn with flags of its own
+  kRecordedNewTurn = 1,  ///< a turn with its flags, which may differ from the previous turn's
   kRecordedResult = 2,
   kRecordedPicture = 3,
   kRecordedSession = 4,

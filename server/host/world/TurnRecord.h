@@ -43,17 +43,17 @@ struct WorldTurn {
   bool wants_truth = false;                   ///< the answer of a watched turn must have pictures
   bool ends_game = false;
   bool checked = false;               ///< the answer must have a hash of the state
-  std::uint32_t input_player = 0;     ///< only this player's input is used; 0: all players'
+  std::uint32_t input_player = 0;     ///< the only player whose input is passed on; 0: all
   std::uint32_t rendered_player = 0;  ///< only this player's picture is rendered; 0: all players'
 };
 
 /// A turn as it is sent to a world.
 struct SentTurn {
   WorldTurn turn;
-  std::string record;  ///< its record, as in the journal; empty if it is too long
+  std::string record;  ///< its record, as in the journal; empty if it has too many inputs
 };
 
-/// Maximum inputs of a turn: keys and clicks that waited (Round::kMaxInputs), joins, leaves and scores.
+/// Maximum inputs of a turn: waiting keys and clicks (Round::kMaxInputs), joins, leaves, scores and rooms.
 inline constexpr std::size_t kMaxTurnInputs = std::size_t{1} << 16;
 
 /// Result of the last turn's tick.
@@ -106,7 +106,7 @@ class TurnRecordWriter {
 /// Maximum bytes of a record without its length: a whole turn, or a picture.
 inline constexpr std::size_t kMaxTurnRecord = std::size_t{8} << 20;
 
-/// Reads a stream of records, which may come in pieces.
+/// Reads a stream of records, which may arrive in pieces.
 class TurnRecordReader {
  public:
   /// Adds the next bytes of the stream.
@@ -128,8 +128,8 @@ class TurnRecordReader {
   bool m_bad = false;
 };
 
-/// Appends a message to a world's process to `out`: a turn's record, and whether a copy is to be made after
-/// its tick (WorldCheckpoints.h).
+/// Appends to `out` a message for a world's process: a turn's record, and whether a copy is to be made after
+/// the turn's tick (WorldCheckpoints.h).
 void appendTurnMessage(std::string_view record, bool copied, std::string& out);
 /// Reads the fields of a message of appendTurnMessage(). Call for all turns in order. Returns nullopt if the
 /// fields are malformed.

@@ -24,7 +24,7 @@ constexpr df::Fixed cells(std::int64_t count) {
 
 /// Limit of coordinates, larger than those of legal positions and of characters drawn near them.
 constexpr df::Fixed kMaxPosition = cells(2'010'000'000);
-/// Limit of a view's corner, so that two corners can be subtracted.
+/// Limit of a view's corner, so that the difference of two corners does not overflow.
 constexpr df::Fixed kMaxCorner = cells(1'000'000'000);
 constexpr std::int64_t kMaxOrder = (std::int64_t{1} << 48) - 1;
 constexpr std::int64_t kLastCharacter = 0x10FFFF;
@@ -36,7 +36,7 @@ constexpr std::size_t kMaxObjects = kMaxSlots;
 constexpr std::size_t kMaxVanished = 4 * std::size_t{kMaxSlots};
 constexpr std::int64_t kMaxShake = 1000;
 constexpr std::int64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-/// Limit of a sequence, in bytes; more than any sequence has that fits in a snapshot.
+/// Limit of a sequence, in bytes; longer than any sequence that fits in a snapshot.
 constexpr std::size_t kMaxSequence = std::size_t{1} << 20;
 
 std::uint32_t numberOf(const std::unordered_map<const void*, std::uint32_t>& numbers, const void* p_thing,

@@ -1,6 +1,6 @@
 // Writes a WorldView to the fields of a frame (WorldFrame.h), and reads it.
 //
-// Each tick's frame is complete, except for data that many ticks share: a sequence of a look or a table of
+// A frame has a whole WorldView, except for data that many views share: a sequence of a look or a table of
 // controls is written once, with a number, and later as that number.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace naiad {
 
-/// If one kind of data has more numbers than this, both ends forget them before the next view.
+/// If one kind of data has more numbers than this, both ends forget all numbers before the next view.
 inline constexpr std::size_t kMaxViewNumbers = 4096;
 
 /// Maximum number of players of a world, including those who are just leaving.
@@ -36,7 +36,7 @@ class ViewWriter {
 
 class ViewReader {
  public:
-  /// `later` is added to the tick numbers of views.
+  /// `later` is added to the tick numbers in views.
   explicit ViewReader(std::uint32_t later = 0) : m_tick_offset(later) {}
   /// Reads a view. Makes `in` fail if anything is wrong; then neither `view` nor this reader may be used.
   void read(FieldReader& in, df::WorldView& view);

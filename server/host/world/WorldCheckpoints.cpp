@@ -77,7 +77,7 @@ void WorldCheckpoints::add(CheckpointState state) {
   m_checkpoints.push_back({std::exchange(m_requested, -1), -1, std::move(state)});
 }
 
-/// Reads a copy's message. Returns false if the copy has ended, or was never made.
+/// Reads a copy's message. Returns false if the copy has ended, was never made, or sent anything unexpected.
 bool WorldCheckpoints::receive(WorldCheckpoint& copy) {
   std::int32_t process = 0;
   const bool is_known = copy.process > 0;

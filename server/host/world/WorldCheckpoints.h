@@ -57,17 +57,18 @@ class WorldCheckpoints {
   /// Requests a copy of the process `world` after the turn that is sent next. Returns false if there will be
   /// none.
   bool request(pid_t world);
-  /// Call when the world has answered the turn of the last request(); `state`: the copy's place in the round.
+  /// Adds the copy of the last request(). Call when the world has answered that turn; `state`: the copy's
+  /// place in the round.
   void add(CheckpointState state);
-  /// Reads the messages of copies. Call once in each tick.
+  /// Reads the messages of copies, and drops ended and surplus copies. Call once in each tick.
   void update();
-  /// Removes and returns the newest copy, to be resumed by the caller; nullopt without copies.
+  /// Removes and returns the newest ready copy, to be resumed by the caller; nullopt if no copy is ready.
   std::optional<WorldCheckpoint> popNewest();
   /// True if a copy is ready to take over.
   bool hasCheckpoint() const { return !processes().empty(); }
   /// Ends all copies; more can be requested.
   void clear();
-  /// Returns the processes of the copies.
+  /// Returns the processes of the copies that are ready.
   std::vector<pid_t> processes() const;
 
  private:

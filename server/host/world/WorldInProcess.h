@@ -14,7 +14,7 @@ namespace naiad {
 
 /// Passes the inputs and flags of a turn to the world, before its tick.
 void applyTurn(const WorldTurn& turn, df::World& world);
-/// Returns the results of the turn's tick, and removes them from the world.
+/// Returns the results of the turn's tick. Removes leavers, scores and moves to other rooms from the world.
 WorldAnswer popAnswer(const WorldTurn& turn, df::World& world);
 
 class WorldInProcess : public WorldPort {

@@ -32,7 +32,7 @@ struct WorldReady {
   bool compat = false;
   std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
   std::vector<ReadFile> files;    ///< files read by the game so far, if it is to be repeatable
-  bool fixed_addresses = false;   ///< this process has fixed addresses (FixedAddresses.h)
+  bool fixed_addresses = false;   ///< the world's process has fixed addresses (FixedAddresses.h)
   bool runs_empty = false;        ///< true if the world ticks even without players
 };
 inline constexpr int kMaxFrameMillis = 1000;
@@ -55,10 +55,10 @@ struct WorldAnswer {
   std::uint64_t hash = 0;                   ///< hash of the answer's bytes, set by the reader; 0: none
 };
 
-// Writers fill `frame` with a whole frame, and return false if it would be too long. Readers return nullopt
-// if anything is missing, out of range or left over.
+// Writers fill `frame` with a whole frame; writeAnswer() returns false if it would be too long. Readers
+// return nullopt if a field is missing or out of range; readReady() and readAnswer() also if bytes are left.
 
-// Also used by records (TurnRecord.h).
+// Records (TurnRecord.h) use these functions, too.
 template <class F, class Text, class Number>
 void visitScore(F& f, Text& table, Text& name, Number& points) {
   f.text(table, df::HighScoreLimits::kMaxTableName);
@@ -73,6 +73,7 @@ void writeReady(const WorldReady& ready, std::string& frame);
 /// Returns the build id (BuildId.h) of the world that sent a ready message. If it is another build, nothing
 /// else of its frames can be read, because their format may differ.
 std::optional<std::string> readBuild(std::string_view fields);
+/// Returns nullopt also for a message of another build.
 std::optional<WorldReady> readReady(std::string_view fields);
 
 /// Writes an answer. `p_view`: the tick's view; null: the answer has none.

@@ -21,9 +21,9 @@ class Publisher;
 struct WorldEnd {
   enum Why : std::uint8_t {
     kGameOver,      ///< the game ended, or its process exited normally
-    kCrashed,       ///< its process ended by a signal or with an error code
-    kHung,          ///< it did not answer in time
-    kBroken,        ///< it sent a malformed frame
+    kCrashed,       ///< its process ended by a signal or with an error code, or could not be started
+    kHung,          ///< it did not start or answer in time
+    kBroken,        ///< it sent a malformed or unexpected frame, or got too many inputs in a tick
     kNotRecovered,  ///< the round of a killed server could not be replayed
     kForeign,       ///< it has another build than the host: its files were upgraded
   } why = kGameOver;
@@ -44,7 +44,7 @@ class WorldPort {
 
   /// True if a tick may begin.
   virtual bool isReady() const = 0;
-  /// Begins a tick. In the first view that a turn asks for, every Object counts as changed.
+  /// Begins a tick. In the first view after turns without a view, every Object counts as changed.
   virtual void tick(const SentTurn& turn) = 0;
   /// Returns the number of the next tick to begin, in the numbers of view().
   virtual std::uint32_t nextTick() const = 0;
@@ -58,8 +58,8 @@ class WorldPort {
 
   /// Returns the changes of the tick, if it was watched. Valid until the next tick begins.
   virtual const df::WorldView& view() const = 0;
-  /// Returns the other results, which callers may move out. Of players to be moved to other rooms only
-  /// lengths are checked: a player may be in another world, and a room may not exist.
+  /// Returns the other results, which callers may move out. Of moves to other rooms, only the length of
+  /// the room's name is checked: the player may be in another world, and the room may not exist.
   WorldAnswer& answer() { return m_answer; }
   const WorldAnswer& answer() const { return m_answer; }
   /// Passes on the models published for the tick, for games that use lag compensation.

@@ -46,7 +46,7 @@ std::string secondsText(std::chrono::nanoseconds time) {
   return text;
 }
 
-/// Maps the page read-only. Returns null if there is none.
+/// Maps the page read-only, and closes `file`. Returns null if there is no page.
 const df::ActivityPage* mapPage(int file) {
   if (file < 0) return nullptr;
   void* p_memory = mmap(nullptr, sizeof(df::ActivityPage), PROT_READ, MAP_SHARED, file, 0);
@@ -90,7 +90,7 @@ void WorldProcess::kill() {
   ::shutdown(m_supervisor, SHUT_WR);
 }
 
-/// Returns nullopt if there is no message, or if the supervisor has ended; then the world counts as killed.
+/// Returns nullopt without a message. If the supervisor has ended, a world without a status counts as killed.
 template <class Message>
 std::optional<Message> WorldProcess::receiveFromSupervisor(int timeout_millis) {
   pollfd readable{m_supervisor, POLLIN, 0};

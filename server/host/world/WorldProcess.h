@@ -32,9 +32,9 @@ class WorldProcess : public WorldPort {
   using Clock = std::chrono::steady_clock;
 
   /// Time limit of an answer, in multiples of StartedWorld::hang_time; it is generous because games load
-  /// files in handlers. After one hang_time popWarning() reports a hang. The world is killed after one
-  /// hang_time already if setFastFailover() is set, a copy is ready, and all of that time is certainly the
-  /// world's own (TickStallMeter::own()).
+  /// files in handlers. After one hang_time popWarning() reports a hang. After its first tick, a
+  /// world is killed after one hang_time already if setFastFailover() is set, a copy is ready, and all of
+  /// that time is certainly the world's own (TickStallMeter::own()).
   static constexpr int kAnswerTimeoutFactor = 5;
   /// Time limit from the start of the process to GM.run(). The first tick's time limit is at least this, too.
   static constexpr std::chrono::seconds kStartTime{30};
@@ -46,7 +46,7 @@ class WorldProcess : public WorldPort {
   /// Takes over the process and the descriptors. `home` runs the handlers of this object. `print` gets the
   /// lines that the world prints, from checkProcess(). If `print` is empty, they are dropped.
   WorldProcess(asio::io_context& home, const StartedWorld& started, OutputRelay::Line print = {});
-  /// Kills the world and all its descendants, if they have not ended.
+  /// Kills the world and all its descendants, if they have not ended, and waits some seconds for their end.
   ~WorldProcess() override;
   WorldProcess(const WorldProcess&) = delete;
   WorldProcess& operator=(const WorldProcess&) = delete;
@@ -55,7 +55,7 @@ class WorldProcess : public WorldPort {
     return m_state == State::kReady && m_supervisor_state != SupervisorState::kStarting;
   }
   void tick(const SentTurn& turn) override;
-  /// Before the first tick, this is the host's tick number. Afterwards it counts the world's own ticks.
+  /// Before the first tick, this is the host's tick number. Afterwards each tick of the world adds 1.
   std::uint32_t nextTick() const override { return m_next_tick; }
   std::uint32_t turnsAhead() const override { return kTurnsAhead; }
   const df::WorldView& view() const override { return m_view; }
@@ -63,7 +63,7 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> end() const override { return m_end; }
   void close(const WorldTurn& rest = {}) override;
 
-  /// Returns a warning for the log if the tick takes too long, only once.
+  /// Returns a warning for the log, only once, if the tick takes too long or the process is stopped in it.
   std::optional<std::string> popWarning() { return std::exchange(m_warning, std::nullopt); }
   /// Sets whether a world whose tick seems to hang is killed early if a copy is ready.
   void setFastFailover(bool impatient) { m_fast_failover = impatient; }
@@ -78,7 +78,7 @@ class WorldProcess : public WorldPort {
 
   // Copies of the world's process. One of them takes over if the world has crashed or hangs.
 
-  /// Requests a copy after the next tick, in addition to the last one. Returns false if there will be none.
+  /// Requests a copy after the next tick, in addition to earlier ones. Returns false if there will be none.
   bool requestCheckpoint();
   /// True if a copy may be requested. False while the supervisor kills what is left of a previous world,
   /// because it would kill the copy, too.
@@ -87,9 +87,9 @@ class WorldProcess : public WorldPort {
   void dropCheckpoints() { m_checkpoints.clear(); }
   /// Returns the reason if copies have become impossible, only once.
   std::optional<std::string> popCheckpointProblem() { return m_checkpoints.popProblem(); }
-  /// Replaces the world by the newest copy, in the state after the copy's tick. Call after end(). Returns how
-  /// many ticks that state has had since the world's first; nullopt if there is no copy, and then no process
-  /// of the world is left. The copy's output is dropped until endReplay().
+  /// Replaces the world by the newest copy, in the state after the copy's tick. Call when end() has a value.
+  /// Returns how many ticks the world had executed in that state; nullopt if there is no copy, and then no
+  /// process of the world is left. The copy's output is dropped until endReplay().
   std::optional<std::uint32_t> resumeFromCheckpoint();
 
   /// Returns the game's settings; nullopt before GM.run().
@@ -153,7 +153,7 @@ class WorldProcess : public WorldPort {
   std::optional<WorldEnd> m_failure;  ///< why the world was killed
   std::optional<WorldEnd> m_end;
   Clock::time_point m_checked_at;
-  std::chrono::nanoseconds m_waited{0};  ///< time in this state; each check adds a limited time
+  std::chrono::nanoseconds m_waited{0};  ///< time in this state; a check adds at most kMaxBetweenChecks
   TickStallMeter m_stall;                ///< time of the current tick, as far as it counts
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_tick_offset = 0;  ///< the host's tick numbers minus the world's own

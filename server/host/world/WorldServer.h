@@ -44,7 +44,7 @@ class WorldServer : public df::Runner {
   WorldServer(const WorldServer&) = delete;
   WorldServer& operator=(const WorldServer&) = delete;
 
-  /// Ticks as the host orders, until the game is over or the host is gone.
+  /// Ticks as the host orders, until the game is over, the host is gone, or a frame is invalid or too long.
   void run(df::World& world) override;
 
  private:

@@ -18,8 +18,8 @@ inline constexpr int kWorldSocket = STDERR_FILENO + 1;
 /// Descriptor of the memory shared with the host: an ActivityPage.
 inline constexpr int kWorldPage = kWorldSocket + 1;
 
-/// Descriptor of the socket for requests of copies (CheckpointForker), if there are any. It is high, so that
-/// the descriptors that a game opens have equal numbers with and without it.
+/// Descriptor of the socket for requests to copy the world (CheckpointForker); open only if the front makes
+/// them. It is high, so that the descriptors that a game opens have equal numbers with and without it.
 inline constexpr int kWorldCheckpoints = 100;
 
 /// Returns the environment entry for takeWorldSocket().
@@ -28,7 +28,7 @@ std::string worldSocketEntry();
 /// Returns the environment entry for takeWorldSeed().
 std::string worldSeedEntry(std::uint64_t seed);
 
-/// Returns the seed that the front gave this world, once; nullopt in other processes.
+/// Returns the seed that the front gave this world, once; nullopt if it gave none, or in other processes.
 std::optional<std::uint64_t> takeWorldSeed();
 
 /// Returns this world's end of the socket, once; nullopt in other processes.

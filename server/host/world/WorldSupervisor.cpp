@@ -35,7 +35,7 @@ bool isChild(pid_t process) {
   return process > 0 && waitid(P_PID, static_cast<id_t>(process), &facts, WEXITED | WNOHANG | WNOWAIT) == 0;
 }
 
-/// Waits for all children that have ended. Returns true, and the status, if `world` is among them.
+/// Reaps children that have ended. If `world` is one of them, stops and returns true, with its status.
 bool reapWorld(pid_t world, int& status) {
   int how = 0;
   for (pid_t child = 0; (child = waitpid(-1, &how, WNOHANG)) > 0;) {
@@ -58,8 +58,8 @@ class FailoverSupervisor {
   FailoverSupervisor(pid_t world, int front, int children)
       : m_world(world), m_front(front), m_children(children) {}
 
-  /// Runs until the front does not need the world any more, or has ended. Reports each end of a world except
-  /// the last. Returns the world that is left; 0: it has ended, and status() says how.
+  /// Runs until the front needs no world any more, or has ended, or no copy replaces a world that has ended.
+  /// Reports each end of a world. Returns the world that is left; 0: it has ended, and status() says how.
   pid_t run() {
     while (waitForEnd()) {
       m_world = 0;
@@ -93,7 +93,7 @@ class FailoverSupervisor {
     }
     return true;
   }
-  /// Returns false if the front has closed its end.
+  /// Returns false if there is no command, for example because the front has closed its end.
   bool receiveCommand(SupervisorCommand& order) const {
     return recv(m_front, &order, sizeof order, MSG_DONTWAIT) == sizeof order;
   }
@@ -116,11 +116,11 @@ class FailoverSupervisor {
   int m_status = 0;
 };
 
-constexpr int kFailure = STDERR_FILENO + 3;  ///< in the world, for errors before it executes its program
+constexpr int kFailure = STDERR_FILENO + 3;  ///< the world's descriptor for errors before execve()
 constexpr int kFirstFree = kFailure + 1;
 constexpr int kFront = STDERR_FILENO + 1;  ///< the launcher's end of the front's socket
 
-/// Moves `descriptor` to `to`, and closes all others above it.
+/// Moves `descriptor` to the number `to`, and closes all descriptors above `to`.
 void keepOnly(int descriptor, int to) {
   if (descriptor != to) dup2(descriptor, to);
   fcntl(to, F_SETFD, FD_CLOEXEC);
@@ -151,7 +151,7 @@ void raiseOomScore() {
   close(file);
 }
 
-/// Receives a request for a world and its descriptors. Returns nullopt if the front has ended.
+/// Receives a request for a world, with its descriptors; nullopt if they are bad, or the front has ended.
 std::optional<WorldDescriptors> receiveStartOptions(int from, WorldStartOptions& order) {
   WorldDescriptors::List list;
   list.fill(-1);
@@ -170,7 +170,7 @@ std::optional<WorldDescriptors> receiveStartOptions(int from, WorldStartOptions&
   _exit(127);
 }
 
-/// Moves a descriptor above the fixed numbers, so that none is overwritten before it is copied.
+/// Copies a descriptor to a number above the fixed ones, so that none is overwritten before its final copy.
 int moveUp(int descriptor) {
   return fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree);
 }
@@ -247,7 +247,7 @@ bool sendTo(int front, const Message& message) {
   return send(front, &message, sizeof message, MSG_NOSIGNAL) == sizeof message;
 }
 
-/// True if this child has ended. Does not wait for it, but for other children that have ended.
+/// True if this child has ended. Does not reap it, but reaps other children that have ended.
 bool hasEnded(pid_t world) {
   siginfo_t facts{};
   while (waitid(P_ALL, 0, &facts, WEXITED | WNOHANG | WNOWAIT) == 0 && facts.si_pid != 0) {
@@ -342,8 +342,8 @@ class Launcher {
     descriptors.closeAll();
   }
 
-  // Waits for ended supervisors. If one was killed, kills its descendants, which are now those of this
-  // process.
+  // Reaps ended children. If one is a supervisor that was killed, or was a descendant of such a supervisor,
+  // kills all descendants of this process that have no supervisor.
   void waitForChildren() {
     signalfd_siginfo facts{};
     [[maybe_unused]] const ssize_t got = read(m_children, &facts, sizeof facts);

@@ -24,7 +24,7 @@ struct WorldDescriptors {
   void closeAll() const;
 };
 
-/// Runs the launcher in a forked process. `front`: socket of its requests; the process ends when that closes.
+/// Runs the launcher in a forked process, until the other end of `front`, the socket for requests, is closed.
 [[noreturn]] void runLauncher(int front, const WorldProgram& program);
 
 }  // namespace naiad

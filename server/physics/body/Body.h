@@ -1,4 +1,4 @@
-// An Object with mass. Forces move it by Newton\'s laws, while other Objects only move by their velocity.
+// An Object with mass. Forces move it by Newton's laws, while other Objects only move by their velocity.
 //
 //   class Ball : public df::Body {
 //    public:
@@ -68,9 +68,9 @@ class Body : public Object {
   void setContactEnds(bool contact_ends = true);
   bool hasContactEnds() const;
 
-  // Shape: the Object's box, unless one of these functions sets another. Each also fits the Object's box
-  // around the shape. Lengths are in cells, like positions, but a radius is in cell widths. A shape must be
-  // at least 1e-6 cell widths wide and reach at most 1e7 from the position; others are refused.
+  // Shape: the Object's box, unless one of these functions sets another and fits the Object's box around it.
+  // Lengths are in cells, like positions, but a radius is in cell widths. A shape must be at least 1e-6 cell
+  // widths wide and reach at most 1e7 from the position; others are refused.
 
   /// Uses the Object's own box again, and follows later setBox() calls. The position need not be its centre.
   int setBoxShape();
@@ -81,8 +81,9 @@ class Body : public Object {
   /// Sets a convex polygon of 3 to 16 corners, clockwise or counterclockwise, moved so that the position is
   /// its centre of mass. Also returns -1 if the polygon is not convex.
   int setPolygon(const std::vector<Vector>& corners);
-  /// Adds one more part; several parts make a compound. `centre` and `corners` are relative to the centre of
-  /// mass before the call. Then all parts are moved so that the position is the centre of mass of the whole.
+  /// Adds one more part; several parts make a compound. (The Object's box is not a part.) `centre` and
+  /// `corners` are relative to the centre of mass before the call. Then all parts are moved so that the
+  /// position is the centre of mass of the whole.
   int addCircle(double radius, Vector centre);
   /// Like addCircle(), for a box. `angle` is in radians, −1e6 … 1e6.
   int addBoxShape(double width, double height, Vector centre, double angle = 0);
@@ -123,8 +124,8 @@ class Body : public Object {
 
   /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up, to ±1e30.
   int applyForce(Vector force);
-  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). Returns -1 if it would be too
-  /// fast.
+  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). Returns -1 if the body would
+  /// be too fast.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), at a point of the world; also changes the spin if the body may turn.
   int applyImpulseAt(Vector impulse, Vector where);
@@ -150,8 +151,8 @@ class Body : public Object {
   /// Draws the body as an outline (the default), filled, or not at all, with the character `ch`. If `ch` is
   /// 0, an outline has characters by the direction of the edge, and a filling has #. Returns 0, else -1.
   int setDrawing(BodyDrawing drawing, char32_t ch = 0, Color color = COLOR_DEFAULT);
-  /// Draws the body as a sprite that turns with it: rows (UTF-8) of up to 128 characters, centred on the
-  /// position; blanks are transparent. Returns 0, else -1.
+  /// Draws the body as a sprite that turns with it: up to 128 rows (UTF-8) of up to 128 characters, centred
+  /// on the position; blanks are transparent. Returns 0, else -1.
   int setDrawing(const std::vector<std::string>& rows, Color color = COLOR_DEFAULT);
   /// Draws the body. A constant spin is sent to clients only once, like a constant velocity.
   int draw() override;

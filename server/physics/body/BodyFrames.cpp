@@ -184,7 +184,8 @@ class Drawing {
                : ch;
   }
 
-  // Draws a thin shape as a line through its middle. Removes the cells that it covers before, unless `gaps`.
+  // Draws a thin shape as a line through its middle, and removes the other cells that it covers unless
+  // `gaps`.
   void coreLine(const RotatedShape& shape, bool gaps) {
     if (shape.count == 1) return;
     double width = 1e300;

@@ -62,7 +62,8 @@ class Joint {
   /// Mouse joints only. Sets the point to which the body is pulled, in cells.
   int setTarget(Vector target);
 
-  /// Returns the mean force on the second body in the last tick, mass · cells per tick²; (0,0) if it is gone.
+  /// Returns the mean force on the second body in the last tick, mass · cells per tick²; (0,0) if there is no
+  /// joint.
   Vector getForce() const;
   /// Like getForce(), for the torque, in force · cell widths.
   double getTorque() const;

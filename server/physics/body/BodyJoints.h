@@ -36,7 +36,8 @@ class BodyJoints {
   std::vector<JointEntry>& entries() { return m_entries; }
   const std::vector<JointEntry>& entries() const { return m_entries; }
   int count() const { return m_count; }
-  /// Counts joints that were added, removed or changed in kind. After a change groups must be found again.
+  /// Counts the changes after which groups must be found again: joints added or removed, and changes of
+  /// bodies or joints for which markChanged() was called, such as a new mass.
   std::uint64_t changes() const { return m_changes; }
   void markChanged() { ++m_changes; }
 

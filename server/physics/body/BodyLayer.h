@@ -91,7 +91,8 @@ class BodyLayer : public df::Layer {
   // Scratch memory of a step.
   std::vector<State> m_states;
   std::vector<double> m_unit_inertias;  // by state; 0: the body does not turn
-  // True if any HARD body is joined, is not a box or circle, or was moved by the SubstepWorld.
+  // True if m_islands must choose the solvers: a HARD body is joined, cannot be moved by an ImpactWorld or
+  // was moved by a SubstepWorld, or any body must be held, is costly or is in a heap.
   bool m_is_mixed = false;
   bool m_has_pulls = false;               // true if a Pull acts on any joined body
   std::int64_t m_evaluations_before = 0;  // evaluations of fields before this tick

@@ -16,7 +16,7 @@ enum class BodySolver : std::uint8_t {
   kRigid,         ///< RigidWorld
   kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts), if only circles may hit
   kSubstep,       ///< SubstepWorld, at ACCURACY_FAST or if the other solvers would be too expensive
-  kHeap,          ///< a SubstepWorld with finer steps, for large groups that a RigidWorld abandoned
+  kHeap,          ///< a SubstepWorld with finer steps, for groups that a RigidWorld abandoned
 };
 
 /// True for the solvers that use a SubstepWorld.
@@ -37,7 +37,8 @@ struct BodyState {
   bool is_joined = false;
   bool is_simple = false;        ///< an ImpactWorld can move it
   bool is_sprung = false;        ///< a spring or stiff field pulls it: solvers must use `pull`
-  bool must_be_held = false;     ///< its flight is unknown, or the JointSolver cannot follow a pull or magnet
+  bool must_be_held = false;     ///< a solver for contacts must apply its pull or magnet, because it touches
+                                 ///< something, the JointSolver cannot, or its flight is unknown
   double turn_rate = 0;          ///< rad per tick by which a magnet turns its velocity; 0 if nothing can hold
                                  ///< it
   bool is_bent = false;          ///< its free path is not that of a constant acceleration

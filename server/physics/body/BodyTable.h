@@ -112,7 +112,7 @@ class BodyTable {
   Metric metric;
   BodySettings settings;
   BodyCounters counters;
-  std::int64_t ticks = 0;  ///< number of steps since the world was made; also the time of fields
+  std::int64_t ticks = 0;  ///< number of steps since the table was made; also the time of fields
   int soft_bodies = 0;     ///< number of soft bodies; they use `metric`, too
 
  private:

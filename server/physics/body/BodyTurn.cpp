@@ -29,7 +29,7 @@ BodyGeometry& Body::form() const {
   return m_table->form(m_index);
 }
 
-// Sets the Object's box so that it encloses the shape. If the body may turn, it does so at any angle.
+// Sets the Object's box so that it encloses the shape, at any angle if the body may turn.
 void Body::fitBox() {
   const BodyGeometry& its = form();
   if (its.shapes.empty()) return;

@@ -28,9 +28,9 @@ class Field {
 
   /// Returns the acceleration of a body, in cell widths per tick². `displacement` is from the field's origin
   /// to the body, in cell widths along both axes (a row of cells is PM.getAspect() cell widths high).
-  /// `velocity` is in cell widths per tick, `time` in ticks since the world's first. Must be a pure function
-  /// of these arguments: it is called several times per tick, also for states that the body never reaches. A
-  /// body whose acceleration is not finite is frozen (Body::isFrozen).
+  /// `velocity` is in cell widths per tick, `time` in ticks since the first use of physics in the world. Must
+  /// be a pure function of these arguments: it is called several times per tick, also for states that the
+  /// body never reaches. A body whose acceleration is not finite is frozen (Body::isFrozen).
   virtual Vector accelerationAt(Vector displacement, Vector velocity, double time) const = 0;
 
  private:

@@ -59,10 +59,11 @@ class PhysicsManager : public Manager {
   void setSleeping(bool may_sleep);
   bool isSleeping() const;
 
-  // Joints. At least one side must be a body of the current world; for functions with points, null is the
-  // world itself. Points and directions are world coordinates in cells, for the bodies' present positions;
-  // lengths are in cell widths. A body of another world, the same body twice, and numbers that are not finite
-  // or out of range are refused and counted; the joint returned then does not exist (Joint::exists).
+  // Joints. At least one side must be a body of the current world. Null is the world itself in functions with
+  // points, and as `p_a` of addMotor() and addAngleLimit(). Points and directions are world coordinates in
+  // cells, for the bodies' present positions; lengths are in cell widths. A body of another world, the same
+  // body twice, and numbers that are not finite or out of range are refused and counted; the joint returned
+  // then does not exist (Joint::exists).
 
   /// Adds a rod, which keeps the two points at their present distance.
   Joint addDistance(Body* p_a, Body* p_b, Vector point_a, Vector point_b);
@@ -77,10 +78,10 @@ class PhysicsManager : public Manager {
   /// Adds a weld: the bodies keep their relative position and angle.
   Joint addWeld(Body* p_a, Body* p_b, Vector point);
   /// Adds a slider: `point`, fixed to the second body, slides along the line through it with direction
-  /// `axis`, fixed to the first. The bodies do not turn relative to each other.
+  /// `axis`, fixed to the first. The bodies do not turn relative to each other. `p_b` must not be null.
   Joint addSlider(Body* p_a, Body* p_b, Vector point, Vector axis);
   /// Adds a spring that pulls the points to their present distance (Joint::setLength changes it): force =
-  /// `stiffness` · stretch + `damping` · its rate. Mass per tick² and mass per tick, both 0 … 1e30.
+  /// `stiffness` · stretch + `damping` · its rate. They are 0 … 1e30, in mass per tick² and mass per tick.
   Joint addSpring(Body* p_a, Body* p_b, Vector point_a, Vector point_b, double stiffness, double damping = 0);
   Joint addSpring(Body* p_a, Body* p_b, double stiffness, double damping = 0);
   /// Adds a motor: turns the second body relative to the first at `speed` (radians per tick), with a torque

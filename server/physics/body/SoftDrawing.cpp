@@ -13,8 +13,8 @@ namespace naiad::physics {
 namespace {
 
 // Limits of the cost of a drawing.
-constexpr int kMaxSteps = 2000;          // for each: cells of one line, rows of a filling
-constexpr std::size_t kMaxCells = 8000;  // cells of a drawing
+constexpr int kMaxSteps = 2000;          // cells of a line, rows of a filling, or cells of such a row
+constexpr std::size_t kMaxCells = 8000;  // cells of a whole drawing
 
 std::int64_t cellOf(double at) {
   return static_cast<std::int64_t>(std::floor(at + 0.5));

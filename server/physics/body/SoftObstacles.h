@@ -66,7 +66,7 @@ class SoftObstacles {
   std::vector<SoftObstacle> m_obstacles;  // by index in m_sources
   std::vector<ConvexShape> m_shapes;
   std::vector<ObjectKey> m_found;
-  std::vector<Pushed> m_pushed;   // bodies pushed in the last step, by slot of the key
+  std::vector<Pushed> m_pushed;   // bodies pushed in the last step
   std::vector<Pushed> m_pushing;  // bodies pushed in the current step
   std::uint64_t m_sum = 0;
   bool m_is_lively = false;

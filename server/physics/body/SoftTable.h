@@ -41,7 +41,7 @@ struct SoftEntry {
   std::vector<Vec2> node_forces;  ///< forces on single nodes in the next step; may be empty
   double mass = 1;
   double gravity_scale = 1;
-  double top_speed = 0;     ///< speed of the fastest node
+  double top_speed = 0;     ///< speed of the fastest free node
   bool has_forces = false;  ///< true if external forces act on its nodes
   bool is_in = false;       ///< true if it takes part in this tick
   bool is_frozen = false;
@@ -49,7 +49,7 @@ struct SoftEntry {
   bool is_loaded = false;         ///< true if something movable presses on it
   int still = 0;                  ///< number of ticks with hardly any motion
   int since_touch = 0;            ///< ticks since the last contact
-  std::uint64_t surrounding = 0;  ///< SoftObstacles::surrounding() when it fell asleep
+  std::uint64_t surrounding = 0;  ///< SoftObstacles::surrounding() in the last tick
   SoftGrab grab;
   std::vector<SoftAttachedNode> attached_nodes;
 };
@@ -69,7 +69,7 @@ class SoftTable {
   BodyTable& bodies() { return *m_bodies; }
   const Metric& metric() const { return m_bodies->metric; }
 
-  /// Replaces the body and wakes it. False if the new one is invalid.
+  /// Replaces the body and wakes it. Returns false if the new one is invalid.
   bool set(int id, const SoftBody& body);
   /// Pins or releases a node, and wakes the body. Returns false if the node does not exist.
   bool pin(int id, int node, bool is_pinned);

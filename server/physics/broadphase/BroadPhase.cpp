@@ -198,7 +198,7 @@ std::int32_t BroadPhase::finderOf(std::int32_t a, std::int32_t b, Kind kind) con
   return isBefore(b, a) ? b : a;
 }
 
-// True if it has more than kMaxHeaped overlaps of kind kHeaped, even if the other body finds the pair.
+// True if the body has more than kMaxHeaped pairs of kind kHeaped, even if the other body finds the pair.
 bool BroadPhase::isInCrowd(std::int32_t proxy) {
   const Proxy& own = m_proxies[index(proxy)];
   const SweptBox box = relative(own.bounds);
@@ -234,7 +234,7 @@ void BroadPhase::summarizeCrowds() {
   m_tree.summarize(m_crowds, ofBody, joins);
 }
 
-// True if many bodies below the node are so near each other that most of them overlap.
+// True if the bodies below the node are many, all can move, and they are so near that most of them overlap.
 bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   if (below.bodies < kCrowd) return false;
   const Crowd& crowd = m_crowds[index(below.node)];

@@ -23,9 +23,10 @@ struct BroadPhasePair {
 /// at rest costs nothing. After a warm-up this class does not allocate. Not thread-safe.
 class BroadPhase {
  public:
-  /// With `thins_crowds`, a body whose bounds lie in those of more than 32 others is in a crowd. It finds
-  /// only the nearest 16 of these and of the others that are about as large as itself, and the nearest 16
-  /// larger ones. So the cost grows with the number of bodies, not of pairs.
+  /// With `thins_crowds`, a body is in a crowd if the centres of more than 32 others are nearer to its own
+  /// than the smaller body of the pair is wide. It finds only the nearest 16 of these and of the others that
+  /// are about as large as itself, and the nearest 16 larger ones. So the cost grows with the number of
+  /// bodies, not of pairs.
   explicit BroadPhase(bool thins_crowds = false) : m_thins_crowds(thins_crowds) {}
 
   /// Adds a body. Returns its proxy, the number used below, which is valid until remove(). `id` is chosen by
@@ -69,7 +70,7 @@ class BroadPhase {
     bool is_removed;
     bool is_filed;  // its bounds are within those in the tree; if false, it is in m_loose or removed
     bool is_thinned;
-    std::uint32_t heaped;  // number of overlaps with bodies of kind kHeaped, counted during findAllPairs()
+    std::uint32_t heaped;  // number of its pairs of kind kHeaped, set by findAllPairs(); kCrowd near a crowd
     std::uint64_t order;
     GridBounds bounds;
   };
@@ -82,15 +83,16 @@ class BroadPhase {
   // A summary of all bodies below a node of the tree.
   struct Crowd {
     SweptBox middles;           // box around the centres of their bounds
-    Vec2 narrowest, widest;     // smallest and largest widths; infinite if one of the bodies never moves
+    Vec2 narrowest, widest;     // least and largest widths; `widest` is infinite if a body never moves
     Vec2 widths;                // sum of the bodies' widths
-    std::uint64_t first, last;  // minimum and maximum of `order`; the maximum is used for unchanged bodies
+    std::uint64_t first, last;  // minimum and maximum of `order`; in `last`, kLastOrder for unchanged bodies
   };
   void markChanged(std::int32_t proxy);
   SweptBox relative(const GridBounds& bounds) const;
   float halfOf(const Proxy& proxy) const;
   void fileAll();
-  // True if updating the tree is worth its cost: too many bodies are outside it, or too wide in it.
+  // True if updating the tree is worth its cost: too many bodies are outside it, or their boxes in it have
+  // become wider.
   bool isUntidy() const {
     return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
   }
@@ -114,8 +116,8 @@ class BroadPhase {
   void findCrowds();
   void summarizeCrowds();
   void findAllPairs();
-  // Relation of two moving bodies. kHeaped: the centre of each lies within the width of the smaller one.
-  // kAlike: about equally large. kUnlike: neither. kOther: one never moves, or crowds are not thinned.
+  // Relation of two moving bodies. kHeaped: their centres are nearer than the smaller one is wide. kAlike:
+  // about equally large. kUnlike: neither. kOther: one never moves, or crowds are not thinned.
   enum class Kind : std::uint8_t { kOther, kHeaped, kAlike, kUnlike };
   Kind kindOf(const Proxy& a, const Proxy& b) const;
   std::int32_t finderOf(std::int32_t a, std::int32_t b, Kind kind) const;
@@ -150,7 +152,7 @@ class BroadPhase {
   ImpactTree m_tree;      // by proxy: the bounds at the last fileAll(), in grid units
   GridBounds m_origin{};  // origin of the tree's coordinates
   std::vector<SweptBox> m_boxes;
-  std::vector<float> m_halves;  // half of the shorter side; 0 for bodies that never move
+  std::vector<float> m_halves;  // half of the shorter side; 0 if the body never moves, or no crowd is thinned
   std::vector<int> m_numbers;
   std::vector<Crowd> m_crowds;        // by node of the tree, while pairs of a crowd are found
   std::vector<std::int32_t> m_loose;  // bodies added or moved away since the last fileAll()

@@ -6,7 +6,7 @@ namespace naiad::physics {
 
 void ImpactTree::update(const std::vector<SweptBox>& boxes, const std::vector<int>& ids, int id_count,
                         const std::vector<float>& values) {
-  constexpr double kSpread = 1.3;  // if all sizes together grow more, the tree is rebuilt, not refitted
+  constexpr double kSpread = 1.3;  // if the sum of all sizes grows by a larger factor, the tree is rebuilt
   m_boxes = &boxes;
   const auto setValues = [&] {
     for (std::size_t i = 0; i < values.size(); ++i) m_nodes[m_leaf_of[ids[i]]].least = values[i];

@@ -213,7 +213,7 @@ class ImpactTree {
     return node;
   }
 
-  // Replaces the larger of two nodes by its children.
+  // Replaces the larger of two nodes, or the only one that has children, by its children.
   void divide(int a, int b, std::pair<int, int>* stack, int& height) const {
     const Node &one = m_nodes[a], &other = m_nodes[b];
     const bool divides_one = other.id >= 0 || (one.id < 0 && sizeOf(one.box) > sizeOf(other.box));

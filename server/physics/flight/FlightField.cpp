@@ -60,7 +60,7 @@ bool flyTurning(const ForceField& field, Vec2 position, Vec2 velocity, double ti
     const Turning turning = turningAt(field, position + moved, velocity, time + i * h);
     const bool is_fast = std::fabs(turning.lambda.y) * t > kManyRadians &&
                          std::fabs(turning.lambda.x) < std::fabs(turning.lambda.y);
-    if (!is_fast) return false;  // it is damped, or outside the magnet
+    if (!is_fast) return false;  // the body is damped, or outside the magnet
     const Vec2 lambda = turning.lambda, drift = -over(turning.rest, lambda), own = velocity - drift;
     const double left = df::math::exp(lambda.x * h);
     const Vec2 turned = {left * df::math::cos(lambda.y * h), left * df::math::sin(lambda.y * h)};

@@ -21,7 +21,7 @@ class ForceField {
   }
 };
 
-/// The linear part of a velocity's effect on itself, a(v) − a(0) = λv as complex numbers, and the rest.
+/// The part of an acceleration that is proportional to the velocity, λv as complex numbers, and the rest.
 struct Turning {
   Vec2 lambda;  ///< (−damping, rate of turning in rad per tick)
   Vec2 rest;
@@ -31,7 +31,9 @@ struct Turning {
 Turning turningAt(const ForceField& field, Vec2 position, Vec2 velocity, double time);
 
 /// Flies from `time` to `time + t` by the method of `options`. `position` is relative to the field's origin.
-/// If the status is not kDone, `flown` is where it stopped, and the caller should freeze the body.
+/// The automatic method first tries closed forms, for fields that turn the velocity fast, or that pull hard
+/// in proportion to the distance. If the status is not kDone, `flown` is where it stopped, and the caller
+/// should freeze the body.
 IntegratorStatus flyField(const ForceField& field, Vec2 position, Vec2 velocity, double time, double t,
                           const IntegratorOptions& options, Flown& flown, IntegratorCounters& counters);
 

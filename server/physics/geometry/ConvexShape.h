@@ -14,12 +14,13 @@
 
 namespace naiad::physics {
 
-inline constexpr int kMaxVertices = 16;  ///< enough for a polygon that looks round; circles need only one
-/// Minimum width of a shape and maximum distance of its points from the body's origin, in metric cells. Their
-/// ratio uses 13 of a double's 16 digits.
+inline constexpr int kMaxVertices = 16;  ///< maximum points of a shape: enough for a polygon that looks round
+/// Minimum width of a shape (of a circle or capsule: its radius) and maximum distance of its border from the
+/// body's origin, in metric cells. Their ratio uses 13 of a double's 16 digits.
 inline constexpr double kMinShapeWidth = 1e-6;
 inline constexpr double kMaxShapeExtent = 1e7;
-/// Minimum height of a corner above the line between its neighbours, as a part of the polygon's size.
+/// Minimum height of a corner above the line between its neighbours, and minimum length of an edge, as a
+/// fraction of the polygon's size.
 inline constexpr double kMinCornerHeight = 1e-6;
 
 /// A shape. Points are relative to the body's origin, in the body's axes. Create shapes only with the
@@ -34,11 +35,11 @@ struct ConvexShape {
 
 enum class ShapeStatus : std::uint8_t {
   kOk,
-  kNotFinite,  ///< NaN or infinity
+  kNotFinite,  ///< NaN, infinity, or a rotation whose length is not one
   kTooFew,     ///< fewer than three points
   kTooMany,    ///< more than kMaxVertices points
-  kTooSmall,   ///< almost no area, equal points, or a negative radius
-  kTooLarge,   ///< a point is farther from the origin than kMaxShapeExtent
+  kTooSmall,   ///< almost no area or width, equal points, or a negative or too small radius
+  kTooLarge,   ///< the border is farther from the origin than kMaxShapeExtent
   kNotConvex,  ///< a corner turns inward or is flat, or edges cross
   kClockwise,  ///< the points are in the wrong order, from y to x
 };
@@ -67,7 +68,8 @@ struct RotatedView {
   const Vec2* normals;
 };
 
-/// Like RotatedView, but stores its points; made once per body and step. Only the first `count` are valid.
+/// Like RotatedView, but stores its points; made once per body and step. Only the first `count` points are
+/// valid.
 struct RotatedShape {
   std::int32_t count;
   double radius;
@@ -83,7 +85,7 @@ void turn(const ConvexShape& shape, Rotation rotation, std::span<Vec2> corners);
 /// Returns a view of the points and normals that turn() wrote to `corners`.
 RotatedView rotatedView(const ConvexShape& shape, std::span<const Vec2> corners);
 
-/// Returns half of the minimum width, rounding included. A body that penetrates deeper exits on the far side.
+/// Returns half of the minimum width, `radius` included. A body that penetrates deeper exits on the far side.
 double thicknessOf(const ConvexShape& shape);
 
 /// A bounding box relative to the body's origin.

@@ -38,7 +38,7 @@ void onePoint(const RotatedView& a, const RotatedView& b, Vec2 offset, const Sep
 struct End {
   double along;
   double distance;
-  Vec2 core;  // relative to the body that has it
+  Vec2 core;  // the point, relative to the origin of its body
   std::int32_t owner_vertex;
   std::int32_t other_vertex;
 };

@@ -43,9 +43,9 @@ struct Manifold {
 
 /// Finds the contact of `a` and `b`. `offset` is from A's origin to B's, a difference of two places. Drops
 /// points with a gap above `speculative`. The smallest separation is exact without a kept edge, otherwise
-/// within the hysteresis. Returns true if there is a point; otherwise sets only the count of `manifold`.
-/// `prefers_faces` concerns two polygons whose nearest points are corners, if one has an edge in front of the
-/// other's. It returns the two points of these edges, because another corner may be nearest when they touch.
+/// within the hysteresis. Returns true if there is a point; otherwise only the count of `manifold`, 0, is
+/// defined. If the nearest points of two polygons are corners, `prefers_faces` makes it return two points of
+/// the facing edges instead, if there are two, because another corner may be nearest when they touch.
 bool collide(const RotatedView& a, const RotatedView& b, Vec2 offset, double speculative, ReferenceFace kept,
              Manifold& manifold, bool prefers_faces = false);
 

@@ -33,10 +33,11 @@ struct FaceSeparation {
 /// extents of the shapes are compared before the offset is added, so that equal sizes cancel exactly.
 FaceSeparation faceSeparation(const RotatedView& shape, std::int32_t edge, const RotatedView& other,
                               Vec2 offset);
-/// Returns the edge with the largest distance, or the first one with more than `enough`; −∞ without edges.
+/// Returns the edge with the largest distance, or the first one with more than `enough`; without edges the
+/// distance is −∞.
 FaceSeparation bestFace(const RotatedView& shape, const RotatedView& other, Vec2 offset, double enough);
 /// Returns a lower bound of the distance from a circle about `centre` to the shape, by the shape's faces
-/// alone; −∞ for a shape without faces.
+/// alone; −∞ for a circle or capsule.
 double faceGap(const RotatedView& shape, Vec2 centre, double radius);
 
 /// Returns the distance of two cores. `offset` is from A's origin to B's. Exact except for rounding, by

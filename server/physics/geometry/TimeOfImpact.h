@@ -47,7 +47,7 @@ inline constexpr std::int32_t kImpactIterations = 200;
 double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, Vec2 relative_displacement);
 
 /// Finds the first time in [0, 1] at which the gap is at most `target` (>= 0), within the tolerance. A pair
-/// that is this near at time 0 hits when it has come nearer by another four tolerances; it does not hit if it
+/// that is this near at time 0 hits when it is nearer by three to four more tolerances; it does not hit if it
 /// slides, rests or separates. `offset` is from A's origin to B's at time 0. All numbers must be finite and
 /// displacements at most 1e9 cells.
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,

@@ -26,7 +26,8 @@ struct ImpactBody {
   friend constexpr bool operator==(const ImpactBody& a, const ImpactBody& b) = default;
 };
 
-/// True if the body is valid: all numbers finite and below 1e30, sizes below 1e12.
+/// True if all numbers are in the ranges above and at most 1e30, sizes at most 1e12, and `dx` and `dy` of the
+/// place at most 1.
 inline bool isValid(const ImpactBody& body) {
   constexpr double kLargest = 1e30;  // squares and products of two stay finite
   const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN

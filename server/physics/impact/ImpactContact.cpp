@@ -51,7 +51,7 @@ void ImpactWorld::collide(int a, int b, ImpactAxis axis, double now) {
   double impulse = 0;
   if (state.approach < 0) {
     const double pressing = -dot(m_motions[b].acceleration - m_motions[a].acceleration, state.touch.normal);
-    // They separate, but by less than a double resolves, so the next impact would repeat this one.
+    // They separate, but too slowly to rise by kRestHeight, so the next impact would repeat this one.
     if (pressing > 0 && state.approach * state.approach <= 2 * pressing * kRestHeight) {
       const Vec2 pull = (state.approach / masses) * state.touch.normal;
       first.velocity -= first.inverse_mass * pull;
@@ -112,7 +112,7 @@ int ImpactWorld::localOf(int id) {
 }
 
 // Fills m_group and m_group_contacts. For an impact: with bodies connected to `own_contact` by contacts that
-// would not bounce. Otherwise: with bodies connected to `body` by resting contacts. Ends separated contacts.
+// would not bounce. Otherwise: with bodies connected to `body` by resting contacts; separated contacts end.
 void ImpactWorld::gather(int body, double now, bool is_impact, int own_contact) {
   m_group.clear();
   m_group_contacts.clear();

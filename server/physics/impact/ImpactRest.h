@@ -8,7 +8,7 @@
 
 namespace naiad::physics {
 
-/// One direction of one contact. Its push x acts on `second` along `direction`, and on `first` against it.
+/// One direction of one contact. Its push acts on `second` along `direction`, and on `first` against it.
 struct RestRow {
   int first;            ///< index into the masses given to solve(); −1: immovable
   int second;           ///< index like `first`, or −1; at most one of the two is −1
@@ -17,7 +17,7 @@ struct RestRow {
   int normal = -1;      ///< friction row: index of its contact's normal row, which is before it; else −1
   double friction = 0;  ///< friction row: coefficient of friction
   double slip = 0;  ///< friction row: 0 if it may hold within the cone; ±1 if it slides in this direction
-  double push = 0;  ///< the result; before solve() a guess, of which only the sign is used
+  double push = 0;  ///< the result of solve()
 };
 
 /// Finds pushes >= 0 so that no contact approaches, and contacts that separate have no push. Friction is at
@@ -28,8 +28,8 @@ class RestSolver {
  public:
   std::vector<RestRow>& rows() { return m_rows; }
 
-  /// Returns false if it did not converge; then the pushes are the best of a bounded number of sweeps. If it
-  /// would need more than `most_work` multiplications it stops without pushes: see isTooCostly().
+  /// Returns false if it did not converge; then the pushes are those after a limited number of sweeps. If it
+  /// would need more than `most_work` multiplications, all pushes are 0: see isTooCostly().
   bool solve(const std::vector<double>& inverse_masses, double most_work = 1e300);
   /// True if the last solution was abandoned because of its cost.
   bool isTooCostly() const { return m_is_too_costly; }
@@ -45,7 +45,7 @@ class RestSolver {
   }
 
  private:
-  static constexpr double kRounding = 1e-14;  // part of all pushes' sum: about 50 units in the last place
+  static constexpr double kRounding = 1e-14;  // fraction of the pushes' sum: about 50 units in the last place
   enum class Side : std::uint8_t { kFree, kLow, kHigh };
 
   bool solveWithinBounds();
@@ -63,7 +63,7 @@ class RestSolver {
   std::vector<Vec2> m_change;
   std::vector<double> m_effort;  // sum of the sizes of all pushes on a body, over its mass
   std::vector<double> m_low, m_high;
-  std::vector<double> m_limit, m_off;  // friction rows: limit of the push (the cone), and its last error
+  std::vector<double> m_limit, m_off;  // friction rows: limit of the push (the cone), and its last deviation
   std::vector<Side> m_side;
   std::vector<int> m_rows_begin, m_rows_of;  // rows of each body, in m_rows_of from m_rows_begin[body] on
   std::vector<int> m_free, m_index;          // free rows, and their indices by row

@@ -40,8 +40,9 @@ RelativeMotion movedOn(const RelativeMotion& m, double s) {
           m.acceleration};
 }
 
-// Returns the first moment at which |offset| falls below the radius less the slop. Unless the pair rests,
-// returns the earlier moment at which |offset| passed the radius. −1 if it never does.
+// Finds the first moment at which |offset| falls below the radius less the slop. Returns it if the pair
+// rests, otherwise the last moment before it at which |offset| fell below the radius; −1 if that never
+// happens.
 double circleEntry(const RelativeMotion& m, double radius, double horizon, bool is_resting) {
   const double inner = radius - kImpactSlop;
   if (!(inner > 0)) return -1;

@@ -256,9 +256,9 @@ bool ImpactWorld::listCandidates(int id, std::size_t most) {
   return false;
 }
 
-// Lists all pairs whose paths may cross. All pairs are listed before any is examined, and
-// thousands of bodies in one place have too many. So after the first body whose pairs exceed the tick's
-// shared budget, each body has only its own share.
+// Lists all pairs whose paths may cross. All pairs are listed before any is examined, and thousands of bodies
+// in one place have too many. So after the first body whose pairs exceed the tick's shared budget, each body
+// has only its own share.
 void ImpactWorld::listCandidates() {
   constexpr auto kOwnShare = static_cast<std::size_t>(kWorkOfBody / kForecastPrice);
   constexpr double kEnough = 1e15;
@@ -271,8 +271,7 @@ void ImpactWorld::listCandidates() {
   for (std::size_t i = 0; i < m_ids.size(); ++i) {
     const int id = m_ids[i];
     if (!isMoving(id) || m_motions[id].is_frozen) continue;
-    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // and what earlier bodies did not
-                                                                          // use
+    const std::size_t all = is_spent ? 0 : shared + (i + 1) * kOwnShare;  // includes what earlier bodies left
     const std::size_t left = all > m_candidates.size() ? all - m_candidates.size() : 0;
     // A body that cannot be pushed is never given up, so its number of pairs is not limited.
     const std::size_t most = isPushed(id) ? std::max(left, kOwnShare) : m_ids.size();
@@ -395,8 +394,8 @@ void ImpactWorld::handle(const Pending& pending) {
   forecastChanged(pending.time);
 }
 
-// Sorts the events. If a pair touches several times at one moment, as touching bodies do, it gets one event
-// with the sum of the impulses.
+// Sorts the events. If a pair touches several times at one moment, as touching bodies do, it gets at most one
+// start, with the sum of the impulses, and one end.
 void ImpactWorld::sortEvents() {
   for (std::size_t i = 0; i < m_events.size(); ++i) m_events[i].order = static_cast<int>(i);
   std::sort(m_events.begin(), m_events.end(), [](const ImpactEvent& x, const ImpactEvent& y) {

@@ -80,10 +80,11 @@ class ImpactWorld {
   bool exists(int id) const {
     return id >= 0 && id < static_cast<int>(m_bodies.size()) && m_motions[id].exists;
   }
-  /// True if the body is in quarantine: it does not move and collides with nothing until set().
+  /// True if the body is in quarantine or abandoned: it does not move and collides with nothing until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
-  /// True if the body was abandoned in this tick because its group would have cost too much. Another solver
-  /// must move it and all that it touched, from the tick's beginning. It collides with nothing until set().
+  /// True if the body was abandoned because it or its group would have cost too much in a tick. Another
+  /// solver must move it and all that it touched, from the tick's beginning. It collides with nothing until
+  /// set().
   bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
   bool hasGivenUp() const { return m_has_given_up; }
   /// Returns the work of the last tick, in multiplications.

@@ -64,7 +64,7 @@ struct Joint {
 
   // Results of a step.
   Vec2 force;         ///< mean force on b over the step
-  double torque = 0;  ///< mean torque of the rows that hold the angle, without the lever of `force`
+  double torque = 0;  ///< mean torque of the rows that hold the angle, without that of `force` at its lever
   bool is_broken = false;
   std::array<double, 3> memory =
       {};  ///< multipliers of the last sub-step divided by its length: the first guess of the next step
@@ -72,7 +72,7 @@ struct Joint {
 
 /// True if `joint` is valid for `body_count` bodies: indices and numbers in range, a != b.
 bool isValid(const Joint& joint, int body_count);
-/// True if all numbers are finite, inverse masses in [0, 1e30] and the other numbers below 1e30.
+/// True if inverse masses are in [0, 1e30], other numbers at most 1e30, and the rotation has length one.
 bool isValid(const JointBody& body);
 
 /// Returns the number of scalar constraints of the joint.

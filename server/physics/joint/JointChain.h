@@ -36,7 +36,8 @@ class JointChain {
   Status project();
   /// Advances by a stage of length h != 0. If the result is not kDone, call load() again.
   Status stage(double h, std::uint64_t& iterations);
-  /// Writes the results. `multiplier` is per unit of time; `force` sums impulses on b, at index_of[rod].
+  /// Writes the results. `multiplier` is per unit of time. Entry index_of[rod] of `force` is the sum of the
+  /// rod's impulses on its body b.
   void store(std::span<Vec2> place, std::span<Vec2> velocity, std::span<double> multiplier,
              std::span<Vec2> force, std::span<const int> index_of) const;
 

@@ -29,7 +29,7 @@ struct JointConstraints {
     Vec2 arm_a, arm_b;  // the anchors at the present rotation
     Vec2 target;
     double length, half_inverse_length;
-    double pulled_inverse_mass;  // inverse mass of b, if pulled
+    double pulled_inverse_mass;  // inverse mass of b, which a mouse joint pulls
     double calm_force;           // largest force for which isCalm() is true in a step of length 1
     double bound;                // the nearer bound of the angle limit
   };
@@ -51,11 +51,12 @@ struct JointConstraints {
   void evaluate(const JointMotion& motion);
   /// Sets softness and bounds for a stage of length `h`.
   void prepare(const JointMotion& motion, double h);
-  /// Returns the error of a row as a length.
+  /// Returns the error of a row as a length, or as an angle for rows that hold an angle.
   double residual(int at_row, const JointMotion& motion, double h) const;
   double targetSpeed(int at_row) const;
-  /// Holds rows at a bound if their multiplier is beyond it, and releases those whose multiplier returns
-  /// within `tolerance`. Returns true if a row has changed.
+  /// If `may_clamp`, holds one-sided rows at a bound if their multiplier is beyond it. Releases held rows
+  /// whose residual exceeds `tolerance` on the side of the bound, such as a slack rope that has become too
+  /// long. Returns true if a row has changed.
   bool changeActiveSet(const JointMotion& motion, double h, bool may_clamp, double tolerance);
   /// Adds impulses, one per row, to the forces of the links.
   void addForces(const std::vector<double>& impulse);
@@ -66,7 +67,8 @@ struct JointConstraints {
   bool isCalm(std::span<const Joint> all_joints, double h) const;
   /// Returns how many sub-steps of a step of `h` resolve the oscillation of mouse joints without force limit.
   int substepsOf(std::span<const Joint> all_joints, double h) const;
-  /// True if steps may be composed of stages some of which run backwards. False if a row loses energy.
+  /// True if steps may be composed of stages some of which run backwards. False if a row loses energy, or a
+  /// spring is too stiff for h.
   bool mayCompose(const JointMotion& motion, std::span<const Joint> all_joints, double h) const;
 
   std::vector<Link> links;
@@ -81,7 +83,7 @@ struct JointConstraints {
   std::vector<double> value;  // C, the position error
   std::vector<double> value_before;
   std::vector<double> multiplier;        // impulse of the first half of a stage
-  std::vector<double> softness, memory;  // soft rows: multiplier·softness + C + memory·C before
+  std::vector<double> softness, memory;  // soft rows: residual = softness·multiplier + C + memory·C before
   std::vector<double> diagonal;          // number that softness adds to the diagonal of the matrix
   std::vector<double> low, high;         // bounds of the multiplier
   std::vector<std::int8_t> side;         // bound at which the multiplier is held: −1 lower, +1 upper

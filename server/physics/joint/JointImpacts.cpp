@@ -10,7 +10,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kDeepest = 1e-6;  // part of the reach: with deeper overlap at the start, it is not used
+constexpr double kDeepest = 1e-6;  // fraction of the reach: limit of the overlap at the start
 constexpr double kTouch = 1e-9;    // metric cells: a gap below this counts as touching
 constexpr double kSink =
     1e-11;  // metric cells: rounding of the places, by which a pair may come nearer without an impact
@@ -139,7 +139,8 @@ int JointImpacts::findImpact(std::span<const JointBody> bodies, double left, dou
   return first;
 }
 
-// Corrects the moment of an impact by Newton's method, because the bodies' paths are not exactly cubic.
+// Corrects the moment of an impact by Newton's method, because the bodies' paths are not exactly cubic. Moves
+// the bodies to that moment. Returns false if they overlap there.
 bool JointImpacts::refineImpact(int pair, std::span<JointBody> bodies, std::span<Joint> joints, double left,
                                 double& time) {
   const JointPair& its = m_pairs[at(pair)];
@@ -228,6 +229,7 @@ void JointImpacts::resolveImpact(int index, std::span<JointBody> bodies, std::sp
 }
 
 // Resolves all impacts of one moment, the fastest first. The pair `forced` has an impact even if it is slow.
+// Returns false if there are too many impacts.
 bool JointImpacts::resolveImpacts(std::span<JointBody> bodies, std::span<Joint> joints, double now,
                                   int forced) {
   const std::size_t most = kMaxImpacts + kMaxPerPair * m_pairs.size();

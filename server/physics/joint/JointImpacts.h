@@ -36,7 +36,8 @@ class JointImpacts {
  public:
   /// Steps the bodies of these pairs, and all bodies joined to them, by h. Bodies without joints fly under a
   /// constant force. Returns false and moves nothing if the method is not possible: if bodies press on each
-  /// other or overlap, if joints can only pull or only push, or if immovable bodies of joints move.
+  /// other or overlap, if joints can only pull or only push, if there is a mouse joint or a frozen island, if
+  /// immovable bodies move, or if there are too many impacts.
   bool step(JointSolver& solver, std::span<JointBody> bodies, std::span<Joint> joints,
             std::span<const JointPair> pairs, double h);
 

@@ -28,7 +28,8 @@ class JointIsland {
   JointIsland(std::span<const int> bodies, std::span<const int> joints, std::span<const JointBody> all_bodies,
               std::span<const Joint> all_joints);
 
-  /// Moves the movable bodies over h > 0, writes the joints' forces. The arrays are those of the constructor.
+  /// Moves the movable bodies over h > 0, and writes the joints' forces. The arrays are those of the
+  /// constructor. If numbers are out of range, stops the bodies and freezes the island.
   void step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
             JointOptions options, JointCounters& counters);
 

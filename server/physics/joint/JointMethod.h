@@ -12,8 +12,9 @@
 namespace naiad::physics {
 
 enum class JointMethod : std::uint8_t {
-  kAutomatic,  ///< order 4 for islands that conserve energy (order 6 if a stiff spring pulls), else RATTLE
-  kRattle,     ///< order 2, one sub-step per stage
+  kAutomatic,  ///< order 4 for islands that conserve energy and turn slowly (order 6 if a stiff mouse joint
+               ///< pulls), else RATTLE
+  kRattle,     ///< order 2, 1 stage
   kSuzuki4,    ///< order 4, 5 stages
   kKahanLi6,   ///< order 6, 9 stages
 };

@@ -48,7 +48,8 @@ struct JointMotion {
   /// Returns the relative velocity along a row: J·v.
   double speedAlong(const JointRow& row) const;
 
-  /// Limits each speed to that of the heaviest body, so that a light chain on a heavy weight does not whirl.
+  /// Limits each speed to that of the heaviest body, and stops all spins, so that a light chain on a heavy
+  /// weight does not whirl.
   void slowLightBodies();
   void stopAll();
   void scaleVelocities(double factor);

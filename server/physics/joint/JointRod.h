@@ -51,7 +51,8 @@ struct JointRod {
 };
 
 /// Moves two bodies on one rod over h > 0, and writes the joint's force. Returns false and changes nothing if
-/// the method is not possible because a body turns, the rod is stretched, or it turns too far in a stage.
+/// the method is not possible, for example because a body turns, the rod is stretched, or it turns too far in
+/// a stage.
 bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
              JointCounters& counters);
 

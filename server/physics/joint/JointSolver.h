@@ -22,7 +22,7 @@ class JointSolver {
   /// Moves every joined body over h > 0, including immovable ones that have a velocity, and writes forces
   /// into the joints; all other bodies are unchanged. Gravity is an acceleration of all bodies with mass.
   /// Skips islands whose entry of `is_moved` (by island; may be empty) is set, because they have been stepped
-  /// already. Returns 0, or −1 without any effect if h, gravity or the arrays' sizes are invalid.
+  /// already. Returns 0, or −1 without any effect if h, gravity, `substeps` or an array's size is invalid.
   int step(std::span<JointBody> bodies, std::span<Joint> joints, double h, Vec2 gravity,
            JointOptions options = {}, std::span<const std::uint8_t> is_moved = {});
 
@@ -39,7 +39,7 @@ class JointSolver {
 
   const JointCounters& counters() const { return m_counters; }
   std::span<const JointIsland> islands() const { return m_islands; }
-  /// True if a step moves this body.
+  /// True if the body belongs to an island; an immovable one can belong to several.
   bool isJoined(int body) const { return m_is_joined[static_cast<std::size_t>(body)] != 0; }
 
  private:

@@ -100,7 +100,7 @@ bool JointIsland::solvePositions(double h, JointCounters& counters) {
 // Projects the velocities onto those that hard rows, and one-sided rows that pulled in the first half, allow.
 // Releases rows that would push in the second half.
 void JointIsland::projectVelocities(JointCounters& counters) {
-  constexpr int kRounds = 3;          // of refinement; more than one only if the matrix is ill-conditioned
+  constexpr int kRounds = 3;  // limit of rounds; all but the first refine, if the matrix is ill-conditioned
   constexpr double kRefined = 1e-12;  // part of the first residual; refinement ends below it
   const JointConstraints& its = m_constraints;
   if (!its.one_sided.empty()) m_motion.saveKicked();

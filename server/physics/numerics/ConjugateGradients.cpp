@@ -170,7 +170,7 @@ void ConjugateGradients::turn(float keep) {
   }
 }
 
-// Sets the solution to zero and the residual to the right-hand side.
+// Sets the solution to zero and the residual to `by` times the right-hand side.
 void ConjugateGradients::start(std::span<const double> rows, double by) {
   for (Points* points : {&m_solution, &m_direction, &m_product}) {
     std::fill(points->x.begin(), points->x.end(), 0.0F), std::fill(points->y.begin(), points->y.end(), 0.0F);

@@ -47,8 +47,9 @@ class ConjugateGradients {
   double diagonalOf(int node) const { return 0.5 * (m_diagonal[at(node)].xx + m_diagonal[at(node)].yy); }
 
   /// Replaces `rows` (x and y per node) by the solution, or by the approximation after `most` iterations.
-  /// Ends when the error is below `tolerance` times that of zero. Returns the number of iterations, or −1 if
-  /// the diagonal is not positive definite.
+  /// Ends when the error is below `tolerance` times that of zero, or floats have no digits for a better one.
+  /// Returns the number of iterations, or −1, with `rows` unchanged, if a diagonal block is not positive
+  /// definite or is out of the range of floats, or if an entry of `rows` is 1e150 or more.
   int solve(std::span<double> rows, int most, double tolerance);
 
  private:

@@ -19,11 +19,12 @@ inline constexpr int kTrialSteps = 100;
 /// Limits of one call, each about half a millisecond.
 inline constexpr int kMaxEvaluations = 8000;
 inline constexpr int kMaxSteps = 600;
-inline constexpr int kEvaluationsAtLeast = 150;
-inline constexpr int kCoarseSteps = 16;
-/// Factor by which tolerances grow if the steps of a limit do not suffice.
+inline constexpr int kEvaluationsAtLeast = 150;  ///< limit up to which a call starts with Radau
+inline constexpr int kCoarseSteps = 16;          ///< steps of integrateCoarsely(), the last resort
+/// Factor by which Radau's tolerances grow after each third of the steps that it may take.
 inline constexpr double kLoosening = 100;
-/// Factor for the limit of evaluations, because for a while steps next to a jump of the force are short.
+/// The expected evaluations may be this many times the limit, because next to a jump of the force the steps
+/// are short for a while.
 inline constexpr int kPatience = 2;
 
 /// Uses extrapolation; if that is slow, tries Radau; if that fails, extrapolation again, up to the limit.

@@ -16,7 +16,7 @@
 namespace naiad::physics {
 
 /// Returns the largest ratio of a component of `error` to the allowed error, for a step from `y` to `y` +
-/// `increment`; +∞ if it is NaN.
+/// `increment`; +∞ if that is NaN or above 1e300.
 template <int N>
 double scaledError(const StateVector<N>& error, const StateVector<N>& y, const StateVector<N>& increment,
                    double absolute, double relative) {

@@ -84,8 +84,9 @@ class Step {
     return has_converged;
   }
 
-  /// The last resort, without error control: y += (I − hJ)⁻¹·h·y′. If this increment points away from the
-  /// derivative, because the solution runs away faster than a step can resolve, the state is not changed.
+  /// The last resort, without error control: y += (I − hJ)⁻¹·h·y′. The state is not changed if this increment
+  /// points away from the derivative or is over √1.5 times as long as h·y′, because then the solution runs
+  /// away faster than a step can resolve. Returns false if the matrix is singular.
   bool takeCoarsely(double t, StateVector<N>& y, double length) {
     evaluate(t, y, m_rate);
     findJacobian(t, y);
@@ -108,8 +109,8 @@ class Step {
     return true;
   }
 
-  /// Returns the step's error over the allowed one. `is_careful`: damps its stiff part again before
-  /// rejection.
+  /// Returns the step's error over the allowed one; +∞ if the matrix is singular. `is_careful`: damps the
+  /// error's stiff part again before rejection.
   double error(double t, const StateVector<N>& y, double length, bool is_careful) {
     auto& matrix = m_filter.matrix();
     for (int m = 0; m < N; ++m) {
@@ -201,7 +202,7 @@ class Step {
       if (size <= 1e-3 * m_newton_limit) return true;
       if (m_iterations > 1) {
         const double contraction = size / last_size;
-        // When rounding prevents further convergence, a small residual is accepted.
+        // When rounding prevents further convergence, a small last change is accepted.
         if (contraction >= 1) return contraction < 2 && size <= m_newton_limit;
         const double left = contraction / (1 - contraction) * size;
         if (left <= m_newton_limit) return true;
@@ -242,7 +243,8 @@ class Step {
     return size;
   }
 
-  // Returns the error estimate with its stiff part damped; `rate` is the derivative at the start.
+  // Returns the error estimate with its stiff part damped. `rate` is the derivative at the start; to damp
+  // again, that at the start plus the first estimate.
   StateVector<N> filtered(const StateVector<N>& rate, double length) const {
     StateVector<N> estimate;
     for (int m = 0; m < N; ++m) {

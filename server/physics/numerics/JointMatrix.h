@@ -37,9 +37,9 @@ class JointMatrix {
   /// Sets the pattern. `rows` must be in elimination order, which is also the order of all arrays below.
   void analyse(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
-  /// Factors the matrix. Rows with `is_out` are excluded, so their solution is 0. Adds `softness` to the
-  /// diagonal; null means zero. Multiplies the diagonal by 1 + `regularisation`. Returns the number of rows
-  /// that depend on other rows; their multipliers will be 0.
+  /// Factors the matrix. Rows with `is_out` are excluded; callers set their right-hand side to 0. Adds
+  /// `softness` to the diagonal; null means zero. Multiplies the diagonal by 1 + `regularisation`. Returns
+  /// the number of rows that depend on other rows; their multipliers will be 0.
   int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
              const double* softness, double regularisation = 0);
 
@@ -48,7 +48,8 @@ class JointMatrix {
 
   /// True if each row shares a body with the next one, and with no other row.
   bool isChain() const { return m_is_chain; }
-  /// True if no entry is more than kBand rows below the diagonal, which is so for chains of hinges.
+  /// True if there are several rows and no entry is more than kBand rows below the diagonal, which is so for
+  /// chains of hinges.
   bool isBand() const { return !m_band.empty(); }
   /// Returns the number of non-zero entries below the diagonal in the factor; entries(): in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }

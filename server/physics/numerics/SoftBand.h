@@ -25,7 +25,7 @@ class SoftBand {
   /// Returns the entry (i, j) for i >= j.
   double& entry(int i, int j) { return m_entries[at(j) * at(m_stride) + at(i - j)]; }
 
-  /// Returns false if a pivot is not positive (or NaN); then solve() must not be called.
+  /// Returns false if a pivot is not positive, 1e300 or more, or NaN; then solve() must not be called.
   bool decompose();
 
   /// Replaces the right-hand side by the solution.

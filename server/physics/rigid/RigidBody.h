@@ -28,7 +28,7 @@ struct RigidBody {
   friend constexpr bool operator==(const RigidBody& a, const RigidBody& b) = default;
 };
 
-/// True if the body is valid: all numbers finite and below 1e30, the rotation of unit length.
+/// True if all numbers are in the ranges above and at most 1e30, and the rotation has unit length.
 inline bool isValid(const RigidBody& body) {
   const auto isSmall = [](double x) { return std::fabs(x) <= 1e30; };  // false for NaN
   const auto isPart = [&](double x) { return x >= 0 && isSmall(x); };

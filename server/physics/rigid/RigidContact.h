@@ -49,8 +49,8 @@ struct alignas(64) ContactPoint {
   double normal_resistance = 0;               ///< 1 / normal_mass; 0 if normal_mass is 0
   double normal_warm = 0, friction_warm = 0;  ///< first guess of the impulses for each half of the sub-step
   double target = 0;                          ///< normal speed to reach before the bodies move
-  double after = 0;                   ///< normal speed to reach after the move; it alone if they bounce
-  double push = 0, push_impulse = 0;  ///< velocity change and impulse that undo overlap
+  double after = 0;                           ///< normal speed to reach after the move, or at an impact
+  double push = 0, push_impulse = 0;          ///< velocity change and impulse that undo overlap
   double separation = 0;
   double total = 0;     ///< normal impulse of the step up to now
   Vec2 core_a, core_b;  ///< the two points on the cores at the start of the step
@@ -65,7 +65,7 @@ struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
   std::int32_t count = 0;
   ContactKind kind = ContactKind::kPoints;
-  bool may_fly = false;  ///< the bodies rotate or bounce, so that they may fly from impact to impact
+  bool may_fly = false;  ///< no body is in a large group or one with joints, so both may be swept
   bool is_deep = false;  ///< true if there is overlap to undo
   Vec2 normal;           ///< normal at the present positions
   double friction = 0;

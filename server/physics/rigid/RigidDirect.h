@@ -43,8 +43,9 @@ class RigidDirect {
   double worstError() const;
   /// Chooses the order of the bodies. Returns the approximate number of multiplications of a factorisation.
   double order();
-  /// Finds impulses and applies them. Returns false and changes nothing if the tolerance was not reached
-  /// within `most_rounds` rounds of factorisation and solution. Sets `rounds` to the number of rounds.
+  /// Finds impulses and applies them. Returns false and applies none if the tolerance was not reached within
+  /// `most_rounds` rounds of factorisation and solution, or a factorisation failed. Sets `rounds` to the
+  /// approximate number of rounds.
   bool solve(std::span<RigidState> states, double tolerance, int most_rounds, int& rounds);
 
  private:

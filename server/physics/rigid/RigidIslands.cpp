@@ -20,7 +20,7 @@ constexpr double kSlender = 100;  // maximum multiplications per body for a fact
 // that fewer rounds would be wasted.
 constexpr double kAttemptStart = 1e6;
 constexpr double kAttempt = 22'000;
-constexpr double kSmallCost = 1e4;  // multiplications per round: after a cheaper failure it is tried again
+constexpr double kSmallCost = 1e4;  // in multiplications per round; cheaper solutions that fail are retried
 // Speeds in units of Island::kick, the speed that acceleration adds in half a sub-step:
 constexpr double kSpeedError = 1e-6;       // sweeps of a single contact end when the change is smaller
 constexpr double kRest = 4;                // with a larger speed error, a contact is a blow, not at rest

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPullRate = 0.3;      // fraction of a joint's error undone in a sub-step; like kPushRate
 constexpr double kResolved = 1;        // maximum (h·ω)² of springs that may oscillate; others are damped
-constexpr double kLeastPush = 1e-280;  // force per length or speed: less is 0, as its inverse is not finite
+constexpr double kLeastPush = 1e-280;  // smaller stiffness counts as 0, because its inverse is not finite
 
 const RigidState kGround = {};
 

@@ -80,7 +80,7 @@ class RigidJoints : public JointStore {
     std::int32_t a, b;
     int row, count;
     Vec2 arm_a, arm_b;  // levers at the start of the step
-    Vec2 offset;        // displacement from the anchor of a, or the target, to the anchor of b
+    Vec2 offset;        // displacement from the centre of a, or the target, to the centre of b
     Vec2 axis;          // axis at the start of the step
     Rotation between;   // rotation of b relative to a, measured from the reference, at the start of the step
     Vec2 force;

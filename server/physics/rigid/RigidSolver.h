@@ -11,8 +11,8 @@
 
 namespace naiad::physics {
 
-/// Call at the start of a step: sets all fields except body indices, material and impulses. `offset` is from
-/// A's origin to B's.
+/// Call at the start of a step: sets the geometry, and the points with impulses of zero, but not the bodies,
+/// their material or the pair. `offset` is from A's origin to B's.
 void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, const Manifold& manifold,
                      ContactConstraint& constraint);
 

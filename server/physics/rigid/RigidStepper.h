@@ -18,8 +18,8 @@ struct RigidEvent {
   int first = 0;    ///< the lower id
   int second = 0;
   bool is_begin = false;
-  double impulse = 0;  ///< impulse on `second` along the normal until the step ends; only at the start
-  Vec2 normal;         ///< direction from `first` to `second`; only at the start
+  double impulse = 0;  ///< impulse on `second` along the normal in the whole step; 0 for an end
+  Vec2 normal;         ///< direction from `first` to `second`; zero for an end
 };
 
 /// Not thread-safe.
@@ -32,8 +32,9 @@ class RigidStepper {
   /// Adds a body. `order` is unique. Shapes are relative to the centre of mass; a body without shapes touches
   /// nothing and is only for joints. Returns the id, or −1 if the body is invalid.
   virtual int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) = 0;
-  /// Replaces a body's state, unfreezes it, and wakes it and its neighbours. Has no effect if the state is
-  /// equal. Returns false and changes nothing if the id or `body` is invalid.
+  /// Replaces a body's state, unfreezes it, and wakes it and its group. If it is immovable, its neighbours
+  /// wake, too. Has no effect if the state is equal and the body is not frozen. Returns false and changes
+  /// nothing if the id or `body` is invalid.
   virtual bool set(int id, const RigidBody& body) = 0;
   virtual bool setShapes(int id, std::span<const ConvexShape> shapes) = 0;
   /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
@@ -44,13 +45,15 @@ class RigidStepper {
   virtual int idLimit() const = 0;
   /// True if the body is in quarantine: it does not move and collides with nothing until set().
   virtual bool isFrozen(int id) const = 0;
-  /// True if the body did only a part of its movement in the last step, although nothing pushed it.
+  /// True if the body was stopped or diverted on its path in the last step, although nothing pushed it;
+  /// always false in a RigidWorld.
   virtual bool isStopped(int id) const = 0;
 
   /// Adds a joint between existing bodies; `joint.a` and `joint.b` are ids. Joined bodies do not touch each
   /// other unless `may_touch`. Returns the joint's id, or −1 if it is invalid.
   int addJoint(const Joint& joint, bool may_touch = false);
-  /// Changes target, speed, strength or length, but not the kind or the bodies. Wakes the bodies.
+  /// Changes target, speed, strength or length, and wakes the bodies. Returns false and changes nothing if
+  /// the id or `joint` is invalid, or its kind or bodies differ.
   bool setJoint(int id, const Joint& joint);
   bool removeJoint(int id);
   bool jointExists(int id) const { return joints().exists(id); }
@@ -62,7 +65,8 @@ class RigidStepper {
   virtual void setSleeping(bool may_sleep) = 0;
   /// True if the last step abandoned the body and all bodies that it touches: a SubstepWorld must move them.
   virtual bool isGivenUp(int id) const = 0;
-  /// True if, since construction, crowding has made some bodies pass through others.
+  /// True if, since construction, pairs were left out in a crowd, so that some bodies may have passed through
+  /// others.
   virtual bool hasThinned() const = 0;
   /// Advances by a tick.
   virtual void step() = 0;

@@ -223,8 +223,8 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   }
 }
 
-// Ends the sweep of a body of a large group, or of a group with joints, after an impact; otherwise all bodies
-// of the group would be swept. The body moves only a little more in this sub-step.
+// Ends the sweep of a body of a large group, or of a group with joints, after an impact, because otherwise
+// all bodies of the group would be swept. In the rest of this sub-step the body moves at most by kLanded.
 void RigidWorld::land(int id, double h) {
   const Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];

@@ -60,17 +60,13 @@ class RigidWorld final : public RigidStepper {
     return add(body, shapes);
   }
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
-  /// Replaces a body's state, unfreezes it, and wakes it and its neighbours. Has no effect if the state is
-  /// equal. Returns false and changes nothing if the id or `body` is invalid.
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
-  /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
   bool remove(int id) override;
 
   const RigidBody& body(int id) const override { return m_bodies[at(id)]; }
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
   bool exists(int id) const override { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
-  /// True if the body is in quarantine: it does not move and collides with nothing until set().
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
   bool isStopped(int /*id*/) const override { return false; }
   bool isGivenUp(int id) const override { return m_extras[at(id)].is_given_up; }
@@ -115,7 +111,7 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
-    bool is_in_crowd = false;  // true if, in the last step, it was in a large group or one with joints
+    bool is_in_crowd = false;  // true if its group, when last listed, was large or had rigid joints
     bool is_given_up = false;  // true if the last step abandoned its group
     int push_sweeps = 1;       // number of sweeps that undo overlap in its group
     int flight = -1;           // index in m_flights if it moves from impact to impact in this sub-step
@@ -151,7 +147,7 @@ class RigidWorld final : public RigidStepper {
     double kick = 0;     // maximum speed of RigidState::kick of its bodies
     double budget = 0;   // multiplications that a direct solution may need in this step
     bool has_fast = false;
-    bool rests_anew = false;  // in this sub-step it has no known impulses and no fast impacts
+    bool rests_anew = false;  // true if it is at rest in this sub-step, but has no known impulses
   };
   struct Gain {  // maximum speeds in a group: when it became still, and now
     double before = 0, now = 0;

@@ -28,7 +28,7 @@ struct SoftStretch {
   double rest_length = 1;  ///< > 0
   double stiffness = 1;    ///< EA / rest length for a bar; >= 0
   double damping = 0;      ///< >= 0
-  /// Limit of strain, > 0: a spring stretched beyond it is taut and kTautSoft times as stiff. 0: no limit.
+  /// Limit of strain, > 0: beyond it a spring is taut, and kTautSoft · stiffness is added. 0: no limit.
   double limit = 0;
 };
 
@@ -63,7 +63,7 @@ struct SoftBody {
 };
 
 inline constexpr int kMaxSoftNodes = 16'384;  ///< limit of nodes; SoftElastic.h describes the cost of a tick
-inline constexpr double kTautSoft = 100;      ///< factor for the stiffness of a stretch beyond its limit
+inline constexpr double kTautSoft = 100;      ///< stiffness added beyond the limit, over that of the stretch
 inline constexpr double kLargestSoft = 1e12;  ///< limit of sizes, speeds, masses, forces and stiffness
 /// True if |x| is within kLargestSoft; false for NaN.
 inline bool isSmallSoft(double x) {
@@ -73,7 +73,8 @@ inline bool isSmallSoft(Vec2 v) {
   return isSmallSoft(v.x) && isSmallSoft(v.y);
 }
 
-/// True if the body is valid: all numbers finite and within kLargestSoft, indices in range, no sizes of zero.
+/// True if the body is valid: all numbers finite and within kLargestSoft, indices in range, no sizes of zero,
+/// and gas only in a closed boundary.
 bool isValid(const SoftBody& body);
 
 /// Returns the body's energy: the kinetic energy, that of the springs and the pressure, and −force · offset

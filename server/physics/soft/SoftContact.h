@@ -33,7 +33,7 @@ struct SoftObstacle {
   double turn = 0;             ///< out: rotation in rad within the step
 };
 
-/// True if all numbers are finite and not larger than those of a soft body may be.
+/// True if all numbers are finite and within kLargestSoft, and the rotation has length one.
 bool isValid(const SoftObstacle& obstacle);
 
 /// A node of a body, or a weighted point between two nodes.
@@ -48,7 +48,7 @@ struct SoftRow {
   std::uint64_t key = 0;  ///< constant from sub-step to sub-step while the contact lasts
   SoftPoint a;
   SoftPoint b;              ///< if body is −1, the row's obstacle replaces B
-  int obstacle = -1;        ///< index in the step's span
+  int obstacle = -1;        ///< index in the step's span; −1: none
   Vec2 lever;               ///< position of the touched point of the obstacle relative to its centre
   Vec2 axes[2];             ///< the normal from B to A, and the tangent; x and y for an attachment
   double gaps[2] = {0, 0};  ///< along the axes at the start of the sub-step

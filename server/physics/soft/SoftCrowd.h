@@ -14,11 +14,13 @@ namespace naiad::physics {
 
 class SoftCrowd {
  public:
-  /// A body is in a crowd if it has more neighbours than this and than half the nodes of its boundary. At
-  /// most this many contacts of its nodes with others count. (In a plane, six equal bodies fit around one.)
+  /// A body is in a crowd if it has more neighbours than this and than half the nodes of its boundary. Then
+  /// the larger of these two numbers limits its neighbours, and the contacts of its nodes with them. (In a
+  /// plane, six equal bodies fit around one.)
   static constexpr int kMaxOthers = 8;
 
-  /// Appends contacts of the nodes of `views[which]` with other bodies. False if crowding dropped some.
+  /// Appends contacts of the nodes of `views[which]` with other bodies. Returns false if crowding dropped
+  /// some.
   bool findContacts(const std::vector<SoftView>& views, std::size_t which, std::vector<SoftRow>& rows);
 
  private:

@@ -28,8 +28,8 @@ class SoftElastic {
  public:
   /// Limit of nodes · band² for bodies that are not wide: just above that of 25 × 25 nodes.
   static constexpr double kMaxDirectPrice = 2e6;
-  static constexpr double kKeptPrice = 1e5;  ///< from this nodes · band² on they are reused: below 12 × 12
-                                             ///< nodes
+  /// Nodes · band² above which decompositions are used again: just below that of 12 × 12 nodes.
+  static constexpr double kKeptPrice = 1e5;
   /// Limit of diagonals of a wide body's matrix. A cloth has four: along, across, and two oblique.
   static constexpr int kMaxDiagonals = 8;
 
@@ -77,6 +77,7 @@ class SoftElastic {
   int rows() const { return static_cast<int>(m_change.size()); }
   const std::vector<Vec2>& starts() const { return m_start; }
   Vec2 startOf(int node) const { return m_start[at(node)]; }
+  /// Returns β, the time for which a node's velocity is (x − x̃) / β: h, or 2h/3 with history.
   double beta() const { return m_beta; }
 
  private:

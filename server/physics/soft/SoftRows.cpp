@@ -9,7 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr int kMaxSweeps = 60;  // Gauss–Seidel sweeps per iteration; the next one continues from there
+constexpr int kMaxSweeps = 60;  // Gauss–Seidel sweeps per iteration; the next iteration continues from there
 /// Limit of sweeps times rows, so that large groups have fewer sweeps, but at least kMinSweeps.
 constexpr int kMaxSettlings = 40'000;
 constexpr int kMinSweeps = 8;

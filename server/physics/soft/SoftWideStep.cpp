@@ -140,7 +140,6 @@ std::size_t SoftWorld::sharedBy(const SoftPoint& point, int which) const {
   return m_obstacle_motions.size() + at(view->ends - m_ends.data()) + at(point.nodes[which]);
 }
 
-// Returns how far the other side of a push yields, per unit of force.
 double SoftWorld::yieldOf(const SoftPush& push, double h) const {
   const SoftRow& row = *push.p_row;
   double sum = 0;

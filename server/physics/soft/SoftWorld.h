@@ -24,7 +24,7 @@ struct SoftEvent {
   int other;  ///< id of an obstacle, or of a soft body with a higher id than `body`
   bool is_other_soft;
   bool is_begin;
-  double impulse;  ///< begin only: sum of the impulses along the normals in this step
+  double impulse;  ///< sum of the impulses along the normals in this step; 0 for an end
 };
 
 /// A node that is attached to a point of an obstacle; each pulls the other.
@@ -82,9 +82,10 @@ class SoftWorld {
 
   /// Sets a force on a node that acts until it is changed. Returns false if the force or node is invalid.
   bool setForce(int id, int node, Vec2 force);
-  /// Stops the node, and pins or releases it. Returns false if the node does not exist.
+  /// Stops the node, pins or releases it, and unfreezes the body. Returns false if the node does not exist.
   bool pin(int id, int node, bool is_pinned);
-  /// Applies an impulse to a node. Returns false if the impulse or node is invalid.
+  /// Applies an impulse to a node, which has no effect if it is pinned. Returns false if the impulse or node
+  /// is invalid.
   bool applyImpulse(int id, int node, Vec2 impulse);
   /// Sets the gravity, in cells per tick². Returns false if it is not finite or too large.
   bool setGravity(Vec2 gravity);
@@ -95,7 +96,8 @@ class SoftWorld {
   int attach(const SoftAttachment& attachment);
   bool detach(int attachment);
 
-  /// Advances by `dt` > 0 ticks, in at most 64 sub-steps of at most 1 / substeps tick.
+  /// Advances by `dt` ticks (> 0, at most 1e6), in sub-steps of at most 1 / substeps tick, or in 64 longer
+  /// ones if there would be more.
   SoftStatus step(double dt = 1, std::span<SoftObstacle> obstacles = {});
 
   /// Returns the events of the last step, sorted by ids.
@@ -157,6 +159,7 @@ class SoftWorld {
   void gatherPushes(const SoftView& view, double h);
   SoftPush pushOf(SoftRow& row, int id, double h) const;
   std::size_t sharedBy(const SoftPoint& point, int which) const;
+  /// Returns how far the other side of a push yields, per unit of force.
   double yieldOf(const SoftPush& push, double h) const;
   void pushOthers(const SoftPush& push, double h);
   void stopWide(int id, double h, std::span<SoftObstacle> obstacles);

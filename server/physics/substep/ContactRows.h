@@ -88,7 +88,7 @@ class ContactRows {
   };
   struct Point {
     Lanes ax = {}, ay = {}, bx = {}, by = {};  // levers about the centres of a and b
-    Lanes gap = {};                            // gap at the start, minus the part given by the levers
+    Lanes gap = {};                            // gap at the start of the step
     Lanes gap_now = {};                        // gap after the bodies last moved
     Lanes normal_mass = {}, tangent_mass = {};
     Impulse normal, friction;

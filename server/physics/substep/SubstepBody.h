@@ -37,7 +37,7 @@ struct alignas(64) SubstepBody {
   double roll = 0;         ///< how far a corner moves by the body's spin in this step
   Bounds box = {};         ///< box around its shapes at the start of the step
   Vec2 drift;              ///< displacement in this step if nothing pushes it
-  std::int32_t state = 0;  ///< index of its state in a step; 0: immovable
+  std::int32_t state = 0;  ///< index of its state in a step; 0: it does not move
   std::uint32_t version = 0;
   std::uint64_t colours = 0, held_colours = 0;  ///< colours used by its contacts in this step
   SubstepKick kick;

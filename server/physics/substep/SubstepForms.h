@@ -1,5 +1,5 @@
-// The shapes of a SubstepWorld's bodies. Bodies with equal shapes share them, so that a step reads the shape
-// of one crate for a whole heap.
+// The shapes of a SubstepWorld's bodies. Bodies with equal shapes share them if they are added soon after
+// each other, so that a step reads the shape of one crate for a whole heap.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ class SubstepForms {
 
   std::vector<SubstepForm> m_forms;
   std::vector<std::int32_t> m_free;
-  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // the last ones used, which are searched first
+  std::array<std::int32_t, 4> m_recent = {-1, -1, -1, -1};  // the last forms made; only these are shared
   std::size_t m_next_recent = 0;
 };
 

@@ -40,7 +40,7 @@ class SubstepJoints : public JointStore {
     float low = 0, high = 0;
     float impulse = 0;
     float target = 0;
-    bool is_spring = false;  // soft in both solutions, before and after the bodies move
+    bool is_spring = false;  // a spring or motor: solved only before the bodies move
     bool is_angle = false;
     std::int8_t side = 0;
   };

@@ -54,7 +54,7 @@ void SubstepWorld::chooseColours() {
         contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
     if (!is_coloured) contact.colour = kUncoloured;
     contact.state = std::max(a.state, b.state);
-    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // also for kinematic bodies
+    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // a kinematic body, too, joins groups
   }
 }
 

@@ -14,11 +14,11 @@ constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, the 
 constexpr double kMaxTurn = 40;    // rad: maximum swept rotation in a step; limits timeOfImpact()'s
                                    // iterations
 // Lengths in units of the body's thickness:
-constexpr double kSlack = 0.02;       // minimum margin of the search for contacts
-constexpr double kSlow = 0.1;         // a body that moves less in a step is busy (SubstepBody::is_busy)
-constexpr double kMaxPass = 0.5;      // movement beyond the searched distance, so that the centre passes
-                                      // nothing
-constexpr double kCore = 0.5;         // radius of the core that is swept if the other body pushes this one
+constexpr double kSlack = 0.02;   // minimum margin of the search for contacts
+constexpr double kSlow = 0.1;     // a body that moves at most this far in a step hardly moves (is_busy)
+constexpr double kMaxPass = 0.5;  // maximum movement beyond the searched distance, so that the centre passes
+                                  // nothing
+constexpr double kCore = 0.5;     // radius of the core that is swept if the other body pushes this one
 constexpr std::size_t kFewFast = 4;   // the fast bodies are many if at least one body in this number is fast
 constexpr double kBoundsSlack = 0.2;  // margin of bounds in the broad phase; smaller moves do not change them
 
@@ -371,8 +371,8 @@ void SubstepWorld::addNear(Fast& fast, std::int32_t id) {
   m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
 }
 
-// Adds each of two bodies of the path tree, one < other, to the possible obstacles of the other one. Skips
-// fast bodies that fly together until one of them is stopped or diverted.
+// Adds each of two bodies of the path tree, one < other, to the possible obstacles of the other one if that
+// is fast. Skips fast bodies that fly together until one of them is stopped or diverted.
 void SubstepWorld::approach(int one, int other) {
   const auto fast_ones = static_cast<int>(m_fast.size());
   if (one >= fast_ones) return;
@@ -477,7 +477,8 @@ void SubstepWorld::stop(Fast& fast) {
 // Gives two fast bodies that meet at `time` a common path from there on. If they stopped, bodies that fly
 // behind them would run into them. Returns false, without a change, if an immovable body is in the way.
 bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
-  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;  // only the ratio matters
+  // Only the ratio of the masses matters, so the inverse masses are exchanged.
+  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;
   const double mass_of_one = m_bodies[at(other.id)].body.inverse_mass;
   const double sum = mass_of_one + mass_of_other;
   if (!(sum > 0)) return false;

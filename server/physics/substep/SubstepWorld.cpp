@@ -9,7 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kRollKept = 0.02;  // thicknesses: the old bounds are used while corners rotate by less
+constexpr double kRollKept = 0.02;  // in thicknesses: while corners have moved by less, old bounds are used
 
 bool isPulled(const RigidBody& body) {
   return body.acceleration != Vec2{} || body.torque != 0;

@@ -38,9 +38,9 @@ struct SubstepCounters {
   std::int64_t ticks = 0;
   std::int64_t contacts = 0;     ///< manifolds solved; each counts once per step
   std::int64_t blocks = 0;       ///< blocks of rows solved in parallel
-  std::int64_t sweeps = 0;       ///< sweeps of pairs that may pass each other (choosePairs())
-  std::int64_t near = 0;         ///< bodies that a fast one might touch, tested by a sweep
-  std::int64_t stopped = 0;      ///< fast bodies stopped at their first contact
+  std::int64_t sweeps = 0;       ///< sweeps over separated pairs, to find which may touch (passStirsOn())
+  std::int64_t near = 0;         ///< bodies that a fast one might touch
+  std::int64_t stopped = 0;      ///< fast bodies stopped or diverted at their first contact
   std::int64_t quarantined = 0;  ///< number of times that a body was frozen
   std::int64_t broken = 0;       ///< joints that broke
 };
@@ -76,7 +76,8 @@ class SubstepWorld final : public RigidStepper {
   struct alignas(64) Memory {
     Manifold manifold;
     KnownImpulses known;  // impulses of its points
-    // When the manifold was found. It is used again while its bodies hardly move relative to each other.
+    // Positions and gaps when the manifold was found. It is used again while its bodies hardly move relative
+    // to each other.
     Vec2 offset;
     Rotation rotation_a, rotation_b;
     std::array<double, 2> gap = {};
@@ -258,7 +259,7 @@ class SubstepWorld final : public RigidStepper {
   // Paths of the fast bodies, then of the slow ones, in grid units relative to the first one, in a frame that
   // moves with m_along.
   std::vector<SweptBox> m_paths;
-  Vec2 m_along;  // mean movement of the fast bodies in this step
+  Vec2 m_along;  // median movement of the fast bodies in this step
   std::vector<double> m_path_order;
   std::vector<float> m_path_values;  // by path: kInCrowd or 0
   bool m_are_many = false;           // true if m_paths includes the slow bodies
@@ -270,7 +271,7 @@ class SubstepWorld final : public RigidStepper {
   std::vector<double> m_turns;  // by state: rotation in rad since the step began
   std::vector<Calm> m_calm;
   std::vector<double> m_deviations;    // by state: how far it may deviate from its undisturbed path
-  std::vector<SubstepState> m_states;  // the first one stands for all immovable bodies
+  std::vector<SubstepState> m_states;  // the first one stands for all bodies that do not move
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
   std::vector<std::int32_t> m_pair_ends,
@@ -297,7 +298,7 @@ class SubstepWorld final : public RigidStepper {
   std::int64_t m_steps = 0;
   bool m_active_changed = false;
   bool m_has_stirred = false;
-  bool m_is_shuffled = false;  // true if the order of ids is not that of the bodies, or of those below them
+  bool m_is_shuffled = false;  // true if the ids of movable or of immovable bodies are not in their order
 };
 
 }  // namespace naiad::physics

@@ -38,7 +38,8 @@ class AddressPrefix {
   bool isIPv4() const;
   AddressPrefix without(std::size_t bytes) const;
 
-  /// The lower half of a mapped IPv4 address, else the upper half. They cannot be equal: 0::/8 is reserved.
+  /// The lower half of a mapped IPv4 address, or the upper half of an IPv6 address. An IPv4 value never
+  /// equals an IPv6 one, because ::/8 is reserved.
   std::uint64_t bits_ = 0;
 };
 

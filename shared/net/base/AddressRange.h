@@ -23,7 +23,8 @@ enum class AddressScope {
 /// 2002::/16) has the scope of that address.
 AddressScope scopeOf(const asio::ip::address& address);
 
-/// True if a server at `from` may redirect a client to `to`: the scope of `to` must not be narrower.
+/// True if a server at `from` may redirect a client to `to`: the scope of `to` must not be narrower than that
+/// of `from`, and not kNone.
 inline bool mayRedirectTo(const asio::ip::address& from, const asio::ip::address& to) {
   return scopeOf(to) != AddressScope::kNone && scopeOf(to) >= scopeOf(from);
 }
@@ -31,7 +32,7 @@ inline bool mayRedirectTo(const asio::ip::address& from, const asio::ip::address
 /// The addresses of one family that begin with given bits.
 class AddressRange {
  public:
-  using Bytes = std::array<std::uint8_t, 16>;  ///< like those of AddressPrefix
+  using Bytes = std::array<std::uint8_t, 16>;  ///< like AddressPrefix::Bytes
 
   /// Parses ADDRESS/BITS, or an address alone: an IPv4 address is a range by itself, an IPv6 address stands
   /// for its /64, the network of a household. IPv4 mapped into IPv6 counts as IPv4. Bits beyond the length
@@ -42,12 +43,12 @@ class AddressRange {
 
   bool contains(const asio::ip::address& address) const;
   bool isIPv4() const { return m_ipv4; }
-  /// The length of the common prefix in bits, of 32 or 128.
+  /// The length of the common prefix in bits: at most 32 for IPv4, 128 for IPv6.
   int bits() const { return m_ipv4 ? m_length - kMappedBits : m_length; }
   /// Returns "192.0.2.7", "192.0.2.0/24" or "2001:db8::/64", which parse() accepts.
   std::string text() const;
 
-  /// The prefix length among the 128 bits of a mapped address. With bytes() it identifies the range.
+  /// The prefix length in bytes(): for IPv4, 96 more than bits(). With bytes() it identifies the range.
   int length() const { return m_length; }
   const Bytes& bytes() const { return m_bytes; }
   /// Returns the first `length` bits of an address; the other bits are zero.

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMaxHelloFrame = 1024;
 /// Maximum length of a name and of a chat line, in characters.
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
-inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< bytes of a name in UTF-8
+inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< maximum bytes of a name in UTF-8
 /// Maximum length of a message for people (refusals, goodbyes), and of the name of a game or program, in
 /// characters.
 inline constexpr std::size_t kMaxMessageLength = 300;

@@ -1,5 +1,5 @@
-// Measurements of a link by one of its ends: the round trip, silence, whether datagrams pass. Time is passed
-// in.
+// Measurements of a link by one of its ends: the round trip, silence, whether datagrams pass. They read no
+// clock: callers pass the time.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace naiad {
 
-/// Finds out whether datagrams pass on the current path, and when to probe it. Each end has its own.
+/// Finds out whether datagrams pass on the current path, and when to probe it. Each end has one.
 ///
 /// Evidence that they pass is, for a server, that a datagram acknowledges an earlier datagram; for a client,
 /// any datagram.
@@ -17,18 +17,19 @@ class PathProbe {
   using Millis = std::chrono::milliseconds;
 
   static constexpr Millis kOpenTime{1000};          ///< time for which the path counts as open after evidence
-  static constexpr Millis kProbeInterval{1000};     ///< interval while datagrams do not pass
-  static constexpr Millis kFastProbeInterval{100};  ///< interval while open, and in the first second of a
-                                                    ///< session or path
-  /// Interval until kEagerTime after the last evidence, or always if datagrams are the only way to the other
-  /// end. On a line that loses most packets, one probe a second rarely results in an acknowledgement.
+  static constexpr Millis kProbeInterval{1000};     ///< interval of probes, unless a shorter one applies
+  static constexpr Millis kFastProbeInterval{100};  ///< interval while the path is open, and for a second
+                                                    ///< after construction or renew()
+  /// Interval of probes until kEagerTime after the last evidence, or always if datagrams are the only way to
+  /// the other end. On a line that loses most packets, one probe a second rarely results in an
+  /// acknowledgement.
   static constexpr Millis kEagerProbeInterval{250};
   static constexpr std::chrono::seconds kEagerTime{10};
 
-  /// Probes are due after `quiet` without evidence.
+  /// Probes are due until the first evidence, and whenever there was none for `quiet`.
   explicit PathProbe(Millis quiet, Time now = {}) : m_quiet(quiet), m_began(now) {}
 
-  /// Restarts probing after a change of address or stream.
+  /// Call after a change of address or stream: due probes have the shortest interval for a second again.
   void renew(Time now) { m_began = now; }
   void addEvidence(Time now) {
     m_passed = true;
@@ -42,7 +43,7 @@ class PathProbe {
     const bool quiet = !m_passed || now - m_last_evidence >= m_quiet;
     return quiet && now - m_last_probe >= interval(now, only);
   }
-  /// The time of the last evidence or of the last renew(), the later of the two.
+  /// The time of the last evidence, or of the last renew() (at first, of construction) if that was later.
   Time lastChange() const { return m_last_evidence > m_began ? m_last_evidence : m_began; }
 
  private:

@@ -12,9 +12,9 @@
 
 namespace naiad {
 
-/// If the table is full, the least recently used prefix is evicted; later it starts with a new value. Forged
-/// addresses can at most reset the limits of others, never use them up. A lookup costs O(log capacity),
-/// whichever prefixes an attacker chooses.
+/// If the table is full, the least recently used prefix is evicted; later it starts with a new value. So a
+/// flood from other prefixes can at most reset the limits of a prefix, never use them up. A lookup costs
+/// O(log capacity), whichever prefixes an attacker chooses.
 template <class T>
 class PrefixLruMap {
  public:

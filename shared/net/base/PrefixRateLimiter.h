@@ -13,21 +13,22 @@
 
 namespace naiad {
 
-/// Not thread-safe. Time is passed in. Bounded: only the last used prefixes and networks are remembered.
+/// Not thread-safe. Callers pass the time. Remembers only the most recently used prefixes and networks.
 class PrefixRateLimiter {
  public:
   using Time = TokenBucket::Time;
 
   struct Rates {
-    BucketRate per_prefix;            ///< an IPv4 address or an IPv6 /64
-    BucketRate per_network;           ///< the /24 or /48 that contains it
-    std::optional<BucketRate> total;  ///< nullopt: no limit
+    BucketRate per_prefix;            ///< rate of each IPv4 address or IPv6 /64
+    BucketRate per_network;           ///< rate of each IPv4 /24 or IPv6 /48
+    std::optional<BucketRate> total;  ///< rate of all together; nullopt: no limit
   };
-  static constexpr std::size_t kPrefixes = 1024;  ///< number of remembered prefixes, and also of networks
+  static constexpr std::size_t kPrefixes = 1024;  ///< maximum remembered prefixes, and also networks
 
   explicit PrefixRateLimiter(const Rates& rates) : m_rates(rates) {}
 
-  /// Counts an event and returns true, or returns false if the event would exceed a limit.
+  /// Counts an event and returns true, or returns false if the event would exceed a limit. Narrower limits
+  /// than that one count the event even then.
   bool tryConsume(const AddressPrefix& prefix, Time now) {
     // Narrowest first, so that an event over its prefix's limit does not consume tokens of the wider ones.
     return m_prefixes.use(prefix).tryConsume(m_rates.per_prefix, now) &&
@@ -72,8 +73,8 @@ struct RateLimits {
   }
   /// Wake-ups of rooms, each a new process. Burst: four. After it: one a second.
   static PrefixRateLimiter::Rates wakes() { return {{1, 4}, {4, 16}, BucketRate{8, 64}}; }
-  /// Moves to another room, each of which sends a world. Burst: three per player of a class, through one
-  /// door. After it: one per player in four seconds.
+  /// Moves to another room, each of which sends a world. Burst: three per player of a class, for example
+  /// through one door of a lobby. After it: one per player in four seconds.
   static PrefixRateLimiter::Rates moves(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 4, 3 * crowd}, {crowd, 12 * crowd}, std::nullopt};

@@ -110,7 +110,7 @@ void syncDirectoryOf(const fs::path& path) {
 }  // namespace
 
 std::optional<std::filesystem::path> userDirectory(const char* variable, const char* fallback) {
-  // The specification says to ignore relative paths.
+  // The XDG specification says to ignore relative paths.
   const char* const chosen = std::getenv(variable);
   if (chosen && *chosen == '/') return std::filesystem::path(chosen) / "naiad";
   const char* const home = std::getenv("HOME");

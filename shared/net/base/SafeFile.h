@@ -11,14 +11,14 @@ namespace naiad {
 
 /// Returns the content; nullopt if the file does not exist. Throws std::system_error if it cannot be read,
 /// has more than `most` bytes or is not a regular file. (Reading a pipe could block.) The functions below
-/// also throw std::system_error.
+/// also throw std::system_error if they fail.
 std::optional<std::string> readSmallFile(const std::filesystem::path& path, std::size_t most);
 
 /// Creates or replaces the file, mode 0600. Readers see either the old or the new one, even after a crash.
 void replaceFile(const std::filesystem::path& path, std::string_view content);
 
-/// Creates or replaces a file that others may read (0644 minus the umask), also in one step. A symbolic link
-/// is replaced, not followed. Throws if the path exists and is not a regular file.
+/// Like replaceFile(), but others may read the file (0644 minus the umask), and it is not synced: a system
+/// crash may lose its content. A symbolic link is replaced, not followed. Throws like requireRegular(), too.
 void publishFile(const std::filesystem::path& path, std::string_view content);
 
 /// Like replaceFile(), but returns false and changes nothing if the file exists.
@@ -30,8 +30,8 @@ void requireRegular(const std::filesystem::path& path);
 /// True if the file's group or other users have any right to the file.
 bool isOpenToOthers(const std::filesystem::path& path);
 
-/// A lock on a file (created if missing, 0600) against other processes and threads, held while this object
-/// lives. The constructor waits until it gets the lock.
+/// A lock on a file (created if missing, 0600), which excludes other FileLocks in all processes and threads
+/// while this object lives. The constructor waits until it gets the lock.
 class FileLock {
  public:
   explicit FileLock(const std::filesystem::path& path);

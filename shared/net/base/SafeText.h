@@ -24,7 +24,7 @@ inline constexpr const char* kRoomNameRule =
 bool isRoomName(std::string_view name);
 
 /// Returns at most `max_characters` of `text` (UTF-8, possibly malformed), each drawable in one cell. Other
-/// characters (control, escape, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
+/// characters (for example control, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
 std::string safeText(const std::string& text, std::size_t max_characters);
 
 /// Makes a player's name of any text: like safeText() with the limit of names, trimmed; "player" if nothing
@@ -34,7 +34,7 @@ std::string safeName(const std::string& name);
 /// Returns the number of columns that a safe text occupies.
 std::size_t columnsOf(const std::string& text);
 
-/// Returns the text with ASCII letters in lower case, because DNS ignores the case of host names.
+/// Returns the text with ASCII letters in lower case, for names whose case does not matter (DNS).
 std::string lowerCase(std::string_view text);
 /// True if the text has no characters but a-z, A-Z, 0-9, '-', '_' and '.'.
 bool isPlainName(std::string_view text);

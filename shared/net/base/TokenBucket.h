@@ -1,4 +1,4 @@
-// A token bucket: limits the long-term rate and the size of a burst. Time is passed in.
+// A token bucket: limits the long-term rate and the size of a burst. Callers pass the time.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ struct BucketRate {
   double burst = 0;  ///< capacity in tokens, and the initial number
 };
 
-/// Refills with time. The rate is passed in, so that a table of buckets need not store it.
+/// Refills with time. Each call passes the rate, so that a table of buckets need not store it.
 class TokenBucket {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -51,7 +51,7 @@ class DatagramDemux {
   /// Receives an authentic payload, valid during the call. May add and remove sessions, including its own.
   using OnPayload = std::function<void(std::string_view payload)>;
 
-  /// Number of unproven prefixes whose buckets are remembered.
+  /// Maximum number of unproven prefixes whose buckets are remembered.
   static constexpr std::size_t kPrefixes = 4096;
 
   explicit DatagramDemux(DatagramDemuxRates rates = {}) : rates_(rates) {}

@@ -35,7 +35,7 @@ struct SealKey {
   ~SealKey();
 
   AeadId aead = AeadId::kAes128Gcm;
-  std::array<unsigned char, 32> key{};  ///< the first aeadKeySize(aead) bytes
+  std::array<unsigned char, 32> key{};  ///< only the first aeadKeySize(aead) bytes are used
   std::array<unsigned char, kAeadIvSize> iv{};
 };
 

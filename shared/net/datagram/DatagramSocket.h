@@ -21,8 +21,8 @@ class DatagramSocket {
 
   /// Begins to receive. Call once.
   virtual void start(OnPacket on_packet) = 0;
-  /// Queues one packet of 1 … 1200 bytes (else std::length_error) to path.remote, from path.local; if that is
-  /// any address, the system chooses the source. A full batch is sent at once, smaller ones by flush().
+  /// Queues one packet of 1 … 1200 bytes (else std::length_error) to path.remote, from path.local; if
+  /// path.local.isAny(), the system chooses the source. A full batch is sent at once, others by flush().
   virtual void send(const Path& path, std::string_view packet) = 0;
   /// Returns memory for the next packet, so that send() need not copy it: kMaxDatagram bytes, valid until the
   /// next call of send(), flush() or reopen(). Null if the socket has no such memory.

@@ -1,7 +1,7 @@
 // Measures the round trip of datagrams with bytes added to packets that are sent anyway.
 //
-// A client's ping is a token. The server's next packet returns it with the time the server held it, so that
-// the wait for a tick does not count. Time is passed in.
+// A client's ping is a token. The server's next packet with two bytes to spare returns it with the time the
+// server held it, so that the wait for a tick does not count. Callers pass the time.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +57,8 @@ class LinkEcho {
   static constexpr std::chrono::milliseconds kMaxHeld{255};
 
   void onPing(std::uint8_t token, Time now) { m_waiting = {token, now}; }
-  /// Returns the echo for a packet that is sent now; nullopt if no ping waits.
+  /// Returns and clears the echo for a packet that is sent now; nullopt if no ping waits, or it was held for
+  /// longer than kMaxHeld.
   std::optional<LinkPing::Echo> popEcho(Time now) {
     const auto waiting = std::exchange(m_waiting, std::nullopt);
     if (!waiting || now - waiting->second > kMaxHeld) return std::nullopt;

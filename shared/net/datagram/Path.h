@@ -18,7 +18,7 @@ namespace naiad {
 /// An IP address and a UDP port. IPv4 addresses are stored as IPv6 ones (::ffff:a.b.c.d), so that they
 /// compare equal whichever kind of socket saw them.
 struct Endpoint {
-  std::array<std::uint8_t, 16> address{};  ///< network order; all zero: any
+  std::array<std::uint8_t, 16> address{};  ///< network byte order; see isAny()
   std::uint32_t scope = 0;                 ///< interface of a link-local IPv6 address, else 0
   std::uint16_t port = 0;
 
@@ -27,7 +27,7 @@ struct Endpoint {
   friend bool operator==(const Endpoint& a, const Endpoint& b) {
     return a.port == b.port && a.scope == b.scope && a.half(0) == b.half(0) && a.half(1) == b.half(1);
   }
-  /// Returns eight bytes of the address in memory order.
+  /// Returns the first (`which` = 0) or last (1) eight bytes of the address in memory order.
   std::uint64_t half(std::size_t which) const {
     std::uint64_t bits = 0;
     std::memcpy(&bits, address.data() + 8 * which, sizeof bits);
@@ -50,7 +50,7 @@ std::optional<Endpoint> endpointFromText(std::string_view text);
 /// Both ends of a datagram, as this side sees them. A reply uses the path of the packet it answers, so it
 /// leaves from the address to which that packet was sent.
 struct Path {
-  Endpoint local;  ///< any address: the system chooses one
+  Endpoint local;  ///< the system chooses one if isAny()
   Endpoint remote;
   friend auto operator<=>(const Path&, const Path&) = default;
 };

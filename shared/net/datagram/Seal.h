@@ -18,7 +18,7 @@ struct evp_cipher_ctx_st;
 namespace naiad {
 
 /// Returns the full number whose low 16 bits are `wire` and that is nearest to the next expected one (RFC
-/// 9000, appendix A.3). Correct if it is less than 2¹⁵ away.
+/// 9000, appendix A.3). Correct if the sender's number is less than 2¹⁵ away from that.
 std::uint64_t expandSequence(std::uint64_t expected, std::uint16_t wire);
 
 /// The set of sequence numbers seen: the newest one, and a bit for each of the numbers just before it. Try to
@@ -31,7 +31,7 @@ class ReplayWindow {
 
   enum class Result : std::uint8_t { kNew, kSeen, kTooOld };
 
-  /// Returns whether the number is new. Changes nothing.
+  /// Returns whether the number is new, was seen, or is older than the window. Changes nothing.
   Result check(std::uint64_t sequence) const;
   /// Marks a number that was kNew as seen. Call after its packet was authenticated.
   void mark(std::uint64_t sequence);
@@ -43,7 +43,7 @@ class ReplayWindow {
   std::uint64_t word(std::uint64_t sequence) const { return seen_[(sequence / 64) % seen_.size()]; }
 
   std::uint64_t expected_ = 0;
-  std::array<std::uint64_t, kSize / 64> seen_{};  // a ring: bit (n mod kSize) of the last kSize numbers
+  std::array<std::uint64_t, kSize / 64> seen_{};  // a ring: bit n mod kSize belongs to number n
 };
 
 /// Numbers of packets after which a key should be replaced (new_epoch_after) and after which it seals no more

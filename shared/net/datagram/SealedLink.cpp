@@ -237,7 +237,7 @@ std::size_t SealedLink::maxPayload() const {
   return kMaxDatagram - smallestSealedPacket(sends()) - kFieldSize;
 }
 
-/// Returns the number of bytes of the next packet that are not payload.
+/// Returns the number of bytes of the next packet that are not payload, without a ping or echo.
 std::size_t SealedLink::overhead() const {
   const bool field = isServer() ? !validator_.validated() : pending_answer_.has_value();
   return smallestSealedPacket(sends()) + (field ? kFieldSize : 0);

@@ -6,8 +6,8 @@
 // The link adds and removes these fields. Only servers challenge, only clients ping.
 //
 // Epochs: whenever the session's keys change, both ends call startEpoch(), the client first (its TLS
-// handshake also completes first). The server seals with the new keys at once; the client waits for a packet
-// of the new epoch, or until the old keys expire, so that it never uses keys that the server lacks.
+// handshake also completes first). The server seals with the new keys at once. The client waits for a packet
+// of the new epoch, or until the old keys expire or are used up, because the server may lack the new keys.
 #pragma once
 
 #include <array>
@@ -55,18 +55,18 @@ class PathValidator {
   /// Checks an answer, received on any path. Returns true if it proves the current path.
   bool onResponse(PathChallenge answer);
 
-  /// Makes `path` the current one, without proof.
+  /// Makes `path` the current one and lets it count as validated, without proof.
   void setUnvalidated(const Path& path);
 
   /// The current path; nullopt before the first packet.
   const std::optional<Path>& current() const { return current_; }
-  /// True if the peer has proved that it receives packets on this path.
+  /// True if the peer has proved that it receives packets on the current path, or setUnvalidated() set it.
   bool validated() const { return validated_; }
   /// The challenge to add to each packet until the path is validated.
   PathChallenge challenge() const { return challenge_; }
   /// The number of bytes that may be sent now; unlimited once validated.
   std::size_t budget() const;
-  /// Subtracts this many bytes from the budget, if there is one.
+  /// Records a sent packet: subtracts its size from the budget. Does nothing once the path is validated.
   void onSent(std::size_t bytes, Time now);
   /// True if a challenge is due, which is sent even without a payload.
   bool needsChallenge(Time now) const;
@@ -102,7 +102,7 @@ struct SealedLinkCounters {
 
   std::uint64_t path_changes = 0;
   std::uint64_t paths_validated = 0;
-  std::uint64_t wrong_answers = 0;  ///< not the answer to the current path's challenge (mostly late)
+  std::uint64_t wrong_answers = 0;  ///< answers to other challenges, or after validation
 };
 
 /// Buffers for packets. Links used by one thread share them, so that they stay in the CPU cache.
@@ -123,7 +123,7 @@ class SealedLink {
   struct Options {
     Role role = Role::kClient;
     ConnectionId id;
-    /// 64 unpredictable bits for path challenges. Only for servers.
+    /// Returns 64 unpredictable bits for a path challenge; needed only by servers.
     std::function<std::uint64_t()> random;
     SealLimits limits;
     std::shared_ptr<SealScratch> scratch = {};  ///< null: the link allocates one
@@ -133,15 +133,15 @@ class SealedLink {
   SealedLink(const SealedLink&) = delete;
   SealedLink& operator=(const SealedLink&) = delete;
 
-  /// Adds the keys of a new epoch and drops those before the previous epoch. Returns false and changes
-  /// nothing unless `epoch` is 1 … 15 newer than the previous one; the first epoch may have any number.
+  /// Adds the keys of a new epoch, keeps those of epoch() for kPreviousEpoch, and drops older ones. Returns
+  /// false and changes nothing unless `epoch` is 1 … 15 above epoch(); the first epoch may have any number.
   bool startEpoch(Epoch epoch, const DatagramKeys& keys, Time now);
   /// Sets the server's address; only for clients. Servers learn their path from received packets.
   void setServerPath(const Path& path);
 
   /// Returns the payload of an authentic packet, valid until the next open() with this scratch; nullopt if
-  /// the packet was refused. An empty payload is a probe, or came with a challenge only. A server follows the
-  /// path of the newest packet; a client accepts authentic packets from any address.
+  /// the packet was refused. An empty payload is a probe, or came with a challenge or answer only. A server
+  /// follows the path of the newest packet; a client accepts authentic packets from any address.
   std::optional<std::string_view> open(const Path& path, std::string_view packet, Time now);
   /// True if open() would decrypt the packet. If not, the refusal is counted.
   bool isPlausible(std::string_view packet, Time now);
@@ -157,13 +157,13 @@ class SealedLink {
   void ping() { ping_.request(); }
   /// Returns the round trip measured since the last call, without the time that the server held the ping.
   std::optional<LinkPing::Millis> popRoundTrip() { return ping_.popRoundTrip(); }
-  /// True if a challenge or an answer is due: seal an empty payload if there is no other payload.
+  /// True if a challenge or an answer is due and may be sent: seal an empty payload if there is no other one.
   bool needsToSend(Time now) const;
 
   /// The largest payload that always fits a packet: 1164 bytes for clients, 1172 for servers.
   std::size_t maxPayload() const;
-  /// Returns the size of the largest payload that seal() accepts now: less than maxPayload() until a new
-  /// address is validated; nullopt if it would not accept even an empty one.
+  /// Returns the size of the largest payload that seal() accepts now: it may be less than maxPayload() until
+  /// a new address is validated; nullopt if seal() would not accept even an empty one.
   std::optional<std::size_t> payloadBudget() const;
 
   /// True if a key of either direction nears its limit: start a new epoch. Only one of the two ends needs to
@@ -172,11 +172,12 @@ class SealedLink {
     return newest_ && (newest_->sealer.needsNewEpoch() || newest_->opener.exhausted() ||
                        newest_->opener.expected() >= options_.limits.new_epoch_after);
   }
-  /// Returns the newest started epoch.
+  /// Returns the newest started epoch; nullopt before the first.
   std::optional<Epoch> epoch() const;
-  /// Returns the path of sent packets; nullopt on a server before the first authentic packet.
+  /// Returns the path of sent packets; nullopt before a client's setServerPath(), or before a server's first
+  /// authentic packet.
   std::optional<Path> path() const { return validator_.current(); }
-  /// True if `path` is this session's validated path.
+  /// True if `path` is this session's current path, and validated.
   bool isValidated(const Path& path) const { return validator_.validated() && validator_.current() == path; }
   ConnectionId id() const { return options_.id; }
   const SealedLinkCounters& counters() const { return counters_; }

@@ -26,7 +26,7 @@ struct UdpCounters {
   std::uint64_t too_large = 0;       ///< received, longer than 1200 bytes, ignored
 };
 
-inline constexpr std::size_t kUdpBatch = 64;  // packets per call
+inline constexpr std::size_t kUdpBatch = 64;  // maximum packets per call
 
 namespace detail {
 
@@ -80,7 +80,7 @@ class UdpReceiveBatch {
   /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none waits; −1 on an error
   /// (errno).
   int receive(int descriptor);
-  /// Returns the n-th packet; empty and without a path if it was longer than 1200 bytes.
+  /// Returns packet `n` of the batch, counted from 0; empty if it was longer than 1200 bytes (tooLarge()).
   std::string_view packet(int n) const;
   Path path(int n);
   bool tooLarge(int n) const;

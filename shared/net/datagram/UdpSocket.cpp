@@ -88,7 +88,7 @@ void UdpSocket::State::open(std::uint16_t port) {
 void UdpSocket::State::fail(std::uint16_t port, std::error_code error) {
   std::error_code ignored;
   socket.close(ignored);
-  error.assign(error.value(), std::generic_category());  // Asio's category does not equal std::errc
+  error.assign(error.value(), std::generic_category());  // Asio's codes never equal std::errc
   const std::string where = "UDP port " + std::to_string(port) + " on " + options.address;
   if (error == std::errc::address_in_use) {
     throw ListenError("Cannot listen: " + where + " is in use by another program.", error);
@@ -112,7 +112,7 @@ void UdpSocket::State::receive() {
   if (socket.is_open() && opened == number) wait();
 }
 
-/// Receives one batch. Returns false if no packets are left or the socket was destroyed.
+/// Receives one batch. Returns false if no packets are left, or the socket was destroyed or reopened.
 bool UdpSocket::State::receiveBatch() {
   const int count = incoming->receive(socket.native_handle());
   if (count < 0) {

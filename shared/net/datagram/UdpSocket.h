@@ -1,4 +1,4 @@
-// A UDP socket: one for all peers of a server, or for a client's server.
+// A UDP socket: a server's for all its clients, or a client's for its server.
 #pragma once
 
 #include <asio/ts/netfwd.hpp>
@@ -24,7 +24,7 @@ struct UdpOptions {
 };
 
 /// Packets are never fragmented, on this machine or on the way. Reads up to 256 before other handlers of the
-/// event loop run. Errors reported by ICMP are counted and have no other effect.
+/// event loop run. Errors reported by ICMP are counted or ignored; two in a row while sending drop a packet.
 ///
 /// Thread: the one that runs `context`, which must outlive the socket.
 class UdpSocket : public DatagramSocket {

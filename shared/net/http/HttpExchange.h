@@ -40,11 +40,11 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   enum class End {
     kAnswered,      ///< answer() is complete; its status may be any.
     kNotFound,      ///< The host has no address.
-    kOtherMachine,  ///< The host is not this machine, and there is no TLS.
+    kOtherMachine,  ///< The host is not this machine, and there is no TLS, or is_allowed() refused it.
     kUnreachable,
-    kUntrusted,       ///< The TLS handshake failed, for example because of an invalid certificate.
+    kUntrusted,       ///< The TLS handshake failed (invalid certificate), or the host's name is invalid.
     kConnectionLost,  ///< The connection broke while the request was sent.
-    kBadAnswer,       ///< The answer is truncated or not HTTP/1.1.
+    kBadAnswer,       ///< The answer is truncated, malformed or has too long a head.
     kTooLong,         ///< The body has more bytes than allowed.
     kStopped,         ///< The body's handler returned false.
     kTimedOut,
@@ -54,7 +54,8 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
     std::string detail;  ///< reason in a few words, not from the peer; empty if `end` is enough
   };
   using Done = std::function<void(const Result& result)>;
-  /// Receives a piece of the body of an answer with status 200. Returns false if the rest is not needed.
+  /// Receives a piece, perhaps empty, of the body of an answer with status 200. Returns false if the rest is
+  /// not needed.
   using BodyHandler = std::function<bool(std::string_view piece)>;
 
   explicit HttpExchange(asio::io_context& context, const HttpLimits& limits = {});
@@ -69,9 +70,9 @@ class HttpExchange : public std::enable_shared_from_this<HttpExchange> {
   void cancel();
 
   const HttpResponseReader& answer() const { return m_reader; }
-  /// Returns the stream, which now speaks the requested protocol, after status 101. Call in `done`.
+  /// After status 101, returns the stream, which now speaks the requested protocol. Call in `done`.
   std::unique_ptr<ByteStream> releaseStream() { return std::move(m_stream); }
-  /// Returns the first bytes of that protocol, which were received together with the answer.
+  /// Returns the received bytes after the answer: after status 101, the first ones of the requested protocol.
   const std::string& bytesBehind() const { return m_behind; }
 
  private:

@@ -51,7 +51,7 @@ class HttpLines {
 
  private:
   std::size_t m_limit;
-  std::size_t m_used = 0;  // bytes of all lines so far
+  std::size_t m_used = 0;  // bytes of all lines since restart()
   std::string m_line;
   bool m_complete = false;  // m_line was returned; the next call clears it
   HttpError m_error = HttpError::kNone;
@@ -91,7 +91,7 @@ struct HttpRequestLine {
   static std::optional<HttpRequestLine> parse(std::string_view line);
 };
 
-/// Parses a field line into name and value (RFC 9112 5); nullopt if it is invalid.
+/// Parses a field line into name (in lower case) and value (RFC 9112 5); nullopt if it is invalid.
 std::optional<std::pair<std::string, std::string>> parseHttpField(std::string_view line);
 /// True for a valid method or field name (RFC 9110 5.6.2).
 bool isHttpToken(std::string_view text);

@@ -58,7 +58,7 @@ class HttpResponseReader {
   std::string popBody() { return std::exchange(m_body, {}); }
 
  private:
-  // The states occur in this order.
+  // In all states after kHead, the head is complete (hasHead()).
   enum class State { kHead, kLength, kToEnd, kChunkSize, kChunk, kChunkEnd, kTrailer, kDone };
 
   void step(std::string_view& bytes);
@@ -75,7 +75,7 @@ class HttpResponseReader {
 
   HttpLines m_lines;              // lines of a chunked body
   std::size_t m_interim = 0;      // bytes of interim heads
-  std::uint64_t m_remaining = 0;  // bytes of this body or chunk that are still missing
+  std::uint64_t m_remaining = 0;  // missing bytes of this body or chunk; in kToEnd, bytes still allowed
   std::uint64_t m_total = 0;      // bytes of the body so far, including the announced chunk
   unsigned m_status = 0;
   State m_state = State::kHead;

@@ -31,9 +31,9 @@ enum class WebSocketClose : std::uint16_t {
 ///
 /// Fragments are joined, up to the limit. A ping is answered by a pong; if several pings are read together,
 /// only the last one (5.5.3). Protocol errors of the server: reserved bits or opcodes, a masked frame, a
-/// length not in its shortest form, a control frame that is fragmented or longer than 125 bytes, a
-/// continuation without a beginning, a message within a fragmented one, an invalid close code, a text
-/// message, a message over the limit. Lengths are checked before the payload is stored.
+/// length above 2^63 - 1 or not in its shortest form, a control frame that is fragmented or longer than 125
+/// bytes, a continuation without a beginning, a message within a fragmented one, an invalid close code, a
+/// text message, a message over the limit. Lengths are checked before the payload is stored.
 ///
 /// Memory: one message up to the limit, and the bytes fed last.
 class WebSocketFraming : public StreamFraming {
@@ -49,7 +49,7 @@ class WebSocketFraming : public StreamFraming {
   std::optional<std::string_view> next() override;
   bool isBroken() const override { return m_error.has_value(); }
   bool midFrame() const override { return m_at < m_bytes.size() || m_in_message; }
-  /// Returns kPeer for the code 1000 (normal), kError for all others.
+  /// Returns kPeer after a close frame with code 1000 (normal), kError after another; nullopt before both.
   std::optional<CloseReason> peerClosed() const override;
 
   /// Appends a binary message of one frame, at most 2^63 - 1 bytes.
@@ -58,7 +58,7 @@ class WebSocketFraming : public StreamFraming {
   /// Appends a close frame with the peer's code if the peer closed first, else with error(), else with 1000.
   void appendEnd(std::string& out) override;
 
-  /// The code of the peer's close frame; nullopt before that frame.
+  /// The code of the peer's close frame, kNoCode if it has none; nullopt before that frame.
   std::optional<std::uint16_t> closeCode() const { return m_close_code; }
   /// The text of the peer's close frame: at most 123 bytes, unchecked.
   const std::string& closeReason() const { return m_close_reason; }

@@ -52,7 +52,7 @@ std::array<std::uint8_t, kSize> bytesAt(std::string_view bytes, std::size_t at) 
   return result;
 }
 
-/// Removes a text from the front of `rest`. Returns nullopt if it is too long or truncated.
+/// Removes a text from the front of `rest` and sanitizes it. Returns nullopt if it is too long or truncated.
 std::optional<std::string> takeText(std::string_view& rest) {
   if (rest.empty()) return std::nullopt;
   const std::size_t size = static_cast<unsigned char>(rest.front());

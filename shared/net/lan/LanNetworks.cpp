@@ -35,7 +35,7 @@ bool isOfPrivateRange(const asio::ip::address& address) {
          isIn(address, "192.168.0.0", 16) || isIn(address, "169.254.0.0", 16);
 }
 
-/// Returns nullopt for families other than IP.
+/// Returns nullopt for null and for families other than IP.
 std::optional<asio::ip::address> addressOf(const sockaddr* p_address) {
   if (p_address == nullptr) return std::nullopt;
   if (p_address->sa_family == AF_INET) {
@@ -55,7 +55,7 @@ unsigned prefixOf(const asio::ip::address& mask) {
   unsigned bits = 0;
   for (const unsigned char byte : AddressRange::bytesOf(mask))
     bits += static_cast<unsigned>(std::popcount(byte));
-  return mask.is_v4() ? bits - 16 : bits;  // without the 16 ones before a mapped address
+  return mask.is_v4() ? bits - 16 : bits;  // without the 16 one bits (ffff) before a mapped address
 }
 
 /// True if an interface with these flags can use the address. Systems have no route for IPv6 groups on

@@ -128,7 +128,7 @@ LanSocket::LanSocket(Family family)
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVHOPLIMIT, 1), "IPV6_RECVHOPLIMIT");
   require(setInt(file, IPPROTO_IPV6, IPV6_RECVPKTINFO, 1), "IPV6_RECVPKTINFO");
   setInt(file, IPPROTO_IPV6, IPV6_MULTICAST_ALL,
-         0);  // since Linux 4.20; without it, the interface is checked later
+         0);  // since Linux 4.20; callers check the packet's interface, too
 }
 
 LanSocket::LanSocket(LanSocket&& other) noexcept

@@ -44,12 +44,13 @@ class LanSocket {
   /// Begins to receive queries from this interface. Returns false if the system refuses. Joining again
   /// changes nothing.
   bool joinGroup(unsigned interface);
-  /// Returns the next packet; nullopt if none waits. Its bytes are valid until the next call.
+  /// Returns the next packet; nullopt if none waits, or after eight errors. Its bytes are valid until the
+  /// next call.
   std::optional<LanPacket> receivePacket();
   /// Sends a query to the group through the network's interface, from its address. Returns false if that
   /// failed.
   bool sendQuery(const LanNetwork& from, std::string_view bytes);
-  /// Sends an answer to a neighbour in this network.
+  /// Sends an answer to a neighbour in this network. Returns false if that failed.
   bool sendAnswer(const LanNetwork& from, const asio::ip::udp::endpoint& to, std::string_view bytes);
 
  private:

@@ -10,11 +10,11 @@
 
 namespace naiad {
 
-/// Time for which a listener pauses after it ran out of descriptors or memory.
+/// Time for which a listener pauses after a failed accept.
 inline constexpr std::chrono::milliseconds kAcceptRetryDelay{100};
 
-/// Base of a listener's state. Accepts until its acceptor is closed. If descriptors or memory run out, it
-/// retries after kAcceptRetryDelay; the connections wait in the kernel's backlog.
+/// Base of a listener's state. Accepts until its acceptor is closed. If an accept fails, usually without free
+/// descriptors or memory, it retries after kAcceptRetryDelay; the connections wait in the kernel's backlog.
 ///
 /// `State` is owned by std::shared_ptr; pending operations keep it alive. It has
 ///
@@ -27,7 +27,7 @@ class AcceptLoop : public std::enable_shared_from_this<State> {
  public:
   using Socket = typename Protocol::socket;
 
-  /// Begins to accept. Call once `acceptor` listens.
+  /// Begins to accept. Call it when `acceptor` listens.
   void accept() {
     acceptor.async_accept([self = this->shared_from_this()](const std::error_code& error, Socket socket) {
       self->onAccepted(error, std::move(socket));

@@ -21,7 +21,7 @@ bool mayTryAgain(const std::error_code& error) {
   return error == asio::error::would_block || error == asio::error::interrupted;
 }
 
-constexpr int kNotSentLowWater = 4096;  // maximum unsent bytes that the kernel accepts
+constexpr int kNotSentLowWater = 4096;  // with this many unsent bytes, the kernel accepts no more
 
 std::string peerOf(const ByteStream::Socket& socket) {
   std::error_code error;

@@ -23,7 +23,7 @@ class ByteStream {
     kEnd,            ///< The peer marked the end of the stream.
     kTruncated,      ///< The connection ended without the peer's mark.
     kBroken,         ///< The connection failed (reset, unreachable), or the peer ended it with an alert.
-    kGarbage,        ///< The peer's bytes are not TLS, or were modified on the way.
+    kGarbage,        ///< The peer's bytes are not TLS or were modified, or the TLS handshake failed.
   };
   struct Progress {
     Outcome outcome;

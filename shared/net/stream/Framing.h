@@ -92,16 +92,16 @@ class StreamFraming {
   virtual void setLimit(std::size_t bytes) = 0;
   /// Adds the next piece of the stream, which must stay valid until next() returned nullopt.
   virtual void feed(std::string_view bytes) = 0;
-  /// Returns the next complete payload. The view is valid until the next call of next() or feed().
+  /// Returns the next complete payload, or nullopt. It is valid until the next call of next() or feed().
   virtual std::optional<std::string_view> next() = 0;
   /// True after a protocol error of the peer; next() then always returns nullopt.
   virtual bool isBroken() const = 0;
-  /// True after a part of a frame: the stream may not end here.
+  /// True after a part of a frame: the stream may not end here. May also be true before next() reads a frame.
   virtual bool midFrame() const = 0;
   /// Returns the reason to report if a frame announced that the peer closes; nothing is received after it.
   virtual std::optional<CloseReason> peerClosed() const { return std::nullopt; }
 
-  /// Appends a frame with this payload to `out`. Throws std::length_error for an invalid size.
+  /// Appends a frame with this payload to `out`. May throw std::length_error for an invalid size.
   virtual void append(std::string& out, std::string_view payload) = 0;
   /// Appends the framing's own answers to the frames that it read.
   virtual void appendReplies(std::string& /*out*/) {}

@@ -2,10 +2,11 @@
 //
 // A connection is silent until its client hello is complete; then it has greeted. Silence costs an attacker
 // nothing, while an honest client sends its hello at once. So silent connections are ended when places are
-// needed: the oldest one of the most crowded prefix. Greeted connections are never ended to make room. So
-// that they cannot fill all places, a prefix may have at most as many of them as places are left: one greedy
-// prefix leaves half of the places free, n greedy ones leave 1/(n + 1). This is checked when a connection
-// arrives and again when its hello is complete, because many hellos may begin before one is complete.
+// needed: the oldest one of the new connection's prefix if that is at its limit, else of the most crowded
+// prefix. Greeted connections are never ended to make room. So that they cannot fill all places, a prefix may
+// have at most as many of them as places are left: one greedy prefix leaves half of the places free, n greedy
+// ones leave 1/(n + 1). This is checked when a connection arrives and again when its hello is complete,
+// because many hellos may begin before one is complete.
 //
 // Prefixes of three widths count (AddressPrefix.h), so an IPv6 customer with many networks, or a group of
 // rented servers, counts as one crowd.
@@ -37,7 +38,7 @@ class HalfOpenLimit {
       kFits,
       kEvictFirst,     ///< It fits after the silent connection `id` was ended. Call check() again then.
       kFull,           ///< Refuse it: all places belong to connections that have greeted.
-      kFullForPrefix,  ///< Refuse it: its prefix has used up its share of the places.
+      kFullForPrefix,  ///< Refuse it: greeted connections use up its prefix's share, or per_prefix.
     } kind = Kind::kFits;
     Id id = 0;
   };

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::string_view kScheme = "naiad:";
 constexpr std::size_t kMaxLink = 512;  // maximum bytes; the longest valid link has about 330
-constexpr std::size_t kMaxHost = 253;  // characters of a host name (RFC 1035 2.3.4)
-constexpr std::size_t kMaxLabel = 63;  // characters between two dots of a host name
+constexpr std::size_t kMaxHost = 253;  // maximum characters of a host name (RFC 1035 2.3.4)
+constexpr std::size_t kMaxLabel = 63;  // maximum characters between two dots of a host name
 constexpr std::size_t kMaxPortDigits = 5;
 
 bool isGraphic(char c) {

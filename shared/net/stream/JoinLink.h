@@ -41,7 +41,7 @@ struct JoinLink {
   std::string room;  ///< empty, or a name that isRoomName() accepts
   ShortKey key;
 
-  /// True if the text begins with "naiad:", in any case: parse it as a link.
+  /// True if the text begins with "naiad:", in upper or lower case: parse it as a link.
   static bool looksLikeLink(std::string_view text);
   static std::variant<JoinLink, LinkError> parse(std::string_view text);
   std::string text() const;

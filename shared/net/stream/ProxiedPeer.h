@@ -1,4 +1,5 @@
-// The address of a door's visitor, in each form that the door needs.
+// The address of a door's visitor, in each form that the door needs. A door is a local program between the
+// server and its visitors (ProxyListener.h).
 //
 // It has no Asio types: a door may be built with Boost's copy of Asio, and no source can include both.
 #pragma once

@@ -31,7 +31,7 @@ constexpr mode_t kMode = 0660;
 }
 
 [[noreturn]] void fail(const fs::path& path, std::error_code code) {
-  code.assign(code.value(), std::generic_category());  // Asio's category does not equal std::errc
+  code.assign(code.value(), std::generic_category());  // Asio's codes never equal std::errc
   fail(path, code.message(), code);
 }
 

@@ -42,18 +42,18 @@ class ProxyListener {
   /// Counters of connections.
   struct Counters {
     std::uint64_t visitors = 0;        ///< delivered
-    std::uint64_t bad_headers = 0;     ///< dropped: an invalid header, or one without a visitor's address
+    std::uint64_t bad_headers = 0;     ///< dropped: header invalid, truncated or without a visitor's address
     std::uint64_t late_headers = 0;    ///< dropped: not complete in time
     std::uint64_t crowded = 0;         ///< dropped: too many connections waited
     std::uint64_t refused_peers = 0;   ///< dropped: ProxyListenerOptions::is_refused() returned true
-    std::uint64_t failed_accepts = 0;  ///< no descriptors or memory; accepting is retried later
+    std::uint64_t failed_accepts = 0;  ///< failed accepts, for example without descriptors; retried
   };
 
   /// Starts to listen. The file has mode 0660 (and the folder's group if the folder has the set-group-id
   /// bit). Replaces a socket without a listening process. Throws ListenError (TcpListener.h) for other
-  /// existing files, a socket in use, and invalid paths.
+  /// existing files, a socket in use, invalid paths, and errors of the system.
   ProxyListener(asio::io_context& context, ProxyListenerOptions options, PeerHandler on_peer);
-  /// Removes the file.
+  /// Calls close().
   ~ProxyListener();
   ProxyListener(const ProxyListener&) = delete;
   ProxyListener& operator=(const ProxyListener&) = delete;
@@ -61,7 +61,7 @@ class ProxyListener {
   const Counters& counters() const;
   /// The number of connections with an incomplete header.
   std::size_t waiting() const;
-  /// Stops listening and removes the file; no callback runs after this.
+  /// Stops listening; no callback runs after this. Removes the file unless another server has replaced it.
   void close();
 
  private:

@@ -48,7 +48,7 @@ class ReliableFrameSender {
 /// The receiving end.
 class ReliableFrameReceiver {
  public:
-  /// Returns true if the frame is new, once per number. `number` 0 (a frame that is not kept) is always new.
+  /// Returns true, and records it, if `number` is newer than newest(). Always true for 0 (a frame not kept).
   bool accept(std::uint32_t number);
   /// The newest received number; 0: none.
   std::uint32_t newest() const { return m_newest; }

@@ -26,7 +26,7 @@ class ClientHelloGuard {
   /// The largest accepted hello in bytes. (Ours has about 300; a hybrid key share adds 1.2 KiB.)
   static constexpr std::size_t kMaxHello = 4096;
 
-  /// Checks the client's next bytes, in any pieces. Returns false if they announce a longer hello.
+  /// Checks the client's next bytes, in any pieces. Returns false if they announce a hello above kMaxHello.
   bool accept(std::string_view bytes);
 
  private:

@@ -27,7 +27,7 @@ class StallTolerantTimer {
   explicit StallTolerantTimer(asio::io_context& context) : m_timer(context) {}
 
   /// Calls `over` after this process ran for `time`. Replaces a pending timeout. `over` must keep this timer
-  /// alive; it is destroyed after its call, or soon after cancel().
+  /// alive; the function is destroyed after its call, or soon after cancel().
   void start(Duration time, std::function<void()> over) {
     wait(time / kParts, kParts, ++m_started, std::move(over));
   }

@@ -32,11 +32,11 @@ struct StreamResult {
     kUnreachable,   ///< The last address cannot be reached.
     kHandshake,     ///< The TLS handshake failed.
     kTimedOut,
-    kUnusable,  ///< The host's name or the path of the socket cannot be used. `detail`: one sentence.
+    kUnusable,  ///< The host's name or the visitors' socket cannot be used. `detail`: one sentence.
   };
   End end = End::kOpen;
   std::string detail = {};                         ///< the reason, usually the end of a sentence
-  bool closed_in_handshake = false;                ///< the server closed the connection during the handshake
+  bool closed_in_handshake = false;                ///< the connection was closed or broke in the handshake
   std::unique_ptr<ByteStream> stream = {};         ///< set with kOpen
   std::optional<PeerIdentity> peer_identity = {};  ///< set with kOpen and TLS
 };
@@ -68,7 +68,6 @@ class StreamAttempt : public std::enable_shared_from_this<StreamAttempt> {
 
   /// Resolves the host's name and connects. Call exactly one of resolve(), connect() and
   /// connectThroughProxy(), once.
-
   void resolve();
   /// Skips the resolver: `endpoints` are the addresses of the host.
   void connect(const std::vector<asio::ip::tcp::endpoint>& endpoints);

@@ -71,7 +71,7 @@ class StreamConnection : public std::enable_shared_from_this<StreamConnection> {
   bool reading_ = false;
   bool awaiting_room_ = false;
   bool write_failed_ = false;
-  bool counts_unread_ = false;  // the kernel reports unread bytes, not unsent ones
+  bool counts_unread_ = false;  // true if the kernel reports the peer's unread bytes, not unsent ones
 };
 
 using asio::ip::tcp;
@@ -281,7 +281,7 @@ void StreamConnection::abandon() {
   if (phase_ == Phase::kOpen) finish(CloseReason::kLocal, false);
 }
 
-/// `cut`: discard the bytes in the kernel's queue, because the peer does not read them.
+/// `cut`: reset the connection, which discards the kernel's queue, because the peer does not read it.
 void StreamConnection::finish(CloseReason reason, bool cut) {
   phase_ = Phase::kClosed;
   reason_ = reason;

@@ -1,6 +1,6 @@
 // A ReliableChannel over TCP: frames (Framing.h) on a connected socket, plain or in TLS (TlsStream.h).
 //
-// The socket has TCP_NODELAY, so that a frame leaves at once, and TCP_NOTSENT_LOWAT of 4 KiB, so that other
+// The socket has TCP_NODELAY, so that a frame leaves at once, and TCP_NOTSENT_LOWAT of 4 KiB, so that further
 // bytes wait in the channel's queue. unsentBytes() counts them there, and a server can skip a snapshot
 // instead of queueing old ones. Frames sent in one turn of the event loop share a segment.
 //
@@ -29,7 +29,7 @@ struct TcpOptions {
   /// The initial largest payload accepted from the peer, in bytes; see setReceiveLimit(). The default suits a
   /// server before login; clients need kMaxServerFrame.
   std::size_t receive_limit = kMaxHelloFrame;
-  /// Time that close() may spend sending the queue before it resets the connection.
+  /// Time limit of close() for sending the queue and waiting until the peer has closed.
   std::chrono::milliseconds close_timeout{1000};
 };
 
@@ -44,15 +44,15 @@ struct TcpOptions {
 ///
 /// How it ends (`on_closed`):
 ///  - kLocal     after close(): the queue is sent, then the end of the stream, then the channel waits until
-///               the peer has closed as well. After TcpOptions::close_timeout the connection is reset.
-///               Frames that arrive after close() are dropped.
+///               the peer has closed as well. After TcpOptions::close_timeout the connection is closed, by
+///               a reset if frames are left in the queue. Frames that arrive after close() are dropped.
 ///  - kPeer      the peer ended the stream between two frames. The queue is dropped.
 ///  - kProtocol  an empty frame, one over the limit, or the stream ended within a frame; with TLS also bytes
 ///               that are not TLS or were modified.
 ///  - kError     reset, unreachable; with TLS also an alert from the peer, or an end of the connection
 ///               between two frames without close_notify (RFC 8446 6.1). Earlier frames are
 ///               delivered first.
-///  - kOverflow  send() exceeded TcpOptions::send_cap.
+///  - kOverflow  send(), or the framing's replies, exceeded TcpOptions::send_cap.
 ///
 /// With TLS, unsentBytes() counts payload in this queue, and whole records (22 more bytes each) in the
 /// kernel.

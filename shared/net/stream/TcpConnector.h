@@ -45,7 +45,7 @@ class TcpConnector {
 
   /// Resolves `host` (a name, or an IPv4 or IPv6 address without brackets) and tries its addresses in turn,
   /// each for its share of `timeout`, which covers the whole attempt. The next address is tried if one is
-  /// silent or unreachable, not if a server fails the handshake. Without TLS, names of other machines are
+  /// silent or unreachable, not if a server fails the handshake. Without TLS, other machines are
   /// refused. `done` is called once, from the event loop, unless cancelled. Cancels a running attempt.
   void connect(const std::string& host, std::uint16_t port, std::chrono::milliseconds timeout, Done done);
   /// Like connect() above, with the known addresses of `host`.
@@ -57,8 +57,8 @@ class TcpConnector {
   void connectFor(const asio::ip::tcp::endpoint& visitor, const std::string& socket, const std::string& host,
                   std::uint16_t port, std::chrono::milliseconds timeout, Done done);
 
-  /// Restricts later attempts to addresses for which `is_allowed` returns true; a host without any counts as
-  /// unreachable. Empty: all are allowed.
+  /// Restricts later attempts to addresses for which `is_allowed` returns true; a host without any such
+  /// address is refused. Empty: all are allowed. Does not apply to connectFor().
   void restrict(std::function<bool(const asio::ip::address& address)> is_allowed) {
     is_allowed_ = std::move(is_allowed);
   }

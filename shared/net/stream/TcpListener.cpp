@@ -101,7 +101,7 @@ void TcpListener::State::listen(const std::string& numeric_address, std::uint16_
   if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (!error) endpoint = acceptor.local_endpoint(error);
   if (!error) return;
-  error.assign(error.value(), std::generic_category());  // Asio's category does not equal std::errc
+  error.assign(error.value(), std::generic_category());  // Asio's codes never equal std::errc
   const std::string where = "port " + std::to_string(port) + " on " + numeric_address;
   if (error == std::errc::address_in_use) {
     throw ListenError("Cannot listen: " + where + " is in use by another program.", error);

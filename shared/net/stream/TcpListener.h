@@ -44,7 +44,7 @@ struct TlsListenerOptions {
   std::function<bool(const AddressPrefix& prefix)> is_known = nullptr;
   std::size_t max_half_open_known = 256;
   /// Returns true, and counts it, if the complete hello of a connection of this prefix may be answered, which
-  /// costs a signature. Called once per connection that has a place.
+  /// costs a signature. Called once per complete hello of a connection that has a place.
   std::function<bool(const AddressPrefix& prefix)> try_handshake = nullptr;
   /// Returns the value that try_handshake() would return now, without counting. Called once per connection.
   std::function<bool(const AddressPrefix& prefix)> can_handshake = nullptr;
@@ -69,8 +69,8 @@ class ListenError : public std::runtime_error {
   std::error_code code_;
 };
 
-/// Accepts until closed or destroyed. If descriptors or memory run out, it retries every 100 ms; the
-/// connections wait in the kernel's backlog.
+/// Accepts until closed or destroyed. If an accept fails, usually without free descriptors or memory, it
+/// retries every 100 ms; the connections wait in the kernel's backlog.
 ///
 /// TLS handshakes run concurrently; connections are delivered as they finish. A slow one delays no other.
 ///
@@ -83,7 +83,7 @@ class TcpListener {
 
   /// Counters of connections.
   struct Counters {
-    std::uint64_t failed_accepts = 0;       ///< out of descriptors or memory: retried later
+    std::uint64_t failed_accepts = 0;       ///< failed accepts, for example without descriptors; retried
     std::uint64_t handshakes = 0;           ///< TLS: completed, and the channel was delivered
     std::uint64_t handshakes_failed = 0;    ///< TLS: for example no TLS 1.3, no common protocol, disconnected
     std::uint64_t handshakes_late = 0;      ///< TLS: not done in time
@@ -120,7 +120,7 @@ class TcpListener {
   /// TLS; ignored after close().
   void adopt(asio::generic::stream_protocol::socket socket, const asio::ip::tcp::endpoint& peer);
 
-  /// Uses this context for later handshakes. Does nothing if the listener has no TLS.
+  /// Uses this context for later handshakes. Does nothing if it is null or the listener has no TLS.
   void setTls(std::shared_ptr<const TlsContext> context);
 
   /// Stops listening; no callback runs after this. The kernel resets connections not accepted yet, and

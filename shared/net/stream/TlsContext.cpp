@@ -83,7 +83,7 @@ TlsContext::TlsContext(bool is_server)
   SSL_CTX_set_verify(c, SSL_VERIFY_NONE, nullptr);
   SSL_CTX_set_mode(
       c, SSL_MODE_RELEASE_BUFFERS | SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
-  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);  // a peer that sends no data must not keep read() busy
+  SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);  // records without data must not keep read() busy
 }
 
 std::shared_ptr<const TlsContext> TlsContext::forServer(const std::string& certificate_pem,
@@ -106,7 +106,7 @@ std::shared_ptr<const TlsContext> TlsContext::forWebServer(const std::string& ce
   return made;
 }
 
-/// `protocol`: a constant, because OpenSSL points to it.
+/// `protocol`: a global constant, because OpenSSL stores its address.
 void TlsContext::choose(const std::string_view& protocol) {
   SSL_CTX_set_alpn_select_cb(get(), chooseAlpn, const_cast<std::string_view*>(&protocol));
 }

@@ -19,7 +19,8 @@ inline constexpr std::string_view kAlpn = "naiad/1";
 /// ALPN name of the protocol of browsers (RFC 7301 6).
 inline constexpr std::string_view kHttpAlpn = "http/1.1";
 
-/// Thrown if a key, certificate or trust store is unusable. what() is one sentence for people.
+/// Thrown if a key, certificate, trust store or server name is unusable, memory runs out, or OpenSSL lacks a
+/// feature. what() is one sentence for people.
 class TlsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

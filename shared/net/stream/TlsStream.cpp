@@ -127,7 +127,7 @@ TlsStream::TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, c
   SSL_set_bio(ssl_.get(), bio, bio);  // takes ownership
   if (context_->isServer()) {
     bio_.guard.emplace();
-    SSL_set_app_data(ssl_.get(), &hello_approved_);  // TlsContext's judgeHello()
+    SSL_set_app_data(ssl_.get(), &hello_approved_);  // for judgeHello() in TlsContext.cpp
     SSL_set_accept_state(ssl_.get());
   } else {
     SSL_set_connect_state(ssl_.get());

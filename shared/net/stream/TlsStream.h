@@ -1,4 +1,4 @@
-// A TLS stream on a TCP socket.
+// A TLS stream on a TCP or Unix domain socket.
 //
 // OpenSSL itself reads from and writes to the socket, without a buffer between them. An idle connection holds
 // none of OpenSSL's buffers either.
@@ -25,17 +25,16 @@ namespace naiad {
 class TlsStream : public ByteStream {
  public:
   /// Makes the stream of a client or a server, depending on the context. A client passes the server's name: a
-  /// host name goes into the hello (SNI, RFC 6066 3), and the certificate must be for this name or address.
-  /// Throws TlsError if out of memory.
+  /// host name goes into the hello (SNI, RFC 6066 3), and a certificate verifies only for this name or
+  /// address. Throws TlsError if out of memory, or if a client's `server_name` is invalid.
   TlsStream(Socket socket, std::shared_ptr<const TlsContext> context, const std::string& server_name = {},
             std::string peer = {});
   ~TlsStream() override;
 
-  /// Continues the handshake; returns kDone when it is complete. Before that, nothing else may be called. A
-  /// server stops once with kWantsApproval when it has the client's whole hello, before it computes the
-  /// answer, which takes a signature. The next call continues.
+  /// Continues the handshake; returns kDone when it is complete. Do not read, write or export secrets before.
+  /// A server (TlsContext::forServer()) stops once with kWantsApproval when it has the client's whole hello,
+  /// before it computes the answer, which takes a signature. The next call continues.
   Outcome handshake();
-  /// True for a client.
   bool isClient() const { return !context_->isServer(); }
   /// The reason for a failed handshake, as the end of a sentence ("it does not speak TLS").
   const std::string& problem() const { return problem_; }
@@ -89,8 +88,9 @@ class TlsHandshake : public std::enable_shared_from_this<TlsHandshake> {
   explicit TlsHandshake(std::unique_ptr<TlsStream> stream);
 
   /// `timeout` covers the whole handshake, however slowly the bytes arrive. `done` is called once, from the
-  /// event loop or readAhead(), unless cancelled. At a server, `on_hello` is called once when the client's
-  /// hello is complete, before the answer, which takes most of the CPU time of a handshake; it may cancel().
+  /// event loop or readAhead(), unless cancelled. At a server (TlsContext::forServer()), `on_hello` is
+  /// called once when the client's hello is complete, before the answer, which takes most of the CPU time of
+  /// a handshake; it may cancel().
   void run(std::chrono::milliseconds timeout, Done done, std::function<void()> on_hello = nullptr);
   /// Restarts the timeout with this time.
   void setTimeout(std::chrono::milliseconds timeout);
