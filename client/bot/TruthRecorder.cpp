@@ -15,9 +15,11 @@ void TruthRecorder::beforeSnapshot(const Replica& replica, std::uint32_t tick) {
   m_started = true;
 }
 
-void TruthRecorder::afterSnapshot(std::uint32_t tick, bool complete, bool skips) {
-  if (tick != m_tick) return;
-  m_complete = complete;
+void TruthRecorder::afterSnapshot(const SnapshotHeader& header, const AckWindow& acks, bool skips,
+                                  std::uint32_t before) {
+  m_tracker.addSnapshot(header, acks, before);
+  if (header.tick != m_tick) return;
+  m_complete = m_tracker.isComplete();
   m_skips = skips;
 }
 

@@ -1,11 +1,11 @@
 // Records a bot's picture of every tick, to be compared with the server's truth file afterwards.
 //
 // Several snapshots may share a tick, so a tick's picture is final only when a later tick's first snapshot
-// arrives, or at the end. It is recorded only if the last of these snapshots was complete; otherwise the
-// server has more to send. For a tick without a snapshot, the extrapolated picture is recorded, because the
-// server relies on the client to extrapolate. On the stream, the server also skips ticks while earlier data
-// waits, so ticks without a snapshot are not recorded there. Recording stops when a limit of ticks or cells
-// is reached.
+// arrives, or at the end. It is recorded only if it was complete after the last of these snapshots
+// (CompletenessTracker); otherwise the server has more to send, or an earlier snapshot is lost or late. For a
+// tick without a snapshot, the extrapolated picture is recorded, because the server relies on the client to
+// extrapolate. On the stream, the server also skips ticks while earlier data waits, so ticks without a
+// snapshot are not recorded there. Recording stops when a limit of ticks or cells is reached.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace naiad {
 /// compared with the world's.
 ///
 /// A complete snapshot says that the server has nothing more to send. An earlier snapshot may still be lost
-/// or late, because a snapshot sent as a datagram can overtake one that was sent before it on the stream.
+/// or late, because a datagram or the second stream can overtake the first stream, and the first the second.
 class CompletenessTracker {
  public:
   /// Call after a snapshot was applied. `acks`: the snapshots received, including this one. `before`:
@@ -64,12 +64,12 @@ class TruthRecorder {
   explicit TruthRecorder(std::size_t max_cells = kMaxCells) : m_max_cells(max_cells) {}
 
   /// Call before a snapshot of `tick` is applied to `replica`: records the pictures of the ticks before
-  /// `tick`, from that of the last snapshot, if it was complete.
+  /// `tick`, from that of the last snapshot, if no part of it was missing.
   void beforeSnapshot(const Replica& replica, std::uint32_t tick);
-  /// Call after a snapshot of `tick` was applied. `complete`: CompletenessTracker::isComplete(). `skips`: the
-  /// server may skip ticks after this one.
-  void afterSnapshot(std::uint32_t tick, bool complete, bool skips);
-  /// Records the tick of the newest snapshot, if it was complete. Call when no further snapshot will come.
+  /// Like CompletenessTracker::addSnapshot(). `skips`: the server may skip ticks after this one.
+  void afterSnapshot(const SnapshotHeader& header, const AckWindow& acks, bool skips,
+                     std::uint32_t before = 0);
+  /// Records the tick of the newest snapshot, if complete. Call when no further snapshot will come.
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }
@@ -101,8 +101,9 @@ class TruthRecorder {
   std::size_t m_cells = 0;
   bool m_full = false;
   bool m_started = false;
+  CompletenessTracker m_tracker;
   std::uint32_t m_tick = 0;  ///< tick of the newest applied snapshot
-  bool m_complete = false;   ///< the picture was complete after that snapshot
+  bool m_complete = false;   ///< the picture was complete after the last snapshot of that tick
   bool m_skips = false;
   std::map<std::uint32_t, df::Canvas> m_pictures;
   std::unordered_map<std::uint32_t, Track> m_tracks;  ///< indexed by slot

@@ -71,13 +71,11 @@ class Bot {
         if (!m_first_tick) m_first_tick = tick;
         m_heard_at = Clock::now();
       });
-      m_picture = naiad::CompletenessTracker();
-      session.onAfterSnapshot([this, &session](const naiad::SnapshotHeader& header,
-                                               const naiad::AckWindow& acks) {
-        const auto before = session.welcome().resume_state.value_or(naiad::ResumeState());
-        m_picture.addSnapshot(header, acks, before.snapshot);
-        m_recorder.afterSnapshot(header.tick, m_picture.isComplete(), !session.hasDatagrams(Clock::now()));
-      });
+      session.onAfterSnapshot(
+          [this, &session](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
+            const auto before = session.welcome().resume_state.value_or(naiad::ResumeState());
+            m_recorder.afterSnapshot(header, acks, !session.hasDatagrams(Clock::now()), before.snapshot);
+          });
     });
     m_connection.start();
   }
@@ -158,7 +156,6 @@ class Bot {
   int m_index;
   naiad::Connection m_connection;
   naiad::TruthRecorder m_recorder;
-  naiad::CompletenessTracker m_picture;
   std::optional<std::uint32_t> m_first_tick;
   int m_sessions = 0;
   Clock::time_point m_joined_at{};

@@ -97,8 +97,9 @@ void record(WebClient& client) {
   client.connection().onSession([](naiad::ClientSession& session) {
     session.onBeforeSnapshot(
         [&session](std::uint32_t tick) { recording().recorder.beforeSnapshot(session.replica(), tick); });
-    session.onAfterSnapshot([](const naiad::SnapshotHeader& header, const naiad::AckWindow&) {
-      recording().recorder.afterSnapshot(header.tick, header.complete, true);
+    session.onAfterSnapshot([&session](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
+      const auto before = session.welcome().resume_state.value_or(naiad::ResumeState());
+      recording().recorder.afterSnapshot(header, acks, true, before.snapshot);
     });
   });
 }

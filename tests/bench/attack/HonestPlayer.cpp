@@ -42,8 +42,7 @@ void HonestPlayer::observe(naiad::ClientSession& session) {
   session.onBeforeSnapshot(
       [this, &session](std::uint32_t tick) { m_recorder.beforeSnapshot(session.replica(), tick); });
   session.onAfterSnapshot([this](const naiad::SnapshotHeader& header, const naiad::AckWindow& acks) {
-    m_picture.addSnapshot(header, acks);
-    m_recorder.afterSnapshot(header.tick, m_picture.isComplete(), true);
+    m_recorder.afterSnapshot(header, acks, true);
     if (!naiad::isNewer(header.tick, m_newest)) return;
     const Time now = std::chrono::steady_clock::now();
     if (m_news != Time{}) m_pause_ms = std::max(m_pause_ms, millisBetween(m_news, now));

@@ -60,7 +60,6 @@ class HonestPlayer {
   std::unique_ptr<Relay> m_relay;
   std::unique_ptr<naiad::Connection> m_connection;
   naiad::TruthRecorder m_recorder;
-  naiad::CompletenessTracker m_picture;
   bool m_observed = false;
   std::uint32_t m_player = 0;  ///< 0: has not joined yet
   bool m_thrown_out = false;

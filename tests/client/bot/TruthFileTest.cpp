@@ -99,6 +99,7 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   Replica replica;
   TruthRecorder recorder;
   std::uint32_t number = 0;
+  AckWindow acks;
   const auto take = [&](std::uint32_t tick, std::vector<ObjectRecord> objects) {
     recorder.beforeSnapshot(replica, tick);
     Snapshot snapshot;
@@ -106,7 +107,8 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
     snapshot.header.tick = tick;
     snapshot.records.objects = std::move(objects);
     replica.apply(snapshot);
-    recorder.afterSnapshot(tick, true, false);
+    acks.addReceived(number);
+    recorder.afterSnapshot(snapshot.header, acks, false);
   };
   take(10, {});
   take(10, {star(10, 5, 1)});   // the second part of tick 10
@@ -135,12 +137,35 @@ TEST_F(TruthFileTest, RecorderTakesTheLastPictureOfEachTick) {
   EXPECT_FALSE(recorder.compare(path + "-none", 1).readable);
 }
 
-TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
+/// Gives a recorder snapshots without records.
+class EmptySnapshots {
+ public:
+  explicit EmptySnapshots(TruthRecorder& recorder) : m_recorder(recorder) {}
+
+  void take(std::uint32_t number, std::uint32_t tick, bool complete, bool skips) {
+    m_recorder.beforeSnapshot(replica, tick);
+    m_acks.addReceived(number);
+    SnapshotHeader header;
+    header.number = number;
+    header.tick = tick;
+    header.complete = complete;
+    m_recorder.afterSnapshot(header, m_acks, skips);
+  }
+  /// Takes the snapshot with the next number.
+  void take(std::uint32_t tick, bool complete, bool skips) { take(m_acks.newest + 1, tick, complete, skips); }
+
   const Replica replica;
+
+ private:
+  TruthRecorder& m_recorder;
+  AckWindow m_acks;
+};
+
+TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
   TruthRecorder recorder;
+  EmptySnapshots snapshots(recorder);
   const auto take = [&](std::uint32_t tick, bool complete, bool skips) {
-    recorder.beforeSnapshot(replica, tick);
-    recorder.afterSnapshot(tick, complete, skips);
+    snapshots.take(tick, complete, skips);
   };
   TruthWriter writer(path);
   const df::Canvas blank(80, 24);
@@ -156,20 +181,37 @@ TEST_F(TruthFileTest, RecorderLeavesOutIncompleteTicks) {
   take(5, false, false);
   take(7, true, true);  // on the stream, so 8 and 9 may have been skipped
   take(10, true, false);
-  take(9, false, true);  // a late snapshot, so it says nothing about tick 10
   take(12, true, false);
-  recorder.finish(replica);
+  recorder.finish(snapshots.replica);
   const TruthRecorder::Comparison result = recorder.compare(path, 1);
   EXPECT_EQ(result.ticks, 6u);
   EXPECT_EQ(result.wrong, 0u) << "first at " << result.first_wrong_tick;
 }
 
+TEST_F(TruthFileTest, RecorderLeavesOutTicksThatLackAnEarlierSnapshot) {
+  TruthRecorder recorder;
+  EmptySnapshots snapshots(recorder);
+  TruthWriter writer(path);
+  const df::Canvas blank(80, 24);
+  for (std::uint32_t tick = 1; tick <= 6; ++tick)
+    writer.write(tick, 1, tick == 1 || tick == 6 ? blank : starAt(1));
+  snapshots.take(1, 1, true, true);
+  snapshots.take(3, 3, true, true);  // came on the other stream, and overtook 2
+  snapshots.take(4, 4, true, true);
+  snapshots.take(2, 2, true, true);  // late, so it says nothing about tick 4
+  snapshots.take(6, 6, true, true);
+  snapshots.take(5, 6, false, true);  // also of tick 6, which is complete now
+  recorder.finish(snapshots.replica);
+  const TruthRecorder::Comparison result = recorder.compare(path, 1);
+  EXPECT_EQ(result.ticks, 2u);
+  EXPECT_EQ(result.wrong, 0u) << "first at " << result.first_wrong_tick;
+}
+
 TEST_F(TruthFileTest, RecorderStopsAtItsCap) {
-  Replica replica;
   TruthRecorder recorder(80 * 24 * 10);
-  recorder.beforeSnapshot(replica, 1);
-  recorder.afterSnapshot(1, true, false);
-  recorder.beforeSnapshot(replica, 2000000000);  // a jump sent by a hostile server
+  EmptySnapshots snapshots(recorder);
+  snapshots.take(1, true, false);
+  recorder.beforeSnapshot(snapshots.replica, 2000000000);  // a jump sent by a hostile server
   EXPECT_EQ(recorder.tickCount(), 10u);
 }
 
