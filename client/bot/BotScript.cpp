@@ -88,8 +88,7 @@ std::vector<BotAction> ScriptPlayer::tick() {
   return out;
 }
 
-/// Advances to the next step that takes time. Terminates, because every loop and every script contains such a
-/// step.
+/// Advances to the next step that takes time. Terminates, because every loop and script contains such a step.
 void ScriptPlayer::skipLoops() {
   const auto& steps = m_script.steps();
   while (m_at < steps.size()) {

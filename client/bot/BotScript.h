@@ -91,8 +91,7 @@ class ScriptPlayer {
   df::Keyboard::Key m_down = df::Keyboard::UNDEFINED_KEY;
 };
 
-/// Presses and holds keys and clicks at random. Equal seeds and view sizes give equal actions on every
-/// platform.
+/// Presses and holds keys and clicks at random, equally on every platform for equal seeds and view sizes.
 class RandomPlayer {
  public:
   RandomPlayer(std::uint64_t seed, int view_width, int view_height);

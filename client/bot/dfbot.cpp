@@ -241,8 +241,7 @@ int run(const BotOptions& options) {
   bots.reserve(static_cast<std::size_t>(options.clients));
   for (int i = 0; i < options.clients; ++i) bots.push_back(std::make_unique<Bot>(context, options, i));
 
-  // Sockets to a gateway belong to another thread, so without this guard run_for() would not wait in an idle
-  // turn.
+  // Sockets to a gateway belong to another thread; without this, run_for() would not wait in an idle turn.
   auto work = asio::make_work_guard(context);
   std::optional<Clock::time_point> all_joined;
   std::optional<Clock::time_point> played_at;

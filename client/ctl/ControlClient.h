@@ -41,8 +41,7 @@ class ControlClient {
   void follow(const std::function<void(const std::string& line)>& show);
 
  private:
-  /// Returns false if the connection has ended. Throws ServerUnreachable after `timeout` without data;
-  /// negative: no time limit.
+  /// False if the connection ended. Throws ServerUnreachable after `timeout` without data; negative: none.
   bool readLine(std::string& line, std::chrono::milliseconds timeout);
 
   int m_socket;

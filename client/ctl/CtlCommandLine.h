@@ -7,8 +7,7 @@
 
 namespace naiad {
 
-/// Returns the completion script of dfctl for "bash", "zsh" or "fish", made from the table of commands;
-/// nullopt for other shells.
+/// Returns dfctl's completion script for "bash", "zsh" or "fish", from the table of commands; else nullopt.
 std::optional<std::string> ctlCompletion(const std::string& shell);
 /// Returns the sections of the man page dfctl(1): options, commands, environment, exit status.
 std::string ctlManSections();

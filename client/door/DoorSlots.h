@@ -13,23 +13,19 @@
 namespace naiad {
 
 /// Returns the folder name of the first key in `auth_info` (sshd's ExposeAuthInfo: lines "publickey TYPE
-/// BASE64"): the SHA-256 of its line as 64 hexadecimal digits. Nullopt if there is no key, or if `auth_info`
-/// is longer than 16,384 bytes.
+/// BASE64", at most 16,384 bytes): its line's SHA-256 in hexadecimal. Nullopt if too long or without a key.
 std::optional<std::string> keyFolderName(std::string_view auth_info);
 
-/// Folder with a visitor's data: the name they played under, and the files with which dfclient resumes a
-/// session. There is one for each SSH key, so visitors with a key are recognised on their next visit. One
-/// process at a time can lock it.
+/// A visitor's folder, one for each SSH key: the name they played under and the files with which dfclient
+/// resumes a session. So visitors are recognised on their next visit. One process at a time can lock it.
 ///
-/// Anyone can make keys, so folders are limited in number. At the limit, those unused for 30 days are
-/// removed.
+/// Anyone can make keys, so folders have a limit; when it is reached, those unused for 30 days are removed.
 class VisitorFolder {
  public:
   static constexpr std::size_t kMaxFolders = 10'000;
 
   /// Opens the folder in `folder` for the key of this name, and creates it with mode 0700 if it does not
-  /// exist. Returns null if it does not exist and there are already `max_folders` in use. Throws
-  /// std::system_error.
+  /// exist. Returns null if it does not exist and `max_folders` are already in use. Throws std::system_error.
   static std::unique_ptr<VisitorFolder> open(const std::filesystem::path& folder, const std::string& name,
                                              std::size_t max_folders = kMaxFolders);
   /// Makes a folder for a visitor without a key. The destructor removes it.
@@ -58,8 +54,7 @@ class VisitorFolder {
   int m_lock = -1;
 };
 
-/// A visitor's place at the door, for the lifetime of this object. Programs that this process executes do not
-/// inherit the place.
+/// A visitor's place at the door, for this object's lifetime. Executed programs do not inherit the place.
 class DoorSlot {
  public:
   struct Limits {
@@ -72,9 +67,8 @@ class DoorSlot {
     Refusal refusal = Refusal::kNone;
   };
 
-  /// Takes a place for the visitor at this address, such as "192.0.2.7:50312" or "[2001:db8::7]:50312".
-  /// Creates `folder` with mode 0700 if it is missing. Waits briefly while other processes acquire places.
-  /// Throws std::system_error.
+  /// Takes a place for the visitor at this address, e.g. "192.0.2.7:50312" or "[2001:db8::7]:50312". Creates
+  /// `folder` (0700) if it is missing. Waits briefly while others acquire places. Throws std::system_error.
   static AcquireResult acquire(const std::filesystem::path& folder, const std::string& visitor,
                                const Limits& limits);
 

@@ -63,8 +63,7 @@ std::optional<std::size_t> choiceOf(const std::string& answer, const std::vector
   return std::nullopt;
 }
 
-/// Prints `question` and reads a line. Nullopt if none comes within `timeout`, the terminal is gone, or the
-/// line is longer than 200 bytes.
+/// Prints `question` and reads a line. Nullopt after `timeout`, without a terminal, or beyond 200 bytes.
 std::optional<std::string> promptLine(const std::string& question, std::chrono::seconds timeout) {
   std::fputs(question.c_str(), stdout);
   std::fflush(stdout);

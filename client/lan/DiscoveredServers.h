@@ -1,5 +1,4 @@
-// List of servers found in the local network or on the web: bounded, without duplicates, and printable as
-// text and JSON.
+// Servers found in the local network or on the web: bounded, without duplicates, printable as text and JSON.
 #pragma once
 
 #include <asio/ip/address.hpp>

@@ -22,8 +22,7 @@ class LanBrowser {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// The first query is repeated after kRetryDelay, in case it was lost. The interval from then on is
-  /// kInterval.
+  /// The first query is repeated after kRetryDelay, in case it was lost. Then the interval is kInterval.
   static constexpr std::chrono::milliseconds kRetryDelay{400};
   static constexpr std::chrono::milliseconds kInterval{3000};
   /// Time after a query by which all servers of a quiet network have answered.

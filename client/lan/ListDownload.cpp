@@ -74,8 +74,7 @@ struct Download {
       std::make_shared<HttpExchange>(io, HttpLimits{.body = kMaxListBytes});
 };
 
-/// Destroys `download` on another thread, because the destructor of its io_context waits for the system's
-/// resolver, perhaps for long.
+/// Destroys `download` on another thread, because its io_context's destructor may wait long for the resolver.
 void dropLater(std::unique_ptr<Download> download) {
   std::thread([kept = std::move(download)] {}).detach();
 }

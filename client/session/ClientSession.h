@@ -4,9 +4,8 @@
 //       |                     +--channel closed, 15 s of silence--> kLost
 //       +--Refused--> kRefused          (a bad message ends any state in kEnded; leave() in kLeft)
 //
-// kLost is also the state after a Goodbye that announces a restart, after silence or a closed channel in
-// kGreeting, and if no picture comes. If the server has given a token, a session in kPlaying outlives its
-// stream (isDetached()).
+// kLost also follows a Goodbye that announces a restart, silence or a closed channel in kGreeting, and a
+// missing picture. With a token from the server, a session in kPlaying outlives its stream (isDetached()).
 //
 // For streams, the session uses neither sockets nor a clock: its owner passes each frame and the time to it
 // (Connection in the programs; the tests themselves). Datagrams use SessionOptions::open_socket and ::now.
@@ -46,12 +45,10 @@ class ClientSession {
   static constexpr std::chrono::seconds kIdleTimeout{15};
   /// Silence of the server after which a session without a stream ends.
   static constexpr std::chrono::seconds kDetachedTimeout{60};
-  /// The session ends if no picture follows the welcome within this time. A world in a process of its own may
-  /// take 30 s to start.
+  /// Time limit from welcome to picture; then the session ends. A world's own process may need 30 s to start.
   static constexpr std::chrono::seconds kPictureTimeout{45};
 
-  /// Takes the connected channel and sends the hello. The owner starts the channel and passes its events to
-  /// receive() and closed().
+  /// Sends the hello. The owner starts the connected channel and passes its events to receive() and closed().
   ClientSession(std::unique_ptr<ReliableChannel> channel, const SessionOptions& options, Time now);
   ClientSession(const ClientSession&) = delete;
   ClientSession& operator=(const ClientSession&) = delete;
@@ -70,8 +67,7 @@ class ClientSession {
   bool isResumed() const { return m_state == State::kPlaying && m_welcome.resumed; }
   /// Continues with the stream of `other`, on which the server resumed this session (welcome().resumed).
   void adopt(ClientSession& other, Time now);
-  /// True, once for each attempt, if datagrams do not pass and it is time to open a second stream for
-  /// startSecond().
+  /// True, once per attempt, if datagrams do not pass and it is time for a second stream (startSecond()).
   bool shouldOpenSecondStream(Time now);
   void startSecond(std::unique_ptr<ReliableChannel> channel);
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
@@ -90,9 +86,8 @@ class ClientSession {
   std::optional<Time> nextWake() const { return isOver() ? std::nullopt : m_timing.nextWake(); }
 
   // Actions of the player.
-  /// Sends a key or mouse action of the player immediately or, without a stream and datagrams, later. Returns
-  /// false if it is not sent: the session is not playing, the action is invalid, there are too many inputs,
-  /// or the stream is stuck.
+  /// Sends a key or mouse action of the player at once or, without a stream and datagrams, later. Returns
+  /// false if it is not sent: not playing, invalid action, too many inputs, or a stuck stream.
   bool sendKey(df::Keyboard::Key key, df::EventKeyboardAction action, Time now);
   /// `x`, `y`: cell of the view.
   bool sendMouse(df::EventMouseAction action, df::Mouse::Button button, int x, int y, Time now);
@@ -104,8 +99,7 @@ class ClientSession {
   /// Call often while the list is shown.
   void refreshRooms(Time now);
   static constexpr std::chrono::seconds kRoomListInterval{2};
-  /// Asks the server to move the player to that room. Ignores invalid names, and all names if the server has
-  /// no rooms.
+  /// Asks the server to move the player to that room. Ignores invalid names, and all if it has no rooms.
   void enterRoom(const std::string& room);
   /// Leaves on purpose: sends a leave message, and closes the channel after everything queued is sent.
   void leave();
@@ -140,8 +134,7 @@ class ClientSession {
   // The world.
   /// True if there is a picture to show: the whole world or, after half a second, the part that has arrived.
   bool hasPicture(Time now) const { return m_world.worlds().hasPicture(now); }
-  /// Returns how long the session has waited for a picture since the welcome; zero if there is one, or the
-  /// session is not playing.
+  /// Returns the time since the welcome without a picture; zero with one, or if the session is not playing.
   IdleTimer::Duration pictureWait(Time now) const;
   const Replica& replica() const { return m_world.replica(); }
   const DisplayClock& clock() const { return m_world.clock(); }

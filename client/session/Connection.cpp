@@ -296,8 +296,7 @@ bool Connection::isOver() const {
 }
 
 void Connection::finish(State state, const std::string& message) {
-  // The token is kept in the other final states, because the session may still exist on a server that was
-  // lost or that refused this client.
+  // Other final states keep the token: a lost server, or one that refused, may still have the session.
   const bool ended = state == State::kEnded || state == State::kLeft;
   if (m_p_tokens != nullptr && ended) m_p_tokens->remove();
   m_opener->cancel();

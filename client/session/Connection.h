@@ -65,8 +65,7 @@ class Connection {
   /// Saves the session's token in `tokens`, which must outlive the Connection, and resumes the session saved
   /// there. After a redirect, `tokens` is not used. Call before start().
   void setTokenStore(TokenStore& tokens) { m_p_tokens = &tokens; }
-  /// Replaces kOriginalRetryDelay, and for redirect targets kHandshakeRetryTimeout if `time` is shorter. Call
-  /// before start().
+  /// Before start(): replaces kOriginalRetryDelay, and a longer kHandshakeRetryTimeout for redirect targets.
   void setOriginalRetryDelay(std::chrono::milliseconds time) { m_original_retry_delay = time; }
   void start();
   /// Handles timeouts, pings and the next attempt. Call about ten times a second, and after every event.
@@ -86,11 +85,9 @@ class Connection {
   const std::string& message() const { return m_message; }
   /// True after a BUSY refusal; a retry is scheduled.
   bool isDeferred() const { return m_deferred; }
-  /// True if the server refused because its password was missing or wrong. False for the target of a
-  /// redirect.
+  /// True if the server refused for a missing or wrong password. False for the target of a redirect.
   bool isPasswordRefused() const { return m_password_refused; }
-  /// The key of the server on the newest stream (StreamOpener::key()); nullopt without TLS, or before the
-  /// first stream to this server.
+  /// The newest stream's key (StreamOpener::key()); nullopt without TLS or before this server's first stream.
   const std::optional<Fingerprint>& key() const { return m_key; }
   /// The session to show; null before the first picture.
   ClientSession* session() { return m_session.get(); }

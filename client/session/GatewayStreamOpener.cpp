@@ -15,8 +15,7 @@ namespace {
 
 using End = HttpExchange::End;
 
-/// Returns the TLS context that all connections of a thread share, because making one reads the system's
-/// trust store.
+/// Returns the TLS context that a thread's connections share: making one reads the system's trust store.
 const std::shared_ptr<const TlsContext>& webContext() {
   thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forWebClient();
   return made;

@@ -1,5 +1,4 @@
-// Numbered inputs of the player that the game has not applied yet. They are sent until a snapshot
-// acknowledges them.
+// The player's numbered inputs that the game has not applied, sent until a snapshot acknowledges them.
 //
 // A server applies 16 inputs a tick, queues 64 and ends the session of a client that sends more. A mouse with
 // 1000 reports a second, or text pasted into the game, must not cause that; the outbox limits the inputs.

@@ -31,8 +31,7 @@ class ReceivedWorld {
 
   /// Call when the player moves to another world. Its snapshots have this epoch; its tick is near `tick_now`.
   void enter(std::uint8_t epoch, std::uint32_t tick_now, Time now);
-  /// Reads and applies a snapshot; `before` is called just before it is applied. Removes acknowledged inputs
-  /// from `inputs`.
+  /// Reads and applies a snapshot; `before` is called just before. Removes acknowledged inputs from `inputs`.
   Result applySnapshot(std::string_view bytes, Time now, InputOutbox& inputs,
                        const std::function<void(std::uint32_t tick)>& before);
   /// Header of the snapshot that was applied last.
@@ -53,8 +52,7 @@ class ReceivedWorld {
 
   /// Adds a key that was just sent to the prediction.
   void predictInput(const Input& input) { m_prediction.addInput(input); }
-  /// Predicts the player's own object up to predictedTick(), in which the server will apply a key pressed
-  /// now.
+  /// Predicts the player's object up to predictedTick(), in which the server will apply a key pressed now.
   const Prediction& predict(Time now);
   std::uint32_t predictedTick(Time now) const;
   bool isPredicting() const { return m_prediction.isActive(); }

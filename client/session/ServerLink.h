@@ -29,8 +29,7 @@ namespace naiad {
 /// and updates use both streams, which are seldom delayed at once. Messages that need order (chat,
 /// players, music) use the first stream only.
 ///
-/// The owner opens the connection. The time is a parameter or, in start() and for frames,
-/// SessionOptions::now.
+/// The owner opens this stream. The time is a parameter or, in start() and for frames, SessionOptions::now.
 class SecondStream {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -88,8 +87,7 @@ class SealedDatagrams : public DatagramChannel {
   SealedDatagrams(std::unique_ptr<DatagramSocket> socket, const Endpoint& server, ConnectionId id, Now now,
                   SealLimits limits = {});
 
-  /// Derives keys from the session's newest stream (DatagramKeys.h). Returns false if that fails, or the
-  /// epoch is not newer.
+  /// Derives keys from the newest stream (DatagramKeys.h). False on failure or if the epoch is not newer.
   bool startEpoch(const KeyExporter& exporter, AeadId aead, Epoch epoch);
 
   void start(std::function<void(std::string_view packet)> on_packet) override;

@@ -5,8 +5,7 @@
 
 namespace naiad {
 
-/// Byte counts are the sizes of frame payloads, plus two bytes of header for each frame; datagrams count
-/// without headers.
+/// Byte counts are sizes of frame payloads, plus two header bytes per frame; datagrams count without headers.
 struct SessionCounters {
   std::uint64_t bytes_in = 0;
   std::uint64_t bytes_out = 0;

@@ -1,5 +1,4 @@
-// Interface that opens the streams of a session for a Connection, and checks whether the server behind them
-// is trusted.
+// Interface that opens a Connection's streams and checks whether the server behind them is trusted.
 #pragma once
 
 #include <chrono>
@@ -33,8 +32,7 @@ struct ServerTrust {
 /// Not thread-safe. May be destroyed at any time, even in its own callback; this cancels all attempts.
 class StreamOpener {
  public:
-  /// Called with either a channel, not started yet, and an empty `error`; or no channel and one sentence for
-  /// people.
+  /// Called with either an unstarted channel and an empty `error`, or no channel and one sentence for people.
   using Done = std::function<void(std::unique_ptr<ReliableChannel> channel, const std::string& error)>;
 
   virtual ~StreamOpener() = default;

@@ -14,8 +14,7 @@ namespace naiad {
 
 namespace {
 
-/// Returns the TLS context that all connections of a thread share, because making one reads the system's
-/// trust store, which takes 20 ms.
+/// Returns the TLS context that a thread's connections share: reading the system's trust store takes 20 ms.
 const std::shared_ptr<const TlsContext>& clientContext() {
   thread_local const std::shared_ptr<const TlsContext> made = TlsContext::forClient();
   return made;

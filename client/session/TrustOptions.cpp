@@ -31,8 +31,7 @@ std::string followLink(const JoinLink& link, ServerAddress& address, ServerTrust
   return {};
 }
 
-/// Sets the key that a server from a list must have. Used if its address has an IPv6 zone, which links cannot
-/// express.
+/// Sets the key that a listed server must have, if its address has an IPv6 zone, which links cannot express.
 std::string followList(const ShortKey& key, ServerTrust& trust) {
   if (trust.insecure) return "--insecure cannot be used with a list, which contains the servers' keys.";
   if (namesAnotherKey(trust, key))

@@ -1,5 +1,4 @@
-// Command-line options that dfclient and dfbot share: the server, its key, its password. Also their exit
-// codes.
+// Command-line options that dfclient and dfbot share: server, key, password. Also their exit codes.
 #pragma once
 
 #include <optional>
@@ -50,8 +49,7 @@ std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, Sessi
 
 /// Sets the results of the choice `server`: the address, the key that the server of a link or list must have,
 /// the gateway, the room and the proxy. Clears a password that must not be sent (dropsPassword()). Call after
-/// parseOptions(). Returns an error message; empty if all is right. After an error, the caller must not
-/// connect.
+/// parseOptions(). Returns an error message, or "" on success. After an error, the caller must not connect.
 std::string resolveServer(const ServerChoice& server, ServerAddress& address, ServerTrust& trust,
                           SessionOptions& session);
 

@@ -46,8 +46,7 @@ class StreamLiveness {
   std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// Adds a round trip measured with datagrams.
   void addRttSample(Millis sample, Time now) { m_stats.addSample(sample, now); }
-  /// Returns the smoothed round trip in whole milliseconds, rounded up, at most 99,999. Zero before the first
-  /// measurement.
+  /// Returns the smoothed round trip in milliseconds, rounded up, at most 99,999; zero before a measurement.
   std::chrono::milliseconds roundTrip() const;
 
  private:
@@ -70,8 +69,7 @@ class UpdateTiming {
   /// Time without received datagrams after which a probe is sent, because the server may have lost the
   /// client's address.
   static constexpr std::chrono::milliseconds kProbeDelay{400};
-  /// Time after a snapshot on the stream during which the client assumes that the server may not receive its
-  /// datagrams.
+  /// Time after a snapshot on the stream in which the client assumes that its datagrams may not arrive.
   static constexpr std::chrono::milliseconds kUndecidedWindow{500};
   static constexpr std::chrono::milliseconds kInputResendDelay{10};  ///< delay before an input is sent again
   static constexpr int kSnapshotsPerAck = 3;                         ///< snapshots per acknowledgement

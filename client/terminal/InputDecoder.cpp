@@ -70,8 +70,7 @@ struct InputDecoder::Numbers {
     return event;
   }
 
-  /// Decodes `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _`. `ch`: the whole
-  /// character.
+  /// Decodes `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _` of character `ch`.
   KeyEvent windowsKey(int ch) const {
     constexpr int kRightAlt = 1;
     constexpr int kLeftControl = 8;

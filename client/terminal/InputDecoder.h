@@ -1,8 +1,7 @@
 // Decodes the bytes of the player's terminal into events, in the encodings that common terminals use.
 //
-// ncurses would decode keys too, but not key releases, not mouse motion under every TERM, and it waits a
-// second after an ESC. So the client reads fd 0 itself. This decoder uses neither a terminal nor a clock. It
-// decodes:
+// ncurses would decode keys too, but not releases, not mouse motion under every TERM, and it waits a second
+// after an ESC. So the client reads fd 0 itself. This decoder uses neither terminal nor clock. It decodes:
 //   - plain characters, control bytes, UTF-8, Alt as an ESC before the character
 //   - cursor, editing and function keys of xterm, rxvt, the Linux console (CSI and SS3), with modifiers
 //   - the kitty keyboard protocol (press, repeat, release, alternate keys, text) and the reply to its query
@@ -50,8 +49,7 @@ struct MouseEvent {
   friend bool operator==(const MouseEvent&, const MouseEvent&) = default;
 };
 
-/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol. `flags`: the protocol's active
-/// flags.
+/// The reply to `CSI ? u`: the terminal supports the kitty keyboard protocol. `flags`: its active flags.
 struct KittyReply {
   int flags = 0;
   friend bool operator==(const KittyReply&, const KittyReply&) = default;

@@ -4,8 +4,7 @@
 // 0.7 s. So a release is guessed from silence, by a HoldRule. With the kitty protocol real releases arrive,
 // and nothing is guessed. docs/terminals.md has the rules that were compared.
 //
-// The repeat interval and the pause belong to the keyboard, so they are learned from all keys together. The
-// caller passes the time.
+// The keyboard's repeat interval and pause are learned from all keys together. The caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -25,11 +24,9 @@ struct KeyAction {
   friend bool operator==(const KeyAction&, const KeyAction&) = default;
 };
 
-/// Rule for guessing the releases that the terminal does not report. The default plays best in the games; the
-/// other values exist for comparison.
+/// Rule that guesses unreported releases. The default plays best in games; other values are for comparison.
 struct HoldRule {
-  /// Default of `companion`: long enough to keep running while jumping over a gap, too short to run far after
-  /// both keys were released.
+  /// Default of `companion`: long enough to keep running in a jump, too short to run far after both releases.
   static constexpr std::chrono::milliseconds kCompanion{300};
 
   /// Treatment of the first press of a direction key (arrows, WASD). A press of any other key is a tap.

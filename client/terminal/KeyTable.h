@@ -1,21 +1,17 @@
-// Tables that find the key of a character, a control byte, an escape sequence's number, a kitty code or a
-// virtual key of Windows.
+// Finds the key of a character, control byte, escape sequence number, kitty code or Windows virtual key.
 #pragma once
 
 #include "client/terminal/InputDecoder.h"
 
 namespace naiad {
 
-/// Returns the key that types `ch` on a US keyboard, with kShift if that needs shift ('A' is key A with
-/// shift). Undefined beyond ASCII.
+/// Returns the key that types `ch` (ASCII only) on a US keyboard, with kShift if needed ('A': key A, shift).
 KeyEvent keyOfCharacter(char32_t ch);
 
-/// Returns the key of a byte below 0x20 or of 0x7F: Return, Tab, Backspace, Escape, or Control with another
-/// key.
+/// Returns the key of a byte below 0x20 or 0x7F: Return, Tab, Backspace, Escape, or Control with a key.
 KeyEvent keyOfControl(unsigned char byte);
 
-/// Returns the key of `CSI … letter` and `SS3 letter`: cursor keys, Home, End, F1 to F4; Tab with shift
-/// (CSI); the keypad (SS3).
+/// Returns the key of `CSI … letter`, `SS3 letter`: cursor, Home, End, F1-F4; shift-Tab (CSI), keypad (SS3).
 df::Keyboard::Key keyOfFinal(char final, bool ss3);
 
 /// Returns the key of `CSI number ~`: editing and function keys, with the numbers of xterm and rxvt.

@@ -79,8 +79,7 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
     const bool has_default = use_default_colors() == OK;
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
-      // Dragonfly's colours are the bright ones. Black is drawn as bright black, because black text cannot be
-      // seen on a black background.
+      // Dragonfly's colours are the bright ones. Black becomes bright black, visible on a black background.
       short foreground = hasBright() ? brightColor(color) : cursesColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
       if (color == df::BLACK && COLORS > 8) foreground = 8;

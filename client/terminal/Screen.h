@@ -1,9 +1,8 @@
 // Shows pictures on the terminal with ncurses, which sends only the changes.
 //
-// Only cells that differ from the last picture are passed to ncurses. ncurses compares again, but making its
-// cells costs more than that: without the first comparison a frame takes 1.7 times the processor time at
-// 80x24 and 2.7 times at 200x60, and up to 8 % more bytes. With whole rows at a time (mvadd_wchnstr), the
-// factors are 1.4 and 2.4.
+// Only cells that differ from the last picture are passed to ncurses. It compares again, but making its cells
+// costs more: without the first comparison a frame takes 1.7 times the processor time at 80x24, 2.7 times at
+// 200x60, and up to 8 % more bytes. With whole rows (mvadd_wchnstr), the factors are 1.4 and 2.4.
 //
 // ncurses is used only for output: it never reads the keyboard and sets no signal handlers (the
 // TerminalGuard's are installed before). Only one Screen may exist at a time, used on one thread.
@@ -31,12 +30,10 @@ class Screen {
   /// Limit on the used part of the terminal: ncurses takes 100 bytes for each cell, and a visitor of a door
   /// chooses the size. A game's view is smaller (shared/replica/Limits.h).
   static constexpr Size kMaxSize{640, 256};
-  /// Returns the terminal's size, 1 to kMaxSize. If the terminal reports none, returns COLUMNS and LINES, or
-  /// 80 x 24.
+  /// Returns the terminal's size, 1 to kMaxSize. If it reports none, returns COLUMNS and LINES, or 80 x 24.
   static Size terminalSize();
 
-  /// Prepares ncurses for this terminal. Throws std::runtime_error, with a sentence for people, if that
-  /// fails.
+  /// Prepares ncurses for this terminal. Throws std::runtime_error with a sentence for people if it fails.
   explicit Screen(const Options& options);
   ~Screen();
   Screen(const Screen&) = delete;

@@ -35,8 +35,7 @@ class ScreenBuffer {
   void put(int x, int y, ScreenCell cell);
   /// Returns a cell; a blank one outside the picture.
   ScreenCell at(int x, int y) const;
-  /// Writes a safe text (SafeText.h) from (x, y) to the right, at most `columns` characters. Returns the
-  /// column after it.
+  /// Writes a safe text (SafeText.h) at (x, y), at most `columns` characters. Returns the column after it.
   int write(int x, int y, const std::string& text, int columns, df::Color color = df::COLOR_DEFAULT,
             Style style = Style::kPlain);
   /// Fills a rectangle with blanks.

@@ -80,9 +80,8 @@ pid_t shellOfGroup() {
 }
 
 /// Waits until the process group is in the foreground: it may have been continued in the background. Returns
-/// false if the process must end, because a signal asks it to, or its shell or terminal is gone. The process
-/// does not stop itself again: the shell takes it for running and would send no SIGCONT after a terminating
-/// signal.
+/// false if a signal asks the process to end, or its shell or terminal is gone. The process does not stop
+/// itself again: the shell takes it for running and would send no SIGCONT after a terminating signal.
 bool waitForForeground(pid_t shell) {
   while (!g_end_asked) {
     const pid_t foreground = tcgetpgrp(STDIN_FILENO);
@@ -107,8 +106,7 @@ bool isTerminating(int signal) {
   return std::find(std::begin(kTerminating), std::end(kTerminating), signal) != std::end(kTerminating);
 }
 
-/// Passes a signal to the thread that draws, which must not draw while another thread restores the terminal.
-/// Returns false in that thread itself.
+/// Passes a signal to the drawing thread, which must not draw during a restore. False in that thread itself.
 bool forward(int signal) {
   if (pthread_equal(pthread_self(), g_thread) != 0) return false;
   pthread_kill(g_thread, signal);

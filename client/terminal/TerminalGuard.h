@@ -1,17 +1,15 @@
 // Sets the terminal's modes for the client, and restores the terminal on every exit but _exit() and those by
 // signals that are not listed here, such as SIGKILL.
 //
-// It sets raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (escape
-// sequences written by hand), and the kitty keyboard protocol once the terminal has reported that it supports
-// it. Screen, made after the guard and destroyed before it, owns the alternate screen; at a crash the guard
-// leaves that screen, too.
+// It sets raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (hand-written
+// escape sequences), and the kitty keyboard protocol once the terminal reports its support. Screen, made
+// after the guard and destroyed before it, owns the alternate screen; at a crash the guard leaves it, too.
 //
 // restore() restores all this; the destructor calls it. exit() and the handlers of SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write prebuilt byte strings and call tcsetattr, both async-signal-safe; the process then
 // dies of the signal. SIGTERM, SIGHUP, SIGINT, SIGWINCH, SIGTSTP and SIGCONT become bytes from signalFd() for
-// the event loop. A second one of the first three restores the terminal and kills the process immediately. If
-// the event loop has not read one of these when the guard is destroyed, the destructor ends the process by
-// it.
+// the event loop. A second one of the first three restores the terminal and kills the process at once. If the
+// event loop has not read one of these when the guard is destroyed, the destructor ends the process by it.
 //
 // Only one guard may exist at a time, because signal handlers need static data. Signals may arrive in any
 // thread; the thread that made the guard, and draws, handles them.
@@ -65,8 +63,7 @@ class TerminalGuard {
   /// Restores the terminal; does nothing the second time.
   void restore();
 
-  /// Writes `size` bytes to the terminal. Gives up if the terminal is gone or, if fd 1 does not block,
-  /// accepts no byte for a second.
+  /// Writes to the terminal. Gives up if it is gone or, if fd 1 does not block, accepts no byte for a second.
   static void write(const char* bytes, unsigned long size);
 
  private:

@@ -29,8 +29,7 @@ Kind kindOf(const std::string& name) {
   return moves ? Kind::kDraws : Kind::kCannotDraw;
 }
 
-/// Like kindOf(), with the compiled-in description if the system has none. TERMINFO then stays set for the
-/// screen, which is made later.
+/// Like kindOf(), with the compiled-in description if the system has none; TERMINFO stays set for Screen.
 Kind kindWithBuiltIn(const std::string& name) {
   const Kind kind = kindOf(name);
   const char* const p_description = builtInTerminal(name);

@@ -18,9 +18,8 @@ struct TerminalType {
 /// people, if TERM is not set, its terminal cannot be drawn on, or no description is found.
 TerminalType chooseTerminalType(const char* p_term);
 
-/// Returns the compiled-in description of a common terminal, for systems without a database (bare containers,
-/// other Unixes). It is in the form of ncurses' variable TERMINFO ("b64:…"); null if the name is unknown.
-/// Lives as long as the program.
+/// Returns a common terminal's compiled-in description, for systems without a database (bare containers,
+/// other Unixes), as a value of ncurses' TERMINFO ("b64:…"); null if the name is unknown. Never freed.
 const char* builtInTerminal(std::string_view name);
 
 }  // namespace naiad

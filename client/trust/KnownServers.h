@@ -44,8 +44,7 @@ class KnownServersError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Thread-safe, and any number of processes may use one file: writers lock NAME.lock and replace the whole
-/// file.
+/// Thread-safe, and any number of processes may use one file: writers lock NAME.lock and replace the file.
 class KnownServers {
  public:
   /// Returns naiad/known_servers in $XDG_DATA_HOME, or in ~/.local/share. Throws KnownServersError if neither

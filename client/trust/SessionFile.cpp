@@ -152,8 +152,7 @@ void SessionFile::refresh(Time now) {
   write(now);
 }
 
-// Writes in place, because the lock is on this file, and all at once, because the process may be killed at
-// any moment.
+// Writes in place, because this file is locked, and all at once, because the process may die at any time.
 void SessionFile::write(Time now) {
   m_saved->alive = now;
   const auto text = writeSavedSession(*m_saved);

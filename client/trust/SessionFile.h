@@ -2,8 +2,7 @@
 // has a file, locked while it runs, so that a second terminal cannot take the session of the first.
 //
 // Files have mode 0600 in a directory that only the user can access. A file that others can access is
-// reported and not used, and a damaged one is removed, too: the player then joins as a new one. Nothing here
-// throws.
+// reported and not used, and a damaged one is removed, too: the player joins as a new one. Nothing throws.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +21,7 @@ class SessionFile : public TokenStore {
   /// Interval at which the time in the file is updated.
   static constexpr std::chrono::seconds kRefresh{2};
 
-  /// Returns naiad/sessions in $XDG_STATE_HOME, or in ~/.local/state; nullopt if neither XDG_STATE_HOME nor
-  /// HOME is set.
+  /// Returns naiad/sessions in $XDG_STATE_HOME or $HOME/.local/state; nullopt if neither variable is set.
   static std::optional<std::filesystem::path> defaultDirectory();
 
   /// Takes over the newest file of a client that no longer runs and played at `server`

@@ -44,8 +44,7 @@ class TokenStore {
 
   /// Returns the token of an earlier session with the server that has this key; empty without a session.
   virtual std::string tokenFor(const Fingerprint& key) const = 0;
-  /// Stores a new token; an empty one removes the stored session. The store sets `session.server` and `alive`
-  /// itself.
+  /// Stores a new token; an empty one removes the stored session. Sets `session.server` and `alive` itself.
   virtual void save(SavedSession session, Time now) = 0;
   /// Records that the session is alive. Call about once a second or more often.
   virtual void refresh(Time now) = 0;

@@ -21,8 +21,7 @@ bool isModifierKey(Key key) {
          key == LEFTALT || key == RIGHTALT;
 }
 
-/// Returns the number of lines that a key scrolls down; 0 if it does not scroll. `page`: number of lines of a
-/// page.
+/// Returns the lines that a key scrolls down; 0 if it does not scroll. `page`: number of lines of a page.
 int linesDown(Key key, int page) {
   if (key == UPARROW || key == DOWNARROW) return key == UPARROW ? -1 : 1;
   if (key == PAGEUP || key == PAGEDOWN) return key == PAGEUP ? -page : page;

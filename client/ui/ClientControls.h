@@ -72,8 +72,7 @@ class ClientControls {
 
   /// Handles a key event.
   Result handleKey(const KeyEvent& event);
-  /// Inserts pasted text into an open chat line, up to its limit, without sending it. Returns false if none
-  /// is open.
+  /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
   bool insertPasted(const std::u32string& text);
   /// Sets an open chat line to the contents of the page's text field.
   void setChatText(std::string_view text);

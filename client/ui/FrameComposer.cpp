@@ -9,8 +9,7 @@
 namespace naiad {
 namespace {
 
-/// Number of chat lines that a frame may need: those that the highest terminal shows, and a page for
-/// scrolling.
+/// Chat lines that a frame may need: those that the highest terminal shows, and a page for scrolling.
 constexpr std::size_t kHistoryRows = 300;
 
 /// Time for which a pointer marks the player's own object when it first appears.

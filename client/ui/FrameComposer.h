@@ -43,8 +43,7 @@ class StatusTimer {
   Time m_until{};
 };
 
-/// Asks the server to move the player to line `choice` of the session's room list. Does nothing if the
-/// session is null.
+/// Asks the server to move the player to line `choice` of the room list. Does nothing without a session.
 void enterChosenRoom(ClientSession* p_session, int choice);
 
 class FrameComposer {
@@ -55,8 +54,7 @@ class FrameComposer {
   FrameComposer(Connection& connection, const ClientControls& controls, const SoundIndicator& sounds)
       : m_connection(connection), m_controls(controls), m_sounds(sounds) {}
 
-  /// True if a frame composed now would differ from the last one. Does not notice all changes of the
-  /// controls.
+  /// True if a frame composed now would differ from the last. Does not notice all changes of the controls.
   bool isStale(Time now) { return !(currentState(now) == m_composed); }
   ScreenModel composeFrame(Time now);
   /// Shows a line of the client itself among the chat lines, for as long as a chat line.

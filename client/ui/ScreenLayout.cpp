@@ -81,8 +81,7 @@ int drawPlayerRows(ScreenBuffer& picture, const ScreenModel& model, int x, int y
   return y + 1;
 }
 
-/// Draws the help with its last line in row `bottom`. Returns the last row for the chat above it: the row
-/// between them stays blank.
+/// Draws the help down to row `bottom`. Returns the last row for the chat, above a blank row.
 int drawHelpRows(ScreenBuffer& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));

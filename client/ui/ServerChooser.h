@@ -27,8 +27,7 @@ class ServerChooser {
     TerminalType terminal;
     bool ascii = false;
     bool colors = true;
-    /// Fetches a list; keys typed before it returns are handled afterwards. Empty: show the local network's
-    /// servers.
+    /// Fetches a list; keys typed until it returns are handled then. Empty: show the local network's servers.
     std::function<std::variant<DiscoveredServers, DownloadError>()> fetch{};
   };
   struct Outcome {

@@ -2,8 +2,7 @@
 //
 // A bare root file system has no locale, and glibc would load name service modules of the system, which
 // belong to another glibc. The linker (--wrap) makes ncurses and dfclient call the functions below, which
-// provide UTF-8 without a locale. Host names come only from /etc/hosts and DNS, both of which glibc itself
-// contains.
+// provide UTF-8 without a locale. Host names come only from /etc/hosts and DNS, both built into glibc.
 #include <langinfo.h>
 #include <nss.h>
 #include <strings.h>

@@ -14,8 +14,7 @@ inline constexpr int kMinRows = 10;
 /// Width of the status at the right of the view, if there is no row for it.
 inline constexpr int kSideColumns = 11;
 
-/// Position of the view: terminal cell (left + i, top + j) shows view cell (view_x + i, view_y + j), for
-/// i < width, j < height.
+/// Terminal cell (left + i, top + j) shows view cell (view_x + i, view_y + j), for i < width, j < height.
 struct ViewPlacement {
   int left = 0;
   int top = 0;

@@ -210,8 +210,7 @@ int printServers(const CommandLine& line) {
 
 /// Lets the player choose a server on the screen. Returns the exit code if the player joins none.
 std::optional<int> chooseServer(CommandLine& line) {
-  // A door must name the server, because its visitors get no list. Without a terminal, no list can be
-  // shown.
+  // A door must name the server, because its visitors get no list. Without a terminal, no list can be shown.
   const bool is_visit = !line.server.visitors.empty() || !line.server.visitor.empty();
   if (is_visit || !naiad::TerminalGuard::isTerminal())
     return complain(naiad::kExitUsage, "server is required\nRun dfclient --help for more information.");
@@ -381,8 +380,7 @@ int start(int argc, char** argv) {
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, optionsOf(line), argc, argv)))
     return *code;
 
-  // If the game that started this client crashes, end as well, so that its last picture does not stay on the
-  // terminal.
+  // If the game that started this client crashes, end too, so that its last picture leaves the terminal.
   if (line.attached) prctl(PR_SET_PDEATHSIG, SIGTERM);
 
   if (const std::string wrong = listComplaint(line); !wrong.empty())

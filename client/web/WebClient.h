@@ -1,5 +1,4 @@
-// The client in a browser, corresponding to ClientApp in a terminal. The page passes it keys, pointer and
-// messages, and draws its picture.
+// ClientApp's counterpart in a browser. The page passes keys, pointer and messages, and draws the picture.
 //
 // Session, replica, prediction, controls and layout are those of dfclient. The caller passes the time, but
 // Connection also reads the clock. Nothing here blocks.

@@ -148,8 +148,7 @@ NAIAD_EXPORT(closed) void webClosed(int stream, int code, std::size_t size) {
   if (module().client) module().client->streams().closed(stream, code, input(0, size));
 }
 
-/// buffer() contains KeyboardEvent.key, `key` bytes long, followed by KeyboardEvent.code, `code` bytes long.
-/// `action`: 0 down, 1 repeat, 2 up.
+/// buffer() has KeyboardEvent.key (`key` bytes) and .code (`code` bytes). `action`: 0 down, 1 repeat, 2 up.
 NAIAD_EXPORT(key) void webKey(std::size_t key, std::size_t code, int action, int modifiers) {
   if (!module().client || action < 0 || action > 2) return;
   module().client->pressKey(input(0, key), input(key, code), static_cast<naiad::KeyEvent::Action>(action),

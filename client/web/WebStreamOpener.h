@@ -16,8 +16,7 @@
 
 namespace naiad {
 
-/// Interface of the client in a browser to its page, which is JavaScript (page/page.js). Tests implement it,
-/// too.
+/// Interface of the client in a browser to its JavaScript page (page/page.js). Tests implement it, too.
 ///
 /// The client numbers streams from 1; no number is reused. The page reports the events of streams to
 /// WebStreamOpener, but never during a call of this interface.
@@ -64,8 +63,7 @@ class WebStreamOpener : public StreamOpener {
 
   /// Handles timeouts. Call about ten times a second.
   void update(Time now);
-  /// Returns why the gateway last refused a stream, as a sentence for the player; empty once a stream has
-  /// received a message.
+  /// Returns a sentence why the gateway last refused a stream; empty once a stream has received a message.
   const std::string& refusal() const { return m_refusal; }
   /// True if the refusal is final: a retry would fail in this way, too.
   bool isRefusalFinal() const { return m_final; }

@@ -25,8 +25,7 @@ void DisplayClock::onSnapshot(std::uint32_t tick, Time now) {
   m_newest = tick;
   Time expected = m_anchor_time + due(tick);
   const Duration late = now - expected;
-  // An early arrival corrects the anchor fully; a late one may be jitter. A delay of more than a second means
-  // that the server paused or jumped.
+  // Correct fully if early, or over a second late (the server paused or jumped); other delays may be jitter.
   if (late < Duration::zero() || late > std::chrono::seconds(1)) {
     expected = now;
   } else {

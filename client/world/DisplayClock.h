@@ -30,16 +30,13 @@ class DisplayClock {
   explicit DisplayClock(Duration tick_length) : m_length(tick_length) {}
 
   /// Sets the age of a snapshot on arrival: half the shortest round trip. The picture makes up for it, up to
-  /// kMaxLead. With a longer lead, objects that change course would make more cells wrong than the lead
-  /// corrects.
+  /// kMaxLead. With a longer lead, objects that change course would make more cells wrong than it corrects.
   void setDelay(Duration delay) { m_lead = std::clamp<Duration>(delay, Duration::zero(), kMaxLead); }
   /// Call when a snapshot of `tick` arrives.
   void onSnapshot(std::uint32_t tick, Time now);
-  /// Returns the tick to draw: never lower than the last one returned, unless that is more than kMaxAhead
-  /// beyond the newest snapshot.
+  /// Returns the tick to draw: not below the last, unless that is over kMaxAhead beyond the newest snapshot.
   std::uint32_t displayTick(Time now);
-  /// Returns the time since the newest tick should have arrived, in ticks, at most kMaxAhead; 0 before the
-  /// first snapshot.
+  /// Returns the ticks since the newest should have arrived, at most kMaxAhead; 0 before the first snapshot.
   double ticksSinceNewest(Time now) const;
   /// Returns the newest tick of any snapshot; 0 before the first.
   std::uint32_t newestTick() const { return m_newest; }

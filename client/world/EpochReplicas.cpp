@@ -5,8 +5,7 @@
 namespace naiad {
 
 // Snapshot numbers continue through all epochs. So a snapshot of another epoch that is not newer than all
-// snapshots of this world is a late one of an earlier world. (One of two streams may lag behind by several
-// worlds.)
+// snapshots of this world is a late one of an earlier world. (One of two streams may lag by several worlds.)
 Replica* EpochReplicas::replicaFor(std::string_view bytes, Time now) {
   const auto epoch = peekEpoch(bytes);
   if (!epoch || *epoch == m_epoch) return &m_replica;

@@ -1,5 +1,4 @@
-// The client's world, as snapshots describe it. Each epoch has a replica; this class chooses the replica for
-// each snapshot and the one to show.
+// The client's world, with a replica for each epoch. Chooses the one for each snapshot and the one to show.
 //
 // The first world is not shown before it is complete: its objects may take several snapshots, and some time
 // on a slow connection. A snapshot of the next epoch starts another world in a second replica, while the old
@@ -54,8 +53,7 @@ class EpochReplicas {
 
   /// Returns the replica to show.
   const Replica& shown() const { return m_replica; }
-  /// True if the first world is complete, or its first snapshot arrived kIncompleteTimeout ago or earlier.
-  /// Once true, it stays true.
+  /// True once the first world is complete, or kIncompleteTimeout after its first snapshot; then stays true.
   bool hasPicture(Time now) const {
     return m_first_complete || (m_first_at && now - *m_first_at >= kIncompleteTimeout);
   }

@@ -24,8 +24,7 @@ class InputTickEstimator {
   static constexpr double kGrow = 0.15;
   static constexpr double kShrink = 0.004;
 
-  /// Adds a sample of the round trip. The shortest of the last eight is used, because longer ones include
-  /// queueing.
+  /// Adds a round trip. The shortest of the last eight is used, because longer ones include queueing.
   void addRttSample(Millis sample);
   /// Call when the server has applied an input in tick `taken` that requested tick `asked`.
   void onInputApplied(std::uint32_t asked, std::uint32_t taken);

@@ -9,8 +9,7 @@
 // run() should run to the tick in which the server will apply a key pressed now: ahead of the newest snapshot
 // by a round trip and a margin for jitter. So a key shows in the next frame, whatever the round trip.
 //
-// Uses no clock and no I/O. Ticks are serial numbers. Not thread-safe. Memory is bounded whatever the server
-// sends.
+// Uses no clock or I/O. Ticks are serial numbers. Not thread-safe. Memory is bounded whatever arrives.
 #pragma once
 
 #include <array>
@@ -50,8 +49,7 @@ class Prediction {
   /// Forgets everything but the counters, for another world.
   void reset();
 
-  /// Predicts the object's state at the end of `tick`. The replica should be as new as the last exact
-  /// state.
+  /// Predicts the object's state at the end of `tick`. The replica should be as new as the last exact state.
   void run(const Replica& replica, std::uint32_t tick);
 
   /// True if the last run() found an object to predict.

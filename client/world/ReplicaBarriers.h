@@ -10,8 +10,7 @@
 
 namespace naiad {
 
-/// Returns the box of an object at this position, in world coordinates; nullopt beyond 10^9 cells, where
-/// nothing can block.
+/// Returns the object's box in world coordinates; nullopt beyond 10^9 cells, where nothing can block.
 std::optional<df::FixedBox> boxAt(const Body& body, df::FixedVector position);
 
 /// Returns the smallest box around all boxes of the object in the ticks from `first` to `last`, both
@@ -20,8 +19,7 @@ std::optional<df::FixedBox> boxAlong(const ObjectState& object, std::uint32_t fi
 
 class ReplicaBarriers : public Barriers {
  public:
-  /// Limit on the work, in boxes computed or compared: about two milliseconds. Once it is used up, the
-  /// remaining objects do not block.
+  /// Work limit in boxes computed or compared: about two milliseconds. After it, other objects do not block.
   static constexpr std::size_t kMaxWork = 200'000;
 
   /// Collects the replica's objects that can block `own` in the ticks after `first` up to `last`, if it moves

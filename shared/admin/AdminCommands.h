@@ -51,8 +51,7 @@ const AdminCommand* findAdminCommand(std::string_view name);
 
 /// Returns the command and its arguments, for example "ban WHO [FOR] [REASON]".
 std::string adminUsage(const AdminCommand& command);
-/// Returns a line with usage and help, in two columns, for each command that users of `level` may give at
-/// `place`.
+/// Returns a line with usage and help, in two columns, for each command that `level` allows at `place`.
 std::vector<std::string> adminHelp(AdminCommand::Level level, AdminCommand::Frontend place);
 /// Returns the usage, help and arguments of one command.
 std::vector<std::string> adminHelp(const AdminCommand& command);

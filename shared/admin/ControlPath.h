@@ -8,8 +8,7 @@
 
 namespace naiad {
 
-/// Returns the naiad folder in $XDG_RUNTIME_DIR, else in $HOME/.local/state; nullopt if neither variable is
-/// an absolute path.
+/// Returns the naiad folder in $XDG_RUNTIME_DIR, else in $HOME/.local/state; nullopt if neither is absolute.
 std::optional<std::filesystem::path> controlFolder();
 /// Returns the path of control-PORT.sock in controlFolder(); nullopt without that folder.
 std::optional<std::filesystem::path> controlPath(std::uint16_t port);

@@ -73,8 +73,7 @@ std::string serverIdOf(std::string_view text);
 std::string presenceSubject(std::string_view id);
 std::string resultSubject(std::string_view id);
 std::string redirectSubject(std::string_view id);
-/// Returns "naiad.sendon.ID", which versions before 0.2 use instead of redirectSubject(). This version uses
-/// both subjects.
+/// Returns "naiad.sendon.ID", used before version 0.2 instead of redirectSubject(). This version uses both.
 std::string formerRedirectSubject(std::string_view id);
 
 /// A score on the bus (HighScores.h): a row of a table, with its origin.

@@ -68,8 +68,7 @@ class Json {
   const Json* find(std::string_view name) const;
   /// Like find(), but returns a JSON null instead of nullptr: json["status"]["ports"].
   const Json& operator[](std::string_view name) const;
-  /// Sets a member; an existing one keeps its position. Other values than objects become an empty object
-  /// first.
+  /// Sets a member; an existing one keeps its position. Values of other types become an empty object first.
   void set(std::string_view name, Json value);
 
  private:

@@ -10,8 +10,7 @@
 
 namespace df::math {
 
-/// Rounds `x` to the nearest whole number, ties to even, for |x| < 2^51, because the sum with kShift has no
-/// fraction.
+/// Rounds `x` to the nearest whole number, ties to even, for |x| < 2^51: the sum with kShift has no fraction.
 constexpr double rounded(double x) {
   constexpr double kShift = 0x1.8p52;
   return (x + kShift) - kShift;

@@ -117,8 +117,7 @@ class BitWriter {
   int m_pending_count = 0;  ///< below 64 between calls
 };
 
-/// Reads the bits of a BitWriter. After a missing or out-of-range number, ok() is false and all reads return
-/// 0.
+/// Reads the bits of a BitWriter. After a missing or out-of-range number, ok() is false and reads return 0.
 class BitReader {
  public:
   explicit BitReader(std::string_view bytes) : m_bytes(bytes) {}
@@ -126,8 +125,7 @@ class BitReader {
   bool ok() const { return m_ok; }
   void fail() { m_ok = false; }
   std::size_t remainingBits() const { return m_bytes.size() * 8 - m_at; }
-  /// True if ok() and nothing is left but the padding of the last byte, which must be zeros. Reads the
-  /// padding.
+  /// True if ok() and only the last byte's padding, which must be zeros, is left. Reads the padding.
   bool atEnd() {
     const int left = static_cast<int>(remainingBits());
     return m_ok && remainingBits() < 8 && bits(left) == 0;

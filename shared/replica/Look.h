@@ -58,8 +58,7 @@ class Sequence {
 
   /// The number of glyphs in all appearances.
   std::size_t glyphCount() const { return empty() ? 0 : m_p_data->glyphs; }
-  /// Returns the size that counts towards memory limits: the glyphs, and three for each appearance after the
-  /// first.
+  /// Returns the size for memory limits: the glyphs, and three for each appearance after the first.
   std::size_t weight() const { return empty() ? 0 : m_p_data->glyphs + 3 * (m_p_data->frames.size() - 1); }
   /// Checksum of the sequence (PROTOCOL.md, "Checksum"); 0 if it is empty.
   std::uint64_t sum() const { return empty() ? 0 : m_p_data->sum; }
@@ -67,8 +66,7 @@ class Sequence {
   std::int32_t reach() const { return empty() ? 0 : m_p_data->reach; }
   /// True if all glyphs are whole cells apart, and whole or half cells from the object on each axis.
   bool isWhole() const { return empty() || m_p_data->whole; }
-  /// Returns the part of a cell, in glyph units, by which every glyph's offset exceeds whole cells. Call only
-  /// if isWhole().
+  /// Returns by which part of a cell, in glyph units, all offsets exceed whole cells. Call only if isWhole().
   CellPosition fraction() const { return empty() ? CellPosition{} : m_p_data->fraction; }
   /// True if both share their memory; then they are equal.
   bool isSharedWith(const Sequence& other) const { return m_p_data == other.m_p_data; }

@@ -48,8 +48,7 @@ struct Selector {
   std::uint32_t age(std::uint32_t tick, std::size_t frames) const;
   /// Returns a selector that shows the same frames from `tick` on, with the latest possible start.
   Selector rebased(std::uint32_t tick, std::size_t frames) const;
-  /// True if it may be sent at `tick`: it is valid and has its latest start, so that each meaning has one
-  /// encoding.
+  /// True if it may be sent at `tick`: it is valid with its latest start, so each meaning has one encoding.
   bool isCanonical(std::uint32_t tick, std::size_t frames) const {
     return fits(frames) && *this == rebased(tick, frames);
   }

@@ -13,8 +13,7 @@ namespace naiad {
 /// Appends a motion; `motion.position` must hold at the snapshot's tick.
 void writeMotion(BitWriter& out, const Motion& motion, const Origin& origin);
 
-/// A motion with those of its bits that are equal for all clients: all but the cell, which depends on the
-/// origin.
+/// A motion with the bits that are equal for all clients: all but the cell, which depends on the origin.
 struct SharedMotion {
   SharedMotion() = default;
   SharedMotion(const Motion& m, std::uint64_t kept, int kept_count)

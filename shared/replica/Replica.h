@@ -20,15 +20,13 @@
 
 namespace naiad {
 
-/// Maximum number of objects, including dead ones, that a replica remembers; records of further ones are
-/// counted only.
+/// Maximum number of objects, dead ones included, that a replica remembers; further records are only counted.
 inline constexpr std::size_t kMaxReplicaObjects = 1u << 17;
 /// Maximum glyphs of all looks together (16 bytes each). A shared sequence counts once, and each appearance
 /// after its first counts as three more glyphs. A look beyond the limit is ignored and counted.
 inline constexpr std::size_t kMaxReplicaGlyphs = 1u << 21;
 
-/// Maximum objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 cells has 60,000
-/// cells.
+/// Maximum objects and glyphs of one picture; the topmost are kept. A view of 400 x 150 has 60,000 cells.
 inline constexpr std::size_t kMaxDrawnObjects = 1u << 16;
 inline constexpr std::size_t kMaxDrawnGlyphs = 1u << 19;
 
@@ -73,8 +71,7 @@ class Replica {
   CellPosition viewCorner(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Returns the view cell of the followed object at `tick`; the view's centre if no object is followed.
   CellPosition focus(std::uint32_t tick, const Placement* p_placement = nullptr) const;
-  /// Returns the view cell of the player's steered object at `tick`; nullopt if there is none or it is
-  /// outside the view.
+  /// Returns the view cell of the player's steered object at `tick`; nullopt without one in the view.
   std::optional<CellPosition> ownCell(std::uint32_t tick, const Placement* p_placement = nullptr) const;
   /// Returns the view at `tick` according to its record, and the boundary of its world.
   ViewFrame viewFrame(std::uint32_t tick) const;

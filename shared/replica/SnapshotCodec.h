@@ -74,8 +74,7 @@ class SnapshotWriter {
   /// Adds an encoded record. Call at most once for each id.
   void object(std::uint32_t id, const BitWriter& bits);
 
-  /// Like encode() and object() without a copy. Returns the record's size in bits; then call commit() or
-  /// drop().
+  /// Like encode() and object() without a copy. Returns the size in bits; then call commit() or drop().
   std::size_t stage(std::uint8_t groups, std::uint8_t generation, const ObjectState& state,
                     const SharedMotion& motion, LookForm form = {});
   void commit(std::uint32_t id);

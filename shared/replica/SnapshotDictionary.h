@@ -1,5 +1,4 @@
-// The definitions that a receiver has read from snapshots: origins of positions, and sequences of
-// appearances.
+// Definitions that a receiver has read from snapshots: origins of positions, sequences of appearances.
 #pragma once
 
 #include <array>

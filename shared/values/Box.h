@@ -1,5 +1,4 @@
-// An axis-aligned rectangle in cells (Dragonfly book, section 4.13): an Object's bounding box, a view, a
-// boundary.
+// An axis-aligned rectangle in cells (book, section 4.13): an Object's bounding box, a view, a boundary.
 #pragma once
 
 #include "Vector.h"

@@ -1,5 +1,4 @@
-// A grid of coloured characters: the image of a view. The server's display, the client's screen and the truth
-// file use this type.
+// A grid of coloured characters: a view's image in the server's display, the client's screen, the truth file.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +40,7 @@ class Canvas {
   /// Returns all rows, each followed by a newline, without trailing blanks.
   std::string text() const;
 
-  /// Returns the number of different cells. If the sizes differ, returns the larger width times the larger
-  /// height.
+  /// Returns the number of different cells; if the sizes differ, the larger width times the larger height.
   friend int countDifferences(const Canvas& a, const Canvas& b);
 
  private:
@@ -57,9 +55,8 @@ void appendUtf8(std::string& out, char32_t ch);
 /// Decodes UTF-8; malformed bytes become U+FFFD.
 std::u32string decodeUtf8(const std::string& text);
 
-/// True if the character is in one of the ranges that may be drawn. They have only printable characters that
-/// are one column wide: no control, bidi or zero-width characters. All characters sent to a terminal pass
-/// this test.
+/// True if the character is in one of the ranges that may be drawn. They have only printable characters, one
+/// column wide: no control, bidi or zero-width characters. All characters sent to a terminal pass this test.
 bool isDrawable(char32_t ch);
 
 }  // namespace df

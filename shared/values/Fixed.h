@@ -1,8 +1,7 @@
 // Fixed-point world coordinates: the only number type of the world store, the replica and the wire.
 //
-// A coordinate is an int64 in units of 2^-32 cell. Sums of coordinates are exact and associative, so a path
-// does not depend on its place in the world, the compiler or the optimisation level, and server and client
-// get equal sums.
+// A coordinate is an int64 in units of 2^-32 cell. Sums are exact and associative, so a path does not depend
+// on its place in the world, the compiler or the optimisation level, and server and client get equal sums.
 //
 // Ranges: a position is within ±kMaxCells on each axis (2e9 cells; the type itself reaches 2^31), a velocity
 // or acceleration within ±kMaxVelocityCells per tick. A valid position plus a valid velocity never overflows.

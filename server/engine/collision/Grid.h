@@ -125,8 +125,7 @@ class Grid {
     void shape(std::size_t word_count, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1);
   };
 
-  /// Returns the place of a position within its cell, floored: x in the lowest eight bits, y in the next
-  /// seven.
+  /// Returns a position's place within its cell, floored: x in the lowest eight bits, y in the next seven.
   static Spot spotOf(FixedVector p) {
     return static_cast<Spot>((p.x >> (kFixedBits - 8) & 0xFF) | (p.y >> (kFixedBits - 7) & 0x7F) << 8);
   }

@@ -12,9 +12,8 @@ namespace df {
 
 /// A bit per cell of level 0, set if a character there may touch a box of another level. If it is clear, a
 /// move to this cell need not search the other levels. The bits are exact only while such boxes cover few
-/// cells; otherwise, and while there is a large box, all count as set. Moving a box costs time for each of
-/// its cells, moving a character one bit test. Making a cover costs about as much as the changes that make it
-/// necessary.
+/// cells; otherwise, and while there is a large box, all count as set. Moving a box costs time per cell,
+/// moving a character one bit test. Making a cover costs about as much as the changes that make it necessary.
 class Grid::CoverageMask {
  public:
   /// If all boxes of other levels together take more than this many cells per character, the cover is no
@@ -30,8 +29,7 @@ class Grid::CoverageMask {
   bool isExact() const { return m_is_exact; }
   /// Sets whether all bits count as set. Keeps the filed boxes.
   void cover(bool is_covered);
-  /// Files the slot's box at `world_box`, and removes it from where it was filed before. The cover must be
-  /// exact.
+  /// Files the slot's box at `world_box`, no longer where it was filed before. The cover must be exact.
   void file(const Level& level, Slot slot, const FixedBox& world_box);
   void remove(const Level& level, Slot slot);
   /// Returns the bits, arranged like the words of the level.

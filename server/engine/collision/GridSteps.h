@@ -28,8 +28,7 @@ class Grid::Steps {
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;
   Steps& operator=(const Steps&) = delete;
-  /// True if `s`, which is filed, would touch nothing at `where`. If false, found() lists the slots it would
-  /// touch.
+  /// True if the filed slot `s` would touch nothing at `where`; else found() lists the slots it would touch.
   bool isFree(Slot s, FixedVector where) {
     return m_p_records[s].level == 0 ? isCharacterFree(s, where) : isBoxFree(s, m_p_records[s], where);
   }
@@ -37,8 +36,7 @@ class Grid::Steps {
   std::span<const Slot> found() const {
     return {m_count <= kFew ? m_few.data() : m_grid.m_found.data(), m_count};
   }
-  /// Files `s` at `where`, the arguments of the last isFree(). The caller must have set its position to
-  /// `where`.
+  /// Files `s` at `where`, the arguments of the last isFree(). The caller must have moved `s` there.
   void fileAtTarget(Slot s);
 
  private:

@@ -1,5 +1,4 @@
-// The set characters of an Object: rows of bits, for the precise collision test (docs/collisions.md,
-// "Precise").
+// The set characters of an Object: rows of bits for the precise collision test (docs/collisions.md).
 #pragma once
 
 #include <cstdint>
@@ -16,9 +15,8 @@ class Mask {
   static constexpr int kMaxSide = 1024;
 
 #if __cplusplus >= 201703L
-  /// Makes a mask from one UTF-8 string per row; a character is set unless it is a blank or `hole`.
-  /// Shorter rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than
-  /// kMaxSide.
+  /// Makes a mask from one UTF-8 string per row; a character is set unless it is a blank or `hole`. Shorter
+  /// rows are padded with holes. Nullopt if there is no row, no character, or a side is longer than kMaxSide.
   static std::optional<Mask> fromRows(const std::vector<std::string>& rows, char32_t hole = U' ');
 #endif
 

@@ -34,8 +34,7 @@ class ObjectKeySet {
   static constexpr std::size_t kMin = 16;    // first size of the table; a power of two
   static constexpr std::size_t kMax = 1024;  // largest size that clear() keeps
 
-  // Returns the index of the key or of a free entry. Generation 0 marks a free entry; generations of Objects
-  // begin with 1.
+  // Returns the index of the key or of a free entry. A free entry has generation 0, an Object at least 1.
   std::size_t find(ObjectKey key) const {
     const std::uint64_t hash =
         ((std::uint64_t{key.generation} << 32) | key.slot) * std::uint64_t{0x9E3779B97F4A7C15};

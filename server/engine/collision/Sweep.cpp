@@ -119,9 +119,8 @@ Sweep::Gap Sweep::Axis::gapTo(Fixed low_then, Fixed other_low, Fixed other_size)
   return {behind, behind > ahead && direction < 0};
 }
 
-// Returns the first time at which both axes are in their ranges, except at the start. An axis that does not
-// move needs no special case: both products with its length are 0, and the other axis leaves at a product
-// above 0.
+// Returns the first time at which both axes are in their ranges, except at the start. An axis without
+// movement is not special: both products with its length are 0; the other axis leaves at one above 0.
 std::optional<Moment> Sweep::bothWithin(const Stay& x, const Stay& y) const {
   const WideUnsigned enter_x = multiply(x.enter, m_y.length);
   const WideUnsigned enter_y = multiply(y.enter, m_x.length);

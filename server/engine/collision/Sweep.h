@@ -34,8 +34,7 @@ class Sweep {
   Sweep(const FixedBox& box, FixedVector from, FixedVector to);
 
   /// Returns when the mover's box hits `other` (in world coordinates): the first time at which they touch. If
-  /// they touch at the start, that is a hit at time 0 only if the move closes the gap or they touch at the
-  /// end.
+  /// they touch at the start, it is a hit at time 0 only if the move closes the gap or they touch at the end.
   std::optional<Moment> firstTouch(const FixedBox& other) const {
     return mayTouch(other) ? touchOnPath(other) : std::nullopt;
   }

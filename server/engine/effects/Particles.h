@@ -20,11 +20,9 @@ int addParticles(int count, int count_spread, Vector position, float position_sp
                  int age, int age_spread, unsigned char opacity, char opacity_spread, unsigned char r,
                  unsigned char g, unsigned char b, unsigned char color_spread,
                  ParticleClass particle_class = PARTICLE);
-/// Adds smoke, sparks, rings or fireworks; CUSTOM means their own colours. Returns 0, or -1 for an unknown
-/// type.
+/// Adds smoke, sparks, rings or fireworks; CUSTOM means their own colours. Returns 0, or -1 for other types.
 int addParticles(ParticleType type, Vector position, float scale = 1.0, Color color = CUSTOM);
-/// Adds snow, rain or stars all over the world. These particles do not age. Returns 0, or -1 for an unknown
-/// type or direction.
+/// Adds snow, rain or stars everywhere; they do not age. Returns 0, or -1 for other types or directions.
 int addParticles(PrecipitationType type, Direction direction, float scale = 1.0, Color color = CUSTOM);
 /// Makes the characters of frame `index` fly apart (together, if `speed` is negative) for `age` ticks.
 /// Returns 0, or -1 if `p_sprite` is null or has no such frame.

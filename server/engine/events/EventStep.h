@@ -1,5 +1,4 @@
-// Sent once per tick, unless the game is paused, before anything else happens in the tick (book, Listing
-// 4.53).
+// Sent once per tick, unless the game is paused, before anything else happens (book, Listing 4.53).
 #pragma once
 
 #include "Event.h"

@@ -16,8 +16,7 @@ class EventView : public Event {
  public:
   /// Makes an event with tag VIEW_EVENT (compat: empty) that sets the value to 0.
   EventView();
-  /// Makes an event for view objects with the text `new_tag`: sets their value or, if `new_delta`, adds to
-  /// it.
+  /// Makes an event for view objects with the text `new_tag`: sets their value; if `new_delta`, adds to it.
   EventView(std::string new_tag, int new_value, bool new_delta)
       : Event(&VIEW_EVENT), m_tag(std::move(new_tag)), m_value(new_value), m_delta(new_delta) {}
 

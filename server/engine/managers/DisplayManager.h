@@ -60,8 +60,7 @@ class DisplayManager : public Manager {
   /// Draws in the terminal colour, one of eight, that is nearest to this mix of red, green and blue.
   int drawCh(Vector world_pos, char ch, unsigned char r, unsigned char g, unsigned char b,
              float rotation = 0) const;
-  /// Draws a UTF-8 string, one character per cell. Returns 0. If drawCh() would return -1, draws nothing and
-  /// returns -1.
+  /// Draws a UTF-8 string, one character per cell. Returns 0, or -1 with no effect if drawCh() would do so.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
 

@@ -1,8 +1,7 @@
 // Writes log lines (book, Listing 4.6).
 //
 // Lines go to the current world's sink. If it has none, they go to the file dragonfly.log in the working
-// directory, or to the file in the setting `logfile`. This file is opened and emptied for the first line of a
-// process.
+// directory, or to the file in the setting `logfile`. This file is emptied for the first line of a process.
 #pragma once
 
 #include <functional>

@@ -27,8 +27,7 @@ class ResourceManager : public Manager {
   /// Returns the only instance; RM is short for it. It acts on the current world.
   static ResourceManager& getInstance();
 
-  /// Loads a sprite in one of the three formats (SpriteFile.h). Returns 0, or -1 if the file cannot be
-  /// loaded.
+  /// Loads a sprite in one of the three formats (SpriteFile.h). Returns 0, or -1 if it cannot be loaded.
   int loadSprite(const std::string& filename, const std::string& label);
   /// Removes a sprite's label; Objects that show the sprite keep it. Returns 0, or -1 for an unknown label.
   int unloadSprite(const std::string& label);

@@ -48,8 +48,7 @@ class WorldManager : public Manager {
   // Objects in the world.
 
   /// Puts a removed Object back into the world, last in creation order. (The constructor inserts new
-  /// Objects.) Has no effect on an Object in the world. Returns 0, or -1 for null or an Object of another
-  /// world.
+  /// Objects.) Ignores Objects in the world. Returns 0, or -1 for null or an Object of another world.
   int insertObject(Object* p_o);
   /// Removes an Object from the world without deleting it. At once its interests end and lists read it as
   /// null. Returns 0, or -1 if it is not in the world.
@@ -110,8 +109,7 @@ class WorldManager : public Manager {
   int moveObject(Object* p_o, Vector where);
   /// Returns the first Object that p_o, if solid, would hit on the straight path to `where`, by the rules of
   /// swept moves (docs/collisions.md), whether or not p_o is swept. Nothing moves, no event is sent. Returns
-  /// a Contact without Object if p_o is null, SPECTRAL, inactive or not in a world, or `where` is out of
-  /// range.
+  /// a Contact without Object if p_o is null, SPECTRAL, inactive or in no world, or `where` is out of range.
   Contact firstContact(const Object* p_o, Vector where) const;
 #if __cplusplus >= 201703L
   /// Returns the position nearest to `near`, a whole number of cells from it on each axis, at which `box`
@@ -120,8 +118,7 @@ class WorldManager : public Manager {
   /// or if an argument is out of range.
   std::optional<Vector> findFree(Box box, Vector near) const;
 #endif
-  /// Whether the moves of all Objects are swept. By default only those of Objects with Object::setSwept()
-  /// are.
+  /// Whether all Objects' moves are swept. By default only those of Objects with Object::setSwept() are.
   void setSweptCollisions(bool swept = true);
   bool getSweptCollisions() const;
   /// Moves every active Object by its velocity, once, including bodies, then deletes the marked Objects. Does

@@ -29,8 +29,7 @@ class NetworkManager : public Manager {
   int startUp() override;
   /// Makes the players connections; false ends that. The host's option --port decides the port. Returns 0.
   int setServer(bool server = true, const std::string& port = DRAGONFLY_PORT);
-  /// True if the game is a server. False while Objects draw, because players must see what a client would
-  /// show.
+  /// True if the game is a server. False while Objects draw, because players must see a client's picture.
   bool isServer() const;
   /// Returns -1: players are accepted automatically.
   int accept();

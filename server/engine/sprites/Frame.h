@@ -11,7 +11,6 @@ namespace df {
 
 class Frame {
  public:
-  /// Makes an empty frame.
   Frame() = default;
   /// Makes a frame of the rows in `frame_str`, one after another: new_width times new_height characters.
   Frame(int new_width, int new_height, std::string frame_str)

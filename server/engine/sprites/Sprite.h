@@ -48,8 +48,7 @@ class Sprite {
   /// Number of ticks for which each frame is shown; 0: the animation does not advance (compat: like 1).
   void setSlowdown(int new_sprite_slowdown) { m_slowdown = new_sprite_slowdown; }
   int getSlowdown() const { return m_slowdown; }
-  /// Makes a slowdown of 0 or less show each frame for one tick, as in the published engine. The engine sets
-  /// it on the sprites of a world with compat.
+  /// Makes a slowdown of 0 or less show each frame for one tick. The engine sets it in worlds with compat.
   void setNeverStill(bool never_still = true) { m_never_still = never_still; }
   /// Returns the number of ticks for which each frame is really shown; 0: the animation does not advance.
   int getTicksPerFrame() const { return m_slowdown > 0 ? m_slowdown : m_never_still ? 1 : 0; }
@@ -58,8 +57,7 @@ class Sprite {
   void setTransparency(char new_transparency);
   char getTransparency() const { return m_transparency; }
 
-  /// Draws one frame around a position (Frame::draw). Returns 0, or -1 for a number without a frame or if a
-  /// character could not be drawn.
+  /// Draws one frame around a position like Frame::draw(). Returns -1 also for a number without a frame.
   int draw(int frame_number, Vector position, char transparency) const;
   int draw(int frame_number, Vector position) const { return draw(frame_number, position, m_transparency); }
 

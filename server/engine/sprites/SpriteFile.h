@@ -6,8 +6,7 @@
 //   last, optionally, "eof";
 // - simple: five lines with the numbers of frames, width, height and slowdown and the colour; then all rows.
 //
-// Lines may end in LF or CR LF; the last one needs no end. A row has exactly `width` characters: blanks at
-// its end count.
+// Lines end in LF or CR LF; the last needs no end. A row has exactly `width` characters, with final blanks.
 #pragma once
 
 #include <memory>
@@ -24,11 +23,10 @@ inline constexpr int kMaxSpriteFrames = 10'000;
 inline constexpr int kMaxSpriteSide = 1024;
 
 /// Parses the sprite in `text` and gives it this label. On failure, returns null and sets `error` to the
-/// number of the line and the reason, as in "12: the row has 5 characters instead of 6".
-/// With `p_warnings` the published engine's rules hold. Then `slowdown -1`, a line `slowdown` without a
-/// value, `transparency " "` (only its first character is used) and text after `</FOOTER>` or `eof` (ignored)
-/// are accepted, and added to `p_warnings` in the form of errors. A missing slowdown is 0, and the animation
-/// never stands still (Sprite::setNeverStill).
+/// number of the line and the reason, as in "12: the row has 5 characters instead of 6". With `p_warnings`
+/// the published engine's rules hold: `slowdown -1`, a line `slowdown` without a value, `transparency " "`
+/// (only its first character is used) and text after `</FOOTER>` or `eof` (ignored) are accepted, and listed
+/// there like errors. A missing slowdown is 0, and the animation never stands still (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
                                     std::vector<std::string>* p_warnings = nullptr);
 

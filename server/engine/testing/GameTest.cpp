@@ -150,8 +150,7 @@ class TestedModule {
     m_folders = {(folder / m_name).string(), folder.string(), folder.parent_path().string()};
   }
 
-  /// Runs the game's main(). The module stays loaded, because destructors of its static Objects may still
-  /// run.
+  /// Runs the game's main(). The module stays loaded, because static Objects' destructors may still run.
   int main() const {
     std::string name = m_name;
     char* arguments[] = {name.data(), nullptr};

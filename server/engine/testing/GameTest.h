@@ -102,8 +102,7 @@ class GameTest {
   /// Press or release a key; no tick passes. Use these for keys of several players in one tick.
   void down(Keyboard::Key key, std::uint32_t player = 0);
   void up(Keyboard::Key key, std::uint32_t player = 0);
-  /// Clicks a mouse button at a cell of the player's view; one tick passes. Clicks outside the view are
-  /// ignored.
+  /// Clicks a mouse button at a cell of the player's view; one tick passes. Ignores clicks outside.
   void click(int x, int y, Mouse::Button button = Mouse::LEFT, std::uint32_t player = 0);
   /// Moves the pointer to a cell; one tick passes.
   void moveMouse(int x, int y, std::uint32_t player = 0);

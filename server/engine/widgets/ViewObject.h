@@ -48,8 +48,7 @@ class ViewObject : public Object {
 
   /// Draws the text and the value centred at its position, with the border if set. Returns 0, else -1.
   DF_DRAW draw() override;
-  /// Sets the value, or adds to it, if the event is a VIEW_EVENT whose tag is the text. Returns 1 if it did
-  /// so, else 0.
+  /// Sets the value or adds to it, and returns 1, if the event is a VIEW_EVENT whose tag is the text; else 0.
   int eventHandler(const Event* p_e) override;
 
   /// Sets the position to 1/6, 1/2 or 5/6 of the view's width, in the top, middle or bottom row; a border at

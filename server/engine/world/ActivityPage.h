@@ -30,8 +30,7 @@ struct alignas(16) Activity {
   std::atomic<std::uintptr_t> event_class{kNothing};
 };
 
-/// Marks a handler as running while this object exists, then restores the previous one. Costs two loads and
-/// four stores.
+/// Marks a handler as running until destroyed, then restores the previous one. Costs 2 loads and 4 stores.
 class ActivityScope {
  public:
   ActivityScope(Activity& activity, std::uintptr_t object_class, std::uintptr_t event_class)
@@ -55,8 +54,7 @@ class ActivityScope {
   std::uintptr_t m_event_class;
 };
 
-/// The running handler, the names of classes, and the last lines of the log. Zeroed memory is a valid empty
-/// page.
+/// The running handler, the names of classes, and the log's last lines. Zeroed memory is a valid empty page.
 struct ActivityPage {
   static constexpr std::size_t kNames = 256;
   static constexpr std::size_t kLines = 8;

@@ -172,8 +172,7 @@ void Capture::finishView() {
   }
 }
 
-// Shifts every view. In this tick the views follow nothing, because a client would undo the shift by
-// following.
+// Shifts every view. In this tick they follow nothing, because a client would undo the shift by following.
 void Capture::shake() {
   if (m_view.shake_x == 0 && m_view.shake_y == 0) return;
   const FixedVector off{fromCells(m_view.shake_x), fromCells(m_view.shake_y)};

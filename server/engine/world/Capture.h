@@ -30,8 +30,7 @@ class Capture {
   void clearPicture();
   /// Draws the active visible Objects whose box intersects a view, and all active visible view objects, by
   /// altitude, then creation order, as these were when the call began. For Objects of class Object itself,
-  /// draws only sprites, shapes and frames. A static look (Object::setStaticLook) is drawn once and then
-  /// repeated.
+  /// draws only sprites, shapes and frames. A static look (Object::setStaticLook) is drawn once, then reused.
   void drawAll();
   /// Adds one character, as drawn by the Object whose draw() is running, or by no Object if none is.
   void add(FixedVector position, char32_t ch, Color color);

@@ -9,8 +9,7 @@
 
 namespace df {
 
-/// A moving Object and one other that it may touch, with their present state in the store. Both are in the
-/// world.
+/// A moving Object and one that it may touch, both in the world, with their present state in the store.
 class CollisionRule {
  public:
   CollisionRule(const WorldStore& store, WorldStore::Slot mover, WorldStore::Slot other)

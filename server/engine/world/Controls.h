@@ -36,8 +36,7 @@ class Controls {
   Controls& velocityY(double vy);
   /// While the key is down, whatever the action in onKey(), sets the velocity on those axes on which (vx,vy)
   /// is not 0. If several keys drive one axis, the last one pressed wins. When that key goes up, the axis
-  /// stops with the next tick. The engine sets the velocity of a driven axis in every tick, so nothing else
-  /// should.
+  /// stops with the next tick. The engine sets a driven axis' velocity in every tick; nothing else should.
   Controls& drive(double vx, double vy);
   /// Limits the step or velocity added last: all steps and velocities of one `group` (0 to 7) together act at
   /// most once in `ticks` ticks (up to 9000).

@@ -1,9 +1,8 @@
 // Delays the freeing of deleted Objects' memory.
 //
-// Some games written for the published engine call Objects that they have deleted. That mostly works there,
-// because the memory is not reused at once. So a world with `compat` keeps the memory for some more
-// deletions: getters of a deleted Object return its old values or those now in its slot, and a handler called
-// on it does nothing.
+// Some games written for the published engine call Objects that they have deleted. It mostly works there: the
+// memory is not reused at once. So a world with `compat` keeps the memory for some more deletions: getters of
+// a deleted Object return its old values or those now in its slot, and a handler called on it does nothing.
 #pragma once
 
 #include <array>
@@ -29,8 +28,7 @@ class PendingBlocks {
     }
     return false;
   }
-  /// Removes the block that begins at `p`, if any: one for which a constructor threw before Object's
-  /// constructor ran.
+  /// Removes the block at `p`, if any, after a constructor threw before Object's constructor ran.
   void cancel(const void* p) {
     for (std::size_t i = m_count; i-- > 0;) {
       if (m_blocks[i].begin == p) erase(i);

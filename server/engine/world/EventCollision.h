@@ -31,8 +31,7 @@ class EventCollision : public Event {
   /// The Object that was collided with.
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }
   Object* getObject2() const { return m_p_obj2; }
-  /// Target of the move, not a point of contact. For a swept move, the mover's position just before the
-  /// contact.
+  /// Target of the move, not a point of contact. For swept moves, the mover's position just before contact.
   void setPosition(Vector new_pos) { m_pos = new_pos; }
   Vector getPosition() const { return m_pos; }
   /// Strength of the impact of bodies: mass · cell widths per tick, along the line of the impact. 0 if either

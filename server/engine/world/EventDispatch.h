@@ -22,8 +22,7 @@ struct WorldState;
 
 class EventDispatch {
  public:
-  /// `shut_down` is called after each handler while a shutdown is pending. The other arguments must outlive
-  /// this object.
+  /// Calls `shut_down` after each handler while a shutdown is pending. The others must outlive this object.
   EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
                 std::function<void()> shut_down);
 

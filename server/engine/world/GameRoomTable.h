@@ -19,8 +19,7 @@ struct RoomTransfer {
 
 class GameRoomTable {
  public:
-  /// Adds a room at the end, or updates the room of this name. Ignores invalid rooms and rooms above the
-  /// limit.
+  /// Adds a room at the end, or updates the one of this name. Ignores invalid rooms and excess ones.
   void update(GameRoom room) {
     if (room.name.empty() || room.name.size() > GameRoomLimits::kMaxName) return;
     if (GameRoom* p_room = find(room.name)) {
@@ -30,8 +29,7 @@ class GameRoomTable {
     }
   }
   const std::vector<GameRoom>& rooms() const { return m_rooms; }
-  /// Sends a player to a room. False for an unknown room or this world's own, or if too many were sent in
-  /// this tick.
+  /// Sends a player to a room. False for an unknown room or this world's own, or after too many in this tick.
   bool send(std::uint32_t player, const std::string& room) {
     const GameRoom* p_room = find(room);
     const bool is_full = m_sent.size() >= GameRoomLimits::kMaxSentInTick;

@@ -31,8 +31,7 @@ class HighScores : public HighScoreLimits {
   /// Adds a row. If fewer points are better, as for times, negate them. Returns 0, or −1 without effect for
   /// an invalid table name, an empty `name`, or above a limit of tables, points or rows added in this tick.
   int add(const std::string& name, std::int64_t points);
-  /// Returns the `count` best rows (at most kMaxRows), best first. Of equal points, the older row comes
-  /// first.
+  /// Returns the `count` best rows (at most kMaxRows), best first. Of equal points, older rows come first.
   std::vector<HighScore> best(int count = 10) const;
 
  private:

@@ -58,8 +58,7 @@ class InputQueue {
   std::uint32_t join(const std::string& name, Color color, std::uint32_t id = 0);
   /// Lets a player leave in the next tick, which ignores an unknown id.
   void leave(std::uint32_t player);
-  /// Adds a key. Ignores unknown keys, actions and players. `seen`: the picture that the player saw at that
-  /// time.
+  /// Adds a key. Ignores unknown keys, actions and players. `seen`: the picture that the player saw.
   void key(std::uint32_t player, Keyboard::Key key, EventKeyboardAction action, const ViewedTick& seen = {});
   /// Adds a mouse action at cell (x,y) of the player's view; ignored outside the view. The event's position
   /// is in world coordinates, computed from the view that the player saw, if the host knows it

@@ -10,8 +10,7 @@ namespace df {
 /// lines are tried again. Other processes may append to the file, too. Any thread may call it.
 void writeToLogFile(const std::string& filename, const std::string& line, bool flush);
 
-/// Makes writeToLogFile() empty no files, because another process of this game writes to them. Any thread may
-/// call it.
+/// Makes writeToLogFile() empty no files: another process of this game uses them. Any thread may call it.
 void disableLogTruncation();
 
 /// Appends a line to a file of the game's own; the process's first line empties the file. Returns false on

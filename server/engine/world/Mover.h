@@ -48,8 +48,7 @@ struct WorldState;
 /// searches the rest of the path, in the world as it is then. Memory is reused by the next move.
 class SweptMove {
  public:
-  /// Number of stages after which a move is blocked, because handlers may make a new obstacle for each they
-  /// delete.
+  /// Number of stages before a move is blocked, because handlers may replace each obstacle they delete.
   static constexpr int kMaxStages = 1000;
 
   /// Where a move ends: at its target, just before a contact, or where the mover is already (kNone), because
@@ -84,8 +83,7 @@ class Mover {
   Views& views() const { return m_views; }
 
   /// Moves every active Object that was in the world when the call began, in creation order: by its velocity,
-  /// then adds its acceleration to the velocity. Objects that are made inactive before their turn are not
-  /// moved.
+  /// then adds its acceleration to the velocity. Objects made inactive before their turn are not moved.
   void moveAll();
   /// See WM.moveObject().
   int moveObject(Object* p_o, Vector where);

@@ -419,8 +419,7 @@ Vector Object::getDirection() const {
 int Object::setVelocity(Vector new_velocity) {
   const auto velocity = toFixed(new_velocity, kMaxVelocityCells);
   if (!velocity) return refuse("setVelocity");
-  // Speed and direction can be derived from the velocity if that holds the vector exactly (it cannot hold
-  // -0).
+  // Speed and direction follow from the velocity if that holds the vector exactly (it cannot hold -0).
   const Vector derived = Vector::fromFixed(*velocity);
   const bool is_derived = sameBits(derived.x(), new_velocity.x()) && sameBits(derived.y(), new_velocity.y());
   m_p_store->setDerived(m_slot, is_derived);

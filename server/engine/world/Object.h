@@ -43,9 +43,8 @@
 
 /// Return type of five setters that classes may override: setVelocity(), setDirection(), setAcceleration(),
 /// setBox() and setAnimation(). It is void for games of the published engine, which override or hide a `void
-/// setVelocity()`. It is int, as for all setters, for games made for Naiad, which are compiled with
-/// -DDF_COMPAT=0 (dragonfly_game() does). -DDF_SETTER=int or =void overrides this. The library works with
-/// both.
+/// setVelocity()`. It is int, as for all setters, for Naiad's games, which are compiled with -DDF_COMPAT=0
+/// (dragonfly_game() does). -DDF_SETTER=int or =void overrides this. The library works with both.
 #if !defined(DF_SETTER)
 #if defined(DF_COMPAT) && !DF_COMPAT
 #define DF_SETTER int
@@ -243,8 +242,7 @@ class Object {
   /// change of the sprite, its frame or the shape, makes draw() run once more.
   void setStaticLook(bool static_look = true);
   bool hasStaticLook() const;
-  /// Number of frames of a body, and index of the frame that is shown in the present tick. Both are 0 for
-  /// other Objects.
+  /// Number of a body's frames, and index of the frame shown in this tick. Both are 0 for other Objects.
   int getFrameCount() const;
   int getFrame() const;
 
@@ -303,9 +301,8 @@ class Object {
   /// Returns the world in which the Object was made; null if that world or the Object has been destroyed.
   World* getWorld() const;
 
-  /// The operators record which Objects were made with `new`, because the world deletes these Objects (but
-  /// not the elements of arrays). With compat they clear the memory, because games read members that they
-  /// never set.
+  /// The operators record which Objects were made with `new`, because the world deletes these (but not
+  /// elements of arrays). With compat they clear the memory, because games read members that they never set.
   static void* operator new(std::size_t size);
   static void* operator new(std::size_t size, const std::nothrow_t& nothrow) noexcept;
   static void* operator new(std::size_t, void* p_place) noexcept { return p_place; }
@@ -318,8 +315,7 @@ class Object {
 #endif
 
  protected:
-  /// Makes the position a cell of each view instead of the world, and makes the engine draw the Object always
-  /// (ViewObject.h).
+  /// Makes the position a cell of each view, not the world. The Object is then always drawn (ViewObject.h).
   void showOnView();
   /// Makes the Object get events while the game is paused, too (Pause.h).
   void receiveWhilePaused();

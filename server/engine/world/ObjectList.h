@@ -31,8 +31,7 @@ class ObjectList {
   /// Appends an Object, which may be in the list more than once. Returns 0, or -1 for null and for an Object
   /// of another world than that of the entries.
   int insert(Object* p_o);
-  /// Removes the first entry of this Object; the others keep their order. Returns 0, or -1 if it is not in
-  /// the list.
+  /// Removes the first entry of this Object; the others keep their order. Returns 0; -1 if none was listed.
   int remove(const Object* p_o);
   /// Removes all entries.
   void clear();

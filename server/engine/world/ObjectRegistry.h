@@ -55,8 +55,7 @@ class ObjectRegistry {
 
   /// Deletes the marked Objects in order of their marks, and those that destructors mark.
   void deleteMarked();
-  /// Deletes the Objects made with `new`, removes all others, and clears the marks and the records of logged
-  /// types.
+  /// Deletes the Objects made with `new`, removes all others, and clears marks and records of logged types.
   void clear();
 
  private:

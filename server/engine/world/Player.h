@@ -1,9 +1,7 @@
-// A person (or bot) at a terminal. Games for several players use Players; other games ignore them and get all
-// players' keys.
+// A person (or bot) at a terminal. Games for one player ignore Players and get all players' keys.
 //
-// A Player exists from its EventJoin until just after its EventLeave. Before and after, `WM.getPlayer(id)` is
-// null. Ids count up from 1 and are not reused in a world. All calls must be on the thread that runs the
-// tick.
+// A Player exists from its EventJoin until just after its EventLeave. Otherwise `WM.getPlayer(id)` is null.
+// Ids count up from 1 and are not reused in a world. All calls must be on the thread that runs the tick.
 #pragma once
 
 #include <cstdint>

@@ -62,8 +62,7 @@ class Resources {
   SoundBank<Sound>& sounds() { return m_sounds; }
   SoundBank<Music>& musics() { return m_musics; }
 
-  /// Removes all sprites' labels, and all sounds and music. Sprites are kept, because Objects may still show
-  /// them.
+  /// Removes all sprites' labels, and all sounds and music. Keeps sprites, because Objects may show them.
   void clear();
   /// Adds a folder. Relative names are looked for in the working directory, then in the folders in order of
   /// the calls. clear() keeps the folders.

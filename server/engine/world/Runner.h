@@ -2,8 +2,7 @@
 //
 // A program that loads games (dfserver) gives the world a Runner before it calls the game's main(). A game
 // that is a program itself sets none: GM.startUp() and GM.run() then call the Program that the library's
-// hosting part has set when it was loaded. Without a Runner and a Program, GM.run() runs ticks as fast as
-// possible.
+// hosting part has set when it was loaded. Without either, GM.run() runs ticks as fast as possible.
 #pragma once
 
 namespace df {
@@ -38,8 +37,7 @@ bool declareCompat(bool compat);
 /// Returns the compat setting before df-config.txt is read: the one given to declareCompat(), if any;
 /// otherwise true if `in_program`, else `compat`.
 bool beginCompat(bool compat, bool in_program);
-/// Returns the final compat setting: the environment variable DF_COMPAT, if it is 0, 1, false or true, else
-/// `compat`.
+/// Returns the final compat setting: the environment's DF_COMPAT, if 0, 1, false or true, else `compat`.
 bool endCompat(bool compat);
 
 }  // namespace running

@@ -48,8 +48,7 @@ void PathFollowers::step() {
   for (Object* p_o : walkers) turn(*p_o);
 }
 
-// If the next step would pass a node, a shorter step puts the Object exactly on it, so that it turns where
-// the path does.
+// If the next step would pass a node, a shorter one ends exactly there: the Object turns where the path does.
 void PathFollowers::turn(Object& object) {
   if (!object.m_p_store->has(object.m_slot, WorldStore::kInWorld) || !object.isActive()) return;
   ObjectExtras& extras = *object.m_p_extras;

@@ -4,8 +4,8 @@
 // Game code rarely names it: the managers (WM, GM, DM, IM, LM) forward to the calling thread's current
 // world. Hosts and tests hold worlds directly, as many as they like, each on one thread at a time.
 //
-// A world is a pure function of its seed, its inputs and its tick count: it reads no clock and needs
-// neither network nor terminal.
+// A world is a pure function of its seed, its inputs and its tick count: it needs no clock, network or
+// terminal.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +45,7 @@ struct WorldExtras;
 class World {
  public:
   World();
-  /// Does not delete Objects, unlike shutDown(). They stay alive without a world: their getters and setters
-  /// still work.
+  /// Deletes no Objects, unlike shutDown(). Their getters and setters still work without a world.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -126,8 +125,7 @@ class World {
   /// Draws one character at a world position. A character that no terminal draws in one cell becomes '?'.
   /// Returns 0, or -1 for a position or colour out of range.
   int drawCh(Vector world_pos, char32_t ch, Color color);
-  /// Returns the view of the player whose input is being handled, if they have their own, else the world's
-  /// view.
+  /// Returns the own view of the player whose input is being handled, if they have one, else the world's.
   Box getView() const;
 
   // Features that only some games use.

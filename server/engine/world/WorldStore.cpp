@@ -239,8 +239,7 @@ const Mask* WorldStore::spriteMask(Slot s) const {
 
 void WorldStore::settleChanged(Slot s, FixedVector velocity, bool blocked) {
   const bool was_blocked = isBlocked(s);
-  // Hosts do not see the velocity of a blocked Object, so gravity on an Object that lies still is not a
-  // change.
+  // Hosts do not see the velocity of a blocked Object, so gravity on an Object at rest is not a change.
   const bool shows = was_blocked != blocked || (!blocked && m_velocities[s] != velocity);
   m_velocities[s] = velocity;
   if (was_blocked != blocked) {

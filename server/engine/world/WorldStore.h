@@ -227,8 +227,7 @@ class WorldStore : public ObjectFlags {
   // Walking.
 
   /// The creation order at the time of the constructor: entries [0, size()), which can be read while Objects
-  /// enter and leave. An Object that enters is appended behind size(); one that leaves becomes a gap,
-  /// kNoSlot.
+  /// enter and leave. Those that enter are appended behind size(); one that leaves becomes a gap, kNoSlot.
   class Walk {
    public:
     explicit Walk(const WorldStore& store) : m_store(store), m_size(store.m_order_list.size()) {

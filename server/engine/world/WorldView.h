@@ -67,16 +67,14 @@ struct DrawnObject {
   bool on_view = false;  ///< view object: its characters keep their cells in every view
 };
 
-/// The frames and selector of a drawn object (ObjectLookAccess::setFrames). Its draw() may have drawn other
-/// characters.
+/// The frames and selector of a drawn object (ObjectLookAccess::setFrames). Its draw() may have drawn others.
 struct PublishedLook {
   std::uint32_t drawn = 0;  ///< index in WorldView::drawn
   std::shared_ptr<const naiad::Look> p_look;
 };
 using ToldLook [[deprecated("say PublishedLook")]] = PublishedLook;
 
-/// A text that only one player sees, at cell (x,y) of that player's view. An empty `text` means that the text
-/// was removed.
+/// A text that only one player sees, at cell (x,y) of their view. If `text` is empty, it was removed.
 struct PlayerText {
   std::uint32_t id = 0;
   int x = 0;

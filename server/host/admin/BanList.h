@@ -43,15 +43,13 @@ struct Ban {
   bool isExpired(Time now) const { return until && *until <= now; }
   /// Returns "name:Ann" or "192.0.2.0/24".
   std::string target() const { return kind == Kind::kName ? "name:" + name : range->text(); }
-  /// True if adding one of these removes the other: their targets are equal, and both or neither are
-  /// exceptions.
+  /// True if adding one removes the other: their targets are equal, and both or neither are exceptions.
   bool isSameTarget(const Ban& other) const {
     return (kind == Kind::kException) == (other.kind == Kind::kException) && target() == other.target();
   }
 };
 
-/// Returns the message for the banned player: "You are banned from this server until 2026-11-25 19:01 UTC:
-/// spam".
+/// Returns the message for the player: "You are banned from this server until 2026-11-25 19:01 UTC: spam".
 std::string banMessage(const Ban& ban);
 
 /// Thrown if the file cannot be created or used. what() is a one-sentence message.
@@ -64,9 +62,8 @@ class BanStore {
   /// Does not open or create the file yet.
   explicit BanStore(std::filesystem::path file);
 
-  /// Returns all bans, without numbers; none if the file does not exist. Throws BanFileError, and leaves the
-  /// file unchanged, if it is unreadable or not a valid ban file. The server must not start then, or banned
-  /// players could join.
+  /// Returns all bans, without numbers; none without a file. Throws BanFileError, and leaves the file
+  /// unchanged, if it is unreadable or invalid. The server must not start then, or banned players could join.
   std::vector<Ban> load();
   /// Writes the ban, replacing one of its kind and target. Creates the file (0600) and its folder if
   /// necessary. Waits for the disk. Throws BanFileError.
@@ -88,8 +85,7 @@ class BanSet {
   /// Returns the ban that applies to this address now; null if none does. Loopback addresses are never
   /// banned, because all players on this machine have them.
   const Ban* find(const asio::ip::address& address, Ban::Time now) const;
-  /// Returns the ban that applies to a name now; null if none does. `skeletons`: nameSkeletons(name)
-  /// (NameSanitizer.h).
+  /// Returns the ban that applies to a name now, or null. `skeletons`: nameSkeletons(name) (NameSanitizer.h).
   const Ban* findName(const std::vector<std::string>& skeletons, Ban::Time now) const;
   const std::vector<Ban>& all() const { return m_bans; }
 
@@ -149,8 +145,7 @@ class BanList {
   /// Removes the bans named by this text: #NUMBER, name:NAME, NAME, an address or a range. Returns the number
   /// removed; if that is 0, does not call `saved`.
   std::size_t remove(const std::string& text, Saved saved);
-  /// Called on the worker's thread with the bans in the file, or with the reason why it cannot be written or
-  /// read.
+  /// Called on the worker's thread with the bans in the file, or the reason why it cannot be written or read.
   using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
   /// Writes the bans that could not be written, then reads the file. False if there is no file or too many
   /// jobs wait for the disk.

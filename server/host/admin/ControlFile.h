@@ -15,8 +15,7 @@ class ControlFile {
   /// Creates the folder (0750) if necessary. Replaces a socket on which no process listens any more. Throws
   /// ListenError (TcpListener.h), for example if the path is in use or is another kind of file.
   explicit ControlFile(std::filesystem::path path);
-  /// Removes the file if it is still this socket's. Closes the descriptor, unless releaseDescriptor() was
-  /// called.
+  /// Removes the file if it is still this socket's. Closes the descriptor, except after releaseDescriptor().
   ~ControlFile();
   ControlFile(const ControlFile&) = delete;
   ControlFile& operator=(const ControlFile&) = delete;

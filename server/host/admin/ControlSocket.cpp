@@ -291,8 +291,7 @@ void ControlSocket::State::onConnection(stream_protocol::socket socket) {
   connection->start(options.short_time);
 }
 
-// An answer may arrive after the socket and its connection are gone, so its callbacks have only weak
-// pointers.
+// An answer may arrive after socket and connection are gone, so its callbacks have only weak pointers.
 ControlConnection::Events ControlSocket::State::eventsOf() {
   return {[this](AdminRequest request, AdminCaller caller, std::function<void(AdminAnswer)> done) {
             if (request.command->name == "watch") return done(AdminAnswer::done("The log follows."));

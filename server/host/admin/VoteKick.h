@@ -16,9 +16,8 @@
 
 namespace naiad {
 
-/// Runs one vote at a time. All players of an IPv4 address or IPv6 /64 are one voter. A vote passes if more
-/// than half of the connected voters, and at least two, agree within kTime. Not thread-safe. Time is a
-/// parameter.
+/// Runs one vote at a time. Players of an IPv4 address or IPv6 /64 are one voter. A vote passes if over half
+/// of the connected voters, and at least two, agree within kTime. Not thread-safe. Time is a parameter.
 class VoteKick {
  public:
   using Time = std::chrono::steady_clock::time_point;

@@ -258,8 +258,7 @@ void Admission::addSecondStream(Session& session, const wire::Hello& hello) {
 
 // ---- sessions of a killed server --------------------------------------------------------------------------
 
-// Refuses hellos that have waited for too long. Clients that reconnect retry after a moment, and show the
-// sentence.
+// Refuses hellos that have waited too long. Reconnecting clients retry after a moment and show the sentence.
 void Admission::evaluateWaiting() {
   const int percent = m_setup.rooms.recovering().value_or(100);
   const std::chrono::milliseconds patience = percent > 50 ? kNearEndWait : kRecoveryWait;
@@ -380,8 +379,7 @@ bool Admission::checkLimits(Session& session) {
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
   }
-  // Counts players without a connection, too. Otherwise one address could collect the places that are kept
-  // for such players.
+  // Also counts players without a connection. Otherwise one address could collect the places kept for them.
   if (m_setup.prefixes.count(prefixOf(session)) >= static_cast<std::size_t>(max_per_address)) {
     ++m_counters.refused_address;
     session.refuse(wire::Refused::FULL, "Too many players from your address (limit " +
@@ -402,8 +400,7 @@ void Admission::refuseFull(Session& session, const std::string& sentence) {
   session.refuse(wire::Refused::FULL, said, JoinLink{link->address, "", link->key}.text(), link->room);
 }
 
-// Returns null if the session was refused. Joins are limited per address, because rejoining resets other
-// limits.
+// Returns null if the session is refused. Limits joins per address, because rejoining resets other limits.
 Room* Admission::roomFor(Session& session, const wire::Hello& hello) {
   const AddressPrefix prefix = prefixOf(session);
   const Session::Clock::time_point now = session.now();

@@ -40,8 +40,7 @@ class LoginRateLimit {
     if (!right) ++entry->wrong;
     if (entry->in_progress == 0 && entry->wrong == 0) table_.erase(from);
   }
-  /// Ends a try that was dropped because other guesses had priority. It counts in cancelledTries(), not as
-  /// wrong.
+  /// Ends a try dropped because other guesses had priority. It counts in cancelledTries(), not as wrong.
   void cancelTry(const AddressPrefix& from, Time now) {
     finishTry(from, true);
     CancelledTries& tries = cancelled_.use(from);

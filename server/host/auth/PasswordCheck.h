@@ -1,8 +1,7 @@
 // Checks the server's password without blocking the caller.
 //
 // A guess costs 64 MiB and 0.1 s by design. So guesses run on another thread, one at a time, from a short
-// queue (PasswordQueue.h), and LoginRateLimit counts the wrong ones. An empty or too long password is refused
-// without a guess.
+// queue (PasswordQueue.h), and LoginRateLimit counts the wrong ones.
 #pragma once
 
 #include <asio/any_io_executor.hpp>

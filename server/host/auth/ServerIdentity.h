@@ -29,8 +29,7 @@ class ServerIdentity {
 
   /// Loads key and certificate from `directory`. Makes what is missing: the directory (0700), an ECDSA P-256
   /// key, a certificate valid from the day before `now` without end. Two servers that start at once get the
-  /// same key. Throws TlsError with a sentence that says what to do; also if every user can write to the
-  /// directory.
+  /// same key. Throws TlsError, whose text says what to do; also if every user can write to the directory.
   static ServerIdentity loadOrMake(const std::filesystem::path& directory,
                                    std::chrono::system_clock::time_point now);
   /// Loads a certificate and its key from these files, e.g. Let's Encrypt's fullchain.pem and privkey.pem.

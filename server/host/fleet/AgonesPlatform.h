@@ -1,6 +1,5 @@
-// The Agones platform: talks to the server's sidecar over HTTP on loopback, on a thread of its own. The
-// requests are in AgonesRequestScheduler.h. If the sidecar is missing or answers nonsense, requests are
-// retried; players are not affected.
+// The Agones platform: talks to the sidecar over HTTP on loopback, on its own thread. The requests are in
+// AgonesRequestScheduler.h. If the sidecar is missing or answers nonsense, requests are retried.
 #pragma once
 
 #include <chrono>

@@ -41,8 +41,7 @@ class HostPlatform {
   virtual void notifyReady() = 0;
   /// Reports that the settings are being reloaded.
   virtual void notifyReloading(Clock::time_point /*now*/) {}
-  /// Reports the end of a tick that began at `now`. The platform may end a server that stops reporting ticks,
-  /// because it hangs.
+  /// Reports a tick that has ended, begun at `now`. The platform may end a server that reports none.
   virtual void notifyTick(Clock::time_point now) = 0;
   /// Reports the players. Called once a second.
   virtual void notifyPlayers(const PlatformPlayers& players) = 0;

@@ -179,8 +179,7 @@ class NatsBus : public Bus {
     }
   }
 
-  /// Subscribes to all subjects. If the bus refuses one for lack of permission, only the log of the bus shows
-  /// it.
+  /// Subscribes to all subjects. If the bus refuses one for lack of permission, only its log shows it.
   std::vector<Subscription> subscribe(natsConnection& connection) const {
     std::vector<Subscription> made;
     for (const std::string& subject : m_settings.subjects) {

@@ -1,6 +1,5 @@
-// Checks whether a game is repeatable: a second world gets the turns of the first a little later, and their
-// answers are compared. Covers the beginning of a round, where games read clocks and seed their random
-// numbers.
+// Checks that a game is repeatable: a second world gets the turns of the first a little later, and their
+// answers are compared. Covers the beginning of a round, where games read clocks and seed random numbers.
 #pragma once
 
 #include <cstdint>

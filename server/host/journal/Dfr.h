@@ -5,8 +5,7 @@
 //           | seed (8) | start (8) | 0 (8)
 //   chunk   type (4) | size of the payload (4) | CRC-32C of type, size and payload (4) | payload
 //
-// Numbers are little-endian. A file grows only at its end, so a truncated file is valid up to its last whole
-// chunk.
+// Numbers are little-endian. Chunks are only appended, so a truncated file is valid up to its last whole one.
 #pragma once
 
 #include <array>

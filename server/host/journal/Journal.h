@@ -1,5 +1,4 @@
-// The journal of one round. The tick thread adds records and never waits; a JournalWriter writes them to
-// disk.
+// A round's journal. The tick thread adds records and never waits; a JournalWriter writes them to disk.
 #pragma once
 
 #include <atomic>
@@ -32,8 +31,7 @@ class Journal {
 
   // The tick thread calls these.
 
-  /// Adds a record. Returns false if the journal was suspended or has stopped, and if it stops now because
-  /// the ring is full.
+  /// Adds a record. False if the journal was suspended or has stopped, or stops now because the ring is full.
   bool add(std::string_view record);
   /// Adds facts. In the file they precede all records that are added later.
   void addFacts(DfrFacts facts);

@@ -7,8 +7,7 @@
 
 namespace naiad {
 
-/// Called on the writer's thread. Each call may block as long as the disk does. Throws std::system_error on
-/// failure.
+/// Called on the writer's thread; may block as long as the disk does. Throws std::system_error on failure.
 class JournalSink {
  public:
   virtual ~JournalSink() = default;

@@ -39,8 +39,7 @@ constexpr std::uint32_t kMaxPlace = 31;
 constexpr std::uint32_t kTurnKind = 1;      ///< m_kind of kRecordedTurn (TurnRecord.h)
 constexpr std::uint32_t kBeforeInputs = 1;  ///< bytes of a turn's record before its inputs
 
-/// Number of updates until a probability's step size is constant, and the step size after each number of
-/// updates.
+/// Updates until a probability's step size is constant, and the step size after each number of updates.
 constexpr std::uint16_t kMaxCount = 60;
 constexpr auto kReciprocals = [] {
   std::array<std::int32_t, kMaxCount + 1> all{};
@@ -126,8 +125,7 @@ void RecordModel::update(bool bit) {
   beginByte();
 }
 
-// Misreads a length of more than one byte; packer and unpacker misread it alike, so this only costs some
-// bits.
+// Misreads a length of several bytes; packer and unpacker misread it alike, so this only costs bits.
 void RecordModel::followRecord(std::uint8_t byte) {
   if (m_left == 0) {
     m_left = byte;
@@ -154,8 +152,7 @@ void RecordModel::followInput(std::uint8_t byte) {
   m_field = m_field + 1 >= kLengths[m_input] ? 0 : m_field + 1;
 }
 
-// The prediction splits the interval from low to high. Leading bytes that both ends have in common are
-// written.
+// The prediction splits the interval from low to high. Leading bytes that both ends share are written.
 void RecordPacker::pack(std::string_view records, std::string& out) {
   std::uint32_t low = 0;
   std::uint32_t high = 0xffffffff;

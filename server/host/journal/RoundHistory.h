@@ -30,12 +30,10 @@ class RoundHistory {
 
   /// Ticks between two copies: ten seconds of a usual game. A copy takes 0.4 to 1.5 ms of the world's time.
   static constexpr std::uint32_t kCheckpointInterval = 300;
-  /// Ticks before the first copy: most games have started up after them, and replaying so few ticks from the
-  /// start is fast.
+  /// Ticks before the first copy: most games have started up after them, and replaying so few ticks is fast.
   static constexpr std::uint32_t kFirstCheckpoint = 30;
-  /// If ticks are slow, copies are made more often, so that the ticks since the newest copy can be replayed
-  /// fast: every kMinCheckpointInterval ticks a copy is due if the world has used kMaxReplayTime of processor
-  /// time.
+  /// If ticks are slow, copies are made more often, so the ticks since the newest copy can be replayed fast:
+  /// every kMinCheckpointInterval ticks a copy is due if the world has used kMaxReplayTime of processor time.
   static constexpr std::uint32_t kMinCheckpointInterval = 60;
   static constexpr std::chrono::milliseconds kMaxReplayTime{100};
 

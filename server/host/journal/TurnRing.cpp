@@ -79,8 +79,7 @@ TurnRing::~TurnRing() {
   if (m_file >= 0) close(m_file);
 }
 
-// Allocates all of the file at once, because a write into a hole of the file raises SIGBUS if the file system
-// is full.
+// Allocates the whole file at once, because a write into a hole raises SIGBUS if the file system is full.
 bool TurnRing::mapShared(const std::array<std::uint8_t, 16>& uuid) {
   const std::string path = ringPath(uuid);
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);

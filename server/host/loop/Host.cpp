@@ -65,8 +65,7 @@ Host::Host(HostOptions options, std::string game, Log log)
   m_parts = makeOperatorParts({*m_context, *m_endpoint, *m_clients, *m_controls});
 }
 
-// Stops the network thread, which calls the parts that are destroyed here. It still runs if a game has
-// thrown.
+// Stops the network thread, which calls the parts destroyed here. It still runs if a game has thrown.
 Host::~Host() {
   m_endpoint->network().stop();
 }
@@ -243,8 +242,7 @@ bool Host::isOver() const {
   return m_clients->rooms().isOver() || is_due || counted_out || isDeserted(Clock::now());
 }
 
-// If the round is handed over, players get no goodbye: they lose the connection, as if the server had been
-// killed.
+// If a round is handed over, players get no goodbye: they lose the connection as if the server were killed.
 void Host::sendGoodbyes() {
   if (m_controls->handsOverRound()) return;
   const ShutdownScheduler& scheduler = m_context->shutdown_scheduler;

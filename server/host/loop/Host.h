@@ -51,8 +51,7 @@ class Host : public df::Runner {
   void run(df::World& world) override;
   /// Ends run() after the present tick, with this sentence to the players. Any thread.
   void stop(const std::string& sentence);
-  /// Calls `job` on the host's thread, between two ticks. Any thread may post. Tests use it to inspect the
-  /// world.
+  /// Calls `job` on the host's thread between ticks. Any thread may post. Tests inspect worlds with it.
   void post(std::function<void(df::World&)> job);
   /// Sets a function to call after every tick, on the host's thread.
   void setObserver(std::function<void(df::World&)> observer) { m_observer = std::move(observer); }

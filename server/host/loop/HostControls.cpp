@@ -139,8 +139,7 @@ OptionChanges HostControls::applyOptions(const HostOptions& options) {
 
 // ---- the round --------------------------------------------------------------------------------------------
 
-// A round in recovery cannot be handed over: its file counts servers that ended in a recovery
-// (RoundJournals.h).
+// A round in recovery cannot be handed over: its file counts servers that ended in one (RoundJournals.h).
 std::string HostControls::handoverBlocker() const {
   return m_clients.rooms().recovering() ? "it is still being recovered" : "";
 }

@@ -30,8 +30,7 @@ struct ReloadResult {
   std::optional<ServerIdentity> identity;  ///< from --certificate and --key, whose files may be new
 };
 
-/// Reads a running server's options again, on a thread of its own, because files may be slow and hashing
-/// takes 0.1 s.
+/// Rereads a running server's options, on its own thread, because files may be slow and hashing takes 0.1 s.
 class Reload {
  public:
   /// Throws an exception that says why the options cannot be read.
@@ -55,8 +54,7 @@ class Reload {
 class HostControls {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Called once on the host's thread with the result of a request: whether it succeeded, and a sentence
-  /// without its full stop.
+  /// Called once on the host's thread with a request's result: success, and a sentence without full stop.
   using Done = std::function<void(bool is_done, const std::string& sentence)>;
 
   /// All arguments must outlive this.
@@ -91,8 +89,7 @@ class HostControls {
   void reportForcedExit(std::chrono::milliseconds timeout) const {
     if (m_on_forced_exit) m_on_forced_exit(timeout);
   }
-  /// Applies those of the changed options that may change while the server runs: applyReloadable()
-  /// (HostOptions.h).
+  /// Applies the changed options that may change while the server runs: applyReloadable() (HostOptions.h).
   OptionChanges applyOptions(const HostOptions& options);
 
   /// Sets the object that handOverRound() uses; it must outlive this.
@@ -103,8 +100,7 @@ class HostControls {
   void handOverRound(Done done);
   /// True if Host::run() has ended, or is about to end, so that another program continues the round.
   bool handsOverRound() const;
-  /// Call after the last tick. Ignores a trial replay that still runs; stops writing a round that is handed
-  /// over.
+  /// Call after the last tick. Ignores a running trial replay; stops writing a round that is handed over.
   void beginDrain();
 
  private:

@@ -39,8 +39,7 @@ void HostHealth::beginDrain(bool ticks) {
   m_phase = ticks ? Phase::kDraining : Phase::kEnding;
 }
 
-// Always good while the host loads its game at the start, or flushes its last bytes at the end: then it does
-// not tick.
+// Always good while the host loads its game, or flushes its last bytes at the end: then it does not tick.
 HostHealth::Result HostHealth::health(Clock::time_point now) const {
   const Phase phase = m_phase;
   if (phase == Phase::kStarting) return {true, "starting"};

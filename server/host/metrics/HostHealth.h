@@ -31,8 +31,8 @@ class HostHealth {
   void begin(std::chrono::nanoseconds tick_length, Clock::time_point now);
   /// Sets whether the maximum number of players is reached.
   void setFull(bool full) { m_full.store(full, std::memory_order_relaxed); }
-  /// Call it when the host accepts no more players. `ticks`: true if it still ticks; health() then still
-  /// reports a hang.
+  /// Call when the host accepts no more players. `ticks`: true if it still ticks; health() then still reports
+  /// a hang.
   void beginDrain(bool ticks);
   /// Call it if the end is cancelled: the host accepts players again.
   void cancelDrain() { m_phase = Phase::kRunning; }

@@ -37,8 +37,7 @@ inline constexpr std::array<double, 10> kRoundTripBounds{0.001, 0.005, 0.01, 0.0
                                                          0.1,   0.2,   0.4,  0.8,   2};
 inline constexpr std::array<double, 9> kLossBounds{0, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5};
 
-/// The values of all metrics of a host at one moment. Every second the tick thread publishes one, which then
-/// never changes.
+/// A host's metrics at one moment. The tick thread publishes one every second, which then never changes.
 struct MetricsSnapshot {
   Counters counters;
   PasswordCheck::Counters passwords;

@@ -25,8 +25,7 @@ using asio::ip::tcp;
 using std::error_code;
 
 constexpr std::chrono::milliseconds kRetryDelay{100};
-/// Maximum number of bytes read after a request. Reading them prevents a TCP reset that could overtake the
-/// answer.
+/// Maximum bytes read after a request. Reading them prevents a TCP reset that could overtake the answer.
 constexpr std::size_t kMaxDrained = std::size_t{1} << 20;
 
 MetricsServer::Response badRequest() {

@@ -26,9 +26,8 @@ struct InheritedSockets {
   /// again. Throws std::system_error.
   InheritedSockets duplicate() const;
   /// Keeps these sockets open for the next program that this process executes, and puts their numbers into
-  /// the environment. The numbers do not change, because other threads may open and close descriptors until
-  /// exec. Call just before exec, with sockets that nothing else closes (duplicate()).
-  /// Throws std::system_error.
+  /// the environment. They do not change, because other threads may open and close descriptors until exec.
+  /// Call just before exec, with sockets that nothing else closes (duplicate()). Throws std::system_error.
   void exportToExec() const;
 
   /// Returns the value of an environment variable, or null.

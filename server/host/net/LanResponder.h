@@ -96,8 +96,7 @@ class LanResponder {
   static constexpr std::chrono::seconds kRefreshInterval{5};
 
   /// Opens the sockets. `facts`: the answer, except for its nonce and its number of players. `address`: the
-  /// numeric address on which the server listens. Throws std::system_error if no socket of either family can
-  /// be opened.
+  /// numeric address on which the server listens. Throws std::system_error if no socket can be opened.
   LanResponder(LanAnswer facts, std::string address, LanMode mode);
   /// Calls stop().
   ~LanResponder();

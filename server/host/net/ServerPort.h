@@ -28,8 +28,7 @@ ServerPort openServerPort(asio::io_context& context, const std::string& address,
                           TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
                           ProxyListenerOptions visitors = {});
 
-/// Like openServerPort(), with sockets that are open already; they now belong to the port.
-/// Throws ListenError without `tls`.
+/// Like openServerPort(), with open sockets, which now belong to the port. Throws ListenError without `tls`.
 ServerPort adoptServerPort(asio::io_context& context, const InheritedSockets& sockets,
                            TcpListener::OnChannel on_channel, TcpOptions options, TlsListenerOptions tls,
                            ProxyListenerOptions visitors = {});

@@ -52,8 +52,7 @@ using Level = AdminCommand::Level;
 
 constexpr std::size_t kScoresOfATable = 10;
 constexpr std::size_t kMaxScoresOfATable = 10'000;
-/// Shortest prefixes that can be banned, in bits. A wider range covers whole providers, so it is likely a
-/// typo.
+/// Shortest bannable prefixes, in bits. A wider range covers whole providers, so it is likely a typo.
 constexpr int kMinBitsIPv4 = 8;
 constexpr int kMinBitsIPv6 = 16;
 

@@ -24,8 +24,7 @@ struct AdminRestart {
   std::chrono::seconds in{0};  ///< delay of kIn
 };
 
-/// Selects scores. The game is `game`; if that is empty, the game of `room`; if both are, the server's only
-/// one.
+/// Selects scores. The game is `game`; if it is empty, that of `room`; if both are, the server's only one.
 struct AdminScores {
   std::string table;      ///< empty: all tables of the game
   std::size_t count = 0;  ///< rows of each table

@@ -55,8 +55,7 @@ bool readInto(std::string& output_text, int from) {
   }
 }
 
-/// Reads until the process has ended, even if its children have not. Returns false if it has not ended by
-/// `end`.
+/// Reads until the process has ended, even if its children have not. False if it has not ended by `end`.
 bool readUntilEnd(int handle, OwnDescriptor& output, Clock::time_point end, std::string& output_text) {
   while (true) {
     pollfd places[] = {{handle, POLLIN, 0}, {output.get(), POLLIN, 0}};

@@ -21,8 +21,7 @@ namespace naiad::crash {
 
 namespace {
 
-// The handler reads only plain data that was set before, because it may call only async-signal-safe
-// functions.
+// The handler may call only async-signal-safe functions, so it reads only plain data set before.
 constexpr std::size_t kStack = std::size_t{64} << 10;
 constexpr std::chrono::milliseconds kForLog{200};
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -148,8 +147,7 @@ void onCrash(int signal, siginfo_t* p_info, void* /*context*/) {
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   sigaction(signal, &action, nullptr);
-  // A fault happens again when this handler returns. A signal that was sent (abort(), kill) must be raised
-  // again.
+  // A fault happens again when this handler returns. A sent signal (abort(), kill) must be raised again.
   if (p_info->si_code <= 0) raise(signal);
 }
 

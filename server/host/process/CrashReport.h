@@ -31,8 +31,7 @@ class Report {
 void setWorld(df::World& world);
 void clearWorld(df::World& world);
 
-/// Returns ", while Ship handles EventStep" (`verb`: "handles") at this moment; empty if no handler runs. Any
-/// thread.
+/// Returns ", while Ship handles EventStep" (`verb`: "handles") now; empty if no handler runs. Any thread.
 std::string activity(std::string_view verb);
 
 /// inTick() is true if a tick is running; where() returns " in tick 17, while Ship handled EventStep". Call

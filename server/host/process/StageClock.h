@@ -1,7 +1,6 @@
 // Measures the tick thread's time by stage of the tick, and how late ticks begin and how long they take.
 //
-// A stage ends where the next one begins, so each change reads the clock once. Before start(), the clock is
-// never read.
+// A stage ends where the next begins, so each change reads the clock once. It is never read before start().
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// A thread that watches the tick thread, because that cannot notice anything while a game does not return
-// from a handler.
+// A thread that watches the tick thread, which notices nothing while a game does not return from a handler.
 #pragma once
 
 #include <atomic>

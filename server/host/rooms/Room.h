@@ -123,9 +123,8 @@ class Room {
 
   // Ticks.
 
-  /// Passes the players' input to the world and begins a tick. Returns false if the world is not ready for
-  /// one. `truth`: true if publish() will get a TruthWriter. `audited_player`: player whose picture is
-  /// audited, or 0.
+  /// Passes the players' input to the world and begins a tick. Returns false if the world is not ready.
+  /// `truth`: whether publish() gets a TruthWriter. `audited_player`: player whose picture is audited, or 0.
   bool beginTick(bool truth, std::uint32_t audited_player = 0);
   /// Sends snapshots, sounds and notes after the world's tick. Writes pictures to `p_truth` unless null.
   void publish(TruthWriter* p_truth);
@@ -143,8 +142,7 @@ class Room {
 
   /// Counts a round that ended. Returns the number of consecutive short rounds.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }
-  /// Switches to another round: all players join its world and get it from the beginning. Returns the old
-  /// round.
+  /// Switches to another round: players join its world and get it from the start. Returns the old one.
   std::unique_ptr<Round> changeRound(std::unique_ptr<Round> round);
 
  private:

@@ -69,8 +69,7 @@ void AuditScheduler::forget(const Session& session) {
   if (m_p_session == &session) m_p_session = nullptr;
 }
 
-// Seconds are counted from the start of the player's audit, so that players with a short visit are audited,
-// too.
+// Seconds are counted from the start of the player's audit, so players with a short visit are audited, too.
 std::uint32_t AuditScheduler::auditedPlayer(std::uint32_t tick) const {
   if (m_p_session == nullptr) return 0;
   return (tick - m_since) / m_ticks_per_second % kPeriod == 0 ? m_p_session->player() : 0;
@@ -298,8 +297,7 @@ void RoomManager::checkWorlds(Time now) {
   std::erase_if(m_rooms, [](const auto& room) { return room->isEmpty() && room->round().end(); });
 }
 
-// True if the room's world ticks without players: with --ticks, in the last round, or if the game asks for
-// it.
+// True if a room's world ticks without players: with --ticks, in the last round, or at the game's request.
 bool RoomManager::runsEmpty(const Room& room) const {
   if (m_options.ticks > 0 || m_last_round) return true;
   if (room.plan() != nullptr) return room.plan()->ready.runs_empty;

@@ -1,5 +1,4 @@
-// The rooms of a host and the rounds played in them (docs/rounds.md): one room for all players, one for each
-// player, or named rooms.
+// A host's rooms and their rounds (docs/rounds.md): one room for all players, one for each, or named rooms.
 #pragma once
 
 #include <chrono>
@@ -75,9 +74,8 @@ class RoomManager {
   void setOnTransfer(std::function<void(Session& session, const std::string& room)> on_sent) {
     m_on_sent = std::move(on_sent);
   }
-  /// Sets callbacks: `on_round` is called when the next round has begun in a room; `on_sessions`, when
-  /// the replay of a killed server's round has ended, also if it failed, with its players' sessions. Call it
-  /// before open().
+  /// Sets callbacks: `on_round` is called when the next round has begun in a room; `on_sessions`, when the
+  /// replay of a killed server's round has ended or failed, with its players' sessions. Call before open().
   void setOnRound(std::function<void(Room&)> on_round,
                   std::function<void(Room&, const std::vector<PersistedSession>&)> on_sessions) {
     m_on_round = std::move(on_round);

@@ -28,9 +28,8 @@ std::vector<LaunchedRoom> launchRooms(const HostOptions& options, const std::str
                                       const std::function<LogLine(const std::string& room)>& print);
 
 /// Opens the journals of a server's rooms, in their order: a folder for each below that of --journal, and one
-/// thread that writes them. Null pointers if the options disable journals. `port`: the server's port; a round
-/// is resumed only on the port on which it began. Throws std::system_error if the folder of --journal cannot
-/// be made.
+/// thread to write them. Null if the options disable journals. `port`: the server's port; a round is resumed
+/// only on the port where it began. Throws std::system_error if the folder of --journal cannot be made.
 std::vector<std::shared_ptr<RoundJournals>> openRoomJournals(const HostOptions& options, std::uint16_t port,
                                                              const std::vector<LaunchedRoom>& rooms,
                                                              const LogLine& log);

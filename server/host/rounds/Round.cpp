@@ -249,16 +249,15 @@ std::uint32_t Round::currentTick() const {
   return m_ticks - (std::max(unanswered, 1u) - 1);
 }
 
-// Keeps the scores of replayed turns, which a killed server may not have stored. In a failover, this
-// server has them already.
+// Keeps the scores of replayed turns, which a killed server may not have stored. In a failover, this server
+// has them already.
 void Round::collectReplayedScores() {
   if (isFailingOver()) return;
   m_scores = popScores();
   if (m_scores.size() > kMaxScores) m_scores.erase(m_scores.begin(), m_scores.end() - kMaxScores);
 }
 
-// Compares a replayed result with the file. Stores the last turn's result, if it is missing in the file, and
-// that of the closing turn.
+// Compares a replayed result with the file. Stores the last turn's, if missing there, and the closing turn's.
 void Round::endReplayedTick() {
   collectReplayedScores();
   if (m_closing) {

@@ -130,8 +130,7 @@ class Round {
   std::vector<std::uint32_t> popLeavers() { return std::exchange(m_world->answer().leavers, {}); }
   /// Removes and returns the scores that the game added in the last tick, in order.
   std::vector<df::AddedScore> popScores();
-  /// Removes and returns the players to be moved to other rooms, as the game asked in the last tick
-  /// (WorldPort::answer).
+  /// Takes the players to be moved to other rooms, as the game asked in the last tick (WorldPort::answer).
   std::vector<df::RoomTransfer> popSent() { return std::exchange(m_world->answer().sent, {}); }
   bool isGameOver() const { return m_world->answer().game_over; }
   /// Returns this player's picture, as the engine drew it in the last tick; blank if tick() asked for none.

@@ -85,8 +85,7 @@ std::optional<InheritedSockets> copyListeningSockets(std::uint16_t port) {
   return sockets.duplicate();
 }
 
-/// Time limit for writing a round to disk before dfreplay reads it. The game continues, and other programs
-/// may keep the disk busy.
+/// Time limit to write a round to disk for dfreplay. The game continues, and other programs may use the disk.
 constexpr std::chrono::seconds kSyncTime{20};
 /// Time limit of a program that only reads its options.
 constexpr std::chrono::seconds kCheckTime{20};

@@ -44,8 +44,7 @@ class RoundHandover {
     bool starts = true;   ///< true if the new program starts, so that it can run when the rounds are over
   };
 
-  /// `command` runs dfserver again, and must outlive this object. So must everything that `done` of verify()
-  /// uses.
+  /// `command` runs dfserver again, and must outlive this object. So must all that `done` of verify() uses.
   RoundHandover(const ReexecCommand& command, std::vector<Room> rooms);
   /// Ends a running proof.
   ~RoundHandover();

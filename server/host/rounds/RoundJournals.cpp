@@ -302,8 +302,7 @@ std::optional<WorldStartOptions> RoundJournals::resumeOptions() const {
   return order;
 }
 
-// Records the attempt in the file before it begins, so that a round that ends the server again and again is
-// given up.
+// Records the attempt in the file before it begins, so a round that repeatedly ends the server is given up.
 std::shared_ptr<Journal> RoundJournals::resumeJournal(UnfinishedRound& round) const {
   auto sink = std::make_unique<JournalFileSink>(round.path(), round.wholeBytes());
   const int attempts = attemptsOf(round);

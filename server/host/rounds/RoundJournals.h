@@ -48,8 +48,7 @@ struct SharedJournals {
 
 class RoundJournals {
  public:
-  /// Returns null if the options disable journals. `module`: the game's path; empty if this program is the
-  /// game.
+  /// Null if the options disable journals. `module`: the game's path; empty if this program is the game.
   static std::shared_ptr<RoundJournals> open(const HostOptions& options, const std::string& game,
                                              const std::string& module, const LogLine& log);
 
@@ -84,8 +83,7 @@ class RoundJournals {
   };
   /// Returns the current round; nullopt if none is being recorded.
   std::optional<CurrentRound> currentRound() const;
-  /// Returns why rounds of this game cannot be handed over, as the rest of a sentence; empty if nothing
-  /// prevents it.
+  /// Returns why rounds of this game cannot be handed over, as the rest of a sentence; empty if they can.
   std::string handoverBlocker() const;
   /// Returns the path of the game's module; empty: the game is a program of its own.
   const std::string& module() const { return m_module; }

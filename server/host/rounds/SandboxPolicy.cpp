@@ -159,9 +159,8 @@ class Builder {
     }
   }
 
-  // A build folder has links to the folders of its sources. A link is followed only if the folder that
-  // contains both ends is not wide (like / or the home folder), because a link that comes with a game could
-  // lead to the user's files.
+  // A build folder links to its sources' folders. A link is followed only if the folder that contains both
+  // ends is not wide (like / or the home folder), because a game's link could lead to the user's files.
   void addLinked(const fs::path& folder) {
     for (const char* name : kGameFolders) {
       const fs::path inner = folder / name;

@@ -43,8 +43,7 @@ std::vector<std::string> makeFixedEnvironment(const HostOptions& options);
 /// True for "NAME=value" of a variable that changes the behaviour of games, so that round files record it.
 bool isGameVariable(const std::string& entry);
 
-/// Overwrites the values of --password and --admin-password, because every process of this machine can read a
-/// command line.
+/// Overwrites the values of --password and --admin-password, because every process can read a command line.
 void hidePassword(int argc, char** argv);
 /// Returns the words of a command line without its passwords, for a program that this one runs.
 std::vector<std::string> withoutPasswords(const std::vector<std::string>& words);

@@ -28,8 +28,7 @@ std::shared_ptr<const WorldLauncher> launchProgram(const HostOptions& options, c
                                                    const LogLine& log);
 
 /// Returns the function for Host::setWorlds(). `print` gets the lines that worlds print, which may have any
-/// bytes and look like a line of the server's own. `journals` record their rounds; null: they are not
-/// recorded.
+/// bytes and look like lines of the server. `journals` record their rounds; null: they are not recorded.
 std::function<std::unique_ptr<Round>(asio::io_context& home)> startWorlds(
     std::shared_ptr<const WorldLauncher> launcher, LogLine print,
     std::shared_ptr<RoundJournals> journals = nullptr);

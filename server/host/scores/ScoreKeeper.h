@@ -1,5 +1,4 @@
-// The best scores of a server's game: in memory, for the start of each round, and in a file, where they
-// persist.
+// The best scores of a server's game: in memory for the start of each round, and persistent in a file.
 #pragma once
 
 #include <atomic>
@@ -49,9 +48,8 @@ class ScoreKeeper {
   const std::map<std::string, std::vector<df::HighScore>>& tables() const { return m_tables.all(); }
   /// Sets the callback for each accepted row, called on the host's thread before the row is written.
   void setObserver(std::function<void(const ScoreRow& row)> observer) { m_observer = std::move(observer); }
-  /// Adds scores from a world's round. The world may be an untrusted program, so all values are checked. A
-  /// replayed round reports its scores again; those loaded from the file are ignored. `recording`: the
-  /// round's file name.
+  /// Adds scores of a world's round. The world may be untrusted, so all values are checked. A replayed round
+  /// reports its scores again; those loaded from the file are ignored. `recording`: the round's file name.
   void add(const std::string& round, const std::vector<df::AddedScore>& scores,
            const std::string& recording = "");
 

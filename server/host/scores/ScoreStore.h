@@ -36,8 +36,7 @@ class ScoreStore {
   /// Returns the best `count` rows of a table, best first, or of each table, by name, if `table` is empty.
   /// Returns none if the file does not exist.
   std::vector<ScoreRow> best(const std::string& table, std::size_t count);
-  /// Adds all rows or none. Ignores rows that are already there. Creates the file if necessary. Waits for the
-  /// disk.
+  /// Adds all rows or none. Ignores rows already there. Creates the file if necessary. Waits for the disk.
   void save(const std::vector<ScoreRow>& rows);
 
  private:

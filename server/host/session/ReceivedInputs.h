@@ -27,8 +27,7 @@ class PressedKeys {
   void recordInput(const Input& input) {
     if (!input.is_mouse) m_down.set(input.key, input.action != df::KEY_RELEASED);
   }
-  /// Calls `release(input)` with a release of each key that is down, in the order of key codes; then no key
-  /// is down.
+  /// Calls `release(input)` with a release of each key that is down, in key code order; then no key is down.
   template <class Release>
   void releaseAll(Release release) {
     for (std::size_t key = 0; key < m_down.size() && m_down.any(); ++key) {

@@ -48,9 +48,8 @@ void ReliableOutbox::append(wire::ServerMessage message, Kind kind, std::string 
   limit();
 }
 
-// Replaces an unsent frame in its place in the queue. At the end of the queue, a frame that is often updated
-// would never be sent over a connection that is always busy. A sent frame is removed, and the new one is
-// added at the end.
+// Replaces an unsent frame in its place in the queue. At the end, a frame that is often updated would never
+// be sent over an always busy connection. A sent frame is removed, and the new one is added at the end.
 bool ReliableOutbox::replaceUnsent(wire::ServerMessage& message, Kind kind, const std::string& label) {
   if (kind == Kind::kChat) return false;
   const auto before = std::find_if(m_kept.begin(), m_kept.end(), [&](const ReliableFrame& kept) {

@@ -7,8 +7,7 @@ namespace naiad {
 
 namespace {
 
-/// Snapshots farther than this before the newest acknowledged one cannot be acknowledged any more
-/// (AckWindow).
+/// Snapshots farther than this before the newest acknowledged one can no longer be acknowledged (AckWindow).
 constexpr std::uint32_t kWindow = 64;
 
 }  // namespace

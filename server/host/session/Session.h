@@ -173,8 +173,7 @@ class Session {
   static constexpr BucketRate kResumeRate{.per_second = 1, .burst = 3};
   /// Rate limit of new second streams. Clients ask at most every two seconds.
   static constexpr BucketRate kSecondStreamRate{.per_second = 0.5, .burst = 4};
-  /// Above this number of unsent bytes, sendBestEffort() drops its message and messages of sendReliable()
-  /// wait.
+  /// Unsent bytes above which sendBestEffort() drops its message and messages of sendReliable() wait.
   static constexpr std::size_t kMaxUnsentForBestEffort = std::size_t{4} * 1024;
 
   Session(std::unique_ptr<ReliableChannel> channel, Counters& counters, Clock::time_point now);
@@ -197,8 +196,7 @@ class Session {
   /// True for a restored session, and for a session that replaced one until confirm(). Such a session cannot
   /// be resumed by resumeOn() or restart(), because its client may not have read its welcome.
   bool isRestored() const { return m_restored; }
-  /// Call after welcome(): this session replaces `restored`, which ends. Keeps the mute and the resume limit
-  /// of `restored`.
+  /// Call after welcome(): this session replaces `restored`, which ends. Keeps its mute and resume limit.
   void replaceRestored(Session& restored);
   /// Call once the client has proved that it read the welcome (popWelcomeConfirmed()).
   void confirm() { m_restored = false; }
@@ -225,9 +223,8 @@ class Session {
   bool admitRoomRequest() { return m_room_requests.tryConsume(kRoomRate, now()); }
   /// True if the client supports rooms, so it can be moved to another one.
   bool supportsRooms() const { return m_supports_rooms; }
-  /// Moves the session to another room's world, described by `welcome`. The client is sent a message about
-  /// the room, and then its world from the beginning; if detached, a welcome with the new room when it
-  /// resumes.
+  /// Moves the session to another room's world, described by `welcome`. The client gets a message about the
+  /// room, then its world from the beginning; if detached, a welcome with the new room when it resumes.
   void enterRoom(const wire::Welcome& welcome);
   /// Call when another world begins: sends it from the beginning, and drops the inputs to the previous one.
   void beginWorld();
@@ -235,8 +232,7 @@ class Session {
   void setGrace(std::chrono::milliseconds grace) { m_grace = grace; }
   /// True while the stream is broken and the client may reconnect.
   bool isDetached() const { return m_state == State::kPlaying && m_streams.first() == nullptr; }
-  /// True once for each welcome: the client has sent a frame on the first stream since, so it has read the
-  /// welcome.
+  /// True once per welcome: the client has read it, because it has sent a frame on the first stream since.
   bool popWelcomeConfirmed() { return m_activity.popWelcomeConfirmed(); }
   /// The welcome without its resume token, because only the hash is stored (ResumeTokens).
   const wire::Welcome& welcomed() const { return *m_welcome; }
@@ -248,8 +244,7 @@ class Session {
   /// Sends the reason and ends the session. `again`: the server will be back within this time; 0: never.
   void sendGoodbye(const std::string& sentence, std::chrono::seconds again = std::chrono::seconds(0));
 
-  /// Enforces deadlines. Call once a tick. A long gap between two calls does not count as silence of the
-  /// client (IdleTimer).
+  /// Enforces deadlines. Call once a tick. A long gap between calls is not silence of the client (IdleTimer).
   void checkDeadlines(Clock::time_point now);
   /// Calls `apply(input)` for the inputs that are due in `tick`, the world's next tick.
   template <class Apply>
@@ -277,8 +272,7 @@ class Session {
     m_delivery.audit()->recordTruth(tick, std::move(picture));
   }
 
-  /// Sends pending changes of the published tick, unless the client or its connection is busy with earlier
-  /// bytes.
+  /// Sends the published tick's pending changes, unless the client or connection is busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player);
   void send(const wire::ServerMessage& message);
   /// Sends the message reliably, if needed on a later stream. Kept until the client acknowledges it, or
@@ -295,8 +289,7 @@ class Session {
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
   std::string address() const { return m_streams.peerAddress(); }
-  /// Number of ticks after which this client was not up to date, because its connection or the client was
-  /// busy with earlier bytes.
+  /// Ticks after which the client was not up to date: it or its connection was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
   /// Newest round-trip time measured by the client, in milliseconds; 0 before the first.
   std::uint32_t rttMillis() const { return m_rtt_millis; }

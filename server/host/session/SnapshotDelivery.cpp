@@ -150,8 +150,7 @@ void SnapshotDelivery::reset() {
   if (m_audit) m_audit->restart();
 }
 
-// If the client was sent no snapshot yet, the audit starts now, because its first snapshots send the whole
-// world.
+// If no snapshot was sent yet, the audit starts now, because the first ones send the whole world.
 void SnapshotDelivery::setAudit(bool audit) {
   m_audit = audit ? std::make_unique<ReplicaAudit>(m_counters) : nullptr;
   if (m_audit && m_sender.newestNumber() == 0) m_audit->restart();

@@ -36,8 +36,7 @@ class SnapshotDelivery {
   void setDatagrams(std::unique_ptr<SealedChannel> datagrams) { m_datagrams = std::move(datagrams); }
   SealedChannel* datagrams() { return m_datagrams.get(); }
 
-  /// Sends pending changes of the published tick, unless the client or its connection is busy with earlier
-  /// bytes.
+  /// Sends the published tick's pending changes, unless the client or connection is busy with earlier bytes.
   void sendTick(const Publisher& publisher, const df::PlayerFacts& player, StreamPair& streams, Time now);
   /// Sets the newest input that the world has applied, and the tick in which it did.
   void setNewestInput(std::uint32_t id, std::uint32_t tick) { m_sender.setNewestInput(id, tick); }
@@ -72,8 +71,7 @@ class SnapshotDelivery {
   std::uint32_t tick() const { return m_tick; }
   /// The tick of a snapshot; nullopt if it is no longer remembered.
   std::optional<std::uint32_t> tickOf(std::uint32_t snapshot) const { return m_ticks.tickOf(snapshot); }
-  /// Number of ticks after which this client was not up to date, because its connection or the client was
-  /// busy with earlier bytes.
+  /// Ticks after which the client was not up to date: it or its connection was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_skipped_ticks; }
   const TransportSelector& transport() const { return m_transport; }
   const SnapshotSender& sender() const { return m_sender; }

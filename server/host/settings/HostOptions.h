@@ -1,5 +1,4 @@
-// All options of a host. One table feeds the command line, environment, config file, --help and
-// docs/dfserver.md.
+// A host's options. One table feeds the command line, environment, config file, --help and docs/dfserver.md.
 #pragma once
 
 #include <cstdint>
@@ -80,8 +79,7 @@ struct HostOptions {
   bool vote_kick = false;           ///< players may vote to kick others
   int inactive_kick = 0;            ///< seconds without key, click or chat until a player is kicked; 0: never
   std::vector<std::string> warnings;  ///< warnings about these options, for the log
-  /// Not an option: sockets that were open when the program started. `address` and `port` are then those of
-  /// the sockets.
+  /// Not an option: sockets that were open when the program started. `address` and `port` are then theirs.
   std::optional<InheritedSockets> sockets;
   // Only for games that are programs themselves:
   bool headless = false;     ///< no network and no players
@@ -94,8 +92,7 @@ inline bool usesJournal(const HostOptions& options) {
   return !options.journal.empty() && options.journal != "off";
 }
 
-/// True if a game that is a program itself needs world processes: for further rounds, for private worlds, or
-/// for a journal.
+/// True if a game that is a program needs world processes: for further rounds, private worlds or a journal.
 inline bool usesWorldProcesses(const HostOptions& options) {
   return options.on_game_over == "restart" || options.players == "private" || usesJournal(options);
 }
@@ -135,8 +132,7 @@ using ConfigLocation = std::function<std::string(const std::string& key)>;
 std::set<std::string> readProgramOptions(const ConfigValue& value_of, HostOptions& options,
                                          const ConfigLocation& location_of = {});
 
-/// Makes the server use these sockets instead of opening its own. Adds a warning if an option gave another
-/// port.
+/// Makes the server use these sockets instead of its own. Adds a warning if an option gave another port.
 void useSockets(const InheritedSockets& sockets, HostOptions& options);
 
 /// Adds a warning to `options` if the password, read from `file`, is not a hash and every user can read it.

@@ -32,8 +32,7 @@ class MetricsHosts {
   /// Parses names separated by commas, accepted in addition to "localhost" and numeric addresses. Returns
   /// nullopt if one of them is invalid.
   static std::optional<MetricsHosts> parse(std::string_view names);
-  /// True if the Host header is accepted. Ignores case and the port, which may be a container's forwarded
-  /// one.
+  /// True if the Host header is accepted. Ignores case and port, which may be a container's forwarded one.
   bool allows(std::string_view host) const;
 
  private:

@@ -91,8 +91,7 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-/// Returns a message if the room's game does not exist. Checked at the start, before any player wakes the
-/// room.
+/// Returns a message if the room's game is missing. Checked at the start, before a player wakes the room.
 std::string gameComplaint(const RoomOptions& room) {
   try {
     const auto module = GameModule::find(room.game);

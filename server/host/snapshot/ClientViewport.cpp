@@ -11,11 +11,9 @@ namespace naiad {
 
 namespace {
 
-/// Width in cells of the margin around the view whose objects a predicting client needs, because its player
-/// may collide with them.
+/// Cells around the view whose objects a predicting client needs, because its player may collide with them.
 constexpr std::int32_t kCollisionMargin = 2;
-/// Ticks by which the player in the client's picture may be behind the world or ahead of it, because clients
-/// draw the past or predict.
+/// Ticks by which the player may be behind or ahead in the client's picture, which is past or predicted.
 constexpr double kOffTicks = 12;
 /// Minimum of Axis::spare, in cells: a key may move the player in steps, so the client's picture may differ
 /// from the world by this much at once.

@@ -191,8 +191,7 @@ void Interest::searchView() {
                              });
 }
 
-// A view that has moved since the last search will probably move again, so the next search then examines all
-// known objects.
+// A view moved since the last search probably moves again, so the next search examines all known objects.
 void Interest::removeOutside(const CellRect& outer, bool moves) {
   m_known_bits.clear();
   const CompactRect around(outer);

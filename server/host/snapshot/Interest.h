@@ -39,8 +39,7 @@ class Interest {
 
   /// Number of ticks from one search to the next.
   static constexpr std::uint32_t kSearchInterval = 8;
-  /// Distance in cells outside the view at which an object is removed, so that it does not flicker at the
-  /// edge.
+  /// Distance in cells outside the view at which an object is removed, so it does not flicker at the edge.
   static constexpr std::int64_t kHysteresis = 2;
 
  private:

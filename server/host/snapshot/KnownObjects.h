@@ -19,8 +19,7 @@ namespace naiad {
 class KnownObjects {
  public:
   enum class Life : std::uint8_t { kFree, kBorn, kAlive, kDying };
-  /// The data that every tick reads. It is small, because it is not cached when the client's next tick
-  /// begins.
+  /// The data that every tick reads. It is small, because it is not cached at the client's next tick.
   struct Known {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;  ///< generation of the object in the world's slot

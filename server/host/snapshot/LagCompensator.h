@@ -2,8 +2,7 @@
 // players' views of the last ticks.
 //
 // All clients extrapolate the published models. So two ticks determine what a client drew: the newest tick
-// that it had received, and the tick that it drew. Ticks that are too old are clamped, because players must
-// not gain from being late.
+// received and the tick drawn. Too old ticks are clamped, because players must not gain from being late.
 #pragma once
 
 #include <array>
@@ -20,8 +19,7 @@ namespace naiad {
 
 class LagCompensator : public df::LagCompensation {
  public:
-  /// Number of ticks whose models are kept. A client whose newest tick is older counts as having received the
-  /// oldest of them.
+  /// Ticks whose models are kept. A client whose newest tick is older counts as having received the oldest.
   static constexpr std::uint32_t kTicks = 32;
   /// Maximum age of a drawn tick, in ticks. An older one is clamped to this age, a future one to the present.
   static constexpr std::uint32_t kMaxBehind = 8;

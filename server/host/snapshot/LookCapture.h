@@ -9,8 +9,7 @@
 
 namespace naiad {
 
-/// True if `look`, at `tick` and `position`, draws exactly the characters of `commands`, in exactly their
-/// cells.
+/// True if `look`, at `tick` and `position`, draws exactly the characters of `commands` in their cells.
 bool drawsTheSame(const Look& look, std::uint32_t tick, df::FixedVector position,
                   std::span<const df::DrawCommand> commands);
 

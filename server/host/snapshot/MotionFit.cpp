@@ -13,8 +13,7 @@ namespace {
 using df::Fixed;
 
 constexpr Fixed kHalf = df::kFixedOne / 2;
-/// Maximum speed of a motion that is fitted: far more cells per tick than a view has. It keeps all sums below
-/// in the range of their type.
+/// Maximum speed of fitted motions: far more cells per tick than a view has. All sums below stay in range.
 constexpr Fixed kFastest = Fixed{4096} * df::kFixedOne;
 
 /// A tick, counted from the first one, and the position of a character within its cell in that tick.

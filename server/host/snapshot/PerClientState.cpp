@@ -278,8 +278,7 @@ void PerClientState::queueRepeats() {
 }
 
 void PerClientState::confirmArrival(std::uint32_t number, bool probe) {
-  // Every snapshot from the one that first sent the input carries it in its header, until one of them is
-  // known to have arrived.
+  // Every snapshot since the input was first sent has it in its header, until one is known to have arrived.
   State& input = m_states[kInput];
   if (!probe && input.sent != 0 && !isNewer(input.sent, number)) input.arrived = true;
   for (std::size_t i = 0; i < kCount; ++i) {

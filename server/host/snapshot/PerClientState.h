@@ -40,8 +40,7 @@ class OriginChoice {
   std::uint32_t m_newest = 0;  ///< the slot set last
 };
 
-/// The steered object's state as a client computes it from its newest record: deadReckon(), one tick at a
-/// time.
+/// The steered object's state as a client computes it from its newest record: deadReckon(), tick by tick.
 class ControlExtrapolator {
  public:
   /// Call when `record` was sent.
@@ -80,8 +79,7 @@ class PerClientState {
   bool requeueLost(std::uint32_t number);
 
   bool hasPending() const { return m_pending != 0; }
-  /// Upper bound of the size of the pending parts, in bits. Excludes a control table, which waits for a
-  /// snapshot with space for it.
+  /// Maximum bits of the pending parts, without a control table, which waits for a snapshot with space.
   std::size_t maxPendingBits() const { return static_cast<std::size_t>(std::popcount(m_pending)) * kMaxBits; }
 
   /// The player's facts in the last tick, without name, colour, score and window.

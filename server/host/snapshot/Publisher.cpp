@@ -11,15 +11,13 @@ namespace naiad {
 
 namespace {
 
-/// Maximum number of remembered looks. Above it, looks not entered for kForgetAfter ticks are dropped, or all
-/// if that is not enough.
+/// Above this many looks, those not entered for kForgetAfter ticks are dropped, or all if that is not enough.
 constexpr std::size_t kMaxRemembered = 16'384;
 constexpr std::uint32_t kForgetAfter = 9'000;
 /// Number of shared sequences, including sequences that no object has any more, at which all are dropped.
 constexpr std::size_t kMaxShared = 2'048;
 
-/// Numbers of ticks: a path is fitted for at least kMinHorizon, and after a turn for at most
-/// kHorizonAfterTurn.
+/// Ticks for which a path is fitted: at least kMinHorizon, and after a turn at most kHorizonAfterTurn.
 constexpr std::uint32_t kMinHorizon = 64;
 constexpr std::uint32_t kHorizonAfterTurn = 512;
 /// A path that outlives its model's horizon is fitted again, for a horizon of its age times this factor.
@@ -177,8 +175,7 @@ void Publisher::keepExact(df::ObjectKey key) {
   const Motion truth = truthNow(tracked);
   if (rebase(tracked.model.state.motion, m_tick) == truth) return;
   tracked.model.state.motion = truth;
-  // Examine the object in the next tick at the latest, because its draw() may not run. If it is due in this
-  // tick, it stays due.
+  // Examine the object by the next tick, because its draw() may not run. If it is due now, it stays due.
   if (isNewer(m_examine_at[key.slot], m_tick + 1)) m_examine_at[key.slot] = m_tick + 1;
   tracked.off_views = m_tick;
   markChanged(key.slot, tracked, kMotion);

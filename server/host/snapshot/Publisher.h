@@ -90,8 +90,7 @@ class TickCache {
   const Value* find(std::size_t index) const {
     return index < m_entries.size() && m_entries[index].round == m_round ? &m_entries[index].value : nullptr;
   }
-  /// Stores a value. `size` must exceed all indices until the next clear(). The returned reference is valid
-  /// until the next put().
+  /// Stores a value. `size` must exceed all indices until clear(). The result is valid until the next put().
   const Value& put(std::size_t index, std::size_t size, Value value) {
     m_entries.resize(size);
     m_entries[index] = {m_round, std::move(value)};

@@ -24,8 +24,7 @@ bool landsInAView(const Appearance& appearance, df::FixedVector position, const 
   });
 }
 
-/// Returns a number of ticks for which the model, now outside all views, stays outside them if views move by
-/// at most a cell per tick.
+/// Returns ticks for which the model, now outside all views, stays so if they move at most a cell per tick.
 std::uint32_t ticksOffViews(const Publisher::Model& model, std::uint32_t tick, const df::WorldView& view) {
   constexpr std::int64_t kFar = 1 << 20;
   const Motion motion = rebase(model.state.motion, tick);

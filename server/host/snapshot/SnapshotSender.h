@@ -3,8 +3,7 @@
 // A client receives the objects in its view, objects about to enter it, and the objects that its view follows
 // and its player steers. In each tick, Interest decides which objects the client knows, and SnapshotBuilder
 // writes what is pending in ClientReplica, most urgent first. Acknowledgements remove snapshots from
-// InFlightSnapshots. Nothing here depends on the channel, except that a snapshot may be too large for a
-// datagram.
+// InFlightSnapshots. Nothing here depends on the channel, except that a snapshot may exceed a datagram.
 #pragma once
 
 #include <cstdint>
@@ -50,9 +49,8 @@ class SnapshotSender {
   /// Sets how many ticks in advance an object is sent before it may enter the view.
   void setLookAhead(std::uint32_t ticks) { m_look_ahead = ticks; }
 
-  /// Writes the pending state at the publisher's tick, most urgent first, within a window of kMaxInFlight
-  /// unacknowledged snapshots. If nothing is pending or the window is full, writes one snapshot every
-  /// kKeepAlive ticks.
+  /// Writes pending state at the publisher's tick, most urgent first, within a window of kMaxInFlight
+  /// unacknowledged snapshots. If nothing is pending or it is full, writes a snapshot every kKeepAlive ticks.
   void build(const Publisher& publisher, PacketLimits limits, Packets& packets);
   std::vector<Packet> build(const Publisher& publisher, PacketLimits limits = {}) {
     Packets packets;
@@ -68,8 +66,7 @@ class SnapshotSender {
   void acknowledge(const AckWindow& acks);
   /// Marks a snapshot, just built, that uses a stream: it may be late, but is lost only if the stream breaks.
   void markLarge(std::uint32_t number) { m_in_flight.markLarge(number); }
-  /// True if a large snapshot is unacknowledged. If a later one overtook it, the client's world would lack
-  /// its contents.
+  /// True if a large snapshot is unacknowledged. If a later one overtook it, the client would lack it.
   bool hasLargeInFlight() const { return m_in_flight.hasLarge(); }
   /// Call when the stream broke: the contents of the large snapshots in flight are pending again.
   void requeueLarge();

@@ -1,6 +1,5 @@
 // Gives a process equal addresses in each run. Without randomisation they still depend on two sizes: the
-// start of the stack on the size of arguments and environment, and the place of libraries on the limit of the
-// stack.
+// start of the stack on the size of arguments and environment, and that of libraries on the stack's limit.
 #pragma once
 
 #include <string>

@@ -237,8 +237,7 @@ void limitToSelf(FilterWriter& out, std::uint32_t call, std::size_t argument, pi
   });
 }
 
-// Replaces Landlock's limit on signals. A world's children can then send signals only to their whole group
-// or to the world itself.
+// Replaces Landlock's signal limit. A world's children can then signal only their whole group or the world.
 void limitSignals(FilterWriter& out, pid_t self) {
   out.forCall(__NR_kill, fails(EPERM), [&] {
     out.loadArgument(0);

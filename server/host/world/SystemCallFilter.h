@@ -24,8 +24,7 @@ struct FilterScene {
 std::vector<sock_filter> makeSystemCallFilter(const FilterScene& scene);
 
 /// Installs the filter for this thread and all that it starts, permanently. Call it in a world's process,
-/// before that executes its program. PR_SET_NO_NEW_PRIVS must be set. Returns errno, or 0; ENOSYS if `filter`
-/// is empty.
+/// before its program. PR_SET_NO_NEW_PRIVS must be set. Returns errno, or 0; ENOSYS if `filter` is empty.
 int installSystemCallFilter(std::vector<sock_filter> filter);
 
 }  // namespace naiad

@@ -2,8 +2,7 @@
 //
 // On a loaded machine a process may have to wait for a processor, and in a debugger it does nothing. Neither
 // is the game's fault, so only computing, and waiting for something that the game asked for, counts in full.
-// A process stopped by a signal gets more time, but not unlimited time, because it may have sent the signal
-// itself.
+// A process stopped by a signal gets more, but limited time, because it may have sent the signal itself.
 #pragma once
 
 #include <sys/types.h>

@@ -3,8 +3,7 @@
 //
 //   record  size of the rest (varint) | kind (1) | fields
 //
-// A turn is sent to the world before a tick; a result says how the tick ended. Readers skip records of
-// unknown kinds.
+// A turn is sent to the world before a tick; a result says how the tick ended. Readers skip unknown kinds.
 #pragma once
 
 #include <cstddef>

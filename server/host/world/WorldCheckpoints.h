@@ -54,8 +54,7 @@ class WorldCheckpoints {
   /// Returns the reason if copies have become impossible, only once.
   std::optional<std::string> popProblem() { return std::exchange(m_problem, std::nullopt); }
 
-  /// Requests a copy of the process `world` after the turn that is sent next. Returns false if there will be
-  /// none.
+  /// Requests a copy of the process `world` after the turn sent next. Returns false if there will be none.
   bool request(pid_t world);
   /// Adds the copy of the last request(). Call when the world has answered that turn; `state`: the copy's
   /// place in the round.

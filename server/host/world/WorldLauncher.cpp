@@ -53,9 +53,8 @@ std::pair<Descriptor, Descriptor> socketPair(int type, const char* what) {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// Makes the pipe for a world's output. When the pipe is full, the world's writes block; our reads never
-/// block. The world does not get our own output, because that may be a file or terminal that it could
-/// truncate or read.
+/// Makes the pipe for a world's output. When it is full, the world's writes block; our reads never do. The
+/// world does not get our output, which may be a file or terminal that it could truncate or read.
 std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   int ends[2];
   require(pipe2(ends, O_CLOEXEC) == 0, what);
@@ -64,8 +63,7 @@ std::pair<Descriptor, Descriptor> outputPipe(const char* what) {
   return pair;
 }
 
-/// Makes memory for an ActivityPage. It is sealed, so that no world can shrink it and kill its reader by
-/// SIGBUS.
+/// Makes sealed memory for an ActivityPage, so no world can shrink it and kill its reader by SIGBUS.
 Descriptor sharedPage(const char* what) {
   Descriptor page(memfd_create("df-activity", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   require(page.get() >= 0 && ftruncate(page.get(), sizeof(df::ActivityPage)) == 0 &&

@@ -71,9 +71,8 @@ class WorldPort {
   virtual void checkProcess(std::uint32_t /*tick*/) {}
   /// Returns how the world ended; nullopt while it lives.
   virtual std::optional<WorldEnd> end() const { return {}; }
-  /// Begins to end the world; end() returns a value when it has ended. `rest`: the turn that will not be
-  /// played. A world in this process, which may outlive its round, gets the inputs of `rest` in its next
-  /// tick.
+  /// Begins to end the world; end() returns a value when it has ended. `rest`: the turn that is not played. A
+  /// world in this process, which may outlive its round, gets the inputs of `rest` in its next tick.
   virtual void close(const WorldTurn& /*rest*/) {}
 
  protected:

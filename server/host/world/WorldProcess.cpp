@@ -222,8 +222,7 @@ void WorldProcess::onFrame() {
   if (!starts) reportTick();
 }
 
-// Refuses a world of another build: after an upgrade, new worlds start from the new files, but this process
-// runs the old build.
+// Refuses a world of another build: after an upgrade, worlds run the new build and this process the old one.
 void WorldProcess::handleReady() {
   const auto build = readBuild(m_in);
   if (build && *build != ownBuildId())

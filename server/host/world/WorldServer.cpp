@@ -42,8 +42,7 @@ int receiveDescriptor(int from) {
 }
 
 // Does not use fork(), whose handlers (pthread_atfork) are for programs that continue in both processes. The
-// front checks that there are no threads before it requests a copy, so no missing thread holds a lock in the
-// copy.
+// front checks that there are no threads before it requests a copy, so no missing thread holds a lock in it.
 long forkBesideItself() {
   return syscall(SYS_clone, static_cast<unsigned long>(CLONE_PARENT | SIGCHLD), nullptr, nullptr, nullptr,
                  nullptr);

@@ -124,8 +124,7 @@ class Body : public Object {
 
   /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up, to ±1e30.
   int applyForce(Vector force);
-  /// Changes the velocity at once, by impulse / mass (mass · cells per tick). Returns -1 if the body would
-  /// be too fast.
+  /// Changes the velocity at once, by impulse / mass (mass · cells / tick). Returns -1 if that is too fast.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), at a point of the world; also changes the spin if the body may turn.
   int applyImpulseAt(Vector impulse, Vector where);

@@ -20,8 +20,7 @@ class BodyContacts {
     if (contacts > m_changes.capacity()) m_touching.reserve(m_touching.size() + contacts);
     reserveFor(m_changes, contacts);
   }
-  /// Adds the start or end of a contact. Each solver adds its own in order of time. Known changes are
-  /// ignored.
+  /// Adds the start or end of a contact. Each solver adds its own in order of time. Ignores known ones.
   void add(const BodyContact& contact);
   /// Call when the body or obstacle is gone: its contacts end with this tick.
   void expire(ObjectKey key) { expireIn(key, 1, nullptr); }
@@ -44,8 +43,7 @@ class BodyContacts {
     std::uint32_t generation = 0;
     int count = 0;  // number of contacts
   };
-  static constexpr int kHandOverTicks = 3;  // ticks to wait: solvers may find contacts a tick before bodies
-                                            // press
+  static constexpr int kHandOverTicks = 3;  // ticks to wait: bodies may press a tick after contact
   void expireIn(ObjectKey key, int ticks, const BodySolver* p_by);
   static std::uint64_t keyOf(const BodyContact& contact) {
     return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
@@ -56,8 +54,7 @@ class BodyContacts {
 
   std::unordered_map<std::uint64_t, Touch> m_touching;  // unordered; sendContactEvents() sorts the changes
   std::vector<TouchCount> m_counts;
-  std::unordered_map<std::uint64_t, int> m_other_counts;  // by nameOf(), for Objects whose slot in m_counts
-                                                          // is taken
+  std::unordered_map<std::uint64_t, int> m_other_counts;  // by nameOf(), if the slot in m_counts is taken
   std::vector<ObjectKey> m_handed_over;  // bodies handed over in this tick, not yet applied to m_touching
   bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;

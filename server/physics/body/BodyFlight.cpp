@@ -81,8 +81,7 @@ class LongSpring : public ForceField {
   Vec2 m_to_field;  // from the spring's anchor to the field's origin
 };
 
-// True if the body moves on a straight line through the anchor, but would not pass the anchor even without
-// damping.
+// True if the body moves on a straight line through the anchor, but would not pass it even without damping.
 bool staysOnLine(Vec2 displacement, Vec2 velocity, Vec2 acceleration, double spring_length,
                  double stiffness) {
   const double distance = length(displacement);

@@ -27,8 +27,7 @@ struct Pull {
 /// Approximates the forces on a body by a pull, for solvers that also apply contacts and so cannot call
 /// flyBody(). Returns false if a constant force within the tick is accurate enough. Springs are returned
 /// exactly. A field is linearised where it is stiff (more than 1 per tick²), by its Jacobian or by three
-/// calls, with the stiffness of its steepest direction. `acceleration` is the part that `pull` does not
-/// include.
+/// calls, with the stiffness of its steepest direction. `acceleration` is the part not in `pull`.
 bool pullOf(const BodyRow& row, const BodyMedium& medium, Vec2 acceleration, double time, Pull& pull);
 
 /// A magnet's effect on a body, for the solvers that use pullOf().

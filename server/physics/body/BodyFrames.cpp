@@ -184,8 +184,7 @@ class Drawing {
                : ch;
   }
 
-  // Draws a thin shape as a line through its middle, and removes the other cells that it covers unless
-  // `gaps`.
+  // Draws a thin shape as a line through its middle, and removes its other cells unless `gaps`.
   void coreLine(const RotatedShape& shape, bool gaps) {
     if (shape.count == 1) return;
     double width = 1e300;

@@ -52,8 +52,7 @@ void BodyImpacts::beginTick() {
 }
 
 // Replaces a bent path by one with a constant acceleration, because an ImpactWorld has no other paths. It has
-// the start, end and final velocity of the flight; for a body that touches another, the first and final
-// velocity.
+// the start, end and final velocity of the flight; for a touching body, the first and final velocity.
 void BodyImpacts::adapt(const BodyState& state, const BodyRow& row, ImpactBody& body) {
   body.velocity = state.start_velocity;
   body.acceleration = state.push;

@@ -15,9 +15,8 @@ namespace {
 // and sweeps are not better than soft sub-steps, whose cost is only proportional to the contacts.
 constexpr int kMaxBodies = 640;
 
-// Groups with a larger ratio of masses also go to the SubstepWorld. A direct solution still holds such a
-// group at rest. But in a blow it has no digits left for the lightest body, and would throw it or press it
-// into the floor.
+// Groups with a larger ratio of masses also go to the SubstepWorld. A direct solution holds them at rest, but
+// in a blow it has no digits left for the lightest body, which would be thrown or pressed into the floor.
 constexpr double kMaxMassRatio = 1e6;
 constexpr double kMaxRestingRatio = 1e9;
 constexpr double kBlow = 0.1;  // metric cells per tick: a group without a faster body cannot have a blow
@@ -213,8 +212,7 @@ void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links,
 // Widens the reaches of bouncing circles. A circle that is hit may get as far as the fastest one, and farther
 // if it is light. Returns true if any reach was widened.
 bool BodyIslands::widenReaches(std::vector<BodyState>& states) {
-  constexpr double kRoom = 0.2;  // metric cells per tick: after slower impacts, the margin of the reach
-                                 // suffices
+  constexpr double kRoom = 0.2;  // metric cells per tick: the reach's margin covers slower impacts
   constexpr double kLight = 2;   // a light body leaves an elastic impact at up to twice the other's speed
   bool is_wider = false;
   for (const int i : m_ids) {

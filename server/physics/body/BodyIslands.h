@@ -4,9 +4,8 @@
 // bodies, own shapes and joints goes to the event-exact ImpactWorld. If no body of an island can touch
 // anything, the JointSolver or each body's own flight moves it. If an island consists of bouncing circles,
 // some of them joined, the JointSolver moves it from impact to impact. All other islands go to the
-// RigidWorld. An island that is too expensive for one of these goes to the SubstepWorld as a whole, and stays
-// there until it touches nothing. An island that a RigidWorld abandons goes to a SubstepWorld with finer
-// steps.
+// RigidWorld. An island too expensive for these goes to the SubstepWorld as a whole, and stays there until it
+// touches nothing. An island that a RigidWorld abandons goes to a SubstepWorld with finer steps.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,4 @@
-// A joint between two bodies, or between a body and the world. The PM.add… functions make joints and return
-// one of these:
+// A joint between two bodies, or a body and the world. The PM.add… functions make joints and return one:
 //
 //   df::Joint rope = PM.addRope(p_hook, p_crate);
 //   df::Joint axle = PM.addHinge(p_wheel, nullptr, p_wheel->getPosition());   // null: the world
@@ -62,8 +61,7 @@ class Joint {
   /// Mouse joints only. Sets the point to which the body is pulled, in cells.
   int setTarget(Vector target);
 
-  /// Returns the mean force on the second body in the last tick, mass · cells per tick²; (0,0) if there is no
-  /// joint.
+  /// Returns the mean force on the second body in the last tick, mass · cells / tick²; (0,0) without a joint.
   Vector getForce() const;
   /// Like getForce(), for the torque, in force · cell widths.
   double getTorque() const;

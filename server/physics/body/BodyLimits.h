@@ -8,8 +8,7 @@
 namespace df {
 
 inline constexpr double kMaxBodyNumber = 1e30;  ///< limit of all other numbers: products of two are finite
-inline constexpr double kMaxSpin = 1e6;  ///< rad per tick; if it is faster, a double does not resolve the
-                                         ///< angle
+inline constexpr double kMaxSpin = 1e6;         ///< rad per tick; a double does not resolve faster angles
 
 // All functions below return false for NaN.
 

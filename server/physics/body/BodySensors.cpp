@@ -83,8 +83,7 @@ void BodySensors::sortPairs() {
   }
 }
 
-// Finds the bodies that cross the path of a SOFT body. The tree has only the SOFT bodies; all others query
-// it.
+// Finds the bodies that cross a SOFT body's path. The tree has only the SOFT bodies; all others query it.
 void BodySensors::findBodyPairs() {
   m_boxes.clear();
   m_ids.clear();

@@ -35,19 +35,18 @@ struct BodyState {
   bool is_in_heap = false;  ///< a RigidWorld abandoned its group in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
-  bool is_simple = false;        ///< an ImpactWorld can move it
-  bool is_sprung = false;        ///< a spring or stiff field pulls it: solvers must use `pull`
-  bool must_be_held = false;     ///< a solver for contacts must apply its pull or magnet, because it touches
-                                 ///< something, the JointSolver cannot, or its flight is unknown
-  double turn_rate = 0;          ///< rad per tick by which a magnet turns its velocity; 0 if nothing can hold
-                                 ///< it
-  bool is_bent = false;          ///< its free path is not that of a constant acceleration
-  bool is_near_rigid = false;    ///< kinematic and on the path of a body in the RigidWorld
-  bool is_near_substep = false;  ///< kinematic and on the path of a body in a SubstepWorld
-  bool is_touched = false;       ///< touched by anything in this or the last tick
-  bool contacts_changed = false;    ///< a contact began or ended in this tick
-  bool turns_alone = true;          ///< true if only the torque applied by the game turns it
-  int group = -1;                   ///< kJointImpacts only: bodies that may hit each other have one number
+  bool is_simple = false;         ///< an ImpactWorld can move it
+  bool is_sprung = false;         ///< a spring or stiff field pulls it: solvers must use `pull`
+  bool must_be_held = false;      ///< a solver for contacts must apply its pull or magnet, because it touches
+                                  ///< something, the JointSolver cannot, or its flight is unknown
+  double turn_rate = 0;           ///< rad per tick by which a magnet turns its path; 0: nothing can hold it
+  bool is_bent = false;           ///< its free path is not that of a constant acceleration
+  bool is_near_rigid = false;     ///< kinematic and on the path of a body in the RigidWorld
+  bool is_near_substep = false;   ///< kinematic and on the path of a body in a SubstepWorld
+  bool is_touched = false;        ///< touched by anything in this or the last tick
+  bool contacts_changed = false;  ///< a contact began or ended in this tick
+  bool turns_alone = true;        ///< true if only the torque applied by the game turns it
+  int group = -1;                 ///< kJointImpacts only: bodies that may hit each other have one number
   const char* p_failure = nullptr;  ///< reason to freeze the body, or null
   double radius = 0;  ///< radius if it is a circle that an ImpactWorld can move (is_simple); else 0
   Place start;        ///< place at the beginning of the tick

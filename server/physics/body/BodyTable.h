@@ -51,8 +51,7 @@ struct BodyRow {
   bool hears_ends = false;         ///< the body gets an EventContactEnd for its contacts
   bool touches_soft = false;       ///< a soft body pushed it in the last step: not for an ImpactWorld
   bool frozen = false;             ///< in quarantine: stands still until the game sets its place or velocity
-  FixedVector published_position;  ///< last position given to the store; if the store has another one, the
-                                   ///< game moved the body
+  FixedVector published_position;  ///< last position given to the store; if it has another, the game moved it
   FixedVector published_velocity;
 };
 

@@ -16,8 +16,7 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kSearchRoom = 0.5;      // metric cells around a soft body, searched for obstacles
-constexpr double kStillSpeed = 2e-3;     // metric cells per tick: below it, a body that lies or hangs is
-                                         // still
+constexpr double kStillSpeed = 2e-3;     // metric cells per tick: slower lying or hanging bodies are still
 constexpr double kFloatingSpeed = 1e-6;  // like kStillSpeed, for floating bodies, which no contact stops
 constexpr int kSinceTouch = 10;          // ticks after a touch for which a body counts as lying
 constexpr double kStillDistance = 0.02;  // cells: if a still body moves less, this is not published

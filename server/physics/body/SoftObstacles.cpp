@@ -239,8 +239,7 @@ void SoftObstacles::push(World& world, const BodyLayer& bodies, BodyTable& table
   if (!is_sound) return;
   row.velocity = velocity;
   row.place = place;
-  // Expects the mean of the old and the new impulse, because the new one alone would alternate between two
-  // values.
+  // Expects the mean of the old and the new impulse, because the new one alone would alternate.
   const Vec2 expected = 0.5 * (obstacle.impulse + source.gained / obstacle.inverse_mass);
   const double before = obstacle.inverse_inertia > 0 ? source.turned / obstacle.inverse_inertia : 0;
   const double expected_turn = 0.5 * (obstacle.angular_impulse + before);

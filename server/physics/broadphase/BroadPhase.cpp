@@ -242,8 +242,7 @@ bool BroadPhase::isCrowd(const ImpactTree::Below& below) const {
   return spread.x < crowd.widths.x && spread.y < crowd.widths.y && crowd.widest.x < kBeyond;
 }
 
-// Marks all bodies that touch the bounds of a crowd as crowded. If the last update found a crowd, skips
-// mayBeCrowd().
+// Marks all bodies that touch a crowd's bounds as crowded. After an update with a crowd, skips mayBeCrowd().
 void BroadPhase::findCrowds() {
   const auto comeTo = [](int /*proxy*/) {};
   m_crowds.clear();
@@ -268,8 +267,7 @@ void BroadPhase::findCrowds() {
       comeTo);
 }
 
-// Finds the pairs of all bodies at once, except those within a crowd. Then finds those of each crowded body
-// separately.
+// Finds all bodies' pairs at once, except those within a crowd; then those of each crowded body separately.
 void BroadPhase::findAllPairs() {
   fileAll();
   for (Proxy& own : m_proxies) {
@@ -302,8 +300,7 @@ void BroadPhase::findAllPairs() {
     return isCrowded(finderOf(pair.proxy_a, pair.proxy_b, kindOf(one, other)));
   });
   if (m_crowds.empty()) summarizeCrowds();
-  // Visits them in the order of the tree, because data read for a neighbour is still in the processor's
-  // cache.
+  // Visits them in the order of the tree, because data read for a neighbour is still in the cache.
   m_tree.walk([](const ImpactTree::Below& /*below*/) { return true; },
               [&](int proxy) {
                 if (m_proxies[index(proxy)].changed && isCrowded(proxy)) findPairs(proxy);

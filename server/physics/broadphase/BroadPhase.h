@@ -91,14 +91,12 @@ class BroadPhase {
   SweptBox relative(const GridBounds& bounds) const;
   float halfOf(const Proxy& proxy) const;
   void fileAll();
-  // True if updating the tree is worth its cost: too many bodies are outside it, or their boxes in it have
-  // become wider.
+  // True if updating the tree is worth its cost: too many bodies are outside it, or their boxes in it grew.
   bool isUntidy() const {
     return m_loose.size() * m_loose.size() > kScannedPerBody * m_count || kWidenedShare * m_widened > m_count;
   }
   static constexpr std::int32_t kNone = -1;
-  // Visits bodies below the nodes of the tree that enters() accepts, first near `beside`, then those outside
-  // it.
+  // Visits bodies below the tree's nodes that enters() accepts, first near `beside`, then those outside it.
   template <class Enters, class Visit>
   void visitAll(const GridBounds& bounds, Enters&& enters, Visit&& visit, std::int32_t beside) const {
     const auto visitFiled = [&](int proxy) {

@@ -68,8 +68,7 @@ struct RotatedView {
   const Vec2* normals;
 };
 
-/// Like RotatedView, but stores its points; made once per body and step. Only the first `count` points are
-/// valid.
+/// Like RotatedView, but stores its points; made once per body and step. Only the first `count` are valid.
 struct RotatedShape {
   std::int32_t count;
   double radius;

@@ -1,8 +1,7 @@
 // The contact of two convex shapes: a normal and up to two points.
 //
 // All input and output is relative to the bodies' origins, so a pair at 1e9 cells has the bits of an equal
-// pair at the origin. Results for boxes along the axes are exact: a gap of 2^-20 under a box is found as
-// such.
+// pair at the origin. Results for boxes along the axes are exact: a gap of 2^-20 under a box is found.
 #pragma once
 
 #include <array>

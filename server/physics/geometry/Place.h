@@ -45,8 +45,7 @@ constexpr void advance(std::int64_t& cell, double& rest, double by) {
 
 }  // namespace place_detail
 
-/// Returns `from` moved by `by`, rounding the remainder once per axis. Components of `by` must be below 2^51
-/// cells.
+/// Returns `from` moved by `by`, rounding the remainder once per axis. `by` is below 2^51 cells per axis.
 constexpr Place operator+(Place from, Vec2 by) {
   place_detail::advance(from.cell_x, from.dx, by.x);
   place_detail::advance(from.cell_y, from.dy, by.y);

@@ -16,8 +16,7 @@ struct ImpactBody {
   Place place;              ///< place of the centre
   Vec2 velocity;            ///< metric cells per tick
   Vec2 acceleration;        ///< gravity plus force over mass, constant within a tick
-  Vec2 half = {0.5, 0.5};   ///< half size of the box, or the radius in x; >= 0; a box may be flat but not a
-                            ///< point
+  Vec2 half = {0.5, 0.5};   ///< half size of the box, not 0 in both axes, or the radius in x; >= 0
   double inverse_mass = 1;  ///< 0: static or, if it has a velocity, kinematic; other bodies do not push it
   double restitution = 0;   ///< 0 … 1; a pair has the larger of its two
   double friction = 0;      ///< >= 0; a pair has the geometric mean of its two
@@ -26,8 +25,7 @@ struct ImpactBody {
   friend constexpr bool operator==(const ImpactBody& a, const ImpactBody& b) = default;
 };
 
-/// True if all numbers are in the ranges above and at most 1e30, sizes at most 1e12, and `dx` and `dy` of the
-/// place at most 1.
+/// True if all numbers are in the ranges above and at most 1e30, sizes 1e12, the place's `dx` and `dy` 1.
 inline bool isValid(const ImpactBody& body) {
   constexpr double kLargest = 1e30;  // squares and products of two stay finite
   const auto isSmall = [](double x) { return std::fabs(x) <= kLargest; };  // false for NaN

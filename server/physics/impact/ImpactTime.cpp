@@ -41,8 +41,7 @@ RelativeMotion movedOn(const RelativeMotion& m, double s) {
 }
 
 // Finds the first moment at which |offset| falls below the radius less the slop. Returns it if the pair
-// rests, otherwise the last moment before it at which |offset| fell below the radius; −1 if that never
-// happens.
+// rests, otherwise the last moment before it at which |offset| fell below the radius; −1 if it never does.
 double circleEntry(const RelativeMotion& m, double radius, double horizon, bool is_resting) {
   const double inner = radius - kImpactSlop;
   if (!(inner > 0)) return -1;

@@ -83,8 +83,7 @@ class ImpactWorld {
   /// True if the body is in quarantine or abandoned: it does not move and collides with nothing until set().
   bool isFrozen(int id) const { return m_motions[id].is_frozen; }
   /// True if the body was abandoned because it or its group would have cost too much in a tick. Another
-  /// solver must move it and all that it touched, from the tick's beginning. It collides with nothing until
-  /// set().
+  /// solver must move it and all that it touched, from the tick's beginning.
   bool isGivenUp(int id) const { return m_motions[id].is_given_up; }
   bool hasGivenUp() const { return m_has_given_up; }
   /// Returns the work of the last tick, in multiplications.

@@ -61,9 +61,8 @@ struct JointConstraints {
   /// Adds impulses, one per row, to the forces of the links.
   void addForces(const std::vector<double>& impulse);
 
-  /// True if a step of h resolves the rotation of joints by their forces. Composed steps have stages longer
-  /// than h / substeps, and no advantage if these do not resolve the rotation (a whip, a heavy weight on a
-  /// light chain).
+  /// True if a step of h resolves the joints' rotation by their forces. Composed steps have stages longer
+  /// than h / substeps, and no advantage if these do not resolve it (a whip, a weight on a light chain).
   bool isCalm(std::span<const Joint> all_joints, double h) const;
   /// Returns how many sub-steps of a step of `h` resolve the oscillation of mouse joints without force limit.
   int substepsOf(std::span<const Joint> all_joints, double h) const;

@@ -2,8 +2,7 @@
 //
 // The centre of mass flies exactly; RATTLE moves the displacement from one end to the other. In the plane
 // this has a direction and a rate of turning: half a kick changes the rate, a stage of length h turns by the
-// angle whose sine is h · rate, and half a kick follows. (This follows from the position equation's
-// multiplier.)
+// angle whose sine is h · rate, and half a kick follows. (This follows from the position equation.)
 #pragma once
 
 #include <cmath>
@@ -51,8 +50,7 @@ struct JointRod {
 };
 
 /// Moves two bodies on one rod over h > 0, and writes the joint's force. Returns false and changes nothing if
-/// the method is not possible, for example because a body turns, the rod is stretched, or it turns too far in
-/// a stage.
+/// the method is impossible, for example if a body turns, or the rod is stretched or turns too far per stage.
 bool stepRod(JointBody& a, JointBody& b, Joint& joint, double h, Vec2 gravity, const JointOptions& options,
              JointCounters& counters);
 

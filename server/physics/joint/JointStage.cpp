@@ -184,8 +184,7 @@ bool JointIsland::advance(double h, int depth, JointCounters& counters) {
 
 // Moves the bodies by impulses to the nearest places that fulfil the constraints (Gauss–Newton).
 bool JointIsland::projectPlaces(double h, JointCounters& counters) {
-  constexpr double kRegularisation = 1e-9;  // part added to the diagonal, so that dependent rows have a
-                                            // solution
+  constexpr double kRegularisation = 1e-9;  // part of the diagonal; makes dependent rows solvable
   constexpr int kRounds = 12;               // limit, rarely reached because convergence is quadratic
   constexpr double kNear = 20;              // in tolerances: sufficient for a stage that is not exact
   const JointConstraints& its = m_constraints;

@@ -126,8 +126,7 @@ double ConjugateGradients::multiply() {
     Lanes to_x = load(&m_middle.xx[at(i)]) * own_x + corner * own_y;
     Lanes to_y = corner * own_x + load(&m_middle.yy[at(i)]) * own_y;
     for (const Diagonal& diagonal : m_diagonals) {
-      for (const int from : {i, i - diagonal.distance}) {  // first node of the pair: this one, or the one
-                                                           // before it
+      for (const int from : {i, i - diagonal.distance}) {  // first of the pair: this or the one before
         const int other = from == i ? i + diagonal.distance : from;
         const Lanes other_x = load(x + other), other_y = load(y + other);
         const Lanes side = load(&diagonal.blocks.xy[at(from)]);

@@ -74,8 +74,7 @@ IntegratorStatus integrate(const System& system, double t, double end, StateVect
 }  // namespace automatic
 
 /// Integrates from `t` to `end` >= t by kExtrapolation, kRadau or, for any other method, automatically. The
-/// automatic choice depends only on the arguments. Sets `y` to the state reached; that is the one at `end` if
-/// the status is kDone.
+/// automatic choice depends only on the arguments. Sets `y` to the state reached, which is at `end` if kDone.
 template <int N, class System>
 IntegratorStatus integrate(const System& system, double t, double end, StateVector<N>& y,
                            const IntegratorOptions& options, IntegratorCounters& counters) {

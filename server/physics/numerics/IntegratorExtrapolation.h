@@ -79,8 +79,7 @@ class Step {
  public:
   Step(const System& system, const IntegratorOptions& options) : m_system(system), m_options(options) {}
 
-  /// Steps from `y` at `t`, with derivative `rate`, by `length`. Returns true if a column was accurate
-  /// enough.
+  /// Steps from `y` at `t`, with derivative `rate`, by `length`. True if a column was accurate enough.
   bool take(double t, const StateVector<N>& y, const StateVector<N>& rate, double length) {
     for (m_columns = 0; m_columns < kColumns;) {
       StateVector<N> error{}, last = midpoints(t, y, rate, length, 2 * (m_columns + 1));

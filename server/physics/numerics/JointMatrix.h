@@ -48,8 +48,7 @@ class JointMatrix {
 
   /// True if each row shares a body with the next one, and with no other row.
   bool isChain() const { return m_is_chain; }
-  /// True if there are several rows and no entry is more than kBand rows below the diagonal, which is so for
-  /// chains of hinges.
+  /// True if there are several rows and no entry over kBand rows below the diagonal, as for chains of hinges.
   bool isBand() const { return !m_band.empty(); }
   /// Returns the number of non-zero entries below the diagonal in the factor; entries(): in the matrix.
   int filled() const { return static_cast<int>(m_row.size()); }
@@ -76,8 +75,7 @@ class JointMatrix {
   std::vector<double> m_lower;
   std::vector<double> m_inverse;  // inverses of the pivots
   std::vector<double> m_pivot;
-  std::vector<double> m_band;  // by column, the entries below the diagonal; empty if there are more than
-                               // kBand
+  std::vector<double> m_band;  // by column, the entries below the diagonal; empty if more than kBand
 };
 
 }  // namespace naiad::physics

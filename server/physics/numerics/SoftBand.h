@@ -9,8 +9,7 @@
 
 namespace naiad::physics {
 
-/// LDLᵀ of a band: n · band² / 2 multiplications to decompose, 2 · n · band to solve. Only resize()
-/// allocates.
+/// LDLᵀ of a band: n·band²/2 multiplications to decompose, 2·n·band to solve. Only resize() allocates.
 class SoftBand {
  public:
   /// Sets the size; only entries (i, j) with |i − j| <= band may differ from zero.
@@ -51,8 +50,7 @@ class SoftBand {
   // read and written only once. This is not worthwhile if the band is narrower than kWideBand.
   static constexpr int kPivots = 4;
   static constexpr int kWideBand = 12;
-  static constexpr int kPadding = 7;  // zeros after a column, because pivots and whole vectors read beyond
-                                      // its end
+  static constexpr int kPadding = 7;  // zeros after a column, for reads beyond its end
 
   int widthOf(int j) const { return std::min(m_band, m_size - 1 - j); }
   bool invertPivot(int j);

@@ -146,8 +146,7 @@ double RigidDirect::speedOf(const DirectRow& row) const {
   return speed;
 }
 
-// Sets the rows' stiffnesses. If a spring holds a body and its stiffness is larger than the mass, it is used
-// instead.
+// Sets the rows' stiffnesses. If a spring's is larger than the mass that it holds, it is used instead.
 void RigidDirect::setStiffnesses() {
   m_held_mass.assign(m_bodies.size(), m_largest_mass);
   for (const DirectRow& row : m_rows) {

@@ -15,8 +15,7 @@ constexpr double kMaxPush = 2;    // per tick: maximum speed at which overlap is
 constexpr double kSlop = 1e-8;    // overlap that is not undone, so that a contact at rest does not end
 constexpr double kLinger = 0.01;  // a contact ends if its gap is larger
 constexpr double kLarge = 2;      // ratio of reaches: above it, most shapes of the larger body are far away
-constexpr double kSlide = 0.25;   // part of the reference face: sliding farther leaves the contact points
-                                  // behind
+constexpr double kSlide = 0.25;   // part of the reference face: farther sliding leaves the points behind
 
 double edgeLength(const RotatedView& shape, std::int32_t edge) {
   return length(shape.vertices[following(edge, shape.count)] - shape.vertices[edge]);

@@ -12,8 +12,7 @@ namespace {
 constexpr double kPushRate = 0.3;  // fraction of an overlap undone in a sub-step
 // A bounce slower than the speed gained in this many sub-steps ends at rest: its flight is too short.
 constexpr double kRestSteps = 2;
-constexpr double kBend = 1e-6;       // part of the impact speed: with more rotation, the path is not a
-                                     // parabola
+constexpr double kBend = 1e-6;       // part of the impact speed: more rotation spoils the parabola
 constexpr double kAnySpeed = -1e12;  // a target speed that every contact exceeds, so it does not push
 
 /// The part of a body's state that a contact changes, in registers while the contact is solved.

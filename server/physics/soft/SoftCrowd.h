@@ -19,8 +19,7 @@ class SoftCrowd {
   /// plane, six equal bodies fit around one.)
   static constexpr int kMaxOthers = 8;
 
-  /// Appends contacts of the nodes of `views[which]` with other bodies. Returns false if crowding dropped
-  /// some.
+  /// Appends contacts of the nodes of `views[which]` with other bodies. False if crowding dropped some.
   bool findContacts(const std::vector<SoftView>& views, std::size_t which, std::vector<SoftRow>& rows);
 
  private:

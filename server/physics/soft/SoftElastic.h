@@ -9,8 +9,7 @@
 // than kMaxDirectPrice is *wide*: its systems are solved by a bounded number of conjugate gradient
 // iterations, so that the cost of a tick is proportional to nodes + springs.
 //
-// A decomposition that costs more than kKeptPrice is used again in iterations close to the solution, while
-// they converge.
+// A decomposition that costs over kKeptPrice is reused in iterations near the solution, while they converge.
 #pragma once
 
 #include <span>

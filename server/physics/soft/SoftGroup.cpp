@@ -213,9 +213,8 @@ void SoftWorld::stopNode(int id, int node, const SoftPose& pose, double h, SoftO
   ++m_counters.stopped;
 }
 
-// Prevents a body from gaining energy in a sub-step in which nothing does work on it. Removes the excess from
-// the motion relative to its mean velocity. If that is not enough, moves the body back to its start, and
-// returns true.
+// Prevents a body from gaining energy in a sub-step without work on it. Removes the excess from the motion
+// relative to its mean velocity. If that is not enough, moves the body back to its start, and returns true.
 bool SoftWorld::limitEnergy(int id) {
   SoftBody& body = m_bodies[at(id)];
   State& state = m_states[at(id)];

@@ -62,8 +62,7 @@ class SoftWorld {
 
   /// Adds a body. Returns its id, the lowest free one, or −1 if the body is invalid.
   int add(const SoftBody& body);
-  /// Replaces a body and unfreezes it; its contacts continue. Returns false and changes nothing if the id or
-  /// `body` is invalid.
+  /// Replaces and unfreezes a body; its contacts continue. False, without change, for an invalid id or body.
   bool set(int id, const SoftBody& body);
   /// Removes a body and its attachments; its contacts end without events.
   bool remove(int id);
@@ -84,8 +83,7 @@ class SoftWorld {
   bool setForce(int id, int node, Vec2 force);
   /// Stops the node, pins or releases it, and unfreezes the body. Returns false if the node does not exist.
   bool pin(int id, int node, bool is_pinned);
-  /// Applies an impulse to a node, which has no effect if it is pinned. Returns false if the impulse or node
-  /// is invalid.
+  /// Applies an impulse to a node, which has no effect if it is pinned. False for an invalid impulse or node.
   bool applyImpulse(int id, int node, Vec2 impulse);
   /// Sets the gravity, in cells per tick². Returns false if it is not finite or too large.
   bool setGravity(Vec2 gravity);

@@ -163,8 +163,7 @@ void ContactRows::Impulse::beginSubstep(Lanes least, Lanes most, Lanes most_tren
   trend = (1 / kLent) * (now - kept);
 }
 
-// Limits the trend to the smaller of the impulses before and after the last sub-step, so that a blow has
-// none.
+// Limits the trend to the smaller of the impulses before and after the last sub-step, so a blow has none.
 void ContactRows::warmStart(std::span<SubstepState> states) {
   const Lanes unlimited = lanesOf(std::numeric_limits<float>::max());
   for (Block& k : m_blocks) {

@@ -62,8 +62,7 @@ class ContactRows {
   std::int32_t add(const ContactRow& row, const Manifold& manifold, const KnownImpulses& known);
 
   void warmStart(std::span<SubstepState> states);
-  /// Solves velocities. `time` is since the step began. `is_soft` is true before the bodies move, false
-  /// after.
+  /// Solves velocities. `time` is since the step began. `is_soft` is true before the bodies move.
   void solve(std::span<SubstepState> states, float h, float time, bool is_soft) {
     is_soft ? solveRows<true>(states, h, time) : solveRows<false>(states, h, time);
   }

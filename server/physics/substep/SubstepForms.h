@@ -21,8 +21,7 @@ struct SubstepForm {
 
 class SubstepForms {
  public:
-  /// Returns the number of these shapes in this store; call giveBack() when a body does not use them any
-  /// more.
+  /// Returns the number of these shapes in this store; call giveBack() when a body no longer uses them.
   std::int32_t take(std::span<const ConvexShape> shapes);
   void giveBack(std::int32_t form);
   const SubstepForm& operator[](std::int32_t form) const { return m_forms[static_cast<std::size_t>(form)]; }

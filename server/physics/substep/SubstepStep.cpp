@@ -11,14 +11,12 @@ namespace naiad::physics {
 namespace {
 
 constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, the limit of timeOfImpact()
-constexpr double kMaxTurn = 40;    // rad: maximum swept rotation in a step; limits timeOfImpact()'s
-                                   // iterations
+constexpr double kMaxTurn = 40;    // rad per step: maximum swept rotation; limits timeOfImpact()'s iterations
 // Lengths in units of the body's thickness:
-constexpr double kSlack = 0.02;   // minimum margin of the search for contacts
-constexpr double kSlow = 0.1;     // a body that moves at most this far in a step hardly moves (is_busy)
-constexpr double kMaxPass = 0.5;  // maximum movement beyond the searched distance, so that the centre passes
-                                  // nothing
-constexpr double kCore = 0.5;     // radius of the core that is swept if the other body pushes this one
+constexpr double kSlack = 0.02;       // minimum margin of the search for contacts
+constexpr double kSlow = 0.1;         // a body that moves at most this far in a step hardly moves (is_busy)
+constexpr double kMaxPass = 0.5;      // limit of movement beyond the search, so the centre passes nothing
+constexpr double kCore = 0.5;         // radius of the core that is swept if the other body pushes this one
 constexpr std::size_t kFewFast = 4;   // the fast bodies are many if at least one body in this number is fast
 constexpr double kBoundsSlack = 0.2;  // margin of bounds in the broad phase; smaller moves do not change them
 

@@ -76,8 +76,7 @@ class SubstepWorld final : public RigidStepper {
   struct alignas(64) Memory {
     Manifold manifold;
     KnownImpulses known;  // impulses of its points
-    // Positions and gaps when the manifold was found. It is used again while its bodies hardly move relative
-    // to each other.
+    // Positions and gaps when the manifold was found. It is reused while its bodies hardly move relatively.
     Vec2 offset;
     Rotation rotation_a, rotation_b;
     std::array<double, 2> gap = {};

@@ -29,11 +29,9 @@ std::string_view describe(CloseReason reason);
 class ReliableChannel {
  public:
   struct Callbacks {
-    /// One whole frame arrived. The view is valid only during the call. The callee may close or destroy the
-    /// channel.
+    /// One whole frame arrived; the view is valid only in this call, which may close or destroy the channel.
     std::function<void(std::string_view frame)> on_frame;
-    /// The channel ended. Called once, unless the channel is destroyed before; never from inside send() or
-    /// close().
+    /// The channel ended. Called once, unless destroyed before; never from inside send() or close().
     std::function<void(CloseReason)> on_closed;
   };
 
@@ -43,8 +41,7 @@ class ReliableChannel {
   virtual void start(Callbacks callbacks) = 0;
   /// Queues one frame of 1 … 65535 bytes. Ignored after close() and after the channel has ended.
   virtual void send(std::string_view frame) = 0;
-  /// Returns the number of bytes accepted by send() that have not left this machine: those in this queue and
-  /// in the kernel's.
+  /// Returns the number of bytes from send() that have not left this machine: in this queue and the kernel's.
   virtual std::size_t unsentBytes() const = 0;
   /// Sends the queued frames for at most a second, then ends the connection.
   virtual void close() = 0;

@@ -20,8 +20,7 @@ inline constexpr std::size_t kMaxHelloFrame = 1024;
 inline constexpr std::size_t kMaxNameLength = 16;
 inline constexpr std::size_t kMaxChatLength = 200;
 inline constexpr std::size_t kMaxNameBytes = 4 * kMaxNameLength;  ///< maximum bytes of a name in UTF-8
-/// Maximum length of a message for people (refusals, goodbyes), and of the name of a game or program, in
-/// characters.
+/// Maximum characters of a message for people (refusal, goodbye), and of the name of a game or program.
 inline constexpr std::size_t kMaxMessageLength = 300;
 inline constexpr std::size_t kMaxProgramLength = 40;
 /// Maximum number of the game's lines on the help screen, and maximum length of a line in characters.

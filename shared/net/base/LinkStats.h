@@ -21,8 +21,7 @@ class PathProbe {
   static constexpr Millis kFastProbeInterval{100};  ///< interval while the path is open, and for a second
                                                     ///< after construction or renew()
   /// Interval of probes until kEagerTime after the last evidence, or always if datagrams are the only way to
-  /// the other end. On a line that loses most packets, one probe a second rarely results in an
-  /// acknowledgement.
+  /// the other end. On a line that loses most packets, one probe a second is rarely acknowledged.
   static constexpr Millis kEagerProbeInterval{250};
   static constexpr std::chrono::seconds kEagerTime{10};
 

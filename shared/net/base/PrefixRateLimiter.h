@@ -55,8 +55,7 @@ class PrefixRateLimiter {
 /// The rates of a server that accepts `max_per_address` players per address. Bursts are sized for a school
 /// class behind one address: this many players, but at least 64.
 struct RateLimits {
-  /// TLS handshakes. Burst: a class connects twice, with second streams. After it: one per player in 8
-  /// seconds.
+  /// TLS handshakes. Burst: a class connects twice, with second streams. Then: one per player in 8 seconds.
   static PrefixRateLimiter::Rates handshakes(int max_per_address) {
     const double crowd = classSize(max_per_address);
     return {{crowd / 8, 4 * crowd}, {crowd / 2, 16 * crowd}, std::nullopt};

@@ -29,9 +29,8 @@ class DatagramSocket {
   virtual char* nextPacket() { return nullptr; }
   /// Sends the queued packets. Those that the system does not accept at once are dropped.
   virtual void flush() = 0;
-  /// Changes to another free port, as a client does after its network has changed. Queued and unread packets
-  /// are lost. Throws ListenError (TcpListener.h); then the socket has no port, and reopen() may be called
-  /// again.
+  /// Changes to another free port, as a client does after its network changed. Queued and unread packets are
+  /// lost. Throws ListenError (TcpListener.h); then the socket has no port, and reopen() may be called again.
   virtual void reopen() = 0;
   /// Returns the bound address and the actual port, even if port 0 was requested.
   virtual Endpoint localEndpoint() const = 0;

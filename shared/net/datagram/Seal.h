@@ -46,9 +46,8 @@ class ReplayWindow {
   std::array<std::uint64_t, kSize / 64> seen_{};  // a ring: bit n mod kSize belongs to number n
 };
 
-/// Numbers of packets after which a key should be replaced (new_epoch_after) and after which it seals no more
-/// (max). The defaults follow RFC 9001, 6.6 and appendix B: 2²³ AES-GCM packets of any size, 2²⁸ of at most 2
-/// KiB.
+/// Numbers of packets after which a key should be replaced (new_epoch_after) and seals no more (max). The
+/// defaults follow RFC 9001, 6.6 and appendix B: 2²³ AES-GCM packets of any size, 2²⁸ of at most 2 KiB.
 struct SealLimits {
   std::uint64_t new_epoch_after = std::uint64_t{1} << 23;
   std::uint64_t max = std::uint64_t{1} << 28;
@@ -113,8 +112,7 @@ class Opener {
   Opener(Opener&&) noexcept = default;
   Opener& operator=(Opener&&) noexcept = default;
 
-  /// Returns kOpened if open() would decrypt the packet, else the result that open() would return. Decrypts
-  /// nothing.
+  /// Returns kOpened if open() would decrypt the packet, else what open() would return. Decrypts nothing.
   OpenResult check(std::uint16_t wire_sequence) const;
 
   /// Opens `packet`, whose header has `header` bytes. `payload` has space for packet.size() − header − 16

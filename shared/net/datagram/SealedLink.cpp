@@ -128,8 +128,7 @@ bool SealedLink::isPlausible(std::string_view packet, Time now) {
   return admit(packet, now) != nullptr;
 }
 
-/// Checks a packet without decrypting it, the cheapest checks first. If it is refused, counts it and returns
-/// null.
+/// Checks a packet without decrypting it, the cheapest checks first. Counts a refused one and returns null.
 SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   expire(now);
   SealedHeader header;

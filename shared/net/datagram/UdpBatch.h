@@ -51,8 +51,7 @@ class UdpSendBatch {
   /// Returns memory for the next packet, kMaxDatagram bytes, which add() need not copy. Call only if the
   /// batch is not full.
   char* nextPacket();
-  /// Adds a packet; false if a socket of this family cannot reach the address. Call only if the batch is not
-  /// full.
+  /// Adds a packet; false if a socket of this family cannot reach the address. Call only if not full.
   bool add(const Path& path, std::string_view packet);
   /// Passes all packets to the kernel without blocking. The batch is empty afterwards, even after errors.
   void send(int descriptor, UdpCounters& counters);
@@ -77,8 +76,7 @@ class UdpReceiveBatch {
  public:
   explicit UdpReceiveBatch(std::uint16_t local_port);
 
-  /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none waits; −1 on an error
-  /// (errno).
+  /// Receives at most kUdpBatch waiting packets. Returns their number; 0 if none waits; −1 on errors (errno).
   int receive(int descriptor);
   /// Returns packet `n` of the batch, counted from 0; empty if it was longer than 1200 bytes (tooLarge()).
   std::string_view packet(int n) const;

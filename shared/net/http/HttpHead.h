@@ -22,8 +22,7 @@ enum class HttpError {
   kTruncated,  ///< the connection ended within the message
 };
 
-/// Start line and fields of a message. The texts are the peer's bytes, without control characters except
-/// tabs.
+/// Start line and fields of a message. The texts are the peer's bytes, without control characters but tabs.
 struct HttpHead {
   std::string start_line;
   /// Names in lower case, values without blanks at their ends, in the order of the message.

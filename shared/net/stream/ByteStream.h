@@ -53,8 +53,7 @@ class ByteStream {
 
   /// The socket, for waiting and closing; use only read() and write() for the bytes.
   Socket& socket() { return socket_; }
-  /// The peer's address: "127.0.0.1:40000" or "[::1]:40000", mapped IPv4 as IPv4; "unknown" if that is not
-  /// known.
+  /// The peer's address: "127.0.0.1:40000" or "[::1]:40000", mapped IPv4 as IPv4; else "unknown".
   const std::string& peer() const { return peer_; }
 
  private:
