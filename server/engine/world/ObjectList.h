@@ -23,6 +23,7 @@ class ObjectList {
   static constexpr int kInline = 16;
 
   ObjectList() = default;
+  /// An ObjectList can be copied and moved.
   ObjectList(const ObjectList& other);
   ObjectList(ObjectList&& other) noexcept;
   ObjectList& operator=(ObjectList other) noexcept;
