@@ -98,7 +98,6 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.background = replica.background();
     model.has_view = true;
     model.round_trip = session->roundTrip();
-    model.tick = m_composed.tick;
     model.score = session->score();
     const ServerAddress& address = m_connection.address();
     model.server = session->welcome().server + " at " + (m_browser ? address.host : address.text());

@@ -36,6 +36,24 @@ std::size_t indentOf(const std::u32string& line, std::size_t width) {
   return text != std::u32string::npos && text <= width / 2 ? text : 2;
 }
 
+/// Returns "1 player", "2 players"; empty for 0.
+std::string counted(std::int64_t count, const std::string& noun) {
+  if (count == 0) return "";
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// True if anybody has a score other than 0: many games count no points.
+bool hasScores(const ScreenModel& model) {
+  return model.score != 0 || std::any_of(model.players.begin(), model.players.end(),
+                                         [](const PlayerLine& player) { return player.score != 0; });
+}
+
+/// Returns the player's own score, such as "1 point"; empty without scores.
+std::string scoreText(const ScreenModel& model, const std::string& noun) {
+  if (!hasScores(model)) return "";
+  return model.score == 0 ? "0 " + noun + "s" : counted(model.score, noun);
+}
+
 /// Returns the players sorted by score, best first.
 std::vector<PlayerLine> byScore(std::vector<PlayerLine> players) {
   std::stable_sort(players.begin(), players.end(),
@@ -70,10 +88,11 @@ int drawPlayerRows(ScreenBuffer& picture, const ScreenModel& model, int x, int y
   drawHeading(picture, "Players", x, y++, width);
   const int count = static_cast<int>(players.size());
   const int shown = count <= most ? count : most - 1;
+  const bool scores = hasScores(model);
   for (int i = 0; i < shown; ++i, ++y) {
     const PlayerLine& player = players[static_cast<std::size_t>(i)];
     const Style style = player.player == model.self ? Style::kBold : Style::kPlain;
-    const std::string points = std::to_string(player.score);
+    const std::string points = scores ? std::to_string(player.score) : "";
     picture.write(x, y, player.name, width - columnsIn(points) - 1, player.color, style);
     picture.write(x + width - columnsIn(points), y, points, columnsIn(points), df::COLOR_DEFAULT, style);
   }
@@ -177,17 +196,15 @@ void drawView(ScreenBuffer& picture, const ScreenModel& model, const ViewPlaceme
   }
 }
 
-/// Draws "ann  42 ms   tick 1200   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
+/// Draws "ann  42 ms   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
 void drawStatusRow(ScreenBuffer& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
   const std::string help = model.browser ? "" : "Ctrl-] help";
-  const auto count = model.players.size();
   const std::string parts[] = {
       std::to_string(model.round_trip.count()) + " ms",
-      std::string("tick ") + std::to_string(model.tick),
-      std::to_string(count) + (count == 1 ? " player" : " players"),
-      std::to_string(model.score) + " points",
+      counted(std::ssize(model.players), "player"),
+      scoreText(model, "point"),
       model.game,
       model.server,
   };
@@ -213,11 +230,10 @@ void drawStatusRow(ScreenBuffer& picture, const ScreenModel& model) {
 void drawStatusSide(ScreenBuffer& picture, const ScreenModel& model) {
   const int x = picture.width() - kSideColumns + 1;
   const int width = kSideColumns - 1;
-  const auto count = model.players.size();
   picture.write(x, 0, model.self_name, width, model.self_color, Style::kBold);
   const std::string lines[] = {std::to_string(model.round_trip.count()) + " ms",
-                               std::to_string(count) + (count == 1 ? " player" : " players"),
-                               std::to_string(model.score) + " pts",
+                               counted(std::ssize(model.players), "player"),
+                               scoreText(model, "pt"),
                                "",
                                model.browser ? "" : "Ctrl-] h",
                                model.browser ? "" : "help",
@@ -261,10 +277,10 @@ bool drawStatusOverGame(ScreenBuffer& picture, const ScreenModel& model) {
     if (!note.empty()) drawInCorner(picture, std::string(" ").append(note).append(" "), false);
     return false;
   }
-  const auto count = model.players.size();
+  const std::string players = counted(std::ssize(model.players), "player");
   const std::string text = (note.empty() ? " " : " " + note + "  ") +
-                           std::to_string(model.round_trip.count()) + " ms  " + std::to_string(count) +
-                           (count == 1 ? " player" : " players") + (model.browser ? " " : "  Ctrl-] help ");
+                           std::to_string(model.round_trip.count()) + " ms" +
+                           (players.empty() ? "" : "  " + players) + (model.browser ? " " : "  Ctrl-] help ");
   return drawInCorner(picture, text, true);
 }
 
@@ -363,19 +379,21 @@ void drawPanel(ScreenBuffer& picture, const PanelLines& lines, int scroll, Shown
 
 void drawPlayers(ScreenBuffer& picture, const ScreenModel& model, ShownControls& shown) {
   const std::vector<PlayerLine> sorted = byScore(model.players);
+  const bool scores = hasScores(model);
   const auto draw = [&](int line, int x, int y, int width) {
     char text[64];
     const int numbers = x + std::max(0, width - 19);
     const int room = x + width - numbers;
     if (line == 0) {
-      std::snprintf(text, sizeof text, "%10s %8s", "points", "ms");
+      std::snprintf(text, sizeof text, "%10s %8s", scores ? "points" : "", "ms");
       picture.write(numbers, y, text, room);
       return;
     }
     const PlayerLine& player = sorted[static_cast<std::size_t>(line - 1)];
     const Style style = player.player == model.self ? Style::kBold : Style::kPlain;
     picture.write(x, y, player.name, width, player.color, style);
-    std::snprintf(text, sizeof text, " %9d %8u", player.score, player.rtt_millis);
+    std::snprintf(text, sizeof text, " %9s %8u", scores ? std::to_string(player.score).c_str() : "",
+                  player.rtt_millis);
     picture.write(numbers, y, text, room, df::COLOR_DEFAULT, style);
   };
   drawPanel(picture, {"Players", 40, 1, static_cast<int>(sorted.size()) + 1, draw}, model.scroll, shown);

@@ -27,7 +27,6 @@ struct ScreenModel {
   bool status_shown = true;      ///< show the status where it covers nothing of the game
   bool status_over_game = true;  ///< show the status even over the game
   std::chrono::milliseconds round_trip{0};
-  std::uint32_t tick = 0;
   std::int32_t score = 0;
   std::string server;  ///< program and address of the server
   std::string game;

@@ -22,7 +22,7 @@ class KilledClientTest : public HomeFixture {
     PtyTerminal::Options options = inHome({programPath("dfclient"), m_link, "--name", "ann"}, more);
     options.columns = 100;
     auto terminal = std::make_unique<PtyTerminal>(options);
-    EXPECT_TRUE(terminal->waitFor("points")) << terminal->output();
+    EXPECT_TRUE(terminal->waitFor(" player")) << terminal->output();
     return terminal;
   }
   static void kill(PtyTerminal& terminal) {
@@ -56,10 +56,10 @@ TEST_F(KilledClientTest, ResumesItsSessionAndPoints) {
     ASSERT_TRUE(terminal->waitFor("too small"));
     terminal->forget();
     terminal->resize(101, 30);
-    ASSERT_TRUE(terminal->waitFor("points"));
+    ASSERT_TRUE(terminal->waitFor(" player"));
     const std::string screen = terminal->newOutput();
     std::smatch found;
-    if (std::regex_search(screen, found, std::regex("(\\d+) points"))) last = std::stoi(found[1]);
+    if (std::regex_search(screen, found, std::regex("(\\d+) points?"))) last = std::stoi(found[1]);
   }
   EXPECT_GT(last, 0) << "a new player would have none";
   terminal->type("\x03");

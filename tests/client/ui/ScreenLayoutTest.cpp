@@ -16,7 +16,6 @@ ScreenModel model(int width = 80, int height = 24) {
   m.focus = {width / 2, height / 2};
   m.has_view = true;
   m.round_trip = 42ms;
-  m.tick = 1200;
   m.game = "saucershoot";
   m.server = "dfserver 0.1";
   m.players = {{1, "Ada", df::CYAN, 30, 42}, {2, "Bob", df::GREEN, 70, 8}};
@@ -83,7 +82,7 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   EXPECT_EQ(layout.picture.at(89, 25).ch, U'Z');
   EXPECT_EQ(layout.picture.at(9, 1).ch, U'┌');
   EXPECT_EQ(layout.picture.at(90, 26).ch, U'┘');
-  EXPECT_NE(layout.picture.rowText(29).find("42 ms   tick 1200   2 players"), std::string::npos);
+  EXPECT_NE(layout.picture.rowText(29).find("42 ms   2 players"), std::string::npos);
   EXPECT_NE(layout.picture.rowText(29).find("Ctrl-] help"), std::string::npos);
 }
 
@@ -125,7 +124,7 @@ TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   EXPECT_EQ(layout.placement.width, 80);
   EXPECT_EQ(layout.picture.at(layout.placement.left, 0).ch, U'A');
   EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
-  for (const char* text : {"42 ms", "2 players", "0 pts", "Ctrl-] h", "sound: fir"})
+  for (const char* text : {"42 ms", "2 players", "Ctrl-] h", "sound: fir"})
     EXPECT_TRUE(contains(layout.picture, text)) << text;
   EXPECT_FALSE(composeScreen(m, 90, 24).placement.status_side);
 }
@@ -136,12 +135,47 @@ TEST(ScreenLayout, OneExtraRowBecomesTheStatusLine) {
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
 }
 
+TEST(ScreenLayout, StatusHasNoEmptyCountsAndNoTicks) {
+  struct Case {
+    int players;
+    std::int32_t own_score, other_score;
+    const char *row, *corner, *side;
+  };
+  const Case cases[] = {
+      {0, 0, 0, " 42 ms ", " 42 ms  Ctrl", ""},
+      {1, 0, 0, " 42 ms   1 player ", " 42 ms  1 player  Ctrl", "1 player"},
+      {1, 1, 0, " 42 ms   1 player   1 point ", " 42 ms  1 player  Ctrl", "1 pt "},
+      {2, 0, 5, " 42 ms   2 players   0 points ", " 42 ms  2 players  Ctrl", "0 pts"},
+      {2, -1, 0, " 42 ms   2 players   -1 points ", " 42 ms  2 players  Ctrl", "-1 pts"},
+      {2, 0, 0, " 42 ms   2 players ", " 42 ms  2 players  Ctrl", "2 players"},
+  };
+  for (const Case& c : cases) {
+    ScreenModel m = model();
+    m.self_name.clear();
+    m.players.clear();
+    m.score = c.own_score;
+    for (int i = 0; i < c.players; ++i)
+      m.players.push_back(
+          {m.self + static_cast<unsigned>(i), "p", df::RED, i == 0 ? c.own_score : c.other_score, 5});
+    const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
+    EXPECT_EQ(row.rfind(c.row, 0), 0u) << row;
+    EXPECT_EQ(row.find("tick"), std::string::npos) << row;
+    EXPECT_EQ(row.find("point") != std::string::npos, std::string(c.row).find("point") != std::string::npos)
+        << row;
+    EXPECT_TRUE(contains(composeScreen(m, 80, 24).picture, c.corner)) << c.corner;
+    EXPECT_TRUE(contains(composeScreen(m, 92, 24).picture, c.side)) << c.side;
+    m.panel = Panel::kPlayers;
+    EXPECT_EQ(contains(composeScreen(m, 80, 24).picture, "points"), row.find("point") != std::string::npos)
+        << row;
+  }
+}
+
 TEST(ScreenLayout, ANoteIsInTheStatusLine) {
   ScreenModel m = model();
   m.note = "sound: fire";
   const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
   EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
-  EXPECT_NE(row.find("42 ms   tick 1200   2 players   0 points"), std::string::npos) << row;
+  EXPECT_NE(row.find("42 ms   2 players"), std::string::npos) << row;
   EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
   m.note = "music: " + std::string(40, 'x');
   EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" music: " + std::string(13, 'x') + "  42 ms"),
@@ -334,7 +368,7 @@ TEST(ScreenLayout, StatusLineBeginsWithTheColouredPlayerName) {
   m.self_name = "Ada";
   m.self_color = df::CYAN;
   const ScreenBuffer picture = composeScreen(m, 100, 30).picture;
-  EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   tick 1200", 0), 0u) << picture.rowText(29);
+  EXPECT_EQ(picture.rowText(29).rfind("  Ada   42 ms   2 players", 0), 0u) << picture.rowText(29);
   EXPECT_EQ(picture.at(2, 29).color, df::CYAN);
   EXPECT_EQ(picture.at(2, 29).style, Style::kReverse);
   EXPECT_TRUE(containsIn(composeScreen(m, 92, 24).picture, "Ada", df::CYAN, Style::kBold))
