@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "host/settings/MetricsAddress.h"
 #include "host/settings/RoomOptions.h"
@@ -79,10 +80,13 @@ std::string validateHostOptions(const HostOptions& options) {
   if (std::string wrong = inProcessComplaint(options); !wrong.empty()) return wrong;
   if (options.certificate.empty() != options.key.empty())
     return "--certificate and --key must be used together";
-  if (options.insecure && options.lan == "on")
-    return "--lan on requires encryption: it cannot be used with --insecure";
-  if (options.insecure && !options.visitors.empty())
-    return "--proxy-socket requires encryption: it cannot be used with --insecure";
+  const std::pair<const char*, bool> encrypted[] = {{"--lan on", options.lan == "on"},
+                                                    {"--proxy-socket", !options.visitors.empty()},
+                                                    {"--certificate", !options.certificate.empty()}};
+  for (const auto& [option, is_used] : encrypted) {
+    if (options.insecure && is_used)
+      return std::string(option) + " requires encryption: it cannot be used with --insecure";
+  }
   if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
   if (std::string wrong = validateRoomOptions(options); !wrong.empty()) return wrong;
