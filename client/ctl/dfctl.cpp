@@ -1,5 +1,4 @@
 // dfctl: sends one command to a server on this machine and prints the answer.
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 
 #include "client/ctl/ControlClient.h"
 #include "client/ctl/CtlCommandLine.h"
+#include "client/terminal/HiddenLine.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"
 #include "shared/program/LogText.h"
@@ -26,20 +26,13 @@ int failUsage(const std::string& sentence) {
 
 /// Reads a line from standard input; a terminal does not show it.
 std::string readSecret() {
-  termios before{};
-  const bool typed = tcgetattr(STDIN_FILENO, &before) == 0;
-  if (typed) {
-    std::cerr << "Password: " << std::flush;
-    termios quiet = before;
-    quiet.c_lflag &= ~static_cast<tcflag_t>(ECHO);
-    tcsetattr(STDIN_FILENO, TCSAFLUSH, &quiet);
+  if (isatty(STDIN_FILENO) != 0) {
+    const auto line = naiad::readHiddenLine("Password: ");
+    if (!line) throw naiad::AdminUsageError("no password was typed, or one longer than 255 bytes.");
+    return *line;
   }
   std::string line;
   std::getline(std::cin, line);
-  if (typed) {
-    tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
-    std::cerr << "\n";
-  }
   return line;
 }
 

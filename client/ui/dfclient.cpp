@@ -1,12 +1,9 @@
 // dfclient: plays a game of a dfserver in this terminal.
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -23,6 +20,7 @@
 #include "client/lan/LanBrowser.h"
 #include "client/lan/ListDownload.h"
 #include "client/session/TrustOptions.h"
+#include "client/terminal/HiddenLine.h"
 #include "client/terminal/TerminalGuard.h"
 #include "client/terminal/TerminalType.h"
 #include "client/trust/SessionFile.h"
@@ -31,77 +29,6 @@
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
-
-namespace naiad {
-namespace {
-
-// Password input from the terminal, without echo.
-
-constexpr std::size_t kMaxPassword = 255;  // bytes
-constexpr char kControlC = 3;
-
-/// Switches off the terminal's echo and the keyboard's signals until it is destroyed, because a signal would
-/// end the process and leave the terminal without echo.
-class Unseen {
- public:
-  explicit Unseen(int terminal) : m_terminal(terminal) {
-    m_changed = tcgetattr(terminal, &m_before) == 0;
-    termios modes = m_before;
-    modes.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
-    modes.c_cc[VEOL] = kControlC;  // Ctrl-C ends the line at once
-    m_changed = m_changed && tcsetattr(terminal, TCSAFLUSH, &modes) == 0;
-  }
-  ~Unseen() {
-    if (m_changed) tcsetattr(m_terminal, TCSAFLUSH, &m_before);
-  }
-  Unseen(const Unseen&) = delete;
-  Unseen& operator=(const Unseen&) = delete;
-  bool isOn() const { return m_changed; }
-
- private:
-  int m_terminal;
-  bool m_changed = false;
-  termios m_before{};
-};
-
-void write(int terminal, const std::string& text) {
-  // Errors are ignored: if the terminal is gone, reading fails as well.
-  if (::write(terminal, text.data(), text.size()) < 0) return;
-}
-
-std::optional<std::string> readLine(int terminal) {
-  std::string line;
-  for (char c = 0; line.size() <= kMaxPassword;) {
-    const ssize_t size = ::read(terminal, &c, 1);
-    if (size < 0 && errno == EINTR) continue;
-    if (size != 1 || c == kControlC) return std::nullopt;
-    if (c == '\n') return line;
-    line.push_back(c);
-  }
-  return std::nullopt;
-}
-
-/// Writes `prompt` to the terminal of this process and reads a line without echo, at most 255 bytes. Restores
-/// the modes of the terminal. Nullopt if there is no terminal, the line is longer, or on Ctrl-C or Ctrl-D.
-/// Call before a TerminalGuard takes the terminal.
-std::optional<std::string> askPassword(const std::string& prompt) {
-  const int terminal = ::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC);
-  if (terminal < 0) return std::nullopt;
-  std::optional<std::string> line;
-  {
-    const Unseen unseen(terminal);
-    if (unseen.isOn()) {
-      write(terminal, prompt);
-      line = readLine(terminal);
-      write(terminal, "\n");
-    }
-  }
-  ::close(terminal);
-  return line;
-}
-
-}  // namespace
-}  // namespace naiad
 
 namespace {
 
@@ -259,7 +186,7 @@ naiad::ClientApp::Outcome joinWithPassword(naiad::ClientApp::Options& options) {
     }
     if (!outcome.password_required_by || options.session.proxy || tried == kTries) return outcome;
     if (tried > 0) std::fputs("Wrong password, try again.\n", stderr);
-    const auto password = naiad::askPassword(passwordQuestion(options.address));
+    const auto password = naiad::readHiddenLine(passwordQuestion(options.address));
     if (!password || password->empty()) return outcome;
     options.session.password = *password;
     options.trust.fingerprint = outcome.password_required_by;
@@ -346,7 +273,7 @@ int join(CommandLine& line) {
       naiad::resolveServer(line.server, options.address, options.trust, options.session);
   if (!wrong.empty()) return complain(naiad::kExitUsage, wrong);
   if (line.ask_password) {
-    const auto password = naiad::askPassword(passwordQuestion(options.address));
+    const auto password = naiad::readHiddenLine(passwordQuestion(options.address));
     if (!password)
       return complain(naiad::kExitNoTerminal, "no password was typed, or one longer than 255 bytes.");
     options.session.password = *password;
