@@ -130,7 +130,7 @@ TEST(Recovery, KilledWorldResumesFromACheckpoint) {
 }
 
 // Also the launcher, which starts all worlds.
-TEST(Recovery, RoundGoesOnWhenAllChildrenAreKilled) {
+TEST(Recovery, RoundContinuesAfterAllChildrenAreKilled) {
   RecoveryRun run("saucershoot", 2, 5);
   for (const bool reversed : {false, true}) {
     run.play(std::chrono::milliseconds(700));

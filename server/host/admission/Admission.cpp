@@ -343,7 +343,7 @@ PersistedSession Admission::persistedSession(const Session& session) const {
 
 // ---- new players ------------------------------------------------------------------------------------------
 
-// Calls `visit(name, color)` for all players, with those who may return to a round that is being replayed.
+// Calls `visit(name, color)` for all players, including those that rounds in recovery wait for.
 template <class Visit>
 void Admission::forEachPlayer(Visit visit) const {
   m_setup.sessions.forEachPlaying([&visit](const Session& session) {

@@ -1,4 +1,4 @@
-// How a Connection repeats its attempts, with a scripted opener and a clock that the test advances.
+// Repeated attempts of a Connection, with a scripted opener and a clock that the test advances.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -193,7 +193,7 @@ struct Way {
   const char* p_name;
   bool leave_before = false;  ///< the players leave before the first kill
   bool in_last_tick = false;  ///< one more is welcomed just before each kill, and not yet in the world
-  std::vector<bool> late;     ///< for each kill: whether the next server starts later than the grace time
+  std::vector<bool> late;     ///< per kill: the next server starts later than the grace time
   bool come_back = false;
   bool leave_after = false;  ///< those who came back leave again
   int wait = 0;              ///< ticks until the newcomers come
