@@ -1,5 +1,5 @@
 // Newcomers to a round that a killed server left: they see the game within a second, with an id and a color
-// that nobody else has. The world is the engine's, the journal is in memory, and the test advances the time.
+// that no other player has. The world is the engine's, the journal is in memory, and the test advances the time.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -40,7 +40,7 @@ struct Nowhere : JournalSink {
   void setFlags(std::uint16_t /*flags*/) override {}
 };
 
-/// Draws a character for each player who joins.
+/// Draws a character for each new player.
 struct Pawn : df::Object {
   explicit Pawn(int column = 0) {
     setPosition(df::Vector(column, 5));
@@ -195,7 +195,7 @@ struct Way {
   bool in_last_tick = false;  ///< one more is welcomed just before each kill, and not yet in the world
   std::vector<bool> late;     ///< per kill: the next server starts later than the grace time
   bool come_back = false;
-  bool leave_after = false;  ///< those who came back leave again
+  bool leave_after = false;  ///< the returned players leave again
   int wait = 0;              ///< ticks until the newcomers come
   int places = 16;
 };

@@ -145,7 +145,7 @@ TEST_F(PasswordCheckTest, FloodBeyondTheQueueIsAnsweredBusy) {
   EXPECT_EQ(check->counters().busy, 92u);
 }
 
-// For example with a low ulimit -v: retries would never succeed.
+// Retries would never succeed with a low ulimit -v.
 TEST_F(PasswordCheckTest, TooLittleMemoryIsNotAnsweredBusy) {
   if (test::kSanitized) GTEST_SKIP() << "a sanitizer reserves its address space";
   check->setHash(PasswordHash::of("open sesame"));
