@@ -219,8 +219,9 @@ void ClientSession::closed(CloseReason reason) {
     ++m_revision;
     return;
   }
-  finish(State::kLost, m_state == State::kGreeting ? "The server closed the connection before answering."
-                                                   : "The connection to the server was lost.");
+  m_unanswered = m_state == State::kGreeting;
+  finish(State::kLost, m_unanswered ? "The server closed the connection before answering."
+                                    : "The connection to the server was lost.");
 }
 
 void ClientSession::update(Time now) {

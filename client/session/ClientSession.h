@@ -112,6 +112,8 @@ class ClientSession {
   std::chrono::seconds restartDelay() const { return m_restart_delay; }
   /// True if the session neither waits for the server nor plays any more.
   bool isOver() const { return m_state != State::kGreeting && m_state != State::kPlaying; }
+  /// True if the server closed the stream before it answered the hello, as one that restarts does.
+  bool isUnanswered() const { return m_unanswered; }
   /// Returns why the session is over, for people. Empty before its end and after leave().
   const std::string& message() const { return m_message; }
   const WelcomeMessage& welcome() const { return m_welcome; }
@@ -198,6 +200,7 @@ class ClientSession {
   std::vector<RoomLine> m_rooms;
   Time m_rooms_due{};
   State m_state = State::kGreeting;
+  bool m_unanswered = false;
   RefusedMessage m_refusal;
   std::string m_message;
   std::chrono::seconds m_restart_delay{0};

@@ -19,7 +19,7 @@ void Connection::start() {
 void Connection::attempt() {
   m_next_attempt = Time::max();
   m_opener->open([this](std::unique_ptr<ReliableChannel> channel, const std::string& error) {
-    if (!channel) return onAttemptFailed(error);
+    if (!channel) return onAttemptFailed(error, Clock::now(), m_opener->closedDuringHandshake());
     const std::string refusal = m_opener->trustError();
     if (refusal.empty()) return attach(std::move(channel));
     finish(State::kRefused, refusal);
@@ -56,7 +56,7 @@ void Connection::attach(std::unique_ptr<ReliableChannel> channel) {
                    session->receive(frame, Clock::now());
                    saveToken(*session);
                    // A resumed session must adopt the stream before the next frame.
-                   if (session == m_pending.get() && session->isResumed()) checkPending();
+                   if (session == m_pending.get() && session->isResumed()) checkPending(Clock::now());
                  },
                  [owner](CloseReason reason) {
                    if (ClientSession* session = owner()) session->closed(reason);
@@ -92,10 +92,10 @@ void Connection::saveToken(const ClientSession& session) {
                    std::chrono::system_clock::now());
 }
 
-void Connection::onAttemptFailed(const std::string& message) {
-  const Time now = Clock::now();
+// `was_closed`: the server closed the connection in the handshake or before it answered the hello.
+void Connection::onAttemptFailed(const std::string& message, Time now, bool was_closed) {
   if (m_state == State::kJoining && !m_busy) {
-    if (shouldRetryHandshake(now)) return scheduleAttempt(now);
+    if (shouldRetryHandshake(now, was_closed)) return scheduleAttempt(now);
     if (!retryOriginal()) finish(State::kUnreachable, message);
     return;
   }
@@ -113,11 +113,12 @@ bool Connection::isOriginalRetryDue(Time now) const {
   return m_redirected && now - m_lost_at >= m_original_retry_delay && now >= m_original_retry_at;
 }
 
-/// True if a failed join should be retried: the server dropped the handshake, or it is a redirect target,
-/// which was reachable a moment ago. Only for a limited time after the first such failure.
-bool Connection::shouldRetryHandshake(Time now) {
+/// True if a failed join should be retried: the server closed the connection, or it is a redirect target,
+/// which was reachable a moment ago. Only for a limited time after the first such failure; in it, other
+/// failures are retried, too: a server that restarts does not listen for a moment.
+bool Connection::shouldRetryHandshake(Time now, bool was_closed) {
   const bool was_there = m_redirected && !m_original_retried;
-  if (!m_opener->closedDuringHandshake() && !was_there) return false;
+  if (!was_closed && !was_there && m_handshake_closed_at == Time::max()) return false;
   m_handshake_closed_at = std::min(m_handshake_closed_at, now);
   return now - m_handshake_closed_at <
          (was_there ? std::min<Clock::duration>(kHandshakeRetryTimeout, m_original_retry_delay)
@@ -145,7 +146,7 @@ void Connection::update(Time now) {
   }
   if (m_pending) {
     m_pending->update(now);
-    checkPending();
+    checkPending(now);
   }
   if (m_state == State::kJoined && m_session->isDetached() && m_rejoin)
     search("The connection to the server was lost.", kReconnectTimeout, now, now);
@@ -171,28 +172,28 @@ void Connection::search(const std::string& why, std::chrono::seconds reconnect_t
   ++m_revision;
 }
 
-void Connection::checkPending() {
+void Connection::checkPending(Time now) {
   using S = ClientSession::State;
   if (m_pending->state() == S::kPlaying && m_pending->welcome().resumed && m_session &&
       m_session->isDetached()) {
-    m_session->adopt(*m_pending, Clock::now());
+    m_session->adopt(*m_pending, now);
     m_pending.reset();
     return onJoined();
   }
-  if (m_pending->state() == S::kPlaying && m_pending->hasPicture(Clock::now())) {
+  if (m_pending->state() == S::kPlaying && m_pending->hasPicture(now)) {
     m_session = std::move(m_pending);
     m_joined = m_address;
     return onJoined();
   }
-  if (m_pending->isDetached() && !m_pending->isReceiving(Clock::now())) {
+  if (m_pending->isDetached() && !m_pending->isReceiving(now)) {
     m_pending.reset();
-    return onAttemptFailed("The connection to the server was lost before its first picture.");
+    return onAttemptFailed("The connection to the server was lost before its first picture.", now);
   }
   if (!m_pending->isOver()) return;
   const std::unique_ptr<ClientSession> over = std::move(m_pending);
-  if (over->state() == S::kRefused) return checkRefusal(*over);
+  if (over->state() == S::kRefused) return checkRefusal(*over, now);
   if (over->state() == S::kEnded) return finish(State::kEnded, over->message());
-  onAttemptFailed(over->message());
+  onAttemptFailed(over->message(), now, over->isUnanswered());
 }
 
 void Connection::onJoined() {
@@ -205,10 +206,10 @@ void Connection::onJoined() {
   ++m_revision;
 }
 
-void Connection::checkRefusal(const ClientSession& refused) {
+void Connection::checkRefusal(const ClientSession& refused, Time now) {
   const RefusedMessage& why = refused.refusal();
   if (!why.redirect.empty() && followRedirect(why.redirect, why.redirect_room)) return;
-  if (m_trying_original && m_state == State::kReconnecting) return onAttemptFailed(refused.message());
+  if (m_trying_original && m_state == State::kReconnecting) return onAttemptFailed(refused.message(), now);
   if (why.is_temporary) return waitForServer(refused.message());
   if (why.full && retryOriginal()) return;
   // The player is asked for the password only of the server that they named.

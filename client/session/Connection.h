@@ -1,7 +1,7 @@
 // Joins a server and stays joined: connects, makes a ClientSession, and rejoins when that is lost.
 //
 //   kJoining --picture--> kJoined --lost--> kReconnecting --picture--> kJoined
-//   kJoining --no answer, or handshakes dropped for 4 s--> kUnreachable
+//   kJoining --no answer, or connections closed without one for 4 s--> kUnreachable
 //   kJoining --Refused (BUSY)--> kJoining --60 s of such refusals--> kRefused
 //   kJoining --Refused with a redirect--> kJoining the redirect target (StreamOpener::follow()), once
 //   kJoining the target --Refused (FULL), or no answer for 4 s--> kJoining the original server, once
@@ -47,7 +47,8 @@ class Connection {
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kMaxBackoff{2000};
   static constexpr std::chrono::seconds kReconnectTimeout{60};
-  /// Retry time while joining, if the server drops the handshakes (too many from the client's address).
+  /// Retry time while joining, if the server closes the connections without an answer: too many handshakes
+  /// from the client's address, or it restarts.
   static constexpr std::chrono::seconds kHandshakeRetryTimeout{4};
   /// Time for which only a lost redirect target is retried; then the original server is asked, too, for
   /// another target. A server restarts with its round in less time.
@@ -109,15 +110,15 @@ class Connection {
   void attach(std::unique_ptr<ReliableChannel> channel);
   void chooseToken(SessionOptions& options) const;
   void saveToken(const ClientSession& session);
-  void onAttemptFailed(const std::string& message);
-  bool shouldRetryHandshake(Time now);
+  void onAttemptFailed(const std::string& message, Time now, bool was_closed = false);
+  bool shouldRetryHandshake(Time now, bool was_closed);
   void retryLater(Time now);
   void scheduleAttempt(Time now);
   /// Starts to search for the server of a lost session.
   void search(const std::string& why, std::chrono::seconds reconnect_timeout, Time now, Time first_attempt);
   void onJoined();
-  void checkPending();
-  void checkRefusal(const ClientSession& refused);
+  void checkPending(Time now);
+  void checkRefusal(const ClientSession& refused, Time now);
   bool followRedirect(const std::string& link, const std::string& room);
   bool retryOriginal();
   void swapServers();

@@ -4,11 +4,44 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <memory>
+#include <new>
+#include <system_error>
 #include <utility>
 
 namespace naiad {
+
+namespace {
+
+std::string limitText(decltype(RLIMIT_AS) limit, rlim_t unit) {
+  rlimit now{};
+  if (getrlimit(limit, &now) != 0 || now.rlim_cur == RLIM_INFINITY) return "unlimited";
+  return std::to_string(now.rlim_cur / unit);
+}
+
+/// Returns a sentence with the limits that may have caused this errno; empty for another one.
+std::string limitsText(int error) {
+  if (error != EAGAIN && error != ENOMEM) return {};
+  constexpr rlim_t kKiB = 1024;
+  return ". Limits of this process: address space in KiB (ulimit -v): " + limitText(RLIMIT_AS, kKiB) +
+         "; processes and threads (ulimit -u): " + limitText(RLIMIT_NPROC, 1) +
+         "; a container may have lower ones";
+}
+
+}  // namespace
+
+std::string errorText(int error) {
+  return std::generic_category().message(error) + limitsText(error);
+}
+
+std::string errorText(const std::exception& error) {
+  const auto* p_system = dynamic_cast<const std::system_error*>(&error);
+  if (p_system != nullptr) return error.what() + limitsText(p_system->code().value());
+  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return is_memory ? errorText(ENOMEM) : error.what();
+}
 
 std::size_t raiseOpenFileLimit(std::size_t wanted) {
   rlimit limit{};

@@ -373,6 +373,14 @@ std::optional<std::chrono::milliseconds> RecoveryRun::killWorld() {
   return timeToNextPicture([world] { ::kill(world, SIGKILL); });
 }
 
+std::optional<std::chrono::milliseconds> RecoveryRun::killChildren(bool reversed) {
+  std::vector<pid_t> children = processesBelow(m_server->process());
+  if (reversed) std::ranges::reverse(children);
+  return timeToNextPicture([&children] {
+    for (const pid_t child : children) ::kill(child, SIGKILL);
+  });
+}
+
 std::optional<std::chrono::milliseconds> RecoveryRun::hangWorld(df::Keyboard::Key key) {
   return timeToNextPicture([this, key] { m_clients.front()->press(key); });
 }

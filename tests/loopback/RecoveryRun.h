@@ -81,6 +81,9 @@ class RecoveryRun {
   /// Kills only the world's process. Returns the time until the last player's next picture; nullopt if a
   /// player gets no further pictures, or only in another session.
   std::optional<std::chrono::milliseconds> killWorld();
+  /// Like killWorld(), but kills all child processes of the server at once, in the order of their ids or in
+  /// reverse.
+  std::optional<std::chrono::milliseconds> killChildren(bool reversed);
   /// Like killWorld(), but a player presses a key that makes the world hang until --tick-timeout of the
   /// server.
   std::optional<std::chrono::milliseconds> hangWorld(df::Keyboard::Key key);
@@ -95,6 +98,8 @@ class RecoveryRun {
   void setGame(const std::string& game) { m_game = game; }
   /// Returns the log of the ended servers.
   const std::string& log() const { return m_log; }
+  /// Returns the log of the server that runs.
+  std::string serverLog() const { return m_server->log(); }
   std::filesystem::path round() const;
 
  private:

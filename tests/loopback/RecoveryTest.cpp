@@ -129,6 +129,18 @@ TEST(Recovery, KilledWorldResumesFromACheckpoint) {
   EXPECT_TRUE(by_checkpoint) << run.log();
 }
 
+// Also the launcher, which starts all worlds.
+TEST(Recovery, RoundContinuesAfterAllChildrenAreKilled) {
+  RecoveryRun run("saucershoot", 2, 5);
+  for (const bool reversed : {false, true}) {
+    run.play(std::chrono::milliseconds(700));
+    ASSERT_TRUE(run.killChildren(reversed)) << run.serverLog();
+  }
+  std::string said;
+  EXPECT_TRUE(run.verify(said)) << said << run.log();
+  EXPECT_TRUE(has(run.log(), "game recovered: a new world replayed"));
+}
+
 TEST(Recovery, RoundThatKillsServersIsAbandoned) {
   RecoveryRun run("hello", 1, 3);
   run.play(std::chrono::milliseconds(500));

@@ -187,6 +187,31 @@ TEST_F(RoomRecovery, DoorsWorkAfterRecovery) {
   EXPECT_TRUE(serve([&] { return shown(*ann).process > 0; }));
 }
 
+// The world of the lobby still knows the room, and the next server has another one in addition.
+TEST_F(RoomRecovery, DoorOfARemovedRoomIsClosed) {
+  rooms = {"hall=lobby", "one", "two"};
+  startJournaled();
+  auto ann = connect("ann", "hall");
+  const auto sees = [&](int y, const std::string& text) {
+    return ann->joined() && row(*ann, y).find(text) != std::string::npos;
+  };
+  ASSERT_TRUE(serve([&] { return sees(4, "one") && sees(4, "two"); })) << server->log();
+  ASSERT_FALSE(sees(kDoorRow, "[XX]"));
+  kill();
+  rooms = {"hall=lobby", "two", "three"};
+  startJournaled();
+  ASSERT_TRUE(serveUntilBack()) << server->log();
+  EXPECT_TRUE(serve([&] { return sees(4, "three") && sees(kDoorRow, "[XX]"); })) << row(*ann, kDoorRow);
+  EXPECT_LT(row(*ann, kDoorRow).find("[XX]"), row(*ann, kDoorRow).find("[  ]")) << "that of room one";
+  walkToDoor(*ann);
+  ASSERT_FALSE(HasFatalFailure()) << server->log();
+  press(*ann, df::Keyboard::DOWNARROW);
+  EXPECT_TRUE(serve([&] {
+    const auto& chat = ann->session().chat();
+    return !chat.empty() && chat.back().text.starts_with("There is no room \"one\"");
+  }));
+}
+
 TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   startJournaled();
   auto ann = join("ann", "one");

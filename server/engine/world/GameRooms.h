@@ -23,7 +23,9 @@ namespace df {
 /// Gives access to the rooms that the current world knows. Call it on the thread that runs the tick.
 class GameRooms : public GameRoomLimits {
  public:
-  /// Returns the rooms in the order of the server's options; new players begin in the first. May be empty.
+  /// Returns the rooms in the order of the server's options; new players begin in the first. May be empty. A
+  /// round that continues after a restart of the server keeps its list: new rooms are at its end, and those
+  /// that the server no longer has are closed (`max_players` is 0).
   const std::vector<GameRoom>& getRooms() const;
   /// Asks the server to move the player to the room. Returns 0, or −1 without effect if there is no such
   /// room, it is this world's own, the player is not in this world, or kMaxSentInTick were sent in this tick.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -29,10 +30,6 @@ void describe(const SealedChannel* channel, wire::Welcome& welcome) {
 /// Colours of players, in turn. Blue is dark on a black background, so it is last; black is invisible.
 constexpr df::Color kPlayerColors[] = {df::CYAN, df::GREEN, df::MAGENTA, df::YELLOW,
                                        df::RED,  df::WHITE, df::BLUE};
-
-df::Color colorOf(std::uint64_t nth) {
-  return kPlayerColors[nth % std::size(kPlayerColors)];
-}
 
 AddressPrefix prefixOf(const Session& session) {
   return AddressPrefix::ofEndpoint(session.address()).value_or(AddressPrefix());
@@ -165,6 +162,12 @@ void Admission::applyPasswordAnswer(Session& session, const wire::Hello& hello,
       return session.refuse(wire::Refused::PASSWORD, "Too many wrong passwords. Try again in a minute.");
     case PasswordCheck::Answer::kBusy:
       return refuseBusy(session, "The server is busy. Try again in a moment.");
+    case PasswordCheck::Answer::kNoMemory:
+      ++m_counters.refused_full;
+      return session.refuse(
+          wire::Refused::FULL,
+          "The server has too little memory to check a password. Its host can raise the limit "
+          "of its address space (ulimit -v).");
   }
 }
 
@@ -283,7 +286,6 @@ void Admission::restoreSessions(Room& room, const std::vector<PersistedSession>&
     session.status().setMuted(kept.muted);
     m_tokens.restore(session.id(), {kept.newest, kept.redeemed});
     m_setup.rooms.add(room, session);
-    m_next_player = std::max(m_next_player, kept.player + 1);
     ++m_counters.restored;
   }
 }
@@ -341,6 +343,17 @@ PersistedSession Admission::persistedSession(const Session& session) const {
 
 // ---- new players ------------------------------------------------------------------------------------------
 
+// Calls `visit(name, color)` for all players, including those that rounds in recovery wait for.
+template <class Visit>
+void Admission::forEachPlayer(Visit visit) const {
+  m_setup.sessions.forEachPlaying([&visit](const Session& session) {
+    visit(session.name(), static_cast<df::Color>(session.welcomed().color()));
+  });
+  m_setup.rooms.forEachRoom([&visit](const Room& room) {
+    for (const PersistedSession& one : room.round().awaitedSessions()) visit(one.name, one.color);
+  });
+}
+
 void Admission::admitPlayer(Session& session, const wire::Hello& hello) {
   if (!checkLimits(session)) return;
   const std::string wanted = cleanName(hello.player_name());
@@ -374,7 +387,9 @@ bool Admission::checkLimits(Session& session) {
   }
   const int max_players = m_options.max_players;
   const int max_per_address = m_options.max_per_address;
-  if (m_setup.sessions.playingCount() >= static_cast<std::size_t>(max_players)) {
+  int players = 0;
+  forEachPlayer([&players](const std::string&, df::Color) { ++players; });
+  if (players >= max_players) {
     ++m_counters.refused_full;
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;
@@ -468,7 +483,7 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   m_setup.rooms.leaveRoom(session);
   const auto color = static_cast<df::Color>(session.welcomed().color());
   wire::Welcome welcome = session.welcomed();
-  const std::uint32_t player = m_next_player++;
+  const std::uint32_t player = newPlayer();
   p_to->join(player, session.name(), color);
   welcome.set_player(player);
   describeRoom(*p_to, welcome);
@@ -485,14 +500,37 @@ void Admission::refuseBusy(Session& session, const std::string& sentence) {
 
 std::string Admission::freeName(const std::string& wanted) const {
   std::vector<std::string> taken;
-  m_setup.sessions.forEachPlaying([&](const Session& other) { taken.push_back(other.name()); });
+  forEachPlayer([&taken](const std::string& name, df::Color) { taken.push_back(name); });
   return uniqueName(wanted, taken);
+}
+
+// Returns one of the colors that the fewest players have. If several qualify, ids take turns.
+df::Color Admission::freeColor(std::uint32_t player) const {
+  std::map<df::Color, int> uses;
+  forEachPlayer([&uses](const std::string&, df::Color color) { ++uses[color]; });
+  const auto nth = [player](std::size_t i) {
+    return kPlayerColors[(player - 1 + i) % std::size(kPlayerColors)];
+  };
+  df::Color best = nth(0);
+  for (std::size_t i = 1; i < std::size(kPlayerColors); ++i) {
+    if (uses[nth(i)] < uses[best]) best = nth(i);
+  }
+  return best;
+}
+
+// Returns an id above all that the worlds have used: a world gives a new player no lower one.
+std::uint32_t Admission::newPlayer() {
+  m_setup.rooms.forEachRoom([this](const Room& room) {
+    m_newest_player = std::max(m_newest_player, room.round().highestPlayer());
+  });
+  return ++m_newest_player;
 }
 
 // Adds a player of this name to the room's world, and returns their welcome.
 wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
-  const df::Color color = colorOf(m_counters.joined++);
-  const std::uint32_t player = m_next_player++;
+  const std::uint32_t player = newPlayer();
+  const df::Color color = freeColor(player);
+  ++m_counters.joined;
   room.join(player, name, color);
   return welcomeOf(room, player, name, color);
 }

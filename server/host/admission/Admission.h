@@ -1,7 +1,6 @@
 // Evaluates hellos: which clients join, which resume their session, and which are refused and why.
 #pragma once
 
-#include <algorithm>
 #include <asio/ip/address.hpp>
 #include <chrono>
 #include <cstdint>
@@ -63,8 +62,6 @@ class Admission {
   /// Refuses or welcomes the session that received this hello, or resumes an earlier session on its stream:
   /// at once, after its password check, or after the recovery of a killed server's round.
   void evaluateHello(Session& session, const wire::Hello& hello);
-  /// Makes new players get higher ids than this one.
-  void reservePlayers(std::uint32_t highest) { m_next_player = std::max(m_next_player, highest + 1); }
   /// Call once a tick: evaluates the hellos that wait for a round in recovery.
   void evaluateWaiting();
   /// Call when the client has received its newest token (Session::popWelcomeConfirmed).
@@ -114,7 +111,11 @@ class Admission {
   Room* namedRoomFor(Session& session, const wire::Hello& hello);
   void refuseRoom(Session& session, const RoomAdmission::Refusal& refusal);
   void refuseBusy(Session& session, const std::string& sentence);
+  template <class Visit>
+  void forEachPlayer(Visit visit) const;
   std::string freeName(const std::string& wanted) const;
+  df::Color freeColor(std::uint32_t player) const;
+  std::uint32_t newPlayer();
   wire::Welcome welcomeTo(Room& room, const std::string& name);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello) const;
 
@@ -132,7 +133,7 @@ class Admission {
   RoomAdmission m_room_admission;
   std::unique_ptr<PasswordCheck> m_password;  ///< null: no password was needed yet
   bool m_needs_password = false;
-  std::uint32_t m_next_player = 1;
+  std::uint32_t m_newest_player = 0;    ///< highest player id that was given to a player
   std::vector<WaitingHello> m_waiting;  ///< hellos that wait for a round in recovery; at most one per session
 };
 

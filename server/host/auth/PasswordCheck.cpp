@@ -166,7 +166,7 @@ void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> 
   tries.finishTry(from, right.value_or(true));
   ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
   compareNext();  // before the callback, which may destroy this
-  done(!right ? Answer::kBusy : *right ? Answer::kRight : Answer::kWrong);
+  done(!right ? Answer::kNoMemory : *right ? Answer::kRight : Answer::kWrong);
 }
 
 PasswordCheck::PasswordCheck(asio::any_io_executor owner, PasswordHash hash, Limits limits)

@@ -24,8 +24,9 @@ class PasswordCheck {
   enum class Answer {
     kRight,
     kWrong,
-    kTooMany,  ///< too many wrong guesses from this prefix lately; nothing was compared
-    kBusy,     ///< too many guesses at once, or no memory to compare; not counted as wrong; retry later
+    kTooMany,   ///< too many wrong guesses from this prefix lately; nothing was compared
+    kBusy,      ///< too many guesses at once; not counted as wrong; retry later
+    kNoMemory,  ///< too little memory to compare; not counted as wrong
   };
   struct Limits {
     std::size_t queue = 8;     ///< maximum number of guesses waiting or in progress; at least two

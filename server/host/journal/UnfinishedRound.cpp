@@ -69,6 +69,7 @@ void UnfinishedRound::readAll(std::string_view bytes) {
   m_players.clear();
   m_highest_player = 0;
   m_held_keys.clear();
+  m_rooms.clear();
   readAll(bytes.substr(0, m_whole_bytes));
 }
 
@@ -87,6 +88,7 @@ void UnfinishedRound::recordInput(const Input& input) {
       break;
     case df::InputQueue::kLeave:
       std::erase(m_players, input.player);
+      m_sessions.erase(input.player);  // an earlier server that resumed the round no longer waited for it
       std::erase_if(m_held_keys, [&input](const auto& one) { return one.first == input.player; });
       break;
     case df::InputQueue::kKey:
@@ -96,9 +98,11 @@ void UnfinishedRound::recordInput(const Input& input) {
         m_held_keys.insert({input.player, input.key});
       }
       break;
+    case df::InputQueue::kRoom:
+      m_rooms[input.room.name] = input.room;
+      break;
     case df::InputQueue::kMouse:
     case df::InputQueue::kScore:
-    case df::InputQueue::kRoom:
       break;
   }
 }
@@ -127,6 +131,10 @@ std::vector<Input> UnfinishedRound::closingInputs() const {
     if (std::find(m_players.begin(), m_players.end(), player) != m_players.end()) continue;
     inputs.push_back(
         {.kind = df::InputQueue::kJoin, .player = player, .name = session.name, .color = session.color});
+  }
+  for (auto [name, room] : m_rooms) {
+    room.players = room.max_players = 0;
+    inputs.push_back({.kind = df::InputQueue::kRoom, .player = 0, .room = std::move(room)});
   }
   return inputs;
 }

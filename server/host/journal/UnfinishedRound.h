@@ -58,7 +58,8 @@ class UnfinishedRound {
   /// Removes all sessions: their players are no longer waited for.
   void dropSessions() { m_sessions.clear(); }
   /// Returns inputs that bring the world to the state just after all players were disconnected: held keys are
-  /// released, players without a session leave, and players with a session who had not joined yet join.
+  /// released, players without a session leave, players with a session who had not joined yet join, and all
+  /// rooms of the server are closed until it reports them again (GameRooms.h).
   std::vector<df::InputQueue::Input> closingInputs() const;
 
   /// Returns the state for appending to the journal. May be called once.
@@ -84,6 +85,7 @@ class UnfinishedRound {
   std::vector<std::uint32_t> m_players;
   std::uint32_t m_highest_player = 0;
   std::set<std::pair<std::uint32_t, int>> m_held_keys;  ///< held keys, by player
+  std::map<std::string, df::GameRoom> m_rooms;          ///< rooms that the world knows, by name
   std::optional<JournalPosition> m_position;
 };
 

@@ -113,7 +113,6 @@ void Host::beginGame(df::World& world) {
   crash::setWorld(world);
   applySettings(world);
   m_clients->admission().setWorld(world);
-  m_clients->admission().reservePlayers(world.input().newestPlayer());
   m_clients->rooms().open(world);
   m_empty_since = Clock::now();
 }
@@ -228,7 +227,8 @@ void Host::sweep() {
 bool Host::isDeserted(Clock::time_point now) const {
   const double exit_when_empty = m_context->options.exit_when_empty;
   if (exit_when_empty <= 0 || m_clients->sessions().connectedCount() > 0) return false;
-  const double first = m_context->counters.joined > 0 ? 0 : kFirstPlayerSeconds;
+  const double first =
+      m_context->counters.joined + m_context->counters.returned > 0 ? 0 : kFirstPlayerSeconds;
   return now - m_empty_since > std::chrono::duration<double>(std::max(exit_when_empty, first));
 }
 

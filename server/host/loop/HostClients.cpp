@@ -52,16 +52,6 @@ HostClients::HostClients(HostContext& context, HostEndpoint& endpoint, std::func
   applyCapacityLimits();
 }
 
-void HostClients::setWorlds(NewWorld new_world, std::uint32_t highest_player) {
-  m_admission.reservePlayers(highest_player);
-  m_rooms.setWorlds(std::move(new_world));
-}
-
-void HostClients::setRooms(std::vector<RoomConfig> plans) {
-  for (const RoomConfig& plan : plans) m_admission.reservePlayers(plan.highest_player);
-  m_rooms.setNamed(std::move(plans));
-}
-
 ServerInfo HostClients::facts() const {
   const HostOptions& options = m_context.options;
   return {.name = options.name,

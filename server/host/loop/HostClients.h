@@ -73,11 +73,11 @@ class HostClients {
   Admission& admission() { return m_admission; }
 
   /// Plays in these worlds instead of the one of Host::run(): one after the other, or one per player
-  /// (HostOptions::players). The world of Host::run() then only provides facts for welcomes. New players get
-  /// ids above `highest_player`, because the first world may have used lower ones. Call before run().
-  void setWorlds(NewWorld new_world, std::uint32_t highest_player = 0);
+  /// (HostOptions::players). The world of Host::run() then only provides facts for welcomes. Call before
+  /// run().
+  void setWorlds(NewWorld new_world) { m_rooms.setWorlds(std::move(new_world)); }
   /// Plays in these rooms instead of one world; players start in the first room. Call before run().
-  void setRooms(std::vector<RoomConfig> plans);
+  void setRooms(std::vector<RoomConfig> plans) { m_rooms.setNamed(std::move(plans)); }
 
   /// Sets the handler of chat commands: lines that begin with "/". They are never sent to other players.
   void setCommands(std::function<void(Session& session, const std::string& line)> serve_command) {

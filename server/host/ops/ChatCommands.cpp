@@ -114,6 +114,8 @@ void ChatCommands::onPassword(std::uint64_t id, std::uint32_t streams, PasswordC
       return reply(*p_session, {"Too many wrong passwords. Try again in a minute."});
     case PasswordCheck::Answer::kBusy:
       return reply(*p_session, {"The server is busy. Try again in a moment."});
+    case PasswordCheck::Answer::kNoMemory:
+      return reply(*p_session, {"The server has too little memory to check a password."});
   }
 }
 

@@ -278,7 +278,7 @@ void ProgramHost::run(df::World& world) {
   } catch (const ListenError& error) {
     fail(kCannotListen, error.what());
   } catch (const std::exception& error) {
-    fail(kFile, error.what());
+    fail(kFile, errorText(error));
   }
   // If players have left or a signal has stopped the server, the game ends, whatever its main() does.
   m_stopped = !world.isGameOver();
@@ -319,8 +319,8 @@ void ProgramHost::serve(df::World& world) {
     HostOptions journaled = m_options;
     journaled.port = host->endpoint().port();  // a round continues on the port that its players know
     const auto journals = RoundJournals::open(journaled, programName(), "", log);
-    host->clients().setWorlds(startWorlds(launcher, host->context().feed.publishingGame(printLine), journals),
-                              journals ? journals->highestPlayer() : 0);
+    host->clients().setWorlds(
+        startWorlds(launcher, host->context().feed.publishingGame(printLine), journals));
   }
   TerminalPlayer terminal_player(*host, m_options, df::Config::getInstance().getLogFile(), log);
   host->setObserver([&terminal_player](df::World&) { terminal_player.update(); });

@@ -207,8 +207,7 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.endpoint().port();  // a round continues on the port that its players know
   const auto journals = naiad::RoundJournals::open(journaled, name, module.string(), log);
-  host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.publishingGame(print), journals),
-                           journals ? journals->highestPlayer() : 0);
+  host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.publishingGame(print), journals));
   setOnReload(start, host, lines);
   announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address() +
@@ -236,10 +235,7 @@ std::vector<naiad::RoomConfig> parseRooms(naiad::Host& host, const std::vector<n
   rooms.reserve(launched.size());
   for (std::size_t i = 0; i < launched.size(); ++i) {
     naiad::RoomConfig plan = launched[i].plan;
-    if (journals[i] != nullptr) {
-      plan.resumes_round = journals[i]->resumeOptions().has_value();
-      plan.highest_player = journals[i]->highestPlayer();
-    }
+    if (journals[i] != nullptr) plan.resumes_round = journals[i]->resumeOptions().has_value();
     const naiad::LogLine print = host.context().feed.publishingGame(roomLog(lines, plan.name));
     plan.new_world = naiad::startWorlds(launched[i].launcher, print, journals[i]);
     rooms.push_back(std::move(plan));
@@ -339,7 +335,7 @@ int main(int argc, char** argv) {
     std::cerr << "dfserver: " << error.what() << "\n";
     return kCannotListen;
   } catch (const std::exception& error) {
-    std::cerr << "dfserver: " << error.what() << "\n";
+    std::cerr << "dfserver: " << naiad::errorText(error) << "\n";
     return kFile;
   }
 }

@@ -139,6 +139,8 @@ class Room {
   std::uint64_t lateTicks() const { return m_late_ticks; }
   /// Number of ticks of the current round that have ended.
   std::uint64_t ticks() const { return m_ticks; }
+  /// Counts ticks of the current round that another server has played.
+  void addTicks(std::uint64_t ticks) { m_ticks += ticks; }
 
   /// Counts a round that ended. Returns the number of consecutive short rounds.
   int countShortRounds(bool is_short) { return m_short_rounds = is_short ? m_short_rounds + 1 : 0; }

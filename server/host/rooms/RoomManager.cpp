@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/world/InputQueue.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "host/process/ShutdownScheduler.h"
@@ -16,6 +17,7 @@
 #include "host/world/WorldInProcess.h"
 #include "naiad.pb.h"
 #include "shared/net/base/SafeFile.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 
@@ -105,7 +107,8 @@ void RoomManager::open(df::World& world) {
   if (isNamed()) {
     openNamed();
   } else if (!m_new_world) {
-    openRoom(std::make_unique<Round>(std::make_unique<WorldInProcess>(world)), first_only);
+    openRoom(std::make_unique<Round>(std::make_unique<WorldInProcess>(world), world.input().newestPlayer()),
+             first_only);
   } else if (!isPrivate()) {
     openRoom(m_new_world(m_context.home), first_only);
   }
@@ -158,7 +161,7 @@ Room* RoomManager::roomForNewPlayer(std::string& problem) {
   try {
     return &openRoom(m_new_world(m_context.home), false);
   } catch (const std::system_error& error) {
-    problem = error.what();
+    problem = errorText(error);
     return nullptr;
   }
 }
@@ -327,6 +330,7 @@ void RoomManager::onFailover(const Room& room, const Failover& done) {
 
 // After the replay of a killed server's round, its players may reconnect. The room list may have changed.
 void RoomManager::endRecovery(Room& room, const std::vector<PersistedSession>& sessions) {
+  room.addTicks(room.round().ticks());
   if (m_on_sessions) m_on_sessions(room, sessions);
   if (isNamed()) sendRoomList(room);
 }
@@ -400,7 +404,7 @@ bool RoomManager::beginRound(Room& room) {
   try {
     room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
-    m_log(std::string("cannot start the next round: ") + error.what());
+    m_log("cannot start the next round: " + errorText(error));
     return false;
   }
   m_counters.sounds += room.sounds().sent() - sent;

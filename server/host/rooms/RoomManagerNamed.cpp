@@ -7,6 +7,7 @@
 
 #include "host/rooms/RoomManager.h"
 #include "host/world/WorldPort.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace naiad {
 
@@ -93,7 +94,7 @@ bool RoomManager::wake(Room& room, std::string& problem) {
   try {
     room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
-    problem = error.what();
+    problem = errorText(error);
     return false;
   }
   room.sleep() = {};

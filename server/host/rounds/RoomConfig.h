@@ -28,7 +28,6 @@ struct RoomConfig {
   NewWorld new_world;
   /// True if the first world resumes a killed server's round, so that the room starts without players.
   bool resumes_round = false;
-  std::uint32_t highest_player = 0;  ///< highest player id of the round to resume
 };
 
 /// State of a room that is asleep (without a world) or still (its world exists and does not tick).

@@ -16,7 +16,7 @@
 namespace naiad {
 
 struct LaunchedRoom {
-  RoomConfig plan;  ///< all members except new_world, resumes_round and highest_player
+  RoomConfig plan;  ///< all members except new_world and resumes_round
   std::shared_ptr<const WorldLauncher> launcher;
 };
 

@@ -25,10 +25,15 @@ Round::Round(JournalBinding book)
       m_is_recording(m_binding.journal != nullptr),
       m_history(std::move(m_binding.history)) {
   if (m_binding.journal) m_name = {uuidText(m_binding.journal->header().uuid), m_binding.recording};
-  if (m_binding.recovery) m_writer = TurnRecordWriter(m_binding.recovery->round().lastTurn());
+  if (!m_binding.recovery) return;
+  m_writer = TurnRecordWriter(m_binding.recovery->round().lastTurn());
+  m_highest_player = m_binding.recovery->round().highestPlayer();
 }
 
-Round::Round(std::unique_ptr<WorldPort> world) : Round(std::move(world), JournalBinding()) {}
+Round::Round(std::unique_ptr<WorldPort> world, std::uint32_t highest_player)
+    : Round(std::move(world), JournalBinding()) {
+  m_highest_player = highest_player;
+}
 
 Round::Round(std::unique_ptr<WorldProcess> world) : Round(std::move(world), JournalBinding()) {}
 
@@ -59,6 +64,7 @@ void Round::adopt(std::unique_ptr<WorldPort> world) {
 void Round::addInput(Input input) {
   const bool lasts = input.kind != df::InputQueue::kKey && input.kind != df::InputQueue::kMouse;
   if (!lasts && m_turn.inputs.size() >= kMaxInputs) return;
+  if (input.kind == df::InputQueue::kJoin) m_highest_player = std::max(m_highest_player, input.player);
   input.seen.base -= m_tick_offset;
   input.seen.drawn -= m_tick_offset;
   m_turn.inputs.push_back(std::move(input));
@@ -218,6 +224,11 @@ std::optional<int> Round::recovering() const {
   return m_binding.recovery && !isFailingOver() ? std::optional(m_binding.recovery->percent()) : std::nullopt;
 }
 
+std::vector<PersistedSession> Round::awaitedSessions() const {
+  const bool is_recovery = m_binding.recovery && !isFailingOver();
+  return is_recovery ? m_binding.recovery->sessions() : m_sessions.value_or(std::vector<PersistedSession>());
+}
+
 void Round::recordSession(const PersistedSession& session) {
   if (m_is_recording && (!m_binding.recovery || isFailingOver())) store(session);
 }
@@ -308,6 +319,8 @@ void Round::endRecovery(const std::string& problem) {
 bool Round::startFailover(const WorldEnd& end) {
   const bool failed = end.why == WorldEnd::kCrashed || end.why == WorldEnd::kHung;
   if (!failed || !m_binding.new_world || !m_is_recording || !m_began) return false;
+  if (isFailingOver() && !m_replaying && Clock::now() - m_failed_world->at < kRestartTime)
+    return replayInNewWorld();
   if (end.why == WorldEnd::kHung) onHang();
   const std::uint32_t tick = currentTick();
   if (m_by_checkpoint && !m_binding.recovery->isAtUnknownResult()) {

@@ -59,6 +59,10 @@ class Round {
   /// A crash or hang less than this many ticks after the previous one ends the round.
   static constexpr std::uint32_t kSameFailureTicks = 30;
 
+  /// If the world that takes over ends before it began, another one starts within this time after the
+  /// failure: all processes may have been killed at once.
+  static constexpr std::chrono::seconds kRestartTime{1};
+
   /// Maximum number of scores kept from replayed turns; older ones are in the server's file.
   static constexpr std::size_t kMaxScores = 4096;
 
@@ -91,7 +95,8 @@ class Round {
     std::function<void(const std::string& sentence)> on_copies = {};
   };
 
-  explicit Round(std::unique_ptr<WorldPort> world);
+  /// `highest_player`: the highest player id that the world has used; 0: none.
+  explicit Round(std::unique_ptr<WorldPort> world, std::uint32_t highest_player = 0);
   explicit Round(std::unique_ptr<WorldProcess> world);
   Round(std::unique_ptr<WorldPort> world, JournalBinding book);
   Round(std::unique_ptr<WorldProcess> world, JournalBinding book);
@@ -108,6 +113,9 @@ class Round {
 
   /// Adds an input to the next turn. Drops keys and clicks beyond kMaxInputs.
   void addInput(df::InputQueue::Input input);
+  /// Returns the highest player id in the round, with the turns to be replayed; 0 without players. A world
+  /// uses an id only once.
+  std::uint32_t highestPlayer() const { return m_highest_player; }
   /// Tells the world that the next turn has only this player's input; 0: all players'. Drops no input.
   void setInputPlayer(std::uint32_t player) { m_turn.input_player = player; }
   /// Ends the game: at once if its world is in this process, else at the end of the next tick.
@@ -133,6 +141,8 @@ class Round {
   /// Takes the players to be moved to other rooms, as the game asked in the last tick (WorldPort::answer).
   std::vector<df::RoomTransfer> popSent() { return std::exchange(m_world->answer().sent, {}); }
   bool isGameOver() const { return m_world->answer().game_over; }
+  /// Returns the number of ticks that have begun, with replayed ones.
+  std::uint32_t ticks() const { return m_ticks; }
   /// Returns this player's picture, as the engine drew it in the last tick; blank if tick() asked for none.
   df::Canvas renderPlayer(std::uint32_t player) const;
 
@@ -144,6 +154,9 @@ class Round {
 
   /// Returns the replay's progress in percent; nullopt if there is none, or if its sessions have been taken.
   std::optional<int> recovering() const;
+  /// Returns the sessions of the round's players until popSessions() returns them; then and without a
+  /// recovery, none.
+  std::vector<PersistedSession> awaitedSessions() const;
   /// Returns the sessions of the round's players, once, when the replay has ended.
   std::optional<std::vector<PersistedSession>> popSessions() {
     return std::exchange(m_sessions, std::nullopt);
@@ -226,8 +239,9 @@ class Round {
   std::uint32_t m_ticks = 0;             ///< ticks begun by this world, with those before it was copied
   std::uint32_t m_recorded = 0;          ///< player whose picture the current tick records; 0: none
   std::vector<std::uint32_t> m_players;  ///< players in the world, in the order in which they joined
-  WorldTurn m_turn;                      ///< the next turn
-  SentTurn m_sent;                       ///< the newest turn sent
+  std::uint32_t m_highest_player = 0;
+  WorldTurn m_turn;  ///< the next turn
+  SentTurn m_sent;   ///< the newest turn sent
   TurnRecordWriter m_writer;
 
   // Recovery.

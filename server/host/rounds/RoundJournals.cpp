@@ -251,10 +251,6 @@ RoundJournals::RoundJournals(const HostOptions& options, std::string game, const
     m_log("warning: libdragonfly-repeat.so is missing: games that read a clock cannot be replayed");
 }
 
-std::uint32_t RoundJournals::highestPlayer() const {
-  return m_open != nullptr ? m_open->highestPlayer() : 0;
-}
-
 WorldStartOptions RoundJournals::makeStartOptions() const {
   WorldStartOptions order;
   order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();

@@ -62,8 +62,6 @@ class RoundJournals {
   WorldStartOptions makeStartOptions() const;
   /// Returns the options for a world that resumes a killed server's round; nullopt if there is no such round.
   std::optional<WorldStartOptions> resumeOptions() const;
-  /// Returns the highest player id of the round to resume (UnfinishedRound::highestPlayer()); 0 without one.
-  std::uint32_t highestPlayer() const;
   /// Returns the resumed round, whose `world` first gets the recorded turns; null if it cannot be recorded
   /// or too many attempts failed. `another` starts a world that takes over from one that crashed or hangs.
   std::unique_ptr<Round> resumeRound(std::unique_ptr<WorldProcess> world, NewWorld another);

@@ -79,6 +79,7 @@ void Session::restore(const wire::Welcome& welcome, Events events) {
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
   m_has_hello = m_restored = true;
+  m_supports_rooms = true;  // its client, even an old one, gets a welcome to the room that it is in
   m_activity.onReconnect(now());
   m_status.begin(now());
 }

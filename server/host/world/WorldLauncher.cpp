@@ -91,24 +91,33 @@ bool receive(int from, Message& message) {
 
 }  // namespace
 
-WorldLauncher::WorldLauncher(WorldProgram program) : m_hang_time(program.hang_time) {
-  auto [ours, theirs] = socketPair(SOCK_SEQPACKET, "cannot start the launcher of game processes");
-  m_process = fork();
-  require(m_process >= 0, "cannot start the launcher of game processes");
-  if (m_process == 0) runLauncher(theirs.get(), program);
-  theirs = Descriptor();
-  m_socket = ours.release();
-  if (receive(m_socket, m_support)) return;
-  close(m_socket);
-  ::kill(m_process, SIGKILL);
-  waitpid(m_process, nullptr, 0);
-  throw std::system_error(ECHILD, std::generic_category(), "cannot start the launcher of game processes");
+WorldLauncher::WorldLauncher(WorldProgram program) : m_program(std::move(program)) {
+  launch();
 }
 
 WorldLauncher::~WorldLauncher() {
-  close(m_socket);
+  endLauncher();
+}
+
+void WorldLauncher::launch() const {
+  constexpr const char* kWhat = "cannot start the launcher of game processes";
+  auto [ours, theirs] = socketPair(SOCK_SEQPACKET, kWhat);
+  m_process = fork();
+  require(m_process >= 0, kWhat);
+  if (m_process == 0) runLauncher(theirs.get(), m_program);
+  theirs = Descriptor();
+  m_socket = ours.release();
+  if (receive(m_socket, m_support)) return;
+  endLauncher();
+  throw std::system_error(ECHILD, std::generic_category(), kWhat);
+}
+
+void WorldLauncher::endLauncher() const {
+  if (m_socket >= 0) close(std::exchange(m_socket, -1));
+  if (m_process <= 0) return;
   ::kill(m_process, SIGKILL);  // needed, because a copy of this process may hold the socket, too
   while (waitpid(m_process, nullptr, 0) < 0 && errno == EINTR) continue;
+  m_process = -1;
 }
 
 StartedWorld WorldLauncher::start(const WorldStartOptions& order) const {
@@ -119,13 +128,16 @@ StartedWorld WorldLauncher::start(const WorldStartOptions& order) const {
   Descriptor page = sharedPage(kWhat);
   std::pair<Descriptor, Descriptor> copies;
   if (order.copies) copies = socketPair(SOCK_SEQPACKET, kWhat);
-  require(
-      sendOrder(m_socket, order,
-                {their_world.get(), their_keeper.get(), their_output.get(), page.get(), copies.second.get()}),
-      kWhat);
+  const WorldDescriptors theirs{their_world.get(), their_keeper.get(), their_output.get(), page.get(),
+                                copies.second.get()};
+  if (!sendOrder(m_socket, order, theirs)) {  // the launcher has ended
+    endLauncher();
+    launch();
+    require(sendOrder(m_socket, order, theirs), kWhat);
+  }
   StartedWorld started{our_world.release(), our_keeper.release(), our_output.release(), page.release()};
   started.copies = copies.first.release();
-  started.hang_time = m_hang_time;
+  started.hang_time = m_program.hang_time;
   started.hashes = order.repeatable;
   started.repeats = order.again;
   return started;

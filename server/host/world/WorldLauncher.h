@@ -3,10 +3,12 @@
 //   front ── launcher ── supervisor ── world ── the world's descendants
 //
 // The front is the server's process. The launcher is forked from it before the front has keys, passwords of
-// players or threads, and forks a supervisor for each world. The supervisor starts the world in its sandbox,
-// and is the subreaper of its descendants. When the world has ended, or when the front closes or shuts down
-// its end of the supervisor's socket, or dies, the supervisor ends all of these descendants, including those
-// that left the world's process group. Worlds in a sandbox cannot signal or trace any of the three.
+// players or threads, and forks a supervisor for each world. If the launcher was killed, the next world gets
+// another one, which has a copy of the front's memory; worlds cannot read it, and lose it by execve(). The
+// supervisor starts the world in its sandbox, and is the subreaper of its descendants. When the world has
+// ended, or when the front closes or shuts down its end of the supervisor's socket, or dies, the supervisor
+// ends all of these descendants, including those that left the world's process group. Worlds in a sandbox
+// cannot signal or trace any of the three.
 //
 // On the supervisor's socket the front reads WorldStartReport, then one WorldExitReport. If the world makes
 // copies (WorldStartOptions::copies), there are two more for each world that ends and is replaced by a copy.
@@ -86,17 +88,20 @@ class WorldLauncher {
   WorldLauncher& operator=(const WorldLauncher&) = delete;
 
   /// Starts a world with an empty standard input, a pipe as its output, and a session of its own, so that
-  /// Ctrl-C in the terminal reaches only the front. Does not wait: the supervisor reports the result. Throws
-  /// std::system_error on failure, for example if the launcher has ended.
+  /// Ctrl-C in the terminal reaches only the front. Does not wait: the supervisor reports the result. Starts
+  /// another launcher if this one has ended. Throws std::system_error on failure.
   StartedWorld start(const WorldStartOptions& order = {}) const;
   /// Returns the features that the launcher found. Without a sandbox only `addresses` is set.
   const SandboxSupport& support() const { return m_support; }
 
  private:
-  int m_socket = -1;
-  pid_t m_process = -1;
-  SandboxSupport m_support;
-  std::chrono::milliseconds m_hang_time;
+  void launch() const;
+  void endLauncher() const;
+
+  const WorldProgram m_program;
+  mutable int m_socket = -1;
+  mutable pid_t m_process = -1;
+  mutable SandboxSupport m_support;
 };
 
 }  // namespace naiad

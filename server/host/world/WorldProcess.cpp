@@ -13,12 +13,12 @@
 #include <asio/read.hpp>
 #include <asio/write.hpp>
 #include <cstdio>
-#include <system_error>
 #include <utility>
 
 #include "host/world/ActivityReader.h"
 #include "host/world/BuildId.h"
 #include "host/world/TurnRecord.h"
+#include "shared/program/ProcessSetup.h"
 #include "shared/values/FastHash.h"
 
 namespace naiad {
@@ -109,8 +109,7 @@ void WorldProcess::readSupervisor(int timeout_millis) {
     m_supervisor_state = SupervisorState::kWatching;
     m_process = start->process;
     if (start->error != 0) {
-      m_failure = WorldEnd{WorldEnd::kCrashed,
-                           "could not be started: " + std::generic_category().message(start->error)};
+      m_failure = WorldEnd{WorldEnd::kCrashed, "could not be started: " + errorText(start->error)};
     }
   }
   if (m_supervisor_state == SupervisorState::kEnded) return;

@@ -5,6 +5,10 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "shared/program/ProcessSetup.h"
 
@@ -41,6 +45,19 @@ TEST_F(BrokenPipes, GameDefinedHandlerIsKept) {
   struct sigaction now {};
   sigaction(SIGPIPE, nullptr, &now);
   EXPECT_EQ(now.sa_handler, static_cast<void (*)(int)>(handler));
+}
+
+TEST(ErrorText, RefusedResourcesNameTheLimits) {
+  const auto names_limits = [](const std::string& text) {
+    return text.find("ulimit -v") != std::string::npos && text.find("ulimit -u") != std::string::npos;
+  };
+  const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));
+  EXPECT_TRUE(names_limits(errorText(no_thread))) << errorText(no_thread);
+  EXPECT_TRUE(errorText(no_thread).starts_with(no_thread.what()));
+  EXPECT_TRUE(names_limits(errorText(std::bad_alloc())));
+  EXPECT_TRUE(names_limits(errorText(EAGAIN)));
+  EXPECT_FALSE(names_limits(errorText(ENOENT)));
+  EXPECT_EQ(errorText(std::runtime_error("No such game.")), "No such game.");
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <asio/io_context.hpp>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,6 +14,7 @@
 
 #include "host/auth/LoginRateLimit.h"
 #include "host/auth/PasswordCheck.h"
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
@@ -138,6 +143,24 @@ TEST_F(PasswordCheckTest, FloodBeyondTheQueueIsAnsweredBusy) {
   EXPECT_EQ(std::ranges::count(all, Answer::kRight), 8);
   EXPECT_EQ(std::ranges::count(all, Answer::kBusy), 92);
   EXPECT_EQ(check->counters().busy, 92u);
+}
+
+// Retries would never succeed with a low ulimit -v.
+TEST_F(PasswordCheckTest, TooLittleMemoryIsNotAnsweredBusy) {
+  if (test::kSanitized) GTEST_SKIP() << "a sanitizer reserves its address space";
+  check->setHash(PasswordHash::of("open sesame"));
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit low = before;
+  std::ifstream("/proc/self/statm") >> low.rlim_cur;  // in pages
+  low.rlim_cur = low.rlim_cur * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{16} << 20);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &low), 0);
+  ask(1, "open sesame");
+  const auto all = run();
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(all, std::vector{Answer::kNoMemory});
+  ask(1, "open sesame");
+  EXPECT_EQ(run(), std::vector{Answer::kRight});
 }
 
 TEST_F(PasswordCheckTest, ImpossiblePasswordsAreNotComparedAndUseNoTries) {

@@ -19,6 +19,7 @@
 #include "host/world/Descendants.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldStart.h"
+#include "tests/support/Processes.h"
 
 namespace naiad {
 namespace {
@@ -143,6 +144,27 @@ TEST(WorldLauncher, ClosingTheSupervisorSocketEndsTheWorld) {
   EXPECT_TRUE(isGone(of_closed));
   EXPECT_TRUE(isGone(process));
   closeBoth(shut);
+}
+
+TEST(WorldLauncher, KilledLauncherIsReplacedAndItsWorldsGoOn) {
+  const WorldLauncher launcher(shell("read word <&3; exit 7"));
+  const StartedWorld before = launcher.start();
+  EXPECT_GT(waitForStart(before), 1);
+  const std::vector<pid_t> launchers = test::processesBelow(getpid(), "df-launcher");
+  ASSERT_EQ(launchers.size(), 1u);
+  kill(launchers.front(), SIGKILL);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMillis);
+  while (test::stateOf(launchers.front()) != 'Z' && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next check
+  const StartedWorld after = launcher.start();
+  for (const StartedWorld& world : {after, before}) {
+    if (world.socket == after.socket) EXPECT_GT(waitForStart(world), 1);
+    EXPECT_EQ(send(world.socket, "end\n", 4, MSG_NOSIGNAL), 4);
+    const auto status = waitForEnd(world);
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(WIFEXITED(*status) && WEXITSTATUS(*status) == 7) << *status;
+    closeBoth(world);
+  }
 }
 
 TEST(WorldLauncher, EndlesslyForkingGameIsEnded) {
