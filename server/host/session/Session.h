@@ -113,15 +113,25 @@ class SessionStatus {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Call when the client was welcomed.
-  void begin(Time now) { m_joined = m_last_activity = now; }
+  void begin(Time now) { m_joined = m_last_activity = m_idle_since = now; }
   /// Call for each key, click or line of chat.
-  void onActivity(Time now) { m_last_activity = now; }
+  void onActivity(Time now) { m_last_activity = m_idle_since = now; }
   /// Call when the session continues on another stream; counts as activity. Ends admin rights, because a
   /// resume token must not grant them.
   void changeStream(Time now) {
-    m_last_activity = now;
+    onActivity(now);
     m_admin = false;
     ++m_streams;
+  }
+  /// Call when the game begins to let the player only watch or wait (`watches`), or ceases to.
+  void setWatching(bool watches, Time now) {
+    if (!watches) m_idle_since = now - idle(now);
+    m_watching_since = watches ? std::optional(now) : std::nullopt;
+  }
+  bool isWatching() const { return m_watching_since.has_value(); }
+  /// Returns the time without activity, except the time in which the player could only watch or wait.
+  Time::duration idle(Time now) const {
+    return std::max(Time::duration(0), m_watching_since.value_or(now) - m_idle_since);
   }
 
   Time joined() const { return m_joined; }
@@ -136,6 +146,8 @@ class SessionStatus {
  private:
   Time m_joined{};
   Time m_last_activity{};
+  Time m_idle_since{};
+  std::optional<Time> m_watching_since;  ///< nullopt: the player may act
   std::uint32_t m_streams = 0;
   bool m_admin = false;
   bool m_muted = false;

@@ -66,8 +66,9 @@ class RoomManagerTest : public testing::Test {
     admission.setWorld(world);
   }
 
-  Client& join(const std::string& name) {
+  Client& connect(const std::string& name, const std::string& address) {
     Client& client = clients.emplace_back();
+    client.address = address;
     sessions.add(
         std::make_unique<test::FakeChannel>(client),
         {[this](Session& session, const wire::Hello& hello) { admission.evaluateHello(session, hello); },
@@ -75,6 +76,10 @@ class RoomManagerTest : public testing::Test {
          [this] { return now; }},
         now);
     client.greet(helloOf(name));
+    return client;
+  }
+  Client& join(const std::string& name) {
+    Client& client = connect(name, "192.0.2.1:1");
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
@@ -174,6 +179,80 @@ TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
   rooms.setLastRound(true);
   EXPECT_TRUE(ticks(3602s)) << "the server ends with the round";
 }
+
+// ---- idle players -----------------------------------------------------------------------------------------
+
+class FullServerTest : public RoomManagerTest, public testing::WithParamInterface<const char*> {
+ protected:
+  FullServerTest() : RoomManagerTest(GetParam()) {}
+};
+
+TEST_P(FullServerTest, OneAddressWithIdlePlayersCannotKeepItFull) {
+  for (int i = 0; i < options.max_players; ++i)
+    ASSERT_TRUE(connect("idler", "192.0.2.1:" + std::to_string(i + 1)).isWelcome()) << i;
+  now += 59s;
+  EXPECT_EQ(connect("ann", "203.0.113.1:1").refusal(), wire::Refused::FULL);
+  now += 1s;
+  EXPECT_TRUE(connect("ann", "203.0.113.1:1").isWelcome());
+  EXPECT_EQ(connect("bob", "203.0.113.1:2").refusal(), wire::Refused::FULL) << "the address holds a place";
+  EXPECT_EQ(connect("idler", "192.0.2.1:99").refusal(), wire::Refused::FULL);
+  EXPECT_TRUE(connect("cid", "203.0.113.2:1").isWelcome());
+  EXPECT_EQ(counters.idle_kicks, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, FullServerTest, testing::Values("together", "first", "private"));
+
+/// What the game shows of a player and of another one.
+struct Watcher {
+  const char* mode;
+  bool has_object;  ///< follows or steers an Object
+  bool has_controls;
+  bool other_has_object;
+  bool watches;
+};
+
+class WatcherTest : public RoomManagerTest, public testing::WithParamInterface<Watcher> {
+ protected:
+  WatcherTest() : RoomManagerTest(GetParam().mode) {}
+
+  static df::PlayerFacts facts(std::uint32_t id, bool has_object, bool has_controls) {
+    df::PlayerFacts player = factsOf(id, "", 0);
+    if (has_object) player.followed = {id, 1};
+    if (has_controls) player.steering.p_table = std::make_shared<df::ControlTable>();
+    player.steering.state.steering = has_controls && has_object;
+    return player;
+  }
+  void tick(bool has_object, bool other_has_object) {
+    const bool has_controls = GetParam().has_controls;
+    ports[0]->players = {facts(1, other_has_object, has_controls), facts(2, has_object, has_controls)};
+    rooms.beginTicks();
+  }
+};
+
+TEST_P(WatcherTest, TimeWithoutAPartInTheGameIsNotIdle) {
+  join("other");
+  join("player");
+  const auto idle = [this] { return rooms.findPlayer(2)->status().idle(now); };
+  tick(true, true);
+  now += 10s;
+  EXPECT_EQ(idle(), std::string(GetParam().mode) == "first" ? 0s : 10s);
+  tick(GetParam().has_object, GetParam().other_has_object);
+  const auto before = idle();
+  now += 1h;
+  EXPECT_EQ(idle(), GetParam().watches ? before : before + 1h);
+  tick(true, true);
+  now += 5s;
+  if (GetParam().mode == std::string("together")) EXPECT_EQ(idle(), GetParam().watches ? 15s : 1h + 15s);
+}
+
+INSTANTIATE_TEST_SUITE_P(Games, WatcherTest,
+                         testing::Values(Watcher{"together", true, false, true, false},
+                                         Watcher{"together", false, false, true, true},  // waits for a place
+                                         Watcher{"together", false, false, false, false},  // a title screen
+                                         Watcher{"together", true, true, true, false},
+                                         Watcher{"together", false, true, true, true},  // has lost the ship
+                                         Watcher{"together", false, true, false, false},
+                                         Watcher{"first", true, false, true, true}));
 
 // ---- the audit of pictures --------------------------------------------------------------------------------
 
