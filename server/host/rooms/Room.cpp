@@ -138,8 +138,7 @@ void Room::updateWatching() {
   const bool has_parts = std::ranges::any_of(m_p_round->view().players, hasPart);
   forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
     const bool has_turn = !m_input_focus.isExclusive() || m_input_focus.player() == facts.id;
-    const bool watches = !has_turn || (has_parts && !hasPart(facts));
-    if (watches != session.status().isWatching()) session.status().setWatching(watches, session.now());
+    session.status().setWatching(!has_turn || (has_parts && !hasPart(facts)), session.now());
   });
 }
 

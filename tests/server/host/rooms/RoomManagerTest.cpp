@@ -182,12 +182,12 @@ TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
 
 // ---- idle players -----------------------------------------------------------------------------------------
 
-class FullServerTest : public RoomManagerTest, public testing::WithParamInterface<const char*> {
+class IdleCrowdTest : public RoomManagerTest, public testing::WithParamInterface<const char*> {
  protected:
-  FullServerTest() : RoomManagerTest(GetParam()) {}
+  IdleCrowdTest() : RoomManagerTest(GetParam()) {}
 };
 
-TEST_P(FullServerTest, OneAddressWithIdlePlayersCannotKeepItFull) {
+TEST_P(IdleCrowdTest, OneAddressWithIdlePlayersCannotKeepItFull) {
   for (int i = 0; i < options.max_players; ++i)
     ASSERT_TRUE(connect("idler", "192.0.2.1:" + std::to_string(i + 1)).isWelcome()) << i;
   now += 59s;
@@ -200,59 +200,56 @@ TEST_P(FullServerTest, OneAddressWithIdlePlayersCannotKeepItFull) {
   EXPECT_EQ(counters.idle_kicks, 2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, FullServerTest, testing::Values("together", "first", "private"));
+INSTANTIATE_TEST_SUITE_P(Modes, IdleCrowdTest, testing::Values("together", "first", "private"));
 
-/// What the game shows of a player and of another one.
-struct Watcher {
+/// A second player's part in the game: + an Object to follow or steer, - none.
+struct Part {
   const char* mode;
-  bool has_object;  ///< follows or steers an Object
   bool has_controls;
-  bool other_has_object;
-  bool watches;
+  const char* own;     ///< the player's, for consecutive periods of a minute
+  const char* others;  ///< the first player's
+  const char* keys;    ///< + if the player is active at the beginning of the minute
+  int idle;            ///< minutes that count as idle at the end
 };
 
-class WatcherTest : public RoomManagerTest, public testing::WithParamInterface<Watcher> {
+class PartTest : public RoomManagerTest, public testing::WithParamInterface<Part> {
  protected:
-  WatcherTest() : RoomManagerTest(GetParam().mode) {}
+  PartTest() : RoomManagerTest(GetParam().mode) {}
 
-  static df::PlayerFacts facts(std::uint32_t id, bool has_object, bool has_controls) {
+  static df::PlayerFacts facts(std::uint32_t id, bool has_object) {
     df::PlayerFacts player = factsOf(id, "", 0);
     if (has_object) player.followed = {id, 1};
-    if (has_controls) player.steering.p_table = std::make_shared<df::ControlTable>();
-    player.steering.state.steering = has_controls && has_object;
+    if (GetParam().has_controls) player.steering.p_table = std::make_shared<df::ControlTable>();
+    player.steering.state.steering = GetParam().has_controls && has_object;
     return player;
-  }
-  void tick(bool has_object, bool other_has_object) {
-    const bool has_controls = GetParam().has_controls;
-    ports[0]->players = {facts(1, other_has_object, has_controls), facts(2, has_object, has_controls)};
-    rooms.beginTicks();
   }
 };
 
-TEST_P(WatcherTest, TimeWithoutAPartInTheGameIsNotIdle) {
+TEST_P(PartTest, TimeInWhichThePlayerMayOnlyWatchIsNotIdle) {
   join("other");
   join("player");
-  const auto idle = [this] { return rooms.findPlayer(2)->status().idle(now); };
-  tick(true, true);
-  now += 10s;
-  EXPECT_EQ(idle(), std::string(GetParam().mode) == "first" ? 0s : 10s);
-  tick(GetParam().has_object, GetParam().other_has_object);
-  const auto before = idle();
-  now += 1h;
-  EXPECT_EQ(idle(), GetParam().watches ? before : before + 1h);
-  tick(true, true);
-  now += 5s;
-  if (GetParam().mode == std::string("together")) EXPECT_EQ(idle(), GetParam().watches ? 15s : 1h + 15s);
+  SessionStatus& status = rooms.findPlayer(2)->status();
+  for (std::size_t i = 0; GetParam().own[i] != 0; ++i) {
+    ports[0]->players = {facts(1, GetParam().others[i] == '+'), facts(2, GetParam().own[i] == '+')};
+    rooms.beginTicks();
+    if (GetParam().keys[i] == '+') status.onActivity(now);
+    now += 1min;
+    rooms.beginTicks();
+  }
+  EXPECT_EQ(status.idle(now), std::chrono::minutes(GetParam().idle));
 }
 
-INSTANTIATE_TEST_SUITE_P(Games, WatcherTest,
-                         testing::Values(Watcher{"together", true, false, true, false},
-                                         Watcher{"together", false, false, true, true},  // waits for a place
-                                         Watcher{"together", false, false, false, false},  // a title screen
-                                         Watcher{"together", true, true, true, false},
-                                         Watcher{"together", false, true, true, true},  // has lost the ship
-                                         Watcher{"together", false, true, false, false},
-                                         Watcher{"first", true, false, true, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Games, PartTest,
+    testing::Values(Part{"together", false, "++", "++", "--", 2}, Part{"together", true, "++", "++", "--", 2},
+                    Part{"together", false, "++", "++", "-+", 1},
+                    Part{"together", false, "---", "+++", "---", 0},  // waits for a place in the game
+                    Part{"together", false, "--", "--", "--", 2},  // a title screen, which may expect a key
+                    Part{"together", false, "+---", "++++", "+---", 1},  // has played and lost
+                    Part{"together", true, "+---", "++++", "+---", 1},
+                    Part{"together", true, "+-+", "+++", "+--", 2},  // plays again: the minute continues
+                    Part{"together", true, "+--", "+++", "---", 3},  // lost without a key
+                    Part{"first", false, "+++", "+++", "---", 0}));  // it is another player's turn
 
 // ---- the audit of pictures --------------------------------------------------------------------------------
 
