@@ -39,7 +39,7 @@ class SessionTable {
   static constexpr std::chrono::minutes kIdleTime{1};
   /// Call if the playing sessions that `counts` selects (null: all) have taken all `places`. Ends one of them
   /// for a player from `newcomer`: the one idle longest, if that is at least kIdleTime, whose address or /64
-  /// holds at least a quarter of the places. False if there is none, or if `newcomer` holds a place.
+  /// holds at least a quarter of the places. False if none qualifies, or if `newcomer` holds a place.
   bool makePlace(const AddressPrefix& newcomer, std::size_t places, Clock::time_point now,
                  const std::function<bool(const Session&)>& counts = nullptr);
   /// Destroys the sessions that have ended.

@@ -225,7 +225,7 @@ class PartTest : public RoomManagerTest, public testing::WithParamInterface<Part
   }
 };
 
-TEST_P(PartTest, TimeInWhichThePlayerMayOnlyWatchIsNotIdle) {
+TEST_P(PartTest, TimeOfOnlyWatchingIsNotIdle) {
   join("other");
   join("player");
   SessionStatus& status = rooms.findPlayer(2)->status();

@@ -136,7 +136,7 @@ struct FullServer {
 
 class FullServerTest : public SessionTableTest, public testing::WithParamInterface<FullServer> {};
 
-TEST_P(FullServerTest, IdlePlayerOfAQuarterMakesPlaceAfterAMinute) {
+TEST_P(FullServerTest, IdlePlayerOfAQuarterMakesPlace) {
   const auto [places, crowd, idle, makes_place] = GetParam();
   table.setMaxSessions(places);
   for (std::size_t i = 0; i < places; ++i) {
