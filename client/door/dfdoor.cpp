@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "client/door/DoorSlots.h"
@@ -131,6 +132,15 @@ constexpr std::chrono::milliseconds kStep{50};      // interval between attempts
 constexpr std::size_t kMaxList = 65'536;            // maximum bytes of games.list
 constexpr std::size_t kMaxTerm = 64;
 constexpr std::size_t kMaxAuthInfo = 65'536;
+
+/// Limits of each visitor's client: bytes of data, and seconds of processor time. The largest terminal takes
+/// a quarter of the data.
+constexpr std::pair<decltype(RLIMIT_DATA), rlim_t> kClientLimits[] = {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // their shadow memory counts as data
+    {RLIMIT_DATA, rlim_t{128} << 20},
+#endif
+    {RLIMIT_CPU, 7200},
+    {RLIMIT_CORE, 0}};
 
 struct DoorOptions {
   fs::path games;
@@ -290,8 +300,10 @@ int runClient(ClientStart start) {
   const pid_t child = ::fork();
   if (child == 0) {
     for (const int signal : {SIGHUP, SIGTERM, SIGINT, SIGQUIT}) ::signal(signal, SIG_DFL);
-    const rlimit none{0, 0};
-    ::setrlimit(RLIMIT_CORE, &none);
+    for (const auto& [resource, limit] : kClientLimits) {
+      const rlimit both{limit, limit};
+      ::setrlimit(resource, &both);
+    }
     ::execve(words[0], words.data(), environment.data());
     ::_exit(127);
   }

@@ -41,8 +41,8 @@ void TabTokenStore::remove() {
 
 WebClient::WebClient(PageBridge& port, const Options& options, Time now)
     : m_port(port),
-      m_columns(options.columns),
-      m_rows(options.rows),
+      m_columns(std::clamp(options.columns, 1, kMaxViewWidth)),
+      m_rows(std::clamp(options.rows, 1, kMaxViewHeight)),
       m_tokens(port, options.token),
       m_p_streams(new WebStreamOpener(port)),
       m_connection(std::unique_ptr<StreamOpener>(m_p_streams), ServerAddress{options.server, 0},

@@ -5,9 +5,10 @@
 namespace bench {
 namespace {
 
-const std::vector<std::string> kNames = {"silent4",    "silent6",     "chat_resume", "chat_detached",
-                                         "hard_pile",  "held_places", "log_stall",   "log_gone",
-                                         "password80", "fork300"};
+const std::vector<std::string> kNames = {"silent4",    "silent6",     "chat_resume",  "chat_detached",
+                                         "hard_pile",  "held_places", "log_stall",    "log_gone",
+                                         "password80", "fork300",     "restart8",     "rounds5",
+                                         "door3000",   "idle64",      "password2000", "bus20k"};
 
 void attack(const std::string& name, bool quick) {
   progress("attack: " + name);

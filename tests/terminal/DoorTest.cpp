@@ -13,6 +13,7 @@
 #include "ProgramEnd.h"
 #include "PtyTerminal.h"
 #include "tests/support/RunProgram.h"
+#include "tests/support/Sanitizers.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad::test {
@@ -359,6 +360,35 @@ TEST_F(DoorTest, RemoveDeletesTheDoorsFolder) {
   m_server.reset();
   door({"remove", m_home / "door"});
   EXPECT_FALSE(fs::exists(m_home / "door"));
+}
+
+/// Needs no sshd: dfdoor runs on a terminal of the test, and a program that prints its limits is its client.
+TEST(DoorClientTest, MemoryAndProcessorTimeAreLimited) {
+  if (kSanitized) GTEST_SKIP() << "the memory of a sanitizer is not limited";
+  const TempFolder home;
+  std::ofstream(home / "client") << "#!/bin/sh\nexec cat /proc/self/limits\n";
+  fs::permissions(home / "client", fs::perms::owner_all);
+  std::ofstream(home / "games.list") << "hello naiad://127.0.0.1:9#abcdefghijklmnopqrstuvwxya /nowhere\n";
+  PtyTerminal::Options options;
+  options.command = {programPath("dfdoor"), "--games",  home / "games.list", "--state",
+                     home / "state",        "--client", home / "client"};
+  options.environment["SSH_CONNECTION"] = "192.0.2.7 50312 198.51.100.1 22";
+  PtyTerminal visitor(options);
+  ASSERT_TRUE(visitor.waitFor("Your name?")) << visitor.output();
+  visitor.type("ann\r");
+  EXPECT_TRUE(exits(visitor, 0));
+  std::map<std::string, std::string> limits;  // soft and hard limit by name
+  std::istringstream lines(visitor.newOutput());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 67) continue;
+    std::istringstream numbers(line.substr(26, 41));
+    std::string soft, hard;
+    numbers >> soft >> hard;
+    limits[line.substr(0, line.find("  "))] = soft + " " + hard;
+  }
+  EXPECT_EQ(limits["Max data size"], "134217728 134217728");
+  EXPECT_EQ(limits["Max cpu time"], "7200 7200");
+  EXPECT_EQ(limits["Max core file size"], "0 0");
 }
 
 /// Installs below a folder instead of /: sshd accepts the configuration, and uninstalling leaves no file.

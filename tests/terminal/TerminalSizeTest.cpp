@@ -12,11 +12,11 @@
 namespace naiad::test {
 namespace {
 
-/// Returns the resident memory, in MB.
-int residentMegabytes(pid_t process) {
+/// Returns an entry of /proc/PID/status, in MB: "VmRSS:" is resident memory, "VmData:" what a door limits.
+int megabytes(pid_t process, const std::string& entry) {
   std::ifstream file("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(file, line);)
-    if (line.starts_with("VmRSS:")) return std::stoi(line.substr(6)) / 1024;
+    if (line.starts_with(entry)) return std::stoi(line.substr(entry.size())) / 1024;
   return -1;
 }
 
@@ -34,7 +34,8 @@ class TerminalSizeTest : public FakeServerFixture {
   }
 };
 
-constexpr int kMegabytes = 40;  ///< limit of a client's resident memory, whatever the terminal size
+constexpr int kMegabytes = 40;      ///< limit of a client's resident memory, whatever the terminal size
+constexpr int kDataMegabytes = 64;  ///< limit of its data: half of what a door allows
 constexpr std::pair<int, int> kLarge[] = {{65535, 65535}, {3000, 250}, {65535, 1}, {1, 65535}};
 
 TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
@@ -42,7 +43,8 @@ TEST_F(TerminalSizeTest, ALargeTerminalTakesBoundedMemory) {
   for (const auto& [columns, rows] : kLarge) {
     PtyTerminal terminal(sized(columns, rows));
     ASSERT_TRUE(terminal.waitFor("\033[?u")) << columns << " x " << rows;
-    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmData:"), kDataMegabytes) << columns << " x " << rows;
     leave(terminal);
   }
 }
@@ -59,7 +61,7 @@ TEST_F(TerminalSizeTest, GrowingWindowTakesBoundedMemory) {
              static_cast<int>(m.resize().rows()) == std::min(rows, 256);
     };
     ASSERT_TRUE(server.hasReceived(is_resize)) << columns << " x " << rows;
-    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << columns << " x " << rows;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << columns << " x " << rows;
   }
   leave(terminal);
 }
@@ -89,7 +91,7 @@ TEST_F(TerminalSizeTest, InvalidColumnsAndLinesTakeBoundedMemory) {
     without.environment["LINES"] = number;
     PtyTerminal terminal(without);
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << number;
-    EXPECT_LT(residentMegabytes(terminal.pid()), kMegabytes) << number;
+    EXPECT_LT(megabytes(terminal.pid(), "VmRSS:"), kMegabytes) << number;
     leave(terminal);
   }
 }

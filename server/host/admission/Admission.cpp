@@ -65,7 +65,7 @@ Admission::Admission(Setup setup)
       m_counters(m_setup.context.counters),
       m_joins(RateLimits::joins(m_options.max_per_address)),
       m_new_worlds(RateLimits::worlds(m_options.max_per_address, m_options.max_players)),
-      m_room_admission(m_setup.rooms, m_options.max_per_address) {
+      m_room_admission(m_setup.rooms, m_setup.sessions, m_options.max_per_address) {
   const std::string& password = m_options.password;
   if (!password.empty()) changePassword(PasswordHash::fromText(password));
 }
@@ -387,9 +387,12 @@ bool Admission::checkLimits(Session& session) {
   }
   const int max_players = m_options.max_players;
   const int max_per_address = m_options.max_per_address;
-  int players = 0;
+  const auto places = static_cast<std::size_t>(max_players);
+  std::size_t players = 0;
   forEachPlayer([&players](const std::string&, df::Color) { ++players; });
-  if (players >= max_players) {
+  const std::size_t awaited = players - m_setup.sessions.playingCount();
+  if (players >= places &&
+      !m_setup.sessions.makePlace(prefixOf(session), places - std::min(awaited, places), session.now())) {
     ++m_counters.refused_full;
     refuseFull(session, "The server is full (" + std::to_string(max_players) + " players). Try again later.");
     return false;

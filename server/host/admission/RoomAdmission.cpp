@@ -9,8 +9,12 @@ namespace naiad {
 
 namespace {
 
+std::size_t placesOf(const Room& room) {
+  return static_cast<std::size_t>(room.plan()->max_players);
+}
+
 bool isFull(const Room& room) {
-  return room.countPlaying() >= static_cast<std::size_t>(room.plan()->max_players);
+  return room.countPlaying() >= placesOf(room);
 }
 
 std::string named(const Room& room) {
@@ -46,7 +50,8 @@ Room* RoomAdmission::findRoom(const std::string& name, const std::string& game, 
 }
 
 std::optional<RoomAdmission::Refusal> RoomAdmission::open(Room& room, const AddressPrefix& prefix, Time now) {
-  if (isFull(room)) {
+  const auto is_here = [&room](const Session& session) { return room.find(session.player()) == &session; };
+  if (isFull(room) && !m_sessions.makePlace(prefix, placesOf(room), now, is_here)) {
     return Refusal{
         Reason::kFull,
         named(room) + " is full (" + std::to_string(room.plan()->max_players) + " players). Try again later.",

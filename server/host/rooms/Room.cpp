@@ -33,6 +33,12 @@ df::InputQueue::Input inputOf(const Session& session, const Input& input) {
           .y = input.y};
 }
 
+/// True if the player steers or follows an Object.
+bool hasPart(const df::PlayerFacts& player) {
+  return player.steering.p_table != nullptr ? player.steering.state.steering
+                                            : player.followed.generation != 0;
+}
+
 bool isBefore(const Session* p_session, std::uint32_t player) {
   return p_session->player() < player;
 }
@@ -117,12 +123,23 @@ void Room::publish(TruthWriter* p_truth) {
   const Stage before = m_stages.enter(Stage::kPublish);
   m_publisher.update(m_p_round->view());
   m_p_round->onPublished(m_publisher);
+  updateWatching();
   m_stages.enter(Stage::kSnapshots);
   sendSnapshots(p_truth);
   m_stages.enter(Stage::kBroadcasts);
   m_sound_broadcaster.tick(m_p_round->view(), soundSender());
   sendNotes();
   m_stages.enter(before);
+}
+
+// A player only watches while another one has the turn, or has a part in the game that this player lacks. If
+// no player has one, the game may expect keys of all, as on a title screen.
+void Room::updateWatching() {
+  const bool has_parts = std::ranges::any_of(m_p_round->view().players, hasPart);
+  forEachInWorld([&](Session& session, const df::PlayerFacts& facts) {
+    const bool has_turn = !m_input_focus.isExclusive() || m_input_focus.player() == facts.id;
+    session.status().setWatching(!has_turn || (has_parts && !hasPart(facts)), session.now());
+  });
 }
 
 void Room::sendSnapshots(TruthWriter* p_truth) {

@@ -151,6 +151,7 @@ class Room {
   void updateInputFocus();
   void announceInputFocus(Session& session) const;
   void applyInputs();
+  void updateWatching();
   void sendSnapshots(TruthWriter* p_truth);
   SoundBroadcaster::Send soundSender() const;
   void sendNotes() const;

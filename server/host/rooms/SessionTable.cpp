@@ -82,6 +82,29 @@ SessionTable::SessionSlots::iterator SessionTable::evictionCandidate(const Addre
   return found;
 }
 
+// Restored sessions whose players have not returned have no address, so they crowd none.
+bool SessionTable::makePlace(const AddressPrefix& newcomer, std::size_t places, Clock::time_point now,
+                             const std::function<bool(const Session&)>& counts) {
+  std::vector<const SessionSlot*> taken;
+  std::map<AddressPrefix, std::size_t> held;
+  for (const SessionSlot& slot : m_slots) {
+    if (!isPlaying(*slot.session) || (counts && !counts(*slot.session))) continue;
+    taken.push_back(&slot);
+    ++held[slot.prefix];
+  }
+  if (taken.size() != places || held.contains(newcomer)) return false;
+  held.erase(AddressPrefix());
+  std::erase_if(taken, [&](const SessionSlot* p_slot) {
+    return 4 * held[p_slot->prefix] < places || p_slot->session->status().idle(now) < kIdleTime;
+  });
+  const auto longest = std::ranges::max_element(
+      taken, {}, [now](const SessionSlot* p_slot) { return p_slot->session->status().idle(now); });
+  if (longest == taken.end()) return false;
+  ++m_counters.idle_kicks;
+  (*longest)->session->sendGoodbye("Disconnected: no input for a minute, and the server needed your place.");
+  return true;
+}
+
 void SessionTable::sweep() {
   std::erase_if(m_slots, [this](const SessionSlot& slot) {
     const bool gone = slot.session->state() == Session::State::kGone;

@@ -35,6 +35,13 @@ class SessionTable {
   Session& addDetached(Clock::time_point now);
   /// Sets the maximum. Existing sessions stay.
   void setMaxSessions(std::size_t max_sessions) { m_max_sessions = max_sessions; }
+  /// Idle time after which a player of a crowded address may lose their place.
+  static constexpr std::chrono::minutes kIdleTime{1};
+  /// Call if the playing sessions that `counts` selects (null: all) have taken all `places`. Ends one of them
+  /// for a player from `newcomer`: the one idle longest, if that is at least kIdleTime, whose address or /64
+  /// holds at least a quarter of the places. False if none qualifies, or if `newcomer` holds a place.
+  bool makePlace(const AddressPrefix& newcomer, std::size_t places, Clock::time_point now,
+                 const std::function<bool(const Session&)>& counts = nullptr);
   /// Destroys the sessions that have ended.
   void sweep();
 

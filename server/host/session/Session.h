@@ -113,16 +113,28 @@ class SessionStatus {
   using Time = std::chrono::steady_clock::time_point;
 
   /// Call when the client was welcomed.
-  void begin(Time now) { m_joined = m_last_activity = now; }
+  void begin(Time now) { m_joined = m_last_activity = m_idle_since = m_checked = now; }
   /// Call for each key, click or line of chat.
-  void onActivity(Time now) { m_last_activity = now; }
+  void onActivity(Time now) {
+    m_last_activity = m_idle_since = now;
+    m_excused = true;
+  }
   /// Call when the session continues on another stream; counts as activity. Ends admin rights, because a
   /// resume token must not grant them.
   void changeStream(Time now) {
-    m_last_activity = now;
+    onActivity(now);
     m_admin = false;
     ++m_streams;
   }
+  /// Call once a tick. `watches`: the game lets the player only watch or wait. That time is not idle, unless
+  /// the player was inactive while the game last let them act.
+  void setWatching(bool watches, Time now) {
+    if (watches && m_excused) m_idle_since = std::min(now, m_idle_since + (now - m_checked));
+    if (!watches && m_watches) m_excused = false;
+    m_watches = watches;
+    m_checked = now;
+  }
+  Time::duration idle(Time now) const { return now - m_idle_since; }
 
   Time joined() const { return m_joined; }
   Time lastActivity() const { return m_last_activity; }
@@ -136,6 +148,10 @@ class SessionStatus {
  private:
   Time m_joined{};
   Time m_last_activity{};
+  Time m_idle_since{};
+  Time m_checked{};       ///< time of the last setWatching()
+  bool m_watches = true;  ///< argument of the last setWatching()
+  bool m_excused = true;  ///< active since the game last began to let the player act
   std::uint32_t m_streams = 0;
   bool m_admin = false;
   bool m_muted = false;

@@ -34,6 +34,10 @@ class Attack {
 
   /// Returns the settings of the server that this attack needs, in addition to the common ones.
   virtual ServerSetup setup() const { return {}; }
+  /// Called before the attacked server starts, with the folder of its identity and state.
+  virtual void prepare(const std::string& /*folder*/) {}
+  /// Returns for how long the attack runs before newcomers come and the players are measured.
+  virtual std::chrono::seconds leadTime() const { return std::chrono::seconds(0); }
   /// Starts the attack. Called in the attack's thread, like update() and end().
   virtual void begin(const Target& target) = 0;
   /// Called about a hundred times a second.
@@ -67,5 +71,17 @@ AttackPtr makePasswordCrowd();
 /// fork300: a game in its own process forks 300 children. Counts the children that outlive their world. This
 /// process adopts children whose parents end, so that all are counted.
 AttackPtr makeForkingWorld();
+/// restart8: the server was killed with eight players, and restarted after the time to reconnect.
+AttackPtr makeLateRestart();
+/// rounds5: before the server's start, its folder of rounds gets damaged, foreign and special files.
+AttackPtr makeHostileRounds();
+/// door3000: visitors of an ssh door have terminals of 3000 × 3000 cells and larger.
+AttackPtr makeLargeTerminals();
+/// idle64: one address takes all places and presses no key.
+AttackPtr makeIdleCrowd();
+/// password2000: 2,000 networks guess a password, each once a minute.
+AttackPtr makeKnockingNetworks();
+/// bus20k: a member of the bus sends 20,000 messages a second.
+AttackPtr makeBusFlood();
 
 }  // namespace bench::attack

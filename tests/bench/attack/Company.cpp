@@ -59,7 +59,8 @@ void Company::join() {
   }
 }
 
-void Company::play(std::chrono::milliseconds duration, Absence absence) {
+void Company::play(std::chrono::milliseconds lead, std::chrono::milliseconds duration, Absence absence) {
+  for (const auto end = Clock::now() + lead; Clock::now() < end;) serve();
   const Clock::time_point begin = Clock::now();
   m_plain.watchPauses(begin);
   m_newcomers.begin(begin);

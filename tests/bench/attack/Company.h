@@ -27,7 +27,7 @@ struct Fate {
 
 class Company {
  public:
-  /// Times since the beginning between which the player `away` has no stream and no datagrams.
+  /// Times since the end of the lead between which the player `away` has no stream and no datagrams.
   struct Absence {
     std::chrono::milliseconds from;
     std::chrono::milliseconds until;
@@ -38,9 +38,9 @@ class Company {
 
   /// Lets all honest players join. Throws std::runtime_error if one cannot.
   void join();
-  /// Plays for this time, and up to ten seconds longer until all honest players have their streams and all
-  /// newcomers have succeeded or failed.
-  void play(std::chrono::milliseconds duration, Absence absence);
+  /// Plays for `lead`, then with newcomers for `duration`, and up to ten seconds longer until all honest
+  /// players have their streams and all newcomers have succeeded or failed.
+  void play(std::chrono::milliseconds lead, std::chrono::milliseconds duration, Absence absence);
   /// Lets all players leave. Returns the results, except those of compare().
   Fate leave();
   /// Compares the players' pictures with the server's. Call after the server has ended, when its truth file

@@ -93,6 +93,7 @@ Company::Absence absenceIn(std::chrono::milliseconds duration) {
 PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration) {
   const naiad::test::TempFolder folder;
   PhaseResult result;
+  if (hostile) attack.prepare(folder.string());
   ServerProcess server(attack.setup(), folder.string());
   Company company({.port = server.port(),
                    .fingerprint = server.fingerprint(),
@@ -101,9 +102,10 @@ PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration
                   kHeldName);
   company.join();
   const Clock::time_point begin = Clock::now();
-  CpuMeter cpu(server, duration);
+  const std::chrono::seconds lead = hostile ? attack.leadTime() : std::chrono::seconds(0);
+  CpuMeter cpu(server, lead + duration);
   const auto play = [&] {
-    company.play(duration, absenceIn(duration));
+    company.play(lead, duration, absenceIn(duration));
     result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     result.cpu_percent = cpu.percent();
   };

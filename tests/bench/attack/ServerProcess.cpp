@@ -161,6 +161,13 @@ void ServerProcess::closeLog() {
 
 // ---- shutdown ---------------------------------------------------------------------------------------------
 
+void ServerProcess::killNow() {
+  if (!isRunning()) return;
+  kill(m_pid, SIGKILL);
+  waitpid(m_pid, nullptr, 0);
+  m_died = true;
+}
+
 ServerProcess::Counters ServerProcess::stop() {
   if (m_mode == LogMode::kStalled) setMode(LogMode::kRead);
   if (isRunning()) {

@@ -41,6 +41,8 @@ class ServerProcess {
   /// Closes the read end of the log's pipe, like a reader that exits.
   void closeLog();
 
+  /// Kills the server by SIGKILL.
+  void killNow();
   /// Asks the server to stop (its log is read again), and kills it after ten seconds. Returns the counters of
   /// its last line; empty if that line is missing.
   Counters stop();

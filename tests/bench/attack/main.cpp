@@ -64,7 +64,13 @@ const std::map<std::string, std::vector<Make>>& attacks() {
       {"log_stall", {[] { return makeLogReader(LogFault::kStalls); }}},
       {"log_gone", {[] { return makeLogReader(LogFault::kEnds); }}},
       {"password80", {makePasswordCrowd}},
-      {"fork300", {makeForkingWorld}}};
+      {"fork300", {makeForkingWorld}},
+      {"restart8", {makeLateRestart}},
+      {"rounds5", {makeHostileRounds}},
+      {"door3000", {makeLargeTerminals}},
+      {"idle64", {makeIdleCrowd}},
+      {"password2000", {makeKnockingNetworks}},
+      {"bus20k", {makeBusFlood}}};
   return s_attacks;
 }
 

@@ -75,8 +75,9 @@ class RoomTransfersTest : public testing::Test {
               return std::make_unique<Round>(std::move(port));
             }};
   }
-  Client& connect(const wire::Hello& hello) {
+  Client& connect(const wire::Hello& hello, const std::string& address = "192.0.2.1:1") {
     Client& client = clients.emplace_back();
+    client.address = address;
     sessions.add(
         std::make_unique<test::FakeChannel>(client),
         {[this](Session& session, const wire::Hello& said) { admission.evaluateHello(session, said); },
@@ -311,7 +312,7 @@ TEST_F(RoomTransfersTest, AddressMayWakeFourRoomsAtOnceMoreLater) {
   RoomManager many{context, sessions, [] {}};
   many.setNamed(plans);
   many.open(world);
-  RoomAdmission door(many, 64);
+  RoomAdmission door(many, sessions, 64);
   const auto prefix = AddressPrefix::ofEndpoint("192.0.2.1:1").value_or(AddressPrefix());
   int woken = 0;
   for (int i = 1; i < 20; ++i)
@@ -319,6 +320,25 @@ TEST_F(RoomTransfersTest, AddressMayWakeFourRoomsAtOnceMoreLater) {
   EXPECT_EQ(woken, 4);
   EXPECT_FALSE(door.open(many.firstRoom(), prefix, now)) << "what is awake is open to all";
   EXPECT_FALSE(door.open(*many.findRoom("room-19"), prefix, now + 2s));
+}
+
+TEST_F(RoomTransfersTest, IdleCrowdOfARoomMakesPlaceThere) {
+  options.max_players = 64;
+  for (int i = 0; i < 8; ++i) join("idler", "quiet");
+  Client& mover = connect(helloTo("mover", "lobby"), "203.0.113.1:1");
+  now += 59s;
+  EXPECT_EQ(connect(helloTo("ann", "quiet"), "203.0.113.2:1").refusal(), wire::Refused::FULL);
+  enter(mover, "quiet");
+  tick();
+  EXPECT_EQ(roomOf(mover), "lobby");
+  now += 1s;
+  EXPECT_TRUE(connect(helloTo("ann", "quiet"), "203.0.113.2:1").isWelcome());
+  enter(mover, "quiet");
+  tick();
+  EXPECT_EQ(roomOf(mover), "quiet");
+  EXPECT_EQ(rooms.findRoom("quiet")->countPlaying(), 8u);
+  EXPECT_EQ(counters.idle_kicks, 2u);
+  EXPECT_EQ(sessions.playingCount(), 8u) << "those who made place have left the server";
 }
 
 TEST_F(RoomTransfersTest, RepeatedlyFailingRoomMovesPlayersToFirstRoom) {

@@ -66,8 +66,9 @@ class RoomManagerTest : public testing::Test {
     admission.setWorld(world);
   }
 
-  Client& join(const std::string& name) {
+  Client& connect(const std::string& name, const std::string& address) {
     Client& client = clients.emplace_back();
+    client.address = address;
     sessions.add(
         std::make_unique<test::FakeChannel>(client),
         {[this](Session& session, const wire::Hello& hello) { admission.evaluateHello(session, hello); },
@@ -75,6 +76,10 @@ class RoomManagerTest : public testing::Test {
          [this] { return now; }},
         now);
     client.greet(helloOf(name));
+    return client;
+  }
+  Client& join(const std::string& name) {
+    Client& client = connect(name, "192.0.2.1:1");
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
@@ -174,6 +179,77 @@ TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
   rooms.setLastRound(true);
   EXPECT_TRUE(ticks(3602s)) << "the server ends with the round";
 }
+
+// ---- idle players -----------------------------------------------------------------------------------------
+
+class IdleCrowdTest : public RoomManagerTest, public testing::WithParamInterface<const char*> {
+ protected:
+  IdleCrowdTest() : RoomManagerTest(GetParam()) {}
+};
+
+TEST_P(IdleCrowdTest, OneAddressWithIdlePlayersCannotKeepItFull) {
+  for (int i = 0; i < options.max_players; ++i)
+    ASSERT_TRUE(connect("idler", "192.0.2.1:" + std::to_string(i + 1)).isWelcome()) << i;
+  now += 59s;
+  EXPECT_EQ(connect("ann", "203.0.113.1:1").refusal(), wire::Refused::FULL);
+  now += 1s;
+  EXPECT_TRUE(connect("ann", "203.0.113.1:1").isWelcome());
+  EXPECT_EQ(connect("bob", "203.0.113.1:2").refusal(), wire::Refused::FULL) << "the address holds a place";
+  EXPECT_EQ(connect("idler", "192.0.2.1:99").refusal(), wire::Refused::FULL);
+  EXPECT_TRUE(connect("cid", "203.0.113.2:1").isWelcome());
+  EXPECT_EQ(counters.idle_kicks, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, IdleCrowdTest, testing::Values("together", "first", "private"));
+
+/// A second player's part in the game: + an Object to follow or steer, - none.
+struct Part {
+  const char* mode;
+  bool has_controls;
+  const char* own;     ///< the player's, for consecutive periods of a minute
+  const char* others;  ///< the first player's
+  const char* keys;    ///< + if the player is active at the beginning of the minute
+  int idle;            ///< minutes that count as idle at the end
+};
+
+class PartTest : public RoomManagerTest, public testing::WithParamInterface<Part> {
+ protected:
+  PartTest() : RoomManagerTest(GetParam().mode) {}
+
+  static df::PlayerFacts facts(std::uint32_t id, bool has_object) {
+    df::PlayerFacts player = factsOf(id, "", 0);
+    if (has_object) player.followed = {id, 1};
+    if (GetParam().has_controls) player.steering.p_table = std::make_shared<df::ControlTable>();
+    player.steering.state.steering = GetParam().has_controls && has_object;
+    return player;
+  }
+};
+
+TEST_P(PartTest, TimeOfOnlyWatchingIsNotIdle) {
+  join("other");
+  join("player");
+  SessionStatus& status = rooms.findPlayer(2)->status();
+  for (std::size_t i = 0; GetParam().own[i] != 0; ++i) {
+    ports[0]->players = {facts(1, GetParam().others[i] == '+'), facts(2, GetParam().own[i] == '+')};
+    rooms.beginTicks();
+    if (GetParam().keys[i] == '+') status.onActivity(now);
+    now += 1min;
+    rooms.beginTicks();
+  }
+  EXPECT_EQ(status.idle(now), std::chrono::minutes(GetParam().idle));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Games, PartTest,
+    testing::Values(Part{"together", false, "++", "++", "--", 2}, Part{"together", true, "++", "++", "--", 2},
+                    Part{"together", false, "++", "++", "-+", 1},
+                    Part{"together", false, "---", "+++", "---", 0},  // waits for a place in the game
+                    Part{"together", false, "--", "--", "--", 2},  // a title screen, which may expect a key
+                    Part{"together", false, "+---", "++++", "+---", 1},  // has played and lost
+                    Part{"together", true, "+---", "++++", "+---", 1},
+                    Part{"together", true, "+-+", "+++", "+--", 2},  // plays again: the minute continues
+                    Part{"together", true, "+--", "+++", "---", 3},  // lost without a key
+                    Part{"first", false, "+++", "+++", "---", 0}));  // it is another player's turn
 
 // ---- the audit of pictures --------------------------------------------------------------------------------
 

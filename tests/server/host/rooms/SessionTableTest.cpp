@@ -119,6 +119,76 @@ TEST_F(SessionTableTest, PlayersAreNotReplacedByNewConnections) {
   EXPECT_EQ(counters.connections_rejected, 1u);
 }
 
+// ---- places of idle players -------------------------------------------------------------------------------
+
+AddressPrefix prefixOf(const std::string& address) {
+  return AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
+}
+
+/// Players on a full server. Those of the crowd have different addresses of one /64; every other player has
+/// an address of their own.
+struct FullServer {
+  std::size_t places;
+  std::size_t crowd;  ///< size of the crowd
+  std::chrono::seconds idle;
+  bool makes_place;
+};
+
+class FullServerTest : public SessionTableTest, public testing::WithParamInterface<FullServer> {};
+
+TEST_P(FullServerTest, IdlePlayerOfAQuarterMakesPlace) {
+  const auto [places, crowd, idle, makes_place] = GetParam();
+  table.setMaxSessions(places);
+  for (std::size_t i = 0; i < places; ++i) {
+    const std::string number = std::to_string(i + 1);
+    play(i < crowd ? "[2001:db8:0:1::" + number + "]:1" : "198.51.100." + number + ":1");
+  }
+  wire::ClientMessage line;
+  line.set_number(1);
+  line.mutable_chat()->set_text("here");
+  now += std::chrono::seconds(1);
+  for (std::size_t i = 0; i < crowd; i += 2) clients[i].receive(line);
+  now += idle - std::chrono::seconds(1);
+  EXPECT_FALSE(table.makePlace(prefixOf("[2001:db8:0:1::ffff]:1"), places, now)) << "of the crowd";
+  EXPECT_FALSE(table.makePlace(prefixOf("203.0.113.1:1"), places - 1, now)) << "more players than places";
+  EXPECT_EQ(table.makePlace(prefixOf("203.0.113.1:1"), places, now), makes_place);
+  EXPECT_EQ(table.playingCount(), places - (makes_place ? 1 : 0));
+  EXPECT_EQ(counters.idle_kicks, makes_place ? 1u : 0u);
+  for (std::size_t i = 0; i < places; ++i)
+    EXPECT_EQ(clients[i].sent.back().has_goodbye(), makes_place && i == 1) << i;
+}
+
+constexpr std::chrono::seconds kMinute{60};
+
+INSTANTIATE_TEST_SUITE_P(Crowds, FullServerTest,
+                         testing::Values(FullServer{64, 15, kMinute, false},
+                                         FullServer{64, 16, kMinute, true},
+                                         FullServer{64, 16, kMinute - std::chrono::seconds(1), false},
+                                         FullServer{64, 16, kMinute + std::chrono::seconds(1), true},
+                                         FullServer{64, 64, kMinute, true},
+                                         FullServer{64, 2, 100 * kMinute, false},
+                                         FullServer{8, 2, kMinute, true}, FullServer{9, 2, kMinute, false},
+                                         FullServer{9, 3, kMinute, true}, FullServer{4, 2, kMinute, true}));
+
+TEST_F(SessionTableTest, AbsentPlayersOfACrowdMakePlaceToo) {
+  for (int i = 0; i < 3; ++i) play().drop();
+  now += kMinute;
+  EXPECT_TRUE(table.makePlace(prefixOf("203.0.113.1:1"), 3, now));
+  EXPECT_EQ(table.playingCount(), 2u);
+}
+
+// They have no addresses until they return, which must not look like one crowded address.
+TEST_F(SessionTableTest, RestoredPlayersKeepTheirPlaces) {
+  for (std::uint32_t player = 1; player <= 3; ++player) {
+    wire::Welcome welcome;
+    welcome.set_player(player);
+    table.addDetached(now).restore(welcome, events());
+  }
+  now += 10 * kMinute;
+  EXPECT_FALSE(table.makePlace(prefixOf("203.0.113.1:1"), 3, now));
+  EXPECT_EQ(table.playingCount(), 3u);
+}
+
 TEST_F(SessionTableTest, EndedSessionIsDestroyedOnlyBySweep) {
   Client& client = connect();
   client.drop();
