@@ -156,7 +156,7 @@ TEST(Recovery, DoesNotResumeARoundOfAnotherGame) {
   EXPECT_EQ(countIn(run.log(), run.round().string() + ": a round of the game hello"), 1);
 }
 
-/// Writes files beside a round that must not be used as rounds. Returns their paths.
+/// Adds files that must not be used as rounds to the folder of a good one. Returns their paths.
 std::vector<std::filesystem::path> addHostileFiles(const std::filesystem::path& good) {
   std::vector<std::filesystem::path> paths;
   const auto add = [&](const std::string& name) {

@@ -303,7 +303,7 @@ class Session {
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
-  /// How the player leaves: its counter, and the reason in words.
+  /// The reason for which the player leaves: its counter, and its words in the log.
   struct Leave {
     std::uint64_t Counters::*counter = &Counters::left_dismissed;
     std::string reason;

@@ -143,7 +143,7 @@ class Building {
 struct Way {
   std::string name;
   std::function<void(Building&, Client&)> leave;
-  std::string reason;  ///< as in the log; empty: the player stays in the game, but not in the room
+  std::string reason;  ///< words of the log; empty: the player leaves only the room
   std::function<void(HostOptions&)> options = {};
 };
 

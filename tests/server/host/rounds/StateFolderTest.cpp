@@ -1,5 +1,5 @@
-// Files of a server's state that another user or a mistake put there. Without the checks a pipe would block
-// the start for ever, so a time limit ends these tests.
+// Files of a server's state that another user or a mistake put there. If a file is opened without the checks,
+// a pipe blocks this process until the time limit of the tests.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -86,7 +86,7 @@ const Hostile kHostile[] = {
 struct StateKind {
   std::string name;
   std::string good;  ///< name of a good file in the folder `good`
-  std::string path;  ///< where it is used, in the folder `state` unless absolute
+  std::string path;  ///< name for its use, in the folder `state` unless absolute
   std::function<bool(const fs::path& path)> is_used;  ///< uses the file
   bool is_provided = false;                           ///< Links::kFollowed
 };
@@ -241,7 +241,7 @@ class FindRound : public testing::Test {
   void add(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder / name, std::ios::binary) << bytes;
   }
-  /// Returns the name of the round to resume; empty if there is none.
+  /// Returns the name of the round to resume; empty without one.
   std::string find() {
     said.clear();
     const auto found = findUnfinishedRound(folder.string(), kExpected, 0, said);
