@@ -90,10 +90,10 @@ std::string notRecovered(const std::string& why) {
   return "cannot recover the round: " + why;
 }
 
-/// Returns the rounds of a port's servers, newest first. Adds a line to `said` for each file that cannot be
-/// read. Facts that are not within kBeginning do not exclude a round.
-std::vector<fs::path> roundsOf(const std::string& folder, const std::string& port,
-                               std::vector<std::string>& said) {
+/// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
+/// for each file that cannot be read. A round whose port is not within kBeginning is included.
+std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
+                                                         std::vector<std::string>& said) {
   constexpr std::size_t kBeginning = 65'536;
   std::vector<std::pair<std::uint64_t, fs::path>> found;
   std::error_code ignored;
@@ -112,10 +112,7 @@ std::vector<fs::path> roundsOf(const std::string& folder, const std::string& por
     }
   }
   std::sort(found.rbegin(), found.rend());
-  std::vector<fs::path> paths;
-  paths.reserve(found.size());
-  for (auto& [time, path] : found) paths.push_back(std::move(path));
-  return paths;
+  return found;
 }
 
 /// Returns why this server cannot play the round as it was, in words; empty if it can.
@@ -171,12 +168,12 @@ std::string debugCommand(const std::string& file, std::uint32_t tick, const std:
   return line;
 }
 
-// Considers only the newest round of this port, because players have left the older ones.
+// Considers only the newest round of this game and port, because players have left the older ones.
 std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
                                                      std::uint64_t frame_nanos,
                                                      std::vector<std::string>& said,
                                                      const HandedOverRounds& kept) {
-  for (const fs::path& path : roundsOf(folder, expected.at(kFactPort), said)) {
+  for (const auto& [start, path] : roundsOf(folder, expected.at(kFactPort), said)) {
     try {
       auto round = std::make_unique<UnfinishedRound>(path.string());
       const std::string game = round->fact(kFactGame);
