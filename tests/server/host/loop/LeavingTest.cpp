@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "engine/world/World.h"
+#include "host/journal/Journal.h"
+#include "host/journal/JournalSink.h"
 #include "host/journal/JournalWriter.h"
 #include "host/journal/UnfinishedRound.h"
 #include "host/loop/HostClients.h"
