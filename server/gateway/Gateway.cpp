@@ -59,7 +59,7 @@ std::vector<WebOrigin> ownOrigins(const tcp::endpoint& endpoint, bool has_tls) {
 
 std::string readPem(const std::string& path) {
   try {
-    if (auto text = readSmallFile(path, kMaxPem)) return *std::move(text);
+    if (auto text = readTrusted(path, kMaxPem, Links::kFollowed)) return *std::move(text);
   } catch (const std::system_error& error) {
     throw TlsError(path + " cannot be read: " + error.what());
   }

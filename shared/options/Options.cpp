@@ -5,20 +5,21 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
 
+#include "shared/net/base/SafeFile.h"
 #include "shared/options/OptionPages.h"
 #include "shared/values/Version.h"
 
 namespace naiad {
 namespace {
 
-constexpr std::size_t kLongest = 64;  ///< maximum bytes of a name that gets a suggestion
+constexpr std::size_t kLongest = 64;                      ///< maximum bytes of a name that gets a suggestion
+constexpr std::size_t kMaxConfig = std::size_t{1} << 20;  ///< maximum bytes of a --config file
 
 /// Returns the optimal string alignment distance, computed row by row.
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -194,11 +195,14 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
 /// Reads lines `name = value`; skips empty ones and # and ; comments. Throws OptionError: a line per error.
 void readConfig(const std::string& path, const std::vector<Option>& options,
                 const std::vector<bool>& is_given, std::vector<std::string>& notes) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-    throw OptionError("--config: " + path + " is not a regular file");  // a pipe would block
-  std::ifstream file(path);
-  if (!file) throw OptionError("--config: " + path + " cannot be read");
+  std::istringstream file;
+  try {
+    const auto text = readTrusted(path, kMaxConfig, Links::kFollowed);
+    if (!text) throw OptionError("--config: " + path + " cannot be read");
+    file.str(*text);
+  } catch (const std::system_error& error) {
+    throw OptionError(std::string("--config: ") + error.what());
+  }
   int number = 0;
   std::string wrong;
   for (std::string line; std::getline(file, line);) {

@@ -134,7 +134,7 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
   EXPECT_TRUE(ticks(ann));
   ann.connection().leave();
-  EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
+  EXPECT_TRUE(serve([&] { return server->log().find("\" left: quit\n") != std::string::npos; }));
   EXPECT_TRUE(endsWell());
   EXPECT_TRUE(has(server->log(), " refused_closing=1 "));
 }
@@ -257,6 +257,8 @@ TEST_F(HostedServer, JsonLogLinesHaveEventFields) {
   TestClient& ann = join("ann");
   ann.session().sendChat("hello \"all\"");
   ASSERT_TRUE(logs("\"chat\""));
+  ann.connection().leave();
+  ASSERT_TRUE(logs("\"left\""));
   std::map<std::string, nlohmann::json> events;
   std::istringstream lines(server->log());
   for (std::string line; std::getline(lines, line);) {
@@ -268,6 +270,7 @@ TEST_F(HostedServer, JsonLogLinesHaveEventFields) {
   EXPECT_EQ(events.at("joined").at("program"), "test");
   EXPECT_EQ(events.at("joined").at("address").get<std::string>().rfind("127.0.0.1:", 0), 0u);
   EXPECT_EQ(events.at("chat").at("line"), "hello \"all\"");
+  EXPECT_EQ(events.at("left").at("reason"), "quit");
 }
 
 TEST_F(HostedServer, ChatIsNotLoggedByDefault) {
@@ -430,7 +433,7 @@ TEST_F(HostedServer, DrainEndsWhenAllHaveLeft) {
   EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
   EXPECT_TRUE(ticks(ann));
   ann.connection().leave();
-  EXPECT_TRUE(serve([&] { return server->log().find(" left\n") != std::string::npos; }));
+  EXPECT_TRUE(serve([&] { return server->log().find("\" left: quit\n") != std::string::npos; }));
   EXPECT_TRUE(endsWell());
 }
 

@@ -231,8 +231,10 @@ bool RecoveryRun::playUntilTurn(std::uint32_t turn, std::chrono::seconds patienc
 }
 
 std::filesystem::path RecoveryRun::round() const {
-  for (const auto& entry : std::filesystem::directory_iterator(m_rounds)) return entry.path();
-  return {};
+  for (const auto& entry : std::filesystem::directory_iterator(m_rounds)) {
+    if (m_round.empty()) m_round = entry.path();
+  }
+  return m_round;
 }
 
 std::uint32_t RecoveryRun::recoveredTurns() const {

@@ -121,6 +121,7 @@ class RecoveryRun {
   std::mt19937_64 m_random;
   std::chrono::microseconds m_frame;
   std::filesystem::path m_rounds;
+  mutable std::filesystem::path m_round;  ///< the first round's file
   asio::io_context m_context;
   std::unique_ptr<GameProgram> m_server;
   std::uint16_t m_port = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -14,6 +15,7 @@ namespace naiad::test {
 class TempFolder {
  public:
   TempFolder() {
+    ::umask(022);  // a server uses no file that its group can write
     std::string name = std::filesystem::temp_directory_path() / "naiad-test-XXXXXX";
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     m_path = name;

@@ -58,7 +58,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxPem = 65'536;  // maximum size of a key or certificate chain, in bytes
 
 std::string readKey(const fs::path& path) {
-  const auto pem = readSmallFile(path, kMaxPem);
+  const auto pem = readTrusted(path, kMaxPem, Links::kFollowed);
   if (!pem) throw TlsError("There is no key file " + path.string() + ".");
   if (isOpenToOthers(path)) {
     throw TlsError("The key file " + path.string() + " can be read by other users. Run: chmod 600 " +
@@ -68,7 +68,7 @@ std::string readKey(const fs::path& path) {
 }
 
 std::string readCertificate(const fs::path& path) {
-  const auto pem = readSmallFile(path, kMaxPem);
+  const auto pem = readTrusted(path, kMaxPem, Links::kFollowed);
   if (!pem) throw TlsError("There is no certificate file " + path.string() + ".");
   return *pem;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/journal/Dfr.h"
+#include "shared/net/base/SafeFile.h"
 #include "shared/values/LittleEndian.h"
 
 namespace naiad {
@@ -50,11 +51,14 @@ std::vector<RoundFile> filesByAge(const fs::path& folder) {
 
 /// True if this or another server is writing the file.
 bool isBeingWritten(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (file < 0) return true;  // cannot be opened, so it may not be our file: count it as being written
-  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0;
-  close(file);
-  return locked;
+  try {
+    const int file = openTrusted(path, O_RDONLY);
+    const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0;
+    close(file);
+    return locked;
+  } catch (const std::system_error&) {
+    return true;  // it may not be our file: count it as being written
+  }
 }
 
 }  // namespace
@@ -74,12 +78,12 @@ void removeOldRounds(const std::string& folder, std::size_t max_files, std::uint
 }
 
 JournalFileSink::JournalFileSink(std::string path, std::size_t size) : m_path(std::move(path)), m_size(size) {
-  const int file = ::open(m_path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-  const bool good = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 &&
-                    ftruncate(file, static_cast<off_t>(size)) == 0 && lseek(file, 0, SEEK_END) >= 0;
+  const int file = openTrusted(m_path, O_WRONLY);
+  const bool good = flock(file, LOCK_EX | LOCK_NB) == 0 && ftruncate(file, static_cast<off_t>(size)) == 0 &&
+                    lseek(file, 0, SEEK_END) >= 0;
   if (!good) {
     const int error = errno;
-    if (file >= 0) close(file);
+    close(file);
     throw std::system_error(error, std::generic_category(), m_path);
   }
   m_file = file;

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <set>
 #include <system_error>
 
@@ -11,6 +10,7 @@
 #include "host/journal/DfrWriter.h"
 #include "host/journal/JournalSink.h"
 #include "host/journal/TurnRing.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
@@ -18,39 +18,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxSalvaged = std::uintmax_t{1} << 30;
-
-std::string readFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Returns the header of a file; nullopt if it does not begin with a valid one.
-std::optional<DfrHeader> headerOf(const fs::path& path) {
-  std::string bytes(kDfrHeaderSize, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
+/// Returns the header of a file; nullopt if the file is not trusted or does not begin with a valid one.
+std::optional<DfrHeader> headerOf(const fs::path& path) try {
+  const std::string bytes = readTrustedStart(path, kDfrHeaderSize);
   const DfrReader reader(bytes);
   return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
+} catch (const std::system_error&) {
+  return std::nullopt;
 }
 
-/// Appends the missing records. Returns the bytes added; nullopt if the file could not be written.
-std::optional<std::size_t> complete(const fs::path& path, const OrphanedRing& ring) {
-  const std::string bytes = readFile(path);
+/// Appends the missing records. Returns what happened to the round's last turns, for the log; nullopt if the
+/// file could not be read or written.
+std::optional<std::string> complete(const fs::path& path, const OrphanedRing& ring) try {
+  const std::string bytes = readTrusted(path, kMaxRoundFile).value_or("");
   DfrReader reader(bytes);
   reader.skipToEnd();
-  if (reader.end() == DfrEnd::kDone) return 0;
+  if (reader.end() == DfrEnd::kDone) return "the file has all turns";
   const auto rest = ring.bytesFrom(reader.streamBytes());
-  if (!rest) return 0;
+  if (!rest) return "turns are lost, because the file is shorter than it was";
   std::error_code error;
   const auto written_at = fs::last_write_time(path, error);
-  fs::resize_file(path, reader.wholeBytes(), error);
-  if (error) return std::nullopt;
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file << encodeDfrTurns(*rest, reader.streamBytes());
-  file.close();
+  JournalFileSink file(path.string(), reader.wholeBytes());
+  file.write(encodeDfrTurns(*rest, reader.streamBytes()));
   fs::last_write_time(path, written_at, error);  // keep the round's time
-  return file.good() ? std::optional(rest->size()) : std::nullopt;
+  return "its last turns were added from memory";
+} catch (const std::system_error&) {
+  return std::nullopt;
 }
 
 /// True for a valid file name of a round, without a folder.
@@ -59,8 +52,9 @@ bool isNameOfRound(const std::string& name) {
          name.find('/') == std::string::npos;
 }
 
-/// Creates the round files that killed servers had not created yet. Existing rounds are left alone.
-void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
+/// Creates the round files that killed servers had not created yet. Existing rounds are left alone. Adds a
+/// line to `said` for each file that cannot be created.
+void beginFiles(const fs::path& folder, const std::set<std::string>& rounds, std::vector<std::string>& said) {
   for (const OrphanedRing& ring : OrphanedRing::findWithoutFile(ringFolder(folder), rounds)) {
     const auto beginning = ring.beginning();
     if (!beginning || !isNameOfRound(beginning->name)) continue;
@@ -72,8 +66,9 @@ void beginFiles(const fs::path& folder, const std::set<std::string>& rounds) {
       JournalFileSink file(path.string());
       file.write(beginning->bytes);
       file.sync();
-    } catch (const std::system_error&) {
-      continue;  // the disk is full, or another server created the file
+    } catch (const std::system_error& error_of_file) {
+      said.push_back(std::string("a killed server's round cannot be saved: ") + error_of_file.what());
+      continue;
     }
     if (const auto time = fs::last_write_time(ring.path(), error); !error)
       fs::last_write_time(path, time, error);  // keep the round's time
@@ -96,7 +91,7 @@ std::set<std::string> roundsIn(const fs::path& folder) {
 
 std::vector<std::string> salvageRounds(const std::string& folder, const std::set<std::string>& left) {
   std::vector<std::string> said;
-  beginFiles(folder, roundsIn(folder));
+  beginFiles(folder, roundsIn(folder), said);
   std::set<std::string> rounds;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -105,15 +100,13 @@ std::vector<std::string> salvageRounds(const std::string& folder, const std::set
     if (path.extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
     const auto header = headerOf(path);
     if (header) rounds.insert(uuidText(header->uuid));
-    if (entry.file_size(ignored) > kMaxSalvaged) continue;
     const auto ring = header ? OrphanedRing::find(header->uuid) : std::nullopt;
     if (!ring) continue;
-    const auto added = complete(path, *ring);
-    if (!added) continue;  // retried at the next start
+    const auto result = complete(path, *ring);
+    if (!result) continue;  // retried at the next start
     ring->remove();
     if (left.contains(uuidText(header->uuid))) continue;
-    said.push_back("the previous server was killed in the round " + path.string() +
-                   "; its last turns were added from memory");
+    said.push_back("the previous server was killed in the round " + path.string() + "; " + *result);
   }
   removeStrayRings(ringFolder(folder), rounds);
   return said;

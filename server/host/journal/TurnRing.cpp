@@ -12,6 +12,7 @@
 #include <new>
 #include <system_error>
 
+#include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/FastHash.h"
 
@@ -32,7 +33,7 @@ std::string ringPath(const std::array<std::uint8_t, 16>& uuid) {
 std::string readAll(int file) {
   std::string bytes;
   struct stat facts {};
-  if (fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_uid != getuid()) return bytes;
+  if (fstat(file, &facts) != 0) return bytes;
   bytes.resize(std::min(static_cast<std::uint64_t>(facts.st_size), kMaxRing));
   std::size_t at = 0;
   for (ssize_t got = 1; at < bytes.size() && got > 0;
@@ -40,6 +41,15 @@ std::string readAll(int file) {
     got = pread(file, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
   bytes.resize(at);
   return bytes;
+}
+
+/// Returns a descriptor; -1 if the ring is missing or not trusted.
+int openRing(const std::string& path) {
+  try {
+    return openTrusted(path, O_RDONLY);
+  } catch (const std::system_error&) {
+    return -1;
+  }
 }
 
 }  // namespace
@@ -134,7 +144,7 @@ std::optional<OrphanedRing> OrphanedRing::find(const std::array<std::uint8_t, 16
 std::optional<OrphanedRing> OrphanedRing::open(std::string path) {
   OrphanedRing ring;
   ring.m_path = std::move(path);
-  const int file = ::open(ring.m_path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  const int file = openRing(ring.m_path);
   if (file < 0) return std::nullopt;
   if (flock(file, LOCK_EX | LOCK_NB) == 0) ring.m_bytes = readAll(file);
   close(file);
@@ -193,19 +203,13 @@ std::vector<std::string> ringsWithout(const std::set<std::string>& rounds) {
   return paths;
 }
 
-int openRing(const std::string& path) {
-  return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-}
-
 }  // namespace
 
 // A ring that is being created has no lock and no magic yet; it must not be locked here.
 bool TurnRing::isRingOf(int file, std::uint64_t folder) {
   alignas(Head) char bytes[sizeof(Head)];
-  struct stat facts {};
   const auto* p_head = reinterpret_cast<const Head*>(bytes);
-  return fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == getuid() &&
-         pread(file, bytes, sizeof bytes, 0) == sizeof bytes &&
+  return pread(file, bytes, sizeof bytes, 0) == sizeof bytes &&
          std::memcmp(p_head->magic, kRingMagic, sizeof p_head->magic) == 0 && p_head->folder == folder;
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <system_error>
 
 #include "host/journal/JournalSink.h"
+#include "shared/net/base/SafeFile.h"
 
 namespace naiad {
 
@@ -14,14 +14,12 @@ namespace {
 using Input = df::InputQueue::Input;
 
 std::string bytesOf(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw UnfinishedRoundError("no such file");
-  if (std::filesystem::file_size(path, error) > kMaxRoundFile || error)
-    throw UnfinishedRoundError("the file is too large");
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw UnfinishedRoundError("the file cannot be read");
-  return bytes;
+  try {
+    if (auto bytes = readTrusted(path, kMaxRoundFile)) return *std::move(bytes);
+  } catch (const std::system_error& error) {
+    throw UnfinishedRoundError(error.what());
+  }
+  throw UnfinishedRoundError("no such file");
 }
 
 }  // namespace
@@ -88,7 +86,7 @@ void UnfinishedRound::recordInput(const Input& input) {
       break;
     case df::InputQueue::kLeave:
       std::erase(m_players, input.player);
-      m_sessions.erase(input.player);  // an earlier server that resumed the round no longer waited for it
+      m_sessions.erase(input.player);  // only a player whose session is over, or not waited for, leaves
       std::erase_if(m_held_keys, [&input](const auto& one) { return one.first == input.player; });
       break;
     case df::InputQueue::kKey:

@@ -155,9 +155,11 @@ void HostClients::endSession(Session& session) {
   m_inactivity.forget(session);
   if (session.player() == 0) return;
   m_rooms.leave(session);
-  m_context.client_log.logClientEvent(
-      session.address(), {"left", inQuotes(session.name()) + " left", {{"player", session.name()}}},
-      session.now());
+  m_context.client_log.logClientEvent(session.address(),
+                                      {"left",
+                                       inQuotes(session.name()) + " left: " + session.leaveReason(),
+                                       {{"player", session.name()}, {"reason", session.leaveReason()}}},
+                                      session.now());
 }
 
 }  // namespace naiad

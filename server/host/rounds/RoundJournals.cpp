@@ -27,6 +27,7 @@
 #include "host/settings/GameModule.h"
 #include "host/world/BuildId.h"
 #include "host/world/Determinism.h"
+#include "shared/net/base/SafeFile.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/values/Version.h"
 
@@ -85,30 +86,33 @@ DfrFacts factsOfStart(const WorldProcess& world) {
   return facts;
 }
 
-/// Returns a file's header if it is valid, and the name begins like that of a round of this game (pathOf()).
-std::optional<DfrHeader> headerOfRound(const fs::path& path, const std::string& game) {
-  const std::string name = path.filename().string();
-  if (path.extension() != ".dfr" || !name.starts_with(game + "-")) return std::nullopt;
-  std::string bytes(kDfrHeaderSize, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
-  const DfrReader reader(bytes);
-  return reader.problem().empty() ? std::optional(reader.header()) : std::nullopt;
+std::string notRecovered(const std::string& why) {
+  return "cannot recover the round: " + why;
 }
 
-/// Returns the files of a game's rounds, newest first.
-std::vector<fs::path> roundsOf(const std::string& folder, const std::string& game) {
+/// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
+/// for each file that cannot be read. A round whose port is not within kBeginning is included.
+std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
+                                                         std::vector<std::string>& said) {
+  constexpr std::size_t kBeginning = 65'536;
   std::vector<std::pair<std::uint64_t, fs::path>> found;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (const auto header = headerOfRound(entry.path(), game))
-      found.emplace_back(header->start_nanos, entry.path());
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() != ".dfr") continue;
+    try {
+      const std::string bytes = readTrustedStart(entry.path(), kBeginning);
+      const DfrReader reader(bytes);
+      const auto fact = reader.facts().find(kFactPort);
+      if (!reader.problem().empty())
+        said.push_back(notRecovered(entry.path().string() + ": " + reader.problem()));
+      if (reader.problem().empty() && (fact == reader.facts().end() || fact->second == port))
+        found.emplace_back(reader.header().start_nanos, entry.path());
+    } catch (const std::system_error& error) {
+      said.push_back(notRecovered(error.what()));
+    }
   }
   std::sort(found.rbegin(), found.rend());
-  std::vector<fs::path> paths;
-  paths.reserve(found.size());
-  for (auto& [time, path] : found) paths.push_back(std::move(path));
-  return paths;
+  return found;
 }
 
 /// Returns why this server cannot play the round as it was, in words; empty if it can.
@@ -164,22 +168,36 @@ std::string debugCommand(const std::string& file, std::uint32_t tick, const std:
   return line;
 }
 
-// Considers only the newest round of this port, because players have left the older ones.
+// Considers only the newest round of this game and port, because players have left the older ones.
 std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
-                                                     std::uint64_t frame_nanos, std::string& said,
+                                                     std::uint64_t frame_nanos,
+                                                     std::vector<std::string>& said,
                                                      const HandedOverRounds& kept) {
-  for (const fs::path& path : roundsOf(folder, expected.at(kFactGame))) {
+  for (const auto& [start, path] : roundsOf(folder, expected.at(kFactPort), said)) {
     try {
       auto round = std::make_unique<UnfinishedRound>(path.string());
-      if (round->fact(kFactPort) != expected.at(kFactPort)) continue;  // a round of another server
-      if (round->isOver() || round->turns() == 0) return nullptr;
-      const std::string difference = differenceOf(*round, expected, frame_nanos, kept);
-      if (difference.empty()) return round;
-      said = path.string() + ": " + difference;
+      const std::string game = round->fact(kFactGame);
+      const std::string port = round->fact(kFactPort);
+      const bool is_of_this_game = game == expected.at(kFactGame);
+      if (!port.empty() && port != expected.at(kFactPort)) continue;  // a round of another server
+      if (round->isOver() && is_of_this_game) return nullptr;
+      if (round->isOver()) continue;
+      const std::string reason = port.empty()          ? "truncated before its first tick"
+                                 : !is_of_this_game    ? "a round of the game " + safeText(game, kMaxDfrName)
+                                 : round->turns() == 0 ? "no tick of it is complete"
+                                                       : differenceOf(*round, expected, frame_nanos, kept);
+      if (!reason.empty()) said.push_back(notRecovered(path.string() + ": " + reason));
+      if (port.empty() || !is_of_this_game) continue;
+      if (!reason.empty()) return nullptr;
+      std::error_code ignored;
+      if (const auto size = fs::file_size(path, ignored); !ignored && size > round->wholeBytes())
+        said.push_back("ticks of the round are lost, because the last " +
+                       std::to_string(size - round->wholeBytes()) + " bytes of " + path.string() +
+                       " are damaged or incomplete");
+      return round;
     } catch (const UnfinishedRoundError& error) {
-      said = path.string() + ": " + error.what();
+      said.push_back(notRecovered(path.string() + ": " + error.what()));
     }
-    return nullptr;
   }
   return nullptr;
 }
@@ -273,17 +291,17 @@ std::string RoundJournals::pathOf(const DfrHeader& header) const {
 
 void RoundJournals::findRound(const HostOptions& options) {
   if (options.recover != "on") return;
-  std::string why_not;
-  m_open = findUnfinishedRound(m_folder, m_facts, m_frame_nanos, why_not, m_shared->kept);
+  std::vector<std::string> said;
+  m_open = findUnfinishedRound(m_folder, m_facts, m_frame_nanos, said, m_shared->kept);
   if (m_open != nullptr && options.players == "private") {
-    why_not = m_open->path() + ": rounds of --input-mode private are not recovered";
+    said.push_back(notRecovered(m_open->path() + ": rounds of --input-mode private are not recovered"));
     m_open.reset();
   }
   // Players reconnect within the grace time, and a file is written once a second.
   const auto patience = std::chrono::duration<double>(options.grace) + JournalWriter::kFlushInterval;
   if (m_open != nullptr && std::filesystem::file_time_type::clock::now() - m_open->writtenAt() > patience)
     m_open->dropSessions();
-  if (!why_not.empty()) m_log({LogEvent::Level::kWarning, "warning: cannot recover the round: " + why_not});
+  for (const std::string& line : said) m_log(LogEvent::warning(line));
 }
 
 std::optional<WorldStartOptions> RoundJournals::resumeOptions() const {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/journal/DeterminismCheck.h"
 #include "host/journal/JournalWriter.h"
@@ -122,10 +123,12 @@ class RoundJournals {
 };
 
 /// Returns the round in which a server with this folder was killed, if this server can resume it: game,
-/// settings and port are as in `expected`. Otherwise returns null; `said` has the reason if there is such a
-/// round. `kept`: rounds that another version of the game may have begun.
+/// settings and port are as in `expected`; otherwise null. Adds a line to `said` for each file that cannot be
+/// read and each open round of this port that is not resumed, up to the newest round of this game, and for
+/// ticks that the resumed round has lost. `kept`: rounds that another version of the game may have begun.
 std::unique_ptr<UnfinishedRound> findUnfinishedRound(const std::string& folder, const DfrFacts& expected,
-                                                     std::uint64_t frame_nanos, std::string& said,
+                                                     std::uint64_t frame_nanos,
+                                                     std::vector<std::string>& said,
                                                      const HandedOverRounds& kept = {});
 
 /// Returns the hash of a file by which a round identifies its game; empty if the file cannot be read.

@@ -114,7 +114,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {FIELD(C, skipped_ticks), "naiad_skipped_ticks_total", "",
      "Snapshots skipped because the player's connection was busy."},
     {FIELD(C, divergences), "naiad_divergences_total", "",
-     "Clients whose world differed from what they were sent."},
+     "Wrong checksums that clients reported; any client can report a false one."},
     {FIELD(C, resets), "naiad_world_resets_total", "", "Worlds sent again from the beginning."},
     {FIELD(C, resets_dropped), "naiad_world_resets_dropped_total", "",
      "Requests to send a world again that were too frequent."},

@@ -43,7 +43,7 @@ struct Counters {
   std::uint64_t refused_password = 0;    ///< missing or wrong password
   std::uint64_t refused_banned = 0;      ///< players banned by name, or while they connected
   std::uint64_t refused_busy = 0;    ///< temporary: password queue, join limit, recovery, no world can start
-  std::uint64_t divergences = 0;     ///< the client's world differed from what it was sent: reset
+  std::uint64_t divergences = 0;     ///< the client reported a wrong checksum, perhaps falsely: reset
   std::uint64_t resets = 0;          ///< worlds sent again, on request or after a divergence
   std::uint64_t resets_dropped = 0;  ///< requests less than two seconds after the last reset: ignored
   std::uint64_t checksums_dropped = 0;      ///< checksums less than 250 ms after the last one: ignored

@@ -2,6 +2,7 @@
 
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/program/LogText.h"
 
 namespace naiad {
 
@@ -171,10 +172,10 @@ void Session::onClosed(CloseReason reason) {
   if (m_state == State::kPlaying && lost && m_grace.count() > 0) return detach(now());
   m_state = State::kGone;
   m_streams.dropSecond();
-  setLeaveReason(lost                               ? &Counters::left_disconnected
-                 : reason == CloseReason::kProtocol ? &Counters::left_malformed
-                 : reason == CloseReason::kOverflow ? &Counters::left_stalled
-                                                    : &Counters::left_dismissed);
+  if (lost) setLeaveReason(&Counters::left_disconnected, "connection lost");
+  if (reason == CloseReason::kProtocol) setLeaveReason(&Counters::left_malformed, "invalid message");
+  if (reason == CloseReason::kOverflow) setLeaveReason(&Counters::left_stalled, "too many bytes queued");
+  setLeaveReason(&Counters::left_dismissed, "connection closed");
   reportGone();
 }
 
@@ -192,6 +193,7 @@ void Session::detach(Clock::time_point now) {
 
 void Session::sendGoodbye(const std::string& sentence, std::chrono::seconds again) {
   if (m_state == State::kEnding || m_state == State::kGone) return;
+  setLeaveReason(&Counters::left_dismissed, "dismissed with " + inQuotes(sentence));
   wire::ServerMessage message;
   message.mutable_goodbye()->set_message(sentence);
   message.mutable_goodbye()->set_reconnect_seconds(static_cast<std::uint32_t>(again.count()));
@@ -209,7 +211,7 @@ void Session::end() {
 void Session::reportGone() {
   if (m_reported_gone) return;
   m_reported_gone = true;
-  if (m_player != 0) ++(m_counters.*m_leave);
+  if (m_player != 0) ++(m_counters.*m_leave.counter);
   m_events.on_gone(*this);
 }
 
@@ -235,19 +237,19 @@ void Session::checkSilence(Clock::time_point now) {
     checkGreeting(now);
   } else if (isDetached() && silence > m_grace) {
     ++m_counters.reconnect_timeouts;
-    setLeaveReason(&Counters::left_silent);
+    setLeaveReason(&Counters::left_silent, "did not reconnect in time");
     end();
   } else if (m_state == State::kPlaying && !isDetached() && silence > kIdleTimeout) {
     ++m_counters.idle_timeouts;
     // During an outage, neither end may notice that the stream is broken.
     if (m_grace.count() > 0) return detach(now);
-    setLeaveReason(&Counters::left_silent);
+    setLeaveReason(&Counters::left_silent, "silent for too long");
     sendGoodbye("Disconnected: no data from your client.");
   } else if (m_state == State::kPlaying && m_streams.isStalled(now) &&
              silence < StallDetector::kStallTimeout) {
     // A client that is also silent has lost its connection: it is detached later and may reconnect.
     ++m_counters.stalled_streams;
-    setLeaveReason(&Counters::left_stalled);
+    setLeaveReason(&Counters::left_stalled, "connection too slow");
     sendGoodbye("Disconnected: your connection is too slow.");
   }
 }

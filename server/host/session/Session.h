@@ -249,7 +249,7 @@ class Session {
   /// True while the stream is broken and the client may reconnect.
   bool isDetached() const { return m_state == State::kPlaying && m_streams.first() == nullptr; }
   /// True once per welcome: the client has read it, because it has sent a frame on the first stream since.
-  bool popWelcomeConfirmed() { return m_activity.popWelcomeConfirmed(); }
+  bool popWelcomeConfirmed() { return m_state == State::kPlaying && m_activity.popWelcomeConfirmed(); }
   /// The welcome without its resume token, because only the hash is stored (ResumeTokens).
   const wire::Welcome& welcomed() const { return *m_welcome; }
   SealedChannel* datagrams() { return m_delivery.datagrams(); }
@@ -304,6 +304,8 @@ class Session {
   bool hasHello() const { return m_has_hello; }
   std::uint32_t player() const { return m_player; }
   const std::string& name() const;
+  /// Returns how the player left, for the log; valid from Events::on_gone on.
+  const std::string& leaveReason() const { return m_leave.reason; }
   std::string address() const { return m_streams.peerAddress(); }
   /// Ticks after which the client was not up to date: it or its connection was busy with earlier bytes.
   std::uint64_t skippedTicks() const { return m_delivery.skippedTicks(); }
@@ -317,11 +319,14 @@ class Session {
   const SnapshotSender& sender() const { return m_delivery.sender(); }
 
  private:
-  /// Counter of the reason for which the player leaves.
-  using Leave = std::uint64_t Counters::*;
+  /// The reason for which the player leaves: its counter, and its words in the log.
+  struct Leave {
+    std::uint64_t Counters::*counter = &Counters::left_dismissed;
+    std::string reason;
+  };
   /// Sets the reason unless one was set before.
-  void setLeaveReason(Leave leave) {
-    if (m_leave == &Counters::left_dismissed) m_leave = leave;
+  void setLeaveReason(std::uint64_t Counters::*counter, const std::string& reason) {
+    if (m_leave.reason.empty()) m_leave = {counter, reason};
   }
   void onFrame(std::string_view frame);
   void onSecondFrame(std::string_view frame);
@@ -352,7 +357,7 @@ class Session {
   State m_state = State::kGreeting;
   std::uint32_t m_player = 0;  ///< copy of the id in m_welcome, which is rarely in the cache
   bool m_reported_gone = false;
-  Leave m_leave = &Counters::left_dismissed;
+  Leave m_leave;
   bool m_has_hello = false;  ///< the hello was received
   bool m_restored = false;
   bool m_supports_rooms = false;

@@ -23,7 +23,7 @@ bool Session::acceptMessage() {
   if (m_state == State::kEnding || m_state == State::kGone) return false;
   if (m_activity.countMessage()) return true;
   ++m_counters.message_floods;
-  setLeaveReason(&Counters::left_flood);
+  setLeaveReason(&Counters::left_flood, "too many messages at once");
   sendGoodbye("Disconnected: too many messages at once.");
   return false;
 }
@@ -75,7 +75,7 @@ bool Session::dispatch(const wire::ClientMessage& message) {
       handlePing(message.ping());
       return true;
     case What::kLeave:
-      setLeaveReason(&Counters::left_voluntarily);
+      setLeaveReason(&Counters::left_voluntarily, "quit");
       sendGoodbye("You left the game.");
       return true;
     case What::kResize:
@@ -147,7 +147,7 @@ void Session::handleInput(const Input& input) {
       return;
     case ReceivedInputs::Result::kTooMany:
       ++m_counters.input_floods;
-      setLeaveReason(&Counters::left_flood);
+      setLeaveReason(&Counters::left_flood, "too many keys at once");
       sendGoodbye("Disconnected: too many keys at once.");
   }
 }
@@ -165,7 +165,7 @@ void Session::handleChat(const std::string& text) {
 
 void Session::endMalformed() {
   ++m_counters.malformed_messages;
-  setLeaveReason(&Counters::left_malformed);
+  setLeaveReason(&Counters::left_malformed, "invalid message");
   end();
 }
 

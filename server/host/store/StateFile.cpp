@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "shared/net/base/SafeFile.h"
+
 namespace naiad {
 
 namespace {
@@ -94,7 +96,8 @@ void StateFile::make() {
   if (fs::exists(m_file, error)) return;
   fs::create_directories(m_file.parent_path(), error);
   const fs::path fresh = m_file.string() + "." + std::to_string(::getpid()) + ".new";
-  const int descriptor = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  ::unlink(fresh.c_str());
+  const int descriptor = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) fail("cannot be created: " + std::error_code(errno, std::generic_category()).message());
   ::close(descriptor);
   openAt(fresh);
@@ -131,6 +134,12 @@ void StateFile::openAt(const fs::path& path) {
 
 void StateFile::open() {
   if (m_database) return;
+  try {
+    // SQLite also reads the files with these suffixes.
+    for (const char* p_suffix : {"", "-journal", "-wal", "-shm"}) requireTrusted(m_file.string() + p_suffix);
+  } catch (const std::system_error& error) {
+    fail(std::string("cannot be used: ") + error.what());
+  }
   openAt(m_file);
   try {
     check();
@@ -166,10 +175,9 @@ StateStatement StateFile::prepare(const char* p_text) {
 
 bool StateFile::openExisting() {
   std::error_code error;
-  const fs::file_status status = fs::status(m_file, error);
+  const fs::file_status status = fs::symlink_status(m_file, error);
   if (status.type() == fs::file_type::not_found) return false;
   if (status.type() == fs::file_type::none) fail("cannot be read: " + error.message());
-  if (status.type() != fs::file_type::regular) fail("is not a regular file");
   if (fs::file_size(m_file, error) == 0 && !m_database)
     fail("is empty, so it is damaged; restore it or move it away");
   open();

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -34,7 +35,9 @@ class File {
   File(int file, fs::path path) : file_(file), path_(std::move(path)) {
     if (file_ < 0) fail(path_);
   }
-  ~File() { ::close(file_); }
+  ~File() {
+    if (file_ >= 0) ::close(file_);
+  }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
@@ -55,16 +58,46 @@ class File {
   void sync() const {
     if (::fsync(file_) != 0) fail(path_);
   }
-  bool isRegular() const {
+  struct stat facts() const {
     struct stat facts {};
     if (::fstat(file_, &facts) != 0) fail(path_);
-    return S_ISREG(facts.st_mode);
+    return facts;
+  }
+  int release() { return std::exchange(file_, -1); }
+  /// Returns the first `most` bytes; all, if there are fewer.
+  std::string readUpTo(std::size_t most) const {
+    std::string content;
+    std::array<char, 65'536> piece;
+    while (content.size() < most) {
+      const std::size_t size = read(std::span(piece).first(std::min(piece.size(), most - content.size())));
+      if (size == 0) break;
+      content.append(piece.data(), size);
+    }
+    return content;
+  }
+  /// Returns the content, which has at most `most` bytes.
+  std::string readAll(std::size_t most) const {
+    std::string content = readUpTo(most + 1);
+    if (content.size() > most) fail(path_, EFBIG);
+    return content;
   }
 
  private:
   int file_;
   fs::path path_;
 };
+
+/// Throws unless a file with these facts is trusted.
+void checkTrusted(const fs::path& path, const struct stat& facts, Links links) {
+  const mode_t writers = links == Links::kFollowed ? S_IWOTH : S_IWGRP | S_IWOTH;
+  const bool is_own = facts.st_uid == ::geteuid() || facts.st_uid == 0;
+  if (!S_ISREG(facts.st_mode) && !S_ISLNK(facts.st_mode)) refuseKind(path);
+  if (S_ISREG(facts.st_mode) && is_own && (facts.st_mode & writers) == 0) return;
+  throw std::system_error(EPERM, std::generic_category(),
+                          path.string() + (S_ISLNK(facts.st_mode) ? " is a symbolic link"
+                                           : is_own               ? " can be written by other users"
+                                                                  : " belongs to another user"));
+}
 
 std::string randomSuffix() {
   unsigned number = 0;
@@ -123,14 +156,38 @@ std::optional<std::string> readSmallFile(const fs::path& path, std::size_t most)
   if (opened < 0 && errno == ENOENT) return std::nullopt;
   if (opened < 0 && errno == ENXIO) refuseKind(path);
   const File file(opened, path);
-  if (!file.isRegular()) refuseKind(path);
-  std::string content;
-  std::array<char, 4096> piece;
-  while (const std::size_t size = file.read(piece)) {
-    content.append(piece.data(), size);
-    if (content.size() > most) fail(path, EFBIG);
+  if (!S_ISREG(file.facts().st_mode)) refuseKind(path);
+  return file.readAll(most);
+}
+
+// Checks the file before it opens it, too, because opening a pipe or a device may have an effect.
+int openTrusted(const fs::path& path, int access, Links links) {
+  const bool follows = links == Links::kFollowed;
+  struct stat facts {};
+  if (::fstatat(AT_FDCWD, path.c_str(), &facts, follows ? 0 : AT_SYMLINK_NOFOLLOW) == 0)
+    checkTrusted(path, facts, links);
+  constexpr int kWithoutWaiting = O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+  File file(::open(path.c_str(), access | kWithoutWaiting | (follows ? 0 : O_NOFOLLOW)), path);
+  checkTrusted(path, file.facts(), links);
+  return file.release();
+}
+
+std::optional<std::string> readTrusted(const fs::path& path, std::size_t most, Links links) {
+  try {
+    return File(openTrusted(path, O_RDONLY, links), path).readAll(most);
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::no_such_file_or_directory) return std::nullopt;
+    throw;
   }
-  return content;
+}
+
+std::string readTrustedStart(const fs::path& path, std::size_t bytes) {
+  return File(openTrusted(path, O_RDONLY), path).readUpTo(bytes);
+}
+
+void requireTrusted(const fs::path& path) {
+  struct stat facts {};
+  if (::lstat(path.c_str(), &facts) == 0) checkTrusted(path, facts, Links::kRefused);
 }
 
 void replaceFile(const fs::path& path, std::string_view content) {

@@ -27,6 +27,26 @@ bool makeFile(const std::filesystem::path& path, std::string_view content);
 /// Throws if the path exists and is neither a regular file nor a link to one.
 void requireRegular(const std::filesystem::path& path);
 
+// A trusted file is a regular file that belongs to this user or to root and that no other user can write. A
+// server's state consists of trusted files, so that no other user can change what it plays and remembers.
+
+/// kFollowed: the host provides the file, which may be a symbolic link, and its group may write it.
+enum class Links { kRefused, kFollowed };
+
+/// Opens an existing trusted file, without waiting. Returns a descriptor, which the caller closes. `access`:
+/// O_RDONLY, O_WRONLY or O_RDWR. Throws if the file is missing, not trusted or cannot be opened.
+int openTrusted(const std::filesystem::path& path, int access, Links links = Links::kRefused);
+
+/// Like readSmallFile(), but throws if the file is not trusted.
+std::optional<std::string> readTrusted(const std::filesystem::path& path, std::size_t most,
+                                       Links links = Links::kRefused);
+
+/// Returns the first `bytes` bytes of a trusted file; all, if it has fewer.
+std::string readTrustedStart(const std::filesystem::path& path, std::size_t bytes);
+
+/// Throws if the path exists and is not a trusted file. For libraries that open files by name.
+void requireTrusted(const std::filesystem::path& path);
+
 /// True if the file's group or other users have any right to the file.
 bool isOpenToOthers(const std::filesystem::path& path);
 

@@ -11,6 +11,7 @@
 
 #include "shared/options/Options.h"
 #include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -218,7 +219,8 @@ TEST_F(OptionsTest, ConfigErrorNamesFileAndLine) {
 
 TEST_F(OptionsTest, ConfigPipeIsRefusedWithoutBlocking) {
   ASSERT_EQ(mkfifo(config.c_str(), 0600), 0);
-  EXPECT_EQ(parse({"--config", config}), said("--config: " + config.string() + " is not a regular file"));
+  EXPECT_TRUE(
+      test::has(parse({"--config", config}), "--config: " + config.string() + " is not a regular file"));
   const std::string none = base / "none";
   EXPECT_EQ(parse({"--config", none}), said("--config: " + none + " cannot be read"));
 }

@@ -153,7 +153,8 @@ int serve(const std::string& identity, int most) {
   options.max_players = options.max_per_address = most;  // streams come from one address, datagrams from many
   options.grace = 0;                                     // frees the slots of bots that left after a trial
   naiad::Host host(options, "capacity", [](const std::string& line) {
-    const bool routine = line.ends_with(" left") || line.find(" joined with ") != std::string::npos ||
+    const bool routine = line.find("\" left: ") != std::string::npos ||
+                         line.find(" joined with ") != std::string::npos ||
                          line.find(" lines about players were not logged") != std::string::npos;
     if (!routine) std::cerr << "server: " << line << "\n";
   });

@@ -252,6 +252,27 @@ TEST_F(JournalFileTest, SalvageRecoversUnwrittenTurnsOfAKilledServer) {
   EXPECT_TRUE(salvageRounds(folder.string()).empty()) << "and the memory is free";
 }
 
+TEST_F(JournalFileTest, SalvageReportsTurnsLostFromATruncatedFile) {
+  const fs::path path = folder / "hello.dfr";
+  const pid_t child = fork();
+  if (child == 0) {
+    Journal journal(std::make_unique<JournalFileSink>(path.string()), headerOf(0x5E), {}, kRing, true);
+    for (std::size_t bytes = 0; bytes < 3 * kRing; bytes += turnRecord().size()) {
+      journal.add(turnRecord());
+      journal.flush();
+    }
+    if (!journal.ring().isShared()) _exit(77);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+  fs::resize_file(path, fs::file_size(path) / 3);
+  const std::vector<std::string> said = salvageRounds(folder.string());
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(test::has(said[0], "turns are lost, because the file is shorter than it was"));
+}
+
 // The file is created by another thread, some time after the world's first turns.
 TEST_F(JournalFileTest, SalvageCreatesAMissingOrIncompleteRoundFile) {
   const fs::path path = folder / "hello-first.dfr";

@@ -203,6 +203,17 @@ TEST_F(RecoveryTest, FileContainsPlayersSessionsAndPressedKeys) {
   EXPECT_EQ(inputs[2].player, 3u);
 }
 
+// The players of a server that was down for longer than the grace time left without a record of their
+// sessions.
+TEST_F(RecoveryTest, LeavingTheWorldEndsTheSession) {
+  play();
+  turn({{.kind = df::InputQueue::kLeave, .player = 1}});
+  const UnfinishedRound& found = open();
+  EXPECT_EQ(found.players(), std::vector<std::uint32_t>{2});
+  ASSERT_EQ(found.sessions().size(), 1u);
+  EXPECT_TRUE(found.sessions().contains(2));
+}
+
 // A file torn at any place can be opened, and its journal continues after the last complete record.
 TEST_F(RecoveryTest, FileTruncatedAnywhereCanBeContinued) {
   for (int i = 0; i < 6; ++i) {

@@ -1,0 +1,278 @@
+// All ways in which players leave: what the log says, and which players the next server would restore if this
+// one was killed now.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/world/World.h"
+#include "host/journal/Journal.h"
+#include "host/journal/JournalSink.h"
+#include "host/journal/JournalWriter.h"
+#include "host/journal/UnfinishedRound.h"
+#include "host/loop/HostClients.h"
+#include "host/loop/HostControls.h"
+#include "host/loop/HostEndpoint.h"
+#include "host/ops/HostAdmin.h"
+#include "host/rounds/Round.h"
+#include "tests/server/host/rooms/Clients.h"
+#include "tests/support/TempFolder.h"
+
+namespace naiad {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+
+/// Ends the game for the players that the test names.
+class LeaverWorld : public WorldPort {
+ public:
+  explicit LeaverWorld(std::vector<std::uint32_t>& leavers) : m_leavers(leavers) {}
+  bool isReady() const override { return true; }
+  void tick(const SentTurn&) override {
+    ++m_view.tick;
+    m_answer.leavers = std::exchange(m_leavers, {});
+    reportTick();
+  }
+  std::uint32_t nextTick() const override { return m_view.tick + 1; }
+  const df::WorldView& view() const override { return m_view; }
+
+ private:
+  std::vector<std::uint32_t>& m_leavers;
+  df::WorldView m_view;
+};
+
+void send(const Client& client, const std::function<void(wire::ClientMessage&)>& fill) {
+  wire::ClientMessage message;
+  fill(message);
+  client.receive(message);
+}
+
+void ping(const Client& client) {
+  send(client, [](auto& message) { message.mutable_ping()->set_token(1); });
+}
+
+/// A host with two rooms, whose rounds are recorded, and without a network.
+class Building {
+ public:
+  explicit Building(const std::function<void(HostOptions&)>& change)
+      : context(optionsOf(change), "hall", [this](const LogEvent& event) { log.push_back(event); }),
+        endpoint(context, [](std::unique_ptr<ReliableChannel>) {}),
+        clients(context, endpoint, [] {}) {
+    clients.setRooms({plan("hall"), plan("attic")});
+    clients.rooms().open(world);
+  }
+
+  Client& join(const std::string& name) {
+    Client& client = ends.emplace_back();
+    clients.add(std::make_unique<test::FakeChannel>(client));
+    wire::Hello hello = test::helloOf(name);
+    hello.set_rooms(true);
+    client.greet(hello);
+    EXPECT_TRUE(client.isWelcome()) << name;
+    return client;
+  }
+  void update() {
+    now = std::max(now, HostClients::Clock::now());
+    clients.update(now);
+  }
+  /// Calls update() every 100 ms of this time, which does not really pass.
+  void pass(std::chrono::milliseconds time, const std::function<void()>& each = {}) {
+    for (const auto end = now + time; now <= end; now += 100ms) {
+      if (each) each();
+      update();
+    }
+  }
+  /// Returns the players that would be restored in a room if the server was killed now.
+  std::set<std::string> restored(const std::string& room) {
+    EXPECT_TRUE(writer->drain(60s));
+    std::set<std::string> names;
+    const UnfinishedRound round((folder / (room + ".dfr")).string());
+    for (const auto& [player, session] : round.sessions()) names.insert(session.name);
+    return names;
+  }
+  void kick(const Client& client, const std::string& sentence) {
+    ping(client);
+    admin.kickPlayer(clients.rooms().findPlayer(client.welcome().player())->id(), sentence);
+  }
+
+  const test::TempFolder folder;
+  std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
+  std::vector<LogEvent> log;
+  std::vector<std::uint32_t> leavers;
+  std::deque<Client> ends;
+  df::World world;
+  const df::World::Scope scope{world};
+  HostContext context;
+  HostEndpoint endpoint;
+  HostClients clients;
+  HostControls controls{context, endpoint, clients};
+  HostScores scores{{context, endpoint, clients, controls}};
+  HostAdmin admin{{context, endpoint, clients, controls}, scores};
+  HostClients::Clock::time_point now = HostClients::Clock::now();
+
+ private:
+  static HostOptions optionsOf(const std::function<void(HostOptions&)>& change) {
+    HostOptions options;
+    options.insecure = true;
+    options.address = "127.0.0.1";
+    options.port = 0;
+    options.grace = 5;
+    if (change) change(options);
+    return options;
+  }
+  RoomConfig plan(const std::string& name) {
+    return {.name = name, .game = name, .max_players = 8, .ready = {}, .new_world = [this, name](auto&) {
+              Round::JournalBinding book;
+              book.writer = writer;
+              book.journal = std::make_shared<Journal>(
+                  std::make_unique<JournalFileSink>((folder / (name + ".dfr")).string()), DfrHeader(),
+                  DfrFacts(), 1 << 20, false);
+              writer->add(book.journal);
+              return std::make_unique<Round>(std::make_unique<LeaverWorld>(leavers), std::move(book));
+            }};
+  }
+};
+
+struct Way {
+  std::string name;
+  std::function<void(Building&, Client&)> leave;
+  std::string reason;  ///< words of the log; empty: the player leaves only the room
+  std::function<void(HostOptions&)> options = {};
+};
+
+void PrintTo(const Way& way, std::ostream* p_out) {
+  *p_out << way.name;
+}
+
+const Way kWays[] = {
+    {"quit", [](Building&, Client& eve) { send(eve, [](auto& message) { message.mutable_leave(); }); },
+     "quit"},
+    {"kick",
+     [](Building& house, Client& eve) { house.kick(eve, "You were removed from the game: \"spam\""); },
+     R"(dismissed with "You were removed from the game: \"spam\"")"},
+    {"ban", [](Building& house, Client& eve) { house.kick(eve, "You are banned from this server."); },
+     R"(dismissed with "You are banned from this server.")"},
+    {"inactive",
+     [](Building& house, Client& eve) {
+       house.ends.front().drop();  // a player without a connection does not count as inactive
+       for (const auto end = house.now + 30s; !eve.closed && house.now < end;) house.update();
+     },
+     R"(dismissed with "Disconnected: no input for 1 s.")", [](HostOptions& o) { o.inactive_kick = 1; }},
+    {"game_over",
+     [](Building& house, Client& eve) {
+       ping(eve);
+       house.leavers = {eve.welcome().player()};
+       house.clients.rooms().beginTicks();
+     },
+     R"(dismissed with "The game is over for you.")"},
+    {"invalid_message",
+     [](Building&, Client& eve) {
+       ping(eve);
+       eve.callbacks.on_frame("\xff\xff");
+     },
+     "invalid message"},
+    {"invalid_frame", [](Building&, Client& eve) { eve.callbacks.on_closed(CloseReason::kProtocol); },
+     "invalid message"},
+    {"message_flood",
+     [](Building&, Client& eve) {
+       for (int i = 0; i < 1100; ++i) ping(eve);
+     },
+     "too many messages at once"},
+    {"key_flood",
+     [](Building&, Client& eve) {
+       for (std::uint32_t i = 1; i <= 65; ++i) {
+         ClientUpdate update;
+         update.inputs = {Input{.id = i, .key = 1, .action = 0}};
+         send(eve, [&](auto& message) { message.set_update(writeUpdate(update)); });
+       }
+     },
+     "too many keys at once"},
+    {"no_reconnect",
+     [](Building& house, Client& eve) {
+       ping(eve);
+       eve.drop();
+       house.pass(8s);
+     },
+     "did not reconnect in time"},
+    {"disconnected",
+     [](Building&, Client& eve) {
+       ping(eve);
+       eve.drop();
+     },
+     "connection lost", [](HostOptions& o) { o.grace = 0; }},
+    {"silent", [](Building& house, Client&) { house.pass(17s, [&] { ping(house.ends.front()); }); },
+     "silent for too long", [](HostOptions& o) { o.grace = 0; }},
+    {"slow_connection",
+     [](Building& house, Client& eve) {
+       eve.unsent = 100'000;
+       house.pass(12s, [&] {
+         ping(eve);
+         ping(house.ends.front());
+       });
+     },
+     "connection too slow"},
+    {"overflow", [](Building&, Client& eve) { eve.callbacks.on_closed(CloseReason::kOverflow); },
+     "too many bytes queued"},
+    {"room_change",
+     [](Building& house, Client& eve) {
+       send(eve, [](auto& message) { message.mutable_enter_room()->set_room("attic"); });
+       house.update();
+     },
+     ""},
+};
+
+class Leaving : public testing::TestWithParam<Way> {
+ protected:
+  void leave() {
+    EXPECT_EQ(house.restored("hall"), (std::set<std::string>{"Ann", "Eve"}));
+    GetParam().leave(house, eve);
+    house.update();  // the connection may still be open
+  }
+
+  Building house{GetParam().options};
+  Client& ann = house.join("Ann");
+  Client& eve = house.join("Eve");
+};
+
+class Recovery : public Leaving {};
+
+TEST_P(Recovery, FormerPlayersAreNotRestored) {
+  leave();
+  EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
+  house.clients.rooms().beginTicks();
+  house.update();
+  EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
+  if (GetParam().reason.empty()) EXPECT_EQ(house.restored("attic"), std::set<std::string>{"Eve"});
+}
+
+TEST_P(Leaving, LogLineHasTheReason) {
+  leave();
+  std::vector<LogEvent> found;
+  std::ranges::copy_if(house.log, std::back_inserter(found), [this](const LogEvent& event) {
+    return event.name == std::string("left") && event.text.starts_with(eve.address + " \"Eve\"");
+  });
+  ASSERT_EQ(found.size(), GetParam().reason.empty() ? 0u : 1u);
+  if (found.empty()) return;
+  EXPECT_EQ(found[0].text, eve.address + " \"Eve\" left: " + GetParam().reason);
+  const std::pair<std::string, std::string> reason{"reason", GetParam().reason};
+  EXPECT_EQ(std::count(found[0].fields.begin(), found[0].fields.end(), reason), 1);
+}
+
+std::string nameOf(const testing::TestParamInfo<Way>& way) {
+  return way.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, Recovery, testing::ValuesIn(kWays), nameOf);
+INSTANTIATE_TEST_SUITE_P(Ways, Leaving, testing::ValuesIn(kWays), nameOf);
+
+}  // namespace
+}  // namespace naiad
