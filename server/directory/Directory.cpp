@@ -136,7 +136,7 @@ Directory::Directory(DirectorySettings settings, LogLine log)
       m_log(std::move(log)),
       m_fleet(
           connectBus(listening(m_settings.bus)), [this](const std::string& text) { m_log(text); },
-          std::chrono::steady_clock::now(), m_settings.interval) {
+          m_settings.interval) {
   if (!m_settings.list.empty()) m_file = std::make_unique<ListFile>(m_settings.list, serverListText({}));
   openLobby();
   schedulePoll();
@@ -224,6 +224,7 @@ void Directory::logCounters() {
                                                             {"expired", counted.expired},
                                                             {"bus_received", passed.received},
                                                             {"bus_ignored", passed.ignored},
+                                                            {"bus_lost", passed.lost},
                                                             {"bus_failures", passed.failures},
                                                             {"bus_connections", passed.connections}};
   if (m_lobby) {

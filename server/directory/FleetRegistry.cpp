@@ -54,8 +54,8 @@ std::string serverListText(std::vector<Presence> servers) {
 }
 
 FleetMonitor::FleetMonitor(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log,
-                           Time now, std::chrono::milliseconds interval)
-    : m_bus(std::move(bus)), m_log(std::move(log)), m_servers(interval), m_connected_at(now) {}
+                           std::chrono::milliseconds interval)
+    : m_bus(std::move(bus)), m_log(std::move(log)), m_servers(interval) {}
 
 void FleetMonitor::update(Time now) {
   if (const std::string line = m_bus->popLogMessage(); !line.empty()) m_log(line);
@@ -63,11 +63,12 @@ void FleetMonitor::update(Time now) {
     if (m_servers.handleHeartbeat(message.subject, message.payload, now))
       logLimited(message.subject.substr(presenceSubject("").size()) + " joined the fleet", now);
   }
-  if (m_bus->isConnected()) m_connected_at = now;
-  // No heartbeats arrive without the bus. So no server expires while the bus is down, but at most for
-  // kMaxBusOutage.
-  const bool is_bus_down = m_connected_at != now;
-  if (is_bus_down && now - m_connected_at < kMaxBusOutage) return m_servers.resetTimeouts(now);
+  const std::uint64_t lost = m_bus->counters().lost;
+  const bool has_lost = std::exchange(m_lost, lost) != lost;
+  if (!m_bus->isConnected())
+    m_servers.excuseSilence(now, kMaxBusOutage);
+  else if (has_lost)
+    m_servers.excuseSilence(now, kMaxBusLoss);
   for (const std::string& id : m_servers.removeExpired(now)) logLimited(id + " left the fleet", now);
 }
 
@@ -113,7 +114,7 @@ bool FleetRegistry::handleHeartbeat(const std::string& subject, std::string_view
 std::vector<std::string> FleetRegistry::removeExpired(Time now) {
   std::vector<std::string> gone;
   for (auto at = m_servers.begin(); at != m_servers.end();) {
-    if (now - at->second.heard < m_timeout) {
+    if (now - std::max(at->second.heard, at->second.excused) < m_timeout) {
       ++at;
       continue;
     }
@@ -124,8 +125,10 @@ std::vector<std::string> FleetRegistry::removeExpired(Time now) {
   return gone;
 }
 
-void FleetRegistry::resetTimeouts(Time now) {
-  for (auto& [id, entry] : m_servers) entry.heard = now;
+void FleetRegistry::excuseSilence(Time now, std::chrono::minutes most) {
+  for (auto& [id, entry] : m_servers) {
+    if (now - entry.heard < most) entry.excused = now;
+  }
 }
 
 bool FleetRegistry::Load::isBetterThan(const Load& other) const {

@@ -60,8 +60,9 @@ class FleetRegistry {
   bool handleHeartbeat(const std::string& subject, std::string_view payload, Time now);
   /// Removes the servers whose heartbeats have stopped. Returns their ids.
   std::vector<std::string> removeExpired(Time now);
-  /// Restarts the timeouts of all servers. Call while the bus is down, because no heartbeats arrive then.
-  void resetTimeouts(Time now);
+  /// Restarts the timeouts of the servers that were heard less than `most` ago. Call while the bus is down or
+  /// loses messages, because then silence does not show that a server has ended.
+  void excuseSilence(Time now, std::chrono::minutes most);
 
   /// A player's requirements.
   struct PlayerRequest {
@@ -112,6 +113,7 @@ class FleetRegistry {
   struct RegisteredServer {
     Presence presence;
     Time heard{};
+    Time excused{};  ///< the silence before this time does not count
     RedirectCounts sent{};
     std::map<std::string, RedirectCounts> sent_to;  ///< key: room
     Load load() const;
@@ -140,11 +142,13 @@ class FleetMonitor {
   /// Longest outage of the bus during which the list stays unchanged: the servers still run, and players
   /// still find them.
   static constexpr std::chrono::minutes kMaxBusOutage{10};
+  /// Longest silence of a server while the bus loses messages.
+  static constexpr std::chrono::minutes kMaxBusLoss{3};
   /// Rate limit of log lines about servers that join or leave; needed because ids may be faked.
   static constexpr BucketRate kLogRate{5, 100};
 
   /// `bus` must subscribe to presence. `interval`: heartbeat interval of the servers.
-  FleetMonitor(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log, Time now,
+  FleetMonitor(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log,
                std::chrono::milliseconds interval = Presence::kInterval);
 
   /// Handles new messages and removes silent servers. Call it several times per heartbeat interval.
@@ -160,7 +164,7 @@ class FleetMonitor {
   std::unique_ptr<Bus> m_bus;
   std::function<void(const std::string& line)> m_log;
   FleetRegistry m_servers;
-  Time m_connected_at;
+  std::uint64_t m_lost = 0;  ///< BusCounters::lost in the last update()
   TokenBucket m_log_limit;
   std::uint64_t m_dropped_lines = 0;
 };

@@ -19,7 +19,10 @@
 #include "SilentCrowd.h"
 #include "StreamProxy.h"
 #include "Valve.h"
+#include "client/session/Connection.h"
+#include "client/session/TcpStreamOpener.h"
 #include "host/auth/PasswordHash.h"
+#include "host/auth/PasswordQueue.h"
 
 namespace naiad::test {
 namespace {
@@ -304,6 +307,9 @@ TEST_F(CrowdedDoor, HandshakesOfOneAddressAreLimitedWithoutDelayingOthers) {
 }
 
 // ---- passwords --------------------------------------------------------------------------------------------
+
+static_assert(Connection::kMaxBackoff + TcpStreamOpener::kConnectTimeout < PasswordQueue::kMaxPause,
+              "a client that retries makes no pause that ends its wait");
 
 TEST_F(CrowdedDoor, WrongPasswordsOf80AddressesDoNotBlockJoining) {
   HostOptions options = home.server();

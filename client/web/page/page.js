@@ -107,7 +107,7 @@ function notice(state) {
     picture.canvas.focus({preventScroll: true});
   }
   if (state === "joining" || state === "playing") {
-    if (state === "joining") say(client.message() || "Joining …");
+    if (state === "joining") say(client.message() ? `${client.message()} (Retrying.)` : "Joining …");
     return;
   }
   const message = client.message();

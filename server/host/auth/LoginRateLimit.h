@@ -17,11 +17,14 @@ class LoginRateLimit {
   using Time = std::chrono::steady_clock::time_point;
   enum class Answer { kAllowed, kTooMany, kWait };
 
-  LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
-      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), cancelled_(prefixes) {}
+  /// A network's wrong tries are remembered for this long after the latest one.
+  static constexpr std::chrono::hours kMemory{1};
 
-  /// Begins a try. kAllowed: finishTry() or cancelTry() must follow. kTooMany: too many tries were wrong.
-  /// kWait: too many would be wrong if those in progress are.
+  LoginRateLimit(int wrong_per_window, std::chrono::seconds window, std::size_t prefixes)
+      : wrong_per_window_(wrong_per_window), window_(window), table_(prefixes), wrong_(prefixes) {}
+
+  /// Begins a try. kAllowed: finishTry() must follow. kTooMany: too many tries were wrong. kWait: too many
+  /// would be wrong if those in progress are.
   Answer beginTry(const AddressPrefix& from, Time now) {
     PrefixFailures& entry = table_.use(from);
     if (!entry.since || now - *entry.since >= window_) {
@@ -33,29 +36,22 @@ class LoginRateLimit {
     ++entry.in_progress;
     return Answer::kAllowed;
   }
-  void finishTry(const AddressPrefix& from, bool right) {
+  /// Ends a try that began at `now`. `right`: the password was right, or not compared.
+  void finishTry(const AddressPrefix& from, bool right, Time now) {
+    if (!right) {
+      WrongTries& tries = wrong_.use(from.widest());
+      tries = {wrong(from, now) + 1, now};
+    }
     PrefixFailures* const entry = table_.find(from);
     if (entry == nullptr) return;  // evicted in the meantime
     if (entry->in_progress > 0) --entry->in_progress;
     if (!right) ++entry->wrong;
     if (entry->in_progress == 0 && entry->wrong == 0) table_.erase(from);
   }
-  /// Ends a try dropped because other guesses had priority. It counts in cancelledTries(), not as wrong.
-  void cancelTry(const AddressPrefix& from, Time now) {
-    finishTry(from, true);
-    CancelledTries& tries = cancelled_.use(from);
-    if (!tries.since || now - *tries.since >= window_) tries = {now, 0};
-    ++tries.count;
-  }
-  /// Number of wrong tries in the window of the last beginTry(); 0 for unknown prefixes.
-  int wrong(const AddressPrefix& from) {
-    const PrefixFailures* const entry = table_.find(from);
-    return entry != nullptr ? entry->wrong : 0;
-  }
-  /// Number of cancelled tries in the present window; 0 for unknown prefixes.
-  int cancelledTries(const AddressPrefix& from, Time now) {
-    const CancelledTries* const tries = cancelled_.find(from);
-    return tries != nullptr && now - *tries->since < window_ ? tries->count : 0;
+  /// Number of remembered wrong tries of the network (AddressPrefix::widest()) of `from`.
+  int wrong(const AddressPrefix& from, Time now) {
+    const WrongTries* const tries = wrong_.find(from.widest());
+    return tries != nullptr && now - tries->latest < kMemory ? tries->count : 0;
   }
   std::size_t size() const { return table_.size(); }
 
@@ -66,16 +62,15 @@ class LoginRateLimit {
     int in_progress = 0;
   };
 
-  struct CancelledTries {
-    std::optional<Time> since;
+  struct WrongTries {
     int count = 0;
+    Time latest{};
   };
 
   int wrong_per_window_;
   std::chrono::seconds window_;
   PrefixLruMap<PrefixFailures> table_;
-  PrefixLruMap<CancelledTries>
-      cancelled_;  ///< a separate table, so that cancelled tries, which cost nothing, evict no wrong ones
+  PrefixLruMap<WrongTries> wrong_;  ///< a separate table, so that tries that are not wrong evict none
 };
 
 }  // namespace naiad

@@ -100,7 +100,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
       : owner(std::move(executor)),
         limits(with_limits),
         worker(with_worker),
-        queue(limits.queue - 1),
+        queue(limits.queue - 1, limits.prefixes),
         tries(limits.wrong_per_window, limits.window, limits.prefixes) {}
 
   using Time = LoginRateLimit::Time;
@@ -113,6 +113,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   Counters counters;
   struct Guess {
     AddressPrefix from;
+    Time at;
     std::unique_ptr<Secret> password;  // null while the worker has it
     std::function<void(Answer)> done;
   };
@@ -121,7 +122,7 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   PasswordQueue::Id newest = 0;
 
   void answerLater(Answer answer, std::function<void(Answer)> done);
-  void add(bool known, Guess guess, Time now);
+  void add(bool known, Guess guess);
   void compareNext();
   void onCompared(PasswordQueue::Id id, std::optional<bool> right);
 };
@@ -133,15 +134,14 @@ void PasswordCheck::State::answerLater(Answer answer, std::function<void(Answer)
   });
 }
 
-void PasswordCheck::State::add(bool known, Guess guess, Time now) {
+void PasswordCheck::State::add(bool known, Guess guess) {
   const PasswordQueue::Id id = ++newest;
-  const AddressPrefix from = guess.from;
+  const auto loser = queue.add({id, guess.from, known, tries.wrong(guess.from, guess.at)}, guess.at);
   guesses.emplace(id, std::move(guess));
-  const auto loser = queue.add({id, from, known, tries.wrong(from), tries.cancelledTries(from, now)});
   if (!comparing) return compareNext();  // the queue was empty, so no guess was dropped
   if (!loser) return;
   Guess lost = std::move(guesses.extract(*loser).mapped());
-  tries.cancelTry(lost.from, now);
+  tries.finishTry(lost.from, true, lost.at);
   ++counters.busy;
   answerLater(Answer::kBusy, std::move(lost.done));
 }
@@ -162,8 +162,8 @@ void PasswordCheck::State::compareNext() {
 
 void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> right) {
   const auto guess = guesses.extract(id);
-  const auto& [from, password, done] = guess.mapped();
-  tries.finishTry(from, right.value_or(true));
+  const auto& [from, at, password, done] = guess.mapped();
+  tries.finishTry(from, right.value_or(true), at);
   ++(!right ? counters.busy : *right ? counters.right : counters.wrong);
   compareNext();  // before the callback, which may destroy this
   done(!right ? Answer::kNoMemory : *right ? Answer::kRight : Answer::kWrong);
@@ -184,7 +184,7 @@ void PasswordCheck::check(const AddressPrefix& from, bool known, std::string pas
   }
   switch (state_->tries.beginTry(from, now)) {
     case LoginRateLimit::Answer::kAllowed:
-      return state_->add(known, {from, std::move(secret), std::move(done)}, now);
+      return state_->add(known, {from, now, std::move(secret), std::move(done)});
     case LoginRateLimit::Answer::kTooMany:
       ++state_->counters.too_many;
       return state_->answerLater(Answer::kTooMany, std::move(done));

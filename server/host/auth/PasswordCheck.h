@@ -32,8 +32,9 @@ class PasswordCheck {
     std::size_t queue = 8;     ///< maximum number of guesses waiting or in progress; at least two
     int wrong_per_window = 5;  ///< maximum number of wrong guesses in a window, per IPv4 address or IPv6 /64
     std::chrono::seconds window{60};  ///< starts with the first guess
-    std::size_t prefixes =
-        1024;  ///< prefixes whose wrong guesses are counted; then the least recently used is forgotten
+    /// Number of prefixes whose wrong guesses are counted, and of networks that wait or guessed wrong in the
+    /// last hour (LoginRateLimit.h, PasswordQueue.h); then the least recently used is forgotten.
+    std::size_t prefixes = 16'384;
   };
   struct Counters {
     std::uint64_t right = 0, wrong = 0, malformed = 0, too_many = 0, busy = 0;

@@ -25,6 +25,7 @@ struct BusCounters {
   std::uint64_t connections = 0;  ///< successful connects; more than 1 if the bus was lost and came back
   std::uint64_t received = 0;     ///< messages of the subscribed subjects
   std::uint64_t ignored = 0;  ///< received messages that were too long, or of a new subject beyond the limit
+  std::uint64_t lost = 0;     ///< messages lost before they were received, of any sender: too many waited
 };
 
 class Bus {
@@ -47,7 +48,10 @@ class Bus {
   virtual std::string popLogMessage() = 0;
 };
 
+/// Maximum number of arrived messages of a subscription that wait to be received; further ones are lost.
+inline constexpr int kMaxBusPending = 65'536;
+
 /// Connects to a NATS server with libnats. The settings must be valid (validateBusSettings()).
-std::unique_ptr<Bus> connectBus(const BusSettings& settings);
+std::unique_ptr<Bus> connectBus(const BusSettings& settings, int max_pending = kMaxBusPending);
 
 }  // namespace naiad

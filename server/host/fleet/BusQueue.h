@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,35 +17,45 @@
 namespace naiad {
 
 /// Received messages. Holds a limited number, and only the newest of each subject, so a server that sends
-/// many messages cannot displace those of the others. Not thread-safe.
+/// many messages cannot displace those of the others, and new subjects displace no known ones. Not
+/// thread-safe.
 class BusInbox {
  public:
   static constexpr std::size_t kMaxSubjects =
       4096;  ///< maximum number of subjects; messages of further ones are ignored
   static constexpr std::size_t kMaxSubject = 128;  ///< maximum length of a subject, in bytes
+  /// A subject is known until this many calls of popAll() in a row find no message of it.
+  static constexpr int kMaxIdlePops = 64;
 
-  void put(std::string subject, std::string payload) {
+  void put(std::string_view subject, std::string_view payload) {
     ++m_received;
     const bool fits = subject.size() <= kMaxSubject && payload.size() <= kMaxBusPayload;
-    if (!fits || (m_newest.size() >= kMaxSubjects && m_newest.count(subject) == 0)) {
+    const auto known = m_newest.find(subject);
+    if (!fits || (m_newest.size() >= kMaxSubjects && known == m_newest.end())) {
       ++m_ignored;
       return;
     }
-    m_newest.insert_or_assign(std::move(subject), std::move(payload));
+    (known != m_newest.end() ? known->second : m_newest[std::string(subject)]) = {std::string(payload)};
   }
   /// Removes and returns the messages, sorted by subject.
   std::vector<BusMessage> popAll() {
     std::vector<BusMessage> taken;
-    taken.reserve(m_newest.size());
-    for (auto& [subject, payload] : m_newest) taken.push_back({subject, std::move(payload)});
-    m_newest.clear();
+    for (auto& [subject, newest] : m_newest) {
+      if (++newest.pops == 1) taken.push_back({subject, std::move(newest.payload)});
+    }
+    std::erase_if(m_newest, [](const auto& known) { return known.second.pops > kMaxIdlePops; });
     return taken;
   }
   std::uint64_t received() const { return m_received; }
   std::uint64_t ignored() const { return m_ignored; }
 
  private:
-  std::map<std::string, std::string> m_newest;
+  struct Newest {
+    std::string payload;
+    int pops = 0;  ///< calls of popAll() since the message was received
+  };
+
+  std::map<std::string, Newest, std::less<>> m_newest;  ///< key: subject
   std::uint64_t m_received = 0;
   std::uint64_t m_ignored = 0;
 };

@@ -22,15 +22,13 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kPollInterval{
-    250};                             ///< interval of checks for messages and a lost connection
-constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting and of acknowledgements
+constexpr std::chrono::milliseconds kPollInterval{250};  ///< interval of checks for a lost connection
+constexpr int kTimeoutMillis = 2000;                     ///< timeout of connecting and of acknowledgements
 constexpr int kPingMillis = 2000;
 constexpr int kMaxPings = 2;
-/// Limits of the library's queue for a subscription; it drops further messages.
-constexpr int kMaxPending = 8192;
-constexpr int kMaxPendingBytes = 8 << 20;
-constexpr int kMaxReceiveBatch = 512;  ///< messages received from a subscription before sending again
+/// Limit of the library's queue for a subscription, like kMaxBusPending.
+constexpr int kMaxPendingBytes = 64 << 20;
+constexpr int kReceiveMillis = 1000;  ///< timeout of waiting for a message, after which losses are counted
 
 template <class T, void (*Destroy)(T*)>
 struct NatsDeleter {
@@ -63,10 +61,11 @@ Options optionsOf(const BusSettings& settings) {
   return good ? std::move(options) : nullptr;
 }
 
-/// A bus that connects, publishes and receives on a thread of its own.
+/// A bus that connects and publishes on a thread of its own, and receives on one for each subscription.
 class NatsBus : public Bus {
  public:
-  explicit NatsBus(BusSettings settings) : m_settings(std::move(settings)) {
+  NatsBus(BusSettings settings, int max_pending)
+      : m_settings(std::move(settings)), m_max_pending(max_pending) {
     m_thread = startWithoutSignals([this] { run(); });
   }
   ~NatsBus() override {
@@ -123,7 +122,6 @@ class NatsBus : public Bus {
       lock.lock();
       onConnectionChange(connection != nullptr, status);
       if (connection) serve(*connection, lock);
-      m_connected = false;
       m_sent.notify_all();
       if (!m_stopping) m_wake.wait_for(lock, kConnectAgain, [this] { return m_stopping; });
     }
@@ -141,9 +139,11 @@ class NatsBus : public Bus {
     m_connected = connected;
     m_counters.connections += connected ? 1 : 0;
     m_counters.failures += connected ? 0 : 1;
-    const std::string news = connected ? "the bus is connected"
-                                       : std::string("warning: the bus cannot be reached (") +
-                                             natsStatus_GetText(status) + "); trying again";
+    logOnce(connected ? "the bus is connected"
+                      : std::string("warning: the bus cannot be reached (") + natsStatus_GetText(status) +
+                            "); trying again");
+  }
+  void logOnce(const std::string& news) {
     if (std::exchange(m_last_news, news) != news) m_log_message = news;
   }
 
@@ -152,10 +152,9 @@ class NatsBus : public Bus {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
     const JetStream stream(p_made);
-    const std::vector<Subscription> subscriptions = subscribe(connection);
+    std::vector<std::unique_ptr<Receiver>> receivers = subscribe(connection);
     auto not_before = std::chrono::steady_clock::now();
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
-      receive(subscriptions);
       const bool may_keep = stream && m_queue.hasReliable() && std::chrono::steady_clock::now() >= not_before;
       if (m_queue.hasBestEffort()) {
         const BusMessage message = m_queue.popBestEffort();
@@ -177,32 +176,57 @@ class NatsBus : public Bus {
         m_wake.wait_for(lock, kPollInterval);
       }
     }
+    m_connected = false;
+    lock.unlock();  // receivers take it before they end
+    receivers.clear();
+    lock.lock();
   }
 
+  /// Receives the messages of a subscription until its end, on a thread that waits for nothing else.
+  class Receiver {
+   public:
+    Receiver(NatsBus& bus, Subscription subscription)
+        : m_subscription(std::move(subscription)),
+          m_thread(startWithoutSignals([this, &bus] { bus.receive(m_subscription.get()); })) {}
+    ~Receiver() {
+      natsSubscription_Unsubscribe(m_subscription.get());
+      m_thread.join();
+    }
+
+   private:
+    const Subscription m_subscription;
+    std::thread m_thread;
+  };
+
   /// Subscribes to all subjects. If the bus refuses one for lack of permission, only its log shows it.
-  std::vector<Subscription> subscribe(natsConnection& connection) const {
-    std::vector<Subscription> made;
+  std::vector<std::unique_ptr<Receiver>> subscribe(natsConnection& connection) {
+    std::vector<std::unique_ptr<Receiver>> made;
     for (const std::string& subject : m_settings.subjects) {
       natsSubscription* p_made = nullptr;
       if (natsConnection_SubscribeSync(&p_made, &connection, subject.c_str()) != NATS_OK) continue;
-      natsSubscription_SetPendingLimits(p_made, kMaxPending, kMaxPendingBytes);
-      made.emplace_back(p_made);
+      natsSubscription_SetPendingLimits(p_made, m_max_pending, kMaxPendingBytes);
+      made.push_back(std::make_unique<Receiver>(*this, Subscription(p_made)));
     }
     return made;
   }
 
-  /// Moves received messages to the inbox. Called with the lock held.
-  void receive(const std::vector<Subscription>& subscriptions) {
-    for (const Subscription& subscription : subscriptions) {
-      for (int i = 0; i < kMaxReceiveBatch; ++i) {
-        natsMsg* p_taken = nullptr;
-        const natsStatus status = natsSubscription_NextMsg(&p_taken, subscription.get(), 0);
-        const Message message(p_taken);
-        if (status == NATS_SLOW_CONSUMER) continue;  // reported once if messages were dropped
-        if (status != NATS_OK) break;
-        m_inbox.put(
-            natsMsg_GetSubject(p_taken),
-            std::string(natsMsg_GetData(p_taken), static_cast<std::size_t>(natsMsg_GetDataLength(p_taken))));
+  /// Moves the messages of a subscription to the inbox, which holds one of each sender, and counts lost ones.
+  void receive(natsSubscription* p_subscription) {
+    std::int64_t counted = 0;
+    for (;;) {
+      natsMsg* p_taken = nullptr;
+      const natsStatus status = natsSubscription_NextMsg(&p_taken, p_subscription, kReceiveMillis);
+      const Message message(p_taken);
+      std::int64_t dropped = counted;
+      natsSubscription_GetDropped(p_subscription, &dropped);
+      const std::lock_guard lock(m_mutex);
+      if (dropped != counted) logOnce("warning: messages of the bus were lost, because too many arrived");
+      m_counters.lost += static_cast<std::uint64_t>(dropped - std::exchange(counted, dropped));
+      if (status == NATS_OK) {
+        m_inbox.put(natsMsg_GetSubject(p_taken),
+                    {natsMsg_GetData(p_taken), static_cast<std::size_t>(natsMsg_GetDataLength(p_taken))});
+      } else if (status != NATS_TIMEOUT && status != NATS_SLOW_CONSUMER) {
+        return;
       }
     }
   }
@@ -219,6 +243,7 @@ class NatsBus : public Bus {
   }
 
   const BusSettings m_settings;
+  const int m_max_pending;
   mutable std::mutex m_mutex;
   std::condition_variable m_wake;
   std::condition_variable m_sent;
@@ -234,13 +259,13 @@ class NatsBus : public Bus {
 
 }  // namespace
 
-std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
-  return std::make_unique<NatsBus>(settings);
+std::unique_ptr<Bus> connectBus(const BusSettings& settings, int max_pending) {
+  return std::make_unique<NatsBus>(settings, max_pending);
 }
 
 #else
 
-std::unique_ptr<Bus> connectBus(const BusSettings& settings) {
+std::unique_ptr<Bus> connectBus(const BusSettings& settings, int /*max_pending*/) {
   throw std::logic_error(validateBusSettings(settings));
 }
 

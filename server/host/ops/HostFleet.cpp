@@ -195,6 +195,7 @@ void HostFleet::popLogMessage() {
   m_access.context.counters.bus_dropped = bus.dropped;
   m_access.context.counters.bus_failures = bus.failures;
   m_access.context.counters.bus_connections = bus.connections;
+  m_access.context.counters.bus_lost = bus.lost;
 }
 
 void HostFleet::drain() {

@@ -162,6 +162,7 @@ constexpr auto kHostRows = std::to_array<CounterRow<C>>({
     {FIELD(C, bus_failures), "naiad_bus_messages_total", R"(result="failed")", ""},
     {FIELD(C, bus_dropped), "naiad_bus_messages_total", R"(result="dropped")", ""},
     {FIELD(C, bus_connections), "naiad_bus_connections_total", "", "Connections made to the bus."},
+    {FIELD(C, bus_lost), "naiad_bus_lost_total", "", "Messages of the bus lost, because too many waited."},
     {FIELD(C, audited_pictures), "naiad_audit_pictures_total", "",
      "Pictures of players that were compared with the world's."},
     {FIELD(C, audited_cells), "naiad_audit_cells_total", "", "Cells of these pictures."},

@@ -99,6 +99,7 @@ struct Counters {
   std::uint64_t bus_dropped = 0;        ///< messages dropped because the queue was full, oldest first
   std::uint64_t bus_failures = 0;       ///< attempts that failed; retried
   std::uint64_t bus_connections = 0;    ///< connections made; more than one: the connection was lost
+  std::uint64_t bus_lost = 0;           ///< messages to this server lost, because too many waited
   std::uint64_t audited_pictures = 0;   ///< player pictures compared with the world's (ReplicaAudit.h)
   std::uint64_t audited_cells = 0;      ///< cells of audited_pictures
   std::uint64_t wrong_cells = 0;        ///< audited_cells that differed

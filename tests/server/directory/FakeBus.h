@@ -2,6 +2,7 @@
 // chooses.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,13 +17,14 @@ class FakeBus : public Bus {
   bool isConnected() const override { return connected; }
   std::vector<BusMessage> popMessages() override { return std::exchange(heard, {}); }
   void finish(std::chrono::milliseconds /*patience*/) override {}
-  BusCounters counters() const override { return {}; }
+  BusCounters counters() const override { return {.lost = lost}; }
   std::string popLogMessage() override { return std::exchange(news, ""); }
 
   std::vector<BusMessage> published;
   std::vector<BusMessage> heard;
   std::string news;
   bool connected = true;
+  std::uint64_t lost = 0;
 };
 
 }  // namespace naiad::test

@@ -30,8 +30,7 @@ class FleetMonitorTest : public testing::Test {
   std::vector<std::string> lines;
   test::FakeBus* p_bus = new test::FakeBus();
   test::FakeBus& bus = *p_bus;
-  FleetMonitor watch{
-      std::unique_ptr<Bus>(p_bus), [this](const std::string& line) { lines.push_back(line); }, {}};
+  FleetMonitor watch{std::unique_ptr<Bus>(p_bus), [this](const std::string& line) { lines.push_back(line); }};
 };
 
 TEST_F(FleetMonitorTest, SaysWhichServersComeAndGo) {
@@ -68,6 +67,28 @@ TEST_F(FleetMonitorTest, ServersGetAFullTimeoutAfterABusOutage) {
   EXPECT_EQ(watch.servers().size(), 2u);
   update(65s);
   EXPECT_EQ(watch.servers().size(), 1u) << "b was not heard";
+}
+
+TEST_F(FleetMonitorTest, BusThatLosesMessagesExcusesSilenceForThreeMinutes) {
+  for (const auto from_loss_to_loss : {1s, 5s}) {
+    auto at = 1s;
+    hear("silent");
+    hear("honest");
+    update(at);
+    for (; at < 180s; at += 1s) {
+      if (at % from_loss_to_loss == 0s) ++bus.lost;
+      if (at % 100s == 0s) hear("honest");
+      update(at);
+      ASSERT_EQ(watch.servers().size(), 2u) << at.count();
+    }
+    for (; at < 188s; at += 1s) {
+      ++bus.lost;
+      update(at);
+    }
+    EXPECT_EQ(watch.servers().size(), 1u) << "silent for three minutes";
+    for (; at < 194s; at += 1s) update(at);
+    EXPECT_EQ(watch.servers().size(), 0u) << "nothing is lost any more";
+  }
 }
 
 TEST_F(FleetMonitorTest, ServerFloodDoesNotFillTheLog) {

@@ -219,6 +219,27 @@ TEST_F(PasswordCheckTest, PrefixesWithPlayersAreCheckedFirst) {
   EXPECT_EQ(order, (std::vector{0, 8, 1, 2, 3, 4, 5, 6})) << "after the one that was begun; one was too many";
 }
 
+TEST_F(PasswordCheckTest, NetworkThatRetriesIsServedBeforeNewOnes) {
+  const auto network = [](int i) { return prefix(256 * i); };
+  for (const auto pause : {2s, 11s}) {
+    now += 1min;
+    std::vector<int> order;
+    const auto askFrom = [&](int i) {
+      ask(network(i), "open sesame", [&, i](Answer answer) {
+        if (answer == Answer::kRight) order.push_back(i);
+      });
+    };
+    for (int i = 1; i <= 9; ++i) askFrom(i);  // the ninth has no place
+    run();
+    now += pause;
+    for (int i = 11; i <= 18; ++i) askFrom(i);
+    askFrom(9);
+    run();
+    EXPECT_EQ(std::ranges::count(order, 9), pause == 2s ? 1 : 0) << pause.count() << " s";
+    EXPECT_EQ(order.size(), 16u);
+  }
+}
+
 TEST_F(PasswordCheckTest, DestructionInACallbackStopsLaterCallbacks) {
   int calls = 0;
   for (int i = 0; i < 3; ++i) {
@@ -251,7 +272,7 @@ TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
   for (int i = 0; i < 1000; ++i) {
     now += 1ms;
     EXPECT_EQ(limit.beginTry(prefix(i), now), LoginRateLimit::Answer::kAllowed);
-    limit.finishTry(prefix(i), false);
+    limit.finishTry(prefix(i), false, now);
     EXPECT_LE(limit.size(), 100u);
   }
   EXPECT_EQ(limit.beginTry(prefix(999), now), LoginRateLimit::Answer::kTooMany);
@@ -260,15 +281,30 @@ TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
 
 TEST(LoginRateLimit, AbandonedTriesAreNotCountedAsWrong) {
   LoginRateLimit limit(2, 60s, 100);
-  Time now{};
   for (int i = 1; i <= 1000; ++i) {
-    EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
-    limit.cancelTry(prefix(1), now);
-    EXPECT_EQ(limit.cancelledTries(prefix(1), now), i);
+    EXPECT_EQ(limit.beginTry(prefix(1), Time{}), LoginRateLimit::Answer::kAllowed);
+    limit.finishTry(prefix(1), true, Time{});
   }
-  EXPECT_EQ(limit.wrong(prefix(1)), 0);
-  EXPECT_EQ(limit.cancelledTries(prefix(1), now + 60s), 0);
+  EXPECT_EQ(limit.wrong(prefix(1), Time{}), 0);
   EXPECT_EQ(limit.size(), 0u) << "and evict none that were";
+}
+
+TEST(LoginRateLimit, RemembersWrongTriesOf16384NetworksForAnHour) {
+  const PasswordCheck::Limits limits;
+  LoginRateLimit limit(limits.wrong_per_window, limits.window, limits.prefixes);
+  const Time now{};
+  const auto fail = [&](const AddressPrefix& from) {
+    limit.beginTry(from, now);
+    limit.finishTry(from, false, now);
+  };
+  fail(prefix(1));
+  fail(prefix(2));
+  for (int i = 1; i < 16'384; ++i) fail(prefix(256 * i));
+  EXPECT_EQ(limit.wrong(prefix(3), now + 60min - 1ms), 2) << "of the network";
+  EXPECT_EQ(limit.wrong(prefix(3), now + 60min), 0);
+  fail(prefix(256 * 16'384));
+  EXPECT_EQ(limit.wrong(prefix(3), now), 0) << "the table is full";
+  EXPECT_EQ(limit.wrong(prefix(256), now), 1);
 }
 
 TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {
@@ -276,7 +312,7 @@ TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {
   Time now{};
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
-    limit.finishTry(prefix(1), false);
+    limit.finishTry(prefix(1), false, now);
     now += 30s;
   }
   EXPECT_EQ(limit.beginTry(prefix(1), now - 1ms), LoginRateLimit::Answer::kTooMany);

@@ -8,7 +8,9 @@
 #include <nats/nats.h>
 #endif
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <thread>
@@ -59,6 +61,21 @@ TEST(BusInbox, KeepsNewestPerSubjectAndIgnoresOversizedMessages) {
   EXPECT_EQ(inbox.ignored(), 2u);
 }
 
+TEST(BusInbox, KnownSubjectKeepsItsPlaceAfterItWasRead) {
+  BusInbox inbox;
+  inbox.put("honest", "old");
+  inbox.popAll();
+  for (int pop = 0; pop < 2 * BusInbox::kMaxIdlePops; ++pop) {
+    for (std::size_t i = 0; i <= BusInbox::kMaxSubjects; ++i) inbox.put(std::to_string(i), "");
+    if (pop % BusInbox::kMaxIdlePops == 0) inbox.put("honest", "new");
+    const std::vector<BusMessage> taken = inbox.popAll();
+    EXPECT_EQ(taken.back().payload, pop % BusInbox::kMaxIdlePops == 0 ? "new" : "") << pop;
+  }
+  for (int pop = 0; pop <= BusInbox::kMaxIdlePops; ++pop) inbox.popAll();
+  inbox.put("newcomer", "");
+  EXPECT_EQ(inbox.popAll().size(), 1u) << "the others were forgotten";
+}
+
 TEST(BusInbox, FloodOfSubjectsDoesNotEvictExistingOnes) {
   BusInbox inbox;
   inbox.put("honest", "old");
@@ -82,7 +99,7 @@ TEST(BusSettings, InvalidAddressesAreRejected) {
 
 #ifdef NAIAD_NATS
 
-/// Reads the messages on the bus and manages its streams.
+/// Reads and floods the bus, and manages its streams.
 class Listener {
  public:
   explicit Listener(const std::string& url, const char* p_subject = "naiad.presence.>") {
@@ -106,6 +123,15 @@ class Listener {
         std::string(natsMsg_GetData(p_message), static_cast<std::size_t>(natsMsg_GetDataLength(p_message)));
     natsMsg_Destroy(p_message);
     return text;
+  }
+  /// Sends messages as fast as possible, and waits until the bus has them.
+  void flood(const std::string& subject, int count, std::size_t bytes) const {
+    const std::string text(bytes, 'x');
+    for (int i = 0; i < count; ++i) {
+      ASSERT_EQ(natsConnection_Publish(m_p_connection, subject.c_str(), text.data(), static_cast<int>(bytes)),
+                NATS_OK);
+    }
+    ASSERT_EQ(natsConnection_FlushTimeout(m_p_connection, 60'000), NATS_OK);
   }
   bool makeResults() const {
     const char* subjects[] = {"naiad.results.>"};
@@ -223,6 +249,72 @@ TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
     ear->popMessages();
     ASSERT_TRUE(server.start()) << server.log();
   }
+}
+
+/// Returns the number of messages that were sent until the first was received: a client may be connected a
+/// moment before its subscription is active.
+std::uint64_t floodUntilReceived(const Listener& members, const Bus& bus) {
+  std::uint64_t sent = 0;
+  EXPECT_TRUE(test::waitUntil([&] {
+    members.flood("naiad.presence.first", 1, 1);
+    ++sent;
+    return bus.counters().received > 0;
+  }));
+  return sent;
+}
+
+/// Waits for messages until `bus` has had one of the subject.
+bool receives(Bus& bus, const std::string& subject) {
+  return test::waitUntil(
+      [&] { return std::ranges::count(bus.popMessages(), subject, &BusMessage::subject) > 0; });
+}
+
+TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
+  struct Flood {
+    int count;
+    std::size_t bytes;
+    bool is_too_long;
+  };
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const Listener members(server.url(), "none");
+  floodUntilReceived(members, *ear);
+  members.flood("naiad.presence.begin", 1, 1);
+  ASSERT_TRUE(receives(*ear, "naiad.presence.begin"));
+  for (const auto& [count, bytes, is_too_long] :
+       {Flood{20'000, 100, false}, Flood{20'000, kMaxBusPayload, false}, Flood{30, 1'000'000, true}}) {
+    const BusCounters before = ear->counters();
+    members.flood("naiad.presence.loud", count, bytes);
+    const std::string quiet = "naiad.presence.quiet" + std::to_string(bytes);
+    members.flood(quiet, 1, 1);
+    EXPECT_TRUE(receives(*ear, quiet)) << count << " of " << bytes;
+    const BusCounters after = ear->counters();
+    EXPECT_EQ(after.received - before.received, static_cast<std::uint64_t>(count) + 1);
+    EXPECT_EQ(after.ignored - before.ignored, is_too_long ? 30u : 0u);
+    EXPECT_EQ(after.lost, 0u);
+  }
+}
+
+TEST_F(NatsBusTest, LostMessagesAreCounted) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}}, 1);
+  const Listener members(server.url(), "none");
+  std::uint64_t sent = floodUntilReceived(members, *ear);
+  EXPECT_EQ(ear->popLogMessage(), "the bus is connected");
+  const std::uint64_t uncertain = sent;  // before the bus knew the subscription
+  EXPECT_TRUE(test::waitUntil([&] {
+    members.flood("naiad.presence.loud", 1000, 1);
+    sent += 1000;
+    return ear->counters().lost > 0;
+  }));
+  const auto counted = [&] { return ear->counters().received + ear->counters().lost; };
+  EXPECT_TRUE(test::waitUntil([&] { return counted() >= sent - uncertain + 1; }))
+      << counted() << " of " << sent;
+  EXPECT_LE(counted(), sent);
+  EXPECT_EQ(ear->popLogMessage(), "warning: messages of the bus were lost, because too many arrived");
+  EXPECT_TRUE(ear->isConnected());
 }
 
 TEST_F(NatsBusTest, ServerMayPublishOnlyItsOwnPresence) {
