@@ -1,9 +1,10 @@
 #include "shared/admin/TimeSpan.h"
 
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 
-#include "shared/net/base/SafeText.h"
+#include "shared/options/Duration.h"
 
 namespace naiad {
 
@@ -14,24 +15,13 @@ struct SpanUnit {
   std::int64_t seconds;
 };
 constexpr SpanUnit kSpanUnits[] = {{'d', 86'400}, {'h', 3600}, {'m', 60}, {'s', 1}};
-constexpr std::int64_t kWeek = std::int64_t{7} * 86'400;
-
-std::int64_t secondsOf(char letter) {
-  for (const SpanUnit& unit : kSpanUnits) {
-    if (unit.letter == letter) return unit.seconds;
-  }
-  return letter == 'w' ? kWeek : 0;
-}
 
 }  // namespace
 
 std::optional<std::chrono::seconds> readTimeSpan(std::string_view text) {
-  if (text.size() < 2) return std::nullopt;
-  const std::int64_t unit = secondsOf(text.back());
-  if (unit == 0) return std::nullopt;
-  text.remove_suffix(1);
-  const auto count = readNumber<std::int64_t>(text, 1, kMaxTimeSpan.count() / unit);
-  return count ? std::optional(std::chrono::seconds(*count * unit)) : std::nullopt;
+  const auto seconds = readDuration(text);
+  if (!seconds || *seconds < 1 || *seconds > static_cast<double>(kMaxTimeSpan.count())) return std::nullopt;
+  return std::chrono::seconds(std::llround(*seconds));
 }
 
 std::string timeSpanText(std::chrono::seconds span) {

@@ -1,4 +1,4 @@
-// Spans of time as people write them: 90s, 30m, 2h, 7d.
+// Spans of time and points in time as admins write and read them.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,8 @@ namespace naiad {
 /// The longest accepted span: ten years.
 inline constexpr std::chrono::seconds kMaxTimeSpan{std::chrono::hours(24 * 3653)};
 
-/// Parses a whole number >= 1 and a unit: s, m, h, d or w. Returns nullopt if invalid or above kMaxTimeSpan.
+/// Parses a duration (shared/options/Duration.h), rounded to seconds. Returns nullopt if it is invalid, less
+/// than a second, or above kMaxTimeSpan.
 std::optional<std::chrono::seconds> readTimeSpan(std::string_view text);
 
 /// Returns "90s", "30m", "2h" or "7d": the span in the largest unit that divides it. Returns "0s" for less
