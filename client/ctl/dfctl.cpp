@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/ctl/ControlClient.h"
+#include "shared/admin/ControlClient.h"
 #include "client/ctl/CtlCommandLine.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"

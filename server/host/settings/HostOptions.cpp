@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/settings/DefaultFolders.h"
+#include "host/settings/DeploymentCheck.h"
 #include "host/settings/HostOptionsCheck.h"
 #include "host/settings/RoomOptions.h"
 #include "shared/options/OptionPages.h"
@@ -166,7 +167,7 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--log-format", &o.log_format,
           "Format of log lines: text = sentences; json = one object per line, with named fields",
           OneOf{"text", "json"}, UsedBy::kServer),
-      row("--log-level", &o.log_level, "Least severe level to log", OneOf{"error", "warning", "info"},
+      row("--log-level", &o.log_level, "Least severe level to log", OneOf{"error", "warning", "info", "debug"},
           UsedBy::kServer),
       row("--log-chat", &o.log_chat, "Also log the players' chat"),
       row("--control", &o.control,
@@ -329,7 +330,8 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
   }
   all.push_back({"--list-games", &printing.games, "Print the names of the available games, and exit"});
   all.push_back({"--check-config", &printing.check,
-                 "Check options, environment and the --config file, print problems, and exit (0 or 2)"});
+                 "Check options, environment and --config file, and that what they name exists and can be used; print "
+                 "problems, and exit (0 or 2)"});
   all.push_back(
       {"--print-config", &printing.config, "Print the resulting settings as a --config file, and exit"});
   all.push_back({"--markdown", &printing.markdown, "Print the options as a Markdown table, and exit"});
@@ -338,12 +340,12 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
 }
 
 CommandLine printConfig(const Printing& printing, const std::vector<Option>& all,
-                        const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::cerr << "dfserver: warning: " << warning << "\n";
+                        const HostOptions& options) {
+  for (const std::string& warning : options.warnings) std::cerr << "dfserver: warning: " << warning << "\n";
   for (const Option& option : all) {
     if (printing.config && isSetting(option)) std::cout << configLine(option) << "\n";
   }
-  return CommandLine::kDone;
+  return printing.check && reportDeploymentProblems(options) ? CommandLine::kUsageError : CommandLine::kDone;
 }
 
 }  // namespace
@@ -400,7 +402,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   if (!places.password.empty()) warnIfReadable(fileAt(places.password), options);
   if (!places.admin_password.empty())
     warnOfReadersOf(fileAt(places.admin_password), options.admin_password, options);
-  if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
+  if (printing.config || printing.check) return printConfig(printing, all, options);
   if (printing.markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;

@@ -13,7 +13,7 @@
 #include <thread>
 #include <variant>
 
-#include "client/ctl/ControlClient.h"
+#include "shared/admin/ControlClient.h"
 #include "shared/admin/AdminRequest.h"
 
 namespace bench {
