@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/options/Options.h"
 
 namespace naiad {
@@ -23,11 +23,12 @@ std::string undashed(const std::string& word) {
   return word.starts_with("--") ? word.substr(2) : word;
 }
 
-/// True if the word is a valid value for this optional argument. A span without a unit is none if a text may
-/// follow: "ban ann 2 many insults" bans forever.
+/// True if the word is a valid value for this optional argument. A number before a text is a part of the text:
+/// "ban ann 2 many insults" is no ban of two seconds.
 bool fits(const AdminCommand& command, const AdminArgument& argument, const std::string& word) {
-  if (argument.kind == Kind::kSpan)
-    return readTimeSpan(word) && (command.arguments.back().kind != Kind::kText || isDurationWithUnit(word));
+  const bool is_text = command.arguments.back().kind == Kind::kText &&
+                       word.find_first_not_of("0123456789.") == std::string::npos;
+  if (argument.kind == Kind::kSpan) return !is_text && readTimeSpan(word);
   if (argument.kind == Kind::kChoice) return isOneOf(argument, undashed(word));
   return true;
 }

@@ -2,15 +2,17 @@
 
 #include <charconv>
 #include <cmath>
+#include <ctime>
+#include <span>
 #include <utility>
 
 namespace naiad {
 
 namespace {
 
-constexpr std::pair<std::string_view, std::int64_t> kUnits[] = {
-    {"us", kMicrosecond},  {"ms", kMillisecond},    {"s", kSecond},           {"m", 60 * kSecond},
-    {"h", 3600 * kSecond}, {"d", 86'400 * kSecond}, {"w", 7 * 86'400 * kSecond}};
+constexpr std::pair<const char*, std::int64_t> kUnits[] = {
+    {"d", 86'400 * kSecond},     {"h", 3600 * kSecond}, {"m", 60 * kSecond}, {"s", kSecond},
+    {"w", 7 * 86'400 * kSecond}, {"ms", kMillisecond},  {"us", kMicrosecond}};
 
 }  // namespace
 
@@ -18,17 +20,36 @@ std::optional<double> readDuration(std::string_view text, std::int64_t unit) {
   double count = 0;
   const char* const p_end = text.data() + text.size();
   const auto [p_read, error] = std::from_chars(text.data(), p_end, count);
-  const std::string_view rest(p_read, static_cast<std::size_t>(p_end - p_read));
   if (error != std::errc() || !std::isfinite(count)) return std::nullopt;
-  if (rest.empty()) return count;
+  if (p_read == p_end) return count;
   for (const auto& [name, micros] : kUnits) {
-    if (rest == name) return count * static_cast<double>(micros) / static_cast<double>(unit);
+    if (std::string_view(p_read, p_end) == name)
+      return count * static_cast<double>(micros) / static_cast<double>(unit);
   }
   return std::nullopt;
 }
 
-bool isDurationWithUnit(std::string_view text) {
-  return readDuration(text) && text.find_first_not_of("-.0123456789e") != std::string_view::npos;
+std::optional<std::chrono::seconds> readTimeSpan(std::string_view text) {
+  const auto seconds = readDuration(text);
+  if (!seconds || *seconds < 1 || *seconds > static_cast<double>(kMaxTimeSpan.count())) return std::nullopt;
+  return std::chrono::seconds(std::llround(*seconds));
+}
+
+std::string timeSpanText(std::chrono::seconds span) {
+  const std::int64_t count = span.count() > 0 ? span.count() : 0;
+  for (const auto& [name, micros] : std::span(kUnits).first(4)) {
+    const std::int64_t seconds = micros / kSecond;
+    if (count != 0 && count % seconds == 0) return std::to_string(count / seconds) + name;
+  }
+  return "0s";
+}
+
+std::string timeText(std::chrono::system_clock::time_point time) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+  std::tm parts{};
+  char text[32] = "";
+  if (gmtime_r(&seconds, &parts) != nullptr) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return text;
 }
 
 }  // namespace naiad

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/session/NameSanitizer.h"
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/net/base/AddressPrefix.h"
 
 namespace naiad {

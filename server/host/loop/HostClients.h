@@ -19,7 +19,7 @@
 #include "host/rooms/SessionTable.h"
 #include "host/session/Counters.h"
 #include "host/session/Session.h"
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/fleet/ServerInfo.h"
 #include "shared/net/base/PrefixRateLimiter.h"
 

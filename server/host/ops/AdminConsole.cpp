@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
 #include "shared/program/LogText.h"

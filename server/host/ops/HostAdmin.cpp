@@ -10,7 +10,7 @@
 #include "host/rooms/SessionTable.h"
 #include "host/settings/RoomOptions.h"
 #include "naiad.pb.h"
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"

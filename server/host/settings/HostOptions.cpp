@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "host/settings/DefaultFolders.h"
-#include "host/settings/DeploymentCheck.h"
 #include "host/settings/HostOptionsCheck.h"
 #include "host/settings/RoomOptions.h"
 #include "shared/options/OptionPages.h"
