@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "shared/admin/ControlClient.h"
 #include "client/ctl/CtlCommandLine.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"
+#include "shared/admin/ControlClient.h"
 #include "shared/program/LogText.h"
 #include "shared/values/Version.h"
 

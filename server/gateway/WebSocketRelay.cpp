@@ -189,7 +189,8 @@ void WebSocketRelay::onLinkAttemptEnd(UpstreamLink::End end, const std::string& 
   if (end == UpstreamLink::End::kUnreachable) return closeWithoutServer();
   if (end == UpstreamLink::End::kDropped)
     return closeWithoutServer(
-        "The game's server closed the connection: your address may be banned, or no Naiad server runs there.");
+        "The game's server closed the connection: your address may be banned, or no Naiad server runs "
+        "there.");
   ++m_gateway.counters.wrong_keys;
   close(GatewayCloseCode::kWrongKey, "Wrong server key: this page belongs to another server.");
 }

@@ -23,8 +23,8 @@ std::string undashed(const std::string& word) {
   return word.starts_with("--") ? word.substr(2) : word;
 }
 
-/// True if the word is a valid value for this optional argument. A number before a text is a part of the text:
-/// "ban ann 2 many insults" is no ban of two seconds.
+/// True if the word is a valid value for this optional argument. A number before a text is a part of the
+/// text: "ban ann 2 many insults" bans forever.
 bool fits(const AdminCommand& command, const AdminArgument& argument, const std::string& word) {
   const bool is_text = command.arguments.back().kind == Kind::kText &&
                        word.find_first_not_of("0123456789.") == std::string::npos;

@@ -29,7 +29,7 @@ struct AdminRequest {
   std::string redacted() const;
 };
 
-/// Like findAdminCommand(), but throws AdminUsageError, which suggests a similar name, if there is none.
+/// Like findAdminCommand(), but for an unknown name throws AdminUsageError, which suggests a similar one.
 const AdminCommand& requireAdminCommand(const std::string& name);
 
 /// Parses a command's words, name first. Throws AdminUsageError.

@@ -47,7 +47,7 @@ using OptionTarget = std::variant<bool*, int*, std::int64_t*, double*, std::stri
 struct OptionRange {
   double min = 0;
   double max = 0;
-  std::int64_t unit = 0;  ///< of a duration: unit of the number, in microseconds (Duration.h); 0: no duration
+  std::int64_t unit = 0;  ///< unit of a duration without one, in microseconds; 0: not a duration
 };
 
 struct Option {

@@ -403,7 +403,8 @@ TEST(ServerStart, PrintsTheLinesForPlayersFirst) {
 
 TEST(ServerStart, SecondOneSaysHowToJoinTheFirst) {
   const TempFolder home;
-  GameProgram first("dfserver", {{"NAIAD_GAME", "hello"}, {"NAIAD_CONTROL", ""}, {"XDG_RUNTIME_DIR", home.string()}});
+  GameProgram first("dfserver",
+                    {{"NAIAD_GAME", "hello"}, {"NAIAD_CONTROL", ""}, {"XDG_RUNTIME_DIR", home.string()}});
   const std::string port = std::to_string(first.port());
   const auto [code, output] = runServer(home, "--port " + port);
   EXPECT_EQ(code, 4);

@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
-#include "shared/options/Duration.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
+#include "shared/options/Duration.h"
 #include "shared/program/LogText.h"
 
 namespace naiad {

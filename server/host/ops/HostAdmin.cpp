@@ -10,9 +10,9 @@
 #include "host/rooms/SessionTable.h"
 #include "host/settings/RoomOptions.h"
 #include "naiad.pb.h"
-#include "shared/options/Duration.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/options/Duration.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
@@ -302,9 +302,9 @@ AdminAnswer HostAdmin::set(const std::string& option, const std::optional<std::s
   });
   if (found == names.end()) {
     const std::string near = nearestName(option, names);
-    return AdminAnswer::refused("\"" + option + "\" cannot be changed while the server runs; " +
-                                (near.empty() ? "\"set\" lists the options that can."
-                                              : "did you mean \"" + near + "\"?"));
+    return AdminAnswer::refused(
+        "\"" + option + "\" cannot be changed while the server runs; " +
+        (near.empty() ? "\"set\" lists the options that can." : "did you mean \"" + near + "\"?"));
   }
   if (!value) return {true, "", {}, {{*found, hostOptionValue(m_access.context.options, *found)}}, false, {}};
   HostOptions changed = m_access.context.options;

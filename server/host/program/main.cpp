@@ -100,7 +100,8 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
     df::World::current().extras().resources.addFolder(folder);
   const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  if (!where.empty()) log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + where);
+  if (!where.empty())
+    log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + where);
   log("seed " + std::to_string(options.seed));
   return play(game);
 }

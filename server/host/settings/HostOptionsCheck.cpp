@@ -85,7 +85,8 @@ std::string announcementComplaint(const HostOptions& options) {
 
 namespace fs = std::filesystem;
 
-/// The use of a path: a file that is read, appended to, or replaced; a socket; a folder, which may be missing.
+/// The use of a path: a file that is read, appended to, or replaced; a socket; a folder, which may be
+/// missing.
 enum class PathUse { kRead, kAppend, kReplace, kSocket, kFolder };
 
 void requirePath(const fs::path& path, PathUse use) {
@@ -167,8 +168,8 @@ int reportDeploymentProblems(const HostOptions& options) {
                {"--control", control_folder.string(), PathUse::kFolder, 4}};
   for (const auto& one : paths) {
     if (one.path.empty()) continue;
-    check(one.exit_code, std::string(one.p_option) + " cannot be used: ",
-          [&one] { requirePath(one.path, one.use); });
+    check(one.exit_code,
+          std::string(one.p_option) + " cannot be used: ", [&one] { requirePath(one.path, one.use); });
   }
   return result;
 }

@@ -13,8 +13,8 @@
 #include <thread>
 #include <variant>
 
-#include "shared/admin/ControlClient.h"
 #include "shared/admin/AdminRequest.h"
+#include "shared/admin/ControlClient.h"
 
 namespace bench {
 namespace {

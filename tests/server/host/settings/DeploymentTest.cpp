@@ -1,4 +1,4 @@
-// What dfserver's options name outside of them: --check-config and the start refuse what cannot be used.
+// Options of dfserver that name something outside: --check-config and the start refuse what cannot be used.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -47,16 +47,24 @@ class DeploymentTest : public testing::Test {
 TEST_F(DeploymentTest, EveryOptionThatNamesSomethingOutsideIsChecked) {
   const std::string none = "/nonexistent/x";
   const std::string below_a_file = (folder / "file" / "x").string();
-  std::map<std::string, std::vector<std::string>> bad{
-      {"game", {"nosuchgame", none}},       {"address", {"localhost", "300.1.1.1", "1.2.3"}},
-      {"key", {none}},                      {"certificate", {none, folder.string()}},
-      {"identity", {below_a_file}},         {"state", {below_a_file}},
-      {"journal", {below_a_file}},          {"log-file", {none, folder.string(), below_a_file}},
-      {"port-file", {none, folder.string()}}, {"join-file", {none, folder.string()}},
-      {"status-file", {none, folder.string()}}, {"truth-file", {none, folder.string()}},
-      {"proxy-socket", {none, below_a_file}}, {"control", {below_a_file}},
-      {"bus-credentials", {none}},          {"bus-ca", {none}},
-      {"password", {"$argon2id$broken"}},   {"admin-password", {"$argon2id$broken"}}};
+  std::map<std::string, std::vector<std::string>> bad{{"game", {"nosuchgame", none}},
+                                                      {"address", {"localhost", "300.1.1.1", "1.2.3"}},
+                                                      {"key", {none}},
+                                                      {"certificate", {none, folder.string()}},
+                                                      {"identity", {below_a_file}},
+                                                      {"state", {below_a_file}},
+                                                      {"journal", {below_a_file}},
+                                                      {"log-file", {none, folder.string(), below_a_file}},
+                                                      {"port-file", {none, folder.string()}},
+                                                      {"join-file", {none, folder.string()}},
+                                                      {"status-file", {none, folder.string()}},
+                                                      {"truth-file", {none, folder.string()}},
+                                                      {"proxy-socket", {none, below_a_file}},
+                                                      {"control", {below_a_file}},
+                                                      {"bus-credentials", {none}},
+                                                      {"bus-ca", {none}},
+                                                      {"password", {"$argon2id$broken"}},
+                                                      {"admin-password", {"$argon2id$broken"}}};
   ASSERT_EQ(check(options()), 0) << printed;
   for (const auto& [name, values] : bad) {
     for (const std::string& value : values) {
@@ -64,23 +72,47 @@ TEST_F(DeploymentTest, EveryOptionThatNamesSomethingOutsideIsChecked) {
       setHostOption(changed, name, value);
       if (name == "key") changed.certificate = (folder / "file").string();
       if (name == "certificate") changed.key = (folder / "file").string();
-      const int expected = name == "game" ? 3 : name == "address" || name == "proxy-socket" || name == "control" ? 4 : 5;
+      const int expected = name == "game"                                                     ? 3
+                           : name == "address" || name == "proxy-socket" || name == "control" ? 4
+                                                                                              : 5;
       EXPECT_EQ(check(changed), expected) << name << " = " << value << ": " << printed;
       EXPECT_TRUE(printed.starts_with("dfserver: ")) << printed;
     }
   }
   // Options without an existing thing behind them, and those checked when they are parsed.
-  for (const char* name : {"room", "public-host", "ssh-door", "web-address", "metrics", "max-per-address",
-                           "world-environment", "bus", "sandbox", "recover", "in-process", "tick-timeout",
-                           "world-memory", "max-players", "metrics-hosts", "metrics-public", "on-game-over",
-                           "lan", "qr", "vote-kick", "room-sleep", "bus-id", "platform", "log-format"})
+  for (const char* name : {"room",
+                           "public-host",
+                           "ssh-door",
+                           "web-address",
+                           "metrics",
+                           "max-per-address",
+                           "world-environment",
+                           "bus",
+                           "sandbox",
+                           "recover",
+                           "in-process",
+                           "tick-timeout",
+                           "world-memory",
+                           "max-players",
+                           "metrics-hosts",
+                           "metrics-public",
+                           "on-game-over",
+                           "lan",
+                           "qr",
+                           "vote-kick",
+                           "room-sleep",
+                           "bus-id",
+                           "platform",
+                           "log-format"})
     bad[name];
   const std::regex row(R"(\| `--([a-z-]+)` \| `\w+` \| [^|]* \| (.*) \|)");
-  const std::regex outside("[Ff]ile|[Ff]older|[Dd]irectory|[Ss]ocket|[Pp]ath|[Aa]ddress|Game to|key \\(PEM|Certificate|hash");
+  const std::regex outside(
+      "[Ff]ile|[Ff]older|[Dd]irectory|[Ss]ocket|[Pp]ath|[Aa]ddress|Game to|key \\(PEM|Certificate|hash");
   const std::string page = hostOptionsMarkdown();
   for (std::sregex_iterator found(page.begin(), page.end(), row); found != std::sregex_iterator(); ++found) {
     const std::string help = (*found)[2];
-    if (std::regex_search(help, outside)) EXPECT_TRUE(bad.contains((*found)[1])) << (*found)[1] << ": " << help;
+    if (std::regex_search(help, outside))
+      EXPECT_TRUE(bad.contains((*found)[1])) << (*found)[1] << ": " << help;
   }
 }
 
