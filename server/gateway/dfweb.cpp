@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "server/gateway/Gateway.h"
 #include "server/gateway/PageFiles.h"
@@ -73,47 +74,46 @@ fs::path ownPage() {
 
 std::vector<naiad::Option> optionsOf(WebOptions& web) {
   naiad::GatewaySettings& settings = web.settings;
-  return {
-      naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
-                           return storeLink(text, settings);
-                         }),
-                         "Link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
-      naiad::typedOption("--proxy-socket", "SOCKET", &settings.visitors,
-                         "Visitors' socket of that server: the value of its --proxy-socket"),
-      {.name = "--listen",
-       .target =
-           naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
-       .help = "Address where browsers connect; port 0: any free port",
-       .type = "ADDRESS:PORT",
-       .default_text = web.listen},
-      naiad::typedOption("--certificate", "FILE", &settings.certificate,
-                         "Certificate for HTTPS with its chain, in PEM form"),
-      naiad::typedOption("--key", "FILE", &settings.key, "Private key of --certificate (PEM)"),
-      {.name = "--origin",
-       .target =
-           naiad::StoreText([&settings](const std::string& text) { return storeOrigins(text, settings); }),
-       .help = "Additional address by which players reach dfweb, like https://play.example; may be repeated",
-       .type = "URL",
-       .joins = true},
-      naiad::typedOption("--page", "DIR", &settings.page,
-                         "Folder with the page's files (default: the one installed with this program)"),
-      {.name = "--name",
-       .target = &settings.name,
-       .help = "Name of the server on the page (default: its host)"},
-      {.name = "--max-visitors",
-       .target = &web.max_visitors,
-       .help = "Maximum number of players at a time, each with up to two WebSockets",
-       .range = naiad::OptionRange{1, 20'000},
-       .shows_default = true},
-      {.name = "--max-per-address",
-       .target = &web.max_per_address,
-       .help = "Maximum number of players from one IPv4 address or IPv6 network (/64)",
-       .range = naiad::OptionRange{1, 20'000},
-       .shows_default = true},
-      naiad::typedOption("--port-file", "FILE", &web.port_file,
-                         "Write the port number to this file once listening"),
-      naiad::typedOption("--log-file", "FILE", &web.log_file,
-                         "Append log lines to this file instead of stderr")};
+  naiad::Option origins = naiad::typedOption(
+      "--origin", "URL",
+      naiad::StoreText([&settings](const std::string& text) { return storeOrigins(text, settings); }),
+      "Additional address by which players reach dfweb, like https://play.example; may be repeated");
+  origins.joins = true;
+  return {naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
+                               return storeLink(text, settings);
+                             }),
+                             "Link to the server, as dfserver prints it: naiad://HOST[:PORT]#KEY"),
+          naiad::typedOption("--proxy-socket", "SOCKET", &settings.visitors,
+                             "Visitors' socket of that server: the value of its --proxy-socket"),
+          {.name = "--listen",
+           .target =
+               naiad::StoreText([&settings](const std::string& text) { return storeListen(text, settings); }),
+           .help = "Address where browsers connect; port 0: any free port",
+           .type = "ADDRESS:PORT",
+           .default_text = web.listen},
+          naiad::typedOption("--certificate", "FILE", &settings.certificate,
+                             "Certificate for HTTPS with its chain, in PEM form"),
+          naiad::typedOption("--key", "FILE", &settings.key, "Private key of --certificate (PEM)"),
+          std::move(origins),
+          naiad::typedOption("--page", "DIR", &settings.page,
+                             "Folder with the page's files (default: the one installed with this program)"),
+          {.name = "--name",
+           .target = &settings.name,
+           .help = "Name of the server on the page (default: its host)"},
+          {.name = "--max-visitors",
+           .target = &web.max_visitors,
+           .help = "Maximum number of players at a time, each with up to two WebSockets",
+           .range = naiad::OptionRange{1, 20'000},
+           .shows_default = true},
+          {.name = "--max-per-address",
+           .target = &web.max_per_address,
+           .help = "Maximum number of players from one IPv4 address or IPv6 network (/64)",
+           .range = naiad::OptionRange{1, 20'000},
+           .shows_default = true},
+          naiad::typedOption("--port-file", "FILE", &web.port_file,
+                             "Write the port number to this file once listening"),
+          naiad::typedOption("--log-file", "FILE", &web.log_file,
+                             "Append log lines to this file instead of stderr")};
 }
 
 /// Returns a message about missing or conflicting options; empty if they are valid.
