@@ -128,7 +128,7 @@ void requireIdentity(const HostOptions& options) {
 // A password itself is not checked, because hashing it takes long.
 void requireHashes(const HostOptions& options) {
   for (const std::string& password : {options.password, options.admin_password}) {
-    if (password.starts_with('$')) PasswordHash::fromText(password);
+    if (password.starts_with("$argon2")) PasswordHash::fromText(password);
   }
 }
 
