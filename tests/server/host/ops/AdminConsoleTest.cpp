@@ -372,6 +372,7 @@ TEST_F(AdminConsoleTest, UnknownOptionSuggestsASimilarOne) {
 }
 
 TEST_F(AdminConsoleTest, StatusHasTheCommandToJoin) {
+  open();
   const std::string link = give({"link"}).text;
   EXPECT_EQ(link, "dfclient " + endpoint.joinArguments());
   const AdminRow status = give({"status"}).facts;
