@@ -303,7 +303,7 @@ std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& serve
       {.name = "--seconds",
        .target = &bot.seconds,
        .help = "Seconds to play after all players have joined (default 5)",
-       .range = naiad::OptionRange{0, 86400.0 * 365}},
+       .range = naiad::OptionRange{0, 86400.0 * 365, naiad::kSecond}},
       {.name = "--ticks",
        .target = &bot.ticks,
        .help = "Instead of --seconds: number of server ticks to play",

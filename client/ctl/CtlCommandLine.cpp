@@ -67,7 +67,9 @@ std::string bash() {
       "    '') words='--control --json --help --version " +
       names() +
       "' ;;\n"
-      "    completion) words='bash zsh fish' ;;\n";
+      "    completion) words='bash zsh fish' ;;\n"
+      "    help) words='" +
+      names() + "' ;;\n";
   for (const AdminCommand& command : adminCommands()) {
     if (isOfCtl(command) && !choices(command).empty())
       text += "    " + command.name + ") words='" + choices(command) + "' ;;\n";
@@ -202,8 +204,8 @@ std::string ctlHelp() {
   for (const std::string& one : adminHelp(AdminCommand::Level::kAdmin, AdminCommand::Frontend::kSocket))
     text += "  " + one + "\n";
   return text +
-         "\nPLAYER is a name, the beginning of a name, or #ID as listed by who. SPAN is like 90s, 30m, 2h or "
-         "7d.\n\n"
+         "\nPLAYER is a name, the beginning of a name, or #ID as listed by who. SPAN is like 90 (seconds), "
+         "30m, 2h or 7d;\nbefore a REASON it needs its unit.\n\n"
          "Exit codes:\n"
          "  0  done\n"
          "  1  the server refused the command\n"

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "client/ctl/ControlClient.h"
 #include "client/ctl/CtlCommandLine.h"
 #include "client/terminal/HiddenLine.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminJson.h"
+#include "shared/admin/ControlClient.h"
 #include "shared/program/LogText.h"
 #include "shared/values/Version.h"
 
@@ -56,12 +56,23 @@ std::string findControl(const std::string& given) {
   throw naiad::AdminUsageError(sentence);
 }
 
+int printHelp(const std::string& command) {
+  if (command.empty()) {
+    std::cout << naiad::ctlHelp();
+    return kDone;
+  }
+  for (const std::string& line : naiad::adminHelp(naiad::requireAdminCommand(command)))
+    std::cout << line << "\n";
+  return kDone;
+}
+
 int give(const naiad::CtlCommandLine& line) {
   std::vector<std::string> words = line.words;
   if (words == std::vector<std::string>{"password"}) words.push_back(readSecret());
   const naiad::AdminRequest request = naiad::readAdminRequest(words);
   if (!request.command->isFor(naiad::AdminCommand::Level::kAdmin, naiad::AdminCommand::Frontend::kSocket))
     throw naiad::AdminUsageError("\"" + request.command->name + "\" is only available in the chat.");
+  if (request.command->name == "help") return printHelp(request.of("command"));
   naiad::ControlClient client(findControl(line.control));
   const naiad::AdminAnswer answer = client.sendRequest(request);
   if (request.command->name == "watch" && answer.ok) {
@@ -86,10 +97,10 @@ int printPage(const std::optional<std::string>& page) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   const auto is = [&words](const std::string& word) { return !words.empty() && words.front() == word; };
-  if (is("--help") || is("-h") || is("help")) std::cout << naiad::ctlHelp();
+  if (is("--help") || is("-h")) std::cout << naiad::ctlHelp();
   if (is("--version")) std::cout << "dfctl " << naiad::kVersion << "\n";
   if (is("--markdown")) std::cout << naiad::adminMarkdown();
-  if (is("--help") || is("-h") || is("help") || is("--version") || is("--markdown")) return kDone;
+  if (is("--help") || is("-h") || is("--version") || is("--markdown")) return kDone;
   if (is("--option-page") && words.size() == 2) return printPage(naiad::ctlPage(words[1]));
   try {
     const naiad::CtlCommandLine line = naiad::readCtlCommandLine(words);

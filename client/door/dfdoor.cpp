@@ -369,7 +369,7 @@ std::vector<naiad::Option> optionsOf(DoorOptions& door) {
       {.name = "--idle-limit",
        .target = &door.idle_limit,
        .help = "Seconds without a key or mouse movement after which a visitor is disconnected; 0: never",
-       .range = naiad::OptionRange{0, 86'400},
+       .range = naiad::OptionRange{0, 86'400, naiad::kSecond},
        .shows_default = true}};
   return options;
 }

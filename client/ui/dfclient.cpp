@@ -257,7 +257,7 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .target = &line.idle_limit,
        .help = "Leave after this many seconds without key or mouse input; 0: never",
        .environment = "NAIAD_IDLE_LIMIT",
-       .range = naiad::OptionRange{0, 86'400}},
+       .range = naiad::OptionRange{0, 86'400, naiad::kSecond}},
       {.name = "--attached",
        .target = &line.attached,
        .help = "Exit when the game that started this client exits",

@@ -77,8 +77,8 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        .target = &line.interval_ms,
        .help = "Heartbeat interval, ms; must equal the servers'",
        .environment = "NAIAD_BUS_INTERVAL",
-       .range =
-           naiad::OptionRange{naiad::Presence::kMinInterval.count(), naiad::Presence::kMaxInterval.count()},
+       .range = naiad::OptionRange{naiad::Presence::kMinInterval.count(),
+                                   naiad::Presence::kMaxInterval.count(), naiad::kMillisecond},
        .shows_default = true},
       naiad::typedOption("--list", "FILE", &settings.list,
                          "Write the list of servers to this file, for a web server and dfclient --list-url"),

@@ -63,6 +63,8 @@ void UpstreamLink::onConnected(error_code error) {
 
 void UpstreamLink::onHandshake(error_code error) {
   if (error && m_stream->hasEnded() && connectAgain()) return;
+  if (error && m_stream->hasEnded())
+    return finish(End::kDropped, "the address may be banned, or it is not a Naiad server");
   if (error) return finish(End::kUnreachable, "the TLS handshake failed, or it is not a Naiad server");
   const auto key = m_stream->provenKey(kAlpn);
   if (!key) return finish(End::kUnreachable, "it does not speak " + std::string(kAlpn));

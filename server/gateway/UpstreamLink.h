@@ -29,7 +29,12 @@ struct GameServer {
 /// Use on the thread that runs the io_context.
 class UpstreamLink : public std::enable_shared_from_this<UpstreamLink> {
  public:
-  enum class End { kOpen, kUnreachable, kWrongKey };
+  enum class End {
+    kOpen,
+    kUnreachable,
+    kDropped,  ///< the server closed the connection before it proved its key
+    kWrongKey
+  };
   /// Called once from the event loop, unless close() is called first. `problem`: reason of a failure, for the
   /// log.
   using Done = std::function<void(End end, const std::string& problem)>;

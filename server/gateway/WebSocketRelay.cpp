@@ -187,6 +187,10 @@ void WebSocketRelay::onLinkAttemptEnd(UpstreamLink::End end, const std::string& 
   }
   m_gateway.log.logClientEvent(m_visitor.name, "cannot join: " + problem, std::chrono::steady_clock::now());
   if (end == UpstreamLink::End::kUnreachable) return closeWithoutServer();
+  if (end == UpstreamLink::End::kDropped)
+    return closeWithoutServer(
+        "The game's server closed the connection: your address may be banned, or no Naiad server runs "
+        "there.");
   ++m_gateway.counters.wrong_keys;
   close(GatewayCloseCode::kWrongKey, "Wrong server key: this page belongs to another server.");
 }
@@ -295,9 +299,9 @@ void WebSocketRelay::onDeadline() {
   }
 }
 
-void WebSocketRelay::closeWithoutServer() {
+void WebSocketRelay::closeWithoutServer(std::string_view reason) {
   ++m_gateway.counters.unreachable;
-  close(GatewayCloseCode::kUnreachable, "The game's server cannot be reached.");
+  close(GatewayCloseCode::kUnreachable, reason);
 }
 
 void WebSocketRelay::shutDown() {

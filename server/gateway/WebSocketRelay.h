@@ -71,7 +71,7 @@ class WebSocketRelay : public GatewayConnection {
 
   void close(GatewayCloseCode code, std::string_view reason);
   void sendClose();
-  void closeWithoutServer();
+  void closeWithoutServer(std::string_view reason = "The game's server cannot be reached.");
   bool isOver() const { return m_phase == Phase::kOver; }
 
   static constexpr std::size_t kReadSize = 4096;

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "server/gateway/Gateway.h"
 #include "server/gateway/PageFiles.h"
@@ -44,10 +46,14 @@ std::string storeListen(const std::string& text, naiad::GatewaySettings& setting
              : "expected ADDRESS:PORT, like 127.0.0.1:8080 or [::]:443";
 }
 
-std::string storeOrigin(const std::string& text, naiad::GatewaySettings& settings) {
-  const auto origin = naiad::WebOrigin::parse(text);
-  if (!origin) return "expected https://NAME[:PORT], without a path";
-  settings.origins.push_back(*origin);
+/// `text`: origins, separated by blanks.
+std::string storeOrigins(const std::string& text, naiad::GatewaySettings& settings) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const auto origin = naiad::WebOrigin::parse(word);
+    if (!origin) return "expected https://NAME[:PORT], without a path";
+    settings.origins.push_back(*origin);
+  }
   return "";
 }
 
@@ -68,6 +74,11 @@ fs::path ownPage() {
 
 std::vector<naiad::Option> optionsOf(WebOptions& web) {
   naiad::GatewaySettings& settings = web.settings;
+  naiad::Option origins = naiad::typedOption(
+      "--origin", "URL",
+      naiad::StoreText([&settings](const std::string& text) { return storeOrigins(text, settings); }),
+      "Additional address by which players reach dfweb, like https://play.example; may be repeated");
+  origins.joins = true;
   return {naiad::typedOption("link", "LINK", naiad::StoreText([&settings](const std::string& text) {
                                return storeLink(text, settings);
                              }),
@@ -83,10 +94,7 @@ std::vector<naiad::Option> optionsOf(WebOptions& web) {
           naiad::typedOption("--certificate", "FILE", &settings.certificate,
                              "Certificate for HTTPS with its chain, in PEM form"),
           naiad::typedOption("--key", "FILE", &settings.key, "Private key of --certificate (PEM)"),
-          naiad::typedOption(
-              "--origin", "URL",
-              naiad::StoreText([&settings](const std::string& text) { return storeOrigin(text, settings); }),
-              "Additional address by which players reach dfweb, like https://play.example; may be repeated"),
+          std::move(origins),
           naiad::typedOption("--page", "DIR", &settings.page,
                              "Folder with the page's files (default: the one installed with this program)"),
           {.name = "--name",

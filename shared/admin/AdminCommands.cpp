@@ -32,7 +32,7 @@ AdminCommand ofAdmins(std::string name, Frontend place, std::string help, Argume
 
 std::vector<AdminCommand> tableOfCommands() {
   return {
-      ofPlayers("help", Frontend::kChat, "List the commands that you may give, or say how to use one",
+      ofPlayers("help", Frontend::kBoth, "List the commands that you may give, or say how to use one",
                 {{"command", Kind::kWord, false, "Name of a command"}}),
       ofPlayers("commands", Frontend::kChat, "Like help"),
       ofPlayers("who", Frontend::kBoth, "List the players", {}, kOnlyReads),
@@ -45,17 +45,18 @@ std::vector<AdminCommand> tableOfCommands() {
       ofPlayers("admin", Frontend::kChat, "Get an admin's rights until your connection ends",
                 {{"password", Kind::kSecret, true, "The server's --admin-password"}}),
       ofAdmins("status", Frontend::kBoth, "Show the server's status", {}, kOnlyReads),
+      ofAdmins("link", Frontend::kBoth, "Show the command with which players join", {}, kOnlyReads),
       ofAdmins("say", Frontend::kBoth, "Send a line to all players",
                {{"text", Kind::kText, true, "The line"}}),
       ofAdmins("kick", Frontend::kBoth, "End a player's session; they may join again", {kOnePlayer, kReason}),
       ofAdmins("ban", Frontend::kBoth,
                "Ban a player (name and address), a name, an address or a range of addresses",
                {{"who", Kind::kTarget, true, "Player, name:NAME, address or ADDRESS/BITS"},
-                {"for", Kind::kSpan, false, "Duration, like 30m, 2h or 7d; default: forever"},
+                {"for", Kind::kSpan, false, "Duration with its unit, like 30m, 2h or 7d; default: forever"},
                 kReason}),
       ofAdmins("allow", Frontend::kBoth, "Make an exception: bans do not apply to these addresses",
                {{"who", Kind::kTarget, true, "Address or ADDRESS/BITS"},
-                {"for", Kind::kSpan, false, "Duration; default: forever"},
+                {"for", Kind::kSpan, false, "Duration with its unit; default: forever"},
                 kReason}),
       ofAdmins(
           "unban", Frontend::kBoth, "Lift a ban or an exception",

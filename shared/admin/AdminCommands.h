@@ -13,7 +13,8 @@ struct AdminArgument {
     kWord,    ///< any word
     kPlayer,  ///< a player: #ID, a name, or the beginning of a name
     kTarget,  ///< the target of a ban: a player, a name, an address or an address range
-    kSpan,    ///< a time span: 90s, 30m, 2h, 7d; if optional, skipped if the word is not a span
+    kSpan,    ///< a time span: 90, 30m, 2h, 7d; if optional, skipped if the word is not a span, or has
+              ///< no unit and a text may follow
     kChoice,  ///< one of the words `one_of`, also after "--"; if optional, skipped if the word is another
     kSecret,  ///< a password, which no log contains
     kText,    ///< the rest of the line

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/admin/TimeSpan.h"
+#include "shared/options/Duration.h"
 #include "shared/options/Options.h"
 
 namespace naiad {
@@ -15,15 +15,6 @@ using Kind = AdminArgument::Kind;
 /// Maximum length of an argument in bytes.
 constexpr std::size_t kMaxAdminArgument = 1024;
 
-const AdminCommand& commandOf(const std::string& name) {
-  if (const AdminCommand* p_command = findAdminCommand(name)) return *p_command;
-  std::vector<std::string> names;
-  for (const AdminCommand& command : adminCommands()) names.push_back(command.name);
-  const std::string near = nearestName(name, names);
-  throw AdminUsageError("There is no command \"" + name + "\"" +
-                        (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
-}
-
 bool isOneOf(const AdminArgument& argument, const std::string& value) {
   return std::find(argument.one_of.begin(), argument.one_of.end(), value) != argument.one_of.end();
 }
@@ -32,9 +23,12 @@ std::string undashed(const std::string& word) {
   return word.starts_with("--") ? word.substr(2) : word;
 }
 
-/// True if the word is a valid value for this optional argument.
-bool fits(const AdminArgument& argument, const std::string& word) {
-  if (argument.kind == Kind::kSpan) return readTimeSpan(word).has_value();
+/// True if the word is a valid value for this optional argument. A number before a text is a part of the
+/// text: "ban ann 2 many insults" bans forever.
+bool fits(const AdminCommand& command, const AdminArgument& argument, const std::string& word) {
+  const bool is_text = command.arguments.back().kind == Kind::kText &&
+                       word.find_first_not_of("0123456789.") == std::string::npos;
+  if (argument.kind == Kind::kSpan) return !is_text && readTimeSpan(word);
   if (argument.kind == Kind::kChoice) return isOneOf(argument, undashed(word));
   return true;
 }
@@ -44,7 +38,7 @@ void checkArgument(const AdminCommand& command, const AdminArgument& argument, c
   if (value.size() > kMaxAdminArgument)
     throw AdminUsageError(command.name + ": " + argument.name + " is too long.");
   if (argument.kind == Kind::kSpan && !readTimeSpan(value))
-    throw AdminUsageError(where + " is not a time span like 30m, 2h or 7d.");
+    throw AdminUsageError(where + " is not a time span like 90, 30m, 2h or 7d.");
   if (argument.kind == Kind::kChoice && !isOneOf(argument, value)) {
     std::string all;
     for (const std::string& one : argument.one_of) all += (all.empty() ? "" : ", ") + one;
@@ -121,15 +115,24 @@ std::string AdminRequest::redacted() const {
   return text;
 }
 
+const AdminCommand& requireAdminCommand(const std::string& name) {
+  if (const AdminCommand* p_command = findAdminCommand(name)) return *p_command;
+  std::vector<std::string> names;
+  for (const AdminCommand& command : adminCommands()) names.push_back(command.name);
+  const std::string near = nearestName(name, names);
+  throw AdminUsageError("There is no command \"" + name + "\"" +
+                        (near.empty() ? "." : "; did you mean \"" + near + "\"?"));
+}
+
 AdminRequest readAdminRequest(const std::vector<std::string>& line) {
   if (line.empty()) throw AdminUsageError("A command is missing.");
-  AdminRequest request{&commandOf(line.front()), {}};
+  AdminRequest request{&requireAdminCommand(line.front()), {}};
   const std::vector<std::string> words = takeNamed(request, line);
   std::size_t next = 1;
   for (const AdminArgument& argument : request.command->arguments) {
     if (next == words.size()) break;
     if (argument.named) continue;
-    if (!argument.required && !fits(argument, words[next])) continue;
+    if (!argument.required && !fits(*request.command, argument, words[next])) continue;
     std::string& value = request.arguments[argument.name];
     value = argument.kind == Kind::kChoice ? undashed(words[next]) : words[next];
     ++next;
@@ -141,7 +144,7 @@ AdminRequest readAdminRequest(const std::vector<std::string>& line) {
 }
 
 AdminRequest readAdminRequest(const std::string& command, std::map<std::string, std::string> arguments) {
-  AdminRequest request{&commandOf(command), std::move(arguments)};
+  AdminRequest request{&requireAdminCommand(command), std::move(arguments)};
   const auto& known = request.command->arguments;
   const auto unknown =
       std::find_if(request.arguments.begin(), request.arguments.end(), [&known](const auto& given) {

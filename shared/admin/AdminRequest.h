@@ -29,6 +29,9 @@ struct AdminRequest {
   std::string redacted() const;
 };
 
+/// Like findAdminCommand(), but for an unknown name throws AdminUsageError, which suggests a similar one.
+const AdminCommand& requireAdminCommand(const std::string& name);
+
 /// Parses a command's words, name first. Throws AdminUsageError.
 AdminRequest readAdminRequest(const std::vector<std::string>& words);
 /// Like readAdminRequest(words), but takes the arguments by name.

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
+#include <iomanip>
 #include <iostream>
 #include <sstream>
 #include <string_view>
@@ -73,6 +74,19 @@ CLI::Validator within(const OptionRange& range) {
   return CLI::Validator(check, numbers.get_description());
 }
 
+/// Replaces a duration by its number of `unit`.
+CLI::Validator inUnit(std::int64_t unit) {
+  const auto replace = [unit](std::string& value) {
+    const auto count = readDuration(value, unit);
+    if (!count) return '"' + value + "\" is not a duration like 10, 10s, 5m or 2h";
+    std::ostringstream text;
+    text << std::setprecision(15) << *count;
+    value = text.str();
+    return std::string();
+  };
+  return CLI::Validator(replace, "");
+}
+
 /// Former and present names of renamed options of all programs.
 constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"--players", "--input-mode"},      {"--visitors", "--proxy-socket"}, {"--visitor", "--proxy-for"},
@@ -96,6 +110,7 @@ void describe(CLI::App& app, const Option& row, CLI::Option& option) {
   const bool counts =
       std::holds_alternative<int*>(row.target) || std::holds_alternative<std::int64_t*>(row.target);
   if (row.range) option.check(counts ? within<std::int64_t>(*row.range) : within<double>(*row.range));
+  if (row.range && row.range->unit != 0) option.transform(inUnit(row.range->unit))->type_name("DURATION");
   if (!row.one_of.empty()) option.check(CLI::IsMember(row.one_of));
   if (!row.type.empty()) option.type_name(row.type);
   if (!row.excludes.empty()) option.excludes(app.get_option(row.excludes));

@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "shared/options/Duration.h"
+
 namespace naiad {
 
 /// Returns the name that needs the fewest changes: a character inserted, deleted or replaced, or two
@@ -45,6 +47,7 @@ using OptionTarget = std::variant<bool*, int*, std::int64_t*, double*, std::stri
 struct OptionRange {
   double min = 0;
   double max = 0;
+  std::int64_t unit = 0;  ///< unit of a duration without one, in microseconds; 0: not a duration
 };
 
 struct Option {

@@ -56,6 +56,8 @@ const char* nameOf(LogEvent::Level level) {
       return "error";
     case LogEvent::Level::kWarning:
       return "warning";
+    case LogEvent::Level::kDebug:
+      return "debug";
     case LogEvent::Level::kInfo:
       break;
   }

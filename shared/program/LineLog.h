@@ -14,7 +14,7 @@ namespace naiad {
 /// A log entry: a sentence for people, and its facts by name for programs. The text format writes the
 /// sentence, the JSON format both. Both come from one event, so they agree. A plain text is also an event.
 struct LogEvent {
-  enum class Level { kError, kWarning, kInfo };
+  enum class Level { kError, kWarning, kInfo, kDebug };
   /// Names are written unescaped; values are escaped.
   using Fields = std::vector<std::pair<std::string, std::string>>;
 
@@ -75,7 +75,7 @@ class LineLog {
   void operator()(const LogEvent& event);
   /// Sets the format of later lines. Thread-safe.
   void setFormat(LogFormat format);
-  /// Logs only events of this level and more severe ones; default: all. Thread-safe.
+  /// Logs only events of this level and more severe ones; default: kInfo. Thread-safe.
   void setLevel(LogEvent::Level least);
   /// The descriptor that lines are written to. Does not change when the file is reopened.
   int descriptor() const;

@@ -6,6 +6,9 @@
 #include <asio/local/stream_protocol.hpp>
 #include <asio/write.hpp>
 #include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
 #include <utility>
 
 #include "GameProgram.h"
@@ -177,6 +180,19 @@ TEST_F(CtlTest, CommandsShowStateAndActOnPlayers) {
     const std::string log = server.log();
     return log.find("admin: user ") != std::string::npos && log.find("kick \"ann\"") != std::string::npos;
   })) << server.log();
+}
+
+TEST_F(CtlTest, LinkAndStatusSayHowToJoin) {
+  const std::string begin = "dfclient naiad://127.0.0.1:" + std::to_string(server.port()) + "#";
+  const std::string link = ctl("link").second;
+  EXPECT_TRUE(link.starts_with(begin)) << link;
+  EXPECT_TRUE(has(ctl("status").second, "join: " + begin));
+  EXPECT_TRUE(has(ctl("help drain").second, "drain [SPAN]: "));
+  EXPECT_EQ(ctl("help drian").second,
+            "dfctl: There is no command \"drian\"; did you mean \"drain\"?\nRun dfctl --help for more "
+            "information.\n");
+  EXPECT_TRUE(has(ctl("set max-plyers 5").second, "did you mean \"max-players\"?"));
+  EXPECT_TRUE(has(ctl("drain 600").second, "in 600 s at the latest"));
 }
 
 TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
@@ -355,6 +371,44 @@ TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   ASSERT_TRUE(ends(ann));
   EXPECT_EQ(ann.connection().message(), "Disconnected: no input for 1s.");
   EXPECT_EQ(server.counters().idle_kicks, 1u);
+}
+
+/// Runs dfserver with the default settings, but on loopback.
+std::pair<int, std::string> runServer(const TempFolder& home, const std::string& arguments) {
+  return runProgram("env -i PATH=$PATH HOME=" + home.string() + " XDG_RUNTIME_DIR=" + home.string() + " " +
+                    NAIAD_BINARY_DIR "/dfserver --game hello --address 127.0.0.1 " + arguments +
+                    " 2>&1 </dev/null");
+}
+
+TEST(ServerStart, PrintsTheLinesForPlayersFirst) {
+  const TempFolder home;
+  const auto [code, output] = runServer(home, "--port 0 --ticks 3");
+  EXPECT_EQ(code, 0) << output;
+  std::istringstream lines(output);
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_TRUE(line.starts_with("Join from this machine with: dfclient naiad://127.0.0.1:")) << output;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_TRUE(line.starts_with("Only this machine can join: ")) << output;
+  const std::regex shown(R"(\d{4}-\d\d-\d\d [0-9:]{8} (dfserver \S+ hosts \S+ on \S+|game: seed \d+))");
+  const std::regex gap(R"(.{19} this kernel has no .*)");
+  while (std::getline(lines, line) && !has(line, " stopped: "))
+    EXPECT_TRUE(std::regex_match(line, shown) || std::regex_match(line, gap)) << line;
+  std::ostringstream page;
+  page << std::ifstream(NAIAD_SOURCE_DIR "/docs/hosting.md").rdbuf();
+  const std::string text = page.str();
+  EXPECT_EQ(std::distance(std::sregex_iterator(text.begin(), text.end(), shown), {}), 2)
+      << "docs/hosting.md shows these lines";
+}
+
+TEST(ServerStart, SecondOneSaysHowToJoinTheFirst) {
+  const TempFolder home;
+  GameProgram first("dfserver",
+                    {{"NAIAD_GAME", "hello"}, {"NAIAD_CONTROL", ""}, {"XDG_RUNTIME_DIR", home.string()}});
+  const std::string port = std::to_string(first.port());
+  const auto [code, output] = runServer(home, "--port " + port);
+  EXPECT_EQ(code, 4);
+  EXPECT_TRUE(has(output, "already running there; join it with: dfclient naiad://127.0.0.1:" + port + "#"));
 }
 
 }  // namespace

@@ -3,9 +3,68 @@
 import json
 import os
 import shutil
+import socket
 import subprocess
 import tempfile
+import threading
 import time
+
+
+class PathProxy:
+    """A proxy that serves a web server below a path, as nginx and caddy do: removes the path from requests, and redirects
+    from the path without '/'. Set `port_behind` to the web server's port. Use as a context."""
+
+    def __init__(self, path):
+        self.path, self.port_behind, self.outside = path, None, []
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.origin = "http://127.0.0.1:%d" % self.listener.getsockname()[1]
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def _accept(self):
+        try:
+            while True:
+                threading.Thread(target=self._serve, args=(self.listener.accept()[0],), daemon=True).start()
+        except OSError:
+            return  # closed
+
+    def _serve(self, browser):
+        with browser:
+            head = b""
+            while b"\r\n\r\n" not in head:
+                piece = browser.recv(65536)
+                if not piece:
+                    return
+                head += piece
+            method, target, rest = head.split(b" ", 2)
+            file, mark, query = target.decode().partition("?")
+            if file == self.path:
+                browser.sendall(f"HTTP/1.1 301 Moved\r\nLocation: {self.path}/{mark}{query}\r\nContent-Length: 0\r\nConnection: close\r\n\r\n".encode())
+                return
+            if not file.startswith(self.path + "/"):
+                self.outside += [file] if file != "/favicon.ico" else []
+                browser.sendall(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n")
+                return
+            if b"upgrade: websocket" not in rest.lower():  # one request a connection, because each has another path
+                rest = rest.replace(b"Connection: keep-alive", b"Connection: close")
+            with socket.create_connection(("127.0.0.1", self.port_behind)) as server:
+                server.sendall(b" ".join([method, (file[len(self.path):] + mark + query).encode(), rest]))
+                threading.Thread(target=self._copy, args=(browser, server), daemon=True).start()
+                self._copy(server, browser)
+
+    @staticmethod
+    def _copy(source, target):
+        try:
+            while piece := source.recv(65536):
+                target.sendall(piece)
+            target.shutdown(socket.SHUT_WR)
+        except OSError:
+            pass  # one end has closed the connection
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.listener.close()
 
 
 class Hosting:

@@ -13,7 +13,7 @@ import unittest
 import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from hosting import Hosting  # noqa: E402
+from hosting import Hosting, PathProxy  # noqa: E402
 from webdriver import Browser  # noqa: E402
 
 BUILD = ""
@@ -152,6 +152,19 @@ class PageTest(unittest.TestCase):
             self.browser.open(hosting.address + "#" + "a" * 26)
             self.browser.wait("return document.querySelector('#said').textContent.includes('different server')")
             self.assertTrue(self.browser.run("return document.querySelector('#play').disabled"))
+
+    def test_page_works_below_a_path(self):
+        with PathProxy("/game") as proxy, Hosting(BUILD, page(), "--game", "saucershoot", gateway=("--origin", proxy.origin)) as hosting:
+            proxy.port_behind = hosting.port
+            for address in (proxy.origin + "/game", proxy.origin + "/game/", proxy.origin + "/game/index.html"):
+                hosting.address = address
+                join(self.browser, hosting, search="?touch")
+                wait_for(self.browser, "1 player")
+                self.assertIsNotNone(self.browser.run("return sessionStorage.getItem('naiad.tokengame/')"))
+                self.browser.click("#leave")
+                self.browser.wait("return document.querySelector('#said').textContent === 'You left.'")
+            self.assertEqual(proxy.outside, [], "requests outside of the path")
+            self.no_complaints()
 
     def test_the_address_names_the_room(self):
         games = ("--room", "hall=lobby", "--room", "arcade=saucershoot")

@@ -51,6 +51,11 @@ export function hostFunctions(page, memory) {
   };
 }
 
+/** Returns the address of the WebSocket for a page, which a proxy may serve below a path. */
+export function streamAddress(page) {
+  return new URL("play", page).href.replace(/^http/, "ws");
+}
+
 /**
  * Starts the module. `page` has open(stream), send(stream, Uint8Array), unsent(stream), close(stream), keep(text)
  * and sound(label, action, flags). Returns the client.

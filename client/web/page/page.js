@@ -1,6 +1,6 @@
 // The page around the client: WebSockets to the gateway, keyboard, pointer, touch, buttons and forms.
 
-import {loadClient} from "./module.js";
+import {loadClient, streamAddress} from "./module.js";
 import {Picture} from "./picture.js";
 import {Sounds} from "./sound.js";
 
@@ -12,6 +12,7 @@ const line = element("line");
 const address = new URLSearchParams(location.search);
 const touch = matchMedia("(pointer: coarse)").matches || address.has("touch");
 const room = address.get("room") ?? "";  // ?room=NAME: the first room
+const tokenKey = "naiad.token" + new URL(".", location.href).pathname.slice(1);  // each path is another game
 
 let client = null;
 let joined = false;  // a picture of the game has been shown
@@ -23,7 +24,7 @@ const sockets = new Map();  // by stream number
 
 const port = {
   open(stream) {
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/play`, ["naiad.1"]);
+    const socket = new WebSocket(streamAddress(location.href), ["naiad.1"]);
     socket.binaryType = "arraybuffer";
     sockets.set(stream, socket);
     const is = () => sockets.get(stream) === socket;
@@ -51,8 +52,8 @@ const port = {
     socket?.close(1000);
   },
   keep(token) {
-    if (token === "") sessionStorage.removeItem("naiad.token");
-    else sessionStorage.setItem("naiad.token", token);
+    if (token === "") sessionStorage.removeItem(tokenKey);
+    else sessionStorage.setItem(tokenKey, token);
   },
   sound: (label, action, flags) => sounds.take(label, action, flags),
 };
@@ -141,7 +142,7 @@ async function claimTab() {
     if (await hold(mine)) return;
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
-  sessionStorage.removeItem("naiad.token");
+  sessionStorage.removeItem(tokenKey);
   const tab = crypto.getRandomValues(new Uint32Array(4)).join("-");
   sessionStorage.setItem("naiad.tab", tab);
   await hold(tab);
@@ -174,7 +175,7 @@ async function join() {
   client.start({
     name: element("name").value,
     password: element("password").value,
-    token: sessionStorage.getItem("naiad.token") ?? "",
+    token: sessionStorage.getItem(tokenKey) ?? "",
     server: server.name || location.host,
     room,
     columns: size.columns,
@@ -350,7 +351,7 @@ async function begin() {
   if (isOtherServer()) return say("This link belongs to a different server.");
   await Promise.all([document.fonts.load('16px "Naiad Mono"'), claimTab()]);
   // A reloaded tab resumes its session.
-  if (sessionStorage.getItem("naiad.token") !== null && element("name").value !== "") return join();
+  if (sessionStorage.getItem(tokenKey) !== null && element("name").value !== "") return join();
   element("play").disabled = false;
   if (element("name").value === "") element("name").focus();
   else element("play").focus();

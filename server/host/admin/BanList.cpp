@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "host/session/NameSanitizer.h"
-#include "shared/admin/TimeSpan.h"
 #include "shared/net/base/AddressPrefix.h"
+#include "shared/options/Duration.h"
 
 namespace naiad {
 

@@ -19,9 +19,9 @@
 #include "host/rooms/SessionTable.h"
 #include "host/session/Counters.h"
 #include "host/session/Session.h"
-#include "shared/admin/TimeSpan.h"
 #include "shared/fleet/ServerInfo.h"
 #include "shared/net/base/PrefixRateLimiter.h"
+#include "shared/options/Duration.h"
 
 namespace naiad {
 

@@ -121,6 +121,12 @@ std::optional<JoinLink> HostEndpoint::joinLink(bool elsewhere) const {
   return JoinLink{*where, "", ShortKey::of(m_identity->fingerprint())};
 }
 
+std::string HostEndpoint::joinCommand() const {
+  const auto public_link = joinLink(true);
+  const auto link = public_link ? public_link : joinLink(false);
+  return "dfclient " + (link ? link->text() : joinArguments());
+}
+
 void HostEndpoint::setIdentity(ServerIdentity identity) {
   if (identity.fingerprint() != m_identity->fingerprint()) {
     m_context.log(LogEvent::warning(

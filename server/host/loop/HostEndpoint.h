@@ -60,6 +60,8 @@ class HostEndpoint {
   /// Returns the link for players on this machine or, if `elsewhere`, on any machine. For the latter,
   /// HostOptions::link_host is needed. Nullopt without it, or without encryption.
   std::optional<JoinLink> joinLink(bool elsewhere) const;
+  /// Returns the command with which players join, from elsewhere if the link for them is known.
+  std::string joinCommand() const;
 
   /// Uses this key and certificate for new connections.
   void setIdentity(ServerIdentity identity);

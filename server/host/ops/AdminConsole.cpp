@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
-#include "shared/admin/TimeSpan.h"
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
+#include "shared/options/Duration.h"
 #include "shared/program/LogText.h"
 
 namespace naiad {
@@ -198,6 +198,7 @@ AdminAnswer AdminConsole::answerNow(const AdminRequest& request, const AdminCall
   if (name == "ping") return AdminAnswer::done("The server is running.");
   if (name == "who") return listPlayers(caller);
   if (name == "status") return {true, "", {}, m_admin.status(), false, {}};
+  if (name == "link") return AdminAnswer::done(m_admin.joinCommand());
   if (name == "rooms") return AdminAnswer::list(m_admin.rooms(), "This server has no rooms.");
   if (name == "tell") return tell(request, caller);
   if (name == "kick") return kick(request);
@@ -336,12 +337,8 @@ AdminAnswer AdminConsole::restart(const AdminRequest& request) {
 
 AdminAnswer AdminConsole::set(const AdminRequest& request) {
   if (!request.has("option")) return {true, "", {}, m_admin.settings(), false, {}};
-  if (request.has("value")) return m_admin.set(request.of("option"), request.of("value"));
-  for (const auto& [name, value] : m_admin.settings()) {
-    if (name == request.of("option")) return {true, "", {}, {{name, value}}, false, {}};
-  }
-  return AdminAnswer::refused("\"" + request.of("option") +
-                              "\" cannot be changed; \"set\" lists the options that can.");
+  return m_admin.set(request.of("option"),
+                     request.has("value") ? std::optional(request.of("value")) : std::nullopt);
 }
 
 void AdminConsole::scores(const AdminRequest& request, Done done) {

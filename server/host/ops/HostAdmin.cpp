@@ -10,9 +10,9 @@
 #include "host/rooms/SessionTable.h"
 #include "host/settings/RoomOptions.h"
 #include "naiad.pb.h"
-#include "shared/admin/TimeSpan.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/base/SafeText.h"
+#include "shared/options/Duration.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
@@ -116,6 +116,7 @@ AdminRow HostAdmin::status() const {
       {"version", std::string(kVersion)},
       {"game", m_access.context.game},
       {"address", m_access.endpoint.address()},
+      {"join", joinCommand()},
       {"uptime_seconds", number(static_cast<std::uint64_t>(since(m_began, Session::Clock::now()).count()))},
       {"rooms", number(m_access.clients.rooms().countAwake())},
       {"players", number(m_access.clients.sessions().playingCount())},
@@ -127,6 +128,10 @@ AdminRow HostAdmin::status() const {
       {"tick_p50_ms", millis(times.quantile(0.5))},
       {"tick_p99_ms", millis(times.quantile(0.99))},
       {"joined", number(counters.joined)}};
+}
+
+std::string HostAdmin::joinCommand() const {
+  return m_access.endpoint.joinCommand();
 }
 
 std::vector<AdminRow> HostAdmin::rooms() const {
@@ -290,16 +295,21 @@ void HostAdmin::scores(const AdminScores& which, std::function<void(AdminAnswer)
   if (!reads) done(AdminAnswer::refused("Busy: too many pending requests. Try again in a moment."));
 }
 
-AdminAnswer HostAdmin::set(const std::string& option, const std::string& value) {
+AdminAnswer HostAdmin::set(const std::string& option, const std::optional<std::string>& value) {
   const auto& names = changeableOptions();
   const auto found = std::find_if(names.begin(), names.end(), [&option](const std::string& name) {
     return name == option || formerNameOf("--" + name) == "--" + option;
   });
-  if (found == names.end())
-    return AdminAnswer::refused("\"" + option + "\" cannot be changed while the server runs.");
+  if (found == names.end()) {
+    const std::string near = nearestName(option, names);
+    return AdminAnswer::refused(
+        "\"" + option + "\" cannot be changed while the server runs; " +
+        (near.empty() ? "\"set\" lists the options that can." : "did you mean \"" + near + "\"?"));
+  }
+  if (!value) return {true, "", {}, {{*found, hostOptionValue(m_access.context.options, *found)}}, false, {}};
   HostOptions changed = m_access.context.options;
   try {
-    setHostOption(changed, *found, value);
+    setHostOption(changed, *found, *value);
   } catch (const OptionError& error) {
     return AdminAnswer::refused(error.what());
   }

@@ -41,6 +41,8 @@ class HostAdmin {
   /// Returns the players, sorted by id.
   std::vector<AdminPlayer> players() const;
   AdminRow status() const;
+  /// Calls HostEndpoint::joinCommand().
+  std::string joinCommand() const;
   /// Returns a row for each named room.
   std::vector<AdminRow> rooms() const;
 
@@ -66,8 +68,8 @@ class HostAdmin {
   AdminAnswer changePassword(std::optional<PasswordHash> hash);
   /// Answers with rows of the score file, best first.
   void scores(const AdminScores& which, std::function<void(AdminAnswer)> done);
-  /// Changes an option, named without dashes.
-  AdminAnswer set(const std::string& option, const std::string& value);
+  /// Changes an option, named without dashes. Without `value`, answers with its current value.
+  AdminAnswer set(const std::string& option, const std::optional<std::string>& value);
   /// Returns the options that set() can change, with their values.
   AdminRow settings() const;
 

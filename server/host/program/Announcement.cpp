@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <asio/ip/address.hpp>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -9,6 +11,8 @@
 #include "host/program/QrCode.h"
 #include "host/settings/HostOptions.h"
 #include "host/settings/SshDoor.h"
+#include "shared/admin/ControlClient.h"
+#include "shared/admin/ControlPath.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad {
@@ -64,6 +68,19 @@ std::vector<std::string> joinInstructions(const HostEndpoint& endpoint, const Ho
       (any ? "every address of this machine, port " + std::to_string(endpoint.port()) : endpoint.address()) +
       ", TCP and UDP. " + openness.how_to_restrict);
   return lines;
+}
+
+std::string listenErrorText(const ListenError& error, const HostOptions& options) {
+  const auto control = options.control.empty() ? controlPath(static_cast<std::uint16_t>(options.port))
+                                               : std::filesystem::path(options.control);
+  if (error.code() != std::errc::address_in_use || !control) return error.what();
+  try {
+    const AdminAnswer answer = ControlClient(*control).sendRequest(readAdminRequest({"link"}));
+    if (!answer.ok) return error.what();
+    return std::string(error.what()) + " A server is already running there; join it with: " + answer.text;
+  } catch (const ServerUnreachable&) {
+    return error.what();
+  }
 }
 
 std::vector<std::string> qrLines(const HostOptions& options) {

@@ -276,7 +276,7 @@ void ProgramHost::run(df::World& world) {
   try {
     serve(world);
   } catch (const ListenError& error) {
-    fail(kCannotListen, error.what());
+    fail(kCannotListen, listenErrorText(error, m_options));
   } catch (const std::exception& error) {
     fail(kFile, errorText(error));
   }

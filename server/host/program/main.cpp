@@ -1,12 +1,15 @@
 // dfserver: starts the game's worlds in their own processes and serves players for them. Each world process,
 // or with --in-process this process, loads the game, installs a runner, and calls the game's main().
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,7 @@
 #include "host/settings/DefaultFolders.h"
 #include "host/settings/GameModule.h"
 #include "host/settings/HostOptions.h"
+#include "host/settings/HostOptionsCheck.h"
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
 #include "proto/ParseErrors.h"
@@ -85,8 +89,8 @@ naiad::LogLine markedLog(naiad::LineLog& log) {
   return [&log](const std::string& line) { log({"game", "game: " + line, {}}); };
 }
 
-/// Runs the game in a host, or in a world process that a host has started; `where` says which. `game_log`
-/// receives the game's own lines.
+/// Runs the game in a host, which listens `where`, or if that is empty in a world process that a host has
+/// started. `game_log` receives the game's own lines.
 ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runner& runner,
               naiad::HostOptions& options, naiad::LineLog& log, const naiad::LogLine& game_log) {
   const auto given = naiad::takeWorldSeed();
@@ -96,8 +100,9 @@ ExitCode play(const naiad::GameModule& game, const std::string& where, df::Runne
     df::World::current().extras().resources.addFolder(folder);
   const Installed installed(runner, game_log);
   GM.setSeed(static_cast<std::uint64_t>(options.seed));
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + where + ", seed " +
-      std::to_string(options.seed));
+  if (!where.empty())
+    log("dfserver " + std::string(naiad::kVersion) + " hosts " + game.name() + " on " + where);
+  log("seed " + std::to_string(options.seed));
   return play(game);
 }
 
@@ -131,10 +136,10 @@ ExitCode failPreview(const naiad::WorldEnd& end) {
 }
 
 void useLogOptions(const naiad::HostOptions& options, naiad::LineLog& lines) {
-  using Level = naiad::LogEvent::Level;
-  const std::string& level = options.log_level;
+  constexpr std::string_view kLevels[] = {"error", "warning", "info", "debug"};  // as LogEvent::Level
   lines.setFormat(options.log_format == "json" ? naiad::LogFormat::kJson : naiad::LogFormat::kText);
-  lines.setLevel(level == "error" ? Level::kError : level == "warning" ? Level::kWarning : Level::kInfo);
+  const auto* const p_level = std::find(std::begin(kLevels), std::end(kLevels), options.log_level);
+  lines.setLevel(static_cast<naiad::LogEvent::Level>(p_level - std::begin(kLevels)));
 }
 
 /// How this process was started, and how to restart it.
@@ -190,28 +195,20 @@ int serveWorlds(Start& start, naiad::LineLog& lines) {
   const auto launcher = naiad::launchModule(options, module.string(), start.config, log);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   const naiad::LogLine print = markedLog(lines);
-  std::vector<std::string> said;
   const naiad::GameProbe preview = naiad::probeGame(*launcher, [&](const std::string& line) {
     print(line);
-    said.push_back(naiad::oneLine(line));
+    if (!options.log_file.empty()) std::cerr << naiad::oneLine(line) << std::endl;
   });
-  if (!preview.ready) {
-    // If the log is a file, also print on stderr why the game could not be loaded.
-    for (const std::string& line : said) {
-      if (!options.log_file.empty()) std::cerr << line << std::endl;
-    }
-    return failPreview(preview.end);
-  }
+  if (!preview.ready) return failPreview(preview.end);
   const std::string name = naiad::GameModule::nameOf(module);
   naiad::Host host(start.options, name, log);
+  announce(options, host);
   naiad::HostOptions journaled = naiad::withFrameTime(options, *preview.ready);
   journaled.port = host.endpoint().port();  // a round continues on the port that its players know
   const auto journals = naiad::RoundJournals::open(journaled, name, module.string(), log);
   host.clients().setWorlds(naiad::startWorlds(launcher, host.context().feed.publishingGame(print), journals));
   setOnReload(start, host, lines);
-  announce(options, host);
-  log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address() +
-      ", in separate processes");
+  log("dfserver " + std::string(naiad::kVersion) + " hosts " + name + " on " + host.endpoint().address());
   df::World& world = df::World::current();
   setUp(world, *preview.ready);
   naiad::RoundHandover handover(start.command, {{"", journals}});
@@ -262,10 +259,10 @@ int serveRooms(Start& start, naiad::LineLog& lines) {
   const std::vector<naiad::LaunchedRoom> launched = naiad::launchRooms(options, start.config, log, print);
   const naiad::crash::Report crashes("dfserver", lines.descriptor());
   naiad::Host host(start.options, launched.front().plan.game, log);
+  announce(options, host);
   const auto journals = naiad::openRoomJournals(options, host.endpoint().port(), launched, log);
   host.clients().setRooms(parseRooms(host, launched, journals, lines));
   setOnReload(start, host, lines);
-  announce(options, host);
   log("dfserver " + std::string(naiad::kVersion) + " hosts " + std::to_string(launched.size()) +
       " rooms on " + host.endpoint().address());
   df::World& world = df::World::current();
@@ -283,9 +280,10 @@ int serve(Start& start) {
     naiad::LineLog log("", naiad::LineLog::Writer::kCaller);
     df::World::current().setActivityPage(naiad::openWorldPage());
     naiad::WorldServer world(*socket, naiad::isGameOverPerPlayer(options));
-    return play(naiad::GameModule(options.game), " in a separate process", world, options, log,
+    return play(naiad::GameModule(options.game), "", world, options, log,
                 [&log](const naiad::LogEvent& event) { log(event); });  // the server adds time and "game: "
   }
+  if (const int code = naiad::reportDeploymentProblems(options); code != 0) return code;
   if (const std::string problem = naiad::operatorPartsProblem(); !problem.empty())
     throw std::runtime_error("Cannot load the operator features (bans, scores, dfctl, metrics): " + problem);
   naiad::LineLog log(options.log_file);
@@ -298,7 +296,7 @@ int serve(Start& start) {
   naiad::Host host(options, game.name(), [&log](const naiad::LogEvent& event) { log(event); });
   setOnReload(start, host, log);
   announce(options, host);
-  const ExitCode code = play(game, " on " + host.endpoint().address(), host, options, log,
+  const ExitCode code = play(game, host.endpoint().address(), host, options, log,
                              host.context().feed.publishingGame(markedLog(log)));
   recordEnd(host, start);
   return host.clients().rooms().failure().empty() ? code : failGame(host.clients().rooms().failure());
@@ -332,7 +330,7 @@ int main(int argc, char** argv) {
     std::cerr << "dfserver: " << error.what() << "\n";
     return kNoGame;
   } catch (const naiad::ListenError& error) {
-    std::cerr << "dfserver: " << error.what() << "\n";
+    std::cerr << "dfserver: " << naiad::listenErrorText(error, start.options) << "\n";
     return kCannotListen;
   } catch (const std::exception& error) {
     std::cerr << "dfserver: " << naiad::errorText(error) << "\n";

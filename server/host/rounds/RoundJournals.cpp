@@ -264,7 +264,7 @@ RoundJournals::RoundJournals(const HostOptions& options, std::string game, const
   for (const auto& [uuid, hash] : m_shared->kept) left.insert(uuid);
   for (const std::string& sentence : salvageRounds(m_folder, left)) m_log(sentence);
   findRound(options);
-  m_log("recording rounds in " + m_folder);
+  m_log({LogEvent::Level::kDebug, "recording rounds in " + m_folder});
   if (determinismPreload().empty())
     m_log("warning: libdragonfly-repeat.so is missing: games that read a clock cannot be replayed");
 }

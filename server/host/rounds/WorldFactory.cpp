@@ -1,10 +1,13 @@
 #include "host/rounds/WorldFactory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "host/rounds/SandboxPolicy.h"
 #include "host/settings/GameModule.h"
@@ -20,6 +23,7 @@ static_assert(kMaxServerPlayers <= kMaxViewPlayers);
 
 constexpr const char* kThisProgram = "/proc/self/exe";
 constexpr std::chrono::milliseconds kBetweenChecks{10};
+constexpr std::size_t kMaxProbeLines = 1000;
 
 std::vector<std::string> ownArguments() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -64,7 +68,8 @@ std::shared_ptr<const WorldLauncher> launch(const HostOptions& options, const Ga
   makeUndumpable();
   if (const std::string gaps = missingSandboxFeatures(launcher->support()); !gaps.empty()) log(gaps);
   if (launcher->support().landlock == 0) return launcher;
-  for (const std::string& note : made.notes) log(note);
+  for (const std::string& note : made.notes)
+    log({note.starts_with("warning: ") ? LogEvent::Level::kWarning : LogEvent::Level::kDebug, note});
   return launcher;
 }
 
@@ -168,12 +173,16 @@ std::shared_ptr<const WorldLauncher> launchReplay(const HostOptions& options, co
 
 GameProbe probeGame(const WorldLauncher& launcher, const LogLine& print) {
   asio::io_context home;
-  WorldProcess world(home, launcher.start(), print);
+  std::vector<std::string> lines;
+  WorldProcess world(home, launcher.start(), [&lines](const LogEvent& event) {
+    if (lines.size() < kMaxProbeLines) lines.push_back(event.text);
+  });
   while (!world.ready() && !world.end()) {
     home.restart();
     home.run_one_for(kBetweenChecks);
     world.checkProcess(1);
   }
+  if (!world.ready()) std::for_each(lines.begin(), lines.end(), print);
   return {world.ready(), world.end().value_or(WorldEnd())};
 }
 

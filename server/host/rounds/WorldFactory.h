@@ -48,6 +48,7 @@ struct GameProbe {
   std::optional<WorldReady> ready;
   WorldEnd end;
 };
+/// Starts the game and ends it again. Calls `print` with its lines only if it does not reach GM.run().
 GameProbe probeGame(const WorldLauncher& launcher, const LogLine& print);
 
 }  // namespace naiad

@@ -56,7 +56,7 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--room-sleep", &o.room_sleep,
           "Seconds without players after which a room ends its round and its process; the next player starts "
           "a new one",
-          OptionRange{0, 1e6}, UsedBy::kServer),
+          OptionRange{0, 1e6, kSecond}, UsedBy::kServer),
       row("--address", &o.address,
           "Numeric address to listen on; :: means all addresses of this machine, IPv6 and IPv4"),
       row("--port", &o.port, "Port to listen on, TCP and UDP; 0: any free port", OptionRange{0, 65535}),
@@ -69,12 +69,12 @@ std::vector<Row> tableOf(HostOptions& o) {
           OptionRange{0, 9e15}),
       row("--frame-time", &o.frame_micros,
           "Length of a tick in microseconds, at least 1000; 0: as the game's df-config.txt says, else 1/30 s",
-          OptionRange{0, 1e6}),
+          OptionRange{0, 1e6, kMicrosecond}),
       row("--ticks", &o.ticks, "Stop after this many ticks; 0: never", OptionRange{0, 2e9}),
       row("--exit-when-empty", &o.exit_when_empty,
           "Stop this many seconds after the last player has left (at least 60 if no player ever joins); 0: "
           "never",
-          OptionRange{0, 1e6}),
+          OptionRange{0, 1e6, kSecond}),
       row("--input-mode", &o.players,
           "Whose input the game gets: together = all players'; first = that of one player, while the others "
           "watch and wait for their turn; private = each player plays in a separate world and process",
@@ -95,7 +95,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "Seconds after which a tick of a game process counts as hung: the log says what the game is doing, "
           "and after 5 times as long the process is killed. Time lost to load on the machine or in a "
           "debugger does not count",
-          OptionRange{0.1, 600}),
+          OptionRange{0.1, 600, kSecond}),
       row("--world-environment", &o.world_environment,
           "Names of environment variables, separated by commas, that game processes get in addition to the "
           "usual ones"),
@@ -123,11 +123,11 @@ std::vector<Row> tableOf(HostOptions& o) {
           "Password that players need, or its $argon2id$ hash (other users can see the command line: prefer "
           "the environment or --config)"),
       row("--reconnect-time", &o.grace, "Seconds in which a disconnected player can reconnect; 0: not at all",
-          OptionRange{0, 3600}),
+          OptionRange{0, 3600, kSecond}),
       row("--drain-timeout", &o.drain_time,
           "Seconds that players have to finish after SIGTERM: new ones are refused, and the server stops "
           "when all have left or the time is over; 0: stop at once",
-          OptionRange{0, 86400}),
+          OptionRange{0, 86400, kSecond}),
       row("--join-file", &o.join_file,
           "Write the address and fingerprint to this file once listening, as arguments for dfclient"),
       row("--proxy-socket", &o.visitors,
@@ -166,8 +166,8 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--log-format", &o.log_format,
           "Format of log lines: text = sentences; json = one object per line, with named fields",
           OneOf{"text", "json"}, UsedBy::kServer),
-      row("--log-level", &o.log_level, "Least severe level to log", OneOf{"error", "warning", "info"},
-          UsedBy::kServer),
+      row("--log-level", &o.log_level, "Least severe level to log",
+          OneOf{"error", "warning", "info", "debug"}, UsedBy::kServer),
       row("--log-chat", &o.log_chat, "Also log the players' chat"),
       row("--control", &o.control,
           "Path of the socket for dfctl (mode 0660); users that can write to it are admins; off: no socket. "
@@ -186,7 +186,7 @@ std::vector<Row> tableOf(HostOptions& o) {
       row("--idle-kick", &o.inactive_kick,
           "Seconds without key, click or chat after which a player is disconnected, with a warning 10 "
           "seconds before; 0: never",
-          OptionRange{0, 86400}),
+          OptionRange{0, 86400, kSecond}),
       row("--platform", &o.platform,
           "Platform to which the server reports that it is ready, healthy, in use or stopping: "
           "systemd; agones = the sidecar at 127.0.0.1, port $AGONES_SDK_HTTP_PORT (9358); none; auto = "
@@ -200,7 +200,7 @@ std::vector<Row> tableOf(HostOptions& o) {
           "the port"),
       row("--bus-interval", &o.bus_interval_ms,
           "Heartbeat interval in milliseconds; must equal the directory's",
-          OptionRange{50, 60'000}),  // as in BusPayloads.h
+          OptionRange{50, 60'000, kMillisecond}),  // as in BusPayloads.h
       row("--bus-credentials", &o.bus_credentials, "Credentials file for the bus, as written by nsc"),
       row("--bus-ca", &o.bus_ca, "CA certificates (PEM) to verify a tls:// bus; default: the system's"),
       row("--headless", &o.headless, "Run without network and players, as fast as possible", {},
@@ -286,7 +286,11 @@ std::string fileAt(const std::string& place) {
 
 Program dfserver() {
   return {"dfserver", "Hosts a Dragonfly game for terminals to join.",
-          std::string("Every option can also be set in the environment.\n\n") + kExitCodes, true};
+          std::string("Every option can also be set in the environment. A DURATION may have a unit: us, ms, "
+                      "s, m, h, d or\n"
+                      "w; without one it is in the unit that the option names.\n\n") +
+              kExitCodes,
+          true};
 }
 
 std::string listOf(const std::vector<std::string>& names) {
@@ -327,8 +331,10 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
     option.is_secret = option.p_location != nullptr;
   }
   all.push_back({"--list-games", &printing.games, "Print the names of the available games, and exit"});
-  all.push_back({"--check-config", &printing.check,
-                 "Check options, environment and the --config file, print problems, and exit (0 or 2)"});
+  all.push_back(
+      {"--check-config", &printing.check,
+       "Check options, environment and --config file, and that what they name exists and can be used; print "
+       "problems, and exit (0 or 2)"});
   all.push_back(
       {"--print-config", &printing.config, "Print the resulting settings as a --config file, and exit"});
   all.push_back({"--markdown", &printing.markdown, "Print the options as a Markdown table, and exit"});
@@ -337,12 +343,12 @@ std::vector<Option> commandLineOf(HostOptions& options, Printing& printing, Plac
 }
 
 CommandLine printConfig(const Printing& printing, const std::vector<Option>& all,
-                        const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) std::cerr << "dfserver: warning: " << warning << "\n";
+                        const HostOptions& options) {
+  for (const std::string& warning : options.warnings) std::cerr << "dfserver: warning: " << warning << "\n";
   for (const Option& option : all) {
     if (printing.config && isSetting(option)) std::cout << configLine(option) << "\n";
   }
-  return CommandLine::kDone;
+  return printing.check && reportDeploymentProblems(options) ? CommandLine::kUsageError : CommandLine::kDone;
 }
 
 }  // namespace
@@ -399,7 +405,7 @@ CommandLine parseHostOptions(int argc, const char* const* argv, HostOptions& opt
   if (!places.password.empty()) warnIfReadable(fileAt(places.password), options);
   if (!places.admin_password.empty())
     warnOfReadersOf(fileAt(places.admin_password), options.admin_password, options);
-  if (printing.config || printing.check) return printConfig(printing, all, options.warnings);
+  if (printing.config || printing.check) return printConfig(printing, all, options);
   if (printing.markdown) {
     std::cout << hostOptionsMarkdown();
     return CommandLine::kDone;
@@ -477,7 +483,10 @@ std::string hostOptionsMarkdown() {
   HostOptions defaults;
   const std::vector<Row> rows = tableOf(defaults);
   std::string text =
-      "# Options of dfserver\n\nGenerated by `dfserver --markdown`; a test checks that it is up to date.\n\n"
+      "# Options of dfserver\n\nGenerated by `dfserver --markdown`; a test checks that it is up to date. "
+      "Numbers of seconds, "
+      "milliseconds and\nmicroseconds may have a unit instead: `90s`, `5m`, `1.5h`, `33ms` (us, ms, s, m, h, "
+      "d, w).\n\n"
       "| option | environment | default | meaning |\n|---|---|---|---|\n";
   for (const Row& row : rows) {
     if (row.used_by == UsedBy::kProgram) continue;

@@ -64,7 +64,7 @@ struct HostOptions {
   std::string port_file;            ///< file for the port number, written once listening
   std::string log_file;             ///< file for log lines; empty: stderr
   std::string log_format = "text";  ///< format of log lines: "text" or "json"
-  std::string log_level = "info";   ///< least severe level to log: "error", "warning" or "info"
+  std::string log_level = "info";   ///< least severe level to log: "error", "warning", "info" or "debug"
   bool log_chat = false;            ///< also log the chat
   std::string control;              ///< path of the socket for commands (ControlSocket.h); empty: none
   bool control_by_port = false;     ///< not an option; true: use controlPath() of the port listened on

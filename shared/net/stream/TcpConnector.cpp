@@ -34,6 +34,9 @@ std::string errorText(const StreamResult& result, const StreamTarget& target,
     case End::kUnreachable:
       return "Could not connect to " + where + " (" + detail + ").";
     case End::kHandshake:
+      if (result.closed_in_handshake)
+        return where +
+               " closed the connection: your address may be banned there, or no Naiad server runs there.";
       return where + " does not answer as a Naiad server (" + detail + ").";
     case End::kTimedOut:
       return "No answer from " + where + " within " + inWords(timeout) + ".";

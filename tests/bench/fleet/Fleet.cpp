@@ -13,8 +13,8 @@
 #include <thread>
 #include <variant>
 
-#include "client/ctl/ControlClient.h"
 #include "shared/admin/AdminRequest.h"
+#include "shared/admin/ControlClient.h"
 
 namespace bench {
 namespace {

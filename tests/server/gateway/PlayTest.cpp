@@ -3,6 +3,8 @@
 #include <sys/socket.h>
 
 #include <asio/local/stream_protocol.hpp>
+#include <atomic>
+#include <thread>
 
 #include "FakeGame.h"
 #include "GatewayRun.h"
@@ -184,13 +186,29 @@ TEST_F(GatewayPlay, CloseCodeTellsHowTheServerEnded) {
   game.reset();
   const auto hello = [](WebClient& b) { b.sendFrame(2, "hello"); };
   EXPECT_EQ(codeAfter(gateway->port(), false, hello), 4000) << "there is none";
+  EXPECT_EQ(WebClient(gateway->port()).ask("/")->status, 200);
+}
+
+TEST_F(GatewayPlay, BannedVisitorReadsThatTheyMayBeBanned) {
+  start();
+  game.reset();
   asio::io_context context;
   asio::local::stream_protocol::acceptor none(
       context, asio::local::stream_protocol::endpoint(home.path("visitors").string()));
-  std::thread rude([&] { none.accept(); });  // accepts and closes the connection
-  EXPECT_EQ(codeAfter(gateway->port(), false, hello), 4000);
+  std::atomic<bool> over = false;
+  std::thread rude([&] {
+    while (!over) none.accept();  // accepts and closes the connections
+  });
+  WebClient dropped(gateway->port());
+  ASSERT_TRUE(dropped.play());
+  dropped.sendFrame(2, "hello");
+  const auto close = dropped.frame();
+  ASSERT_TRUE(close && close->opcode == 8);
+  EXPECT_EQ(close->closeCode(), 4000);
+  EXPECT_TRUE(has(close->payload, "your address may be banned, or no Naiad server runs there."));
+  over = true;
+  asio::local::stream_protocol::socket(context).connect(none.local_endpoint());
   rude.join();
-  EXPECT_EQ(WebClient(gateway->port()).ask("/")->status, 200);
 }
 
 TEST_F(GatewayPlay, ASilentServerIsGivenUp) {

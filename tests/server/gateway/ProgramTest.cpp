@@ -48,11 +48,13 @@ TEST_F(DfwebProgram, PrintsTheAddressForPlayersAndEndsInOrder) {
   FakeGame game(home.path("identity"), home.path("visitors"));
   const std::string real = "naiad://game.test#" + game.key().text();
   RunningProgram dfweb({"dfweb", real, "--proxy-socket", home.path("visitors"), "--page", page, "--listen",
-                        "127.0.0.1:0", "--port-file", home.path("port"), "--origin", "https://play.example"});
+                        "127.0.0.1:0", "--port-file", home.path("port"), "--origin", "https://play.example",
+                        "--origin", "https://two.example"});
   ASSERT_TRUE(dfweb.prints("connects browsers")) << dfweb.printed();
   std::uint16_t port = 0;
   std::ifstream(home.path("port")) >> port;
   EXPECT_TRUE(has(dfweb.printed(), "Players open https://play.example/#" + game.key().text()));
+  EXPECT_TRUE(has(dfweb.printed(), "Players open https://two.example/#" + game.key().text()));
   EXPECT_TRUE(has(dfweb.printed(),
                   "Players open http://127.0.0.1:" + std::to_string(port) + "/#" + game.key().text()));
   WebClient browser(port);

@@ -54,6 +54,39 @@ TEST(AdminRequest, SpanArgumentMayBeOmitted) {
   EXPECT_EQ(argumentsOf({"drain"}), Arguments());
 }
 
+// Before a text, a number without a unit is a part of the text.
+TEST(AdminRequest, EverySpanIsReadWithAndWithoutUnit) {
+  int spans = 0;
+  for (const AdminCommand& command : adminCommands()) {
+    Arguments arguments;
+    Words words{command.name};
+    for (const AdminArgument& argument : command.arguments) {
+      if (argument.kind != AdminArgument::Kind::kSpan) {
+        if (argument.kind == AdminArgument::Kind::kText) continue;
+        words.push_back(argument.one_of.empty() ? "Ann" : "in");
+        arguments[argument.name] = words.back();
+        continue;
+      }
+      ++spans;
+      const bool text_follows = command.arguments.back().kind == AdminArgument::Kind::kText;
+      for (const std::string span : {"2", "2s", "2.5", "2h"}) {
+        arguments[argument.name] = span;
+        EXPECT_EQ(readAdminRequest(command.name, arguments).of(argument.name), span) << command.name;
+        words.push_back(span);
+        const bool is_number = span.find_first_not_of("0123456789.") == std::string::npos;
+        if (text_follows) words.insert(words.end(), {"many", "insults"});
+        EXPECT_EQ(readAdminRequest(words).of(argument.name), text_follows && is_number ? "" : span)
+            << command.name;
+        if (text_follows)
+          EXPECT_EQ(readAdminRequest(words).of(command.arguments.back().name),
+                    is_number ? span + " many insults" : "many insults");
+        words.resize(words.size() - (text_follows ? 3 : 1));
+      }
+    }
+  }
+  EXPECT_EQ(spans, 4) << "of ban, allow, restart and drain";
+}
+
 TEST(AdminRequest, NamedArgumentsMayAppearAnywhere) {
   EXPECT_EQ(argumentsOf({"scores", "--room", "one", "keys", "3"}),
             (Arguments{{"room", "one"}, {"table", "keys"}, {"count", "3"}}));

@@ -155,6 +155,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
   const std::vector<std::vector<std::string>> all{{"who"},
                                                   {"rooms"},
                                                   {"status"},
+                                                  {"link"},
                                                   {"say", "hi"},
                                                   {"tell", "Ann", "hi"},
                                                   {"mute", "Ann"},
@@ -175,7 +176,7 @@ TEST_F(AdminConsoleTest, EveryCommandOfTheTableIsCarriedOut) {
                                                   {"cancel"},
                                                   {"stop"},
                                                   {"ping"}};
-  std::set<std::string> given{"watch"};  // handled by the control socket itself
+  std::set<std::string> given{"watch", "help"};  // handled by the control socket, and by dfctl and the chat
   for (const auto& words : all) {
     EXPECT_TRUE(give(words).ok) << words.front();
     given.insert(words.front());
@@ -356,6 +357,26 @@ TEST_F(AdminConsoleTest, OnlyChangeableOptionsCanBeSet) {
   EXPECT_FALSE(give({"set", "max-players", "-5"}).ok);
   EXPECT_FALSE(give({"set", "port", "1"}).ok);
   EXPECT_EQ(context.options.max_players, 5);
+}
+
+TEST_F(AdminConsoleTest, UnknownOptionSuggestsASimilarOne) {
+  for (const std::vector<std::string>& value : {std::vector<std::string>{}, {"5"}}) {
+    std::vector<std::string> words{"set", "max-plyers"};
+    words.insert(words.end(), value.begin(), value.end());
+    EXPECT_EQ(give(words).text,
+              "\"max-plyers\" cannot be changed while the server runs; did you mean \"max-players\"?");
+    words[1] = "game";
+    EXPECT_EQ(give(words).text,
+              "\"game\" cannot be changed while the server runs; \"set\" lists the options that can.");
+  }
+}
+
+TEST_F(AdminConsoleTest, StatusHasTheCommandToJoin) {
+  open();
+  const std::string link = give({"link"}).text;
+  EXPECT_EQ(link, "dfclient " + endpoint.joinArguments());
+  const AdminRow status = give({"status"}).facts;
+  EXPECT_NE(std::find(status.begin(), status.end(), AdminRow::value_type{"join", link}), status.end());
 }
 
 }  // namespace

@@ -40,6 +40,32 @@ TEST(HostOptions, MisspeltConfigFileOptionIsAnError) {
   std::remove(path.c_str());
 }
 
+// A duration's help names the unit of a number without one.
+TEST(HostOptions, EveryDurationIsReadWithAndWithoutUnit) {
+  const std::regex row(R"(\| `--([a-z-]+)` \| `\w+` \| ([0-9.]+) \| (.*) \|)");
+  const std::string page = hostOptionsMarkdown();
+  int durations = 0;
+  for (std::sregex_iterator found(page.begin(), page.end(), row); found != std::sregex_iterator(); ++found) {
+    const std::string name = (*found)[1];
+    const std::string help = (*found)[3];
+    const char* const p_number = test::has(help, "microseconds")   ? "1000000"
+                                 : test::has(help, "milliseconds") ? "1000"
+                                 : test::has(help, "econds")       ? "1"
+                                                                   : nullptr;
+    if (p_number == nullptr) continue;
+    ++durations;
+    for (const char* text : {p_number, "1s", "1000ms"}) {
+      HostOptions options;
+      EXPECT_NO_THROW(setHostOption(options, name, text)) << name << ' ' << text;
+      EXPECT_EQ(hostOptionValue(options, name), p_number) << name << ' ' << text;
+    }
+    HostOptions options;
+    EXPECT_THROW(setHostOption(options, name, "1x"), OptionError) << name;
+    EXPECT_THROW(setHostOption(options, name, "1000d"), OptionError) << name << " has a range";
+  }
+  EXPECT_EQ(durations, 8);
+}
+
 TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
   const char* const good[] = {"dfserver", "--max-players", "3"};
   EXPECT_EQ(readHostOptions(3, good).max_players, 3);
@@ -460,8 +486,13 @@ TEST(HostOptions, AConfigurationIsCheckedWithoutAServer) {
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(test::has(said, "dfserver: " + path + ":1: there is no option \"prot\"; did you mean port?\n"));
   EXPECT_TRUE(test::has(said, "dfserver: " + path + ":3: max-players: "));
-  std::ofstream(path) << "port = 1\n";
-  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config"}), "");
+  const Games games;
+  const test::TempFolder temp;
+  const std::string folder = temp.string();
+  std::ofstream(path) << "port = 1\ngame = hello\n";
+  EXPECT_EQ(printed({"--config", path.c_str(), "--check-config", "--state", folder.c_str(), "--identity",
+                     folder.c_str()}),
+            "");
   std::ofstream(path) << "certificate = x\n";
   printed({"--config", path.c_str(), "--check-config"}, CommandLine::kUsageError);
   std::remove(path.c_str());

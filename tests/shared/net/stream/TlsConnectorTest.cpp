@@ -1,7 +1,11 @@
 // Facts that a TLS client learns about a server, and servers that it rejects.
 #include <gtest/gtest.h>
 
+#include <asio/write.hpp>
 #include <fstream>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "TlsFixture.h"
 
@@ -85,6 +89,30 @@ TEST_F(TlsConnectorTest, PlaintextServerGivesAClearError) {
   EXPECT_EQ(error, "127.0.0.1:" + std::to_string(plain.port()) +
                        " does not answer as a Naiad server (it does not speak TLS).");
   EXPECT_FALSE(connector.peerIdentity());
+}
+
+// A table of what players read if a server closes the connection, or sends something, before TLS.
+TEST_F(TlsConnectorTest, ErrorTellsWhatCameInsteadOfTls) {
+  const std::string closed =
+      " closed the connection: your address may be banned there, or no Naiad server runs there.";
+  const std::string other = " does not answer as a Naiad server (it does not speak TLS).";
+  const std::map<std::string, std::string> answers{
+      {"", closed}, {"SSH-2.0-OpenSSH_9.2\r\n", other}, {"HTTP/1.1 400 Bad Request\r\n\r\n", other}};
+  for (const auto& [answer, text] : answers) {
+    tcp::acceptor server(context, {asio::ip::address_v4::loopback(), 0});
+    const std::uint16_t port = server.local_endpoint().port();
+    std::vector<tcp::socket> kept;
+    server.async_accept([&, sent = answer](const std::error_code&, tcp::socket socket) {
+      if (sent.empty()) return;  // closes the connection
+      asio::write(socket, asio::buffer(sent));
+      kept.push_back(std::move(socket));
+    });
+    calls = 0;
+    connector.connect("127.0.0.1", port, 10s, done());
+    ASSERT_TRUE(runUntilDone());
+    EXPECT_EQ(error, "127.0.0.1:" + std::to_string(port) + text);
+    EXPECT_EQ(connector.closedDuringHandshake(), answer.empty());
+  }
 }
 
 TEST_F(TlsConnectorTest, ServerWithoutOurAlpnIsRefused) {

@@ -1,4 +1,4 @@
-// Client side of a server's control socket, for dfctl.
+// Client side of a server's control socket.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "client/ctl/ControlClient.h"
+#include "shared/admin/ControlClient.h"
 
 #include <poll.h>
 #include <sys/socket.h>

@@ -1,0 +1,143 @@
+// Options of dfserver that name something outside: --check-config and the start refuse what cannot be used.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "host/settings/HostOptions.h"
+#include "host/settings/HostOptionsCheck.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
+
+namespace naiad {
+namespace {
+
+class DeploymentTest : public testing::Test {
+ protected:
+  DeploymentTest() {
+    std::ofstream(folder / "hello.so") << "a game";
+    std::ofstream(folder / "file") << "a file";
+    setenv("NAIAD_GAMES", folder.path().c_str(), 1);
+  }
+  ~DeploymentTest() override { unsetenv("NAIAD_GAMES"); }
+  /// Returns valid options.
+  HostOptions options() const {
+    HostOptions options;
+    options.game = "hello";
+    options.identity = (folder / "identity").string();
+    return options;
+  }
+  int check(const HostOptions& options) {
+    testing::internal::CaptureStderr();
+    const int code = reportDeploymentProblems(options);
+    printed = testing::internal::GetCapturedStderr();
+    return code;
+  }
+
+  const test::TempFolder folder;
+  std::string printed;
+};
+
+TEST_F(DeploymentTest, EveryOptionThatNamesSomethingOutsideIsChecked) {
+  const std::string none = "/nonexistent/x";
+  const std::string below_a_file = (folder / "file" / "x").string();
+  std::map<std::string, std::vector<std::string>> bad{{"game", {"nosuchgame", none}},
+                                                      {"address", {"localhost", "300.1.1.1", "1.2.3"}},
+                                                      {"key", {none}},
+                                                      {"certificate", {none, folder.string()}},
+                                                      {"identity", {below_a_file}},
+                                                      {"state", {below_a_file}},
+                                                      {"journal", {below_a_file}},
+                                                      {"log-file", {none, folder.string(), below_a_file}},
+                                                      {"port-file", {none, folder.string()}},
+                                                      {"join-file", {none, folder.string()}},
+                                                      {"status-file", {none, folder.string()}},
+                                                      {"truth-file", {none, folder.string()}},
+                                                      {"proxy-socket", {none, below_a_file}},
+                                                      {"control", {below_a_file}},
+                                                      {"bus-credentials", {none}},
+                                                      {"bus-ca", {none}},
+                                                      {"password", {"$argon2id$broken"}},
+                                                      {"admin-password", {"$argon2id$broken"}}};
+  ASSERT_EQ(check(options()), 0) << printed;
+  for (const auto& [name, values] : bad) {
+    for (const std::string& value : values) {
+      HostOptions changed = options();
+      setHostOption(changed, name, value);
+      if (name == "key") changed.certificate = (folder / "file").string();
+      if (name == "certificate") changed.key = (folder / "file").string();
+      const int expected = name == "game"                                                     ? 3
+                           : name == "address" || name == "proxy-socket" || name == "control" ? 4
+                                                                                              : 5;
+      EXPECT_EQ(check(changed), expected) << name << " = " << value << ": " << printed;
+      EXPECT_TRUE(printed.starts_with("dfserver: ")) << printed;
+    }
+  }
+  // Options without an existing thing behind them, and those checked when they are parsed.
+  for (const char* name : {"room",
+                           "public-host",
+                           "ssh-door",
+                           "web-address",
+                           "metrics",
+                           "max-per-address",
+                           "world-environment",
+                           "bus",
+                           "sandbox",
+                           "recover",
+                           "in-process",
+                           "tick-timeout",
+                           "world-memory",
+                           "max-players",
+                           "metrics-hosts",
+                           "metrics-public",
+                           "on-game-over",
+                           "lan",
+                           "qr",
+                           "vote-kick",
+                           "room-sleep",
+                           "bus-id",
+                           "platform",
+                           "log-format"})
+    bad[name];
+  const std::regex row(R"(\| `--([a-z-]+)` \| `\w+` \| [^|]* \| (.*) \|)");
+  const std::regex outside(
+      "[Ff]ile|[Ff]older|[Dd]irectory|[Ss]ocket|[Pp]ath|[Aa]ddress|Game to|key \\(PEM|Certificate|hash");
+  const std::string page = hostOptionsMarkdown();
+  for (std::sregex_iterator found(page.begin(), page.end(), row); found != std::sregex_iterator(); ++found) {
+    const std::string help = (*found)[2];
+    if (std::regex_search(help, outside))
+      EXPECT_TRUE(bad.contains((*found)[1])) << (*found)[1] << ": " << help;
+  }
+}
+
+TEST_F(DeploymentTest, AllProblemsAreReportedAtOnce) {
+  HostOptions wrong = options();
+  wrong.game = "nosuchgame";
+  wrong.log_file = "/nonexistent/log";
+  wrong.port_file = "/nonexistent/port";
+  EXPECT_EQ(check(wrong), 3);
+  EXPECT_TRUE(test::has(printed, "There is no game \"nosuchgame\". Available games: hello.\n"));
+  EXPECT_TRUE(test::has(printed, "--log-file cannot be used: "));
+  EXPECT_TRUE(test::has(printed, "--port-file cannot be used: "));
+}
+
+TEST_F(DeploymentTest, CheckCreatesNothing) {
+  HostOptions all = options();
+  all.game = (folder / "hello.so").string();
+  for (const char* name : {"state", "journal", "log-file", "port-file", "join-file", "status-file",
+                           "truth-file", "proxy-socket"})
+    setHostOption(all, name, (folder / name).string());
+  all.control = (folder / "sockets" / "control").string();
+  EXPECT_EQ(check(all), 0) << printed;
+  EXPECT_EQ(printed, "");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "hello.so and file";
+}
+
+}  // namespace
+}  // namespace naiad
