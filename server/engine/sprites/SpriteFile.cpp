@@ -84,12 +84,14 @@ struct Header {
   char transparency = 0;
 };
 
-int toNumber(const Lines& lines, const std::string& key, const std::string& text, int least, int most) {
+int toNumber(const Lines& lines, std::vector<std::string>* p_warnings, const std::string& key,
+             const std::string& text, int least, int most) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    lines.fail(key + " should be a number, not \"" + text + "\"");
-  }
+  const std::string trouble = key + " should be a number, not \"" + text + "\"";
+  const bool has_rest = end != text.data() + text.size();
+  if (error != std::errc() || (has_rest && p_warnings == nullptr)) lines.fail(trouble);
+  if (has_rest) p_warnings->push_back(lines.describe(trouble + ", the number at its beginning is used"));
   if (value < least || value > most) {
     lines.fail(key + " should be " + std::to_string(least) + " to " + std::to_string(most) + ", not " + text);
   }
@@ -105,10 +107,10 @@ Color toColor(const Lines& lines, const std::string& text) {
 void parseSlowdown(const Lines& lines, Header& header, const std::string& text) {
   constexpr int kMaxSlowdown = 1'000'000;
   if (header.p_warnings == nullptr) {
-    header.slowdown = toNumber(lines, "slowdown", text, 0, kMaxSlowdown);
+    header.slowdown = toNumber(lines, header.p_warnings, "slowdown", text, 0, kMaxSlowdown);
     return;
   }
-  header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMaxSlowdown);
+  header.slowdown = text.empty() ? 0 : toNumber(lines, header.p_warnings, "slowdown", text, -1, kMaxSlowdown);
   if (text.empty()) header.p_warnings->push_back(lines.describe("slowdown has no number, 0 is used"));
   if (header.slowdown < 0) {
     header.p_warnings->push_back(
@@ -130,19 +132,24 @@ void parseField(const Lines& lines, Header& header, const std::string& line) {
   const std::string key = line.substr(0, gap);
   const std::string value = trimmed(line.substr(gap));
   if (key == "frames") {
-    header.frames = toNumber(lines, key, value, 1, kMaxSpriteFrames);
+    header.frames = toNumber(lines, header.p_warnings, key, value, 1, kMaxSpriteFrames);
   } else if (key == "width") {
-    header.width = toNumber(lines, key, value, 1, kMaxSpriteSide);
+    header.width = toNumber(lines, header.p_warnings, key, value, 1, kMaxSpriteSide);
   } else if (key == "height") {
-    header.height = toNumber(lines, key, value, 1, kMaxSpriteSide);
+    header.height = toNumber(lines, header.p_warnings, key, value, 1, kMaxSpriteSide);
   } else if (key == "color") {
-    header.color = toColor(lines, value);
+    if (value.empty() && header.p_warnings != nullptr)
+      header.p_warnings->push_back(lines.describe("color has no value, white is used"));
+    else
+      header.color = toColor(lines, value);
   } else if (key == "slowdown") {
     parseSlowdown(lines, header, value);
   } else if (key == "transparency") {
     parseTransparency(lines, header, value);
   } else {
-    lines.fail("unknown field \"" + key + "\"");
+    const std::string trouble = "unknown field \"" + key + "\"";
+    if (header.p_warnings == nullptr || key[0] == '<') lines.fail(trouble);
+    header.p_warnings->push_back(lines.describe(trouble + ", ignored"));
   }
 }
 
@@ -224,7 +231,7 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
 std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
   const auto number = [&](const char* key, int most) {
     const std::string word = lines.nextWord(key);
-    return toNumber(lines, key, word, 1, most);
+    return toNumber(lines, nullptr, key, word, 1, most);
   };
   header.frames = number("frames", kMaxSpriteFrames);
   header.width = number("width", kMaxSpriteSide);
