@@ -100,10 +100,6 @@ void LogManager::setFlush(bool do_flush) {
   World::current().log().setFlush(do_flush);
 }
 
-void LogManager::flush() const {
-  std::fflush(nullptr);
-}
-
 void LogManager::setSink(std::function<void(const std::string&)> sink) {
   World::current().log().setSink(std::move(sink));
 }
