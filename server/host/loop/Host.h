@@ -49,13 +49,13 @@ class Host : public df::Runner {
   /// process exits with code 1. A second signal ends it at once, by that signal unless the game hangs. Both
   /// send a goodbye first.
   ///
-  /// If the game ends itself while it has players, in a world of this process, a further run may follow, as
-  /// after a title. So players stay connected without a goodbye, and join the world again in the next run().
-  /// A client that hears nothing for 15 s begins to reconnect. After any other end, run() ends at once.
+  /// If the game ends itself, in a world of this process, a further run may follow, as after a title. So
+  /// players stay connected without a goodbye, and join the world again in the next run(). A client that
+  /// hears nothing for 15 s begins to reconnect. After any other end, run() ends at once.
   void run(df::World& world) override;
-  /// True if players wait for another run().
+  /// True between two runs: connections wait for the next one.
   bool awaitsRun() const { return m_p_world != nullptr; }
-  /// If players wait for another run(), ends their sessions as run() does. Call this before the destructor.
+  /// Ends a host that awaits a run as run() does otherwise. Call this before the destructor.
   void finish();
   /// Ends run() after the present tick, with this sentence to the players. Any thread.
   void stop(const std::string& sentence);

@@ -25,7 +25,7 @@ class ProgramHost : public df::running::Program {
  public:
   void startUp(df::World& world) override;
   void run(df::World& world) override;
-  /// Disconnects players that still wait for another run.
+  /// Ends the host that waits for another run, if any.
   void finish();
 
  private:
@@ -39,7 +39,7 @@ class ProgramHost : public df::running::Program {
   int m_ticks = 0;                ///< number of headless ticks in all runs
   bool m_stopped = false;  ///< true if a signal, an option or the last player ended run(), not the game
   std::optional<int> m_world_socket;  ///< socket to the host, in a process started for a world
-  std::unique_ptr<Host> m_waiting;    ///< host whose players wait for another run; null: none, or in a run
+  std::unique_ptr<Host> m_waiting;    ///< host that waits for another run; null: none, or in a run
   std::shared_ptr<LineLog> m_lines;   ///< its log; null: the file of the game
 };
 

@@ -1,0 +1,70 @@
+// A game that calls GM.run() several times, as for a title, a level and an epilogue. RunsTest.cpp uses it,
+// with a letter for each step of main() in the variable RUNS.
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "DisplayManager.h"
+#include "EventKeyboard.h"
+#include "EventPlayer.h"
+#include "EventStep.h"
+#include "GameManager.h"
+#include "Object.h"
+#include "Particle.h"
+#include "WorldManager.h"
+#include "utility.h"
+
+using namespace df;
+
+// Ends its run in the step after a key, or by itself some steps after two players have joined.
+class Act : public Object {
+ public:
+  Act(int new_number, int new_steps) : number(new_number), steps(new_steps) {
+    setType("Act");
+    registerInterest(KEYBOARD_EVENT);
+    registerInterest(STEP_EVENT);
+    registerInterest(JOIN_EVENT);
+  }
+  int eventHandler(const Event* p_e) {
+    if (p_e->getType() == JOIN_EVENT) joins++;
+    if (p_e->getType() == KEYBOARD_EVENT) ends |= ((const EventKeyboard*)p_e)->getKey() == Keyboard::SPACE;
+    if (p_e->getType() == STEP_EVENT && (ends || (joins == 2 && --steps == 0))) {
+      WM.markForDelete(this);
+      GM.setGameOver();
+    }
+    return 1;
+  }
+  int draw() {
+    return DM.drawString(Vector(40, 12),
+                         "act=" + std::to_string(number) + " joins=" + std::to_string(joins) + ";",
+                         CENTER_JUSTIFIED, YELLOW);
+  }
+
+ private:
+  int number;
+  int steps;
+  int joins = 0;
+  bool ends = false;
+};
+
+int main() {
+  GM.startUp();
+  int acts = 0;
+  for (const char* p_step = getenv("RUNS"); *p_step != '\0'; p_step++) {
+    if (*p_step == 'r') new Act(++acts, 0);
+    if (*p_step == 's') new Act(++acts, 100);  // a splash, which waits for no key
+    if (*p_step == 'r' || *p_step == 's') GM.run();
+    if (*p_step == 'e') splash();
+    if (*p_step == 'p') sleep(1);  // as a game does that waits for the clock
+    if (*p_step == 'c') {
+      ObjectList all = WM.getAllObjects();
+      for (int i = 0; i < all.getCount(); i++) delete all[i];
+    }
+    if (*p_step == 'w') WM.shutDown();
+    if (*p_step == 'g') {
+      GM.shutDown();
+      GM.startUp();
+    }
+  }
+  GM.shutDown();
+  return 0;
+}
