@@ -75,8 +75,8 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
   }
 }
 
-// Who leaves or joins while no run is active does so at the next.
-TEST_F(Runs, LeavingAndJoiningInAPauseCountsInTheNextRun) {
+// A player that leaves or joins while no run is active has done so when the next one begins.
+TEST_F(Runs, LeavingAndJoiningInAPauseTakesEffect) {
   game = std::make_unique<GameProgram>("runs_game", std::map<std::string, std::string>{{"RUNS", "rpr"}});
   ASSERT_NE(game->port(), 0) << game->log();
   auto ann = join("ann");

@@ -22,10 +22,10 @@ enum class Transform {
 };
 
 #if !defined(DF_SCOPED_ENUMS)
-inline constexpr Transform NONE = Transform::NONE;
-inline constexpr Transform HORIZONTAL = Transform::HORIZONTAL;
-inline constexpr Transform VERTICAL = Transform::VERTICAL;
-inline constexpr Transform BOTH = Transform::BOTH;
+inline constexpr Transform NONE = Transform::NONE;              ///< short for Transform::NONE
+inline constexpr Transform HORIZONTAL = Transform::HORIZONTAL;  ///< short for Transform::HORIZONTAL
+inline constexpr Transform VERTICAL = Transform::VERTICAL;      ///< short for Transform::VERTICAL
+inline constexpr Transform BOTH = Transform::BOTH;              ///< short for Transform::BOTH
 #endif
 
 class Animation {

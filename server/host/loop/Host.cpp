@@ -77,7 +77,7 @@ void Host::run(df::World& world) {
   if (is_first) {
     beginGame(world);
   } else {
-    serveUntil(Clock::now());  // players who have left meanwhile must not join again
+    serveUntil(Clock::now());  // players that left since the last run must not join again
     world.setGameOver(false);
     m_clients->rooms().restart();
   }

@@ -40,7 +40,7 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
   EXPECT_EQ(RM.unloadMusic("theme"), 0);
 }
 
-TEST_F(SoundTest, WithCompatMissingFilesAreSilentUntilTheyAreLoaded) {
+TEST_F(SoundTest, WithCompatMissingFilesAreSilent) {
   world.setCompat();
   EXPECT_EQ(RM.loadSound("sounds/ghost.wav", "ghost"), -1);
   EXPECT_EQ(RM.loadMusic("sounds/ghost.ogg", "ghost"), -1);
