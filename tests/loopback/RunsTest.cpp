@@ -44,6 +44,7 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
                     {"a title and an epilogue", "rrr", 3},
                     {"a splash of the engine", "err", 2},
                     {"a splash of its own", "srr", 3},
+                    {"a title that ends at a key", "kr", 2},
                     {"a pause", "rpr", 2},
                     {"a world cleared by hand", "rcr", 2},
                     {"a world shut down", "rwr", 2},
@@ -52,8 +53,10 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
   for (const auto& row : rows) {
     SCOPED_TRACE(row.name);
     clients.clear();
-    game =
-        std::make_unique<GameProgram>("runs_game", std::map<std::string, std::string>{{"RUNS", row.steps}});
+    game = std::make_unique<GameProgram>(
+        "runs_game",
+        std::map<std::string, std::string>{{"RUNS", row.steps},
+                                           {"NAIAD_ON_GAME_OVER", row.steps[0] == 'k' ? "exit" : "leave"}});
     ASSERT_NE(game->port(), 0) << game->log();
     auto ann = join("ann");
     auto bob = join("bob");

@@ -1,6 +1,7 @@
 // A game that calls GM.run() several times, as for a title, a level and an epilogue. RunsTest.cpp uses it,
 // with a letter for each step of main() in the variable RUNS.
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "DisplayManager.h"
@@ -15,7 +16,8 @@
 
 using namespace df;
 
-// Ends its run in the step after a key, or by itself some steps after two players have joined.
+// Ends its run in the step after a key, or at the key if `steps` is below 0, or by itself that many steps
+// after two players have joined.
 class Act : public Object {
  public:
   Act(int new_number, int new_steps) : number(new_number), steps(new_steps) {
@@ -26,7 +28,10 @@ class Act : public Object {
   }
   int eventHandler(const Event* p_e) {
     if (p_e->getType() == JOIN_EVENT) joins++;
-    if (p_e->getType() == KEYBOARD_EVENT) ends |= ((const EventKeyboard*)p_e)->getKey() == Keyboard::SPACE;
+    if (p_e->getType() == KEYBOARD_EVENT && ((const EventKeyboard*)p_e)->getKey() == Keyboard::SPACE) {
+      if (steps < 0) GM.setGameOver();
+      ends = true;
+    }
     if (p_e->getType() == STEP_EVENT && (ends || (joins == 2 && --steps == 0))) {
       WM.markForDelete(this);
       GM.setGameOver();
@@ -51,8 +56,9 @@ int main() {
   int acts = 0;
   for (const char* p_step = getenv("RUNS"); *p_step != '\0'; p_step++) {
     if (*p_step == 'r') new Act(++acts, 0);
+    if (*p_step == 'k') new Act(++acts, -1);
     if (*p_step == 's') new Act(++acts, 100);  // a splash, which waits for no key
-    if (*p_step == 'r' || *p_step == 's') GM.run();
+    if (strchr("rks", *p_step) != NULL) GM.run();
     if (*p_step == 'e') splash();
     if (*p_step == 'p') sleep(1);  // as a game does that waits for the clock
     if (*p_step == 'c') {
