@@ -16,11 +16,11 @@
 
 using namespace df;
 
-// Ends its run in the step after a key, or at the key if `steps` is below 0, or by itself that many steps
-// after two players have joined.
+// Ends its run: kind 'r' in the step after a key, 'k' at a key, 's' by itself, 100 steps after two players
+// joined.
 class Act : public Object {
  public:
-  Act(int new_number, int new_steps) : number(new_number), steps(new_steps) {
+  Act(int new_number, char new_kind) : number(new_number), kind(new_kind) {
     setType("Act");
     registerInterest(KEYBOARD_EVENT);
     registerInterest(STEP_EVENT);
@@ -28,11 +28,11 @@ class Act : public Object {
   }
   int eventHandler(const Event* p_e) {
     if (p_e->getType() == JOIN_EVENT) joins++;
-    if (p_e->getType() == KEYBOARD_EVENT && ((const EventKeyboard*)p_e)->getKey() == Keyboard::SPACE) {
-      if (steps < 0) GM.setGameOver();
-      ends = true;
-    }
-    if (p_e->getType() == STEP_EVENT && (ends || (joins == 2 && --steps == 0))) {
+    if (p_e->getType() == KEYBOARD_EVENT && ((const EventKeyboard*)p_e)->getKey() == Keyboard::SPACE)
+      pressed = true;
+    if (p_e->getType() == STEP_EVENT && joins == 2) steps++;
+    const bool is_time = p_e->getType() == (kind == 'k' ? KEYBOARD_EVENT : STEP_EVENT);
+    if (is_time && (kind == 's' ? steps == 100 : pressed)) {
       WM.markForDelete(this);
       GM.setGameOver();
     }
@@ -46,19 +46,20 @@ class Act : public Object {
 
  private:
   int number;
-  int steps;
+  char kind;
   int joins = 0;
-  bool ends = false;
+  int steps = 0;
+  bool pressed = false;
 };
 
 int main() {
   GM.startUp();
   int acts = 0;
   for (const char* p_step = getenv("RUNS"); *p_step != '\0'; p_step++) {
-    if (*p_step == 'r') new Act(++acts, 0);
-    if (*p_step == 'k') new Act(++acts, -1);
-    if (*p_step == 's') new Act(++acts, 100);  // a splash, which waits for no key
-    if (strchr("rks", *p_step) != NULL) GM.run();
+    if (strchr("rks", *p_step) != NULL) {
+      new Act(++acts, *p_step);
+      GM.run();
+    }
     if (*p_step == 'e') splash();
     if (*p_step == 'p') sleep(1);  // as a game does that waits for the clock
     if (*p_step == 'c') {
