@@ -54,6 +54,7 @@ class Act : public Object {
 
 int main() {
   GM.startUp();
+  new Object;  // stays until the world is cleared
   int acts = 0;
   for (const char* p_step = getenv("RUNS"); *p_step != '\0'; p_step++) {
     if (strchr("rks", *p_step) != NULL) {
