@@ -29,6 +29,7 @@ TestServer::TestServer(std::function<void(df::World&)> populate, HostOptions opt
     populate(world);
     populated.set_value();
     m_host->run(world);
+    m_host->finish();
     world.shutDown();
   });
   populated.get_future().wait();

@@ -1,13 +1,15 @@
 #include "engine/effects/Fader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/events/EventStep.h"
 
 namespace df {
 
-static unsigned char fadeOf(int age, unsigned char opacity) {
-  return static_cast<unsigned char>(opacity / std::max(age, 1));
+static float fadeOf(int age, unsigned char opacity) {
+  const float fade = static_cast<float>(opacity) / static_cast<float>(std::max(age, 1));
+  return fade < 1 ? fade : std::floor(fade);
 }
 
 Fader::Fader(float size, int age, unsigned char opacity, unsigned char r, unsigned char g, unsigned char b)
@@ -19,7 +21,9 @@ Fader::Fader(float size, int age, unsigned char opacity, Color color)
 int Fader::eventHandler(const Event* p_e) {
   if (p_e->getType() == STEP_EVENT) {
     Shape shape = getShape();
-    const int left = shape.getOpacity() - m_fade;
+    const float lost = std::floor(m_lost += m_fade);
+    m_lost -= lost;
+    const int left = shape.getOpacity() - static_cast<int>(lost);
     shape.setOpacity(static_cast<unsigned char>(std::max(left, 0)));
     setShape(shape);
   }

@@ -47,6 +47,8 @@ class LogManager : public Manager {
   int getLogLevel() const;
   /// Flushes the file after each line, so that nothing is lost in a crash. Off by default.
   void setFlush(bool do_flush = true);
+  /// Writes what is buffered to the files now.
+  void flush() const { std::fflush(nullptr); }
   /// Has no effect: lines carry no times and no step counts.
   void setLogTimeString(bool /*log_time_string*/ = true) {}
   void setLogStepCount(bool /*log_step_count*/ = true) {}

@@ -35,14 +35,15 @@ class ResourceManager : public Manager {
   /// shows a '?' (compat: null).
   Sprite* getSprite(const std::string& label) const;
 
-  /// Loads a sound. Returns 0, or -1 for a file that cannot be read.
+  /// Loads a sound. Returns 0, or -1 for a file that cannot be read (compat: the label then has a silent
+  /// sound).
   int loadSound(const std::string& filename, const std::string& label);
   /// Unloads a sound. Returns 0, or -1 for an unknown label.
   int unloadSound(const std::string& label);
   /// Returns the sound. For an unknown label, logs a line and returns a silent sound (compat: null).
   Sound* getSound(const std::string& label);
 
-  /// Loads a piece of music. Returns 0, or -1 for a file that cannot be read.
+  /// Loads a piece of music. Returns 0, or -1 for a file that cannot be read (compat: as for a sound).
   int loadMusic(const std::string& filename, const std::string& label);
   /// Unloads a piece of music. Returns 0, or -1 for an unknown label.
   int unloadMusic(const std::string& label);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <cstdio>
 #include <sstream>
 
@@ -88,7 +89,9 @@ std::string match(const std::string& str, const std::string& find) {
 
 char* getTimeString() {
   thread_local std::array<char, 32> text;
-  const int seconds = GM.getStepCount() / 30;
+  const std::int64_t steps = GM.getStepCount();
+  const int frame = GM.getFrameTime();  // the default of 33 ms means exactly 1/30 s
+  const auto seconds = static_cast<int>(frame == FRAME_TIME_DEFAULT ? steps / 30 : steps * frame / 1000);
   std::snprintf(text.data(), text.size(), "%02d:%02d:%02d", seconds / 3600, seconds / 60 % 60, seconds % 60);
   return text.data();
 }

@@ -14,11 +14,19 @@ namespace df {
 
 /// Ways to mirror a frame before it is drawn.
 enum class Transform {
-  NO_TRANSFORM,
+  NONE,
   HORIZONTAL,  ///< swaps left and right
   VERTICAL,    ///< swaps top and bottom
   BOTH,
+  NO_TRANSFORM = NONE,  ///< older name of NONE
 };
+
+#if !defined(DF_SCOPED_ENUMS)
+inline constexpr Transform NONE = Transform::NONE;              ///< short for Transform::NONE
+inline constexpr Transform HORIZONTAL = Transform::HORIZONTAL;  ///< short for Transform::HORIZONTAL
+inline constexpr Transform VERTICAL = Transform::VERTICAL;      ///< short for Transform::VERTICAL
+inline constexpr Transform BOTH = Transform::BOTH;              ///< short for Transform::BOTH
+#endif
 
 class Animation {
  public:

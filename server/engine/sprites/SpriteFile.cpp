@@ -84,12 +84,20 @@ struct Header {
   char transparency = 0;
 };
 
-int toNumber(const Lines& lines, const std::string& key, const std::string& text, int least, int most) {
+/// Lists this trouble in the last line, with what is done about it; throws if nothing is tolerated.
+void tolerate(const Lines& lines, const Header& header, const std::string& trouble, const std::string& done) {
+  if (header.p_warnings == nullptr) lines.fail(trouble);
+  header.p_warnings->push_back(lines.describe(trouble + ", " + done));
+}
+
+int toNumber(const Lines& lines, const Header& header, const std::string& key, const std::string& text,
+             int least, int most) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    lines.fail(key + " should be a number, not \"" + text + "\"");
-  }
+  const std::string trouble = key + " should be a number, not \"" + text + "\"";
+  if (error != std::errc()) lines.fail(trouble);
+  if (end != text.data() + text.size())
+    tolerate(lines, header, trouble, "the number at its beginning is used");
   if (value < least || value > most) {
     lines.fail(key + " should be " + std::to_string(least) + " to " + std::to_string(most) + ", not " + text);
   }
@@ -104,23 +112,17 @@ Color toColor(const Lines& lines, const std::string& text) {
 
 void parseSlowdown(const Lines& lines, Header& header, const std::string& text) {
   constexpr int kMaxSlowdown = 1'000'000;
-  if (header.p_warnings == nullptr) {
-    header.slowdown = toNumber(lines, "slowdown", text, 0, kMaxSlowdown);
-    return;
-  }
-  header.slowdown = text.empty() ? 0 : toNumber(lines, "slowdown", text, -1, kMaxSlowdown);
-  if (text.empty()) header.p_warnings->push_back(lines.describe("slowdown has no number, 0 is used"));
-  if (header.slowdown < 0) {
-    header.p_warnings->push_back(
-        lines.describe("slowdown should be 0 to 1000000, not " + text + ", used as it is"));
-  }
+  const bool is_compat = header.p_warnings != nullptr;
+  if (is_compat && text.empty()) return tolerate(lines, header, "slowdown has no number", "0 is used");
+  header.slowdown = toNumber(lines, header, "slowdown", text, is_compat ? -1 : 0, kMaxSlowdown);
+  if (header.slowdown < 0)
+    tolerate(lines, header, "slowdown should be 0 to 1000000, not " + text, "used as it is");
 }
 
 void parseTransparency(const Lines& lines, Header& header, const std::string& text) {
   if (text.size() > 1) {
-    const std::string trouble = "transparency should be one character, not \"" + text + "\"";
-    if (header.p_warnings == nullptr) lines.fail(trouble);
-    header.p_warnings->push_back(lines.describe(trouble + ", its first one is used"));
+    tolerate(lines, header, "transparency should be one character, not \"" + text + "\"",
+             "its first one is used");
   }
   header.transparency = text.empty() ? ' ' : text[0];
 }
@@ -130,19 +132,22 @@ void parseField(const Lines& lines, Header& header, const std::string& line) {
   const std::string key = line.substr(0, gap);
   const std::string value = trimmed(line.substr(gap));
   if (key == "frames") {
-    header.frames = toNumber(lines, key, value, 1, kMaxSpriteFrames);
+    header.frames = toNumber(lines, header, key, value, 1, kMaxSpriteFrames);
   } else if (key == "width") {
-    header.width = toNumber(lines, key, value, 1, kMaxSpriteSide);
+    header.width = toNumber(lines, header, key, value, 1, kMaxSpriteSide);
   } else if (key == "height") {
-    header.height = toNumber(lines, key, value, 1, kMaxSpriteSide);
+    header.height = toNumber(lines, header, key, value, 1, kMaxSpriteSide);
   } else if (key == "color") {
-    header.color = toColor(lines, value);
+    value.empty() ? tolerate(lines, header, "color has no value", "white is used")
+                  : void(header.color = toColor(lines, value));
   } else if (key == "slowdown") {
     parseSlowdown(lines, header, value);
   } else if (key == "transparency") {
     parseTransparency(lines, header, value);
   } else {
-    lines.fail("unknown field \"" + key + "\"");
+    const std::string trouble = "unknown field \"" + key + "\"";
+    if (key[0] == '<') lines.fail(trouble);  // a tag is missing
+    tolerate(lines, header, trouble, "ignored");
   }
 }
 
@@ -224,7 +229,7 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
 std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
   const auto number = [&](const char* key, int most) {
     const std::string word = lines.nextWord(key);
-    return toNumber(lines, key, word, 1, most);
+    return toNumber(lines, Header(nullptr), key, word, 1, most);
   };
   header.frames = number("frames", kMaxSpriteFrames);
   header.width = number("width", kMaxSpriteSide);
@@ -255,8 +260,8 @@ std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {
   if (const std::string rest = lines.peekWord(); !rest.empty()) {
     lines.nextWord("");
     const std::string trouble = "unexpected \"" + rest + "\" after the end of the sprite";
-    if (header.p_warnings == nullptr || !has_end_mark) lines.fail(trouble);
-    header.p_warnings->push_back(lines.describe(trouble + ", ignored together with the rest"));
+    if (!has_end_mark) lines.fail(trouble);
+    tolerate(lines, header, trouble, "ignored together with the rest");
   }
   return sprite;
 }

@@ -25,8 +25,9 @@ inline constexpr int kMaxSpriteSide = 1024;
 /// Parses the sprite in `text` and gives it this label. On failure, returns null and sets `error` to the
 /// number of the line and the reason, as in "12: the row has 5 characters instead of 6". With `p_warnings`
 /// the published engine's rules hold: `slowdown -1`, a line `slowdown` without a value, `transparency " "`
-/// (only its first character is used) and text after `</FOOTER>` or `eof` (ignored) are accepted, and listed
-/// there like errors. A missing slowdown is 0, and the animation never stands still (Sprite::setNeverStill).
+/// (only its first character is used), text after a number (`3.5` is 3), a line `color` without a value,
+/// unknown fields, and text after `</FOOTER>` or `eof` (both ignored) are accepted, and listed there like
+/// errors. A missing slowdown is 0, and the animation never stands still (Sprite::setNeverStill).
 std::unique_ptr<Sprite> parseSprite(const std::string& text, const std::string& label, std::string& error,
                                     std::vector<std::string>* p_warnings = nullptr);
 

@@ -16,6 +16,7 @@ class Music : private Sound {
 
   using Sound::endLoop;
   using Sound::getLabel;
+  using Sound::isSilent;
   using Sound::pause;
   using Sound::setLabel;
   using Sound::silence;

@@ -201,11 +201,13 @@ Sprite& Resources::missingSprite() {
 
 template <class T>
 int SoundBank<T>::load(const std::string& filename, const std::string& label) {
-  if (find(label) != nullptr) return 0;
-  T& loaded = m_all.emplace_back();
+  T* const p_before = find(label);
+  if (p_before != nullptr && !p_before->isSilent()) return 0;
+  T& loaded = p_before != nullptr ? *p_before : m_all.emplace_back();
   loaded.setLabel(label);
-  if (loadFile(loaded, filename) == 0) return 0;
-  m_all.pop_back();
+  loaded.silence(loadFile(loaded, filename) != 0);
+  if (!loaded.isSilent()) return 0;
+  if (p_before == nullptr && !m_state.compat) m_all.pop_back();
   return -1;
 }
 

@@ -29,6 +29,8 @@ class SoundBank {
   /// `get` is the name of ResourceManager's function that finds a T, for log lines.
   SoundBank(WorldLog& log, const WorldState& state, const char* get)
       : m_log(log), m_state(state), m_get(get) {}
+  /// Returns 0, or -1 for a file that cannot be read. With compat, the label then has a silent T until a
+  /// load() of this label succeeds, because games ignore the result and play what find() returns.
   int load(const std::string& filename, const std::string& label);
   int unload(const std::string& label);
   T* find(const std::string& label);

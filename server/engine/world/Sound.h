@@ -30,8 +30,9 @@ class Sound {
   /// Pauses the sound; the next play() continues from there.
   void pause() { recordSound(SoundPlayed::kPause, false); }
 
-  /// Makes this sound play nothing, because it stands in for a missing sound.
-  void silence() { m_silent = true; }
+  /// If `silent`, this sound plays nothing, because it stands in for a missing sound.
+  void silence(bool silent = true) { m_silent = silent; }
+  bool isSilent() const { return m_silent; }
 
   /// Stops the sound if it repeats. Call before it is unloaded.
   void endLoop();

@@ -22,8 +22,6 @@ class RoundRecovery {
   bool isAtUnknownResult() const {
     return m_turns + 1 >= m_round->turns() && !m_round->hasLastResult() && !m_differs;
   }
-  /// True if the world has answered all turns.
-  bool isAtEnd() const { return m_turns == m_round->turns(); }
 
   const UnfinishedRound& round() const { return *m_round; }
   /// Returns the progress in percent.

@@ -72,7 +72,15 @@ Host::~Host() {
 
 // Serves sockets until the next tick is due, then ticks, in a loop.
 void Host::run(df::World& world) {
-  beginGame(world);
+  if (m_finished) return world.setGameOver();
+  const bool is_first = !awaitsRun();
+  if (is_first) {
+    beginGame(world);
+  } else {
+    serveUntil(Clock::now());  // players that left since the last run must not join again
+    world.setGameOver(false);
+    m_clients->rooms().restart();
+  }
   StopSignals signals;
   AsyncLog side_log(m_context->log);
   Watchdog watchdog(
@@ -81,15 +89,21 @@ void Host::run(df::World& world) {
   TickClock schedule(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
   const auto work = asio::make_work_guard(m_context->home);  // without it, run_until() would return at once
   m_endpoint->network().start();
-  for (const auto& part : m_parts) part->begin();
+  for (const auto& part : m_parts) is_first ? part->begin() : void();
   while (!isOver()) {
     serveUntil(schedule.deadline());
     m_controls->handleSignals(signals);
     if (isDue(schedule)) tick(watchdog);
     if (isResting()) schedule = rest();
   }
+  if (!m_clients->rooms().mayRestart() || m_context->shutdown_scheduler.plan()) finish();
+}
+
+void Host::finish() {
+  if (!awaitsRun()) return;
+  m_finished = true;
   drain();
-  endGame(world);
+  endGame(*m_p_world);
 }
 
 // Runs on the watchdog's thread. The game may hold any lock of the process, including the log's. So nothing

@@ -48,7 +48,15 @@ class Host : public df::Runner {
   /// most a second, until queued data is sent. If a signal arrives while the game hangs in a tick, the
   /// process exits with code 1. A second signal ends it at once, by that signal unless the game hangs. Both
   /// send a goodbye first.
+  ///
+  /// If the game ends itself, in a world of this process, a further run may follow, as after a title. So
+  /// players stay connected without a goodbye, and join the world again in the next run(). A client that
+  /// hears nothing for 15 s begins to reconnect. After any other end, run() ends at once.
   void run(df::World& world) override;
+  /// True between two runs: connections wait for the next one.
+  bool awaitsRun() const { return m_p_world != nullptr; }
+  /// Ends a host that awaits a run as run() does otherwise. Call this before the destructor.
+  void finish();
   /// Ends run() after the present tick, with this sentence to the players. Any thread.
   void stop(const std::string& sentence);
   /// Calls `job` on the host's thread between ticks. Any thread may post. Tests inspect worlds with it.
@@ -83,7 +91,8 @@ class Host : public df::Runner {
   std::unique_ptr<HostControls> m_controls;
   std::vector<std::unique_ptr<HostPart>> m_parts;
   std::function<void(df::World&)> m_observer;
-  df::World* m_p_world = nullptr;
+  df::World* m_p_world = nullptr;  ///< null before the first run and after the last
+  bool m_finished = false;
   Clock::time_point m_empty_since;
   Clock::time_point m_tick_began;
 };

@@ -17,7 +17,6 @@ class StopSignals {
 
   /// Returns the number of signals that have asked for the end since this was installed. Any thread.
   int count() const;
-  bool isStopRequested() const { return count() > 0; }
   /// Returns the newest signal that has asked for the end. Any thread.
   int signal() const;
   /// True, once, after a SIGHUP that does not ask for the end.

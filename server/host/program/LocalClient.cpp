@@ -166,6 +166,10 @@ LocalClient::~LocalClient() {
   }
 }
 
+void LocalClient::end() const {
+  if (m_process > 0) kill(m_process, SIGTERM);
+}
+
 bool LocalClient::hasEnded() {
   if (m_process < 0) return true;
   int status = 0;

@@ -45,6 +45,8 @@ class LocalClient {
   LocalClient(const LocalClient&) = delete;
   LocalClient& operator=(const LocalClient&) = delete;
 
+  /// Asks the client to end.
+  void end() const;
   /// True if the client has ended.
   bool hasEnded();
   /// True if it ended because it could not join or draw; false if its player left.

@@ -20,7 +20,6 @@
 #include "engine/world/WorldExtras.h"
 #include "engine/world/WorldLog.h"
 #include "host/auth/Seed.h"
-#include "host/loop/Host.h"
 #include "host/loop/HostClients.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/process/CrashReport.h"
@@ -31,7 +30,6 @@
 #include "host/world/WorldServer.h"
 #include "host/world/WorldStart.h"
 #include "proto/ParseErrors.h"
-#include "shared/program/LineLog.h"
 #include "shared/program/LogText.h"
 #include "shared/program/ProcessSetup.h"
 #include "shared/values/Version.h"
@@ -149,6 +147,13 @@ class TerminalPlayer {
       std::cout << error.what() << std::endl;
     }
   }
+
+  /// Ends the client. If there is another run, other players stay connected until then, without a goodbye.
+  ~TerminalPlayer() {
+    if (m_client && m_host.awaitsRun()) m_client->end();
+  }
+  TerminalPlayer(const TerminalPlayer&) = delete;
+  TerminalPlayer& operator=(const TerminalPlayer&) = delete;
 
   /// Call once a tick.
   void update() {
@@ -293,10 +298,13 @@ void ProgramHost::runHeadless(df::World& world) {
 }
 
 void ProgramHost::serve(df::World& world) {
-  std::optional<LineLog> lines;
-  if (!m_options.log_file.empty() || !LocalClient::hasTerminal()) lines.emplace(m_options.log_file);
+  std::shared_ptr<LineLog> lines = std::move(m_lines);
+  std::unique_ptr<Host> host = std::move(m_waiting);
+  const bool is_first = host == nullptr;
+  if (is_first && (!m_options.log_file.empty() || !LocalClient::hasTerminal()))
+    lines = std::make_shared<LineLog>(m_options.log_file);
   // If a client uses the terminal and no log file is set, the host logs to the file of the game.
-  const Host::Log log = [&](const LogEvent& event) {
+  const Host::Log log = [lines, &world](const LogEvent& event) {
     lines ? (*lines)(event) : world.log().write(event.text);
   };
   std::shared_ptr<const WorldLauncher> launcher;
@@ -304,14 +312,16 @@ void ProgramHost::serve(df::World& world) {
     launcher = launchProgram(m_options, df::Config::getInstance().getLogFile(), log);
   const crash::Report crashes(programName(), lines ? lines->descriptor() : -1);
   if (const auto sockets = InheritedSockets::importSockets()) useSockets(*sockets, m_options);
-  std::unique_ptr<Host> host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
-  writeEndpointFiles(m_options, host->endpoint());
-  log(programName() + " is a server on " + host->endpoint().address());
+  if (is_first) host = openHost(m_options, m_given.count("port") > 0 || m_options.sockets, log);
   const std::vector<std::string> how = joinInstructions(host->endpoint(), m_options, kOpenness);
-  for (const std::string& line : how) std::cout << line << std::endl;
-  for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
-  std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
-            << std::endl;
+  if (is_first) {
+    writeEndpointFiles(m_options, host->endpoint());
+    log(programName() + " is a server on " + host->endpoint().address());
+    for (const std::string& line : how) std::cout << line << std::endl;
+    for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
+    std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")
+              << std::endl;
+  }
   const std::vector<std::string> help = world.getHelp();
   addToHelp(world, how);
 
@@ -333,6 +343,19 @@ void ProgramHost::serve(df::World& world) {
   if (host->context().shutdown_scheduler.isRestart()) beginAgain(host);
   if (!host->clients().rooms().failure().empty())
     fail(kGameFailed, "the game " + host->clients().rooms().failure());
+  if (!host->awaitsRun()) return;
+  // The handler runs before those of libraries that the host uses, because theirs were registered earlier.
+  static const bool registered = std::atexit([] { g_program.finish(); }) == 0;
+  static_cast<void>(registered);
+  m_lines = std::move(lines);
+  m_waiting = std::move(host);
+}
+
+void ProgramHost::finish() {
+  if (m_waiting == nullptr) return;
+  m_waiting->finish();
+  m_waiting.reset();
+  m_lines.reset();
 }
 
 }  // namespace naiad

@@ -298,6 +298,7 @@ int serve(Start& start) {
   announce(options, host);
   const ExitCode code = play(game, host.endpoint().address(), host, options, log,
                              host.context().feed.publishingGame(markedLog(log)));
+  host.finish();
   recordEnd(host, start);
   return host.clients().rooms().failure().empty() ? code : failGame(host.clients().rooms().failure());
 }

@@ -398,6 +398,13 @@ void RoomManager::endRound(Room& room, const WorldEnd& end) {
   m_over = true;
 }
 
+void RoomManager::restart() {
+  Room& room = *m_rooms.front();
+  room.forEachPlaying([&room](const Session& session) { room.leave(session.player()); });
+  room.round().close();
+  beginRound(room);
+}
+
 bool RoomManager::beginRound(Room& room) {
   const std::uint64_t sent = room.sounds().sent();
   m_audit.onRound(room, tickNumber());

@@ -168,6 +168,10 @@ class RoomManager {
   std::optional<std::string> popUpgradeMessage() { return std::exchange(m_upgrade_message, std::nullopt); }
   /// Allows new worlds again after an upgrade.
   void forgetUpgrade() { m_upgraded = false; }
+  /// True if the game has ended the world given to open(), but may call GM.run() again.
+  bool mayRestart() const { return !hasWorlds() && isOver() && !hasLastPlayer(); }
+  /// Makes all players leave that world and join it again. Call this if mayRestart().
+  void restart();
   /// Ends all worlds. A world process takes time to end: call again until isEmpty().
   void closeWorlds();
   bool isEmpty() const { return m_rooms.empty() && m_ending.empty(); }

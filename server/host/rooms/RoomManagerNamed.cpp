@@ -85,6 +85,7 @@ std::vector<std::string> RoomManager::roomNames() const {
 }
 
 std::unique_ptr<Round> RoomManager::newRound(const Room& room) const {
+  if (!hasWorlds()) return std::make_unique<Round>(std::make_unique<WorldInProcess>(*m_p_world));
   return room.plan() != nullptr ? room.plan()->new_world(m_context.home) : m_new_world(m_context.home);
 }
 

@@ -8,7 +8,8 @@
 #include "Manager.h"
 #include "Vector.h"
 
-/// The physics manager.
+/// The physics manager, also after PathManager.h, whose macro has this name, too.
+#undef PM
 #define PM df::PhysicsManager::getInstance()
 
 namespace naiad::physics {

@@ -33,10 +33,6 @@ constexpr GridBounds unite(const GridBounds& a, const GridBounds& b) {
   return {std::min(a.lower_x, b.lower_x), std::min(a.lower_y, b.lower_y), std::max(a.upper_x, b.upper_x),
           std::max(a.upper_y, b.upper_y)};
 }
-/// Returns half the perimeter, the measure for the cost of a tree's node.
-constexpr std::int64_t perimeter(const GridBounds& a) {
-  return (a.upper_x - a.lower_x) + (a.upper_y - a.lower_y);
-}
 
 /// Returns the smallest grid bounds around `bounds` at `place`, enlarged by `margin` >= 0 metric cells on
 /// every side. Accepts any numbers, because a body that was hit very hard has bounds before it is frozen.

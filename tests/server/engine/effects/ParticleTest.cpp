@@ -45,6 +45,15 @@ TEST_F(ParticleTest, FaderFadesBeforeItEnds) {
   EXPECT_EQ(count(), 0);
 }
 
+TEST_F(ParticleTest, FaderOlderThanItsOpacityFadesAllItsLife) {
+  auto* p_fader = new Fader(10, 1000, 200, WHITE);
+  p_fader->setPosition(Vector(5, 5));
+  for (const int opacity : {150, 100, 50, 1}) {
+    for (int i = 0; i < (opacity > 1 ? 250 : 249); ++i) world.tick();
+    EXPECT_NEAR(p_fader->getShape().getOpacity(), opacity, 1);
+  }
+}
+
 TEST_F(ParticleTest, EveryKindAppearsMovesAndEnds) {
   for (const ParticleType type : {SMOKE, SPARKS, RINGS, FIREWORKS}) {
     EXPECT_EQ(addParticles(type, Vector(40, 12)), 0);

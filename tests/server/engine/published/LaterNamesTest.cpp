@@ -1,8 +1,9 @@
-// Names of the published engine's versions 4.20 and 4.22, used as games of that time used them, in C++17. The
+// Names of the published engine's versions 4.20 to 4.25, used as games of that time used them, in C++17. The
 // test is that this file compiles; EarlyNamesRunTest.cpp runs it.
 
 #include "Config.h"
 #include "DisplayManager.h"
+#include "LogManager.h"
 #include "NetworkManager.h"
 #include "NetworkNode.h"
 #include "Object.h"
@@ -64,6 +65,10 @@ int laterNames() {
   if (animation.getTransform() != df::Transform::HORIZONTAL) return 2;
   animation.setTransform(df::Transform::BOTH);
   if (animation.getTransform() == df::Transform::VERTICAL) return 3;
+  for (const df::Transform plain : {df::HORIZONTAL, df::VERTICAL, df::BOTH, df::NONE})
+    animation.setTransform(plain);
+  if (animation.getTransform() != df::Transform::NO_TRANSFORM) return 9;
+  LM.flush();
   df::Config& config = df::Config::getInstance();
   config.setSignals(!config.getSignals());
   if (config.getWindowState() != 0 || config.getWindowStyle() != df::WINDOW_STYLE_DEFAULT) return 4;

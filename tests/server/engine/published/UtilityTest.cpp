@@ -6,6 +6,7 @@
 #include "engine/published/NetworkNode.h"
 #include "engine/published/StateMachine.h"
 #include "engine/published/utility.h"
+#include "engine/world/WorldExtras.h"
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -125,6 +126,25 @@ TEST_F(UtilityTest, ValuesConvertToText) {
   EXPECT_EQ(characterOf(Keyboard::NUM9, false), '9');
   EXPECT_EQ(characterOf(Keyboard::NUM2, true), '@');
   EXPECT_EQ(characterOf(Keyboard::UPARROW, false), 0);
+}
+
+TEST_F(UtilityTest, TimeStringCountsTicksOfAnyLength) {
+  struct {
+    int frame_time;
+    int ticks;
+    const char* text;
+  } const rows[] = {{33, 29, "00:00:00"},
+                    {33, 30, "00:00:01"},
+                    {100, 600, "00:01:00"},
+                    {20, 49, "00:00:00"},
+                    {20, 50, "00:00:01"}};
+  for (const auto& row : rows) {
+    World one;
+    const World::Scope scope(one);
+    one.extras().settings.frame_time = row.frame_time;
+    for (int i = 0; i < row.ticks; ++i) one.tick();
+    EXPECT_STREQ(getTimeString(), row.text) << row.frame_time;
+  }
 }
 
 TEST_F(UtilityTest, MatchFindsValuesAndRemembersTheString) {

@@ -40,6 +40,32 @@ TEST_F(SoundTest, ExistingFilesAreLoadedAndMissingOnesAreLogged) {
   EXPECT_EQ(RM.unloadMusic("theme"), 0);
 }
 
+TEST_F(SoundTest, WithCompatMissingFilesAreSilent) {
+  world.setCompat();
+  EXPECT_EQ(RM.loadSound("sounds/ghost.wav", "ghost"), -1);
+  EXPECT_EQ(RM.loadMusic("sounds/ghost.ogg", "ghost"), -1);
+  ASSERT_NE(RM.getSound("ghost"), nullptr);
+  ASSERT_NE(RM.getMusic("ghost"), nullptr);
+  EXPECT_EQ(RM.getSound("ghost")->getLabel(), "ghost");
+  for (const bool loop : {false, true}) RM.getSound("ghost")->play(loop);
+  RM.getMusic("ghost")->play();
+  RM.getMusic("ghost")->stop();
+  world.tick();
+  EXPECT_TRUE(view().sounds.empty());
+  EXPECT_EQ(logged("Sound: sounds/ghost.wav: cannot be read"), 1);
+  EXPECT_EQ(logged("Music: sounds/ghost.ogg: cannot be read"), 1);
+  EXPECT_EQ(lines.size(), 2u);
+  EXPECT_EQ(RM.getSound("never loaded"), nullptr) << "games test for it";
+  EXPECT_EQ(RM.loadSound(kFile, "ghost"), 0) << "a second path that a game tries";
+  EXPECT_EQ(RM.loadSound("sounds/ghost.wav", "ghost"), 0) << "the first sound is kept";
+  RM.getSound("ghost")->play();
+  world.tick();
+  EXPECT_EQ(view().sounds.size(), 1u);
+  EXPECT_EQ(RM.unloadSound("ghost"), 0);
+  EXPECT_EQ(RM.unloadMusic("ghost"), 0);
+  EXPECT_EQ(RM.getSound("ghost"), nullptr);
+}
+
 TEST_F(SoundTest, SoundsPlayedInATickAreInItsView) {
   probe.hear(STEP_EVENT, [](Probe&, const Event&) {
     RM.getSound("fire")->play();

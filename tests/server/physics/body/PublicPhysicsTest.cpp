@@ -12,6 +12,7 @@
 #include "Field.h"
 #include "Grip.h"
 #include "Integrator.h"
+#include "PathManager.h"  // before PhysicsManager.h, whose PM replaces its macro
 #include "PhysicsManager.h"
 #include "SoftObject.h"
 #include "Vec2.h"

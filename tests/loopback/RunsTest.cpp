@@ -1,0 +1,96 @@
+// Players of a game that calls GM.run() several times (runs/game.cpp): they stay connected until its last run
+// has ended. Real processes and sockets.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <memory>
+#include <string>
+
+#include "GameProgram.h"
+#include "LoopbackFixture.h"
+
+namespace naiad::test {
+namespace {
+
+class Runs : public LoopbackFixture {
+ protected:
+  std::unique_ptr<TestClient> join(const std::string& name) {
+    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
+    clients.push_back(client.get());
+    EXPECT_TRUE(serve([&] { return client->joined() && isIn(*client, 1); })) << game->log();
+    return client;
+  }
+  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
+  static std::string row(TestClient& client) {
+    return client.session().replica().render(client.newestTick()).rowText(12);
+  }
+  /// True if the client is connected and shows this act.
+  static bool isIn(TestClient& client, int act) {
+    return client.joined() && has(row(client), ";") && numberAfter(row(client), "act=") == act;
+  }
+  static bool isOver(TestClient& client) { return client.connection().isOver(); }
+
+  std::unique_ptr<GameProgram> game;
+  std::vector<TestClient*> clients;
+};
+
+TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
+  struct {
+    const char* name;
+    const char* steps;  // of main(), see runs/game.cpp
+    int acts;
+  } const rows[] = {{"one run", "r", 1},
+                    {"a title", "rr", 2},
+                    {"a title and an epilogue", "rrr", 3},
+                    {"a splash of the engine", "err", 2},
+                    {"a splash of its own", "srr", 3},
+                    {"a title that ends at a key", "kr", 2},
+                    {"a pause", "rpr", 2},
+                    {"a world cleared by hand", "rcr", 2},
+                    {"a world shut down", "rwr", 2},
+                    {"managers started again", "rgrgr", 3},
+                    {"all of it", "serpcrwpr", 4}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.name);
+    clients.clear();
+    game = std::make_unique<GameProgram>(
+        "runs_game",
+        std::map<std::string, std::string>{{"RUNS", row.steps},
+                                           {"NAIAD_ON_GAME_OVER", row.steps[0] == 'k' ? "exit" : "leave"}});
+    ASSERT_NE(game->port(), 0) << game->log();
+    auto ann = join("ann");
+    auto bob = join("bob");
+    const std::uint32_t player = ann->player();
+    for (int act = 1; act <= row.acts; ++act) {
+      ASSERT_TRUE(serve([&] { return isOver(*ann) || (isIn(*ann, act) && isIn(*bob, act)); }));
+      ASSERT_FALSE(isOver(*ann)) << "act " << act << ": " << ann->connection().message() << "\n"
+                                 << game->log();
+      if (act > 1) EXPECT_TRUE(serve([&] { return has(Runs::row(*ann), "joins=2;"); })) << Runs::row(*ann);
+      EXPECT_EQ(ann->player(), player);
+      EXPECT_TRUE(serve([&] { return lists(*ann, "bob"); }));
+      if (act > 1 || row.steps[0] != 's') press(*bob, df::Keyboard::SPACE);
+    }
+    ASSERT_TRUE(serve([&] { return isOver(*ann) && isOver(*bob); })) << game->log();
+    EXPECT_EQ(ann->connection().message(), "The game is over.");
+    EXPECT_EQ(game->wait(), 0) << game->log();
+    EXPECT_FALSE(has(game->log(), "reconnected"));
+    EXPECT_EQ(has(game->log(), "is a server on"), true);
+  }
+}
+
+// A player that leaves or joins while no run is active has done so when the next one begins.
+TEST_F(Runs, LeavingAndJoiningInAPauseTakesEffect) {
+  game = std::make_unique<GameProgram>("runs_game", std::map<std::string, std::string>{{"RUNS", "rpr"}});
+  ASSERT_NE(game->port(), 0) << game->log();
+  auto ann = join("ann");
+  auto bob = join("bob");
+  press(*ann, df::Keyboard::SPACE);
+  bob->connection().leave();
+  auto cid = std::make_unique<TestClient>(context, game->port(), home.player("cid"));
+  clients.push_back(cid.get());
+  ASSERT_TRUE(serve([&] { return cid->joined() && isIn(*ann, 2) && isIn(*cid, 2); })) << game->log();
+  EXPECT_TRUE(serve([&] { return lists(*ann, "cid") && !lists(*ann, "bob"); }));
+}
+
+}  // namespace
+}  // namespace naiad::test
