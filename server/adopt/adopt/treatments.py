@@ -22,6 +22,15 @@ _FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is def
 _NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
 _NO_NEW = re.compile(r"operator new.* is (?:inaccessible|private)")
 _AMBIGUOUS = re.compile(r"reference to '(?P<name>\w+)' is ambiguous")
+_ENUM = re.compile(r"use of enum '(?P<name>\w+)' without previous declaration|forward references to 'enum' types")
+# Errors in what only MSVC accepts: message, text behind the column, its replacement, and the reason.
+_ONLY_MSVC = [(re.compile(message), re.compile(behind), after, why) for message, behind, after, why in (
+    (r"need 'typename' before|missing 'typename' prior", r"^", "typename ", "missing typename"),
+    (r"duplicate '(?:const|volatile)'", r"^(?:const|volatile)\s*", "", "const or volatile twice"),
+    (r"invalid use of non-static member function|must explicitly qualify name of member function", r"^(?=\w+\s*::)", "&",
+     "missing & before a member function"))]
+_NO_TEMPORARY = re.compile(r"non-const lvalue reference (?:of|to) type '(?:\w+::)*(?P<type>\w+) ?&?'")
+_ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(?P<function>\w+)\(|passing argument to parameter")
 _NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*"
                      r"(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
 
@@ -40,7 +49,8 @@ class Treatments:
         self._sources, self._compiler, self._naiad = sources, compiler, naiad
         self.changes, self._returns, self._types, self._tried, self._engines = [], {}, {}, set(), {}
         self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
-                       self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
+                       self._missing_header, self._missing_prefix, self._private_base, self._ambiguous, self._only_msvc,
+                       self._undeclared_enum, self._temporary)
 
     def treat(self, units):
         """Changes the copy according to the diagnostics of these units. Returns the units to compile again."""
@@ -254,6 +264,44 @@ class Treatments:
         if not re.match(rf"{match.group('name')}\b", behind) or before.rstrip().endswith("::"):
             return False
         return self._edit(diagnostic, before + "::" + behind, "ambiguous name: the game's own is used")
+
+    def _only_msvc(self, _, diagnostic):
+        before, behind = self._at(diagnostic)
+        return any(self._edit(diagnostic, before + pattern.sub(after, behind, count=1), why + "; only MSVC accepts it")
+                   for message, pattern, after, why in _ONLY_MSVC if message.search(diagnostic.text))
+
+    def _undeclared_enum(self, unit, diagnostic):
+        """Treats `enum X x;` and `enum X;` without a previous definition of X, for which MSVC assumes int."""
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        used = re.search(r"\benum\s+(?P<name>\w+)\s*(?P<end>;?)", line) if _ENUM.search(diagnostic.text) else None
+        if not used:
+            return False
+        why = "an enumeration that is not yet defined; only MSVC accepts it"
+        defined = list(self._sources.find(rf"\benum\s+{used.group('name')}\b(?=\s*(?:\{{|$))"))
+        if used.group("end"):
+            for file, number, _ in defined:
+                after = re.sub(rf"\b(enum\s+{used.group('name')})\b", r"\1 : int", self._sources.line(file, number))
+                self._edit(type(diagnostic)(file, number, 1, "error", "", ""), after, why)
+            return self._edit(diagnostic, line.replace(used.group(), f"enum {used.group('name')} : int;"), why)
+        for file, _, _ in defined:
+            if file != diagnostic.file and not file.endswith((".cpp", ".cc", ".cxx")):
+                return self._force(unit, diagnostic, f"{self._sources.root}/{file}")
+        return self._edit(diagnostic, line.replace(f"enum {used.group('name')}", "int"), why)
+
+    def _temporary(self, _, diagnostic):
+        """Lets a reference that is not const refer to a temporary object: with && in a declaration, const in a parameter."""
+        match = _NO_TEMPORARY.search(diagnostic.text)
+        if not match:
+            return False
+        why = "a temporary object for a reference that is not const; only MSVC accepts it"
+        before, behind = self._at(diagnostic)
+        if self._edit(diagnostic, re.sub(r"(?<!&)&(\s*\w+\s*=\s*)$", r"&&\1", before) + behind, why):
+            return True
+        called = next((found for _, text in diagnostic.notes if (found := _ARGUMENT.search(text))), None)
+        parameter = rf"(\b{called.group('function')}\s*\([^;{{]*?)\b((?:\w+::)*{match.group('type')}\s*&)" if called else r"(?!)"
+        return any([self._edit(type(diagnostic)(file, number, 1, "error", "", ""),
+                               re.sub(parameter, r"\1const \2", self._sources.line(file, number), count=1), why)
+                    for file, number, _ in list(self._sources.find(parameter))])
 
     def undo_returns(self, units):
         """Undoes added returns that do not compile. Returns whether there was one."""
