@@ -11,10 +11,11 @@ namespace df {
 
 namespace Keyboard {
 
-/// Compares the numbers, which is a mistake: `getKey() == 'a'` is not the key A. A template, so that comparisons
-/// with an int are as without it.
+/// Compares the numbers, which is a mistake: `getKey() == 'a'` is not the key A. A template, so that
+/// comparisons with an int are as without it.
 template <class Char, typename std::enable_if<std::is_same<Char, char>::value, int>::type = 0>
-__attribute__((deprecated("a key is not a character: write df::Keyboard::A"))) bool operator==(Key key, Char c) {
+__attribute__((deprecated("a key is not a character: write df::Keyboard::A"))) bool operator==(Key key,
+                                                                                               Char c) {
   return static_cast<int>(key) == c;
 }
 

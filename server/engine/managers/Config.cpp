@@ -21,9 +21,9 @@ namespace df {
 namespace {
 
 /// Keys that loadConfig() does not look up.
-constexpr const char* kOtherKeys[] = {"window_style",    "window_state",       "signals",
-                                      "grid_width",      "grid_height",        "quadtree_depth",
-                                      "server_plays",    "quadtree_threshold", "fullscreen"};
+constexpr const char* kOtherKeys[] = {"window_style", "window_state",       "signals",
+                                      "grid_width",   "grid_height",        "quadtree_depth",
+                                      "server_plays", "quadtree_threshold", "fullscreen"};
 
 bool parse(const std::string& value, int& out, int least) {
   char* p_end = nullptr;

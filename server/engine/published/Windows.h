@@ -53,8 +53,9 @@ struct DfDoesNothing {
     return 1;
   }
 };
-constexpr DfDoesNothing MessageBox{}, MessageBoxA{}, OutputDebugString{}, PlaySound{}, PlaySoundA{}, ShowWindow{},
-    SetConsoleCursorPosition{}, SetConsoleTextAttribute{}, SetConsoleTitle{}, SetConsoleTitleA{};
+constexpr DfDoesNothing MessageBox{}, MessageBoxA{}, OutputDebugString{}, PlaySound{}, PlaySoundA{},
+    ShowWindow{}, SetConsoleCursorPosition{}, SetConsoleTextAttribute{}, SetConsoleTitle{},
+    SetConsoleTitleA{};
 inline HANDLE GetStdHandle(int /*number*/) {
   return nullptr;
 }

@@ -83,14 +83,17 @@ void Watchdog::run() {
   HangDetector watch;
   for (;;) {
     std::unique_lock lock(m_mutex);
-    if (m_changed.wait_for(lock, m_since != 0 ? kCheckIntervalInTick : kCheckInterval, [this] { return m_stopping; })) return;
+    if (m_changed.wait_for(lock, m_since != 0 ? kCheckIntervalInTick : kCheckInterval,
+                           [this] { return m_stopping; }))
+      return;
     lock.unlock();
     const Clock::rep since = m_since.load(std::memory_order_acquire);
     const std::uint64_t number = m_tick.load(std::memory_order_relaxed);
     const auto tick = since != 0 ? std::optional(number) : std::nullopt;
     const HangDetector::Time began{Clock::duration(since)};
     if (tick) {
-      const std::string line = m_slow_tick.check(getpid(), number, Clock::now() - began, m_frame, crash::activity("handles"));
+      const std::string line =
+          m_slow_tick.check(getpid(), number, Clock::now() - began, m_frame, crash::activity("handles"));
       if (!line.empty()) m_log(line);
     }
     switch (watch.check(tick, began, m_signals.count(), Clock::now())) {

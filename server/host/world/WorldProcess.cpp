@@ -319,8 +319,8 @@ void WorldProcess::warnOfHang() {
   if (m_state != State::kTicking) return;
   if (m_print && !m_repeats && !isInFirstTick() && m_ready) {
     const std::string line =
-        m_slow_tick.check(m_process, currentTick(), m_waited, std::chrono::milliseconds(m_ready->frame_millis),
-                          activity("handles"));
+        m_slow_tick.check(m_process, currentTick(), m_waited,
+                          std::chrono::milliseconds(m_ready->frame_millis), activity("handles"));
     if (!line.empty()) m_print(line);
   }
   const std::string tick = "tick " + std::to_string(currentTick());
