@@ -196,9 +196,8 @@ MSVC = {
     "final": ("class A sealed { virtual int f() sealed { return 1; } };\n", {1: "class A final { virtual int f() final { return 1; } };"}),
     "declspec": ("__declspec(dllexport) int __cdecl f() { return 1; }\n__forceinline int g() { return f(); }\n",
                  {1: "int  f() { return 1; }", 2: "inline int g() { return f(); }"}),
-    "scope": ("int f() {\n  for (int i = 0; i < 3; ++i) {}\n  return i;\n}\n", {3: None}),
     "implicit": ("static f() { return 1; }\nint g() { return f(); }\n", {1: None}),
-    "jump": ("int f(int a) {\n  if (a) goto end;\n  int b = 2;\n  a += b;\nend:\n  return a;\n}\n", {5: None}),
+    "jump": ("int f(int a) {\n  if (a) goto end;\n  int b = 2;\n  a += b;\nend:\n  return a;\n}\n", {3: "int b; b = 2;"}),
     "default": ("int f(int a = 1);\nint f(int a = 1) { return a; }\n", {2: None}),
     "static": ("struct A { static const float f = 1.5f; static int g(); };\nstatic int A::g() { return 1; }\n", {1: None, 2: None}),
     "base": ("template <class T> struct A { int m_a; int get(); };\ntemplate <class T> struct B : A<T> { int f() { return get(); } };\n"

@@ -178,7 +178,7 @@ class TextTest(unittest.TestCase):
         found = compiler.parse("./a.cpp: In member function 'int A::f()':\n./a.cpp:3:5: error: 'X' is not a member of 'df'\n/u/h.h:1:2: note: here\n"
                                "./b c.h:7: warning: odd\n")
         self.assertEqual([(one.file, one.line, one.column, one.is_error) for one in found], [("a.cpp", 3, 5, True), ("b c.h", 7, 1, False)])
-        self.assertEqual((found[0].within, found[0].notes), ("In member function 'int A::f()'"[3:], [("/u/h.h", "here")]))
+        self.assertEqual((found[0].within, found[0].notes), ("In member function 'int A::f()'"[3:], [("/u/h.h", "here", 1)]))
 
     def test_KeysAreThoseOfTheGameButNotThoseThatEndIt(self):
         found = keys.keys_of(["getKey() == df::Keyboard::Q || Keyboard::T || Keyboard :: Key::NUM1 || Keyboard::EventKeyboard"])

@@ -19,7 +19,7 @@ class Diagnostic:
 
     def __init__(self, file, line, column, kind, text, within):
         self.file, self.line, self.column, self.kind, self.text, self.within = file, line, column, kind, text, within
-        self.notes = []  # (file, text)
+        self.notes = []  # (file, text, line)
 
     @property
     def is_error(self):
@@ -43,7 +43,7 @@ def parse(output):
         name = os.path.normpath(match.group("file"))
         if match.group("kind") == "note":
             if found:
-                found[-1].notes.append((name, match.group("text")))
+                found[-1].notes.append((name, match.group("text"), int(match.group("line"))))
             continue
         found.append(Diagnostic(name, int(match.group("line")), int(match.group("column") or 1), match.group("kind"),
                                 match.group("text"), within))

@@ -1,6 +1,9 @@
 """Changes the copy so that it compiles, based on the compiler's messages. Each change stays on its line."""
 import re
 
+from .compiler import Diagnostic
+from .folder import is_source
+
 _NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
 _UNKNOWN = [re.compile(pattern) for pattern in (
     _NAME + r" was not declared in this scope", _NAME + r" does not name a type", _NAME + r" has not been declared",
@@ -22,15 +25,15 @@ _FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is def
 _NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
 _NO_NEW = re.compile(r"operator new.* is (?:inaccessible|private)")
 _AMBIGUOUS = re.compile(r"reference to '(?P<name>\w+)' is ambiguous")
-_ENUM = re.compile(r"use of enum '(?P<name>\w+)' without previous declaration|forward references to 'enum' types")
-# Errors in what only MSVC accepts: message, text behind the column, its replacement, and the reason.
-_ONLY_MSVC = [(re.compile(message), re.compile(behind), after, why) for message, behind, after, why in (
-    (r"need 'typename' before|missing 'typename' prior", r"^", "typename ", "missing typename"),
-    (r"duplicate '(?:const|volatile)'", r"^(?:const|volatile)\s*", "", "const or volatile twice"),
-    (r"invalid use of non-static member function|must explicitly qualify name of member function", r"^(?=\w+\s*::)", "&",
-     "missing & before a member function"))]
-_NO_TEMPORARY = re.compile(r"non-const lvalue reference (?:of|to) type '(?:\w+::)*(?P<type>\w+) ?&?'")
-_ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(?P<function>\w+)\(|passing argument to parameter")
+_ENUM = re.compile(r"use of enum '\w+' without previous declaration|forward references to 'enum' types")
+# Errors in what only MSVC accepts: message, pattern of the line in which \0 marks the column, its replacement, and the reason.
+_ONLY_MSVC = [(re.compile(message), re.compile(pattern), after, why) for message, pattern, after, why in (
+    (r"need 'typename' before|missing 'typename' prior", r"\0", "typename ", "missing typename"),
+    (r"duplicate '(?:const|volatile)'", r"\0(?:const|volatile)\s*", "", "const or volatile twice"),
+    (r"invalid use of non-static member function", r"((?:\w+\s*::\s*)+)\0", r"&\1", "missing & before a member function"),
+    (r"non-const lvalue reference", r"(?<!&)&(\s*\w+\s*=[^;]*)\0", r"&&\1", "a temporary object for a reference that is not const"))]
+_NO_TEMPORARY = re.compile(r"non-const lvalue reference of type '(?:\w+::)*(\w+)&'")
+_ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(\w+)\(")
 _NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*"
                      r"(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
 
@@ -50,7 +53,7 @@ class Treatments:
         self.changes, self._returns, self._types, self._tried, self._engines = [], {}, {}, set(), {}
         self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
                        self._missing_header, self._missing_prefix, self._private_base, self._ambiguous, self._only_msvc,
-                       self._undeclared_enum, self._temporary)
+                       self._undeclared_enum, self._temporary, self._skipped_initialization)
 
     def treat(self, units):
         """Changes the copy according to the diagnostics of these units. Returns the units to compile again."""
@@ -123,7 +126,7 @@ class Treatments:
 
     def _return_type(self, _, diagnostic):
         match = _CONFLICT.search(diagnostic.text)
-        goal = next((found.group("type") for _, text in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
+        goal = next((found.group("type") for _, text, _ in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
         if not match or not goal:
             return self._clang_return_type(diagnostic)
         name, old = match.group("name"), match.group("type")
@@ -192,7 +195,7 @@ class Treatments:
             if match:
                 return self._force(unit, diagnostic, self._naiad.header_of(match.group("name"))) or \
                     self._scope(diagnostic, match.group("name"))
-        hint = next((found for _, text in diagnostic.notes if (found := _FORGOT.search(text))), None)
+        hint = next((found for _, text, _ in diagnostic.notes if (found := _FORGOT.search(text))), None)
         return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
 
     def _force(self, unit, diagnostic, header):
@@ -258,7 +261,7 @@ class Treatments:
 
     def _ambiguous(self, _, diagnostic):
         match = _AMBIGUOUS.search(diagnostic.text)
-        if not match or not any(file in self._sources.files for file, _ in diagnostic.notes):
+        if not match or not any(file in self._sources.files for file, _, _ in diagnostic.notes):
             return False
         before, behind = self._at(diagnostic)
         if not re.match(rf"{match.group('name')}\b", behind) or before.rstrip().endswith("::"):
@@ -266,42 +269,53 @@ class Treatments:
         return self._edit(diagnostic, before + "::" + behind, "ambiguous name: the game's own is used")
 
     def _only_msvc(self, _, diagnostic):
-        before, behind = self._at(diagnostic)
-        return any(self._edit(diagnostic, before + pattern.sub(after, behind, count=1), why + "; only MSVC accepts it")
-                   for message, pattern, after, why in _ONLY_MSVC if message.search(diagnostic.text))
+        line = "\0".join(self._at(diagnostic))
+        for message, pattern, after, why in _ONLY_MSVC:
+            if message.search(diagnostic.text) and pattern.search(line):
+                return self._edit(diagnostic, pattern.sub(after, line, count=1).replace("\0", ""), why + "; only MSVC accepts it")
+        return False
+
+    def _elsewhere(self, pattern, after, why):
+        """Changes the lines of the sources that match a pattern. Returns whether there was one."""
+        places = [(file, number) for file, number, _ in self._sources.find(pattern)]
+        return any([self._edit(Diagnostic(file, number, 1, "error", "", ""),
+                               re.sub(pattern, after, self._sources.line(file, number), count=1), why + "; only MSVC accepts it")
+                    for file, number in places])
 
     def _undeclared_enum(self, unit, diagnostic):
-        """Treats `enum X x;` and `enum X;` without a previous definition of X, for which MSVC assumes int."""
+        """Treats `enum X x;` and `enum X;` before a definition of X, for which MSVC assumes int."""
         line = self._sources.line(diagnostic.file, diagnostic.line)
-        used = re.search(r"\benum\s+(?P<name>\w+)\s*(?P<end>;?)", line) if _ENUM.search(diagnostic.text) else None
-        if not used:
+        used = re.search(r"\benum\s+(\w+)(\s*;)?", line) if _ENUM.search(diagnostic.text) else None
+        if not used or any(self._sources.find(rf"\benum\s+{used.group(1)}\s*:\s*int\b")):
             return False
-        why = "an enumeration that is not yet defined; only MSVC accepts it"
-        defined = list(self._sources.find(rf"\benum\s+{used.group('name')}\b(?=\s*(?:\{{|$))"))
-        if used.group("end"):
-            for file, number, _ in defined:
-                after = re.sub(rf"\b(enum\s+{used.group('name')})\b", r"\1 : int", self._sources.line(file, number))
-                self._edit(type(diagnostic)(file, number, 1, "error", "", ""), after, why)
-            return self._edit(diagnostic, line.replace(used.group(), f"enum {used.group('name')} : int;"), why)
-        for file, _, _ in defined:
-            if file != diagnostic.file and not file.endswith((".cpp", ".cc", ".cxx")):
+        name, why = used.group(1), "an enumeration that is not defined before"
+        defined = rf"\benum\s+{name}\b(?=\s*(?:\{{|$))"
+        for file, _, _ in self._sources.find(defined):
+            if file != diagnostic.file and not is_source(file):
                 return self._force(unit, diagnostic, f"{self._sources.root}/{file}")
-        return self._edit(diagnostic, line.replace(f"enum {used.group('name')}", "int"), why)
+        here = self._elsewhere(defined, f"enum {name} : int", why)
+        if used.group(2) or (here and line.startswith("enum")):
+            rest = "" if used.group(2) else line[used.start():used.end()]
+            return self._edit(diagnostic, line[:used.start()] + f"enum {name} : int; {rest}".rstrip() + line[used.end():], why)
+        return self._edit(diagnostic, line[:used.start()] + "int" + line[used.end():], why)
 
     def _temporary(self, _, diagnostic):
-        """Lets a reference that is not const refer to a temporary object: with && in a declaration, const in a parameter."""
+        """Makes the parameter const to which a temporary object is passed."""
         match = _NO_TEMPORARY.search(diagnostic.text)
-        if not match:
+        called = [found for _, text, _ in diagnostic.notes if (found := _ARGUMENT.search(text))] if match else []
+        return bool(called) and self._elsewhere(rf"(\b{called[0].group(1)}\s*\([^;{{]*?)\b((?:\w+::)*{match.group(1)}\s*&)", r"\1const \2",
+                                                "a temporary object for a reference that is not const")
+
+    def _skipped_initialization(self, _, diagnostic):
+        """Separates the initialization that a goto skips from the declaration."""
+        if "jump to label" not in diagnostic.text and "cannot jump from this goto" not in diagnostic.text:
             return False
-        why = "a temporary object for a reference that is not const; only MSVC accepts it"
-        before, behind = self._at(diagnostic)
-        if self._edit(diagnostic, re.sub(r"(?<!&)&(\s*\w+\s*=\s*)$", r"&&\1", before) + behind, why):
-            return True
-        called = next((found for _, text in diagnostic.notes if (found := _ARGUMENT.search(text))), None)
-        parameter = rf"(\b{called.group('function')}\s*\([^;{{]*?)\b((?:\w+::)*{match.group('type')}\s*&)" if called else r"(?!)"
-        return any([self._edit(type(diagnostic)(file, number, 1, "error", "", ""),
-                               re.sub(parameter, r"\1const \2", self._sources.line(file, number), count=1), why)
-                    for file, number, _ in list(self._sources.find(parameter))])
+        for file, text, number in diagnostic.notes:
+            line = self._sources.line(file, number)
+            after = re.sub(r"^(\s*)((?:unsigned\s+)?\w+[\s*]+)(\w+)\s*=", r"\1\2\3; \3 =", line)
+            if ("initialization" in text or "bypasses" in text) and file in self._sources.files:
+                return self._edit(Diagnostic(file, number, 1, "error", "", ""), after, "goto skips an initialization; only MSVC accepts it")
+        return False
 
     def undo_returns(self, units):
         """Undoes added returns that do not compile. Returns whether there was one."""
