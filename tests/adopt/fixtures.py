@@ -208,7 +208,7 @@ MSVC = {
                 '  if (MessageBox(NULL, "a", TEXT("b"), MB_OK | MB_ICONERROR) == IDOK) PlaySound("x.wav", NULL, SND_ASYNC | SND_FILENAME);\n'
                 "  HANDLE console = GetStdHandle(STD_OUTPUT_HANDLE);\n  COORD at = {1, 2};\n  SetConsoleCursorPosition(console, at);\n"
                 "  if (GetAsyncKeyState(VK_LEFT) & 0x8000) return max(1, 2.5);\n  return (int)min(GetTickCount(), 7u);\n}\n",
-                {1: '#include "windows.h"', 2: '#include "windows.h"', 3: '#include "windows.h"', 4: None, 5: "//#include <io.h>"})}
+                {1: '#include "windows.h"', 2: '#include "windows.h"', 3: '#include "windows.h"', 4: None, 5: "//#include <io.h>", 7: "Sleep(10); _getch(); _kbhit(); Beep(1, 2);"})}
 
 MSVC_GAME = {"game.cpp": ALONE + "int WINAPI WinMain(HINSTANCE one, HINSTANCE two, LPSTR line, int show) { GM.startUp(); GM.run(); GM.shutDown(); }\n",
              "Shade.h": "#pragma once\nenum Shade { DARK };\n", **{f"{name}.cpp": code for name, (code, _) in MSVC.items()}}

@@ -72,8 +72,8 @@ class Blame:
             if self._own:
                 return OTHER, (f"the engine in this folder has {name or 'this'}, but the published engine may not: use "
                                "what Naiad's headers declare")
-            return UNCLEAR, ("the engine in this folder accepts this line, but Naiad does not: please report it if that is a "
-                             "published engine that nobody has changed")
+            return UNCLEAR, ("the engine in this folder accepts this line, but Naiad does not: please report it if that is an "
+                             "unchanged published engine")
         if published and not self._is_member_of_game(diagnostic.text):
             return UNCLEAR, f"Naiad has {name}, but not here or not with these arguments: compare it with the headers, or report it"
         if os.path.isabs(diagnostic.file):

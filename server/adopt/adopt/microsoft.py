@@ -6,7 +6,7 @@ from .treatments import Change
 
 _WORDS = {"_tmain": "main", "wmain": "main", "_TCHAR": "char", "TCHAR": "char", "__int8": "char", "__int16": "short", "__int32": "int",
           "__int64": "long long", "_int64": "long long", "__forceinline": "inline", "__cdecl": "", "__stdcall": "", "__fastcall": "",
-          "__FUNCSIG__": "__PRETTY_FUNCTION__", "__debugbreak": "abort",
+          "__FUNCSIG__": "__PRETTY_FUNCTION__", "__debugbreak": "abort", "kbhit": "_kbhit", "getch": "_getch",
           "_stricmp": "strcasecmp", "stricmp": "strcasecmp", "_strnicmp": "strncasecmp", "_strdup": "strdup", "_snprintf": "snprintf",
           "_vsnprintf": "vsnprintf", "printf_s": "printf", "fprintf_s": "fprintf", "strtok_s": "strtok_r"}
 # Constructs that only Visual Studio accepts, and what replaces them.
@@ -20,8 +20,8 @@ _RULES = [(re.compile(pattern), after) for pattern, after in (
     (r"(\bclass\s+\w+\s+|\)\s*(?:const\s+)?(?:override\s+)?)sealed\b", r"\1final"),
     (r"\b(f|s)?scanf_s(?=\s*\((?![^;]*%\d*[sc\[]))", r"\1scanf"),
     (r"\b(?:int|INT)\s+(?:WINAPI|APIENTRY|CALLBACK)\s+w?WinMain\s*\([^()]{0,300}\)", "int main()"))]
-_HINT = re.compile(r"\b_|_s\b|\bfor\s+each|NULL|exception|sealed|Main|cmp|main|TCHAR")  # each of them has one of these
-_DEFINED = r"#\s*define\s+(\w+)|\btypedef\s[^;]{0,200}\b(\w+)\s*;|\b(?:int|char)[ \t*]{1,20}(_?str\w+|_snprintf)\s*\("
+_HINT = re.compile(r"\b_|_s\b|\bfor\s+each|NULL|exception|sealed|Main|cmp|main|TCHAR|getch|kbhit")  # each of them has one of these
+_DEFINED = r"#\s*define\s+(\w+)|\btypedef\s[^;]{0,200}\b(\w+)\s*;|\b(?:int|char)[ \t*]{1,20}(_?str\w+|_snprintf|getch|kbhit)\s*\("
 
 
 def treat(sources):

@@ -11,17 +11,11 @@ using BOOL = int;
 using BYTE = unsigned char;
 using DWORD = unsigned int;
 using HANDLE = void*;
-using HINSTANCE = void*;
-using HWND = void*;
-using LONG = int;
 using LPCSTR = const char*;
-using LPSTR = char*;
-using SHORT = short;
-using UINT = unsigned int;
 using WORD = unsigned short;
 
 struct COORD {
-  SHORT X, Y;
+  short X, Y;
 };
 
 #if !defined(TRUE)
@@ -57,9 +51,6 @@ constexpr DfDoesNothing MessageBox{}, MessageBoxA{}, OutputDebugString{}, PlaySo
     ShowWindow{}, SetConsoleCursorPosition{}, SetConsoleTextAttribute{}, SetConsoleTitle{},
     SetConsoleTitleA{};
 inline HANDLE GetStdHandle(int /*number*/) {
-  return nullptr;
-}
-inline HWND GetConsoleWindow() {
   return nullptr;
 }
 

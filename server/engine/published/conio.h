@@ -7,9 +7,3 @@ inline int _kbhit() {
 inline int _getch() {
   return -1;
 }
-inline int kbhit() {
-  return 0;
-}
-inline int getch() {
-  return -1;
-}

@@ -74,17 +74,16 @@ class TickStallMeter {
 };
 
 /// Finds the first tick that a game's own code, and not the load of the machine, makes longer than a frame.
-/// The thread that ticks calls beginTick(); any one other thread may call check().
+/// The thread that ticks calls beginTick(); one other thread may call check().
 class SlowTickDetector {
  public:
   using Nanos = std::chrono::nanoseconds;
 
   /// Call when a tick begins in this process.
   void beginTick(pid_t process);
-  /// Returns a line for the log, once, if the tick has taken longer than `frame` by now and the process has
-  /// computed for half of that time, or waits for something. `passed`: time since the tick began; `activity`:
-  /// the running handler, as of describeActivity(). Without one, or in tick 1, which may load files, the
-  /// result is empty.
+  /// Returns a line for the log, once, if `passed`, the time since the tick began, exceeds `frame`, and the
+  /// process has computed for half a frame or waits for something. `activity`: the running handler, as of
+  /// describeActivity(); without one, and in tick 1, which may load files, there is no line.
   std::string check(pid_t process, std::uint64_t tick, Nanos passed, Nanos frame, std::string_view activity);
 
  private:
