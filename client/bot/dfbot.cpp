@@ -234,6 +234,15 @@ int report(const BotOptions& options, std::vector<std::unique_ptr<Bot>>& bots, C
   return proof.fault.empty() ? naiad::kExitLeft : complain(naiad::kExitTruthMismatch, proof.fault);
 }
 
+/// Reports that the connection was lost, and how much the first bot had seen. Returns the exit code.
+int reportLoss(Bot& bot, const std::string& message) {
+  const naiad::ClientSession* session = bot.connection().session();
+  std::printf("bot lost ticks=%u objects=%zu\n", bot.ticks(),
+              session != nullptr ? session->replica().aliveCount() : 0);
+  std::fflush(stdout);
+  return complain(naiad::kExitEnded, message);
+}
+
 int run(const BotOptions& options) {
   using State = naiad::Connection::State;
   asio::io_context context(1);
@@ -260,12 +269,12 @@ int run(const BotOptions& options) {
           return complain(naiad::kExitRefused, connection.message());
         case State::kEnded:
         case State::kLost:
-          return complain(naiad::kExitEnded, connection.message());
+          return reportLoss(*bots[0], connection.message());
         default:
           joined = joined && connection.state() == State::kJoined;
       }
       if (!options.rejoin && bot->isCutOff(now))
-        return complain(naiad::kExitEnded, "The connection to the server was lost.");
+        return reportLoss(*bots[0], "The connection to the server was lost.");
     }
     if (joined && !all_joined) all_joined = now;
     if (!all_joined) continue;
@@ -279,7 +288,7 @@ int run(const BotOptions& options) {
     if (std::all_of(bots.begin(), bots.end(), isAlive)) break;
     const auto isSilent = [now](const auto& bot) { return bot->isSilent(now); };
     if (!options.rejoin && std::any_of(bots.begin(), bots.end(), isSilent)) {
-      return complain(naiad::kExitEnded, "The server stopped sending snapshots.");
+      return reportLoss(*bots[0], "The server stopped sending snapshots.");
     }
   }
   const Clock::time_point end = Clock::now();

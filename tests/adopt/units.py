@@ -1,13 +1,15 @@
 """Tests of the modules of dragonfly-adopt, one class each. They need no compiler and no sandbox."""
 import os
 import tempfile
+import time
 import types
 import unittest
+import unittest.mock
 
 import fixtures
 from adopt import files as filenames
 from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, text,
-                   treatments, verdicts)
+                   treatments, trial, verdicts)
 from support import MODULES, WORK, run_as_user, within
 
 # A script that lowers its limits and then calls sandbox.limits(), which must not raise them. It prints the limits.
@@ -176,7 +178,7 @@ class TextTest(unittest.TestCase):
         found = compiler.parse("./a.cpp: In member function 'int A::f()':\n./a.cpp:3:5: error: 'X' is not a member of 'df'\n/u/h.h:1:2: note: here\n"
                                "./b c.h:7: warning: odd\n")
         self.assertEqual([(one.file, one.line, one.column, one.is_error) for one in found], [("a.cpp", 3, 5, True), ("b c.h", 7, 1, False)])
-        self.assertEqual((found[0].within, found[0].notes), ("In member function 'int A::f()'"[3:], [("/u/h.h", "here")]))
+        self.assertEqual((found[0].within, found[0].notes), ("In member function 'int A::f()'"[3:], [("/u/h.h", "here", 1)]))
 
     def test_KeysAreThoseOfTheGameButNotThoseThatEndIt(self):
         found = keys.keys_of(["getKey() == df::Keyboard::Q || Keyboard::T || Keyboard :: Key::NUM1 || Keyboard::EventKeyboard"])
@@ -209,6 +211,15 @@ class CompilerTest(unittest.TestCase):
         self.assertIsNone(self.check(error + "exec sleep 9", seconds=0.3))
         self.assertNotIn("max-errors=30", self.check("echo \"./a.cpp:1:1: error: $*\"; exit 1")[0])
 
+    def test_OnlyProcessorTimeCountsAgainstTheBudget(self):
+        for body, budget, too_long in (("exec sleep 1.2", 1, [False, False]), ("while :; do :; done", 9, [True, True]),
+                                       ("exec sleep 0", 0, [True, True])):
+            one = self.compiler('test "$1" = --version && exit; ' + body, seconds=1)
+            one._limit = bounded.children_seconds() + budget
+            units = [compiler.Unit("a.cpp"), compiler.Unit("b.cpp")]
+            one.compile(units)
+            self.assertEqual([unit.timed_out for unit in units], too_long, body)
+
     def test_ClangIsFoundByItsNameAndItsVersion(self):
         for name, body, is_gcc in (("clang++-14", "exit 1", False), ("c++", "echo 'Debian clang version 14'", False),
                                    ("g++", "echo 'g++ (Debian) 12'", True)):
@@ -224,6 +235,53 @@ class BlameTest(unittest.TestCase):
     def blame(self, main_code):
         ours = types.SimpleNamespace(header_of=lambda name: None, was_published=lambda name, classes=(): False)
         return blame.Blame(ours, False, "", lambda unit: None, main_code)
+
+    def test_NaiadIsBlamedOnlyForAPublishedNameThatItLacks(self):
+        """The published engine has Object::setSprite, Object::shine, Grid and Grid.h. Naiad lacks the last three."""
+        published = {"Grid", "Grid.h", "Object::setSprite", "Object::shine"}
+        has = {"Object", "Vector", "setSprite", "setX", "sqrt"}
+
+        def was_published(name, classes=()):
+            return any(f"{one}::{name}" in published for one in classes) if classes else name in published
+
+        ours = types.SimpleNamespace(has=lambda name: name in has, was_published=was_published,
+                                     header_of=lambda name: f"/n/{name}.h" if name in ("Object", "Vector") else None)
+        unit = compiler.Unit("a.cpp")
+        accepts, refuses = lambda unit: [], lambda unit: None
+        for message, with_engine, file, whose in (
+                ("'class df::Object' has no member named 'shine'", refuses, "a.cpp", "Naiad"),
+                ("'class Hero' has no member named 'shine'", refuses, "a.cpp", "Naiad or the game"),
+                ("'class Hero' has no member named 'setSprite'", refuses, "a.cpp", "the game"),  # its base class is unknown
+                ("'class df::Vector' has no member named 'setSprite'", refuses, "a.cpp", "the game"),
+                ("no matching function for call to 'df::Object::setSprite(int)'", refuses, "a.cpp", "Naiad or the game"),
+                ("'Grid' was not declared in this scope", refuses, "a.cpp", "Naiad or the game"),  # may be the game's own
+                ("'Grid' is not a member of 'df'", refuses, "a.cpp", "Naiad"),
+                ("Grid.h: No such file or directory", refuses, "a.cpp", "Naiad or the game"),
+                ("Level.h: No such file or directory", refuses, "a.cpp", "the game"),
+                ("'level' was not declared in this scope", refuses, "a.cpp", "the game"),
+                ("'class df::Object' has no member named 'myOwn'", accepts, "a.cpp", "Naiad or the game"),  # a changed copy of the engine
+                ("expected unqualified-id before numeric constant", accepts, "/n/Object.h", "Naiad or the game"),  # a macro of the game
+                ("expected ';'", accepts, "a.cpp", "Naiad or the game"), ("expected ';'", refuses, "a.cpp", "the game")):
+            wrong = compiler.Diagnostic(file, 3, 1, "error", message, "")
+            self.assertEqual(blame.Blame(ours, False, "", with_engine).error(unit, wrong, "x")[0], whose, message)
+        elsewhere = compiler.Diagnostic("a.cpp", 9, 1, "error", "'class df::Object' has no member named 'myOwn'", "")
+        wrong = compiler.Diagnostic("a.cpp", 3, 1, "error", elsewhere.text, "")
+        self.assertEqual(blame.Blame(ours, False, "", lambda unit: [elsewhere]).error(unit, wrong)[0], "the game", "the engine lacks it, too")
+        for symbol, whose in (("df::Grid", "Naiad"), ("df::Object::setSprite(float)", "Naiad or the game"), ("df::mine()", "the game"),
+                              ("Hero::jump()", "the game")):
+            self.assertEqual(blame.Blame(ours, False, "", refuses).symbol(symbol)[0], whose, symbol)
+
+    def test_EventsThatNothingRegistersForAreFound(self):
+        place = tempfile.mkdtemp(dir=WORK)
+        tests = "int Hero::eventHandler(const df::Event *p_e) {{\n  if (p_e->getType() == {}) return 1;\n  return 0;\n}}\n"
+        for tested, rest, found in (("df::STEP_EVENT", "", ["STEP_EVENT"]), ("df::STEP_EVENT", "registerInterest(df::KEYBOARD_EVENT);", ["STEP_EVENT"]),
+                                    ("STEP_EVENT", "p_hero->registerInterest( STEP_EVENT );", []), ("df::COLLISION_EVENT", "", []),
+                                    ("df::MSE_EVENT", "// registerInterest(df::MSE_EVENT);", ["MSE_EVENT"]), ("df::STEP_EVENT", "registerInterest(type);", []),
+                                    ("df::KEYBOARD_EVENT", 'registerInterest("nuke");', ["KEYBOARD_EVENT"]),
+                                    ("df::KEYBOARD_EVENT", "class Name : public df::TextEntry {};", [])):
+            fixtures.write(place, {"a.cpp": tests.format(tested), "b.cpp": rest})
+            rows = blame.unregistered(text.Sources(place, ["a.cpp", "b.cpp"]), ["a.cpp", "b.cpp"])
+            self.assertEqual(rows, [("a.cpp", 2, event) for event in found], (tested, rest))
 
     def test_AProgramThatBeginsInWinMainIsForAnotherSystem(self):
         line = "int WINAPI WinMain(HINSTANCE one) {"
@@ -250,6 +308,20 @@ class MicrosoftTest(unittest.TestCase):
                          ("int main(int c, char *v[]);", "wchar_t w; // _tmain"))
         self.assertEqual(self.treated("  if (x) _CrtSetDbgFlag ( _CRTDBG_ALLOC | 1 );", "x = _stricmp(a, b);"),
                          ("  if (x) ;", "x = strcasecmp(a, b);"))
+        for line, after in (("unsigned __int8 a; __int16 b; __int32 c; __int64 d;", "unsigned char a; short b; int c; long long d;"),
+                            ("for each (Rock *p in rocks) p->fall();", "for (Rock *p : rocks) p->fall();"),
+                            ("__declspec(align(16)) float x; __declspec(noinline) int __cdecl f();", " float x;  int  f();"),
+                            ('throw std::exception("lost"); // std::exception("x")', 'throw std::runtime_error("lost"); // std::exception("x")'),
+                            ("catch (std::exception &e) { throw std::exception(); }", "catch (std::exception &e) { throw std::exception(); }"),
+                            ("virtual int draw() = NULL; virtual int size() const = NULL;", "virtual int draw() = 0; virtual int size() const = 0;"),
+                            ("int *p = NULL;", "int *p = NULL;"), ("class Hero sealed {", "class Hero final {"),
+                            ("int draw() override sealed;", "int draw() override final;"),
+                            ('printf_s("%d", strtok_s(a, ",", &b) != 0);', 'printf("%d", strtok_r(a, ",", &b) != 0);'),
+                            ('sscanf_s(line, "%d %f", &a, &b);', 'sscanf(line, "%d %f", &a, &b);'),
+                            ('sscanf_s(line, "%s", name, 9);', 'sscanf_s(line, "%s", name, 9);'),
+                            ("int WINAPI WinMain(HINSTANCE a, HINSTANCE b, LPSTR c, int d) {", "int main() {"),
+                            ('puts("for each (a in b)"); /* __int64 */', 'puts("for each (a in b)"); /* __int64 */')):
+            self.assertEqual(self.treated(line), (after,))
         for lines in (("#define _T(x) L##x", 'auto x = _T("a");'), ("typedef char TCHAR;", "TCHAR c;"),
                       ("#define _stricmp strcasecmp", "_stricmp(a, b);"), ('puts("TCHAR");', "int T_tmain;")):
             self.assertEqual(self.treated(*lines), lines)
@@ -280,8 +352,65 @@ class TreatmentTest(unittest.TestCase):
         self.assertEqual((sources.line("a.cpp", 1), sources.line("a.cpp", 2)), ('#include "Vector.h"', '#include "Object.h"'))
 
 
+class TrialTest(unittest.TestCase):
+    """Tests what is concluded from the ends of the game and of its player. Both are shell scripts."""
+
+    GAME = 'trap "{}" TERM; echo 9 >$NAIAD_PORT_FILE; while :; do sleep 0.05; done\n'
+    LOST = "bot lost ticks=50 objects=3"
+
+    def outcome(self, game, *answers, seconds=2.5):
+        """Runs `game`, and as its players the scripts `answers`, of which the last one is repeated."""
+        place = tempfile.mkdtemp(dir=WORK)
+        bots = {f"bot{number}": answer + "\n" for number, answer in enumerate(answers)}
+        count = f"n=$(ls {place}/ran | wc -l); touch {place}/ran/$n; test -e {place}/bot$n || n={len(answers) - 1}; . {place}/bot$n\n"
+        fixtures.write(place, {"dfbot": "#!/bin/sh\n" + count, "tree/game": "#!/bin/sh\n" + game, "ran/.keep": "", **bots})
+        for name in ("dfbot", "tree/game"):
+            os.chmod(os.path.join(place, name), 0o755)
+        one = trial.Trial(place + "/tree", "game", "", types.SimpleNamespace(lib=place, bin=place), seconds, 1, None, [])
+        with unittest.mock.patch.object(trial, "END_SECONDS", 0.5):
+            return one.run(os.path.join(place, "root"), confined=False)
+
+    def test_APlayerWhoLostTheConnectionJoinsAgainWhileTheGameRuns(self):
+        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; exit 4", "echo bot ok clients=1 ticks=70 objects=5; exit 0")
+        self.assertEqual((one.state, one.ticks, one.objects, one.runs), ("played", 120, 5, True))
+        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; echo The game is over.; exit 4", seconds=1.5)
+        self.assertEqual((one.state, one.ticks >= 50, one.runs), ("played", True, True))
+
+    def test_TicksOfARoundWhosePlayerWasLostCount(self):
+        one = self.outcome("echo 9 >$NAIAD_PORT_FILE; sleep 0.4; exit 0\n", f"sleep 0.3; echo {self.LOST}; exit 4", seconds=1.2)
+        self.assertEqual((one.state, one.runs, one.ticks % 50), ("over", True, 0))
+        self.assertGreaterEqual(one.ticks, 50)
+
+    def test_OnlyAGameThatDoesNotFinishATickHangs(self):
+        forced = "forced to exit: the game does not finish tick 51, while Ship handles EventStep"
+        one = self.outcome(self.GAME.format(f"echo {forced}; exit 1"), f"echo {self.LOST}; exit 4", "sleep 9", seconds=1.2)
+        self.assertEqual((one.state, one.text, one.runs), ("hangs", forced.removeprefix("forced to exit: "), False))
+        one = self.outcome(self.GAME.format("exit 0"), "echo The server is full.; exit 4", seconds=1.2)
+        self.assertEqual((one.state, one.text, one.runs), ("refused", "The server is full.", False))
+        one = self.outcome(self.GAME.format(":"), "echo bot ok clients=1 ticks=70 objects=5; exit 0", seconds=1)
+        self.assertEqual((one.state, one.runs, one.ended_well), ("played", True, False))
+        one = self.outcome(self.GAME.format(":"), f"echo {self.LOST}; exit 4", "exit 4", seconds=1.2)
+        self.assertEqual((one.state, one.runs), ("hangs", False))
+
+
 class FilesTest(unittest.TestCase):
     """Tests which files a game is found to load."""
+
+    def test_OfEqualFoldersTheLikeliestIsTheOneToRunIn(self):
+        code = 'RM.loadSprite("sprites/hero.txt", "hero");'
+        appended = 'RM.loadSprite(std::string("levels\\\\") + name, "level");'
+        for main, others, folder_ in (("src/game.cpp", ("game/sprites/hero.txt", "backup/sprites/hero.txt"), "game"),
+                                      ("game.cpp", ("Debug/sprites/hero.txt", "sprites/hero.txt"), ""),
+                                      ("z/src/game.cpp", ("a/sprites/hero.txt", "z/bin/sprites/hero.txt"), "z/bin"),
+                                      ("src/game.cpp", ("a/sprites/hero.txt", "b/sprites/hero.txt", "b/df-config.txt"), "b"),
+                                      ("src/game.cpp", ("a/sprites/hero.txt", "b/sprites/hero.txt", "b/game.vcxproj"), "b"),
+                                      ("src/game.cpp", ("a/sprites/hero.txt", "b/sprites/hero.txt", "b/levels/1.txt"), "b"),
+                                      ("src/game.cpp", ("a/sprites/hero.txt", "b/sprites/hero.txt", "b/sprites/rock.txt"), "b")):
+            place = tempfile.mkdtemp(dir=WORK)
+            used = code + ('RM.loadSprite("sprites/rock.txt", "rock");' if "b/sprites/rock.txt" in others else "")
+            fixtures.write(place, {main: used + (appended if "b/levels/1.txt" in others else "")})
+            program = programs.Program(main, [main], None, [])
+            self.assertEqual(filenames.run_folder([main, *others], text.Sources(place, [main]), program), folder_, others)
 
     def test_WhatDeadCodeLoadsIsNotMissing(self):
         place = tempfile.mkdtemp(dir=WORK)
@@ -311,6 +440,13 @@ class BoundedTest(unittest.TestCase):
         done = bounded.run(["/bin/sh", "-c", "yes & yes"], timeout=0.5)
         self.assertTrue(done.timed_out)
         self.assertLessEqual(len(done.output), bounded.MAX_OUTPUT)
+
+    def test_ALoadedMachineGivesACommandMoreTime(self):
+        self.assertFalse(bounded.run(["/bin/sh", "-c", "exec sleep 1.2"], timeout=1).timed_out)
+        began = time.monotonic()
+        self.assertTrue(bounded.run(["/bin/sh", "-c", "exec sleep 9"], timeout=0.1).timed_out)
+        self.assertLess(time.monotonic() - began, 8)
+        self.assertTrue(bounded.run(["/bin/sh", "-c", "while :; do :; done"], timeout=1).timed_out)
 
     def test_LowerLimitsOfTheSystemStay(self):
         done = run_as_user(self, LIMITED)

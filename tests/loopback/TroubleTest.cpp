@@ -214,6 +214,26 @@ TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
   EXPECT_TRUE(WIFSIGNALED(status)) << status << game->log();
 }
 
+TEST_F(Trouble, SlowTickIsReportedOnceWithItsHandler) {
+  for (const std::string on_game_over :
+       {"leave", "restart"}) {  // restart: the world has a process of its own
+    start({{"NAIAD_ON_GAME_OVER", on_game_over}});
+    auto ann = join("ann");
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(ticks(*ann, 1));
+      press(*ann, df::Keyboard::S);
+      ASSERT_TRUE(ticks(*ann));
+    }
+    const auto text = [&] { return game->log() + contentOf(game->directory() / "output"); };
+    const std::string line = " takes longer than the frame time of ";
+    const std::string rest =
+        " ms, while Trouble handles EventKeyboard: the game is not smooth (reported once)\n";
+    EXPECT_TRUE(serve([&] { return has(text(), line); })) << text();
+    EXPECT_TRUE(has(text(), rest)) << text();
+    clients.clear();
+  }
+}
+
 // ---- a game that crashes ----------------------------------------------------------------------------------
 
 class Crash : public Trouble {

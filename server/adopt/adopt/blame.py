@@ -65,16 +65,19 @@ class Blame:
             return SYSTEM, f"{name} exists only on Windows: {_suggestion(name)}"
         if _WINDOWS_MAIN.search(line):
             return SYSTEM, _MAIN_ADVICE
-        if self._is_gone_with_engine(unit, diagnostic):
+        published = name and self._is_engines(name, diagnostic.text)
+        if published and not self._naiad.has(name):  # a name without df:: may be the game's own
+            return OURS if re.search(r"\bdf\b", diagnostic.text) else UNCLEAR, f"the published engine has {name}, but Naiad does not: please report it"
+        if self._is_gone_with_engine(unit, diagnostic, name):
             if self._own:
                 return OTHER, (f"the engine in this folder has {name or 'this'}, but the published engine may not: use "
                                "what Naiad's headers declare")
-            lacks = f" (no {name})" if name else ""
-            return OURS, f"the published engine accepts this line, but Naiad does not{lacks}: please report it"
-        if name and self._is_engines(name, diagnostic.text):
-            if "no matching" in diagnostic.text or self._naiad.header_of(name):
-                return UNCLEAR, f"Naiad has {name}, but not with these arguments: compare them with the headers, or report it"
-            return OURS, f"the published engine has {name}, but Naiad does not: please report it"
+            return UNCLEAR, ("the engine in this folder accepts this line, but Naiad does not: please report it if that is an "
+                             "unchanged published engine")
+        if published and not self._is_member_of_game(diagnostic.text):
+            return UNCLEAR, f"Naiad has {name}, but not here or not with these arguments: compare it with the headers, or report it"
+        if os.path.isabs(diagnostic.file):
+            return UNCLEAR, "look for a macro or a name of the game that changes this header; else report it"
         if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
             return OTHER, f"{name} belongs to the engine in this folder: the published engine does not have it"
         return THEIRS, _advice(diagnostic.text, name)
@@ -96,11 +99,16 @@ class Blame:
         if _MAC_HEADERS.match(path):
             return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"
         if self._naiad.was_published(base):
-            return OURS, f"the published engine has {base}, but Naiad does not: please report it"
+            return UNCLEAR, f"{base} is not in the folder: add it, or report it if the published engine's is meant, which Naiad lacks"
         return THEIRS, f"{base} is not in the folder: add it, or remove this line and the code that needs it"
 
-    def _is_gone_with_engine(self, unit, diagnostic):
-        if unit is None:
+    def _is_member_of_game(self, text):
+        """Returns whether this message says that a class of the game lacks a member, as it does if its base is unknown."""
+        owner = re.search(r"'(?:class |struct |const )*(\w+)[ *&]*' has no member", text)
+        return owner is not None and not self._naiad.header_of(owner.group(1))
+
+    def _is_gone_with_engine(self, unit, diagnostic, name):
+        if unit is None or os.path.isabs(diagnostic.file):
             return False
         if unit.name not in self._checked:
             self._checked[unit.name] = self._with_engine(unit)
@@ -108,7 +116,8 @@ class Blame:
         # If that compilation stopped at a missing file, it proves nothing about the other lines.
         if found is None or any(one.kind == "fatal error" for one in found):
             return False
-        return not any(one.is_error and (one.file, one.line) == (diagnostic.file, diagnostic.line) for one in found)
+        return not any(one.is_error and ((one.file, one.line) == (diagnostic.file, diagnostic.line) or
+                                         (name and missing_name(one.text) == name)) for one in found)
 
     def symbol(self, symbol):
         """Like error(), for a symbol that no object file defines."""
@@ -122,8 +131,10 @@ class Blame:
         if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
             if self._own:
                 return OTHER, f"{plain} belongs to the engine in this folder"
-            return (OURS, f"the published engine has {plain}, but Naiad does not: please report it") \
-                if self._naiad.was_published(name) else (THEIRS, f"{plain} is declared but not defined")
+            if self._naiad.was_published(name) and not self._naiad.has(name):
+                return OURS, f"the published engine has {plain}, but Naiad does not: please report it"
+            return (UNCLEAR if self._naiad.has(name) else THEIRS,
+                    f"{plain} is declared like this by a header that is not Naiad's, but not defined")
         if symbol.startswith("__imp_") or _WINDOWS_NAMES.match(name):
             return SYSTEM, f"{plain} exists only on Windows"
         return THEIRS, f"{plain} is declared, but no source in the folder defines it: add the source, or write the function"
@@ -168,3 +179,15 @@ def networks(sources, names):
                 found.append((name, number))
                 break
     return found
+
+
+def unregistered(sources, names):
+    """Returns (file, line, type of event) for each type that an eventHandler() tests although nothing in the program registers
+    interest in it. Returns nothing if that is uncertain, as with classes of the engine that register themselves."""
+    code = "\n".join(map(sources.code, names))
+    if re.search(r"\bregisterInterest\s*\(\s*(?!(?:df\s*::\s*)?\w+_EVENT\b)\w|\b(TextEntry|Button|Pause|PlayerObject)\b", code):
+        return []
+    registered = set(re.findall(r"\bregisterInterest\s*\(\s*(?:df\s*::\s*)?(\w+_EVENT)\b", code))
+    tested = sources.find(r"\bgetType\s*\(\s*\)\s*==\s*(?:df\s*::\s*)?((?:STEP|KEYBOARD|MSE)_EVENT)\b", names)
+    found = {match.group(1): (file, line) for file, line, match in tested if match.group(1) not in registered}
+    return [(*place, event) for event, place in found.items()]

@@ -1,4 +1,5 @@
 """Runs commands with a deadline and limited output, leaving no processes behind. Never uses a shell."""
+import math
 import os
 import resource
 import selectors
@@ -7,6 +8,7 @@ import subprocess
 import time
 
 MAX_OUTPUT = 1 << 20  # maximum bytes of a command's output that are kept; further output is discarded
+WALL_FACTOR = 8  # how many times a command's processor time it may take in all, because the machine may be loaded
 
 
 class Stalled(Exception):
@@ -44,11 +46,15 @@ def limit_to(what, most, for_good=True):
 
 
 def run(argv, cwd=None, env=None, timeout=120.0):
-    """Runs argv without input for at most `timeout` seconds, in a process group of its own, and kills the group at the end."""
+    """Runs argv without input, in a process group of its own that is killed at the end. Each of its processes may use `timeout`
+    seconds of processor time, rounded up; all may take WALL_FACTOR times as long."""
     process = subprocess.Popen(argv, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
+    hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
+    cpu = math.ceil(timeout) if hard == resource.RLIM_INFINITY else min(math.ceil(timeout), hard)
+    resource.prlimit(process.pid, resource.RLIMIT_CPU, (cpu, hard))  # before it has started others
     kept, timed_out = bytearray(), False
-    deadline = time.monotonic() + timeout
+    deadline = time.monotonic() + timeout * WALL_FACTOR
     try:
         with selectors.DefaultSelector() as selector:
             selector.register(process.stdout, selectors.EVENT_READ)
@@ -70,7 +76,15 @@ def run(argv, cwd=None, env=None, timeout=120.0):
         end_group(process.pid)
         process.wait()
         process.stdout.close()
-    return Result(process.returncode, kept.decode("utf-8", "replace"), timed_out, len(kept) >= MAX_OUTPUT)
+    output = kept.decode("utf-8", "replace")
+    timed_out = timed_out or process.returncode == -signal.SIGXCPU or "CPU time limit exceeded" in output
+    return Result(process.returncode, output, timed_out, len(kept) >= MAX_OUTPUT)
+
+
+def children_seconds():
+    """Returns the processor time of all ended processes that this one has started."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def end_group(group):

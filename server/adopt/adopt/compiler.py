@@ -3,10 +3,9 @@ import concurrent.futures
 import os
 import re
 import shutil
-import time
 import zlib
 
-from .bounded import run
+from .bounded import children_seconds, run
 
 _LINE = re.compile(r"^(?P<file>.+?):(?P<line>\d+):(?:(?P<column>\d+):)? "
                    r"(?P<kind>fatal error|error|warning|note): (?P<text>.*)$")
@@ -20,7 +19,7 @@ class Diagnostic:
 
     def __init__(self, file, line, column, kind, text, within):
         self.file, self.line, self.column, self.kind, self.text, self.within = file, line, column, kind, text, within
-        self.notes = []  # (file, text)
+        self.notes = []  # (file, text, line)
 
     @property
     def is_error(self):
@@ -44,7 +43,7 @@ def parse(output):
         name = os.path.normpath(match.group("file"))
         if match.group("kind") == "note":
             if found:
-                found[-1].notes.append((name, match.group("text")))
+                found[-1].notes.append((name, match.group("text"), int(match.group("line"))))
             continue
         found.append(Diagnostic(name, int(match.group("line")), int(match.group("column") or 1), match.group("kind"),
                                 match.group("text"), within))
@@ -82,11 +81,12 @@ class Unit:
 
 
 class Compiler:
-    """Compiles the units of a copy in parallel, one per processor."""
+    """Compiles the units of a copy in parallel, one per processor. Each may take `seconds` of processor time, and all together
+    about `total_seconds`."""
 
     def __init__(self, program, root, objects, naiad, folders, seconds=120, total_seconds=900):
         self.program, self.root, self.objects, self.naiad, self.folders = program, root, objects, naiad, folders
-        self.seconds, self.deadline = seconds, time.monotonic() + total_seconds
+        self.seconds, self._limit = seconds, children_seconds() + total_seconds
         self.definitions, self.extra = [], []
         self.is_gcc = not _is_clang(program)
         self._launcher = [found] if (found := shutil.which("ccache")) else []
@@ -102,7 +102,7 @@ class Compiler:
 
     def _compile(self, unit):
         unit.object, result = self._object(unit), None
-        left = self.deadline - time.monotonic()
+        left = self._limit - children_seconds()
         if left > 0:
             result = run(self._launcher + self._command(unit), self.root, self._environment, min(self.seconds, left))
         if result is None or result.timed_out:
@@ -150,7 +150,7 @@ class Compiler:
         unit.forced = forced
         at = command.index("-I")
         command = command[:at] + ["-I", include] + command[at:] + ["-fsyntax-only"]
-        left = self.deadline - time.monotonic()
+        left = self._limit - children_seconds()
         if left <= 0:
             return None
         result = run(command, self.root, self._environment, min(self.seconds, left))

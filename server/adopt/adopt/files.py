@@ -2,7 +2,11 @@
 import os
 import re
 
+from .programs import is_secondary
+from .project import is_project_file
+
 _NAMED = re.compile(r'"([^"\n]{1,200}\.(?:txt|spr|wav|ogg|mp3|flac|csv|json|dat|map|lvl))"')
+_FOLDER = re.compile(r'"([^"\n:]{1,100}?)[\\/]+"')  # "sprites/", to which a game appends names
 _LOADED = re.compile(r'\bload(?:Sprite|Sound|Music)\s*\(\s*"([^"\n]{1,200})"')
 _REFUSED = re.compile(r"Sprite [^:]*: (?P<file>[^:]+?)(?::(?P<line>\d+))?: (?P<text>.*)")
 MAX_NAMED, MAX_FOLDERS = 2000, 500  # maximum number of file names, and of folders that are searched for these files
@@ -14,23 +18,27 @@ def _plain(path):
 
 
 def run_folder(files, sources, program):
-    """Returns the folder, relative to the copy, in which most of the files named in the sources are found."""
-    named = sorted({_plain(path) for name in sources.files for path in _NAMED.findall(sources.text(name))})[:MAX_NAMED]
-    there = {name.lower() for name in files}
+    """Returns the folder, relative to the copy, in which most of the files and folders named in the sources are found. Among equal
+    ones it prefers that of df-config.txt, then that of main(), then one with a project file, then the nearest to main()."""
+    texts = [sources.text(name) for name in sources.files]
+    named = sorted({_plain(path) for text in texts for pattern in (_NAMED, _FOLDER) for path in pattern.findall(text)})[:MAX_NAMED]
+    there = {name.lower() for name in files} | {os.path.dirname(name).lower() for name in files}
     folders = {""}
     for name in files:
         folder = os.path.dirname(name)
         while folder and folder not in folders:
             folders.add(folder)
             folder = os.path.dirname(folder)
+    home, projects = os.path.dirname(program.main), {os.path.dirname(name) for name in files if is_project_file(name)}
     config = {os.path.dirname(name) for name in files if os.path.basename(name) == "df-config.txt"}
 
     def score(folder):
         found = sum(os.path.normpath(os.path.join(folder.lower(), path)) in there for path in named)
-        return -found, folder not in config, folder != os.path.dirname(program.main), folder.count("/"), folder
+        return (-found, is_secondary(folder) and not is_secondary(home), folder not in config, folder != home, folder not in projects,
+                os.path.relpath(folder or ".", home or ".").count("/"), folder.count("/"), folder)
 
     tried = sorted(folders, key=lambda one: (one.count("/"), one))[:MAX_FOLDERS]
-    return min(tried + [os.path.dirname(program.main)], key=score)
+    return min(tried + [home], key=score)
 
 
 def missing_files(files, sources, names, folder):

@@ -8,7 +8,10 @@ from .programs import is_secondary
 _INCLUDE = re.compile(r'^(\s*#\s*include\s*)(["<])([^">]+)[">](.*)$', re.S)
 MAX_FOLDERS = 200  # maximum folders to search for headers
 # Headers of Visual Studio, which games do not need elsewhere.
-_DROPPED = {"stdafx.h", "pch.h", "targetver.h", "tchar.h", "sdkddkver.h", "crtdbg.h", "afxwin.h", "resource.h", "vld.h"}
+_DROPPED = re.compile(r"(?:stdafx|pch|targetver|tchar|sdkddkver|crtdbg|afxwin|resource|vld|corecrt\w*|vcruntime\w*|sal|xstring|xutility|"
+                      r"xmemory|process|io)(?:\.h)?$")
+# Headers that Windows.h includes on Windows.
+_OF_WINDOWS = re.compile(r"(?:winuser|winbase|windef|minwindef|wincon|consoleapi\d?|synchapi|mmsystem|playsoundapi|timeapi)\.h$", re.I)
 
 
 class Includes:
@@ -44,7 +47,7 @@ class Includes:
             return None
         goal = self._resolve(os.path.dirname(name), path)
         if goal is None:
-            if os.path.basename(path).lower() in _DROPPED:
+            if _DROPPED.match(os.path.basename(path).lower()):
                 return f"//{begin}{mark}{written}{'>' if mark == '<' else mark}{rest}", "a header that only Visual Studio has"
             return None
         found, is_ours = goal
@@ -81,6 +84,8 @@ class Includes:
                 return self._spelt(path, real, here), False
         if path in self._naiad.headers:
             return path, True
+        if _OF_WINDOWS.match(path):
+            return "windows.h", True
         if path.lower() in self._ours:
             return self._ours[path.lower()], True
         base = os.path.basename(path).lower()

@@ -16,12 +16,12 @@ from .naiad import Installation
 from .report import Report
 from .running import Running
 from .text import shown
-from .trial import ScriptError
+from .trial import ScriptError, settings
 from .verdicts import Verdicts
 
 RUNS, FAILS, USAGE = 0, 1, 2
 READ_SECONDS = 120  # time limit for reading the folder; a student's folder takes one or two seconds
-BUILD_SECONDS = 1800  # time limit for building, of which the compiler gets 900 seconds
+BUILD_SECONDS = 7200  # time limit for building; the compiler gets 900 seconds of processor time
 
 DESCRIPTION = """\
 Builds and runs a game written for the published Dragonfly engine (4.2 to 4.25), or reports what prevents it.
@@ -131,7 +131,7 @@ def adopt(game, compiler, options, say):
     if options.keep and os.path.isdir(game.tree):
         shutil.move(game.tree, options.keep)
         place, command = program or ("", "")
-        play = f"; to play it: cd {shlex.quote(os.path.normpath(os.path.join(options.keep, place)))} && {command}" if program else ""
+        play = f"; to play it as it was run here: cd {shlex.quote(os.path.normpath(os.path.join(options.keep, place)))} && {command}" if program else ""
         game.report.add("kept", options.keep, "the changed copy" + play)
 
 
@@ -155,7 +155,8 @@ def _judge(game, compiler, options, say):
     bounded.phase("running the game", 2 * options.seconds + BUILD_SECONDS)  # after a crash it is built and run again
     running = Running(game, building, options, say)
     running.run()
-    return running.folder, os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)
+    words = [f"{name}={value}" for name, value in settings(options.seed).items()]
+    return running.folder, " ".join(words + [os.path.join(os.path.relpath(".", running.folder or "."), PROGRAM)])
 
 
 def _print(report, as_json):

@@ -14,7 +14,7 @@ from .text import shown
 
 MARKED, INCOMPLETE, USAGE = 0, 1, 2
 MAX_TEXT = 200  # maximum characters of a finding in the list
-_SPARE_SECONDS = 2400  # time limit of a game, in addition to 4 times --seconds; dragonfly-adopt's own limits are lower
+_SPARE_SECONDS = 15_000  # time limit of a game, in addition to 4 times --seconds; dragonfly-adopt's own limits are lower
 
 DESCRIPTION = """\
 Builds and plays games with dragonfly-adopt. FOLDER contains a folder for each student. Each game is built from a private copy, with

@@ -20,7 +20,7 @@ class Installation:
         self.include, self.lib, self.bin = include, lib, bin_folder
         self.headers = sorted(name for name in os.listdir(include) if name.endswith((".h", ".hpp")))
         self.published = _published(names_file)
-        self._where, self._scoped = {}, {}
+        self._where, self._scoped, self._words = {}, {}, set()
         for header in self.headers:
             self._index(header)
 
@@ -29,6 +29,7 @@ class Installation:
         inner = os.path.join(self.include, "text", header)
         with open(inner if os.path.exists(inner) else os.path.join(self.include, header), encoding="utf-8") as file:
             text = code_only(file.read())
+        self._words.update(re.findall(r"\w+", text))
         if "namespace df" not in text:
             return
         for pattern in (_DECLARED, _FUNCTION):
@@ -46,6 +47,10 @@ class Installation:
         """Returns the header that declares a name of namespace df, or None."""
         header = self._where.get(name)
         return os.path.join(self.include, header) if header else None
+
+    def has(self, name):
+        """Returns whether a header for games has this name at all, for example as that of a member."""
+        return name in self._words
 
     def scope_of(self, enumerator):
         """Returns the scoped enumeration of this enumerator; None if there is not exactly one."""

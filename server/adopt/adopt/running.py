@@ -55,6 +55,8 @@ class Running:
         if not has_run(self._names, self._game.sources.code):
             self._report.add_left(self._game.program.main, faults.THEIRS, "nothing calls GM.run()",
                                   "call GM.run() between GM.startUp() and GM.shutDown()")
+        for file, line, event in faults.unregistered(self._game.sources, self._names):
+            self._report.add("note", f"{file}:{line}", f"no Object registers interest in {event}, so it never arrives here")
         missing = missing_files(self._game.files, self._game.sources, self._names, self.folder)
         for file, line, path, instead in missing[:MAX_ROWS]:
             self._report.add_left(f"{file}:{line}", faults.THEIRS, f"{path} is not in the folder",
@@ -63,7 +65,8 @@ class Running:
 
     def _report_outcome(self, outcome):
         for file, line, text in refused_sprites(outcome.log, self.folder)[:MAX_ROWS]:
-            self._report.add_left(f"{file}:{line}", faults.THEIRS, text, "correct this line of the sprite")
+            self._report.add_left(f"{file}:{line}", faults.UNCLEAR, text,
+                                  "correct this line of the sprite, or report it if the published engine loads this sprite")
         seconds, rounds = self._options.seconds, f", {outcome.rounds} times" if outcome.rounds > 1 else ""
         text = {
             "played": f"{outcome.ticks} ticks in {seconds:g} s with key presses, {outcome.objects} Objects in view at the end",
@@ -78,7 +81,7 @@ class Running:
         if outcome.runs:
             self._report.result = "runs"
             if not outcome.ended_well:
-                self._report.add("note", "", "it crashes at its end, after GM.run()")
+                self._report.add("note", "", "it crashes or does not end after GM.run()")
             return
         self._report.fail("builds", {
             "crashed": "it crashes", "unplayed": "it never calls GM.run()", "failed": "it ends with an error",
@@ -107,7 +110,9 @@ class Running:
         if frame:
             place, what = frame
             file, _, line = place.rpartition(":")
-            self._report.add_left(place, faults.THEIRS, what, _CRASH_ADVICE, self._game.sources.line(file, int(line)))
+            refused = refused_sprites(outcome.log, self.folder)  # getSprite() of such a sprite may be the bad pointer
+            self._report.add_left(place, faults.UNCLEAR if refused else faults.THEIRS, what, _CRASH_ADVICE,
+                                  self._game.sources.line(file, int(line)))
         else:
             self._report.add_left(self._game.program.main, faults.UNCLEAR,
                                   f"it crashes{_signal_of(outcome.code)}; the line is unknown",

@@ -1,6 +1,9 @@
 """Changes the copy so that it compiles, based on the compiler's messages. Each change stays on its line."""
 import re
 
+from .compiler import Diagnostic
+from .folder import is_source
+
 _NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
 _UNKNOWN = [re.compile(pattern) for pattern in (
     _NAME + r" was not declared in this scope", _NAME + r" does not name a type", _NAME + r" has not been declared",
@@ -10,7 +13,6 @@ _NOT_IN_DF = [re.compile(pattern) for pattern in (
     r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
     r"'df::(?P<name>\w+)' has not been declared", r"incomplete type '(?:class |struct |const )*df::(?P<name>\w+)'",
     r"'(?:class |struct |const )*df::(?P<name>\w+)[ \w]*' has (?:initializer but )?incomplete type")]
-_EXTRA = re.compile(r"extra qualification (?:'[\w:]+::' )?on member '(?P<name>~?\w+)'")
 _CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*"
                        r"(?P<class>\w+)::(?P<name>\w+)\(")
 _CLANG_CONFLICT = re.compile(r"function '(?P<name>\w+)' has a different return type \('(?P<type>.+?)'\) than the function it overrides "
@@ -22,6 +24,20 @@ _FORGOT = re.compile(r"did you forget to '#include <(?P<header>[\w./]+)>'|is def
 _NO_BASE = re.compile(r"is an inaccessible base of '(?P<class>\w+)'")
 _NO_NEW = re.compile(r"operator new.* is (?:inaccessible|private)")
 _AMBIGUOUS = re.compile(r"reference to '(?P<name>\w+)' is ambiguous")
+_ENUM = re.compile(r"use of enum '\w+' without previous declaration|forward references to 'enum' types")
+# Errors that a change of their line corrects: message, pattern of the line in which \0 marks the column, its replacement, reason.
+_LINES = [(re.compile(message), re.compile(pattern), after, why) for message, pattern, after, why in (
+    (r"extra qualification .*on member '~?\w+'", r"\0?(?:\w+\s*::\s*)+\0?(?=~?\w+\s*\()", "",
+     "extra class name before a member of the class; only MSVC accepts it"),
+    (r"(?:return-statement with no value|should return a value).*'int'", r"\0return\s*;", "return 0;", "missing value after return"),
+    (r"return-statement with no value|should return a value", r"\0return\s*;", "return {};", "missing value after return"),
+    (r"'(?:::)?main' must return 'int'", r"\bvoid(\s+\0?main\b)", r"int\1", "main() must return int"),
+    (r"need 'typename' before|missing 'typename' prior", r"\0", "typename ", "missing typename; only MSVC accepts it"),
+    (r"duplicate '(?:const|volatile)'", r"\0(?:const|volatile)\s*", "", "const or volatile twice; only MSVC accepts it"),
+    (r"invalid use of non-static member function", r"((?:\w+\s*::\s*)+)\0", r"&\1", "missing & before a member function; only MSVC accepts it"),
+    (r"non-const lvalue reference", r"(?<!&)&(\s*\w+\s*=[^;]*)\0", r"&&\1", "a temporary object for a reference that is not const; only MSVC accepts it"))]
+_NO_TEMPORARY = re.compile(r"non-const lvalue reference of type '(?:\w+::)*(\w+)&'")
+_ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(\w+)\(")
 _NUMBER = re.compile(r"'(?:virtual |static |constexpr )*(?:unsigned |signed |long |short )*"
                      r"(?:int|bool|float|double|char|long|unsigned|short)\b [\w:~]+\(")
 
@@ -39,8 +55,8 @@ class Treatments:
     def __init__(self, sources, compiler, naiad):
         self._sources, self._compiler, self._naiad = sources, compiler, naiad
         self.changes, self._returns, self._types, self._tried, self._engines = [], {}, {}, set(), {}
-        self._kinds = (self._extra_qualification, self._return_type, self._missing_return, self._empty_return, self._void_main,
-                       self._missing_header, self._missing_prefix, self._private_base, self._ambiguous)
+        self._kinds = (self._line, self._return_type, self._missing_return, self._missing_header, self._missing_prefix, self._private_base,
+                       self._ambiguous, self._undeclared_enum, self._temporary, self._skipped_initialization)
 
     def treat(self, units):
         """Changes the copy according to the diagnostics of these units. Returns the units to compile again."""
@@ -103,17 +119,9 @@ class Treatments:
         cut = max(diagnostic.column - 1, 0)
         return data[:cut].decode("utf-8", "surrogateescape"), data[cut:].decode("utf-8", "surrogateescape")
 
-    def _extra_qualification(self, _, diagnostic):
-        match = _EXTRA.search(diagnostic.text)
-        if not match:
-            return False
-        line = self._sources.line(diagnostic.file, diagnostic.line)
-        after = re.sub(r"\b(?:\w+\s*::\s*)+(?=" + re.escape(match.group("name")) + r"\s*\()", "", line, count=1)
-        return self._edit(diagnostic, after, "extra class name before a member of the class; only MSVC accepts it")
-
     def _return_type(self, _, diagnostic):
         match = _CONFLICT.search(diagnostic.text)
-        goal = next((found.group("type") for _, text in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
+        goal = next((found.group("type") for _, text, _ in diagnostic.notes if (found := _OVERRIDDEN.search(text))), None)
         if not match or not goal:
             return self._clang_return_type(diagnostic)
         name, old = match.group("name"), match.group("type")
@@ -160,19 +168,6 @@ class Treatments:
         self._returns[place] = self._returns.get(place, self._sources.line(*place))
         return self._edit(diagnostic, before + f"return {value}; " + behind, "missing return at the end of the function")
 
-    def _empty_return(self, _, diagnostic):
-        if "return-statement with no value" not in diagnostic.text and "should return a value" not in diagnostic.text:
-            return False
-        before, behind = self._at(diagnostic)
-        after = re.sub(r"^return\s*;", "return 0;" if "'int'" in diagnostic.text else "return {};", behind)
-        return self._edit(diagnostic, before + after, "missing value after return")
-
-    def _void_main(self, _, diagnostic):
-        if "'::main' must return 'int'" not in diagnostic.text and "'main' must return 'int'" not in diagnostic.text:
-            return False
-        line = self._sources.line(diagnostic.file, diagnostic.line)
-        return self._edit(diagnostic, re.sub(r"\bvoid(\s+main\b)", r"int\1", line), "main() must return int")
-
     def _missing_header(self, unit, diagnostic):
         """Includes the header of a name that other compilers or engines include indirectly."""
         if not diagnostic.is_error:
@@ -182,7 +177,7 @@ class Treatments:
             if match:
                 return self._force(unit, diagnostic, self._naiad.header_of(match.group("name"))) or \
                     self._scope(diagnostic, match.group("name"))
-        hint = next((found for _, text in diagnostic.notes if (found := _FORGOT.search(text))), None)
+        hint = next((found for _, text, _ in diagnostic.notes if (found := _FORGOT.search(text))), None)
         return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
 
     def _force(self, unit, diagnostic, header):
@@ -239,21 +234,66 @@ class Treatments:
             name = made.group(1) if made else None
         if not name:
             return False
-        declared = rf"\bclass\s+{name}\s*:\s*(?=[\w:])(?!public\b|protected\b|private\b|virtual\b)"
-        for file, number, _ in list(self._sources.find(declared)):
-            line = re.sub(f"({declared})", r"\1public ", self._sources.line(file, number), count=1)
-            place = type(diagnostic)(file, number, 1, "error", "", "")
-            return self._edit(place, line, "missing public: base classes are private by default")
-        return False
+        return self._elsewhere(rf"\bclass\s+{name}\s*:\s*(?=[\w:])(?!public\b|protected\b|private\b|virtual\b)", r"\g<0>public ",
+                               "missing public: base classes are private by default")
 
     def _ambiguous(self, _, diagnostic):
         match = _AMBIGUOUS.search(diagnostic.text)
-        if not match or not any(file in self._sources.files for file, _ in diagnostic.notes):
+        if not match or not any(file in self._sources.files for file, _, _ in diagnostic.notes):
             return False
         before, behind = self._at(diagnostic)
         if not re.match(rf"{match.group('name')}\b", behind) or before.rstrip().endswith("::"):
             return False
         return self._edit(diagnostic, before + "::" + behind, "ambiguous name: the game's own is used")
+
+    def _line(self, _, diagnostic):
+        line = "\0".join(self._at(diagnostic))
+        for message, pattern, after, why in _LINES:
+            if message.search(diagnostic.text) and pattern.search(line):
+                return self._edit(diagnostic, pattern.sub(after, line, count=1).replace("\0", ""), why)
+        return False
+
+    def _elsewhere(self, pattern, after, why):
+        """Changes the lines of the sources that match a pattern. Returns whether there was one."""
+        places = [(file, number) for file, number, _ in self._sources.find(pattern)]
+        return any([self._edit(Diagnostic(file, number, 1, "error", "", ""),
+                               re.sub(pattern, after, self._sources.line(file, number), count=1), why)
+                    for file, number in places])
+
+    def _undeclared_enum(self, unit, diagnostic):
+        """Treats `enum X x;` and `enum X;` before a definition of X, for which MSVC assumes int."""
+        line = self._sources.line(diagnostic.file, diagnostic.line)
+        used = re.search(r"\benum\s+(\w+)(\s*;)?", line) if _ENUM.search(diagnostic.text) else None
+        if not used or any(self._sources.find(rf"\benum\s+{used.group(1)}\s*:\s*int\b")):
+            return False
+        name, why = used.group(1), "an enumeration that is not defined before; only MSVC accepts it"
+        defined = rf"\benum\s+{name}\b(?=\s*(?:\{{|$))"
+        for file, _, _ in self._sources.find(defined):
+            if file != diagnostic.file and not is_source(file):
+                return self._force(unit, diagnostic, f"{self._sources.root}/{file}")
+        here = self._elsewhere(defined, f"enum {name} : int", why)
+        if used.group(2) or (here and line.startswith("enum")):
+            rest = "" if used.group(2) else line[used.start():used.end()]
+            return self._edit(diagnostic, line[:used.start()] + f"enum {name} : int; {rest}".rstrip() + line[used.end():], why)
+        return self._edit(diagnostic, line[:used.start()] + "int" + line[used.end():], why)
+
+    def _temporary(self, _, diagnostic):
+        """Makes the parameter const to which a temporary object is passed."""
+        match = _NO_TEMPORARY.search(diagnostic.text)
+        called = [found for _, text, _ in diagnostic.notes if (found := _ARGUMENT.search(text))] if match else []
+        return bool(called) and self._elsewhere(rf"(\b{called[0].group(1)}\s*\([^;{{]*?)\b((?:\w+::)*{match.group(1)}\s*&)", r"\1const \2",
+                                                "a temporary object for a reference that is not const; only MSVC accepts it")
+
+    def _skipped_initialization(self, _, diagnostic):
+        """Separates the initialization that a goto skips from the declaration."""
+        if "jump to label" not in diagnostic.text and "cannot jump from this goto" not in diagnostic.text:
+            return False
+        for file, text, number in diagnostic.notes:
+            line = self._sources.line(file, number)
+            after = re.sub(r"^(\s*)((?:unsigned\s+)?\w+[\s*]+)(\w+)\s*=", r"\1\2\3; \3 =", line)
+            if ("initialization" in text or "bypasses" in text) and file in self._sources.files:
+                return self._edit(Diagnostic(file, number, 1, "error", "", ""), after, "goto skips an initialization; only MSVC accepts it")
+        return False
 
     def undo_returns(self, units):
         """Undoes added returns that do not compile. Returns whether there was one."""

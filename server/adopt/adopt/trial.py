@@ -2,6 +2,7 @@
 import os
 import re
 import shutil
+import signal
 import stat
 import subprocess
 import time
@@ -14,10 +15,17 @@ from .text import shown
 START_SECONDS = 20  # time limit until the game listens
 END_SECONDS = 8  # time limit until the game has ended after SIGTERM
 MAX_ROUNDS = 20  # maximum times that the game is started, if it ends normally before the time is over
-_TICKS = re.compile(r"\bbot ok .*\bticks=(\d+) objects=(\d+)")
+_TICKS = re.compile(r"\bbot (?:ok|lost)\b.* ticks=(\d+) objects=(\d+)")
+_HANGS = re.compile(r"the game does not finish tick .*")  # a forced exit of the host
 _LOG_BYTES = 64 << 10
 _ASAN = "detect_leaks=0:alloc_dealloc_mismatch=0:detect_odr_violation=0:handle_segv=2:handle_abort=2:handle_sigfpe=2:" \
         "handle_sigill=2:handle_sigbus=2:hard_rss_limit_mb=3072:exitcode=77"
+
+
+def settings(seed):
+    """Returns the settings of the run that matter to the game, as environment variables. They override its df-config.txt."""
+    return {"NAIAD_HEADLESS": "0", "NAIAD_INPUT_MODE": "together", "NAIAD_ON_GAME_OVER": "leave", "NAIAD_TICKS": "0",
+            "NAIAD_EXIT_WHEN_EMPTY": "0", "NAIAD_SEED": str(seed)}
 
 
 class ScriptError(Exception):
@@ -78,8 +86,7 @@ class Trial:
     def _environment(self, number):
         names = {"PATH": "/usr/bin:/bin", "HOME": f"{self.tmp}/home", "LC_ALL": "C.UTF-8", "TERM": "dumb", "NAIAD_PORT": "0",
                  "NAIAD_ADDRESS": "127.0.0.1", "NAIAD_PORT_FILE": f"{self.tmp}/port.{number}", "NAIAD_INSECURE": "1",
-                 "NAIAD_LOCAL_CLIENT": "0", "NAIAD_HEADLESS": "0", "NAIAD_PLAYERS": "together", "NAIAD_ON_GAME_OVER": "leave",
-                 "NAIAD_SEED": str(self.seed), "NAIAD_TICKS": "0", "NAIAD_EXIT_WHEN_EMPTY": "0"}
+                 "NAIAD_LOCAL_CLIENT": "0", **settings(self.seed)}
         return {**names, "ASAN_OPTIONS": _ASAN} if self.examined else names
 
     def _round(self, number, seconds):
@@ -103,18 +110,31 @@ class Trial:
             code = game.poll()
             state = "deaf" if code is None else "crashed" if code < 0 or code == 77 else "unplayed" if code == 0 else "failed"
             return {"state": state, "code": code, "seconds": time.monotonic() - began, "ticks": 0, "objects": 0, "text": ""}
-        said, code = self._play(game, port, seconds, number)
-        found = _TICKS.search(said)
-        ticks, objects = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
-        ended = _end(game, ticks)
-        # The player failed, but not because the game ended (code 4). If the game itself failed, its failure is the result.
-        if code not in (None, 0, 4) and ended["state"] in ("played", "hangs") and ended["code"] == 0:
-            ended = {"state": "refused", "code": code}
+        code, text, seen, ticks, objects = self._play(game, seconds, number)
+        ended = _end(game)
+        hang = _HANGS.search(_ends(f"{self.tmp}/game.{number}.out"))
+        if ended["state"] == "killed":  # if the player saw all of the game, only main() does not end
+            ended = {"state": "played" if code == 0 else "hangs", "code": None, "ended_well": False}
+        elif ended["state"] == "played" and code != 0:
+            ended = {"state": "hangs" if hang else "played" if seen else "refused", "code": code}
         return {**ended, "seconds": time.monotonic() - began, "ticks": ticks, "objects": objects,
-                "text": _last_line(said) or f"dfbot exited with code {code}" if code else ""}
+                "text": hang.group() if hang and ended["state"] == "hangs" else text}
 
-    def _play(self, game, port, seconds, number):
-        """Plays with dfbot. Returns dfbot's output and exit code; the code is None if dfbot had to be killed."""
+    def _play(self, game, seconds, number):
+        """Plays with dfbot, and again if it lost the connection to a game that still runs, as after a title screen. Returns the
+        last exit code (None: dfbot had to be killed), message and ticks, the ticks of all, and the most Objects in view."""
+        end, ticks, objects = time.monotonic() + seconds, 0, 0
+        while True:
+            said, code = self._join(game, max(end - time.monotonic(), 1.0), number)
+            found = _TICKS.search(said)
+            seen = int(found.group(1)) if found else 0
+            ticks, objects = ticks + seen, max(objects, int(found.group(2)) if found else 0)
+            if code not in (1, 4) or game.poll() is not None or time.monotonic() > end - 1:
+                return code, _last_line(said) or f"dfbot exited with code {code}", seen, ticks, objects
+
+    def _join(self, game, seconds, number):
+        """Lets dfbot join and press keys. Returns its output, and its exit code or None if it had to be killed."""
+        port = _wait_for_port(game, f"{self.tmp}/port.{number}")  # after a title screen, it may be another one
         script = f"{self.tmp}/keys"
         with open(script, "w", encoding="utf-8", errors="replace") as file:
             file.write(self.keys or random_script(self.named_keys, self.seed + number - 1, int(seconds * 30) + 30))
@@ -129,7 +149,7 @@ class Trial:
         if game.poll() is not None:
             _wait(bot)
         elif bot.poll() in (1, 4):  # the bot lost its connection: the game may be ending
-            _wait(game)
+            _wait(game, 1)
         code = bot.poll()
         if code is None:
             bot.kill()
@@ -192,8 +212,8 @@ def _last_line(said):
     return shown(lines[-1].removeprefix("dfbot: "), 500) if lines else ""
 
 
-def _end(game, ticks):
-    """Ends the game if it still runs. Returns its state and exit code."""
+def _end(game):
+    """Ends the game if it still runs. Returns its state and exit code. State "killed": it did not end by itself."""
     code = game.poll()
     if code is not None:
         state = "over" if code == 0 else "crashed" if code < 0 or code == 77 else "failed"
@@ -203,10 +223,8 @@ def _end(game, ticks):
         code = game.wait(END_SECONDS)
     except subprocess.TimeoutExpired:
         game.kill()
-        return {"state": "hangs", "code": None}
-    if ticks == 0:
-        return {"state": "hangs", "code": code}
-    return {"state": "played", "code": code, "ended_well": code >= 0 and code != 77}
+        return {"state": "killed"}
+    return {"state": "played", "code": code, "ended_well": (code >= 0 and code != 77) or code == -signal.SIGTERM}
 
 
 def _ends(path):

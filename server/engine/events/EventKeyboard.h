@@ -2,11 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "Event.h"
 #include "Keyboard.h"
 
 namespace df {
+
+namespace Keyboard {
+
+/// Compares the numbers, which is a mistake: `getKey() == 'a'` is not the key A. A template, so that
+/// comparisons with an int are as without it.
+template <class Char, typename std::enable_if<std::is_same<Char, char>::value, int>::type = 0>
+__attribute__((deprecated("a key is not a character: write df::Keyboard::A"))) bool operator==(Key key,
+                                                                                               Char c) {
+  return static_cast<int>(key) == c;
+}
+
+}  // namespace Keyboard
 
 /// Register interest in this to get all players' keys.
 inline const EventType KEYBOARD_EVENT("df-keyboard");

@@ -1,8 +1,10 @@
 #include "engine/managers/Config.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 
@@ -12,58 +14,61 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldExtras.h"
 #include "engine/world/WorldLog.h"
+#include "shared/options/Options.h"
 
 namespace df {
 
 namespace {
 
-// Reads settings from a text "key:value,…", one key with each call.
-class Reader {
- public:
-  Reader(const std::string& text, World& world) : m_text(text), m_world(world) {}
+/// Keys that loadConfig() does not look up.
+constexpr const char* kOtherKeys[] = {"window_style", "window_state",       "signals",
+                                      "grid_width",   "grid_height",        "quadtree_depth",
+                                      "server_plays", "quadtree_threshold", "fullscreen"};
 
-  void operator()(const char* key, int& out, int least = INT_MIN) {
-    const std::string value = valueOf(m_text, key);
-    if (value.empty()) return;
-    char* p_end = nullptr;
-    const long number = std::strtol(value.c_str(), &p_end, 10);
-    if (*p_end != '\0' || number < least || number > INT_MAX) return refuse(key, value);
-    out = static_cast<int>(number);
-  }
-  void operator()(const char* key, float& out) {
-    const std::string value = valueOf(m_text, key);
-    if (value.empty()) return;
-    char* p_end = nullptr;
-    const float number = std::strtof(value.c_str(), &p_end);
-    if (*p_end != '\0' || !(number > 0)) return refuse(key, value);
-    out = number;
-  }
-  void operator()(const char* key, bool& out) {
-    const std::string value = valueOf(m_text, key);
-    if (value.empty()) return;
-    if (value != "true" && value != "false" && value != "1" && value != "0") return refuse(key, value);
-    out = value == "true" || value == "1";
-  }
-  void operator()(const char* key, Color& out) {
-    const std::string value = valueOf(m_text, key);
-    if (value.empty()) return;
-    const Color color = colorOfName(value);
-    if (color == UNDEFINED_COLOR) return refuse(key, value);
-    out = color;
-  }
-  void operator()(const char* key, std::string& out) {
-    const std::string value = valueOf(m_text, key);
-    if (!value.empty()) out = value;
-  }
+bool parse(const std::string& value, int& out, int least) {
+  char* p_end = nullptr;
+  const long number = std::strtol(value.c_str(), &p_end, 10);
+  if (*p_end != '\0' || number < least || number > INT_MAX) return false;
+  out = static_cast<int>(number);
+  return true;
+}
 
- private:
-  void refuse(const char* key, const std::string& value) {
-    m_world.log().write("Configuration: " + std::string(key) + ":" + value + " is invalid and ignored");
-  }
+bool parse(const std::string& value, float& out, int /*least*/) {
+  char* p_end = nullptr;
+  const float number = std::strtof(value.c_str(), &p_end);
+  if (*p_end != '\0' || !(number > 0)) return false;
+  out = number;
+  return true;
+}
 
-  const std::string& m_text;
-  World& m_world;
-};
+bool parse(const std::string& value, bool& out, int /*least*/) {
+  out = value == "true" || value == "1";
+  return out || value == "false" || value == "0";
+}
+
+bool parse(const std::string& value, Color& out, int /*least*/) {
+  const Color color = colorOfName(value);
+  if (color != UNDEFINED_COLOR) out = color;
+  return color != UNDEFINED_COLOR;
+}
+
+bool parse(const std::string& value, std::string& out, int /*least*/) {
+  out = value;
+  return true;
+}
+
+/// Reads one setting from the configuration. Logs and ignores an invalid value.
+template <class Value>
+void read(const char* key, Value& out, int least = INT_MIN) {
+  const std::string value = Config::getInstance().match(key);
+  Value parsed = out;
+  if (value.empty() || parse(value, parsed, least)) {
+    out = parsed;
+  } else {
+    World::current().log().write("Configuration: " + std::string(key) + ":" + value +
+                                 " is invalid and ignored");
+  }
+}
 
 }  // namespace
 
@@ -112,7 +117,7 @@ void Config::loadConfig(const std::string& str) {
   World& world = World::current();
   ConfigSettings& s = settings();
   s.text = text;
-  Reader read(text, world);
+  s.known_keys.assign(std::begin(kOtherKeys), std::end(kOtherKeys));
   read("window_horizontal_pixels", s.window_horizontal_pixels, 1);
   read("window_vertical_pixels", s.window_vertical_pixels, 1);
   read("window_horizontal_chars", s.window_horizontal_chars, 1);
@@ -135,7 +140,31 @@ void Config::loadConfig(const std::string& str) {
 }
 
 std::string Config::match(const std::string& find) const {
+  std::vector<std::string>& known = settings().known_keys;
+  if (std::find(known.begin(), known.end(), find) == known.end()) known.push_back(find);
   return valueOf(settings().text, find);
+}
+
+// A game that is not a program itself does not read the keys of the host's options, which its file may have.
+void Config::reportUnknownKeys() {
+  const World& world = World::current();
+  if (world.findExtras() == nullptr) return;
+  std::istringstream pairs(settings().text);
+  for (std::string pair; std::getline(pairs, pair, ',');) {
+    std::istringstream lines(pair);
+    for (std::string line, before; std::getline(lines, line); before += line) {
+      std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+      const std::string key = line.substr(0, line.find(':'));
+      if (key.empty()) continue;
+      if (!before.empty()) world.log().writeOnce("Configuration: a comma is missing before " + key);
+      const std::vector<std::string>& known = settings().known_keys;
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      const std::string near = naiad::nearestName(key, known);
+      if (near.empty() && world.program() == nullptr) continue;
+      world.log().writeOnce("Configuration: there is no key \"" + key + '"' +
+                            (near.empty() ? "" : "; did you mean " + near + "?"));
+    }
+  }
 }
 
 void Config::writeToLog() const {

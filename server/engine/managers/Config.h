@@ -87,6 +87,8 @@ class Config {
     setShowMouse(true);
   }
 
+  /// Logs the keys that were read and that neither loadConfig() nor match() has looked up, once each.
+  static void reportUnknownKeys();
   /// Returns the value of the key `find` in the configuration that was read; empty if the key is missing.
   std::string match(const std::string& find) const;
 

@@ -42,6 +42,7 @@ void GameManager::shutDown() {
 }
 
 void GameManager::run() {
+  Config::reportUnknownKeys();  // only now, because the game may have looked up keys of its own
   World::current().run();
 }
 

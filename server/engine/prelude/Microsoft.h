@@ -14,6 +14,9 @@
 #define _countof(array) (sizeof(array) / sizeof((array)[0]))
 #endif
 
+/// The type of Microsoft's error numbers.
+using errno_t = int;
+
 // Defined only if they are not macros already, because a game for several compilers may define these names.
 #if !defined(sprintf_s)
 /// Formats like std::snprintf().
@@ -59,6 +62,17 @@ inline int strcat_s(char* text, std::size_t size, const char* more) {
 template <std::size_t size>
 int strcat_s(char (&text)[size], const char* more) {
   return strcat_s(text, size, more);
+}
+#endif
+
+#if !defined(strncpy_s)
+/// Copies at most `count` characters of `from`, and as much as fits with a 0 at the end.
+inline int strncpy_s(char* text, std::size_t size, const char* from, std::size_t count) {
+  return strcpy_s(text, size <= count ? size : count + 1, from);
+}
+template <std::size_t size>
+int strncpy_s(char (&text)[size], const char* from, std::size_t count) {
+  return strncpy_s(text, size, from, count);
 }
 #endif
 

@@ -14,6 +14,14 @@
 
 namespace df {
 
+namespace {
+
+/// Ticks without an event after which a handler without registered interests is reported.
+constexpr int kUnheardTicks = 300;
+constexpr int kDone = -1;  ///< Unheard::due of a class that got an event or was reported
+
+}  // namespace
+
 EventDispatch::EventDispatch(ObjectRegistry& objects, Interests& interests, const WorldState& state,
                              std::function<void()> shut_down)
     : m_store(objects.store()),
@@ -51,6 +59,30 @@ bool EventDispatch::deliver(ObjectKey key, const Event& event) {
   return true;
 }
 
+void EventDispatch::attend(ObjectKey key) {
+  const Object* p_o = m_store.find(key);
+  const auto heard = p_o != nullptr ? m_unheard.find(classOf(*p_o)) : m_unheard.end();
+  if (heard != m_unheard.end()) heard->second.due = kDone;
+  if (m_shutdown_pending) m_shut_down();
+}
+
+// An Object that only handles collisions and its leaving of the world needs no interest, so only one that got
+// no event for some time is reported. Which types a handler tests is not known.
+void EventDispatch::reportUnheard() {
+  m_attends = m_shutdown_pending;
+  for (auto& [object_class, unheard] : m_unheard) {
+    if (unheard.due == kDone) continue;
+    m_attends = m_attends || m_state.step_count < unheard.due;
+    if (m_state.step_count < unheard.due) continue;
+    unheard.due = kDone;
+    const Object* p_o = m_store.find(unheard.key);
+    if (p_o == nullptr || !p_o->isActive() || !m_store.profile(unheard.key.slot).interests.empty()) continue;
+    m_log.writeOnce(nameOf(*p_o) + " has an eventHandler() that got no event in " +
+                    std::to_string(kUnheardTicks) +
+                    " ticks, and it registers interest in none: was registerInterest() forgotten?");
+  }
+}
+
 void EventDispatch::quarantine(ObjectKey key, const std::string& why) {
   Object* p_o = m_store.find(key);
   m_log.write("An object" + (p_o != nullptr ? " of type " + nameOf(*p_o) : std::string()) +
@@ -64,6 +96,7 @@ void EventDispatch::classifyNewObjects() {
   for (const ObjectKey key : m_store.popNewObjects()) {
     if (m_store.isCurrent(key)) classifyObject(key.slot);
   }
+  if (m_attends) reportUnheard();
 }
 
 void EventDispatch::classifyObject(std::uint32_t slot) {
@@ -73,6 +106,10 @@ void EventDispatch::classifyObject(std::uint32_t slot) {
   m_store.set(slot, WorldStore::kNeverDraws, typeid(object) == typeid(Object));
   const bool deaf = object.hasNoEventHandler();
   m_store.set(slot, WorldStore::kNoEventHandler, deaf);
+  if (!deaf && m_store.profile(slot).interests.empty()) {
+    const Unheard first{m_store.key(slot), m_state.step_count + kUnheardTicks};
+    m_attends = m_unheard.try_emplace(classOf(object), first).second || m_attends;
+  }
   if (deaf && !m_store.profile(slot).interests.empty() && typeid(object) != typeid(Object)) {
     m_log.writeOnce(nameOf(object) +
                     " registers interest in events but has no matching eventHandler(): it must be declared "

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -48,7 +49,7 @@ class EventDispatch {
       quarantine(key, "an exception of unknown type");
     }
     --m_handlers;
-    if (m_shutdown_pending) m_shut_down();
+    if (m_attends) attend(key);
   }
   /// Sends a collision to the mover, then to the other Object, but not to one that is inactive or has no
   /// handler. Stops if the first handler removes either. Both must be in the world. Returns true if the mover
@@ -72,7 +73,7 @@ class EventDispatch {
   void quarantine(ObjectKey key, const std::string& why);
 
   /// Makes a shutdown pending, until popShutDown().
-  void deferShutDown() { m_shutdown_pending = true; }
+  void deferShutDown() { m_shutdown_pending = m_attends = true; }
   /// Returns whether a shutdown was pending, and cancels it.
   bool popShutDown() { return std::exchange(m_shutdown_pending, false); }
 
@@ -90,7 +91,15 @@ class EventDispatch {
   }
 
  private:
+  /// The first Object of a class that overrides eventHandler() and registered no interest.
+  struct Unheard {
+    ObjectKey key;
+    int due;  ///< step count at which it is reported
+  };
+
   int send(const Event& event, bool is_paused);
+  void attend(ObjectKey key);
+  void reportUnheard();
   void addClassName(std::uint32_t slot);
   void addEventName(const Event& event);
 
@@ -101,6 +110,8 @@ class EventDispatch {
   const WorldState& m_state;
   int m_handlers = 0;  // number of running handlers: they may be nested
   bool m_shutdown_pending = false;
+  bool m_attends = false;  // attend() is called after handlers: a shutdown is pending, or a class is unheard
+  std::map<std::uintptr_t, Unheard> m_unheard;  // by class
   std::function<void()> m_shut_down;
   Activity m_own_activity;
   Activity* m_p_activity = &m_own_activity;  // m_own_activity, or that of m_p_page

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "Color.h"
 
@@ -17,6 +18,8 @@ const std::string LOGFILE_DEFAULT = "dragonfly.log";
 /// Settings of one world.
 struct ConfigSettings {
   std::string text;  ///< the configuration that was read: "key:value," without comments
+  /// Known keys of the configuration: those of the engine, and all that Config::match() has looked up.
+  std::vector<std::string> known_keys;
   int window_horizontal_pixels = 1024;
   int window_vertical_pixels = 768;
   int window_horizontal_chars = WINDOW_HORIZONTAL_CHARS_DEFAULT;

@@ -81,12 +81,13 @@ void Host::run(df::World& world) {
     world.setGameOver(false);
     m_clients->rooms().restart();
   }
+  const auto length = TickLength::fromMicros(m_context->options.frame_micros);
   StopSignals signals;
   AsyncLog side_log(m_context->log);
   Watchdog watchdog(
-      signals, [&side_log](const std::string& line) { side_log(line); },
+      signals, length.times(1), [&side_log](const std::string& line) { side_log(line); },
       [this, &side_log](const ForcedExit& end) { endProcess(end, side_log); });
-  TickClock schedule(Clock::now(), TickLength::fromMicros(m_context->options.frame_micros));
+  TickClock schedule(Clock::now(), length);
   const auto work = asio::make_work_guard(m_context->home);  // without it, run_until() would return at once
   m_endpoint->network().start();
   for (const auto& part : m_parts) is_first ? part->begin() : void();

@@ -1,5 +1,7 @@
 #include "host/process/Watchdog.h"
 
+#include <unistd.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::milliseconds kCheckInterval{100};
+constexpr std::chrono::milliseconds kCheckIntervalInTick{10};
 
 }  // namespace
 
@@ -55,8 +58,9 @@ void AsyncLog::run() {
   }
 }
 
-Watchdog::Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedExit&)> end)
-    : m_signals(signals), m_log(std::move(log)), m_end(std::move(end)) {
+Watchdog::Watchdog(const StopSignals& signals, std::chrono::nanoseconds frame, LogLine log,
+                   std::function<void(const ForcedExit&)> end)
+    : m_signals(signals), m_frame(frame), m_log(std::move(log)), m_end(std::move(end)) {
   m_thread = startWithoutSignals([this] { run(); });
 }
 
@@ -70,6 +74,7 @@ Watchdog::~Watchdog() {
 }
 
 void Watchdog::beginTick(std::uint64_t number) {
+  m_slow_tick.beginTick(getpid());
   m_tick.store(number, std::memory_order_relaxed);
   m_since.store(Clock::now().time_since_epoch().count(), std::memory_order_release);
 }
@@ -78,12 +83,19 @@ void Watchdog::run() {
   HangDetector watch;
   for (;;) {
     std::unique_lock lock(m_mutex);
-    if (m_changed.wait_for(lock, kCheckInterval, [this] { return m_stopping; })) return;
+    if (m_changed.wait_for(lock, m_since != 0 ? kCheckIntervalInTick : kCheckInterval,
+                           [this] { return m_stopping; }))
+      return;
     lock.unlock();
     const Clock::rep since = m_since.load(std::memory_order_acquire);
     const std::uint64_t number = m_tick.load(std::memory_order_relaxed);
     const auto tick = since != 0 ? std::optional(number) : std::nullopt;
     const HangDetector::Time began{Clock::duration(since)};
+    if (tick) {
+      const std::string line =
+          m_slow_tick.check(getpid(), number, Clock::now() - began, m_frame, crash::activity("handles"));
+      if (!line.empty()) m_log(line);
+    }
     switch (watch.check(tick, began, m_signals.count(), Clock::now())) {
       case HangDetector::Step::kNothing:
         break;

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "host/process/StopSignals.h"
+#include "host/world/TickStallMeter.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
@@ -88,10 +89,11 @@ struct ForcedExit {
 
 class Watchdog {
  public:
-  /// Watches `signals` and the ticks that are reported to it, until it is destroyed. `end` ends the process;
-  /// it is called on the watching thread, and does not return. `log` is called there, too, and must not wait
-  /// for anything the game may hold (AsyncLog).
-  Watchdog(const StopSignals& signals, LogLine log, std::function<void(const ForcedExit&)> end);
+  /// Watches `signals` and the ticks that are reported to it, until it is destroyed. `frame`: length of a
+  /// tick. `end` ends the process; it is called on the watching thread, and does not return. `log` is called
+  /// there, too, and must not wait for anything the game may hold (AsyncLog).
+  Watchdog(const StopSignals& signals, std::chrono::nanoseconds frame, LogLine log,
+           std::function<void(const ForcedExit&)> end);
   ~Watchdog();
 
   /// Call beginTick() and endTick() on the thread that ticks.
@@ -104,6 +106,8 @@ class Watchdog {
   void run();
 
   const StopSignals& m_signals;
+  const std::chrono::nanoseconds m_frame;
+  SlowTickDetector m_slow_tick;
   LogLine m_log;
   std::function<void(const ForcedExit&)> m_end;
   std::atomic<std::uint64_t> m_tick = 0;

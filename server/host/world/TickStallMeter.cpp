@@ -26,17 +26,36 @@ ProcessRunState::Doing doingOf(char state) {
   return state == 'S' ? ProcessRunState::kWaits : ProcessRunState::kRuns;
 }
 
-}  // namespace
-
-std::optional<ProcessRunState> readProcessRunState(pid_t process) {
+std::optional<std::chrono::nanoseconds> cpuTimeOf(pid_t process) {
   clockid_t clock{};
   timespec time{};
   if (process <= 0 || clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0)
     return std::nullopt;
-  const char state = stateOf(process);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
+std::optional<ProcessRunState> readProcessRunState(pid_t process) {
+  const auto cpu = cpuTimeOf(process);
+  const char state = cpu ? stateOf(process) : '\0';
   if (state == '\0') return std::nullopt;
-  return ProcessRunState{doingOf(state),
-                         std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec)};
+  return ProcessRunState{doingOf(state), *cpu};
+}
+
+void SlowTickDetector::beginTick(pid_t process) {
+  if (!m_reported) m_cpu = cpuTimeOf(process).value_or(Nanos(0)).count();
+}
+
+std::string SlowTickDetector::check(pid_t process, std::uint64_t tick, Nanos passed, Nanos frame,
+                                    std::string_view activity) {
+  if (m_reported || passed < frame || tick <= 1 || activity.empty()) return {};
+  const auto look = readProcessRunState(process);
+  if (!look || (look->doing != ProcessRunState::kWaits && look->cpu - Nanos(m_cpu) < frame / 2)) return {};
+  m_reported = true;
+  return "tick " + std::to_string(tick) + " takes longer than the frame time of " +
+         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(frame).count()) + " ms" +
+         std::string(activity) + ": the game is not smooth (reported once)";
 }
 
 void TickStallMeter::count(Nanos passed, const std::optional<ProcessRunState>& look) {

@@ -7,8 +7,12 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace naiad {
 
@@ -67,6 +71,24 @@ class TickStallMeter {
   Nanos m_own{0};
   Nanos m_stopped{0};
   std::optional<Nanos> m_cpu;  ///< ProcessRunState::cpu at the last look
+};
+
+/// Finds the first tick that a game's own code, and not the load of the machine, makes longer than a frame.
+/// The thread that ticks calls beginTick(); one other thread may call check().
+class SlowTickDetector {
+ public:
+  using Nanos = std::chrono::nanoseconds;
+
+  /// Call when a tick begins in this process.
+  void beginTick(pid_t process);
+  /// Returns a line for the log, once, if `passed`, the time since the tick began, exceeds `frame`, and the
+  /// process has computed for half a frame or waits for something. `activity`: the running handler, as of
+  /// describeActivity(); without one, and in tick 1, which may load files, there is no line.
+  std::string check(pid_t process, std::uint64_t tick, Nanos passed, Nanos frame, std::string_view activity);
+
+ private:
+  std::atomic<bool> m_reported = false;
+  std::atomic<Nanos::rep> m_cpu = 0;  ///< processor time of the process when the tick began
 };
 
 }  // namespace naiad

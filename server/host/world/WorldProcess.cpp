@@ -149,6 +149,7 @@ void WorldProcess::beginTick() {
   m_state = State::kTicking;
   m_waited = {};
   m_stall.restart();
+  m_slow_tick.beginTick(m_process);
   m_warned = m_stop_noted = false;
 }
 
@@ -315,6 +316,12 @@ void WorldProcess::countTime(Clock::time_point now) {
 
 void WorldProcess::warnOfHang() {
   if (m_state != State::kTicking) return;
+  if (m_print && !m_repeats && !isInFirstTick() && m_ready) {
+    const std::string line =
+        m_slow_tick.check(m_process, currentTick(), m_waited,
+                          std::chrono::milliseconds(m_ready->frame_millis), activity("handles"));
+    if (!line.empty()) m_print(line);
+  }
   const std::string tick = "tick " + std::to_string(currentTick());
   if (m_stall.stopped() >= m_hang_time && !std::exchange(m_stop_noted, true))
     m_warning = "the game is stopped in " + tick + ", by a debugger or a signal, and all players wait";

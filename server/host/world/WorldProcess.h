@@ -155,6 +155,7 @@ class WorldProcess : public WorldPort {
   Clock::time_point m_checked_at;
   std::chrono::nanoseconds m_waited{0};  ///< time in this state; a check adds at most kMaxBetweenChecks
   TickStallMeter m_stall;                ///< time of the current tick, as far as it counts
+  SlowTickDetector m_slow_tick;
   std::uint32_t m_next_tick = 1;
   std::uint32_t m_tick_offset = 0;  ///< the host's tick numbers minus the world's own
   bool m_began = false;

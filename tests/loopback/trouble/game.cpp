@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "DisplayManager.h"
 #include "EventKeyboard.h"
@@ -49,6 +50,7 @@ class Trouble : public Object {
       WM.onEvent(&inner);
       m_rest = *g_p_null;
     }
+    if (p_k->getKey() == Keyboard::S) usleep(400000);
     if (p_k->getKey() == Keyboard::P) fprintf(stderr, "the game prints\n");
     for (volatile bool hangs = p_k->getKey() == Keyboard::H; hangs;) {
     }

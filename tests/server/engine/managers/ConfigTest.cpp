@@ -52,6 +52,26 @@ TEST_F(ConfigTest, InvalidValuesAreLoggedAndIgnored) {
   EXPECT_EQ(logged("invalid window of 80 by 5000"), 1);
 }
 
+TEST_F(ConfigTest, OnlyMisspeltKeysAreReported) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"windowhorizontal_chars:80,", "\"windowhorizontal_chars\"; did you mean window_horizontal_chars?"},
+      {"headless:true,\n Frame_Time : 20,", "\"Frame_Time\"; did you mean frame_time?"},
+      {"random_seed 7,", "\"random_seed7\"; did you mean random_seed?"},
+      {"frame_time:20, # in ms\nheadless:true,", "a comma is missing before headless"},
+      {"levles:3,", "\"levles\"; did you mean levels?"},
+      {"levels:3,frame_time:20,window_style:1,", ""},
+      {"port:9900,password:sesame,", ""}};  // keys of the host, which only programs read
+  for (const auto& [text, expected] : cases) {
+    lines.clear();
+    world.log().clear();
+    config().loadConfig(text);
+    config().match("levels");  // a key of the game itself
+    Config::reportUnknownKeys();
+    EXPECT_EQ(lines.size(), *expected == '\0' ? 0u : 1u) << text << (lines.empty() ? "" : lines[0]);
+    EXPECT_EQ(logged(expected), static_cast<int>(lines.size())) << text << (lines.empty() ? "" : lines[0]);
+  }
+}
+
 TEST_F(ConfigTest, ConfiguredSeedReproducesRandomNumbers) {
   World other;
   other.setSeed(42);

@@ -30,6 +30,18 @@ class Deaf : public Object {
 #pragma GCC diagnostic pop
 };
 
+class Forgetful : public Object {
+ public:
+  int eventHandler(const Event* p_e) override { return p_e->getType() == STEP_EVENT; }
+};
+
+class Registered : public Forgetful {
+ public:
+  Registered() { registerInterest(KEYBOARD_EVENT); }
+};
+
+class Struck : public Forgetful {};
+class Asleep : public Forgetful {};
 class EventNuke : public Event {};
 
 namespace {
@@ -83,6 +95,37 @@ TEST_F(Mistakes, InterestInAMisspelledEngineEventIsReported) {
   p_saucer->registerInterest("step");
   p_saucer->registerInterest("steps");  // no message: may be the game's own event
   expectLine("registerInterest(\"step\"): the engine sends no such event; it sends df::STEP_EVENT");
+}
+
+TEST_F(Mistakes, HandlerThatNeverRegisteredIsReportedOnce) {
+  new Saucer;  // has no handler
+  new Registered;
+  (new Asleep)->setActive(false);
+  new Forgetful;
+  new Forgetful;
+  auto* p_struck = new Struck;
+  p_struck->setPosition(Vector(40, 12));
+  ticks(290);
+  (new Saucer)->setPosition(Vector(41, 12));
+  WM.moveObject(p_struck, Vector(41, 12));  // collisions need no registration
+  new Forgetful;
+  EXPECT_TRUE(lines.empty()) << lines[0];
+  ticks(400);
+  ASSERT_EQ(lines.size(), 1u);
+  lines[0].replace(lines[0].find("Forgetful"), 9, "Saucer");
+  expectLine(
+      "Saucer has an eventHandler() that got no event in 300 ticks, and it registers interest in none: was "
+      "registerInterest() forgotten?");
+}
+
+TEST_F(Mistakes, UnknownConfigurationKeyIsReportedWithTheNearest) {
+  Config::getInstance().loadConfig("frame_tme:20,");
+  Config::reportUnknownKeys();
+  Config::reportUnknownKeys();
+  expectLine("Configuration: there is no key \"frame_tme\"; did you mean frame_time?");
+  Config::getInstance().loadConfig("window_title:Saucers\nheadless:true,");
+  Config::reportUnknownKeys();
+  expectLine("Configuration: a comma is missing before headless");
 }
 
 TEST_F(Mistakes, EventWithoutATypeIsReported) {

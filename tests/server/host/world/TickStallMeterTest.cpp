@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/ptrace.h>
 #include <sys/wait.h>
@@ -138,6 +139,37 @@ TEST(LookAtProcess, RecognizesADebuggedProcess) {
 TEST(LookAtProcess, ReturnsNothingForInvalidProcessIds) {
   EXPECT_FALSE(readProcessRunState(0));
   EXPECT_FALSE(readProcessRunState(-1));
+}
+
+TEST(SlowTickDetectorTest, OnlyComputingAndWaitingAreTheGamesOwn) {
+  constexpr auto kFrame = 33ms;
+  const std::string handler = ", while Ship handles EventStep";
+  const pid_t waiting = fork();
+  if (waiting == 0) {
+    pause();
+    _exit(0);
+  }
+  while (readProcessRunState(waiting)->doing != Doing::kWaits) sched_yield();
+  SlowTickDetector detector;
+  detector.beginTick(waiting);
+  EXPECT_EQ(detector.check(waiting, 7, 32ms, kFrame, handler), "");
+  EXPECT_EQ(detector.check(waiting, 7, 40ms, kFrame, ""), "") << "no handler runs";
+  EXPECT_EQ(detector.check(waiting, 1, 40ms, kFrame, handler), "") << "the first tick may load files";
+  EXPECT_EQ(detector.check(waiting, 7, 40ms, kFrame, handler),
+            "tick 7 takes longer than the frame time of 33 ms, while Ship handles EventStep: the game is not "
+            "smooth "
+            "(reported once)");
+  EXPECT_EQ(detector.check(waiting, 8, 40ms, kFrame, handler), "") << "once";
+  kill(waiting, SIGKILL);
+  waitpid(waiting, nullptr, 0);
+
+  SlowTickDetector computing;
+  computing.beginTick(getpid());
+  EXPECT_EQ(computing.check(getpid(), 7, 1h, kFrame * 1000, handler), "") << "it waited for a processor";
+  const auto begun = readProcessRunState(getpid())->cpu;
+  while (readProcessRunState(getpid())->cpu - begun < kFrame) {
+  }
+  EXPECT_NE(computing.check(getpid(), 7, 40ms, kFrame, handler), "");
 }
 
 }  // namespace
