@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/terminal/KeyTable.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
 
@@ -36,7 +37,9 @@ ClientControls::Result ClientControls::handleKey(const KeyEvent& event) {
   if (isControl(event, C)) return Result::kLeave;
   if (isControl(event, Z)) return Result::kSuspend;
   if (m_prefixed) return isModifierKey(event.key) ? Result::kHandled : handleCommand(event);
-  if (isControl(event, RIGHTBRACKET) && event.action == KeyEvent::Action::kPress) {
+  const Key menu_key = keyOfCharacter(static_cast<unsigned char>(m_menu_letter)).key;
+  const bool is_menu = isControl(event, menu_key) || isControl(event, RIGHTBRACKET);
+  if (is_menu && event.action == KeyEvent::Action::kPress) {
     m_prefixed = true;
     return Result::kHandled;
   }
@@ -88,7 +91,7 @@ void ClientControls::setChatText(std::string_view text) {
 }
 
 ClientControls::Result ClientControls::handleCommand(const KeyEvent& event) {
-  // A held Ctrl-] repeats; the repeats are not a command.
+  // A held Ctrl-G repeats; the repeats are not a command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
   if (event.ch == U'?') return toggle(Panel::kHelp);

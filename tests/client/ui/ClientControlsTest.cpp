@@ -44,6 +44,20 @@ TEST(ClientControls, PrefixOpensCommands) {
   EXPECT_EQ(command(controls, Q, U'q'), Result::kLeave);
 }
 
+TEST(ClientControls, MenuLetterReplacesControlG) {
+  const auto opens = [](char letter, Key key, std::uint8_t modifiers) {
+    ClientControls controls;
+    controls.setMenuLetter(letter);
+    controls.handleKey({key, 0, KeyEvent::Action::kPress, modifiers});
+    return controls.prefixed();
+  };
+  EXPECT_TRUE(opens('G', G, kControl));
+  EXPECT_FALSE(opens('X', G, kControl));
+  EXPECT_TRUE(opens('X', X, kControl));
+  EXPECT_TRUE(opens('X', RIGHTBRACKET, kControl));
+  EXPECT_FALSE(opens('X', X, 0));
+}
+
 TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
   ClientControls controls;
   const auto press = [&controls] {
