@@ -94,6 +94,8 @@ class ClientControls {
   int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
   bool isChatOpen() const { return m_chat_open; }
+  /// True if characters that cannot be drawn were left out of the open chat line.
+  bool hasOmittedText() const { return m_chat_open && m_omitted; }
   /// True if the menu key was typed, but not yet a command.
   bool prefixed() const { return m_prefixed; }
   /// Returns the text typed so far, in UTF-8.
@@ -102,6 +104,7 @@ class ClientControls {
   std::string popChat();
 
  private:
+  void append(char32_t ch);
   Result handleChatKey(const KeyEvent& event);
   Result handleCommand(const KeyEvent& event);
   bool handleScrollKey(df::Keyboard::Key key);
@@ -118,6 +121,7 @@ class ClientControls {
   char m_menu_letter = 'G';
   bool m_prefixed = false;
   bool m_chat_open = false;
+  bool m_omitted = false;
   std::u32string m_text;
 };
 

@@ -29,7 +29,6 @@
 #include "client/trust/SessionFile.h"
 #include "client/ui/ClientApp.h"
 #include "client/ui/ServerChooser.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
@@ -131,7 +130,7 @@ std::string footer() {
 
 std::string defaultName() {
   const char* user = std::getenv("USER");
-  return naiad::safeName(user != nullptr ? user : "");
+  return user != nullptr ? user : "";
 }
 
 int complain(naiad::ExitCode code, const std::string& message) {

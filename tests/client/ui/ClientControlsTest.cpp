@@ -133,6 +133,24 @@ TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   EXPECT_TRUE(controls.isChatOpen()) << "it sends nothing";
 }
 
+TEST(ClientControls, ChatLineTellsWhenItOmitsCharacters) {
+  ClientControls controls;
+  command(controls, T, U't');
+  for (const char32_t ch : std::u32string(U"aäжλ")) controls.handleKey({UNDEFINED_KEY, ch});
+  EXPECT_FALSE(controls.hasOmittedText());
+  controls.handleKey({UNDEFINED_KEY, U'李'});
+  EXPECT_TRUE(controls.hasOmittedText());
+  controls.handleKey({ESCAPE});
+  EXPECT_FALSE(controls.hasOmittedText());
+  command(controls, T, U't');
+  EXPECT_FALSE(controls.hasOmittedText());
+  controls.insertPasted(U"سلام");
+  EXPECT_TRUE(controls.hasOmittedText());
+  controls.setChatText("gone");
+  EXPECT_FALSE(controls.hasOmittedText());
+  EXPECT_EQ(controls.chatText(), "gone");
+}
+
 TEST(ClientControls, PrefixTwiceClosesEverything) {
   ClientControls controls;
   command(controls, P, U'p');
