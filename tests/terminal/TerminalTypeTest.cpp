@@ -75,7 +75,7 @@ TEST_F(TerminalTypeTest, DarkBlueIsDrawnBright) {
 /// Adds the terminal naiad-direct to a folder of descriptions. From `palette` on, its colours are mixtures.
 void compileDirectTerminal(const std::string& folder, int palette) {
   const std::string first = std::to_string(palette);
-  // For foreground and background: colours below 8 and below `palette`, then mixtures.
+  // Colours below 8, colours below `palette`, and mixtures.
   const auto color = [&first](const std::string& digit) {
     return "\\E[%?%p1%{8}%<%t" + digit + "%p1%d%e%?%p1%{" + first + "}%<%t" + digit + "8;5;%p1%d%e" + digit +
            "8:2::%p1%{65536}%/%d:%p1%{256}%/%{255}%&%d:%p1%{255}%&%d%;%;m";
