@@ -1,6 +1,5 @@
 #include "client/session/ClientSession.h"
 
-#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/Framing.h"
 
 namespace naiad {
@@ -38,7 +37,9 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
     m_inbox.addNotice("Session resumed.", now);
   }
   if (!m_welcome.resumed && m_welcome.name != m_link.options().name)
-    m_inbox.addNotice("You play as \"" + m_welcome.name + "\". " + kNameRule, now);
+    m_inbox.addNotice("You play as \"" + m_welcome.name + "\". Names are unique, with at most 16 Latin, " +
+                          "Greek or Cyrillic letters.",
+                      now);
   m_world.start(m_welcome, from);
   m_inputs.start(from.input, m_welcome.tick);
   m_state = State::kPlaying;

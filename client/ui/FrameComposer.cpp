@@ -5,7 +5,6 @@
 
 #include "client/world/DrawnPlacement.h"
 #include "client/world/ExtrapolationClamp.h"
-#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 namespace {
@@ -71,7 +70,7 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
 
 std::string FrameComposer::banner(Time now) const {
   if (m_controls.prefixed()) return "Menu: t chat  p players  r rooms  h help  s status  q leave";
-  if (m_controls.hasOmittedText()) return kChatRule;
+  if (m_controls.hasOmittedText()) return "Only Latin, Greek and Cyrillic letters can be shown.";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kReconnecting;
   // A session that continues by datagrams while it opens another stream needs no banner.

@@ -27,13 +27,7 @@ bool isRoomName(std::string_view name);
 /// characters (for example control, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
 std::string safeText(const std::string& text, std::size_t max_characters);
 
-/// The rules for chat (df::isDrawable()) and names, as sentences.
-inline constexpr const char* kChatRule = "Only Latin, Greek and Cyrillic letters can be shown.";
-inline constexpr const char* kNameRule =
-    "Names are unique, have at most 16 characters, and only Latin, Greek and Cyrillic letters.";
-
-/// Makes a player's name of any text: what is drawable, with the limit of names, trimmed; "player" if that is
-/// empty.
+/// Makes a name of the text's drawable characters, truncated and trimmed; "player" if it is empty.
 std::string safeName(const std::string& name);
 
 /// Returns the number of columns that a safe text occupies.
