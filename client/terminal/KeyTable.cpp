@@ -37,7 +37,7 @@ KeyEvent keyByPosition(char32_t letter) {
       "qwertyuiop[]asdfghjkl;'zxcvbnm,.`s]'\\owertyuiopasdfghjklzxcvbnm";
   static_assert(kLetters.size() == kLatin.size());
   const bool is_upper = (letter >= U'Α' && letter <= U'Ω') || (letter >= U'Ѐ' && letter <= U'Я');
-  const char32_t step = !is_upper ? 0 : letter >= U'Ѐ' && letter <= U'Џ' ? 0x50 : 0x20;
+  const char32_t step = !is_upper ? 0U : letter >= U'Ѐ' && letter <= U'Џ' ? 0x50U : 0x20U;
   const std::size_t place = kLetters.find(letter + step);
   KeyEvent event;
   if (place < kLatin.size()) event = keyOfCharacter(static_cast<unsigned char>(kLatin[place]));
