@@ -36,6 +36,10 @@ void ClientSession::handle(WelcomeMessage&& message, Time now) {
     if (!m_welcome.resume_state) return reject("a resumed session without its state");
     m_inbox.addNotice("Session resumed.", now);
   }
+  if (!m_welcome.resumed && m_welcome.name != m_link.options().name)
+    m_inbox.addNotice("You play as \"" + m_welcome.name + "\". Names are unique, with at most 16 Latin, " +
+                          "Greek or Cyrillic letters.",
+                      now);
   m_world.start(m_welcome, from);
   m_inputs.start(from.input, m_welcome.tick);
   m_state = State::kPlaying;

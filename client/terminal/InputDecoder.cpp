@@ -56,10 +56,12 @@ struct InputDecoder::Numbers {
   KeyEvent kittyKey() const {
     KeyEvent event;
     const auto& code = field[0];
-    event.key = keyOfKitty(code[0]);
     // On a keyboard with another script, the third part is the key in the US layout.
-    if (event.key == df::Keyboard::UNDEFINED_KEY && code[2] > 0) event.key = keyOfKitty(code[2]);
+    event.key = keyOfKitty(code[0] > 0x7F && code[2] > 0 ? code[2] : code[0]);
     applyModifiers(event);
+    // Ctrl-] opens the menu, so ']' counts on any level of the key, and by position.
+    if ((event.modifiers & kControl) != 0 && (code[1] == ']' || code[2] == ']'))
+      event.key = df::Keyboard::RIGHTBRACKET;
     if (event.action == KeyEvent::Action::kRelease) return event;
     if (isText(field[2][0])) {
       event.ch = static_cast<char32_t>(field[2][0]);
@@ -73,12 +75,20 @@ struct InputDecoder::Numbers {
   /// Decodes `CSI virtual key ; scan code ; UTF-16 unit ; down ; control keys ; repeats _` of character `ch`.
   KeyEvent windowsKey(int ch) const {
     constexpr int kRightAlt = 1;
+    constexpr int kRightControl = 4;
     constexpr int kLeftControl = 8;
     const int held = std::max(field[4][0], 0);
     KeyEvent event;
     event.key = keyOfWindows(field[0][0], field[1][0], (held & 0x100) != 0);
-    if (event.key == df::Keyboard::UNDEFINED_KEY && ch > 0 && ch < 0x20)
-      event = keyOfControl(static_cast<unsigned char>(ch));
+    if (event.key == df::Keyboard::UNDEFINED_KEY && ch > 0)
+      event = ch < 0x20 ? keyOfControl(static_cast<unsigned char>(ch))
+                        : KeyEvent{keyOfCharacter(static_cast<char32_t>(ch)).key};
+    // Ctrl-], typed with AltGr in some layouts; without the right Control, AltGr alone types ']'.
+    if (ch == 0x1D || (ch == ']' && (held & kRightControl) != 0)) {
+      event = keyOfControl(0x1D);
+      if (field[3][0] <= 0) event.action = KeyEvent::Action::kRelease;
+      return event;
+    }
     if ((held & 0x10) != 0) event.modifiers |= kShift;
     // Windows reports AltGr, which types characters, as right Alt and left Control.
     const bool alt_gr = (held & kRightAlt) != 0 && (held & kLeftControl) != 0 && isText(ch);
@@ -189,7 +199,7 @@ void InputDecoder::decodeUtf8Byte(unsigned char byte, Events& out) {
   enterState(State::kGround);
   if (decoded.size() == 1 && isText(static_cast<int>(decoded[0]))) {
     if (m_pasting) return addPasted(decoded[0]);
-    emitKey(out, {df::Keyboard::UNDEFINED_KEY, decoded[0]});
+    emitKey(out, keyOfCharacter(decoded[0]));
   }
 }
 
@@ -248,6 +258,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (m_overlong) return enterState(State::kGround);
   if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
   if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
+  if (!ss3 && m_parameters.empty() && final == 'O' && !m_pasting) out.emplace_back(FocusLost{});
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
     if (final == '^' || final == '@') m_parameters += ";5";  // 5: Control. The Shift of rxvt's '@' is ignored
     if (final == '$') m_parameters += ";2";

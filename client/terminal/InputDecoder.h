@@ -8,8 +8,12 @@
 //   - the key records of Windows Terminal (win32-input-mode), also those that contain a paste or mouse report
 //   - the mouse as SGR (1006) and as X10 bytes
 //   - pasted text (bracketed paste), which never becomes keys
-// Unknown sequences, terminal replies and focus reports are dropped whole: a byte of a sequence never becomes
-// a key. Memory is bounded whatever arrives.
+//   - the report that the terminal has lost the focus
+// Unknown sequences and other replies are dropped whole: a byte of a sequence never becomes a key. Memory is
+// bounded whatever arrives.
+//
+// Keys are those that type the character on a US keyboard. Letters of other scripts than Latin go by
+// position: the one that the terminal reports, or else that of the standard layout.
 #pragma once
 
 #include <chrono>
@@ -61,7 +65,12 @@ struct PasteEvent {
   friend bool operator==(const PasteEvent&, const PasteEvent&) = default;
 };
 
-using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyReply, PasteEvent>;
+/// The report that the terminal has lost the focus: it will not report the release of held keys.
+struct FocusLost {
+  friend bool operator==(const FocusLost&, const FocusLost&) = default;
+};
+
+using TerminalEvent = std::variant<KeyEvent, MouseEvent, KittyReply, PasteEvent, FocusLost>;
 
 class InputDecoder {
  public:

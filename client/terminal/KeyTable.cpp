@@ -28,6 +28,24 @@ Key keyOfDigit(int digit) {
   return digit == 0 ? NUM0 : static_cast<Key>(NUM1 + (digit - 1));
 }
 
+/// Returns the key that types a Cyrillic or Greek letter in the standard layouts; undefined for other
+/// characters.
+KeyEvent keyByPosition(char32_t letter) {
+  static constexpr std::u32string_view kLetters =
+      U"йцукенгшщзхъфывапролджэячсмитьбюёіїєґўςερτυθιοπασδφγηξκλζχψωβνμ";
+  static constexpr std::string_view kLatin =
+      "qwertyuiop[]asdfghjkl;'zxcvbnm,.`s]'\\owertyuiopasdfghjklzxcvbnm";
+  static_assert(kLetters.size() == kLatin.size());
+  const bool is_upper = (letter >= U'Α' && letter <= U'Ω') || (letter >= U'Ѐ' && letter <= U'Я');
+  const char32_t step = !is_upper ? 0U : letter >= U'Ѐ' && letter <= U'Џ' ? 0x50U : 0x20U;
+  const std::size_t place = kLetters.find(letter + step);
+  KeyEvent event;
+  if (place < kLatin.size()) event = keyOfCharacter(static_cast<unsigned char>(kLatin[place]));
+  if (is_upper) event.modifiers = kShift;
+  event.ch = letter;
+  return event;
+}
+
 }  // namespace
 
 KeyEvent keyOfCharacter(char32_t ch) {
@@ -40,7 +58,7 @@ KeyEvent keyOfCharacter(char32_t ch) {
   static_assert(kPlain.size() == kKeys.size() && kShifted.size() == kKeys.size());
   KeyEvent event;
   event.ch = ch;
-  if (ch >= 0x7F) return event;
+  if (ch >= 0x7F) return keyByPosition(ch);
   const int code = static_cast<int>(ch);
   event.key = code >= 'a' && code <= 'z' ? static_cast<Key>(A + (code - 'a')) : keyIn(kPlain, kKeys, code);
   if (event.key != kNone) return event;
@@ -86,7 +104,7 @@ Key keyOfKitty(int code) {
     const KeyEvent event = keyOfControl(static_cast<unsigned char>(code));
     return event.modifiers == 0 ? event.key : kNone;
   }
-  if (code < 0x7F) return keyOfCharacter(static_cast<char32_t>(code)).key;
+  if (code < 57344) return keyOfCharacter(static_cast<char32_t>(code)).key;
   if (code == 57362) return PAUSE;
   if (code >= 57399 && code <= 57408) return keyOfDigit(code - 57399);
   // The other keys of the keypad have the codes from 57409.

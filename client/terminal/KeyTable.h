@@ -5,7 +5,9 @@
 
 namespace naiad {
 
-/// Returns the key that types `ch` (ASCII only) on a US keyboard, with kShift if needed ('A': key A, shift).
+/// Returns the key that types `ch` on a US keyboard, with kShift if needed ('A': key A, shift). For a
+/// Cyrillic or Greek letter: the key that types it in the standard layouts (Russian, Ukrainian, Belarusian,
+/// Greek), by position.
 KeyEvent keyOfCharacter(char32_t ch);
 
 /// Returns the key of a byte below 0x20 or 0x7F: Return, Tab, Backspace, Escape, or Control with a key.

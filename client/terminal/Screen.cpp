@@ -28,19 +28,28 @@ short pairOf(df::Color color, bool own_background) {
   return static_cast<short>(color + (own_background ? 1 : 1 + df::kColorCount));
 }
 
-/// True if the terminal has bright variants of the eight colours, at 8 to 15.
-bool hasBright() {
-  return COLORS >= 16;
+/// True if numbers of colours are red, green and blue, 8 bits each, instead of places in a palette. Numbers
+/// below 256 may still be places in a palette. All direct-color terminals of ncurses' database have 8 bits.
+bool isDirect() {
+  return COLORS == 1 << 24;
 }
 
-short cursesColor(df::Color color) {
-  static constexpr short kColors[] = {COLOR_BLACK, COLOR_RED,     COLOR_GREEN, COLOR_YELLOW,
-                                      COLOR_BLUE,  COLOR_MAGENTA, COLOR_CYAN,  COLOR_WHITE};
+/// Returns the colour of a background.
+int cursesColor(df::Color color) {
+  static constexpr int kDirect[] = {0, 0x7A1414, 0x14602A, 0x6A6A14, 0x1A2F7A, 0x6A1A5A, 0x14606A, 0xB0B0B0};
+  if (isDirect()) return kDirect[color];
+  static constexpr int kColors[] = {COLOR_BLACK, COLOR_RED,     COLOR_GREEN, COLOR_YELLOW,
+                                    COLOR_BLUE,  COLOR_MAGENTA, COLOR_CYAN,  COLOR_WHITE};
   return kColors[color];
 }
 
-short brightColor(df::Color color) {
-  return static_cast<short>(cursesColor(color) + 8);
+/// Returns the colour of characters: bright, if the terminal has bright variants of the eight colours at 8
+/// to 15.
+int brightColor(df::Color color) {
+  static constexpr int kDirect[] = {0x4D4D4D, 0xFF5555, 0x50FA7B, 0xF1FA8C,
+                                    0x7AA2FF, 0xFF79C6, 0x8BE9FD, 0xE4E4E4};
+  if (isDirect()) return kDirect[color];
+  return cursesColor(color) + (COLORS >= 16 ? 8 : 0);
 }
 
 int numberOf(const char* variable, int otherwise) {
@@ -80,11 +89,10 @@ Screen::Screen(const Options& options) : m_ascii(options.ascii), m_colors(option
     for (int c = df::BLACK; c < df::kColorCount; ++c) {
       const auto color = static_cast<df::Color>(c);
       // Dragonfly's colours are the bright ones. Black becomes bright black, visible on a black background.
-      short foreground = hasBright() ? brightColor(color) : cursesColor(color);
+      int foreground = brightColor(color);
       if (color == df::COLOR_DEFAULT && has_default) foreground = -1;
-      if (color == df::BLACK && COLORS > 8) foreground = 8;
-      init_pair(pairOf(color, true), foreground,
-                has_default ? static_cast<short>(-1) : static_cast<short>(COLOR_BLACK));
+      if (color == df::BLACK && COLORS > 8 && COLORS < 16) foreground = 8;
+      init_extended_pair(pairOf(color, true), foreground, has_default ? -1 : COLOR_BLACK);
     }
   }
   readSize();
@@ -101,9 +109,8 @@ void Screen::setBackground(df::Color background) {
   for (int c = df::BLACK; c < df::kColorCount; ++c) {
     const auto color = static_cast<df::Color>(c);
     // Black stays black on a game's background.
-    const bool bright = hasBright() && color != df::BLACK;
-    init_pair(pairOf(color, false), bright ? brightColor(color) : cursesColor(color),
-              cursesColor(background));
+    init_extended_pair(pairOf(color, false), color == df::BLACK ? COLOR_BLACK : brightColor(color),
+                       cursesColor(background));
   }
   m_redraw = true;
 }

@@ -22,13 +22,13 @@ namespace naiad {
 namespace {
 
 constexpr std::string_view kMouseOn = "\033[?1003h\033[?1006h";
-constexpr std::string_view kPasteOn = "\033[?2004h";
+constexpr std::string_view kPasteAndFocusOn = "\033[?2004h\033[?1004h";
 constexpr std::string_view kKittyQuery = "\033[?u";
 constexpr std::string_view kKittyPush = "\033[>31u";
 constexpr std::string_view kKittyPop = "\033[<u";
 // Switches on Windows Terminal's key records; other terminals ignore this.
 constexpr std::string_view kRecordsOn = "\033[?9001h";
-constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2004l";
+constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2004l\033[?1004l";
 // Written at exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
@@ -200,7 +200,7 @@ void TerminalGuard::setOriginal() {
 void TerminalGuard::enterModes() {
   g_modes_on = 1;
   if (m_options.mouse) put(kMouseOn);
-  put(kPasteOn);
+  put(kPasteAndFocusOn);
   put(kRecordsOn);
   put(kKittyQuery);
 }

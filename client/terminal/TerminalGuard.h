@@ -1,9 +1,10 @@
 // Sets the terminal's modes for the client, and restores the terminal on every exit but _exit() and those by
 // signals that are not listed here, such as SIGKILL.
 //
-// It sets raw mode (termios), mouse reports, bracketed paste and Windows Terminal's key records (hand-written
-// escape sequences), and the kitty keyboard protocol once the terminal reports its support. Screen, made
-// after the guard and destroyed before it, owns the alternate screen; at a crash the guard leaves it, too.
+// It sets raw mode (termios), mouse and focus reports, bracketed paste and Windows Terminal's key records
+// (hand-written escape sequences), and the kitty keyboard protocol once the terminal reports its support.
+// Screen, made after the guard and destroyed before it, owns the alternate screen; at a crash the guard
+// leaves it, too.
 //
 // restore() restores all this; the destructor calls it. exit() and the handlers of SIGSEGV, SIGBUS, SIGABRT,
 // SIGFPE and SIGILL write prebuilt byte strings and call tcsetattr, both async-signal-safe; the process then

@@ -36,6 +36,7 @@ ClientApp::ClientApp(Options options)
       m_sounds(m_options.sound),
       m_player(m_connection),
       m_composer(m_connection, m_controls, m_sounds) {
+  m_controls.setMenuLetter(m_options.menu_letter);
   if (m_options.p_tokens != nullptr) m_connection.setTokenStore(*m_options.p_tokens);
 }
 
@@ -190,6 +191,7 @@ void ClientApp::handleEvents(const std::vector<TerminalEvent>& events, Time now)
   for (const TerminalEvent& event : events) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) handleKey(*key, now);
     if (const auto* mouse = std::get_if<MouseEvent>(&event)) m_player.moveMouse(*mouse, m_placement, now);
+    if (std::holds_alternative<FocusLost>(event)) m_player.releaseKeys(now);
     if (const auto* paste = std::get_if<PasteEvent>(&event)) {
       m_dirty = m_controls.insertPasted(paste->text) || m_dirty;
     }

@@ -38,6 +38,7 @@ class ClientApp {
     bool ascii = false;
     bool mouse = true;
     bool colors = true;
+    char menu_letter = 'G';  ///< ClientControls::menuLetter()
     SoundMode sound = SoundMode::kNote;
     std::chrono::seconds idle_limit{0};  ///< leave after this time without input; 0: never
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/terminal/KeyTable.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Canvas.h"
 
@@ -36,7 +37,9 @@ ClientControls::Result ClientControls::handleKey(const KeyEvent& event) {
   if (isControl(event, C)) return Result::kLeave;
   if (isControl(event, Z)) return Result::kSuspend;
   if (m_prefixed) return isModifierKey(event.key) ? Result::kHandled : handleCommand(event);
-  if (isControl(event, RIGHTBRACKET) && event.action == KeyEvent::Action::kPress) {
+  const Key menu_key = keyOfCharacter(static_cast<unsigned char>(m_menu_letter)).key;
+  const bool is_menu = isControl(event, menu_key) || isControl(event, RIGHTBRACKET);
+  if (is_menu && event.action == KeyEvent::Action::kPress) {
     m_prefixed = true;
     return Result::kHandled;
   }
@@ -72,23 +75,26 @@ ClientControls::Result ClientControls::handleRoomKey(Key key) {
   return step != 0 ? Result::kHandled : Result::kGame;
 }
 
+void ClientControls::append(char32_t ch) {
+  m_omitted = m_omitted || !df::isDrawable(ch);
+  if (df::isDrawable(ch) && m_text.size() < kMaxChatLength) m_text.push_back(ch);
+}
+
 bool ClientControls::insertPasted(const std::u32string& text) {
   if (!m_chat_open) return false;
-  for (const char32_t ch : text) {
-    if (m_text.size() >= kMaxChatLength) break;
-    if (df::isDrawable(ch)) m_text.push_back(ch);
-  }
+  for (const char32_t ch : text) append(ch);
   return true;
 }
 
 void ClientControls::setChatText(std::string_view text) {
   if (!m_chat_open) return;
   m_text.clear();
+  m_omitted = false;
   insertPasted(df::decodeUtf8(std::string(text)));
 }
 
 ClientControls::Result ClientControls::handleCommand(const KeyEvent& event) {
-  // A held Ctrl-] repeats; the repeats are not a command.
+  // A held Ctrl-G repeats; the repeats are not a command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
   if (event.ch == U'?') return toggle(Panel::kHelp);
@@ -108,6 +114,7 @@ ClientControls::Result ClientControls::handleCommand(const KeyEvent& event) {
     case T:
       if (m_chat_open) return Result::kHandled;
       m_chat_open = true;
+      m_omitted = false;
       m_text.clear();
       return Result::kOpened;
     default:
@@ -142,8 +149,8 @@ ClientControls::Result ClientControls::handleChatKey(const KeyEvent& event) {
     if (!m_text.empty()) m_text.pop_back();
   } else if (isControl(event, U)) {
     m_text.clear();
-  } else if (event.ch != 0 && df::isDrawable(event.ch) && m_text.size() < kMaxChatLength) {
-    m_text.push_back(event.ch);
+  } else if (event.ch != 0) {
+    append(event.ch);
   }
   return Result::kHandled;
 }

@@ -1,7 +1,8 @@
 // Separates the client's own keys from the game's, and holds the state that they change.
 //
-// A prefix (Ctrl-]) starts the client's commands, so that the game gets every other key but Ctrl-C and
-// Ctrl-Z. But while a chat line is open, keys write text, and while a panel is open, some keys control it.
+// A prefix (Ctrl-G or Ctrl-]) starts the client's commands, so that the game gets every other key but Ctrl-C
+// and Ctrl-Z. But while a chat line is open, keys write text, and while a panel is open, some keys control
+// it.
 #pragma once
 
 #include <string>
@@ -17,27 +18,29 @@ enum class Panel : unsigned char { kNone, kPlayers, kHelp, kRooms };
 /// Mode of the status line. kAuto shows it if it covers nothing of the game, otherwise only for a moment.
 enum class StatusMode : unsigned char { kAuto, kAlways, kNever };
 
-/// Lines of the help panel about the client itself.
+/// Lines of the help panel about the client itself. They name the menu key as Ctrl-G, whichever it is.
 inline constexpr const char* kClientKeyHelp[] = {
-    "Ctrl-] t   say something to all players (or Ctrl-] c)",
+    "Ctrl-G t   say something to all players (or Ctrl-G c)",
     "Up, PgUp   in the open chat line: scroll the chat back",
-    "Ctrl-] p   list of players",
-    "Ctrl-] r   list of rooms, if the server has any; Return enters one",
-    "Ctrl-] h   this help (or Ctrl-] ?)",
-    "Ctrl-] s   status line on or off",
-    "Ctrl-] q   leave the game (or Ctrl-C)",
+    "Ctrl-G p   list of players",
+    "Ctrl-G r   list of rooms, if the server has any; Return enters one",
+    "Ctrl-G h   this help (or Ctrl-G ?)",
+    "Ctrl-G s   status line on or off",
+    "Ctrl-G q   leave the game (or Ctrl-C)",
+    "Ctrl-]     like Ctrl-G",
     "Ctrl-Z     suspend; fg resumes",
     "Esc        close the help or the list",
 };
 
 /// Like kClientKeyHelp, in a browser, whose page also has buttons for the commands.
 inline constexpr const char* kBrowserKeyHelp[] = {
-    "Ctrl-] t   say something to all players",
-    "Ctrl-] p   list of players",
-    "Ctrl-] r   list of rooms, if the server has any; Enter enters one",
-    "Ctrl-] h   this help",
-    "Ctrl-] s   status line on or off",
-    "Ctrl-] q   leave the game",
+    "Ctrl-G t   say something to all players",
+    "Ctrl-G p   list of players",
+    "Ctrl-G r   list of rooms, if the server has any; Enter enters one",
+    "Ctrl-G h   this help",
+    "Ctrl-G s   status line on or off",
+    "Ctrl-G q   leave the game",
+    "Ctrl-]     like Ctrl-G",
     "Esc        close the help or the list",
 };
 
@@ -70,6 +73,9 @@ class ClientControls {
     kSuspend,
   };
 
+  /// Sets the letter, 'A' to 'Z', that starts commands together with Control; Ctrl-] does so, too.
+  void setMenuLetter(char letter) { m_menu_letter = letter; }
+  char menuLetter() const { return m_menu_letter; }
   /// Handles a key event.
   Result handleKey(const KeyEvent& event);
   /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
@@ -88,7 +94,9 @@ class ClientControls {
   int chatScroll() const { return m_chat_scroll; }
   StatusMode status() const { return m_status; }
   bool isChatOpen() const { return m_chat_open; }
-  /// True if Ctrl-] was typed, but not yet a command.
+  /// True if characters that cannot be drawn were left out of the open chat line.
+  bool hasOmittedText() const { return m_chat_open && m_omitted; }
+  /// True if the menu key was typed, but not yet a command.
   bool prefixed() const { return m_prefixed; }
   /// Returns the text typed so far, in UTF-8.
   std::string chatText() const;
@@ -96,6 +104,7 @@ class ClientControls {
   std::string popChat();
 
  private:
+  void append(char32_t ch);
   Result handleChatKey(const KeyEvent& event);
   Result handleCommand(const KeyEvent& event);
   bool handleScrollKey(df::Keyboard::Key key);
@@ -109,8 +118,10 @@ class ClientControls {
   int m_room_choice = 0;
   StatusMode m_status = StatusMode::kAuto;
   ShownControls m_shown;
+  char m_menu_letter = 'G';
   bool m_prefixed = false;
   bool m_chat_open = false;
+  bool m_omitted = false;
   std::u32string m_text;
 };
 

@@ -69,7 +69,8 @@ std::vector<ChatEntry> FrameComposer::recentChat(Time now) const {
 }
 
 std::string FrameComposer::banner(Time now) const {
-  if (m_controls.prefixed()) return "Ctrl-]: t chat  p players  r rooms  h help  s status  q leave";
+  if (m_controls.prefixed()) return "Menu: t chat  p players  r rooms  h help  s status  q leave";
+  if (m_controls.hasOmittedText()) return "Only Latin, Greek and Cyrillic letters can be shown.";
   ClientSession* session = m_connection.session();
   const bool searching = m_connection.state() == Connection::State::kReconnecting;
   // A session that continues by datagrams while it opens another stream needs no banner.
@@ -117,6 +118,7 @@ ScreenModel FrameComposer::composeFrame(Time now) {
     model.note = m_composed.note;
   }
   model.browser = m_browser;
+  model.menu_letter = m_controls.menuLetter();
   model.key_releases = m_key_releases;
   model.status_shown = m_controls.status() != StatusMode::kNever;
   model.status_over_game = m_composed.status;

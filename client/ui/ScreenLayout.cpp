@@ -28,7 +28,15 @@ std::string asUtf8(const std::u32string& text) {
   return utf8;
 }
 
-/// Returns the column at which the explanation in a line like "Ctrl-] h   this help" begins; 2 without an
+/// Returns `text` with the player's menu key for each "Ctrl-G".
+std::string withMenuKey(const ScreenModel& model, std::string text) {
+  static constexpr std::string_view kKey = "Ctrl-G";
+  for (std::size_t at = 0; (at = text.find(kKey, at)) != std::string::npos; at += kKey.size())
+    text[at + kKey.size() - 1] = model.menu_letter;
+  return text;
+}
+
+/// Returns the column at which the explanation in a line like "Ctrl-G h   this help" begins; 2 without an
 /// explanation, or if it begins in the right half of `width` columns.
 std::size_t indentOf(const std::u32string& line, std::size_t width) {
   const std::size_t gap = line.find(U"  ");
@@ -62,7 +70,7 @@ std::vector<PlayerLine> byScore(std::vector<PlayerLine> players) {
 }
 
 /// Breaks a line at blanks into parts of at most `width` columns. Parts after the first are indented like the
-/// explanation in "Ctrl-] h   this help".
+/// explanation in "Ctrl-G h   this help".
 void wrapInto(std::vector<std::string>& out, const std::string& text, std::size_t width) {
   std::u32string rest = df::decodeUtf8(text);
   const std::size_t indent = std::min(indentOf(rest, width), width - 1);
@@ -104,7 +112,7 @@ int drawPlayerRows(ScreenBuffer& picture, const ScreenModel& model, int x, int y
 int drawHelpRows(ScreenBuffer& picture, const ScreenModel& model, int x, int bottom, int width, int most) {
   std::vector<std::string> lines;
   for (const std::string& line : model.help) wrapInto(lines, line, static_cast<std::size_t>(width));
-  const std::string all = "Ctrl-] h   all keys";
+  const std::string all = withMenuKey(model, "Ctrl-G h   all keys");
   const std::size_t room = static_cast<std::size_t>(std::max(most - 1, 0));
   if (lines.size() > room) lines.resize(room);
   lines.push_back(all);
@@ -169,7 +177,7 @@ void drawSidePanel(ScreenBuffer& picture, const ScreenModel& model, int x, int r
   for (int i = first; i < end; ++i) {
     drawChatRow(picture, lines[static_cast<std::size_t>(i)], left, top + 1 + i - first, width);
   }
-  if (count == 0) picture.write(left, top + 1, "Ctrl-] t   say something", width);
+  if (count == 0) picture.write(left, top + 1, withMenuKey(model, "Ctrl-G t   say something"), width);
 }
 
 constexpr int kChatRows = 6;
@@ -196,11 +204,11 @@ void drawView(ScreenBuffer& picture, const ScreenModel& model, const ViewPlaceme
   }
 }
 
-/// Draws "ann  42 ms   2 players   30 points   naiad 0.1 …   Ctrl-] help", as much as fits.
+/// Draws "ann  42 ms   2 players   30 points   naiad 0.1 …   Ctrl-G help", as much as fits.
 void drawStatusRow(ScreenBuffer& picture, const ScreenModel& model) {
   const int y = picture.height() - 1;
   picture.fill(0, y, picture.width(), 1, Style::kReverse);
-  const std::string help = model.browser ? "" : "Ctrl-] help";
+  const std::string help = model.browser ? "" : withMenuKey(model, "Ctrl-G help");
   const std::string parts[] = {
       std::to_string(model.round_trip.count()) + " ms",
       counted(std::ssize(model.players), "player"),
@@ -235,7 +243,7 @@ void drawStatusSide(ScreenBuffer& picture, const ScreenModel& model) {
                                counted(std::ssize(model.players), "player"),
                                scoreText(model, "pt"),
                                "",
-                               model.browser ? "" : "Ctrl-] h",
+                               model.browser ? "" : withMenuKey(model, "Ctrl-G h"),
                                model.browser ? "" : "help",
                                "",
                                model.note};
@@ -278,9 +286,9 @@ bool drawStatusOverGame(ScreenBuffer& picture, const ScreenModel& model) {
     return false;
   }
   const std::string players = counted(std::ssize(model.players), "player");
-  const std::string text = (note.empty() ? " " : " " + note + "  ") +
-                           std::to_string(model.round_trip.count()) + " ms" +
-                           (players.empty() ? "" : "  " + players) + (model.browser ? " " : "  Ctrl-] help ");
+  const std::string text =
+      (note.empty() ? " " : " " + note + "  ") + std::to_string(model.round_trip.count()) + " ms" +
+      (players.empty() ? "" : "  " + players) + (model.browser ? " " : withMenuKey(model, "  Ctrl-G help "));
   return drawInCorner(picture, text, true);
 }
 
@@ -440,7 +448,8 @@ void drawHelp(ScreenBuffer& picture, const ScreenModel& model, ShownControls& sh
   const int room = std::max(picture.width() - 4, 1);
   PanelLines panel{model.game.empty() ? "Help" : "Help: " + model.game, 0, 0, 0, {}};
   std::vector<std::string> lines;
-  for (const std::string& line : whole) wrapInto(lines, line, static_cast<std::size_t>(room));
+  for (const std::string& line : whole)
+    wrapInto(lines, withMenuKey(model, line), static_cast<std::size_t>(room));
   for (const std::string& line : lines) panel.width = std::max(panel.width, columnsIn(line));
   panel.count = static_cast<int>(lines.size());
   panel.draw = [&](int line, int x, int y, int width) {

@@ -43,6 +43,7 @@ struct ScreenModel {
   std::vector<RoomLine> rooms;    ///< list of rooms for the panel
   int room_choice = 0;            ///< index of the chosen line in `rooms`
   std::vector<std::string> help;  ///< help lines of the game
+  char menu_letter = 'G';         ///< ClientControls::menuLetter()
   bool browser = false;           ///< shown by a browser page, not a terminal
   bool key_releases = false;      ///< the terminal reports key releases
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -26,7 +27,6 @@
 #include "client/trust/SessionFile.h"
 #include "client/ui/ClientApp.h"
 #include "client/ui/ServerChooser.h"
-#include "shared/net/base/SafeText.h"
 #include "shared/options/Options.h"
 #include "shared/values/Version.h"
 
@@ -57,7 +57,7 @@ std::string footer() {
 
 std::string defaultName() {
   const char* user = std::getenv("USER");
-  return naiad::safeName(user != nullptr ? user : "");
+  return user != nullptr ? user : "";
 }
 
 int complain(naiad::ExitCode code, const std::string& message) {
@@ -220,6 +220,13 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
     if (mode) play.sound = *mode;
     return mode ? "" : "expected bell, note or off";
   };
+  const naiad::StoreText store_menu_key = [&play](const std::string& text) -> std::string {
+    const char letter = static_cast<char>(text.size() == 1 ? text[0] & ~0x20 : 0);
+    if (letter == 0 || std::string_view("ABDEFGKLNOPQRSTVWXY").find(letter) == std::string_view::npos)
+      return "expected a letter other than C, H, I, J, M, U and Z";
+    play.menu_letter = letter;
+    return "";
+  };
   const naiad::StoreText store_url = [&line](const std::string& text) -> std::string {
     line.list_url = naiad::ListUrl::parse(text);
     return line.list_url ? "" : "expected an address that begins with https://";
@@ -247,6 +254,12 @@ std::vector<naiad::Option> optionsOf(CommandLine& line) {
        "Do not resume the session of a killed client, and do not save this one", "NAIAD_NO_RESUME"},
       {"--ascii", &play.ascii, "Draw with ASCII characters only", "NAIAD_ASCII"},
       {"--no-mouse", &line.no_mouse, "Leave the mouse to the terminal", "NAIAD_NO_MOUSE"},
+      {.name = "--menu-key",
+       .target = store_menu_key,
+       .help = "Letter that opens the client's menu together with Ctrl; Ctrl-] opens it, too",
+       .environment = "NAIAD_MENU_KEY",
+       .type = "LETTER",
+       .default_text = "G"},
       {.name = "--sound",
        .target = store_sound,
        .help = "How to signal sounds of the game: bell (and note), note (name in the status line), off",

@@ -63,7 +63,12 @@ KeyEvent keyOf(std::string_view key, std::string_view code) {
   if (event.key != UNDEFINED_KEY) return event;
   // The remaining keys type one character; names have several letters.
   const std::u32string characters = df::decodeUtf8(std::string(key));
-  return characters.size() == 1 ? keyOfCharacter(characters.front()) : event;
+  if (characters.size() != 1) return event;
+  event = keyOfCharacter(characters.front());
+  // Greek, Cyrillic and the scripts after them; their letters go by position.
+  const bool is_letter_key = code.size() == 4 && code.starts_with("Key") && code[3] >= 'A' && code[3] <= 'Z';
+  if (characters.front() >= U'\u0370' && is_letter_key) event.key = static_cast<Key>(A + (code[3] - 'A'));
+  return event;
 }
 
 }  // namespace

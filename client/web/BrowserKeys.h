@@ -1,8 +1,9 @@
 // Translates a browser's keys (UI Events, KeyboardEvent) into those of a terminal.
 //
 // `key` is the meaning of a key in the player's layout ("a", "A", "ArrowLeft"), `code` its position ("KeyA",
-// "ShiftRight"). Games need the character, so `key` decides. A key is released as the key that was pressed,
-// even if Shift was released in between: `code` identifies it.
+// "ShiftRight"). Games need the character, so `key` decides, but the position decides for letters of other
+// scripts than Latin. A key is released as the key that was pressed, even if Shift was released in between:
+// `code` identifies it.
 #pragma once
 
 #include <cstddef>

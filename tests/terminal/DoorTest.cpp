@@ -286,8 +286,8 @@ TEST_F(DoorTest, ControlZDoesNotSuspendTheClient) {
   PtyTerminal* ann = play("ann");
   NAIAD_SKIP_WITHOUT(ann);
   ann->forget();
-  ann->type("\032\035h");
-  EXPECT_TRUE(ann->waitFor("Ctrl-]")) << ann->newOutput();
+  ann->type("\032\007h");
+  EXPECT_TRUE(ann->waitFor("Ctrl-G")) << ann->newOutput();
   EXPECT_NE(clientOf("ann"), 0);
 }
 

@@ -23,8 +23,8 @@ class TerminalRestoreTest : public FakeServerFixture {
 
   static void expectRestored(PtyTerminal& terminal) {
     const std::string after = terminal.newOutput();
-    // Modes of the alternate screen, mouse reports, bracketed paste and key records.
-    for (const char* mode : {"1049", "1003", "1006", "2004", "9001"})
+    // Modes of the alternate screen, mouse reports, bracketed paste, focus reports and key records.
+    for (const char* mode : {"1049", "1003", "1006", "2004", "1004", "9001"})
       EXPECT_TRUE(has(after, "\033[?" + std::string(mode) + "l")) << mode;
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << "termios is as before";
   }
@@ -116,6 +116,10 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_DOWN));
   terminal.type("\033[97;1:3u");
   EXPECT_TRUE(server.heardKey(df::Keyboard::A, df::KEY_RELEASED));
+  terminal.type("\033[100u");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::D, df::KEY_DOWN));
+  terminal.type("\033[O");  // the terminal loses the focus, and does not report the release
+  EXPECT_TRUE(server.heardKey(df::Keyboard::D, df::KEY_RELEASED));
   terminal.type("\033[93;5u\033[93;5:3u\033[104u");  // Ctrl-] h
   EXPECT_TRUE(terminal.waitFor("this terminal reports key releases"));
   terminal.type("\033[27u");
@@ -129,6 +133,23 @@ TEST_F(TerminalRestoreTest, KittyKeysHaveRealReleases) {
   EXPECT_TRUE(terminal.waitFor("\033[>31u"));
   terminal.type("\033[99;5u");
   EXPECT_TRUE(exits(terminal, 0));
+}
+
+TEST_F(TerminalRestoreTest, PlayerChoosesTheMenuKey) {
+  PtyTerminal::Options with = options();
+  with.environment["NAIAD_MENU_KEY"] = "x";
+  PtyTerminal terminal(with);
+  join(terminal);
+  EXPECT_TRUE(has(terminal.output(), "Ctrl-X help"));
+  terminal.type("\x07");
+  EXPECT_TRUE(server.heardKey(df::Keyboard::G, df::KEY_PRESSED)) << "Ctrl-G is the game's";
+  terminal.type("\x18");
+  ASSERT_TRUE(terminal.waitFor("q leave"));
+  terminal.type("q");
+  EXPECT_TRUE(exits(terminal, 0));
+  with.environment["NAIAD_MENU_KEY"] = "c";
+  PtyTerminal refused(with);
+  EXPECT_EQ(WEXITSTATUS(refused.waitForExit()), 2) << refused.output();
 }
 
 // Windows Terminal reports keys as text and in sequences of its own.

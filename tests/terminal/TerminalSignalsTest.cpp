@@ -23,7 +23,7 @@ using std::chrono::microseconds;
 /// Returns the modes that the client has switched on and not off again; empty if none.
 std::string modesLeftOn(const std::string& output) {
   std::string left;
-  for (const std::string mode : {"?1049", "?1003", "?1006", "?2004", "?9001"}) {
+  for (const std::string mode : {"?1049", "?1003", "?1006", "?2004", "?1004", "?9001"}) {
     const std::size_t on = output.rfind("\033[" + mode + "h");
     const std::size_t off = output.rfind("\033[" + mode + "l");
     if (on != std::string::npos && (off == std::string::npos || off < on)) left += mode + " ";

@@ -2,7 +2,13 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <string>
+
 #include "FakeServerFixture.h"
+#include "tests/support/TempFolder.h"
 
 namespace naiad::test {
 namespace {
@@ -63,6 +69,48 @@ TEST_F(TerminalTypeTest, DarkBlueIsDrawnBright) {
     server.sendWorld({state});
     ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
     EXPECT_TRUE(has(terminal.output(), p_sequence)) << ::testing::PrintToString(terminal.newOutput());
+  }
+}
+
+/// Adds the terminal naiad-direct to a folder of descriptions. From `palette` on, its colours are mixtures.
+void compileDirectTerminal(const std::string& folder, int palette) {
+  const std::string first = std::to_string(palette);
+  // Colours below 8, colours below `palette`, and mixtures.
+  const auto color = [&first](const std::string& digit) {
+    return "\\E[%?%p1%{8}%<%t" + digit + "%p1%d%e%?%p1%{" + first + "}%<%t" + digit + "8;5;%p1%d%e" + digit +
+           "8:2::%p1%{65536}%/%d:%p1%{256}%/%{255}%&%d:%p1%{255}%&%d%;%;m";
+  };
+  std::ofstream(folder + "/source")
+      << "naiad-direct|direct colours,\n\tam, bce, xenl, AX, RGB, colors#0x1000000, "
+         "cols#80, lines#24, pairs#0x10000, CO#"
+      << palette
+      << ",\n\tbold=\\E[1m, clear=\\E[H\\E[2J, cup=\\E[%i%p1%d;%p2%dH, "
+         "op=\\E[39;49m, rev=\\E[7m, sgr0=\\E[m,\n\tsetaf="
+      << color("3") << ", setab=" << color("4") << ",\n";
+  EXPECT_EQ(std::system(("tic -x -o " + folder + " " + folder + "/source").c_str()), 0);
+}
+
+TEST_F(TerminalTypeTest, DirectColorTerminalsGetTrueColors) {
+  ObjectState state;
+  state.motion = {100, {df::fromCells(30), df::fromCells(15)}, {}, {}};
+  state.look.sequence = {{Glyph{0, 0, U'W', df::BLUE}, Glyph{256, 0, U'V', df::BLUE}}};
+  for (const int palette : {8, 256}) {
+    PtyTerminal::Options with = this->with("naiad-direct");
+    const TempFolder folder;
+    compileDirectTerminal(folder.string(), palette);
+    with.environment["TERMINFO"] = folder.string();
+    PtyTerminal terminal(with);
+    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+    terminal.forget();
+    server.sendWorld({state});
+    ASSERT_TRUE(terminal.waitFor("WV")) << terminal.output();
+    EXPECT_TRUE(has(terminal.output(), "38:2::122:162:255mWV"))
+        << palette << testing::PrintToString(terminal.newOutput());
+    // Each mixture is bright enough to be read.
+    const std::string all = terminal.output();
+    const std::regex mixture("38:2::([0-9]+):([0-9]+):([0-9]+)m");
+    for (std::sregex_iterator it(all.begin(), all.end(), mixture); it != std::sregex_iterator(); ++it)
+      EXPECT_GT(std::stoi((*it)[1]) + std::stoi((*it)[2]) + std::stoi((*it)[3]), 200) << it->str();
   }
 }
 

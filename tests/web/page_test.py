@@ -166,6 +166,79 @@ class PageTest(unittest.TestCase):
             self.assertEqual(proxy.outside, [], "requests outside of the path")
             self.no_complaints()
 
+    def test_every_keyboard_opens_the_menu(self):
+        """Presses the menu key in layouts of three scripts, and keys that must stay the browser's."""
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting)
+            control = 2
+            for key, code in [("g", "KeyG"), ("п", "KeyG"), ("γ", "KeyG"), ("]", "BracketRight"), ("]", "Digit9"), ("ъ", "BracketRight")]:
+                self.dispatch(key, code, control)
+                wait_for(self.browser, "Menu: t chat")
+                self.dispatch("Escape", "Escape")
+                self.browser.wait("return !((() => {" + SHOWN + "})()).some((row) => row.includes('Menu: t chat'))")
+            for key, code in [("9", "Digit9"), ("+", "BracketRight"), ("u", "KeyU")]:
+                self.dispatch(key, code, control)
+            self.count_presses()
+            for key, code in [("ц", "KeyW"), ("ф", "KeyA"), ("ы", "KeyS"), ("в", "KeyD")]:
+                self.dispatch(key, code)
+            self.assertEqual(self.browser.run("return window.presses"), ["ц", "ф", "ы", "в"])
+            self.assertNotIn("Menu: t chat", "".join(rows(self.browser)))
+            self.no_complaints()
+
+    def dispatch(self, key, code, held=0):
+        for kind in ("rawKeyDown", "keyUp"):
+            self.browser.devtools("Input.dispatchKeyEvent", type=kind, key=key, code=code, modifiers=held)
+
+    def count_presses(self):
+        self.browser.run("""
+            window.presses = [];
+            const {client} = window.naiad;
+            const key = client.key;
+            client.key = (name, code, action, modifiers) => { action === 0 && window.presses.push(name); key(name, code, action, modifiers); };
+        """)
+
+    def test_a_phone_keyboard_presses_each_letter_once(self):
+        """Composes words as phone keyboards do, which report all of the word at each letter."""
+        with Hosting(BUILD, page(), "--game", "saucershoot") as hosting:
+            join(self.browser, hosting, search="?touch")
+            self.count_presses()
+            self.browser.click("#keyboard")
+            for count in range(1, 5):
+                self.browser.devtools("Input.imeSetComposition", text="wasd"[:count], selectionStart=count, selectionEnd=count)
+            self.browser.devtools("Input.imeSetComposition", text="wasd ", selectionStart=5, selectionEnd=5)
+            self.assertEqual(self.browser.run("return window.presses.join('')"), "wasd ")
+            self.browser.devtools("Input.insertText", text="wasd ")
+            self.assertEqual(self.browser.run("return [window.presses.join(''), document.querySelector('#line').value]"), ["wasd ", ""])
+            for text in ("a", "ab", "a", "ac"):  # the second letter is erased and typed again
+                self.browser.devtools("Input.imeSetComposition", text=text, selectionStart=len(text), selectionEnd=len(text))
+            self.browser.devtools("Input.insertText", text="ac")
+            self.browser.devtools("Input.insertText", text="w")
+            self.assertEqual(self.browser.run("return window.presses.join('')"), "wasd abcw")
+            self.no_complaints()
+
+    def test_buttons_are_shown_only_while_playing(self):
+        with Hosting(BUILD, page(), "--room", "hall=lobby", "--room", "arcade=hello") as hosting:
+            visible = "return ['bar', 'pad'].map((id) => getComputedStyle(document.querySelector('#' + id)).visibility)"
+            self.browser.open(hosting.address + "?touch")
+            self.assertEqual(self.browser.run(visible), ["hidden", "hidden"])
+            join(self.browser, hosting, search="?touch")
+            self.assertEqual(self.browser.run(visible), ["visible", "visible"])
+            self.browser.click("#rooms")
+            wait_for(self.browser, "arcade")
+            self.browser.click("#leave")
+            self.browser.wait("return !document.querySelector('#door').hidden")
+            self.assertEqual(self.browser.run(visible), ["hidden", "hidden"])
+
+    def test_own_name_has_the_players_color(self):
+        with Hosting(BUILD, page(), "--game", "hello") as hosting:
+            join(self.browser, hosting)
+            # The background of the blank cell before the player's name, in reverse (2) and each colour.
+            grounds = self.browser.run("""
+                const at = (color) => [...window.naiad.picture.image((0x20 | color << 21 | 2 << 24) >>> 0).getContext("2d").getImageData(0, 0, 1, 1).data];
+                return [1, 2, 3, 4, 5, 6, 7].map((color) => at(color).join());
+            """)
+            self.assertEqual(len(set(grounds)), 7, grounds)
+
     def test_the_address_names_the_room(self):
         games = ("--room", "hall=lobby", "--room", "arcade=saucershoot")
         with Hosting(BUILD, page(), *games) as hosting:

@@ -198,9 +198,15 @@ function modifiers(event) {
   return (event.shiftKey ? 1 : 0) | (event.altKey ? 2 : 0) | (event.ctrlKey ? 4 : 0) | (event.metaKey ? 8 : 0);
 }
 
+/** True for Ctrl-G and Ctrl-]; in other scripts than Latin, by position. */
+function isMenuKey(event) {
+  const code = event.key > "\u0370" ? event.code : "";
+  return event.ctrlKey && !event.altKey && !event.metaKey && (["g", "G", "]"].includes(event.key) || ["KeyG", "BracketRight"].includes(code));
+}
+
 /** True for the browser's shortcuts and other keys that the game must not get. */
 function isBrowsers(event) {
-  if (event.ctrlKey && !event.altKey && !event.metaKey && event.key === "]") return false;
+  if (isMenuKey(event)) return false;
   if (event.ctrlKey && event.altKey) return event.key.length !== 1;  // AltGr types characters
   return event.ctrlKey || event.metaKey || event.altKey || ["F5", "F11", "F12", "Dead", "Process", "Unidentified"].includes(event.key);
 }
@@ -214,23 +220,27 @@ function takeKey(event, action) {
 
 picture.canvas.addEventListener("keydown", (event) => takeKey(event, event.repeat ? again : down));
 picture.canvas.addEventListener("keyup", (event) => takeKey(event, up));
-picture.canvas.addEventListener("blur", () => client?.blur());
-addEventListener("blur", () => client?.blur());
+for (const target of [picture.canvas, line, window]) target.addEventListener("blur", () => client?.blur());
 document.addEventListener("visibilitychange", () => document.hidden && client?.blur());
 
 // The text field is the chat line or, if a phone's keyboard was opened for the game, takes keys for the game.
 line.addEventListener("keydown", (event) => {
   if (client === null || event.isComposing) return;
-  if (!client.writing() || event.key === "Enter" || event.key === "Escape" || event.ctrlKey && event.key === "]") takeKey(event, down);
+  if (!client.writing() || event.key === "Enter" || event.key === "Escape" || isMenuKey(event)) takeKey(event, event.repeat ? again : down);
 });
 line.addEventListener("keyup", (event) => client !== null && !client.writing() && takeKey(event, up));
-line.addEventListener("input", () => {
+// Phone keyboards report only the typed text, not the key, and during a composition all of its text at each change.
+let tapped = "";  // text of the field whose keys the game has got
+line.addEventListener("input", (event) => {
   if (client === null) return;
   if (client.writing()) return client.chat(line.value);
-  // Phone keyboards report only the typed text, not the key.
-  for (const ch of line.value) tap(ch === "\n" ? "Enter" : ch);
-  line.value = "";
+  let same = 0;
+  while (same < tapped.length && tapped[same] === line.value[same]) ++same;
+  for (const ch of line.value.slice(same)) tap(ch === "\n" ? "Enter" : ch);
+  if (event.isComposing) tapped = line.value;
+  else line.value = tapped = "";
 });
+line.addEventListener("compositionend", () => client?.writing() || (line.value = tapped = ""));
 
 function tap(key) {
   client.key(key, `Tap${key}`, down, 0);
@@ -297,7 +307,7 @@ element("switch").addEventListener("click", () => {
 
 // ---- buttons and the join form ------------------------------------------------------------------------------------
 
-for (const [id, letter] of [["say", "t"], ["players", "p"], ["help", "h"], ["leave", "q"]]) {
+for (const [id, letter] of [["say", "t"], ["players", "p"], ["rooms", "r"], ["help", "h"], ["leave", "q"]]) {
   element(id).addEventListener("click", () => {
     sounds.wake();
     client?.command(letter);

@@ -103,7 +103,7 @@ export class Picture {
     const style = cell >>> 24 & 3;
     let ink = colors[cell >>> 21 & 7];
     let ground = backgrounds[cell >>> 26 & 7];
-    if (style === 2) [ink, ground] = [paper, "#c8c8c8"];
+    if (style === 2) [ink, ground] = [paper, ink === colors[7] ? "#c8c8c8" : ink];
     context.fillStyle = ground;
     context.fillRect(0, 0, this.cell, this.line);
     const code = cell & 0x1fffff;

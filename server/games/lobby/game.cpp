@@ -126,7 +126,7 @@ int main() {
   GM.startUp();
   GM.setHelp({"Lobby: the doors lead to the games of this server.", "",
               "arrows or WASD   walk; into a door: play there",
-              "Ctrl-] r         list of rooms, from anywhere"});
+              "Ctrl-G r         list of rooms, from anywhere"});
   new Porter;
   GM.run();
   GM.shutDown();

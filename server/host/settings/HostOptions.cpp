@@ -222,9 +222,10 @@ constexpr std::string_view kLive[] = {"--max-players",     "--max-per-address", 
 
 /// Variables that are not in the table but are read by this or other programs of the project.
 const char* const kOtherVariables[] = {
-    "NAIAD_ASCII",         "NAIAD_CLIENT",  "NAIAD_FINGERPRINT", "NAIAD_GAMES",       "NAIAD_IDLE_LIMIT",
-    "NAIAD_KNOWN_SERVERS", "NAIAD_NAME",    "NAIAD_NO_MOUSE",    "NAIAD_NO_REDIRECT", "NAIAD_NO_RESUME",
-    "NAIAD_SERVER",        "NAIAD_SOCKETS", "NAIAD_SOUND",       "NAIAD_WORLD_SEED",  "NAIAD_WORLD_SOCKET"};
+    "NAIAD_ASCII",      "NAIAD_CLIENT",        "NAIAD_FINGERPRINT", "NAIAD_GAMES",
+    "NAIAD_IDLE_LIMIT", "NAIAD_KNOWN_SERVERS", "NAIAD_MENU_KEY",    "NAIAD_NAME",
+    "NAIAD_NO_MOUSE",   "NAIAD_NO_REDIRECT",   "NAIAD_NO_RESUME",   "NAIAD_SERVER",
+    "NAIAD_SOCKETS",    "NAIAD_SOUND",         "NAIAD_WORLD_SEED",  "NAIAD_WORLD_SOCKET"};
 
 /// Returns the type of an option's value in --help and completions, if it is a file, directory or socket.
 const char* typeOf(const std::string& name) {

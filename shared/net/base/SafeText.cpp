@@ -40,8 +40,10 @@ std::string safeText(const std::string& text, std::size_t max_characters) {
 }
 
 std::string safeName(const std::string& name) {
-  std::string safe = safeText(name, kMaxNameLength);
-  safe.erase(0, safe.find_first_not_of(' '));
+  std::string safe;
+  for (const char32_t ch : df::decodeUtf8(name.substr(0, 4 * kMaxNameBytes)))
+    if (df::isDrawable(ch) && (ch != U' ' || !safe.empty())) df::appendUtf8(safe, ch);
+  safe = safeText(safe, kMaxNameLength);
   safe.erase(safe.find_last_not_of(' ') + 1);
   return safe.empty() ? "player" : safe;
 }

@@ -27,7 +27,7 @@ bool isRoomName(std::string_view name);
 /// characters (for example control, bidi, zero-width, wide) become '?', line breaks and tabs become blanks.
 std::string safeText(const std::string& text, std::size_t max_characters);
 
-/// Makes a player's name of any text: safeText() with the limit of names, trimmed; "player" if it is empty.
+/// Makes a name of the text's drawable characters, truncated and trimmed; "player" if it is empty.
 std::string safeName(const std::string& name);
 
 /// Returns the number of columns that a safe text occupies.

@@ -44,6 +44,20 @@ TEST(ClientControls, PrefixOpensCommands) {
   EXPECT_EQ(command(controls, Q, U'q'), Result::kLeave);
 }
 
+TEST(ClientControls, MenuLetterReplacesControlG) {
+  const auto opens = [](char letter, Key key, std::uint8_t modifiers) {
+    ClientControls controls;
+    controls.setMenuLetter(letter);
+    controls.handleKey({key, 0, KeyEvent::Action::kPress, modifiers});
+    return controls.prefixed();
+  };
+  EXPECT_TRUE(opens('G', G, kControl));
+  EXPECT_FALSE(opens('X', G, kControl));
+  EXPECT_TRUE(opens('X', X, kControl));
+  EXPECT_TRUE(opens('X', RIGHTBRACKET, kControl));
+  EXPECT_FALSE(opens('X', X, 0));
+}
+
 TEST(ClientControls, StatusKeyTogglesTheStatusLine) {
   ClientControls controls;
   const auto press = [&controls] {
@@ -117,6 +131,24 @@ TEST(ClientControls, PastedTextGoesIntoAnOpenChatLineOnly) {
   controls.insertPasted(std::u32string(1000, U'n'));
   EXPECT_EQ(df::decodeUtf8(controls.chatText()).size(), kMaxChatLength);
   EXPECT_TRUE(controls.isChatOpen()) << "it sends nothing";
+}
+
+TEST(ClientControls, ChatLineTellsWhenItOmitsCharacters) {
+  ClientControls controls;
+  command(controls, T, U't');
+  for (const char32_t ch : std::u32string(U"aäжλ")) controls.handleKey({UNDEFINED_KEY, ch});
+  EXPECT_FALSE(controls.hasOmittedText());
+  controls.handleKey({UNDEFINED_KEY, U'李'});
+  EXPECT_TRUE(controls.hasOmittedText());
+  controls.handleKey({ESCAPE});
+  EXPECT_FALSE(controls.hasOmittedText());
+  command(controls, T, U't');
+  EXPECT_FALSE(controls.hasOmittedText());
+  controls.insertPasted(U"سلام");
+  EXPECT_TRUE(controls.hasOmittedText());
+  controls.setChatText("gone");
+  EXPECT_FALSE(controls.hasOmittedText());
+  EXPECT_EQ(controls.chatText(), "gone");
 }
 
 TEST(ClientControls, PrefixTwiceClosesEverything) {

@@ -83,7 +83,17 @@ TEST(ScreenLayout, LargeTerminalCentresAndFramesTheView) {
   EXPECT_EQ(layout.picture.at(9, 1).ch, U'┌');
   EXPECT_EQ(layout.picture.at(90, 26).ch, U'┘');
   EXPECT_NE(layout.picture.rowText(29).find("42 ms   2 players"), std::string::npos);
-  EXPECT_NE(layout.picture.rowText(29).find("Ctrl-] help"), std::string::npos);
+  EXPECT_NE(layout.picture.rowText(29).find("Ctrl-G help"), std::string::npos);
+}
+
+TEST(ScreenLayout, HintsNameTheMenuKey) {
+  for (const auto& [columns, rows] : {std::pair{100, 30}, {80, 24}, {92, 24}, {120, 24}}) {
+    ScreenModel m = modelWith(Panel::kHelp);
+    m.menu_letter = 'X';
+    const ScreenBuffer picture = composeScreen(m, columns, rows).picture;
+    EXPECT_TRUE(contains(picture, "Ctrl-X h")) << columns;
+    EXPECT_FALSE(contains(picture, "Ctrl-G")) << columns;
+  }
 }
 
 TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
@@ -94,7 +104,7 @@ TEST(ScreenLayout, StatusOverlaysBlankCellsWhenTerminalEqualsView) {
   EXPECT_TRUE(layout.shown.status);
   EXPECT_EQ(layout.picture.at(0, 0).ch, U'A');
   EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z') << "a corner that the game uses is the game's";
-  EXPECT_NE(layout.picture.rowText(0).find(" 42 ms  2 players  Ctrl-] help "), std::string::npos);
+  EXPECT_NE(layout.picture.rowText(0).find(" 42 ms  2 players  Ctrl-G help "), std::string::npos);
   m.view.put(79, 0, {U'Y', df::BLUE});
   EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(23).find(" 42 ms  2 players"), std::string::npos);
   EXPECT_EQ(composeScreen(m, 80, 24).picture.at(79, 23).ch, U'Z') << "on the left";
@@ -124,7 +134,7 @@ TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   EXPECT_EQ(layout.placement.width, 80);
   EXPECT_EQ(layout.picture.at(layout.placement.left, 0).ch, U'A');
   EXPECT_EQ(layout.picture.at(layout.placement.left + 79, 23).ch, U'Z');
-  for (const char* text : {"42 ms", "2 players", "Ctrl-] h", "sound: fir"})
+  for (const char* text : {"42 ms", "2 players", "Ctrl-G h", "sound: fir"})
     EXPECT_TRUE(contains(layout.picture, text)) << text;
   EXPECT_FALSE(composeScreen(m, 90, 24).placement.status_side);
 }
@@ -174,7 +184,7 @@ TEST(ScreenLayout, ANoteIsInTheStatusLine) {
   ScreenModel m = model();
   m.note = "sound: fire";
   const std::string row = composeScreen(m, 80, 25).picture.rowText(24);
-  EXPECT_NE(row.find("sound: fire  Ctrl-] help"), std::string::npos) << row;
+  EXPECT_NE(row.find("sound: fire  Ctrl-G help"), std::string::npos) << row;
   EXPECT_NE(row.find("42 ms   2 players"), std::string::npos) << row;
   EXPECT_NE(composeScreen(m, 80, 24).picture.rowText(0).find(" sound: fire  42 ms"), std::string::npos);
   m.note = "music: " + std::string(40, 'x');
@@ -290,12 +300,12 @@ TEST(ScreenLayout, HelpWrapsInANarrowTerminal) {
 
 TEST(ScreenLayout, WrappedHelpLinesAlignUnderTheirText) {
   const ScreenBuffer picture = composeScreen(modelWith(Panel::kHelp), 50, 40).picture;
-  // "Ctrl-] t   say something to all players (or Ctrl-] c)"
+  // "Ctrl-G t   say something to all players (or Ctrl-G c)"
   const int row = rowWith(picture, "say something");
   ASSERT_TRUE(row >= 0 && row < 39);
   const std::u32string first = df::decodeUtf8(picture.rowText(row));
   const std::u32string next = df::decodeUtf8(picture.rowText(row + 1));
-  EXPECT_EQ(next.find(U"Ctrl-] c"), first.find(U"say")) << picture.rowText(row + 1);
+  EXPECT_EQ(next.find(U"Ctrl-G c"), first.find(U"say")) << picture.rowText(row + 1);
 }
 
 TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
@@ -408,7 +418,7 @@ TEST(ScreenLayout, WideTerminalShowsPlayersChatAndHelpPanels) {
   EXPECT_TRUE(layout.placement.framed);
   EXPECT_LT(layout.placement.left + 80, 140 - 40);
   for (const char* p_part :
-       {"Players ─", "Chat ─", "Help ─", "Arrows   fly", "Ctrl-] h   all keys", "* Ada joined"})
+       {"Players ─", "Chat ─", "Help ─", "Arrows   fly", "Ctrl-G h   all keys", "* Ada joined"})
     EXPECT_TRUE(contains(layout.picture, p_part)) << p_part;
   EXPECT_TRUE(containsIn(layout.picture, "Ada", df::CYAN, Style::kBold));
   EXPECT_TRUE(contains(layout.picture, "Bob: hi there"));

@@ -15,10 +15,10 @@ class WebClientTest : public testing::Test {
  protected:
   explicit WebClientTest(const std::string& token = "") { make(token); }
 
-  void make(const std::string& token, const std::string& room = "") {
+  void make(const std::string& token, const std::string& room = "", const std::string& name = "Ada") {
     WebClient::Options options;
     options.room = room;
-    options.name = "Ada";
+    options.name = name;
     options.token = token;
     options.program = "test 1";
     options.server = "the game";
@@ -166,6 +166,31 @@ TEST_F(WebClientTest, ChatTextComesFromThePagesInputField) {
   EXPECT_EQ(page.streams[first].sent.back().chat().text(), "Grüße");
   client->setChatText("late");
   EXPECT_FALSE(shows("late"));
+}
+
+TEST_F(WebClientTest, AnotherNameThanRequestedIsReportedAtOnce) {
+  for (const auto& [wanted, sent] : {std::pair<std::string, std::string>{"Ada", "Ada"},
+                                     {"李雷", "player"},
+                                     {"Ada 李", "Ada"},
+                                     {"Maximiliane Mustermann", "Maximiliane Must"},
+                                     {"Ада", "Ада"}}) {
+    client.reset();
+    page.streams.clear();
+    make("", "", wanted);
+    play();  // the server calls the player Ada
+    EXPECT_EQ(page.streams[first].sent.front().hello().player_name(), sent);
+    EXPECT_EQ(shows("You play as \"Ada\". Names are unique"), wanted != "Ada") << wanted;
+  }
+}
+
+TEST_F(WebClientTest, ChatReportsWhatCannotBeShown) {
+  play();
+  for (const auto& [text, omits] :
+       {std::pair<std::string, bool>{"Привет λ", false}, {"hi 李雷", true}, {"hi", false}}) {
+    client->command(U't', now);  // opens the line, or only redraws it
+    client->setChatText(text);
+    EXPECT_EQ(shows("Only Latin, Greek and Cyrillic letters can be shown."), omits) << text;
+  }
 }
 
 TEST_F(WebClientTest, HelpDoesNotMentionTerminals) {
