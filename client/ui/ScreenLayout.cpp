@@ -50,7 +50,7 @@ std::string counted(std::int64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// True if anybody has a score other than 0: many games count no points.
+/// True if a player has a score other than 0: many games count no points.
 bool hasScores(const ScreenModel& model) {
   return model.score != 0 || std::any_of(model.players.begin(), model.players.end(),
                                          [](const PlayerLine& player) { return player.score != 0; });

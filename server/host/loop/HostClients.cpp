@@ -70,10 +70,9 @@ void HostClients::applyCapacityLimits() {
   m_sessions.setMaxSessions(maxConnections(m_context.options));
   const std::size_t wanted = requiredOpenFiles(m_context.options);
   if (const std::size_t files = raiseOpenFileLimit(wanted); files < wanted) {
-    m_context.log(LogEvent::warning("the limit of open files is " + std::to_string(files) +
-                                    " (ulimit -Hn): too few for " +
-                                    std::to_string(m_context.options.max_players) +
-                                    " players and their reconnects"));
+    m_context.log(LogEvent::warning(
+        "the limit of open files is " + std::to_string(files) + " (ulimit -Hn): too few for " +
+        std::to_string(m_context.options.max_players) + " players and their reconnects"));
   }
 }
 
