@@ -1,5 +1,6 @@
 // Newcomers to a round that a killed server left: they see the game within a second, with an id and a color
-// that no other player has. The world is the engine's, the journal is in memory, and the test advances the time.
+// that no other player has. The world is the engine's, the journal is in memory, and the test advances the
+// time.
 #include <gtest/gtest.h>
 
 #include <chrono>
