@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/rooms/RoomManager.h"
+#include "host/world/WorldInProcess.h"
 #include "host/world/WorldPort.h"
 #include "shared/program/ProcessSetup.h"
 
