@@ -216,8 +216,8 @@ class RoomManager {
   const LogLine& m_log;
   std::function<void()> m_on_late_tick;
   StageClock& m_stages;
-  const df::World* m_p_world = nullptr;  ///< world given to open()
-  NewWorld m_new_world;                  ///< makes new worlds; empty: see m_p_world and m_plans
+  df::World* m_p_world = nullptr;  ///< world given to open()
+  NewWorld m_new_world;            ///< makes new worlds; empty: see m_p_world and m_plans
   std::vector<RoomConfig> m_plans;
   std::vector<df::GameRoom> m_game_rooms;        ///< room list last passed to worlds, in the order of m_rooms
   std::vector<std::unique_ptr<Round>> m_ending;  ///< ending rounds of rooms that were put to sleep

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/world/InputQueue.h"
+#include "engine/world/World.h"
 #include "host/rooms/RoomManager.h"
 #include "host/world/WorldInProcess.h"
 #include "host/world/WorldPort.h"
@@ -86,7 +88,9 @@ std::vector<std::string> RoomManager::roomNames() const {
 }
 
 std::unique_ptr<Round> RoomManager::newRound(const Room& room) const {
-  if (!hasWorlds()) return std::make_unique<Round>(std::make_unique<WorldInProcess>(*m_p_world));
+  if (!hasWorlds())
+    return std::make_unique<Round>(std::make_unique<WorldInProcess>(*m_p_world),
+                                   m_p_world->input().newestPlayer());
   return room.plan() != nullptr ? room.plan()->new_world(m_context.home) : m_new_world(m_context.home);
 }
 
