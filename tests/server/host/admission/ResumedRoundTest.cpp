@@ -35,7 +35,7 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-struct Nowhere : JournalSink {
+struct UnwrittenSink : JournalSink {
   void write(std::string_view /*bytes*/) override {}
   void sync() override {}
   void setFlags(std::uint16_t /*flags*/) override {}
@@ -85,9 +85,9 @@ class LateWorld : public WorldPort {
 };
 
 /// A server that begins a round or resumes that of `records`, until its destruction, which is a kill.
-class Server {
+class ResumingServer {
  public:
-  Server(std::string records, bool is_late, int places, SessionTable::Clock::time_point begin)
+  ResumingServer(std::string records, bool is_late, int places, SessionTable::Clock::time_point begin)
       : now(begin), m_records(std::move(records)) {
     world.log().setSink([](const std::string&) {});
     new Pawn;
@@ -164,7 +164,7 @@ class Server {
     Round::JournalBinding book;
     book.writer = std::make_shared<JournalWriter>();  // does not have the journal, so all stays in its ring
     m_journal =
-        std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 20, false);
+        std::make_shared<Journal>(std::make_unique<UnwrittenSink>(), DfrHeader(), DfrFacts(), 1 << 20, false);
     book.journal = m_journal;
     if (!m_records.empty()) {
       auto round = std::make_shared<UnfinishedRound>(DfrHeader(), m_records);
@@ -190,7 +190,7 @@ class Server {
 };
 
 /// A way to resume a round. Three players play it first.
-struct Way {
+struct ResumeWay {
   const char* p_name;
   bool leave_before = false;  ///< the players leave before the first kill
   bool in_last_tick = false;  ///< one more is welcomed just before each kill, and not yet in the world
@@ -201,14 +201,14 @@ struct Way {
   int places = 16;
 };
 
-std::ostream& operator<<(std::ostream& out, const Way& way) {
+std::ostream& operator<<(std::ostream& out, const ResumeWay& way) {
   return out << way.p_name;
 }
 
-class ResumedRound : public testing::TestWithParam<Way> {
+class ResumedRound : public testing::TestWithParam<ResumeWay> {
  protected:
   /// Returns the ids of all players in the world, and expects each to have a session of this id.
-  static std::set<std::uint32_t> idsOf(const Server& server) {
+  static std::set<std::uint32_t> idsOf(const ResumingServer& server) {
     std::set<std::uint32_t> ids;
     for (const df::PlayerFacts& player : server.world.picture().view().players) {
       EXPECT_NE(server.rooms.findPlayer(player.id), nullptr) << player.id << " is a ghost";
@@ -225,8 +225,8 @@ class ResumedRound : public testing::TestWithParam<Way> {
 };
 
 TEST_P(ResumedRound, NewcomersSeeItAndAreUnique) {
-  const Way& way = GetParam();
-  auto server = std::make_unique<Server>("", false, 16, SessionTable::Clock::now());
+  const ResumeWay& way = GetParam();
+  auto server = std::make_unique<ResumingServer>("", false, 16, SessionTable::Clock::now());
   std::vector<std::pair<std::string, std::string>> tokens;
   for (const char* p_name : {"Ann", "Bob", "Cid"}) {
     const Client& client = server->greet(p_name);
@@ -235,7 +235,7 @@ TEST_P(ResumedRound, NewcomersSeeItAndAreUnique) {
   }
   server->play(40);
   for (Client& client : server->clients) {
-    if (way.leave_before) Server::leave(client);
+    if (way.leave_before) ResumingServer::leave(client);
   }
   server->play(5);
   for (const bool is_late : way.late) {
@@ -243,7 +243,7 @@ TEST_P(ResumedRound, NewcomersSeeItAndAreUnique) {
     const std::string records = server->records();
     const auto now = server->now;
     server.reset();
-    server = std::make_unique<Server>(records, is_late, way.places, now);
+    server = std::make_unique<ResumingServer>(records, is_late, way.places, now);
     ASSERT_FALSE(server->rooms.recovering());
   }
   std::vector<Client*> players;
@@ -255,11 +255,11 @@ TEST_P(ResumedRound, NewcomersSeeItAndAreUnique) {
   }
   server->play(2);
   if (way.leave_after) {
-    for (Client* p_client : std::exchange(players, {})) Server::leave(*p_client);
+    for (Client* p_client : std::exchange(players, {})) ResumingServer::leave(*p_client);
   }
   if (way.places == 3) {
     EXPECT_EQ(server->greet("Eve").refusal(), wire::Refused::FULL);
-    Server::leave(*players.back());
+    ResumingServer::leave(*players.back());
     players.pop_back();
   }
   server->play(way.wait);
@@ -286,17 +286,19 @@ TEST_P(ResumedRound, NewcomersSeeItAndAreUnique) {
 INSTANTIATE_TEST_SUITE_P(
     Ways, ResumedRound,
     testing::Values(
-        Way{.p_name = "BesideThoseWhoReturned", .late = {false}, .come_back = true},
-        Way{.p_name = "BeforeTheOthersReturn", .late = {false}},
-        Way{.p_name = "AfterAllLeft", .late = {false}, .come_back = true, .leave_after = true},
-        Way{.p_name = "AfterTheGraceTime", .late = {false}, .wait = 60},
-        Way{.p_name = "Later", .late = {true}}, Way{.p_name = "LaterAndKilledAgain", .late = {true, false}},
-        Way{.p_name = "LaterEachTime", .late = {true, true, true}},
-        Way{.p_name = "KilledTwice", .late = {false, false}, .come_back = true},
-        Way{.p_name = "WithoutPlayers", .leave_before = true, .late = {false, true}},
-        Way{.p_name = "WelcomedInTheLastTick", .in_last_tick = true, .late = {false}, .come_back = true},
-        Way{.p_name = "WelcomedInTheLastTickAndLater", .in_last_tick = true, .late = {true, false}},
-        Way{.p_name = "FullServer", .late = {false}, .come_back = true, .places = 3}),
+        ResumeWay{.p_name = "BesideThoseWhoReturned", .late = {false}, .come_back = true},
+        ResumeWay{.p_name = "BeforeTheOthersReturn", .late = {false}},
+        ResumeWay{.p_name = "AfterAllLeft", .late = {false}, .come_back = true, .leave_after = true},
+        ResumeWay{.p_name = "AfterTheGraceTime", .late = {false}, .wait = 60},
+        ResumeWay{.p_name = "Later", .late = {true}},
+        ResumeWay{.p_name = "LaterAndKilledAgain", .late = {true, false}},
+        ResumeWay{.p_name = "LaterEachTime", .late = {true, true, true}},
+        ResumeWay{.p_name = "KilledTwice", .late = {false, false}, .come_back = true},
+        ResumeWay{.p_name = "WithoutPlayers", .leave_before = true, .late = {false, true}},
+        ResumeWay{
+            .p_name = "WelcomedInTheLastTick", .in_last_tick = true, .late = {false}, .come_back = true},
+        ResumeWay{.p_name = "WelcomedInTheLastTickAndLater", .in_last_tick = true, .late = {true, false}},
+        ResumeWay{.p_name = "FullServer", .late = {false}, .come_back = true, .places = 3}),
     [](const auto& one) { return std::string(one.param.p_name); });
 
 }  // namespace
