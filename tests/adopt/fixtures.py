@@ -177,38 +177,38 @@ MSVC = {
     "const": ("const const int g_one = 1;\nint const const *two();\nconst int const three = 3;\n",
               {1: "const int g_one = 1;", 2: "int const *two();", 3: "const int three = 3;"}),
     "enum": ("class A {\n public:\n  enum Unknown m_kind;\n};\nint kind(A a) { return a.m_kind; }\n", {3: "int m_kind;"}),
-    "later": ("enum Later;\nenum Later f();\nenum Later { FIRST };\nenum Later f() { return FIRST; }\n",
+    "later": ("enum Later;\nenum Later f_later();\nenum Later { FIRST };\nenum Later f_later() { return FIRST; }\n",
               {1: "enum Later : int;", 3: "enum Later : int { FIRST };"}),
     "header": ('enum Shade shade();\n#include "Shade.h"\nenum Shade shade() { return DARK; }\n', {1: '#include "Shade.h"'}),
-    "typename": ("#include <vector>\ntemplate <class T>\nint f(T t) {\n  T::value_type a = t[0];\n  return a;\n}\n"
-                 "int g() { return f(std::vector<int>(1)); }\n", {4: "typename T::value_type a = t[0];"}),
+    "typename": ("#include <vector>\ntemplate <class T>\nint f_typename(T t) {\n  T::value_type a = t[0];\n  return a;\n}\n"
+                 "int g_typename() { return f_typename(std::vector<int>(1)); }\n", {4: "typename T::value_type a = t[0];"}),
     "int64": ("__int64 big = 1; unsigned __int64 bigger = 2;\n", {1: "long long big = 1; unsigned long long bigger = 2;"}),
-    "secure": ('#include "StandardHeaders.h"\nint f(char *p) {\n  char name[9];\n  errno_t wrong = strcpy_s(name, p);\n'
+    "secure": ('#include "StandardHeaders.h"\nint f_secure(char *p) {\n  char name[9];\n  errno_t wrong = strcpy_s(name, p);\n'
                '  strncpy_s(name, 9, p, 3);\n  strcat_s(name, "x");\n  sprintf_s(name, "%d", 1);\n  printf_s("%s", name);\n'
                "  return wrong;\n}\n", {8: 'printf("%s", name);'}),
-    "each": ("#include <vector>\nint f(std::vector<int> all) {\n  int sum = 0;\n  for each (int one in all) sum += one;\n  return sum;\n}\n",
+    "each": ("#include <vector>\nint f_each(std::vector<int> all) {\n  int sum = 0;\n  for each (int one in all) sum += one;\n  return sum;\n}\n",
              {4: "for (int one : all) sum += one;"}),
-    "temporary": ("struct V { int x; };\nint x(V &v) { return v.x; }\nV make();\nint f() {\n  V &v = make();\n  return v.x + x(V());\n}\n",
+    "temporary": ("struct V { int x; };\nint x(V &v) { return v.x; }\nV make() { return V(); }\nint f_temporary() {\n  V &v = make();\n  return v.x + x(V());\n}\n",
                   {2: "int x(const V &v) { return v.x; }", 5: "V &&v = make();"}),
-    "member": ("struct A { int f(); };\nint g(A a) {\n  int (A::*p)() = A::f;\n  return (a.*p)();\n}\n", {3: "int (A::*p)() = &A::f;"}),
-    "exception": ('#include <stdexcept>\nvoid f() { throw std::exception("lost"); }\n', {2: 'void f() { throw std::runtime_error("lost"); }'}),
-    "pure": ("#include <cstddef>\nstruct A { virtual int f() = NULL; };\n", {2: "struct A { virtual int f() = 0; };"}),
-    "final": ("class A sealed { virtual int f() sealed { return 1; } };\n", {1: "class A final { virtual int f() final { return 1; } };"}),
-    "declspec": ("__declspec(dllexport) int __cdecl f() { return 1; }\n__forceinline int g() { return f(); }\n",
-                 {1: "int  f() { return 1; }", 2: "inline int g() { return f(); }"}),
-    "implicit": ("static f() { return 1; }\nint g() { return f(); }\n", {1: None}),
-    "jump": ("int f(int a) {\n  if (a) goto end;\n  int b = 2;\n  a += b;\nend:\n  return a;\n}\n", {3: "int b; b = 2;"}),
-    "default": ("int f(int a = 1);\nint f(int a = 1) { return a; }\n", {2: None}),
-    "static": ("struct A { static const float f = 1.5f; static int g(); };\nstatic int A::g() { return 1; }\n", {1: None, 2: None}),
-    "base": ("template <class T> struct A { int m_a; int get(); };\ntemplate <class T> struct B : A<T> { int f() { return get(); } };\n"
-             "int g(B<int> b) { return b.f(); }\n", {2: None}),
-    "throw": ("#include <memory>\nint f() throw(int);\nint f() throw(int) { return 1; }\n", {}),
+    "member": ("struct A { int f() { return 1; } };\nint g_member(A a) {\n  int (A::*p)() = A::f;\n  return (a.*p)();\n}\n", {3: "int (A::*p)() = &A::f;"}),
+    "exception": ('#include <stdexcept>\nvoid f_exception() { throw std::exception("lost"); }\n', {2: 'void f_exception() { throw std::runtime_error("lost"); }'}),
+    "pure": ("#include <cstddef>\nstruct A { virtual int f_pure() = NULL; };\n", {2: "struct A { virtual int f_pure() = 0; };"}),
+    "final": ("class A sealed { virtual int f_final() sealed { return 1; } };\n", {1: "class A final { virtual int f_final() final { return 1; } };"}),
+    "declspec": ("__declspec(dllexport) int __cdecl f_declspec() { return 1; }\n__forceinline int g_declspec() { return f_declspec(); }\n",
+                 {1: "int  f_declspec() { return 1; }", 2: "inline int g_declspec() { return f_declspec(); }"}),
+    "implicit": ("static f_implicit() { return 1; }\nint g_implicit() { return f_implicit(); }\n", {1: None}),
+    "jump": ("int f_jump(int a) {\n  if (a) goto end;\n  int b = 2;\n  a += b;\nend:\n  return a;\n}\n", {3: "int b; b = 2;"}),
+    "default": ("int f_default(int a = 1);\nint f_default(int a = 1) { return a; }\n", {2: None}),
+    "static": ("struct A { static const float f = 1.5f; static int g_static(); };\nstatic int A::g_static() { return 1; }\n", {1: None, 2: None}),
+    "base": ("template <class T> struct A { int get() { return 1; } };\ntemplate <class T> struct B : A<T> { int f() { return get(); } };\n"
+             "int g_base(B<int> b) { return b.f(); }\n", {2: None}),
+    "throw": ("#include <memory>\nint f_throw() throw(int);\nint f_throw() throw(int) { return 1; }\n", {}),
     "windows": ('#include <WINDOWS.H>\n#include <winuser.h>\n#include <mmsystem.h>\n#include <conio.h>\n#include <io.h>\n'
                 "int WINAPI_f() {\n  Sleep(10); _getch(); kbhit(); Beep(1, 2);\n"
                 '  if (MessageBox(NULL, "a", TEXT("b"), MB_OK | MB_ICONERROR) == IDOK) PlaySound("x.wav", NULL, SND_ASYNC | SND_FILENAME);\n'
                 "  HANDLE console = GetStdHandle(STD_OUTPUT_HANDLE);\n  COORD at = {1, 2};\n  SetConsoleCursorPosition(console, at);\n"
                 "  if (GetAsyncKeyState(VK_LEFT) & 0x8000) return max(1, 2.5);\n  return (int)min(GetTickCount(), 7u);\n}\n",
-                {1: '#include "windows.h"', 2: '#include "windows.h"', 3: '#include "windows.h"', 4: None, 5: "//#include <io.h>", 7: "Sleep(10); _getch(); _kbhit(); Beep(1, 2);"})}
+                {1: '#include "Windows.h"', 2: '#include "windows.h"', 3: '#include "windows.h"', 4: None, 5: "//#include <io.h>", 7: "Sleep(10); _getch(); _kbhit(); Beep(1, 2);"})}
 
 MSVC_GAME = {"game.cpp": ALONE + "int WINAPI WinMain(HINSTANCE one, HINSTANCE two, LPSTR line, int show) { GM.startUp(); GM.run(); GM.shutDown(); }\n",
              "Shade.h": "#pragma once\nenum Shade { DARK };\n", **{f"{name}.cpp": code for name, (code, _) in MSVC.items()}}

@@ -258,6 +258,7 @@ class BlameTest(unittest.TestCase):
                 ("'Grid' is not a member of 'df'", refuses, "a.cpp", "Naiad"),
                 ("Grid.h: No such file or directory", refuses, "a.cpp", "Naiad or the game"),
                 ("Level.h: No such file or directory", refuses, "a.cpp", "the game"),
+                ("format: No such file or directory", refuses, "a.cpp", "another system"),
                 ("'level' was not declared in this scope", refuses, "a.cpp", "the game"),
                 ("'class df::Object' has no member named 'myOwn'", accepts, "a.cpp", "Naiad or the game"),  # a changed copy of the engine
                 ("expected unqualified-id before numeric constant", accepts, "/n/Object.h", "Naiad or the game"),  # a macro of the game

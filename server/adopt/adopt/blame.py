@@ -98,6 +98,8 @@ class Blame:
             return SYSTEM, f"{base} exists only on Windows: remove the code that uses it"
         if _MAC_HEADERS.match(path):
             return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"
+        if re.fullmatch(r"[a-z_]+", path):
+            return SYSTEM, f"<{path}> is a header of the standard library that this compiler lacks: use a newer one (--cxx)"
         if self._naiad.was_published(base):
             return UNCLEAR, f"{base} is not in the folder: add it, or report it if the published engine's is meant, which Naiad lacks"
         return THEIRS, f"{base} is not in the folder: add it, or remove this line and the code that needs it"
