@@ -11,6 +11,7 @@
 #include "WebClient.h"
 #include "shared/net/base/Limits.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {
