@@ -57,7 +57,7 @@ TEST_F(HostileServerTest, HostileNamesAreSanitized) {
   message.mutable_welcome()->set_server(std::string(5000, 'v'));
   receive(message);
   ASSERT_EQ(session->state(), State::kPlaying);
-  EXPECT_EQ(session->welcome().name, "?[2J?abcdefghijk");
+  EXPECT_EQ(session->welcome().name, "[2Jabcdefghijklm");
   EXPECT_EQ(session->welcome().server.size(), 40u);
 }
 

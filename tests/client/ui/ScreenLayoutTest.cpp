@@ -316,7 +316,7 @@ TEST(ScreenLayout, HelpThatDoesNotFitScrollsAndSaysSo) {
   EXPECT_FALSE(contains(layout.picture, "close the help"));
   EXPECT_TRUE(contains(layout.picture, "Down"));
   EXPECT_TRUE(contains(layout.picture, "Esc closes"));
-  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 10 - 22);
+  EXPECT_EQ(layout.shown.max_scroll, 24 + 1 + 11 - 22);
   EXPECT_EQ(layout.shown.page, 22);
   m.scroll = layout.shown.max_scroll;
   layout = composeScreen(m, 76, 24);
