@@ -14,9 +14,11 @@
 #include <vector>
 
 #include "engine/world/World.h"
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/Journal.h"
 #include "host/journal/JournalSink.h"
 #include "host/journal/JournalWriter.h"
+#include "host/journal/RoundRecovery.h"
 #include "host/journal/UnfinishedRound.h"
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"
@@ -191,7 +193,7 @@ const Way kWays[] = {
      [](Building&, Client& eve) {
        for (std::uint32_t i = 1; i <= 65; ++i) {
          ClientUpdate update;
-         update.inputs = {Input{.id = i, .key = 1, .action = 0}};
+         update.inputs = {Input{.id = i, .action = 0, .key = 1}};
          send(eve, [&](auto& message) { message.set_update(writeUpdate(update)); });
        }
      },

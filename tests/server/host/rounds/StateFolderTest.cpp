@@ -92,7 +92,9 @@ struct StateKind {
 };
 
 const DfrFacts kExpected{{kFactGame, "hello"}, {kFactPort, "1"}, {kFactClocks, "repeatable"}};
-constexpr std::array<std::uint8_t, 16> kRound{0x7F, 0x5F};
+/// The id of a round that no other process of this test uses.
+const std::array<std::uint8_t, 16> kRound{0x7F, static_cast<std::uint8_t>(getpid()),
+                                          static_cast<std::uint8_t>(getpid() >> 8)};
 
 template <class Action>
 bool works(Action action) {
