@@ -75,6 +75,7 @@ function fit() {
 }
 
 let view = "";
+let wrote = false;  // the chat line was open in the last frame
 
 function frame() {
   requestAnimationFrame(frame);
@@ -87,14 +88,12 @@ function frame() {
     fit();
   }
   const writing = client.writing();
-  if (writing !== (document.activeElement === line)) {
-    if (writing) {
-      line.value = "";
-      line.focus();
-    } else if (door.hidden) {
-      picture.canvas.focus({preventScroll: true});
-    }
+  if (writing !== wrote) {
+    line.value = tapped = "";
+    if (!writing && door.hidden) picture.canvas.focus({preventScroll: true});
   }
+  wrote = writing;
+  if (writing && document.activeElement !== line) line.focus();
   notice(client.state());
 }
 
