@@ -168,7 +168,7 @@ const Way kWays[] = {
        house.ends.front().drop();  // a player without a connection does not count as inactive
        for (const auto end = house.now + 30s; !eve.closed && house.now < end;) house.update();
      },
-     R"(dismissed with "Disconnected: no input for 1 s.")", [](HostOptions& o) { o.inactive_kick = 1; }},
+     R"(dismissed with "Disconnected: no input for 1s.")", [](HostOptions& o) { o.inactive_kick = 1; }},
     {"game_over",
      [](Building& house, Client& eve) {
        ping(eve);
@@ -253,7 +253,9 @@ TEST_P(Recovery, FormerPlayersAreNotRestored) {
   house.clients.rooms().beginTicks();
   house.update();
   EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
-  if (GetParam().reason.empty()) EXPECT_EQ(house.restored("attic"), std::set<std::string>{"Eve"});
+  if (GetParam().reason.empty()) {
+    EXPECT_EQ(house.restored("attic"), std::set<std::string>{"Eve"});
+  }
 }
 
 TEST_P(Leaving, LogLineHasTheReason) {
