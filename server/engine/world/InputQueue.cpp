@@ -49,7 +49,9 @@ void InputQueue::mouse(std::uint32_t player, EventMouseAction action, Mouse::But
 }
 
 std::uint32_t InputQueue::push(Input input) {
-  if (input.kind == kJoin) {
+  // Ids are used once, except that a player whose leave waits here may join again (RoomManager::restart).
+  const auto leaves = [&input](const Input& one) { return one.kind == kLeave && one.player == input.player; };
+  if (input.kind == kJoin && std::none_of(m_inputs.begin(), m_inputs.end(), leaves)) {
     input.player = std::max(input.player, m_next_player);
     m_next_player = input.player + 1;
   }
