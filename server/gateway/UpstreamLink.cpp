@@ -49,10 +49,10 @@ void UpstreamLink::onConnected(error_code error) {
   // The header fits into the socket's empty buffer as a whole.
   if (!error) m_socket.write_some(boost::asio::buffer(m_header), error);
   // Temporary errors: the server's backlog is full, or the server closed the connection at once.
-  const bool for_now = error == boost::asio::error::try_again || error == boost::asio::error::broken_pipe ||
-                       error == boost::asio::error::connection_reset;
-  if (for_now && connectAgain()) return;
-  if (error) return finish(End::kUnreachable, error.message());
+  const bool dropped =
+      error == boost::asio::error::broken_pipe || error == boost::asio::error::connection_reset;
+  if ((dropped || error == boost::asio::error::try_again) && connectAgain()) return;
+  if (error) return finish(dropped ? End::kDropped : End::kUnreachable, error.message());
   m_stream.emplace(std::move(m_socket));
   if (!m_stream->startTls(m_server.tls->get(), SecureSocket::Role::kClient))
     return finish(End::kUnreachable, "out of memory for TLS");

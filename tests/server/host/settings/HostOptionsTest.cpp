@@ -85,10 +85,11 @@ TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
 TEST(HostOptions, InsecureExcludesOptionsThatRequireEncryption) {
   for (const std::vector<const char*>& used :
        {std::vector{"--lan", "on"}, {"--proxy-socket", "visitors"}, {"--certificate", "c", "--key", "k"}}) {
+    HostOptions insecure;
     HostOptions options;
     std::vector<const char*> words = {"--insecure"};
     words.insert(words.end(), used.begin(), used.end());
-    EXPECT_EQ(parse(words, options), CommandLine::kUsageError) << used.front();
+    EXPECT_EQ(parse(words, insecure), CommandLine::kUsageError) << used.front();
     EXPECT_EQ(parse(used, options), CommandLine::kRun) << used.front();
   }
 }
