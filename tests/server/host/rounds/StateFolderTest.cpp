@@ -45,6 +45,10 @@ struct Hostile {
   bool is_used_if_provided = false;  ///< allowed for files that the host provides (Links::kFollowed)
 };
 
+void PrintTo(const Hostile& hostile, std::ostream* p_out) {
+  *p_out << hostile.name;
+}
+
 bool makeSocket(const fs::path& path) {
   const int descriptor = ::socket(AF_UNIX, SOCK_STREAM, 0);
   sockaddr_un address{};
