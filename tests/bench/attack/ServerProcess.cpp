@@ -10,6 +10,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -43,6 +44,7 @@ std::vector<std::string> environmentWith(const std::string& password) {
 ServerProcess::ServerProcess(const ServerSetup& setup, const std::string& folder)
     : m_password(setup.password), m_truth_file(folder + "/truth") {
   const std::string join_file = folder + "/join";
+  std::filesystem::remove(join_file);  // of an earlier server in this folder
   std::vector<std::string> command{
       serverProgram(),   "--port",      "0",       "--identity",   folder + "/identity", "--state",
       folder + "/state", "--join-file", join_file, "--truth-file", m_truth_file};
