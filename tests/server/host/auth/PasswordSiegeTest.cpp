@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <string>
@@ -55,7 +54,6 @@ class Siege {
     return static_cast<int>(
         std::ranges::count_if(m_players, [](const Player& one) { return one.wait <= 60s; }));
   }
-  Time::duration longestWait() const { return std::ranges::max(m_players, {}, &Player::wait).wait; }
 
  private:
   static constexpr int kWorker = -1;
@@ -142,16 +140,14 @@ class Siege {
 };
 
 TEST(PasswordSiege, RetryingPlayersEnterWithinAMinute) {
-  for (const Attack& attack : {Attack{"networks that knock once a minute", 2000, 60s, 5min},
-                               Attack{"networks that knock every 11 s", 2000, 11s, 5min},
-                               Attack{"networks that knock every 2 minutes", 20'000, 120s, 5min},
+  for (const Attack& attack : {Attack{"networks that knock once a minute", 2000, 60s, 4min},
+                               Attack{"networks that knock every 11 s", 2000, 11s, 4min},
+                               Attack{"networks that knock every 2 minutes", 20'000, 120s, 4min},
                                Attack{"networks that never pause", 2000, 9s, 20min},
-                               Attack{"one network of 4,000 clients", 4000, 9s, 5min, true}}) {
+                               Attack{"one network of 4,000 clients", 4000, 9s, 4min, true}}) {
     Siege siege(attack);
     siege.run();
     EXPECT_EQ(siege.entered(), kPlayers) << attack.name;
-    std::printf("%s: %d of %d, at most %.1f s\n", attack.name.c_str(), siege.entered(), kPlayers,
-                std::chrono::duration<double>(siege.longestWait()).count());
   }
 }
 
