@@ -77,9 +77,10 @@ TEST(AdminRequest, EverySpanIsReadWithAndWithoutUnit) {
         if (text_follows) words.insert(words.end(), {"many", "insults"});
         EXPECT_EQ(readAdminRequest(words).of(argument.name), text_follows && is_number ? "" : span)
             << command.name;
-        if (text_follows)
+        if (text_follows) {
           EXPECT_EQ(readAdminRequest(words).of(command.arguments.back().name),
                     is_number ? span + " many insults" : "many insults");
+        }
         words.resize(words.size() - (text_follows ? 3 : 1));
       }
     }
