@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::pair<const char*, std::int64_t> kUnits[] = {
     {"d", 86'400 * kSecond},     {"h", 3600 * kSecond}, {"m", 60 * kSecond}, {"s", kSecond},
-    {"w", 7 * 86'400 * kSecond}, {"ms", kMillisecond},  {"us", kMicrosecond}};
+    {"w", kSecond * 86'400 * 7}, {"ms", kMillisecond},  {"us", kMicrosecond}};
 
 }  // namespace
 
