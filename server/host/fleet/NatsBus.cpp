@@ -22,13 +22,14 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kPollInterval{250};  ///< interval of checks for a lost connection
-constexpr int kTimeoutMillis = 2000;                     ///< timeout of connecting and of acknowledgements
+constexpr std::chrono::milliseconds kPollInterval{
+    250};                             ///< interval of checks for messages and a lost connection
+constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting and of acknowledgements
 constexpr int kPingMillis = 2000;
 constexpr int kMaxPings = 2;
 /// Limit of the library's queue for a subscription, like kMaxBusPending.
 constexpr int kMaxPendingBytes = 64 << 20;
-constexpr int kReceiveMillis = 1000;  ///< timeout of waiting for a message, after which losses are counted
+constexpr std::size_t kMaxReceiveBatch = 512;  ///< messages taken from a subscription before sending again
 
 template <class T, void (*Destroy)(T*)>
 struct NatsDeleter {
@@ -61,7 +62,7 @@ Options optionsOf(const BusSettings& settings) {
   return good ? std::move(options) : nullptr;
 }
 
-/// A bus that connects and publishes on a thread of its own, and receives on one for each subscription.
+/// A bus that connects, publishes and receives on a thread of its own.
 class NatsBus : public Bus {
  public:
   NatsBus(BusSettings settings, int max_pending)
@@ -113,6 +114,11 @@ class NatsBus : public Bus {
  private:
   using Lock = std::unique_lock<std::mutex>;
 
+  struct ReceivedSubject {
+    Subscription subscription;
+    std::int64_t lost = 0;  ///< lost messages of this subscription that are counted
+  };
+
   void run() {
     Lock lock(m_mutex);
     while (!m_stopping) {
@@ -122,6 +128,7 @@ class NatsBus : public Bus {
       lock.lock();
       onConnectionChange(connection != nullptr, status);
       if (connection) serve(*connection, lock);
+      m_connected = false;
       m_sent.notify_all();
       if (!m_stopping) m_wake.wait_for(lock, kConnectAgain, [this] { return m_stopping; });
     }
@@ -152,9 +159,10 @@ class NatsBus : public Bus {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
     const JetStream stream(p_made);
-    std::vector<std::unique_ptr<Receiver>> receivers = subscribe(connection);
+    std::vector<ReceivedSubject> subjects = subscribe(connection);
     auto not_before = std::chrono::steady_clock::now();
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
+      const bool is_flooded = receive(subjects, lock);
       const bool may_keep = stream && m_queue.hasReliable() && std::chrono::steady_clock::now() >= not_before;
       if (m_queue.hasBestEffort()) {
         const BusMessage message = m_queue.popBestEffort();
@@ -173,62 +181,49 @@ class NatsBus : public Bus {
         if (!arrived) not_before = std::chrono::steady_clock::now() + kConnectAgain;
       } else {
         m_sent.notify_all();
-        m_wake.wait_for(lock, kPollInterval);
+        if (!is_flooded) m_wake.wait_for(lock, kPollInterval);
       }
     }
-    m_connected = false;
-    lock.unlock();  // receivers take it before they end
-    receivers.clear();
-    lock.lock();
   }
 
-  /// Receives the messages of a subscription until its end, on a thread that waits for nothing else.
-  class Receiver {
-   public:
-    Receiver(NatsBus& bus, Subscription subscription)
-        : m_subscription(std::move(subscription)),
-          m_thread(startWithoutSignals([this, &bus] { bus.receive(m_subscription.get()); })) {}
-    ~Receiver() {
-      natsSubscription_Unsubscribe(m_subscription.get());
-      m_thread.join();
-    }
-
-   private:
-    const Subscription m_subscription;
-    std::thread m_thread;
-  };
-
   /// Subscribes to all subjects. If the bus refuses one for lack of permission, only its log shows it.
-  std::vector<std::unique_ptr<Receiver>> subscribe(natsConnection& connection) {
-    std::vector<std::unique_ptr<Receiver>> made;
+  std::vector<ReceivedSubject> subscribe(natsConnection& connection) const {
+    std::vector<ReceivedSubject> made;
     for (const std::string& subject : m_settings.subjects) {
       natsSubscription* p_made = nullptr;
       if (natsConnection_SubscribeSync(&p_made, &connection, subject.c_str()) != NATS_OK) continue;
       natsSubscription_SetPendingLimits(p_made, m_max_pending, kMaxPendingBytes);
-      made.push_back(std::make_unique<Receiver>(*this, Subscription(p_made)));
+      made.push_back({Subscription(p_made)});
     }
     return made;
   }
 
-  /// Moves the messages of a subscription to the inbox, which holds one of each sender, and counts lost ones.
-  void receive(natsSubscription* p_subscription) {
-    std::int64_t counted = 0;
-    for (;;) {
-      natsMsg* p_taken = nullptr;
-      const natsStatus status = natsSubscription_NextMsg(&p_taken, p_subscription, kReceiveMillis);
-      const Message message(p_taken);
-      std::int64_t dropped = counted;
-      natsSubscription_GetDropped(p_subscription, &dropped);
-      const std::lock_guard lock(m_mutex);
-      if (dropped != counted) logOnce("warning: messages of the bus were lost, because too many arrived");
-      m_counters.lost += static_cast<std::uint64_t>(dropped - std::exchange(counted, dropped));
-      if (status == NATS_OK) {
-        m_inbox.put(natsMsg_GetSubject(p_taken),
-                    {natsMsg_GetData(p_taken), static_cast<std::size_t>(natsMsg_GetDataLength(p_taken))});
-      } else if (status != NATS_TIMEOUT && status != NATS_SLOW_CONSUMER) {
-        return;
+  /// Moves arrived messages to the inbox, which holds one of each subject, and counts lost ones. Returns true
+  /// if more may wait. Called with the lock held.
+  bool receive(std::vector<ReceivedSubject>& subjects, Lock& lock) {
+    bool is_full = false;
+    for (ReceivedSubject& subject : subjects) {
+      std::vector<Message> messages;
+      lock.unlock();
+      natsStatus status = NATS_OK;
+      while (messages.size() < kMaxReceiveBatch && (status == NATS_OK || status == NATS_SLOW_CONSUMER)) {
+        natsMsg* p_taken = nullptr;
+        status = natsSubscription_NextMsg(&p_taken, subject.subscription.get(), 0);
+        if (status == NATS_OK) messages.emplace_back(p_taken);
+      }
+      std::int64_t lost = subject.lost;
+      natsSubscription_GetDropped(subject.subscription.get(), &lost);
+      lock.lock();
+      is_full = is_full || messages.size() == kMaxReceiveBatch;
+      if (lost != subject.lost) logOnce("warning: messages of the bus were lost, because too many arrived");
+      m_counters.lost += static_cast<std::uint64_t>(lost - std::exchange(subject.lost, lost));
+      for (const Message& message : messages) {
+        m_inbox.put(
+            natsMsg_GetSubject(message.get()),
+            {natsMsg_GetData(message.get()), static_cast<std::size_t>(natsMsg_GetDataLength(message.get()))});
       }
     }
+    return is_full;
   }
 
   /// Returns true if JetStream has stored the message, now or at an earlier attempt.

@@ -302,8 +302,8 @@ TEST_F(NatsBusTest, LostMessagesAreCounted) {
   const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}}, 1);
   const Listener members(server.url(), "none");
   std::uint64_t sent = floodUntilReceived(members, *ear);
-  EXPECT_EQ(ear->popLogMessage(), "the bus is connected");
-  const std::uint64_t uncertain = sent;  // before the bus knew the subscription
+  std::string logged = ear->popLogMessage();  // the warning, if messages were lost so soon
+  const std::uint64_t uncertain = sent;       // before the bus knew the subscription
   EXPECT_TRUE(test::waitUntil([&] {
     members.flood("naiad.presence.loud", 1000, 1);
     sent += 1000;
@@ -313,7 +313,9 @@ TEST_F(NatsBusTest, LostMessagesAreCounted) {
   EXPECT_TRUE(test::waitUntil([&] { return counted() >= sent - uncertain + 1; }))
       << counted() << " of " << sent;
   EXPECT_LE(counted(), sent);
-  EXPECT_EQ(ear->popLogMessage(), "warning: messages of the bus were lost, because too many arrived");
+  logged += ear->popLogMessage();
+  EXPECT_NE(logged.find("warning: messages of the bus were lost, because too many arrived"),
+            std::string::npos);
   EXPECT_TRUE(ear->isConnected());
 }
 
