@@ -24,9 +24,15 @@ namespace {
 constexpr std::chrono::seconds kConnectAgain{1};
 constexpr std::chrono::milliseconds kPollInterval{
     250};                             ///< interval of checks for messages and a lost connection
-constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting and of acknowledgements
-constexpr int kPingMillis = 2000;
-constexpr int kMaxPings = 2;
+constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting, of writing and of acknowledgements
+constexpr int kPingMillis = 5000;
+constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if so many are not answered
+/// After this time without a message, the bus is asked for an answer. If none comes within the same time, the
+/// bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
+/// expire, so both together are well below that.
+constexpr std::chrono::seconds kMaxQuiet{1};
+constexpr std::chrono::seconds kCloseTimeout{10};
+constexpr const char* kConnectedNews = "the bus is connected";
 /// Limit of the library's queue for a subscription, like kMaxBusPending.
 constexpr int kMaxPendingBytes = 64 << 20;
 constexpr std::size_t kMaxReceiveBatch = 512;  ///< messages taken from a subscription before sending again
@@ -51,6 +57,7 @@ Options optionsOf(const BusSettings& settings) {
               natsOptions_SetName(p_made, "naiad") == NATS_OK &&
               natsOptions_SetAllowReconnect(p_made, false) == NATS_OK &&
               natsOptions_SetTimeout(p_made, kTimeoutMillis) == NATS_OK &&
+              natsOptions_SetWriteDeadline(p_made, kTimeoutMillis) == NATS_OK &&
               natsOptions_SetPingInterval(p_made, kPingMillis) == NATS_OK &&
               natsOptions_SetMaxPingsOut(p_made, kMaxPings) == NATS_OK;
   if (settings.isEncrypted()) good = good && natsOptions_SetSecure(p_made, true) == NATS_OK;
@@ -127,15 +134,26 @@ class NatsBus : public Bus {
       const Connection connection = connect(status);
       lock.lock();
       onConnectionChange(connection != nullptr, status);
-      if (connection) serve(*connection, lock);
+      if (connection) {
+        std::vector<ReceivedSubject> subjects = subscribe(*connection);
+        serve(*connection, subjects, lock);
+        close(*connection, lock);
+      }
       m_connected = false;
       m_sent.notify_all();
       if (!m_stopping) m_wake.wait_for(lock, kConnectAgain, [this] { return m_stopping; });
     }
   }
 
-  Connection connect(natsStatus& status) const {
+  Connection connect(natsStatus& status) {
     const Options options = optionsOf(m_settings);
+    const auto on_closed = [](natsConnection*, void* p_bus) {
+      auto& bus = *static_cast<NatsBus*>(p_bus);
+      const std::lock_guard lock(bus.m_mutex);
+      bus.m_closed = true;
+      bus.m_wake.notify_all();
+    };
+    if (options) natsOptions_SetClosedCB(options.get(), on_closed, this);
     natsConnection* p_made = nullptr;
     status = options ? natsConnection_Connect(&p_made, options.get()) : NATS_INVALID_ARG;
     return Connection(status == NATS_OK ? p_made : nullptr);
@@ -146,7 +164,7 @@ class NatsBus : public Bus {
     m_connected = connected;
     m_counters.connections += connected ? 1 : 0;
     m_counters.failures += connected ? 0 : 1;
-    logOnce(connected ? "the bus is connected"
+    logOnce(connected ? kConnectedNews
                       : std::string("warning: the bus cannot be reached (") + natsStatus_GetText(status) +
                             "); trying again");
   }
@@ -154,15 +172,44 @@ class NatsBus : public Bus {
     if (std::exchange(m_last_news, news) != news) m_log_message = news;
   }
 
+  /// Closes the connection and waits until the library no longer reads from it: version 3.4 lets its thread
+  /// use a subscription that is being destroyed. Called with the lock held.
+  void close(natsConnection& connection, Lock& lock) {
+    if (!m_stopping) logOnce("warning: the connection to the bus was lost; connecting again");
+    lock.unlock();
+    natsConnection_Close(&connection);
+    lock.lock();
+    m_wake.wait_for(lock, kCloseTimeout, [this] { return m_closed; });
+    m_closed = false;
+  }
+
+  /// Asks the bus for an answer, and sets whether it counts as connected. Called with the lock held.
+  void checkAnswer(natsConnection& connection, Lock& lock) {
+    lock.unlock();
+    const bool answers =
+        natsConnection_FlushTimeout(&connection, std::chrono::milliseconds(kMaxQuiet).count()) == NATS_OK;
+    lock.lock();
+    m_connected = answers;
+    logOnce(answers ? kConnectedNews : "warning: the bus does not answer");
+  }
+
   /// Sends and receives until the connection is lost or the bus stops.
-  void serve(natsConnection& connection, Lock& lock) {
+  void serve(natsConnection& connection, std::vector<ReceivedSubject>& subjects, Lock& lock) {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
     const JetStream stream(p_made);
-    std::vector<ReceivedSubject> subjects = subscribe(connection);
     auto not_before = std::chrono::steady_clock::now();
+    auto answered = not_before;
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
+      const std::uint64_t received = m_inbox.received();
       const bool is_flooded = receive(subjects, lock);
+      if (m_inbox.received() > received) {
+        answered = std::chrono::steady_clock::now();
+        m_connected = true;
+      } else if (std::chrono::steady_clock::now() - answered > kMaxQuiet) {
+        checkAnswer(connection, lock);
+        answered = std::chrono::steady_clock::now();
+      }
       const bool may_keep = stream && m_queue.hasReliable() && std::chrono::steady_clock::now() >= not_before;
       if (m_queue.hasBestEffort()) {
         const BusMessage message = m_queue.popBestEffort();
@@ -246,6 +293,7 @@ class NatsBus : public Bus {
   BusInbox m_inbox;
   bool m_connected = false;
   bool m_stopping = false;
+  bool m_closed = false;  ///< the library reports that it has closed the connection
   BusCounters m_counters;
   std::string m_last_news;
   std::string m_log_message;

@@ -3,6 +3,7 @@
 
 #include "host/fleet/Bus.h"
 #include "host/fleet/BusQueue.h"
+#include "shared/fleet/BusPayloads.h"
 
 #ifdef NAIAD_NATS
 #include <nats/nats.h>
@@ -270,9 +271,6 @@ bool receives(Bus& bus, const std::string& subject) {
 }
 
 TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "this sanitizer is too slow to receive a flood";
-#endif
   struct Flood {
     int count;
     std::size_t bytes;
@@ -297,6 +295,26 @@ TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
     EXPECT_EQ(after.ignored - before.ignored, is_too_long ? 30u : 0u);
     EXPECT_EQ(after.lost, 0u);
   }
+}
+
+TEST_F(NatsBusTest, SilentBusIsDisconnectedBeforeServersExpire) {
+  test::NatsServer server;
+  ASSERT_TRUE(server.start()) << server.log();
+  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const Listener members(server.url(), "none");
+  floodUntilReceived(members, *ear);
+  for (int times = 0; times < 2; ++times) {
+    const auto begin = std::chrono::steady_clock::now();
+    server.pause();
+    EXPECT_TRUE(test::waitUntil([&] { return !ear->isConnected(); }));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 3 * Presence::kInterval);
+    server.resume();
+    EXPECT_TRUE(test::waitUntil([&] { return ear->isConnected(); }));
+    const std::string quiet = "naiad.presence.quiet" + std::to_string(times);
+    members.flood(quiet, 1, 1);
+    EXPECT_TRUE(receives(*ear, quiet));
+  }
+  EXPECT_EQ(ear->counters().connections, 1u);
 }
 
 TEST_F(NatsBusTest, LostMessagesAreCounted) {

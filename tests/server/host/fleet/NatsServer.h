@@ -55,6 +55,9 @@ class NatsServer {
     ::waitpid(m_process, nullptr, 0);
     m_process = -1;
   }
+  /// Stops answering until resume(), like a bus behind a broken network.
+  void pause() const { ::kill(m_process, SIGSTOP); }
+  void resume() const { ::kill(m_process, SIGCONT); }
   std::string url(const std::string& user = "") const {
     return "nats://" + (user.empty() ? "" : user + "@") + "127.0.0.1:" + m_port;
   }
