@@ -20,15 +20,12 @@
 
 #include "ResultLine.h"
 #include "Suite.h"
-#include "capacity/suite/Worker.h"
-#include "path/suite/Subprocess.h"
+#include "Worker.h"
 #include "tests/support/TempFolder.h"
 
 namespace bench {
 namespace {
 
-using namespace capacity;
-using path::figuresOf;
 using namespace std::chrono_literals;
 
 constexpr int kStep = 250;
@@ -135,10 +132,10 @@ class Arena {
   double bare(const Trial& trial, double seconds) {
     m_bots->ask("sink", "sunk");
     m_server.reset();
-    const auto finished = path::runProgram({std::string(NAIAD_BINARY_DIR) + "/bin/naiad_capacity_bare",
-                                            std::to_string(m_server_core), m_folder.string(),
-                                            std::to_string(std::lround(trial.datagrams)),
-                                            std::to_string(std::lround(seconds / kTick))});
+    const auto finished =
+        runProgram({std::string(NAIAD_BINARY_DIR) + "/bin/naiad_capacity_bare", std::to_string(m_server_core),
+                    m_folder.string(), std::to_string(std::lround(trial.datagrams)),
+                    std::to_string(std::lround(seconds / kTick))});
     auto figures = figuresOf(finished.output);
     if (finished.code != 0 || figures["datagrams"] == 0) throw std::runtime_error("the bare sender failed");
     return figures["cpu_us"] / (seconds / kTick) / trial.clients;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "shared/values/SplitMix64.h"
+#include "tests/server/engine/oracle/OracleGeometry.h"
 
 namespace bench {
 namespace {
@@ -24,21 +25,19 @@ df::FixedVector randomPlace(double side, naiad::SplitMix64& random) {
   return {fixed(x), fixed(y)};
 }
 
-df::FixedBox boxAt(df::FixedVector middle) {
-  return {{middle.x - df::kFixedOne / 2, middle.y - df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
-}
+constexpr df::FixedBox kUnit{{-df::kFixedOne / 2, -df::kFixedOne / 2}, {df::kFixedOne, df::kFixedOne}};
 
 std::vector<df::FixedBox> scatter(int n, double side) {
   naiad::SplitMix64 random(20240607);
   std::vector<df::FixedBox> boxes(static_cast<std::size_t>(n));
-  for (df::FixedBox& box : boxes) box = boxAt(randomPlace(side, random));
+  for (df::FixedBox& box : boxes) box = translate(kUnit, randomPlace(side, random));
   return boxes;
 }
 
 bool isFree(const Field& field, const df::FixedBox& box) {
   bool is_free = true;
   field.bins.near(box, [&](std::uint32_t i) {
-    if (areTouching(box, field.obstacles[i])) is_free = false;
+    if (oracle::boxIntersectsBox(box, field.obstacles[i])) is_free = false;
   });
   return is_free;
 }
@@ -62,25 +61,23 @@ std::vector<Cast> drawCasts(const Field& field, int count, double length) {
       cast.from = randomPlace(field.side, random);
       const double angle = 2 * std::numbers::pi * random.unit();
       cast.to = cast.from + df::FixedVector{fixed(length * std::cos(angle)), fixed(length * std::sin(angle))};
-    } while (!isFree(field, boxAt(cast.from)) || (has_room && !isInside(field, cast.to)));
+    } while (!isFree(field, translate(kUnit, cast.from)) || (has_room && !isInside(field, cast.to)));
   }
   return casts;
 }
 
 Answer solve(const Field& field, const Cast& cast) {
-  const Path path(boxAt(cast.from), cast.to - cast.from);
-  const df::FixedVector corner = path.start().corner;
-  const df::FixedVector least = {std::min(corner.x, corner.x + path.way().x),
-                                 std::min(corner.y, corner.y + path.way().y)};
-  const df::FixedBox area = {
-      least, {df::kFixedOne + std::abs(path.way().x), df::kFixedOne + std::abs(path.way().y)}};
+  const oracle::SweepPath path{cast.from, cast.to};
+  const df::FixedVector way = cast.to - cast.from;
+  df::FixedBox area = translate(kUnit, {std::min(cast.from.x, cast.to.x), std::min(cast.from.y, cast.to.y)});
+  area.size = {df::kFixedOne + std::abs(way.x), df::kFixedOne + std::abs(way.y)};
   Answer answer{kNobody, 1, cast.to};
-  Fraction first{2, 1};
+  oracle::Time first{2, 1};
   field.bins.near(area, [&](std::uint32_t i) {
-    const std::optional<Fraction> time = path.firstTouch(field.obstacles[i]);
+    const std::optional<oracle::Time> time = oracle::firstTouch(path, kUnit, field.obstacles[i]);
     if (!time || first < *time || (!(*time < first) && answer.who < i)) return;
     first = *time;
-    answer = {i, time->value(), cast.from + path.goneBefore(*time)};
+    answer = {i, time->toDouble(), path.before(*time)};
   });
   return answer;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "Bins.h"
-#include "Impact.h"
 #include "shared/values/Fixed.h"
 
 namespace bench {

@@ -13,7 +13,7 @@
 #include "Bins.h"
 #include "Contest.h"
 #include "ElapsedTime.h"
-#include "Glyphs.h"
+#include "RandomMask.h"
 #include "ResultLine.h"
 #include "Suite.h"
 #include "engine/events/EventOut.h"
@@ -23,6 +23,7 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/server/engine/oracle/OracleGeometry.h"
 
 namespace bench {
 namespace {
@@ -33,9 +34,9 @@ constexpr double kLargest = 12;
 
 class Sprite : public df::Object {
  public:
-  Sprite(const Glyphs& its_glyphs, df::Vector corner, df::Vector velocity) : glyphs(its_glyphs) {
-    setBox(df::Box(df::Vector(), glyphs.width(), glyphs.height()));
-    setMask(glyphs.rows());
+  Sprite(const oracle::Mask& its_mask, df::Vector corner, df::Vector velocity) : mask(its_mask) {
+    setBox(df::Box(df::Vector(), static_cast<double>(mask[0].size()), static_cast<double>(mask.size())));
+    setMask(mask);
     setPrecise();
     setPosition(corner);
     setVelocity(velocity);
@@ -53,10 +54,10 @@ class Sprite : public df::Object {
 
   df::FixedBox box() const {
     const df::FixedVector corner = df::toFixed(getPosition()).value_or(df::FixedVector{});
-    return {corner, {glyphs.width() * df::kFixedOne, glyphs.height() * df::kFixedOne}};
+    return {corner, {std::ssize(mask[0]) * df::kFixedOne, std::ssize(mask) * df::kFixedOne}};
   }
 
-  const Glyphs glyphs;
+  const oracle::Mask mask;
 
  private:
   void turn() {
@@ -76,18 +77,18 @@ class Crowd {
   explicit Crowd(int n) : m_scope(m_world) {
     m_world.log().setSink([](const std::string& /*line*/) {});
     naiad::SplitMix64 random(20240607);
-    std::vector<Glyphs> looks;
+    std::vector<oracle::Mask> looks;
     double area = 0;
     for (int i = 0; i < n; ++i) {
-      looks.push_back(Glyphs::random(random));
-      area += looks.back().width() * looks.back().height();
+      looks.push_back(randomMask(random));
+      area += static_cast<double>(looks.back()[0].size() * looks.back().size());
     }
     m_side = std::ceil(std::sqrt(area / kDensity));
     WM.setBoundary(df::Box(df::Vector(), m_side, m_side));
     const auto between = [&random](double least, double most) {
       return least + (most - least) * random.unit();
     };
-    for (const Glyphs& look : looks) {
+    for (const oracle::Mask& look : looks) {
       const double x = between(0, m_side);
       const double y = between(0, m_side);
       const double speed_x = between(-1, 1);
@@ -135,9 +136,9 @@ class Crowd {
              Verdict& verdict) const {
     std::vector<const df::Object*> right;
     bins.near(boxes[i], [&](std::uint32_t other) {
-      if (other == i || !areTouching(boxes[i], boxes[other])) return;
+      if (other == i || !oracle::boxIntersectsBox(boxes[i], boxes[other])) return;
       ++verdict.pairs;
-      if (shareCell(m_sprites[i]->glyphs, boxes[i], m_sprites[other]->glyphs, boxes[other]))
+      if (oracle::shareCell(boxes[i], m_sprites[i]->mask, boxes[other], m_sprites[other]->mask))
         right.push_back(m_sprites[other]);
     });
     std::vector<const df::Object*> ours;

@@ -1,10 +1,11 @@
 #include "Range.h"
 
-#include <utility>
+#include <optional>
 
 #include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/WorldLog.h"
+#include "tests/server/engine/oracle/OracleGeometry.h"
 
 namespace bench {
 namespace {
@@ -14,10 +15,10 @@ df::Box toBox(const df::FixedBox& box) {
 }
 
 // Returns the first time at which the mover collides with the other Object.
-std::optional<Fraction> meeting(const Path& path, const Flier& own, const df::FixedBox& obstacle,
-                                const Flier& other) {
-  if (!own.glyphs || !other.glyphs) return path.firstTouch(obstacle);
-  return firstShare(path, *own.glyphs, obstacle, *other.glyphs);
+std::optional<oracle::Time> meeting(const oracle::SweepPath& path, const Flier& own,
+                                    const df::FixedBox& obstacle, const Flier& other) {
+  if (own.mask.empty() || other.mask.empty()) return oracle::firstTouch(path, own.box, obstacle);
+  return oracle::firstShare(path, own.box, own.mask, obstacle, other.mask);
 }
 
 }  // namespace
@@ -70,8 +71,8 @@ void Range::set(const Flier& older, const Flier& younger) {
     m_p_shooters[i]->setBox(toBox(m_fliers[i].box));
     m_p_shooters[i]->setPosition(df::Vector::fromFixed(m_fliers[i].position));
     m_p_shooters[i]->setVelocity(df::Vector::fromFixed(m_fliers[i].velocity));
-    if (!m_fliers[i].glyphs) continue;
-    m_p_shooters[i]->setMask(m_fliers[i].glyphs->rows());
+    if (m_fliers[i].mask.empty()) continue;
+    m_p_shooters[i]->setMask(m_fliers[i].mask);
     m_p_shooters[i]->setPrecise();
   }
 }
@@ -88,11 +89,9 @@ Range::Turn Range::turnOf(int mover, const df::FixedVector* p_before, const df::
   const Flier& own = m_fliers[mover];
   const Flier& its = m_fliers[other];
   const df::FixedBox obstacle = its.boxAt(mover == 0 ? p_before[other] : p_after[other]);
-  const Path path(own.boxAt(p_before[mover]), own.velocity);
-  const std::optional<Fraction> time = meeting(path, own, obstacle, its);
-
-  df::FixedVector end = p_before[mover] + own.velocity;
-  if (time && block(mover)) end = p_before[mover] + path.goneBefore(*time);
+  const oracle::SweepPath path{p_before[mover], p_before[mover] + own.velocity};
+  const std::optional<oracle::Time> time = meeting(path, own, obstacle, its);
+  const df::FixedVector end = time && block(mover) ? path.before(*time) : path.to;
   const int expected = time ? 1 : 0;
   const bool is_told = m_p_shooters[mover]->as_mover == expected && m_p_shooters[other]->as_other == expected;
   return {time.has_value(), is_told && (!m_makes[mover].swept || p_after[mover] == end)};
@@ -138,7 +137,7 @@ void Range::tick(Account& account) {
     hit |= turn.must_meet;
     if (!turn.is_right) (turn.must_meet ? through : ghost) = true;
   }
-  const bool solid = !m_fliers[0].glyphs;  // shots may fly through holes
+  const bool solid = m_fliers[0].mask.empty();  // shots may fly through holes
   const bool all_swept = m_makes[0].swept && m_makes[1].swept;
   const bool told = m_p_shooters[0]->as_mover + m_p_shooters[1]->as_mover > 0;
   if (solid && all_swept && !told && haveSwapped(before, after)) through = true;
@@ -147,7 +146,7 @@ void Range::tick(Account& account) {
   account.through += through ? 1 : 0;
   account.ghosts += ghost ? 1 : 0;
   if (all_swept && !told) {
-    const Path relative(m_fliers[0].boxAt(before[0]), m_fliers[0].velocity - m_fliers[1].velocity);
+    const oracle::SweepPath relative{before[0], before[0] + m_fliers[0].velocity - m_fliers[1].velocity};
     if (meeting(relative, m_fliers[0], m_fliers[1].boxAt(before[1]), m_fliers[1])) ++account.simultaneous;
   }
 }
@@ -155,8 +154,8 @@ void Range::tick(Account& account) {
 bool areMet(const Flier& a, const Flier& b) {
   const df::FixedBox a_box = a.boxAt(a.position);
   const df::FixedBox b_box = b.boxAt(b.position);
-  if (!areTouching(a_box, b_box)) return false;
-  return !a.glyphs || !b.glyphs || shareCell(*a.glyphs, a_box, *b.glyphs, b_box);
+  if (!oracle::boxIntersectsBox(a_box, b_box)) return false;
+  return a.mask.empty() || b.mask.empty() || oracle::shareCell(a_box, a.mask, b_box, b.mask);
 }
 
 }  // namespace bench

@@ -10,13 +10,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
-#include "Glyphs.h"
-#include "Impact.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 #include "shared/values/Fixed.h"
+#include "tests/server/engine/oracle/OracleMask.h"
 
 namespace bench {
 
@@ -25,7 +23,7 @@ struct Flier {
   df::FixedBox box;  ///< box relative to the position
   df::FixedVector position;
   df::FixedVector velocity;
-  std::optional<Glyphs> glyphs;  ///< the characters, if the Object is precise
+  oracle::Mask mask;  ///< the characters if the Object is precise, otherwise empty
 
   df::FixedBox boxAt(df::FixedVector at) const { return df::translate(box, at); }
 };

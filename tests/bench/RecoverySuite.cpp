@@ -19,13 +19,13 @@ const Suite s_suite(
     "recovery", "a server or its world is killed while clients play, who come back; journals are measured",
     [](const Options& options) {
       for (const std::string& game : kGames) {
-        run("recovery", game, {"kills", game, options.quick ? "5" : "100", "1"});
-        run("long_round", game, {"long", game, options.quick ? "1" : "20", "1"});
-        run("take_over", game, {"worlds", game, options.quick ? "3" : "30", "1"});
+        run("recovery", game, {"kills", game, options.quick ? "5" : "100"});
+        run("long_round", game, {"long", game, options.quick ? "1" : "20"});
+        run("take_over", game, {"worlds", game, options.quick ? "3" : "30"});
         run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
       }
-      run("hangs", "hanging", {"hangs", options.quick ? "1" : "10", "1"});
-      run("scores", "scores", {"scores", options.quick ? "5" : "100", "1"});
+      run("hangs", "hanging", {"hangs", options.quick ? "1" : "10"});
+      run("scores", "scores", {"scores", options.quick ? "5" : "100"});
     });
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "ResultLine.h"
-#include "path/suite/Subprocess.h"
+#include "Worker.h"
 
 namespace bench {
 namespace {
@@ -53,7 +53,7 @@ std::vector<std::string> namesFrom(const char* variable, const std::vector<std::
 Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments) {
   std::vector<std::string> command{std::string(NAIAD_BINARY_DIR) + "/bin/" + program};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  const path::Finished finished = path::runProgram(command);
+  const Worker::End finished = runProgram(command);
   std::istringstream lines(finished.output);
   for (std::string line; std::getline(lines, line);) printLine(line);
   return {finished.code, finished.output.empty()};

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "RandomMask.h"
 #include "Range.h"
 #include "ResultLine.h"
 #include "Suite.h"
@@ -70,10 +71,10 @@ Flier shape(Shape shape, SplitMix64& random) {
   double width = 1;
   double height = 1;
   if (shape == Shape::SPRITE || shape == Shape::GLYPHS) {
-    const Glyphs glyphs = Glyphs::random(random);
-    width = glyphs.width();
-    height = glyphs.height();
-    if (shape == Shape::GLYPHS) flier.glyphs = glyphs;
+    const oracle::Mask mask = randomMask(random);
+    width = static_cast<double>(mask[0].size());
+    height = static_cast<double>(mask.size());
+    if (shape == Shape::GLYPHS) flier.mask = mask;
   }
   if (shape == Shape::THIN || shape == Shape::NEEDLE) width = 0.01;
   if (shape == Shape::NEEDLE) height = 0.01;

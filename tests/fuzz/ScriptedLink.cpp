@@ -154,7 +154,6 @@ bool ScriptedLink::takeEpoch(const std::string& bytes) {
 }
 
 void ScriptedLink::hear(const std::string& bytes) {
-  if (on_snapshot) on_snapshot(bytes);
   if (!takeEpoch(bytes)) return;
   const Exactly exactly(bytes);
   Snapshot snapshot;
@@ -174,7 +173,6 @@ void ScriptedLink::answer(bool arrives) {
   if (!arrives) return;
   const auto plain = m_server_link.open(clientPath(), sealed->packet, m_now);
   REQUIRE(plain.has_value());
-  if (on_update) on_update(std::string(*plain));
   const auto read = readUpdate(*plain, {m_sender.newestNumber(), m_publisher.tick(), 0});
   REQUIRE(read && read->acks.newest == m_acks.newest && read->acks.mask == m_acks.mask);
   if (read->acks.newest != 0) m_sender.acknowledge(read->acks);

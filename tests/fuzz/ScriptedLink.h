@@ -3,7 +3,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <string>
 
 #include "ScriptedWorld.h"
@@ -23,11 +22,6 @@ class ScriptedLink {
   void heal(int ticks);
   /// Requires that the replica has what the server believes it has, and draws the world's picture.
   void requireSame() const;
-
-  /// Called with each snapshot that arrives at the client, before it is read.
-  std::function<void(const std::string&)> on_snapshot;
-  /// Called with each update that arrives at the server.
-  std::function<void(const std::string&)> on_update;
 
  private:
   enum class Fate { kArrives, kLost, kUnanswered, kHeld, kDoubled, kDamaged };
@@ -54,7 +48,6 @@ class ScriptedLink {
   SealedLink m_client_link;
   SealedLink::Time m_now{std::chrono::hours(1)};
   std::deque<Sent> m_held;
-  std::deque<std::string> m_updates;  ///< sealed updates on their way to the server
   Replica m_replica;
   AckWindow m_acks;
   std::uint8_t m_epoch = 0;  ///< epoch of the replica

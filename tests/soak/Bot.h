@@ -46,7 +46,6 @@ class Bot {
   ClientSession* session() { return m_shown.session.get(); }
   /// Returns the player of the shown session; 0 without one.
   std::uint32_t player() const;
-  int number() const { return m_number; }
   /// Returns how many sent keys and clicks the game has not received.
   std::size_t unheard() const { return m_unheard.size(); }
   const Weather& weather() const { return m_weather; }

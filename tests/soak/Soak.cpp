@@ -14,6 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t kTicksPerSecond = 30;
+constexpr std::uint64_t kSeed = 1;
+constexpr int kCreatures = 200;
 constexpr int kParts = 4;  ///< parts of a tick, in each of which bots check timeouts
 /// Seconds without events at the end: the time in which streams recover from earlier events, and 5 s more.
 constexpr std::uint64_t kQuietSeconds = 20;
@@ -38,13 +40,13 @@ double mean(const std::vector<double>& values) {
 
 Soak::Soak(const SoakOptions& options)
     : m_options(options),
-      m_network(m_clock, LinkConditions{}, options.seed),
+      m_network(m_clock, LinkConditions{}, kSeed),
       m_scope(m_world),
-      m_host(m_world, m_clock, m_network, *makeEndpoint("10.0.0.1", 9876), options.seed + 1),
+      m_host(m_world, m_clock, m_network, *makeEndpoint("10.0.0.1", 9876), kSeed + 1),
       m_judge(m_world, m_host, m_tally, options.stride) {
   m_world.log().setSink([](const std::string&) {});
-  populateSoak(m_world, options.creatures, options.seed + 2, [this](const Heard& heard) { hear(heard); });
-  SplitMix64 seeds(options.seed + 3);
+  populateSoak(m_world, kCreatures, kSeed + 2, [this](const Heard& heard) { hear(heard); });
+  SplitMix64 seeds(kSeed + 3);
   const Bot::Place place{m_clock, m_network, m_host, *makeEndpoint("10.0.0.1", 9876), m_tally};
   for (int i = 0; i < options.bots; ++i) {
     m_bots.push_back(

@@ -17,8 +17,6 @@ namespace naiad::soak {
 struct SoakOptions {
   int bots = 64;
   double minutes = 60;
-  std::uint64_t seed = 1;
-  int creatures = 200;
   double haste = 1;          ///< factor for the rate of events
   std::uint32_t stride = 5;  ///< every `stride`-th tick of each player is compared
 };

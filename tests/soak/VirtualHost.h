@@ -34,10 +34,8 @@ class VirtualHost {
   void tick(const std::function<void()>& on_ticked);
 
   const Counters& counters() const { return m_counters; }
-  const Publisher& publisher() const { return m_publisher; }
   /// Returns the socket that carries all datagrams of the server.
   const DatagramSocket& socket() const { return *m_p_socket; }
-  const DatagramService& datagrams() const { return *m_datagrams; }
   /// Returns the session of a player; null if it has ended.
   Session* find(std::uint32_t player) const;
   /// Returns the number of players, including disconnected ones in their grace time.

@@ -2,50 +2,28 @@
 // server's.
 //
 // Exit codes: 0 success, 1 a failure (the last lines describe it), 2 invalid command line.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include "Soak.h"
 
 namespace {
 
-int usage() {
-  std::fprintf(stderr,
-               "naiad_soak [--bots N] [--minutes M] [--seed S] [--stride K] [--haste H] [--quick]\n"
-               "  --stride  look at each player's picture in every K-th tick (default 5)\n"
-               "  --haste   let things happen H times as often (default 1)\n"
-               "  --quick   12 bots, 1.5 minutes, every tick, 8 times as often\n");
-  return 2;
-}
-
 bool parse(int argc, char** argv, naiad::soak::SoakOptions& options) {
-  for (int i = 1; i < argc; ++i) {
+  if (argc == 2 && std::strcmp(argv[1], "--quick") == 0) {
+    options = {.bots = 12, .minutes = 1.5, .haste = 8, .stride = 1};
+    return true;
+  }
+  for (int i = 1; i < argc; i += 2) {
     const std::string name = argv[i];
-    if (name == "--quick") {
-      options.bots = 12;
-      options.minutes = 1.5;
-      options.haste = 8;
-      options.stride = 1;
-      continue;
-    }
-    if (i + 1 == argc) return false;
     char* end = nullptr;
-    const double value = std::strtod(argv[++i], &end);
-    if (*end != '\0' || value < 0) return false;
-    if (name == "--bots" && value >= 1 && value <= 1000) {
-      options.bots = static_cast<int>(value);
-    } else if (name == "--minutes") {
-      options.minutes = value;
-    } else if (name == "--seed") {
-      options.seed = static_cast<std::uint64_t>(value);
-    } else if (name == "--stride" && value >= 1) {
-      options.stride = static_cast<std::uint32_t>(value);
-    } else if (name == "--haste") {
-      options.haste = value;
-    } else {
-      return false;
-    }
+    const double value = i + 1 < argc ? std::strtod(argv[i + 1], &end) : -1;
+    if (value < 0 || *end != '\0' || (name != "--bots" && name != "--minutes")) return false;
+    if (name == "--minutes") options.minutes = value;
+    if (name == "--bots") options.bots = std::clamp(static_cast<int>(value), 1, 1000);
   }
   return true;
 }
@@ -54,7 +32,12 @@ bool parse(int argc, char** argv, naiad::soak::SoakOptions& options) {
 
 int main(int argc, char** argv) {
   naiad::soak::SoakOptions options;
-  if (!parse(argc, argv, options)) return usage();
+  if (!parse(argc, argv, options)) {
+    std::fprintf(stderr,
+                 "usage: naiad_soak [--bots N] [--minutes M]\n"
+                 "       naiad_soak --quick    12 bots, 1.5 minutes, every tick, 8 times as many events\n");
+    return 2;
+  }
   naiad::soak::Soak soak(options);
   return soak.run() ? 0 : 1;
 }

@@ -43,9 +43,9 @@ Crowd::Crowd(const std::string& link, const std::filesystem::path& folder, int p
 }
 
 std::vector<std::vector<long>> Crowd::ask(const std::string& command) {
-  for (capacity::Worker& worker : m_workers) worker.tell(command);
+  for (Worker& worker : m_workers) worker.tell(command);
   std::vector<std::vector<long>> answers;
-  for (capacity::Worker& worker : m_workers) answers.push_back(numbersOf(worker.hear(kPatience)));
+  for (Worker& worker : m_workers) answers.push_back(numbersOf(worker.hear(kPatience)));
   return answers;
 }
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/capacity/suite/Worker.h"
+#include "tests/bench/Worker.h"
 
 namespace bench {
 
@@ -56,7 +56,7 @@ class Crowd {
   std::vector<std::vector<long>> ask(const std::string& command);
   long sumOf(const std::string& command);
 
-  std::deque<capacity::Worker> m_workers;
+  std::deque<Worker> m_workers;
   int m_players;
 };
 

@@ -1,7 +1,4 @@
 // A process of players (Crowd.h).
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <deque>
@@ -128,17 +125,6 @@ class Players {
   int m_before = 0;  ///< losses of m_others when the server was killed
 };
 
-/// Appends the available input to `text`. False at the end of the input.
-bool readInput(std::string& text) {
-  pollfd ready{STDIN_FILENO, POLLIN, 0};
-  if (::poll(&ready, 1, 0) != 1) return true;
-  char part[256];
-  const ssize_t count = ::read(STDIN_FILENO, part, sizeof part);
-  if (count <= 0) return false;
-  text.append(part, static_cast<std::size_t>(count));
-  return true;
-}
-
 }  // namespace
 
 void serveCrowd(const std::string& link, const std::filesystem::path& known_servers, int first, int count) {
@@ -146,12 +132,10 @@ void serveCrowd(const std::string& link, const std::filesystem::path& known_serv
   std::string input;
   while (readInput(input)) {
     players.serve();
-    for (std::size_t end = input.find('\n'); end != std::string::npos; end = input.find('\n')) {
-      const std::string line = input.substr(0, end);
-      input.erase(0, end + 1);
-      std::printf("%s\n", players.answer(line).c_str());
+    while (const auto line = popLine(input)) {
+      std::printf("%s\n", players.answer(*line).c_str());
       std::fflush(stdout);
-      if (line == "leave") return;
+      if (*line == "leave") return;
     }
   }
 }

@@ -1,7 +1,6 @@
 #include "Fleet.h"
 
 #include <signal.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <cstdio>
@@ -61,9 +60,6 @@ std::uint64_t fact(const naiad::AdminAnswer& status, const std::string& name) {
 }  // namespace
 
 Fleet::Fleet(const FleetSetup& setup) : m_setup(setup) {
-  std::string name = fs::temp_directory_path() / "naiad-fleet-XXXXXX";
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-  m_folder = name;
   startBus();
   startDirectory();
   for (int i = 0; i < setup.servers; ++i) {
@@ -81,14 +77,6 @@ Fleet::Fleet(const FleetSetup& setup) : m_setup(setup) {
     return count == m_servers.size();
   };
   await("a server on the bus", m_folder, listed);
-}
-
-Fleet::~Fleet() {
-  m_servers.clear();
-  m_directory.reset();
-  m_bus.reset();
-  std::error_code error;
-  if (::getenv("NAIAD_FLEET_KEEP") == nullptr) fs::remove_all(m_folder, error);
 }
 
 void Fleet::startBus() {
@@ -138,7 +126,7 @@ void Fleet::startServer(std::size_t number) {
                                        "--address=127.0.0.1",
                                        "--public-host=127.0.0.1",
                                        "--lan=off",
-                                       "--game=" + m_setup.game,
+                                       "--game=hello",
                                        "--port=" + std::to_string(server.port),
                                        "--frame-time=" + std::to_string(1'000'000 / m_setup.hz),
                                        "--max-players=" + places,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Process.h"
+#include "tests/support/TempFolder.h"
 
 namespace bench {
 
@@ -17,16 +18,12 @@ struct FleetSetup {
   int max_players = 128;  ///< per server
   int bots = 1000;
   int hz = 30;
-  std::string game = "hello";
 };
 
 class Fleet {
  public:
   /// Starts all programs. Throws std::runtime_error if one does not start.
   explicit Fleet(const FleetSetup& setup);
-  ~Fleet();
-
-  std::uint16_t directoryPort() const { return m_directory_port; }
   /// Returns the link to the directory.
   std::string link() const;
   std::size_t size() const { return m_servers.size(); }
@@ -44,8 +41,8 @@ class Fleet {
   };
   /// Returns the ticks of all servers, including killed ones. Call after end().
   const Ticks& ticks() const { return m_ticks; }
-  /// Returns the folder with the logs, for finding errors.
-  std::filesystem::path folder() const { return m_folder; }
+  /// Returns the folder of the programs' files.
+  const std::filesystem::path& folder() const { return m_folder; }
 
  private:
   struct Server {
@@ -58,7 +55,7 @@ class Fleet {
   void startDirectory();
 
   FleetSetup m_setup;
-  std::filesystem::path m_folder;
+  naiad::test::TempFolder m_folder;
   std::uint16_t m_bus_port = 0;
   std::uint16_t m_directory_port = 0;
   std::optional<Process> m_bus;

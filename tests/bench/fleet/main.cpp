@@ -108,7 +108,7 @@ bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
 
 int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time) {
   bench::Fleet fleet(setup);
-  std::fprintf(stderr, "naiad_fleet: %zu servers, logs in %s\n", fleet.size(), fleet.folder().c_str());
+  std::fprintf(stderr, "naiad_fleet: %zu servers\n", fleet.size());
   bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, processesFor(setup.bots));
   Result result;
   if (!crowd.joinAll(kJoiningAtOnce, 300s)) {

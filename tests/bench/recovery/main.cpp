@@ -1,12 +1,12 @@
 // Kills dfserver while clients play its game, and measures the cost of a journal. Run by deploy/bench
 // recovery.
 //
-//   naiad_recovery kills GAME COUNT SEED   one line: the results of this many kills
-//   naiad_recovery long GAME COUNT SEED    kills in a round of ten minutes
-//   naiad_recovery scores COUNT SEED       kills in a game that adds scores, which the server must keep
-//   naiad_recovery worlds GAME COUNT SEED  kills of the world's process while the server lives
-//   naiad_recovery hangs COUNT SEED        hangs of worlds, with the server's own --tick-timeout
-//   naiad_recovery journal GAME TICKS      a line each: size of a journal, cost of a tick, verifying it
+//   naiad_recovery kills GAME COUNT    one line: the results of this many kills
+//   naiad_recovery long GAME COUNT     kills in a round of ten minutes
+//   naiad_recovery scores COUNT        kills in a game that adds scores, which the server must keep
+//   naiad_recovery worlds GAME COUNT   kills of the world's process while the server lives
+//   naiad_recovery hangs COUNT         hangs of worlds, with the server's own --tick-timeout
+//   naiad_recovery journal GAME TICKS  a line each: size of a journal, cost of a tick, verifying it
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -33,6 +33,7 @@ using naiad::test::RecoveryRun;
 using std::chrono::milliseconds;
 
 constexpr int kPlayers = 4;
+constexpr std::uint64_t kSeed = 1;
 constexpr const char* kHangingModule = NAIAD_BINARY_DIR "/../lib/hanging_module.so";
 /// Kills per round. They are limited, because each compares pictures by replaying the round from its
 /// beginning.
@@ -113,9 +114,9 @@ void runRound(const std::string& game, int kills, std::mt19937_64& random, Total
 }
 
 /// Kills in a round of ten minutes. The whole round is replayed after each kill.
-Total runLongRound(const std::string& game, int kills, std::uint64_t seed) {
+Total runLongRound(const std::string& game, int kills) {
   Total total;
-  RecoveryRun run(game, kPlayers, seed, kShortFrame);
+  RecoveryRun run(game, kPlayers, kSeed, kShortFrame);
   if (!run.playUntilTurn(kLongTurns, kReplayTimeout)) throw std::runtime_error("the round does not get on");
   for (int i = 0; i < kills; ++i) {
     run.play(milliseconds(300));
@@ -138,15 +139,15 @@ int report(const char* suite, const std::string& game, const Total& total) {
   return good ? 0 : 1;
 }
 
-Total killAll(const std::string& game, int count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+Total killAll(const std::string& game, int count) {
+  std::mt19937_64 random(kSeed);
   Total total;
   while (total.kills < count) runRound(game, std::min(kKillsInARound, count - total.kills), random, total);
   return total;
 }
 
-int scores(int count, std::uint64_t seed) {
-  const Total total = killAll(naiad::test::kScoresModule, count, seed);
+int scores(int count) {
+  const Total total = killAll(naiad::test::kScoresModule, count);
   const bool good = total.scores > 0 && total.missing == 0 && total.foreign == 0 &&
                     total.verified == total.rounds && total.returned == total.players;
   std::printf(
@@ -157,8 +158,8 @@ int scores(int count, std::uint64_t seed) {
 }
 
 /// Kills worlds of one round at any time since their newest copy.
-int worlds(const std::string& game, int count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+int worlds(const std::string& game, int count) {
+  std::mt19937_64 random(kSeed);
   std::vector<long> took;
   RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
   for (int i = 0; i < count; ++i) {
@@ -177,8 +178,8 @@ int worlds(const std::string& game, int count, std::uint64_t seed) {
 }
 
 /// Tests the first hang of each round, some seconds after the newest copy.
-int hangs(int count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+int hangs(int count) {
+  std::mt19937_64 random(kSeed);
   std::vector<long> took;
   int verified = 0;
   for (int i = 0; i < count; ++i) {
@@ -215,20 +216,16 @@ int journal(const std::string& game, std::uint32_t ticks) {
 
 /// Returns the exit code; 2 for invalid arguments.
 int start(const std::vector<std::string>& words) {
-  const auto count = [&](std::size_t word) { return std::atoi(words[word].c_str()); };
-  const auto seed = [&](std::size_t word) { return std::strtoull(words[word].c_str(), nullptr, 10); };
   const std::string what = words.empty() ? "" : words[0];
-  if (words.size() == 4 && what == "kills")
-    return report("recovery", words[1], killAll(words[1], count(2), seed(3)));
-  if (words.size() == 4 && what == "long")
-    return report("long_round", words[1], runLongRound(words[1], count(2), seed(3)));
-  if (words.size() == 3 && what == "scores") return scores(count(1), seed(2));
-  if (words.size() == 4 && what == "worlds") return worlds(words[1], count(2), seed(3));
-  if (words.size() == 3 && what == "hangs") return hangs(count(1), seed(2));
-  if (words.size() == 3 && what == "journal") return journal(words[1], static_cast<std::uint32_t>(count(2)));
-  std::fprintf(stderr,
-               "usage: naiad_recovery kills GAME COUNT SEED | long GAME COUNT SEED | scores COUNT SEED | "
-               "worlds GAME COUNT SEED | hangs COUNT SEED | journal GAME TICKS\n");
+  const int count = words.empty() ? 0 : std::atoi(words.back().c_str());
+  if (words.size() == 2 && what == "scores") return scores(count);
+  if (words.size() == 2 && what == "hangs") return hangs(count);
+  if (words.size() == 3 && what == "kills") return report("recovery", words[1], killAll(words[1], count));
+  if (words.size() == 3 && what == "long")
+    return report("long_round", words[1], runLongRound(words[1], count));
+  if (words.size() == 3 && what == "worlds") return worlds(words[1], count);
+  if (words.size() == 3 && what == "journal") return journal(words[1], static_cast<std::uint32_t>(count));
+  std::fprintf(stderr, "usage: naiad_recovery scores|hangs COUNT | kills|long|worlds|journal GAME COUNT\n");
   return 2;
 }
 

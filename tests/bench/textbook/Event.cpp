@@ -1,4 +1,4 @@
-#include "Event.h"
+#include "Book.h"
 
 namespace textbook {
 

@@ -1,4 +1,4 @@
-#include "EventCollision.h"
+#include "Book.h"
 
 namespace textbook {
 

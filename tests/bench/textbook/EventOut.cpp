@@ -1,4 +1,4 @@
-#include "EventOut.h"
+#include "Book.h"
 
 namespace textbook {
 

@@ -1,6 +1,4 @@
-#include "Object.h"
-
-#include "WorldManager.h"
+#include "Book.h"
 
 namespace textbook {
 
@@ -21,10 +19,6 @@ Object::~Object() {
 
 void Object::setType(std::string new_type) {
   m_type = new_type;
-}
-
-std::string Object::getType() const {
-  return m_type;
 }
 
 void Object::setPosition(Vector new_pos) {

@@ -1,7 +1,7 @@
-#include "ObjectList.h"
-
 #include <cstdlib>
 #include <cstring>
+
+#include "Book.h"
 
 namespace textbook {
 

@@ -1,11 +1,8 @@
 #include <cstdint>
 
 #include "../Scene.h"
-#include "EventCollision.h"
-#include "EventOut.h"
-#include "Object.h"
+#include "Book.h"
 #include "Textbook.h"
-#include "WorldManager.h"
 
 namespace textbook {
 namespace {

@@ -1,6 +1,6 @@
-#include "Vector.h"
-
 #include <cmath>
+
+#include "Book.h"
 
 namespace textbook {
 

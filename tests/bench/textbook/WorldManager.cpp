@@ -1,8 +1,4 @@
-#include "WorldManager.h"
-
-#include "EventCollision.h"
-#include "EventOut.h"
-#include "utility.h"
+#include "Book.h"
 
 namespace textbook {
 
@@ -16,7 +12,6 @@ WorldManager& WorldManager::getInstance() {
 void WorldManager::shutDown() {
   ObjectList all = m_updates;
   m_updates.clear();
-  m_deletions.clear();
   for (int i = 0; i < all.getCount(); i++) delete all[i];
 }
 
@@ -30,13 +25,6 @@ int WorldManager::insertObject(Object* p_o) {
 
 int WorldManager::removeObject(Object* p_o) {
   return m_updates.remove(p_o);
-}
-
-int WorldManager::markForDelete(Object* p_o) {
-  for (int i = 0; i < m_deletions.getCount(); i++) {
-    if (m_deletions[i] == p_o) return 0;
-  }
-  return m_deletions.insert(p_o);
 }
 
 int WorldManager::getCount() const {
@@ -60,9 +48,6 @@ void WorldManager::update() {
     // If Object should change position, then move.
     if (new_pos != m_updates[i]->getPosition()) moveObject(m_updates[i], new_pos);
   }
-  // Delete all marked Objects.
-  for (int i = 0; i < m_deletions.getCount(); i++) delete m_deletions[i];
-  m_deletions.clear();
 }
 
 ObjectList WorldManager::getCollisions(const Object* p_o, Vector where) {

@@ -1,6 +1,6 @@
-#include "utility.h"
-
 #include <cmath>
+
+#include "Book.h"
 
 namespace textbook {
 

@@ -8,7 +8,6 @@
 //   end       it ends                                      figures …, a line for each picture, done
 //   sink      receive datagrams without answering; write   sunk
 //             their sizes to FOLDER/sizes and the bots' addresses to FOLDER/endpoints
-#include <fcntl.h>
 #include <sys/epoll.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -27,6 +26,7 @@
 #include "Checker.h"
 #include "LightBot.h"
 #include "shared/net/stream/TlsContext.h"
+#include "tests/bench/Worker.h"
 
 namespace {
 
@@ -45,9 +45,7 @@ class Crowd {
       : m_harbour{m_context, naiad::TlsContext::forClient(), host, port},
         m_fingerprint(fingerprint),
         m_folder(std::move(folder)),
-        m_epoll(epoll_create1(EPOLL_CLOEXEC)) {
-    fcntl(STDIN_FILENO, F_SETFL, fcntl(STDIN_FILENO, F_GETFL) | O_NONBLOCK);
-  }
+        m_epoll(epoll_create1(EPOLL_CLOEXEC)) {}
 
   void run() {
     while (!m_ended) {
@@ -178,20 +176,12 @@ class Crowd {
   }
 
   void readCommands() {
-    std::array<char, 256> bytes;
-    for (;;) {
-      const ssize_t size = read(STDIN_FILENO, bytes.data(), bytes.size());
-      if (size == 0) m_ended = true;
-      if (size <= 0) break;
-      m_input.append(bytes.data(), static_cast<std::size_t>(size));
-    }
-    for (std::size_t end = m_input.find('\n'); end != std::string::npos; end = m_input.find('\n')) {
-      const std::string line = m_input.substr(0, end);
-      m_input.erase(0, end + 1);
-      if (line.starts_with("go ")) go(std::stoul(line.substr(3)));
-      if (line == "begin") begin();
-      if (line == "end") this->end();
-      if (line == "sink") sink();
+    if (!bench::readInput(m_input)) m_ended = true;
+    while (const auto line = bench::popLine(m_input)) {
+      if (line->starts_with("go ")) go(std::stoul(line->substr(3)));
+      if (*line == "begin") begin();
+      if (*line == "end") end();
+      if (*line == "sink") sink();
     }
   }
 

@@ -120,18 +120,11 @@ class Measurement {
   void end() {
     const naiad::Counters& now = m_host.context().counters;
     const naiad::TickTimes& times = m_host.endpoint().network().tickTimes();
-    std::printf(
-        "figures ticks=%llu late_ticks=%llu tick_p50_us=%lld tick_p99_us=%lld snapshots=%llu "
-        "snapshot_bytes=%llu "
-        "skipped_ticks=%llu detached=%llu\n",
-        static_cast<unsigned long long>(now.ticks - m_before.ticks),
-        static_cast<unsigned long long>(now.late_ticks - m_before.late_ticks),
-        static_cast<long long>(times.quantile(0.5).count()),
-        static_cast<long long>(times.quantile(0.99).count()),
-        static_cast<unsigned long long>(now.snapshots - m_before.snapshots),
-        static_cast<unsigned long long>(now.snapshot_bytes - m_before.snapshot_bytes),
-        static_cast<unsigned long long>(now.skipped_ticks - m_before.skipped_ticks),
-        static_cast<unsigned long long>(now.detached - m_before.detached));
+    std::printf("figures ticks=%llu late_ticks=%llu tick_p50_us=%lld tick_p99_us=%lld\n",
+                static_cast<unsigned long long>(now.ticks - m_before.ticks),
+                static_cast<unsigned long long>(now.late_ticks - m_before.late_ticks),
+                static_cast<long long>(times.quantile(0.5).count()),
+                static_cast<long long>(times.quantile(0.99).count()));
     for (const Picture& picture : m_pictures) {
       std::printf("picture %u %u %llx\n", picture.tick, picture.player,
                   static_cast<unsigned long long>(picture.sum));

@@ -11,7 +11,7 @@
 
 #include "../Punctual.h"
 #include "../SharedFile.h"
-#include "../link/LinkCounters.h"
+#include "../link/Direction.h"
 #include "../scene/Truth.h"
 #include "Quantile.h"
 #include "Watch.h"
@@ -113,13 +113,13 @@ int judge(const Options& options) {
                              " %:" + textOf(terminal.picture()));
   }
   watch.until(monotonicNow() + seconds(options.warm_up_s));
-  const std::uint64_t down = link->down.bytes;
-  const std::uint64_t up = link->up.bytes;
+  const std::uint64_t down = link->down;
+  const std::uint64_t up = link->up;
   const Nanoseconds from = monotonicNow();
   const Nanoseconds to = from + seconds(options.measure_s);
   watch.until(to);
-  print("kbit_s_down", static_cast<double>(link->down.bytes - down) * 8 / 1000 / options.measure_s);
-  print("kbit_s_up", static_cast<double>(link->up.bytes - up) * 8 / 1000 / options.measure_s);
+  print("kbit_s_down", static_cast<double>(link->down - down) * 8 / 1000 / options.measure_s);
+  print("kbit_s_up", static_cast<double>(link->up - up) * 8 / 1000 / options.measure_s);
   watch.until(to + kDrain);
 
   report(watch, from, to);

@@ -9,19 +9,18 @@
 #include <cstdint>
 
 #include "Direction.h"
-#include "LinkCounters.h"
 
 namespace bench::path {
 
 class Link {
  public:
   /// `server_tun` and `client_tun` must be non-blocking; `counters` must outlive the link.
-  Link(int server_tun, int client_tun, const DirectionOptions& down, const DirectionOptions& up,
-       LinkCounters& counters)
+  Link(int server_tun, int client_tun, const naiad::LinkConditions& conditions, bool blocks_udp,
+       std::uint64_t seed, LinkCounters& counters)
       : m_server_tun(server_tun),
         m_client_tun(client_tun),
-        m_down(down, counters.down),
-        m_up(up, counters.up),
+        m_down(conditions, blocks_udp, 2 * seed, counters.down),
+        m_up(conditions, blocks_udp, 2 * seed + 1, counters.up),
         m_counters(counters) {}
 
   /// Waits for packets and delivers those that are due, for at most `limit`.

@@ -1,4 +1,4 @@
-// naiad_link: runs a server and a client in two networks, joined by a link with delay, jitter, loss and a
+// naiad_link: runs a server and a client in two networks, joined by a link with delay, loss and a
 // rate. Both ends are tun devices, and the packets pass through this process. So any protocol can be
 // measured, by all users that may create namespaces.
 //
@@ -43,11 +43,10 @@ struct Options {
   std::string server_address = "10.77.0.1";
   std::string client_address = "10.77.0.2";
   double delay_ms = 0;
-  double jitter_ms = 0;
   double loss_percent = 0;
   double rate_kbit_s = 0;
   std::uint64_t seed = 1;
-  std::string block_udp = "none";
+  bool block_udp = false;
   std::string counters;
   std::string ready_file;
   std::string server_log = "/dev/null";
@@ -55,15 +54,10 @@ struct Options {
   std::vector<std::string> client;
 };
 
-DirectionOptions direction(const Options& options, const char* name, std::uint64_t seed) {
-  DirectionOptions result;
-  result.delay = Nanoseconds(static_cast<std::int64_t>(options.delay_ms * 1e6));
-  result.jitter = Nanoseconds(static_cast<std::int64_t>(options.jitter_ms * 1e6));
-  result.loss = options.loss_percent / 100;
-  result.rate_bit_s = static_cast<std::int64_t>(options.rate_kbit_s * 1000);
-  result.block_udp = options.block_udp == "both" || options.block_udp == name;
-  result.seed = seed;
-  return result;
+naiad::LinkConditions conditionsOf(const Options& options) {
+  return {.delay = std::chrono::microseconds(static_cast<std::int64_t>(options.delay_ms * 1000)),
+          .loss = options.loss_percent / 100,
+          .rate = static_cast<std::uint64_t>(options.rate_kbit_s * 1000 / 8)};
 }
 
 /// Collects all ended children. Returns the exit code of `child` if it has ended.
@@ -91,8 +85,8 @@ int carry(const Options& options) {
   const NetworkNamespace server_network(options.server_address, options.client_address);
   if (options.check) return 0;
   const auto counters = SharedFile<LinkCounters>::create(options.counters);
-  Link link(server_network.tun(), client_network.tun(), direction(options, "down", options.seed * 2),
-            direction(options, "up", options.seed * 2 + 1), *counters);
+  Link link(server_network.tun(), client_network.tun(), conditionsOf(options), options.block_udp,
+            options.seed, *counters);
   becomePunctual();
   const pid_t server = server_network.start(options.server, options.server_log);
   const Nanoseconds late = monotonicNow() + kServerStarts;
@@ -168,14 +162,12 @@ int start(int argc, char** argv) {
   app.add_option("--client-address", options.client_address, "IPv4 address of the client's end");
   app.add_option("--delay-ms", options.delay_ms, "One way, in both directions")
       ->check(CLI::Range(0.0, 10000.0));
-  app.add_option("--jitter-ms", options.jitter_ms, "Up to so much more")->check(CLI::Range(0.0, 10000.0));
   app.add_option("--loss-percent", options.loss_percent, "Each way, of each packet")
       ->check(CLI::Range(0.0, 100.0));
   app.add_option("--rate-kbit", options.rate_kbit_s, "Each way, with a 64 KiB drop-tail queue; 0: no limit")
       ->check(CLI::Range(0.0, 1e7));
-  app.add_option("--seed", options.seed, "Of loss and jitter");
-  app.add_option("--block-udp", options.block_udp, "none, both, up or down")
-      ->check(CLI::IsMember({"none", "both", "up", "down"}));
+  app.add_option("--seed", options.seed, "Of the losses");
+  app.add_flag("--block-udp", options.block_udp, "Drop UDP, in both directions");
   app.add_option("--counters", options.counters, "File for the counters (LinkCounters)");
   app.add_option("--ready-file", options.ready_file, "The client starts when this file is there");
   app.add_option("--server-log", options.server_log, "File for what the server prints");

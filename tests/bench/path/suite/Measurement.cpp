@@ -5,7 +5,7 @@
 
 #include "../judge/Quantile.h"
 #include "Peers.h"
-#include "Subprocess.h"
+#include "Worker.h"
 #include "tests/support/TempFolder.h"
 
 namespace bench::path {
@@ -36,7 +36,7 @@ Words linkCommand(const Place& place, const Peer& peer, const Condition& conditi
   append(words, {"--delay-ms", std::to_string(condition.rtt_ms / 2)});
   append(words, {"--loss-percent", std::to_string(condition.loss_percent)});
   append(words, {"--rate-kbit", std::to_string(condition.rate_kbit_s)});
-  if (!peer.udp) append(words, {"--block-udp", "both"});
+  if (!peer.udp) words.emplace_back("--block-udp");
   words.emplace_back(kSeparator);
   append(words, peer.server);
   words.emplace_back(kSeparator);
@@ -63,7 +63,7 @@ Figures runOnce(const std::string& program, const Condition& condition, const Ef
   const Peer peer = preparePeer(program, place);
   Words command = linkCommand(place, peer, condition);
   append(command, judgeCommand(place, peer, effort));
-  const Finished finished = runProgram(command);
+  const Worker::End finished = runProgram(command);
   if (finished.code != 0) throw std::runtime_error(program + " could not be measured");
   return figuresOf(finished.output);
 }
@@ -71,7 +71,7 @@ Figures runOnce(const std::string& program, const Condition& condition, const Ef
 }  // namespace
 
 std::optional<std::string> notAllowedBecause() {
-  const Finished finished = runProgram({kBin + "/naiad_link", "--check"});
+  const Worker::End finished = runProgram({kBin + "/naiad_link", "--check"});
   if (finished.code == 0) return std::nullopt;
   if (finished.code != kNotAllowed) return "naiad_link-failed";
   return finished.output.substr(0, finished.output.find('\n'));

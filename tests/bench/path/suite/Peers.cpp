@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "Subprocess.h"
+#include "Worker.h"
 
 namespace bench::path {
 namespace {

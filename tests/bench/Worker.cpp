@@ -8,14 +8,16 @@
 #include <unistd.h>
 
 #include <array>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
-#include "../../path/Argv.h"
-#include "../Core.h"
+#include "capacity/Core.h"
+#include "path/Argv.h"
 
 extern char** environ;
 
-namespace bench::capacity {
+namespace bench {
 
 Worker::Worker(const std::vector<std::string>& command) {
   std::array<int, 2> in{};
@@ -39,12 +41,13 @@ Worker::Worker(const std::vector<std::string>& command) {
 }
 
 Worker::~Worker() {
-  close(m_in);
+  if (m_in >= 0) close(m_in);
   close(m_out);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; m_pid > 0 && i < 300; ++i) {
     if (waitpid(m_pid, nullptr, WNOHANG) != 0) return;
     usleep(10'000);
   }
+  if (m_pid <= 0) return;
   kill(m_pid, SIGKILL);
   waitpid(m_pid, nullptr, 0);
 }
@@ -56,25 +59,25 @@ void Worker::tell(const std::string& line) {
   }
 }
 
+/// Appends the next output to m_heard. False at its end.
+bool Worker::read() {
+  std::array<char, 65536> bytes;
+  const ssize_t size = ::read(m_out, bytes.data(), bytes.size());
+  if (size > 0) m_heard.append(bytes.data(), static_cast<std::size_t>(size));
+  return size > 0;
+}
+
 std::string Worker::hear(std::chrono::seconds patience) {
   const auto end = std::chrono::steady_clock::now() + patience;
   for (;;) {
-    const std::size_t newline = m_heard.find('\n');
-    if (newline != std::string::npos) {
-      std::string line = m_heard.substr(0, newline);
-      m_heard.erase(0, newline + 1);
-      return line;
-    }
+    if (auto line = popLine(m_heard)) return *line;
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
     pollfd wait{m_out, POLLIN, 0};
     if (left.count() <= 0 || poll(&wait, 1, static_cast<int>(left.count())) <= 0) {
       throw std::runtime_error("a program of the measurement says nothing");
     }
-    std::array<char, 65536> bytes;
-    const ssize_t size = read(m_out, bytes.data(), bytes.size());
-    if (size <= 0) throw std::runtime_error("a program of the measurement has ended");
-    m_heard.append(bytes.data(), static_cast<std::size_t>(size));
+    if (!read()) throw std::runtime_error("a program of the measurement has ended");
   }
 }
 
@@ -88,7 +91,45 @@ std::string Worker::ask(const std::string& line, const std::string& word, std::c
 }
 
 double Worker::cpu() const {
-  return cpuMicros(m_clock);
+  return capacity::cpuMicros(m_clock);
 }
 
-}  // namespace bench::capacity
+Worker::End Worker::finish() {
+  close(std::exchange(m_in, -1));
+  while (read()) {
+  }
+  int status = 0;
+  waitpid(std::exchange(m_pid, 0), &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), std::move(m_heard)};
+}
+
+std::map<std::string, double> figuresOf(const std::string& line) {
+  std::map<std::string, double> figures;
+  std::istringstream words(line);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos) figures[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
+  }
+  return figures;
+}
+
+std::optional<std::string> popLine(std::string& text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos) return std::nullopt;
+  std::string line = text.substr(0, end);
+  text.erase(0, end + 1);
+  return line;
+}
+
+bool readInput(std::string& text) {
+  pollfd ready{STDIN_FILENO, POLLIN, 0};
+  while (poll(&ready, 1, 0) == 1) {
+    std::array<char, 256> bytes;
+    const ssize_t size = read(STDIN_FILENO, bytes.data(), bytes.size());
+    if (size <= 0) return false;
+    text.append(bytes.data(), static_cast<std::size_t>(size));
+  }
+  return true;
+}
+
+}  // namespace bench
