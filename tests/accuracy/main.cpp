@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "Measurement.h"
-#include "Progress.h"
 #include "Records.h"
 #include "ResultLine.h"
 #include "shared/options/Options.h"
@@ -19,7 +19,6 @@ namespace {
 constexpr const char* kUsage =
     "usage: naiad_lab [--quick] [--method NAME]... [--substeps N]... [--runs N] [--output DIR] [PROBLEM...]\n"
     "       naiad_lab --list\n"
-    "       naiad_lab --work PROBLEM CASE METHOD TICKS\n"
     "\n"
     "  PROBLEM        a number or a name (default: all)\n"
     "  --quick        only 1, 4 and 16 sub-steps, and no long runs, to check that the problems work\n"
@@ -28,7 +27,6 @@ constexpr const char* kUsage =
     "  --runs N       timed runs of each point, 2 or more (default: 5; 3 with thousands of bodies)\n"
     "  --output DIR   folder for points.csv and problems.json (default: none are written)\n"
     "  --list         list the problems and methods\n"
-    "  --work         run one case for this many ticks and print nothing, for valgrind\n"
     "\n"
     "Exit codes: 0 measured, 1 the product missed a target, or something failed, 2 wrong usage.\n";
 
@@ -44,7 +42,7 @@ struct Options {
   std::string output;
   std::vector<const lab::Method*> methods;
   std::vector<int> substeps;  // empty: all
-  std::vector<lab::ProblemEntry> problems;
+  std::vector<lab::Problem> problems;
 };
 
 int usage(std::FILE* out, int code) {
@@ -54,8 +52,8 @@ int usage(std::FILE* out, int code) {
 
 int list() {
   std::puts("problems:");
-  for (const lab::ProblemEntry& entry : lab::allProblems()) {
-    std::printf("  %-14s %s\n", entry.id.c_str(), entry.name.c_str());
+  for (const lab::Problem& problem : lab::Problem::all()) {
+    std::printf("  %-14s %s\n", problem.id.c_str(), problem.name.c_str());
   }
   std::puts("methods:");
   for (const lab::Method* method : lab::Method::all()) {
@@ -92,9 +90,10 @@ struct Run {
   lab::Measurement measurement;
 };
 
-std::vector<Run> runsOf(const Options& options, const lab::Problem& problem) {
+std::vector<Run> runsOf(const Options& options, const lab::Problem& problem,
+                        const std::vector<lab::Case>& cases) {
   std::vector<Run> runs;
-  for (const lab::Case& its_case : problem.cases) {
+  for (const lab::Case& its_case : cases) {
     if (its_case.long_run && options.quick) continue;
     for (const lab::Method* method : options.methods) {
       for (const int substeps : substepCounts(options, problem, its_case, *method)) {
@@ -138,21 +137,12 @@ void compareTimes(const lab::Problem& problem, const std::vector<Run>& runs, lab
 }
 
 void run(const Options& options, lab::Records& records) {
-  lab::Progress progress;
-  for (std::size_t i = 0; i < options.problems.size(); ++i) {
-    const lab::ProblemEntry& entry = options.problems[i];
-    const double share = 1 / static_cast<double>(options.problems.size());
-    const std::string name = entry.id + " " + entry.name;
-    progress.show(share * static_cast<double>(i), name + ": the reference");
-    const lab::Problem problem = entry.make();
-    records.describe(problem);
-    std::vector<Run> runs = runsOf(options, problem);
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-      Run& run = runs[k];
-      const double part = static_cast<double>(k) / static_cast<double>(runs.size());
-      progress.show(
-          share * (static_cast<double>(i) + part),
-          name + " " + run.its_case->name + ": " + run.method->label + " ×" + std::to_string(run.substeps));
+  for (const lab::Problem& problem : options.problems) {
+    bench::progress(problem.id + " " + problem.name);
+    const std::vector<lab::Case> cases = problem.make();
+    records.describe(problem, cases);
+    std::vector<Run> runs = runsOf(options, problem, cases);
+    for (Run& run : runs) {
       const int usual = run.its_case->is_crowd ? kCrowdRuns : kRuns;
       run.measurement = lab::measureApart(*run.its_case, *run.method, run.substeps,
                                           options.runs > 0 ? options.runs : usual, kMaxCpuSeconds);
@@ -163,29 +153,32 @@ void run(const Options& options, lab::Records& records) {
   }
 }
 
-const lab::ProblemEntry* findProblem(const std::vector<lab::ProblemEntry>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const lab::ProblemEntry& entry) {
-    return entry.id == name || entry.name == name;
-  });
-  return found == all.end() ? nullptr : &*found;
-}
-
-const lab::Method* findMethod(const std::string& name) {
-  for (const lab::Method* method : lab::Method::all()) {
-    if (method->name == name) return method;
+// Appends the element that has this name to `found`. Prints a message and returns false if no element has it.
+template <class Found>
+bool addNamed(const char* kind, const std::string& name, const std::map<std::string, Found>& all,
+              std::vector<Found>& found) {
+  const auto it = all.find(name);
+  if (it != all.end()) {
+    found.push_back(it->second);
+    return true;
   }
-  return nullptr;
-}
-
-// `kind` is the kind of thing that the names belong to.
-void sayUnknown(const char* kind, const std::string& name, const std::vector<std::string>& names) {
+  std::vector<std::string> names{"--help",  "--list", "--method",  "--output",
+                                 "--quick", "--runs", "--substeps"};
+  for (const auto& [other, element] : all) names.push_back(other);
   const std::string near = naiad::nearestName(name, names);
   std::fprintf(stderr, "naiad_lab: there is no %s '%s'%s\n", kind, name.c_str(),
                near.empty() ? "" : ("; '" + near + "' is the nearest").c_str());
+  return false;
 }
 
 // Parses the arguments. For an invalid one, prints a message and returns false.
 bool read(const std::vector<std::string>& arguments, Options& options) {
+  std::map<std::string, const lab::Method*> methods;
+  for (const lab::Method* method : lab::Method::all()) methods[method->name] = method;
+  std::map<std::string, lab::Problem> problems;
+  for (const lab::Problem& problem : lab::Problem::all()) {
+    problems[problem.id] = problems[problem.name] = problem;
+  }
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     const bool has_value = i + 1 < arguments.size();
@@ -198,55 +191,20 @@ bool read(const std::vector<std::string>& arguments, Options& options) {
     } else if (argument == "--substeps" && has_value) {
       options.substeps.push_back(std::atoi(arguments[++i].c_str()));
     } else if (argument == "--method" && has_value) {
-      const lab::Method* method = findMethod(arguments[++i]);
-      if (method == nullptr) {
-        std::vector<std::string> names;
-        for (const lab::Method* other : lab::Method::all()) names.push_back(other->name);
-        sayUnknown("method", arguments[i], names);
-        return false;
-      }
-      options.methods.push_back(method);
-    } else {
-      const auto all = lab::allProblems();
-      const lab::ProblemEntry* found = findProblem(all, argument);
-      if (found == nullptr) {
-        std::vector<std::string> names{"--help",  "--list", "--method",  "--output",
-                                       "--quick", "--runs", "--substeps"};
-        for (const lab::ProblemEntry& entry : all) names.insert(names.end(), {entry.id, entry.name});
-        sayUnknown("problem", argument, names);
-        return false;
-      }
-      options.problems.push_back(*found);
+      if (!addNamed("method", arguments[++i], methods, options.methods)) return false;
+    } else if (!addNamed("problem", argument, problems, options.problems)) {
+      return false;
     }
   }
   if (options.methods.empty()) options.methods = lab::Method::all();
-  if (options.problems.empty()) options.problems = lab::allProblems();
+  if (options.problems.empty()) options.problems = lab::Problem::all();
   return true;
-}
-
-// Runs one case for a number of ticks without measuring.
-int work(const std::vector<std::string>& arguments) {
-  if (arguments.size() != 5) return usage(stderr, 2);
-  const auto all = lab::allProblems();
-  const lab::ProblemEntry* entry = findProblem(all, arguments[1]);
-  const lab::Method* method = findMethod(arguments[3]);
-  const int ticks = std::atoi(arguments[4].c_str());
-  if (entry == nullptr || method == nullptr || ticks < 1) return usage(stderr, 2);
-  for (const lab::Case& its_case : entry->make().cases) {
-    if (its_case.name != arguments[2]) continue;
-    const lab::SimulationPtr simulation = method->build(its_case.scene);
-    if (simulation == nullptr) return 1;
-    for (int tick = 0; tick < ticks; ++tick) simulation->step(its_case.scene.tick, 1);
-    return 0;
-  }
-  return usage(stderr, 2);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments[0] == "--work") return work(arguments);
   for (const std::string& argument : arguments) {
     if (argument == "-h" || argument == "--help") return usage(stdout, 0);
     if (argument == "--list") return list();

@@ -14,8 +14,6 @@
 #include "Contest.h"
 #include "ResultLine.h"
 #include "Suite.h"
-#include "physics/Box2dSimulation.h"
-#include "physics/NaiadSimulation.h"
 #include "physics/Run.h"
 #include "physics/Scenes.h"
 

@@ -55,7 +55,7 @@ struct Case {
 void measure(const Case& c, bool quick) {
   constexpr int kPlayers = 8;
   const int instants = quick ? 100 : 1000;
-  BusyScene scene(BusyScene::Kind::kBusy, 1000, 80, 24, kPlayers, 1);
+  BusyScene scene(BusyScene::Kind::kBusy, 80, 24, kPlayers);
   VirtualClock clock;
   LinkConditions link;
   link.delay = c.round_trip / 2;

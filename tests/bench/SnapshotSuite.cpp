@@ -67,7 +67,7 @@ struct Scene {
 void measure(const Scene& scene, bool quick) {
   const int seconds = quick ? 10 : 60;
   const int players = scene.all ? 2 : 16;
-  BusyScene world(scene.kind, 1000, scene.all ? kBusyWidth : 80, scene.all ? kBusyHeight : 24, players, 1);
+  BusyScene world(scene.kind, scene.all ? kBusyWidth : 80, scene.all ? kBusyHeight : 24, players);
   VirtualClock clock;
   LinkConditions link;
   link.delay = 50ms;

@@ -36,12 +36,8 @@ class Suite {
 /// Returns the comma-separated names in an environment variable; `all` if it is not set.
 std::vector<std::string> namesFrom(const char* variable, const std::vector<std::string>& all);
 
-struct Ending {
-  int code = 0;         ///< exit code
-  bool silent = false;  ///< the program printed nothing
-};
 /// Runs a program of the build that prints `suite key=value …`, and prints its output as Lines. If a line has
-/// `failed` with a value other than 0, naiad_bench also exits with an error.
-Ending printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
+/// `failed` with a value other than 0, naiad_bench also exits with an error. Returns the program's exit code.
+int printLinesOf(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace bench

@@ -1,5 +1,6 @@
 // The cost of an object per tick in the everyday workload (Scene.h), compared with Chipmunk, Box2D and the
-// loop of the Dragonfly book.
+// loop of the Dragonfly book. The suite `growth` measures how it grows with the number of objects;
+// tests/bench/plot draws the result.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -41,6 +42,10 @@ void addTextbook(Contest& contest, const Scene& scene) {
   contest.add("textbook_inlined", textbook_inlined::makeEngine(scene, turns));
 }
 
+void addBox2d(Contest& contest, const Scene& scene) {
+  contest.add("box2d", makeBox2dWorld(scene, scene.count() > kWholeBox2d ? kBox2dTurns : scene.count()));
+}
+
 void addIndices(Contest& contest, const Scene& scene, const ChipmunkTuning& tuning) {
   contest.add("chipmunk_hash", makeChipmunkHash(scene, tuning.cell, tuning.table));
   if (scene.count() < kLarge) {
@@ -48,7 +53,7 @@ void addIndices(Contest& contest, const Scene& scene, const ChipmunkTuning& tuni
     contest.add("chipmunk_tree", makeChipmunkTree(scene));
     contest.add("box2d_tree", makeBox2dTree(scene));
   }
-  contest.add("box2d", makeBox2dWorld(scene, scene.count() > kWholeBox2d ? kBox2dTurns : scene.count()));
+  addBox2d(contest, scene);
 }
 
 void addRatio(Line& line, const Contest& contest, const std::string& key, const std::string& name) {
@@ -149,6 +154,39 @@ const Suite s_suite("world", "cost per object and tick, against Chipmunk, Box2D 
                     [](const Options& options) {
                       for (const Case& c : cases(options)) measure(c, options);
                     });
+
+// Returns our engine's cost per object, in ns. `least` is the cost in the smallest world, or 0 if this is the
+// smallest.
+double measureGrowth(int n, double least, const Options& options) {
+  progress("growth: " + std::to_string(n));
+  const Scene scene(Mix::MIXED, n, 0.1);
+  const ChipmunkTuning tuning = tuneChipmunk(scene);
+  Contest contest(Contest::rulesFor(n, options));
+  contest.add("naiad", std::make_unique<NaiadEngine>(scene));
+  contest.add("chipmunk", makeChipmunkHash(scene, tuning.cell, tuning.table));
+  addBox2d(contest, scene);
+  if (n <= kWholeTextbook) contest.add("textbook", textbook::makeEngine(scene, n));
+  contest.run();
+
+  const double ours = contest.nanosecondsPerTick("naiad") / n;
+  Line line("growth");
+  line.add("n", n).add("ns_per_object", ours).add("relative_to_1k", least > 0 ? ours / least : 1.0);
+  for (const char* name : {"chipmunk", "box2d", "textbook"}) {
+    if (contest.has(name)) line.add(std::string(name) + "_ns", contest.nanosecondsPerTick(name) / n);
+  }
+  line.addEqual(contest.equal());
+  return ours;
+}
+
+const Suite s_growth("growth", "cost per object and tick from a thousand objects to a million",
+                     [](const Options& options) {
+                       double least = 0;
+                       for (const int n : {1000, 3000, 10'000, 30'000, 100'000, 300'000, 1'000'000}) {
+                         if (options.quick && n > 10'000) break;
+                         const double ours = measureGrowth(n, least, options);
+                         if (least == 0) least = ours;
+                       }
+                     });
 
 }  // namespace
 }  // namespace bench

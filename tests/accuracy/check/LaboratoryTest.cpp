@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -16,10 +17,12 @@ namespace lab {
 namespace {
 
 Problem problemOf(const std::string& id) {
-  for (const ProblemEntry& entry : allProblems()) {
-    if (entry.id == id) return entry.make();
-  }
-  throw std::logic_error("there is no problem " + id);
+  const std::vector<Problem> all = Problem::all();
+  return *std::ranges::find(all, id, &Problem::id);
+}
+
+std::vector<Case> casesOf(const std::string& id) {
+  return problemOf(id).make();
 }
 
 const Method& methodOf(const std::string& name) {
@@ -40,8 +43,8 @@ double errorOf(const Case& its_case, const Method& method, int substeps) {
 
 // Returns the order from the phase error at 8 and 16 sub-steps, on an undamped spring of 1 Hz.
 double orderOf(const std::string& method) {
-  const Problem problem = problemOf("3");
-  const Case& spring = problem.cases[0];
+  const std::vector<Case> cases = casesOf("3");
+  const Case& spring = cases[0];
   const double coarse = measure(spring, methodOf(method), 8, 1).errors[1];
   const double fine = measure(spring, methodOf(method), 16, 1).errors[1];
   return std::log2(coarse / fine);
@@ -52,18 +55,17 @@ TEST(Laboratory, MethodsConvergeWithTheirOrder) {
   for (const char* method : {"semi_implicit", "verlet", "tr_bdf2"})
     EXPECT_NEAR(orderOf(method), 2, 0.1) << method;
   for (const char* method : {"rk4", "yoshida4"}) EXPECT_NEAR(orderOf(method), 4, 0.1) << method;
-  const Problem flight = problemOf("1");
+  const std::vector<Case> flight = casesOf("1");
   for (const char* method : {"euler", "semi_implicit", "backward_euler"}) {
-    const double ratio =
-        errorOf(flight.cases[0], methodOf(method), 4) / errorOf(flight.cases[0], methodOf(method), 8);
+    const double ratio = errorOf(flight[0], methodOf(method), 4) / errorOf(flight[0], methodOf(method), 8);
     EXPECT_NEAR(std::log2(ratio), 1, 0.1) << method;
   }
 }
 
 TEST(Laboratory, VerletStaysSecondOrderWithDrag) {
-  const Problem drag = problemOf("2");
-  const double coarse = errorOf(drag.cases[1], methodOf("verlet"), 8);
-  const double fine = errorOf(drag.cases[1], methodOf("verlet"), 16);
+  const std::vector<Case> drag = casesOf("2");
+  const double coarse = errorOf(drag[1], methodOf("verlet"), 8);
+  const double fine = errorOf(drag[1], methodOf("verlet"), 16);
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
 }
 
@@ -71,14 +73,15 @@ TEST(Laboratory, VerletStaysSecondOrderWithDrag) {
 // the exit code must show the error.
 TEST(Laboratory, PlantedErrorMissesItsTarget) {
   const Problem problem = problemOf("1");
-  const Case& flight = problem.cases[0];
+  const std::vector<Case> cases = problem.make();
+  const Case& flight = cases[0];
   for (const bool planted : {false, true}) {
     const Method method =
         integrator(planted ? Rule::PLANTED_ERROR : Rule::RUNGE_KUTTA_4, Method::Kind::PRODUCT);
     const std::string directory = ::testing::TempDir() + "naiad_lab_planted-" + std::to_string(getpid());
     {
       Records records(directory);
-      records.describe(problem);
+      records.describe(problem, cases);
       const Measurement measurement = measure(flight, method, 1, 5);
       records.add(problem, flight, method, 1, measurement);
       EXPECT_EQ(records.allMet(), !planted);
@@ -95,20 +98,22 @@ TEST(Laboratory, PlantedErrorMissesItsTarget) {
 
 TEST(Laboratory, CpuTimeIsComparedWithAnotherMethod) {
   const Problem problem = problemOf("5");
+  const std::vector<Case> cases = problem.make();
   const Method product = integrator(Rule::VERLET, Method::Kind::PRODUCT);
   const CpuBound bound{"cpu_ratio", "box2d", 4, 0.5};
   Measurement measurement;
   measurement.cpu = {2, 2, 2};
   for (const double compared : {3.0, 5.0}) {
     Records records("");
-    records.add(problem, problem.cases[0], bound, product, 1, measurement, 2 / compared);
+    records.add(problem, cases[0], bound, product, 1, measurement, 2 / compared);
     EXPECT_EQ(records.allMet(), compared == 5);
   }
 }
 
 TEST(Laboratory, LevelsAreJudgedByTheirOwnTargetAndSubsteps) {
-  Problem problem = problemOf("1");
-  Case& flight = problem.cases[0];
+  const Problem problem = problemOf("1");
+  std::vector<Case> cases = problem.make();
+  Case& flight = cases[0];
   flight.metrics.resize(1);
   flight.metrics[0].target = 1e-3;
   flight.metrics[0].fast_target = 1e-1;
@@ -145,7 +150,8 @@ class Stumbling : public Simulation {
 
 TEST(Laboratory, SlowestTickIsJudgedByItsTimeLimit) {
   const Problem problem = problemOf("1");
-  Case flight = problem.cases[0];
+  const std::vector<Case> cases = problem.make();
+  Case flight = cases[0];
   flight.metrics.clear();
   flight.judge = [](const Trial&) { return std::vector<double>(); };
   for (const double impacts : {0.0, 10'000.0}) {
@@ -168,15 +174,15 @@ TEST(Laboratory, TickTimeLimitGrowsWithItsContents) {
 
 TEST(Laboratory, OnlyProductMethodsAreJudged) {
   const Problem problem = problemOf("1");
+  const std::vector<Case> cases = problem.make();
   Records records("");
-  records.add(problem, problem.cases[0], methodOf("euler"), 1,
-              measure(problem.cases[0], methodOf("euler"), 1, 1));
+  records.add(problem, cases[0], methodOf("euler"), 1, measure(cases[0], methodOf("euler"), 1, 1));
   EXPECT_TRUE(records.allMet());
 }
 
 TEST(Laboratory, DivergingMethodFailsWithAReason) {
-  const Problem problem = problemOf("4");
-  const Case& stiffest = problem.cases.back();
+  const std::vector<Case> cases = casesOf("4");
+  const Case& stiffest = cases.back();
   const Measurement measurement = measure(stiffest, methodOf("euler"), 1, 1);
   EXPECT_TRUE(std::isinf(measurement.errors[0]));
   EXPECT_EQ(measurement.reason, "blew up");
@@ -203,29 +209,29 @@ Method methodThatIs() {
 }
 
 TEST(Laboratory, CrashingOrEndlessMethodIsReportedAsFailure) {
-  const Problem problem = problemOf("1");
-  const Measurement crash = measureApart(problem.cases[0], methodThatIs<Aborting>(), 1, 1, 1);
+  const std::vector<Case> cases = casesOf("1");
+  const Measurement crash = measureApart(cases[0], methodThatIs<Aborting>(), 1, 1, 1);
   EXPECT_EQ(crash.reason, "crashed by signal 6");
   EXPECT_TRUE(std::isinf(crash.errors[0]));
   EXPECT_TRUE(std::isnan(crash.cpu.median));
-  const Measurement loop = measureApart(problem.cases[0], methodThatIs<Endless>(), 1, 1, 1);
+  const Measurement loop = measureApart(cases[0], methodThatIs<Endless>(), 1, 1, 1);
   EXPECT_EQ(loop.reason, "took too long");
   EXPECT_TRUE(std::isinf(loop.errors[2]));
 }
 
 TEST(Laboratory, SeparateProcessMeasuresTheSameErrors) {
-  const Problem problem = problemOf("5");
-  const Measurement here = measure(problem.cases[0], methodOf("verlet"), 2, 1);
-  const Measurement apart = measureApart(problem.cases[0], methodOf("verlet"), 2, 1, 60);
+  const std::vector<Case> cases = casesOf("5");
+  const Measurement here = measure(cases[0], methodOf("verlet"), 2, 1);
+  const Measurement apart = measureApart(cases[0], methodOf("verlet"), 2, 1, 60);
   EXPECT_EQ(here.errors, apart.errors);
   EXPECT_GT(apart.cpu.median, 0);
   EXPECT_LE(apart.cpu.least, apart.cpu.median);
 }
 
 TEST(Laboratory, SceneUnsupportedByTheMethodIsReported) {
-  const Problem problem = problemOf("8");
-  EXPECT_FALSE(measureApart(problem.cases[0], methodOf("rk4"), 1, 1, 10).expressed);
-  EXPECT_TRUE(measureApart(problem.cases[0], methodOf("box2d"), 1, 1, 10).expressed);
+  const std::vector<Case> cases = casesOf("8");
+  EXPECT_FALSE(measureApart(cases[0], methodOf("rk4"), 1, 1, 10).expressed);
+  EXPECT_TRUE(measureApart(cases[0], methodOf("box2d"), 1, 1, 10).expressed);
 }
 
 void expectStart(const Scene& scene, const Simulation& simulation, double tolerance,
@@ -241,7 +247,7 @@ void expectStart(const Scene& scene, const Simulation& simulation, double tolera
 // Every engine must start from exactly the scene's state.
 TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
   for (const char* id : {"1", "5", "7", "8", "9", "11", "12", "17", "25", "27"}) {
-    for (const Case& its_case : problemOf(id).cases) {
+    for (const Case& its_case : casesOf(id)) {
       for (const std::string name : {"box2d", "chipmunk"}) {
         const SimulationPtr simulation = methodOf(name).build(its_case.scene);
         if (simulation == nullptr) continue;
@@ -258,7 +264,7 @@ TEST(Laboratory, PeerEnginesStartFromTheSceneState) {
 // The equations of the textbooks' methods must start from the scene's state, too.
 TEST(Laboratory, EquationsStartFromTheSceneState) {
   for (const char* id : {"1", "2", "3", "4", "5", "6"}) {
-    for (const Case& its_case : problemOf(id).cases)
+    for (const Case& its_case : casesOf(id))
       expectStart(its_case.scene, *methodOf("rk4").build(its_case.scene), 1e-14, id + its_case.name);
   }
 }

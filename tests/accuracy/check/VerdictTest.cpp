@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> problemIds() {
   std::vector<std::string> ids;
-  for (const ProblemEntry& entry : allProblems()) ids.push_back(entry.id);
+  for (const Problem& problem : Problem::all()) ids.push_back(problem.id);
   return ids;
 }
 
@@ -43,11 +43,10 @@ void expectTargets(const Method& level, const Case& its_case) {
 }
 
 TEST_P(Verdicts, EachLevelReachesItsTargets) {
-  for (const ProblemEntry& entry : allProblems()) {
-    if (entry.id != GetParam()) continue;
-    const Problem problem = entry.make();
+  for (const Problem& problem : Problem::all()) {
+    if (problem.id != GetParam()) continue;
     if (problem.kind != Problem::Kind::DIAGRAM) GTEST_SKIP() << "nothing is asked";
-    for (const Case& its_case : problem.cases) {
+    for (const Case& its_case : problem.make()) {
       for (const Method* method : Method::all()) {
         if (method->isProduct()) expectTargets(*method, its_case);
       }

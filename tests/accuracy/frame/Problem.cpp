@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <tuple>
-#include <utility>
 
 namespace lab {
 namespace {
 
-std::vector<ProblemEntry>& registry() {
-  static std::vector<ProblemEntry> s_problems;
+std::vector<Problem>& registry() {
+  static std::vector<Problem> s_problems;
   return s_problems;
 }
 
@@ -38,7 +37,7 @@ std::string timeOf(const CpuBound& bound) {
 
 Metric CpuBound::metric() const {
   const std::string what = is_of_later ? "time of the first tick" : "time per tick";
-  return {name, what + " ÷ that of " + timeOf(*this), target, 0, peers, fast_target};
+  return {name, what + " ÷ that of " + timeOf(*this), target, 0, fast_target};
 }
 
 double TickBound::allowedUs(double bodies, double contacts, double joints, double impacts) const {
@@ -46,24 +45,20 @@ double TickBound::allowedUs(double bodies, double contacts, double joints, doubl
 }
 
 Metric Case::worstTick() {
-  return {"worst_tick", "dearest tick ÷ what it may cost", 1, 0, "", 1};
+  return {"worst_tick", "dearest tick ÷ what it may cost", 1, 0, 1};
 }
 
-std::vector<ProblemEntry> allProblems() {
-  std::vector<ProblemEntry> problems = registry();
+std::vector<Problem> Problem::all() {
+  std::vector<Problem> problems = registry();
   std::sort(problems.begin(), problems.end(),
-            [](const ProblemEntry& a, const ProblemEntry& b) { return order(a.id) < order(b.id); });
+            [](const Problem& a, const Problem& b) { return order(a.id) < order(b.id); });
   return problems;
 }
 
 RegisteredProblem::RegisteredProblem(const std::string& id, const std::string& name,
-                                     std::function<Problem()> make) {
-  registry().push_back({id, name, [id, name, make = std::move(make)] {
-                          Problem problem = make();
-                          problem.id = id;
-                          problem.name = name;
-                          return problem;
-                        }});
+                                     std::vector<Case> (*make)(), const std::string& title,
+                                     const std::string& why, Problem::Kind kind) {
+  registry().push_back({id, name, make, title, why, kind});
 }
 
 }  // namespace lab

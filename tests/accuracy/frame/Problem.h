@@ -1,7 +1,7 @@
 // A problem of the laboratory: scenes, their correct results, and how a method's error is computed. A problem
 // is a source file that registers itself. It is made only on demand, because its references take time.
 //
-//     const RegisteredProblem problem("5", "pendulum", [] { Problem p; …; return p; });
+//     const RegisteredProblem problem("5", "pendulum", make, "Pendulum", "A lamp on a chain must not …");
 #pragma once
 
 #include <functional>
@@ -19,7 +19,6 @@ struct Metric {
   std::string label;        ///< label of an axis
   double target = -1;       ///< limit for the product; negative: none
   double floor = 0;         ///< uncertainty by rounding or the reference; 0: none
-  std::string peers;        ///< known results of peers, in words
   double fast_target = -1;  ///< limit for the product's fast level; negative: none
 
   double targetOf(const Method& method) const {
@@ -34,7 +33,6 @@ struct CpuBound {
   int substeps = 1;         ///< sub-steps of that method
   double target = -1;       ///< limit for the product, in units; negative: none
   double fast_target = -1;  ///< limit for the product's fast level, in units; negative: none
-  std::string peers = {};   ///< known results of peers, in words
   // If `method` is empty, the unit is one of these:
   std::string of_case = {};     ///< the measured method's time in the problem's case of this name
   double unit_us = 0;           ///< this number of microseconds
@@ -80,30 +78,23 @@ struct Problem {
   enum class Kind {
     DIAGRAM,  ///< error against run time
     MAP,      ///< stability: cases × step
-    COST,     ///< nanoseconds per body
   };
-  std::string id;    ///< value of `problem=…`
-  std::string name;  ///< the id as a word
+  std::string id;                           ///< value of `problem=…`
+  std::string name;                         ///< the id as a word
+  std::function<std::vector<Case>()> make;  ///< makes the cases; takes time, for their references
   std::string title;
-  std::string text;       ///< what happens in the problem
-  std::string reference;  ///< the correct result and its source
-  std::string why;        ///< purpose, as a sentence
-  std::string quoted;     ///< figures measured elsewhere, with their source, in Markdown
+  std::string why;  ///< purpose, as a sentence
   Kind kind = Kind::DIAGRAM;
-  std::vector<Case> cases;
-};
 
-/// A registered problem. allProblems() returns them in reading order: 1, 2, 3, 4, 4b and so on.
-struct ProblemEntry {
-  std::string id;
-  std::string name;
-  std::function<Problem()> make;
+  /// Returns the registered problems in reading order: 1, 2, 3, 4, 4b and so on.
+  static std::vector<Problem> all();
 };
-std::vector<ProblemEntry> allProblems();
 
 class RegisteredProblem {
  public:
-  RegisteredProblem(const std::string& id, const std::string& name, std::function<Problem()> make);
+  RegisteredProblem(const std::string& id, const std::string& name, std::vector<Case> (*make)(),
+                    const std::string& title, const std::string& why,
+                    Problem::Kind kind = Problem::Kind::DIAGRAM);
 };
 
 }  // namespace lab

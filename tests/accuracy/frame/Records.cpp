@@ -33,7 +33,7 @@ std::string quoted(const std::string& text) {
 
 // Names in the order of the enumerations.
 const char* nameOf(Problem::Kind kind) {
-  constexpr const char* kNames[] = {"diagram", "map", "cost"};
+  constexpr const char* kNames[] = {"diagram", "map"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -88,20 +88,17 @@ Records::~Records() {
   std::fclose(m_problems);
 }
 
-void Records::describe(const Problem& problem) {
+void Records::describe(const Problem& problem, const std::vector<Case>& cases) {
   if (m_problems == nullptr) return;
   std::fprintf(m_problems, "%s{", commaAfter(m_first));
   m_first = false;
   describe("id", problem.id);
   describe("name", problem.name);
   describe("title", problem.title);
-  describe("text", problem.text);
-  describe("reference", problem.reference);
   describe("why", problem.why);
-  describe("quoted", problem.quoted);
   std::fprintf(m_problems, "\"kind\": \"%s\", \"metrics\": [", nameOf(problem.kind));
   bool is_first = true;
-  for (const Case& its_case : problem.cases) {
+  for (const Case& its_case : cases) {
     for (const Metric& metric : metricsOf(problem, its_case)) {
       std::fputs(commaAfter(is_first), m_problems);
       is_first = false;
@@ -122,7 +119,6 @@ void Records::describe(const Case& its_case, const Metric& metric) {
   describe("case", its_case.name);
   describe("case_label", its_case.label);
   describe("label", metric.label);
-  describe("peers", metric.peers);
   std::fprintf(m_problems,
                "\"target\": %.17g, \"fast_target\": %.17g, \"floor\": %.17g, \"x\": %.17g, \"tick\": %.17g}",
                metric.target, metric.fast_target, metric.floor, its_case.x, its_case.scene.tick);

@@ -21,8 +21,8 @@ class Records {
   Records(const Records&) = delete;
   Records& operator=(const Records&) = delete;
 
-  /// Writes the report's text about the problem and its cases.
-  void describe(const Problem& problem);
+  /// Writes the report's facts about the problem and its cases.
+  void describe(const Problem& problem, const std::vector<Case>& cases);
   /// Adds all metrics of one measurement.
   void add(const Problem& problem, const Case& its_case, const Method& method, int substeps,
            const Measurement& measurement);

@@ -44,8 +44,8 @@ Case cloth(int side) {
   hung.is_crowd = true;
   hung.long_run = side > 50;
   hung.most_substeps = side > 50 ? 4 : 16;
-  hung.metrics = {{"stretch", "largest relative stretch of a thread over 10 s", 0.05, 1e-15, ""},
-                  {"frozen", "cloths that froze", 0, 0, ""}};
+  hung.metrics = {{"stretch", "largest relative stretch of a thread over 10 s", 0.05, 1e-15},
+                  {"frozen", "cloths that froze", 0, 0}};
   hung.judge = [scene = hung.scene](const Trial& trial) {
     double stretch = 0;
     const SimulationPtr end = trial.run(scene, [&](int /*tick*/, const Simulation& simulation) {
@@ -56,23 +56,18 @@ Case cloth(int side) {
   return hung;
 }
 
-Problem makeCloths() {
-  Problem problem;
-  problem.title = "Cloths";
-  problem.text =
-      "Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two "
-      "upper corners, fall for 10 s. For peers they are points on rods.";
-  problem.reference = "no thread gets longer";
-  problem.why =
-      "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of "
-      "its weight, through threads of a ten-thousandth of it each.";
-  problem.cases = {cloth(25), cloth(50), cloth(100)};
+// Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two upper
+// corners, fall for 10 s. For peers they are points on rods. Correct: no thread gets longer.
+std::vector<Case> makeCloths() {
+  return {cloth(25), cloth(50), cloth(100)};
   constexpr double kDearestTick = 60'000;  // limit of the slowest tick, µs
   problem.cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
-  return problem;
 }
 
-const RegisteredProblem problem("28", "cloths", makeCloths);
+const RegisteredProblem problem(
+    "28", "cloths", makeCloths, "Cloths",
+    "A cloth is the stiffest thing that an author makes without thinking of it: the corners bear all of its "
+    "weight, through threads of a ten-thousandth of it each.");
 
 }  // namespace
 }  // namespace lab

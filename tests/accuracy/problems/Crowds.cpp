@@ -21,7 +21,7 @@ Case hearing(const std::string& name, Scene scene, long pairs) {
   heard.scene.hearing = true;
   heard.scene.ticks = kTicks;
   heard.most_substeps = 4;
-  heard.metrics = {{"misheard", "pairs that are heard of wrongly, of all", 0, 1e-6, ""}};
+  heard.metrics = {{"misheard", "pairs that are heard of wrongly, of all", 0, 1e-6}};
   heard.judge = [scene = heard.scene, pairs](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     const auto all = static_cast<double>(pairs > 0 ? pairs : 1);
@@ -81,20 +81,17 @@ Case together(int count) {
   return soft;
 }
 
-Problem make() {
-  Problem problem;
-  problem.title = "Crowds that hear";
-  problem.text =
-      "SOFT bodies, which nothing pushes: 1024 circles of 1 m that lie 3 m apart, and 50, 100, 200 and 400 "
-      "of them of which each overlaps every other one; 60 ticks. Time is held against that of the same "
-      "bodies when they are HARD, and against 100 ns a pair. For the product alone.";
-  problem.reference = "each pair that overlaps is heard of once; in the first tick, which is the worst";
-  problem.why = "Sensors, clouds and triggers lie in one another by hundreds, and must not cost a tick.";
-  problem.cases = {hardApart(32), apart(32), together(50), together(100), together(200), together(400)};
-  return problem;
+// SOFT bodies, which nothing pushes: 1024 circles of 1 m that lie 3 m apart, and 50, 100, 200 and 400 of them
+// of which each overlaps every other one; 60 ticks. Time is held against that of these bodies when they
+// are HARD, and against 100 ns a pair. For the product alone. Correct: each pair that overlaps is heard of
+// once; in the first tick, which is the worst.
+std::vector<Case> make() {
+  return {hardApart(32), apart(32), together(50), together(100), together(200), together(400)};
 }
 
-const RegisteredProblem problem("24", "crowds", make);
+const RegisteredProblem problem(
+    "24", "crowds", make, "Crowds that hear",
+    "Sensors, clouds and triggers lie in one another by hundreds, and must not cost a tick.");
 
 }  // namespace
 }  // namespace lab

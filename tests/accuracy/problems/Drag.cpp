@@ -23,8 +23,7 @@ Case linear() {
   system.velocity = {kStart, 0};
   system.linear = kLinear;
   gliding.scene.equations = equationsOf(system);
-  gliding.metrics =
-      pathMetrics(1e-12, 1e-16, "Box2D 1.5e-3 (1/240 s), Chipmunk 8.2e-2 (1/60 s); in m, of 4.9 m");
+  gliding.metrics = pathMetrics(1e-12, 1e-16);
   const Path path = pathOf(kTicks, [](Quad t) {
     return std::vector<Quad>{kStart / Quad(kLinear) * (1 - exp(-kLinear * t)), 0};
   });
@@ -61,21 +60,16 @@ Case quadratic() {
   return falling;
 }
 
-Problem make() {
-  Problem problem;
-  problem.title = "Drag";
-  problem.text =
-      "Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s "
-      "with a terminal speed of 5 m/s.";
-  problem.reference = "(v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in quad precision";
-  problem.why =
-      "Anything that slows down, from a leaf to a car. The closed form costs no more than a step, and is "
-      "right at any tick.";
-  problem.cases = {linear(), quadratic()};
-  return problem;
+// Linear: 1 kg slides from 10 m/s for 2 s with 2 kg/s of drag. Quadratic: 1 kg falls from rest for 2 s with a
+// terminal speed of 5 m/s. Correct: (v₀/c)(1 − e^(−ct)); (v_t²/g) ln cosh(gt/v_t) and v_t tanh(gt/v_t), in
+// quad precision.
+std::vector<Case> make() {
+  return {linear(), quadratic()};
 }
 
-const RegisteredProblem problem("2", "drag", make);
+const RegisteredProblem problem("2", "drag", make, "Drag",
+                                "Anything that slows down, from a leaf to a car. The closed form costs no "
+                                "more than a step, and is right at any tick.");
 
 }  // namespace
 }  // namespace lab

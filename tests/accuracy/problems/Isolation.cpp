@@ -63,7 +63,7 @@ Case heldBy(Held held, const std::string& name) {
   beside.label = held == Held::NOTHING ? "two boxes" : "two boxes on a " + name;
   beside.scene = accompanied(held, 30, false);
   beside.most_substeps = 16;
-  beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, "", 0}};
+  beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, 0}};
   beside.judge = [held](const Trial& trial) {
     std::vector<BodyState> path;
     trial.run(alone(held), [&](int /*tick*/, const Simulation& simulation) {
@@ -88,20 +88,15 @@ Case heldBy(Held held, const std::string& name) {
   return beside;
 }
 
-Problem make() {
-  Problem problem;
-  problem.title = "Groups do not see each other";
-  problem.text =
-      "Two boxes on a rod, on a spring, or on nothing fall onto a floor, alone and with another such pair "
-      "2000 m away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks. "
-      "What rests may sleep.";
-  problem.reference = "the same bits as alone";
-  problem.why = "What happens at one end of a world must not change a bit at its other end.";
-  problem.cases = {heldBy(Held::ROD, "rod"), heldBy(Held::SPRING, "spring"), heldBy(Held::NOTHING, "loose")};
-  return problem;
+// Two boxes on a rod, on a spring, or on nothing fall onto a floor, alone and with another such pair 2000 m
+// away that rests, moves by 0.01 to 1000 cells a tick, or lies on a floor of its own; 200 ticks. What rests
+// may sleep. Correct: no bit differs from the run alone.
+std::vector<Case> make() {
+  return {heldBy(Held::ROD, "rod"), heldBy(Held::SPRING, "spring"), heldBy(Held::NOTHING, "loose")};
 }
 
-const RegisteredProblem problem("23", "isolation", make);
+const RegisteredProblem problem("23", "isolation", make, "Groups do not see each other",
+                                "What happens at one end of a world must not change a bit at its other end.");
 
 }  // namespace
 }  // namespace lab

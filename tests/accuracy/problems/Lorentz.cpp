@@ -30,8 +30,8 @@ Case along(const std::string& name, Scene scene, double rate, Formula path, doub
   moved.scene = std::move(scene);
   moved.scene.field = magnet(rate);
   moved.scene.ticks = kTicks;
-  moved.metrics = {{"sup_error_m", "largest distance from the path, m", far, 1e-13, ""},
-                   {"energy_drift", "largest change of energy, relative", drift, 1e-15, ""}};
+  moved.metrics = {{"sup_error_m", "largest distance from the path, m", far, 1e-13},
+                   {"energy_drift", "largest change of energy, relative", drift, 1e-15}};
   moved.judge = [scene = moved.scene, rate, path](const Trial& trial) {
     double away = 0, changed = 0;
     trial.run(scene, [&](int tick, const Simulation& simulation) {
@@ -76,26 +76,23 @@ Case onRod(double rate, const std::string& name) {
   return along(name, scene, rate, aboutPivot, 0.01, 1e-4);
 }
 
-Problem make() {
-  Problem problem;
-  problem.title = "In a magnet";
-  problem.text =
-      "A ball of 3 m/s in a field that turns its velocity by 1 to 10⁴ radians a tick: free, over a floor "
-      "onto which the field presses it, and on a rod of 5 m; 100 ticks, no gravity, no friction.";
-  problem.reference =
-      "a circle of v/ω, the floor's line, the rod's circle at constant speed: the force does no work";
-  problem.why = "A force that turns a motion must not brake it or make it faster.";
+// A ball of 3 m/s in a field that turns its velocity by 1 to 10⁴ radians a tick: free, over a floor onto
+// which the field presses it, and on a rod of 5 m; 100 ticks, no gravity, no friction. Correct: a circle of
+// v/ω, the floor's line, the rod's circle at constant speed: the force does no work.
+std::vector<Case> make() {
+  std::vector<Case> cases;
   for (const double rate : {1.0, 10.0, 1e3, 1e4}) {
-    problem.cases.push_back(freely(rate, "free" + std::to_string(static_cast<int>(rate))));
+    cases.push_back(freely(rate, "free" + std::to_string(static_cast<int>(rate))));
   }
   for (const double rate : {1.0, 1e3}) {
-    problem.cases.push_back(overFloor(rate, "floor" + std::to_string(static_cast<int>(rate))));
-    problem.cases.push_back(onRod(rate, "rod" + std::to_string(static_cast<int>(rate))));
+    cases.push_back(overFloor(rate, "floor" + std::to_string(static_cast<int>(rate))));
+    cases.push_back(onRod(rate, "rod" + std::to_string(static_cast<int>(rate))));
   }
-  return problem;
+  return cases;
 }
 
-const RegisteredProblem problem("22", "lorentz", make);
+const RegisteredProblem problem("22", "lorentz", make, "In a magnet",
+                                "A force that turns a motion must not brake it or make it faster.");
 
 }  // namespace
 }  // namespace lab

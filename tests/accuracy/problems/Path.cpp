@@ -42,10 +42,10 @@ std::vector<double> coordinatesOf(const Simulation& simulation) {
   return {coordinates.begin(), coordinates.end()};
 }
 
-std::vector<Metric> pathMetrics(double target, double floor, const std::string& peers) {
-  return {{"end_error", "relative error at the end", target, floor, peers},
-          {"sup_error", "largest relative error over the run", target, floor, ""},
-          {"l2_error", "root mean square of the relative error", -1, floor, ""}};
+std::vector<Metric> pathMetrics(double target, double floor) {
+  return {{"end_error", "relative error at the end", target, floor},
+          {"sup_error", "largest relative error over the run", target, floor},
+          {"l2_error", "root mean square of the relative error", -1, floor}};
 }
 
 std::vector<double> inOrder(const PathErrors& errors) {

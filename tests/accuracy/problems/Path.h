@@ -33,7 +33,7 @@ std::vector<double> positionOf(const Simulation& simulation, int index = 0);
 std::vector<double> coordinatesOf(const Simulation& simulation);
 
 /// Returns end_error, sup_error and l2_error. The target applies to the first two.
-std::vector<Metric> pathMetrics(double target, double floor, const std::string& peers = "");
+std::vector<Metric> pathMetrics(double target, double floor);
 std::vector<double> inOrder(const PathErrors& errors);
 /// Returns a judge (Case::judge) for pathMetrics().
 std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,

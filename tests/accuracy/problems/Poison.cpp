@@ -40,7 +40,7 @@ Case poisoned(const std::string& name, const Body& poison) {
   bad.name = name;
   bad.scene = pile();
   bad.scene.bodies.push_back(poison);
-  bad.metrics = {{"changed", "crates of a pile 20 m away that are not bit-identical", 0, 0, ""}};
+  bad.metrics = {{"changed", "crates of a pile 20 m away that are not bit-identical", 0, 0}};
   bad.judge = [scene = bad.scene](const Trial& trial) {
     const std::vector<BodyState> right = runPile(trial, pile());
     const std::vector<BodyState> now = runPile(trial, scene);
@@ -57,7 +57,7 @@ Case spike() {
   bad.name = "dt_spike";
   bad.label = "a tick of a thousand";
   bad.scene = pile();
-  bad.metrics = {{"displaced", "crates more than 1 m from their place after a tick of 1e4 s", 0, 0, ""}};
+  bad.metrics = {{"displaced", "crates more than 1 m from their place after a tick of 1e4 s", 0, 0}};
   bad.judge = [scene = bad.scene](const Trial& trial) {
     const SimulationPtr simulation = trial.build(scene);
     for (int tick = 0; tick < kTicks; ++tick) {
@@ -74,23 +74,18 @@ Case spike() {
   return bad;
 }
 
-Problem make() {
+// A ball 20 m from a pile of 5 crates has a position, velocity, mass or size that no ball can have. A crash
+// or an endless loop is a failure. Correct: the pile without that ball.
+std::vector<Case> make() {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Problem problem;
-  problem.title = "Bad numbers";
-  problem.text =
-      "A ball 20 m from a pile of 5 crates has a position, velocity, mass or size that no ball can have. A "
-      "crash or an endless loop is a failure.";
-  problem.reference = "the pile without that ball";
-  problem.why = "A game's mistake may cost the object that it was made with, and no other.";
   Body good = ball({20, 5}, {-1, 0}, 0.5);
   const auto with = [&good](auto change) {
     Body body = good;
     change(body);
     return body;
   };
-  problem.cases = {
+  std::vector<Case> cases = {
       poisoned("nan_position", with([](Body& b) { b.position.x = kNaN; })),
       poisoned("nan_velocity", with([](Body& b) { b.velocity.x = kNaN; })),
       poisoned("inf_velocity", with([](Body& b) { b.velocity.x = kInfinity; })),
@@ -103,11 +98,12 @@ Problem make() {
       poisoned("1e30_size", with([](Body& b) { b.shapes[0].radius = 1e30; })),
       spike(),
   };
-  for (Case& bad : problem.cases) bad.most_substeps = 8;
-  return problem;
+  for (Case& bad : cases) bad.most_substeps = 8;
+  return cases;
 }
 
-const RegisteredProblem problem("18", "bad-numbers", make);
+const RegisteredProblem problem("18", "bad-numbers", make, "Bad numbers",
+                                "A game's mistake may cost the object that it was made with, and no other.");
 
 }  // namespace
 }  // namespace lab

@@ -46,7 +46,7 @@ Case catenary(int links) {
   scene.ticks = 600;
   const double a = catenaryOf(kSpan, kLength);
   const double sag = a * (std::cosh(kSpan / 2 / a) - 1);
-  hanging.metrics = {{"sag", "relative error of the sag in the middle", 0.01, 0, ""}};
+  hanging.metrics = {{"sag", "relative error of the sag in the middle", 0.01, 0}};
   hanging.judge = [scene, sag, links](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     return std::vector<double>{std::abs(-end->body(links / 2 - 1).position.y / sag - 1)};
@@ -79,7 +79,7 @@ Case bending(int elements) {
   beam.damping = 1;
   bent.scene.beams = {beam};
   bent.scene.ticks = 1200;
-  bent.metrics = {{"deflection", "relative error of the tip's deflection", 0.01, 0, ""}};
+  bent.metrics = {{"deflection", "relative error of the tip's deflection", 0.01, 0}};
   bent.judge = [scene = bent.scene, deflection](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     return std::vector<double>{std::abs(-end->body(0).position.y / deflection - 1)};
@@ -141,7 +141,7 @@ Case ringing(int elements) {
   rings.scene.beams = {beam};
   rings.scene.ticks = static_cast<int>(kPeriods / frequency / kTick);
   rings.most_substeps = 16;
-  rings.metrics = {{"first", "relative error of the first frequency", 0.01, 1e-5, ""}};
+  rings.metrics = {{"first", "relative error of the first frequency", 0.01, 1e-5}};
   rings.judge = [scene = rings.scene, deflection, frequency](const Trial& trial) {
     std::vector<double> motion;
     trial.run(scene, [&](int, const Simulation& simulation) {
@@ -152,22 +152,18 @@ Case ringing(int elements) {
   return rings;
 }
 
-Problem makeSoft() {
-  Problem problem;
-  problem.title = "Catenary and cantilever";
-  problem.text =
-      "A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with "
-      "drag it is at rest. A beam of 10 m, clamped at one end, is bent by a force at the other, and swings "
-      "if nothing damps it.";
-  problem.reference =
-      "a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI; the first root of cos β cosh β = −1";
-  problem.why = "Soft bodies have a right shape, too, and must come nearer to it with more nodes.";
-  problem.cases = {catenary(16), catenary(32), catenary(64), bending(8), bending(16),
-                   bending(32),  ringing(8),   ringing(16),  ringing(32)};
-  return problem;
+// A chain of 16, 32 and 64 rigid links, 12 m long, hangs between points 10 m apart: after 20 s with drag it
+// is at rest. A beam of 10 m, clamped at one end, is bent by a force at the other, and swings if nothing
+// damps it. Correct: a cosh(x/a), which the chain approaches with (1/links)²; FL³/3EI; the first root of cos
+// β cosh β = −1.
+std::vector<Case> makeSoft() {
+  return {catenary(16), catenary(32), catenary(64), bending(8), bending(16),
+          bending(32),  ringing(8),   ringing(16),  ringing(32)};
 }
 
-const RegisteredProblem soft_problem("11b", "soft", makeSoft);
+const RegisteredProblem soft_problem(
+    "11b", "soft", makeSoft, "Catenary and cantilever",
+    "Soft bodies have a right shape, too, and must come nearer to it with more nodes.");
 
 }  // namespace
 }  // namespace lab

@@ -35,8 +35,8 @@ Case pulled(Pull pull, double per_tick, const std::string& name) {
     scene.joints = {spring(-1, centre, 0, scene.bodies[0].position, stiffness)};
     scene.joints[0].rest_length = 0;
   }
-  swinging.metrics = {{"energy_gain", "largest gain of energy, relative", 1e-6, 1e-15, "", -1},
-                      {"sunk_m", "how far the centre came below the floor's top, m", 0, 1e-15, "", 0}};
+  swinging.metrics = {{"energy_gain", "largest gain of energy, relative", 1e-6, 1e-15, -1},
+                      {"sunk_m", "how far the centre came below the floor's top, m", 0, 1e-15, 0}};
   swinging.judge = [scene, stiffness, centre, pull](const Trial& trial) {
     const auto energyOf = [&](const BodyState& s) {
       const Vec off = s.position - centre;
@@ -62,7 +62,7 @@ Case resolved(Pull pull, const std::string& name) {
   constexpr double kSlow = 0.01;
   Case swinging = pulled(pull, kSlow, name);
   swinging.draws_levels = true;
-  swinging.metrics.push_back({"faded", "part of the amplitude that is lost in 10 s", 0.01, 1e-15, ""});
+  swinging.metrics.push_back({"faded", "part of the amplitude that is lost in 10 s", 0.01, 1e-15});
   swinging.judge = [judge = swinging.judge, scene = swinging.scene](const Trial& trial) {
     constexpr int kPeriod = 63;  // ticks
     std::vector<double> errors = judge(trial);
@@ -76,26 +76,23 @@ Case resolved(Pull pull, const std::string& name) {
   return swinging;
 }
 
-Problem makeTethers() {
-  Problem problem;
-  problem.title = "Springs and fields where bodies touch";
-  problem.text =
-      "A crate of 1 kg that turns, without friction, is let go 1 m from the middle of a spring, or of a "
-      "field −kx, while it lies on a floor; k = 0.01 … 10¹² kg a tick², undamped, 10 s.";
-  problem.reference = "energy never grows, the crate stays on the floor, and what a tick resolves swings on";
-  problem.why =
-      "A spring alone is easy to solve exactly. Authors put it on a thing that lies on the ground, and "
-      "write a number that they have not computed.";
+// A crate of 1 kg that turns, without friction, is let go 1 m from the middle of a spring, or of a field −kx,
+// while it lies on a floor; k = 0.01 … 10¹² kg a tick², undamped, 10 s. Correct: energy never grows, the
+// crate stays on the floor, and what a tick resolves swings on.
+std::vector<Case> makeTethers() {
+  std::vector<Case> cases;
   for (const double k : {1.0, 1e2, 1e6, 1e12}) {
-    problem.cases.push_back(pulled(Pull::SPRING, k, "spring"));
-    problem.cases.push_back(pulled(Pull::FIELD, k, "field"));
+    cases.push_back(pulled(Pull::SPRING, k, "spring"));
+    cases.push_back(pulled(Pull::FIELD, k, "field"));
   }
-  problem.cases.push_back(resolved(Pull::FIELD, "field"));
-  problem.cases.push_back(resolved(Pull::SPRING, "spring"));
-  return problem;
+  cases.push_back(resolved(Pull::FIELD, "field"));
+  cases.push_back(resolved(Pull::SPRING, "spring"));
+  return cases;
 }
 
-const RegisteredProblem problem("30", "tethers", makeTethers);
+const RegisteredProblem problem("30", "tethers", makeTethers, "Springs and fields where bodies touch",
+                                "A spring alone is easy to solve exactly. Authors put it on a thing that "
+                                "lies on the ground, and write a number that they have not computed.");
 
 }  // namespace
 }  // namespace lab

@@ -10,8 +10,6 @@ namespace lab {
 
 /// Uses df::Body Objects in a World, and WM.update(), for bodies and joints.
 SimulationPtr bodiesAt(df::Accuracy accuracy, const Scene& scene);
-/// Uses plain Objects, which move by their velocities, in a World without a physics layer.
-SimulationPtr objectsByDefault(const Scene& scene);
 /// Uses a df::Cloth in a World, and WM.update().
 SimulationPtr clothByDefault(const Scene& scene);
 /// Uses a df::Beam in a World, and WM.update(), for an elastic beam.

@@ -36,15 +36,6 @@ STYLES = {
     "backward_euler": ("#882255", "down", 1.5),
     "tr_bdf2": ("#117733", "plus", 1.5),
 }
-SPARE = [("#44aa99", "square", 2.2), ("#aa4499", "triangle", 2.2), ("#999933", "diamond", 2.2),
-         ("#661100", "circle", 2.2), ("#6699cc", "down", 2.2), ("#888888", "plus", 2.2)]
-
-
-def styles(methods):
-    """Returns a style for each method. A method looks alike in all pictures made from one list of methods."""
-    spare = iter(SPARE * 10)
-    return {method: STYLES[method] if method in STYLES else next(spare) for method in methods}
-
 
 # Outlines as a part of a path, relative to a point's position.
 OUTLINES = {
@@ -264,12 +255,12 @@ def curve(points, style, x, y):
     return out
 
 
-def legend(methods, labels, chosen):
+def legend(methods, labels):
     out = []
     at = TOP + 8
     left = WIDTH - RIGHT + 18
     for method in methods:
-        colour, shape, width = chosen[method]
+        colour, shape, width = STYLES[method]
         out.append(line(left, at, left + 28, at, colour, width))
         out += markers([(left + 14, at)], shape, colour)
         out.append(text(left + 38, at + 4.5, labels.get(method, method), 13, INK))
@@ -280,7 +271,7 @@ def legend(methods, labels, chosen):
     return out
 
 
-def draw(points, metric, labels, title, subtitle, chosen):
+def draw(points, metric, labels, title, subtitle):
     """Draws a diagram. `points` are dictionaries with method, substeps, error, cpu_us, cpu_us_min, cpu_us_max, in drawing order."""
     (x_low, x_high), (y_low, y_high) = ranges(points, metric)
     has_left, has_right = edge_left(points, metric), edge_right(points)
@@ -290,5 +281,5 @@ def draw(points, metric, labels, title, subtitle, chosen):
     parts = edges(x, metric, has_left, has_right) + frame(x, y, metric, title, subtitle) + guides(x, y, points)
     parts += goals(x, metric, has_left, has_right)
     for method in reversed(methods):  # draws the product on top
-        parts += curve([p for p in points if p["method"] == method], chosen[method], x, y)
-    return page(WIDTH, HEIGHT, title, parts + legend(methods, labels, chosen))
+        parts += curve([p for p in points if p["method"] == method], STYLES[method], x, y)
+    return page(WIDTH, HEIGHT, title, parts + legend(methods, labels))

@@ -16,6 +16,7 @@
 namespace bench {
 namespace {
 
+constexpr int kWalkers = 1000;
 constexpr int kFine = 1'000'000;
 constexpr int kTwoMinutes = 120 * 30;  // in ticks
 
@@ -128,21 +129,19 @@ class Usher : public df::Object {
 
 }  // namespace
 
-void populateBusy(BusyScene::Kind kind, int objects) {
+void populateBusy(BusyScene::Kind kind) {
   WM.setBoundary(df::Box(df::Vector(0, 0), kBusyWidth, kBusyHeight));
-  for (int i = 0; i < objects; ++i) new Walker(kind);
+  for (int i = 0; i < kWalkers; ++i) new Walker(kind);
 }
 
-BusyScene::BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed) {
+BusyScene::BusyScene(Kind kind, int width, int height, int players) {
   const df::World::Scope scope(m_world);
-  m_world.setSeed(seed);
+  m_world.setSeed(1);
   m_world.store().setWatched(true);
   m_world.views().setWindow(width, height);
   new Usher;
-  populateBusy(kind, objects);
-  for (int i = 0; i < players; ++i) {
-    m_players.push_back(m_world.input().join("bot" + std::to_string(i), df::WHITE));
-  }
+  populateBusy(kind);
+  for (int i = 0; i < players; ++i) m_world.input().join("bot" + std::to_string(i), df::WHITE);
 }
 
 BusyScene::~BusyScene() {

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "engine/world/Capture.h"
 #include "engine/world/World.h"
@@ -26,21 +25,19 @@ class BusyScene {
 
   /// Each player's view is `width` by `height` cells. The views are spread over the parts of the world in
   /// turn.
-  BusyScene(Kind kind, int objects, int width, int height, int players, std::uint64_t seed);
+  BusyScene(Kind kind, int width, int height, int players);
   ~BusyScene();
 
   void tick();
   const df::World& world() const { return m_world; }
   /// Returns the player's picture by the engine's own draw().
   df::Canvas truth(std::uint32_t player) const { return m_world.picture().renderPlayer(player); }
-  const std::vector<std::uint32_t>& players() const { return m_players; }
 
  private:
   df::World m_world;
-  std::vector<std::uint32_t> m_players;
 };
 
-/// Fills the current world: its boundary, and `objects` walkers.
-void populateBusy(BusyScene::Kind kind, int objects);
+/// Fills the current world: its boundary, and 1000 walkers.
+void populateBusy(BusyScene::Kind kind);
 
 }  // namespace bench

@@ -1,8 +1,8 @@
-#include "Box2dSimulation.h"
-
 #include <box2d/box2d.h>
 
 #include <vector>
+
+#include "Simulation.h"
 
 namespace bench::physics {
 namespace {

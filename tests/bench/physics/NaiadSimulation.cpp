@@ -1,10 +1,9 @@
-#include "NaiadSimulation.h"
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "Simulation.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Object.h"
 #include "engine/world/World.h"

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "Scene.h"
+#include "physics/body/PhysicsManager.h"
 
 namespace bench::physics {
 
@@ -20,5 +21,13 @@ class Simulation {
 };
 
 using SimulationPtr = std::unique_ptr<Simulation>;
+
+/// Builds the scene of df::Body Objects in its own World, in which a metre is a cell in both directions.
+/// Static bodies are ordinary HARD Objects. Throws std::runtime_error if the world would differ from the
+/// scene.
+SimulationPtr makeNaiad(const Scene& scene, df::Accuracy accuracy);
+/// Uses Box2D 2.4.1 as built by Debian: four steps of 1/120 s per tick, with the 8 velocity and 3 position
+/// iterations that its manual recommends. Boxes have their full sides; Box2D's polygon skin adds to them.
+SimulationPtr makeBox2d(const Scene& scene);
 
 }  // namespace bench::physics

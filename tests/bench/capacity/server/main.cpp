@@ -167,7 +167,7 @@ int serve(const std::string& identity, int most) {
   world.setSeed(1);
   world.views().setWindow(80, 24);
   new Usher;
-  bench::populateBusy(bench::BusyScene::Kind::kBusy, 1000);
+  bench::populateBusy(bench::BusyScene::Kind::kBusy);
   host.run(world);
   world.shutDown();
   control.join();

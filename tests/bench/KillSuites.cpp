@@ -1,0 +1,47 @@
+// Suites that each run one program while servers are killed or rooms fail. docs/bench.md describes them.
+#include "ResultLine.h"
+#include "Suite.h"
+
+namespace bench {
+namespace {
+
+const std::vector<std::string> kGames = {"breakout", "bullethell", "chase",       "hello", "lander",
+                                         "maze",     "platformer", "saucershoot", "tron",  "sandbox"};
+
+void run(const char* suite, const std::string& game, const std::vector<std::string>& words) {
+  progress(std::string(suite) + ": " + game);
+  if (printLinesOf("naiad_recovery", words) != 0) Line(suite).add("game", game).addZero("failed", 1);
+}
+
+const Suite s_fleet("fleet",
+                    "ten servers are killed at random while players of a directory play, and their bus",
+                    [](const Options& options) {
+                      progress("fleet");
+                      const std::vector<std::string> quick = {"40", "3", "5", "30", "4"};
+                      const std::vector<std::string> whole = {"1000", "20", "60", "10"};
+                      if (printLinesOf("naiad_fleet", options.quick ? quick : whole) != 0)
+                        Line("fleet").addZero("failed", 1);
+                    });
+
+const Suite s_rooms("rooms", "players of rooms notice nothing of others that burn a core, crash and hang",
+                    [](const Options& options) {
+                      progress("rooms");
+                      if (printLinesOf("naiad_rooms", {options.quick ? "10" : "120"}) != 0)
+                        Line("rooms").addZero("failed", 1);
+                    });
+
+const Suite s_recovery(
+    "recovery", "a server or its world is killed while clients play, who come back; journals are measured",
+    [](const Options& options) {
+      for (const std::string& game : kGames) {
+        run("recovery", game, {"kills", game, options.quick ? "5" : "100"});
+        run("long_round", game, {"long", game, options.quick ? "1" : "20"});
+        run("take_over", game, {"worlds", game, options.quick ? "3" : "30"});
+        run("journal", game, {"journal", game, options.quick ? "900" : "9000"});
+      }
+      run("hangs", "hanging", {"hangs", options.quick ? "1" : "10"});
+      run("scores", "scores", {"scores", options.quick ? "5" : "100"});
+    });
+
+}  // namespace
+}  // namespace bench
