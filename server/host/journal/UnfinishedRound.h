@@ -34,7 +34,7 @@ class UnfinishedRound {
   const DfrHeader& header() const { return m_header; }
   const DfrFacts& facts() const { return m_facts; }
   /// Returns a fact; empty if the file does not have it.
-  std::string fact(const std::string& name) const;
+  std::string fact(const std::string& name) const { return factOf(m_facts, name); }
   bool isOver() const { return m_over; }
 
   /// Returns the number of bytes up to the end of the file's last chunk that ends with a whole record.
@@ -66,6 +66,7 @@ class UnfinishedRound {
   JournalPosition releasePosition() { return std::move(*std::exchange(m_position, std::nullopt)); }
 
  private:
+  UnfinishedRound() = default;
   void readAll(std::string_view bytes);
   void recordTurn(const WorldTurn& turn);
   void recordInput(const df::InputQueue::Input& input);
