@@ -188,7 +188,7 @@ struct BanList::File {
     bool is_removal;
   };
   BanStore store;
-  std::vector<Change> unwritten;  ///< in order; those that could not be written are tried again
+  std::vector<Change> unwritten;  ///< oldest first; failed ones are tried again
 
   explicit File(const std::filesystem::path& path) : store(path) {}
 

@@ -30,7 +30,7 @@ struct PlatformCounters {
 };
 
 /// Thread: the host's, except for finish(). Only finish() blocks. Losing the platform does not affect
-/// players. This class itself is no platform: it ignores all reports.
+/// players. This class itself ignores all reports, for a server without a platform.
 class HostPlatform {
  public:
   using Clock = std::chrono::steady_clock;

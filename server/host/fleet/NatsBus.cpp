@@ -22,12 +22,12 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kPollInterval{250};  ///< for messages and a lost connection
+constexpr std::chrono::milliseconds kPollInterval{250};  ///< checks for messages and a lost connection
 constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting, of writing and of acknowledgements
 constexpr int kPingMillis = 5000;
-constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if so many are not answered
-/// After this time without a message, the bus is asked for an answer. If none comes within the same time, the
-/// bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
+constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if this many are not answered
+/// After this time without a message, the bus is asked for an answer. If none comes within this time again,
+/// the bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
 /// expire, so both together are well below that.
 constexpr std::chrono::seconds kMaxQuiet{1};
 constexpr std::chrono::seconds kCloseTimeout{10};

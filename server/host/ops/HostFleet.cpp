@@ -23,7 +23,7 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kSayPlayers{1};
-constexpr std::chrono::milliseconds kFinishTimeout{1500};  ///< for the bus, and again for the platform
+constexpr std::chrono::milliseconds kFinishTimeout{1500};  ///< limit for the bus, and again for the platform
 
 BusSettings busSettings(const HostOptions& options) {
   return {options.bus, options.bus_credentials, options.bus_ca};

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "host/process/StopSignals.h"
 #include "host/world/TickStallMeter.h"

@@ -40,7 +40,7 @@ class SessionTable {
   /// Makes room for a player from `newcomer` when all `places` are taken by the playing sessions for which
   /// `counts` is true (null: all of them). Only sessions that have been idle for kIdleTime, and whose address
   /// or /64 has at least a quarter of the places, qualify; ends the one that has been idle longest. Returns
-  /// false if there is none, or if a player from `newcomer` has a place.
+  /// false if none qualifies, or if a player from `newcomer` has a place.
   bool makePlace(const AddressPrefix& newcomer, std::size_t places, Clock::time_point now,
                  const std::function<bool(const Session&)>& counts = nullptr);
   /// Destroys the sessions that have ended.
