@@ -53,7 +53,7 @@ void UnfinishedRound::readAll(std::string_view bytes) {
   m_facts = reader.facts();
   m_over = reader.end() == DfrEnd::kDone;
   if (m_over || m_whole_bytes == reader.wholeBytes()) {
-    m_position.emplace(reader.releasePosition());
+    m_position = std::make_unique<JournalPosition>(reader.releasePosition());
     return;
   }
   const std::string_view whole = bytes.substr(0, m_whole_bytes);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -63,7 +63,7 @@ class UnfinishedRound {
   std::vector<df::InputQueue::Input> closingInputs() const;
 
   /// Returns the state for appending to the journal. May be called once.
-  JournalPosition releasePosition() { return std::move(*std::exchange(m_position, std::nullopt)); }
+  JournalPosition releasePosition() { return std::move(*std::exchange(m_position, nullptr)); }
 
  private:
   UnfinishedRound() = default;
@@ -87,7 +87,7 @@ class UnfinishedRound {
   std::uint32_t m_highest_player = 0;
   std::set<std::pair<std::uint32_t, int>> m_held_keys;  ///< held keys, by player
   std::map<std::string, df::GameRoom> m_rooms;          ///< rooms that the world knows, by name
-  std::optional<JournalPosition> m_position;
+  std::unique_ptr<JournalPosition> m_position;
 };
 
 }  // namespace naiad
