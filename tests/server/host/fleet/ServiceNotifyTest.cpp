@@ -113,9 +113,9 @@ TEST_F(ServiceNotifyTest, StalledManagerBlocksNothingAndLostStatusIsResent) {
   variables["WATCHDOG_USEC"] = "2";
   ServiceNotify service(variable());
   for (int i = 0; i < 100'000; ++i) service.notifyTick(Time(milliseconds(i)));
-  service.notifyPlayers({.address = "lost"});
+  service.notifyPlayers({.address = "lost", .ids = {}});
   EXPECT_LT(heard().size(), 100'000u);
-  service.notifyPlayers({.address = "lost"});
+  service.notifyPlayers({.address = "lost", .ids = {}});
   service.notifyTick(Time(milliseconds(100'000)));
   service.notifyStopping();
   EXPECT_EQ(heard(), texts({"STATUS=lost, 0 players", "WATCHDOG=1", "STOPPING=1"}))
