@@ -1,8 +1,6 @@
 // dfserver without any journal option is killed, and its players lose nothing. Real processes.
 #include <signal.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -87,20 +85,6 @@ TEST_F(DefaultJournal, TwoKilledServersOfOneUserRecover) {
     EXPECT_EQ(servers[i].player->player(), ids[i]);
     EXPECT_TRUE(serve([&] { return has(servers[i].program->log(), "reconnected to the recovered round"); }));
   }
-  clients.clear();
-}
-
-TEST_F(DefaultJournal, UnwritableFolderDisablesOnlyTheJournal) {
-  std::filesystem::create_directory(state());
-  std::ofstream(state() + "/rounds") << "a file";
-  Server one{"ann"};
-  start(one);
-  join(one);
-  const std::string log = one.program->log();
-  const std::size_t said = log.find("not recording rounds");
-  EXPECT_NE(said, std::string::npos) << log;
-  EXPECT_EQ(log.find("not recording rounds", said + 1), std::string::npos) << log;
-  type(*one.player, 1);
   clients.clear();
 }
 

@@ -183,17 +183,6 @@ TEST_F(HostedServer, ReloadAppliesChangeableOptions) {
   EXPECT_TRUE(ticks(ann) && ticks(bob));
 }
 
-TEST_F(HostedServer, OptionsThatCannotBeUsedChangeNothing) {
-  start({}, "max-players = 1\n");
-  TestClient& ann = join("ann");
-  ASSERT_TRUE(reload("max-plyers = 2\n"));
-  EXPECT_TRUE(logs("the options were not changed: " + config().string() +
-                   ":1: there is no option \"max-plyers\"; did you mean max-players?\n"))
-      << server->log();
-  EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
-  EXPECT_TRUE(ticks(ann));
-}
-
 TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
   start({}, "password = " + cheapHash("old") + "\n");
   ClientSetup old = home.player("ann");
@@ -422,19 +411,6 @@ TEST_F(HostedServer, ScheduledRestartCanBeCancelled) {
   EXPECT_EQ(ctl("cancel"), std::pair(0, std::string("Cancelled: the server stays up.\n")));
   EXPECT_TRUE(isTold(ann, "The server stays up: its shutdown or restart was cancelled."));
   EXPECT_TRUE(ticks(ann));
-}
-
-TEST_F(HostedServer, DrainEndsWhenAllHaveLeft) {
-  start({});
-  TestClient& ann = join("ann");
-  EXPECT_EQ(
-      ctl("drain 1h").second,
-      "Draining: no new players. The server stops when all players have left, or in 3600 s at the latest.\n");
-  EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
-  EXPECT_TRUE(ticks(ann));
-  ann.connection().leave();
-  EXPECT_TRUE(serve([&] { return server->log().find("\" left: quit\n") != std::string::npos; }));
-  EXPECT_TRUE(endsWell());
 }
 
 TEST_F(HostedServer, DfctlReloadReportsTheResult) {

@@ -33,22 +33,6 @@ TEST_F(NamedRooms, PlayersOfTwoRoomsPlayInTwoWorlds) {
   EXPECT_TRUE(serve([&] { return hasRead(*bob, "hello"); })) << "chat is everybody's";
 }
 
-TEST_F(NamedRooms, UnknownRoomIsRefusedWithTheNearestName) {
-  start({"arcade", "quiet"});
-  EXPECT_EQ(refusal("arcde"), "There is no room \"arcde\"; did you mean \"arcade\"?");
-  EXPECT_EQ(refusal("zzz"), "There is no room \"zzz\". Rooms: arcade, quiet.");
-}
-
-TEST_F(NamedRooms, FullRoomRefusesPlayersWhileOthersAccept) {
-  start({"one", "small,max-players=1"});
-  auto ann = join("ann", "small");
-  EXPECT_TRUE(has(refusal("small"), "\"small\" is full (1 players)"));
-  auto bob = join("bob", "one");
-  bob->session().enterRoom("small");
-  EXPECT_TRUE(serve([&] { return hasRead(*bob, "is full"); }));
-  EXPECT_EQ(bob->session().welcome().room, "one");
-}
-
 TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   start({"one", "two"});
   auto ann = join("ann", "one");
@@ -87,14 +71,6 @@ TEST_F(NamedRooms, PlayerMovesToAWorldWithEarlierTicks) {
   const int ticks = shown(*ann).ticks;
   EXPECT_TRUE(serve([&] { return shown(*ann).ticks > ticks; })) << "the picture goes on";
   EXPECT_LT(ann->newestTick(), bob->newestTick() + 100);
-}
-
-TEST_F(NamedRooms, UnknownRoomLeavesThePlayerWhereTheyAre) {
-  start({"one", "two"});
-  auto ann = join("ann", "one");
-  ann->session().enterRoom("tow");
-  EXPECT_TRUE(serve([&] { return hasRead(*ann, "did you mean \"two\"?"); }));
-  EXPECT_EQ(ann->session().welcome().room, "one");
 }
 
 TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {

@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
@@ -16,7 +15,6 @@
 
 #include "RecoveryRun.h"
 #include "host/journal/DfrWriter.h"
-#include "host/journal/UnfinishedRound.h"
 #include "host/rounds/RoundJournals.h"
 #include "tests/support/Sanitizers.h"
 
@@ -154,62 +152,6 @@ TEST(Recovery, RoundThatKillsServersIsAbandoned) {
   std::string said;
   run.verify(said);
   EXPECT_TRUE(has(run.log(), "after 3 failed recoveries"));
-}
-
-TEST(Recovery, DoesNotResumeARoundOfAnotherGame) {
-  RecoveryRun run("hello", 1, 3);
-  run.play(std::chrono::milliseconds(500));
-  run.killServer();
-  run.setGame("maze");
-  run.comeBack();
-  std::string said;
-  run.verify(said);
-  EXPECT_FALSE(has(run.log(), "round recovered"));
-  EXPECT_EQ(countIn(run.log(), run.round().string() + ": a round of the game hello"), 1);
-}
-
-/// Adds files that must not be used as rounds to the folder of a good one. Returns their paths.
-std::vector<std::filesystem::path> addHostileFiles(const std::filesystem::path& good) {
-  std::vector<std::filesystem::path> paths;
-  const auto add = [&](const std::string& name) {
-    return paths.emplace_back(good.parent_path() / ("hello-99991231-235959-" + name + ".dfr"));
-  };
-  const std::string bytes = contentOf(good);
-  mkfifo(add("pipe").c_str(), 0600);
-  std::filesystem::create_directory(add("folder"));
-  std::filesystem::create_symlink(good, add("link"));
-  std::filesystem::create_symlink(good.parent_path() / "none", add("dangling"));
-  std::ofstream(add("short")) << bytes.substr(0, 30);
-  std::ofstream(add("damaged")) << bytes.substr(0, 40) + "X" + bytes.substr(41);
-  std::ofstream(add("garbage")) << "#!/bin/sh\n";
-  std::filesystem::copy_file(good, add("shared"));
-  std::filesystem::permissions(paths.back(), std::filesystem::perms::others_write,
-                               std::filesystem::perm_options::add);
-  const UnfinishedRound round(good.string());
-  DfrHeader header = round.header();
-  header.start_nanos *= 2;  // newer than the good one
-  header.uuid[0] ^= 1;
-  DfrFacts facts = round.facts();
-  facts[kFactGame] = "hello-x";
-  std::ofstream(add("other-game")) << encodeDfrHeader(header) << encodeDfrMeta(facts)
-                                   << encodeDfrTurns(round.records(), 0);
-  return paths;
-}
-
-TEST(Recovery, HostileFilesDelayAndHideNoRound) {
-  RecoveryRun run("hello", 2, 5);
-  run.play(std::chrono::milliseconds(300));
-  ASSERT_TRUE(run.playUntilPictured());
-  run.killServer();
-  const std::vector<std::filesystem::path> hostile = addHostileFiles(run.round());
-  const KillResult result = run.comeBack();
-  EXPECT_EQ(result.returned, result.players) << result.problem;
-  EXPECT_EQ(result.ticks_lost, 0u) << result.problem;
-  std::string said;
-  run.verify(said);
-  EXPECT_EQ(countIn(run.log(), "cannot recover the round"), static_cast<int>(hostile.size())) << run.log();
-  for (const std::filesystem::path& path : hostile)
-    EXPECT_EQ(countIn(run.log(), "cannot recover the round: " + path.string()), 1) << run.log();
 }
 
 INSTANTIATE_TEST_SUITE_P(Games, KilledServer,

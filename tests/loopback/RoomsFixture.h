@@ -56,13 +56,6 @@ class RoomsFixture : public testing::Test {
     EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << server->log();
     return client;
   }
-  /// Returns the message with which the server refuses a player.
-  std::string refusal(const std::string& room) {
-    auto client = connect("eve", room);
-    EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));
-    clients.pop_back();
-    return client->connection().message();
-  }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   static std::string row(TestClient& client, int y) {
     return client.session().replica().render(client.newestTick()).rowText(y);

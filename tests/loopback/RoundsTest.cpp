@@ -201,17 +201,8 @@ TEST_F(Rounds, ServerShutdownEndsItsWorld) {
   EXPECT_EQ(ann->connection().message(), "The server is shutting down.");
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status << game->log();
+  EXPECT_GT(numberAfter(game->log(), " sounds=").value_or(0), 0) << "the theme";
   EXPECT_EQ(kill(process, 0), -1);
-}
-
-TEST_F(Rounds, AServerThatIsKilledLeavesNoWorld) {
-  start({{"NAIAD_ON_GAME_OVER", "restart"}});
-  auto ann = join("ann");
-  const int process = shown(*ann).process;
-  EXPECT_EQ(kill(process, 0), 0);
-  game->signal(SIGKILL);
-  game->wait();
-  EXPECT_TRUE(serve([&] { return kill(process, 0) == -1; }));
 }
 
 TEST_F(Rounds, PrivateWorldsCrashAlone) {
