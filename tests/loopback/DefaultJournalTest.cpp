@@ -39,18 +39,11 @@ class DefaultJournal : public RoomsFixture {
     ASSERT_NE(one.port, 0) << one.program->log();
   }
   void join(Server& one) {
-    ClientSetup setup = home.player(one.key);
-    one.player = std::make_unique<TestClient>(context, one.port, setup);
+    one.player = std::make_unique<TestClient>(context, one.port, home.player(one.key));
     one.player->keepPictures(false);
     clients.push_back(one.player.get());
     ASSERT_TRUE(serve([&] { return one.player->joined() && shown(*one.player).process > 0; }))
         << one.program->log();
-  }
-  void type(TestClient& client, int keys) {
-    for (int before = shown(client).keys; keys > 0; --keys, ++before) {
-      press(client, df::Keyboard::X);
-      ASSERT_TRUE(serve([&] { return shown(client).keys == before + 1; }));
-    }
   }
   static void kill(Server& one) {
     one.program->signal(SIGKILL);

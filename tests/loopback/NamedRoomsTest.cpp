@@ -45,7 +45,7 @@ TEST_F(NamedRooms, PlayerMovesInTheSameSession) {
   ann->session().enterRoom("two");
   const auto took =
       timeUntil(context, {ann.get(), bob.get()}, [&] { return shown(*ann).process == process; });
-  ASSERT_TRUE(took) << server->log();
+  ASSERT_TRUE(took) << game->log();
   EXPECT_LE(*took, std::chrono::milliseconds(300));
   EXPECT_EQ(&ann->session(), p_session);
   EXPECT_EQ(ann->session().welcome().room, "two");
@@ -90,7 +90,7 @@ TEST_F(NamedRooms, RoomSleepsWithoutPlayersAndWakes) {
     return shown(*ann).process > 0 && shown(*ann).process != process &&
            ann->session().welcome().room == "two" && shown(*ann).keys == 0;
   }));
-  EXPECT_FALSE(has(server->log(), "crashed"));
+  EXPECT_FALSE(has(game->log(), "crashed"));
 }
 
 /// The game of one room does not affect players in another: their ticks continue.
@@ -107,7 +107,7 @@ class Isolation : public RoomsFixture {
     const int process = shown(*ann).process;
     const auto began = Clock::now();
     press(*bob, key);
-    ASSERT_TRUE(serve([&] { return done(*bob); })) << server->log();
+    ASSERT_TRUE(serve([&] { return done(*bob); })) << game->log();
     const auto passed = std::chrono::duration<double>(Clock::now() - began).count();
     // 15 % of the ticks are enough, because the machine may be busy. A world that waited for the bad one
     // would have had almost none.
@@ -125,9 +125,7 @@ TEST_F(Isolation, CrashAffectsOnlyItsRoom) {
     if (process == 0) process = shown(bad).process;
     return shown(bad).process != process && shown(bad).process > 0;
   });
-  EXPECT_TRUE(serve([&] {
-    return server->log().find("in the room bad: the game crashed (SIGABRT)") != std::string::npos;
-  })) << server->log();
+  EXPECT_TRUE(logs("in the room bad: the game crashed (SIGABRT)")) << game->log();
 }
 
 TEST_F(Isolation, HangAffectsOnlyItsRoom) {
@@ -148,12 +146,12 @@ TEST_F(NamedRooms, RepeatedlyFailingGameClosesOnlyItsRoom) {
   start({"one", "two"}, {"--room-sleep=0"});
   auto ann = join("ann", "one");
   auto bob = join("bob", "two");
-  std::ofstream(server->playFolder() / "fails") << "yes";
+  std::ofstream(game->playFolder() / "fails") << "yes";
   press(*bob, df::Keyboard::C);
-  ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << server->log();
+  ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << game->log();
   EXPECT_TRUE(serve([&] {  // another thread writes the log
-    return server->log().find("the room two is closed for 30 s") != std::string::npos;
-  })) << server->log();
+    return game->log().find("the room two is closed for 30 s") != std::string::npos;
+  })) << game->log();
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
   auto eve = connect("eve", "two");
   EXPECT_TRUE(serve([&] { return eve->connection().isDeferred(); })) << "it tries again";

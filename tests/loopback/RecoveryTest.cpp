@@ -1,7 +1,6 @@
 // A server is killed while clients play. Its next start resumes the round, and all clients return as the
 // players that they were. `deploy/bench recovery` does this a thousand times.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -9,64 +8,48 @@
 #include <fstream>
 #include <random>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "RecoveryRun.h"
 #include "host/journal/DfrWriter.h"
 #include "host/rounds/RoundJournals.h"
+#include "tests/support/Processes.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
 namespace {
 
-bool isGone(pid_t process) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // pause before the next check
-  return kill(process, 0) != 0;
-}
-
-class KilledServer : public testing::TestWithParam<const char*> {};
+class KilledServer : public testing::TestWithParam<const char*> {
+ protected:
+  /// Interrupts a round, each time after a random time of at most `until`.
+  static void expectNothingLost(int times, KillResult (RecoveryRun::*p_interrupt)(), unsigned until) {
+    std::mt19937_64 random(7);
+    RecoveryRun run(GetParam(), 2, random());
+    for (int i = 0; i < times; ++i) {
+      run.play(std::chrono::milliseconds(100 + random() % until));
+      ASSERT_TRUE(run.playUntilPictured()) << i;
+      const KillResult result = (run.*p_interrupt)();
+      EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
+      EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
+      EXPECT_GT(result.cells, 0u) << i;
+      EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
+      RecordProperty("took_ms_" + std::to_string(i), static_cast<int>(result.took.count()));
+      RecordProperty("pause_ms_" + std::to_string(i), static_cast<int>(result.pause.count()));
+      if (HasFailure()) return;
+    }
+    std::string said;
+    EXPECT_TRUE(run.verify(said)) << said << run.log();
+  }
+};
 
 TEST_P(KilledServer, LosesNoPlayersAndNoTicks) {
-  constexpr int kKills = kSanitized ? 2 : 5;
-  std::mt19937_64 random(7);
-  RecoveryRun run(GetParam(), 2, random());
-  for (int i = 0; i < kKills; ++i) {
-    run.play(std::chrono::milliseconds(100 + random() % 900));
-    ASSERT_TRUE(run.playUntilPictured()) << i;
-    const KillResult result = run.kill();
-    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
-    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
-    EXPECT_GT(result.cells, 0u) << i;
-    EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
-    if (HasFailure()) return;
-  }
-  std::string said;
-  EXPECT_TRUE(run.verify(said)) << said << run.log();
+  expectNothingLost(kSanitized ? 2 : 5, &RecoveryRun::kill, 900);
 }
 
 // After dfctl restart --keep, players and ticks are kept like after a kill.
 TEST_P(KilledServer, KeepRestartLosesNoPlayersAndNoTicks) {
-  const int restarts = std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1;
-  std::mt19937_64 random(11);
-  RecoveryRun run(GetParam(), 2, random());
-  for (int i = 0; i < restarts; ++i) {
-    run.play(std::chrono::milliseconds(200 + random() % 300));
-    ASSERT_TRUE(run.playUntilPictured()) << i;
-    const KillResult result = run.keepRound();
-    EXPECT_EQ(result.returned, result.players) << i << ": " << result.problem;
-    EXPECT_EQ(result.ticks_lost, 0u) << i << ": " << result.problem;
-    EXPECT_GT(result.cells, 0u) << i;
-    EXPECT_EQ(result.wrong_cells, 0u) << i << " of " << result.cells << ": " << result.problem;
-    RecordProperty("took_ms_" + std::to_string(i), static_cast<int>(result.took.count()));
-    RecordProperty("pause_ms_" + std::to_string(i), static_cast<int>(result.pause.count()));
-    if (HasFailure()) return;
-  }
-  std::string said;
-  EXPECT_TRUE(run.verify(said)) << said << run.log();
+  expectNothingLost(std::getenv("NAIAD_LONG_TESTS") != nullptr ? 5 : 1, &RecoveryRun::keepRound, 400);
 }
 
 // Simulates a machine that was off for longer than the grace time. The world still uses the ids of the lost
@@ -125,9 +108,7 @@ TEST(Recovery, KilledWorldResumesFromACheckpoint) {
   for (const pid_t copy : copies) EXPECT_TRUE(isGone(copy)) << "it waits for a server that was killed";
   std::string said;
   EXPECT_TRUE(run.verify(said)) << said << run.log();
-  const bool by_checkpoint =
-      run.log().find("game recovered: a copy of its world replayed") != std::string::npos;
-  EXPECT_TRUE(by_checkpoint) << run.log();
+  EXPECT_TRUE(has(run.log(), "game recovered: a copy of its world replayed"));
 }
 
 // Also the launcher, which starts all worlds.

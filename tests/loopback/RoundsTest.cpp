@@ -13,8 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "host/world/BuildId.h"
 #include "shared/replica/TruthFile.h"
 #include "tests/server/host/admin/Talk.h"
@@ -32,21 +31,14 @@ struct Shown {
   int process = 0;
 };
 
-class Rounds : public LoopbackFixture {
+class Rounds : public ProgramFixture {
  protected:
   void start(std::map<std::string, std::string> environment) {
-    game = std::make_unique<GameProgram>("rounds_game", std::move(environment));
-    ASSERT_NE(game->port(), 0) << game->log();
+    launch("rounds_game", std::move(environment));
   }
-  std::unique_ptr<TestClient> join(const std::string& name) {
-    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
-    clients.push_back(client.get());
-    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).steps >= 0; })) << game->log();
-    return client;
-  }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
+  bool isPlaying(TestClient& client) const override { return shown(client).steps >= 0; }
   static Shown shown(TestClient& client) {
-    const std::string row = client.session().replica().render(client.newestTick()).rowText(12);
+    const std::string row = ProgramFixture::row(client);
     const auto mains = numberAfter(row, "mains=");
     const auto steps = numberAfter(row, "steps=");
     const auto process = numberAfter(row, "process=");
@@ -93,9 +85,6 @@ class Rounds : public LoopbackFixture {
     if (pictures.size() == ticks) return testing::AssertionSuccess();
     return testing::AssertionFailure() << pictures.size() << " of " << ticks;
   }
-
-  std::unique_ptr<GameProgram> game;
-  std::vector<TestClient*> clients;
 };
 
 /// Tests in which ann's key ends the round, and ann and bob continue in the next one.
@@ -325,9 +314,6 @@ class Upgrade : public Rounds {
   bool comesBack(TestClient& client) {
     return serve([&] { return client.connection().state() == Connection::State::kReconnecting; }) &&
            serve([&] { return client.joined() && shown(client).steps >= 0; });
-  }
-  bool logs(const std::string& part) {
-    return serve([&] { return game->log().find(part) != std::string::npos; });
   }
   /// True if the server has stopped and started again.
   static bool isBack(const std::string& log) {
