@@ -22,14 +22,14 @@ using test::helloOf;
 
 class RoomTransfersTest : public testing::Test, protected test::HostRooms {
  protected:
-  RoomTransfersTest() {
+  Admission& openAll() {
     options.max_players = 8;
     rooms.setNamed({plan("lobby", 8), plan("arcade", 1), plan("quiet", 8)});
     rooms.setOnTransfer(
         [this](Session& session, const std::string& room) { moves.askByGame(session, room); });
     rooms.setOnRoomClosed(
         [this](const Room& room, const std::string& message) { moves.evacuate(room, message); });
-    admission();
+    return admission();
   }
   RoomConfig plan(const std::string& name, int places) {
     return {.name = name,
@@ -103,7 +103,7 @@ class RoomTransfersTest : public testing::Test, protected test::HostRooms {
 
   std::map<std::string, test::FakeWorld*> ports;
   std::map<std::string, int> begun;
-  RoomTransfers moves{context, sessions, rooms, admission()};
+  RoomTransfers moves{context, sessions, rooms, openAll()};
 };
 
 TEST_F(RoomTransfersTest, HelloJoinsTheRoomOrGameItNames) {

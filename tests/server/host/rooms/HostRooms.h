@@ -17,6 +17,8 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "host/admission/Admission.h"
+#include "host/journal/Journal.h"
+#include "host/journal/JournalSink.h"
 #include "host/journal/JournalWriter.h"
 #include "tests/server/host/rooms/Clients.h"
 
@@ -77,7 +79,6 @@ struct HostRooms {
   /// Opens the rooms if they are not open.
   Admission& admission() {
     if (!m_admission) {
-      rooms.open(world);
       m_admission.emplace(Admission::Setup{context, sessions, rooms, news, prefixes,
                                            [](const ReliableChannel&, AeadId) { return nullptr; },
                                            [this](const wire::Welcome& welcome) -> Session& {
@@ -85,6 +86,7 @@ struct HostRooms {
                                              session.restore(welcome, events());
                                              return session;
                                            }});
+      rooms.open(world);
       m_admission->setWorld(world);
     }
     return *m_admission;
