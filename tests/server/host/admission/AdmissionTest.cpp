@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "host/auth/PasswordHash.h"
@@ -28,20 +29,16 @@ constexpr int kTurns = 100;  ///< turns of a round that is replayed
 
 /// A world that closes at once, or only when the test allows it.
 struct ClosingWorld : test::FakeWorld {
-  ClosingWorld(int& worlds, const bool& ends) : m_worlds(worlds), m_ends(ends) { ++m_worlds; }
-  ~ClosingWorld() override { --m_worlds; }
-  ClosingWorld(const ClosingWorld&) = delete;
-  ClosingWorld& operator=(const ClosingWorld&) = delete;
+  explicit ClosingWorld(std::shared_ptr<const bool> may_end) : m_may_end(std::move(may_end)) {}
 
   void tick(const SentTurn&) override {}
-  std::optional<WorldEnd> end() const override { return m_ends ? ended : std::nullopt; }
+  std::optional<WorldEnd> end() const override { return *m_may_end ? ended : std::nullopt; }
   void answer(int ticks) {
     while (ticks-- > 0) reportTick();
   }
 
  private:
-  int& m_worlds;
-  const bool& m_ends;
+  const std::shared_ptr<const bool> m_may_end;
 };
 
 class AdmissionTest : public testing::Test, protected test::HostRooms {
@@ -83,7 +80,7 @@ class AdmissionTest : public testing::Test, protected test::HostRooms {
   ClosingWorld& recover(int percent) {
     ClosingWorld* p_fake = nullptr;
     rooms.setWorlds([this, &p_fake](asio::io_context&) {
-      auto fake = std::make_unique<ClosingWorld>(worlds, worlds_end);
+      auto fake = std::make_unique<ClosingWorld>(worlds_may_end);
       p_fake = fake.get();
       std::string records;
       TurnRecordWriter writer;
@@ -114,16 +111,16 @@ class AdmissionTest : public testing::Test, protected test::HostRooms {
         [&sent](std::uint32_t, const wire::ServerMessage&) { sent = true; });
     return sent;
   }
+  long worlds() const { return worlds_may_end.use_count() - 1; }
   void playInPrivate() {
     options.players = "private";
     rooms.setWorlds([this](asio::io_context&) {
-      return std::make_unique<Round>(std::make_unique<ClosingWorld>(worlds, worlds_end));
+      return std::make_unique<Round>(std::make_unique<ClosingWorld>(worlds_may_end));
     });
   }
 
   asio::io_context& io = context.home;
-  int worlds = 0;
-  bool worlds_end = true;
+  const std::shared_ptr<bool> worlds_may_end = std::make_shared<bool>(true);
 };
 
 TEST_F(AdmissionTest, NamesCannotForgeLogLines) {
@@ -445,7 +442,7 @@ TEST_F(AdmissionTest, SchoolClassOf64RejoinsPrivateWorldsImmediately) {
   options.max_players = 64;
   playInPrivate();
   EXPECT_EQ(joinClass(64), 64);
-  EXPECT_EQ(worlds, 0) << "they have left";
+  EXPECT_EQ(worlds(), 0) << "they have left";
   EXPECT_EQ(joinClass(64), 64) << "and are back";
 }
 
@@ -467,12 +464,12 @@ TEST_F(AdmissionTest, NewWorldsAreLimitedPerAddressAndInTotal) {
 
 TEST_F(AdmissionTest, WorldsStillEndingCountAgainstTheLimit) {
   playInPrivate();
-  worlds_end = false;
+  *worlds_may_end = false;
   int joins = 0;
   for (int i = 0; i < 20; ++i, now += 1s) joins += visit("192.0.2.1:1") ? 1 : 0;
   EXPECT_EQ(joins, 3 + 8) << "one for each player allowed, and a few that are ending";
-  EXPECT_EQ(worlds, 3 + 8);
-  worlds_end = true;
+  EXPECT_EQ(worlds(), 3 + 8);
+  *worlds_may_end = true;
   rooms.checkWorlds();
   EXPECT_TRUE(visit("192.0.2.1:1"));
 }
