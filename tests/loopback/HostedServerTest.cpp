@@ -73,12 +73,7 @@ class HostedServer : public ProgramFixture {
     });
   }
   bool isTold(TestClient& playing, const std::string& line) {
-    return serve([&] {
-      for (const ChatEntry& entry : playing.session().chat()) {
-        if (entry.text == line) return true;
-      }
-      return false;
-    });
+    return serve([&] { return heard(playing, line); });
   }
   bool endsWell() const {
     const int status = game->wait();

@@ -136,10 +136,9 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
     EXPECT_EQ(result(attempt).substr(0, 5), "error") << "it is a pipe";
   }
   EXPECT_EQ(result("print"), "done");
-  const auto logged = [this](const std::string& text) { return game->log().find(text) != std::string::npos; };
-  EXPECT_TRUE(serve([&] { return logged(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)"); })) << game->log();
-  EXPECT_TRUE(logged(" game: seed ")) << "what the engine logs there";
-  EXPECT_FALSE(logged("\x1b"));
+  EXPECT_TRUE(logs(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)")) << game->log();
+  EXPECT_TRUE(has(game->log(), " game: seed ")) << "what the engine logs there";
+  EXPECT_FALSE(has(game->log(), "\x1b"));
   // The flags of the server's own output are unchanged, so the world does not share the server's open file.
   const std::string info = contentOf("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
   if (!info.empty()) {  // only root may read this

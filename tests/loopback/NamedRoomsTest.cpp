@@ -149,9 +149,7 @@ TEST_F(NamedRooms, RepeatedlyFailingGameClosesOnlyItsRoom) {
   std::ofstream(game->playFolder() / "fails") << "yes";
   press(*bob, df::Keyboard::C);
   ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << game->log();
-  EXPECT_TRUE(serve([&] {  // another thread writes the log
-    return game->log().find("the room two is closed for 30 s") != std::string::npos;
-  })) << game->log();
+  EXPECT_TRUE(logs("the room two is closed for 30 s")) << game->log();
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
   auto eve = connect("eve", "two");
   EXPECT_TRUE(serve([&] { return eve->connection().isDeferred(); })) << "it tries again";

@@ -1,6 +1,7 @@
 // A game as a real process, and clients in it.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -48,6 +49,11 @@ class ProgramFixture : public LoopbackFixture {
   bool isDismissed(TestClient& client, const std::string& message) {
     return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
            client.connection().message() == message;
+  }
+  /// True if this line is in the client's chat.
+  static bool heard(TestClient& client, const std::string& line) {
+    return std::ranges::any_of(client.session().chat(),
+                               [&](const ChatEntry& entry) { return entry.text == line; });
   }
   static std::string row(TestClient& client, int y = 12) {
     return client.session().replica().render(client.newestTick()).rowText(y);

@@ -46,10 +46,6 @@ class Rounds : public ProgramFixture {
     if (!mains || !steps || !process || row.find(';') == std::string::npos) return {};
     return {*mains, *steps, *process};
   }
-  static bool heard(TestClient& client, const std::string& line) {
-    const auto& chat = client.session().chat();
-    return std::ranges::any_of(chat, [&](const ChatEntry& entry) { return entry.text == line; });
-  }
   /// Returns the changes of the game's theme that the client heard: + started, - stopped.
   static std::string theme(TestClient& client) {
     std::string heard;
