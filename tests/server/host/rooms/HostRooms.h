@@ -62,7 +62,7 @@ struct FakeWorld : WorldPort {
   }
 
   std::vector<SentTurn> turns;
-  WorldAnswer next;  ///< to the next turn
+  WorldAnswer next;  ///< returned for the next turn
   df::WorldView picture;
   std::optional<WorldEnd> ended;
 };
