@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "host/auth/PasswordHash.h"
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/RoundRecovery.h"
 #include "tests/server/host/rooms/HostRooms.h"
 #include "tests/support/Text.h"
 

@@ -18,8 +18,6 @@
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
 #include "engine/world/Views.h"
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/RoundRecovery.h"
 #include "host/world/WorldInProcess.h"
 #include "tests/server/host/rooms/HostRooms.h"
 

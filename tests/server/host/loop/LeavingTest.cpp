@@ -14,11 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/Journal.h"
-#include "host/journal/JournalSink.h"
-#include "host/journal/JournalWriter.h"
-#include "host/journal/RoundRecovery.h"
 #include "host/journal/UnfinishedRound.h"
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"

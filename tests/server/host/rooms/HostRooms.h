@@ -17,9 +17,11 @@
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "host/admission/Admission.h"
+#include "host/journal/DeterminismCheck.h"
 #include "host/journal/Journal.h"
 #include "host/journal/JournalSink.h"
 #include "host/journal/JournalWriter.h"
+#include "host/journal/RoundRecovery.h"
 #include "tests/server/host/rooms/Clients.h"
 
 namespace naiad::test {

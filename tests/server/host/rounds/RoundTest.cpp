@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/RoundRecovery.h"
 #include "tests/server/host/rooms/HostRooms.h"
 
 namespace naiad {
