@@ -13,8 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
 #include "engine/world/WorldLog.h"
@@ -66,38 +65,15 @@ struct Pipe {
   int ends[2];
 };
 
-class Trouble : public LoopbackFixture {
+class Trouble : public ProgramFixture {
  protected:
   void TearDown() override {
     if (game) game->signal(SIGKILL);  // ends a game that may hang; the tests check nothing after this
   }
   void start(std::map<std::string, std::string> environment = {}, int errors = -1) {
-    game = std::make_unique<GameProgram>("trouble_game", std::move(environment), std::vector<std::string>{},
-                                         errors);
-    ASSERT_NE(game->port(), 0) << game->log();
+    launch("trouble_game", std::move(environment), {}, errors);
   }
-  std::unique_ptr<TestClient> join(const std::string& name) {
-    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
-    clients.push_back(client.get());
-    EXPECT_TRUE(serve([&] { return client->joined(); })) << game->log();
-    return client;
-  }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
-  bool logs(const std::string& part) {
-    return serve([&] { return game->log().find(part) != std::string::npos; });
-  }
-  /// True if the world continues to tick.
-  bool ticks(TestClient& client, std::uint32_t count = 100) {
-    const std::uint32_t from = client.newestTick();
-    return serve([&] { return client.newestTick() > from + count; });
-  }
-  bool isDismissed(TestClient& client) {
-    return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
-           client.connection().message() == kGoodbye;
-  }
-
-  std::unique_ptr<GameProgram> game;
-  std::vector<TestClient*> clients;
+  bool isDismissed(TestClient& client) { return ProgramFixture::isDismissed(client, kGoodbye); }
 };
 
 // ---- the log ----------------------------------------------------------------------------------------------
@@ -236,49 +212,45 @@ TEST_F(Trouble, SlowTickIsReportedOnceWithItsHandler) {
 
 // ---- a game that crashes ----------------------------------------------------------------------------------
 
-class Crash : public Trouble {
- protected:
-  void expectLine(df::Keyboard::Key key, int signal, const std::string& name,
-                  const std::string& activity = "Trouble handled EventKeyboard") {
-    if (kSanitized) GTEST_SKIP() << "the sanitizer reports crashes itself";
-    start();
-    auto ann = join("ann");
-    ASSERT_TRUE(ticks(*ann, 1));
-    press(*ann, key);
-    serve([&] { return game->log().find("crashed") != std::string::npos; });
-    const int status = game->wait();
-    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status << game->log();
-    for (const char* file : {"log", "output"}) {
-      const std::string text = contentOf(game->directory() / file);
-      const std::string line = " trouble_game: crashed (" + name + ") in tick ";
-      ASSERT_TRUE(has(text, line)) << file << ": ";
-      EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
-      EXPECT_TRUE(has(text, ", while " + activity + "\n"));
-      EXPECT_TRUE(has(text, "trouble_game: the game's log: a key\\x1b[2J\n"));
-      EXPECT_TRUE(has(text, "trouble_game: to see where: gdb "));
-    }
-  }
+struct CrashCase {
+  const char* name;
+  df::Keyboard::Key key;
+  int signal;
+  const char* signal_name = "SIGSEGV";
+  const char* activity = "Trouble handled EventKeyboard";
 };
 
-TEST_F(Crash, EndlessRecursionIsLogged) {
-  expectLine(df::Keyboard::R, SIGSEGV, "SIGSEGV");
+class Crash : public Trouble, public testing::WithParamInterface<CrashCase> {};
+
+TEST_P(Crash, IsLoggedWithItsHandler) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer reports crashes itself";
+  const CrashCase& crash = GetParam();
+  start();
+  auto ann = join("ann");
+  ASSERT_TRUE(ticks(*ann, 1));
+  press(*ann, crash.key);
+  logs("crashed");
+  const int status = game->wait();
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == crash.signal) << status << game->log();
+  for (const char* file : {"log", "output"}) {
+    const std::string text = contentOf(game->directory() / file);
+    const std::string line = std::string(" trouble_game: crashed (") + crash.signal_name + ") in tick ";
+    ASSERT_TRUE(has(text, line)) << file << ": ";
+    EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
+    EXPECT_TRUE(has(text, std::string(", while ") + crash.activity + "\n"));
+    EXPECT_TRUE(has(text, "trouble_game: the game's log: a key\\x1b[2J\n"));
+    EXPECT_TRUE(has(text, "trouble_game: to see where: gdb "));
+  }
 }
 
-TEST_F(Crash, AbortIsLogged) {
-  expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
-}
-
-TEST_F(Crash, CrashInDrawIsLogged) {
-  expectLine(df::Keyboard::D, SIGSEGV, "SIGSEGV", "Trouble ran draw()");
-}
-
-TEST_F(Crash, DivisionByZeroIsLogged) {
-  expectLine(df::Keyboard::Z, SIGFPE, "SIGFPE");
-}
-
-TEST_F(Crash, CrashAfterNestedHandlerNamesTheOuterHandler) {
-  expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
-}
+INSTANTIATE_TEST_SUITE_P(Games, Crash,
+                         testing::Values(CrashCase{"EndlessRecursion", df::Keyboard::R, SIGSEGV},
+                                         CrashCase{"Abort", df::Keyboard::A, SIGABRT, "SIGABRT"},
+                                         CrashCase{"InDraw", df::Keyboard::D, SIGSEGV, "SIGSEGV",
+                                                   "Trouble ran draw()"},
+                                         CrashCase{"DivisionByZero", df::Keyboard::Z, SIGFPE, "SIGFPE"},
+                                         CrashCase{"AfterANestedHandler", df::Keyboard::N, SIGSEGV}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 /// Like the tests above, but the world is in its own process, which shares its crash page with the front
 /// process.

@@ -194,8 +194,8 @@ void checkNextProgram(const std::string& expected) {
   const auto sockets = InheritedSockets::importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_EQ(std::to_string(sockets->port) + ' ' + std::to_string(sockets->is_service), expected);
-  EXPECT_GE(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
-  EXPECT_GE(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
+  EXPECT_EQ(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
+  EXPECT_EQ(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
   EXPECT_FALSE(InheritedSockets::importSockets()) << "only once";
 }
 
