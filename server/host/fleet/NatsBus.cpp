@@ -26,10 +26,10 @@ constexpr std::chrono::milliseconds kPollInterval{
     250};                             ///< interval of checks for messages and a lost connection
 constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting, of writing and of acknowledgements
 constexpr int kPingMillis = 5000;
-constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if so many are not answered
-/// After this time without a message, the bus is asked for an answer. If none comes within the same time, the
-/// bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
-/// expire, so both together are well below that.
+constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if this many are unanswered
+/// After this time without a message, the bus is pinged. If it does not answer within this time again, it
+/// counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s expire,
+/// so both together are well below that.
 constexpr std::chrono::seconds kMaxQuiet{1};
 constexpr std::chrono::seconds kCloseTimeout{10};
 constexpr const char* kConnectedNews = "the bus is connected";
@@ -183,7 +183,7 @@ class NatsBus : public Bus {
     m_closed = false;
   }
 
-  /// Asks the bus for an answer, and sets whether it counts as connected. Called with the lock held.
+  /// Waits until the bus answers a ping, at most kMaxQuiet, and sets m_connected. Called with the lock held.
   void checkAnswer(natsConnection& connection, Lock& lock) {
     lock.unlock();
     const bool answers =
