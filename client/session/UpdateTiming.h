@@ -42,7 +42,7 @@ class StreamLiveness {
   bool isPingDue(Time now, bool has_datagrams) const;
   /// Call when sending a ping. Returns its token.
   std::uint64_t startPing(Time now);
-  /// Call when a pong arrives. Returns the round trip; nullopt if the token is unknown or already answered.
+  /// Call when a pong arrives. Adds and returns the round trip; nullopt if no unanswered ping has the token.
   std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// Adds a round trip measured with datagrams.
   void addRttSample(Millis sample, Time now) { m_stats.addSample(sample, now); }

@@ -152,7 +152,7 @@ TerminalGuard::TerminalGuard(Options options) : m_options(options) {
   static const bool at_exit = std::atexit(restoreNow) == 0;
   (void)at_exit;
   installHandlers();
-  setRaw();
+  setRawMode();
 }
 
 TerminalGuard::~TerminalGuard() {
@@ -180,7 +180,7 @@ void TerminalGuard::installHandlers() {
   install(SIGPIPE, SIG_IGN, 0);
 }
 
-void TerminalGuard::setRaw() {
+void TerminalGuard::setRawMode() {
   termios raw = g_original;
   raw.c_iflag &= ~static_cast<tcflag_t>(BRKINT | ICRNL | INLCR | IGNCR | INPCK | ISTRIP | IXON);
   raw.c_lflag &= ~static_cast<tcflag_t>(ECHO | ECHONL | ICANON | ISIG | IEXTEN);
@@ -192,7 +192,7 @@ void TerminalGuard::setRaw() {
 }
 
 // Uses TCSAFLUSH, so that mouse reports still arriving do not end up in the shell's command line.
-void TerminalGuard::setOriginal() {
+void TerminalGuard::setOriginalMode() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
   g_taken = 0;
 }
@@ -253,7 +253,7 @@ void TerminalGuard::restore() {
   leaveModes();
   if (m_end_screen) m_end_screen();
   m_end_screen = nullptr;
-  setOriginal();
+  setOriginalMode();
 }
 
 void TerminalGuard::write(const char* bytes, unsigned long size) {

@@ -43,8 +43,8 @@ class TerminalGuard {
   void enterModes();
   /// Switches all reports off again. Call while the alternate screen is on.
   void leaveModes();
-  void setRaw();
-  void setOriginal();
+  void setRawMode();
+  void setOriginalMode();
 
   /// Switches key reports with releases (kitty flags 1+2+4+8+16) on or off.
   void pushKitty();
@@ -59,7 +59,7 @@ class TerminalGuard {
   [[nodiscard]] bool stopProcess();
   /// Returns a descriptor from which one byte can be read for each signal that arrived: the signal's number.
   int signalFd() const;
-  /// Sets the function that ends the screen. restore() calls it after leaveModes() and before setOriginal().
+  /// Sets the function that ends the screen; restore() calls it between leaveModes() and setOriginalMode().
   void onRestore(std::function<void()> end_screen) { m_end_screen = std::move(end_screen); }
   /// Restores the terminal; does nothing the second time.
   void restore();

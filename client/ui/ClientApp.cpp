@@ -265,7 +265,7 @@ void ClientApp::suspend() {
   m_player.releaseKeys(Clock::now());
   m_guard->leaveModes();
   m_screen->end();
-  m_guard->setOriginal();
+  m_guard->setOriginalMode();
   if (m_guard->stopProcess()) {
     resume();
   } else {
@@ -276,7 +276,7 @@ void ClientApp::suspend() {
 
 void ClientApp::resume() {
   const Time now = Clock::now();
-  m_guard->setRaw();
+  m_guard->setRawMode();
   // Another terminal may have been attached, so enterModes() asks for its protocol again.
   m_player.setRealReleases(false, now);
   m_composer.acceptKeyReleases(false);

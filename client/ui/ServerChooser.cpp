@@ -160,12 +160,12 @@ void ServerChooser::fetch() {
 void ServerChooser::suspend() {
   m_guard->leaveModes();
   m_screen->end();
-  m_guard->setOriginal();
+  m_guard->setOriginalMode();
   if (!m_guard->stopProcess()) {
     m_done = true;
     return handleSignals();
   }
-  m_guard->setRaw();
+  m_guard->setRawMode();
   m_screen->readSize();
   m_screen->redrawAll();
   draw();

@@ -314,7 +314,7 @@ class Upgrade : public Rounds {
   /// True if the server has stopped and started again.
   static bool isBack(const std::string& log) {
     const std::size_t stopped = log.find("stopped: ");
-    return stopped != std::string::npos && log.find("is a server on", stopped) != std::string::npos;
+    return stopped != std::string::npos && log.find("listens on", stopped) != std::string::npos;
   }
 
  private:

@@ -61,7 +61,7 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
     EXPECT_EQ(ann->connection().message(), "The game is over.");
     EXPECT_EQ(game->wait(), 0) << game->log();
     EXPECT_FALSE(has(game->log(), "reconnected"));
-    EXPECT_EQ(has(game->log(), "is a server on"), true);
+    EXPECT_EQ(has(game->log(), "listens on"), true);
   }
 }
 

@@ -99,8 +99,7 @@ TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   Pipe pipe;
   start({{"NAIAD_LOG_FILE", ""}}, pipe.ends[1]);
   std::string said;
-  ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("is a server on") != std::string::npos; }))
-      << said;
+  ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("listens on") != std::string::npos; })) << said;
   pipe.fill();
   auto ann = join("ann");
   auto bob = join("bob");

@@ -47,8 +47,9 @@ class HostCommands : public HostPart {
         m_admin(access, scores),
         m_console(access.context, m_admin, m_worker, m_bans),
         m_chat(access, m_admin, m_console, m_bans) {
-    access.endpoint.setBans([this](const asio::ip::address& address) { return m_bans.isBanned(address); });
-    access.clients.admission().setBans([this](const asio::ip::address& address, const std::string& name) {
+    access.endpoint.setBanCheck(
+        [this](const asio::ip::address& address) { return m_bans.isBanned(address); });
+    access.clients.admission().setBanCheck([this](const asio::ip::address& address, const std::string& name) {
       return m_bans.refusal(address, name);
     });
     access.clients.setCommands(

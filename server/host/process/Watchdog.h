@@ -19,7 +19,7 @@
 
 namespace naiad {
 
-/// A log for threads that must not wait, for example to end a server whose game may hold the log's lock.
+/// A log for threads that must not wait, such as the one that ends a server whose game may hold its lock.
 /// Passes lines on, in order, on a thread of its own, which is started in advance.
 class AsyncLog {
  public:

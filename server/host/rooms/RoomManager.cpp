@@ -394,7 +394,8 @@ bool RoomManager::beginRound(Room& room) {
   try {
     room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
-    m_log("cannot start the next round: " + errorText(error));
+    m_log("cannot start the next round" + (isNamed() ? " in the room " + room.plan()->name : "") + ": " +
+          errorText(error));
     return false;
   }
   m_counters.sounds += room.sounds().sent() - sent;

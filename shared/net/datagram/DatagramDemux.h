@@ -21,7 +21,7 @@
 namespace naiad {
 
 /// Every packet is counted once: as delivered, as refused by its link (whose counters give the reason), or in
-/// one of the other counters. `session`, `claimed` etc. are the rates of DatagramDemuxRates.
+/// one of the other counters. The rates are named as in DatagramDemuxRates.
 struct DatagramDemuxCounters {
   std::uint64_t delivered = 0;
   std::uint64_t too_short = 0;

@@ -67,7 +67,7 @@ TEST_F(Extremes, PathsAtTwoBillionCellsMatchTheOrigin) {
   }
 }
 
-TEST_F(Extremes, MillionCellsPerTickEndAtTheRightPosition) {
+TEST_F(Extremes, MovesOfAMillionCellsEndCorrectly) {
   WM.setBoundary(Box(Vector(0, 0), 1e6, 1e6));
   auto* p_wall = new Reacting;
   p_wall->setPosition(Vector(900000, 10));

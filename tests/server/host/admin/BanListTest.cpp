@@ -222,7 +222,7 @@ TEST_F(BanListTest, DatabaseWithAnotherSchemaIsAnError) {
 }
 
 // Simulates a full disk: the folder cannot be created.
-TEST_F(BanListTest, UnsavedBanAppliesReportsErrorAndReloadSavesIt) {
+TEST_F(BanListTest, UnsavedBanAppliesAndReloadSavesIt) {
   const fs::path blocked = folder / "state";
   std::ofstream(blocked) << "in the way";
   BanList list(worker, blocked, clock());

@@ -138,7 +138,7 @@ TEST_F(InheritedSocketsTest, DifferentOrMissingAddressesAreRefused) {
 }
 
 // Tests IPv4 and, as with systemd's "[::]:9876", a socket for both address families.
-TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
+TEST_F(InheritedSocketsTest, ServerPortListensOnInheritedSockets) {
   for (const char* address : {"127.0.0.1", "::"}) {
     const std::uint16_t port = openBoth(address);
     const auto sockets = importSockets();
