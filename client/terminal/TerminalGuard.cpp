@@ -228,10 +228,6 @@ void TerminalGuard::queryKitty() {
   put(kKittyQuery);
 }
 
-bool TerminalGuard::kittyPushed() const {
-  return g_kitty != 0;
-}
-
 bool TerminalGuard::stopProcess() {
   const pid_t shell = shellOfGroup();
   const bool has_shell = tcgetpgrp(STDIN_FILENO) > 0;

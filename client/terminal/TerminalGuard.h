@@ -51,7 +51,6 @@ class TerminalGuard {
   void popKitty();
   /// Asks again whether the terminal supports the kitty protocol.
   void queryKitty();
-  bool kittyPushed() const;
 
   /// Stops this process like Ctrl-Z, and returns true when it is in the foreground again. Restore the
   /// terminal first. Returns false if the process must end, because a signal asks it to or its shell has
