@@ -92,7 +92,7 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.addRttSample(*sample);
 }
 
-void ClientSession::handle(RoomEnteredMessage&& message, Time now) {
+void ClientSession::handle(const RoomEnteredMessage& message, Time now) {
   if (m_state != State::kPlaying) return reject("another room before the welcome");
   m_inbox.addNotice("You are now in room " + message.room + ", playing " + message.game + ".", now);
   static_cast<PlayerWorld&>(m_welcome) = message;

@@ -169,7 +169,7 @@ class ClientSession {
   void handle(ChatMessage&& message, Time now);
   void handle(SoundsMessage&& message, Time now);
   void handle(const PongMessage& message, Time now);
-  void handle(RoomEnteredMessage&& message, Time now);
+  void handle(const RoomEnteredMessage& message, Time now);
   void handle(RoomsMessage&& message, Time now);
   void reject(const std::string& what);
   void finish(State state, std::string message);
