@@ -73,8 +73,7 @@ class PinLines {
     const std::size_t second = rest.find_first_not_of(kBlanks, blank);
     const auto address = ServerAddress::parse(std::string(rest.substr(0, blank)));
     const auto key = Fingerprint::parse(rest.substr(second));
-    // An address counts as a pin only if it is spelled as text() spells it, because pins are compared as
-    // text.
+    // A pin is spelled as text() spells the address, because pins are compared as text.
     if (!address || !key || address->text() != rest.substr(0, blank)) return line;
     line.server = lowerCase(address->text());
     line.key = key;
