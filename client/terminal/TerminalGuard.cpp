@@ -32,7 +32,7 @@ constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2
 // Written at exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
-constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGQUIT};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
 constexpr int kWriteTimeoutMillis = 1000;  // time limit for a terminal that accepts no bytes
@@ -226,10 +226,6 @@ void TerminalGuard::popKitty() {
 
 void TerminalGuard::queryKitty() {
   put(kKittyQuery);
-}
-
-bool TerminalGuard::kittyPushed() const {
-  return g_kitty != 0;
 }
 
 bool TerminalGuard::stopProcess() {

@@ -71,7 +71,7 @@ TEST_F(TerminalRestoreTest, SignalsRestoreTheTerminal) {
 }
 
 TEST_F(TerminalRestoreTest, CrashRestoresTheTerminal) {
-  for (const int number : {SIGSEGV, SIGABRT, SIGBUS}) {
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGQUIT}) {
     PtyTerminal::Options with = options();
     with.answer_kitty = true;
     // Without these options, the sanitizer's own handler would run first.

@@ -2,6 +2,8 @@
 import os
 import re
 
+from .text import named
+
 OURS, THEIRS, OTHER, SYSTEM, UNCLEAR = "Naiad", "the game", "another engine", "another system", "Naiad or the game"
 
 _MISSING_FILE = re.compile(r"^'?(?P<file>[^\s:']+)'?(?:: No such file or directory| file not found)")
@@ -31,11 +33,7 @@ _MAIN_ADVICE = "WinMain() exists only on Windows: write int main()"
 
 def missing_name(text):
     """Returns the name that is missing according to a compiler message, or None."""
-    for pattern in _NAMED:
-        match = pattern.search(text)
-        if match:
-            return match.group("name")
-    return None
+    return named(_NAMED, text)
 
 
 def missing_file(text):
@@ -94,7 +92,7 @@ class Blame:
         return self._naiad.was_published(name)
 
     def _file(self, base, path):
-        if _WINDOWS_HEADERS.match(base) or base.lower() in ("winsock2.h", "ws2tcpip.h", "winsock.h"):
+        if _WINDOWS_HEADERS.match(base):
             return SYSTEM, f"{base} exists only on Windows: remove the code that uses it"
         if _MAC_HEADERS.match(path):
             return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"

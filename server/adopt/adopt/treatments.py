@@ -3,6 +3,7 @@ import re
 
 from .compiler import Diagnostic
 from .folder import is_source
+from .text import named
 
 _NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
 _UNKNOWN = [re.compile(pattern) for pattern in (
@@ -80,7 +81,7 @@ class Treatments:
         lines = {}
         for diagnostic in sorted(unit.diagnostics, key=lambda one: (one.file, one.line, -one.column)):
             place = diagnostic.file, diagnostic.line
-            is_name = any(pattern.search(diagnostic.text) for pattern in _UNKNOWN)
+            is_name = named(_UNKNOWN, diagnostic.text) is not None
             if place in touched or (place in lines and not (is_name and lines[place])):
                 continue
             before = [(one.file, one.line, one.after) for one in self.changes]
@@ -131,14 +132,10 @@ class Treatments:
                 self.changes.append(Change(diagnostic.file, diagnostic.line, "void draw()", "-DDF_DRAW=void",
                                            "draw() returns nothing, as in the earliest engines; this option suits all of them"))
             return True
-        done = False
-        declared = rf"\b{re.escape(old)}(\s+(?:{match.group('class')}\s*::\s*)?{name}\s*\()"
-        for file, number, found in list(self._sources.find(declared)):
-            if file == diagnostic.file and number == diagnostic.line or f"{match.group('class')}" in found.group():
-                place = type(diagnostic)(file, number, 1, "error", "", "")
-                line = re.sub(declared, goal + r"\1", self._sources.line(file, number), count=1)
-                done |= self._edit(place, line, f"must return the type of the engine's {name}()")
-        return done
+        place, owner = (diagnostic.file, diagnostic.line), match.group("class")
+        return self._elsewhere(rf"\b{re.escape(old)}(\s+(?:{owner}\s*::\s*)?{name}\s*\()", goal + r"\1",
+                               f"must return the type of the engine's {name}()",
+                               lambda file, number, found: (file, number) == place or owner in found.group())
 
     def _clang_return_type(self, diagnostic):
         """Like _return_type(), for clang, whose message names no class. Changes the declaration; a later message, the definition."""
@@ -172,11 +169,8 @@ class Treatments:
         """Includes the header of a name that other compilers or engines include indirectly."""
         if not diagnostic.is_error:
             return False
-        for pattern in _NOT_IN_DF:
-            match = pattern.search(diagnostic.text)
-            if match:
-                return self._force(unit, diagnostic, self._naiad.header_of(match.group("name"))) or \
-                    self._scope(diagnostic, match.group("name"))
+        if name := named(_NOT_IN_DF, diagnostic.text):
+            return self._force(unit, diagnostic, self._naiad.header_of(name)) or self._scope(diagnostic, name)
         hint = next((found for _, text, _ in diagnostic.notes if (found := _FORGOT.search(text))), None)
         return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
 
@@ -204,12 +198,10 @@ class Treatments:
         before, behind = self._at(diagnostic)
         if "expected class-name before" in diagnostic.text:
             return self._bases(diagnostic, before)
-        for pattern in _UNKNOWN:
-            match = pattern.search(diagnostic.text)
-            if match and self._is_engines(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
-                    and not re.search(r"(::|\.|->)\s*$", before):
-                return self._edit(diagnostic, before + "df::" + behind, "missing df:: before a name of the engine")
-        return False
+        name = named(_UNKNOWN, diagnostic.text)
+        if not name or not self._is_engines(name) or not re.match(rf"{name}\b", behind) or re.search(r"(::|\.|->)\s*$", before):
+            return False
+        return self._edit(diagnostic, before + "df::" + behind, "missing df:: before a name of the engine")
 
     def _is_engines(self, name):
         """Returns whether a name without df:: can be the engine's: the engine has it, and the game has no class of that name."""
@@ -253,9 +245,9 @@ class Treatments:
                 return self._edit(diagnostic, pattern.sub(after, line, count=1).replace("\0", ""), why)
         return False
 
-    def _elsewhere(self, pattern, after, why):
-        """Changes the lines of the sources that match a pattern. Returns whether there was one."""
-        places = [(file, number) for file, number, _ in self._sources.find(pattern)]
+    def _elsewhere(self, pattern, after, why, fits=lambda file, number, match: True):
+        """Changes the lines of the sources that match a pattern and fit. Returns whether there was one."""
+        places = [one[:2] for one in self._sources.find(pattern) if fits(*one)]
         return any([self._edit(Diagnostic(file, number, 1, "error", "", ""),
                                re.sub(pattern, after, self._sources.line(file, number), count=1), why)
                     for file, number in places])

@@ -62,7 +62,6 @@ class DatagramDemux {
   void remove(ConnectionId id);
   bool has(ConnectionId id) const { return registrations_.contains(id); }
 
-  /// Handles a packet that arrived.
   void receive(const Path& path, std::string_view packet, Time now);
 
   const DatagramDemuxCounters& counters() const { return counters_; }
