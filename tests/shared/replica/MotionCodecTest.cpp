@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "LegalRecords.h"
 #include "RandomRecords.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/values/Vector.h"
@@ -129,39 +128,6 @@ TEST(MotionCodec, FractionTakesAtLeastItsOwnBits) {
     EXPECT_EQ(exactBits(v), bits);
   }
   EXPECT_EQ(fractionBits({}), 0);
-}
-
-TEST(MotionCodec, TruncatedMotionsAreRefused) {
-  RandomRecords random(4);
-  for (int i = 0; i < 300; ++i) {
-    BitWriter out;
-    const Origin origin = random.origin();
-    writeMotion(out, random.motion(5), origin);
-    const std::string bytes = out.bytes();
-    for (std::size_t length = 0; length + 1 < bytes.size(); ++length) {
-      BitReader in(std::string_view(bytes).substr(0, length));
-      readMotion(in, 5, origin);
-      ASSERT_FALSE(in.ok()) << i << ", " << length << " bytes";
-    }
-  }
-}
-
-TEST(MotionCodec, HostileBytesAreRefusedOrLegal) {
-  RandomRecords random(5);
-  int accepted = 0;
-  int refused = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    std::string bytes(random.rng().below(48), '\0');
-    const int mask = i % 3 == 0 ? 0xFF : i % 3 == 1 ? 0x11 : 0xEE;
-    for (char& byte : bytes) byte = static_cast<char>(random.rng().next() & static_cast<unsigned>(mask));
-    const Origin origin = random.origin();
-    BitReader in(bytes);
-    const Motion motion = readMotion(in, 8, origin);
-    ASSERT_TRUE(!in.ok() || test::isLegal(motion, 8)) << i;
-    ++(in.ok() ? accepted : refused);
-  }
-  EXPECT_GT(accepted, 1000);
-  EXPECT_GT(refused, 1000);
 }
 
 TEST(MotionCodec, VectorsAreExactAndLimited) {

@@ -214,22 +214,6 @@ TEST(Grid, OneCellObjectsAmongFewBoxesMissNoContact) {
   EXPECT_GT(met, 3000);
 }
 
-TEST(Grid, CrowdedCellSurvivesAddsAndRemovesInAnyOrder) {
-  Random random(9);
-  Filed it(300);
-  for (int round = 0; round < 5000; ++round) {
-    const auto slot = static_cast<Grid::Slot>(random.below(300));
-    if (it.filed[slot]) {
-      it.remove(slot);
-    } else {
-      it.put(slot, {kFixedOne * random.below(2), 0}, kCharacterBox);
-    }
-    std::vector<Grid::Slot> found;
-    it.grid.touching(kCharacterBox, 1000, found);
-    ASSERT_EQ(sorted(found), it.touching(kCharacterBox, 1000));
-  }
-}
-
 TEST(Grid, FarAwayBoxesAreNotVisited) {
   Filed it(10000);
   for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, {fromCells(static_cast<int>(s) * 10), 0}, kCharacterBox);
