@@ -66,7 +66,7 @@ TEST_F(MoveObject, SweptMoverIsStoppedAtAnySpeed) {
   }
 }
 
-TEST_F(MoveObject, SweptMoverFindsACharacterOnAMillionCellPath) {
+TEST_F(MoveObject, SweptMoverFindsACharacterAMillionCellsAway) {
   for (int i = 0; i < 50; ++i) make("away", 20000 * i, 500);
   make("wall", 999900, 999900);
   Probe* a = makeSwept("a", 0, 0);
