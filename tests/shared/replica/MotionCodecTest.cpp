@@ -31,12 +31,6 @@ void expectExact(const Motion& motion, const Origin& origin) {
   ASSERT_EQ(shared.bytes(), bytes);
 }
 
-/// Returns the number of fractional bits in use.
-int exactBits(df::FixedVector v) {
-  const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
-  return std::max(0, df::kFixedBits - std::countr_zero(all));
-}
-
 TEST(MotionCodec, RandomMotionsAreExactFromAnyOrigin) {
   RandomRecords random(1);
   for (int i = 0; i < 20'000; ++i) {
@@ -114,20 +108,6 @@ TEST(MotionCodec, WholeCellsInTheWindowEncodeCompactly) {
   EXPECT_GT(bitsOf({0, cellsAt(-11, 5), {}, {}}, window), 24u);
   // A quarter of a cell per tick: 2 fractional bits and a sign.
   EXPECT_LE(bitsOf({0, cellsAt(0, 5), cellsAt(-0.25, 0), {}}, window), 32u);
-}
-
-TEST(MotionCodec, FractionTakesAtLeastItsOwnBits) {
-  RandomRecords random(3);
-  for (int bits = 0; bits <= df::kFixedBits; ++bits) {
-    const df::Fixed step = df::Fixed{1} << (df::kFixedBits - bits);
-    const df::FixedVector v{step, random.within(1000) * 2 * step};
-    EXPECT_GE(fractionBits(v), bits);
-    if (bits <= 11) {
-      EXPECT_EQ(fractionBits(v), bits);
-    }
-    EXPECT_EQ(exactBits(v), bits);
-  }
-  EXPECT_EQ(fractionBits({}), 0);
 }
 
 TEST(MotionCodec, VectorsAreExactAndLimited) {

@@ -16,7 +16,6 @@ using Time = VirtualClock::Time;
 struct LinkArrival {
   Time when;
   std::string packet;
-  friend bool operator==(const LinkArrival&, const LinkArrival&) = default;
 };
 
 /// A link with both ends taken. Records what arrives at the server.
@@ -68,14 +67,6 @@ TEST(LossyDatagramLink, DuplicatesTheConfiguredShare) {
   EXPECT_EQ(bench.arrivals.size(), 20'000 + bench.counters().duplicated);
   const auto numbers = bench.numbers();
   EXPECT_EQ(std::set<int>(numbers.begin(), numbers.end()).size(), 20'000u);
-}
-
-TEST(LossyDatagramLink, SecondCopiesHaveTheirOwnJitter) {
-  LinkBench bench({.jitter = 1s, .duplicate = 1});
-  bench.client->send("x");
-  bench.clock.advanceBy(2s);
-  ASSERT_EQ(bench.arrivals.size(), 2u);
-  EXPECT_NE(bench.arrivals[0].when, bench.arrivals[1].when);
 }
 
 TEST(LossyDatagramLink, JitterStaysInItsRangeAndReorders) {
@@ -135,16 +126,6 @@ TEST(LossyDatagramLink, FullQueueDropsPackets) {
   for (const LinkArrival& arrival : bench.arrivals) order += arrival.packet[0];
   EXPECT_EQ(order, "012z");
   EXPECT_EQ(bench.counters().dropped, 8u);
-}
-
-TEST(LossyDatagramLink, LossDoesNotAffectOtherPackets) {
-  LinkBench clean({.jitter = 40ms});
-  LinkBench lossy({.jitter = 40ms, .loss = 0.2});
-  clean.sendMany(500, 1ms);
-  lossy.sendMany(500, 1ms);
-  EXPECT_LT(lossy.arrivals.size(), clean.arrivals.size());
-  for (const LinkArrival& arrival : lossy.arrivals)
-    EXPECT_NE(std::find(clean.arrivals.begin(), clean.arrivals.end(), arrival), clean.arrivals.end());
 }
 
 TEST(LossyDatagramLink, EveryPacketIsAccountedFor) {
