@@ -109,13 +109,6 @@ TEST(LossyDatagramLink, RateSpacesPacketsOut) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.arrivals[i].when, (i + 1) * 100ms + 5ms);
 }
 
-TEST(LossyDatagramLink, RateHoldsOverManySmallPackets) {
-  LinkBench bench({.rate = 3'000'000, .queue = 1 << 30});
-  for (int i = 0; i < 30'000; ++i) bench.client->send("1234567");  // 2⅓ µs each on the line
-  bench.clock.advanceBy(10s);
-  EXPECT_NEAR(static_cast<double>(bench.arrivals.back().when.count()), 70'000, 20);
-}
-
 TEST(LossyDatagramLink, FullQueueDropsPackets) {
   LinkBench bench({.rate = 10'000, .queue = 3000});
   for (int i = 0; i < 10; ++i) bench.client->send(std::to_string(i) + std::string(999, 'x'));

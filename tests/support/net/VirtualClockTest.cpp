@@ -34,27 +34,6 @@ TEST(VirtualClock, DoesNotRunLaterActions) {
   EXPECT_EQ(clock.nextDue(), std::nullopt);
 }
 
-TEST(VirtualClock, ActionsMayScheduleMoreWithinTheSameAdvance) {
-  VirtualClock clock;
-  int runs = 0;
-  std::function<void()> again = [&] {
-    if (++runs < 5) clock.schedule(clock.now() + 1ms, again);
-  };
-  clock.schedule(0ms, again);
-  clock.advanceTo(3ms);
-  EXPECT_EQ(runs, 4);
-}
-
-TEST(VirtualClock, PastActionsRunAtTheNextAdvance) {
-  VirtualClock clock;
-  clock.advanceTo(5ms);
-  VirtualClock::Time seen{};
-  clock.schedule(1ms, [&] { seen = clock.now(); });
-  EXPECT_EQ(seen, 0ms);
-  clock.advanceBy(0ms);
-  EXPECT_EQ(seen, 5ms);
-}
-
 TEST(VirtualClock, RefusesBackwardAndNestedAdvances) {
   VirtualClock clock;
   clock.advanceTo(5ms);
