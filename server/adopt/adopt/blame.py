@@ -66,7 +66,8 @@ class Blame:
         if _WINDOWS_MAIN.search(line):
             return SYSTEM, _MAIN_ADVICE
         published = name and self._is_engines(name, diagnostic.text)
-        if published and not self._naiad.has(name):  # a name without df:: may be the game's own
+        # A function that was called with other arguments exists. A name without df:: may be the game's own.
+        if published and not self._naiad.has(name) and "no matching" not in diagnostic.text:
             return OURS if re.search(r"\bdf\b", diagnostic.text) else UNCLEAR, f"the published engine has {name}, but Naiad does not: please report it"
         if self._is_gone_with_engine(unit, diagnostic, name):
             if self._own:
@@ -80,6 +81,8 @@ class Blame:
             return UNCLEAR, "look for a macro or a name of the game that changes this header; else report it"
         if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
             return OTHER, f"{name} belongs to the engine in this folder: the published engine does not have it"
+        if self._own and any(not self._naiad.has(one) for one in re.findall(r"\bdf\s*::\s*(\w+)", diagnostic.text + line)):
+            return OTHER, "it uses a name of the engine in this folder that the published engine does not have"
         return THEIRS, _advice(diagnostic.text, name)
 
     def _is_engines(self, name, text):
@@ -98,6 +101,8 @@ class Blame:
             return SYSTEM, f"{base} exists only on Windows: remove the code that uses it"
         if _MAC_HEADERS.match(path):
             return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"
+        if re.fullmatch(r"(?:.*/)?n?curses\.h", path):
+            return OTHER, "only engines before 3.0, which are not supported, draw with curses"
         if re.fullmatch(r"[a-z_]+", path):
             return SYSTEM, f"<{path}> is a header of the standard library that this compiler lacks: use a newer one (--cxx)"
         if self._naiad.was_published(base):

@@ -56,9 +56,11 @@ class Verdicts:
         for name in self._game.engine.files:
             if not is_source(name):
                 count[os.path.dirname(name)] = count.get(os.path.dirname(name), 0) + 1
-        if not count or max(count.values()) < WHOLE_ENGINE:
+        own = self._game.engine.core_folders & set(count)  # preferred to a copy of the published engine beside it
+        folder = max(own or count, key=count.get, default="")
+        if count.get(folder, 0) < WHOLE_ENGINE:
             return None
-        return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, max(count, key=count.get)))
+        return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, folder))
 
     def _report_treated(self):
         for file, line, before, after, why in self._building.includes[:MAX_ROWS]:
