@@ -5,7 +5,7 @@ import subprocess
 
 from .text import code_only
 
-_DECLARED = re.compile(r"^\s*(?:template\s*<[^>]*>\s*)?(?:class|struct|enum(?:\s+class)?)\s+(\w+)", re.M)
+_DECLARED = re.compile(r"^(?:\s*(?:template\s*<[^>]*>\s*)?(?:class|struct|enum(?:\s+class)?)|using(?=\s+\w+\s*=))\s+(\w+)", re.M)
 _FUNCTION = re.compile(r"^(?=[\w\[])(?:\[\[nodiscard\]\] )?(?:inline |constexpr |const |extern |static )*"
                        r"[\w:<>,*& ]+?[ *&](\w+)\s*[(={;]", re.M)
 _SCOPED = re.compile(r"\benum\s+class\s+(\w+)[^{;]*\{([^}]*)\}")

@@ -7,6 +7,7 @@
 int earlyCollisions(df::Object* p_o, df::Vector where);
 std::string earlySprites(df::Object* p_o);
 bool earlyText(df::Object* p_o);
+bool earlyVelocity(df::Object* p_o);
 int earlyNames();
 int laterNames();
 
@@ -52,6 +53,11 @@ TEST_F(EarlyNames, IsCollisionConvertsToListAndBool) {
 TEST_F(EarlyNames, SerializeAcceptsABoolFlag) {
   Probe probe;
   EXPECT_TRUE(earlyText(&probe));
+}
+
+TEST_F(EarlyNames, PositionAndVelocityHaveNamesOfFourPointOne) {
+  Probe probe;
+  EXPECT_TRUE(earlyVelocity(&probe));
 }
 
 TEST_F(EarlyNames, UncentredSpriteStartsAtThePosition) {
