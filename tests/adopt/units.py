@@ -300,6 +300,21 @@ class BlameTest(unittest.TestCase):
                 one = blame.Blame(ours, own, "", lambda unit: None)
                 self.assertEqual(one.error(compiler.Unit("a.cpp"), wrong, line)[0], whose if own else "the game", (message, own))
 
+    def test_ACheckThatProvesNothingDoesNotMakeItTheGamesFault(self):
+        """The engine in the folder has Grid, spin() and a parameter `place`; its headers do not compile."""
+        ours = types.SimpleNamespace(has=lambda name: name == "Vector", was_published=lambda name, classes=(): False, header_of=lambda name: None)
+        one = blame.Blame(ours, False, "class Grid; int spin(int place);", lambda unit: None)
+        unclear = "Naiad or the game"
+        for message, line, whose in (("'place' was not declared in this scope", "set(place);", "the game"),
+                                     ("'Grid' is not a member of 'df'", "df::Grid place(1);", unclear),
+                                     ("'place' was not declared in this scope", "set(place);", unclear),  # because of the line before
+                                     ("'spin' was not declared in this scope", "spin(1);", unclear),
+                                     ("'twist' was not declared in this scope", "twist(1);", "the game")):
+            wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", message, "")
+            self.assertEqual(one.error(compiler.Unit("a.cpp"), wrong, line)[0], whose, message)
+        wrong = compiler.Diagnostic("b.cpp", 1, 1, "error", "'place' was not declared in this scope", "")
+        self.assertEqual(one.error(compiler.Unit("b.cpp"), wrong, "set(place);")[0], "the game")
+
     def test_EventsThatNothingRegistersForAreFound(self):
         place = tempfile.mkdtemp(dir=WORK)
         tests = "int Hero::eventHandler(const df::Event *p_e) {{\n  if (p_e->getType() == {}) return 1;\n  return 0;\n}}\n"
@@ -372,6 +387,17 @@ class TreatmentTest(unittest.TestCase):
         for before, after in (("class A : public Thing {", "class A : public df::Thing {"),
                               ("class A : public df::Thing {", "class A : public df::Thing {")):
             self.assertEqual(self.treated(before, "expected class-name before '{' token", before.index("{") + 1), after)
+
+    def test_RemaindersOfCoordinatesAreThoseOfIntegers(self):
+        gcc, clang = "invalid operands of types '{}' and '{}' to binary 'operator%'", "invalid operands to binary expression ('{}' and '{}')"
+        for before, types_, after in (("a = rand() % box.getX();", ("int", "float"), "a = rand() %(int) box.getX();"),
+                                      ("a = rand()%w;", ("int", "float"), "a = rand()%(int)w;"),
+                                      ("a = w % w;", ("float", "float"), "a = w %(int) w;"),
+                                      ("a = 1 + p->at(2).x % 3;", ("float", "int"), "a = 1 + (int)p->at(2).x % 3;"),
+                                      ("a = getX() % 3;", ("float", "int"), "a = (int)getX() % 3;"), ("a %= w;", ("int", "float"), "a %= w;"),
+                                      ("a = p % 3;", ("df::Vector", "int"), "a = p % 3;")):
+            for message in (gcc, clang):
+                self.assertEqual(self.treated(before, message.format(*types_), before.index("%") + 1), after, message)
 
     def test_EnginesHeadersAreWrittenAsTheyAre(self):
         place = tempfile.mkdtemp(dir=WORK)

@@ -26,6 +26,7 @@ _NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket
 _WINDOWS_MAIN = re.compile(r"\b(WINAPI|APIENTRY|w?WinMain)\b")
 NETWORK_SENTENCE = ("it has its own network code, which is not needed here: the whole game runs on the server, and every "
                     "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() returns the player. Remove these files and the code that uses them")
+_ASK_FOR_ENGINE = "the engine in this folder accepts {}, but Naiad does not: please report it if that is an unchanged published engine"
 _MAIN_ADVICE = "WinMain() exists only on Windows: write int main()"
 
 
@@ -54,10 +55,20 @@ class Blame:
     def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):
         self._windows_main = _WINDOWS_MAIN.search(main_code) is not None
         self._naiad, self._own, self._engine_text, self._with_engine = naiad, own_engine, engine_text, with_engine
-        self._checked = {}
+        self._checked, self._spoiled = {}, {}
 
     def error(self, unit, diagnostic, line=""):
-        """Returns (whose fault, what to do) for a compiler error in this line."""
+        """Returns (whose fault, what to do) for a compiler error in this line. If an earlier line that should have declared the
+        missing name was not the game's fault, neither is this error."""
+        whose, change = self._error(unit, diagnostic, line)
+        name, spoiled = missing_name(diagnostic.text), self._spoiled.setdefault(unit and unit.name, {})
+        if whose == THEIRS and name in spoiled:
+            return spoiled[name], "it follows from an error above"
+        if whose != THEIRS:
+            spoiled.update({word: whose for word in re.findall(r"\w+", line) if word not in spoiled})
+        return whose, change
+
+    def _error(self, unit, diagnostic, line):
         file, name = missing_file(diagnostic.text), missing_name(diagnostic.text)
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
@@ -73,14 +84,15 @@ class Blame:
             if self._own:
                 return OTHER, (f"the engine in this folder has {name or 'this'}, but the published engine may not: use "
                                "what Naiad's headers declare")
-            return UNCLEAR, ("the engine in this folder accepts this line, but Naiad does not: please report it if that is an "
-                             "unchanged published engine")
+            return UNCLEAR, _ASK_FOR_ENGINE.format("this line")
         if published and not self._is_member_of_game(diagnostic.text):
             return UNCLEAR, f"Naiad has {name}, but not here or not with these arguments: compare it with the headers, or report it"
         if os.path.isabs(diagnostic.file):
             return UNCLEAR, "look for a macro or a name of the game that changes this header; else report it"
         if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
             return OTHER, f"{name} belongs to the engine in this folder: the published engine does not have it"
+        if name and not self._naiad.has(name) and re.search(rf"\b(?:class|struct|enum)\s+{name}\b|\b{name}\s*[=(]", self._engine_text):
+            return UNCLEAR, _ASK_FOR_ENGINE.format(name)
         if self._own and any(not self._naiad.has(one) for one in re.findall(r"\bdf\s*::\s*(\w+)", diagnostic.text + line)):
             return OTHER, "it uses a name of the engine in this folder that the published engine does not have"
         return THEIRS, _advice(diagnostic.text, name)

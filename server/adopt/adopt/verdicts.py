@@ -56,8 +56,8 @@ class Verdicts:
         for name in self._game.engine.files:
             if not is_source(name):
                 count[os.path.dirname(name)] = count.get(os.path.dirname(name), 0) + 1
-        own = self._game.engine.core_folders & set(count)  # preferred to a copy of the published engine beside it
-        folder = max(own or count, key=count.get, default="")
+        # The author's own engine is preferred to a larger copy of the published one.
+        folder = max(self._game.engine.core_folders & set(count) or count, key=count.get, default="")
         if count.get(folder, 0) < WHOLE_ENGINE:
             return None
         return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, folder))
