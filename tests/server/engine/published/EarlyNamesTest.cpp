@@ -1,6 +1,7 @@
 // Names of the published engine's versions 4.1 to 4.14, used as games of that time used them, in C++11. The
 // test is that this file compiles; EarlyNamesRunTest.cpp runs it.
 
+#include "DisplayManager.h"
 #include "EventCustomNetwork.h"
 #include "EventMouseNetwork.h"
 #include "GameManager.h"
@@ -80,6 +81,11 @@ bool earlyVelocity(df::Object* p_o) {
   p_o->setYVelocity(-1);
   return place.getX() == 1 && p_o->getVelocity() == df::Vector(0.5f, -1) && p_o->getXVelocity() == 0.5f &&
          p_o->getYVelocity() == -1;
+}
+
+int earlyDraw(df::Vector where, bool centered) {
+  const df::Frame frame(3, 2, "abc#ef");
+  return DM.drawFrame(where, frame, centered, df::RED, '#');
 }
 
 int earlyNames() {
