@@ -285,6 +285,8 @@ class BlameTest(unittest.TestCase):
         elsewhere = compiler.Diagnostic("a.cpp", 9, 1, "error", "'class df::Object' has no member named 'myOwn'", "")
         wrong = compiler.Diagnostic("a.cpp", 3, 1, "error", elsewhere.text, "")
         self.assertEqual(blame.Blame(ours, False, "", lambda unit: [elsewhere]).error(unit, wrong)[0], "the game", "the engine lacks it, too")
+        for symbol, whose in (("Object::setSprite(Sprite*)", "another engine"), ("Hero::jump()", "the game")):
+            self.assertEqual(blame.Blame(ours, False, "", refuses, early=True).symbol(symbol)[0], whose, symbol)
         for symbol, whose in (("df::Grid", "Naiad"), ("df::Object::setSprite(float)", "Naiad or the game"), ("df::mine()", "the game"),
                               ("Hero::jump()", "the game")):
             self.assertEqual(blame.Blame(ours, False, "", refuses).symbol(symbol)[0], whose, symbol)

@@ -49,11 +49,11 @@ class Blame:
 
     with_engine(unit) compiles a unit against the engine headers in the folder and returns its diagnostics, or None if there are
     no such headers or the compilation proves nothing. `own_engine`: the author wrote that engine. `main_code`: code of the
-    program's main file.
+    program's main file. `early`: the sources were written for an engine without namespace df.
     """
 
-    def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):
-        self._windows_main = _WINDOWS_MAIN.search(main_code) is not None
+    def __init__(self, naiad, own_engine, engine_text, with_engine, main_code="", early=False):
+        self._windows_main, self._early = _WINDOWS_MAIN.search(main_code) is not None, early
         self._naiad, self._own, self._engine_text, self._with_engine = naiad, own_engine, engine_text, with_engine
         self._checked, self._spoiled = {}, {}
 
@@ -147,6 +147,8 @@ class Blame:
             if self._windows_main:
                 return SYSTEM, _MAIN_ADVICE
             return THEIRS, "no file of the program has a main()"
+        if self._early and any(map(self._naiad.header_of, parts)):
+            return OTHER, f"{plain} belongs to an engine without namespace df"
         if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
             if self._own:
                 return OTHER, f"{plain} belongs to the engine in this folder"

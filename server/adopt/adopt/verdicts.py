@@ -19,7 +19,7 @@ class Verdicts:
     def __init__(self, game, building):
         self._game, self._building, self._report = game, building, game.report
         self._blame = Blame(game.naiad, game.engine.own, self._engine_text(), self._against_engine,
-                            game.sources.code(game.program.main) if game.program else "")
+                            game.sources.code(game.program.main) if game.program else "", game.engine.without_namespace)
 
     def say(self, built):
         """Writes the rows of a build. `built`: whether the build succeeded."""
