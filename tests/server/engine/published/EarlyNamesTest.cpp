@@ -79,6 +79,7 @@ bool earlyVelocity(df::Object* p_o) {
   place = p_o->getPosition();
   p_o->setXVelocity(0.5f);
   p_o->setYVelocity(-1);
+  if (!p_o->isModified(df::POS) || !p_o->isModified(df::VELOCITY)) return false;
   return place.getX() == 1 && p_o->getVelocity() == df::Vector(0.5f, -1) && p_o->getXVelocity() == 0.5f &&
          p_o->getYVelocity() == -1;
 }
