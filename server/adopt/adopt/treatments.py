@@ -14,6 +14,7 @@ _NOT_IN_DF = [re.compile(pattern) for pattern in (
     r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
     r"'df::(?P<name>\w+)' has not been declared", r"incomplete type '(?:class |struct |const )*df::(?P<name>\w+)'",
     r"'(?:class |struct |const )*df::(?P<name>\w+)[ \w]*' has (?:initializer but )?incomplete type")]
+_UNKNOWN_PARAMETER = re.compile(r"expected '\)' before '\w+'|expected constructor, destructor, or type conversion before '\('")  # of a constructor
 _CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*"
                        r"(?P<class>\w+)::(?P<name>\w+)\(")
 _CLANG_CONFLICT = re.compile(r"function '(?P<name>\w+)' has a different return type \('(?P<type>.+?)'\) than the function it overrides "
@@ -36,6 +37,9 @@ _LINES = [(re.compile(message), re.compile(pattern), after, why) for message, pa
     (r"need 'typename' before|missing 'typename' prior", r"\0", "typename ", "missing typename; only MSVC accepts it"),
     (r"duplicate '(?:const|volatile)'", r"\0(?:const|volatile)\s*", "", "const or volatile twice; only MSVC accepts it"),
     (r"invalid use of non-static member function", r"((?:\w+\s*::\s*)+)\0", r"&\1", "missing & before a member function; only MSVC accepts it"),
+    (r"invalid operands .*'float'\)?(?: to binary|$)", r"\0%(?!=)", "%(int)", "coordinates were int in engines up to 4.1"),
+    (r"invalid operands .*'float'", r"((?:\w+(?:\([^()]*\))?(?:\.|->))*\w+(?:\([^()]*\))?\s*)\0%(?!=)", r"(int)\1%",
+     "coordinates were int in engines up to 4.1"),
     (r"non-const lvalue reference", r"(?<!&)&(\s*\w+\s*=[^;]*)\0", r"&&\1", "a temporary object for a reference that is not const; only MSVC accepts it"))]
 _NO_TEMPORARY = re.compile(r"non-const lvalue reference of type '(?:\w+::)*(\w+)&'")
 _ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(\w+)\(")
@@ -171,6 +175,9 @@ class Treatments:
             return False
         if name := named(_NOT_IN_DF, diagnostic.text):
             return self._force(unit, diagnostic, self._naiad.header_of(name)) or self._scope(diagnostic, name)
+        if _UNKNOWN_PARAMETER.search(diagnostic.text):
+            names = re.findall(r"\bdf\s*::\s*(\w+)", self._sources.line(diagnostic.file, diagnostic.line))
+            return any([self._force(unit, diagnostic, self._naiad.header_of(name)) for name in names])
         hint = next((found for _, text, _ in diagnostic.notes if (found := _FORGOT.search(text))), None)
         return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
 
