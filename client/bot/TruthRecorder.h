@@ -29,11 +29,16 @@ class CompletenessTracker {
   /// Call after a snapshot was applied. `acks`: the snapshots received, including this one. `before`:
   /// the number of the last snapshot before this session.
   void addSnapshot(const SnapshotHeader& header, const AckWindow& acks, std::uint32_t before = 0) {
-    if (header.number == acks.newest) m_complete = header.complete;
+    if (header.number == acks.newest) {
+      m_complete = header.complete;
+      m_tick = header.tick;
+    }
     m_whole = m_complete && hasAll(acks, before);
   }
   /// True if the newest snapshot was complete and no earlier one is missing.
   bool isComplete() const { return m_whole; }
+  /// The tick of the snapshot with the highest number; snapshots that arrive late do not change it.
+  std::uint32_t tick() const { return m_tick; }
 
  private:
   /// Snapshots older than the window count as received, because the sender treats them as lost and sends
@@ -45,6 +50,7 @@ class CompletenessTracker {
     return (acks.mask & all) == all;
   }
 
+  std::uint32_t m_tick = 0;
   bool m_complete = false;  ///< the newest snapshot was complete
   bool m_whole = false;
 };
@@ -67,6 +73,7 @@ class TruthRecorder {
   void finish(const Replica& replica);
 
   std::size_t tickCount() const { return m_pictures.size(); }
+  /// Returns the recorded pictures by tick.
   const std::map<std::uint32_t, df::Canvas>& pictures() const { return m_pictures; }
   /// Returns the number of Objects that were in different cells of the world at different times.
   std::size_t movingCount() const;

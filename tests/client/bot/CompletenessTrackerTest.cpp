@@ -29,6 +29,13 @@ TEST_F(CompletenessTrackerTest, NeedsACompleteSnapshotAndAllBeforeIt) {
   EXPECT_TRUE(addSnapshot(3, false)) << "now it is, and 4 is complete";
 }
 
+TEST_F(CompletenessTrackerTest, LateSnapshotDoesNotMoveTheTickBack) {
+  addSnapshot(1, true);
+  addSnapshot(5, true);
+  EXPECT_FALSE(addSnapshot(3, true));
+  EXPECT_EQ(picture.tick(), 105u);
+}
+
 TEST_F(CompletenessTrackerTest, IsIncompleteUntilTheFirstSnapshotArrives) {
   EXPECT_FALSE(addSnapshot(2, true)) << "the world was in 1, on the stream";
   EXPECT_TRUE(addSnapshot(1, false));

@@ -311,10 +311,11 @@ TEST_F(JournalFileTest, SalvageCreatesAMissingOrIncompleteRoundFile) {
 
 // The shared memory belongs to this user, but a name in it must not become a path outside the folder.
 TEST_F(JournalFileTest, RingCannotNameFilesOutsideItsFolder) {
-  int number = 0;
+  std::uint8_t number = 0;
   for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {
+    ++number;
     const bool has_memory = isKilled([&] {
-      const DfrHeader header = headerOf(0x5D, static_cast<std::uint8_t>(++number));
+      const DfrHeader header = headerOf(0x5D, number);
       Journal journal(std::make_unique<JournalFileSink>((folder / "x.dfr").string()), header, {}, kRing, true,
                       std::nullopt, ringFolder((folder / "rounds").string()), name);
       journal.add(turnRecord());
@@ -344,8 +345,7 @@ TEST_F(JournalFileTest, NextServerFreesMemoryOfUnsavedRounds) {
   const auto dead = headerOf(1, 4).uuid;
   const auto lives = headerOf(2, 4).uuid;
   const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
-  const pid_t child = fork();
-  if (child == 0) {
+  const bool has_memory = isKilled([&] {
     const TurnRing ring(4096, dead, true, 0, ringFolder(folder.string()));
     die(ring);
   });
