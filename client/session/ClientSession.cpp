@@ -95,7 +95,7 @@ void ClientSession::handle(const PongMessage& message, Time now) {
 void ClientSession::handle(const RoomEnteredMessage& message, Time now) {
   if (m_state != State::kPlaying) return reject("another room before the welcome");
   m_inbox.addNotice("You are now in room " + message.room + ", playing " + message.game + ".", now);
-  static_cast<PlayerWorld&>(m_welcome) = message;
+  static_cast<PlayerWorld&>(m_welcome) = static_cast<const PlayerWorld&>(message);
   m_world.enter(message.world_epoch, message.tick_now, now);
   m_rooms_due = now;
 }
@@ -174,7 +174,8 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
   // Needed if the stream broke before the message that the player has entered another room.
-  if (welcome.player != m_welcome.player) static_cast<PlayerWorld&>(m_welcome) = welcome;
+  if (welcome.player != m_welcome.player)
+    static_cast<PlayerWorld&>(m_welcome) = static_cast<const PlayerWorld&>(welcome);
   m_world.resume(welcome.tick_now);
   m_liveness.onReceived(now);
   m_liveness.startStream(now);  // the stream's first ping tells the server that the new token has arrived

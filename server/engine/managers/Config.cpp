@@ -161,7 +161,8 @@ void Config::reportUnknownKeys() {
       if (std::find(known.begin(), known.end(), key) != known.end()) continue;
       const std::string near = naiad::suggestion(key, known);
       if (near.empty() && world.program() == nullptr) continue;
-      world.log().writeOnce("Configuration: there is no key \"" + key + '"' + near);
+      std::string problem = "Configuration: there is no key \"" + key + '"';
+      world.log().writeOnce(problem += near);
     }
   }
 }
