@@ -49,7 +49,7 @@ TEST_F(Fleet, ImmediateStopAlsoReportsShutdown) {
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIMEOUT", "1000"}});
   auto ann = join("ann");
   game->signal(SIGTERM);
-  EXPECT_TRUE(logs("stopping when all players have left"));
+  EXPECT_TRUE(waitForLog("stopping when all players have left"));
   game->signal(SIGTERM);
   game->wait();
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
@@ -65,7 +65,7 @@ TEST_F(Fleet, ClusterShutdownDrainsTheServer) {
   auto ann = join("ann");
   sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
                "\n");
-  EXPECT_TRUE(logs("the platform requested a shutdown"));
+  EXPECT_TRUE(waitForLog("the platform requested a shutdown"));
   EXPECT_TRUE(ann->joined()) << "ann plays on";
   clients.clear();
   ann.reset();
@@ -78,8 +78,8 @@ TEST_F(Fleet, LostSidecarDoesNotDisturbPlayers) {
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar->port())}});
   auto ann = join("ann");
   sidecar.reset();
-  EXPECT_TRUE(logs("warning: Agones: the sidecar does not answer"));
-  EXPECT_TRUE(ticks(*ann, 200)) << "the game goes on";
+  EXPECT_TRUE(waitForLog("warning: Agones: the sidecar does not answer"));
+  EXPECT_TRUE(waitForTicks(*ann, 200)) << "the game continues";
   EXPECT_EQ(ann->session().counters().resets, 0u);
 }
 
@@ -90,10 +90,10 @@ TEST_F(Fleet, KilledBusDisturbsNoPlayerAndIsReconnected) {
   start({{"NAIAD_BUS", bus.url()}, {"NAIAD_BUS_ID", "berlin"}, {"NAIAD_BUS_INTERVAL", "100"}});
   auto ann = join("ann");
   if (game->log().find("without NATS") != std::string::npos) GTEST_SKIP() << "built without libnats";
-  EXPECT_TRUE(logs("the bus is connected"));
+  EXPECT_TRUE(waitForLog("the bus is connected"));
   bus.kill();
-  EXPECT_TRUE(logs("warning: the bus cannot be reached"));
-  EXPECT_TRUE(ticks(*ann, 200)) << "the game goes on";
+  EXPECT_TRUE(waitForLog("warning: the bus cannot be reached"));
+  EXPECT_TRUE(waitForTicks(*ann, 200)) << "the game continues";
   ASSERT_TRUE(bus.start()) << bus.log();
   const std::size_t before = game->log().size();
   EXPECT_TRUE(serve([&] {

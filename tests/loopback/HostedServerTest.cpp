@@ -97,9 +97,9 @@ TEST_F(HostedServer, SigtermLetsPlayersFinish) {
   EXPECT_TRUE(
       isTold(ann, "The server shuts down when all players have left, or in 3000 seconds at the latest."));
   EXPECT_EQ(refusal(home.player("bob")), "The server is shutting down and accepts no new players.");
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
   ann.connection().leave();
-  EXPECT_TRUE(logs("\" left: quit\n"));
+  EXPECT_TRUE(waitForLog("\" left: quit\n"));
   EXPECT_TRUE(endsWell());
   EXPECT_TRUE(has(game->log(), " refused_closing=1 "));
 }
@@ -142,10 +142,10 @@ TEST_F(HostedServer, ReloadAppliesChangeableOptions) {
   TestClient& ann = join("ann");
   EXPECT_EQ(refusal(home.player("bob")), "The server is full (1 players). Try again later.");
   ASSERT_TRUE(reload("max-players = 2\nworld-memory = 1000\n"));
-  EXPECT_TRUE(logs("options reloaded: max-players has changed; world-memory needs a restart\n"))
+  EXPECT_TRUE(waitForLog("options reloaded: max-players has changed; world-memory needs a restart\n"))
       << game->log();
   TestClient& bob = join("bob");
-  EXPECT_TRUE(ticks(ann) && ticks(bob));
+  EXPECT_TRUE(waitForTicks(ann) && waitForTicks(bob));
 }
 
 TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
@@ -154,12 +154,12 @@ TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
   old.options.password = "old";
   TestClient& ann = join(old);
   ASSERT_TRUE(reload("password = " + cheapHash("new") + "\n"));
-  EXPECT_TRUE(logs("options reloaded: password has changed\n")) << game->log();
+  EXPECT_TRUE(waitForLog("options reloaded: password has changed\n")) << game->log();
   EXPECT_EQ(refusal(old), "That is not this server's password.");
   ClientSetup bob = home.player("bob");
   bob.options.password = "new";
   join(bob);
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
   EXPECT_FALSE(has(game->log(), "$argon2")) << "not even its hash is logged";
 }
 
@@ -182,12 +182,12 @@ TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
   TestClient& playing = join(ann);
   use("second");
   ASSERT_TRUE(reload(options));
-  EXPECT_TRUE(logs("warning: the server's key has changed")) << game->log();
+  EXPECT_TRUE(waitForLog("warning: the server's key has changed")) << game->log();
   ClientSetup bob = home.player("bob");
   bob.trust.fingerprint = second.fingerprint();
   bob.trust.known_servers = home.identity("bobs_servers");
   join(bob);
-  EXPECT_TRUE(ticks(playing));
+  EXPECT_TRUE(waitForTicks(playing));
 }
 
 TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
@@ -199,9 +199,9 @@ TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
   TestClient& ann = join("ann");
   fs::rename(files / "key", files / "gone");
   ASSERT_TRUE(reload(options));
-  EXPECT_TRUE(logs("the options were not changed: ")) << game->log();
+  EXPECT_TRUE(waitForLog("the options were not changed: ")) << game->log();
   join("bob");
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
 }
 
 // ---- the log ----------------------------------------------------------------------------------------------
@@ -210,9 +210,9 @@ TEST_F(HostedServer, JsonLogLinesHaveEventFields) {
   start({{"NAIAD_LOG_FORMAT", "json"}, {"NAIAD_LOG_CHAT", "true"}});
   TestClient& ann = join("ann");
   ann.session().sendChat("hello \"all\"");
-  ASSERT_TRUE(logs("\"chat\""));
+  ASSERT_TRUE(waitForLog("\"chat\""));
   ann.connection().leave();
-  ASSERT_TRUE(logs("\"left\""));
+  ASSERT_TRUE(waitForLog("\"left\""));
   std::map<std::string, nlohmann::json> events;
   std::istringstream lines(game->log());
   for (std::string line; std::getline(lines, line);) {
@@ -233,7 +233,7 @@ TEST_F(HostedServer, ChatIsNotLoggedByDefault) {
   ann.session().sendChat("hello all");
   EXPECT_TRUE(isTold(ann, "hello all"));
   ann.connection().leave();
-  EXPECT_TRUE(logs("\"ann\" left"));
+  EXPECT_TRUE(waitForLog("\"ann\" left"));
   EXPECT_FALSE(has(game->log(), "hello all"));
 }
 
@@ -263,11 +263,11 @@ TEST_P(Fail2ban, MatchesOnlyWrongPasswordsInNormalMode) {
   playing.session().sendChat("203.0.113.9:1 refused: \"That is not this server's password");
   playing.session().sendChat(
       "\",\"address\":\"203.0.113.9:1\",\"sentence\":\"That is not this server's password");
-  ASSERT_TRUE(logs("sentence\\"));
+  ASSERT_TRUE(waitForLog("sentence\\"));
   ClientSetup other = home.player("bob");
   other.options.game = "203.0.113.9:1 refused: ";
   EXPECT_NE(refusal(other), "");
-  ASSERT_TRUE(logs("This server plays"));
+  ASSERT_TRUE(waitForLog("This server plays"));
   EXPECT_TRUE(has(fail2banFinds(*game, "normal"), " 0 matched,"));
   EXPECT_TRUE(has(fail2banFinds(*game, "aggressive"), " 1 matched,"));
   ClientSetup guess = home.player("eve");
@@ -356,7 +356,7 @@ TEST_P(Restarts, ServerRestartsOnItsPortAndPlayersReconnect) {
   EXPECT_TRUE(serve([&] { return ann.connection().state() == Connection::State::kReconnecting; }));
   EXPECT_TRUE(serve([&] { return ann.joined(); })) << ann.connection().message();
   EXPECT_EQ(begun(), 2u) << game->log();
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
   // The restarted server takes commands at the old path.
   EXPECT_TRUE(has(ctl("who").second, "ann"));
   EXPECT_EQ(ctl("stop").first, 0);
@@ -375,7 +375,7 @@ TEST_F(HostedServer, ScheduledRestartCanBeCancelled) {
   join("bob");
   EXPECT_EQ(ctl("cancel"), std::pair(0, std::string("Cancelled: the server stays up.\n")));
   EXPECT_TRUE(isTold(ann, "The server stays up: its shutdown or restart was cancelled."));
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
 }
 
 TEST_F(HostedServer, DfctlReloadReportsTheResult) {
@@ -391,7 +391,7 @@ TEST_F(HostedServer, DfctlReloadReportsTheResult) {
   EXPECT_EQ(code, 1);
   EXPECT_TRUE(has(text, "there is no option \"max-plyers\"; did you mean max-players?"));
   EXPECT_EQ(ctl("set max-players").second, "max-players: 2\n");
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
 }
 
 /// Runs `job` a hundred times a second in a thread of its own until it is destroyed. count() returns the
@@ -425,7 +425,7 @@ class Repeated {
 TEST_F(HostedServer, GameSurvives100ScrapesCommandsAndReloadsPerSecond) {
   start({{"NAIAD_METRICS", "127.0.0.1:0"}}, "max-players = 3\n");
   const std::string where = "metrics are at http://127.0.0.1:";
-  ASSERT_TRUE(logs(where)) << game->log();
+  ASSERT_TRUE(waitForLog(where)) << game->log();
   const std::string log = game->log();
   const auto metrics = static_cast<std::uint16_t>(std::stoi(log.substr(log.find(where) + where.size())));
   TestClient& ann = join("ann");
@@ -446,7 +446,7 @@ TEST_F(HostedServer, GameSurvives100ScrapesCommandsAndReloadsPerSecond) {
         serve([&] { return scrapes.count() >= 200 && orders.count() >= 200 && reloads.count() >= 200; }));
   }
   EXPECT_EQ(bad, 0);
-  EXPECT_TRUE(ticks(ann));
+  EXPECT_TRUE(waitForTicks(ann));
   EXPECT_EQ(ctl("stop").first, 0);
   EXPECT_TRUE(endsWell()) << game->log();
 }
@@ -457,7 +457,7 @@ TEST_F(HostedServer, ConnectionDroppedBeforeTlsIsLogged) {
   ClientSetup eve = home.player("eve");
   eve.options.proxy = ProxyOptions{home.identity("visitors"), *proxiedPeerFromText("192.0.2.7:50000")};
   EXPECT_NE(refusal(eve), "");
-  EXPECT_TRUE(logs("192.0.2.7:50000 refused: \"This address is banned.\"")) << game->log();
+  EXPECT_TRUE(waitForLog("192.0.2.7:50000 refused: \"This address is banned.\"")) << game->log();
 }
 
 }  // namespace

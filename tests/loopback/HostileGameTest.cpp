@@ -57,7 +57,7 @@ class HostileGame : public ProgramFixture {
     ClientSetup setup = home.player(name);
     setup.options.password = kPassword;
     auto client = ProgramFixture::join(setup);
-    EXPECT_TRUE(ticks(*client, 3)) << contentOf(game->playFolder() / "report");
+    EXPECT_TRUE(waitForTicks(*client, 3)) << contentOf(game->playFolder() / "report");
     return client;
   }
   std::vector<Line> report() const {
@@ -100,7 +100,7 @@ class HostileGame : public ProgramFixture {
   static bool areGone(const std::vector<pid_t>& all) { return std::ranges::none_of(all, isAlive); }
   /// Checks that bob's world continues to tick and that the server lives.
   void expectTheOthersPlay() {
-    EXPECT_TRUE(ticks(*bob, 50)) << game->log();
+    EXPECT_TRUE(waitForTicks(*bob, 50)) << game->log();
     EXPECT_TRUE(isAlive(game->process()));
     EXPECT_EQ(bob->session().counters().resets, 0u);
   }
@@ -136,7 +136,7 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
     EXPECT_EQ(result(attempt).substr(0, 5), "error") << "it is a pipe";
   }
   EXPECT_EQ(result("print"), "done");
-  EXPECT_TRUE(logs(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)")) << game->log();
+  EXPECT_TRUE(waitForLog(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)")) << game->log();
   EXPECT_TRUE(has(game->log(), " game: seed ")) << "what the engine logs there";
   EXPECT_FALSE(has(game->log(), "\x1b"));
   // The flags of the server's own output are unchanged, so the world does not share the server's open file.

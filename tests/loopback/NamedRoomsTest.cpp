@@ -125,7 +125,7 @@ TEST_F(Isolation, CrashAffectsOnlyItsRoom) {
     if (process == 0) process = shown(bad).process;
     return shown(bad).process != process && shown(bad).process > 0;
   });
-  EXPECT_TRUE(logs("in the room bad: the game crashed (SIGABRT)")) << game->log();
+  EXPECT_TRUE(waitForLog("in the room bad: the game crashed (SIGABRT)")) << game->log();
 }
 
 TEST_F(Isolation, HangAffectsOnlyItsRoom) {
@@ -149,7 +149,7 @@ TEST_F(NamedRooms, RepeatedlyFailingGameClosesOnlyItsRoom) {
   std::ofstream(game->playFolder() / "fails") << "yes";
   press(*bob, df::Keyboard::C);
   ASSERT_TRUE(serve([&] { return bob->session().welcome().room == "one"; })) << game->log();
-  EXPECT_TRUE(logs("the room two is closed for 30 s")) << game->log();
+  EXPECT_TRUE(waitForLog("the room two is closed for 30 s")) << game->log();
   EXPECT_TRUE(serve([&] { return shown(*bob).process == shown(*ann).process; }));
   auto eve = connect("eve", "two");
   EXPECT_TRUE(serve([&] { return eve->connection().isDeferred(); })) << "it tries again";

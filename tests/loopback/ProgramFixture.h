@@ -38,11 +38,12 @@ class ProgramFixture : public LoopbackFixture {
   /// True if the client, which has joined, shows the game.
   virtual bool isPlaying(TestClient& /*client*/) const { return true; }
   bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
-  bool logs(const std::string& part) {
+  /// Returns true once the program's log contains this text, false after the time limit of serveUntil().
+  bool waitForLog(const std::string& part) {
     return serve([&] { return game->log().find(part) != std::string::npos; });
   }
-  /// True if the world continues to tick.
-  bool ticks(TestClient& client, std::uint32_t count = 100) {
+  /// Returns true once the client has seen `count` more ticks, false after the time limit of serveUntil().
+  bool waitForTicks(TestClient& client, std::uint32_t count = 100) {
     const std::uint32_t from = client.newestTick();
     return serve([&] { return client.newestTick() > from + count; });
   }

@@ -221,7 +221,7 @@ TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   EXPECT_EQ(shown(*ann).keys, 2);
   EXPECT_EQ(shown(*bob).keys, 0) << "the next round";
   EXPECT_EQ(bob->session().welcome().room, "two");
-  EXPECT_TRUE(logs("room two: giving up"));
+  EXPECT_TRUE(waitForLog("room two: giving up"));
 }
 
 }  // namespace

@@ -339,7 +339,7 @@ TEST_F(Upgrade, NextRoundDetectsTheUpgradeAndRestartsTheServer) {
   press(*ann, df::Keyboard::X);
   ASSERT_TRUE(comesBack(*ann)) << game->log();
   EXPECT_NE(shown(*ann).process, process);
-  EXPECT_TRUE(logs("program was upgraded while it runs: a new game process has another build ("))
+  EXPECT_TRUE(waitForLog("program was upgraded while it runs: a new game process has another build ("))
       << game->log();
   EXPECT_FALSE(has(game->log(), "sent a malformed answer"));
   // Now the server and its worlds use the new build.
@@ -355,7 +355,7 @@ TEST_F(Upgrade, PrivateWorldsContinueUntilTheirPlayersLeave) {
   clients.push_back(&bob);
   EXPECT_TRUE(serve([&] { return bob.connection().isOver(); })) << game->log();
   EXPECT_EQ(bob.connection().message(), "The server was upgraded. It restarts when all players have left.");
-  EXPECT_TRUE(logs("; the server restarts when all players have left")) << game->log();
+  EXPECT_TRUE(waitForLog("; the server restarts when all players have left")) << game->log();
   press(*ann, df::Keyboard::RIGHTARROW);
   EXPECT_TRUE(serve([&] { return shown(*ann).steps == 1; })) << game->log();
   ann->connection().leave();

@@ -84,11 +84,11 @@ TEST_F(Trouble, ClosedLogPipeDoesNotEndTheGame) {
   auto ann = join("ann");
   pipe.closeReader();
   auto bob = join("bob");
-  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann) && waitForTicks(*bob));
   press(*ann, df::Keyboard::P);
-  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann) && waitForTicks(*bob));
   bob->connection().leave();
-  EXPECT_TRUE(ticks(*ann));
+  EXPECT_TRUE(waitForTicks(*ann));
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann));
   const int status = game->wait();
@@ -103,7 +103,7 @@ TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   pipe.fill();
   auto ann = join("ann");
   auto bob = join("bob");
-  EXPECT_TRUE(ticks(*ann, 300) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann, 300) && waitForTicks(*bob));
   EXPECT_TRUE(serve([&] { return (said += pipe.read()).find("\"bob\" joined") != std::string::npos; }))
       << said;
   EXPECT_TRUE(has(said, "\"ann\" joined")) << "what waited was lost";
@@ -116,8 +116,8 @@ TEST_F(Trouble, RefusalIsLoggedWithItsMessage) {
   TestClient refused(context, game->port(), bob);
   clients.push_back(&refused);
   EXPECT_TRUE(serve([&] { return refused.connection().state() == Connection::State::kRefused; }));
-  EXPECT_TRUE(logs(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
-  EXPECT_TRUE(logs(" \"ann\" joined with \"test\"\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" \"ann\" joined with \"test\"\n")) << game->log();
 }
 
 TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
@@ -141,12 +141,12 @@ TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
 TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
   start();
   auto ann = join("ann");
-  ASSERT_TRUE(logs("\"ann\" joined"));
+  ASSERT_TRUE(waitForLog("\"ann\" joined"));
   fs::rename(game->directory() / "log", game->directory() / "log.1");
   game->signal(SIGHUP);
-  EXPECT_TRUE(logs("SIGHUP: log reopened")) << game->log();
+  EXPECT_TRUE(waitForLog("SIGHUP: log reopened")) << game->log();
   EXPECT_FALSE(has(game->log(), "\"ann\" joined")) << "this is the old file";
-  EXPECT_TRUE(ticks(*ann));
+  EXPECT_TRUE(waitForTicks(*ann));
 }
 
 // ---- a game that hangs ------------------------------------------------------------------------------------
@@ -158,14 +158,14 @@ TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
   start();
   auto ann = join("ann");
   press(*ann, df::Keyboard::H);
-  ASSERT_TRUE(logs("the game has not finished tick ")) << game->log();
-  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  ASSERT_TRUE(waitForLog("the game has not finished tick ")) << game->log();
+  EXPECT_TRUE(waitForLog(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann)) << ann->connection().message();
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << game->log();
-  EXPECT_TRUE(logs("forced to exit: the game does not finish tick ")) << game->log();
+  EXPECT_TRUE(waitForLog("forced to exit: the game does not finish tick ")) << game->log();
 }
 
 TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
@@ -174,7 +174,7 @@ TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
 #endif
   start();
   auto ann = join("ann");
-  ASSERT_TRUE(ticks(*ann, 1));
+  ASSERT_TRUE(waitForTicks(*ann, 1));
   press(*ann, df::Keyboard::H);
   const auto stands = [&, last = ann->newestTick(), since = Clock::now()]() mutable {
     if (ann->newestTick() != last) since = Clock::now();
@@ -195,9 +195,9 @@ TEST_F(Trouble, SlowTickIsReportedOnceWithItsHandler) {
     start({{"NAIAD_ON_GAME_OVER", on_game_over}});
     auto ann = join("ann");
     for (int i = 0; i < 2; ++i) {
-      ASSERT_TRUE(ticks(*ann, 1));
+      ASSERT_TRUE(waitForTicks(*ann, 1));
       press(*ann, df::Keyboard::S);
-      ASSERT_TRUE(ticks(*ann));
+      ASSERT_TRUE(waitForTicks(*ann));
     }
     const auto text = [&] { return game->log() + contentOf(game->directory() / "output"); };
     const std::string line = " takes longer than the frame time of ";
@@ -226,9 +226,9 @@ TEST_P(Crash, IsLoggedWithItsHandler) {
   const CrashCase& crash = GetParam();
   start();
   auto ann = join("ann");
-  ASSERT_TRUE(ticks(*ann, 1));
+  ASSERT_TRUE(waitForTicks(*ann, 1));
   press(*ann, crash.key);
-  logs("crashed");
+  waitForLog("crashed");
   const int status = game->wait();
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == crash.signal) << status << game->log();
   for (const char* file : {"log", "output"}) {
@@ -256,15 +256,15 @@ INSTANTIATE_TEST_SUITE_P(Games, Crash,
 TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
-  ASSERT_TRUE(ticks(*ann, 1));
+  ASSERT_TRUE(waitForTicks(*ann, 1));
   press(*ann, df::Keyboard::K);
-  EXPECT_TRUE(logs("the round is over: the game crashed (SIGKILL) in tick ")) << game->log();
-  EXPECT_TRUE(logs(", while Trouble handled EventKeyboard\n")) << game->log();
-  EXPECT_TRUE(logs(" the game's log: a key\\x1b[2J\n")) << game->log();
-  EXPECT_TRUE(logs(" to see where: run the game by itself in a debugger")) << game->log();
-  EXPECT_TRUE(ticks(*ann)) << "the next round";
+  EXPECT_TRUE(waitForLog("the round is over: the game crashed (SIGKILL) in tick ")) << game->log();
+  EXPECT_TRUE(waitForLog(", while Trouble handled EventKeyboard\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" the game's log: a key\\x1b[2J\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" to see where: run the game by itself in a debugger")) << game->log();
+  EXPECT_TRUE(waitForTicks(*ann)) << "the next round";
   press(*ann, df::Keyboard::H);
-  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  EXPECT_TRUE(waitForLog(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   EXPECT_TRUE(serve([&] {
     const auto& chat = ann->session().chat();
@@ -272,7 +272,7 @@ TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
       return entry.name.empty() && entry.text.find("The game is not responding") != std::string::npos;
     });
   })) << "its player knows";
-  EXPECT_TRUE(logs("the game did not answer in time in tick ")) << game->log();
+  EXPECT_TRUE(waitForLog("the game did not answer in time in tick ")) << game->log();
 }
 
 // ---- programs that never play -----------------------------------------------------------------------------

@@ -63,8 +63,8 @@ class DisplayManager : public Manager {
   /// Draws a UTF-8 string, one character per cell. Returns 0, or -1 with no effect if drawCh() would do so.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
-  /// The name of Frame::draw() in published engines up to 4.20. If not `centered`, `world_pos` is the place
-  /// of the frame's first character.
+  /// Draws a frame, as published engines up to 4.20 name it (newer ones: Frame::draw()). `world_pos` is the
+  /// frame's centre if `centered`, else its top left character. Returns what Frame::draw() returns.
   int drawFrame(Vector world_pos, const Frame& frame, bool centered, Color color = COLOR_DEFAULT,
                 char transparent = 0) const {
     const Vector half((frame.getWidth() - 1) / 2.0f, (frame.getHeight() - 1) / 2.0f);

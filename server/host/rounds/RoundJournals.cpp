@@ -91,7 +91,7 @@ std::string notRecovered(const std::string& why) {
 }
 
 /// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
-/// for each file that cannot be read. Rounds whose first kBeginning bytes name no port are included.
+/// for each file that cannot be read. Includes rounds whose port is not within the first kBeginning bytes.
 std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
                                                          std::vector<std::string>& said) {
   constexpr std::size_t kBeginning = 65'536;
