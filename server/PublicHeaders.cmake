@@ -33,6 +33,7 @@ set(naiad_public_headers
   server/engine/published/NetworkManager.h
   server/engine/published/NetworkNode.h
   server/engine/published/PathManager.h
+  server/engine/published/Position.h
   server/engine/published/QuadtreeNode.h
   server/engine/published/Splash.h
   server/engine/published/SplashDragonfly.h

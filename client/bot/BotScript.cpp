@@ -32,33 +32,25 @@ bool endsStatement(char c) {
   return c == ';' || c == '\n' || c == '#' || c == '}';
 }
 
-BotStep stepOf(BotStep::Kind kind) {
-  BotStep step;
-  step.kind = kind;
-  return step;
-}
-
 std::string quoted(const std::string& text) {
   return std::string("\"").append(safeText(text, 40)).append("\"");
 }
 
-}  // namespace
-
 using namespace df::Keyboard;
+
+/// Holds or releases the key that is down, if any. Returns `holds`.
+bool holdOrRelease(Key& down, bool holds, std::vector<BotAction>& out) {
+  if (down != UNDEFINED_KEY) out.push_back(KeyAction{down, holds ? df::KEY_DOWN : df::KEY_RELEASED});
+  if (!holds) down = UNDEFINED_KEY;
+  return holds;
+}
+
+}  // namespace
 
 std::vector<BotAction> ScriptPlayer::tick() {
   std::vector<BotAction> out;
-  if (m_remaining > 0) {
-    --m_remaining;
-    if (m_remaining > 0) {
-      if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
-      return out;
-    }
-  }
-  if (m_down != UNDEFINED_KEY) {
-    out.push_back(KeyAction{m_down, df::KEY_RELEASED});
-    m_down = UNDEFINED_KEY;
-  }
+  m_remaining = std::max(m_remaining - 1, 0);
+  if (holdOrRelease(m_down, m_remaining > 0, out)) return out;
   skipLoops();
   if (m_at >= m_script.steps().size()) return out;
   const BotStep& step = m_script.steps()[m_at++];
@@ -123,14 +115,7 @@ std::vector<BotAction> RandomPlayer::tick() {
   static constexpr std::array<Key, 12> kKeys = {SPACE, SPACE, LEFTARROW, RIGHTARROW, UPARROW, DOWNARROW,
                                                 W,     A,     S,         D,          RETURN,  SPACE};
   std::vector<BotAction> out;
-  if (m_remaining-- > 0) {
-    if (m_down != UNDEFINED_KEY) out.push_back(KeyAction{m_down, df::KEY_DOWN});
-    return out;
-  }
-  if (m_down != UNDEFINED_KEY) {
-    out.push_back(KeyAction{m_down, df::KEY_RELEASED});
-    m_down = UNDEFINED_KEY;
-  }
+  if (holdOrRelease(m_down, m_remaining-- > 0, out)) return out;
   m_remaining = 1 + below(12);
   const int choice = below(10);
   if (choice < 6) {
@@ -298,15 +283,14 @@ class BotScriptParser {
                       [](const BotStep& step) { return step.kind != BotStep::Kind::kLoop; });
       if (!m_loops.empty() || !something)
         return fail("repeat without a number must follow a statement, outside other repeats");
-      finish(stepOf(BotStep::Kind::kRestart));
+      finish({.kind = BotStep::Kind::kRestart});
       if (!m_error && skipToStatement()) fail("nothing can follow a repeat without a number");
       return;
     }
     m_at = at;
     m_line = line;
     m_column = column;
-    BotStep step = stepOf(BotStep::Kind::kLoop);
-    step.count = number("the number of rounds", 1, kMaxCount);
+    BotStep step{.kind = BotStep::Kind::kLoop, .count = number("the number of rounds", 1, kMaxCount)};
     if (m_error) return;
     word();
     if (atEnd() || here() != '{') return fail("'{' is missing after repeat N");
@@ -321,9 +305,7 @@ class BotScriptParser {
     if (m_loops.empty()) return fail("'}' without a repeat");
     // An empty loop would spin without a tick.
     if (m_loops.back() + 1 == m_script.m_steps.size()) return fail("a repeat needs a statement");
-    BotStep end = stepOf(BotStep::Kind::kEndLoop);
-    end.target = m_loops.back();
-    m_script.m_steps.push_back(std::move(end));
+    m_script.m_steps.push_back({.kind = BotStep::Kind::kEndLoop, .target = m_loops.back()});
     m_loops.pop_back();
   }
 

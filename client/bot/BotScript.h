@@ -26,7 +26,6 @@
 
 namespace naiad {
 
-/// One step of a compiled script.
 struct BotStep {
   enum class Kind : unsigned char { kPress, kHold, kWait, kClick, kMove, kChat, kLoop, kEndLoop, kRestart };
   Kind kind = Kind::kWait;
@@ -36,7 +35,7 @@ struct BotStep {
   int y = 0;
   int count = 1;           ///< number of ticks or of loop rounds
   std::size_t target = 0;  ///< kEndLoop: index of its kLoop step
-  std::string text;
+  std::string text{};
 };
 
 /// Position of an error in a script, and its description. Line and column count from 1.

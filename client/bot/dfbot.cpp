@@ -65,7 +65,6 @@ class Bot {
         m_connection(context, options.address, sessionOptions(options, index), options.rejoin, options.trust),
         m_recorder(naiad::TruthRecorder::kMaxCells / static_cast<std::size_t>(options.clients)) {
     m_connection.onSession([this](naiad::ClientSession& session) {
-      ++m_sessions;
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (!m_options.truth_file.empty()) m_recorder.beforeSnapshot(session.replica(), tick);
         if (!m_first_tick) m_first_tick = tick;
@@ -103,8 +102,6 @@ class Bot {
   }
   naiad::Connection& connection() { return m_connection; }
   const naiad::TruthRecorder& recorder() const { return m_recorder; }
-  /// Returns the number of streams that the bot has opened after the first, to resume a session or to join.
-  int rejoined() const { return m_sessions > 0 ? m_sessions - 1 : 0; }
   Clock::time_point joinedAt() const { return m_joined_at; }
 
   /// True if a snapshot has come after `then`.
@@ -157,7 +154,6 @@ class Bot {
   naiad::Connection m_connection;
   naiad::TruthRecorder m_recorder;
   std::optional<std::uint32_t> m_first_tick;
-  int m_sessions = 0;
   Clock::time_point m_joined_at{};
   Clock::time_point m_heard_at{};
   Clock::time_point m_next_tick{};
@@ -299,7 +295,6 @@ int run(const BotOptions& options) {
   return report(options, bots, end);
 }
 
-/// Returns the options in the order of --help.
 std::vector<naiad::Option> optionsOf(BotOptions& bot, naiad::ServerChoice& server, std::string& script,
                                      bool& web) {
   std::vector<naiad::Option> options = {

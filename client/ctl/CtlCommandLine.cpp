@@ -5,7 +5,7 @@
 
 #include "shared/admin/AdminCommands.h"
 #include "shared/admin/AdminRequest.h"
-#include "shared/options/Options.h"
+#include "shared/options/OptionPages.h"
 
 namespace naiad {
 namespace {
@@ -32,12 +32,6 @@ std::string choices(const AdminCommand& command) {
     if (argument.named) all += (all.empty() ? "--" : " --") + argument.name;
   }
   return all;
-}
-
-std::string quoted(std::string text) {
-  for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
-    text.replace(at, 1, "'\\''");
-  return "'" + text + "'";
 }
 
 /// Replaces colons by semicolons: zsh separates a command from its description with a colon.
@@ -87,7 +81,8 @@ std::string zsh() {
       "_dfctl() {\n"
       "  local -a commands=(\n";
   for (const AdminCommand& command : adminCommands()) {
-    if (isOfCtl(command)) text += "    " + quoted(command.name + ":" + withoutColons(command.help)) + "\n";
+    if (isOfCtl(command))
+      text += "    " + inShellQuotes(command.name + ":" + withoutColons(command.help)) + "\n";
   }
   text +=
       "    'completion:Print a completion script for a shell'\n"
@@ -123,8 +118,8 @@ std::string fish() {
       "complete -c dfctl -n '__fish_seen_subcommand_from completion' -a 'bash zsh fish'\n";
   for (const AdminCommand& command : adminCommands()) {
     if (!isOfCtl(command)) continue;
-    text += "complete -c dfctl -n __fish_use_subcommand -a " + command.name + " -d " + quoted(command.help) +
-            "\n";
+    text += "complete -c dfctl -n __fish_use_subcommand -a " + command.name + " -d " +
+            inShellQuotes(command.help) + "\n";
     if (!choices(command).empty())
       text += "complete -c dfctl -n '__fish_seen_subcommand_from " + command.name + "' -a '" +
               choices(command) + "'\n";
@@ -136,8 +131,8 @@ const std::vector<std::string> kCtlOptions{"--control", "--json", "--help", "--v
 constexpr std::string_view kControlOption = "--control=";
 
 [[noreturn]] void failUnknown(const std::string& word) {
-  const std::string near = nearestName(word, kCtlOptions);
-  throw AdminUsageError("There is no option " + word + (near.empty() ? "." : "; did you mean " + near + "?"));
+  const std::string near = suggestion(word, kCtlOptions);
+  throw AdminUsageError("There is no option " + word + (near.empty() ? "." : near));
 }
 
 }  // namespace

@@ -25,7 +25,6 @@ struct CtlCommandLine {
 /// The default of `control` is the value of NAIAD_CONTROL. Throws AdminUsageError (AdminRequest.h).
 CtlCommandLine readCtlCommandLine(const std::vector<std::string>& words);
 
-/// Returns the text of --help.
 std::string ctlHelp();
 
 }  // namespace naiad

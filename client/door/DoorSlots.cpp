@@ -67,18 +67,17 @@ class Open {
   bool lock() const { return ::flock(m_file, LOCK_EX | LOCK_NB) == 0; }
   int release() { return std::exchange(m_file, -1); }
 
-  /// Returns the address that the last visitor in this place wrote.
+  /// Returns the beginning of the text in the file.
   std::string read() const {
     std::array<char, kMaxAddress> text{};
     const ssize_t size = ::pread(m_file, text.data(), text.size(), 0);
     return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
   }
-  void write(const std::string& text) const {
+  /// Replaces the text in the file. `what` says in an exception what failed.
+  void write(const std::string& text, const std::string& what) const {
     const bool written = ::ftruncate(m_file, 0) == 0 &&
                          ::pwrite(m_file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-    if (!written)
-      throw std::system_error(errno, std::generic_category(),
-                              "cannot write to the folder \"places\" of --state");
+    if (!written) throw std::system_error(errno, std::generic_category(), what);
   }
 
  private:
@@ -132,16 +131,10 @@ VisitorFolder::~VisitorFolder() {
 
 bool VisitorFolder::acquire() {
   const fs::path path = m_path / kLockFile;
-  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file < 0) throw std::system_error(errno, std::generic_category(), path.string());
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-    ::close(file);
-    return false;
-  }
-  m_lock = file;
-  const std::string number = std::to_string(::getpid()) + "\n";
-  if (::ftruncate(file, 0) != 0 || ::pwrite(file, number.data(), number.size(), 0) < 0)
-    throw std::system_error(errno, std::generic_category(), path.string());
+  Open file(path);
+  if (!file.lock()) return false;
+  file.write(std::to_string(::getpid()) + "\n", path.string());
+  m_lock = file.release();
   return true;
 }
 
@@ -161,8 +154,7 @@ void VisitorFolder::saveName(const std::string& name) const {
 
 DoorSlot::AcquireResult DoorSlot::acquire(const fs::path& folder, const std::string& visitor,
                                           const Limits& limits) {
-  fs::create_directories(folder);
-  fs::permissions(folder, fs::perms::owner_all);
+  makeFolder(folder);
   const auto prefix = AddressPrefix::ofEndpoint(visitor);
   const FileLock one_at_a_time(folder / "lock");
   std::optional<Open> free;
@@ -177,7 +169,7 @@ DoorSlot::AcquireResult DoorSlot::acquire(const fs::path& folder, const std::str
   }
   if (of_prefix >= limits.per_prefix) return {nullptr, Refusal::kFullForPrefix};
   if (!free) return {nullptr, Refusal::kFull};
-  free->write(visitor);
+  free->write(visitor, "cannot write to the folder \"places\" of --state");
   return {std::unique_ptr<DoorSlot>(new DoorSlot(free->release())), Refusal::kNone};
 }
 

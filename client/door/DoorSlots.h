@@ -34,7 +34,6 @@ class VisitorFolder {
   VisitorFolder(const VisitorFolder&) = delete;
   VisitorFolder& operator=(const VisitorFolder&) = delete;
 
-  /// Returns the path of this visitor's folder.
   const std::filesystem::path& path() const { return m_path; }
   /// Locks the folder for the lifetime of this object. Returns false if another process has locked it.
   bool acquire();

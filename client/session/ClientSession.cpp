@@ -92,15 +92,10 @@ void ClientSession::handle(const PongMessage& message, Time now) {
   if (const auto sample = m_liveness.endPing(message.token, now)) m_world.addRttSample(*sample);
 }
 
-void ClientSession::handle(RoomEnteredMessage&& message, Time now) {
+void ClientSession::handle(const RoomEnteredMessage& message, Time now) {
   if (m_state != State::kPlaying) return reject("another room before the welcome");
   m_inbox.addNotice("You are now in room " + message.room + ", playing " + message.game + ".", now);
-  m_welcome.player = message.player;
-  m_welcome.room = std::move(message.room);
-  m_welcome.game = std::move(message.game);
-  m_welcome.view_width = message.view_width;
-  m_welcome.view_height = message.view_height;
-  m_welcome.help = std::move(message.help);
+  static_cast<PlayerWorld&>(m_welcome) = static_cast<const PlayerWorld&>(message);
   m_world.enter(message.world_epoch, message.tick_now, now);
   m_rooms_due = now;
 }
@@ -153,20 +148,15 @@ void ClientSession::receiveOnSecond(std::string_view bytes, Time now) {
 }
 
 void ClientSession::applySnapshot(std::string_view bytes, Time now) {
-  const ReceivedWorld::Result result = m_world.applySnapshot(bytes, now, m_inputs, m_before_observer);
+  using Result = ReceivedWorld::Result;
+  const Result result = m_world.applySnapshot(bytes, now, m_inputs, m_before_observer);
   m_counters.resets = m_world.worlds().resets();
-  switch (result) {
-    case ReceivedWorld::Result::kApplied:
-    case ReceivedWorld::Result::kShown:
-      break;
-    case ReceivedWorld::Result::kIgnored:
-      return;
-    case ReceivedWorld::Result::kStale:
-      ++m_counters.stale_snapshots;
-      if (m_world.worlds().shouldRequestReset()) sendUpdate(now);
-      return;
-    case ReceivedWorld::Result::kMalformed:
-      return reject("a malformed snapshot");
+  if (result == Result::kMalformed) return reject("a malformed snapshot");
+  if (result == Result::kIgnored) return;
+  if (result == Result::kStale) {
+    ++m_counters.stale_snapshots;
+    if (m_world.worlds().shouldRequestReset()) sendUpdate(now);
+    return;
   }
   ++m_counters.snapshots;
   if (m_after_observer) m_after_observer(m_world.header(), m_world.acks());
@@ -183,7 +173,9 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   m_welcome.connection_id = welcome.connection_id;
   m_welcome.aead = welcome.aead;
   m_welcome.epoch = welcome.epoch;
-  if (welcome.player != m_welcome.player) updateRoom(welcome);
+  // Needed if the stream broke before the message that the player has entered another room.
+  if (welcome.player != m_welcome.player)
+    static_cast<PlayerWorld&>(m_welcome) = static_cast<const PlayerWorld&>(welcome);
   m_world.resume(welcome.tick_now);
   m_liveness.onReceived(now);
   m_liveness.startStream(now);  // the stream's first ping tells the server that the new token has arrived
@@ -200,16 +192,6 @@ void ClientSession::adopt(ClientSession& other, Time now) {
   ++m_revision;
   sendUpdate(now);
   update(now);
-}
-
-// Needed if the stream broke before the message that the player has entered another room.
-void ClientSession::updateRoom(const WelcomeMessage& welcome) {
-  m_welcome.player = welcome.player;
-  m_welcome.room = welcome.room;
-  m_welcome.game = welcome.game;
-  m_welcome.view_width = welcome.view_width;
-  m_welcome.view_height = welcome.view_height;
-  m_welcome.help = welcome.help;
 }
 
 void ClientSession::closed(CloseReason reason) {

@@ -71,7 +71,6 @@ class ClientSession {
   bool shouldOpenSecondStream(Time now);
   void startSecond(std::unique_ptr<ReliableChannel> channel);
   bool hasSecondStream() const { return m_link.hasSecondStream(); }
-  /// True if datagrams arrive from the server.
   bool hasDatagrams(Time now) const { return m_link.hasDatagrams() && m_timing.hasDatagrams(now); }
   /// True if the session is playing, and something has arrived in the last UpdateTiming::kDatagramTimeout, on
   /// the first stream or by datagram.
@@ -170,9 +169,8 @@ class ClientSession {
   void handle(ChatMessage&& message, Time now);
   void handle(SoundsMessage&& message, Time now);
   void handle(const PongMessage& message, Time now);
-  void handle(RoomEnteredMessage&& message, Time now);
+  void handle(const RoomEnteredMessage& message, Time now);
   void handle(RoomsMessage&& message, Time now);
-  void updateRoom(const WelcomeMessage& welcome);
   void reject(const std::string& what);
   void finish(State state, std::string message);
   void openDatagrams(Time now);

@@ -303,6 +303,7 @@ void Connection::finish(State state, const std::string& message) {
   m_opener->cancel();
   m_state = state;
   m_message = message;
+  m_deferred = false;
   m_next_attempt = Time::max();
   ++m_revision;
 }

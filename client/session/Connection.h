@@ -47,8 +47,8 @@ class Connection {
   static constexpr std::chrono::milliseconds kFirstBackoff{250};
   static constexpr std::chrono::milliseconds kMaxBackoff{2000};
   static constexpr std::chrono::seconds kReconnectTimeout{60};
-  /// Retry time while joining, if the server closes the connections without an answer: too many handshakes
-  /// from the client's address, or it restarts.
+  /// Retry time while joining, if the server closes the connections without an answer: because of too many
+  /// handshakes from the client's address, or because it restarts.
   static constexpr std::chrono::seconds kHandshakeRetryTimeout{4};
   /// Time for which only a lost redirect target is retried; then the original server is asked, too, for
   /// another target. A server restarts with its round in less time.
@@ -101,7 +101,6 @@ class Connection {
   std::uint64_t revision() const { return m_revision; }
   /// Address of the server that is asked or joined: the original one, or the target of a redirect.
   const ServerAddress& address() const { return m_address; }
-  /// True if address() is the target of a redirect.
   bool isRedirected() const { return m_redirected; }
 
  private:

@@ -17,7 +17,6 @@
 
 namespace naiad {
 
-/// A line of chat.
 struct ChatEntry {
   std::string name;  ///< name of the speaker; "?": unknown; empty: the server or this client
   df::Color color = df::COLOR_DEFAULT;

@@ -27,14 +27,28 @@ bool isColor(std::uint32_t color) {
   return color < static_cast<std::uint32_t>(df::kColorCount);
 }
 
+/// Returns the player's world from a Welcome or RoomEntered message; nullopt if a number is out of range.
+template <class Message>
+std::optional<PlayerWorld> checkWorld(const Message& wire) {
+  const bool good = wire.player() != 0 && isViewSize(wire.view_width(), wire.view_height()) &&
+                    wire.help_size() <= static_cast<int>(kMaxHelpLines);
+  if (!good) return std::nullopt;
+  PlayerWorld world{.player = wire.player(),
+                    .room = safeText(wire.room(), kMaxRoomName),
+                    .game = safeText(wire.game(), kMaxProgramLength),
+                    .view_width = static_cast<int>(wire.view_width()),
+                    .view_height = static_cast<int>(wire.view_height())};
+  for (const std::string& line : wire.help()) world.help.push_back(safeText(line, kMaxHelpLength));
+  return world;
+}
+
 std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
+  const auto world = checkWorld(wire);
+  if (!world || wire.tick_micros() < 1000 || wire.tick_micros() > 1000000 || !isColor(wire.color()))
+    return std::nullopt;
   WelcomeMessage message;
-  const bool good = wire.player() != 0 && wire.tick_micros() >= 1000 && wire.tick_micros() <= 1000000 &&
-                    isViewSize(wire.view_width(), wire.view_height()) && isColor(wire.color());
-  if (!good || wire.help_size() > static_cast<int>(kMaxHelpLines)) return std::nullopt;
-  message.player = wire.player();
+  static_cast<PlayerWorld&>(message) = *world;
   message.name = safeName(wire.name());
-  message.game = safeText(wire.game(), kMaxProgramLength);
   message.server = safeText(wire.server(), kMaxProgramLength);
   message.tick_now = wire.tick();
   message.connection_id = wire.connection_id();
@@ -51,12 +65,8 @@ std::optional<ServerMessageValue> check(const wire::Welcome& wire) {
     if (from.world_epoch() > 3) return std::nullopt;
     message.resume_state = {from.snapshot(), static_cast<std::uint8_t>(from.world_epoch()), from.input()};
   }
-  message.room = safeText(wire.room(), kMaxRoomName);
   message.tick = std::chrono::microseconds(wire.tick_micros());
-  message.view_width = static_cast<int>(wire.view_width());
-  message.view_height = static_cast<int>(wire.view_height());
   message.color = static_cast<df::Color>(wire.color());
-  for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
   return message;
 }
 
@@ -71,18 +81,9 @@ std::optional<ServerMessageValue> check(const wire::Refused& wire) {
 }
 
 std::optional<ServerMessageValue> check(const wire::RoomEntered& wire) {
-  if (wire.player() == 0 || !isViewSize(wire.view_width(), wire.view_height()) || wire.world_epoch() > 3 ||
-      wire.help_size() > static_cast<int>(kMaxHelpLines) || !isRoomName(wire.room()))
-    return std::nullopt;
-  RoomEnteredMessage message{.player = wire.player(),
-                             .room = wire.room(),
-                             .game = safeText(wire.game(), kMaxProgramLength),
-                             .view_width = static_cast<int>(wire.view_width()),
-                             .view_height = static_cast<int>(wire.view_height()),
-                             .tick_now = wire.tick(),
-                             .world_epoch = static_cast<std::uint8_t>(wire.world_epoch())};
-  for (const std::string& line : wire.help()) message.help.push_back(safeText(line, kMaxHelpLength));
-  return message;
+  const auto world = checkWorld(wire);
+  if (!world || wire.world_epoch() > 3 || !isRoomName(wire.room())) return std::nullopt;
+  return RoomEnteredMessage{*world, wire.tick(), static_cast<std::uint8_t>(wire.world_epoch())};
 }
 
 std::optional<ServerMessageValue> check(const wire::RoomList& wire) {

@@ -25,17 +25,22 @@ struct ResumeState {
   std::uint32_t input = 0;       ///< id of the newest input
 };
 
-/// Message that the server has accepted the client.
-struct WelcomeMessage {
-  std::uint32_t player = 0;  ///< this player's id, never 0
-  std::string name;          ///< this player's name in the game
-  std::string game;
-  std::string server;                     ///< program and version
-  std::chrono::microseconds tick{33333};  ///< length of a tick, 1 ms to 1 s
+/// The world in which the player is.
+struct PlayerWorld {
+  std::uint32_t player = 0;  ///< this player's id there, never 0
+  std::string room = {};     ///< the player's room; empty: the server has no rooms
+  std::string game = {};
   int view_width = 80;
   int view_height = 24;
+  std::vector<std::string> help = {};  ///< help lines of the game
+};
+
+/// Message that the server has accepted the client.
+struct WelcomeMessage : PlayerWorld {
+  std::string name;                       ///< this player's name in the game
+  std::string server;                     ///< program and version
+  std::chrono::microseconds tick{33333};  ///< length of a tick, 1 ms to 1 s
   df::Color color = df::COLOR_DEFAULT;
-  std::vector<std::string> help;            ///< help lines of the game
   std::uint32_t tick_now = 0;               ///< the world's approximate current tick
   std::uint64_t connection_id = 0;          ///< connection id of datagrams
   std::uint32_t aead = 0;                   ///< cipher of datagrams; 0: no datagrams
@@ -47,17 +52,9 @@ struct WelcomeMessage {
   /// Number of the newest reliable frame that the server received, if it resumed the session of this process.
   std::uint32_t last_frame = 0;
   bool second_stream = false;  ///< second streams are accepted, or this is one
-  std::string room;            ///< the player's room; empty: the server has no rooms
 };
 
-/// Message that the player has entered another room.
-struct RoomEnteredMessage {
-  std::uint32_t player = 0;  ///< this player's id in that room, never 0
-  std::string room;
-  std::string game;
-  int view_width = 80;
-  int view_height = 24;
-  std::vector<std::string> help = {};
+struct RoomEnteredMessage : PlayerWorld {
   std::uint32_t tick_now = 0;    ///< the world's approximate current tick
   std::uint8_t world_epoch = 0;  ///< epoch of the snapshots to come, 0 … 3
 };

@@ -47,7 +47,6 @@ struct SessionOptions {
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
-/// Returns the hello, the first message of a stream.
 wire::ClientMessage helloOf(const SessionOptions& options);
 /// Returns a message with the terminal's size in cells, clamped to 0 to 9999.
 wire::ClientMessage resizeOf(int columns, int rows);

@@ -14,7 +14,6 @@
 
 namespace naiad {
 
-/// Rules by which a client trusts a server.
 struct ServerTrust {
   bool insecure = false;                   ///< use plain TCP, loopback only, without datagrams; for tests
   std::optional<Fingerprint> fingerprint;  ///< the server's key, if given by the player
@@ -53,7 +52,6 @@ class StreamOpener {
   /// Returns why the server behind the newest stream of open() is not trusted, for people; empty if it is.
   /// Nothing may be sent to an untrusted server.
   virtual std::string trustError() const = 0;
-  /// Result of follow().
   struct RedirectTarget {
     std::unique_ptr<StreamOpener> opener;  ///< null: the redirect is not followed
     ServerAddress address;

@@ -43,7 +43,6 @@ struct ServerChoice {
   bool dropsPassword() const;
 };
 
-/// Returns the option for the SERVER argument.
 Option serverOption(ServerChoice& server);
 std::vector<Option> trustOptions(ServerChoice& server, ServerTrust& trust, SessionOptions& session);
 

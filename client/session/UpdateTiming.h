@@ -34,7 +34,6 @@ class StreamLiveness {
 
   /// Call for a new stream: forgets the pings of the old one and makes a ping due now.
   void startStream(Time now);
-  /// Forgets all unanswered pings.
   void forgetPings() { m_pings.clear(); }
   /// True if the oldest ping has waited for kStreamTimeout although datagrams show that the server is alive.
   bool isStreamDead(Time now, bool has_datagrams) const;
@@ -42,7 +41,7 @@ class StreamLiveness {
   bool isPingDue(Time now, bool has_datagrams) const;
   /// Call when sending a ping. Returns its token.
   std::uint64_t startPing(Time now);
-  /// Call when a pong arrives. Returns the round trip; nullopt if the token is unknown or already answered.
+  /// Call when a pong arrives. Adds and returns the round trip; nullopt if no unanswered ping has the token.
   std::optional<Millis> endPing(std::uint64_t token, Time now);
   /// Adds a round trip measured with datagrams.
   void addRttSample(Millis sample, Time now) { m_stats.addSample(sample, now); }
@@ -84,13 +83,11 @@ class UpdateTiming {
   bool onDatagramSent(Time now);
   /// Call when an update is sent, on any path.
   void onUpdateSent();
-  /// Call for a new input.
   void onInput(Time now) { m_resend_at = now + kInputResendDelay; }
   /// Call when a snapshot was applied. `gap`: the one before it is missing. Returns true if it should be
   /// acknowledged immediately: every third one, or one after a gap.
   bool onSnapshotApplied(bool gap, Time now);
 
-  /// True if datagrams arrive.
   bool hasDatagrams(Time now) const { return m_probe.isOpen(now); }
   /// True if the server has just sent a snapshot on the stream: it may not receive datagrams.
   bool isUndecided(Time now) const { return now - m_last_streamed < kUndecidedWindow; }

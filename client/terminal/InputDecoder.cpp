@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "client/terminal/KeyTable.h"
 #include "shared/values/Canvas.h"
@@ -204,25 +205,13 @@ void InputDecoder::decodeUtf8Byte(unsigned char byte, Events& out) {
 }
 
 void InputDecoder::decodeEscape(unsigned char byte, Events& out) {
-  switch (byte) {
-    case 0x1B:
-      if (m_meta) emitKey(out, keyOfControl(0x1B));
-      m_meta = true;  // the Escape key twice, or rxvt's Alt with a cursor key
-      return;
-    case '[':
-      return enterState(State::kCsi);
-    case 'O':
-      return enterState(State::kSs3);
-    case ']':
-    case 'P':
-    case 'X':
-    case '^':
-    case '_':
-      return enterState(State::kString);
-    default:
-      break;
-  }
-  if (m_meta) emitKey(out, keyOfControl(0x1B));
+  if (byte == '[') return enterState(State::kCsi);
+  if (byte == 'O') return enterState(State::kSs3);
+  if (byte == ']' || byte == 'P' || byte == 'X' || byte == '^' || byte == '_')
+    return enterState(State::kString);
+  // The Escape key twice, or rxvt's Alt with a cursor key.
+  if (std::exchange(m_meta, true)) emitKey(out, keyOfControl(0x1B));
+  if (byte == 0x1B) return;
   enterState(State::kGround);
   if (byte >= 0x80) return decodeGround(byte, out);
   KeyEvent event = byte < 0x20 || byte == 0x7F ? keyOfControl(byte) : keyOfCharacter(byte);
@@ -250,20 +239,20 @@ void InputDecoder::decodeSequence(unsigned char byte, Events& out) {
     }
     return;
   }
-  finishSequence(byte, out);
+  const bool is_csi = m_state == State::kCsi;
+  const bool is_empty = is_csi && m_parameters.empty();
+  if (is_empty && byte == '[') return enterState(State::kLinuxFunction);
+  if (is_empty && byte == 'M') return enterState(State::kX10Mouse);
+  if (!m_overlong) finishSequence(byte, !is_csi, out);
+  enterState(State::kGround);
 }
 
-void InputDecoder::finishSequence(unsigned char final, Events& out) {
-  const bool ss3 = m_state == State::kSs3;
-  if (m_overlong) return enterState(State::kGround);
-  if (!ss3 && m_parameters.empty() && final == '[') return enterState(State::kLinuxFunction);
-  if (!ss3 && m_parameters.empty() && final == 'M') return enterState(State::kX10Mouse);
+void InputDecoder::finishSequence(unsigned char final, bool ss3, Events& out) {
   if (!ss3 && m_parameters.empty() && final == 'O' && !m_pasting) out.emplace_back(FocusLost{});
   if (!ss3 && (final == '~' || final == '^' || final == '@' || final == '$')) {
     if (final == '^' || final == '@') m_parameters += ";5";  // 5: Control. The Shift of rxvt's '@' is ignored
     if (final == '$') m_parameters += ";2";
-    finishTilde(out);
-    return enterState(State::kGround);
+    return finishTilde(out);
   }
   const char prefix = m_parameters.empty() ? '\0' : m_parameters[0];
   if (!ss3 && prefix == '<' && (final == 'M' || final == 'm')) {
@@ -271,24 +260,17 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
     const auto& f = numbers.field;
     const bool complete = numbers.well_formed && f[0][0] >= 0 && f[1][0] > 0 && f[2][0] > 0;
     if (complete) emitMouse(out, f[0][0], f[1][0] - 1, f[2][0] - 1, final == 'm');
-    return enterState(State::kGround);
+    return;
   }
   if (!ss3 && prefix == '?' && final == 'u') {
     const Numbers numbers(std::string_view(m_parameters).substr(1));
     if (numbers.well_formed && !m_pasting) out.emplace_back(KittyReply{std::max(numbers.field[0][0], 0)});
-    return enterState(State::kGround);
+    return;
   }
   Numbers numbers(m_parameters);
-  if (!numbers.well_formed) return enterState(State::kGround);
-  if (!ss3 && final == 'u') {
-    KeyEvent event = numbers.kittyKey();
-    if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) emitKey(out, event);
-    return enterState(State::kGround);
-  }
-  if (!ss3 && final == '_') {
-    decodeKeyRecord(numbers, out);
-    return enterState(State::kGround);
-  }
+  if (!numbers.well_formed) return;
+  if (!ss3 && final == 'u') return emitKey(out, numbers.kittyKey());
+  if (!ss3 && final == '_') return decodeKeyRecord(numbers, out);
   KeyEvent event{keyOfFinal(static_cast<char>(final), ss3)};
   // Some terminals write SS3 5 P instead of CSI 1 ; 5 P.
   if (ss3 && numbers.field[1][0] < 0) numbers.field[1][0] = numbers.field[0][0];
@@ -297,9 +279,7 @@ void InputDecoder::finishSequence(unsigned char final, Events& out) {
   if (final == 'Z') event.modifiers |= kShift;
   if (m_meta) event.modifiers |= kAlt;
   // The first number of a cursor position report is a row; that of a key is 1 or missing.
-  const bool is_key = ss3 || numbers.field[0][0] <= 1;
-  if (event.key != df::Keyboard::UNDEFINED_KEY && is_key) emitKey(out, event);
-  enterState(State::kGround);
+  if (ss3 || numbers.field[0][0] <= 1) emitKey(out, event);
 }
 
 void InputDecoder::finishTilde(Events& out) {
@@ -311,10 +291,9 @@ void InputDecoder::finishTilde(Events& out) {
   KeyEvent event{keyOfTilde(number)};
   numbers.applyModifiers(event);
   if (m_meta) event.modifiers |= kAlt;
-  if (number == 27 && numbers.field[2][0] > 0) {  // xterm's modifyOtherKeys: CSI 27 ; modifiers ; code ~
-    event.key = keyOfKitty(numbers.field[2][0]);
-  }
-  if (event.key != df::Keyboard::UNDEFINED_KEY) emitKey(out, event);
+  // xterm's modifyOtherKeys: CSI 27 ; modifiers ; code ~
+  if (number == 27 && numbers.field[2][0] > 0) event.key = keyOfKitty(numbers.field[2][0]);
+  emitKey(out, event);
 }
 
 // Windows Terminal sends mouse reports, replies and the marks around a paste byte by byte, each byte in a key
@@ -333,8 +312,7 @@ void InputDecoder::decodeKeyRecord(const Numbers& numbers, Events& out) {
   m_surrogate = ch >= 0xD800 && ch <= 0xDBFF ? ch : 0;
   if (m_surrogate != 0 || m_pasting) return;
   if (numbers.field[0][0] > 0 && !m_record_decoder->deadline()) {
-    const KeyEvent event = numbers.windowsKey(ch);
-    if (event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0) out.emplace_back(event);
+    emitKey(out, numbers.windowsKey(ch));
   } else if (is_down && ch > 0 && ch <= 0x10FFFF) {
     std::string bytes;
     df::appendUtf8(bytes, static_cast<char32_t>(ch));
@@ -389,7 +367,8 @@ void InputDecoder::endPaste(Events& out) {
 }
 
 void InputDecoder::emitKey(Events& out, KeyEvent event) {
-  if (!m_pasting) out.emplace_back(event);
+  const bool is_known = event.key != df::Keyboard::UNDEFINED_KEY || event.ch != 0;
+  if (is_known && !m_pasting) out.emplace_back(event);
 }
 
 }  // namespace naiad

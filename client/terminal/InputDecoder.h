@@ -119,7 +119,7 @@ class InputDecoder {
   void decodeSequence(unsigned char byte, Events& out);
   void decodeUtf8Byte(unsigned char byte, Events& out);
   void decodeX10(unsigned char byte, Events& out);
-  void finishSequence(unsigned char final, Events& out);
+  void finishSequence(unsigned char final, bool ss3, Events& out);
   void finishTilde(Events& out);
   struct Numbers;
   void decodeKeyRecord(const Numbers& numbers, Events& out);

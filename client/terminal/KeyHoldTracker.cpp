@@ -105,17 +105,9 @@ void KeyHoldTracker::updateOtherHolds(Key key, Time now, std::vector<KeyAction>&
 }
 
 KeyHoldTracker::Duration KeyHoldTracker::bridge(Key key) const {
-  if (!isDirection(key)) return {};
-  const Duration learned = m_pause + m_pause / 8 + std::chrono::milliseconds(20);
-  switch (m_rule.first) {
-    case HoldRule::First::kTap:
-      return {};
-    case HoldRule::First::kUsual:
-      return kUsualPause + kUsualPause / 8;
-    case HoldRule::First::kLearned:
-      return m_pause > Duration{} ? learned : Duration{};
-  }
-  return {};
+  if (!isDirection(key) || m_rule.first == HoldRule::First::kTap) return {};
+  if (m_rule.first == HoldRule::First::kUsual) return kUsualPause + kUsualPause / 8;
+  return m_pause > Duration{} ? m_pause + m_pause / 8 + std::chrono::milliseconds(20) : Duration{};
 }
 
 std::vector<KeyAction> KeyHoldTracker::expire(Time now) {

@@ -23,7 +23,6 @@ template <std::size_t N>
 Key keyIn(std::string_view codes, const std::array<Key, N>& keys, int code) {
   return keyAt(keys, code > 0xFF ? -1 : static_cast<int>(codes.find(static_cast<char>(code))));
 }
-/// Returns the key of a digit from 0 to 9.
 Key keyOfDigit(int digit) {
   return digit == 0 ? NUM0 : static_cast<Key>(NUM1 + (digit - 1));
 }

@@ -44,7 +44,6 @@ class Screen {
 
   /// Shows the picture. Enters the alternate screen at the first call, and again after end().
   void show(const ScreenBuffer& picture);
-  /// Rings the terminal's bell.
   void ring();
   /// Reads the terminal's size. Returns true if it has changed.
   bool readSize();

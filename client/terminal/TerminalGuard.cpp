@@ -32,7 +32,7 @@ constexpr std::string_view kModesOff = "\033[?9001l\033[?1006l\033[?1003l\033[?2
 // Written at exits that cannot call ncurses: plain colours, cursor on, normal screen.
 constexpr std::string_view kScreenOff = "\033[m\033[?25h\033[?1049l";
 
-constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGQUIT};
 constexpr int kTerminating[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kReported[] = {SIGINT, SIGTERM, SIGHUP, SIGWINCH, SIGTSTP, SIGCONT};
 constexpr int kWriteTimeoutMillis = 1000;  // time limit for a terminal that accepts no bytes
@@ -152,7 +152,7 @@ TerminalGuard::TerminalGuard(Options options) : m_options(options) {
   static const bool at_exit = std::atexit(restoreNow) == 0;
   (void)at_exit;
   installHandlers();
-  setRaw();
+  setRawMode();
 }
 
 TerminalGuard::~TerminalGuard() {
@@ -180,7 +180,7 @@ void TerminalGuard::installHandlers() {
   install(SIGPIPE, SIG_IGN, 0);
 }
 
-void TerminalGuard::setRaw() {
+void TerminalGuard::setRawMode() {
   termios raw = g_original;
   raw.c_iflag &= ~static_cast<tcflag_t>(BRKINT | ICRNL | INLCR | IGNCR | INPCK | ISTRIP | IXON);
   raw.c_lflag &= ~static_cast<tcflag_t>(ECHO | ECHONL | ICANON | ISIG | IEXTEN);
@@ -192,7 +192,7 @@ void TerminalGuard::setRaw() {
 }
 
 // Uses TCSAFLUSH, so that mouse reports still arriving do not end up in the shell's command line.
-void TerminalGuard::setOriginal() {
+void TerminalGuard::setOriginalMode() {
   tcsetattr(STDIN_FILENO, TCSAFLUSH, &g_original);
   g_taken = 0;
 }
@@ -228,10 +228,6 @@ void TerminalGuard::queryKitty() {
   put(kKittyQuery);
 }
 
-bool TerminalGuard::kittyPushed() const {
-  return g_kitty != 0;
-}
-
 bool TerminalGuard::stopProcess() {
   const pid_t shell = shellOfGroup();
   const bool has_shell = tcgetpgrp(STDIN_FILENO) > 0;
@@ -253,7 +249,7 @@ void TerminalGuard::restore() {
   leaveModes();
   if (m_end_screen) m_end_screen();
   m_end_screen = nullptr;
-  setOriginal();
+  setOriginalMode();
 }
 
 void TerminalGuard::write(const char* bytes, unsigned long size) {

@@ -7,10 +7,10 @@
 // leaves it, too.
 //
 // restore() restores all this; the destructor calls it. exit() and the handlers of SIGSEGV, SIGBUS, SIGABRT,
-// SIGFPE and SIGILL write prebuilt byte strings and call tcsetattr, both async-signal-safe; the process then
-// dies of the signal. SIGTERM, SIGHUP, SIGINT, SIGWINCH, SIGTSTP and SIGCONT become bytes from signalFd() for
-// the event loop. A second one of the first three restores the terminal and kills the process at once. If the
-// event loop has not read one of these when the guard is destroyed, the destructor ends the process by it.
+// SIGFPE, SIGILL and SIGQUIT write prebuilt byte strings and call tcsetattr, both async-signal-safe; the
+// process then dies of the signal. SIGTERM, SIGHUP, SIGINT, SIGWINCH, SIGTSTP and SIGCONT become bytes from
+// signalFd() for the event loop. A second one of the first three restores the terminal and kills the process.
+// If the event loop has not read one of these when the guard is destroyed, the process ends by it.
 //
 // Only one guard may exist at a time, because signal handlers need static data. Signals may arrive in any
 // thread; the thread that made the guard, and draws, handles them.
@@ -43,15 +43,14 @@ class TerminalGuard {
   void enterModes();
   /// Switches all reports off again. Call while the alternate screen is on.
   void leaveModes();
-  void setRaw();
-  void setOriginal();
+  void setRawMode();
+  void setOriginalMode();
 
   /// Switches key reports with releases (kitty flags 1+2+4+8+16) on or off.
   void pushKitty();
   void popKitty();
   /// Asks again whether the terminal supports the kitty protocol.
   void queryKitty();
-  bool kittyPushed() const;
 
   /// Stops this process like Ctrl-Z, and returns true when it is in the foreground again. Restore the
   /// terminal first. Returns false if the process must end, because a signal asks it to or its shell has
@@ -59,7 +58,7 @@ class TerminalGuard {
   [[nodiscard]] bool stopProcess();
   /// Returns a descriptor from which one byte can be read for each signal that arrived: the signal's number.
   int signalFd() const;
-  /// Sets the function that ends the screen. restore() calls it after leaveModes() and before setOriginal().
+  /// Sets the function that ends the screen; restore() calls it between leaveModes() and setOriginalMode().
   void onRestore(std::function<void()> end_screen) { m_end_screen = std::move(end_screen); }
   /// Restores the terminal; does nothing the second time.
   void restore();

@@ -14,17 +14,43 @@ namespace {
 
 // The lines of a file of known servers, in memory. KnownServers.h describes the format.
 
+constexpr std::string_view kBlanks = " \t\r";
+
 class PinLines {
  public:
-  explicit PinLines(std::string_view content);
-  std::string content() const;
-
+  explicit PinLines(std::string_view content) {
+    while (!content.empty()) {
+      const std::size_t end = std::min(content.find('\n'), content.size());
+      lines_.push_back(parse(content.substr(0, end)));
+      content.remove_prefix(std::min(end + 1, content.size()));
+    }
+  }
+  std::string content() const {
+    std::string all;
+    for (const Line& line : lines_) all += line.text + '\n';
+    return all;
+  }
   /// Returns the pinned key of `server` ("host:port", lower case): the last one, if there are several.
-  std::optional<Fingerprint> find(std::string_view server) const;
+  std::optional<Fingerprint> find(std::string_view server) const {
+    std::optional<Fingerprint> found;
+    for (const Line& line : lines_) {
+      if (line.key && line.server == server) found = line.key;
+    }
+    return found;
+  }
   /// Makes `key` the only pin of `server`. Other lines do not change.
-  void set(std::string_view server, const Fingerprint& key);
+  void set(std::string_view server, const Fingerprint& key) {
+    std::erase_if(lines_, [&](const Line& line) { return line.key && line.server == server; });
+    lines_.push_back(parse(std::string(server) + ' ' + key.text()));
+  }
   /// Returns the numbers, from 1, of the lines that are neither a pin nor a comment.
-  std::vector<std::size_t> malformed() const;
+  std::vector<std::size_t> malformed() const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (!lines_[i].key && !isComment(lines_[i].text)) numbers.push_back(i + 1);
+    }
+    return numbers;
+  }
 
  private:
   struct Line {
@@ -32,70 +58,30 @@ class PinLines {
     std::string server;  // empty: not a pin
     std::optional<Fingerprint> key;
   };
-  static Line parse(std::string_view text);
+
+  static bool isComment(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    return first == std::string_view::npos || text[first] == '#';
+  }
+  static Line parse(std::string_view text) {
+    Line line{std::string(text), "", std::nullopt};
+    if (isComment(text)) return line;
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    const std::string_view rest = text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+    const std::size_t blank = rest.find_first_of(kBlanks);
+    if (blank == std::string_view::npos) return line;
+    const std::size_t second = rest.find_first_not_of(kBlanks, blank);
+    const auto address = ServerAddress::parse(std::string(rest.substr(0, blank)));
+    const auto key = Fingerprint::parse(rest.substr(second));
+    // A pin is spelled as text() spells the address, because pins are compared as text.
+    if (!address || !key || address->text() != rest.substr(0, blank)) return line;
+    line.server = lowerCase(address->text());
+    line.key = key;
+    return line;
+  }
 
   std::vector<Line> lines_;
 };
-
-constexpr std::string_view kBlanks = " \t\r";
-
-bool isComment(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  return first == std::string_view::npos || text[first] == '#';
-}
-
-PinLines::PinLines(std::string_view content) {
-  while (!content.empty()) {
-    const std::size_t end = std::min(content.find('\n'), content.size());
-    lines_.push_back(parse(content.substr(0, end)));
-    content.remove_prefix(std::min(end + 1, content.size()));
-  }
-}
-
-PinLines::Line PinLines::parse(std::string_view text) {
-  Line line{std::string(text), "", std::nullopt};
-  if (isComment(text)) return line;
-  const std::size_t end = std::min(text.find_last_not_of(kBlanks) + 1, text.size());
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), end);
-  const std::string_view rest = text.substr(begin, end - begin);
-  const std::size_t blank = rest.find_first_of(kBlanks);
-  if (blank == std::string_view::npos) return line;
-  const std::size_t second = rest.find_first_not_of(kBlanks, blank);
-  const auto address = ServerAddress::parse(std::string(rest.substr(0, blank)));
-  const auto key = Fingerprint::parse(rest.substr(second));
-  // An address counts as a pin only if it is spelled as text() spells it, because pins are compared as text.
-  if (!address || !key || address->text() != rest.substr(0, blank)) return line;
-  line.server = lowerCase(address->text());
-  line.key = key;
-  return line;
-}
-
-std::string PinLines::content() const {
-  std::string all;
-  for (const Line& line : lines_) all += line.text + '\n';
-  return all;
-}
-
-std::optional<Fingerprint> PinLines::find(std::string_view server) const {
-  std::optional<Fingerprint> found;
-  for (const Line& line : lines_) {
-    if (line.key && line.server == server) found = line.key;
-  }
-  return found;
-}
-
-void PinLines::set(std::string_view server, const Fingerprint& key) {
-  std::erase_if(lines_, [&](const Line& line) { return line.key && line.server == server; });
-  lines_.push_back(parse(std::string(server) + ' ' + key.text()));
-}
-
-std::vector<std::size_t> PinLines::malformed() const {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    if (!lines_[i].key && !isComment(lines_[i].text)) numbers.push_back(i + 1);
-  }
-  return numbers;
-}
 
 namespace fs = std::filesystem;
 

@@ -203,34 +203,22 @@ void ClientApp::handleEvents(const std::vector<TerminalEvent>& events, Time now)
 }
 
 void ClientApp::handleKey(const KeyEvent& event, Time now) {
-  const ClientControls::Result result = m_controls.handleKey(event);
-  if (result == ClientControls::Result::kGame) return m_player.pressKey(event, now);
+  using Result = ClientControls::Result;
+  const Result result = m_controls.handleKey(event);
+  if (result == Result::kGame) return m_player.pressKey(event, now);
   m_dirty = true;
-  switch (result) {
-    case ClientControls::Result::kOpened:
-      // Text needs the characters of the keyboard layout, and no key may stay down in the game.
-      m_player.releaseKeys(now);
-      m_player.setRealReleases(false, now);
-      if (m_guard->kittyPushed()) m_guard->popKitty();
-      break;
-    case ClientControls::Result::kSendChat:
-      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.popChat());
-      [[fallthrough]];
-    case ClientControls::Result::kClosed:
-      m_guard->queryKitty();
-      break;
-    case ClientControls::Result::kEnterRoom:
-      enterChosenRoom(m_connection.session(), m_controls.roomChoice());
-      break;
-    case ClientControls::Result::kLeave:
-      m_leaving = true;
-      break;
-    case ClientControls::Result::kSuspend:
-      suspend();
-      break;
-    default:
-      break;
+  if (result == Result::kOpened) {
+    // Text needs the characters of the keyboard layout, and no key may stay down in the game.
+    m_player.releaseKeys(now);
+    m_player.setRealReleases(false, now);
+    m_guard->popKitty();
   }
+  if (result == Result::kSendChat && m_connection.session() != nullptr)
+    m_connection.session()->sendChat(m_controls.popChat());
+  if (result == Result::kSendChat || result == Result::kClosed) m_guard->queryKitty();
+  if (result == Result::kEnterRoom) enterChosenRoom(m_connection.session(), m_controls.roomChoice());
+  if (result == Result::kLeave) m_leaving = true;
+  if (result == Result::kSuspend) suspend();
 }
 
 bool ClientApp::acceptKeyReleases(Time now) {
@@ -265,7 +253,7 @@ void ClientApp::suspend() {
   m_player.releaseKeys(Clock::now());
   m_guard->leaveModes();
   m_screen->end();
-  m_guard->setOriginal();
+  m_guard->setOriginalMode();
   if (m_guard->stopProcess()) {
     resume();
   } else {
@@ -276,7 +264,7 @@ void ClientApp::suspend() {
 
 void ClientApp::resume() {
   const Time now = Clock::now();
-  m_guard->setRaw();
+  m_guard->setRawMode();
   // Another terminal may have been attached, so enterModes() asks for its protocol again.
   m_player.setRealReleases(false, now);
   m_composer.acceptKeyReleases(false);

@@ -42,7 +42,6 @@ class ClientApp {
     SoundMode sound = SoundMode::kNote;
     std::chrono::seconds idle_limit{0};  ///< leave after this time without input; 0: never
   };
-  /// Result of run().
   struct Outcome {
     ExitCode code = kExitLeft;
     std::string message;  ///< message for stderr after the terminal is restored; may be empty

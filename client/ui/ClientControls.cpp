@@ -97,30 +97,22 @@ ClientControls::Result ClientControls::handleCommand(const KeyEvent& event) {
   // A held Ctrl-G repeats; the repeats are not a command.
   if (event.action == KeyEvent::Action::kRepeat) return Result::kHandled;
   m_prefixed = false;
-  if (event.ch == U'?') return toggle(Panel::kHelp);
-  switch (event.key) {
-    case H:
-      return toggle(Panel::kHelp);
-    case P:
-      return toggle(Panel::kPlayers);
-    case R:
-      return toggle(Panel::kRooms);
-    case S:
-      m_status = m_shown.status ? StatusMode::kNever : StatusMode::kAlways;
-      return Result::kHandled;
-    case Q:
-      return Result::kLeave;
-    case C:
-    case T:
-      if (m_chat_open) return Result::kHandled;
-      m_chat_open = true;
-      m_omitted = false;
-      m_text.clear();
-      return Result::kOpened;
-    default:
-      break;
+  if (event.ch == U'?' || event.key == H) return toggle(Panel::kHelp);
+  if (event.key == P) return toggle(Panel::kPlayers);
+  if (event.key == R) return toggle(Panel::kRooms);
+  if (event.key == Q) return Result::kLeave;
+  if (event.key == C || event.key == T) {
+    if (m_chat_open) return Result::kHandled;
+    m_chat_open = true;
+    m_omitted = false;
+    m_text.clear();
+    return Result::kOpened;
   }
-  m_panel = Panel::kNone;
+  if (event.key == S) {
+    m_status = m_shown.status ? StatusMode::kNever : StatusMode::kAlways;
+  } else {
+    m_panel = Panel::kNone;
+  }
   return Result::kHandled;
 }
 

@@ -76,7 +76,6 @@ class ClientControls {
   /// Sets the letter, 'A' to 'Z', that starts commands together with Control; Ctrl-] does so, too.
   void setMenuLetter(char letter) { m_menu_letter = letter; }
   char menuLetter() const { return m_menu_letter; }
-  /// Handles a key event.
   Result handleKey(const KeyEvent& event);
   /// Inserts pasted text into an open chat line, up to its limit, without sending it. False if none is open.
   bool insertPasted(const std::u32string& text);

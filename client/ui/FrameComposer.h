@@ -26,7 +26,6 @@ class StatusTimer {
   static constexpr std::chrono::milliseconds kBad{250};
   static constexpr std::chrono::milliseconds kGood{150};
 
-  /// Shows the status for kShown.
   void show(Time now) { m_until = now + kShown; }
   /// Shows the status for a new player, or when the round trip becomes bad.
   void update(std::uint32_t player, std::chrono::milliseconds round_trip, Time now) {

@@ -122,7 +122,6 @@ int drawHelpRows(ScreenBuffer& picture, const ScreenModel& model, int x, int bot
   return bottom - static_cast<int>(lines.size()) - 2;
 }
 
-/// A row of a chat entry.
 struct ChatRow {
   const ChatEntry* p_entry = nullptr;
   std::string text;

@@ -95,26 +95,13 @@ void ServerChooser::handleEvents(const std::vector<TerminalEvent>& events, Time 
   for (const TerminalEvent& event : events) {
     const auto* p_key = std::get_if<KeyEvent>(&event);
     if (p_key == nullptr || m_done) continue;
-    switch (m_menu.handleKey(*p_key)) {
-      case ServerMenu::Result::kJoin:
-        m_outcome.server = *m_menu.chosen();
-        m_done = true;
-        break;
-      case ServerMenu::Result::kLeave:
-        m_done = true;
-        break;
-      case ServerMenu::Result::kRefresh:
-        refresh(now);
-        break;
-      case ServerMenu::Result::kSuspend:
-        suspend();
-        break;
-      case ServerMenu::Result::kRedraw:
-        m_dirty = true;
-        break;
-      case ServerMenu::Result::kNone:
-        break;
-    }
+    using Result = ServerMenu::Result;
+    const Result result = m_menu.handleKey(*p_key);
+    if (result == Result::kRefresh) refresh(now);
+    if (result == Result::kSuspend) suspend();
+    if (result == Result::kJoin) m_outcome.server = *m_menu.chosen();
+    m_done = m_done || result == Result::kJoin || result == Result::kLeave;
+    m_dirty = m_dirty || result == Result::kRedraw;
   }
 }
 
@@ -160,12 +147,12 @@ void ServerChooser::fetch() {
 void ServerChooser::suspend() {
   m_guard->leaveModes();
   m_screen->end();
-  m_guard->setOriginal();
+  m_guard->setOriginalMode();
   if (!m_guard->stopProcess()) {
     m_done = true;
     return handleSignals();
   }
-  m_guard->setRaw();
+  m_guard->setRawMode();
   m_screen->readSize();
   m_screen->redrawAll();
   draw();

@@ -95,31 +95,16 @@ ServerMenu::Result ServerMenu::handleKey(const KeyEvent& event) {
     if (event.key == key::C) return Result::kLeave;
     return event.key == key::Z ? Result::kSuspend : Result::kNone;
   }
-  switch (event.key) {
-    case key::UPARROW:
-    case key::K:
-      return choose(m_chosen - 1);
-    case key::DOWNARROW:
-    case key::J:
-      return choose(m_chosen + 1);
-    case key::PAGEUP:
-      return choose(m_chosen - m_page);
-    case key::PAGEDOWN:
-      return choose(m_chosen + m_page);
-    case key::HOME:
-      return choose(0);
-    case key::END:
-      return choose(static_cast<int>(m_servers.size()) - 1);
-    case key::RETURN:
-      return joinChosen();
-    case key::R:
-      return Result::kRefresh;
-    case key::Q:
-    case key::ESCAPE:
-      return Result::kLeave;
-    default:
-      return Result::kNone;
-  }
+  const df::Keyboard::Key pressed = event.key;
+  if (pressed == key::UPARROW || pressed == key::K) return choose(m_chosen - 1);
+  if (pressed == key::DOWNARROW || pressed == key::J) return choose(m_chosen + 1);
+  if (pressed == key::PAGEUP) return choose(m_chosen - m_page);
+  if (pressed == key::PAGEDOWN) return choose(m_chosen + m_page);
+  if (pressed == key::HOME) return choose(0);
+  if (pressed == key::END) return choose(static_cast<int>(m_servers.size()) - 1);
+  if (pressed == key::RETURN) return joinChosen();
+  if (pressed == key::R) return Result::kRefresh;
+  return pressed == key::Q || pressed == key::ESCAPE ? Result::kLeave : Result::kNone;
 }
 
 void ServerMenu::writeRow(ScreenBuffer& picture, int y, const DiscoveredServer& server,

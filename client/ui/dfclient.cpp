@@ -212,7 +212,6 @@ int play(naiad::ClientApp::Options options, naiad::SessionFile* p_file, bool att
   return outcome.code;
 }
 
-/// Returns the options in the order of --help.
 std::vector<naiad::Option> optionsOf(CommandLine& line) {
   naiad::ClientApp::Options& play = line.play;
   const naiad::StoreText store_sound = [&play](const std::string& name) -> std::string {

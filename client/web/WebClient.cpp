@@ -72,25 +72,13 @@ void WebClient::command(char32_t letter, Time now) {
 void WebClient::handleKey(const KeyEvent& event, Time now) {
   using Result = ClientControls::Result;
   const Result result = m_controls.handleKey(event);
-  switch (result) {
-    case Result::kGame:
-    case Result::kSuspend:  // there is nothing to suspend in a page
-      return m_player.pressKey(event, now);
-    case Result::kOpened:
-      m_player.releaseKeys(now);
-      break;
-    case Result::kSendChat:
-      if (m_connection.session() != nullptr) m_connection.session()->sendChat(m_controls.popChat());
-      break;
-    case Result::kEnterRoom:
-      enterChosenRoom(m_connection.session(), m_controls.roomChoice());
-      break;
-    case Result::kLeave:
-      m_connection.leave();
-      break;
-    default:
-      break;
-  }
+  // There is nothing to suspend in a page.
+  if (result == Result::kGame || result == Result::kSuspend) return m_player.pressKey(event, now);
+  if (result == Result::kOpened) m_player.releaseKeys(now);
+  if (result == Result::kSendChat && m_connection.session() != nullptr)
+    m_connection.session()->sendChat(m_controls.popChat());
+  if (result == Result::kEnterRoom) enterChosenRoom(m_connection.session(), m_controls.roomChoice());
+  if (result == Result::kLeave) m_connection.leave();
   m_dirty = true;
 }
 
@@ -136,21 +124,12 @@ bool WebClient::compose(Time now) {
 }
 
 WebClient::State WebClient::state() const {
-  if (m_p_streams->isRefusalFinal()) return State::kRefused;
   using S = Connection::State;
-  switch (m_connection.state()) {
-    case S::kJoining:
-      return State::kJoining;
-    case S::kJoined:
-    case S::kReconnecting:
-      return State::kPlaying;
-    case S::kRefused:
-      return State::kRefused;
-    case S::kLeft:
-      return State::kLeft;
-    default:
-      return State::kOver;
-  }
+  const S state = m_connection.state();
+  if (state == S::kRefused || m_p_streams->isRefusalFinal()) return State::kRefused;
+  if (state == S::kJoining) return State::kJoining;
+  if (!m_connection.isOver()) return State::kPlaying;
+  return state == S::kLeft ? State::kLeft : State::kOver;
 }
 
 std::string WebClient::message() const {

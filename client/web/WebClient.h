@@ -78,7 +78,6 @@ class WebClient {
   void update(Time now);
   /// Composes the picture if it would differ from the last one. Returns true if it was composed.
   bool compose(Time now);
-  /// Returns the newest picture.
   const ScreenBuffer& picture() const { return m_layout.picture; }
 
   State state() const;

@@ -48,7 +48,6 @@ class PagePort : public naiad::PageBridge {
   }
 };
 
-/// All state of the module.
 struct Module {
   PagePort port;
   std::unique_ptr<WebClient> client;

@@ -32,7 +32,6 @@ class DisplayClock {
   /// Sets the age of a snapshot on arrival: half the shortest round trip. The picture makes up for it, up to
   /// kMaxLead. With a longer lead, objects that change course would make more cells wrong than it corrects.
   void setDelay(Duration delay) { m_lead = std::clamp<Duration>(delay, Duration::zero(), kMaxLead); }
-  /// Call when a snapshot of `tick` arrives.
   void onSnapshot(std::uint32_t tick, Time now);
   /// Returns the tick to draw: not below the last, unless that is over kMaxAhead beyond the newest snapshot.
   std::uint32_t displayTick(Time now);

@@ -37,16 +37,10 @@ EpochReplicas::Result EpochReplicas::applySnapshot(std::string_view bytes, Time 
   Replica* replica = replicaFor(bytes, now);
   if (replica == nullptr) return Result::kIgnored;
   Snapshot snapshot;
-  switch (replica->read(bytes, snapshot)) {
-    case ReadResult::kOk:
-      break;
-    case ReadResult::kStale:
-      ++m_stale_in_a_row;
-      return Result::kStale;
-    case ReadResult::kMalformed:
-      return Result::kMalformed;
-  }
-  m_stale_in_a_row = 0;
+  const ReadResult read = replica->read(bytes, snapshot);
+  if (read == ReadResult::kMalformed) return Result::kMalformed;
+  m_stale_in_a_row = read == ReadResult::kStale ? m_stale_in_a_row + 1 : 0;
+  if (read == ReadResult::kStale) return Result::kStale;
   header = snapshot.header;
   if (before) before(header.tick);
   replica->apply(snapshot);

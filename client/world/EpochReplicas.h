@@ -32,7 +32,6 @@ class EpochReplicas {
         m_before(near.number),
         m_complete(near.number) {}
 
-  /// Result of applySnapshot().
   enum class Result {
     kApplied,
     kShown,      ///< applied, and another world is shown from now on
@@ -51,7 +50,6 @@ class EpochReplicas {
   /// tick; they are taken to mean the tick nearest to this one.
   void advanceTick(std::uint32_t tick);
 
-  /// Returns the replica to show.
   const Replica& shown() const { return m_replica; }
   /// True once the first world is complete, or kIncompleteTimeout after its first snapshot; then stays true.
   bool hasPicture(Time now) const {

@@ -1,5 +1,5 @@
 complete -c dragonfly-mark -s h -l help -d 'Print help, and exit'
-complete -c dragonfly-mark -l seconds -x -d 'How long to play each game'
+complete -c dragonfly-mark -l seconds -x -d 'Seconds to play each game'
 complete -c dragonfly-mark -l players -x -d 'Number of players in each game'
 complete -c dragonfly-mark -l seed -x -d 'Seed of the random keys'
 complete -c dragonfly-mark -l keys -r -F -d 'Press these keys instead'

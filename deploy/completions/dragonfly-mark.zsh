@@ -1,7 +1,7 @@
 #compdef dragonfly-mark
 _arguments \
   '(-h --help)'{-h,--help}'[print help, and exit]' \
-  '--seconds=[how long to play each game]:seconds: ' \
+  '--seconds=[seconds to play each game]:seconds: ' \
   '--players=[number of players in each game]:number: ' \
   '--seed=[seed of the random key presses]:seed: ' \
   '--keys=[press these keys instead]:script:_files' \

@@ -1,20 +1,13 @@
 #include "server/directory/Directory.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <condition_variable>
 #include <csignal>
 #include <filesystem>
-#include <mutex>
-#include <stdexcept>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "shared/net/base/SafeFile.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
@@ -41,103 +34,13 @@ ServerIdentity identityOf(const DirectorySettings& settings) {
 
 }  // namespace
 
-/// The file of the server list. A thread of its own replaces it atomically, so a slow disk does not delay
-/// players.
-class Directory::ListFile {
- public:
-  /// Writes the first text. Throws std::runtime_error if that fails.
-  ListFile(std::string path, std::string text) : m_path(std::move(path)), m_text(std::move(text)) {
-    if (const std::string problem = writeProblem(m_text); !problem.empty())
-      throw std::runtime_error("The list " + m_path + " cannot be written: " + problem);
-    m_thread = std::thread([this] { run(); });
-  }
-  /// Removes the file, because players would try servers of an outdated list that no longer exist.
-  ~ListFile() {
-    {
-      const std::lock_guard lock(m_mutex);
-      m_stopping = true;
-    }
-    m_wake.notify_one();
-    m_thread.join();
-    ::unlink(m_path.c_str());
-  }
-  ListFile(const ListFile&) = delete;
-  ListFile& operator=(const ListFile&) = delete;
-
-  /// Makes the thread write the text soon, if it has changed. Does not block. Call from any thread.
-  void setText(std::string text) {
-    {
-      const std::lock_guard lock(m_mutex);
-      if (m_text == text) return;
-      m_text = std::move(text);
-      m_has_text = true;
-    }
-    m_wake.notify_one();
-  }
-
-  /// Returns a log line if writing has begun to fail or works again, only once each time; else an empty
-  /// string. Call from any thread.
-  std::string popLogMessage() {
-    const std::lock_guard lock(m_mutex);
-    return std::exchange(m_log_message, std::string());
-  }
-
- private:
-  static constexpr std::chrono::seconds kRetryInterval{2};  ///< retry interval after a failure
-
-  void run() {
-    std::unique_lock lock(m_mutex);
-    while (!m_stopping) {
-      m_wake.wait(lock, [this] { return m_stopping || m_has_text; });
-      if (m_stopping) return;
-      m_has_text = false;
-      const std::string text = m_text;
-      lock.unlock();
-      const std::string problem = writeProblem(text);
-      lock.lock();
-      updateFailing(problem);
-      if (problem.empty()) continue;
-      m_has_text = true;
-      m_wake.wait_for(lock, kRetryInterval, [this] { return m_stopping; });
-    }
-  }
-
-  /// Writes the text. Returns the error; empty on success.
-  std::string writeProblem(const std::string& text) const {
-    try {
-      publishFile(m_path, text);
-    } catch (const std::system_error& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  // Reports a failure (like a full disk) once, and once when writing works again.
-  void updateFailing(const std::string& problem) {
-    const bool failing = !problem.empty();
-    if (std::exchange(m_failing, failing) == failing) return;
-    m_log_message = failing ? "warning: the list " + m_path + " cannot be written: " + problem
-                            : "the list " + m_path + " can be written again";
-  }
-
-  const std::string m_path;
-  std::mutex m_mutex;
-  std::condition_variable m_wake;
-  std::string m_text;
-  std::string m_log_message;
-  bool m_has_text = false;  ///< m_text is not written yet
-  bool m_failing = false;
-  bool m_stopping = false;
-  std::thread m_thread;  ///< last member, because the thread uses the other members
-};
-
 Directory::Directory(DirectorySettings settings, LogLine log)
     : m_settings(std::move(settings)),
       m_log(std::move(log)),
       m_fleet(
           connectBus(listening(m_settings.bus)), [this](const std::string& text) { m_log(text); },
           m_settings.interval) {
-  if (!m_settings.list.empty()) m_file = std::make_unique<ListFile>(m_settings.list, serverListText({}));
+  if (!m_settings.list.empty()) m_file.emplace("list", m_settings.list, serverListText({}));
   openLobby();
   schedulePoll();
 }

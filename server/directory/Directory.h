@@ -8,7 +8,6 @@
 #include <asio/steady_timer.hpp>
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,6 +18,7 @@
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/stream/Fingerprint.h"
 #include "shared/program/LineLog.h"
+#include "shared/program/PublishedFile.h"
 
 namespace naiad {
 
@@ -53,7 +53,6 @@ class Directory {
   std::optional<Fingerprint> fingerprint() const;
 
  private:
-  class ListFile;
   using Time = std::chrono::steady_clock::time_point;
 
   void openLobby();
@@ -69,7 +68,7 @@ class Directory {
   asio::io_context m_context{1};
   asio::steady_timer m_timer{m_context};
   asio::signal_set m_signals{m_context};
-  std::unique_ptr<ListFile> m_file;
+  std::optional<PublishedFile> m_file;  ///< the list of servers
   FleetMonitor m_fleet;
   std::optional<ServerIdentity> m_identity;
   std::optional<Lobby> m_lobby;

@@ -53,8 +53,8 @@ std::optional<LobbyReply> replyToHello(std::string_view frame, FleetRegistry& se
   }
   if (!servers.hasMatch(request)) {
     return makeReply(LobbyReply::Kind::kNoGame, wire::Refused::GAME,
-                     "No server of this fleet" + describe(request) + " supports version " +
-                         std::to_string(request.protocol) + " of the protocol, as your client does.");
+                     "No server of this fleet" + describe(request) + " supports protocol version " +
+                         std::to_string(request.protocol) + ", which your client needs.");
   }
   return makeReply(LobbyReply::Kind::kNoPlace, wire::Refused::BUSY,
                    "No server" + describe(request) + " has a free place now. Try again later.");

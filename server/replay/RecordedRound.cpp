@@ -70,8 +70,7 @@ RecordedRound::RecordedRound(const fs::path& path) {
 }
 
 std::string RecordedRound::fact(const std::string& name) const {
-  const auto found = m_facts.find(name);
-  return found != m_facts.end() ? found->second : std::string();
+  return factOf(m_facts, name);
 }
 
 std::unique_ptr<DfrReader> RecordedRound::read() const {

@@ -161,17 +161,11 @@ std::vector<std::string> splitAdminLine(std::string_view line) {
   bool in_word = false;
   bool quoted = false;
   for (const char c : line) {
-    if (c == '"') {
-      if (!in_word) words.emplace_back();
-      in_word = true;
-      quoted = !quoted;
-    } else if (!quoted && (c == ' ' || c == '\t')) {
-      in_word = false;
-    } else {
-      if (!in_word) words.emplace_back();
-      in_word = true;
-      words.back() += c;
-    }
+    const bool is_blank = !quoted && (c == ' ' || c == '\t');
+    if (!is_blank && !in_word) words.emplace_back();
+    in_word = !is_blank;
+    if (c == '"') quoted = !quoted;
+    if (!is_blank && c != '"') words.back() += c;
   }
   return words;
 }

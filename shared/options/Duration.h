@@ -14,8 +14,9 @@ inline constexpr std::int64_t kMicrosecond = 1;
 inline constexpr std::int64_t kMillisecond = 1000;
 inline constexpr std::int64_t kSecond = 1'000'000;
 
-/// Parses a number, which may have a sign and a fraction, and a unit: us, ms, s, m, h, d or w. `unit` is that
-/// of a number without one. Returns the duration in `unit`; nullopt if the text is invalid.
+/// Parses a number, which may have a minus sign, a fraction and an exponent, and a unit: us, ms, s, m, h, d
+/// or w. `unit` is that of a number without one. Returns the duration in `unit`; nullopt if the text is
+/// invalid.
 std::optional<double> readDuration(std::string_view text, std::int64_t unit = kSecond);
 
 /// The longest time span: ten years.

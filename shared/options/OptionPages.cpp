@@ -5,6 +5,12 @@
 
 namespace naiad {
 
+std::string inShellQuotes(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string roff(std::string_view text) {
   std::string escaped;
   bool begins = true;  // at the beginning of a line, where . and ' start a command
@@ -55,19 +61,6 @@ std::string escaped(std::string_view text, std::string_view specials) {
     result += c;
   }
   return result;
-}
-
-/// Returns the text in single quotes for a Bourne shell.
-std::string inShellQuotes(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "'";
 }
 
 std::string functionName(const Program& program) {
@@ -194,9 +187,8 @@ std::string valueOf(const Option& option) {
 }
 
 void writeOption(std::ostream& page, const Option& option) {
-  const bool is_argument = option.name.front() != '-';
   page << ".TP\n";
-  if (is_argument) {
+  if (isArgument(option)) {
     page << "\\fI" << roff(valueOf(option)) << "\\fR\n";
   } else if (isFlag(option)) {
     page << "\\fB" << roff(option.name) << "\\fR\n";

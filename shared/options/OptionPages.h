@@ -19,6 +19,8 @@ std::optional<std::string> optionPage(std::string_view kind, const Program& prog
 
 /// Escapes the text for roff.
 std::string roff(std::string_view text);
+/// Returns the text in single quotes for a Bourne shell.
+std::string inShellQuotes(std::string_view text);
 
 /// Returns "name = value" with the option's current value, as a line for the --config file, in quotes where
 /// needed. A secret that is set becomes a comment without its value.

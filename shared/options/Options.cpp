@@ -149,8 +149,7 @@ std::string unknownArgument(const Program& program, const std::vector<Option>& o
   if (found == left.end())
     return "unexpected argument \"" + (left.empty() ? std::string() : left.front()) + "\"";
   const std::string name = found->substr(0, found->find('='));
-  const std::string near = nearestName(name, namesOf(program, options));
-  return "there is no option " + name + (near.empty() ? "" : "; did you mean " + near + "?");
+  return "there is no option " + name + suggestion(name, namesOf(program, options));
 }
 
 // ---- the --config file ------------------------------------------------------------------------------------
@@ -192,9 +191,7 @@ void storeConfigLine(const std::string& line, const std::string& place, const st
     for (const Option& row : options) {
       if (!row.hidden && row.name.starts_with("--")) keys.push_back(row.name.substr(2));
     }
-    const std::string near = nearestName(key, keys);
-    throw OptionError(place + ": there is no option \"" + key + '"' +
-                      (near.empty() ? "" : "; did you mean " + near + "?"));
+    throw OptionError(place + ": there is no option \"" + key + '"' + suggestion(key, keys));
   }
   const bool is_flag = std::holds_alternative<bool*>(found->target);
   if (equals == std::string::npos && !is_flag) throw OptionError(place + ": expected \"" + key + " = …\"");
@@ -341,6 +338,11 @@ std::string nearestName(const std::string& typed, const std::vector<std::string>
   return nearest;
 }
 
+std::string suggestion(const std::string& typed, const std::vector<std::string>& names) {
+  const std::string near = nearestName(typed, names);
+  return near.empty() ? "" : "; did you mean " + near + "?";
+}
+
 std::vector<std::string> unknownVariableWarnings(const char* const* p_environment, const std::string& prefix,
                                                  const std::vector<std::string>& known) {
   std::vector<std::string> sentences;
@@ -348,9 +350,7 @@ std::vector<std::string> unknownVariableWarnings(const char* const* p_environmen
     const std::string_view entry(*p_environment);
     const std::string name(entry.substr(0, entry.find('=')));
     if (!name.starts_with(prefix) || std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string near = nearestName(name, known);
-    sentences.push_back("there is no variable " + name +
-                        (near.empty() ? "" : "; did you mean " + near + "?"));
+    sentences.push_back("there is no variable " + name + suggestion(name, known));
   }
   return sentences;
 }

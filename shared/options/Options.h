@@ -22,6 +22,8 @@ namespace naiad {
 /// change. Returns "" if the changes are more than a third of the length of `typed`, or `typed` has over 64
 /// bytes.
 std::string nearestName(const std::string& typed, const std::vector<std::string>& names);
+/// Returns "; did you mean NAME?" with the nearest name, or "".
+std::string suggestion(const std::string& typed, const std::vector<std::string>& names);
 
 /// Returns a message, with the nearest known name, for each environment variable that begins with `prefix`
 /// and is not in `known`: it may be misspelt. `p_environment`: entries NAME=VALUE, then a null.

@@ -51,17 +51,8 @@ std::string universalTime(std::chrono::system_clock::time_point time) {
 }
 
 const char* nameOf(LogEvent::Level level) {
-  switch (level) {
-    case LogEvent::Level::kError:
-      return "error";
-    case LogEvent::Level::kWarning:
-      return "warning";
-    case LogEvent::Level::kDebug:
-      return "debug";
-    case LogEvent::Level::kInfo:
-      break;
-  }
-  return "info";
+  static constexpr const char* kNames[] = {"error", "warning", "info", "debug"};
+  return kNames[static_cast<std::size_t>(level)];
 }
 
 std::string asJson(const LogEvent& event, std::string_view text, const std::string& time) {
@@ -250,7 +241,6 @@ void LineLog::Shared::awaitWork() {
   out = std::exchange(waiting, {});
 }
 
-// The thread's function.
 void LineLog::Shared::run() {
   for (;;) {
     awaitWork();

@@ -34,7 +34,6 @@ struct LogEvent {
   Fields fields;
 };
 
-/// The format of a log line.
 enum class LogFormat {
   kText,  ///< "2026-01-31 13:59:59 sentence", in local time
   kBare,  ///< "sentence"
@@ -46,7 +45,6 @@ enum class LogFormat {
 std::string formatEvent(const LogEvent& event, LogFormat format, std::chrono::system_clock::time_point time,
                         std::size_t max_bytes);
 
-/// A function that receives log events.
 using LogLine = std::function<void(const LogEvent& event)>;
 
 /// If a reader stalls, a disk is full or a pipe has no reader, lines are lost but no caller waits. The thread

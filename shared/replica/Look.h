@@ -104,7 +104,6 @@ struct Look {
     return sequence.empty() ? nullptr : &sequence[selector.at(tick, sequence.size())];
   }
   /// True if the selector is kFixed, so the look always shows one appearance.
-  bool isConstant() const { return selector.kind == Selector::kFixed; }
   friend bool operator==(const Look&, const Look&) = default;
 };
 

@@ -117,7 +117,7 @@ CellPosition readCell(BitReader& in, const Origin& origin) {
 // Returns the coordinate c with this cell and fraction. The cell is that of c + 1/2, so it is one above the
 // whole part of c if the fraction is at least 1/2.
 df::Fixed joined(std::int32_t cell, std::uint64_t fraction) {
-  // Unsigned, because the smallest or largest cell may overflow: it wraps to a position that is refused.
+  // Unsigned, because the smallest cell may overflow: it wraps to a position that is refused.
   const std::uint64_t upper = static_cast<std::uint64_t>(std::int64_t{cell}) - (fraction >= kHalf ? 1 : 0);
   return static_cast<df::Fixed>((upper << df::kFixedBits) + fraction);
 }

@@ -107,7 +107,6 @@ struct SequenceRecord {
   friend bool operator==(const SequenceRecord&, const SequenceRecord&) = default;
 };
 
-/// The decoded records of one snapshot.
 struct Records {
   std::vector<WorldRecord> worlds;  ///< at most one is sent
   std::vector<ViewRecord> views;    ///< at most one is sent

@@ -145,16 +145,10 @@ class ObjectReader {
   }
 
   std::uint8_t readGroups() {
-    switch (m_in.bits(2)) {
-      case kJustMotion:
-        return kMotion;
-      case kJustLook:
-        return kLook;
-      case kBirth:
-        return kAllGroups;
-      default:
-        break;
-    }
+    const std::uint64_t prefix = m_in.bits(2);
+    if (prefix == kJustMotion) return kMotion;
+    if (prefix == kJustLook) return kLook;
+    if (prefix == kBirth) return kAllGroups;
     if (!m_in.flag()) return kDeath;
     const auto groups = static_cast<std::uint8_t>(m_in.bits(3) << 1);
     if (groups == 0) m_in.fail();

@@ -34,7 +34,6 @@ class TruthWriter {
   std::string m_buffer;
 };
 
-/// One record of a truth file.
 struct TruthRecord {
   std::uint32_t tick = 0;
   std::uint32_t player = 0;

@@ -171,7 +171,7 @@ STUDIO = {
     "Project 1/Game/Header Files/Hero.h": HERO_H.replace('"Object.h"', '"../../dragonfly/include/object.h"'),
     "Project 1/Game/Source Files/Hero.cpp": HERO.replace("return 0;", 'return _stricmp("a", "A");')}
 
-# Constructs that only MSVC accepts, with the text of the changed line; None: the line stays as it is.
+# Constructs that only MSVC or early engines accept, with the text of the changed line; None: the line stays as it is.
 MSVC = {
     "extra": ("struct A {\n  int A::get() { return 1; }\n};\n", {2: "int get() { return 1; }"}),
     "const": ("const const int g_one = 1;\nint const const *two();\nconst int const three = 3;\n",
@@ -203,6 +203,9 @@ MSVC = {
     "base": ("template <class T> struct A { int get() { return 1; } };\ntemplate <class T> struct B : A<T> { int f() { return get(); } };\n"
              "int g_base(B<int> b) { return b.f(); }\n", {2: None}),
     "throw": ("#include <memory>\nint f_throw() throw(int);\nint f_throw() throw(int) { return 1; }\n", {}),
+    "position": ('#include <cstdlib>\n#include "Object.h"\nstruct Shot {\n  Shot(df::Position from, df::EventView);\n};\n'
+                 "Shot::Shot(df::Position from, df::EventView) { from.setX(rand() % from.getX()); }\n",
+                 {4: None, 6: "Shot::Shot(df::Position from, df::EventView) { from.setX(rand() %(int) from.getX()); }"}),
     "windows": ('#include <WINDOWS.H>\n#include <winuser.h>\n#include <mmsystem.h>\n#include <conio.h>\n#include <io.h>\n'
                 "int WINAPI_f() {\n  Sleep(10); _getch(); kbhit(); Beep(1, 2);\n"
                 '  if (MessageBox(NULL, "a", TEXT("b"), MB_OK | MB_ICONERROR) == IDOK) PlaySound("x.wav", NULL, SND_ASYNC | SND_FILENAME);\n'

@@ -138,6 +138,21 @@ class EngineTest(unittest.TestCase):
         self.assertIn(("Thing.h", "a link to a file that was left out"), [(row.where, row.text) for row in said.rows])
         verdicts.Verdicts(one, None)  # must not fail because of the link
 
+    def test_LinesAreCheckedAgainstTheEngineThatTheGameUses(self):
+        """Prefers the author's own engine to a copy of the published one beside it, which has more headers."""
+        place = tempfile.mkdtemp(dir=WORK)
+        names = ["GameManager", "LogManager", "WorldManager"] + [f"Part{number}" for number in range(12)]
+        header = {name: fixtures.engine_header(name) for name in names}
+        sources = {f"mine/{name}.cpp": "" for name in names[:3]}
+        for own, folder_checked in ((names[:12], "mine"), (names[:3], None), ([], "include")):
+            files = {**{f"include/{name}.h": text for name, text in header.items()}, **{f"mine/{name}.h": header[name] for name in own}, **sources}
+            fixtures.write(f"{place}/{len(own)}/game", files)
+            one = game.Game(f"{place}/{len(own)}/game", f"{place}/{len(own)}", types.SimpleNamespace(published=[f"{name}.h" for name in names]),
+                            report.Report(place), folder.Limits())
+            one.copy_in()
+            built = types.SimpleNamespace(compiler=types.SimpleNamespace(check_with=lambda unit, include: os.path.basename(include)))
+            self.assertEqual(verdicts.Verdicts(one, built)._against_engine(None), folder_checked, own)
+
     def test_BesideAnEngineOfOnesOwnTheGameKeepsItsSources(self):
         core = {f"engine/{name}.cpp": "" for name in ("GameManager", "LogManager", "WorldManager", "Music")}
         game = {"Player.cpp": "df::Vector place;", "src/Path.cpp": "df::Vector step;", "Path.h": "class Path {};", "Player.h": "class Player {};"}
@@ -254,11 +269,13 @@ class BlameTest(unittest.TestCase):
                 ("'class Hero' has no member named 'setSprite'", refuses, "a.cpp", "the game"),  # its base class is unknown
                 ("'class df::Vector' has no member named 'setSprite'", refuses, "a.cpp", "the game"),
                 ("no matching function for call to 'df::Object::setSprite(int)'", refuses, "a.cpp", "Naiad or the game"),
+                ("no matching function for call to 'df::Object::shine(int)'", refuses, "a.cpp", "Naiad or the game"),  # so it has shine()
                 ("'Grid' was not declared in this scope", refuses, "a.cpp", "Naiad or the game"),  # may be the game's own
                 ("'Grid' is not a member of 'df'", refuses, "a.cpp", "Naiad"),
                 ("Grid.h: No such file or directory", refuses, "a.cpp", "Naiad or the game"),
                 ("Level.h: No such file or directory", refuses, "a.cpp", "the game"),
                 ("format: No such file or directory", refuses, "a.cpp", "another system"),
+                ("ncurses/curses.h: No such file or directory", refuses, "a.cpp", "another engine"),
                 ("'level' was not declared in this scope", refuses, "a.cpp", "the game"),
                 ("'class df::Object' has no member named 'myOwn'", accepts, "a.cpp", "Naiad or the game"),  # a changed copy of the engine
                 ("expected unqualified-id before numeric constant", accepts, "/n/Object.h", "Naiad or the game"),  # a macro of the game
@@ -268,9 +285,37 @@ class BlameTest(unittest.TestCase):
         elsewhere = compiler.Diagnostic("a.cpp", 9, 1, "error", "'class df::Object' has no member named 'myOwn'", "")
         wrong = compiler.Diagnostic("a.cpp", 3, 1, "error", elsewhere.text, "")
         self.assertEqual(blame.Blame(ours, False, "", lambda unit: [elsewhere]).error(unit, wrong)[0], "the game", "the engine lacks it, too")
+        for symbol, whose in (("Object::setSprite(Sprite*)", "another engine"), ("Hero::jump()", "the game")):
+            self.assertEqual(blame.Blame(ours, False, "", refuses, early=True).symbol(symbol)[0], whose, symbol)
         for symbol, whose in (("df::Grid", "Naiad"), ("df::Object::setSprite(float)", "Naiad or the game"), ("df::mine()", "the game"),
                               ("Hero::jump()", "the game")):
             self.assertEqual(blame.Blame(ours, False, "", refuses).symbol(symbol)[0], whose, symbol)
+
+    def test_NamesOfOnesOwnEngineAreNoFaultOfTheGame(self):
+        ours = types.SimpleNamespace(has=lambda name: name == "Vector", was_published=lambda name, classes=(): False, header_of=lambda name: None)
+        for message, line, whose in (("cannot convert 'df::Place' to 'df::Vector'", "setPosition(start);", "another engine"),
+                                     ("expected ')' before 'from'", "Bullet(df :: Place from);", "another engine"),
+                                     ("expected ')' before 'from'", "Bullet(df::Vector from);", "the game"),
+                                     ("expected ';' before '}'", "}", "the game")):
+            wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", message, "")
+            for own in (True, False):
+                one = blame.Blame(ours, own, "", lambda unit: None)
+                self.assertEqual(one.error(compiler.Unit("a.cpp"), wrong, line)[0], whose if own else "the game", (message, own))
+
+    def test_ACheckThatProvesNothingDoesNotMakeItTheGamesFault(self):
+        """The engine in the folder has Grid, spin() and a parameter `place`; its headers do not compile."""
+        ours = types.SimpleNamespace(has=lambda name: name == "Vector", was_published=lambda name, classes=(): False, header_of=lambda name: None)
+        one = blame.Blame(ours, False, "class Grid; int spin(int place);", lambda unit: None)
+        unclear = "Naiad or the game"
+        for message, line, whose in (("'place' was not declared in this scope", "set(place);", "the game"),
+                                     ("'Grid' is not a member of 'df'", "df::Grid place(1);", unclear),
+                                     ("'place' was not declared in this scope", "set(place);", unclear),  # because of the line before
+                                     ("'spin' was not declared in this scope", "spin(1);", unclear),
+                                     ("'twist' was not declared in this scope", "twist(1);", "the game")):
+            wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", message, "")
+            self.assertEqual(one.error(compiler.Unit("a.cpp"), wrong, line)[0], whose, message)
+        wrong = compiler.Diagnostic("b.cpp", 1, 1, "error", "'place' was not declared in this scope", "")
+        self.assertEqual(one.error(compiler.Unit("b.cpp"), wrong, "set(place);")[0], "the game")
 
     def test_EventsThatNothingRegistersForAreFound(self):
         place = tempfile.mkdtemp(dir=WORK)
@@ -344,6 +389,17 @@ class TreatmentTest(unittest.TestCase):
         for before, after in (("class A : public Thing {", "class A : public df::Thing {"),
                               ("class A : public df::Thing {", "class A : public df::Thing {")):
             self.assertEqual(self.treated(before, "expected class-name before '{' token", before.index("{") + 1), after)
+
+    def test_RemaindersOfCoordinatesAreThoseOfIntegers(self):
+        gcc, clang = "invalid operands of types '{}' and '{}' to binary 'operator%'", "invalid operands to binary expression ('{}' and '{}')"
+        for before, types_, after in (("a = rand() % box.getX();", ("int", "float"), "a = rand() %(int) box.getX();"),
+                                      ("a = rand()%w;", ("int", "float"), "a = rand()%(int)w;"),
+                                      ("a = w % w;", ("float", "float"), "a = w %(int) w;"),
+                                      ("a = 1 + p->at(2).x % 3;", ("float", "int"), "a = 1 + (int)p->at(2).x % 3;"),
+                                      ("a = getX() % 3;", ("float", "int"), "a = (int)getX() % 3;"), ("a %= w;", ("int", "float"), "a %= w;"),
+                                      ("a = p % 3;", ("df::Vector", "int"), "a = p % 3;")):
+            for message in (gcc, clang):
+                self.assertEqual(self.treated(before, message.format(*types_), before.index("%") + 1), after, message)
 
     def test_EnginesHeadersAreWrittenAsTheyAre(self):
         place = tempfile.mkdtemp(dir=WORK)

@@ -249,20 +249,6 @@ TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {
   EXPECT_TRUE(has(output, "ban file"));
 }
 
-TEST_F(AdminTest, PasswordCommandSetsAndRemovesTheJoinPassword) {
-  TestServer server(busyWorld(5), options);
-  ASSERT_TRUE(does("password", R"("password":"xyzzy")"));
-  TestClient ann(context, server.port(), home.player("ann"));
-  EXPECT_FALSE(joins(ann));
-  ClientSetup setup = home.player("bob");
-  setup.options.password = "xyzzy";
-  TestClient bob(context, server.port(), setup);
-  EXPECT_TRUE(joins(bob));
-  ASSERT_TRUE(does("password", R"("password":"")"));
-  TestClient cat(context, server.port(), home.player("cat"));
-  EXPECT_TRUE(joins(cat));
-}
-
 // ---- in the chat ------------------------------------------------------------------------------------------
 
 TEST_F(AdminTest, ChatCommandsNeverReachOtherPlayers) {

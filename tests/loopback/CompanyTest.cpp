@@ -1,4 +1,4 @@
-// Players of one server affect each other only as intended: joining, leaving, refusal, chat, stalled clients.
+// Players of one server affect each other only as intended: killed and stalled clients, chat.
 #include <gtest/gtest.h>
 
 #include "Compare.h"
@@ -9,8 +9,6 @@
 
 namespace naiad::test {
 namespace {
-
-using Reason = wire::Refused;
 
 /// Ticks in five seconds at the default rate.
 constexpr std::uint32_t kFiveSeconds = 150;
@@ -31,14 +29,6 @@ TEST_F(Company, KilledClientIsShownAsGone) {
   bob.reset();
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return lists(ann, "ann") && !lists(ann, "bob"); }));
   EXPECT_EQ(server.inWorld(countShips), 1);
-}
-
-TEST_F(Company, LeavingOnPurposeRemovesTheShip) {
-  TestServer server(busyWorld(10));
-  TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(joins(ann));
-  ann.connection().leave();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server.inWorld(countShips) == 0; }));
 }
 
 TEST_F(Company, StalledClientDoesNotDisturbOthers) {
@@ -85,56 +75,6 @@ TEST_F(Company, ChatReachesAllPlayersSanitized) {
                          [&] { return !bob.session().chat().empty() && !ann.session().chat().empty(); }));
   EXPECT_EQ(bob.session().chat().back().name, "ann");
   EXPECT_EQ(bob.session().chat().back().text, "hi ?[2Jthere");
-}
-
-TEST_F(Company, DuplicateNamesBecomeUnique) {
-  TestServer server(busyWorld(5));
-  TestClient ann(context, server.port(), "Ann");
-  TestClient other(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&ann, &other}, [&] { return ann.joined() && other.joined(); }));
-  EXPECT_NE(ann.session().welcome().name, other.session().welcome().name);
-}
-
-wire::Refused refusalOf(std::uint16_t port, const wire::ClientMessage& hello) {
-  RawClient client(port);
-  client.send(hello);
-  const auto answer = client.receive();
-  EXPECT_TRUE(answer && answer->has_refused());
-  EXPECT_TRUE(client.waitForHangup());
-  return answer ? answer->refused() : wire::Refused();
-}
-
-TEST_F(Company, RefusalsExplainTheirReason) {
-  HostOptions options = fastOptions();
-  options.max_players = 1;
-  TestServer server(busyWorld(5), options);
-
-  wire::ClientMessage hello = RawClient::hello("old");
-  hello.mutable_hello()->set_protocol(kProtocolVersion - 1);
-  EXPECT_EQ(refusalOf(server.port(), hello).reason(), Reason::VERSION);
-  EXPECT_TRUE(has(refusalOf(server.port(), hello).message(), "update the client"));
-  hello.mutable_hello()->set_protocol(kProtocolVersion + 1);
-  EXPECT_TRUE(has(refusalOf(server.port(), hello).message(), "update the server"));
-
-  hello = RawClient::hello("lost");
-  hello.mutable_hello()->set_game("chess");
-  EXPECT_EQ(refusalOf(server.port(), hello).message(), "This server plays \"test\", not \"chess\".");
-  EXPECT_EQ(refusalOf(server.port(), RawClient::hello("\x1b\n ")).reason(), Reason::NAME);
-
-  TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(joins(ann));
-  EXPECT_EQ(refusalOf(server.port(), RawClient::hello("late")).reason(), Reason::FULL);
-}
-
-TEST_F(Company, PlayersGetAGoodbyeWhenTheServerEnds) {
-  TestServer server(busyWorld(5));
-  TestClient ann(context, server.port(), "ann");
-  ASSERT_TRUE(joins(ann));
-  std::thread stopper([&server] { server.stop("Closing time."); });
-  EXPECT_TRUE(ends(ann));
-  stopper.join();
-  EXPECT_EQ(ann.connection().state(), Connection::State::kEnded);
-  EXPECT_EQ(ann.connection().message(), "Closing time.");
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // dfserver without any journal option is killed, and its players lose nothing. Real processes.
 #include <signal.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -41,18 +39,11 @@ class DefaultJournal : public RoomsFixture {
     ASSERT_NE(one.port, 0) << one.program->log();
   }
   void join(Server& one) {
-    ClientSetup setup = home.player(one.key);
-    one.player = std::make_unique<TestClient>(context, one.port, setup);
+    one.player = std::make_unique<TestClient>(context, one.port, home.player(one.key));
     one.player->keepPictures(false);
     clients.push_back(one.player.get());
     ASSERT_TRUE(serve([&] { return one.player->joined() && shown(*one.player).process > 0; }))
         << one.program->log();
-  }
-  void type(TestClient& client, int keys) {
-    for (int before = shown(client).keys; keys > 0; --keys, ++before) {
-      press(client, df::Keyboard::X);
-      ASSERT_TRUE(serve([&] { return shown(client).keys == before + 1; }));
-    }
   }
   static void kill(Server& one) {
     one.program->signal(SIGKILL);
@@ -87,20 +78,6 @@ TEST_F(DefaultJournal, TwoKilledServersOfOneUserRecover) {
     EXPECT_EQ(servers[i].player->player(), ids[i]);
     EXPECT_TRUE(serve([&] { return has(servers[i].program->log(), "reconnected to the recovered round"); }));
   }
-  clients.clear();
-}
-
-TEST_F(DefaultJournal, UnwritableFolderDisablesOnlyTheJournal) {
-  std::filesystem::create_directory(state());
-  std::ofstream(state() + "/rounds") << "a file";
-  Server one{"ann"};
-  start(one);
-  join(one);
-  const std::string log = one.program->log();
-  const std::size_t said = log.find("not recording rounds");
-  EXPECT_NE(said, std::string::npos) << log;
-  EXPECT_EQ(log.find("not recording rounds", said + 1), std::string::npos) << log;
-  type(*one.player, 1);
   clients.clear();
 }
 

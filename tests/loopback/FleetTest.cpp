@@ -3,39 +3,23 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "tests/server/host/fleet/FakeSidecar.h"
 #include "tests/server/host/fleet/NatsServer.h"
 
 namespace naiad::test {
 namespace {
 
-class Fleet : public LoopbackFixture {
+class Fleet : public ProgramFixture {
  protected:
   void start(std::map<std::string, std::string> environment) {
     environment["NAIAD_GAME"] = "hello";
-    game = std::make_unique<GameProgram>("dfserver", std::move(environment));
-    ASSERT_NE(game->port(), 0) << game->log();
+    launch("dfserver", std::move(environment));
   }
-  std::unique_ptr<TestClient> join(const std::string& name) {
-    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
-    EXPECT_TRUE(serve(*client, [&] { return client->joined(); })) << game->log();
-    return client;
-  }
-  bool serve(TestClient& client, const std::function<bool()>& done) {
-    return serveUntil(context, {&client}, done);
-  }
-  bool logs(TestClient& client, const std::string& text) {
-    return serve(client, [&] { return game->log().find(text) != std::string::npos; });
-  }
-
-  std::unique_ptr<GameProgram> game;
 };
 
 std::pair<int, std::string> answerWell(const std::string& request) {
@@ -51,6 +35,7 @@ TEST_F(Fleet, ServerReportsReadyHealthAllocateAndShutdown) {
   auto ann = join("ann");
   EXPECT_TRUE(sidecar.waitFor("POST /allocate {}"));
   EXPECT_TRUE(sidecar.waitFor(R"(PATCH /v1beta1/lists/players {"capacity":"64","values":["1"]})"));
+  clients.clear();
   ann.reset();
   game->signal(SIGTERM);
   game->wait();
@@ -64,7 +49,7 @@ TEST_F(Fleet, ImmediateStopAlsoReportsShutdown) {
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar.port())}, {"NAIAD_DRAIN_TIMEOUT", "1000"}});
   auto ann = join("ann");
   game->signal(SIGTERM);
-  EXPECT_TRUE(logs(*ann, "stopping when all players have left"));
+  EXPECT_TRUE(waitForLog("stopping when all players have left"));
   game->signal(SIGTERM);
   game->wait();
   EXPECT_EQ(sidecar.requests().back(), "POST /shutdown {}");
@@ -80,8 +65,9 @@ TEST_F(Fleet, ClusterShutdownDrainsTheServer) {
   auto ann = join("ann");
   sidecar.push(R"({"result":{"status":{"state":"Shutdown"}}})"
                "\n");
-  EXPECT_TRUE(logs(*ann, "the platform requested a shutdown"));
+  EXPECT_TRUE(waitForLog("the platform requested a shutdown"));
   EXPECT_TRUE(ann->joined()) << "ann plays on";
+  clients.clear();
   ann.reset();
   EXPECT_EQ(game->wait(), 0);
 }
@@ -92,9 +78,8 @@ TEST_F(Fleet, LostSidecarDoesNotDisturbPlayers) {
   start({{"AGONES_SDK_HTTP_PORT", std::to_string(sidecar->port())}});
   auto ann = join("ann");
   sidecar.reset();
-  EXPECT_TRUE(logs(*ann, "warning: Agones: the sidecar does not answer"));
-  const std::uint32_t tick = ann->newestTick();
-  EXPECT_TRUE(serve(*ann, [&] { return ann->newestTick() > tick + 200; })) << "the game goes on";
+  EXPECT_TRUE(waitForLog("warning: Agones: the sidecar does not answer"));
+  EXPECT_TRUE(waitForTicks(*ann, 200)) << "the game continues";
   EXPECT_EQ(ann->session().counters().resets, 0u);
 }
 
@@ -105,14 +90,13 @@ TEST_F(Fleet, KilledBusDisturbsNoPlayerAndIsReconnected) {
   start({{"NAIAD_BUS", bus.url()}, {"NAIAD_BUS_ID", "berlin"}, {"NAIAD_BUS_INTERVAL", "100"}});
   auto ann = join("ann");
   if (game->log().find("without NATS") != std::string::npos) GTEST_SKIP() << "built without libnats";
-  EXPECT_TRUE(logs(*ann, "the bus is connected"));
+  EXPECT_TRUE(waitForLog("the bus is connected"));
   bus.kill();
-  EXPECT_TRUE(logs(*ann, "warning: the bus cannot be reached"));
-  const std::uint32_t tick = ann->newestTick();
-  EXPECT_TRUE(serve(*ann, [&] { return ann->newestTick() > tick + 200; })) << "the game goes on";
+  EXPECT_TRUE(waitForLog("warning: the bus cannot be reached"));
+  EXPECT_TRUE(waitForTicks(*ann, 200)) << "the game continues";
   ASSERT_TRUE(bus.start()) << bus.log();
   const std::size_t before = game->log().size();
-  EXPECT_TRUE(serve(*ann, [&] {
+  EXPECT_TRUE(serve([&] {
     return game->log().find("the bus is connected", game->log().find("cannot be reached")) !=
            std::string::npos;
   })) << game->log().substr(before);

@@ -12,8 +12,7 @@
 #include <memory>
 #include <sstream>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "host/auth/PasswordHash.h"
 #include "host/world/Sandbox.h"
 #include "tests/support/Processes.h"
@@ -39,7 +38,7 @@ bool isAlive(pid_t process) {
 }
 
 /// dfserver with the hostile game. ann and bob each play in a world of their own.
-class HostileGame : public LoopbackFixture {
+class HostileGame : public ProgramFixture {
  protected:
   HostileGame() : support(findSandboxSupport()) {}
 
@@ -48,8 +47,7 @@ class HostileGame : public LoopbackFixture {
     environment.insert({{"NAIAD_GAME", NAIAD_BINARY_DIR "/../lib/hostile_module.so"},
                         {"NAIAD_INPUT_MODE", "private"},
                         {"NAIAD_WORLD_MEMORY", std::to_string(kMemory)}});
-    game = std::make_unique<GameProgram>("dfserver", std::move(environment), arguments);
-    ASSERT_NE(game->port(), 0) << game->log();
+    ASSERT_NO_FATAL_FAILURE(launch("dfserver", std::move(environment), arguments));
     std::ofstream(game->playFolder() / "front.new") << game->process();
     std::filesystem::rename(game->playFolder() / "front.new", game->playFolder() / "front");
     bob = join("bob");
@@ -58,13 +56,10 @@ class HostileGame : public LoopbackFixture {
   std::unique_ptr<TestClient> join(const std::string& name) {
     ClientSetup setup = home.player(name);
     setup.options.password = kPassword;
-    auto client = std::make_unique<TestClient>(context, game->port(), setup);
-    clients.push_back(client.get());
-    EXPECT_TRUE(serve([&] { return client->joined() && client->newestTick() > 3; }))
-        << game->log() << contentOf(game->playFolder() / "report");
+    auto client = ProgramFixture::join(setup);
+    EXPECT_TRUE(waitForTicks(*client, 3)) << contentOf(game->playFolder() / "report");
     return client;
   }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
   std::vector<Line> report() const {
     std::vector<Line> lines;
     std::ifstream file(game->playFolder() / "report");
@@ -105,17 +100,14 @@ class HostileGame : public LoopbackFixture {
   static bool areGone(const std::vector<pid_t>& all) { return std::ranges::none_of(all, isAlive); }
   /// Checks that bob's world continues to tick and that the server lives.
   void expectTheOthersPlay() {
-    const std::uint32_t then = bob->newestTick();
-    EXPECT_TRUE(serve([&] { return bob->newestTick() > then + 50; })) << game->log();
+    EXPECT_TRUE(waitForTicks(*bob, 50)) << game->log();
     EXPECT_TRUE(isAlive(game->process()));
     EXPECT_EQ(bob->session().counters().resets, 0u);
   }
 
   const SandboxSupport support;
-  std::unique_ptr<GameProgram> game;
   std::unique_ptr<TestClient> bob;
   std::unique_ptr<TestClient> ann;
-  std::vector<TestClient*> clients;
 };
 
 TEST_F(HostileGame, OpensNoFilesButItsOwn) {
@@ -144,10 +136,9 @@ TEST_F(HostileGame, AddsLinesToTheLogAndChangesNone) {
     EXPECT_EQ(result(attempt).substr(0, 5), "error") << "it is a pipe";
   }
   EXPECT_EQ(result("print"), "done");
-  const auto logged = [this](const std::string& text) { return game->log().find(text) != std::string::npos; };
-  EXPECT_TRUE(serve([&] { return logged(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)"); })) << game->log();
-  EXPECT_TRUE(logged(" game: seed ")) << "what the engine logs there";
-  EXPECT_FALSE(logged("\x1b"));
+  EXPECT_TRUE(waitForLog(R"( game: 192.0.2.9:1 "nobody" joined\x1b[2J)")) << game->log();
+  EXPECT_TRUE(has(game->log(), " game: seed ")) << "what the engine logs there";
+  EXPECT_FALSE(has(game->log(), "\x1b"));
   // The flags of the server's own output are unchanged, so the world does not share the server's open file.
   const std::string info = contentOf("/proc/" + std::to_string(game->process()) + "/fdinfo/2");
   if (!info.empty()) {  // only root may read this

@@ -136,13 +136,5 @@ TEST_F(Loopback, ViewObjectsAreInEveryPlayersOwnView) {
         << client->pictures().rbegin()->second.text();
 }
 
-TEST_F(Loopback, AThousandObjectsArriveWhole) {
-  TestServer server(busyWorld(1000));
-  TestClient client(context, server.port(), "ann");
-  ASSERT_TRUE(serveUntil(context, {&client}, [&] { return client.pictures().size() >= 60; }));
-  expectSame(client, server, 60);
-  EXPECT_GE(client.session().replica().aliveCount(), 1000u);
-}
-
 }  // namespace
 }  // namespace naiad::test

@@ -1,10 +1,7 @@
 // A key has a visible effect at once, however far the server is, and the prediction comes true.
 #include <gtest/gtest.h>
 
-#include "Home.h"
-#include "StreamProxy.h"
-#include "TestServer.h"
-#include "Valve.h"
+#include "FarServer.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Capture.h"
 #include "engine/world/Controls.h"
@@ -39,28 +36,16 @@ class Boatyard : public df::Object {
   }
 };
 
-class PredictionPlay : public testing::Test {
+class PredictionPlay : public FarServer {
  protected:
-  PredictionPlay() : server([](df::World&) { new Boatyard; }, options()), proxy(context, server.port()) {
-    valve->delay = 50ms;
-    valve->server_port = server.port();
-    proxy.setDelay(50ms);
-  }
-  HostOptions options() const {
-    HostOptions options = home.server();
-    options.frame_micros = 0;  // 30 Hz, the default
-    return options;
-  }
-  ClientSetup player() {
-    ClientSetup setup = home.player("ann");
-    setup.options.open_socket = through(context, valve);
-    return setup;
+  PredictionPlay() {
+    start([](df::World&) { new Boatyard; });
   }
   static df::FixedVector shown(TestClient& client) {
     return client.session().predict(Clock::now()).position();
   }
   df::FixedVector real() {
-    return server.inWorld(
+    return server->inWorld(
         [](df::World& world) { return world.picture().view().players.at(0).steering.position; });
   }
   bool isPredicting(TestClient& client) {
@@ -70,16 +55,10 @@ class PredictionPlay : public testing::Test {
       return client.session().isPredicting() && client.session().counters().datagrams_in > 30;
     });
   }
-
-  Home home;
-  asio::io_context context;
-  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
-  TestServer server;
-  StreamProxy proxy;
 };
 
 TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
-  TestClient ann(context, proxy.port(), player());
+  TestClient ann(context, proxy->port(), player("ann"));
   ASSERT_TRUE(isPredicting(ann));
   const df::FixedVector start = shown(ann);
   EXPECT_EQ(start, real());

@@ -94,8 +94,6 @@ class RecoveryRun {
   bool verify(std::string& said);
   /// Compares the scores. Call after verify(). All rows of the file must be from this round.
   ScoreCheck checkScores() const;
-  /// Sets the game of the next server.
-  void setGame(const std::string& game) { m_game = game; }
   /// Returns the log of the ended servers.
   const std::string& log() const { return m_log; }
   /// Returns the log of the server that runs.

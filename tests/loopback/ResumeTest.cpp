@@ -3,7 +3,6 @@
 
 #include "ProxiedServer.h"
 #include "RecordingServer.h"
-#include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 #include "engine/world/Views.h"
 
@@ -108,9 +107,10 @@ TEST_F(Resume, DatagramsContinueWithoutAStream) {
 TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   TestClient& ann = startAndSettle();
   ASSERT_TRUE(losesItsStream(ann));
-  EXPECT_LT(ann.session().inputTickEstimator().shortestRoundTrip().count(), 40);
+  EXPECT_TRUE(serveUntil(
+      context, {&ann}, [&] { return ann.session().inputTickEstimator().shortestRoundTrip().count() < 40; }));
   const auto before = ann.session().roundTrip();
-  valve->delay = std::chrono::milliseconds(100);
+  valve->delay = before + std::chrono::milliseconds(100);
   const auto longer = before + std::chrono::milliseconds(40);
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().roundTrip() >= longer; }))
       << "as datagrams go";
@@ -140,74 +140,11 @@ TEST_F(Resume, AStreamThatFallsSilentIsReplaced) {
   expectNoJoinOrLeave();
 }
 
-TEST_F(Resume, AClientThatMissedThePlayerListGetsIt) {
-  TestClient& ann = startAndSettle();
-  ASSERT_TRUE(losesItsStream(ann));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return server->counters().detached == 1; }));
-  TestClient bob(context, server->port(), home.player("bob"));
-  ASSERT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(bob, "bob"); }));
-  EXPECT_FALSE(lists(ann, "bob"));
-  proxy->setOpen(true);
-  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return lists(ann, "bob"); }));
-}
-
-TEST_F(Resume, DisconnectedClientLeavesAfterTheGraceTime) {
-  HostOptions options = home.server();
-  options.grace = 0.5;
-  start(options);
-  auto ann = std::make_unique<TestClient>(context, proxy->port(), player("ann"));
-  ASSERT_TRUE(settle(*ann));
-  ann.reset();  // killed without a goodbye
-  const auto killed = Clock::now();
-  ASSERT_TRUE(serveUntil(context, {}, [&] { return census.leaves == 1; }));
-  EXPECT_GT(Clock::now() - killed, std::chrono::milliseconds(400));
-  EXPECT_EQ(server->counters().detached, 1u);
-  EXPECT_EQ(server->counters().reconnect_timeouts, 1u);
-  EXPECT_EQ(
-      server->inWorld([](df::World& world) { return world.objects().objectsOfType("Ship").getCount(); }), 0);
-}
-
 TEST_F(Resume, LeavingClientIsRemovedAtOnce) {
   TestClient& ann = startAndSettle();
   ann.connection().leave();
   EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return census.leaves == 1; }));
   EXPECT_EQ(server->counters().detached, 0u);
-}
-
-TEST_F(Resume, ATokenWorksOnce) {
-  TestClient& ann = startAndSettle();
-  const std::string token = ann.session().welcome().resume_token;
-  EXPECT_EQ(token.size(), 16u);
-  proxy->cut();
-  ASSERT_TRUE(resumes(ann, 1));
-  // The token becomes void when the server knows that the client has the next one.
-  const std::uint32_t heard = ann.newestTick() + 30;
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() >= heard; }));
-
-  ClientSetup thief = home.player("thief");
-  thief.options.resume_token = token;
-  TestClient late(context, server->port(), thief);
-  ASSERT_TRUE(serveUntil(context, {&ann, &late}, [&] { return late.joined(); }));
-  EXPECT_NE(late.player(), ann.player());
-  EXPECT_FALSE(late.session().isResumed());
-  expectNoJoinOrLeave(2);
-  EXPECT_EQ(server->counters().resumed, 1u);
-  EXPECT_TRUE(keyWorks(ann));
-}
-
-TEST_F(Resume, AGuessedTokenResumesNoSession) {
-  TestClient& ann = startAndSettle();
-  std::uint64_t joined = 1;
-  for (const std::string& guess : {std::string(16, '\0'), std::string(16, 'x'), std::string("short")}) {
-    ClientSetup setup = home.player("guess");
-    setup.options.resume_token = guess;
-    TestClient guesser(context, server->port(), setup);
-    ASSERT_TRUE(serveUntil(context, {&ann, &guesser}, [&] { return guesser.joined(); }));
-    EXPECT_NE(guesser.player(), ann.player());
-    EXPECT_EQ(server->counters().joined, ++joined);
-  }
-  EXPECT_EQ(server->counters().resumed, 0u);
-  EXPECT_TRUE(keyWorks(ann));
 }
 
 TEST_F(Resume, ImpostorServerReceivesNoBytesOnReconnect) {

@@ -27,8 +27,8 @@ class RoomRecovery : public LobbyFixture {
  protected:
   /// Starts a server, always with equal options.
   void startJournaled() {
-    const std::uint16_t port = server ? m_port : 0;
-    server.reset();
+    const std::uint16_t port = game ? m_port : 0;
+    game.reset();
     start(rooms, {"--reconnect-time=60", "--world-environment=ROOM_REPEATS"},
           {{"ROOM_REPEATS", "1"},
            {"NAIAD_PORT", std::to_string(port)},
@@ -36,12 +36,12 @@ class RoomRecovery : public LobbyFixture {
            {"NAIAD_JOURNAL", rounds()},
            {"NAIAD_STATE", home.identity("state")},
            {"DRAGONFLY_CONFIG", home.identity("none")}});
-    m_port = server->port();
+    m_port = game->port();
   }
   /// Kills the server. If it had not yet created a round's file, the next server does so from shared memory.
   void kill() {
-    server->signal(SIGKILL);
-    server->wait();
+    game->signal(SIGKILL);
+    game->wait();
     m_before.clear();
     for (TestClient* p_client : clients) m_before.push_back(&p_client->session());
   }
@@ -67,7 +67,7 @@ class RoomRecovery : public LobbyFixture {
   /// Returns the number of sessions that the server has resumed.
   std::size_t returned() const {
     constexpr const char* kIsBack = "reconnected to the recovered round";
-    return static_cast<std::size_t>(countIn(server->log(), kIsBack));
+    return static_cast<std::size_t>(countIn(game->log(), kIsBack));
   }
   fs::path rounds() const { return home.identity("rounds"); }
   std::vector<fs::path> roundsOf(const std::string& room) const {
@@ -75,14 +75,6 @@ class RoomRecovery : public LobbyFixture {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(rounds() / room, error)) found.push_back(entry.path());
     return found;
-  }
-  /// Presses a key this many times and waits for each to arrive.
-  void type(TestClient& client, int count) {
-    for (const int before = shown(client).keys; shown(client).keys < before + count;) {
-      const int keys = shown(client).keys;
-      press(client, df::Keyboard::X);
-      ASSERT_TRUE(serve([&] { return shown(client).keys == keys + 1; })) << server->log();
-    }
   }
 
   std::vector<std::string> rooms = {"one", "two", "three", "four"};
@@ -108,8 +100,8 @@ TEST_F(RoomRecovery, PlayersReturnToTheirRoomsWithTheirIds) {
     const int ticks = shown(*bob).ticks;
     kill();
     startJournaled();
-    ASSERT_TRUE(serveUntilBack()) << server->log();
-    ASSERT_TRUE(serve([&] { return returned() == 3; })) << server->log();
+    ASSERT_TRUE(serveUntilBack()) << game->log();
+    ASSERT_TRUE(serve([&] { return returned() == 3; })) << game->log();
     ASSERT_TRUE(
         serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0 && shown(*cid).process > 0; }));
     EXPECT_EQ((std::vector<int>{shown(*ann).keys, shown(*bob).keys, shown(*cid).keys}), keys);
@@ -127,7 +119,7 @@ TEST_F(RoomRecovery, PlayersReturnToTheirRoomsWithTheirIds) {
   cid->session().enterRoom("two");
   EXPECT_TRUE(serve([&] {
     return cid->session().welcome().room == "two" && shown(*cid).keys == shown(*bob).keys;
-  })) << server->log();
+  })) << game->log();
 }
 
 // At most two copies of a world wait, so three copies must be of both rooms.
@@ -137,8 +129,7 @@ TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   auto bob = join("bob", "two");
   type(*ann, 2);
   type(*bob, 2);
-  ASSERT_TRUE(serve([&] { return processesBelow(server->process(), "df-copy").size() >= 3; }))
-      << server->log();
+  ASSERT_TRUE(serve([&] { return processesBelow(game->process(), "df-copy").size() >= 3; })) << game->log();
   const std::size_t heard_by_bob = bob->session().chat().size();
   const ClientSession* p_ann = &ann->session();
   const ClientSession* p_bob = &bob->session();
@@ -148,21 +139,21 @@ TEST_F(RoomRecovery, CrashedRoomResumesFromACheckpointWithoutDisturbingOthers) {
   ASSERT_TRUE(serve([&] {
     EXPECT_GE(shown(*bob).ticks, seen_by_bob);
     seen_by_bob = shown(*bob).ticks;
-    return server->log().find("room one: game recovered: ") != std::string::npos &&
+    return game->log().find("room one: game recovered: ") != std::string::npos &&
            shown(*ann).ticks > seen_by_ann + 50;
-  })) << server->log();
-  EXPECT_TRUE(has(server->log(), "room one: game recovered: a copy of its world replayed "));
+  })) << game->log();
+  EXPECT_TRUE(has(game->log(), "room one: game recovered: a copy of its world replayed "));
   EXPECT_EQ(&ann->session(), p_ann);
   EXPECT_EQ(&bob->session(), p_bob);
   EXPECT_EQ(shown(*ann).keys, 2) << "without the one that it died of";
   EXPECT_EQ(bob->session().chat().size(), heard_by_bob);
-  EXPECT_FALSE(has(server->log(), "room two: game"));
+  EXPECT_FALSE(has(game->log(), "room two: game"));
   type(*ann, 1);
   type(*bob, 1);
   kill();
   startJournaled();
-  ASSERT_TRUE(serveUntilBack()) << server->log();
-  ASSERT_TRUE(serve([&] { return returned() == 2; })) << server->log();
+  ASSERT_TRUE(serveUntilBack()) << game->log();
+  ASSERT_TRUE(serve([&] { return returned() == 2; })) << game->log();
   ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; }));
   EXPECT_EQ(shown(*ann).keys, 3);
   EXPECT_EQ(shown(*bob).keys, 3);
@@ -174,16 +165,16 @@ TEST_F(RoomRecovery, DoorsWorkAfterRecovery) {
   startJournaled();
   auto ann = connect("ann", "hall");
   const auto sees_door = [&] { return ann->joined() && row(*ann, 4).find("one") != std::string::npos; };
-  ASSERT_TRUE(serve(sees_door)) << server->log();
+  ASSERT_TRUE(serve(sees_door)) << game->log();
   kill();
   startJournaled();
-  ASSERT_TRUE(serveUntilBack()) << server->log();
+  ASSERT_TRUE(serveUntilBack()) << game->log();
   ASSERT_TRUE(serve(sees_door));
-  ASSERT_TRUE(serve([&] { return returned() == 1; })) << server->log();
+  ASSERT_TRUE(serve([&] { return returned() == 1; })) << game->log();
   walkToDoor(*ann);
-  ASSERT_FALSE(HasFatalFailure()) << server->log();
+  ASSERT_FALSE(HasFatalFailure()) << game->log();
   press(*ann, df::Keyboard::DOWNARROW);
-  ASSERT_TRUE(serve([&] { return ann->session().welcome().room == "one"; })) << server->log();
+  ASSERT_TRUE(serve([&] { return ann->session().welcome().room == "one"; })) << game->log();
   EXPECT_TRUE(serve([&] { return shown(*ann).process > 0; }));
 }
 
@@ -195,16 +186,16 @@ TEST_F(RoomRecovery, DoorOfARemovedRoomIsClosed) {
   const auto sees = [&](int y, const std::string& text) {
     return ann->joined() && row(*ann, y).find(text) != std::string::npos;
   };
-  ASSERT_TRUE(serve([&] { return sees(4, "one") && sees(4, "two"); })) << server->log();
+  ASSERT_TRUE(serve([&] { return sees(4, "one") && sees(4, "two"); })) << game->log();
   ASSERT_FALSE(sees(kDoorRow, "[XX]"));
   kill();
   rooms = {"hall=lobby", "two", "three"};
   startJournaled();
-  ASSERT_TRUE(serveUntilBack()) << server->log();
+  ASSERT_TRUE(serveUntilBack()) << game->log();
   EXPECT_TRUE(serve([&] { return sees(4, "three") && sees(kDoorRow, "[XX]"); })) << row(*ann, kDoorRow);
   EXPECT_LT(row(*ann, kDoorRow).find("[XX]"), row(*ann, kDoorRow).find("[  ]")) << "that of room one";
   walkToDoor(*ann);
-  ASSERT_FALSE(HasFatalFailure()) << server->log();
+  ASSERT_FALSE(HasFatalFailure()) << game->log();
   press(*ann, df::Keyboard::DOWNARROW);
   EXPECT_TRUE(serve([&] {
     const auto& chat = ann->session().chat();
@@ -224,13 +215,13 @@ TEST_F(RoomRecovery, FailedRecoveryAffectsOnlyItsRoom) {
   std::ofstream(roundsOf("two").front(), std::ios::binary | std::ios::app)
       << encodeDfrMeta({{kFactAttempts, "3 1000000"}});
   startJournaled();
-  ASSERT_TRUE(serveUntilBack()) << server->log();
-  ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; })) << server->log();
-  ASSERT_TRUE(serve([&] { return returned() == 1; })) << server->log();
+  ASSERT_TRUE(serveUntilBack()) << game->log();
+  ASSERT_TRUE(serve([&] { return shown(*ann).process > 0 && shown(*bob).process > 0; })) << game->log();
+  ASSERT_TRUE(serve([&] { return returned() == 1; })) << game->log();
   EXPECT_EQ(shown(*ann).keys, 2);
   EXPECT_EQ(shown(*bob).keys, 0) << "the next round";
   EXPECT_EQ(bob->session().welcome().room, "two");
-  EXPECT_TRUE(serve([&] { return server->log().find("room two: giving up") != std::string::npos; }));
+  EXPECT_TRUE(waitForLog("room two: giving up"));
 }
 
 }  // namespace

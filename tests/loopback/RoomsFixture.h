@@ -4,17 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <asio/io_context.hpp>
 #include <chrono>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "GameProgram.h"
-#include "Home.h"
-#include "TestClient.h"
+#include "ProgramFixture.h"
 
 namespace naiad::test {
 
@@ -28,7 +24,7 @@ struct Shown {
   int ticks = 0;
 };
 
-class RoomsFixture : public testing::Test {
+class RoomsFixture : public ProgramFixture {
  protected:
   /// Starts a server with rooms given as NAME[=GAME][,SETTINGS]. A room without a game plays rooms/game.cpp.
   void start(const std::vector<std::string>& rooms, std::vector<std::string> arguments = {},
@@ -39,41 +35,36 @@ class RoomsFixture : public testing::Test {
       arguments.push_back("--room=" +
                           (has_game ? room : room.substr(0, comma) + "=" + kRoomModule + room.substr(comma)));
     }
-    server = std::make_unique<GameProgram>("dfserver", environment, arguments);
-    ASSERT_NE(server->port(), 0) << server->log();
+    launch("dfserver", environment, arguments);
   }
   std::unique_ptr<TestClient> connect(const std::string& name, const std::string& room) {
     ClientSetup setup = home.player(name);
     setup.options.room = room;
-    auto client = std::make_unique<TestClient>(context, server->port(), setup);
+    auto client = ProgramFixture::connect(setup);
     client->keepPictures(false);
-    clients.push_back(client.get());
     return client;
   }
   /// Joins a room that plays rooms/game.cpp.
   std::unique_ptr<TestClient> join(const std::string& name, const std::string& room) {
     auto client = connect(name, room);
-    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << server->log();
+    EXPECT_TRUE(serve([&] { return client->joined() && shown(*client).process > 0; })) << game->log();
     return client;
   }
-  /// Returns the message with which the server refuses a player.
-  std::string refusal(const std::string& room) {
-    auto client = connect("eve", room);
-    EXPECT_TRUE(serve([&] { return client->connection().isOver(); }));
-    clients.pop_back();
-    return client->connection().message();
-  }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
-  static std::string row(TestClient& client, int y) {
-    return client.session().replica().render(client.newestTick()).rowText(y);
-  }
   static Shown shown(TestClient& client) {
-    const std::string text = row(client, 12);
+    const std::string text = row(client);
     const auto process = numberAfter(text, "process=");
     const auto keys = numberAfter(text, "keys=");
     const auto ticks = numberAfter(text, "ticks=");
     if (!process || !keys || !ticks || text.find(';') == std::string::npos) return {};
     return {*process, *keys, *ticks};
+  }
+  /// Presses a key this many times and waits for each to arrive.
+  void type(TestClient& client, int count) {
+    for (int keys = shown(client).keys; count > 0; --count) {
+      press(client, df::Keyboard::X);
+      ++keys;
+      ASSERT_TRUE(serve([&] { return shown(client).keys == keys; }));
+    }
   }
   const RoomLine* roomInList(TestClient& client, const std::string& name) {
     client.session().refreshRooms(std::chrono::steady_clock::now());
@@ -81,11 +72,6 @@ class RoomsFixture : public testing::Test {
     const auto found = std::ranges::find_if(rooms, [&](const RoomLine& room) { return room.name == name; });
     return found != rooms.end() ? &*found : nullptr;
   }
-
-  Home home;
-  asio::io_context context;
-  std::unique_ptr<GameProgram> server;
-  std::vector<TestClient*> clients;
 };
 
 }  // namespace naiad::test

@@ -6,32 +6,19 @@
 #include <memory>
 #include <string>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 
 namespace naiad::test {
 namespace {
 
-class Runs : public LoopbackFixture {
+class Runs : public ProgramFixture {
  protected:
-  std::unique_ptr<TestClient> join(const std::string& name) {
-    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
-    clients.push_back(client.get());
-    EXPECT_TRUE(serve([&] { return client->joined() && isIn(*client, 1); })) << game->log();
-    return client;
-  }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
-  static std::string row(TestClient& client) {
-    return client.session().replica().render(client.newestTick()).rowText(12);
-  }
+  bool isPlaying(TestClient& client) const override { return isIn(client, 1); }
   /// True if the client is connected and shows this act.
   static bool isIn(TestClient& client, int act) {
     return client.joined() && has(row(client), ";") && numberAfter(row(client), "act=") == act;
   }
   static bool isOver(TestClient& client) { return client.connection().isOver(); }
-
-  std::unique_ptr<GameProgram> game;
-  std::vector<TestClient*> clients;
 };
 
 TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
@@ -74,13 +61,13 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
     EXPECT_EQ(ann->connection().message(), "The game is over.");
     EXPECT_EQ(game->wait(), 0) << game->log();
     EXPECT_FALSE(has(game->log(), "reconnected"));
-    EXPECT_EQ(has(game->log(), "is a server on"), true);
+    EXPECT_EQ(has(game->log(), "listens on"), true);
   }
 }
 
 // A player that leaves or joins while no run is active has done so when the next one begins.
 TEST_F(Runs, LeavingAndJoiningInAPauseTakesEffect) {
-  game = std::make_unique<GameProgram>("runs_game", std::map<std::string, std::string>{{"RUNS", "rpr"}});
+  launch("runs_game", {{"RUNS", "rpr"}});
   ASSERT_NE(game->port(), 0) << game->log();
   auto ann = join("ann");
   auto bob = join("bob");

@@ -10,8 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "RecoveryRun.h"
 #include "RoomsFixture.h"
 #include "RunCtl.h"
@@ -19,26 +18,17 @@
 namespace naiad::test {
 namespace {
 
-class Scores : public LoopbackFixture {
+class Scores : public ProgramFixture {
  protected:
   void start() {
-    game.reset();
-    game = std::make_unique<GameProgram>(
-        "rounds_game", std::map<std::string, std::string>{{"NAIAD_ON_GAME_OVER", "restart"},
-                                                          {"NAIAD_STATE", home.identity("state")}});
-    ASSERT_NE(game->port(), 0) << game->log();
+    launch("rounds_game", {{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_STATE", home.identity("state")}});
   }
   void join() {
-    client = std::make_unique<TestClient>(context, game->port(), home.player("ann"));
-    ASSERT_TRUE(serve([&] { return client->joined(); })) << game->log();
+    clients.clear();
+    client = ProgramFixture::join("ann");
   }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, {client.get()}, done); }
   bool shows(const std::string& text) {
-    return serve([&] {
-      return client->joined() &&
-             client->session().replica().render(client->newestTick()).rowText(12).find(text) !=
-                 std::string::npos;
-    });
+    return serve([&] { return client->joined() && has(row(*client), text); });
   }
   void press(df::Keyboard::Key key) {
     client->session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
@@ -48,7 +38,6 @@ class Scores : public LoopbackFixture {
     return runCtl("--control " + game->control().string() + " scores --json").second;
   }
 
-  std::unique_ptr<GameProgram> game;
   std::unique_ptr<TestClient> client;
 };
 
@@ -87,7 +76,7 @@ TEST_F(Scores, ShutdownLogCountsTheScores) {
 class RoomScores : public RoomsFixture {
  protected:
   std::pair<int, std::string> scores(const std::string& words) const {
-    return runCtl("--control " + server->control().string() + " scores " + words);
+    return runCtl("--control " + game->control().string() + " scores " + words);
   }
   std::string replay(const std::string& recording, const std::string& words) const {
     return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
@@ -112,12 +101,12 @@ TEST_F(RoomScores, ScoreIsFoundAtItsTickInTheRecording) {
   auto ann = connect("ann", "two");
   const auto has_pressed = [&](int keys) {
     return serve([&] {
-      return ann->joined() && row(*ann, 12).find("keys=" + std::to_string(keys) + ";") != std::string::npos;
+      return ann->joined() && row(*ann).find("keys=" + std::to_string(keys) + ";") != std::string::npos;
     });
   };
-  ASSERT_TRUE(has_pressed(0)) << server->log();
+  ASSERT_TRUE(has_pressed(0)) << game->log();
   for (int i = 0; i < 6; ++i) press(*ann, df::Keyboard::X);
-  ASSERT_TRUE(has_pressed(6)) << server->log();
+  ASSERT_TRUE(has_pressed(6)) << game->log();
   const auto [code, listed] = scores("--room two --json");
   EXPECT_EQ(code, 0) << listed;
   EXPECT_TRUE(has(listed, R"("table":"even","place":1,"name":"counter","points":6)"));
@@ -125,8 +114,8 @@ TEST_F(RoomScores, ScoreIsFoundAtItsTickInTheRecording) {
   const std::string tick = valueIn(listed, "tick");
   const std::string number = valueIn(listed, "number");
   EXPECT_TRUE(recording.starts_with("two/scores_module-")) << listed;
-  server->signal(SIGTERM);
-  server->wait();
+  game->signal(SIGTERM);
+  game->wait();
   const std::string added = replay(recording, "--scores");
   EXPECT_TRUE(has(added, "tick=" + tick + " number=" + number + " table=even name=\"counter\" points=6\n"))
       << listed;

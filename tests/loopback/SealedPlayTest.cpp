@@ -54,18 +54,6 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
   EXPECT_EQ(server.counters().divergences, 0u);
 }
 
-TEST_F(SealedPlay, KeysArriveAndTheStreamFallsSilent) {
-  TestServer server(busyWorld(50), home.server());
-  TestClient ann(context, server.port(), player("ann"));
-  ASSERT_TRUE(settles(ann));
-  EXPECT_TRUE(keyWorks(ann));
-  // The stream carries no snapshot in a thousand ticks, unless the machine stalls for a second.
-  const std::uint64_t on_stream = streamed(ann);
-  const std::uint64_t before = datagrams(ann);
-  EXPECT_TRUE(hears(ann, 300));
-  EXPECT_GT(datagrams(ann) - before, 10 * (streamed(ann) - on_stream));
-}
-
 TEST_F(SealedPlay, BlockedDatagramsFallBackToTheStream) {
   for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
     valve = std::make_shared<Valve>();
@@ -148,21 +136,6 @@ TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
   const auto taken = [&] { return ann.session().replica().newest().input != 0; };
   EXPECT_TRUE(serveUntil(context, {&ann}, taken)) << "the key goes that way, too";
   EXPECT_EQ(server.counters().detached, 0u);
-}
-
-TEST_F(SealedPlay, SecondStreamNeedsASessionToken) {
-  TestServer server(busyWorld(5), home.server());
-  for (const std::string& token : {std::string(), std::string("0123456789abcdef")}) {
-    ClientSetup stranger = player("eve");
-    stranger.options.second_stream = true;
-    stranger.options.resume_token = token;
-    TestClient eve(context, server.port(), stranger);
-    ASSERT_TRUE(serveUntil(context, {&eve}, [&] { return eve.connection().isOver(); }));
-    EXPECT_EQ(eve.connection().state(), Connection::State::kRefused);
-  }
-  EXPECT_EQ(server.counters().joined, 0u) << "nor another player";
-  EXPECT_EQ(server.counters().unknown_tokens, 2u);
-  EXPECT_EQ(server.counters().second_streams, 0u);
 }
 
 TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {

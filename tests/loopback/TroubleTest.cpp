@@ -13,8 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "GameProgram.h"
-#include "LoopbackFixture.h"
+#include "ProgramFixture.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
 #include "engine/world/WorldLog.h"
@@ -66,38 +65,15 @@ struct Pipe {
   int ends[2];
 };
 
-class Trouble : public LoopbackFixture {
+class Trouble : public ProgramFixture {
  protected:
   void TearDown() override {
     if (game) game->signal(SIGKILL);  // ends a game that may hang; the tests check nothing after this
   }
   void start(std::map<std::string, std::string> environment = {}, int errors = -1) {
-    game = std::make_unique<GameProgram>("trouble_game", std::move(environment), std::vector<std::string>{},
-                                         errors);
-    ASSERT_NE(game->port(), 0) << game->log();
+    launch("trouble_game", std::move(environment), {}, errors);
   }
-  std::unique_ptr<TestClient> join(const std::string& name) {
-    auto client = std::make_unique<TestClient>(context, game->port(), home.player(name));
-    clients.push_back(client.get());
-    EXPECT_TRUE(serve([&] { return client->joined(); })) << game->log();
-    return client;
-  }
-  bool serve(const std::function<bool()>& done) { return serveUntil(context, clients, done); }
-  bool logs(const std::string& part) {
-    return serve([&] { return game->log().find(part) != std::string::npos; });
-  }
-  /// True if the world continues to tick.
-  bool ticks(TestClient& client, std::uint32_t count = 100) {
-    const std::uint32_t from = client.newestTick();
-    return serve([&] { return client.newestTick() > from + count; });
-  }
-  bool isDismissed(TestClient& client) {
-    return serve([&] { return client.connection().state() == Connection::State::kEnded; }) &&
-           client.connection().message() == kGoodbye;
-  }
-
-  std::unique_ptr<GameProgram> game;
-  std::vector<TestClient*> clients;
+  bool isDismissed(TestClient& client) { return ProgramFixture::isDismissed(client, kGoodbye); }
 };
 
 // ---- the log ----------------------------------------------------------------------------------------------
@@ -108,11 +84,11 @@ TEST_F(Trouble, ClosedLogPipeDoesNotEndTheGame) {
   auto ann = join("ann");
   pipe.closeReader();
   auto bob = join("bob");
-  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann) && waitForTicks(*bob));
   press(*ann, df::Keyboard::P);
-  EXPECT_TRUE(ticks(*ann) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann) && waitForTicks(*bob));
   bob->connection().leave();
-  EXPECT_TRUE(ticks(*ann));
+  EXPECT_TRUE(waitForTicks(*ann));
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann));
   const int status = game->wait();
@@ -123,12 +99,11 @@ TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   Pipe pipe;
   start({{"NAIAD_LOG_FILE", ""}}, pipe.ends[1]);
   std::string said;
-  ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("is a server on") != std::string::npos; }))
-      << said;
+  ASSERT_TRUE(serve([&] { return (said += pipe.read()).find("listens on") != std::string::npos; })) << said;
   pipe.fill();
   auto ann = join("ann");
   auto bob = join("bob");
-  EXPECT_TRUE(ticks(*ann, 300) && ticks(*bob));
+  EXPECT_TRUE(waitForTicks(*ann, 300) && waitForTicks(*bob));
   EXPECT_TRUE(serve([&] { return (said += pipe.read()).find("\"bob\" joined") != std::string::npos; }))
       << said;
   EXPECT_TRUE(has(said, "\"ann\" joined")) << "what waited was lost";
@@ -141,8 +116,8 @@ TEST_F(Trouble, RefusalIsLoggedWithItsMessage) {
   TestClient refused(context, game->port(), bob);
   clients.push_back(&refused);
   EXPECT_TRUE(serve([&] { return refused.connection().state() == Connection::State::kRefused; }));
-  EXPECT_TRUE(logs(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
-  EXPECT_TRUE(logs(" \"ann\" joined with \"test\"\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" \"ann\" joined with \"test\"\n")) << game->log();
 }
 
 TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
@@ -166,12 +141,12 @@ TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
 TEST_F(Trouble, SighupWithoutATerminalOpensTheLogAgain) {
   start();
   auto ann = join("ann");
-  ASSERT_TRUE(logs("\"ann\" joined"));
+  ASSERT_TRUE(waitForLog("\"ann\" joined"));
   fs::rename(game->directory() / "log", game->directory() / "log.1");
   game->signal(SIGHUP);
-  EXPECT_TRUE(logs("SIGHUP: log reopened")) << game->log();
+  EXPECT_TRUE(waitForLog("SIGHUP: log reopened")) << game->log();
   EXPECT_FALSE(has(game->log(), "\"ann\" joined")) << "this is the old file";
-  EXPECT_TRUE(ticks(*ann));
+  EXPECT_TRUE(waitForTicks(*ann));
 }
 
 // ---- a game that hangs ------------------------------------------------------------------------------------
@@ -183,14 +158,14 @@ TEST_F(Trouble, HungGameIsReportedAndFirstSignalEndsIt) {
   start();
   auto ann = join("ann");
   press(*ann, df::Keyboard::H);
-  ASSERT_TRUE(logs("the game has not finished tick ")) << game->log();
-  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  ASSERT_TRUE(waitForLog("the game has not finished tick ")) << game->log();
+  EXPECT_TRUE(waitForLog(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   game->signal(SIGTERM);
   EXPECT_TRUE(isDismissed(*ann)) << ann->connection().message();
   const int status = game->wait();
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << game->log();
-  EXPECT_TRUE(logs("forced to exit: the game does not finish tick ")) << game->log();
+  EXPECT_TRUE(waitForLog("forced to exit: the game does not finish tick ")) << game->log();
 }
 
 TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
@@ -199,7 +174,7 @@ TEST_F(Trouble, SecondSignalEndsHungGameAtOnceWithGoodbye) {
 #endif
   start();
   auto ann = join("ann");
-  ASSERT_TRUE(ticks(*ann, 1));
+  ASSERT_TRUE(waitForTicks(*ann, 1));
   press(*ann, df::Keyboard::H);
   const auto stands = [&, last = ann->newestTick(), since = Clock::now()]() mutable {
     if (ann->newestTick() != last) since = Clock::now();
@@ -220,9 +195,9 @@ TEST_F(Trouble, SlowTickIsReportedOnceWithItsHandler) {
     start({{"NAIAD_ON_GAME_OVER", on_game_over}});
     auto ann = join("ann");
     for (int i = 0; i < 2; ++i) {
-      ASSERT_TRUE(ticks(*ann, 1));
+      ASSERT_TRUE(waitForTicks(*ann, 1));
       press(*ann, df::Keyboard::S);
-      ASSERT_TRUE(ticks(*ann));
+      ASSERT_TRUE(waitForTicks(*ann));
     }
     const auto text = [&] { return game->log() + contentOf(game->directory() / "output"); };
     const std::string line = " takes longer than the frame time of ";
@@ -236,64 +211,60 @@ TEST_F(Trouble, SlowTickIsReportedOnceWithItsHandler) {
 
 // ---- a game that crashes ----------------------------------------------------------------------------------
 
-class Crash : public Trouble {
- protected:
-  void expectLine(df::Keyboard::Key key, int signal, const std::string& name,
-                  const std::string& activity = "Trouble handled EventKeyboard") {
-    if (kSanitized) GTEST_SKIP() << "the sanitizer reports crashes itself";
-    start();
-    auto ann = join("ann");
-    ASSERT_TRUE(ticks(*ann, 1));
-    press(*ann, key);
-    serve([&] { return game->log().find("crashed") != std::string::npos; });
-    const int status = game->wait();
-    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status << game->log();
-    for (const char* file : {"log", "output"}) {
-      const std::string text = contentOf(game->directory() / file);
-      const std::string line = " trouble_game: crashed (" + name + ") in tick ";
-      ASSERT_TRUE(has(text, line)) << file << ": ";
-      EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
-      EXPECT_TRUE(has(text, ", while " + activity + "\n"));
-      EXPECT_TRUE(has(text, "trouble_game: the game's log: a key\\x1b[2J\n"));
-      EXPECT_TRUE(has(text, "trouble_game: to see where: gdb "));
-    }
-  }
+struct CrashCase {
+  const char* name;
+  df::Keyboard::Key key;
+  int signal;
+  const char* signal_name = "SIGSEGV";
+  const char* activity = "Trouble handled EventKeyboard";
 };
 
-TEST_F(Crash, EndlessRecursionIsLogged) {
-  expectLine(df::Keyboard::R, SIGSEGV, "SIGSEGV");
+class Crash : public Trouble, public testing::WithParamInterface<CrashCase> {};
+
+TEST_P(Crash, IsLoggedWithItsHandler) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer reports crashes itself";
+  const CrashCase& crash = GetParam();
+  start();
+  auto ann = join("ann");
+  ASSERT_TRUE(waitForTicks(*ann, 1));
+  press(*ann, crash.key);
+  waitForLog("crashed");
+  const int status = game->wait();
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == crash.signal) << status << game->log();
+  for (const char* file : {"log", "output"}) {
+    const std::string text = contentOf(game->directory() / file);
+    const std::string line = std::string(" trouble_game: crashed (") + crash.signal_name + ") in tick ";
+    ASSERT_TRUE(has(text, line)) << file << ": ";
+    EXPECT_GT(std::atoi(text.c_str() + text.find(line) + line.size()), 0) << text;
+    EXPECT_TRUE(has(text, std::string(", while ") + crash.activity + "\n"));
+    EXPECT_TRUE(has(text, "trouble_game: the game's log: a key\\x1b[2J\n"));
+    EXPECT_TRUE(has(text, "trouble_game: to see where: gdb "));
+  }
 }
 
-TEST_F(Crash, AbortIsLogged) {
-  expectLine(df::Keyboard::A, SIGABRT, "SIGABRT");
-}
-
-TEST_F(Crash, CrashInDrawIsLogged) {
-  expectLine(df::Keyboard::D, SIGSEGV, "SIGSEGV", "Trouble ran draw()");
-}
-
-TEST_F(Crash, DivisionByZeroIsLogged) {
-  expectLine(df::Keyboard::Z, SIGFPE, "SIGFPE");
-}
-
-TEST_F(Crash, CrashAfterNestedHandlerNamesTheOuterHandler) {
-  expectLine(df::Keyboard::N, SIGSEGV, "SIGSEGV");
-}
+INSTANTIATE_TEST_SUITE_P(Games, Crash,
+                         testing::Values(CrashCase{"EndlessRecursion", df::Keyboard::R, SIGSEGV},
+                                         CrashCase{"Abort", df::Keyboard::A, SIGABRT, "SIGABRT"},
+                                         CrashCase{"InDraw", df::Keyboard::D, SIGSEGV, "SIGSEGV",
+                                                   "Trouble ran draw()"},
+                                         CrashCase{"DivisionByZero", df::Keyboard::Z, SIGFPE, "SIGFPE"},
+                                         CrashCase{"AfterANestedHandler", df::Keyboard::N, SIGSEGV}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 /// Like the tests above, but the world is in its own process, which shares its crash page with the front
 /// process.
 TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
   start({{"NAIAD_ON_GAME_OVER", "restart"}});
   auto ann = join("ann");
-  ASSERT_TRUE(ticks(*ann, 1));
+  ASSERT_TRUE(waitForTicks(*ann, 1));
   press(*ann, df::Keyboard::K);
-  EXPECT_TRUE(logs("the round is over: the game crashed (SIGKILL) in tick ")) << game->log();
-  EXPECT_TRUE(logs(", while Trouble handled EventKeyboard\n")) << game->log();
-  EXPECT_TRUE(logs(" the game's log: a key\\x1b[2J\n")) << game->log();
-  EXPECT_TRUE(logs(" to see where: run the game by itself in a debugger")) << game->log();
-  EXPECT_TRUE(ticks(*ann)) << "the next round";
+  EXPECT_TRUE(waitForLog("the round is over: the game crashed (SIGKILL) in tick ")) << game->log();
+  EXPECT_TRUE(waitForLog(", while Trouble handled EventKeyboard\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" the game's log: a key\\x1b[2J\n")) << game->log();
+  EXPECT_TRUE(waitForLog(" to see where: run the game by itself in a debugger")) << game->log();
+  EXPECT_TRUE(waitForTicks(*ann)) << "the next round";
   press(*ann, df::Keyboard::H);
-  EXPECT_TRUE(logs(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
+  EXPECT_TRUE(waitForLog(" for 1 s: it hangs, and all players wait, while Trouble handles EventKeyboard\n"))
       << game->log();
   EXPECT_TRUE(serve([&] {
     const auto& chat = ann->session().chat();
@@ -301,7 +272,7 @@ TEST_F(Trouble, WorldProcessCrashAndHangAreLogged) {
       return entry.name.empty() && entry.text.find("The game is not responding") != std::string::npos;
     });
   })) << "its player knows";
-  EXPECT_TRUE(logs("the game did not answer in time in tick ")) << game->log();
+  EXPECT_TRUE(waitForLog("the game did not answer in time in tick ")) << game->log();
 }
 
 // ---- programs that never play -----------------------------------------------------------------------------

@@ -4,7 +4,6 @@
 #include "LoopbackFixture.h"
 #include "RecordingServer.h"
 #include "StreamProxy.h"
-#include "host/auth/PasswordHash.h"
 #include "shared/net/base/SafeFile.h"
 
 namespace naiad::test {
@@ -21,59 +20,15 @@ class TrustTest : public LoopbackFixture {
     TestClient client(context, port, setup);
     return refusal(client);
   }
-  /// Returns a cheap hash, so that even on a busy machine password checks take little time.
-  static std::string quick(const std::string& password) {
-    return PasswordHash::of(password, {.memory_kib = 64, .passes = 1}).text();
-  }
   std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
 };
-
-TEST_F(TrustTest, OnlyTheRightPasswordJoins) {
-  HostOptions options = home.server();
-  options.password = quick("xyzzy");
-  TestServer server(busyWorld(5), options);
-  ClientSetup setup = home.player("ann");
-  EXPECT_EQ(refusal(server.port(), setup), "This server requires a password.");
-  setup.options.password = "plugh";
-  EXPECT_EQ(refusal(server.port(), setup), "That is not this server's password.");
-  EXPECT_EQ(server.counters().refused_password, 2u);
-  EXPECT_EQ(server.counters().joined, 0u);
-  setup.options.password = "xyzzy";
-  EXPECT_EQ(refusal(server.port(), setup), "");
-  EXPECT_EQ(server.counters().joined, 1u);
-}
-
-TEST_F(TrustTest, RepeatedGuessesBlockEvenTheRightPassword) {
-  HostOptions options = home.server();
-  options.password = quick("xyzzy");
-  TestServer server(busyWorld(5), options);
-  ClientSetup setup = home.player("eve");
-  for (int i = 0; i < 5; ++i) {
-    setup.options.password = "guess " + std::to_string(i);
-    EXPECT_EQ(refusal(server.port(), setup), "That is not this server's password.");
-  }
-  setup.options.password = "xyzzy";
-  EXPECT_EQ(refusal(server.port(), setup), "Too many wrong passwords. Try again in a minute.");
-  EXPECT_EQ(server.counters().refused_password, 6u);
-  EXPECT_EQ(server.counters().joined, 0u);
-}
-
-TEST_F(TrustTest, FirstKeyIsPinnedAndAcceptedAgain) {
-  TestServer server(busyWorld(5), home.server());
-  EXPECT_EQ(refusal(server.port(), home.player("ann")), "");
-  const std::string pin =
-      "127.0.0.1:" + std::to_string(server.port()) + " " + server.fingerprint()->text() + "\n";
-  EXPECT_TRUE(has(pins(), pin));
-  const std::string before = pins();
-  EXPECT_EQ(refusal(server.port(), home.player("bob")), "");
-  EXPECT_EQ(pins(), before);
-}
 
 TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   auto server = std::make_unique<TestServer>(busyWorld(5), home.server());
   const std::uint16_t port = server->port();
   EXPECT_EQ(refusal(port, home.player("ann")), "");
   const std::string before = pins();
+  EXPECT_TRUE(has(before, server->fingerprint()->text()));
   server.reset();
 
   HostOptions other = home.server("another identity");
@@ -91,27 +46,6 @@ TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   informed.trust.fingerprint = server->fingerprint();
   EXPECT_EQ(refusal(port, informed), "");
   EXPECT_EQ(refusal(port, home.player("ann")), "");
-}
-
-TEST_F(TrustTest, GivenFingerprintMustMatch) {
-  TestServer server(busyWorld(5), home.server());
-  ClientSetup setup = home.player("ann");
-  setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
-  ASSERT_TRUE(setup.trust.fingerprint);
-  const std::string message = refusal(server.port(), setup);
-  EXPECT_TRUE(has(message, "does not have the given key"));
-  EXPECT_EQ(pins(), "");
-  EXPECT_EQ(server.counters().joined, 0u);
-  setup.trust.fingerprint = server.fingerprint();
-  EXPECT_EQ(refusal(server.port(), setup), "");
-}
-
-TEST_F(TrustTest, ALinkJoinsAndTheWholeKeyIsPinned) {
-  TestServer server(busyWorld(5), home.server());
-  ClientSetup setup = home.player("ann");
-  setup.trust.link_key = ShortKey::of(*server.fingerprint());
-  EXPECT_EQ(refusal(server.port(), setup), "");
-  EXPECT_TRUE(has(pins(), server.fingerprint()->text()));
 }
 
 TEST_F(TrustTest, ServerWithoutTheLinksKeyReceivesNoBytes) {
@@ -148,7 +82,7 @@ TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
   }
   setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
   TestClient informed(context, impostor.port(), setup);
-  EXPECT_NE(refusal(informed), "");
+  EXPECT_TRUE(has(refusal(informed), "does not have the given key"));
   ASSERT_TRUE(serveUntil(context, {&informed}, [&] { return impostor.isDecided(2); }));
   EXPECT_EQ(impostor.heard(), "");
 
@@ -157,23 +91,6 @@ TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
   auto trusting = std::make_unique<TestClient>(context, impostor.port(), setup);
   EXPECT_TRUE(serveUntil(context, {trusting.get()},
                          [&] { return impostor.heard().find("xyzzy") != std::string::npos; }));
-}
-
-TEST_F(TrustTest, AnImpostorInMidGameGetsNoToken) {
-  TestServer server(busyWorld(5), home.server());
-  RecordingServer impostor(home.identity("another identity"));
-  StreamProxy proxy(context, server.port());
-  ClientSetup setup = home.player("ann");
-  setup.options.password = "xyzzy";
-  TestClient ann(context, proxy.port(), setup);
-  ASSERT_TRUE(joins(ann));
-  proxy.setServer(impostor.port());
-  proxy.cut();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
-  EXPECT_EQ(ann.connection().state(), Connection::State::kRefused);
-  EXPECT_TRUE(has(ann.connection().message(), "HAS CHANGED"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return impostor.isDecided(1); }));
-  EXPECT_EQ(impostor.heard(), "") << "neither token nor password";
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ class ValveSocket : public DatagramSocket {
     });
   }
   void send(const Path& path, std::string_view packet) override {
+    m_valve->seen.emplace_back(packet);
     if (!m_valve->up) return;
     ++m_valve->sent;
     Path real = path;

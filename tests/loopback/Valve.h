@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "shared/net/datagram/UdpSocket.h"
 
@@ -19,6 +21,7 @@ struct Valve {
   std::uint16_t server_port = 0;  ///< port to which the client's datagrams are sent instead; 0: unchanged
   std::uint64_t sent = 0;         ///< number of datagrams passed on to the server
   std::uint64_t arrived = 0;      ///< number of datagrams passed on to the client
+  std::vector<std::string> seen;  ///< datagrams that the client sent, whether or not they were passed on
   DatagramSocket* p_socket = nullptr;  ///< the newest socket
 
   /// Sends from another port from now on, like a NAT that forgets a mapping.

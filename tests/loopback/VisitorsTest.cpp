@@ -52,31 +52,6 @@ TEST_F(VisitorsTest, PasswordGuessesLockOutOnlyTheirAddress) {
   }
 }
 
-TEST_F(VisitorsTest, InvalidHeadersDoNotDisturbTheGame) {
-  TestServer server(busyWorld(5), options);
-  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
-  ASSERT_TRUE(joins(ann));
-  std::string oversized = proxyHeader({asio::ip::make_address("192.0.2.9"), 9});
-  oversized[14] = static_cast<char>(0xff);
-  std::vector<Local::socket> doors;
-  for (int i = 0; i < 200; ++i) {  // more connections than may wait for their headers
-    doors.emplace_back(context).connect(Local::endpoint(options.visitors));
-    const std::string& text = i % 3 == 0   ? oversized
-                              : i % 3 == 1 ? std::string("GET / HTTP/1.1\r\n\r\n")
-                                           : "";
-    std::error_code gone;
-    asio::write(doors.back(), asio::buffer(text), gone);
-  }
-  const std::uint32_t tick = ann.newestTick();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.newestTick() > tick + 200; }));
-  EXPECT_TRUE(ann.joined());
-  EXPECT_EQ(server.counters().joined, 1u);
-  doors.clear();
-  TestClient bob(context, server.port(), from("192.0.2.8:50312", "bob"));
-  EXPECT_TRUE(serveUntil(context, {&ann, &bob}, [&] { return bob.joined() || bob.connection().isOver(); }));
-  EXPECT_TRUE(bob.joined()) << bob.connection().message();
-}
-
 TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   TestServer server(busyWorld(5), options);
   asio::ip::tcp::socket socket(context);
@@ -97,23 +72,6 @@ TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
   EXPECT_LE(heard.size(), 7u) << "a TLS record with an alert";
   EXPECT_TRUE(joins(ann));
   EXPECT_EQ(server.counters().connections, 1u);
-}
-
-TEST_F(VisitorsTest, SessionResumesThroughTheVisitorSocket) {
-  options.grace = 60;
-  TestServer server(busyWorld(5), options);
-  ClientSetup setup = from("192.0.2.7:50312", "ann");
-  setup.sessions = home.sessions();
-  std::uint32_t player = 0;
-  {
-    TestClient ann(context, server.port(), setup);
-    ASSERT_TRUE(joins(ann));
-    player = ann.player();
-  }
-  setup.options.proxy->visitor.port(50400);
-  TestClient again(context, server.port(), setup);
-  ASSERT_TRUE(joins(again));
-  EXPECT_EQ(again.player(), player);
 }
 
 TEST_F(VisitorsTest, MissingVisitorSocketGivesAMessage) {

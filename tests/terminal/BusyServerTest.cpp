@@ -20,11 +20,6 @@ class BusyServerTest : public FakeServerFixture {
       message.mutable_refused()->set_message("Not now, please.");
     });
   }
-  static int count(const std::string& text, const std::string& what) {
-    int found = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-    return found;
-  }
 
   std::shared_ptr<std::atomic<int>> hellos = std::make_shared<std::atomic<int>>(0);
 };
@@ -34,7 +29,7 @@ TEST_F(BusyServerTest, IsRetriedAndItsMessageShownOnce) {
   PtyTerminal terminal(options());
   ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
   EXPECT_EQ(*hellos, 4);
-  EXPECT_EQ(count(terminal.output(), "dfclient: Not now, please. (Retrying; Ctrl-C quits.)"), 1)
+  EXPECT_EQ(countIn(terminal.output(), "dfclient: Not now, please. (Retrying; Ctrl-C quits.)"), 1)
       << terminal.output();
 }
 

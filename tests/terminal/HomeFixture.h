@@ -36,6 +36,13 @@ class HomeFixture : public testing::Test {
     ASSERT_TRUE(m_server->waitFor("Only this machine can join")) << m_server->output();
     m_link = linkIn(m_server->output());
   }
+  /// Checks that ann joins, plays and leaves.
+  void expectPlays(PtyTerminal& ann) {
+    ASSERT_TRUE(m_server->waitFor("\"ann\" joined")) << m_server->output() << ann.output();
+    ASSERT_TRUE(ann.waitFor(" player")) << ann.output();
+    ann.type("\003");
+    expectEnd(ann, 0, "");
+  }
   static void expectEnd(PtyTerminal& program, int code, const std::string& sentence) {
     EXPECT_TRUE(exits(program, code));
     EXPECT_TRUE(has(program.output(), sentence));

@@ -70,11 +70,7 @@ class OwnMain : public HomeFixture {
     EXPECT_TRUE(terminal->waitFor("WALKED-")) << terminal->output();
     return terminal;
   }
-  std::string read(const std::string& file) const {
-    std::ostringstream text;
-    text << std::ifstream(m_home / file).rdbuf();
-    return text.str();
-  }
+  std::string read(const std::string& file) const { return contentOf(m_home / file); }
   static void expectOrderlyEnd(PtyTerminal& game) {
     expectEnd(game, 0, "after the game, walker 1");
     EXPECT_TRUE(sameModes(game.originalModes(), game.currentModes()));

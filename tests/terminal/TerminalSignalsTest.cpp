@@ -86,52 +86,49 @@ class TerminalSignalsTest : public FakeServerFixture {
                                     std::min<std::size_t>(terminal.output().size(), 200));
     EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes())) << attempt;
   }
+  /// Ends clients by signals, each when `reach` has brought it to the right moment.
+  template <class Reach>
+  void endOften(const PtyTerminal::Options& client, Reach reach) {
+    for (int i = 0; i < tries() && !HasFailure(); ++i) {
+      PtyTerminal terminal(client);
+      ASSERT_TRUE(reach(terminal, i)) << terminal.output();
+      EXPECT_NE(endBySignals(terminal, random), -1);
+      expectRestored(terminal, i);
+    }
+  }
 
   std::mt19937 random{4711};
 };
 
 TEST_F(TerminalSignalsTest, SignalsDuringTheGameRestoreTheTerminal) {
-  for (int i = 0; i < tries() && !HasFailure(); ++i) {
-    PtyTerminal terminal(options());
-    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
-    ASSERT_TRUE(terminal.waitFor("\033[>31u"));
-    EXPECT_NE(endBySignals(terminal, random), -1);
-    expectRestored(terminal, i);
-  }
+  endOften(options(), [](PtyTerminal& terminal, int) {
+    return terminal.waitFor("NAIAD-HERE") && terminal.waitFor("\033[>31u");
+  });
 }
 
 // The signals arrive while restore() runs.
 TEST_F(TerminalSignalsTest, SignalsWhileLeavingRestoreTheTerminal) {
-  for (int i = 0; i < tries() && !HasFailure(); ++i) {
-    PtyTerminal terminal(options());
-    ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
+  endOften(options(), [](PtyTerminal& terminal, int attempt) {
+    if (!terminal.waitFor("NAIAD-HERE")) return false;
     // Not Ctrl-C: if the modes are restored before the kernel handles it, the kernel discards the output.
     terminal.type("\x1dq");
-    terminal.read(std::chrono::milliseconds(i % 3));
-    EXPECT_NE(endBySignals(terminal, random), -1);
-    expectRestored(terminal, i);
-  }
+    terminal.read(std::chrono::milliseconds(attempt % 3));
+    return true;
+  });
 }
 
 TEST_F(TerminalSignalsTest, SignalsWhileStartingRestoreTheTerminal) {
-  for (int i = 0; i < tries() && !HasFailure(); ++i) {
-    PtyTerminal terminal(options());
-    ASSERT_TRUE(terminal.waitFor("\033[?1049h")) << terminal.output();
-    EXPECT_NE(endBySignals(terminal, random), -1);
-    expectRestored(terminal, i);
-  }
+  endOften(options(), [](PtyTerminal& terminal, int) { return terminal.waitFor("\033[?1049h"); });
 }
 
 TEST_F(TerminalSignalsTest, SignalsInTheServerMenuRestoreTheTerminal) {
   PtyTerminal::Options chooser = options();
   chooser.command = {programPath("dfclient")};
-  for (int i = 0; i < tries() && !HasFailure(); ++i) {
-    PtyTerminal terminal(chooser);
-    ASSERT_TRUE(terminal.waitFor("\033[?u")) << terminal.output();
-    if (i % 2 == 0) terminal.type("q");  // restores the chooser's terminal while the signals arrive
-    EXPECT_NE(endBySignals(terminal, random), -1);
-    expectRestored(terminal, i);
-  }
+  endOften(chooser, [](PtyTerminal& terminal, int attempt) {
+    if (!terminal.waitFor("\033[?u")) return false;
+    if (attempt % 2 == 0) terminal.type("q");  // restores the chooser's terminal while the signals arrive
+    return true;
+  });
 }
 
 // A common case: Ctrl-Z, then kill. The client ends and the shell keeps its terminal modes.

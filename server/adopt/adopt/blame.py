@@ -2,6 +2,8 @@
 import os
 import re
 
+from .text import named
+
 OURS, THEIRS, OTHER, SYSTEM, UNCLEAR = "Naiad", "the game", "another engine", "another system", "Naiad or the game"
 
 _MISSING_FILE = re.compile(r"^'?(?P<file>[^\s:']+)'?(?:: No such file or directory| file not found)")
@@ -26,16 +28,13 @@ _NETWORK_HEADERS = re.compile(r'#\s*include\s*[<"](winsock2?|ws2tcpip|sys/socket
 _WINDOWS_MAIN = re.compile(r"\b(WINAPI|APIENTRY|w?WinMain)\b")
 NETWORK_SENTENCE = ("it has its own network code, which is not needed here: the whole game runs on the server, and every "
                     "dfclient that joins sees it and presses keys; EventKeyboard::getPlayer() returns the player. Remove these files and the code that uses them")
+_ASK_FOR_ENGINE = "the engine in this folder accepts {}, but Naiad does not: please report it if that is an unchanged published engine"
 _MAIN_ADVICE = "WinMain() exists only on Windows: write int main()"
 
 
 def missing_name(text):
     """Returns the name that is missing according to a compiler message, or None."""
-    for pattern in _NAMED:
-        match = pattern.search(text)
-        if match:
-            return match.group("name")
-    return None
+    return named(_NAMED, text)
 
 
 def missing_file(text):
@@ -48,16 +47,26 @@ class Blame:
 
     with_engine(unit) compiles a unit against the engine headers in the folder and returns its diagnostics, or None if there are
     no such headers or the compilation proves nothing. `own_engine`: the author wrote that engine. `main_code`: code of the
-    program's main file.
+    program's main file. `early`: the sources were written for an engine without namespace df.
     """
 
-    def __init__(self, naiad, own_engine, engine_text, with_engine, main_code=""):
-        self._windows_main = _WINDOWS_MAIN.search(main_code) is not None
+    def __init__(self, naiad, own_engine, engine_text, with_engine, main_code="", early=False):
+        self._windows_main, self._early = _WINDOWS_MAIN.search(main_code) is not None, early
         self._naiad, self._own, self._engine_text, self._with_engine = naiad, own_engine, engine_text, with_engine
-        self._checked = {}
+        self._checked, self._spoiled = {}, {}
 
     def error(self, unit, diagnostic, line=""):
-        """Returns (whose fault, what to do) for a compiler error in this line."""
+        """Returns (whose fault, what to do) for a compiler error in this line. If an earlier line that should have declared the
+        missing name was not the game's fault, neither is this error."""
+        whose, change = self._error(unit, diagnostic, line)
+        name, spoiled = missing_name(diagnostic.text), self._spoiled.setdefault(unit and unit.name, {})
+        if whose == THEIRS and name in spoiled:
+            return spoiled[name], "it follows from an error above"
+        if whose != THEIRS:
+            spoiled.update({word: whose for word in re.findall(r"\w+", line) if word not in spoiled})
+        return whose, change
+
+    def _error(self, unit, diagnostic, line):
         file, name = missing_file(diagnostic.text), missing_name(diagnostic.text)
         if file:
             return self._file(os.path.basename(file.replace("\\", "/")), file)
@@ -66,20 +75,24 @@ class Blame:
         if _WINDOWS_MAIN.search(line):
             return SYSTEM, _MAIN_ADVICE
         published = name and self._is_engines(name, diagnostic.text)
-        if published and not self._naiad.has(name):  # a name without df:: may be the game's own
+        # A function that was called with other arguments exists. A name without df:: may be the game's own.
+        if published and not self._naiad.has(name) and "no matching" not in diagnostic.text:
             return OURS if re.search(r"\bdf\b", diagnostic.text) else UNCLEAR, f"the published engine has {name}, but Naiad does not: please report it"
         if self._is_gone_with_engine(unit, diagnostic, name):
             if self._own:
                 return OTHER, (f"the engine in this folder has {name or 'this'}, but the published engine may not: use "
                                "what Naiad's headers declare")
-            return UNCLEAR, ("the engine in this folder accepts this line, but Naiad does not: please report it if that is an "
-                             "unchanged published engine")
+            return UNCLEAR, _ASK_FOR_ENGINE.format("this line")
         if published and not self._is_member_of_game(diagnostic.text):
             return UNCLEAR, f"Naiad has {name}, but not here or not with these arguments: compare it with the headers, or report it"
         if os.path.isabs(diagnostic.file):
             return UNCLEAR, "look for a macro or a name of the game that changes this header; else report it"
         if name and self._own and re.search(rf"\b{name}\b", self._engine_text):
             return OTHER, f"{name} belongs to the engine in this folder: the published engine does not have it"
+        if name and not self._naiad.has(name) and re.search(rf"\b(?:class|struct|enum)\s+{name}\b|\b{name}\s*[=(]", self._engine_text):
+            return UNCLEAR, _ASK_FOR_ENGINE.format(name)
+        if self._own and any(not self._naiad.has(one) for one in re.findall(r"\bdf\s*::\s*(\w+)", diagnostic.text + line)):
+            return OTHER, "it uses a name of the engine in this folder that the published engine does not have"
         return THEIRS, _advice(diagnostic.text, name)
 
     def _is_engines(self, name, text):
@@ -94,10 +107,12 @@ class Blame:
         return self._naiad.was_published(name)
 
     def _file(self, base, path):
-        if _WINDOWS_HEADERS.match(base) or base.lower() in ("winsock2.h", "ws2tcpip.h", "winsock.h"):
+        if _WINDOWS_HEADERS.match(base):
             return SYSTEM, f"{base} exists only on Windows: remove the code that uses it"
         if _MAC_HEADERS.match(path):
             return SYSTEM, f"{path} exists only on macOS: remove the code that uses it"
+        if re.fullmatch(r"(?:.*/)?n?curses\.h", path):
+            return OTHER, "only engines before 3.0, which are not supported, draw with curses"
         if re.fullmatch(r"[a-z_]+", path):
             return SYSTEM, f"<{path}> is a header of the standard library that this compiler lacks: use a newer one (--cxx)"
         if self._naiad.was_published(base):
@@ -130,6 +145,8 @@ class Blame:
             if self._windows_main:
                 return SYSTEM, _MAIN_ADVICE
             return THEIRS, "no file of the program has a main()"
+        if self._early and any(map(self._naiad.header_of, parts)):
+            return OTHER, f"{plain} belongs to an engine without namespace df"
         if "df" in parts[:1] or (len(parts) > 1 and self._naiad.header_of(parts[-2]) and not self._own):
             if self._own:
                 return OTHER, f"{plain} belongs to the engine in this folder"

@@ -51,7 +51,7 @@ class EngineCopies:
     """Finds the `files` of the copy that belong to an engine.
 
     `own`: the files include sources of an engine, so the author wrote that engine and it may differ from the published one.
-    `without_namespace`: no file uses namespace df.
+    `core_folders`: the folders of those sources. `without_namespace`: no file uses namespace df.
     """
 
     def __init__(self, root, code_files, published):
@@ -59,7 +59,7 @@ class EngineCopies:
         known = published_stems(published)
         core = [name for name in code_files if is_source(name) and stem(name) in CORE]
         self.own = len({stem(name) for name in core}) >= 3
-        self._core_folders = {os.path.dirname(name) for name in core}
+        self.core_folders = {os.path.dirname(name) for name in core}
         brings_network = not self.own and any(is_source(name) and NETWORK.match(stem(name)) for name in code_files)
         candidates = [name for name in code_files if stem(name) in known and not (brings_network and NETWORK.match(stem(name)))]
         headers = [name for name in candidates if not is_source(name) and self._is_engines_header(name, texts[name])]
@@ -80,7 +80,7 @@ class EngineCopies:
         if stem(name) in games:
             return False
         member = re.compile(r"\bdf\s*::\s*" + re.escape(stem(name)) + r"\s*::", re.I)
-        return os.path.dirname(name) in self._core_folders or _OPENS_DF.search(text) is not None or member.search(text) is not None
+        return os.path.dirname(name) in self.core_folders or _OPENS_DF.search(text) is not None or member.search(text) is not None
 
     @staticmethod
     def _read(root, name):

@@ -26,8 +26,8 @@ BUILD_SECONDS = 7200  # time limit for building; the compiler gets 900 seconds o
 DESCRIPTION = """\
 Builds and runs a game written for the published Dragonfly engine (4.2 to 4.25), or reports what prevents it.
 
-FOLDER is only read. The program changes a private copy: it leaves out copies of the engine, corrects the case of file names and
-lines that only other compilers accept. It compiles the copy with Naiad's headers, links it with Naiad's library, and starts it as
+FOLDER is only read. The program changes a private copy: it leaves out copies of the engine, and corrects lines that only other
+compilers accept and the case of file names. It compiles the copy with Naiad's headers, links it with Naiad's library, and starts it as
 a server, where a player presses random keys. Makefiles and project files are read, never run. The game runs in a sandbox without
 a network and cannot write outside it.
 """

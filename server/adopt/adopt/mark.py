@@ -102,7 +102,7 @@ def _parser():
     parser = argparse.ArgumentParser(prog="dragonfly-mark", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", metavar="FOLDER", help="a folder that contains a folder for each game")
-    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="how long to play each game (default 10)")
+    parser.add_argument("--seconds", metavar="N", type=float, default=10.0, help="seconds to play each game (default 10)")
     parser.add_argument("--players", metavar="N", type=int, default=2, help="number of players in each game, 1 to 16 (default 2)")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of the random key presses (default 1)")
     parser.add_argument("--keys", metavar="SCRIPT", help="press these keys instead: a script, or a file with one, as for dfbot --script")

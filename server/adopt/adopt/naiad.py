@@ -5,7 +5,7 @@ import subprocess
 
 from .text import code_only
 
-_DECLARED = re.compile(r"^\s*(?:template\s*<[^>]*>\s*)?(?:class|struct|enum(?:\s+class)?)\s+(\w+)", re.M)
+_DECLARED = re.compile(r"^(?:\s*(?:template\s*<[^>]*>\s*)?(?:class|struct|enum(?:\s+class)?)|using(?=\s+\w+\s*=))\s+(\w+)", re.M)
 _FUNCTION = re.compile(r"^(?=[\w\[])(?:\[\[nodiscard\]\] )?(?:inline |constexpr |const |extern |static )*"
                        r"[\w:<>,*& ]+?[ *&](\w+)\s*[(={;]", re.M)
 _SCOPED = re.compile(r"\benum\s+class\s+(\w+)[^{;]*\{([^}]*)\}")
@@ -25,23 +25,31 @@ class Installation:
             self._index(header)
 
     def _index(self, header):
-        # Most headers only undefine the game's one-letter macros and include the header of their name in text/.
-        inner = os.path.join(self.include, "text", header)
-        with open(inner if os.path.exists(inner) else os.path.join(self.include, header), encoding="utf-8") as file:
-            text = code_only(file.read())
-        self._words.update(re.findall(r"\w+", text))
-        if "namespace df" not in text:
-            return
+        # Most headers only undefine the game's one-letter macros and include the header of their name in text/. Some declare
+        # published names in a file of detail/.
+        text = self._read(os.path.join("text", header)) or self._read(header)
+        details = "\n".join(self._read(name) for name in re.findall(r'#include "(detail/\w+\.h)"', text))
+        text, details = code_only(text), code_only(details)
+        self._words.update(re.findall(r"\w+", text + details))
         for pattern in (_DECLARED, _FUNCTION):
-            for name in pattern.findall(text):
-                if name not in _NOT_NAMES:
-                    self._where.setdefault(name, header)
+            for part in [text] * ("namespace df" in text) + [details]:
+                for name in pattern.findall(part):
+                    if name in self.published or (part is text and name not in _NOT_NAMES):
+                        self._where.setdefault(name, header)
         for scope, names in _SCOPED.findall(text):
             for name in re.findall(r"(\w+)\s*(?:=[^,]*)?(?:,|$)", names):
                 self._scoped.setdefault(name, set()).add(scope)
         own = os.path.splitext(header)[0]
         if own in self._where:
             self._where[own] = header
+
+    def _read(self, header):
+        """Returns the text of an installed header; "" if it does not exist."""
+        try:
+            with open(os.path.join(self.include, header), encoding="utf-8") as file:
+                return file.read()
+        except OSError:
+            return ""
 
     def header_of(self, name):
         """Returns the header that declares a name of namespace df, or None."""

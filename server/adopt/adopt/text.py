@@ -36,6 +36,11 @@ def _without_dead(code):
     return "".join(parts) + code[begin:]
 
 
+def named(patterns, text):
+    """Returns the group "name" of the first of these patterns that the text has, or None."""
+    return next((match.group("name") for pattern in patterns if (match := pattern.search(text))), None)
+
+
 def shown(text, most=160):
     """Makes untrusted text safe to print on a terminal: one line, no control characters, at most `most` characters."""
     text = "".join(character if character.isprintable() else f"\\x{ord(character) & 0xff:02x}" for character in text)

@@ -3,6 +3,7 @@ import re
 
 from .compiler import Diagnostic
 from .folder import is_source
+from .text import named
 
 _NAME = r"'(?:df::)?(?P<name>\w+)(?:<[^']*>)?'"
 _UNKNOWN = [re.compile(pattern) for pattern in (
@@ -13,6 +14,7 @@ _NOT_IN_DF = [re.compile(pattern) for pattern in (
     r"no (?:type|member) named '(?P<name>\w+)' in namespace 'df'",
     r"'df::(?P<name>\w+)' has not been declared", r"incomplete type '(?:class |struct |const )*df::(?P<name>\w+)'",
     r"'(?:class |struct |const )*df::(?P<name>\w+)[ \w]*' has (?:initializer but )?incomplete type")]
+_UNKNOWN_PARAMETER = re.compile(r"expected '\)' before '\w+'|expected constructor, destructor, or type conversion before '\('")  # of a constructor
 _CONFLICT = re.compile(r"conflicting return type specified for 'virtual (?P<type>.+?) (?:\w+::)*"
                        r"(?P<class>\w+)::(?P<name>\w+)\(")
 _CLANG_CONFLICT = re.compile(r"function '(?P<name>\w+)' has a different return type \('(?P<type>.+?)'\) than the function it overrides "
@@ -35,6 +37,9 @@ _LINES = [(re.compile(message), re.compile(pattern), after, why) for message, pa
     (r"need 'typename' before|missing 'typename' prior", r"\0", "typename ", "missing typename; only MSVC accepts it"),
     (r"duplicate '(?:const|volatile)'", r"\0(?:const|volatile)\s*", "", "const or volatile twice; only MSVC accepts it"),
     (r"invalid use of non-static member function", r"((?:\w+\s*::\s*)+)\0", r"&\1", "missing & before a member function; only MSVC accepts it"),
+    (r"invalid operands .*'float'\)?(?: to binary|$)", r"\0%(?!=)", "%(int)", "coordinates were int in engines up to 4.1"),
+    (r"invalid operands .*'float'", r"((?:\w+(?:\([^()]*\))?(?:\.|->))*\w+(?:\([^()]*\))?\s*)\0%(?!=)", r"(int)\1%",
+     "coordinates were int in engines up to 4.1"),
     (r"non-const lvalue reference", r"(?<!&)&(\s*\w+\s*=[^;]*)\0", r"&&\1", "a temporary object for a reference that is not const; only MSVC accepts it"))]
 _NO_TEMPORARY = re.compile(r"non-const lvalue reference of type '(?:\w+::)*(\w+)&'")
 _ARGUMENT = re.compile(r"initializing argument \d+ of '.*?(\w+)\(")
@@ -80,7 +85,7 @@ class Treatments:
         lines = {}
         for diagnostic in sorted(unit.diagnostics, key=lambda one: (one.file, one.line, -one.column)):
             place = diagnostic.file, diagnostic.line
-            is_name = any(pattern.search(diagnostic.text) for pattern in _UNKNOWN)
+            is_name = named(_UNKNOWN, diagnostic.text) is not None
             if place in touched or (place in lines and not (is_name and lines[place])):
                 continue
             before = [(one.file, one.line, one.after) for one in self.changes]
@@ -131,14 +136,10 @@ class Treatments:
                 self.changes.append(Change(diagnostic.file, diagnostic.line, "void draw()", "-DDF_DRAW=void",
                                            "draw() returns nothing, as in the earliest engines; this option suits all of them"))
             return True
-        done = False
-        declared = rf"\b{re.escape(old)}(\s+(?:{match.group('class')}\s*::\s*)?{name}\s*\()"
-        for file, number, found in list(self._sources.find(declared)):
-            if file == diagnostic.file and number == diagnostic.line or f"{match.group('class')}" in found.group():
-                place = type(diagnostic)(file, number, 1, "error", "", "")
-                line = re.sub(declared, goal + r"\1", self._sources.line(file, number), count=1)
-                done |= self._edit(place, line, f"must return the type of the engine's {name}()")
-        return done
+        place, owner = (diagnostic.file, diagnostic.line), match.group("class")
+        return self._elsewhere(rf"\b{re.escape(old)}(\s+(?:{owner}\s*::\s*)?{name}\s*\()", goal + r"\1",
+                               f"must return the type of the engine's {name}()",
+                               lambda file, number, found: (file, number) == place or owner in found.group())
 
     def _clang_return_type(self, diagnostic):
         """Like _return_type(), for clang, whose message names no class. Changes the declaration; a later message, the definition."""
@@ -172,11 +173,11 @@ class Treatments:
         """Includes the header of a name that other compilers or engines include indirectly."""
         if not diagnostic.is_error:
             return False
-        for pattern in _NOT_IN_DF:
-            match = pattern.search(diagnostic.text)
-            if match:
-                return self._force(unit, diagnostic, self._naiad.header_of(match.group("name"))) or \
-                    self._scope(diagnostic, match.group("name"))
+        if name := named(_NOT_IN_DF, diagnostic.text):
+            return self._force(unit, diagnostic, self._naiad.header_of(name)) or self._scope(diagnostic, name)
+        if _UNKNOWN_PARAMETER.search(diagnostic.text):
+            names = re.findall(r"\bdf\s*::\s*(\w+)", self._sources.line(diagnostic.file, diagnostic.line))
+            return any([self._force(unit, diagnostic, self._naiad.header_of(name)) for name in names])
         hint = next((found for _, text, _ in diagnostic.notes if (found := _FORGOT.search(text))), None)
         return bool(hint) and self._force(unit, diagnostic, hint.group("header") or hint.group("known"))
 
@@ -204,12 +205,10 @@ class Treatments:
         before, behind = self._at(diagnostic)
         if "expected class-name before" in diagnostic.text:
             return self._bases(diagnostic, before)
-        for pattern in _UNKNOWN:
-            match = pattern.search(diagnostic.text)
-            if match and self._is_engines(match.group("name")) and re.match(rf"{match.group('name')}\b", behind) \
-                    and not re.search(r"(::|\.|->)\s*$", before):
-                return self._edit(diagnostic, before + "df::" + behind, "missing df:: before a name of the engine")
-        return False
+        name = named(_UNKNOWN, diagnostic.text)
+        if not name or not self._is_engines(name) or not re.match(rf"{name}\b", behind) or re.search(r"(::|\.|->)\s*$", before):
+            return False
+        return self._edit(diagnostic, before + "df::" + behind, "missing df:: before a name of the engine")
 
     def _is_engines(self, name):
         """Returns whether a name without df:: can be the engine's: the engine has it, and the game has no class of that name."""
@@ -253,9 +252,9 @@ class Treatments:
                 return self._edit(diagnostic, pattern.sub(after, line, count=1).replace("\0", ""), why)
         return False
 
-    def _elsewhere(self, pattern, after, why):
-        """Changes the lines of the sources that match a pattern. Returns whether there was one."""
-        places = [(file, number) for file, number, _ in self._sources.find(pattern)]
+    def _elsewhere(self, pattern, after, why, fits=lambda file, number, match: True):
+        """Changes the lines of the sources that match a pattern and fit. Returns whether there was one."""
+        places = [one[:2] for one in self._sources.find(pattern) if fits(*one)]
         return any([self._edit(Diagnostic(file, number, 1, "error", "", ""),
                                re.sub(pattern, after, self._sources.line(file, number), count=1), why)
                     for file, number in places])

@@ -19,7 +19,7 @@ class Verdicts:
     def __init__(self, game, building):
         self._game, self._building, self._report = game, building, game.report
         self._blame = Blame(game.naiad, game.engine.own, self._engine_text(), self._against_engine,
-                            game.sources.code(game.program.main) if game.program else "")
+                            game.sources.code(game.program.main) if game.program else "", game.engine.without_namespace)
 
     def say(self, built):
         """Writes the rows of a build. `built`: whether the build succeeded."""
@@ -56,9 +56,11 @@ class Verdicts:
         for name in self._game.engine.files:
             if not is_source(name):
                 count[os.path.dirname(name)] = count.get(os.path.dirname(name), 0) + 1
-        if not count or max(count.values()) < WHOLE_ENGINE:
+        # The author's own engine is preferred to a larger copy of the published one.
+        folder = max(self._game.engine.core_folders & set(count) or count, key=count.get, default="")
+        if count.get(folder, 0) < WHOLE_ENGINE:
             return None
-        return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, max(count, key=count.get)))
+        return self._building.compiler.check_with(unit, os.path.join(self._game.engine_tree, folder))
 
     def _report_treated(self):
         for file, line, before, after, why in self._building.includes[:MAX_ROWS]:

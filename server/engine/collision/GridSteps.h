@@ -23,7 +23,7 @@ namespace df {
 /// store's arrays must not be reallocated, because their addresses are kept in members.
 class Grid::Steps {
  public:
-  /// found() lists all touching slots if they are at most `most`, else more than `most` of them.
+  /// found() lists all touching slots if there are at most `most`, else only some, but more than `most`.
   explicit Steps(Grid& grid, std::size_t most = kAll);
   ~Steps() { m_grid.m_mover_stats.nine_cells += m_nine_cells; }
   Steps(const Steps&) = delete;

@@ -159,10 +159,10 @@ void Config::reportUnknownKeys() {
       if (!before.empty()) world.log().writeOnce("Configuration: a comma is missing before " + key);
       const std::vector<std::string>& known = settings().known_keys;
       if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-      const std::string near = naiad::nearestName(key, known);
+      const std::string near = naiad::suggestion(key, known);
       if (near.empty() && world.program() == nullptr) continue;
-      world.log().writeOnce("Configuration: there is no key \"" + key + '"' +
-                            (near.empty() ? "" : "; did you mean " + near + "?"));
+      std::string problem = "Configuration: there is no key \"" + key + '"';
+      world.log().writeOnce(problem += near);
     }
   }
 }

@@ -63,6 +63,13 @@ class DisplayManager : public Manager {
   /// Draws a UTF-8 string, one character per cell. Returns 0, or -1 with no effect if drawCh() would do so.
   int drawString(Vector world_pos, const std::string& str, Justification just = LEFT_JUSTIFIED,
                  Color color = COLOR_DEFAULT) const;
+  /// Draws a frame, as published engines up to 4.20 name it (newer ones: Frame::draw()). `world_pos` is the
+  /// frame's centre if `centered`, else its top left character. Returns what Frame::draw() returns.
+  int drawFrame(Vector world_pos, const Frame& frame, bool centered, Color color = COLOR_DEFAULT,
+                char transparent = 0) const {
+    const Vector half((frame.getWidth() - 1) / 2.0f, (frame.getHeight() - 1) / 2.0f);
+    return frame.draw(centered ? world_pos : world_pos + half, color, transparent);
+  }
 
   /// Size of the window, and so of every view, in cells: 20 to 400 by 10 to 150. Set it before GM.run(). A
   /// boundary that was never set gets this size, too. setSize() returns 0, or -1 for a size out of range.

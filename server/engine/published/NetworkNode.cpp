@@ -29,18 +29,11 @@ int NetworkNode::eventHandler(const Event* p_e) {
   if (p_e->getType() != NETWORK_EVENT) return 0;
   const auto* p_network = dynamic_cast<const EventNetwork*>(p_e);
   if (p_network == nullptr) return 0;
-  switch (p_network->getLabel()) {
-    case NetworkEventLabel::ACCEPT:
-      return handleAccept(p_network);
-    case NetworkEventLabel::CONNECT:
-      return handleConnect(p_network);
-    case NetworkEventLabel::CLOSE:
-      return handleClose(p_network);
-    case NetworkEventLabel::DATA:
-      return handleData(p_network);
-    default:
-      return 0;
-  }
+  const NetworkEventLabel label = p_network->getLabel();
+  if (label == NetworkEventLabel::ACCEPT) return handleAccept(p_network);
+  if (label == NetworkEventLabel::CONNECT) return handleConnect(p_network);
+  if (label == NetworkEventLabel::CLOSE) return handleClose(p_network);
+  return label == NetworkEventLabel::DATA ? handleData(p_network) : 0;
 }
 
 int NetworkNode::sendMessage(MessageType /*msg_type*/, int sock) {

@@ -157,17 +157,6 @@ void expectSizes(const Lines& lines, const Header& header) {
   if (!header.height) lines.fail("height is missing");
 }
 
-std::unique_ptr<Sprite> newSprite(const Header& header) {
-  auto sprite = std::make_unique<Sprite>(*header.frames);
-  sprite->setWidth(*header.width);
-  sprite->setHeight(*header.height);
-  sprite->setColor(header.color);
-  sprite->setSlowdown(header.slowdown);
-  sprite->setNeverStill(header.p_warnings != nullptr);
-  sprite->setTransparency(header.transparency);
-  return sprite;
-}
-
 void readFrame(Lines& lines, Sprite& sprite) {
   const auto width = static_cast<std::size_t>(sprite.getWidth());
   std::string characters;
@@ -182,17 +171,29 @@ void readFrame(Lines& lines, Sprite& sprite) {
   sprite.addFrame(Frame(sprite.getWidth(), sprite.getHeight(), std::move(characters)));
 }
 
+/// Makes the sprite and reads its frames. `has_ends`: a line "end" follows each of them.
+std::unique_ptr<Sprite> readFrames(Lines& lines, const Header& header, bool has_ends = true) {
+  auto sprite = std::make_unique<Sprite>(*header.frames);
+  sprite->setWidth(*header.width);
+  sprite->setHeight(*header.height);
+  sprite->setColor(header.color);
+  sprite->setSlowdown(header.slowdown);
+  sprite->setNeverStill(header.p_warnings != nullptr);
+  sprite->setTransparency(header.transparency);
+  for (int i = 0; i < *header.frames; ++i) {
+    readFrame(lines, *sprite);
+    if (has_ends) lines.expect("end");
+  }
+  return sprite;
+}
+
 std::unique_ptr<Sprite> readWithHeader(Lines& lines, Header header) {
   lines.expect("<HEADER>");
   while (lines.peekWord() != "</HEADER>") parseField(lines, header, lines.nextWord("\"</HEADER>\""));
   lines.expect("</HEADER>");
   expectSizes(lines, header);
   lines.expect("<BODY>");
-  auto sprite = newSprite(header);
-  for (int i = 0; i < *header.frames; ++i) {
-    readFrame(lines, *sprite);
-    lines.expect("end");
-  }
+  auto sprite = readFrames(lines, header);
   lines.expect("</BODY>");
   if (lines.peekWord().empty()) return sprite;  // a footer is optional, and nothing in it is used
   lines.expect("<FOOTER>");
@@ -217,11 +218,7 @@ std::unique_ptr<Sprite> readOld(Lines& lines, Header header) {
   };
   while (!isBlankRow() && isField(lines.peekWord())) parseField(lines, header, lines.nextWord("a field"));
   expectSizes(lines, header);
-  auto sprite = newSprite(header);
-  for (int i = 0; i < *header.frames; ++i) {
-    readFrame(lines, *sprite);
-    lines.expect("end");
-  }
+  auto sprite = readFrames(lines, header);
   if (!lines.peekWord().empty()) lines.expect("eof");
   return sprite;
 }
@@ -236,9 +233,7 @@ std::unique_ptr<Sprite> readSimple(Lines& lines, Header header) {
   header.height = number("height", kMaxSpriteSide);
   parseSlowdown(lines, header, lines.nextWord("slowdown"));
   header.color = toColor(lines, lines.nextWord("a color"));
-  auto sprite = newSprite(header);
-  for (int i = 0; i < *header.frames; ++i) readFrame(lines, *sprite);
-  return sprite;
+  return readFrames(lines, header, false);
 }
 
 std::unique_ptr<Sprite> readAny(Lines& lines, const Header& header) {

@@ -6,8 +6,8 @@
 //
 // The server's report on a room is an input of the world, like a key press; the server sends another when the
 // room has changed. The order to move a player is part of the world's output. The player leaves this world a
-// tick or two later, with an EventLeave, and joins the other room as a new player. The server may refuse
-// because the room is full or the player's client is too old. Then it tells the player, and they stay.
+// tick or two later, with an EventLeave, and joins the other room as a new player. The server may refuse, for
+// example because the room is full; then it tells the player, and they stay. It drops too frequent orders.
 //
 // Without dfserver's --room, the list of rooms is empty. In tests it is empty until the test adds rooms.
 #pragma once

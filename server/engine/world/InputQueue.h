@@ -54,7 +54,8 @@ class InputQueue {
   // Functions for hosts. Inputs are handled in the next tick.
 
   /// Lets a player join. Returns the new id at once; the next tick makes the Player and sends the EventJoin.
-  /// Ids count up from 1 and are not reused; those below `id` are skipped.
+  /// Ids count up from 1, and those below `id` are skipped. An id is used once, unless its player leaves and
+  /// joins again in one tick.
   std::uint32_t join(const std::string& name, Color color, std::uint32_t id = 0);
   /// Lets a player leave in the next tick, which ignores an unknown id.
   void leave(std::uint32_t player);

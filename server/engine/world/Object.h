@@ -128,6 +128,11 @@ class Object {
   virtual DF_SETTER setVelocity(Vector new_velocity);
   /// Returns the vector that WM.update() adds to the position.
   Vector getVelocity() const;
+  /// Components of the velocity, as published engines up to 4.1 have them.
+  void setXVelocity(float x) { setVelocity(Vector(x, getVelocity().getY())); }
+  void setYVelocity(float y) { setVelocity(Vector(getVelocity().getX(), y)); }
+  float getXVelocity() const { return getVelocity().getX(); }
+  float getYVelocity() const { return getVelocity().getY(); }
   /// Vector that WM.update() adds to the velocity after each move, blocked or not (position first, with the
   /// old velocity): `setAcceleration(Vector(0, 0.02))` is gravity. Speed and direction follow. A velocity
   /// that would leave its range stays as it is. setAcceleration() returns 0, else -1.

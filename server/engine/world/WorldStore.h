@@ -70,7 +70,7 @@ struct ObjectFlags {
   };
 };
 
-/// Kinds of turns that Objects take in update(), one bit for each entry of the creation order: entry i has
+/// Properties of Objects that update() tests, with one bit for each entry of the creation order: entry i has
 /// bit i % 64 of word i / 64, so that 64 Objects are tested at a time.
 struct UpdateMasks {
   using Words = std::vector<std::uint64_t>;
@@ -359,7 +359,7 @@ class WorldStore : public ObjectFlags {
   bool m_watched = false;
   std::vector<Slot> m_dirty;
   std::vector<ObjectKey> m_vanished;
-  std::unordered_map<Slot, Mask> m_masks;  // masks set by setMask(), of few Objects
+  std::unordered_map<Slot, Mask> m_masks;  // masks set by setMask(); few Objects have one
   std::unordered_map<Slot, std::shared_ptr<const naiad::Look>> m_frames;
   bool m_all_swept = false;
   bool m_boxes_off = false;  // see hasBoxesOffPosition()

@@ -139,7 +139,7 @@ bool WorldStore::isBlockedAt(const FixedBox& target, Slot mover, std::span<const
 }
 
 // Returns whether a move happens, given some of the Objects that it touches. Returns nullopt if the mover or
-// one of all that it touches has a handler, if any Object is precise, or if the mover may move out of others.
+// any Object that it touches has a handler, if any Object is precise, or if the mover may move out of others.
 // Without handlers nothing changes during the move, so one Object that blocks decides.
 std::optional<bool> WorldStore::moveWithoutHandlers(Slot mover, const FixedBox& target,
                                                     std::span<const Slot> some) const {

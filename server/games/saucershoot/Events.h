@@ -1,5 +1,5 @@
-// The game's own events. Parts of the game communicate by them, without using each other's classes: they
-// register interest in them, as in the engine's events.
+// The game's own events. Its parts register interest in them, as in the engine's events, so they need not
+// know each other's classes.
 #pragma once
 
 #include <cstdint>

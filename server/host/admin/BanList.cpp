@@ -183,34 +183,31 @@ const Ban* BanSet::findName(const std::vector<std::string>& skeletons, Ban::Time
 }
 
 struct BanList::File {
+  struct Change {
+    Ban ban;
+    bool is_removal;
+  };
   BanStore store;
-  std::vector<Ban> unwritten;  ///< bans that could not be written
+  std::vector<Change> unwritten;  ///< oldest first; failed ones are tried again
 
   explicit File(const std::filesystem::path& path) : store(path) {}
 
-  void save(const Ban& ban) {
-    std::erase_if(unwritten, [&ban](const Ban& other) { return other.isSameTarget(ban); });
-    try {
-      store.save(ban);
-    } catch (const BanFileError&) {
-      unwritten.push_back(ban);
-      throw;
+  void write() {
+    for (; !unwritten.empty(); unwritten.erase(unwritten.begin())) {
+      const Change& next = unwritten.front();
+      next.is_removal ? store.erase(next.ban) : store.save(next.ban);
     }
   }
-  void erase(const Ban& ban) {
-    std::erase_if(unwritten, [&ban](const Ban& other) { return other.isSameTarget(ban); });
-    store.erase(ban);
-  }
   std::vector<Ban> load() {
-    for (const Ban& ban : std::vector<Ban>(unwritten)) save(ban);
+    write();
     return store.load();
   }
 };
 
-BanList::BanList(AdminWorker& worker, const std::filesystem::path& folder)
+BanList::BanList(JobThread& worker, const std::filesystem::path& folder)
     : BanList(worker, folder, wholeSeconds) {}
 
-BanList::BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock)
+BanList::BanList(JobThread& worker, const std::filesystem::path& folder, Clock clock)
     : m_worker(worker), m_clock(std::move(clock)) {
   if (folder.empty()) return;
   m_file = std::make_shared<File>(folder / "bans.sqlite3");
@@ -250,19 +247,16 @@ void BanList::replace(std::vector<Ban> bans) {
 
 // Expired bans are removed from memory only. In the file they stay until a new ban with the same target
 // replaces them, which saves writes.
-bool BanList::add(Ban ban, Saved saved) {
+bool BanList::add(const std::vector<Ban>& added, Saved saved) {
   std::vector<Ban> bans = currentSet()->all();
-  std::erase_if(bans, [&ban, present = m_clock()](const Ban& other) {
-    return other.isSameTarget(ban) || other.isExpired(present);
+  std::erase_if(bans, [&added, present = m_clock()](const Ban& other) {
+    return other.isExpired(present) ||
+           std::ranges::any_of(added, [&other](const Ban& ban) { return other.isSameTarget(ban); });
   });
-  if (bans.size() >= kMaxBans) return false;
-  bans.push_back(ban);
+  bans.insert(bans.end(), added.begin(), added.end());
+  if (bans.size() > kMaxBans) return false;
   replace(std::move(bans));
-  if (!ban.persistent) {
-    saved("");
-    return true;
-  }
-  save([ban](File& file) { file.save(ban); }, std::move(saved));
+  added.front().persistent ? save(added, false, std::move(saved)) : saved("");
   return true;
 }
 
@@ -271,14 +265,9 @@ std::size_t BanList::remove(const std::string& text, Saved saved) {
   std::vector<Ban> lifted;
   for (const Ban& ban : currentSet()->all()) (names(text, ban) ? lifted : kept).push_back(ban);
   if (lifted.empty()) return 0;
-  const std::size_t count = lifted.size();
   replace(std::move(kept));
-  save(
-      [lifted](File& file) {
-        for (const Ban& ban : lifted) file.erase(ban);
-      },
-      std::move(saved));
-  return count;
+  save(lifted, true, std::move(saved));
+  return lifted.size();
 }
 
 bool BanList::reload(Loaded loaded) {
@@ -301,12 +290,13 @@ void BanList::replaceAll(std::vector<Ban> bans) {
   replace(std::move(bans));
 }
 
-void BanList::save(std::function<void(File&)> change, Saved saved) {
+void BanList::save(const std::vector<Ban>& bans, bool is_removal, Saved saved) {
   if (!m_file) return saved(kNoFile);
-  const bool given = m_worker.enqueue([file = m_file, change = std::move(change), saved] {
+  const bool given = m_worker.enqueue([file = m_file, bans, is_removal, saved] {
+    for (const Ban& ban : bans) file->unwritten.push_back({ban, is_removal});
     std::string problem;
     try {
-      change(*file);
+      file->write();
     } catch (const BanFileError& error) {
       problem = error.what();
     }

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/admin/AdminWorker.h"
 #include "host/store/StateFile.h"
 #include "shared/net/base/AddressRange.h"
+#include "shared/program/JobThread.h"
 
 namespace naiad {
 
@@ -125,8 +125,8 @@ class BanList {
 
   /// Uses the file bans.sqlite3 in `folder`. If `folder` is empty, there is no file, and bans end with the
   /// server. Throws BanFileError.
-  BanList(AdminWorker& worker, const std::filesystem::path& folder, Clock clock);
-  BanList(AdminWorker& worker, const std::filesystem::path& folder);
+  BanList(JobThread& worker, const std::filesystem::path& folder, Clock clock);
+  BanList(JobThread& worker, const std::filesystem::path& folder);
   ~BanList();
 
   /// True if a ban applies to this address now. Any thread; takes a microsecond.
@@ -139,28 +139,29 @@ class BanList {
   /// Number of calls for which isBanned() returned true.
   std::uint64_t count() const { return m_hits; }
 
-  /// Adds a ban, replacing one for which isSameTarget() is true, and removes expired ones. Returns false, and
-  /// does not call `saved`, if there are kMaxBans others already.
-  bool add(Ban ban, Saved saved);
+  /// Adds bans, replacing those for which isSameTarget() is true, and removes expired ones. Returns false,
+  /// adds none, and does not call `saved`, if there would be more than kMaxBans. Saves them if the first one
+  /// is persistent.
+  bool add(const std::vector<Ban>& added, Saved saved);
   /// Removes the bans named by this text: #NUMBER, name:NAME, NAME, an address or a range. Returns the number
   /// removed; if that is 0, does not call `saved`.
   std::size_t remove(const std::string& text, Saved saved);
   /// Called on the worker's thread with the bans in the file, or the reason why it cannot be written or read.
   using Loaded = std::function<void(std::vector<Ban> bans, const std::string& problem)>;
-  /// Writes the bans that could not be written, then reads the file. False if there is no file or too many
+  /// Makes the changes that could not be written, then reads the file. False if there is no file or too many
   /// jobs wait for the disk.
   bool reload(Loaded loaded);
   /// Replaces the persistent bans; all others stay.
   void replaceAll(std::vector<Ban> bans);
 
  private:
-  /// The ban file, and the bans that could not be written to it yet. Used by the worker's jobs.
+  /// The ban file, and the changes that could not be written to it yet. Used by the worker's jobs.
   struct File;
 
   void replace(std::vector<Ban> bans);
-  void save(std::function<void(File&)> change, Saved saved);
+  void save(const std::vector<Ban>& bans, bool is_removal, Saved saved);
 
-  AdminWorker& m_worker;
+  JobThread& m_worker;
   Clock m_clock;
   std::shared_ptr<File> m_file;  ///< shared with the worker's jobs; null: no file
   mutable std::mutex m_mutex;    ///< guards m_set

@@ -486,7 +486,7 @@ std::string Admission::moveSession(Session& session, const std::string& room, bo
   m_setup.rooms.leaveRoom(session);
   const auto color = static_cast<df::Color>(session.welcomed().color());
   wire::Welcome welcome = session.welcomed();
-  const std::uint32_t player = newPlayer();
+  const std::uint32_t player = newPlayerId();
   p_to->join(player, session.name(), color);
   welcome.set_player(player);
   describeRoom(*p_to, welcome);
@@ -522,7 +522,7 @@ df::Color Admission::freeColor(std::uint32_t player) const {
 }
 
 // Returns an id above all that the worlds have used: a world gives a new player no lower one.
-std::uint32_t Admission::newPlayer() {
+std::uint32_t Admission::newPlayerId() {
   m_setup.rooms.forEachRoom([this](const Room& room) {
     m_newest_player = std::max(m_newest_player, room.round().highestPlayer());
   });
@@ -531,7 +531,7 @@ std::uint32_t Admission::newPlayer() {
 
 // Adds a player of this name to the room's world, and returns their welcome.
 wire::Welcome Admission::welcomeTo(Room& room, const std::string& name) {
-  const std::uint32_t player = newPlayer();
+  const std::uint32_t player = newPlayerId();
   const df::Color color = freeColor(player);
   ++m_counters.joined;
   room.join(player, name, color);

@@ -44,7 +44,7 @@ class Admission {
 
   /// Returns why a client with this address and name is banned, as a sentence; empty if it is not.
   using FindBan = std::function<std::string(const asio::ip::address& address, const std::string& name)>;
-  void setBans(FindBan find_ban) { m_find_ban = std::move(find_ban); }
+  void setBanCheck(FindBan find_ban) { m_find_ban = std::move(find_ban); }
   /// Returns a link to another server with free places, or to a room of it; nullopt if none is known.
   using FindRedirect = std::function<std::optional<JoinLink>()>;
   void setFindRedirect(FindRedirect find_redirect) { m_find_redirect = std::move(find_redirect); }
@@ -115,7 +115,7 @@ class Admission {
   void forEachPlayer(Visit visit) const;
   std::string freeName(const std::string& wanted) const;
   df::Color freeColor(std::uint32_t player) const;
-  std::uint32_t newPlayer();
+  std::uint32_t newPlayerId();
   wire::Welcome welcomeTo(Room& room, const std::string& name);
   std::unique_ptr<SealedChannel> openDatagrams(const Session& session, const wire::Hello& hello) const;
 

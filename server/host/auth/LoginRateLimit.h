@@ -57,7 +57,7 @@ class LoginRateLimit {
 
  private:
   struct PrefixFailures {
-    std::optional<Time> since;  ///< first try of the window
+    std::optional<Time> since;  ///< time of the first try in the window; nullopt: no try yet
     int wrong = 0;
     int in_progress = 0;
   };

@@ -5,16 +5,13 @@
 #include <asio/execution/outstanding_work.hpp>
 #include <asio/post.hpp>
 #include <asio/prefer.hpp>
-#include <condition_variable>
-#include <deque>
 #include <map>
-#include <mutex>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "host/auth/LoginRateLimit.h"
 #include "host/auth/PasswordQueue.h"
+#include "shared/program/JobThread.h"
 
 namespace naiad {
 namespace {
@@ -30,75 +27,12 @@ struct Secret {
 
 }  // namespace
 
-/// The thread and its jobs.
-class PasswordCheck::Worker {
- public:
-  struct Job {
-    std::unique_ptr<Secret> password;
-    /// Called on the worker's thread; nullopt: not enough memory to compare.
-    std::function<void(std::optional<bool> right)> report;
-  };
-
-  explicit Worker(PasswordHash hash)
-      : hash_(std::make_shared<const PasswordHash>(std::move(hash))), thread_([this] { run(); }) {}
-  ~Worker() {
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-    }
-    wake_.notify_one();
-    thread_.join();
-  }
-
-  void setHash(PasswordHash hash) {
-    auto fresh = std::make_shared<const PasswordHash>(std::move(hash));
-    const std::lock_guard lock(mutex_);
-    hash_.swap(fresh);
-  }
-  void enqueue(Job job) {
-    {
-      const std::lock_guard lock(mutex_);
-      jobs_.push_back(std::move(job));
-    }
-    wake_.notify_one();
-  }
-
- private:
-  void run() {
-    std::unique_lock lock(mutex_);
-    for (;;) {
-      wake_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-      if (stopping_) return;
-      const Job job = std::move(jobs_.front());
-      jobs_.pop_front();
-      const auto hash = hash_;
-      lock.unlock();
-      job.report(compare(*hash, job.password->text));
-      lock.lock();
-    }
-  }
-  static std::optional<bool> compare(const PasswordHash& hash, const std::string& password) {
-    try {
-      return hash.matches(password);
-    } catch (const PasswordError&) {
-      return std::nullopt;
-    }
-  }
-
-  std::shared_ptr<const PasswordHash> hash_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<Job> jobs_;
-  bool stopping_ = false;
-  std::thread thread_;  // last, because it uses the others
-};
-
 /// The owner's side, with all callbacks, which the worker never touches, copies or destroys. Jobs posted by
 /// the worker hold a weak pointer to this object, so they do nothing after its end.
 struct PasswordCheck::State : std::enable_shared_from_this<State> {
-  State(asio::any_io_executor executor, const Limits& with_limits, Worker& with_worker)
+  State(asio::any_io_executor executor, PasswordHash with_hash, const Limits& limits, JobThread& with_worker)
       : owner(std::move(executor)),
-        limits(with_limits),
+        hash(std::make_shared<const PasswordHash>(std::move(with_hash))),
         worker(with_worker),
         queue(limits.queue - 1, limits.prefixes),
         tries(limits.wrong_per_window, limits.window, limits.prefixes) {}
@@ -106,15 +40,15 @@ struct PasswordCheck::State : std::enable_shared_from_this<State> {
   using Time = LoginRateLimit::Time;
 
   asio::any_io_executor owner;
-  Limits limits;
-  Worker& worker;
+  std::shared_ptr<const PasswordHash> hash;
+  JobThread& worker;
   PasswordQueue queue;
   LoginRateLimit tries;
   Counters counters;
   struct Guess {
     AddressPrefix from;
     Time at;
-    std::unique_ptr<Secret> password;  // null while the worker has it
+    std::shared_ptr<const Secret> password;
     std::function<void(Answer)> done;
   };
   std::map<PasswordQueue::Id, Guess> guesses;  // guesses that have no answer yet
@@ -152,12 +86,17 @@ void PasswordCheck::State::compareNext() {
   if (!comparing) return;
   // Keeps the owner's loop running while an answer is still to come.
   auto executor = asio::prefer(owner, asio::execution::outstanding_work.tracked);
-  worker.enqueue({std::move(guesses.at(*id).password),
-                  [weak = weak_from_this(), id = *id, executor](std::optional<bool> right) {
-                    asio::post(executor, [weak, id, right] {
-                      if (const auto state = weak.lock()) state->onCompared(id, right);
-                    });
-                  }});
+  worker.enqueue(
+      [weak = weak_from_this(), id = *id, executor, now = hash, password = guesses.at(*id).password] {
+        std::optional<bool> right;  // nullopt: not enough memory to compare
+        try {
+          right = now->matches(password->text);
+        } catch (const PasswordError&) {
+        }
+        asio::post(executor, [weak, id, right] {
+          if (const auto state = weak.lock()) state->onCompared(id, right);
+        });
+      });
 }
 
 void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> right) {
@@ -170,14 +109,16 @@ void PasswordCheck::State::onCompared(PasswordQueue::Id id, std::optional<bool> 
 }
 
 PasswordCheck::PasswordCheck(asio::any_io_executor owner, PasswordHash hash, Limits limits)
-    : worker_(std::make_unique<Worker>(std::move(hash))),
-      state_(std::make_shared<State>(std::move(owner), limits, *worker_)) {}
+    : worker_(std::make_unique<JobThread>()),
+      state_(std::make_shared<State>(std::move(owner), std::move(hash), limits, *worker_)) {
+  worker_->enqueue([] {});  // starts the thread now, because later it might fail
+}
 
 PasswordCheck::~PasswordCheck() = default;
 
 void PasswordCheck::check(const AddressPrefix& from, bool known, std::string password,
                           std::chrono::steady_clock::time_point now, std::function<void(Answer)> done) {
-  auto secret = std::make_unique<Secret>(std::move(password));
+  auto secret = std::make_shared<const Secret>(std::move(password));
   if (secret->text.empty() || secret->text.size() > kMaxPassword) {
     ++state_->counters.malformed;
     return state_->answerLater(Answer::kWrong, std::move(done));
@@ -195,7 +136,7 @@ void PasswordCheck::check(const AddressPrefix& from, bool known, std::string pas
 }
 
 void PasswordCheck::setHash(PasswordHash hash) {
-  worker_->setHash(std::move(hash));
+  state_->hash = std::make_shared<const PasswordHash>(std::move(hash));
 }
 
 const PasswordCheck::Counters& PasswordCheck::counters() const {

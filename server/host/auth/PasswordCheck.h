@@ -17,6 +17,8 @@
 
 namespace naiad {
 
+class JobThread;
+
 /// Thread: that of `owner`, except for the worker inside. May be destroyed at any time, also in its own
 /// callback. The destructor waits for the guess in progress; no callback is called afterwards.
 class PasswordCheck {
@@ -61,8 +63,7 @@ class PasswordCheck {
 
  private:
   struct State;
-  class Worker;
-  std::unique_ptr<Worker> worker_;
+  std::unique_ptr<JobThread> worker_;
   std::shared_ptr<State> state_;  // uses the worker
 };
 

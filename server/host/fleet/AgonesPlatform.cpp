@@ -4,16 +4,15 @@
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 #include <atomic>
-#include <charconv>
 #include <condition_variable>
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "host/fleet/AgonesRequestScheduler.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/http/HttpExchange.h"
 #include "shared/program/ProcessSetup.h"
 
@@ -27,11 +26,8 @@ constexpr std::chrono::seconds kWatchAgain{1};
 std::uint16_t portOf(std::uint16_t given) {
   if (given != 0) return given;
   const char* p_text = std::getenv("AGONES_SDK_HTTP_PORT");
-  if (p_text == nullptr) return AgonesPlatform::kDefaultPort;
-  std::uint16_t port = 0;
-  const char* p_end = p_text + std::strlen(p_text);
-  const auto [p_read, error] = std::from_chars(p_text, p_end, port);
-  return error == std::errc() && p_read == p_end && port != 0 ? port : AgonesPlatform::kDefaultPort;
+  return readNumber<std::uint16_t>(p_text != nullptr ? p_text : "", 1, 65'535)
+      .value_or(AgonesPlatform::kDefaultPort);
 }
 
 HttpRequest asHttp(const SidecarRequest& request) {
@@ -39,27 +35,6 @@ HttpRequest asHttp(const SidecarRequest& request) {
   if (!request.body.empty()) http.fields.emplace_back("Content-Type", "application/json");
   return http;
 }
-
-/// Splits an endless response into lines.
-class LineReader {
- public:
-  using Handler = std::function<void(const std::string& line)>;
-  explicit LineReader(Handler on_line) : m_on_line(std::move(on_line)) {}
-
-  /// Adds received bytes. Returns false if a line is longer than any that a sidecar sends.
-  bool take(std::string_view piece) {
-    m_text.append(piece);
-    for (std::size_t end = m_text.find('\n'); end != std::string::npos; end = m_text.find('\n')) {
-      m_on_line(m_text.substr(0, end));
-      m_text.erase(0, end + 1);
-    }
-    return m_text.size() <= GameServerInfo::kMaxBytes;
-  }
-
- private:
-  Handler m_on_line;
-  std::string m_text;
-};
 
 }  // namespace
 
@@ -152,9 +127,15 @@ void AgonesPlatform::Loop::work() {
 
 /// Sends GET /watch/gameserver. The response is endless and has a line for each change.
 void AgonesPlatform::Loop::watch() {
-  const auto lines = std::make_shared<LineReader>([this](const std::string& text) {
-    if (const auto facts = GameServerInfo::parse(text, true)) handleFacts(*facts);
-  });
+  // Returns false if a line is longer than any that a sidecar sends.
+  const auto take = [this, text = std::string()](std::string_view piece) mutable {
+    text.append(piece);
+    for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
+      if (const auto facts = GameServerInfo::parse(text.substr(0, end), true)) handleFacts(*facts);
+      text.erase(0, end + 1);
+    }
+    return text.size() <= GameServerInfo::kMaxBytes;
+  };
   const auto end = [this](const HttpExchange::Result&) {
     watch_timer.expires_after(kWatchAgain);
     watch_timer.async_wait([this](const std::error_code& error) {
@@ -163,8 +144,7 @@ void AgonesPlatform::Loop::watch() {
   };
   const HttpRequest request{.target = "/watch/gameserver", .host = "localhost"};
   std::make_shared<HttpExchange>(context, HttpLimits{.body = HttpLimits::kUnlimited})
-      ->run(sidecar, request, kRequestTimeout, end,
-            [lines](std::string_view piece) { return lines->take(piece); });
+      ->run(sidecar, request, kRequestTimeout, end, take);
 }
 
 void AgonesPlatform::Loop::handleFacts(const GameServerInfo& facts) {

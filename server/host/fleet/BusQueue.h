@@ -21,9 +21,8 @@ namespace naiad {
 /// thread-safe.
 class BusInbox {
  public:
-  static constexpr std::size_t kMaxSubjects =
-      4096;  ///< maximum number of subjects; messages of further ones are ignored
-  static constexpr std::size_t kMaxSubject = 128;  ///< maximum length of a subject, in bytes
+  static constexpr std::size_t kMaxSubjects = 4096;  ///< messages of further subjects are ignored
+  static constexpr std::size_t kMaxSubject = 128;    ///< maximum length of a subject, in bytes
   /// A subject is known until this many calls of popAll() in a row find no message of it.
   static constexpr int kMaxIdlePops = 64;
 
@@ -66,21 +65,18 @@ class BusQueue {
  public:
   /// Adds a message. If it may be lost (no id), it replaces an older one with its subject.
   void push(BusMessage message) {
-    if (!message.id.empty()) {
-      m_reliable.push_back(std::move(message));
-      if (m_reliable.size() <= Bus::kMaxReliable) return;
-      m_reliable.pop_front();
-      ++m_dropped;
-      return;
-    }
-    std::erase_if(m_best_effort, [&](const BusMessage& other) { return other.subject == message.subject; });
-    m_best_effort.push_back(std::move(message));
-    if (m_best_effort.size() <= Bus::kMaxBestEffort) return;
-    m_best_effort.pop_front();
+    const bool is_reliable = !message.id.empty();
+    std::deque<BusMessage>& queue = is_reliable ? m_reliable : m_best_effort;
+    if (!is_reliable)
+      std::erase_if(queue, [&](const BusMessage& other) { return other.subject == message.subject; });
+    queue.push_back(std::move(message));
+    if (queue.size() <= (is_reliable ? Bus::kMaxReliable : Bus::kMaxBestEffort)) return;
+    queue.pop_front();
     ++m_dropped;
   }
   bool hasBestEffort() const { return !m_best_effort.empty(); }
   bool hasReliable() const { return !m_reliable.empty(); }
+  bool isEmpty() const { return m_reliable.empty() && m_best_effort.empty(); }
   BusMessage popBestEffort() {
     BusMessage message = std::move(m_best_effort.front());
     m_best_effort.pop_front();

@@ -30,7 +30,7 @@ struct PlatformCounters {
 };
 
 /// Thread: the host's, except for finish(). Only finish() blocks. Losing the platform does not affect
-/// players.
+/// players. This class itself ignores all reports, for a server without a platform.
 class HostPlatform {
  public:
   using Clock = std::chrono::steady_clock;
@@ -38,13 +38,13 @@ class HostPlatform {
   virtual ~HostPlatform() = default;
 
   /// Reports that the server listens, or that a reload is done.
-  virtual void notifyReady() = 0;
+  virtual void notifyReady() {}
   /// Reports that the settings are being reloaded.
   virtual void notifyReloading(Clock::time_point /*now*/) {}
   /// Reports a tick that has ended, begun at `now`. The platform may end a server that reports none.
-  virtual void notifyTick(Clock::time_point now) = 0;
+  virtual void notifyTick(Clock::time_point /*now*/) {}
   /// Reports the players. Called once a second.
-  virtual void notifyPlayers(const PlatformPlayers& players) = 0;
+  virtual void notifyPlayers(const PlatformPlayers& /*players*/) {}
   /// Reports that the server accepts no more players and is about to end.
   virtual void notifyStopping() {}
   /// Reports the end after the players' goodbyes. Waits for `timeout` at most until it is sent. Any thread.
@@ -57,14 +57,6 @@ class HostPlatform {
   /// Returns a new log line, or "".
   virtual std::string popLogMessage() { return ""; }
   virtual PlatformCounters counters() const { return {}; }
-};
-
-/// No platform: ignores all reports.
-class NoPlatform : public HostPlatform {
- public:
-  void notifyReady() override {}
-  void notifyTick(Clock::time_point /*now*/) override {}
-  void notifyPlayers(const PlatformPlayers& /*players*/) override {}
 };
 
 }  // namespace naiad

@@ -22,13 +22,12 @@ namespace naiad {
 namespace {
 
 constexpr std::chrono::seconds kConnectAgain{1};
-constexpr std::chrono::milliseconds kPollInterval{
-    250};                             ///< interval of checks for messages and a lost connection
+constexpr std::chrono::milliseconds kPollInterval{250};  ///< checks for messages and a lost connection
 constexpr int kTimeoutMillis = 2000;  ///< timeout of connecting, of writing and of acknowledgements
 constexpr int kPingMillis = 5000;
-constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if so many are not answered
-/// After this time without a message, the bus is asked for an answer. If none comes within the same time, the
-/// bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
+constexpr int kMaxPings = 2;  ///< a connection is closed at the next ping if this many are not answered
+/// After this time without a message, the bus is asked for an answer. If none comes within this time again,
+/// the bus counts as disconnected, although its connection may recover. Servers without a heartbeat for 6 s
 /// expire, so both together are well below that.
 constexpr std::chrono::seconds kMaxQuiet{1};
 constexpr std::chrono::seconds kCloseTimeout{10};
@@ -37,16 +36,15 @@ constexpr const char* kConnectedNews = "the bus is connected";
 constexpr int kMaxPendingBytes = 64 << 20;
 constexpr std::size_t kMaxReceiveBatch = 512;  ///< messages taken from a subscription before sending again
 
-template <class T, void (*Destroy)(T*)>
+template <auto Destroy>
 struct NatsDeleter {
-  void operator()(T* p_thing) const { Destroy(p_thing); }
+  void operator()(auto* p_thing) const { Destroy(p_thing); }
 };
-using Options = std::unique_ptr<natsOptions, NatsDeleter<natsOptions, natsOptions_Destroy>>;
-using Connection = std::unique_ptr<natsConnection, NatsDeleter<natsConnection, natsConnection_Destroy>>;
-using JetStream = std::unique_ptr<jsCtx, NatsDeleter<jsCtx, jsCtx_Destroy>>;
-using Subscription =
-    std::unique_ptr<natsSubscription, NatsDeleter<natsSubscription, natsSubscription_Destroy>>;
-using Message = std::unique_ptr<natsMsg, NatsDeleter<natsMsg, natsMsg_Destroy>>;
+using Options = std::unique_ptr<natsOptions, NatsDeleter<natsOptions_Destroy>>;
+using Connection = std::unique_ptr<natsConnection, NatsDeleter<natsConnection_Destroy>>;
+using JetStream = std::unique_ptr<jsCtx, NatsDeleter<jsCtx_Destroy>>;
+using Subscription = std::unique_ptr<natsSubscription, NatsDeleter<natsSubscription_Destroy>>;
+using Message = std::unique_ptr<natsMsg, NatsDeleter<natsMsg_Destroy>>;
 
 /// Turns off the library's reconnects, which would buffer unsent messages: NatsBus has bounded queues.
 Options optionsOf(const BusSettings& settings) {
@@ -102,8 +100,7 @@ class NatsBus : public Bus {
   }
   void finish(std::chrono::milliseconds timeout) override {
     std::unique_lock lock(m_mutex);
-    m_sent.wait_for(lock, timeout,
-                    [this] { return !m_connected || (!m_queue.hasReliable() && !m_queue.hasBestEffort()); });
+    m_sent.wait_for(lock, timeout, [this] { return !m_connected || m_queue.isEmpty(); });
   }
   BusCounters counters() const override {
     const std::lock_guard lock(m_mutex);
@@ -126,13 +123,19 @@ class NatsBus : public Bus {
     std::int64_t lost = 0;  ///< lost messages of this subscription that are counted
   };
 
+  /// Calls a function of the library, which may take long, without the lock.
+  static auto unlocked(Lock& lock, const auto& call) {
+    lock.unlock();
+    auto result = call();
+    lock.lock();
+    return result;
+  }
+
   void run() {
     Lock lock(m_mutex);
     while (!m_stopping) {
-      lock.unlock();
       natsStatus status = NATS_ERR;
-      const Connection connection = connect(status);
-      lock.lock();
+      const Connection connection = unlocked(lock, [&] { return connect(status); });
       onConnectionChange(connection != nullptr, status);
       if (connection) {
         std::vector<ReceivedSubject> subjects = subscribe(*connection);
@@ -185,12 +188,11 @@ class NatsBus : public Bus {
 
   /// Asks the bus for an answer, and sets whether it counts as connected. Called with the lock held.
   void checkAnswer(natsConnection& connection, Lock& lock) {
-    lock.unlock();
-    const bool answers =
-        natsConnection_FlushTimeout(&connection, std::chrono::milliseconds(kMaxQuiet).count()) == NATS_OK;
-    lock.lock();
-    m_connected = answers;
-    logOnce(answers ? kConnectedNews : "warning: the bus does not answer");
+    m_connected = unlocked(lock, [&] {
+      return natsConnection_FlushTimeout(&connection, std::chrono::milliseconds(kMaxQuiet).count()) ==
+             NATS_OK;
+    });
+    logOnce(m_connected ? kConnectedNews : "warning: the bus does not answer");
   }
 
   /// Sends and receives until the connection is lost or the bus stops.
@@ -198,34 +200,26 @@ class NatsBus : public Bus {
     jsCtx* p_made = nullptr;
     natsConnection_JetStream(&p_made, &connection, nullptr);
     const JetStream stream(p_made);
-    auto not_before = std::chrono::steady_clock::now();
+    using Clock = std::chrono::steady_clock;
+    auto not_before = Clock::now();
     auto answered = not_before;
     while (!m_stopping && natsConnection_Status(&connection) == NATS_CONN_STATUS_CONNECTED) {
       const std::uint64_t received = m_inbox.received();
       const bool is_flooded = receive(subjects, lock);
       if (m_inbox.received() > received) {
-        answered = std::chrono::steady_clock::now();
+        answered = Clock::now();
         m_connected = true;
-      } else if (std::chrono::steady_clock::now() - answered > kMaxQuiet) {
+      } else if (Clock::now() - answered > kMaxQuiet) {
         checkAnswer(connection, lock);
-        answered = std::chrono::steady_clock::now();
+        answered = Clock::now();
       }
-      const bool may_keep = stream && m_queue.hasReliable() && std::chrono::steady_clock::now() >= not_before;
-      if (m_queue.hasBestEffort()) {
-        const BusMessage message = m_queue.popBestEffort();
-        lock.unlock();
-        const bool sent = natsConnection_Publish(&connection, message.subject.c_str(), message.payload.data(),
-                                                 static_cast<int>(message.payload.size())) == NATS_OK;
-        lock.lock();
+      const bool has_best_effort = m_queue.hasBestEffort();
+      if (has_best_effort || (stream && m_queue.hasReliable() && Clock::now() >= not_before)) {
+        const BusMessage message = has_best_effort ? m_queue.popBestEffort() : m_queue.frontReliable();
+        const bool sent = unlocked(lock, [&] { return send(connection, stream.get(), message); });
         ++(sent ? m_counters.published : m_counters.failures);
-      } else if (may_keep) {
-        const BusMessage message = m_queue.frontReliable();
-        lock.unlock();
-        const bool arrived = keep(*stream, message);
-        lock.lock();
-        ++(arrived ? m_counters.published : m_counters.failures);
-        if (arrived) m_queue.ackReliable(message.id);
-        if (!arrived) not_before = std::chrono::steady_clock::now() + kConnectAgain;
+        if (sent) m_queue.ackReliable(message.id);
+        if (!sent && !has_best_effort) not_before = Clock::now() + kConnectAgain;
       } else {
         m_sent.notify_all();
         if (!is_flooded) m_wake.wait_for(lock, kPollInterval);
@@ -250,17 +244,18 @@ class NatsBus : public Bus {
   bool receive(std::vector<ReceivedSubject>& subjects, Lock& lock) {
     bool is_full = false;
     for (ReceivedSubject& subject : subjects) {
-      std::vector<Message> messages;
-      lock.unlock();
-      natsStatus status = NATS_OK;
-      while (messages.size() < kMaxReceiveBatch && (status == NATS_OK || status == NATS_SLOW_CONSUMER)) {
-        natsMsg* p_taken = nullptr;
-        status = natsSubscription_NextMsg(&p_taken, subject.subscription.get(), 0);
-        if (status == NATS_OK) messages.emplace_back(p_taken);
-      }
       std::int64_t lost = subject.lost;
-      natsSubscription_GetDropped(subject.subscription.get(), &lost);
-      lock.lock();
+      const std::vector<Message> messages = unlocked(lock, [&] {
+        std::vector<Message> batch;
+        natsStatus status = NATS_OK;
+        while (batch.size() < kMaxReceiveBatch && (status == NATS_OK || status == NATS_SLOW_CONSUMER)) {
+          natsMsg* p_taken = nullptr;
+          status = natsSubscription_NextMsg(&p_taken, subject.subscription.get(), 0);
+          if (status == NATS_OK) batch.emplace_back(p_taken);
+        }
+        natsSubscription_GetDropped(subject.subscription.get(), &lost);
+        return batch;
+      });
       is_full = is_full || messages.size() == kMaxReceiveBatch;
       if (lost != subject.lost) logOnce("warning: messages of the bus were lost, because too many arrived");
       m_counters.lost += static_cast<std::uint64_t>(lost - std::exchange(subject.lost, lost));
@@ -273,15 +268,19 @@ class NatsBus : public Bus {
     return is_full;
   }
 
-  /// Returns true if JetStream has stored the message, now or at an earlier attempt.
-  static bool keep(jsCtx& stream, const BusMessage& message) {
+  /// Sends a message. Returns true if it was sent; for a reliable one, if JetStream has stored it, now or at
+  /// an earlier attempt.
+  static bool send(natsConnection& connection, jsCtx* p_stream, const BusMessage& message) {
+    const char* const p_subject = message.subject.c_str();
+    const auto size = static_cast<int>(message.payload.size());
+    if (message.id.empty())
+      return natsConnection_Publish(&connection, p_subject, message.payload.data(), size) == NATS_OK;
     jsPubOptions options;
     jsPubOptions_Init(&options);
     options.MaxWait = kTimeoutMillis;
     options.MsgId = message.id.c_str();
     jsErrCode code{};
-    return js_Publish(nullptr, &stream, message.subject.c_str(), message.payload.data(),
-                      static_cast<int>(message.payload.size()), &options, &code) == NATS_OK;
+    return js_Publish(nullptr, p_stream, p_subject, message.payload.data(), size, &options, &code) == NATS_OK;
   }
 
   const BusSettings m_settings;

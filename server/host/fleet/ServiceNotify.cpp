@@ -4,13 +4,13 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
 
+#include "shared/net/base/SafeText.h"
 #include "shared/program/LogText.h"
 
 namespace naiad {
@@ -35,19 +35,11 @@ int connectedTo(std::string_view path) {
   return -1;
 }
 
-std::optional<std::int64_t> numberIn(const char* p_text) {
-  if (p_text == nullptr) return std::nullopt;
-  const char* p_end = p_text + std::strlen(p_text);
-  std::int64_t number = 0;
-  const auto [p_read, error] = std::from_chars(p_text, p_end, number);
-  return error == std::errc() && p_read == p_end ? std::optional(number) : std::nullopt;
-}
-
 std::optional<std::chrono::microseconds> keepAliveTimeOf(const ServiceNotify::Variable& variable) {
-  const auto within = numberIn(variable("WATCHDOG_USEC"));
+  const char* p_time = variable("WATCHDOG_USEC");
   const char* p_process = variable("WATCHDOG_PID");
-  if (!within || *within < 2 || (p_process != nullptr && numberIn(p_process) != getpid()))
-    return std::nullopt;
+  const auto within = readNumber<std::int64_t>(p_time != nullptr ? p_time : "", 2, INT64_MAX);
+  if (!within || (p_process != nullptr && !readNumber(p_process, getpid(), getpid()))) return std::nullopt;
   return std::chrono::microseconds(*within / 2);
 }
 
@@ -70,7 +62,10 @@ bool ServiceNotify::send(const std::string& text) const {
   return isActive() && ::send(m_socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 
-void ServiceNotify::notifyStatus(const std::string& line) {
+void ServiceNotify::notifyPlayers(const PlatformPlayers& players) {
+  const std::size_t playing = players.ids.size();
+  const std::string line =
+      players.address + ", " + std::to_string(playing) + (playing == 1 ? " player" : " players");
   if (!isActive() || line == m_status) return;
   if (send("STATUS=" + oneLine(line))) m_status = line;
 }
@@ -80,11 +75,7 @@ void ServiceNotify::notifyReloading(Clock::time_point now) {
   send("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(micros.count()));
 }
 
-void ServiceNotify::extendTimeout(std::chrono::microseconds more) {
-  send("EXTEND_TIMEOUT_USEC=" + std::to_string(more.count()));
-}
-
-void ServiceNotify::keepAlive(Clock::time_point now) {
+void ServiceNotify::notifyTick(Clock::time_point now) {
   if (!m_keep_alive || (m_kept_alive && now - *m_kept_alive < *m_keep_alive)) return;
   if (send("WATCHDOG=1")) m_kept_alive = now;
 }

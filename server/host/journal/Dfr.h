@@ -59,6 +59,11 @@ inline constexpr std::uint32_t kDfrDone = dfrType("DONE");
 
 /// Names and values of META chunks. A later chunk adds to earlier ones.
 using DfrFacts = std::map<std::string, std::string>;
+/// Returns a fact; empty if it is missing.
+inline std::string factOf(const DfrFacts& facts, const std::string& name) {
+  const auto found = facts.find(name);
+  return found != facts.end() ? found->second : std::string();
+}
 inline constexpr std::size_t kMaxDfrFacts = 1024;
 inline constexpr std::size_t kMaxDfrName = 300;
 inline constexpr std::size_t kMaxDfrValue = 16'384;

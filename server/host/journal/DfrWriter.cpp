@@ -53,19 +53,22 @@ std::string encodeDfrChunk(std::uint32_t type, std::string_view payload) {
 }
 
 std::string encodeDfrMeta(const DfrFacts& facts) {
-  std::string payload;
-  ByteWriter out(payload);
-  out.varint(std::min(facts.size(), kMaxDfrFacts));
+  std::string entries;
+  ByteWriter out(entries);
   std::size_t count = 0;
   for (const auto& [name, value] : facts) {
-    if (count++ == kMaxDfrFacts) break;
+    constexpr std::size_t kMaxEntry = kMaxDfrName + kMaxDfrValue + 16;  // with the sizes, and `count`
+    if (count == kMaxDfrFacts || entries.size() + kMaxEntry > kMaxDfrPayload) break;
+    ++count;
     for (const std::string_view part :
          {std::string_view(name).substr(0, kMaxDfrName), std::string_view(value).substr(0, kMaxDfrValue)}) {
       out.varint(part.size());
       out.bytes(part);
     }
   }
-  return encodeDfrChunk(kDfrMeta, std::string_view(payload).substr(0, kMaxDfrPayload));
+  std::string payload;
+  ByteWriter(payload).varint(count);
+  return encodeDfrChunk(kDfrMeta, payload + entries);
 }
 
 std::string encodeDfrDone(std::string_view why) {

@@ -15,8 +15,8 @@ std::string encodeDfrHeader(const DfrHeader& header);
 /// Returns one chunk. `payload` has at most kMaxDfrPayload bytes.
 std::string encodeDfrChunk(std::uint32_t type, std::string_view payload);
 
-/// Returns a META chunk. Long names and values are truncated, facts beyond kMaxDfrFacts dropped. All facts
-/// together must fit into kMaxDfrPayload.
+/// Returns a META chunk. Long names and values are truncated, facts beyond kMaxDfrFacts or kMaxDfrPayload
+/// dropped.
 std::string encodeDfrMeta(const DfrFacts& facts);
 
 /// Returns a DONE chunk. `why` says how the round ended.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "host/journal/DfrReader.h"
 #include "host/journal/DfrWriter.h"
@@ -52,10 +53,30 @@ bool isNameOfRound(const std::string& name) {
          name.find('/') == std::string::npos;
 }
 
+/// The rounds in a folder.
+struct Rounds {
+  std::set<std::string> uuids;
+  std::vector<std::pair<fs::path, DfrHeader>> files;
+};
+
+Rounds roundsIn(const fs::path& folder) {
+  Rounds rounds;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::error_code ignored;
+    if (entry.path().extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
+    const auto header = headerOf(entry.path());
+    if (!header) continue;
+    rounds.uuids.insert(uuidText(header->uuid));
+    rounds.files.emplace_back(entry.path(), *header);
+  }
+  return rounds;
+}
+
 /// Creates the round files that killed servers had not created yet. Existing rounds are left alone. Adds a
 /// line to `said` for each file that cannot be created.
-void beginFiles(const fs::path& folder, const std::set<std::string>& rounds, std::vector<std::string>& said) {
-  for (const OrphanedRing& ring : OrphanedRing::findWithoutFile(ringFolder(folder), rounds)) {
+void beginFiles(const fs::path& folder, std::vector<std::string>& said) {
+  for (const OrphanedRing& ring : OrphanedRing::findWithoutFile(ringFolder(folder), roundsIn(folder).uuids)) {
     const auto beginning = ring.beginning();
     if (!beginning || !isNameOfRound(beginning->name)) continue;
     const fs::path path = folder / beginning->name;
@@ -75,40 +96,22 @@ void beginFiles(const fs::path& folder, const std::set<std::string>& rounds, std
   }
 }
 
-/// Returns the uuids of the rounds in a folder.
-std::set<std::string> roundsIn(const fs::path& folder) {
-  std::set<std::string> rounds;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    std::error_code ignored;
-    if (entry.path().extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
-    if (const auto header = headerOf(entry.path())) rounds.insert(uuidText(header->uuid));
-  }
-  return rounds;
-}
-
 }  // namespace
 
 std::vector<std::string> salvageRounds(const std::string& folder, const std::set<std::string>& left) {
   std::vector<std::string> said;
-  beginFiles(folder, roundsIn(folder), said);
-  std::set<std::string> rounds;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    std::error_code ignored;
-    const fs::path& path = entry.path();
-    if (path.extension() != ".dfr" || !entry.is_regular_file(ignored)) continue;
-    const auto header = headerOf(path);
-    if (header) rounds.insert(uuidText(header->uuid));
-    const auto ring = header ? OrphanedRing::find(header->uuid) : std::nullopt;
+  beginFiles(folder, said);
+  const Rounds rounds = roundsIn(folder);
+  for (const auto& [path, header] : rounds.files) {
+    const auto ring = OrphanedRing::find(header.uuid);
     if (!ring) continue;
     const auto result = complete(path, *ring);
     if (!result) continue;  // retried at the next start
     ring->remove();
-    if (left.contains(uuidText(header->uuid))) continue;
+    if (left.contains(uuidText(header.uuid))) continue;
     said.push_back("the previous server was killed in the round " + path.string() + "; " + *result);
   }
-  removeStrayRings(ringFolder(folder), rounds);
+  removeStrayRings(ringFolder(folder), rounds.uuids);
   return said;
 }
 

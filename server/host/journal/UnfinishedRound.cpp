@@ -24,19 +24,16 @@ std::string bytesOf(const std::string& path) {
 
 }  // namespace
 
-UnfinishedRound::UnfinishedRound(std::string path) : m_path(std::move(path)) {
+UnfinishedRound::UnfinishedRound(std::string path) {
   std::error_code ignored;
-  m_written_at = std::filesystem::last_write_time(m_path, ignored);
-  readAll(bytesOf(m_path));
+  const auto written_at = std::filesystem::last_write_time(path, ignored);
+  readAll(bytesOf(path));
+  m_path = std::move(path);
+  m_written_at = written_at;
 }
 
 UnfinishedRound::UnfinishedRound(const DfrHeader& header, std::string_view records) {
   readAll(encodeDfrHeader(header) + encodeDfrTurns(records, 0));
-}
-
-std::string UnfinishedRound::fact(const std::string& name) const {
-  const auto found = m_facts.find(name);
-  return found != m_facts.end() ? found->second : std::string();
 }
 
 // A file may end in the middle of a record, whose rest was in the next chunk. The journal then continues
@@ -56,19 +53,12 @@ void UnfinishedRound::readAll(std::string_view bytes) {
   m_facts = reader.facts();
   m_over = reader.end() == DfrEnd::kDone;
   if (m_over || m_whole_bytes == reader.wholeBytes()) {
-    m_position.emplace(reader.releasePosition());
+    m_position = std::make_unique<JournalPosition>(reader.releasePosition());
     return;
   }
-  m_turns = 0;
-  m_last_turn = {};
-  m_has_last_result = false;
-  m_records.clear();
-  m_sessions.clear();
-  m_players.clear();
-  m_highest_player = 0;
-  m_held_keys.clear();
-  m_rooms.clear();
-  readAll(bytes.substr(0, m_whole_bytes));
+  const std::string_view whole = bytes.substr(0, m_whole_bytes);
+  *this = UnfinishedRound();
+  readAll(whole);
 }
 
 void UnfinishedRound::recordTurn(const WorldTurn& turn) {

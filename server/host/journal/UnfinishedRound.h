@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -34,7 +34,7 @@ class UnfinishedRound {
   const DfrHeader& header() const { return m_header; }
   const DfrFacts& facts() const { return m_facts; }
   /// Returns a fact; empty if the file does not have it.
-  std::string fact(const std::string& name) const;
+  std::string fact(const std::string& name) const { return factOf(m_facts, name); }
   bool isOver() const { return m_over; }
 
   /// Returns the number of bytes up to the end of the file's last chunk that ends with a whole record.
@@ -63,9 +63,10 @@ class UnfinishedRound {
   std::vector<df::InputQueue::Input> closingInputs() const;
 
   /// Returns the state for appending to the journal. May be called once.
-  JournalPosition releasePosition() { return std::move(*std::exchange(m_position, std::nullopt)); }
+  JournalPosition releasePosition() { return std::move(*std::exchange(m_position, nullptr)); }
 
  private:
+  UnfinishedRound() = default;
   void readAll(std::string_view bytes);
   void recordTurn(const WorldTurn& turn);
   void recordInput(const df::InputQueue::Input& input);
@@ -86,7 +87,7 @@ class UnfinishedRound {
   std::uint32_t m_highest_player = 0;
   std::set<std::pair<std::uint32_t, int>> m_held_keys;  ///< held keys, by player
   std::map<std::string, df::GameRoom> m_rooms;          ///< rooms that the world knows, by name
-  std::optional<JournalPosition> m_position;
+  std::unique_ptr<JournalPosition> m_position;
 };
 
 }  // namespace naiad

@@ -299,12 +299,12 @@ void Host::logEnd() const {
     const std::string text = listCounters(samplesOf(counters));
     if (!text.empty()) m_context->log(what + ": " + text);
   };
-  const NetworkThread& network = m_endpoint->network();
+  const NetworkCounters network = m_endpoint->network().latestCounters();
   log("passwords", m_clients->admission().passwordCounters());
-  log("streams", network.streamCounters());
-  log("visitors' socket", network.visitorCounters());
-  log("between the threads", network.counters());
-  if (network.hasDatagrams()) log("datagrams", network.gateCounters());
+  log("streams", network.streams);
+  log("visitors' socket", network.visitors);
+  log("between the threads", network.relay);
+  log("datagrams", network.gate);
 }
 
 void Host::stop(const std::string& sentence) {

@@ -66,7 +66,7 @@ class HostEndpoint {
   /// Uses this key and certificate for new connections.
   void setIdentity(ServerIdentity identity);
   /// Drops connections for which `is_banned`, called on the network thread, is true. Call before start().
-  void setBans(std::function<bool(const asio::ip::address& address)> is_banned) {
+  void setBanCheck(std::function<bool(const asio::ip::address& address)> is_banned) {
     m_is_banned = std::move(is_banned);
   }
 

@@ -6,12 +6,13 @@
 
 #include <asio/ip/tcp.hpp>
 #include <cerrno>
-#include <charconv>
+#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <system_error>
 
+#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/TcpListener.h"
 
 namespace naiad {
@@ -28,11 +29,7 @@ constexpr int kSpare = 16;  ///< lowest descriptor number of duplicates
 }
 
 std::optional<long> numberIn(const char* p_text) {
-  if (p_text == nullptr) return std::nullopt;
-  const char* p_end = p_text + std::strlen(p_text);
-  long number = 0;
-  const auto [p_read, error] = std::from_chars(p_text, p_end, number);
-  return error == std::errc() && p_read == p_end ? std::optional(number) : std::nullopt;
+  return readNumber(p_text != nullptr ? p_text : "", LONG_MIN, LONG_MAX);
 }
 
 int intOption(int socket, int option) {

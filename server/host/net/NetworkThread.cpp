@@ -69,6 +69,7 @@ void NetworkThread::stop() {
   // Runs the remaining commands, so that the objects in them are stored or released. No more data is sent.
   m_command_mailbox.push(m_commands);
   runCommands();
+  reportCounters();
 }
 
 void NetworkThread::closeListener() {

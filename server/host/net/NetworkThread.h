@@ -138,17 +138,13 @@ class NetworkThread {
   void resetTickTimes() { m_tick_times.reset(); }
   /// Makes the network thread copy its counters after the next flush(); latestCounters() then returns them.
   void requestCounters() { postCommand({.kind = Command::kReportCounters}); }
-  /// The counters of the last request, zero before the first; those of the tick thread are the present ones.
+  /// The counters of the last request, zero before the first, or of stop(); those of the tick thread are the
+  /// present ones.
   NetworkCounters latestCounters() const;
   /// CPU time used by the network thread; 0 while it does not run.
   std::chrono::nanoseconds cpuTime();
-  /// Call this and the next two only while the network thread does not run.
+  /// Call this only while the network thread does not run.
   RelayCounters counters() const;
-  const TcpListener::Counters& streamCounters() const { return m_port.streams->counters(); }
-  /// All zero without a visitors' socket.
-  ProxyListener::Counters visitorCounters() const {
-    return m_port.visitors ? m_port.visitors->counters() : ProxyListener::Counters();
-  }
 
  private:
   friend class RelayedDatagrams;

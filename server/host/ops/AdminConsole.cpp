@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <asio/post.hpp>
-#include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -11,6 +11,7 @@
 
 #include "shared/net/base/AddressPrefix.h"
 #include "shared/net/base/AddressRange.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/options/Duration.h"
 #include "shared/program/LogText.h"
 
@@ -27,11 +28,7 @@ std::string lowered(std::string text) {
 }
 
 std::optional<std::uint32_t> idOf(const std::string& typed) {
-  if (typed.size() < 2 || typed.front() != '#') return std::nullopt;
-  std::uint32_t id = 0;
-  const char* const p_end = typed.data() + typed.size();
-  const auto [p_read, error] = std::from_chars(typed.data() + 1, p_end, id);
-  return error == std::errc() && p_read == p_end ? std::optional(id) : std::nullopt;
+  return typed.starts_with('#') ? readNumber(typed.substr(1), 0u, UINT32_MAX) : std::nullopt;
 }
 
 std::vector<AdminPlayer> thoseThat(const std::vector<AdminPlayer>& players, const Fits& fits) {
@@ -269,16 +266,10 @@ void AdminConsole::ban(const AdminRequest& request, const AdminCaller& caller, c
   text += model.kind == Ban::Kind::kException ? " is exempt from address bans" : " banned";
   text += model.until ? " until " + timeText(*model.until) + "." : " permanently.";
   if (!plan.note.empty()) text += " " + plan.note;
-  // The writes are done in order, so the answer is sent when the last one is done.
-  for (std::size_t i = 0; i < plan.bans.size(); ++i) {
-    const bool is_last = i + 1 == plan.bans.size();
-    const auto saved = [this, text, is_last, done](const std::string& problem) {
-      if (is_last) answerSaved(text, problem, done);
-    };
-    if (!m_bans.add(plan.bans[i], saved))
-      return done(
-          AdminAnswer::refused("The ban list is full (" + std::to_string(BanList::kMaxBans) + " bans)."));
-  }
+  const auto saved = [this, text, done](const std::string& problem) { answerSaved(text, problem, done); };
+  if (!m_bans.add(plan.bans, saved))
+    return done(
+        AdminAnswer::refused("The ban list is full (" + std::to_string(BanList::kMaxBans) + " bans)."));
   kickBanned();
 }
 
@@ -330,9 +321,7 @@ AdminAnswer AdminConsole::restart(const AdminRequest& request) {
   const auto span = readTimeSpan(request.of("span"));
   if ((when == "in") != span.has_value())
     return AdminAnswer::refused("Usage: " + adminUsage(*request.command));
-  if (when == "at-round-end") return m_admin.restart({AdminRestart::When::kAtRoundEnd});
-  if (span) return m_admin.restart({AdminRestart::When::kIn, *span});
-  return m_admin.restart({});
+  return m_admin.restart(when == "at-round-end", span);
 }
 
 AdminAnswer AdminConsole::set(const AdminRequest& request) {
@@ -342,18 +331,16 @@ AdminAnswer AdminConsole::set(const AdminRequest& request) {
 }
 
 void AdminConsole::scores(const AdminRequest& request, Done done) {
-  std::size_t count = kScoresOfATable;
+  std::optional<std::size_t> count = kScoresOfATable;
   if (request.has("room") && request.has("game"))
     return done(AdminAnswer::refused("Use --room or --game, not both."));
   if (request.has("count")) {
-    const std::string& text = request.of("count");
-    const char* p_end = text.data() + text.size();
-    const auto [p_read, error] = std::from_chars(text.data(), p_end, count);
-    if (error != std::errc() || p_read != p_end || count < 1 || count > kMaxScoresOfATable)
-      return done(AdminAnswer::refused("\"" + text + "\" is not a number from 1 to " +
+    count = readNumber<std::size_t>(request.of("count"), 1, kMaxScoresOfATable);
+    if (!count)
+      return done(AdminAnswer::refused("\"" + request.of("count") + "\" is not a number from 1 to " +
                                        std::to_string(kMaxScoresOfATable) + "."));
   }
-  m_admin.scores({request.of("table"), count, request.of("room"), request.of("game")}, std::move(done));
+  m_admin.scores({request.of("table"), *count, request.of("room"), request.of("game")}, std::move(done));
 }
 
 // Hashes on the worker's thread, because Argon2id is slow by design.

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "host/admin/AdminPlayer.h"
-#include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
 #include "host/ops/HostAdmin.h"
 #include "host/rooms/HostContext.h"
 #include "shared/admin/AdminAnswer.h"
 #include "shared/admin/AdminRequest.h"
+#include "shared/program/JobThread.h"
 
 namespace naiad {
 
@@ -34,7 +34,7 @@ class AdminConsole {
   using Done = std::function<void(AdminAnswer)>;
 
   /// All arguments must outlive the console.
-  AdminConsole(HostContext& context, HostAdmin& admin, AdminWorker& worker, BanList& bans)
+  AdminConsole(HostContext& context, HostAdmin& admin, JobThread& worker, BanList& bans)
       : m_context(context), m_admin(admin), m_worker(worker), m_bans(bans) {}
 
   /// Carries out a command. Calls `done` once, on the host's thread: at once, or later if it takes long.
@@ -61,7 +61,7 @@ class AdminConsole {
 
   HostContext& m_context;
   HostAdmin& m_admin;
-  AdminWorker& m_worker;
+  JobThread& m_worker;
   BanList& m_bans;
 };
 

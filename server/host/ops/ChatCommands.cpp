@@ -163,8 +163,7 @@ void ChatCommands::kickByVote(const AdminPlayer& player) {
   ban.made = m_bans.time();
   ban.until = ban.made + VoteKick::kBanTime;
   ban.persistent = false;
-  const auto ignored = [](const std::string&) {};
-  m_bans.add(ban, ignored);
+  std::vector<Ban> bans{ban};
   const std::vector<AdminPlayer> players = m_admin.players();
   const auto prefix = AddressPrefix::ofEndpoint(player.address);
   const bool alone = std::none_of(players.begin(), players.end(), [&](const AdminPlayer& other) {
@@ -174,8 +173,9 @@ void ChatCommands::kickByVote(const AdminPlayer& player) {
   if (alone && address && !address->is_loopback()) {
     ban.kind = Ban::Kind::kRange;
     ban.range = AddressRange::around(*address);
-    m_bans.add(ban, ignored);
+    bans.push_back(ban);
   }
+  m_bans.add(bans, [](const std::string&) {});
   m_admin.kickPlayer(player.session, banMessage(ban));
 }
 

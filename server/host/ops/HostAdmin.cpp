@@ -183,22 +183,13 @@ AdminAnswer HostAdmin::stop(const std::string& sentence) {
   return AdminAnswer::done("The server is stopping.");
 }
 
-AdminAnswer HostAdmin::restart(const AdminRestart& restart) {
+AdminAnswer HostAdmin::restart(bool at_round_end, std::optional<std::chrono::seconds> in) {
   ShutdownScheduler::Plan plan{.is_restart = true};
-  std::string when = "now";
-  switch (restart.when) {
-    case AdminRestart::When::kNow:
-      plan.at = Session::Clock::time_point();
-      break;
-    case AdminRestart::When::kIn:
-      plan.at = Session::Clock::now() + restart.in;
-      when = "in " + std::to_string(restart.in.count()) + " s";
-      break;
-    case AdminRestart::When::kAtRoundEnd:
-      plan.at_round_end = true;
-      when = "when the round is over";
-      break;
-  }
+  plan.at_round_end = at_round_end;
+  if (!at_round_end) plan.at = in ? Session::Clock::now() + *in : Session::Clock::time_point();
+  const std::string when = at_round_end ? "when the round is over"
+                           : in         ? "in " + std::to_string(in->count()) + " s"
+                                        : "now";
   m_access.controls.end(std::move(plan));
   return AdminAnswer::done("The server restarts " + when + ".");
 }

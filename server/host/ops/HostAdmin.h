@@ -18,12 +18,6 @@
 
 namespace naiad {
 
-/// The time of a restart.
-struct AdminRestart {
-  enum class When { kNow, kAtRoundEnd, kIn } when = When::kNow;
-  std::chrono::seconds in{0};  ///< delay of kIn
-};
-
 /// Selects scores. The game is `game`; if it is empty, that of `room`; if both are, the server's only one.
 struct AdminScores {
   std::string table;      ///< empty: all tables of the game
@@ -57,7 +51,8 @@ class HostAdmin {
   // `done` is called once, on the host's thread: at once, or when files have been read or the round replayed.
 
   AdminAnswer stop(const std::string& sentence);
-  AdminAnswer restart(const AdminRestart& restart);
+  /// `at_round_end`, or after the time `in`; neither: now.
+  AdminAnswer restart(bool at_round_end, std::optional<std::chrono::seconds> in);
   /// Calls HostControls::handOverRound().
   void handOverRound(std::function<void(AdminAnswer)> done);
   /// Ends the server when all players have left. `most`: time limit; nullopt: that of --drain-timeout.

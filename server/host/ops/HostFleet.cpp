@@ -22,26 +22,8 @@ namespace naiad {
 
 namespace {
 
-/// systemd as a platform (ServiceNotify.h).
-class SystemdPlatform : public HostPlatform {
- public:
-  void notifyReady() override { m_service.notifyReady(); }
-  void notifyReloading(Clock::time_point now) override { m_service.notifyReloading(now); }
-  void notifyTick(Clock::time_point now) override { m_service.keepAlive(now); }
-  void notifyPlayers(const PlatformPlayers& players) override {
-    const std::size_t playing = players.ids.size();
-    m_service.notifyStatus(players.address + ", " + std::to_string(playing) +
-                           (playing == 1 ? " player" : " players"));
-  }
-  void notifyStopping() override { m_service.notifyStopping(); }
-
- private:
-  ServiceNotify m_service;
-};
-
 constexpr std::chrono::seconds kSayPlayers{1};
-constexpr std::chrono::milliseconds kFinishTimeout{
-    1500};  ///< timeout of finish() for the bus, and again for the platform
+constexpr std::chrono::milliseconds kFinishTimeout{1500};  ///< limit for the bus, and again for the platform
 
 BusSettings busSettings(const HostOptions& options) {
   return {options.bus, options.bus_credentials, options.bus_ca};
@@ -57,8 +39,8 @@ std::string platformOf(const HostOptions& options) {
 std::unique_ptr<HostPlatform> makePlatform(const HostOptions& options) {
   const std::string platform = platformOf(options);
   if (platform == "agones") return std::make_unique<AgonesPlatform>(0);
-  if (platform == "systemd") return std::make_unique<SystemdPlatform>();
-  return std::make_unique<NoPlatform>();
+  if (platform == "systemd") return std::make_unique<ServiceNotify>();
+  return std::make_unique<HostPlatform>();
 }
 
 /// Returns --bus-id, or an id made of the machine's name and the port.

@@ -3,10 +3,10 @@
 #include <asio/post.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
-#include "host/admin/AdminWorker.h"
 #include "host/admin/BanList.h"
 #include "host/admin/ControlFile.h"
 #include "host/admin/ControlSocket.h"
@@ -28,6 +28,8 @@
 #include "shared/admin/ControlPath.h"
 #include "shared/net/lan/LanMessage.h"
 #include "shared/net/stream/TcpListener.h"
+#include "shared/program/JobThread.h"
+#include "shared/program/PublishedFile.h"
 
 namespace naiad {
 
@@ -45,8 +47,9 @@ class HostCommands : public HostPart {
         m_admin(access, scores),
         m_console(access.context, m_admin, m_worker, m_bans),
         m_chat(access, m_admin, m_console, m_bans) {
-    access.endpoint.setBans([this](const asio::ip::address& address) { return m_bans.isBanned(address); });
-    access.clients.admission().setBans([this](const asio::ip::address& address, const std::string& name) {
+    access.endpoint.setBanCheck(
+        [this](const asio::ip::address& address) { return m_bans.isBanned(address); });
+    access.clients.admission().setBanCheck([this](const asio::ip::address& address, const std::string& name) {
       return m_bans.refusal(address, name);
     });
     access.clients.setCommands(
@@ -100,7 +103,7 @@ class HostCommands : public HostPart {
   }
 
   HostAccess m_access;
-  AdminWorker m_worker;
+  JobThread m_worker;
   BanList m_bans;  ///< the network thread calls isBanned()
   HostAdmin m_admin;
   AdminConsole m_console;
@@ -112,21 +115,27 @@ class HostCommands : public HostPart {
 /// (--status-file). Thread: the host's.
 class HostListing : public HostPart {
  public:
+  static constexpr std::chrono::seconds kStatusInterval{5};
+
   /// Throws ListenError with --lan on if the socket for the network's queries cannot be opened, and
   /// std::runtime_error if the status file cannot be written.
-  explicit HostListing(const HostAccess& access)
-      : m_access(access), m_lan(openLan()), m_status(openStatus()) {}
+  explicit HostListing(const HostAccess& access) : m_access(access), m_lan(openLan()) {
+    const std::string& file = access.context.options.status_file;
+    if (!file.empty()) m_status.emplace("status file", file, status());
+  }
 
   /// Begins to answer queries in the local network.
   void begin() override {
     if (m_lan) m_lan->start();
   }
   /// Publishes the number of players.
-  void tick(Clock::time_point /*now*/) override {
-    const std::size_t playing = m_access.clients.sessions().playingCount();
-    if (m_lan) m_lan->setPlayers(playing);
+  void tick(Clock::time_point now) override {
+    if (m_lan) m_lan->setPlayers(m_access.clients.sessions().playingCount());
     if (!m_status) return;
-    m_status->setPlayers(static_cast<std::uint32_t>(playing));
+    if (now - m_status_at >= kStatusInterval) {
+      m_status_at = now;
+      m_status->setText(status(), true);
+    }
     if (const std::string news = m_status->popLogMessage(); !news.empty()) m_access.context.log(news);
   }
   /// Stops answering queries and removes the status file.
@@ -167,17 +176,16 @@ class HostListing : public HostPart {
       return nullptr;
     }
   }
-  std::unique_ptr<StatusFile> openStatus() const {
-    const HostOptions& options = m_access.context.options;
-    if (options.status_file.empty()) return nullptr;
-    const auto link = options.link_host.empty() ? std::nullopt : m_access.endpoint.joinLink(true);
-    return std::make_unique<StatusFile>(options.status_file, m_access.clients.facts(),
-                                        link ? link->text() : std::string());
+  std::string status() const {
+    const bool has_link = !m_access.context.options.link_host.empty();
+    const auto link = has_link ? m_access.endpoint.joinLink(true) : std::nullopt;
+    return statusText(m_access.clients.facts(), link ? link->text() : std::string());
   }
 
   HostAccess m_access;
-  std::unique_ptr<LanResponder> m_lan;   ///< null: not visible in the local network
-  std::unique_ptr<StatusFile> m_status;  ///< null: no --status-file, or removed
+  std::unique_ptr<LanResponder> m_lan;    ///< null: not visible in the local network
+  std::optional<PublishedFile> m_status;  ///< nullopt: no --status-file, or removed
+  Clock::time_point m_status_at = Clock::now();
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,44 +20,10 @@ constexpr std::chrono::milliseconds kCheckIntervalInTick{10};
 
 }  // namespace
 
-AsyncLog::AsyncLog(LogLine log) : m_log(std::move(log)) {
-  m_thread = startWithoutSignals([this] { run(); });
-}
-
-AsyncLog::~AsyncLog() {
-  {
-    const std::lock_guard lock(m_mutex);
-    m_stopping = true;
-  }
-  m_changed.notify_all();
-  m_thread.join();
-}
-
-void AsyncLog::operator()(const std::string& line) {
-  {
-    const std::lock_guard lock(m_mutex);
-    m_lines.push_back(line);
-  }
-  m_changed.notify_all();
-}
-
 void AsyncLog::waitUntilLogged(std::chrono::milliseconds most) {
-  std::unique_lock lock(m_mutex);
-  m_changed.wait_for(lock, most, [this] { return m_lines.empty(); });
-}
-
-void AsyncLog::run() {
-  std::unique_lock lock(m_mutex);
-  for (;;) {
-    m_changed.wait(lock, [this] { return m_stopping || !m_lines.empty(); });
-    if (m_lines.empty()) return;
-    const std::string line = m_lines.front();
-    lock.unlock();
-    m_log(line);
-    lock.lock();
-    m_lines.pop_front();
-    m_changed.notify_all();
-  }
+  const auto logged = std::make_shared<std::promise<void>>();
+  m_thread.enqueue([logged] { logged->set_value(); });
+  logged->get_future().wait_for(most);
 }
 
 Watchdog::Watchdog(const StopSignals& signals, std::chrono::nanoseconds frame, LogLine log,

@@ -5,41 +5,38 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "host/process/StopSignals.h"
 #include "host/world/TickStallMeter.h"
+#include "shared/program/JobThread.h"
 #include "shared/program/LineLog.h"
 
 namespace naiad {
 
-/// A log for threads that must not wait, for example to end a server whose game may hold the log's lock.
+/// A log for threads that must not wait, such as the one that ends a server whose game may hold its lock.
 /// Passes lines on, in order, on a thread of its own, which is started in advance.
 class AsyncLog {
  public:
-  explicit AsyncLog(LogLine log);
-  /// Waits until all lines are passed on, however long that takes.
-  ~AsyncLog();
+  explicit AsyncLog(LogLine log) : m_log(std::move(log)) {
+    m_thread.enqueue([] {});
+  }
 
   /// Adds a line, without waiting for the log. Any thread.
-  void operator()(const std::string& line);
+  void operator()(const std::string& line) {
+    m_thread.enqueue([this, line] { m_log(line); });
+  }
   /// Waits until all lines are passed on, at most `most`. Any thread.
   void waitUntilLogged(std::chrono::milliseconds most);
 
  private:
-  void run();
-
   LogLine m_log;
-  std::mutex m_mutex;
-  std::condition_variable m_changed;
-  std::deque<std::string> m_lines;  ///< the first one is being passed on
-  bool m_stopping = false;
-  std::thread m_thread;  ///< last, because it uses the others
+  JobThread m_thread;  ///< last, because it uses the log; its end waits for all lines
 };
 
 /// Decides, by the duration of the tick, whether the game hangs and whether the server must end without it.

@@ -13,8 +13,8 @@ namespace naiad {
 /// Redirects the game's output to a file and empties its input while a client uses this process's terminal.
 class OutputRedirect {
  public:
-  /// Appends standard output, and standard error if it is a terminal, to this file, or to /dev/null if the
-  /// file cannot be opened. Standard input is empty. Throws std::system_error if file descriptors run out.
+  /// Appends standard output, and standard error if it is a terminal, to this file, or to /dev/null if it is
+  /// not a regular file that can be opened. Empties standard input. May throw std::system_error.
   explicit OutputRedirect(const std::string& path);
   /// Restores the standard descriptors.
   ~OutputRedirect();

@@ -316,7 +316,7 @@ void ProgramHost::serve(df::World& world) {
   const std::vector<std::string> how = joinInstructions(host->endpoint(), m_options, kOpenness);
   if (is_first) {
     writeEndpointFiles(m_options, host->endpoint());
-    log(programName() + " is a server on " + host->endpoint().address());
+    log(programName() + " listens on " + host->endpoint().address());
     for (const std::string& line : how) std::cout << line << std::endl;
     for (const std::string& line : qrLines(m_options)) std::cout << line << std::endl;
     std::cout << "Compatible with the published engine: " << (world.compat() ? "yes (compat)" : "no")

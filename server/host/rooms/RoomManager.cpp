@@ -30,6 +30,11 @@ constexpr std::size_t kEndingWorlds = 8;      ///< ending worlds of former playe
 constexpr const char* kHowToSeeMore =
     "to see where: run the game by itself in a debugger, as docs/when-it-goes-wrong.md says";
 
+/// Counters of ended rounds; index: WorldEnd::Why. kForeign has none: its round has not begun.
+constexpr std::uint64_t Counters::*kEnds[] = {&Counters::rounds_over, &Counters::rounds_crashed,
+                                              &Counters::rounds_hung, &Counters::rounds_broken,
+                                              &Counters::rounds_unrecovered};
+
 /// Returns a unique id for a round: 128 random bits in hexadecimal.
 std::string newRoundId() {
   std::random_device random;
@@ -335,28 +340,6 @@ void RoomManager::endRecovery(Room& room, const std::vector<PersistedSession>& s
   if (isNamed()) sendRoomList(room);
 }
 
-void RoomManager::countEnd(WorldEnd::Why why) {
-  switch (why) {
-    case WorldEnd::kGameOver:
-      ++m_counters.rounds_over;
-      break;
-    case WorldEnd::kCrashed:
-      ++m_counters.rounds_crashed;
-      break;
-    case WorldEnd::kHung:
-      ++m_counters.rounds_hung;
-      break;
-    case WorldEnd::kBroken:
-      ++m_counters.rounds_broken;
-      break;
-    case WorldEnd::kNotRecovered:
-      ++m_counters.rounds_unrecovered;
-      break;
-    case WorldEnd::kForeign:  // of another build: refused before its round began
-      break;
-  }
-}
-
 // Stores the message about the upgrade. With private worlds it also disconnects the room's players, whose
 // clients reconnect after the restart.
 void RoomManager::onUpgrade(const Room& room, const WorldEnd& end) {
@@ -377,7 +360,7 @@ void RoomManager::endRound(Room& room, const WorldEnd& end) {
         (end.when.empty() ? "" : " " + end.when));
   for (const std::string& line : end.last_lines) m_log("the game's log: " + line);
   if (end.why == WorldEnd::kCrashed) m_log(kHowToSeeMore);
-  countEnd(end.why);
+  ++(m_counters.*kEnds[end.why]);
   // If the old round cannot be recovered, the server starts with the next one.
   if (end.why == WorldEnd::kNotRecovered && beginRound(room))
     return room.broadcast("The round could not be recovered; a new one begins.");
@@ -411,7 +394,8 @@ bool RoomManager::beginRound(Room& room) {
   try {
     room.changeRound(newRound(room));
   } catch (const std::system_error& error) {
-    m_log("cannot start the next round: " + errorText(error));
+    m_log("cannot start the next round" + (isNamed() ? " in the room " + room.plan()->name : "") + ": " +
+          errorText(error));
     return false;
   }
   m_counters.sounds += room.sounds().sent() - sent;

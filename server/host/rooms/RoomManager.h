@@ -206,7 +206,6 @@ class RoomManager {
   void onUpgrade(const Room& room, const WorldEnd& end);
   void onFailover(const Room& room, const Failover& done);
   void endRecovery(Room& room, const std::vector<PersistedSession>& sessions);
-  void countEnd(WorldEnd::Why why);
   bool beginRound(Room& room);
 
   HostContext& m_context;

@@ -37,9 +37,10 @@ class SessionTable {
   void setMaxSessions(std::size_t max_sessions) { m_max_sessions = max_sessions; }
   /// Idle time after which a player of a crowded address may lose their place.
   static constexpr std::chrono::minutes kIdleTime{1};
-  /// Call if the playing sessions that `counts` selects (null: all) have taken all `places`. Ends one of them
-  /// for a player from `newcomer`: the one idle longest, if that is at least kIdleTime, whose address or /64
-  /// holds at least a quarter of the places. False if none qualifies, or if `newcomer` holds a place.
+  /// Makes room for a player from `newcomer` when all `places` are taken by the playing sessions for which
+  /// `counts` is true (null: all of them). Only sessions that have been idle for kIdleTime, and whose address
+  /// or /64 has at least a quarter of the places, qualify; ends the one that has been idle longest. Returns
+  /// false if none qualifies, or if a player from `newcomer` has a place.
   bool makePlace(const AddressPrefix& newcomer, std::size_t places, Clock::time_point now,
                  const std::function<bool(const Session&)>& counts = nullptr);
   /// Destroys the sessions that have ended.

@@ -20,10 +20,11 @@ using Input = df::InputQueue::Input;
 
 }  // namespace
 
-Round::Round(JournalBinding book)
+Round::Round(std::unique_ptr<WorldPort> world, JournalBinding book)
     : m_binding(std::move(book)),
       m_is_recording(m_binding.journal != nullptr),
       m_history(std::move(m_binding.history)) {
+  adopt(std::move(world));
   if (m_binding.journal) m_name = {uuidText(m_binding.journal->header().uuid), m_binding.recording};
   if (!m_binding.recovery) return;
   m_writer = TurnRecordWriter(m_binding.recovery->round().lastTurn());
@@ -35,27 +36,13 @@ Round::Round(std::unique_ptr<WorldPort> world, std::uint32_t highest_player)
   m_highest_player = highest_player;
 }
 
-Round::Round(std::unique_ptr<WorldProcess> world) : Round(std::move(world), JournalBinding()) {}
-
-Round::Round(std::unique_ptr<WorldPort> world, JournalBinding book) : Round(std::move(book)) {
-  adopt(std::move(world));
-}
-
-Round::Round(std::unique_ptr<WorldProcess> world, JournalBinding book) : Round(std::move(book)) {
-  adopt(std::move(world));
-}
-
 Round::~Round() {
   finish("stopped");
 }
 
-void Round::adopt(std::unique_ptr<WorldProcess> world) {
-  m_p_process = world.get();
-  adopt(std::unique_ptr<WorldPort>(std::move(world)));
-}
-
 void Round::adopt(std::unique_ptr<WorldPort> world) {
   m_world = std::move(world);
+  m_p_process = dynamic_cast<WorldProcess*>(m_world.get());
   m_world->setOnTick([this] { endTick(); });
 }
 

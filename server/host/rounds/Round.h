@@ -97,9 +97,7 @@ class Round {
 
   /// `highest_player`: the highest player id that the world has used; 0: none.
   explicit Round(std::unique_ptr<WorldPort> world, std::uint32_t highest_player = 0);
-  explicit Round(std::unique_ptr<WorldProcess> world);
   Round(std::unique_ptr<WorldPort> world, JournalBinding book);
-  Round(std::unique_ptr<WorldProcess> world, JournalBinding book);
   /// A round that has not ended is recorded as stopped.
   ~Round();
 
@@ -194,9 +192,7 @@ class Round {
     df::WorldView view;
   };
 
-  explicit Round(JournalBinding book);
   void adopt(std::unique_ptr<WorldPort> world);
-  void adopt(std::unique_ptr<WorldProcess> world);
   void begin();
   void endTick();
   bool usesFastFailover() const;

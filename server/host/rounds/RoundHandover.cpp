@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <asio/ip/tcp.hpp>
-#include <charconv>
+#include <climits>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -49,10 +49,8 @@ std::vector<int> openDescriptors() {
   std::vector<int> numbers;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const std::string name = entry.path().filename().string();
-    int number = -1;
-    std::from_chars(name.data(), name.data() + name.size(), number);
-    numbers.push_back(number);
+    if (const auto number = readNumber(entry.path().filename().string(), 0, INT_MAX))
+      numbers.push_back(*number);
   }
   return numbers;
 }

@@ -91,7 +91,7 @@ std::string notRecovered(const std::string& why) {
 }
 
 /// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
-/// for each file that cannot be read. A round whose port is not within kBeginning is included.
+/// for each file that cannot be read. Includes rounds whose port is not within the first kBeginning bytes.
 std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
                                                          std::vector<std::string>& said) {
   constexpr std::size_t kBeginning = 65'536;
@@ -102,10 +102,10 @@ std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& fold
     try {
       const std::string bytes = readTrustedStart(entry.path(), kBeginning);
       const DfrReader reader(bytes);
-      const auto fact = reader.facts().find(kFactPort);
+      const std::string fact = factOf(reader.facts(), kFactPort);
       if (!reader.problem().empty())
         said.push_back(notRecovered(entry.path().string() + ": " + reader.problem()));
-      if (reader.problem().empty() && (fact == reader.facts().end() || fact->second == port))
+      else if (fact.empty() || fact == port)
         found.emplace_back(reader.header().start_nanos, entry.path());
     } catch (const std::system_error& error) {
       said.push_back(notRecovered(error.what()));
@@ -125,8 +125,7 @@ std::string differenceOf(const UnfinishedRound& round, const DfrFacts& expected,
   if (round.fact(kFactClocks) != "repeatable") return "its clocks were not repeatable";
   const auto proven = kept.find(uuidText(round.header().uuid));
   for (const char* p_name : {kFactModule, kFactPlayers, kFactGameOver, kFactSettings, kFactClocks}) {
-    const auto here = expected.find(p_name);
-    const std::string value = here != expected.end() ? here->second : std::string();
+    const std::string value = factOf(expected, p_name);
     const bool is_proven =
         proven != kept.end() && std::string_view(p_name) == kFactModule && value == proven->second;
     if (round.fact(p_name) != value && !is_proven)
@@ -242,7 +241,6 @@ RoundJournals::RoundJournals(const HostOptions& options, std::string game, const
       m_ring(options.players == "private" ? kPrivateRing
              : p_shared != nullptr        ? kRoomRing
                                           : kSharedRing),
-      m_checkpoints(options.players != "private"),
       m_facts(factsOfMachine()),
       m_log(std::move(log)),
       m_is_private(options.players == "private"),
@@ -273,7 +271,7 @@ WorldStartOptions RoundJournals::makeStartOptions() const {
   WorldStartOptions order;
   order.seed = m_seed != 0 ? static_cast<std::uint64_t>(m_seed) : newSeed();
   order.repeatable = true;
-  order.copies = m_checkpoints;
+  order.copies = !m_is_private;
   order.start_nanos = static_cast<std::uint64_t>(
       std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count());
   order.frame_nanos = m_frame_nanos;
@@ -306,10 +304,8 @@ void RoundJournals::findRound(const HostOptions& options) {
 
 std::optional<WorldStartOptions> RoundJournals::resumeOptions() const {
   if (m_open == nullptr) return std::nullopt;
-  WorldStartOptions order;
+  WorldStartOptions order = makeStartOptions();
   order.seed = m_open->header().seed;
-  order.repeatable = true;
-  order.copies = m_checkpoints;
   order.again = true;  // otherwise a game that sleeps would replay in real time
   order.start_nanos = m_open->header().start_nanos;
   order.frame_nanos = m_open->header().frame_nanos;
@@ -370,12 +366,10 @@ std::unique_ptr<Round> RoundJournals::resumeRound(std::unique_ptr<WorldProcess> 
                  : "the previous server was killed; replaying its round: ") +
         path);
   book.history = round->records();
-  book.first_tick =
-      static_cast<std::uint32_t>(std::strtoul(round->fact(kFactFirstTick).c_str(), nullptr, 10));
+  book.first_tick = readNumber(round->fact(kFactFirstTick), 0u, UINT32_MAX).value_or(0);
   book.new_world = std::move(another);
   book.recovery = std::make_unique<RoundRecovery>(round);
-  m_shared->writer->add(book.journal);
-  setCurrentRound(book.journal, path);
+  beginWriting(book.journal, path);
   return std::make_unique<Round>(std::move(world), std::move(book));
 }
 
@@ -433,8 +427,7 @@ std::unique_ptr<Round> RoundJournals::recordWorld(std::unique_ptr<WorldProcess> 
           log(LogEvent::warning(sentence));
         });
   }
-  m_shared->writer->add(book.journal);
-  setCurrentRound(book.journal, path);
+  beginWriting(book.journal, path);
   m_shared->writer->wake();  // so that the file exists if the server is killed within a second
   return std::make_unique<Round>(std::move(world), std::move(book));
 }
@@ -456,7 +449,8 @@ void RoundJournals::exportHandedOverRounds(const HandedOverRounds& rounds) {
   setenv(kHandoverVariable, text.str().c_str(), 1);
 }
 
-void RoundJournals::setCurrentRound(const std::shared_ptr<Journal>& journal, const std::string& file) {
+void RoundJournals::beginWriting(const std::shared_ptr<Journal>& journal, const std::string& file) {
+  m_shared->writer->add(journal);
   m_current = journal;
   m_current_file = file;
 }
@@ -474,9 +468,7 @@ std::string RoundJournals::handoverBlocker() const {
   if (!*m_is_deterministic) return "the game is not repeatable";
   const auto journal = m_current.lock();
   if (journal != nullptr && journal->hasStopped()) return "its journal has stopped";
-  const auto clocks = m_facts.find(kFactClocks);
-  return clocks == m_facts.end() || clocks->second != "repeatable" ? "the game's clocks are not repeatable"
-                                                                   : std::string();
+  return factOf(m_facts, kFactClocks) != "repeatable" ? "the game's clocks are not repeatable" : "";
 }
 
 void RoundJournals::suspend() {

@@ -96,7 +96,7 @@ class RoundJournals {
 
  private:
   bool isHandedOver(const UnfinishedRound& round) const;
-  void setCurrentRound(const std::shared_ptr<Journal>& journal, const std::string& file);
+  void beginWriting(const std::shared_ptr<Journal>& journal, const std::string& file);
   void findRound(const HostOptions& options);
   std::string pathOf(const DfrHeader& header) const;
   std::shared_ptr<Journal> resumeJournal(UnfinishedRound& round) const;
@@ -109,12 +109,11 @@ class RoundJournals {
   const std::int64_t m_seed;
   const std::uint64_t m_frame_nanos;
   const std::size_t m_ring;
-  const bool m_checkpoints;  ///< worlds make copies; false if each player has a world: too many processes
   DfrFacts m_facts;
   LogLine m_log;
   std::weak_ptr<Journal> m_current;
   std::string m_current_file;
-  bool m_is_private = false;  ///< each player has a round of their own
+  bool m_is_private = false;  ///< each player has a round of their own; no copies: too many processes
   bool m_recovers = true;
   /// False once a round of this game was found not to be repeatable.
   std::shared_ptr<bool> m_is_deterministic = std::make_shared<bool>(true);

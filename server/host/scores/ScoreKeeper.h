@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "engine/world/ScoreTables.h"
-#include "host/admin/AdminWorker.h"
 #include "host/scores/ScoreStore.h"
+#include "shared/program/JobThread.h"
 
 namespace naiad {
 
@@ -87,7 +87,7 @@ class ScoreKeeper {
   std::string m_problem;            ///< current problem; empty: none
   std::string m_log_message;
   std::atomic<bool> m_has_log_message = false;
-  AdminWorker m_worker;
+  JobThread m_worker;
 };
 
 }  // namespace naiad

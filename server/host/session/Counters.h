@@ -78,7 +78,7 @@ struct Counters {
   std::uint64_t left_silent = 0;        ///< silent for too long
   std::uint64_t left_flood = 0;         ///< sent too much at once
   std::uint64_t left_malformed = 0;     ///< sent a malformed message
-  std::uint64_t left_stalled = 0;       ///< read too slowly
+  std::uint64_t left_stalled = 0;       ///< read too slowly, or had more bytes queued than the host takes
   // Ends of world processes, by reason, without those that the server closed:
   std::uint64_t rounds_over = 0;
   std::uint64_t rounds_crashed = 0;

@@ -49,13 +49,17 @@ std::string Session::exportSecret(std::string_view label, std::string_view conte
 }
 
 void Session::welcome(const wire::Welcome& welcome, std::unique_ptr<SealedChannel> datagrams) {
+  beginPlay(welcome);
+  sendWelcome(welcome);
+  startDatagrams(std::move(datagrams));
+}
+
+void Session::beginPlay(const wire::Welcome& welcome) {
   *m_welcome = welcome;
   m_player = welcome.player();
   m_welcome->clear_resume_token();
   m_state = State::kPlaying;
   m_status.begin(now());
-  sendWelcome(welcome);
-  startDatagrams(std::move(datagrams));
 }
 
 void Session::startDatagrams(std::unique_ptr<SealedChannel> datagrams) {
@@ -75,14 +79,10 @@ void Session::sendWelcome(const wire::Welcome& welcome) {
 
 void Session::restore(const wire::Welcome& welcome, Events events) {
   m_events = std::move(events);
-  *m_welcome = welcome;
-  m_player = welcome.player();
-  m_welcome->clear_resume_token();
-  m_state = State::kPlaying;
+  beginPlay(welcome);
   m_has_hello = m_restored = true;
   m_supports_rooms = true;  // its client, even an old one, gets a welcome to the room that it is in
   m_activity.onReconnect(now());
-  m_status.begin(now());
 }
 
 void Session::replaceRestored(Session& restored) {

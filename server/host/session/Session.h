@@ -338,6 +338,7 @@ class Session {
   void adoptStream(Session& other);
   void sendWelcome(const wire::Welcome& welcome);
   void sendWaiting();
+  void beginPlay(const wire::Welcome& welcome);
   void startDatagrams(std::unique_ptr<SealedChannel> datagrams);
   void releaseKeys() { m_inputs.releaseKeys(m_delivery.tick()); }
   void checkGreeting(Clock::time_point now);

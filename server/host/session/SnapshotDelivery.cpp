@@ -115,7 +115,7 @@ void SnapshotDelivery::acknowledge(const AckWindow& acks, bool by_datagram, Time
   m_transport.acknowledge(acks, by_datagram, now);
 }
 
-// Processing an acknowledgement touches memory that sendTick() touches anyway, so it waits until then.
+// An acknowledgement usually waits for the next sendTick(), which touches the memory that it needs anyway.
 void SnapshotDelivery::applyWaitingAck() {
   if (m_acks) m_sender.acknowledge(*m_acks);
   if (m_acks && m_audit) m_audit->acknowledge(*m_acks, m_sender);

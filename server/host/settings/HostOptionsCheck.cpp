@@ -31,57 +31,10 @@ namespace {
 constexpr int kMinFrameMicros = 1000;        // clients reject shorter ticks
 constexpr std::size_t kMaxWebAddress = 300;  // the QR code of a longer one does not fit in a terminal
 
-/// Returns why --in-process cannot be combined with another option; empty if it can.
-std::string inProcessComplaint(const HostOptions& options) {
-  if (!options.in_process) return {};
-  if (usesJournal(options))
-    return "--in-process cannot be used with --journal: only rounds of game processes are recorded";
-  if (options.rooms.empty() && !usesWorldProcesses(options)) return {};
-  return "--in-process cannot be used with --room, --on-game-over restart or --input-mode private: they "
-         "require game processes";
-}
-
-/// Returns what is wrong with the metrics options; empty if they are valid.
-std::string metricsComplaint(const HostOptions& options) {
-  if (!MetricsHosts::parse(options.metrics_hosts))
-    return "--metrics-hosts: expected host names, separated by commas";
-  if (options.metrics.empty()) return {};
-  const auto address = MetricsAddress::parse(options.metrics);
-  if (!address) return "--metrics: expected a numeric ADDR:PORT, IPv6 in brackets";
-  if (!address->is_private && !options.metrics_public)
-    return "--metrics: " + address->address +
-           " is not a loopback or private address; --metrics-public allows it";
-  return {};
-}
-
-/// Returns what is wrong with the bus options; empty if they are valid.
-std::string fleetComplaint(const HostOptions& options) {
-  if (options.bus.empty()) {
-    if (!options.bus_credentials.empty() || !options.bus_ca.empty() || !options.bus_id.empty())
-      return "--bus-credentials, --bus-ca and --bus-id require --bus";
-    return {};
-  }
-  if (!options.bus_id.empty() && !isServerId(options.bus_id))
-    return "--bus-id: expected 1 to " + std::to_string(kMaxServerId) + " characters of a-z, 0-9 and '-'";
-  return validateBusSettings({options.bus, options.bus_credentials, options.bus_ca});
-}
-
 bool isWebAddress(const std::string& text) {
   const bool begins = text.starts_with("https://") || text.starts_with("http://");
   return begins && text.size() <= kMaxWebAddress &&
          std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 0x7f; });
-}
-
-/// Returns what is wrong with the addresses that are printed for players; empty if they are valid.
-std::string announcementComplaint(const HostOptions& options) {
-  if (!options.link_host.empty() && !LinkHost::parse(options.link_host))
-    return "--public-host: expected HOST or HOST:PORT, IPv6 in brackets";
-  if (!options.ssh_door.empty() && !SshDoor::parse(options.ssh_door))
-    return "--ssh-door: expected USER@HOST or USER@HOST:PORT";
-  if (!options.web_address.empty() && !isWebAddress(options.web_address))
-    return "--web-address: expected https://… or http://… of at most 300 characters";
-  if (options.qr && options.web_address.empty()) return "--qr requires --web-address";
-  return {};
 }
 
 namespace fs = std::filesystem;
@@ -175,25 +128,48 @@ int reportDeploymentProblems(const HostOptions& options) {
   return result;
 }
 
-std::string validateHostOptions(const HostOptions& options) {
-  if (options.frame_micros != 0 && options.frame_micros < kMinFrameMicros) {
-    return "--frame-time: " + std::to_string(options.frame_micros) + " is too short: expected 0, or " +
-           std::to_string(kMinFrameMicros) + " or more";
+std::string validateHostOptions(const HostOptions& o) {
+  const bool uses_worlds = !o.rooms.empty() || usesWorldProcesses(o);
+  const auto metrics = MetricsAddress::parse(o.metrics);
+  const std::string needs_tls = " requires encryption: it cannot be used with --insecure";
+  const std::string needs_worlds = "--in-process cannot be used with ";
+  const struct {
+    bool is_wrong;
+    std::string problem;
+  } rules[] = {
+      {o.frame_micros != 0 && o.frame_micros < kMinFrameMicros,
+       "--frame-time: " + std::to_string(o.frame_micros) + " is too short: expected 0, or " +
+           std::to_string(kMinFrameMicros) + " or more"},
+      {o.in_process && usesJournal(o),
+       needs_worlds + "--journal: only rounds of game processes are recorded"},
+      {o.in_process && uses_worlds,
+       needs_worlds + "--room, --on-game-over restart or --input-mode private: they require game processes"},
+      {o.certificate.empty() != o.key.empty(), "--certificate and --key must be used together"},
+      {o.insecure && o.lan == "on", "--lan on" + needs_tls},
+      {o.insecure && !o.visitors.empty(), "--proxy-socket" + needs_tls},
+      {o.insecure && !o.certificate.empty(), "--certificate" + needs_tls},
+      {!MetricsHosts::parse(o.metrics_hosts), "--metrics-hosts: expected host names, separated by commas"},
+      {!o.metrics.empty() && !metrics, "--metrics: expected a numeric ADDR:PORT, IPv6 in brackets"},
+      {metrics && !metrics->is_private && !o.metrics_public,
+       "--metrics: " + (metrics ? metrics->address : "") +
+           " is not a loopback or private address; --metrics-public allows it"},
+      {o.bus.empty() && !(o.bus_credentials + o.bus_ca + o.bus_id).empty(),
+       "--bus-credentials, --bus-ca and --bus-id require --bus"},
+      {!o.bus_id.empty() && !isServerId(o.bus_id),
+       "--bus-id: expected 1 to " + std::to_string(kMaxServerId) + " characters of a-z, 0-9 and '-'"},
+      {!o.bus.empty(), o.bus.empty() ? "" : validateBusSettings({o.bus, o.bus_credentials, o.bus_ca})},
+      {true, validateRoomOptions(o)},
+      {!o.link_host.empty() && !LinkHost::parse(o.link_host),
+       "--public-host: expected HOST or HOST:PORT, IPv6 in brackets"},
+      {!o.ssh_door.empty() && !SshDoor::parse(o.ssh_door),
+       "--ssh-door: expected USER@HOST or USER@HOST:PORT"},
+      {!o.web_address.empty() && !isWebAddress(o.web_address),
+       "--web-address: expected https://… or http://… of at most 300 characters"},
+      {o.qr && o.web_address.empty(), "--qr requires --web-address"}};
+  for (const auto& [is_wrong, problem] : rules) {
+    if (is_wrong && !problem.empty()) return problem;
   }
-  if (std::string wrong = inProcessComplaint(options); !wrong.empty()) return wrong;
-  if (options.certificate.empty() != options.key.empty())
-    return "--certificate and --key must be used together";
-  const std::pair<const char*, bool> encrypted[] = {{"--lan on", options.lan == "on"},
-                                                    {"--proxy-socket", !options.visitors.empty()},
-                                                    {"--certificate", !options.certificate.empty()}};
-  for (const auto& [option, is_used] : encrypted) {
-    if (options.insecure && is_used)
-      return std::string(option) + " requires encryption: it cannot be used with --insecure";
-  }
-  if (std::string wrong = metricsComplaint(options); !wrong.empty()) return wrong;
-  if (std::string wrong = fleetComplaint(options); !wrong.empty()) return wrong;
-  if (std::string wrong = validateRoomOptions(options); !wrong.empty()) return wrong;
-  return announcementComplaint(options);
+  return {};
 }
 
 }  // namespace naiad

@@ -1,23 +1,14 @@
 #include "host/settings/MetricsAddress.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "shared/net/base/AddressPrefix.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/stream/JoinLink.h"
 
 namespace naiad {
 
 namespace {
-
-/// Returns the port that follows the colon; nullopt if it is missing or invalid.
-std::optional<std::uint16_t> portAfter(std::string_view text, std::size_t colon) {
-  if (colon == std::string_view::npos || colon + 1 == text.size()) return std::nullopt;
-  std::uint16_t port = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, port);
-  return error == std::errc() && rest == end ? std::optional(port) : std::nullopt;
-}
 
 bool isPrivate(const asio::ip::address_v4& address) {
   const std::uint32_t bits = address.to_uint();
@@ -50,7 +41,8 @@ bool isNumeric(const std::string& host) {
 
 std::optional<MetricsAddress> MetricsAddress::parse(std::string_view text) {
   const std::size_t colon = text.rfind(':');
-  const auto port = portAfter(text, colon);
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto port = readNumber<std::uint16_t>(text.substr(colon + 1), 0, 65'535);
   if (!port) return std::nullopt;
   std::string_view host = text.substr(0, colon);
   const bool in_brackets = host.size() > 2 && host.front() == '[' && host.back() == ']';

@@ -18,11 +18,6 @@ std::string asTyped(const std::string& text) {
   return "\"" + safeText(text, kMaxShown) + "\"";
 }
 
-std::string meant(const std::string& typed, const std::vector<std::string>& names) {
-  const std::string near = nearestName(typed, names);
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
-
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   std::istringstream in(text);
@@ -55,7 +50,7 @@ void storeSetting(RoomOptions& room, const std::string& text, const std::string&
     if (equals == std::string::npos) throw OptionError(setting + ": expected KEY=VALUE");
     return storeValue(option, text.substr(equals + 1), setting);
   }
-  throw OptionError(place + ": unknown room setting " + asTyped(key) + meant(key, settingNames()));
+  throw OptionError(place + ": unknown room setting " + asTyped(key) + suggestion(key, settingNames()));
 }
 
 /// Parses NAME=GAME[,KEY=VALUE…]. Throws OptionError.
@@ -100,9 +95,9 @@ std::string gameComplaint(const RoomOptions& room) {
     return "--room " + room.name + ": no such file: " + asTyped(module.string());
   } catch (const GameError&) {
     const std::vector<std::string> games = GameModule::available();
-    const std::string near = nearestName(room.game, games);
+    const std::string near = suggestion(room.game, games);
     return "--room " + room.name + ": unknown game " + asTyped(room.game) +
-           (near.empty() ? "; --list-games prints the known ones" : "; did you mean " + near + "?");
+           (near.empty() ? "; --list-games prints the known ones" : near);
   }
 }
 

@@ -191,7 +191,7 @@ void PerClientState::queueView(const Publisher& publisher, const KnownObjects& k
   markPending(kView);
 }
 
-ControlRecord PerClientState::controlNow(std::uint32_t tick, const KnownObjects& known) const {
+ControlRecord PerClientState::currentControl(std::uint32_t tick, const KnownObjects& known) const {
   const df::SteeringFacts& facts = m_player.steering;
   ControlRecord now;
   now.tick = tick;
@@ -214,7 +214,7 @@ void PerClientState::queueControl(std::uint32_t tick, const KnownObjects& known)
     m_pending &= ~(1u << kControl);
     return;
   }
-  m_control = controlNow(tick, known);
+  m_control = currentControl(tick, known);
   if (!m_control_extrapolator.implies(m_control, *p_table)) markPending(kControl);
 }
 

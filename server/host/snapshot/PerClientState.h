@@ -119,7 +119,7 @@ class PerClientState {
   void applyOrigin(const Publisher& publisher);
   const Motion* followedMotion(const Publisher& publisher, const KnownObjects& known) const;
   void queueView(const Publisher& publisher, const KnownObjects& known);
-  ControlRecord controlNow(std::uint32_t tick, const KnownObjects& known) const;
+  ControlRecord currentControl(std::uint32_t tick, const KnownObjects& known) const;
   void queueControl(std::uint32_t tick, const KnownObjects& known);
 
   std::array<State, kCount> m_states;

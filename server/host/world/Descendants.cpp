@@ -10,12 +10,15 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <cstring>
+#include <climits>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 
@@ -28,26 +31,11 @@ constexpr int kNapMillis = 2;
 constexpr std::chrono::seconds kKillTimeout{20};
 constexpr std::chrono::milliseconds kKillOthersTimeout{500};  ///< limit of killOthers(): players wait
 
-std::optional<pid_t> processOf(const char* name) {
-  pid_t process = 0;
-  const char* p_end = name + std::strlen(name);
-  const auto [p_read, error] = std::from_chars(name, p_end, process);
-  return error == std::errc() && p_read == p_end ? std::optional(process) : std::nullopt;
-}
-
 /// Returns the parent of a process; 0 if it has none, or does not exist.
 pid_t parentOf(pid_t process) {
-  const int file = open(("/proc/" + std::to_string(process) + "/stat").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
-  char text[512];
-  const ssize_t size = read(file, text, sizeof text - 1);
-  close(file);
-  if (size <= 0) return 0;
-  text[size] = '\0';
-  const char* p_state = std::strrchr(text, ')');  // "1 (any name) S 0 ..."
-  if (p_state == nullptr || std::strlen(p_state) < 5) return 0;
+  const std::string fields = statFieldsOf(process);
   pid_t parent = 0;
-  std::from_chars(p_state + 4, text + size, parent);
+  if (fields.size() > 2) std::from_chars(fields.data() + 2, fields.data() + fields.size(), parent);
   return parent;
 }
 
@@ -56,13 +44,22 @@ std::map<pid_t, pid_t> parents() {
   DIR* p_folder = opendir("/proc");
   if (p_folder == nullptr) return all;
   while (const dirent* p_entry = readdir(p_folder)) {
-    if (const auto process = processOf(p_entry->d_name)) all.emplace(*process, parentOf(*process));
+    if (const auto process = readNumber(p_entry->d_name, 1, INT_MAX))
+      all.emplace(*process, parentOf(*process));
   }
   closedir(p_folder);
   return all;
 }
 
 }  // namespace
+
+std::string statFieldsOf(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  const std::size_t name_end = line.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < line.size() ? line.substr(name_end + 2) : "";
+}
 
 bool isDescendant(pid_t process) {
   constexpr int kMaxSteps = 64;  // entries that change while they are read may form a circle

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <set>
+#include <string>
 #include <vector>
 
 namespace naiad {
@@ -15,6 +16,10 @@ struct Descendant {
 
 /// Returns all current descendants, as listed in /proc, including zombies.
 std::vector<Descendant> findDescendants();
+
+/// Returns the fields of /proc/PID/stat behind the program's name, which may contain anything: "S 1 …", its
+/// state and parent. Empty if there is no such process.
+std::string statFieldsOf(pid_t process);
 
 /// True if `process` descends from this process now, within 64 generations, according to /proc. False for
 /// this process itself.

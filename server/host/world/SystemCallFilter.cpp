@@ -77,7 +77,7 @@ constexpr std::uint32_t kRefused[] = {
     // Access to files that bypasses Landlock, and operations that Landlock does not restrict.
     __NR_name_to_handle_at,
     __NR_open_by_handle_at,
-    __NR_fchmod,  // would work through a descriptor opened for reading
+    __NR_fchmod,  // works even through a descriptor that is open only for reading
     __NR_fchmodat,
     __NR_fchown,
     __NR_fchownat,

@@ -3,21 +3,13 @@
 #include <time.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
+
+#include "host/world/Descendants.h"
 
 namespace naiad {
 
 namespace {
-
-/// Returns the state letter of /proc/PID/stat. It follows the program's name, which may contain anything.
-char stateOf(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string line;
-  std::getline(file, line);
-  const std::size_t name_end = line.rfind(')');
-  return name_end != std::string::npos && name_end + 2 < line.size() ? line[name_end + 2] : '\0';
-}
 
 // A process that waits for a disk, or for memory that was paged out, counts as running.
 ProcessRunState::Doing doingOf(char state) {
@@ -38,9 +30,9 @@ std::optional<std::chrono::nanoseconds> cpuTimeOf(pid_t process) {
 
 std::optional<ProcessRunState> readProcessRunState(pid_t process) {
   const auto cpu = cpuTimeOf(process);
-  const char state = cpu ? stateOf(process) : '\0';
-  if (state == '\0') return std::nullopt;
-  return ProcessRunState{doingOf(state), *cpu};
+  const std::string fields = cpu ? statFieldsOf(process) : "";
+  if (fields.empty()) return std::nullopt;
+  return ProcessRunState{doingOf(fields.front()), *cpu};
 }
 
 void SlowTickDetector::beginTick(pid_t process) {

@@ -127,7 +127,10 @@ void WorldProcess::waitForSupervisor() {
   if (m_supervisor_state == SupervisorState::kEnded) return;
   kill();
   const auto end = Clock::now() + std::chrono::milliseconds(kKillMillis);
-  while (m_supervisor_state != SupervisorState::kEnded && Clock::now() < end) readSupervisor(kKillMillis);
+  while (m_supervisor_state != SupervisorState::kEnded && Clock::now() < end) {
+    const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    readSupervisor(static_cast<int>(std::max<std::int64_t>(rest.count(), 0)));
+  }
 }
 
 // ---- sending turns ----------------------------------------------------------------------------------------

@@ -5,11 +5,12 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include "shared/net/base/SafeText.h"
 
 namespace naiad {
 
@@ -17,12 +18,6 @@ namespace {
 
 constexpr const char* kVariable = "NAIAD_WORLD_SOCKET";
 constexpr const char* kSeedVariable = "NAIAD_WORLD_SEED";
-
-template <class Number>
-bool parseWhole(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 // Reserves a fixed amount of memory, so that later allocations in a world's process have equal addresses.
 std::string workingDirectory() {
@@ -52,19 +47,17 @@ std::string worldSeedEntry(std::uint64_t seed) {
 std::optional<std::uint64_t> takeWorldSeed() {
   const char* p_said = std::getenv(kSeedVariable);
   if (p_said == nullptr) return std::nullopt;
-  std::uint64_t seed = 0;
-  const bool good = parseWhole(p_said, seed);
+  const auto seed = readNumber<std::uint64_t>(p_said, 0, UINT64_MAX);
   unsetenv(kSeedVariable);
-  return good ? std::optional(seed) : std::nullopt;
+  return seed;
 }
 
 std::optional<int> takeWorldSocket() {
   const char* p_said = std::getenv(kVariable);
   if (p_said == nullptr) return std::nullopt;
-  int socket = -1;
-  const bool good = parseWhole(p_said, socket) && socket > STDERR_FILENO;
+  const auto socket = readNumber(p_said, STDERR_FILENO + 1, INT_MAX);
   unsetenv(kVariable);  // programs that the game starts are not worlds
-  if (!good || fcntl(socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
+  if (!socket || fcntl(*socket, F_SETFD, FD_CLOEXEC) != 0) return std::nullopt;
   fcntl(kWorldCheckpoints, F_SETFD, FD_CLOEXEC);  // no effect if there is no such socket
   return socket;
 }

@@ -109,7 +109,7 @@ class Body : public Object {
 
   // Positions and velocities are doubles here; those of other Objects are rounded to 2^-32 cell.
 
-  /// Sets the position in cells, to ±2e9. Unfreezes a frozen body.
+  /// Sets the position in cells, up to ±2e9. Unfreezes a frozen body.
   int setPosition(Vector position) override;
   Vector getPosition() const;
   /// Returns the displacement in cells from a point of the world to the position, equally exact near and far
@@ -118,17 +118,17 @@ class Body : public Object {
   [[deprecated("say getDisplacementFrom")]] Vector getWayFrom(Vector point) const {
     return getDisplacementFrom(point);
   }
-  /// Sets the velocity in cells per tick, to ±16777216. Unfreezes a frozen body.
+  /// Sets the velocity in cells per tick, up to ±16777216. Unfreezes a frozen body.
   DF_SETTER setVelocity(Vector velocity) override;
   Vector getVelocity() const;
 
-  /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up, to ±1e30.
+  /// Pushes the body during the next tick, in mass · cells per tick². Several pushes add up; limit: ±1e30.
   int applyForce(Vector force);
   /// Changes the velocity at once, by impulse / mass (mass · cells / tick). Returns -1 if that is too fast.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), at a point of the world; also changes the spin if the body may turn.
   int applyImpulseAt(Vector impulse, Vector where);
-  /// Applies a torque during the next tick, in force · cell widths. Several torques add up, to ±1e30.
+  /// Applies a torque during the next tick, in force · cell widths. Several torques add up; limit: ±1e30.
   int applyTorque(double torque);
 
   /// Sets drag: force over mass is `linear` · velocity + `quadratic` · velocity · |velocity|. `linear` is per

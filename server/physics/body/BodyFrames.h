@@ -36,7 +36,7 @@ struct TurnFrames {
   std::uint32_t repeats = 1;  ///< number of repetitions of the sequence in a whole turn
 };
 /// Draws a whole turn in steps. In a step no edge moves by more than half a cell width, unless that exceeds a
-/// look's size limit or kMaxFrames. For symmetric shapes, the frames show only a part of the turn.
+/// look's size limit or kMaxFrames. For shapes with rotational symmetry, the frames show a part of the turn.
 TurnFrames drawTurn(std::span<const ConvexShape> shapes, double aspect, const FrameStyle& style);
 
 /// Returns n if the shapes look equal after 1/n of a turn: mostly 1; 0 for a circle about the origin.

@@ -57,7 +57,7 @@ class BodyImpacts {
     Place search_centre;  // centre and half size of the area that is searched for obstacles
     Vec2 search_half;
   };
-  struct Identity {  // by id in the ImpactWorld
+  struct Identity {  // entry of m_identities, which is indexed by id in the solver
     ObjectKey key;
     std::uint64_t order = 0;
     int state = -1;  // index of the state; −1: an obstacle

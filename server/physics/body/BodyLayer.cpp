@@ -22,7 +22,7 @@ namespace {
 constexpr double kFarthestFlight =
     1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
 constexpr double kFollowed =
-    16;  // per tick²: up to this stiffness, the JointSolver follows a spring on joints
+    16;  // per tick²: maximum stiffness of a spring on a jointed body that the JointSolver can step
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace

@@ -48,7 +48,7 @@ class BodyRigids {
     double mass = 0;
     bool is_used = false;
   };
-  struct Identity {  // by id in the solver
+  struct Identity {  // entry of m_identities, which is indexed by id in the solver
     ObjectKey key;
     std::uint64_t order = 0;
     int state = -1;  // index of the state; −1: an obstacle

@@ -81,7 +81,7 @@ void SoftLayer::step(World& world) {
   m_sleep.wakeNeighbours(table);
   for (int id = 0; id < table.idLimit(); ++id) {
     SoftEntry& entry = table.entry(id);
-    if (entry.is_in && !entry.is_asleep) push(id);
+    if (entry.is_in && !entry.is_asleep) setForces(id);
     if (entry.p_object != nullptr) soft.setOut(id, !entry.is_in || entry.is_asleep);
   }
   soft.step(1, m_obstacles.all());
@@ -166,7 +166,7 @@ void SoftLayer::prepare(const World& world, int id) {
 }
 
 // Sets the forces on the nodes. The solver applies the world's gravity, so only the difference is added.
-void SoftLayer::push(int id) {
+void SoftLayer::setForces(int id) {
   SoftEntry& entry = m_table->entry(id);
   const Vec2 acceleration = (entry.gravity_scale - 1) * m_gravity + entry.force / entry.mass;
   entry.force = {};

@@ -42,7 +42,7 @@ class SoftLayer : public df::Layer {
   };
 
   void prepare(const World& world, int id);
-  void push(int id);
+  void setForces(int id);
   void collectContacts(const WorldStore& store);
   void settle(World& world, int id);
   void freeze(World& world, int id);

@@ -57,12 +57,12 @@ class SoftBody : public Object {
   /// Sets drag: speeds decay as exp(−drag · ticks). 0 … 1e6 per tick, 0.02 by default.
   int setDrag(double drag);
 
-  /// Changes the velocity of the whole body at once, by impulse / mass. In mass · cells per tick, to ±1e9.
+  /// Changes the velocity of the whole body at once, by impulse / mass. In mass · cells per tick, up to ±1e9.
   int applyImpulse(Vector impulse);
   /// Like applyImpulse(), for one node.
   int applyImpulse(int node, Vector impulse);
   /// Pushes the whole body during the next tick, each node in proportion to its mass, in mass · cells per
-  /// tick². Several pushes add up, to ±1e9.
+  /// tick². Several pushes add up; limit: ±1e9.
   int applyForce(Vector force);
   /// Like applyForce(), for one node. For a lasting force, apply it in each tick.
   int applyForce(int node, Vector force);

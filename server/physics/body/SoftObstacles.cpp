@@ -193,7 +193,7 @@ const SoftObstacles::Pushed* SoftObstacles::findPushed(ObjectKey key) {
 }
 
 // Removes the impulse that was expected for this tick from bodies that are no longer near a soft body.
-void SoftObstacles::revertMissing(const BodyLayer& bodies, BodyTable& table) {
+void SoftObstacles::removeStaleImpulses(const BodyLayer& bodies, BodyTable& table) {
   for (const Pushed& pushed : m_pushed) {
     BodyRow& row = table.row(pushed.index);
     if (row.key != pushed.key) continue;
@@ -204,7 +204,7 @@ void SoftObstacles::revertMissing(const BodyLayer& bodies, BodyTable& table) {
 
 void SoftObstacles::apply(World& world, BodyLayer& bodies, SoftTable& table,
                           std::vector<MovedObject>& moved) {
-  revertMissing(bodies, table.bodies());
+  removeStaleImpulses(bodies, table.bodies());
   m_pushing.clear();
   for (std::size_t i = 0; i < m_sources.size(); ++i) {
     const Source& source = m_sources[i];

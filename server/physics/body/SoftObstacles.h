@@ -51,7 +51,7 @@ class SoftObstacles {
   };
 
   const Pushed* findPushed(ObjectKey key);
-  void revertMissing(const BodyLayer& bodies, BodyTable& table);
+  void removeStaleImpulses(const BodyLayer& bodies, BodyTable& table);
   bool isKnown(int id) const;
   void addObject(const World& world, const BodyTable& table, ObjectKey key);
   void addBody(const World& world, const BodyLayer& bodies, const BodyTable& table, int state);

@@ -33,7 +33,7 @@ struct FaceSeparation {
 /// extents of the shapes are compared before the offset is added, so that equal sizes cancel exactly.
 FaceSeparation faceSeparation(const RotatedView& shape, std::int32_t edge, const RotatedView& other,
                               Vec2 offset);
-/// Returns the edge with the largest distance, or the first with more than `enough`; without edges it is −∞.
+/// Returns the edge with the largest distance, or the first above `enough`; distance −∞ without edges.
 FaceSeparation bestFace(const RotatedView& shape, const RotatedView& other, Vec2 offset, double enough);
 /// Returns a lower bound of the distance from a circle about `centre` to the shape, by the shape's faces
 /// alone; −∞ for a circle or capsule.

@@ -59,7 +59,7 @@ double circleEntry(const RelativeMotion& m, double radius, double horizon, bool 
     if (deep < 0) continue;
     if (is_resting) return start + deep;
     c[0] = lengthSquared(r) - radius * radius;
-    return start + lastFallThroughZero(c, degree, 0, deep);
+    return start + lastFallBelowZero(c, degree, 0, deep);
   }
   return -1;
 }

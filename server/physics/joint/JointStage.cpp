@@ -1,4 +1,4 @@
-// A stage of RATTLE; if it does not converge, its halves; and the regularised stage, which always succeeds.
+// A stage of RATTLE. If it does not converge, it is halved, at last regularised, which only overflow stops.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

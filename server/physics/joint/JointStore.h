@@ -12,7 +12,7 @@
 
 namespace naiad::physics {
 
-/// Joints are listed in the order of addition although ids are reused, so groups do not depend on the past.
+/// Joints are listed in the order of addition, even if ids are reused, so groups do not depend on the ids.
 class JointStore {
  public:
   /// Adds a joint and returns its id. The caller has checked that the joint is valid.

@@ -82,7 +82,7 @@ double firstBelowZero(const double* c, int degree, double low, double high) {
   return -1;
 }
 
-double lastFallThroughZero(const double* c, int degree, double low, double high) {
+double lastFallBelowZero(const double* c, int degree, double low, double high) {
   double points[kHighestDegree + 2];
   for (int i = turningPoints(c, degree, low, high, points) - 2; i >= 0; --i) {
     if (evaluate(c, degree, points[i]) >= 0 && evaluate(c, degree, points[i + 1]) < 0) {

@@ -12,7 +12,7 @@ double evaluate(const double* c, int degree, double s);
 double firstBelowZero(const double* c, int degree, double low, double high);
 
 /// Returns the last s in [low, high] at which the polynomial falls from >= 0 to negative; `low` if never.
-double lastFallThroughZero(const double* c, int degree, double low, double high);
+double lastFallBelowZero(const double* c, int degree, double low, double high);
 
 struct Interval {
   double begin;

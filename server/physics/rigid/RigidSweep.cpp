@@ -268,8 +268,9 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     return gain;
   };
   meet(restitution);
-  // With friction, the impulses of a bounce may add energy. The impulses that only stop the bodies, times 1 +
-  // e, never do, and a mix of both adds at most the mix of their energies. So the mix that adds none is used.
+  // With friction, the impulses of a bounce may add energy. The impulses that stop the approach, multiplied
+  // by 1 + e, never do. A weighted mean of the two adds at most the weighted mean of their energies, so one
+  // that adds none is used.
   const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;

@@ -14,8 +14,8 @@ namespace naiad::physics {
 
 class SoftCrowd {
  public:
-  /// A body is in a crowd if it has more neighbours than this and than half the nodes of its boundary. Then
-  /// the larger of these two numbers limits its neighbours, and the contacts of its nodes with them. (In a
+  /// A body is in a crowd if it has more neighbours than the larger of this and half the number of its
+  /// boundary nodes. Then that number limits its neighbours, and the contacts of its nodes with them. (In a
   /// plane, six equal bodies fit around one.)
   static constexpr int kMaxOthers = 8;
 

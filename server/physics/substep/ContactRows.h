@@ -33,10 +33,10 @@ struct ContactRow {
   float fast = 1e9f;             ///< approaches faster than this are stopped at once
 };
 
-/// An impulse as it is known from the sub-steps before.
+/// An impulse as known from earlier sub-steps.
 struct KnownImpulse {
   float kept = 0;   ///< first guess in the next sub-step
-  float trend = 0;  ///< change in the last sub-steps
+  float trend = 0;  ///< recent changes of the impulse, with less weight for older ones
 };
 
 /// Impulses of both points of a contact; 0 for a missing point.
@@ -79,7 +79,7 @@ class ContactRows {
   struct Impulse {
     Lanes now = {};
     Lanes start = {};  // at the start of the sub-step
-    Lanes trend = {};  // recent changes, with less weight for older ones
+    Lanes trend = {};  // as in KnownImpulse
     void set(int lane, KnownImpulse known);
     void begin();  // call when all lanes are set
     KnownImpulse known(int lane) const;

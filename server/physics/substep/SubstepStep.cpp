@@ -25,7 +25,7 @@ constexpr double kAhead = 1;       // maximum further margin of the bounds, alon
 constexpr double kTicksAhead = 2;  // ticks of movement in the additional margin
 constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // per tick: a faster body leaves its bounds anyway
 
-// Returns how far rotation moves a corner in this step.
+// Returns a bound of how far rotation moves a point of the body in this step.
 double rollOf(const SubstepBody& b) {
   return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
 }
@@ -126,8 +126,8 @@ double SubstepWorld::calmMargin(const SubstepBody& a, const SubstepBody& b) {
   return length(b.drift - a.drift) + a.roll + b.roll + kSlack * (a.thickness + b.thickness);
 }
 
-// Returns bounds with room for the moves of the next steps. A fast body has none, because it would leave it
-// anyway, nor has one in a crowd, where the wide bounds of each body would overlap those of more others.
+// Returns bounds with room for the moves of the next steps. A fast body would leave them anyway, and in a
+// crowd wide bounds would overlap those of more other bodies; the bounds of such bodies have no extra room.
 GridBounds SubstepWorld::wideBounds(const SubstepBody& b) const {
   const double most = kAhead * b.thickness;
   const double speed = std::max(std::fabs(b.body.velocity.x), std::fabs(b.body.velocity.y));
@@ -354,7 +354,7 @@ float SubstepWorld::crowdValue(const SubstepBody& b) const {
   return isMovable(b) && m_broad.isThinned(b.proxy) ? kInCrowd : 0;
 }
 
-// True if the bodies may pass through each other: both are in a crowd, or one is and the other is inside it.
+// True if the bodies may pass through each other: both are in crowds, or one is and their centres are near.
 bool SubstepWorld::passes(const SubstepBody& a, const SubstepBody& b) const {
   if (!isMovable(a) || !isMovable(b)) return false;
   const bool is_thinned = m_broad.isThinned(a.proxy), is_other = m_broad.isThinned(b.proxy);

@@ -17,7 +17,7 @@ class PathProbe {
   using Millis = std::chrono::milliseconds;
 
   static constexpr Millis kOpenTime{1000};          ///< time for which the path counts as open after evidence
-  static constexpr Millis kProbeInterval{1000};     ///< interval of probes, unless a shorter one applies
+  static constexpr Millis kProbeInterval{1000};     ///< interval of probes if neither of the next two applies
   static constexpr Millis kFastProbeInterval{100};  ///< interval while the path is open, and for a second
                                                     ///< after construction or renew()
   /// Interval of probes until kEagerTime after the last evidence, or always if datagrams are the only way to

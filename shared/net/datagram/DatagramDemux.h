@@ -21,7 +21,7 @@
 namespace naiad {
 
 /// Every packet is counted once: as delivered, as refused by its link (whose counters give the reason), or in
-/// one of the other counters. `session`, `claimed` etc. are the rates of DatagramDemuxRates.
+/// one of the other counters. The rates are named as in DatagramDemuxRates.
 struct DatagramDemuxCounters {
   std::uint64_t delivered = 0;
   std::uint64_t too_short = 0;
@@ -62,7 +62,6 @@ class DatagramDemux {
   void remove(ConnectionId id);
   bool has(ConnectionId id) const { return registrations_.contains(id); }
 
-  /// Handles a packet that arrived.
   void receive(const Path& path, std::string_view packet, Time now);
 
   const DatagramDemuxCounters& counters() const { return counters_; }

@@ -32,7 +32,6 @@ using Epoch = std::uint32_t;
 inline constexpr unsigned kEpochBits = 4;
 inline constexpr Epoch kEpochMask = (1u << kEpochBits) - 1;
 
-/// The direction in which a packet travels.
 enum class SealDirection : std::uint8_t { kClientToServer, kServerToClient };
 
 /// Return the size of the header, and of the shortest valid packet: header, one byte of flags, tag. In bytes.

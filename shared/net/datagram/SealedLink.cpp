@@ -132,18 +132,11 @@ bool SealedLink::isPlausible(std::string_view packet, Time now) {
 SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
   expire(now);
   SealedHeader header;
-  switch (readSealedHeader(receives(), packet, header)) {
-    case HeaderFault::kTooShort:
-      ++counters_.too_short;
-      return nullptr;
-    case HeaderFault::kTooLong:
-      ++counters_.too_long;
-      return nullptr;
-    case HeaderFault::kKind:
-      ++counters_.bad_kind;
-      return nullptr;
-    case HeaderFault::kNone:
-      break;
+  if (const auto fault = readSealedHeader(receives(), packet, header); fault != HeaderFault::kNone) {
+    ++(fault == HeaderFault::kTooShort  ? counters_.too_short
+       : fault == HeaderFault::kTooLong ? counters_.too_long
+                                        : counters_.bad_kind);
+    return nullptr;
   }
   if (isServer() && header.id != options_.id) {
     ++counters_.wrong_id;
@@ -159,22 +152,11 @@ SealedLink::Keys* SealedLink::admit(std::string_view packet, Time now) {
 
 /// Returns true for kOpened; counts all other results and returns false.
 bool SealedLink::accept(OpenResult result) {
-  switch (result) {
-    case OpenResult::kOpened:
-      return true;
-    case OpenResult::kTooOld:
-      ++counters_.too_old;
-      break;
-    case OpenResult::kReplayed:
-      ++counters_.replayed;
-      break;
-    case OpenResult::kForged:
-      ++counters_.forged;
-      break;
-    case OpenResult::kExhausted:
-      ++counters_.exhausted;
-      break;
-  }
+  if (result == OpenResult::kOpened) return true;
+  ++(result == OpenResult::kTooOld     ? counters_.too_old
+     : result == OpenResult::kReplayed ? counters_.replayed
+     : result == OpenResult::kForged   ? counters_.forged
+                                       : counters_.exhausted);
   return false;
 }
 

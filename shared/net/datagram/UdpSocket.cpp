@@ -25,9 +25,9 @@ int setOption(int descriptor, int level, int option, int value) {
 bool setOptions(int descriptor, bool six, const UdpOptions& options) {
   setOption(descriptor, SOL_SOCKET, SO_RCVBUF, options.buffer);
   setOption(descriptor, SOL_SOCKET, SO_SNDBUF, options.buffer);
-  // No fragments. ICMP "too big" messages are ignored too: any machine can send them.
-  const bool four_whole = setOption(descriptor, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE) == 0;
-  if (!six) return four_whole && setOption(descriptor, IPPROTO_IP, IP_PKTINFO, 1) == 0;
+  // Sends no fragments, and ignores ICMP messages that a packet was too big: any machine can send them.
+  if (setOption(descriptor, IPPROTO_IP, IP_MTU_DISCOVER, IP_PMTUDISC_PROBE) != 0) return false;
+  if (!six) return setOption(descriptor, IPPROTO_IP, IP_PKTINFO, 1) == 0;
   return setOption(descriptor, IPPROTO_IPV6, IPV6_MTU_DISCOVER, IPV6_PMTUDISC_PROBE) == 0 &&
          setOption(descriptor, IPPROTO_IPV6, IPV6_DONTFRAG, 1) == 0 &&
          setOption(descriptor, IPPROTO_IPV6, IPV6_RECVPKTINFO, 1) == 0;

@@ -24,7 +24,6 @@ struct HttpRequest {
   std::vector<std::pair<std::string, std::string>> fields = {};  ///< must not contain CR or LF; not checked
   std::string body = {};  ///< the body; if not empty, Content-Length is added
 
-  /// Returns the request's bytes.
   std::string text() const;
 };
 

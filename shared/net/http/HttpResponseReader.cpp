@@ -44,16 +44,9 @@ void HttpResponseReader::feed(std::string_view& bytes) {
 }
 
 void HttpResponseReader::step(std::string_view& bytes) {
-  switch (m_state) {
-    case State::kHead:
-      return readHead(bytes);
-    case State::kLength:
-    case State::kToEnd:
-    case State::kChunk:
-      return readBody(bytes);
-    default:
-      break;
-  }
+  if (m_state == State::kHead) return readHead(bytes);
+  if (m_state == State::kLength || m_state == State::kToEnd || m_state == State::kChunk)
+    return readBody(bytes);
   const auto line = m_lines.next(bytes);
   fail(m_lines.error());
   if (line) handleLine(*line);

@@ -64,7 +64,6 @@ class ByteStream {
 /// Returns an address in the format of ByteStream::peer().
 std::string peerName(const asio::ip::tcp::endpoint& endpoint);
 
-/// Plain bytes, without TLS.
 class PlainStream : public ByteStream {
  public:
   using ByteStream::ByteStream;

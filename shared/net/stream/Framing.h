@@ -19,7 +19,6 @@
 
 namespace naiad {
 
-/// Size of the header in bytes.
 inline constexpr std::size_t kFrameHeaderSize = 2;
 /// The largest payload that the length prefix can express, in bytes.
 inline constexpr std::size_t kMaxFramePayload = 0xffff;

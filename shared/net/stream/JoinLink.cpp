@@ -96,7 +96,7 @@ bool JoinLink::looksLikeLink(std::string_view text) {
 std::variant<JoinLink, LinkError> JoinLink::parse(std::string_view text) {
   if (text.size() > kMaxLink) return LinkError{"it is longer than 512 characters"};
   if (!std::all_of(text.begin(), text.end(), isGraphic))
-    return LinkError{"it contains a space or a non-ASCII character"};
+    return LinkError{"it contains a space or a character that is not printable ASCII"};
   if (!looksLikeLink(text) || !text.substr(kScheme.size()).starts_with("//"))
     return LinkError{"it does not begin with naiad://"};
   text.remove_prefix(kScheme.size() + 2);

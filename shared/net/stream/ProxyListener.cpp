@@ -197,14 +197,10 @@ void ProxyListener::State::onConnection(Socket socket) {
 
 void ProxyListener::State::onArrival(Arrival::End end, Socket socket,
                                      const asio::ip::tcp::endpoint& visitor) {
-  if (end == Arrival::End::kLate) {
-    ++counters.late_headers;
-  } else if (end == Arrival::End::kBad) {
-    ++counters.bad_headers;
-  } else {
-    ++counters.visitors;
-    on_peer(std::move(socket), visitor);
-  }
+  ++(end == Arrival::End::kLate  ? counters.late_headers
+     : end == Arrival::End::kBad ? counters.bad_headers
+                                 : counters.visitors);
+  if (end == Arrival::End::kVisitor) on_peer(std::move(socket), visitor);
 }
 
 // Removes the file unless another server has replaced it.

@@ -39,7 +39,6 @@ class ProxyListener {
   using PeerHandler = std::function<void(asio::generic::stream_protocol::socket socket,
                                          const asio::ip::tcp::endpoint& address)>;
 
-  /// Counters of connections.
   struct Counters {
     std::uint64_t visitors = 0;        ///< delivered
     std::uint64_t bad_headers = 0;     ///< dropped: header invalid, truncated or without a visitor's address
@@ -53,7 +52,6 @@ class ProxyListener {
   /// bit). Replaces a socket without a listening process. Throws ListenError (TcpListener.h) for other
   /// existing files, a socket in use, invalid paths, and errors of the system.
   ProxyListener(asio::io_context& context, ProxyListenerOptions options, PeerHandler on_peer);
-  /// Calls close().
   ~ProxyListener();
   ProxyListener(const ProxyListener&) = delete;
   ProxyListener& operator=(const ProxyListener&) = delete;

@@ -151,20 +151,10 @@ void TcpListener::State::startHandshake(ByteStream::Socket socket, const tcp::en
 }
 
 void TcpListener::State::refuse(const tcp::endpoint& peer, StreamRefusal why) {
-  switch (why) {
-    case StreamRefusal::kBanned:
-      ++counters.refused_banned;
-      break;
-    case StreamRefusal::kTooOften:
-      ++counters.refused_too_often;
-      break;
-    case StreamRefusal::kFull:
-      ++counters.refused_half_open;
-      break;
-    case StreamRefusal::kPrefixFull:
-      ++counters.refused_from_prefix;
-      break;
-  }
+  ++(why == StreamRefusal::kBanned     ? counters.refused_banned
+     : why == StreamRefusal::kTooOften ? counters.refused_too_often
+     : why == StreamRefusal::kFull     ? counters.refused_half_open
+                                       : counters.refused_from_prefix);
   if (tls.on_refused) tls.on_refused(peer, why);
 }
 
@@ -180,8 +170,8 @@ bool TcpListener::State::judgeHello(HalfOpenLimit& places, HalfOpenLimit::Id id,
 }
 
 void TcpListener::State::hangUp(HalfOpenLimit& places, HalfOpenLimit::Id id) {
-  handshakes.at(id)->cancel();
-  handshakes.erase(id);
+  // A callback may have closed the listener.
+  if (const auto ended = handshakes.extract(id)) ended.mapped()->cancel();
   places.release(id);
 }
 
@@ -206,14 +196,10 @@ bool TcpListener::State::makeRoom(HalfOpenLimit& places, const tcp::endpoint& pe
 }
 
 void TcpListener::State::onHandshake(TlsHandshake::End end, std::unique_ptr<TlsStream> stream) {
-  if (end == TlsHandshake::End::kTimedOut) {
-    ++counters.handshakes_late;
-  } else if (end != TlsHandshake::End::kDone) {
-    ++counters.handshakes_failed;
-  } else {
-    ++counters.handshakes;
-    on_channel(makeTcpChannel(std::move(stream), options));
-  }
+  ++(end == TlsHandshake::End::kTimedOut ? counters.handshakes_late
+     : stream == nullptr                 ? counters.handshakes_failed
+                                         : counters.handshakes);
+  if (stream != nullptr) on_channel(makeTcpChannel(std::move(stream), options));
 }
 
 void TcpListener::State::close() {

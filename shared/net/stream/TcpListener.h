@@ -51,7 +51,6 @@ struct TlsListenerOptions {
   /// True for addresses whose connections are dropped at once, without sending them a byte. Called once per
   /// connection.
   std::function<bool(const asio::ip::address& address)> is_banned = nullptr;
-  /// Called for each refused connection.
   std::function<void(const asio::ip::tcp::endpoint& peer, StreamRefusal why)> on_refused = nullptr;
   /// Time for which a silent connection is left in the kernel (TCP_DEFER_ACCEPT). 0: none.
   std::chrono::seconds defer_accept{1};
@@ -81,7 +80,6 @@ class TcpListener {
   /// Receives a connection that is ready for frames. The channel is not started; destroying it disconnects.
   using OnChannel = std::function<void(std::unique_ptr<ReliableChannel> channel)>;
 
-  /// Counters of connections.
   struct Counters {
     std::uint64_t failed_accepts = 0;       ///< failed accepts, for example without descriptors; retried
     std::uint64_t handshakes = 0;           ///< TLS: completed, and the channel was delivered
@@ -111,7 +109,6 @@ class TcpListener {
   /// "127.0.0.1:40000" or "[::1]:40000", for logs.
   std::string address() const;
   const Counters& counters() const;
-  /// Counters::failed_accepts.
   std::uint64_t failedAccepts() const { return counters().failed_accepts; }
   /// The number of running handshakes.
   std::size_t halfOpen() const;

@@ -230,15 +230,10 @@ ByteStream::Outcome TlsStream::outcomeOf(int result) {
 }
 
 void TlsStream::explain() {
-  if (bio_.refused) {
-    problem_ = "its first message is too long";
-  } else if (bio_.failed) {
-    problem_ = "the connection broke";
-  } else if (bio_.ended) {
-    problem_ = "it closed the connection";
-  } else {
-    problem_ = inWords(ERR_peek_error(), ssl_.get());
-  }
+  problem_ = bio_.refused  ? "its first message is too long"
+             : bio_.failed ? "the connection broke"
+             : bio_.ended  ? "it closed the connection"
+                           : inWords(ERR_peek_error(), ssl_.get());
 }
 
 }  // namespace naiad

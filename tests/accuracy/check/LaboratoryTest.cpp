@@ -165,7 +165,7 @@ TEST(Laboratory, SlowestTickIsJudgedByItsTimeLimit) {
   }
 }
 
-TEST(Laboratory, TickTimeLimitGrowsWithItsContents) {
+TEST(Laboratory, TickTimeLimitGrowsWithBodiesAndImpacts) {
   const TickBound bound;
   EXPECT_EQ(bound.allowedUs(0, 0, 0, 0), 1000);
   EXPECT_EQ(bound.allowedUs(100, 200, 50, 300), 1000 + 5 * 350 + 300);

@@ -53,7 +53,7 @@ bool Company::areHere() {
 void Company::join() {
   for (const auto end = Clock::now() + kJoinTime; !areHere(); serve()) {
     for (HonestPlayer* p_player : {&m_plain, &m_far, &m_away}) {
-      if (!p_player->message().empty() || Clock::now() > end)
+      if (p_player->isOver() || Clock::now() > end)
         throw std::runtime_error("an honest player cannot join: " + p_player->message());
     }
   }

@@ -39,7 +39,9 @@ class HonestPlayer {
   bool isInItsSession();
   /// True if the connection has ended, or has joined again as another player.
   bool isThrownOut();
-  /// Returns why the connection has ended, as a text for people.
+  /// True if the connection has ended for good.
+  bool isOver() const { return m_connection->isOver(); }
+  /// Returns why the connection has ended or is retried, as a text for people.
   const std::string& message() const { return m_connection->message(); }
   /// Starts measuring pauses.
   void watchPauses(Time now);

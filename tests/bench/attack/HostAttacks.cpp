@@ -225,7 +225,7 @@ class KnockingNetworks : public Attack {
     m_next = Clock::now();
   }
   void update(Time now) override {
-    for (; now >= m_next; m_next += 60s / kNetworks) {
+    for (; now >= m_next; m_next += 60'000ms / kNetworks) {
       const int n = m_knocks++ % kNetworks;
       const std::string address =
           "127." + std::to_string(100 + n / 250) + "." + std::to_string(n % 250) + ".1";

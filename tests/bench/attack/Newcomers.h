@@ -1,4 +1,4 @@
-// Each second, a new player joins from its own address and leaves. Measures how long these players wait.
+// Each second, a new player joins from its own /24 and leaves. Measures how long these players wait.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@ class Newcomers {
   void update(Time now) {
     if (now >= m_next) {
       m_next = std::max(m_next + std::chrono::seconds(1), now);
-      m_guests.push_back(
-          {.address = addressIn(kNetwork, m_count++), .since = now, .next_attempt = now, .guest = {}});
+      const std::string address = addressIn(kNetwork, kAddressesPerNetwork * m_count++);
+      m_guests.push_back({.address = address, .since = now, .next_attempt = now, .guest = {}});
     }
     std::erase_if(m_guests, [&](Newcomer& newcomer) { return !serve(newcomer, now); });
   }
@@ -47,6 +47,7 @@ class Newcomers {
 
  private:
   static constexpr int kNetwork = 90;
+  static constexpr int kAddressesPerNetwork = 250;  // of addressIn()
   // Time after which a newcomer that the server asked to wait tries again, as long as dfclient's.
   static constexpr std::chrono::milliseconds kRetryDelay{250};
   static constexpr std::chrono::milliseconds kLeaveTime{500};  // time for the goodbye to arrive

@@ -84,5 +84,16 @@ TEST_F(HungUp, ClosedNewcomerGivesUpAfterFourSeconds) {
   EXPECT_LE(now - begin, Connection::kHandshakeRetryTimeout + Connection::kMaxBackoff + 1s);
 }
 
+TEST_F(HungUp, LeavingEndsTheWaitForABusyServer) {
+  pass(1s, false);
+  wire::ServerMessage busy;
+  busy.mutable_refused()->set_reason(wire::Refused::BUSY);
+  lines.back().callbacks.on_frame(busy.SerializeAsString());
+  connection.update(now);
+  EXPECT_TRUE(connection.isDeferred());
+  connection.leave();
+  EXPECT_FALSE(connection.isDeferred());
+}
+
 }  // namespace
 }  // namespace naiad::test

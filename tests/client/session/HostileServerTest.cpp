@@ -1,8 +1,6 @@
 // Messages with which a server might harm a client, and their effects.
-#include <functional>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "ClientSessionFixture.h"
 #include "shared/net/base/Limits.h"
@@ -49,18 +47,6 @@ TEST_F(HostileServerTest, SendsOnlyDrawableChat) {
   EXPECT_EQ(last().chat().text().size(), kMaxChatLength);
 }
 
-TEST_F(HostileServerTest, HostileNamesAreSanitized) {
-  wire::ServerMessage message = welcomeMessage();
-  message.mutable_welcome()->set_name(
-      "\033[2J\xE2\x80\xAE"
-      "abcdefghijklmnopqrstuvwxyz");
-  message.mutable_welcome()->set_server(std::string(5000, 'v'));
-  receive(message);
-  ASSERT_EQ(session->state(), State::kPlaying);
-  EXPECT_EQ(session->welcome().name, "[2Jabcdefghijklm");
-  EXPECT_EQ(session->welcome().server.size(), 40u);
-}
-
 TEST_F(HostileServerTest, EndsOnUnparsableBytes) {
   session->receive("\xff\xff\xff garbage", now);
   expectRejected();
@@ -100,38 +86,6 @@ TEST_F(HostileServerTest, EndsOnAMalformedSnapshot) {
   receive(message);
   expectRejected();
   EXPECT_EQ(session->replica().aliveCount(), 0u) << "no record of a bad snapshot is applied";
-}
-
-TEST_F(HostileServerTest, EndsOnAWelcomeOutOfRange) {
-  const std::vector<std::function<void(wire::Welcome&)>> lies = {
-      [](wire::Welcome& w) { w.set_player(0); },
-      [](wire::Welcome& w) { w.set_tick_micros(0); },
-      [](wire::Welcome& w) { w.set_tick_micros(4000000000u); },
-      [](wire::Welcome& w) { w.set_view_width(0); },
-      [](wire::Welcome& w) { w.set_view_width(100000); },
-      [](wire::Welcome& w) { w.set_view_height(4000000000u); },
-      [](wire::Welcome& w) { w.set_color(8); },
-      [](wire::Welcome& w) { w.mutable_resume_state()->set_world_epoch(4); },
-      [](wire::Welcome& w) {
-        for (int i = 0; i < 1000; ++i) w.add_help(std::string(3, 'x'));
-      },
-  };
-  for (const auto& lie : lies) {
-    SetUp();
-    wire::ServerMessage message = welcomeMessage();
-    lie(*message.mutable_welcome());
-    receive(message);
-    expectRejected();
-  }
-}
-
-TEST_F(HostileServerTest, EndsOnAPlayerListOutOfRange) {
-  join();
-  wire::ServerMessage message;
-  message.mutable_players()->add_players()->set_player(1);
-  message.mutable_players()->mutable_players(0)->set_color(200);
-  receive(message);
-  expectRejected();
 }
 
 /// However a message is mutated, the session continues in a valid state or ends with a reason.

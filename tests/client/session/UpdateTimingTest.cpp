@@ -19,7 +19,7 @@ int probes(UpdateTiming& timing, Time from, Time to, bool only) {
   return count;
 }
 
-TEST(UpdateTiming, ProbesEagerlyForAWhileAfterDatagramsCame) {
+TEST(UpdateTiming, ProbesEagerlyForTenSecondsAfterADatagram) {
   const Time start{1h};
   UpdateTiming timing;
   timing.onAttached(start - 60s);

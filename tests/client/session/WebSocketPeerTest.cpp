@@ -51,12 +51,6 @@ class WebSocketPeer : public testing::Test {
     EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty() || recorder.closed; }));
     return recorder.frames.empty() ? "nothing" : recorder.frames.front();
   }
-  /// Sends a message and waits for the end of the stream. Returns the reason.
-  std::optional<CloseReason> endBy(const std::string& message) {
-    channel->send(message);
-    EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
-    return recorder.closed;
-  }
 
   TempFolder folder;
   std::unique_ptr<RunningProgram> peer;
@@ -83,30 +77,6 @@ TEST_F(WebSocketPeer, FramesOfAllKindsAreUnderstood) {
   EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
   EXPECT_EQ(recorder.closed, CloseReason::kLocal);
   EXPECT_TRUE(peer->prints("closed 1000\n")) << peer->printed();
-}
-
-TEST_F(WebSocketPeer, NormalAndAbnormalClosesAreDistinguished) {
-  start();
-  for (const bool in_order : {true, false}) {
-    error.reset();
-    recorder = {};
-    open();
-    ASSERT_TRUE(channel) << *error;
-    EXPECT_EQ(endBy(in_order ? "end" : "fail"), in_order ? CloseReason::kPeer : CloseReason::kError);
-    EXPECT_TRUE(peer->prints(in_order ? "closed 1000\n" : "closed 4000\n")) << peer->printed();
-  }
-}
-
-TEST_F(WebSocketPeer, InvalidMessagesCloseWithTheMatchingCode) {
-  start();
-  for (const auto& [message, code] : {std::pair("too large", "1009"), std::pair("text", "1003")}) {
-    error.reset();
-    recorder = {};
-    open();
-    ASSERT_TRUE(channel) << *error;
-    EXPECT_EQ(endBy(message), CloseReason::kProtocol);
-    EXPECT_TRUE(peer->prints(std::string("closed ") + code + "\n")) << peer->printed();
-  }
 }
 
 TEST_F(WebSocketPeer, AnotherSubprotocolIsRefused) {

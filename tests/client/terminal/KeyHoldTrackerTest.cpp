@@ -130,13 +130,6 @@ TEST(KeyHoldTracker, TheOppositeDirectionEndsAHold) {
   }
 }
 
-TEST(KeyHoldTracker, SecondTapDoesNotProlongTheFirst) {
-  KeyHoldTracker keys;
-  keys.handleKey({RIGHTARROW}, kStart);
-  keys.handleKey({SPACE}, kStart + 30ms);
-  EXPECT_EQ(keys.expire(kStart + 80ms), (Actions{{RIGHTARROW, df::KEY_RELEASED}}));
-}
-
 TEST(KeyHoldTracker, LearnsTheKeyboardsRepeatDelay) {
   KeyHoldTracker keys;
   EXPECT_EQ(keys.pause(), KeyHoldTracker::Duration{});

@@ -139,12 +139,6 @@ TEST(ScreenLayout, SideColumnsHoldTheStatusWithoutASpareRow) {
   EXPECT_FALSE(composeScreen(m, 90, 24).placement.status_side);
 }
 
-TEST(ScreenLayout, OneExtraRowBecomesTheStatusLine) {
-  const ScreenLayout layout = composeScreen(model(), 80, 25);
-  EXPECT_TRUE(layout.placement.status_row);
-  EXPECT_EQ(layout.picture.at(79, 23).ch, U'Z');
-}
-
 TEST(ScreenLayout, StatusHasNoEmptyCountsAndNoTicks) {
   struct Case {
     int players;

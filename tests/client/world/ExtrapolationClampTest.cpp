@@ -43,37 +43,6 @@ class ExtrapolationClampTest : public testing::Test {
   std::uint32_t m_number = 0;
 };
 
-TEST_F(ExtrapolationClampTest, ObjectFlyingIntoAWallStopsBeforeIt) {
-  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
-  add(cellsAt(14, 5));
-  EXPECT_EQ(clamped(ball, 0), cellsAt(10, 5));
-  EXPECT_EQ(clamped(ball, 2), cellsAt(12, 5));
-  EXPECT_EQ(clamped(ball, 3), cellsAt(12, 5));  // the ball would touch the wall at 13
-  EXPECT_EQ(clamped(ball, 8), cellsAt(12, 5));
-}
-
-TEST_F(ExtrapolationClampTest, OnlyHardObjectsBlockAndAreBlocked) {
-  const auto ghost = add(cellsAt(10, 5), cellsAt(1, 0), df::SOFT);
-  const auto ball = add(cellsAt(10, 9), cellsAt(1, 0));
-  add(cellsAt(14, 5));
-  add(cellsAt(14, 9), {}, df::SOFT);
-  add(cellsAt(15, 9), {}, df::SPECTRAL);
-  EXPECT_EQ(clamped(ghost, 6), cellsAt(16, 5));
-  EXPECT_EQ(clamped(ball, 6), cellsAt(16, 9));
-}
-
-TEST_F(ExtrapolationClampTest, ObjectsThatTouchAlreadyDoNotBlock) {
-  const auto ball = add(cellsAt(10, 5), cellsAt(0, 1));
-  add(cellsAt(11, 5), {}, df::HARD, {{-kFixedOne / 2, -kFixedOne * 8}, {kFixedOne, kFixedOne * 16}});
-  EXPECT_EQ(clamped(ball, 5), cellsAt(10, 10));
-}
-
-TEST_F(ExtrapolationClampTest, MovingWallsAreExtrapolatedToo) {
-  const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
-  add(cellsAt(14, 5), cellsAt(0, 2));  // this object moves out of the way in time
-  EXPECT_EQ(clamped(ball, 6), cellsAt(16, 5));
-}
-
 TEST_F(ExtrapolationClampTest, LongExtrapolationsAndPastTicksAreNotClamped) {
   const auto ball = add(cellsAt(10, 5), cellsAt(1, 0));
   add(cellsAt(14, 5));

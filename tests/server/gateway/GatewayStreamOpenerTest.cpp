@@ -36,6 +36,12 @@ class GatewayStreamOpenerTest : public testing::Test {
     ASSERT_TRUE(runUntil(context, [&] { return error.has_value(); }));
     if (channel) channel->start(recorder.callbacks());
   }
+  void connect(FakeGame::OnFrame on_frame = {}) {
+    start(std::move(on_frame));
+    streams.emplace(context, address());
+    open(*streams);
+    ASSERT_TRUE(channel) << *error;
+  }
   bool runUntilClosed() {
     return runUntil(context, [&] { return recorder.closed.has_value(); });
   }
@@ -46,14 +52,12 @@ class GatewayStreamOpenerTest : public testing::Test {
   asio::io_context context;
   Recorder recorder;
   std::optional<std::string> error;
+  std::optional<GatewayStreamOpener> streams;
   std::unique_ptr<ReliableChannel> channel;
 };
 
 TEST_F(GatewayStreamOpenerTest, FramesGoBothWays) {
-  start();
-  GatewayStreamOpener streams(context, address());
-  open(streams);
-  ASSERT_TRUE(channel) << *error;
+  ASSERT_NO_FATAL_FAILURE(connect());
   std::vector<std::string> frames;
   for (int i = 0; i < 100; ++i) frames.push_back("frame " + std::to_string(i));
   for (const std::string& frame : frames) channel->send(frame);
@@ -67,20 +71,14 @@ TEST_F(GatewayStreamOpenerTest, FramesGoBothWays) {
 
 TEST_F(GatewayStreamOpenerTest, FramesOfTheLargestSizeArrive) {
   const std::string largest(kMaxServerFrame, 'x');
-  start([&](ReliableChannel& to, const std::string&) { to.send(largest); });
-  GatewayStreamOpener streams(context, address());
-  open(streams);
-  ASSERT_TRUE(channel) << *error;
+  ASSERT_NO_FATAL_FAILURE(connect([&](ReliableChannel& to, const std::string&) { to.send(largest); }));
   channel->send("hello");
   EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty(); }));
   EXPECT_EQ(recorder.frames, std::vector<std::string>{largest});
 }
 
 TEST_F(GatewayStreamOpenerTest, GameClosingItsStreamIsReportedAsPeerClose) {
-  start([](ReliableChannel& to, const std::string&) { to.close(); });
-  GatewayStreamOpener streams(context, address());
-  open(streams);
-  ASSERT_TRUE(channel) << *error;
+  ASSERT_NO_FATAL_FAILURE(connect([](ReliableChannel& to, const std::string&) { to.close(); }));
   channel->send("hello");
   EXPECT_TRUE(runUntilClosed());
   EXPECT_EQ(recorder.closed, CloseReason::kPeer);
@@ -89,8 +87,8 @@ TEST_F(GatewayStreamOpenerTest, GameClosingItsStreamIsReportedAsPeerClose) {
 TEST_F(GatewayStreamOpenerTest, GatewayWithoutAServerIsAnError) {
   start();
   game.reset();
-  GatewayStreamOpener streams(context, address());
-  open(streams);
+  streams.emplace(context, address());
+  open(*streams);
   ASSERT_TRUE(channel) << *error;
   channel->send("hello");
   EXPECT_TRUE(runUntilClosed());
@@ -99,10 +97,8 @@ TEST_F(GatewayStreamOpenerTest, GatewayWithoutAServerIsAnError) {
 
 TEST_F(GatewayStreamOpenerTest, GatewayLossWithPendingWritesIsReportedOnce) {
   std::promise<void> end;
-  start([wait = end.get_future().share()](ReliableChannel&, const std::string&) { wait.wait(); });
-  GatewayStreamOpener streams(context, address());
-  open(streams);
-  ASSERT_TRUE(channel) << *error;
+  ASSERT_NO_FATAL_FAILURE(
+      connect([wait = end.get_future().share()](ReliableChannel&, const std::string&) { wait.wait(); }));
   channel->send(std::string(100, 'x'));
   // The game reads nothing, so at last the gateway stops reading, too, and a write of the client stays
   // pending.

@@ -12,22 +12,21 @@ namespace {
 
 class GatewayServer : public testing::Test {
  protected:
-  GatewayServer() {
-    options = fastOptions();
+  HostOptions optionsOf() const {
+    HostOptions options = fastOptions();
     options.insecure = false;
     options.identity = home.path("identity");
     options.visitors = home.path("visitors");
     options.grace = 60;
+    return options;
   }
-  static void populate(df::World& world) { populateBusyWorld(world, 5); }
 
   GatewayHome home;
-  HostOptions options;
+  TestServer server{[](df::World& world) { populateBusyWorld(world, 5); }, optionsOf()};
+  GatewayRun gateway{home.settings(ShortKey::of(*server.fingerprint()))};
 };
 
 TEST_F(GatewayServer, BrowsersPlayAndSeeTheWorld) {
-  TestServer server(populate, options);
-  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
   WebClient ann(gateway.port());
   WebClient bob(gateway.port());
   ASSERT_TRUE(ann.join("ann"));
@@ -48,28 +47,7 @@ TEST_F(GatewayServer, BrowsersPlayAndSeeTheWorld) {
   EXPECT_EQ(ann.waitForClose(), 1000) << "it said goodbye";
 }
 
-TEST_F(GatewayServer, ItsLimitsCountTheBrowsersAddress) {
-  options.max_per_address = 2;
-  TestServer server(populate, options);
-  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
-  WebClient ann(gateway.port(), "127.0.0.7");
-  WebClient bob(gateway.port(), "127.0.0.7");
-  WebClient third(gateway.port(), "127.0.0.7");
-  WebClient other(gateway.port(), "127.0.0.8");
-  EXPECT_TRUE(ann.join("ann"));
-  EXPECT_TRUE(bob.join("bob"));
-  ASSERT_TRUE(third.play());
-  third.sendMessage(WebClient::hello("cat"));
-  const auto refusal = third.message();
-  ASSERT_TRUE(refusal);
-  EXPECT_TRUE(refusal->has_refused());
-  EXPECT_TRUE(other.join("dan"));
-  EXPECT_EQ(server.counters().joined, 3u);
-}
-
 TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
-  TestServer server(populate, options);
-  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
   WebClient first(gateway.port());
   ASSERT_TRUE(first.play());
   first.sendMessage(WebClient::hello("ann"));
@@ -90,8 +68,6 @@ TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
 }
 
 TEST_F(GatewayServer, ReloadedPageResumesItsSession) {
-  TestServer server(populate, options);
-  GatewayRun gateway(home.settings(ShortKey::of(*server.fingerprint())));
   wire::Welcome welcome;
   {
     WebClient page(gateway.port());

@@ -327,7 +327,8 @@ TEST_F(CopiesTest, NoProcessIsLeftWhenTheSupervisorIsKilled) {
 TEST_F(CopiesTest, RoundSurvivesAKillOfTheWorldsProcessGroup) {
   play(50);
   for (const pid_t one : find(kWorld)) kill(-one, SIGKILL);
-  serveUntil([this] { return logs("the game goes on"); });
+  serveUntil([this] { return logs("game recovered: "); });
+  EXPECT_TRUE(logs("game recovered: ")) << log;
   play(10);
   EXPECT_EQ(verify(), "");
 }

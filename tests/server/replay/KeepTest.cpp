@@ -288,7 +288,7 @@ TEST_F(KeepTest, ChangedGameIsRefusedAndPlayersFinishTheRound) {
   EXPECT_EQ(code, 1) << said;
   EXPECT_TRUE(test::has(said, "Cannot move the round to the installed program: tick "));
   EXPECT_TRUE(test::has(said, "The server restarts when all players have left"));
-  EXPECT_TRUE(playTicks(100)) << "the game goes on";
+  EXPECT_TRUE(playTicks(100)) << "the game continues";
   EXPECT_EQ(status("players"), 2);
   EXPECT_EQ(countIn(log(), " hosts mine on "), 1);
   endBots(SIGKILL);
@@ -339,7 +339,7 @@ TEST_F(KeepTest, KilledDfreplayIsReportedAndTheGameContinues) {
   startBots();
   auto first = std::async(std::launch::async, [this] { return control("restart --keep"); });
   ASSERT_TRUE(waitUntil([this] { return replay() > 0; })) << log();
-  EXPECT_TRUE(playTicks(50)) << "the game goes on beside it";
+  EXPECT_TRUE(playTicks(50)) << "the game continues meanwhile";
   const auto [code, said] = control("restart --keep");
   EXPECT_EQ(code, 1);
   EXPECT_TRUE(test::has(said, "Cannot keep the round: a handover is already in progress."));

@@ -65,9 +65,8 @@ struct StreamPair {
   std::unique_ptr<ByteStream> far;
 };
 
-inline StreamPair connectedStreams(asio::io_context& context, Kind kind,
-                                   const std::string& address = "127.0.0.1") {
-  SocketPair sockets = connectedSockets(context, address);
+inline StreamPair connectedStreams(asio::io_context& context, Kind kind) {
+  SocketPair sockets = connectedSockets(context);
   if (kind == Kind::kPlain) {
     return {std::make_unique<PlainStream>(std::move(sockets.near)),
             std::make_unique<PlainStream>(std::move(sockets.far))};
@@ -89,13 +88,11 @@ inline StreamPair connectedStreams(asio::io_context& context, Kind kind,
 
 /// Both ends of a channel after login.
 struct ChannelPair {
-  explicit ChannelPair(asio::io_context& context, Kind kind, TcpOptions options = generous(),
-                       const std::string& address = "127.0.0.1") {
-    StreamPair streams = connectedStreams(context, kind, address);
+  explicit ChannelPair(asio::io_context& context, Kind kind, TcpOptions options = {.receive_limit = 0xffff}) {
+    StreamPair streams = connectedStreams(context, kind);
     near = makeTcpChannel(std::move(streams.near), options);
     far = makeTcpChannel(std::move(streams.far), options);
   }
-  static TcpOptions generous() { return {.receive_limit = 0xffff}; }
 
   std::unique_ptr<ReliableChannel> near;
   std::unique_ptr<ReliableChannel> far;

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "LegalRecords.h"
 #include "RandomRecords.h"
 #include "shared/replica/MotionCodec.h"
 #include "shared/values/Vector.h"
@@ -30,12 +29,6 @@ void expectExact(const Motion& motion, const Origin& origin) {
   writeMotion(shared, shareMotion(motion), origin);
   ASSERT_EQ(shared.bitCount(), out.bitCount());
   ASSERT_EQ(shared.bytes(), bytes);
-}
-
-/// Returns the number of fractional bits in use.
-int exactBits(df::FixedVector v) {
-  const auto all = static_cast<std::uint64_t>(v.x) | static_cast<std::uint64_t>(v.y);
-  return std::max(0, df::kFixedBits - std::countr_zero(all));
 }
 
 TEST(MotionCodec, RandomMotionsAreExactFromAnyOrigin) {
@@ -115,53 +108,6 @@ TEST(MotionCodec, WholeCellsInTheWindowEncodeCompactly) {
   EXPECT_GT(bitsOf({0, cellsAt(-11, 5), {}, {}}, window), 24u);
   // A quarter of a cell per tick: 2 fractional bits and a sign.
   EXPECT_LE(bitsOf({0, cellsAt(0, 5), cellsAt(-0.25, 0), {}}, window), 32u);
-}
-
-TEST(MotionCodec, FractionTakesAtLeastItsOwnBits) {
-  RandomRecords random(3);
-  for (int bits = 0; bits <= df::kFixedBits; ++bits) {
-    const df::Fixed step = df::Fixed{1} << (df::kFixedBits - bits);
-    const df::FixedVector v{step, random.within(1000) * 2 * step};
-    EXPECT_GE(fractionBits(v), bits);
-    if (bits <= 11) {
-      EXPECT_EQ(fractionBits(v), bits);
-    }
-    EXPECT_EQ(exactBits(v), bits);
-  }
-  EXPECT_EQ(fractionBits({}), 0);
-}
-
-TEST(MotionCodec, TruncatedMotionsAreRefused) {
-  RandomRecords random(4);
-  for (int i = 0; i < 300; ++i) {
-    BitWriter out;
-    const Origin origin = random.origin();
-    writeMotion(out, random.motion(5), origin);
-    const std::string bytes = out.bytes();
-    for (std::size_t length = 0; length + 1 < bytes.size(); ++length) {
-      BitReader in(std::string_view(bytes).substr(0, length));
-      readMotion(in, 5, origin);
-      ASSERT_FALSE(in.ok()) << i << ", " << length << " bytes";
-    }
-  }
-}
-
-TEST(MotionCodec, HostileBytesAreRefusedOrLegal) {
-  RandomRecords random(5);
-  int accepted = 0;
-  int refused = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    std::string bytes(random.rng().below(48), '\0');
-    const int mask = i % 3 == 0 ? 0xFF : i % 3 == 1 ? 0x11 : 0xEE;
-    for (char& byte : bytes) byte = static_cast<char>(random.rng().next() & static_cast<unsigned>(mask));
-    const Origin origin = random.origin();
-    BitReader in(bytes);
-    const Motion motion = readMotion(in, 8, origin);
-    ASSERT_TRUE(!in.ok() || test::isLegal(motion, 8)) << i;
-    ++(in.ok() ? accepted : refused);
-  }
-  EXPECT_GT(accepted, 1000);
-  EXPECT_GT(refused, 1000);
 }
 
 TEST(MotionCodec, VectorsAreExactAndLimited) {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -69,46 +68,6 @@ TEST(Replica, ExtrapolatesBetweenSnapshots) {
   EXPECT_EQ(replica.render(104).at(12, 7).ch, U'@');  // 5 + 6 × 0.25 = 6.5
 }
 
-TEST(Replica, IgnoresOlderRecordsOfAGroup) {
-  Replica replica;
-  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'@')));
-  apply(replica, 5, 0, motion(7, 9));
-  apply(replica, 3, 0, motion(7, 4));
-  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(9, 0));
-  EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'@') << "a motion is no look";
-}
-
-TEST(Replica, LateBirthDoesNotReviveADeadObject) {
-  Replica replica;
-  apply(replica, 2, 0, death(7));
-  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'@')));
-  EXPECT_EQ(replica.find(7), nullptr);
-  EXPECT_EQ(replica.aliveCount(), 0u);
-}
-
-TEST(Replica, LateDeathDoesNotKillTheIdsNextObject) {
-  Replica replica;
-  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
-  apply(replica, 2, 0, death(7));
-  apply(replica, 4, 0, birth(7, 2, character(2, 0, U'b')));
-  apply(replica, 3, 0, death(7));
-  apply(replica, 2, 0, motion(7, 30));
-  ASSERT_NE(replica.find(7), nullptr);
-  EXPECT_EQ(replica.find(7)->generation, 2u);
-  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(2, 0));
-  EXPECT_EQ(replica.aliveCount(), 1u);
-}
-
-TEST(Replica, RepeatedBirthKeepsTheSameObject) {
-  Replica replica;
-  apply(replica, 1, 0, birth(7, 1, character(1, 0, U'a')));
-  apply(replica, 3, 0, motion(7, 9));
-  apply(replica, 2, 0, birth(7, 1, character(5, 0, U'b')));
-  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(9, 0)) << "the motion was newer";
-  EXPECT_EQ(replica.find(7)->state.look.sequence[0][0].ch, U'b') << "the look was not";
-  EXPECT_EQ(replica.aliveCount(), 1u);
-}
-
 TEST(Replica, BirthOfANewGenerationReplacesTheOldOne) {
   Replica replica;
   apply(replica, 1, 0, birth(7, 3, character(1, 0, U'a', 2, 10)));
@@ -117,17 +76,6 @@ TEST(Replica, BirthOfANewGenerationReplacesTheOldOne) {
   EXPECT_EQ(replica.find(7)->generation, 0u);
   EXPECT_EQ(replica.find(7)->state.order, 20u);
   EXPECT_EQ(replica.aliveCount(), 1u);
-}
-
-TEST(Replica, SnapshotNumbersMayWrap) {
-  Replica replica;
-  apply(replica, 0xFFFFFFFE, 0, birth(7, 3, character(1, 0, U'a')));
-  apply(replica, 0xFFFFFFFF, 0, motion(7, 2));
-  apply(replica, 1, 0, motion(7, 3));
-  EXPECT_EQ(replica.find(7)->state.motion.position, cellsAt(3, 0));
-  apply(replica, 2, 0, death(7));
-  apply(replica, 0xFFFFFFFF, 0, birth(7, 0, character(4, 0, U'b')));
-  EXPECT_EQ(replica.find(7), nullptr);
 }
 
 TEST(Replica, ReportsTheNewestAppliedSnapshot) {

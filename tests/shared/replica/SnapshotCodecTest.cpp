@@ -114,10 +114,6 @@ TEST(SnapshotCodec, NumberZeroIsRefused) {
   EXPECT_EQ(read(bytes, {0x10000, 5, 0}, out), ReadResult::kOk);
 }
 
-TEST(SnapshotCodec, EmptySnapshotTakesSixBytes) {
-  EXPECT_EQ(writeSnapshot(header(3, 100), {}).size(), 6u);
-}
-
 TEST(SnapshotCodec, EpochCanBeReadFromTheFirstBytes) {
   for (std::uint8_t epoch = 0; epoch < 4; ++epoch) {
     SnapshotHeader head = header(0xABCD, 0x1234);

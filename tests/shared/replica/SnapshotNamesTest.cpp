@@ -48,27 +48,11 @@ class SnapshotNames : public testing::Test {
   SnapshotHeader m_header;
 };
 
-TEST_F(SnapshotNames, KnownNameResolvesToItsAppearance) {
-  know(49, 7, "saucer");
-  look(3, "saucer", {kNamed, 7});
-  ASSERT_EQ(read(), ReadResult::kOk);
-  EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
-  EXPECT_TRUE(snapshot.records.sequences.empty());
-}
-
 TEST_F(SnapshotNames, ADefinitionIsReported) {
   look(3, "saucer", {kDefined, 7});
   ASSERT_EQ(read(), ReadResult::kOk);
   EXPECT_EQ(lookOf(0), drawnAs("saucer").look);
   EXPECT_EQ(snapshot.records.sequences, (std::vector<SequenceRecord>{{7, drawnAs("saucer").look.sequence}}));
-}
-
-TEST_F(SnapshotNames, NameMayBeDefinedAfterItsUse) {
-  look(9, "saucer", {kDefined, 7});
-  look(3, "saucer", {kNamed, 7});
-  look(12, "saucer", {kNamed, 7});
-  ASSERT_EQ(read(), ReadResult::kOk);
-  for (const std::size_t object : {0u, 1u, 2u}) EXPECT_EQ(lookOf(object), drawnAs("saucer").look);
 }
 
 TEST_F(SnapshotNames, SnapshotsOwnDefinitionTakesPrecedence) {

@@ -7,10 +7,6 @@
 namespace df {
 namespace {
 
-TEST(Vector, BeginsAtTheOrigin) {
-  EXPECT_EQ(Vector(), Vector(0, 0));
-}
-
 TEST(Vector, KeepsDoublePrecisionBehindFloatGetters) {
   Vector v;
   v.setXY(100'000.015625, -0.1);

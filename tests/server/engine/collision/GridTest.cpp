@@ -6,7 +6,6 @@
 #include "engine/collision/Grid.h"
 #include "engine/collision/GridSteps.h"
 #include "engine/world/Random.h"
-#include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
@@ -98,36 +97,6 @@ TEST(Grid, FindsTouchingBoxesOfAnySizeAnywhere) {
   }
 }
 
-// Characters step among characters; characters and boxes step among both.
-TEST(Grid, StepIsFreeIfNothingTouches) {
-  Random random(8);
-  for (const int spread : {12, 60, 700, 2000000000}) {
-    for (const int others : {0, 25, 100}) {  // percent of boxes that are not characters
-      Filed it(1500);                        // the level grows during the test
-      for (int round = 0; round < 6000 / naiad::test::kShare; ++round) {
-        const auto slot = static_cast<Grid::Slot>(random.below(1500));
-        if (!it.filed[slot]) {
-          it.put(slot, randomPosition(random, spread),
-                 random.below(100) < others ? randomBox(random) : kCharacterBox);
-          continue;
-        }
-        FixedVector where = it.positions[slot] + FixedVector{random.below(17) * kFixedOne / 8, 0} -
-                            FixedVector{kFixedOne, random.below(9) * kFixedOne / 8};
-        if (random.below(8) == 0) where = randomPosition(random, spread);
-        it.step(slot, where);
-        ASSERT_FALSE(HasFailure()) << "spread " << spread << " round " << round;
-        if (round % 50 == 0) {
-          std::vector<Grid::Slot> all;
-          it.grid.touching({{fromCells(-1000000000), fromCells(-1000000000)},
-                            {fromCells(2000000000), fromCells(2000000000)}},
-                           1500, all);
-          ASSERT_EQ(sorted(all).size(), static_cast<std::size_t>(it.grid.size()));
-        }
-      }
-    }
-  }
-}
-
 TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
   Random random(11);
   // Positions on the borders between spots, and one unit away from them.
@@ -212,22 +181,6 @@ TEST(Grid, OneCellObjectsAmongFewBoxesMissNoContact) {
     }
   }
   EXPECT_GT(met, 3000);
-}
-
-TEST(Grid, CrowdedCellSurvivesAddsAndRemovesInAnyOrder) {
-  Random random(9);
-  Filed it(300);
-  for (int round = 0; round < 5000; ++round) {
-    const auto slot = static_cast<Grid::Slot>(random.below(300));
-    if (it.filed[slot]) {
-      it.remove(slot);
-    } else {
-      it.put(slot, {kFixedOne * random.below(2), 0}, kCharacterBox);
-    }
-    std::vector<Grid::Slot> found;
-    it.grid.touching(kCharacterBox, 1000, found);
-    ASSERT_EQ(sorted(found), it.touching(kCharacterBox, 1000));
-  }
 }
 
 TEST(Grid, FarAwayBoxesAreNotVisited) {

@@ -92,35 +92,6 @@ TEST(Mask, FirstCharacterLiesInTheCellAfterTheCorner) {
             (Cells{-2000999999, 2001000001, 1000000, 1}));
 }
 
-TEST(Mask, AdjacentBoxesShareNoCell) {
-  const FixedVector size = {kFixedOne, kFixedOne};
-  const FixedBox a = {{0, 0}, size};
-  const FixedBox b = {{kFixedOne, 0}, size};
-  EXPECT_TRUE(intersects(a, b));
-  EXPECT_FALSE(shareCell(nullptr, a, nullptr, b));
-  EXPECT_TRUE(shareCell(nullptr, a, nullptr, translate(b, {-1, 0})));
-}
-
-TEST(Mask, HolesDoNotCollide) {
-  const Mask ring = maskOf({"####", "#  #", "####"});
-  const Mask dot = maskOf({"o"});
-  const FixedBox ring_box = {{}, {4 * kFixedOne, 3 * kFixedOne}};
-  const auto meets = [&](int x, int y) {
-    const FixedBox dot_box = {{fromCells(x), fromCells(y)}, {kFixedOne, kFixedOne}};
-    const bool shares = shareCell(&ring, ring_box, &dot, dot_box);
-    EXPECT_EQ(shareCell(&dot, dot_box, &ring, ring_box), shares);
-    EXPECT_EQ(shareCell(nullptr, dot_box, &ring, ring_box), shares);
-    return shares;
-  };
-  EXPECT_FALSE(meets(1, 1));
-  EXPECT_FALSE(meets(2, 1));
-  EXPECT_TRUE(meets(0, 1));
-  EXPECT_TRUE(meets(3, 1));
-  EXPECT_TRUE(meets(1, 2));
-  EXPECT_FALSE(meets(1, 3));
-  EXPECT_FALSE(meets(-1, 0));
-}
-
 TEST(Mask, FullMasksOfHugeBoxesNeedNoRows) {
   const FixedBox huge = {{fromCells(-2001000000), fromCells(-2001000000)},
                          {fromCells(1000000), fromCells(1000000)}};

@@ -7,7 +7,7 @@ namespace {
 
 using ContactsTest = BookWorld;
 
-// "Two characters side by side touch by their boxes, as in the book, but share no cell".
+// "Two characters side by side touch by their boxes but share no cell".
 TEST_F(ContactsTest, PreciseCharactersPassSideBySide) {
   Object* p_o = make(10, 10);
   make(15, 11);
@@ -18,14 +18,14 @@ TEST_F(ContactsTest, PreciseCharactersPassSideBySide) {
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10.5) - FixedVector{0, 1}), 0);
 }
 
-// "A pair is tested so if either of the two is precise."
+// "If either Object is precise, the masks are compared".
 TEST_F(ContactsTest, OnePreciseObjectMakesThePairPrecise) {
   Object* p_o = make(10, 10);
   make(15, 11)->precise = true;
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
 }
 
-// "After the boxes, the masks are compared": a ship is hit where it is drawn.
+// "the masks are compared after the boxes": a ship is hit where it is drawn.
 TEST_F(ContactsTest, AShotPassesThroughAHole) {
   Object* p_ship = make(20, 10);
   p_ship->box = boxOf(6, 3);
@@ -72,7 +72,7 @@ TEST_F(ContactsTest, SweptShotStopsAtTheEndOfAHole) {
   EXPECT_EQ(p_shot->position, cells(21.5, 10) - (FixedVector{1, 0}));
 }
 
-// "it may still be met again later in the move, once the two have come apart"
+// "it may be met later in the move, after the two have separated".
 TEST_F(ContactsTest, ObjectLeavingOneToothMayHitTheNext) {
   Object* p_comb = make(20, 10);
   p_comb->box = boxOf(9, 1);
@@ -108,7 +108,7 @@ TEST_F(ContactsTest, RestContactsAreSentOnRequest) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
 }
 
-// "So a HARD Object that was placed inside another can leave it. Both still hear."
+// "A HARD Object placed inside another can then leave it. Both still get events."
 TEST_F(ContactsTest, MoveOutObjectLeavesAWallStepByStep) {
   for (const bool swept : {false, true}) {
     Object* p_o = make(12, swept ? 18 : 6);
@@ -128,7 +128,7 @@ TEST_F(ContactsTest, MoveOutObjectLeavesAWallStepByStep) {
   }
 }
 
-// "a pair that touches where the move begins": other pairs block as always.
+// "a pair that touches at the start of the move": other pairs block as always.
 TEST_F(ContactsTest, MovingOutDoesNotAllowEnteringAnother) {
   Object* p_o = make(10, 10);
   p_o->may_move_out = true;

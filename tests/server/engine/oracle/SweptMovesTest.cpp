@@ -47,7 +47,7 @@ TEST_F(SweptMovesTest, WorldSettingSweepsAllMoves) {
   EXPECT_EQ(m_world.moveObject(p_arrow, cells(25, 10)), 0);
 }
 
-// "All solid Objects whose boxes touch the mover's somewhere on the way, in the order of (time, creation)."
+// "All solid Objects whose boxes touch the mover's on the path, ordered by time, then creation."
 TEST_F(SweptMovesTest, HitsComeInOrderOfTimeThenCreation) {
   Object* p_mover = makeSwept(10, 10);
   make(30, 10, df::SOFT);
@@ -60,8 +60,8 @@ TEST_F(SweptMovesTest, HitsComeInOrderOfTimeThenCreation) {
   EXPECT_EQ(m_events, "0:0>2 2:0>2 0:0>3 3:0>3 0:0>1 1:0>1 ");
 }
 
-// "it ends with the first time at which a pair blocks", and "everyone else hit at that very time still
-// hears".
+// "It ends with the first time at which a pair would block", but "other Objects hit *at that time* still get
+// events".
 TEST_F(SweptMovesTest, ObjectsBehindTheBlockerGetNoEvent) {
   Object* p_mover = makeSwept(10, 10);
   make(25, 10, df::SOFT);
@@ -90,7 +90,7 @@ TEST_F(SweptMovesTest, BothAxesStopJustBeforeTheContact) {
   EXPECT_EQ(p_mover->position, cells(19, 9.5) - (FixedVector{1, 1}));
 }
 
-// "counts, at time 0, only if the move closes the gap or the boxes touch at the end, too".
+// "counts, at time 0, only if the move closes the gap or the boxes also touch at the end".
 TEST_F(SweptMovesTest, LeavingAWallIsFreeButSlidingIsBlocked) {
   Object* p_o = makeSwept(10, 10);
   make(11, 10)->box = boxOf(1, 6);
@@ -108,7 +108,7 @@ TEST_F(SweptMovesTest, LeavingAWallIsFreeButSlidingIsBlocked) {
   EXPECT_EQ(m_events, "0:0>1 1:0>1 0:0>1 1:0>1 ");
 }
 
-// "one inside another may leave by the shortest way", in a single move.
+// "one inside another may leave by the shortest path", in a single move.
 TEST_F(SweptMovesTest, ObjectInsideMayLeaveByTheShortestPath) {
   Object* p_o = makeSwept(12, 10);
   make(10, 10)->box = boxOf(6, 6);
@@ -118,7 +118,7 @@ TEST_F(SweptMovesTest, ObjectInsideMayLeaveByTheShortestPath) {
   EXPECT_EQ(m_world.moveObject(p_o, cells(15, 10)), 0);
 }
 
-// "If none does in the end (the handler broke the glass), the mover passes on".
+// "If none blocks in the end (the handler broke the glass), the mover continues".
 TEST_F(SweptMovesTest, BrokenGlassLetsTheArrowThroughToTheNext) {
   Object* p_arrow = makeSwept(10, 10);
   Object* p_glass = makeGlass(20);
@@ -163,7 +163,7 @@ TEST_F(SweptMovesTest, UnblockedMoveSearchesOnce) {
   EXPECT_EQ(p_arrow->position, cells(50, 10));
 }
 
-// "Both sides of each pair hear, as in the book, and the pair is judged afterwards."
+// "Both Objects of each pair get the event, then the pair is judged."
 TEST_F(SweptMovesTest, PairHardenedByItsHandlerBlocksTheMove) {
   Object* p_arrow = makeSwept(10, 10);
   Object* p_foam = makeGlass(20, df::SOFT);
@@ -174,7 +174,7 @@ TEST_F(SweptMovesTest, PairHardenedByItsHandlerBlocksTheMove) {
   EXPECT_EQ(p_arrow->position, cells(19, 10) - kUnit);
 }
 
-// "if it still stands where it began; where a handler put it, it stays".
+// "The mover is placed at the last position before that time, unless a handler moved it".
 TEST_F(SweptMovesTest, BlockedMoverStaysWhereAHandlerPutIt) {
   Object* p_arrow = makeSwept(10, 10);
   makeGlass(20);

@@ -7,6 +7,8 @@
 int earlyCollisions(df::Object* p_o, df::Vector where);
 std::string earlySprites(df::Object* p_o);
 bool earlyText(df::Object* p_o);
+bool earlyVelocity(df::Object* p_o);
+int earlyDraw(df::Vector where, bool centered);
 int earlyNames();
 int laterNames();
 
@@ -52,6 +54,24 @@ TEST_F(EarlyNames, IsCollisionConvertsToListAndBool) {
 TEST_F(EarlyNames, SerializeAcceptsABoolFlag) {
   Probe probe;
   EXPECT_TRUE(earlyText(&probe));
+}
+
+TEST_F(EarlyNames, PositionAndVelocityHaveNamesOfFourPointOne) {
+  Probe probe;
+  EXPECT_TRUE(earlyVelocity(&probe));
+}
+
+TEST_F(EarlyNames, FramesAreDrawnAroundOrFromThePosition) {
+  struct Drawn : PlacedObject {
+    using PlacedObject::PlacedObject;
+    int draw() override { return earlyDraw(getPosition(), centered); }
+    bool centered = false;
+  };
+  Drawn o(Vector(9, 10));
+  EXPECT_EQ(shown(), " abc  |  ef  ");
+  o.centered = true;
+  o.setPosition(Vector(10, 10.5));
+  EXPECT_EQ(shown(), " abc  |  ef  ");
 }
 
 TEST_F(EarlyNames, UncentredSpriteStartsAtThePosition) {

@@ -1,6 +1,7 @@
-// Names of the published engine's versions 4.2 to 4.14, used as games of that time used them, in C++11. The
+// Names of the published engine's versions 4.1 to 4.14, used as games of that time used them, in C++11. The
 // test is that this file compiles; EarlyNamesRunTest.cpp runs it.
 
+#include "DisplayManager.h"
 #include "EventCustomNetwork.h"
 #include "EventMouseNetwork.h"
 #include "GameManager.h"
@@ -9,6 +10,7 @@
 #include "NetworkNode.h"
 #include "ObjectList.h"
 #include "PathManager.h"
+#include "Position.h"
 #include "QuadtreeNode.h"
 #include "ResourceManager.h"
 #include "Splash.h"
@@ -69,6 +71,22 @@ bool earlyText(df::Object* p_o) {
   const std::string place = p_o->serialize("pos");
   return whole.find("id:") == 0 && rest.empty() && place.find("pos-x:") == 0 &&
          place.find("id:") == std::string::npos;
+}
+
+bool earlyVelocity(df::Object* p_o) {
+  df::Position place(1, 2);
+  p_o->setPosition(place);
+  place = p_o->getPosition();
+  p_o->setXVelocity(0.5f);
+  p_o->setYVelocity(-1);
+  if (!p_o->isModified(df::POS) || !p_o->isModified(df::VELOCITY)) return false;
+  return place.getX() == 1 && p_o->getVelocity() == df::Vector(0.5f, -1) && p_o->getXVelocity() == 0.5f &&
+         p_o->getYVelocity() == -1;
+}
+
+int earlyDraw(df::Vector where, bool centered) {
+  const df::Frame frame(3, 2, "abc#ef");
+  return DM.drawFrame(where, frame, centered, df::RED, '#');
 }
 
 int earlyNames() {

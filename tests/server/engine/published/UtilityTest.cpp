@@ -211,18 +211,5 @@ TEST_F(UtilityTest, SocketCallsFailAndLogOneHint) {
   EXPECT_EQ(logged("games need no sockets here"), 1);
 }
 
-TEST_F(UtilityTest, CompatCharactersOneApartDoNotTouch) {
-  Object a;
-  Object b;
-  EXPECT_TRUE(WM.isCollision(&a, Vector(1, 0)));
-  world.setCompat();
-  Object c;
-  b.setSolidness(SPECTRAL);
-  a.setSolidness(SPECTRAL);
-  Object d;
-  EXPECT_FALSE(WM.isCollision(&c, d.getPosition() + Vector(1, 0)));
-  EXPECT_TRUE(WM.isCollision(&c, d.getPosition() + Vector(0.9, 0)));
-}
-
 }  // namespace
 }  // namespace df::test

@@ -171,13 +171,6 @@ TEST(Crowd, CountsStayCorrectWhenObjectsChangeOrLeave) {
   world.shutDown();
 }
 
-TEST(Crowd, ObjectsWithoutHandlersAreNotListed) {
-  MoverStats stats;
-  play({.objects = 2000}, 1, false, &stats);
-  EXPECT_EQ(stats.met, 0u);
-  EXPECT_GT(stats.unheard, 30'000u);
-}
-
 // An Object with a handler that is far away does not make the crowd slower.
 TEST(Crowd, DistantHandlerDoesNotSlowTheCrowd) {
   World world;

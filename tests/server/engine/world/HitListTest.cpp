@@ -9,7 +9,8 @@
 namespace df::test {
 namespace {
 
-/// Compares the grid's hits on random paths with a test of all Objects.
+/// Compares the grid's hits on random paths, also longer than those of the oracle's worlds, with a test of
+/// all Objects.
 class Hits : public WorldTest {
  protected:
   double within(double low, double high) { return std::uniform_real_distribution<>(low, high)(random); }
@@ -53,11 +54,10 @@ class Hits : public WorldTest {
     return hits;
   }
 
-  void compare(Object& mover, Vector to, HitList::End end) { compare(mover, *toFixed(to), end); }
-  void compare(Object& mover, FixedVector to, HitList::End end) {
+  void compare(Object& mover, Vector to, HitList::End end) {
     const WorldStore& store = world.store();
     const ObjectKey key = mover.key();
-    const SweepPath path(store.box(key.slot), store.position(key.slot), to);
+    const SweepPath path(store.box(key.slot), store.position(key.slot), *toFixed(to));
     Moment since;
     ObjectKeySet met;
     for (int stage = 0; stage < 4; ++stage) {
@@ -99,12 +99,6 @@ class Hits : public WorldTest {
   std::size_t found = 0;
 };
 
-TEST_F(Hits, AllCharacterHitsAreFoundInOrder) {
-  crowd(1000, Vector(), 40, 0);
-  compareMany(Vector(), 50, 100, 2000);
-  EXPECT_GT(found, 2000u);
-}
-
 TEST_F(Hits, AllHitsOfManySizesAreFoundInOrder) {
   crowd(150, Vector(), 60, 3);
   crowd(30, Vector(), 80, 60);
@@ -126,32 +120,6 @@ TEST_F(Hits, HitsAtTheNumberLimitAreFoundInOrder) {
   EXPECT_GT(found, 500u);
 }
 
-// Doubles cannot distinguish the ends of such a path.
-TEST_F(Hits, TinyPathsAtTheNumberLimitFindTheirHits) {
-  const Vector far(-1999999000, 1999999000);
-  auto* p_mover = new Object;
-  objects.push_back(p_mover);
-  p_mover->setPosition(far);
-  const auto place = [&](double x, double y, FixedVector offset) {
-    auto* p = new Object;
-    p->setSolidness(SOFT);
-    world.store().setPosition(p->key().slot, *toFixed(far + Vector(x, y)) + offset);
-    objects.push_back(p);
-  };
-  for (const Fixed x : {-2, -1, 0, 1, 2}) {
-    for (const Fixed y : {-1, 0, 2}) {
-      place(1, 0, {x, y});
-      place(0, -1, {x, y});
-      place(-1, 1, {x, y});
-    }
-  }
-  for (const Fixed x : {-3, -1, 0, 1, 3}) {
-    for (const Fixed y : {-2, -1, 0, 1, 2})
-      compare(*p_mover, *toFixed(far) + FixedVector{x, y}, HitList::kBlock);
-  }
-  EXPECT_GT(found, 100u);
-}
-
 TEST_F(Hits, PathAcrossTheWorldFindsItsHits) {
   crowd(300, Vector(), 3, 10);
   auto* p_mover = new Object;
@@ -163,12 +131,6 @@ TEST_F(Hits, PathAcrossTheWorldFindsItsHits) {
     }
   }
   EXPECT_GT(found, 4u);
-}
-
-TEST_F(Hits, ZeroLengthPathFindsTouchedObjects) {
-  crowd(300, Vector(), 20, 5);
-  compareMany(Vector(), 20, 0, 200);
-  EXPECT_GT(found, 200u);
 }
 
 }  // namespace

@@ -104,18 +104,6 @@ TEST_F(Interests, OrderSurvivesManyDeletionsAndUnregistrations) {
   EXPECT_EQ(received, expected);
 }
 
-TEST_F(Interests, StepEventCountsTheTicks) {
-  Probe a("a");
-  a.registerInterest(STEP_EVENT);
-  std::vector<int> counts;
-  a.on_event = [&](Probe&, const Event& e) {
-    counts.push_back(dynamic_cast<const EventStep&>(e).getStepCount());
-  };
-  ticks(2);
-  EXPECT_EQ(counts, (std::vector<int>{1, 2}));
-  EXPECT_EQ(GM.getStepCount(), 2);
-}
-
 TEST_F(Interests, ThrowingHandlerIsQuarantinedAndTheTickContinues) {
   auto* p_bad = new Probe("bad", &received);
   Probe good("good", &received);

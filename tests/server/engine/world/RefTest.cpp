@@ -53,14 +53,6 @@ TEST_F(Reference, DoesNotMatchASuccessorAtTheSameAddress) {
   p_next->~Probe();
 }
 
-TEST_F(Reference, DefaultIsNull) {
-  const Ref<Probe> none;
-  const Ref<Probe> null = nullptr;
-  EXPECT_FALSE(none);
-  EXPECT_EQ(none, null);
-  EXPECT_EQ(none, nullptr);
-}
-
 TEST_F(Reference, ComparesByTheObject) {
   auto* a = new Probe;
   auto* b = new Probe;
@@ -120,12 +112,6 @@ TEST_F(Reference, SurvivesTheWorldAndItsObjects) {
   const Ref<Probe> late = p_left.get();
   EXPECT_FALSE(late);
   p_left.reset();
-  EXPECT_FALSE(ref);
-}
-
-TEST_F(Reference, ShutDownMakesAllNull) {
-  const Ref<Probe> ref = new Probe;
-  world.shutDown();
   EXPECT_FALSE(ref);
 }
 

@@ -45,15 +45,5 @@ TEST(ViewCoverTest, MatchesTestingEveryView) {
   }
 }
 
-TEST(ViewCoverTest, TouchingEdgesIntersect) {
-  std::vector<FixedVector> corners;
-  for (int i = 0; i < 20; ++i) corners.push_back(cells(100 * i, 0));
-  const ViewCover cover(corners, cells(20, 10));
-  EXPECT_TRUE(cover.intersectsAny({cells(20, 10), {}}));
-  EXPECT_TRUE(cover.intersectsAny({cells(98, 3), cells(2, 1)}));
-  EXPECT_FALSE(cover.intersectsAny({cells(20, 10) + FixedVector{1, 0}, {}}));
-  EXPECT_FALSE(cover.intersectsAny({cells(98, 3), cells(2, 1) - FixedVector{1, 0}}));
-}
-
 }  // namespace
 }  // namespace df

@@ -126,15 +126,6 @@ TEST_F(WorldLife, ShutDownOutsideATickWaitsForTheHandler) {
   EXPECT_EQ(world.store().countInWorld(), 1) << "it is shut down once";
 }
 
-TEST_F(WorldLife, RunWithoutRunnerTicksUntilGameOver) {
-  Probe p("p");
-  p.hear(STEP_EVENT, [](Probe&, const Event&) {
-    if (GM.getStepCount() == 7) GM.setGameOver();
-  });
-  GM.run();
-  EXPECT_EQ(GM.getStepCount(), 7);
-}
-
 TEST_F(WorldLife, RunCanBeCalledAgainAfterGameOver) {
   GM.startUp();
   Probe p("title");
@@ -161,17 +152,6 @@ TEST_F(WorldLife, RunInsideAHandlerReturnsAtOnce) {
   };
   GM.run();
   EXPECT_EQ(handled, 3);
-  EXPECT_EQ(GM.getStepCount(), 3);
-}
-
-TEST_F(WorldLife, RunUsesTheRunner) {
-  struct Three : Runner {
-    void run(World& w) override {
-      for (int i = 0; i < 3; ++i) w.tick();
-    }
-  } three;
-  GM.setRunner(&three);
-  GM.run();
   EXPECT_EQ(GM.getStepCount(), 3);
 }
 

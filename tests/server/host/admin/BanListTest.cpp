@@ -42,7 +42,7 @@ class BanListTest : public testing::Test {
   /// Adds a ban and waits for the disk. Returns the problem, "" if none.
   static std::string add(BanList& list, const Ban& ban) {
     std::promise<std::string> saved;
-    EXPECT_TRUE(list.add(ban, [&saved](const std::string& problem) { saved.set_value(problem); }));
+    EXPECT_TRUE(list.add({ban}, [&saved](const std::string& problem) { saved.set_value(problem); }));
     return saved.get_future().get();
   }
   static std::size_t remove(BanList& list, const std::string& text) {
@@ -51,10 +51,25 @@ class BanListTest : public testing::Test {
     if (count > 0) saved.get_future().wait();
     return count;
   }
+  /// Changes the file, like another program.
+  void execute(const char* p_command) const {
+    sqlite3* p_database = nullptr;
+    ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(p_database, p_command, nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(p_database);
+  }
+  static void reload(BanList& list) {
+    std::promise<std::vector<Ban>> loaded;
+    ASSERT_TRUE(list.reload([&loaded](std::vector<Ban> bans, const std::string& problem) {
+      EXPECT_EQ(problem, "");
+      loaded.set_value(std::move(bans));
+    }));
+    list.replaceAll(loaded.get_future().get());
+  }
 
   const test::TempFolder folder;
   Ban::Time now{1'800'000'000s};
-  AdminWorker worker;
+  JobThread worker;
 };
 
 TEST_F(BanListTest, RangeBanAppliesOnlyToItsAddresses) {
@@ -100,7 +115,7 @@ TEST_F(BanListTest, BanExpiresAtItsEndTime) {
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
   now += 1s;
   EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
-  AdminWorker other;
+  JobThread other;
   EXPECT_TRUE(BanList(other, folder, clock()).currentSet()->all().empty());
 }
 
@@ -134,7 +149,7 @@ TEST_F(BanListTest, BansLastBeyondARestart) {
     EXPECT_EQ(add(list, ofName("Eve")), "");
     EXPECT_EQ(remove(list, "name:Eve"), 1u);
   }
-  AdminWorker other;
+  JobThread other;
   BanList again(other, folder, clock());
   ASSERT_EQ(again.currentSet()->all().size(), 2u);
   const auto set = again.currentSet();
@@ -157,7 +172,7 @@ TEST_F(BanListTest, NewBanOfSameRangeReplacesTheOld) {
   ban.until.reset();
   add(list, ban);
   EXPECT_EQ(list.currentSet()->all().size(), 1u);
-  AdminWorker other;
+  JobThread other;
   BanList again(other, folder, clock());
   ASSERT_EQ(again.currentSet()->all().size(), 1u);
   EXPECT_FALSE(again.currentSet()->all().front().until);
@@ -197,35 +212,39 @@ TEST_F(BanListTest, ADamagedFileOfBansIsAnError) {
   bytes.seekp(4096 + 2);
   bytes << std::string(3000, '\x5a');
   bytes.close();
-  AdminWorker other;
+  JobThread other;
   EXPECT_THROW(BanList(other, folder, clock()), BanFileError);
 }
 
 TEST_F(BanListTest, DatabaseWithAnotherSchemaIsAnError) {
-  sqlite3* p_database = nullptr;
-  ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(p_database, "CREATE TABLE bans(x)", nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(p_database);
+  execute("CREATE TABLE bans(x)");
   EXPECT_THROW(BanList(worker, folder, clock()), BanFileError);
 }
 
 // Simulates a full disk: the folder cannot be created.
-TEST_F(BanListTest, UnsavedBanAppliesReportsErrorAndReloadSavesIt) {
+TEST_F(BanListTest, UnsavedBanAppliesAndReloadSavesIt) {
   const fs::path blocked = folder / "state";
   std::ofstream(blocked) << "in the way";
   BanList list(worker, blocked, clock());
   EXPECT_NE(add(list, ofRange("192.0.2.7")), "");
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
   fs::remove(blocked);
-  std::promise<std::vector<Ban>> loaded;
-  ASSERT_TRUE(list.reload([&loaded](std::vector<Ban> bans, const std::string& problem) {
-    EXPECT_EQ(problem, "");
-    loaded.set_value(std::move(bans));
-  }));
-  list.replaceAll(loaded.get_future().get());
+  reload(list);
   EXPECT_TRUE(list.isBanned(at("192.0.2.7")));
-  AdminWorker other;
+  JobThread other;
   EXPECT_TRUE(BanList(other, blocked, clock()).isBanned(at("192.0.2.7")));
+}
+
+TEST_F(BanListTest, UnsavedRemovalAppliesAndReloadSavesIt) {
+  BanList list(worker, folder, clock());
+  EXPECT_EQ(add(list, ofRange("192.0.2.7")), "");
+  execute("ALTER TABLE bans RENAME TO gone");
+  EXPECT_EQ(remove(list, "192.0.2.7"), 1u);
+  execute("ALTER TABLE gone RENAME TO bans");
+  reload(list);
+  EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
+  JobThread other;
+  EXPECT_FALSE(BanList(other, folder, clock()).isBanned(at("192.0.2.7")));
 }
 
 TEST_F(BanListTest, BanWithoutAFolderAppliesAndReportsAProblem) {
@@ -237,10 +256,11 @@ TEST_F(BanListTest, BanWithoutAFolderAppliesAndReportsAProblem) {
 TEST_F(BanListTest, BanBeyondTheLimitIsRefused) {
   BanList list(worker, {}, clock());
   std::vector<Ban> bans;
-  for (std::uint32_t i = 0; i < BanList::kMaxBans; ++i)
+  for (std::uint32_t i = 1; i < BanList::kMaxBans; ++i)
     bans.push_back(ofRange(asio::ip::make_address_v4(0x0a000000 + i).to_string()));
   list.replaceAll(std::move(bans));
-  EXPECT_FALSE(list.add(ofRange("192.0.2.7"), [](const std::string&) {}));
+  EXPECT_FALSE(list.add({ofRange("192.0.2.7"), ofName("Bob")}, [](const std::string&) {}));
+  EXPECT_FALSE(list.isBanned(at("192.0.2.7")));
   EXPECT_TRUE(list.isBanned(at("10.0.1.1")));
   EXPECT_FALSE(list.isBanned(at("11.0.1.1")));
 }

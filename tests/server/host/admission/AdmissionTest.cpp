@@ -5,22 +5,16 @@
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "host/admission/Admission.h"
 #include "host/auth/PasswordHash.h"
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/JournalWriter.h"
-#include "host/journal/RoundRecovery.h"
-#include "naiad.pb.h"
-#include "tests/server/host/rooms/Clients.h"
+#include "tests/server/host/rooms/HostRooms.h"
+#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
@@ -31,65 +25,24 @@ using test::helloOf;
 
 constexpr int kTurns = 100;  ///< turns of a round that is replayed
 
-struct Nowhere : JournalSink {
-  void write(std::string_view) override {}
-  void sync() override {}
-  void setFlags(std::uint16_t) override {}
-};
-
 /// A world that closes at once, or only when the test allows it.
-class FakeWorld : public WorldPort {
- public:
-  FakeWorld(int& worlds, const bool& ends) : m_worlds(worlds), m_ends(ends) { ++m_worlds; }
-  ~FakeWorld() override { --m_worlds; }
-  FakeWorld(const FakeWorld&) = delete;
-  FakeWorld& operator=(const FakeWorld&) = delete;
+struct ClosingWorld : test::FakeWorld {
+  explicit ClosingWorld(std::shared_ptr<const bool> may_end) : m_may_end(std::move(may_end)) {}
 
-  bool isReady() const override { return ready; }
   void tick(const SentTurn&) override {}
-  std::uint32_t nextTick() const override { return 1; }
-  const df::WorldView& view() const override { return m_view; }
-  std::optional<WorldEnd> end() const override {
-    return m_closed && m_ends ? std::optional(WorldEnd()) : std::nullopt;
-  }
-  void close(const WorldTurn& /*rest*/) override { m_closed = true; }
+  std::optional<WorldEnd> end() const override { return *m_may_end ? ended : std::nullopt; }
   void answer(int ticks) {
     while (ticks-- > 0) reportTick();
   }
 
-  bool ready = false;
-
  private:
-  int& m_worlds;
-  const bool& m_ends;
-  bool m_closed = false;
-  df::WorldView m_view;
+  const std::shared_ptr<const bool> m_may_end;
 };
 
-class AdmissionTest : public testing::Test {
+class AdmissionTest : public testing::Test, protected test::HostRooms {
  protected:
-  AdmissionTest() {
-    world.log().setSink([](const std::string&) {});
-    options.max_players = 3;
-  }
+  AdmissionTest() { options.max_players = 3; }
 
-  Admission& admission() {
-    if (!m_admission) {
-      rooms.open(world);
-      m_admission.emplace(Admission::Setup{context, sessions, rooms, news, prefixes,
-                                           [](const ReliableChannel&, AeadId) { return nullptr; }});
-      m_admission->setWorld(world);
-    }
-    return *m_admission;
-  }
-  Client& greet(const wire::Hello& hello, const std::string& address = "192.0.2.1:1") {
-    admission();
-    Client& client = clients.emplace_back();
-    client.address = address;
-    sessions.add(std::make_unique<test::FakeChannel>(client), events(), now);
-    client.greet(hello);
-    return client;
-  }
   static wire::Hello returning(const Client& client) {
     wire::Hello hello = helloOf("Ann");
     hello.set_resume_token(client.welcome().resume_token());
@@ -109,12 +62,6 @@ class AdmissionTest : public testing::Test {
     if (sessions.isEmpty()) clients.clear();
     return welcome;
   }
-  static void leave(const Client& client) {
-    wire::ClientMessage message;
-    message.mutable_leave();
-    client.receive(message);
-    client.drop();
-  }
   int joinClass(int pupils) {
     int welcome = 0;
     std::vector<Client*> all;
@@ -128,19 +75,15 @@ class AdmissionTest : public testing::Test {
     return welcome;
   }
   /// Opens a world that replays a killed server's round, up to `percent` of its turns.
-  FakeWorld& recover(int percent) {
-    FakeWorld* p_fake = nullptr;
+  ClosingWorld& recover(int percent) {
+    ClosingWorld* p_fake = nullptr;
     rooms.setWorlds([this, &p_fake](asio::io_context&) {
-      auto fake = std::make_unique<FakeWorld>(worlds, worlds_end);
+      auto fake = std::make_unique<ClosingWorld>(worlds_may_end);
       p_fake = fake.get();
-      p_fake->ready = true;
       std::string records;
       TurnRecordWriter writer;
       for (int i = 0; i < kTurns; ++i) writer.write(WorldTurn(), records);
-      Round::JournalBinding book;
-      book.writer = std::make_shared<JournalWriter>();
-      book.journal =
-          std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 16, false);
+      Round::JournalBinding book = test::ringJournal();
       book.recovery =
           std::make_unique<RoundRecovery>(std::make_shared<UnfinishedRound>(DfrHeader(), records));
       return std::make_unique<Round>(std::move(fake), std::move(book));
@@ -149,7 +92,7 @@ class AdmissionTest : public testing::Test {
     p_fake->answer(percent);
     return *p_fake;
   }
-  void endRecovery(FakeWorld& fake, int percent) {
+  void endRecovery(ClosingWorld& fake, int percent) {
     fake.answer(kTurns - percent + 1);  // one more answer for the closing turn
     rooms.checkWorlds();
   }
@@ -166,42 +109,16 @@ class AdmissionTest : public testing::Test {
         [&sent](std::uint32_t, const wire::ServerMessage&) { sent = true; });
     return sent;
   }
+  long worlds() const { return worlds_may_end.use_count() - 1; }
   void playInPrivate() {
     options.players = "private";
     rooms.setWorlds([this](asio::io_context&) {
-      return std::make_unique<Round>(std::make_unique<FakeWorld>(worlds, worlds_end));
+      return std::make_unique<Round>(std::make_unique<ClosingWorld>(worlds_may_end));
     });
   }
 
-  std::vector<std::string> log;
-  HostContext context{{}, "maze", [this](const LogEvent& event) { log.push_back(event.text); }};
-  HostOptions& options = context.options;
-  Counters& counters = context.counters;
   asio::io_context& io = context.home;
-  SessionTable::Clock::time_point now = SessionTable::Clock::now();
-  df::World world;
-  const df::World::Scope scope{world};
-  PlayerPrefixes prefixes;
-  std::deque<Client> clients;
-  int worlds = 0;
-  bool worlds_end = true;
-  SessionTable sessions{256, counters, [this](Session& session) { rooms.removeSession(session); }};
-  RoomManager rooms{context, sessions, [] {}};
-  PlayerListBroadcaster news;
-
- private:
-  Session::Events events() {
-    return {
-        [this](Session& session, const wire::Hello& hello) { m_admission->evaluateHello(session, hello); },
-        [](Session&, const std::string&) {},
-        [this](Session& session) {
-          m_admission->forgetSession(session);
-          if (session.player() != 0) rooms.leave(session);
-        },
-        [this] { return now; }};
-  }
-
-  std::optional<Admission> m_admission;
+  const std::shared_ptr<bool> worlds_may_end = std::make_shared<bool>(true);
 };
 
 TEST_F(AdmissionTest, NamesCannotForgeLogLines) {
@@ -230,7 +147,7 @@ TEST_F(AdmissionTest, HelloCreatesAPlayerAndGetsAWelcome) {
 }
 
 TEST_F(AdmissionTest, HelloWaitsOneSecondForARunningReplay) {
-  FakeWorld& room = recover(50);
+  ClosingWorld& room = recover(50);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 999ms));
   EXPECT_FALSE(waitsAfter(client, 1ms));
@@ -240,7 +157,7 @@ TEST_F(AdmissionTest, HelloWaitsOneSecondForARunningReplay) {
 }
 
 TEST_F(AdmissionTest, HelloWaitsForAReplayMoreThanHalfDone) {
-  FakeWorld& room = recover(40);
+  ClosingWorld& room = recover(40);
   const Client& client = greet(helloOf("Ann"));
   EXPECT_TRUE(waitsAfter(client, 999ms));
   room.answer(11);
@@ -259,13 +176,18 @@ TEST_F(AdmissionTest, HelloWaitsAtMostThreeSecondsForAReplay) {
 }
 
 TEST_F(AdmissionTest, AnotherVersionOrGameIsRefused) {
-  wire::Hello other_version = helloOf("Ann");
-  other_version.set_protocol(kProtocolVersion + 1);
-  EXPECT_EQ(greet(other_version).refusal(), wire::Refused::VERSION);
-  EXPECT_EQ(counters.refused_version, 1u);
-  wire::Hello other_game = helloOf("Ann");
-  other_game.set_game("tron");
-  EXPECT_EQ(greet(other_game).refusal(), wire::Refused::GAME);
+  wire::Hello hello = helloOf("Ann");
+  hello.set_protocol(kProtocolVersion + 1);
+  const Client& newer = greet(hello);
+  EXPECT_EQ(newer.refusal(), wire::Refused::VERSION);
+  EXPECT_TRUE(test::has(newer.sent.front().refused().message(), "update the server"));
+  hello.set_protocol(kProtocolVersion - 1);
+  EXPECT_TRUE(test::has(greet(hello).sent.front().refused().message(), "update the client"));
+  EXPECT_EQ(counters.refused_version, 2u);
+  hello.set_protocol(kProtocolVersion);
+  hello.set_game("tron");
+  EXPECT_EQ(greet(hello).refusal(), wire::Refused::GAME);
+  EXPECT_EQ(clients.back().sent.front().refused().message(), R"(This server plays "maze", not "tron".)");
   EXPECT_EQ(counters.refused_game, 1u);
 }
 
@@ -279,6 +201,8 @@ TEST_F(AdmissionTest, PlayerLimitsOfServerAndAddressAreEnforced) {
   options.max_per_address = 1;
   EXPECT_TRUE(greet(helloOf("Ann"), "192.0.2.1:1").isWelcome());
   EXPECT_EQ(greet(helloOf("Bob"), "192.0.2.1:2").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(clients.back().sent.front().refused().message(),
+            "Too many players from your address (limit 1). Try again later.");
   EXPECT_EQ(counters.refused_address, 1u);
   EXPECT_TRUE(greet(helloOf("Bob"), "192.0.2.2:1").isWelcome());
   EXPECT_TRUE(greet(helloOf("Cid"), "192.0.2.3:1").isWelcome());
@@ -516,7 +440,7 @@ TEST_F(AdmissionTest, SchoolClassOf64RejoinsPrivateWorldsImmediately) {
   options.max_players = 64;
   playInPrivate();
   EXPECT_EQ(joinClass(64), 64);
-  EXPECT_EQ(worlds, 0) << "they have left";
+  EXPECT_EQ(worlds(), 0) << "they have left";
   EXPECT_EQ(joinClass(64), 64) << "and are back";
 }
 
@@ -538,12 +462,12 @@ TEST_F(AdmissionTest, NewWorldsAreLimitedPerAddressAndInTotal) {
 
 TEST_F(AdmissionTest, WorldsStillEndingCountAgainstTheLimit) {
   playInPrivate();
-  worlds_end = false;
+  *worlds_may_end = false;
   int joins = 0;
   for (int i = 0; i < 20; ++i, now += 1s) joins += visit("192.0.2.1:1") ? 1 : 0;
   EXPECT_EQ(joins, 3 + 8) << "one for each player allowed, and a few that are ending";
-  EXPECT_EQ(worlds, 3 + 8);
-  worlds_end = true;
+  EXPECT_EQ(worlds(), 3 + 8);
+  *worlds_may_end = true;
   rooms.checkWorlds();
   EXPECT_TRUE(visit("192.0.2.1:1"));
 }

@@ -18,15 +18,8 @@
 #include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
 #include "engine/world/Views.h"
-#include "engine/world/World.h"
-#include "engine/world/WorldLog.h"
-#include "host/admission/Admission.h"
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/JournalWriter.h"
-#include "host/journal/RoundRecovery.h"
 #include "host/world/WorldInProcess.h"
-#include "naiad.pb.h"
-#include "tests/server/host/rooms/Clients.h"
+#include "tests/server/host/rooms/HostRooms.h"
 
 namespace naiad {
 namespace {
@@ -34,12 +27,6 @@ namespace {
 using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
-
-struct UnwrittenSink : JournalSink {
-  void write(std::string_view /*bytes*/) override {}
-  void sync() override {}
-  void setFlags(std::uint16_t /*flags*/) override {}
-};
 
 /// Draws a character for each new player.
 struct Pawn : df::Object {
@@ -85,47 +72,36 @@ class LateWorld : public WorldPort {
 };
 
 /// A server that begins a round or resumes that of `records`, until its destruction, which is a kill.
-class ResumingServer {
+class ResumingServer : public test::HostRooms {
  public:
   ResumingServer(std::string records, bool is_late, int places, SessionTable::Clock::time_point begin)
-      : now(begin), m_records(std::move(records)) {
-    world.log().setSink([](const std::string&) {});
+      : m_records(std::move(records)) {
+    now = begin;
     new Pawn;
-    context.options.max_players = places;
-    context.options.max_per_address = 32;
-    context.options.grace = 1;
+    options.max_players = places;
+    options.max_per_address = 32;
+    options.grace = 1;
     rooms.setWorlds([this, is_late](asio::io_context&) { return makeRound(is_late); });
     rooms.setOnRound([](Room&) {},
                      [this](Room& room, const std::vector<PersistedSession>& sessions) {
-                       admission.restoreSessions(room, sessions);
+                       admission().restoreSessions(room, sessions);
                      });
-    rooms.open(world);
-    admission.setWorld(world);
+    admission();
     for (int i = 0; i < 10'000 && rooms.recovering(); ++i) tick();
   }
 
   Client& greet(const std::string& name, const std::string& token = "") {
-    Client& client = clients.emplace_back();
-    client.address = "192.0.2." + std::to_string(clients.size()) + ":1";
-    sessions.add(std::make_unique<test::FakeChannel>(client), events(), now);
     wire::Hello hello = helloOf(name);
     hello.set_resume_token(token);
     hello.set_new_process(!token.empty());
-    client.greet(hello);
-    return client;
-  }
-  static void leave(Client& client) {
-    wire::ClientMessage message;
-    message.mutable_leave();
-    client.receive(message);
-    client.drop();
+    return HostRooms::greet(hello, "192.0.2." + std::to_string(clients.size() + 1) + ":1");
   }
   void tick() {
     now += 33ms;
-    ++context.counters.ticks;
+    ++counters.ticks;
     sessions.forEach([this](Session& session) { session.checkDeadlines(now); });
     rooms.checkWorlds(now);
-    admission.evaluateWaiting();
+    admission().evaluateWaiting();
     rooms.beginTicks();
     m_p_port->answer();
     sessions.sweep();
@@ -140,32 +116,12 @@ class ResumingServer {
     return all;
   }
 
-  HostContext context{{}, "maze", [](const LogEvent&) {}};
-  SessionTable::Clock::time_point now;
-  df::World world;
-  const df::World::Scope scope{world};
-  PlayerPrefixes prefixes;
-  std::deque<Client> clients;
-  SessionTable sessions{256, context.counters, [this](Session& session) { rooms.removeSession(session); }};
-  RoomManager rooms{context, sessions, [] {}};
-  PlayerListBroadcaster list;
-  Admission admission{{context, sessions, rooms, list, prefixes,
-                       [](const ReliableChannel&, AeadId) { return nullptr; },
-                       [this](const wire::Welcome& welcome) -> Session& {
-                         Session& session = sessions.addDetached(now);
-                         session.restore(welcome, events());
-                         return session;
-                       }}};
-
  private:
   std::unique_ptr<Round> makeRound(bool is_late) {
     auto port = std::make_unique<LateWorld>(world);
     m_p_port = port.get();
-    Round::JournalBinding book;
-    book.writer = std::make_shared<JournalWriter>();  // does not have the journal, so all stays in its ring
-    m_journal =
-        std::make_shared<Journal>(std::make_unique<UnwrittenSink>(), DfrHeader(), DfrFacts(), 1 << 20, false);
-    book.journal = m_journal;
+    Round::JournalBinding book = test::ringJournal();
+    m_journal = book.journal;
     if (!m_records.empty()) {
       auto round = std::make_shared<UnfinishedRound>(DfrHeader(), m_records);
       if (is_late) round->dropSessions();
@@ -173,15 +129,6 @@ class ResumingServer {
       book.on_recovered = [](std::uint32_t, const std::string& problem) { EXPECT_EQ(problem, ""); };
     }
     return std::make_unique<Round>(std::move(port), std::move(book));
-  }
-  Session::Events events() {
-    return {[this](Session& session, const wire::Hello& hello) { admission.evaluateHello(session, hello); },
-            [](Session&, const std::string&) {},
-            [this](Session& session) {
-              admission.forgetSession(session);
-              if (session.player() != 0) rooms.leave(session);
-            },
-            [this] { return now; }};
   }
 
   const std::string m_records;

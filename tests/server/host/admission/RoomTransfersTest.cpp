@@ -4,18 +4,14 @@
 #include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
-#include <deque>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/world/World.h"
-#include "host/admission/Admission.h"
 #include "host/admission/RoomTransfers.h"
-#include "tests/server/host/rooms/Clients.h"
+#include "tests/server/host/rooms/HostRooms.h"
 
 namespace naiad {
 namespace {
@@ -24,44 +20,16 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-/// Records its inputs, and moves players when the test says so.
-class DoorPort : public WorldPort {
- public:
-  bool isReady() const override { return true; }
-  void tick(const SentTurn& turn) override {
-    ++m_view.tick;
-    inputs.insert(inputs.end(), turn.turn.inputs.begin(), turn.turn.inputs.end());
-    m_answer.sent = std::exchange(sent, {});
-    reportTick();
-  }
-  std::uint32_t nextTick() const override { return m_view.tick + 1; }
-  const df::WorldView& view() const override { return m_view; }
-  std::optional<WorldEnd> end() const override { return ended; }
-  void close(const WorldTurn& /*rest*/) override { ended = WorldEnd(); }
-
-  std::size_t count(df::InputQueue::Kind kind, std::uint32_t player) const {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        inputs, [&](const auto& input) { return input.kind == kind && input.player == player; }));
-  }
-  std::vector<df::InputQueue::Input> inputs;
-  std::vector<df::RoomTransfer> sent;
-  std::optional<WorldEnd> ended;
-
- private:
-  df::WorldView m_view;
-};
-
-class RoomTransfersTest : public testing::Test {
+class RoomTransfersTest : public testing::Test, protected test::HostRooms {
  protected:
-  RoomTransfersTest() {
+  Admission& openAll() {
     options.max_players = 8;
     rooms.setNamed({plan("lobby", 8), plan("arcade", 1), plan("quiet", 8)});
     rooms.setOnTransfer(
         [this](Session& session, const std::string& room) { moves.askByGame(session, room); });
     rooms.setOnRoomClosed(
         [this](const Room& room, const std::string& message) { moves.evacuate(room, message); });
-    rooms.open(world);
-    admission.setWorld(world);
+    return admission();
   }
   RoomConfig plan(const std::string& name, int places) {
     return {.name = name,
@@ -69,30 +37,17 @@ class RoomTransfersTest : public testing::Test {
             .max_players = places,
             .ready = {},
             .new_world = [this, name](asio::io_context&) {
-              auto port = std::make_unique<DoorPort>();
+              auto port = std::make_unique<test::FakeWorld>();
               ports[name] = port.get();
               ++begun[name];
               return std::make_unique<Round>(std::move(port));
             }};
   }
-  Client& connect(const wire::Hello& hello, const std::string& address = "192.0.2.1:1") {
-    Client& client = clients.emplace_back();
-    client.address = address;
-    sessions.add(
-        std::make_unique<test::FakeChannel>(client),
-        {[this](Session& session, const wire::Hello& said) { admission.evaluateHello(session, said); },
-         [](Session&, const std::string&) {},
-         [this](Session& session) {
-           admission.forgetSession(session);
-           rooms.leave(session);
-         },
-         [this] { return now; },
-         {},
-         [this](Session& session) { moves.sendList(session); },
-         [this](Session& session, const std::string& room) { moves.ask(session, room); }},
-        now);
-    client.greet(hello);
-    return client;
+  Session::Events events() override {
+    Session::Events all = HostRooms::events();
+    all.on_list_rooms = [this](Session& session) { moves.sendList(session); };
+    all.on_enter_room = [this](Session& session, const std::string& room) { moves.ask(session, room); };
+    return all;
   }
   static wire::Hello helloTo(const std::string& name, const std::string& room, bool knows_rooms = true) {
     wire::Hello hello = helloOf(name);
@@ -101,7 +56,7 @@ class RoomTransfersTest : public testing::Test {
     return hello;
   }
   Client& join(const std::string& name, const std::string& room, bool knows_rooms = true) {
-    Client& client = connect(helloTo(name, room, knows_rooms));
+    Client& client = greet(helloTo(name, room, knows_rooms));
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
@@ -140,22 +95,15 @@ class RoomTransfersTest : public testing::Test {
     return *p_found;
   }
 
-  HostContext context{{}, "game of lobby", [](const LogEvent&) {}};
-  HostOptions& options = context.options;
-  Counters& counters = context.counters;
-  SessionTable::Clock::time_point now = SessionTable::Clock::now();
-  df::World world;
-  const df::World::Scope scope{world};
-  PlayerPrefixes prefixes;
-  std::deque<Client> clients;
-  std::map<std::string, DoorPort*> ports;
+  std::size_t count(const std::string& room, df::InputQueue::Kind kind, std::uint32_t player) {
+    return static_cast<std::size_t>(std::ranges::count_if(ports[room]->inputs(), [&](const auto& input) {
+      return input.kind == kind && input.player == player;
+    }));
+  }
+
+  std::map<std::string, test::FakeWorld*> ports;
   std::map<std::string, int> begun;
-  SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  RoomManager rooms{context, sessions, [] {}};
-  PlayerListBroadcaster news;
-  Admission admission{
-      {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
-  RoomTransfers moves{context, sessions, rooms, admission};
+  RoomTransfers moves{context, sessions, rooms, openAll()};
 };
 
 TEST_F(RoomTransfersTest, HelloJoinsTheRoomOrGameItNames) {
@@ -163,14 +111,14 @@ TEST_F(RoomTransfersTest, HelloJoinsTheRoomOrGameItNames) {
   EXPECT_EQ(join("bob", "quiet").welcome().game(), "game of quiet");
   wire::Hello by_game = helloTo("cid", "");
   by_game.set_game("game of arcade");
-  EXPECT_EQ(connect(by_game).welcome().room(), "arcade");
+  EXPECT_EQ(greet(by_game).welcome().room(), "arcade");
   by_game.set_game("chess");
-  EXPECT_EQ(connect(by_game).refusal(), wire::Refused::GAME);
-  Client& lost = connect(helloTo("dan", "lobbi"));
+  EXPECT_EQ(greet(by_game).refusal(), wire::Refused::GAME);
+  Client& lost = greet(helloTo("dan", "lobbi"));
   ASSERT_TRUE(lost.isRefused());
   EXPECT_EQ(lost.sent.front().refused().message(), "There is no room \"lobbi\"; did you mean \"lobby\"?");
   EXPECT_EQ(counters.refused_room, 1u);
-  EXPECT_EQ(connect(helloTo("eve", "arcade")).refusal(), wire::Refused::FULL);
+  EXPECT_EQ(greet(helloTo("eve", "arcade")).refusal(), wire::Refused::FULL);
 }
 
 TEST_F(RoomTransfersTest, RoomsBeginWithTheirFirstPlayer) {
@@ -191,8 +139,8 @@ TEST_F(RoomTransfersTest, MoveSwitchesWorldsAndChangesThePlayerId) {
   EXPECT_EQ(roomOf(ann), "quiet");
   const std::uint32_t after = sessionOf(ann).player();
   EXPECT_GT(after, before);
-  EXPECT_EQ(ports["lobby"]->count(df::InputQueue::kLeave, before), 1u);
-  EXPECT_EQ(ports["quiet"]->count(df::InputQueue::kJoin, after), 1u);
+  EXPECT_EQ(count("lobby", df::InputQueue::kLeave, before), 1u);
+  EXPECT_EQ(count("quiet", df::InputQueue::kJoin, after), 1u);
   EXPECT_EQ(sessionOf(ann).welcomed().room(), "quiet") << "as a welcome back says it";
   EXPECT_EQ(counters.room_transfers, 1u);
   enter(ann, "quiet");
@@ -265,7 +213,7 @@ TEST_F(RoomTransfersTest, OldClientStaysInItsRoomWithoutRoomMessages) {
 TEST_F(RoomTransfersTest, GameMovesOnlyItsOwnPlayers) {
   Client& ann = join("ann", "lobby");
   Client& bob = join("bob", "quiet");
-  ports["lobby"]->sent = {
+  ports["lobby"]->next.sent = {
       {sessionOf(bob).player(), "arcade"}, {4711, "arcade"}, {sessionOf(ann).player(), "quiet"}};
   tick();
   tick();
@@ -276,7 +224,7 @@ TEST_F(RoomTransfersTest, GameMovesOnlyItsOwnPlayers) {
 TEST_F(RoomTransfersTest, RepeatedGameMovesDoNotFloodThePlayer) {
   Client& ann = join("ann", "lobby");
   for (int i = 0; i < 100; ++i) {
-    ports["lobby"]->sent.assign(64, {sessionOf(ann).player(), "nowhere"});
+    ports["lobby"]->next.sent.assign(64, {sessionOf(ann).player(), "nowhere"});
     tick();
   }
   const auto lines = std::ranges::count_if(ann.sent, [](const auto& message) { return message.has_chat(); });
@@ -287,7 +235,7 @@ TEST_F(RoomTransfersTest, RepeatedGameMovesDoNotFloodThePlayer) {
 TEST_F(RoomTransfersTest, GamesReceiveTheRoomsAndTheirChanges) {
   const auto known = [&](const std::string& where, const std::string& name) {
     df::GameRoom last;
-    for (const auto& input : ports[where]->inputs) {
+    for (const auto& input : ports[where]->inputs()) {
       if (input.kind == df::InputQueue::kRoom && input.room.name == name) last = input.room;
     }
     return last;
@@ -301,9 +249,9 @@ TEST_F(RoomTransfersTest, GamesReceiveTheRoomsAndTheirChanges) {
   EXPECT_TRUE(known("quiet", "quiet").is_this_one);
   EXPECT_EQ(known("lobby", "quiet").players, 1);
   EXPECT_FALSE(known("lobby", "quiet").is_asleep);
-  const std::size_t inputs = ports["lobby"]->inputs.size();
+  const std::size_t inputs = ports["lobby"]->inputs().size();
   for (int i = 0; i < 60; ++i) tick();
-  EXPECT_EQ(ports["lobby"]->inputs.size(), inputs) << "nothing has changed";
+  EXPECT_EQ(ports["lobby"]->inputs().size(), inputs) << "nothing has changed";
 }
 
 TEST_F(RoomTransfersTest, AddressMayWakeFourRoomsAtOnceMoreLater) {
@@ -325,14 +273,14 @@ TEST_F(RoomTransfersTest, AddressMayWakeFourRoomsAtOnceMoreLater) {
 TEST_F(RoomTransfersTest, IdleCrowdOfARoomMakesPlaceThere) {
   options.max_players = 64;
   for (int i = 0; i < 8; ++i) join("idler", "quiet");
-  Client& mover = connect(helloTo("mover", "lobby"), "203.0.113.1:1");
+  Client& mover = greet(helloTo("mover", "lobby"), "203.0.113.1:1");
   now += 59s;
-  EXPECT_EQ(connect(helloTo("ann", "quiet"), "203.0.113.2:1").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(greet(helloTo("ann", "quiet"), "203.0.113.2:1").refusal(), wire::Refused::FULL);
   enter(mover, "quiet");
   tick();
   EXPECT_EQ(roomOf(mover), "lobby");
   now += 1s;
-  EXPECT_TRUE(connect(helloTo("ann", "quiet"), "203.0.113.2:1").isWelcome());
+  EXPECT_TRUE(greet(helloTo("ann", "quiet"), "203.0.113.2:1").isWelcome());
   enter(mover, "quiet");
   tick();
   EXPECT_EQ(roomOf(mover), "quiet");
@@ -353,7 +301,7 @@ TEST_F(RoomTransfersTest, RepeatedlyFailingRoomMovesPlayersToFirstRoom) {
   EXPECT_EQ(roomOf(ann), "lobby");
   EXPECT_EQ(begun["quiet"], 5);
   EXPECT_TRUE(old.sent.back().has_goodbye()) << "it cannot be led";
-  EXPECT_EQ(connect(helloTo("bob", "quiet")).refusal(), wire::Refused::BUSY);
+  EXPECT_EQ(greet(helloTo("bob", "quiet")).refusal(), wire::Refused::BUSY);
   EXPECT_FALSE(rooms.isOver()) << "the others go on";
 }
 

@@ -218,27 +218,6 @@ TEST_F(PasswordCheckTest, PrefixesWithPlayersAreCheckedFirst) {
   EXPECT_EQ(order, (std::vector{0, 8, 1, 2, 3, 4, 5, 6})) << "after the one that was begun; one was too many";
 }
 
-TEST_F(PasswordCheckTest, NetworkThatRetriesIsServedBeforeNewOnes) {
-  const auto network = [](int i) { return prefix(256 * i); };
-  for (const auto pause : {2s, 11s}) {
-    now += 1min;
-    std::vector<int> order;
-    const auto askFrom = [&](int i) {
-      ask(network(i), "open sesame", [&, i](Answer answer) {
-        if (answer == Answer::kRight) order.push_back(i);
-      });
-    };
-    for (int i = 1; i <= 9; ++i) askFrom(i);  // the ninth has no place
-    run();
-    now += pause;
-    for (int i = 11; i <= 18; ++i) askFrom(i);
-    askFrom(9);
-    run();
-    EXPECT_EQ(std::ranges::count(order, 9), pause == 2s ? 1 : 0) << pause.count() << " s";
-    EXPECT_EQ(order.size(), 16u);
-  }
-}
-
 TEST_F(PasswordCheckTest, DestructionInACallbackStopsLaterCallbacks) {
   int calls = 0;
   for (int i = 0; i < 3; ++i) {

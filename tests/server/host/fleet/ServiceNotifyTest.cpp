@@ -60,21 +60,18 @@ TEST_F(ServiceNotifyTest, SendsEachNotificationInOneDatagram) {
   ServiceNotify service(variable());
   ASSERT_TRUE(service.isActive());
   service.notifyReady();
-  service.notifyStatus("two\nlines");
-  service.notifyStatus("two\nlines");
+  for (int times = 0; times < 2; ++times) service.notifyPlayers({.address = "two\nlines", .ids = {1}});
   service.notifyReloading(Time(std::chrono::microseconds(1'234'567)));
-  service.extendTimeout(std::chrono::seconds(2));
   service.notifyStopping();
-  EXPECT_EQ(heard(), texts({"READY=1", "STATUS=two\\nlines", "RELOADING=1\nMONOTONIC_USEC=1234567",
-                            "EXTEND_TIMEOUT_USEC=2000000", "STOPPING=1"}));
+  EXPECT_EQ(heard(), texts({"READY=1", "STATUS=two\\nlines, 1 player", "RELOADING=1\nMONOTONIC_USEC=1234567",
+                            "STOPPING=1"}));
 }
 
 TEST_F(ServiceNotifyTest, SendsKeepAlivesTwicePerWatchdogTimeout) {
   variables["WATCHDOG_USEC"] = "1000000";
   variables["WATCHDOG_PID"] = std::to_string(getpid());
   ServiceNotify service(variable());
-  EXPECT_EQ(service.keepAliveTime(), milliseconds(500));
-  for (int millis = 0; millis <= 2000; millis += 100) service.keepAlive(Time(milliseconds(millis)));
+  for (int millis = 0; millis <= 2000; millis += 100) service.notifyTick(Time(milliseconds(millis)));
   EXPECT_EQ(heard(), std::vector<std::string>(5, "WATCHDOG=1")) << "at 0, 500, 1000, 1500 and 2000 ms";
 }
 
@@ -86,10 +83,9 @@ TEST_F(ServiceNotifyTest, SendsKeepAlivesOnlyIfRequested) {
     if (!usec.empty()) variables["WATCHDOG_USEC"] = usec;
     if (!pid.empty()) variables["WATCHDOG_PID"] = pid;
     ServiceNotify service(variable());
-    EXPECT_FALSE(service.keepAliveTime()) << usec << ", " << pid;
-    service.keepAlive(Time(milliseconds(1)));
+    service.notifyTick(Time(milliseconds(1)));
+    EXPECT_EQ(heard(), texts({})) << usec << ", " << pid;
   }
-  EXPECT_EQ(heard(), texts({}));
 }
 
 TEST_F(ServiceNotifyTest, SupportsAbstractSockets) {
@@ -103,26 +99,26 @@ TEST_F(ServiceNotifyTest, IsInactiveWithoutAServiceManager) {
   for (const std::string& path : {std::string("relative"), std::string("/nowhere/notify"), std::string("@"),
                                   std::string(), std::string(200, '/')}) {
     variables["NOTIFY_SOCKET"] = path;
-    EXPECT_FALSE(ServiceNotify(variable()).isActive()) << path;
+    ServiceNotify service(variable());
+    EXPECT_FALSE(service.isActive()) << path;
+    service.notifyReady();
   }
   variables.clear();
-  ServiceNotify service(variable());
-  service.notifyReady();
-  service.keepAlive(Time(milliseconds(1)));
-  EXPECT_FALSE(service.isActive());
+  EXPECT_FALSE(ServiceNotify(variable()).isActive());
 }
 
 // A manager that does not read must not block the server: its socket holds only some datagrams.
 TEST_F(ServiceNotifyTest, StalledManagerBlocksNothingAndLostStatusIsResent) {
   variables["WATCHDOG_USEC"] = "2";
   ServiceNotify service(variable());
-  for (int i = 0; i < 100'000; ++i) service.keepAlive(Time(milliseconds(i)));
-  service.notifyStatus("lost");
+  for (int i = 0; i < 100'000; ++i) service.notifyTick(Time(milliseconds(i)));
+  service.notifyPlayers({.address = "lost", .ids = {}});
   EXPECT_LT(heard().size(), 100'000u);
-  service.notifyStatus("lost");
-  service.keepAlive(Time(milliseconds(100'000)));
+  service.notifyPlayers({.address = "lost", .ids = {}});
+  service.notifyTick(Time(milliseconds(100'000)));
   service.notifyStopping();
-  EXPECT_EQ(heard(), texts({"STATUS=lost", "WATCHDOG=1", "STOPPING=1"})) << "what was lost comes again";
+  EXPECT_EQ(heard(), texts({"STATUS=lost, 0 players", "WATCHDOG=1", "STOPPING=1"}))
+      << "what was lost comes again";
 }
 
 }  // namespace

@@ -119,6 +119,18 @@ TEST(DfrTest, WrittenFileIsReadBackUnchanged) {
   EXPECT_EQ(reader.facts().at("file sprites/ship.txt"), "1234");
 }
 
+TEST(DfrTest, FactsBeyondOneChunkAreDropped) {
+  DfrFacts facts;
+  for (int i = 0; i < 100; ++i) facts["fact " + std::to_string(i)] = std::string(2 * kMaxDfrValue, 'x');
+  const std::string bytes = encodeDfrHeader(DfrHeader()) + encodeDfrMeta(facts);
+  DfrReader reader(bytes);
+  reader.skipToEnd();
+  EXPECT_EQ(reader.problem(), "");
+  EXPECT_EQ(reader.wholeBytes(), bytes.size());
+  EXPECT_GT(reader.facts().size(), 60u);
+  EXPECT_LT(reader.facts().size(), 65u);
+}
+
 TEST(DfrTest, PictureIsReadBackUnchanged) {
   RecordedPicture picture{7, df::Canvas(80, 24)};
   picture.canvas.put(3, 4, {U'█', df::GREEN});

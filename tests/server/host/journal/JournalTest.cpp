@@ -229,23 +229,35 @@ TEST_F(JournalFileTest, ItsFileIsForThisUserAlone) {
   EXPECT_EQ(DfrReader(bytes).header().flags, kDfrStopped);
 }
 
+/// Kills this process, which has this memory.
+void die(const TurnRing& ring) {
+  if (!ring.isShared()) _exit(77);
+  kill(getpid(), SIGKILL);
+}
+
+/// Calls `play` in another process. It calls die(). False if its memory is not shared with other processes.
+template <class Play>
+bool isKilled(Play play) {
+  const pid_t child = fork();
+  if (child == 0) play();
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return WIFSIGNALED(status);
+}
+
 // Records still in memory when the process is killed are written at the next start: no turn is lost.
 TEST_F(JournalFileTest, SalvageRecoversUnwrittenTurnsOfAKilledServer) {
   const fs::path path = folder / "hello.dfr";
   const DfrHeader header = headerOf(0x5A);
-  const pid_t child = fork();
-  if (child == 0) {
+  const bool has_memory = isKilled([&] {
     Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
                     true);
     for (int i = 0; i < 100; ++i) journal.add(turnRecord());
     journal.flush();
     for (int i = 0; i < 50; ++i) journal.add(turnRecord());
-    if (!journal.ring().isShared()) _exit(77);
-    kill(getpid(), SIGKILL);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+    die(journal.ring());
+  });
+  if (!has_memory) GTEST_SKIP() << "there is no /dev/shm";
   fs::resize_file(path, fs::file_size(path) + 7);  // an incomplete chunk at the end
   EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
   EXPECT_EQ(countTurns(test::contentOf(path)), 150u);
@@ -254,19 +266,15 @@ TEST_F(JournalFileTest, SalvageRecoversUnwrittenTurnsOfAKilledServer) {
 
 TEST_F(JournalFileTest, SalvageReportsTurnsLostFromATruncatedFile) {
   const fs::path path = folder / "hello.dfr";
-  const pid_t child = fork();
-  if (child == 0) {
+  const bool has_memory = isKilled([&] {
     Journal journal(std::make_unique<JournalFileSink>(path.string()), headerOf(0x5E), {}, kRing, true);
     for (std::size_t bytes = 0; bytes < 3 * kRing; bytes += turnRecord().size()) {
       journal.add(turnRecord());
       journal.flush();
     }
-    if (!journal.ring().isShared()) _exit(77);
-    kill(getpid(), SIGKILL);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+    die(journal.ring());
+  });
+  if (!has_memory) GTEST_SKIP() << "there is no /dev/shm";
   fs::resize_file(path, fs::file_size(path) / 3);
   const std::vector<std::string> said = salvageRounds(folder.string());
   ASSERT_EQ(said.size(), 1u);
@@ -279,18 +287,14 @@ TEST_F(JournalFileTest, SalvageCreatesAMissingOrIncompleteRoundFile) {
   DfrHeader header = headerOf(0x5C);
   header.seed = 7;
   for (const bool is_made : {false, true}) {
-    const pid_t child = fork();
-    if (child == 0) {
+    const bool has_memory = isKilled([&] {
       Journal journal(std::make_unique<JournalFileSink>(path.string()), header, {{"game", "hello"}}, kRing,
                       true, std::nullopt, ringFolder(folder.string()), path.filename().string());
       for (int i = 0; i < 20; ++i) journal.add(turnRecord());
       if (is_made) std::ofstream(path) << "NA";  // not even the header is complete
-      if (!journal.ring().isShared()) _exit(77);
-      kill(getpid(), SIGKILL);
-    }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+      die(journal.ring());
+    });
+    if (!has_memory) GTEST_SKIP() << "there is no /dev/shm";
     EXPECT_EQ(fs::exists(path), is_made);
     EXPECT_EQ(salvageRounds(folder.string()).size(), 1u);
     const std::string bytes = test::contentOf(path);
@@ -307,18 +311,17 @@ TEST_F(JournalFileTest, SalvageCreatesAMissingOrIncompleteRoundFile) {
 
 // The shared memory belongs to this user, but a name in it must not become a path outside the folder.
 TEST_F(JournalFileTest, RingCannotNameFilesOutsideItsFolder) {
-  int number = 0;
+  std::uint8_t number = 0;
   for (const std::string name : {"../escaped.dfr", "/tmp/naiad-escaped.dfr", ".dfr", "hello.so", "..dfr"}) {
-    const pid_t child = fork();
-    if (child == 0) {
-      const DfrHeader header = headerOf(0x5D, static_cast<std::uint8_t>(++number));
+    ++number;
+    const bool has_memory = isKilled([&] {
+      const DfrHeader header = headerOf(0x5D, number);
       Journal journal(std::make_unique<JournalFileSink>((folder / "x.dfr").string()), header, {}, kRing, true,
                       std::nullopt, ringFolder((folder / "rounds").string()), name);
       journal.add(turnRecord());
-      kill(getpid(), SIGKILL);
-    }
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
+      die(journal.ring());
+    });
+    if (!has_memory) GTEST_SKIP() << "there is no /dev/shm";
   }
   fs::create_directory(folder / "rounds");
   EXPECT_TRUE(salvageRounds((folder / "rounds").string()).empty());
@@ -342,15 +345,11 @@ TEST_F(JournalFileTest, NextServerFreesMemoryOfUnsavedRounds) {
   const auto dead = headerOf(1, 4).uuid;
   const auto lives = headerOf(2, 4).uuid;
   const auto pathOf = [](const auto& round) { return "/dev/shm/naiad-" + uuidText(round); };
-  const pid_t child = fork();
-  if (child == 0) {
+  const bool has_memory = isKilled([&] {
     const TurnRing ring(4096, dead, true, 0, ringFolder(folder.string()));
-    if (!ring.isShared()) _exit(77);
-    kill(getpid(), SIGKILL);
-  }
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "there is no /dev/shm";
+    die(ring);
+  });
+  if (!has_memory) GTEST_SKIP() << "there is no /dev/shm";
   const TurnRing played(4096, lives, true, 0, ringFolder(folder.string()));
   salvageRounds((folder / "another").string());
   EXPECT_TRUE(fs::exists(pathOf(dead))) << "it may be another server's, which is about to need it";

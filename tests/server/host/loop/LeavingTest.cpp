@@ -7,25 +7,19 @@
 #include <deque>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "engine/world/World.h"
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/Journal.h"
-#include "host/journal/JournalSink.h"
-#include "host/journal/JournalWriter.h"
-#include "host/journal/RoundRecovery.h"
 #include "host/journal/UnfinishedRound.h"
 #include "host/loop/HostClients.h"
 #include "host/loop/HostControls.h"
 #include "host/loop/HostEndpoint.h"
 #include "host/ops/HostAdmin.h"
-#include "host/rounds/Round.h"
-#include "tests/server/host/rooms/Clients.h"
+#include "tests/server/host/rooms/HostRooms.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad {
@@ -33,24 +27,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Client;
-
-/// Ends the game for the players that the test names.
-class LeaverWorld : public WorldPort {
- public:
-  explicit LeaverWorld(std::vector<std::uint32_t>& leavers) : m_leavers(leavers) {}
-  bool isReady() const override { return true; }
-  void tick(const SentTurn&) override {
-    ++m_view.tick;
-    m_answer.leavers = std::exchange(m_leavers, {});
-    reportTick();
-  }
-  std::uint32_t nextTick() const override { return m_view.tick + 1; }
-  const df::WorldView& view() const override { return m_view; }
-
- private:
-  std::vector<std::uint32_t>& m_leavers;
-  df::WorldView m_view;
-};
 
 void send(const Client& client, const std::function<void(wire::ClientMessage&)>& fill) {
   wire::ClientMessage message;
@@ -109,7 +85,7 @@ class Building {
   const test::TempFolder folder;
   std::shared_ptr<JournalWriter> writer = std::make_shared<JournalWriter>();
   std::vector<LogEvent> log;
-  std::vector<std::uint32_t> leavers;
+  std::map<std::string, test::FakeWorld*> worlds;
   std::deque<Client> ends;
   df::World world;
   const df::World::Scope scope{world};
@@ -139,7 +115,9 @@ class Building {
                   std::make_unique<JournalFileSink>((folder / (name + ".dfr")).string()), DfrHeader(),
                   DfrFacts(), 1 << 20, false);
               writer->add(book.journal);
-              return std::make_unique<Round>(std::make_unique<LeaverWorld>(leavers), std::move(book));
+              auto port = std::make_unique<test::FakeWorld>();
+              worlds[name] = port.get();
+              return std::make_unique<Round>(std::move(port), std::move(book));
             }};
   }
 };
@@ -172,7 +150,7 @@ const Way kWays[] = {
     {"game_over",
      [](Building& house, Client& eve) {
        ping(eve);
-       house.leavers = {eve.welcome().player()};
+       house.worlds["hall"]->next.leavers = {eve.welcome().player()};
        house.clients.rooms().beginTicks();
      },
      R"(dismissed with "The game is over for you.")"},

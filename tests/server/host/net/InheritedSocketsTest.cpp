@@ -138,7 +138,7 @@ TEST_F(InheritedSocketsTest, DifferentOrMissingAddressesAreRefused) {
 }
 
 // Tests IPv4 and, as with systemd's "[::]:9876", a socket for both address families.
-TEST_F(InheritedSocketsTest, AServerPortListensWithThem) {
+TEST_F(InheritedSocketsTest, ServerPortListensOnInheritedSockets) {
   for (const char* address : {"127.0.0.1", "::"}) {
     const std::uint16_t port = openBoth(address);
     const auto sockets = importSockets();
@@ -194,8 +194,8 @@ void checkNextProgram(const std::string& expected) {
   const auto sockets = InheritedSockets::importSockets();
   ASSERT_TRUE(sockets);
   EXPECT_EQ(std::to_string(sockets->port) + ' ' + std::to_string(sockets->is_service), expected);
-  EXPECT_GE(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
-  EXPECT_GE(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
+  EXPECT_EQ(::fcntl(sockets->streams, F_GETFD), FD_CLOEXEC);
+  EXPECT_EQ(::fcntl(sockets->datagrams, F_GETFD), FD_CLOEXEC);
   EXPECT_FALSE(InheritedSockets::importSockets()) << "only once";
 }
 

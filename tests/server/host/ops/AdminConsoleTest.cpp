@@ -117,7 +117,7 @@ class AdminConsoleTest : public testing::Test {
   HostControls controls{context, endpoint, clients};
   HostScores scores{{context, endpoint, clients, controls}};
   HostAdmin admin{{context, endpoint, clients, controls}, scores};
-  AdminWorker worker;
+  JobThread worker;
   Ban::Time now{1'800'000'000s};
   BanList bans{worker, {}, [this] { return now; }};
   AdminConsole console{context, admin, worker, bans};

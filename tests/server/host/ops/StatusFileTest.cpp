@@ -1,17 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "host/ops/StatusFile.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/Version.h"
-#include "tests/support/TempFolder.h"
-#include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kLink = "naiad://game.example#abcdefghijklmnopqrstuvwxya";
 
@@ -36,16 +30,6 @@ TEST(StatusFile, HostileNameIsEscapedInJson) {
   ServerInfo facts = statusFacts();
   facts.name = "a\n\033[2J\"}";
   EXPECT_NE(statusText(facts, kLink).find("\"a ?[2J\\\"}\""), std::string::npos) << statusText(facts, kLink);
-}
-
-TEST(StatusFile, IsWrittenAndRemovedOnDestruction) {
-  const test::TempFolder home;
-  {
-    const StatusFile file(home / "status.json", statusFacts(), kLink);
-    EXPECT_EQ(test::contentOf(home / "status.json"), statusText(statusFacts(), kLink));
-  }
-  EXPECT_FALSE(fs::exists(home / "status.json"));
-  EXPECT_THROW(StatusFile(home / "none" / "status.json", statusFacts(), kLink), std::runtime_error);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/process/ChildProcess.h"
+#include "tests/support/Processes.h"
 
 namespace naiad {
 namespace {
@@ -46,16 +47,9 @@ TEST(ChildProcess, HangingProgramIsKilledWithItsChildren) {
   EXPECT_LT(Clock::now() - began, kLong);
   const pid_t other = std::stoi(end.output_text);
   // At most a zombie is left, until its new parent has waited for it.
-  while (kill(other, 0) == 0 && Clock::now() - began < kLong) {
-    char state = '?';
-    if (FILE* p_file = fopen(("/proc/" + std::to_string(other) + "/stat").c_str(), "r")) {
-      if (fscanf(p_file, "%*d (%*[^)]) %c", &state) != 1) state = '?';
-      fclose(p_file);
-    }
-    if (state == 'Z') return;
-    std::this_thread::yield();
-  }
-  EXPECT_NE(kill(other, 0), 0);
+  const auto isDead = [&] { return test::stateOf(other) == 'X' || test::stateOf(other) == 'Z'; };
+  while (!isDead() && Clock::now() - began < kLong) std::this_thread::yield();
+  EXPECT_TRUE(isDead());
 }
 
 TEST(ChildProcess, RunDoesNotWaitForLeftoverChildren) {

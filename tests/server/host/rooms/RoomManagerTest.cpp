@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <asio/io_context.hpp>
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "Clients.h"
 #include "engine/managers/WorldManager.h"
-#include "engine/world/World.h"
-#include "host/admission/Admission.h"
-#include "host/rooms/PlayerListBroadcaster.h"
-#include "naiad.pb.h"
+#include "tests/server/host/rooms/HostRooms.h"
 
 namespace naiad {
 namespace {
@@ -23,26 +18,6 @@ namespace {
 using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
-
-/// A world that reports what the test sets.
-class ScriptedPort : public WorldPort {
- public:
-  bool isReady() const override { return true; }
-  void tick(const SentTurn& turn) override {
-    rendered_player.push_back(turn.turn.wants_truth ? turn.turn.rendered_player : 0);
-    ++m_view.tick;
-    m_view.players = players;
-    reportTick();
-  }
-  std::uint32_t nextTick() const override { return m_view.tick + 1; }
-  const df::WorldView& view() const override { return m_view; }
-
-  std::vector<df::PlayerFacts> players;
-  std::vector<std::uint32_t> rendered_player;  ///< per tick: player whose picture was requested, or 0
-
- private:
-  df::WorldView m_view;
-};
 
 df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
   df::PlayerFacts facts;
@@ -53,33 +28,20 @@ df::PlayerFacts factsOf(std::uint32_t id, const std::string& name, int score) {
 }
 
 /// Players in worlds of their own, unless the constructor gets another input mode.
-class RoomManagerTest : public testing::Test {
+class RoomManagerTest : public testing::Test, protected test::HostRooms {
  protected:
   explicit RoomManagerTest(const std::string& players = "private") {
     options.players = players;
     rooms.setWorlds([this](asio::io_context&) {
-      auto port = std::make_unique<ScriptedPort>();
+      auto port = std::make_unique<test::FakeWorld>();
       ports.push_back(port.get());
       return std::make_unique<Round>(std::move(port));
     });
-    rooms.open(world);
-    admission.setWorld(world);
+    admission();
   }
 
-  Client& connect(const std::string& name, const std::string& address) {
-    Client& client = clients.emplace_back();
-    client.address = address;
-    sessions.add(
-        std::make_unique<test::FakeChannel>(client),
-        {[this](Session& session, const wire::Hello& hello) { admission.evaluateHello(session, hello); },
-         [](Session&, const std::string&) {}, [this](Session& session) { admission.forgetSession(session); },
-         [this] { return now; }},
-        now);
-    client.greet(helloOf(name));
-    return client;
-  }
   Client& join(const std::string& name) {
-    Client& client = connect(name, "192.0.2.1:1");
+    Client& client = greet(helloOf(name));
     EXPECT_TRUE(client.isWelcome());
     return client;
   }
@@ -105,20 +67,7 @@ class RoomManagerTest : public testing::Test {
     return lines;
   }
 
-  HostContext context{{}, "maze", [](const LogEvent&) {}};
-  HostOptions& options = context.options;
-  Counters& counters = context.counters;
-  SessionTable::Clock::time_point now = SessionTable::Clock::now();
-  df::World world;
-  const df::World::Scope scope{world};
-  PlayerPrefixes prefixes;
-  std::deque<Client> clients;
-  std::vector<ScriptedPort*> ports;
-  SessionTable sessions{1024, counters, [this](Session& session) { rooms.removeSession(session); }};
-  RoomManager rooms{context, sessions, [] {}};
-  PlayerListBroadcaster news;
-  Admission admission{
-      {context, sessions, rooms, news, prefixes, [](const ReliableChannel&, AeadId) { return nullptr; }}};
+  std::vector<test::FakeWorld*> ports;
 };
 
 // ---- worlds without players -------------------------------------------------------------------------------
@@ -129,10 +78,10 @@ class EmptyWorldTest : public RoomManagerTest {
 
   /// True if the world ticks in a tick of the host at `now` + `after`.
   bool ticks(std::chrono::seconds after) {
-    const std::size_t before = ports[0]->rendered_player.size();
+    const std::size_t before = ports[0]->turns.size();
     rooms.checkWorlds(now + after);
     rooms.beginTicks();
-    return ports[0]->rendered_player.size() > before;
+    return ports[0]->turns.size() > before;
   }
 };
 
@@ -189,14 +138,15 @@ class IdleCrowdTest : public RoomManagerTest, public testing::WithParamInterface
 
 TEST_P(IdleCrowdTest, OneAddressWithIdlePlayersCannotKeepItFull) {
   for (int i = 0; i < options.max_players; ++i)
-    ASSERT_TRUE(connect("idler", "192.0.2.1:" + std::to_string(i + 1)).isWelcome()) << i;
+    ASSERT_TRUE(greet(helloOf("idler"), "192.0.2.1:" + std::to_string(i + 1)).isWelcome()) << i;
   now += 59s;
-  EXPECT_EQ(connect("ann", "203.0.113.1:1").refusal(), wire::Refused::FULL);
+  EXPECT_EQ(greet(helloOf("ann"), "203.0.113.1:1").refusal(), wire::Refused::FULL);
   now += 1s;
-  EXPECT_TRUE(connect("ann", "203.0.113.1:1").isWelcome());
-  EXPECT_EQ(connect("bob", "203.0.113.1:2").refusal(), wire::Refused::FULL) << "the address holds a place";
-  EXPECT_EQ(connect("idler", "192.0.2.1:99").refusal(), wire::Refused::FULL);
-  EXPECT_TRUE(connect("cid", "203.0.113.2:1").isWelcome());
+  EXPECT_TRUE(greet(helloOf("ann"), "203.0.113.1:1").isWelcome());
+  EXPECT_EQ(greet(helloOf("bob"), "203.0.113.1:2").refusal(), wire::Refused::FULL)
+      << "the address holds a place";
+  EXPECT_EQ(greet(helloOf("idler"), "192.0.2.1:99").refusal(), wire::Refused::FULL);
+  EXPECT_TRUE(greet(helloOf("cid"), "203.0.113.2:1").isWelcome());
   EXPECT_EQ(counters.idle_kicks, 2u);
 }
 
@@ -230,7 +180,7 @@ TEST_P(PartTest, TimeOfOnlyWatchingIsNotIdle) {
   join("player");
   SessionStatus& status = rooms.findPlayer(2)->status();
   for (std::size_t i = 0; GetParam().own[i] != 0; ++i) {
-    ports[0]->players = {facts(1, GetParam().others[i] == '+'), facts(2, GetParam().own[i] == '+')};
+    ports[0]->picture.players = {facts(1, GetParam().others[i] == '+'), facts(2, GetParam().own[i] == '+')};
     rooms.beginTicks();
     if (GetParam().keys[i] == '+') status.onActivity(now);
     now += 1min;
@@ -263,7 +213,9 @@ class AuditTurnsTest : public RoomManagerTest {
   /// Returns the number of ticks in which the world's own player was rendered. Checks that no other player
   /// was.
   std::size_t wanted(std::size_t number, const Client& client) const {
-    const std::vector<std::uint32_t>& all = ports[number]->rendered_player;
+    std::vector<std::uint32_t> all;
+    for (const auto& [turn, record] : ports[number]->turns)
+      all.push_back(turn.wants_truth ? turn.rendered_player : 0);
     const auto own = std::ranges::count(all, client.welcome().player());
     EXPECT_EQ(own + std::ranges::count(all, 0u), static_cast<std::ptrdiff_t>(all.size()));
     return static_cast<std::size_t>(own);
@@ -314,10 +266,10 @@ TEST_F(RoomManagerTest, LyingWorldAffectsOnlyScoresOfItsPlayers) {
   const Client& bob = join("Bob");
   const std::uint32_t of_ann = ann.welcome().player();
   const std::uint32_t of_bob = bob.welcome().player();
-  ports[0]->players = {factsOf(of_ann, "Ann", 3)};
-  ports[1]->players = {factsOf(of_ann, "Cheat", -100), factsOf(of_bob, "\xff", 7)};
+  ports[0]->picture.players = {factsOf(of_ann, "Ann", 3)};
+  ports[1]->picture.players = {factsOf(of_ann, "Cheat", -100), factsOf(of_bob, "\xff", 7)};
   for (std::uint32_t id = 1000; id < 1200; ++id)
-    ports[1]->players.push_back(factsOf(id, std::string(64, 'x'), 9));
+    ports[1]->picture.players.push_back(factsOf(id, std::string(64, 'x'), 9));
   sendList();
   const std::vector<std::string> honest{"Ann=3", "Bob=7"};
   EXPECT_EQ(listOf(ann), honest);
@@ -327,7 +279,7 @@ TEST_F(RoomManagerTest, LyingWorldAffectsOnlyScoresOfItsPlayers) {
 TEST_F(RoomManagerTest, PlayersAreListedOnceTheirWorldHasThem) {
   const Client& ann = join("Ann");
   const Client& bob = join("Bob");
-  ports[0]->players = {factsOf(ann.welcome().player(), "Ann", 0)};
+  ports[0]->picture.players = {factsOf(ann.welcome().player(), "Ann", 0)};
   sendList();
   EXPECT_EQ(listOf(ann), std::vector<std::string>{"Ann=0"});
   EXPECT_TRUE(listOf(bob).empty());

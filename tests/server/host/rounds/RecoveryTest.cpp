@@ -19,17 +19,17 @@ namespace naiad {
 namespace {
 
 namespace fs = std::filesystem;
-using Input = df::InputQueue::Input;
+using WorldInput = df::InputQueue::Input;
 
-Input joinOf(std::uint32_t player) {
-  Input input{.kind = df::InputQueue::kJoin, .player = player};
+WorldInput joinOf(std::uint32_t player) {
+  WorldInput input{.kind = df::InputQueue::kJoin, .player = player};
   input.name = "Ann";
   input.color = df::RED;
   return input;
 }
 
-Input keyOf(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
-  Input input{.kind = df::InputQueue::kKey, .player = player};
+WorldInput keyOf(std::uint32_t player, df::Keyboard::Key key, df::EventKeyboardAction action) {
+  WorldInput input{.kind = df::InputQueue::kKey, .player = player};
   input.key = key;
   input.key_action = action;
   return input;
@@ -78,7 +78,7 @@ class EchoWorld : public WorldPort {
   std::size_t most_ahead = 0;  ///< maximum of unanswered turns
   std::size_t dies_at = 0;
   std::optional<WorldEnd> ended;
-  std::vector<std::vector<Input>> turns;
+  std::vector<std::vector<WorldInput>> turns;
   std::vector<bool> watched;
   std::string sent;  ///< the records of all turns
 
@@ -94,7 +94,7 @@ class RecoveryTest : public testing::Test {
   }
 
   /// Writes a turn and EchoWorld's answer to it.
-  void turn(std::vector<Input> inputs, bool with_result = true) {
+  void turn(std::vector<WorldInput> inputs, bool with_result = true) {
     WorldTurn turn;
     turn.watched = true;
     turn.inputs = std::move(inputs);
@@ -191,7 +191,7 @@ TEST_F(RecoveryTest, FileContainsPlayersSessionsAndPressedKeys) {
   EXPECT_EQ(found.players(), (std::vector<std::uint32_t>{1, 2}));
   ASSERT_EQ(found.sessions().size(), 2u);
   EXPECT_EQ(found.sessions().at(1).newest, std::string(kPersistedHashSize, '\1'));
-  const std::vector<Input> inputs = found.closingInputs();
+  const std::vector<WorldInput> inputs = found.closingInputs();
   ASSERT_EQ(inputs.size(), 3u);
   EXPECT_EQ(inputs[0].kind, df::InputQueue::kKey);
   EXPECT_EQ(inputs[0].player, 1u);
@@ -322,7 +322,7 @@ TEST_F(RecoveryTest, InputsDuringReplayWaitForTheNextTick) {
   p_echo->answer();
   ASSERT_EQ(recovered, 53u);
   for (const auto& inputs : p_echo->turns) {
-    for (const Input& input : inputs) EXPECT_NE(input.kind, df::InputQueue::kLeave);
+    for (const WorldInput& input : inputs) EXPECT_NE(input.kind, df::InputQueue::kLeave);
   }
   world->tick(true, false);
   ASSERT_EQ(p_echo->turns.back().size(), 1u);

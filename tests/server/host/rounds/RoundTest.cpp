@@ -4,61 +4,37 @@
 #include <string>
 #include <vector>
 
-#include "host/journal/DeterminismCheck.h"
-#include "host/journal/JournalWriter.h"
-#include "host/journal/RoundRecovery.h"
-#include "host/rounds/Round.h"
+#include "tests/server/host/rooms/HostRooms.h"
 
 namespace naiad {
 namespace {
 
-struct Nowhere : JournalSink {
-  void write(std::string_view /*bytes*/) override {}
-  void sync() override {}
-  void setFlags(std::uint16_t /*flags*/) override {}
-};
-
-/// A world that records its turns and what was stored before each.
-class FakeWorld : public WorldPort {
- public:
-  bool isReady() const override { return true; }
+/// Records what was stored before each turn.
+struct StoredWorld : test::FakeWorld {
   void tick(const SentTurn& turn) override {
-    ++ticks;
-    turns.push_back(turn);
     stored_before.clear();
     if (p_journal != nullptr) p_journal->ring().peek(stored_before, 1 << 20);
-    m_answer = {};
-    m_answer.hash = 0xAB00000000000000u + ticks;
-    if (turn.turn.checked) m_answer.state_hash = ticks;
+    const std::uint32_t number = static_cast<std::uint32_t>(turns.size()) + 1;
+    next.hash = 0xAB00000000000000u + number;
+    if (turn.turn.checked) next.state_hash = number;
     df::Canvas canvas(20, 10);
     canvas.put(0, 0, {static_cast<char32_t>(U'A' + turn.turn.rendered_player), df::RED});
-    m_answer.pictures.push_back({turn.turn.rendered_player, canvas});
-    reportTick();
+    next.pictures.push_back({turn.turn.rendered_player, canvas});
+    FakeWorld::tick(turn);
   }
-  std::uint32_t nextTick() const override { return first + ticks; }
-  const df::WorldView& view() const override { return m_view; }
 
-  std::vector<SentTurn> turns;
   std::string stored_before;
   const Journal* p_journal = nullptr;
-  std::uint32_t first = 1;
-  std::uint32_t ticks = 0;
-
- private:
-  df::WorldView m_view;
 };
 
 class RoundTest : public testing::Test {
  protected:
   RoundTest() {
-    auto fake = std::make_unique<FakeWorld>();
+    auto fake = std::make_unique<StoredWorld>();
     p_fake = fake.get();
-    journal = std::make_shared<Journal>(std::make_unique<Nowhere>(), DfrHeader(), DfrFacts(), 1 << 20, false);
+    Round::JournalBinding book = test::ringJournal();
+    journal = book.journal;
     p_fake->p_journal = journal.get();
-    Round::JournalBinding book;
-    book.writer =
-        std::make_shared<JournalWriter>();  // does not have the journal, so all records stay in the ring
-    book.journal = journal;
     book.on_problem = [this](const std::string& problem) { problems.push_back(problem); };
     round = std::make_unique<Round>(std::move(fake), std::move(book));
   }
@@ -80,7 +56,7 @@ class RoundTest : public testing::Test {
             .key_action = df::KEY_PRESSED};
   }
 
-  FakeWorld* p_fake = nullptr;
+  StoredWorld* p_fake = nullptr;
   std::shared_ptr<Journal> journal;
   std::unique_ptr<Round> round;
   std::vector<std::string> problems;
@@ -142,7 +118,7 @@ TEST_F(RoundTest, RecordsPicturesOfTheLongestPresentPlayer) {
 }
 
 TEST_F(RoundTest, ViewedTicksAreRecordedInTheWorldsOwnTicks) {
-  p_fake->first = 1001;  // not the host's first world
+  p_fake->picture.tick = 1000;  // not the host's first world
   round->tick(true, false);
   df::InputQueue::Input click{.kind = df::InputQueue::kMouse, .player = 1, .seen = {true, 1001, 1000}};
   click.mouse_action = df::CLICKED;
@@ -166,7 +142,7 @@ TEST_F(RoundTest, AJournalThatStopsDoesNotStopTheGame) {
   while (journal->add(std::string(1000, 'x'))) continue;
   round->tick(true, false);
   round->tick(true, true);
-  EXPECT_EQ(p_fake->ticks, 2u);
+  EXPECT_EQ(p_fake->turns.size(), 2u);
   EXPECT_TRUE(p_fake->turns.back().turn.wants_truth);
   round->checkProcess(3);
   round->checkProcess(4);

@@ -134,18 +134,11 @@ TEST(ReplicaAudit, BadLineCausesNoWrongCells) {
   EXPECT_GT(pictures, 400u);
 }
 
-TEST(ReplicaAudit, GoodLineHasMostPicturesCompared) {
-  AuditedPair pair({}, 1);
-  for (int i = 0; i < 200; ++i) pair.tick();
-  EXPECT_GT(pair.counters.audited_pictures, 100u);
-  EXPECT_EQ(pair.counters.wrong_cells, 0u);
-}
-
 TEST(ReplicaAudit, UnpublishedChangeIsDetected) {
   AuditedPair pair({}, 1);
-  for (int i = 0; i < 60; ++i) pair.tick();
+  for (int i = 0; i < 200; ++i) pair.tick();
   ASSERT_EQ(pair.counters.wrong_cells, 0u);
-  ASSERT_GT(pair.counters.audited_pictures, 0u);
+  ASSERT_GT(pair.counters.audited_pictures, 100u) << "most are compared on a good line";
   for (int i = 0; i < 60; ++i) pair.tick(true);
   EXPECT_GT(pair.counters.wrong_cells, 0u);
 }

@@ -44,21 +44,6 @@ TEST_F(SessionReturn, BestEffortMessagesAreSentNowOrDropped) {
   EXPECT_EQ(second.sent.size(), 1u) << "the welcome";
 }
 
-TEST_F(SessionReturn, OnlyTheNewestPlayerListIsResent) {
-  for (const std::uint32_t player : {1u, 2u}) {
-    wire::ServerMessage list;
-    list.mutable_players()->add_players()->set_player(player);
-    session->sendReliable(list);
-    sendChat("line");
-  }
-  breakStream(first);
-  const auto other = make(second);
-  greet(second, "token");
-  ASSERT_EQ(second.sent.size(), 4u);
-  EXPECT_TRUE(second.sent[1].has_chat());
-  EXPECT_EQ(second.sent[2].players().players(0).player(), 2u);
-}
-
 TEST_F(SessionReturn, DuplicateFramesAreIgnored) {
   chatLine(first, "one", 1);
   chatLine(first, "two", 2);
@@ -181,11 +166,8 @@ TEST_F(SessionReturn, ResumesAreLimitedToOneASecond) {
   EXPECT_GE(admitted, 3 + 9);
   EXPECT_LE(admitted, 3 + 10);
   EXPECT_EQ(counters.resumes_deferred + static_cast<std::uint64_t>(admitted), 1'000u);
+  for (int i = 0; i < 1'000; ++i, now += 2s) ASSERT_TRUE(session->admitResume()) << i;
   EXPECT_EQ(session->state(), Session::State::kPlaying);
-}
-
-TEST_F(SessionReturn, ResumesEveryTwoSecondsAreNotLimited) {
-  for (int i = 0; i < 1'000; ++i, now += 2s) ASSERT_TRUE(session->admitResume());
 }
 
 TEST_F(SessionReturn, DeferredResumeExtendsTheGracePeriod) {
@@ -232,15 +214,6 @@ TEST_F(SessionReturn, AClientThatAcknowledgesMissesNothing) {
   EXPECT_EQ(session->state(), Session::State::kPlaying);
   EXPECT_EQ(chatOf(first).size(), 1000u);
   EXPECT_EQ(counters.outbox_chat_dropped, 0u);
-}
-
-TEST_F(SessionReturn, AnAcknowledgementOfUnsentMessagesIsIgnored) {
-  sendChat("a");
-  ping(first, 77);
-  breakStream(first);
-  const auto other = make(second);
-  greet(second, "token", false, 9);
-  EXPECT_EQ(chatOf(second), std::vector<std::string>{"a"});
 }
 
 TEST_F(SessionReturn, ClientThatSendsButNeverReadsIsDisconnected) {

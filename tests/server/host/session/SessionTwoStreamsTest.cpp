@@ -161,7 +161,7 @@ TEST_F(SessionWithTwoStreams, ChatOnTheSecondStreamEndsTheSession) {
   EXPECT_TRUE(second.destroyed);
 }
 
-TEST_F(SessionWithTwoStreams, BytesThatAreNoMessageEndTheSession) {
+TEST_F(SessionWithTwoStreams, MalformedFrameOnTheSecondStreamEndsTheSession) {
   second.callbacks.on_frame("\xff\xff");
   EXPECT_EQ(counters.malformed_messages, 1u);
   EXPECT_EQ(session->state(), Session::State::kEnding);

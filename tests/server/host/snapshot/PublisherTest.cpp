@@ -108,17 +108,22 @@ TEST_F(PublisherTest, SharedMotionEqualsTheModelAtTheTick) {
   }
 }
 
-TEST_F(PublisherTest, StraightFlightIsPublishedOnce) {
-  df::FixedVector position = cellsAt(5, 5);
-  const df::FixedVector velocity = cellsAt(0.3, 0.1);
-  drawn(0, position, velocity);
-  EXPECT_EQ(groupsOf(publish(), 0), kAllGroups);
-  for (int i = 0; i < 100; ++i) {
-    position = position + velocity;
-    drawn(0, position, velocity);
-    ASSERT_TRUE(publish().empty()) << "tick " << i;
+TEST_F(PublisherTest, FlightIsPublishedOnce) {
+  for (const df::FixedVector acceleration : {cellsAt(0, 0), cellsAt(0.01, 0.003)}) {
+    publisher = Publisher();
+    df::FixedVector position = cellsAt(5, 5);
+    df::FixedVector velocity = cellsAt(0.3, 0.1);
+    for (int i = 0; i < 60; ++i) {
+      changed(0, position, velocity).acceleration = acceleration;
+      drew(0, position);
+      const auto changes = publish();
+      ASSERT_EQ(changes.size(), i == 0 ? 1u : 0u) << "tick " << i;
+      if (i == 0) EXPECT_EQ(groupsOf(changes, 0), kAllGroups);
+      position = position + velocity;
+      velocity = velocity + acceleration;
+    }
+    EXPECT_EQ(publisher.correctionCount(), 0u);
   }
-  EXPECT_EQ(publisher.correctionCount(), 0u);
 }
 
 TEST_F(PublisherTest, ViewObjectStandsStillWhileViewsMove) {
@@ -150,19 +155,6 @@ TEST_F(PublisherTest, InvalidBackgroundColourBecomesBlack) {
   EXPECT_EQ(published(df::BLUE), df::BLUE);
   EXPECT_EQ(published(df::CUSTOM), df::BLACK);
   EXPECT_EQ(published(df::UNDEFINED_COLOR), df::BLACK);
-}
-
-TEST_F(PublisherTest, AcceleratedFlightIsPublishedOnce) {
-  df::FixedVector position = cellsAt(5, 5);
-  df::FixedVector velocity = cellsAt(0, 0);
-  const df::FixedVector acceleration = cellsAt(0.01, 0.003);
-  for (int i = 0; i < 60; ++i) {
-    changed(0, position, velocity).acceleration = acceleration;
-    drew(0, position);
-    ASSERT_EQ(publish().size(), i == 0 ? 1u : 0u) << "tick " << i;
-    position = position + velocity;
-    velocity = velocity + acceleration;
-  }
 }
 
 TEST_F(PublisherTest, TurnIsCorrectedExactlyWhenItsCellIsWrong) {
@@ -411,16 +403,10 @@ TEST_F(PublisherTest, ReplicaDrawsTheWorldsPictureEveryTick) {
     test::WorldConfig config;
     config.players = 1 + seed % 3;
     config.objects = 10 + 7 * (seed % 9);
-    expectSamePictures(config, seed, 150);
-    if (testing::Test::HasFatalFailure()) return;
-  }
-}
-
-TEST_F(PublisherTest, ALivelyWorldIsDrawnAsWell) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    test::WorldConfig config;
-    config.turn = config.restyle = config.reshape = config.vanish = config.hide = 0.2;
-    config.scribble = config.speech = config.refollow = 0.3;
+    if (seed % 4 == 0) {
+      config.turn = config.restyle = config.reshape = config.vanish = config.hide = 0.2;
+      config.scribble = config.speech = config.refollow = 0.3;
+    }
     expectSamePictures(config, seed, 150);
     if (testing::Test::HasFatalFailure()) return;
   }

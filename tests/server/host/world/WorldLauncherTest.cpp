@@ -92,13 +92,6 @@ void closeBoth(const StartedWorld& world) {
   close(world.output);
 }
 
-bool isGone(pid_t process) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(kPatienceMillis);
-  while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next check
-  return kill(process, 0) == -1 && errno == ESRCH;
-}
-
 TEST(WorldLauncher, ReportsHowAWorldEnded) {
   const WorldLauncher launcher(shell("read word <&3; test \"$word\" = end && exit 7; kill -SEGV $$"));
   for (const auto& [word, is_exit] : {std::pair("end\n", true), {"crash\n", false}}) {
@@ -141,8 +134,8 @@ TEST(WorldLauncher, ClosingTheSupervisorSocketEndsTheWorld) {
   EXPECT_EQ(kill(of_shut, 0), -1);
   EXPECT_EQ(kill(of_closed, 0), 0) << "that of another world";
   closeBoth(closed);
-  EXPECT_TRUE(isGone(of_closed));
-  EXPECT_TRUE(isGone(process));
+  EXPECT_TRUE(test::isGone(of_closed));
+  EXPECT_TRUE(test::isGone(process));
   closeBoth(shut);
 }
 

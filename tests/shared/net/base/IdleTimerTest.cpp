@@ -31,7 +31,7 @@ TEST(IdleTimer, CountsLittleOfTheTimeWithoutPolls) {
   EXPECT_EQ(silence.idleTime(kBegin + 1h + 100ms), IdleTimer::kMaxAtOnce + 100ms);
 }
 
-TEST(IdleTimer, IsNotNegativeIfAMessageEndsWithoutPolls) {
+TEST(IdleTimer, MessageAfterAnHourWithoutPollsResetsIdleTime) {
   IdleTimer silence(kBegin);
   silence.onActivity(kBegin + 1h);
   silence.poll(kBegin + 1h + 1ms);

@@ -79,16 +79,6 @@ Path anywhere(SplitMix64& rng) {
   return path;
 }
 
-TEST(DatagramDemux, FindsTheSessionByItsId) {
-  DatagramDemux gate;
-  Guest ann(gate, 1), ben(gate, 2);
-  ann.say("from ann");
-  ben.say("from ben");
-  EXPECT_EQ(ann.heard, std::vector<std::string>{"from ann"});
-  EXPECT_EQ(ben.heard, std::vector<std::string>{"from ben"});
-  EXPECT_EQ(gate.counters().delivered, 2u);
-}
-
 TEST(DatagramDemux, IdsAreUniqueAndReusableAfterRemoval) {
   DatagramDemux gate;
   Guest ann(gate, 1);

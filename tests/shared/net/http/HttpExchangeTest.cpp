@@ -105,21 +105,6 @@ TEST_F(HttpExchangeTest, RequestsWithABodyHaveAContentLength) {
             "2\r\n\r\n{}");
 }
 
-TEST_F(HttpExchangeTest, EndOfTheConnectionEndsABodyWithoutLength) {
-  run(plain());
-  respond("HTTP/1.1 200 OK\r\n\r\nall");
-  peer.reset();
-  EXPECT_EQ(end(), End::kAnswered);
-  EXPECT_EQ(exchange->answer().body(), "all");
-}
-
-TEST_F(HttpExchangeTest, TruncatedAnswerIsABadAnswer) {
-  run(plain());
-  respond("HTTP/1.1 200 OK\r\nContent-Length: 4\r\n\r\nall");
-  peer.reset();
-  EXPECT_EQ(end(), End::kBadAnswer);
-}
-
 TEST_F(HttpExchangeTest, NonHttpAndOversizedAnswersAreRefused) {
   run(plain());
   accept();

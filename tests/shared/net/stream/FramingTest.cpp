@@ -38,14 +38,6 @@ TEST(Framing, WriterRefusesWrongSizesAndLeavesTheOutputAlone) {
   EXPECT_EQ(out, "before");
 }
 
-TEST(Framing, LargestFrameIsReadBack) {
-  const std::string payload(kMaxFramePayload, 'x');
-  FrameReader reader(kMaxFramePayload);
-  std::vector<std::string> frames;
-  feed(reader, framed(payload), frames);
-  EXPECT_EQ(frames, std::vector{payload});
-}
-
 TEST(Framing, TruncatedFrameIsNotYielded) {
   const std::string whole = framed("hello");
   for (std::size_t length = 1; length < whole.size(); ++length) {
@@ -114,16 +106,6 @@ TEST(Framing, BuffersOnlyReceivedBytes) {
   EXPECT_EQ(reader.buffered(), 2u);
   feed(reader, std::string(10, 'x'), frames);
   EXPECT_EQ(reader.buffered(), 12u);
-}
-
-TEST(Framing, NeverBuffersMoreThanOneFrame) {
-  FrameReader reader(8);
-  std::vector<std::string> frames;
-  std::string stream;
-  for (int i = 0; i < 1000; ++i) appendFrame(stream, "12345678");
-  feed(reader, stream.substr(0, 4), frames);
-  reader.feed(std::string_view(stream).substr(4));
-  while (reader.next()) EXPECT_LE(reader.buffered(), kFrameHeaderSize + 8);
 }
 
 TEST(Framing, FeedingBeforeDrainingThrows) {

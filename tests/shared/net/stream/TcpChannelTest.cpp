@@ -47,15 +47,6 @@ TEST_P(TcpChannelTest, MegabytesOfLargeFramesArriveUnchanged) {
   EXPECT_EQ(pair.near->unsentBytes(), 0u);
 }
 
-TEST_P(TcpChannelTest, WorksOverIPv6) {
-  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
-  ChannelPair pair(context, GetParam(), ChannelPair::generous(), "::1");
-  pair.far->start(recorder.callbacks());
-  pair.near->send("six");
-  EXPECT_TRUE(runUntil(context, [&] { return !recorder.frames.empty(); }));
-  EXPECT_EQ(pair.near->peerAddress().substr(0, 6), "[::1]:");
-}
-
 TEST_P(TcpChannelTest, SendsAtOnceAndKeepsTheKernelsQueueShort) {
   StreamPair streams = connectedStreams(context, GetParam());
   const int handle = streams.near->socket().native_handle();

@@ -1,14 +1,16 @@
-#include "host/admin/AdminWorker.h"
+#include "shared/program/JobThread.h"
 
 #include <utility>
 
+#include "shared/program/ProcessSetup.h"
+
 namespace naiad {
 
-AdminWorker::~AdminWorker() {
+JobThread::~JobThread() {
   finish();
 }
 
-void AdminWorker::finish() {
+void JobThread::finish() {
   {
     const std::lock_guard lock(m_mutex);
     m_stopping = true;
@@ -17,18 +19,18 @@ void AdminWorker::finish() {
   if (m_thread.joinable()) m_thread.join();
 }
 
-bool AdminWorker::enqueue(std::function<void()> job) {
+bool JobThread::enqueue(std::function<void()> job) {
   {
     const std::lock_guard lock(m_mutex);
     if (m_stopping || m_jobs.size() >= kMaxWaiting) return false;
     m_jobs.push_back(std::move(job));
-    if (!m_thread.joinable()) m_thread = std::thread([this] { run(); });
+    if (!m_thread.joinable()) m_thread = startWithoutSignals([this] { run(); });
   }
   m_wake.notify_one();
   return true;
 }
 
-void AdminWorker::run() {
+void JobThread::run() {
   std::unique_lock lock(m_mutex);
   for (;;) {
     m_wake.wait(lock, [this] { return m_stopping || !m_jobs.empty(); });

@@ -1,4 +1,4 @@
-// A thread for slow administrative jobs: hashing a password, writing a ban to disk.
+// A thread for slow jobs, like hashing a password or writing to disk.
 #pragma once
 
 #include <condition_variable>
@@ -11,12 +11,12 @@
 namespace naiad {
 
 /// Runs jobs one after the other, in the order in which they were given.
-class AdminWorker {
+class JobThread {
  public:
   static constexpr std::size_t kMaxWaiting = 1024;
 
   /// Calls finish().
-  ~AdminWorker();
+  ~JobThread();
 
   /// Queues a job, which must not throw. If too many jobs wait, or after finish(), drops it and returns
   /// false. Any thread; does not block.
@@ -31,7 +31,7 @@ class AdminWorker {
   std::condition_variable m_wake;
   std::deque<std::function<void()>> m_jobs;
   bool m_stopping = false;
-  std::thread m_thread;  ///< started by the first job
+  std::thread m_thread;  ///< started by the first job; blocks all signals
 };
 
 }  // namespace naiad
