@@ -8,7 +8,7 @@ import unittest.mock
 
 import fixtures
 from adopt import files as filenames
-from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, text,
+from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, running, text,
                    treatments, trial, verdicts)
 from support import MODULES, WORK, run_as_user, within
 
@@ -335,6 +335,16 @@ class BlameTest(unittest.TestCase):
         self.assertEqual(self.blame("int tmain() {}").symbol("main"), ("the game", "no file of the program has a main()"))
         wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", "expected initializer before 'WinMain'", "")
         self.assertEqual(self.blame(line).error(None, wrong, line)[0], "another system")
+
+    def test_TheLineThatRunsTheGameIsNotBlamedForACrash(self):
+        for code, whose in (("GM.run();", "Naiad or the game"), ("ship->fire();", "the game")):
+            with tempfile.TemporaryDirectory(dir=WORK) as folder:
+                one = running.Running.__new__(running.Running)
+                one.folder, one._report = folder, unittest.mock.Mock()
+                one._game = types.SimpleNamespace(sources=types.SimpleNamespace(line=lambda file, number, code=code: code))
+                with unittest.mock.patch.object(one, "_crash_location", return_value=("game.cpp:43", "a bad pointer")):
+                    one._report_crash(types.SimpleNamespace(log=""), None)
+                self.assertEqual(one._report.add_left.call_args.args[:2], ("game.cpp:43", whose), code)
 
 
 class MicrosoftTest(unittest.TestCase):
