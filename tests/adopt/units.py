@@ -438,13 +438,14 @@ class TrialTest(unittest.TestCase):
             return one.run(os.path.join(place, "root"), confined=False)
 
     def test_APlayerWhoLostTheConnectionJoinsAgainWhileTheGameRuns(self):
-        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; exit 4", "echo bot ok clients=1 ticks=70 objects=5; exit 0")
+        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; exit 4", "echo bot ok clients=1 ticks=70 objects=5; exit 0", seconds=30)
         self.assertEqual((one.state, one.ticks, one.objects, one.runs), ("played", 120, 5, True))
         one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; echo The game is over.; exit 4", seconds=1.5)
         self.assertEqual((one.state, one.ticks >= 50, one.runs), ("played", True, True))
 
     def test_TicksOfARoundWhosePlayerWasLostCount(self):
-        one = self.outcome("echo 9 >$NAIAD_PORT_FILE; sleep 0.4; exit 0\n", f"sleep 0.3; echo {self.LOST}; exit 4", seconds=1.2)
+        one = self.outcome("echo 9 >$NAIAD_PORT_FILE; until test -e ../../ran/0; do sleep 0.05; done; sleep 0.4; exit 0\n",
+                           f"sleep 0.3; echo {self.LOST}; exit 4", seconds=1.2)
         self.assertEqual((one.state, one.runs, one.ticks % 50), ("over", True, 0))
         self.assertGreaterEqual(one.ticks, 50)
 
