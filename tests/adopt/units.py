@@ -8,7 +8,7 @@ import unittest.mock
 
 import fixtures
 from adopt import files as filenames
-from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, text,
+from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, running, text,
                    treatments, trial, verdicts)
 from support import MODULES, WORK, run_as_user, within
 
@@ -336,6 +336,16 @@ class BlameTest(unittest.TestCase):
         wrong = compiler.Diagnostic("a.cpp", 1, 1, "error", "expected initializer before 'WinMain'", "")
         self.assertEqual(self.blame(line).error(None, wrong, line)[0], "another system")
 
+    def test_TheLineThatRunsTheGameIsNotBlamedForACrash(self):
+        for code, whose in (("GM.run();", "Naiad or the game"), ("ship->fire();", "the game")):
+            with tempfile.TemporaryDirectory(dir=WORK) as folder:
+                one = running.Running.__new__(running.Running)
+                one.folder, one._report = folder, unittest.mock.Mock()
+                one._game = types.SimpleNamespace(sources=types.SimpleNamespace(line=lambda file, number, code=code: code))
+                with unittest.mock.patch.object(one, "_crash_location", return_value=("game.cpp:43", "a bad pointer")):
+                    one._report_crash(types.SimpleNamespace(log=""), None)
+                self.assertEqual(one._report.add_left.call_args.args[:2], ("game.cpp:43", whose), code)
+
 
 class MicrosoftTest(unittest.TestCase):
     """Tests how names of Visual Studio's templates and library are replaced."""
@@ -428,13 +438,14 @@ class TrialTest(unittest.TestCase):
             return one.run(os.path.join(place, "root"), confined=False)
 
     def test_APlayerWhoLostTheConnectionJoinsAgainWhileTheGameRuns(self):
-        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; exit 4", "echo bot ok clients=1 ticks=70 objects=5; exit 0")
+        one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; exit 4", "echo bot ok clients=1 ticks=70 objects=5; exit 0", seconds=30)
         self.assertEqual((one.state, one.ticks, one.objects, one.runs), ("played", 120, 5, True))
         one = self.outcome(self.GAME.format("exit 0"), f"echo {self.LOST}; echo The game is over.; exit 4", seconds=1.5)
         self.assertEqual((one.state, one.ticks >= 50, one.runs), ("played", True, True))
 
     def test_TicksOfARoundWhosePlayerWasLostCount(self):
-        one = self.outcome("echo 9 >$NAIAD_PORT_FILE; sleep 0.4; exit 0\n", f"sleep 0.3; echo {self.LOST}; exit 4", seconds=1.2)
+        one = self.outcome("echo 9 >$NAIAD_PORT_FILE; until test -e ../../ran/0; do sleep 0.05; done; sleep 0.4; exit 0\n",
+                           f"sleep 0.3; echo {self.LOST}; exit 4", seconds=1.2)
         self.assertEqual((one.state, one.runs, one.ticks % 50), ("over", True, 0))
         self.assertGreaterEqual(one.ticks, 50)
 

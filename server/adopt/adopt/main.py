@@ -24,7 +24,7 @@ READ_SECONDS = 120  # time limit for reading the folder; a student's folder take
 BUILD_SECONDS = 7200  # time limit for building; the compiler gets 900 seconds of processor time
 
 DESCRIPTION = """\
-Builds and runs a game written for the published Dragonfly engine (4.2 to 4.25), or reports what prevents it.
+Builds and runs a game written for the published Dragonfly engine (4.1 to 4.25), or reports what prevents it.
 
 FOLDER is only read. The program changes a private copy: it leaves out copies of the engine, and corrects lines that only other
 compilers accept and the case of file names. It compiles the copy with Naiad's headers, links it with Naiad's library, and starts it as

@@ -110,9 +110,10 @@ class Running:
         if frame:
             place, what = frame
             file, _, line = place.rpartition(":")
-            refused = refused_sprites(outcome.log, self.folder)  # getSprite() of such a sprite may be the bad pointer
-            self._report.add_left(place, faults.UNCLEAR if refused else faults.THEIRS, what, _CRASH_ADVICE,
-                                  self._game.sources.line(file, int(line)))
+            code = self._game.sources.line(file, int(line))
+            # getSprite() of a refused sprite may be the bad pointer; the line of GM.run() only says that the game was running.
+            unclear = ".run()" in code or refused_sprites(outcome.log, self.folder)
+            self._report.add_left(place, faults.UNCLEAR if unclear else faults.THEIRS, what, _CRASH_ADVICE, code)
         else:
             self._report.add_left(self._game.program.main, faults.UNCLEAR,
                                   f"it crashes{_signal_of(outcome.code)}; the line is unknown",
