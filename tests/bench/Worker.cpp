@@ -2,9 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,44 +9,26 @@
 #include <stdexcept>
 #include <utility>
 
-#include "capacity/Core.h"
-#include "path/Argv.h"
-
-extern char** environ;
-
 namespace bench {
 
-Worker::Worker(const std::vector<std::string>& command) {
-  std::array<int, 2> in{};
-  std::array<int, 2> out{};
-  if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) {
+Worker::Pipes::Pipes() {
+  if (pipe2(in, O_CLOEXEC) != 0 || pipe2(out, O_CLOEXEC) != 0)
     throw std::runtime_error("a pipe cannot be made");
-  }
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-  std::vector<char*> argv = path::argvOf(command);
-  const int error = posix_spawnp(&m_pid, argv[0], &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(in[0]);
-  close(out[1]);
-  m_in = in[1];
-  m_out = out[0];
-  if (error != 0) throw std::runtime_error(command[0] + " cannot be run");
-  clock_getcpuclockid(m_pid, &m_clock);
+}
+
+Worker::Worker(const std::vector<std::string>& command, const Pipes& pipes)
+    : m_in(pipes.in[1]), m_out(pipes.out[0]), m_process(command, [&pipes] {
+        dup2(pipes.in[0], STDIN_FILENO);
+        dup2(pipes.out[1], STDOUT_FILENO);
+      }) {
+  close(pipes.in[0]);
+  close(pipes.out[1]);
 }
 
 Worker::~Worker() {
   if (m_in >= 0) close(m_in);
   close(m_out);
-  for (int i = 0; m_pid > 0 && i < 300; ++i) {
-    if (waitpid(m_pid, nullptr, WNOHANG) != 0) return;
-    usleep(10'000);
-  }
-  if (m_pid <= 0) return;
-  kill(m_pid, SIGKILL);
-  waitpid(m_pid, nullptr, 0);
+  m_process.waitForEnd(std::chrono::seconds(3));
 }
 
 void Worker::tell(const std::string& line) {
@@ -90,17 +69,12 @@ std::string Worker::ask(const std::string& line, const std::string& word, std::c
   }
 }
 
-double Worker::cpu() const {
-  return capacity::cpuMicros(m_clock);
-}
-
 Worker::End Worker::finish() {
   close(std::exchange(m_in, -1));
   while (read()) {
   }
-  int status = 0;
-  waitpid(std::exchange(m_pid, 0), &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), std::move(m_heard)};
+  const int code = m_process.wait();
+  return {code, std::move(m_heard)};
 }
 
 std::map<std::string, double> figuresOf(const std::string& line) {

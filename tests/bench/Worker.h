@@ -1,22 +1,21 @@
 // Programs of the measurements as child processes, whose output is read.
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
-#include <ctime>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tests/bench/Process.h"
+
 namespace bench {
 
 /// A program that reads commands and writes answers line by line. Functions throw std::runtime_error if the
-/// program cannot be started, or if its output has ended.
+/// program's output has ended.
 class Worker {
  public:
-  explicit Worker(const std::vector<std::string>& command);
+  explicit Worker(const std::vector<std::string>& command) : Worker(command, Pipes()) {}
   /// Closes the program's input, and kills the program if it does not exit.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -29,7 +28,7 @@ class Worker {
   std::string ask(const std::string& line, const std::string& word,
                   std::chrono::seconds patience = std::chrono::seconds(30));
   /// Returns the processor time that the program has used, in microseconds.
-  double cpu() const;
+  double cpu() const { return m_process.cpuMicros(); }
 
   struct End {
     int code = 0;        ///< exit code, or 128 + the signal that ended it
@@ -39,16 +38,21 @@ class Worker {
   End finish();
 
  private:
+  struct Pipes {
+    Pipes();
+    int in[2];   ///< the program's input
+    int out[2];  ///< its output
+  };
+  Worker(const std::vector<std::string>& command, const Pipes& pipes);
   bool read();
 
-  pid_t m_pid = 0;
-  int m_in = -1;
-  int m_out = -1;
-  clockid_t m_clock{};
+  int m_in;
+  int m_out;
+  Process m_process;
   std::string m_heard;
 };
 
-/// Runs a command to its end. Its stderr goes to ours. Throws std::runtime_error if it cannot be started.
+/// Runs a command to its end. Its stderr goes to ours.
 inline Worker::End runProgram(const std::vector<std::string>& command) {
   return Worker(command).finish();
 }

@@ -57,7 +57,7 @@ AttackPtr makeSilentCrowd(const std::vector<std::string>& sources, const std::st
 /// on each.
 AttackPtr makeChatResume();
 /// chat_detached: `count` players that constantly send as much chat as possible.
-AttackPtr makeChatters(int count);
+AttackPtr makeChatters(std::size_t count);
 /// held_places: clients of one address repeatedly join and are killed, so that their detached sessions hold
 /// slots.
 AttackPtr makeHeldPlaces();

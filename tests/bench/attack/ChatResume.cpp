@@ -7,11 +7,8 @@
 
 #include "Attack.h"
 #include "Guest.h"
-#include "Relay.h"
 #include "naiad.pb.h"
-#include "shared/net/base/Channel.h"
 #include "shared/net/base/Limits.h"
-#include "shared/net/stream/TcpConnector.h"
 
 namespace bench::attack {
 namespace {
@@ -28,8 +25,7 @@ class ChatResume : public Attack {
  public:
   void begin(const Target& target) override {
     m_p_context = &target.context;
-    m_relay = std::make_unique<Relay>(target.context, target.server.port(),
-                                      Relay::Options{.source = addressIn(4, 0)});
+    m_port = target.server.port();
   }
   void update(Time now) override {
     while (!m_ready.empty() && (m_ready.front()->over || now - m_ready.front()->since > kStale))
@@ -42,20 +38,18 @@ class ChatResume : public Attack {
   void end() override {
     m_ready.clear();
     m_used.clear();
-    m_relay.reset();
   }
   void addFindings(Findings& findings) override {
     findings.figures.emplace_back("resumes", m_resumes);
     findings.figures.emplace_back("resumes_refused", m_refusals);
     findings.figures.emplace_back("lines_sent", m_said);
     findings.figures.emplace_back("streams", m_streams);
-    findings.figures.emplace_back("handshakes", m_handshakes);
   }
 
  private:
   /// A stream that connects and does its handshake, so that later only a hello needs to be sent.
   struct Stream {
-    std::unique_ptr<naiad::TcpConnector> connector;
+    std::unique_ptr<Dial> dial;
     std::unique_ptr<naiad::ReliableChannel> channel;  ///< null until it is connected
     Time since;
     bool over = false;
@@ -66,17 +60,13 @@ class ChatResume : public Attack {
     auto stream = std::make_unique<Stream>();
     Stream& made = *stream;
     made.since = now;
-    naiad::TcpOptions options;
-    options.receive_limit = naiad::kMaxServerFrame;
-    made.connector = std::make_unique<naiad::TcpConnector>(*m_p_context, options, clientTls());
-    made.connector->connect(
-        "127.0.0.1", m_relay->port(), 5s,
-        [this, &made](std::unique_ptr<naiad::ReliableChannel> channel, const std::string&) {
-          ++m_streams;
+    made.dial = std::make_unique<Dial>(
+        *m_p_context, addressIn(4, 0), m_port,
+        [this, &made](std::unique_ptr<naiad::ReliableChannel> channel) {
           made.over = channel == nullptr;
           if (made.over) m_next_stream = std::chrono::steady_clock::now() + kAfterHangUp;
           if (!channel) return;
-          ++m_handshakes;
+          ++m_streams;
           made.channel = std::move(channel);
           made.channel->start({[this, &made](std::string_view frame) { receive(made, frame); },
                                [&made](naiad::CloseReason) { made.over = true; }});
@@ -134,7 +124,7 @@ class ChatResume : public Attack {
   }
 
   asio::io_context* m_p_context = nullptr;
-  std::unique_ptr<Relay> m_relay;
+  std::uint16_t m_port = 0;
   std::deque<std::unique_ptr<Stream>> m_ready;  ///< streams that are ready or connecting
   std::deque<std::unique_ptr<Stream>> m_used;   ///< the last stream has the session, or has asked for it
   bool m_waiting = false;                       ///< the last hello has not been answered
@@ -145,8 +135,7 @@ class ChatResume : public Attack {
   long long m_resumes = 0;
   long long m_refusals = 0;
   long long m_said = 0;
-  long long m_streams = 0;     ///< streams that were opened or failed to open
-  long long m_handshakes = 0;  ///< streams with a complete handshake
+  long long m_streams = 0;  ///< streams with a complete handshake
 };
 
 }  // namespace

@@ -1,5 +1,10 @@
-// Attacks by guests that do what clients may do, but too often: chatters, held slots, noise for the log, and
-// password guesses.
+// Attacks by guests that do what clients may do, but too often: chatters, held slots, noise for the log,
+// password guesses, and players that do nothing.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "Attack.h"
@@ -9,177 +14,192 @@ namespace bench::attack {
 namespace {
 
 using namespace std::chrono_literals;
+using Millis = std::chrono::milliseconds;
 
-/// An attack whose guests come from addresses of one network.
-class GuestAttack : public Attack {
+/// Numbers of guests, by what happened to them.
+struct Counts {
+  long long invited = 0;
+  long long killed = 0;   ///< by the attack, in the game
+  long long ended = 0;    ///< in any other way
+  long long refused = 0;  ///< of these, refused for good
+  long long busy = 0;     ///< of these, told to retry
+  long long lost = 0;     ///< of these, disconnected
+  long long most = 0;     ///< maximum in the game at once
+};
+
+/// A crowd of guests. Each is invited again some time after its end.
+struct Plan {
+  std::string name{};
+  std::string password{};
+  std::size_t guests = 1;
+  std::function<std::string(int n)> address{};
+  Millis pause{};          ///< from a guest's end to the next invitation
+  Millis pause_if_busy{};  ///< after it was told to retry; 0: like `pause`
+  Millis stagger{};        ///< between the first invitations of two guests
+  ServerSetup setup{};
+  std::chrono::seconds lead{};
+  /// Called repeatedly while a guest is in the game. True if it is killed now. `next` is the guest's own.
+  std::function<bool(Guest& guest, Time now, Time& next)> play{};
+  std::vector<std::pair<const char*, long long Counts::*>> figures{};
+  bool must_be_complete = false;  ///< it is a fault if the guests are never all in the game
+};
+
+class Crowd : public Attack {
  public:
-  explicit GuestAttack(int network) : m_network(network) {}
+  explicit Crowd(const Plan& plan) : m_plan(plan), m_seats(plan.guests) {}
 
+  ServerSetup setup() const override { return m_plan.setup; }
+  std::chrono::seconds leadTime() const override { return m_plan.lead; }
   void begin(const Target& target) override {
     m_p_context = &target.context;
     m_port = target.server.port();
+    Time next = std::chrono::steady_clock::now();
+    for (Seat& seat : m_seats) seat.next = std::exchange(next, next + m_plan.stagger);
   }
-
- protected:
-  /// Creates a guest with the n-th address.
-  std::unique_ptr<Guest> invite(int n, const std::string& name, const std::string& password = "") const {
-    return std::make_unique<Guest>(*m_p_context, m_port, addressIn(m_network, n),
-                                   guestOptions(name, password));
-  }
-
- private:
-  int m_network;
-  asio::io_context* m_p_context = nullptr;
-  std::uint16_t m_port = 0;
-};
-
-class Chatters : public GuestAttack {
- public:
-  explicit Chatters(int count) : GuestAttack(5), m_guests(static_cast<std::size_t>(count)) {}
-
   void update(Time now) override {
-    const bool talk = now >= m_next_line;
-    if (talk) m_next_line = now + kBetweenLines;
-    for (std::size_t i = 0; i < m_guests.size(); ++i) {
-      std::unique_ptr<Guest>& guest = m_guests[i];
-      if (guest && guest->isOver()) {
-        ++m_ended;
-        guest.reset();
+    long long playing = 0;
+    for (std::size_t i = 0; i < m_seats.size(); ++i) {
+      Seat& seat = m_seats[i];
+      if (!seat.guest) {
+        if (now < seat.next) continue;
+        seat.guest = std::make_unique<Guest>(*m_p_context, m_port, m_plan.address(static_cast<int>(i)),
+                                             m_plan.name, m_plan.password);
+        ++m_counts.invited;
       }
-      if (!guest && talk) guest = invite(static_cast<int>(i), "talker");
-      if (!guest) continue;
-      guest->update(now);
-      if (talk && guest->state() == Guest::State::kPlaying) guest->session()->sendChat(longLine());
+      seat.guest->update(now);
+      const Guest::State state = seat.guest->state();
+      playing += state == Guest::State::kPlaying ? 1 : 0;
+      const bool killed =
+          state == Guest::State::kPlaying && m_plan.play && m_plan.play(*seat.guest, now, seat.next);
+      if (!killed && !seat.guest->isOver()) continue;
+      const bool is_busy = state == Guest::State::kRefusedForNow;
+      ++(killed ? m_counts.killed : m_counts.ended);
+      m_counts.refused += state == Guest::State::kRefused ? 1 : 0;
+      m_counts.busy += is_busy ? 1 : 0;
+      m_counts.lost += state == Guest::State::kLost ? 1 : 0;
+      seat.guest.reset();
+      seat.next = now + (is_busy && m_plan.pause_if_busy > 0ms ? m_plan.pause_if_busy : m_plan.pause);
     }
+    m_counts.most = std::max(m_counts.most, playing);
   }
-  void end() override {
-    for (auto& guest : m_guests) guest.reset();
-  }
+  void end() override { m_seats.clear(); }
   void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("chatters", m_guests.size());
-    findings.figures.emplace_back("chatters_ended", m_ended);
+    for (const auto& [key, count] : m_plan.figures) findings.figures.emplace_back(key, m_counts.*count);
+    if (m_plan.must_be_complete && m_counts.most < static_cast<long long>(m_plan.guests))
+      findings.faults.emplace_back("crowd");
   }
 
  private:
-  static constexpr auto kBetweenLines = 125ms;  // time between two lines: more than twice the allowed rate
-
-  std::vector<std::unique_ptr<Guest>> m_guests;
-  Time m_next_line{};
-  long long m_ended = 0;  // chatters whose session ended
-};
-
-class HeldPlaces : public GuestAttack {
- public:
-  HeldPlaces() : GuestAttack(6) {}
-
-  ServerSetup setup() const override {
-    return {.arguments = {"--max-players", "10", "--max-per-address", std::to_string(kHeldAllowed)},
-            .password = {}};
-  }
-  void update(Time now) override {
-    if (!m_guest) {
-      if (now < m_next) return;
-      m_next = now + 300ms;
-      m_guest = invite(0, kHeldName);
-    }
-    m_guest->update(now);
-    if (m_guest->state() == Guest::State::kJoining) return;
-    ++(m_guest->state() == Guest::State::kPlaying ? m_joined : m_refused);
-    m_guest.reset();
-  }
-  void end() override { m_guest.reset(); }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("joins", m_joined);
-    findings.figures.emplace_back("joins_refused", m_refused);
-  }
-
- private:
-  std::unique_ptr<Guest> m_guest;
-  Time m_next{};
-  long long m_joined = 0;
-  long long m_refused = 0;
-};
-
-class LogReader : public GuestAttack {
- public:
-  explicit LogReader(LogFault fault) : GuestAttack(8), m_fault(fault) {}
-
-  void begin(const Target& target) override {
-    GuestAttack::begin(target);
-    m_fault == LogFault::kStalls ? target.server.stallLog() : target.server.closeLog();
-  }
-  // Lets a player join and leave repeatedly, because the server logs a line each time.
-  void update(Time now) override {
-    if (m_guest) {
-      m_guest->update(now);
-      if (m_guest->state() == Guest::State::kPlaying) m_guest->session()->leave();
-      if (m_guest->isOver()) m_guest.reset();
-    } else if (now >= m_next) {
-      m_next = now + 200ms;
-      m_guest = invite(0, "noise");
-    }
-  }
-  void end() override { m_guest.reset(); }
-
- private:
-  LogFault m_fault;
-  std::unique_ptr<Guest> m_guest;
-  Time m_next{};
-};
-
-class PasswordCrowd : public GuestAttack {
- public:
-  PasswordCrowd() : GuestAttack(7), m_guessers(80) {}
-
-  ServerSetup setup() const override { return {.arguments = {}, .password = "the right one"}; }
-  void update(Time now) override {
-    for (std::size_t i = 0; i < m_guessers.size(); ++i) {
-      auto& [guest, next] = m_guessers[i];
-      if (!guest) {
-        if (now < next) continue;
-        guest = invite(static_cast<int>(i), "guesser", "a wrong one");
-      }
-      guest->update(now);
-      if (!guest->isOver()) continue;
-      const bool busy = guest->state() == Guest::State::kRefusedForNow;
-      m_busy += busy ? 1 : 0;
-      m_wrong += guest->state() == Guest::State::kRefused ? 1 : 0;
-      guest.reset();
-      next = now + (busy ? 300ms : 500ms);
-    }
-  }
-  void end() override { m_guessers.clear(); }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("guesses", m_wrong);
-    findings.figures.emplace_back("busy", m_busy);
-  }
-
- private:
-  struct Guesser {
+  struct Seat {
     std::unique_ptr<Guest> guest;
     Time next{};
   };
-  std::vector<Guesser> m_guessers;
-  long long m_wrong = 0;
-  long long m_busy = 0;
+  const Plan m_plan;
+  std::vector<Seat> m_seats;
+  asio::io_context* m_p_context = nullptr;
+  std::uint16_t m_port = 0;
+  Counts m_counts;
 };
+
+/// A crowd, while the reader of the log stalls or exits.
+class LogReader : public Crowd {
+ public:
+  LogReader(const Plan& plan, LogFault fault) : Crowd(plan), m_fault(fault) {}
+  void begin(const Target& target) override {
+    Crowd::begin(target);
+    m_fault == LogFault::kStalls ? target.server.stallLog() : target.server.closeLog();
+  }
+
+ private:
+  LogFault m_fault;
+};
+
+auto in(int network) {
+  return [network](int n) { return addressIn(network, n); };
+}
+
+std::string addressOfNetwork(int n) {
+  return "127." + std::to_string(100 + n / 250) + "." + std::to_string(n % 250) + ".1";
+}
+
+/// Sends a line every 125 ms: more than twice the allowed rate.
+bool chat(Guest& guest, Time now, Time& next) {
+  if (now < next) return false;
+  next = now + 125ms;
+  guest.session()->sendChat(longLine());
+  return false;
+}
+
+bool killAtOnce(Guest& /*guest*/, Time /*now*/, Time& /*next*/) {
+  return true;
+}
+
+bool leave(Guest& guest, Time /*now*/, Time& /*next*/) {
+  guest.session()->leave();
+  return false;
+}
 
 }  // namespace
 
-AttackPtr makeChatters(int count) {
-  return std::make_unique<Chatters>(count);
+AttackPtr makeChatters(std::size_t count) {
+  return std::make_unique<Crowd>(
+      Plan{.name = "talker",
+           .guests = count,
+           .address = in(5),
+           .pause = 125ms,
+           .play = chat,
+           .figures = {{"chatters", &Counts::most}, {"chatters_ended", &Counts::ended}}});
 }
 
 AttackPtr makeHeldPlaces() {
-  return std::make_unique<HeldPlaces>();
+  return std::make_unique<Crowd>(
+      Plan{.name = kHeldName,
+           .address = in(6),
+           .pause = 300ms,
+           .setup = {.arguments = {"--max-players", "10", "--max-per-address", std::to_string(kHeldAllowed)},
+                     .password = {}},
+           .play = killAtOnce,
+           .figures = {{"joins", &Counts::killed}, {"joins_refused", &Counts::ended}}});
 }
 
+// The server logs a line each time the guest joins or leaves.
 AttackPtr makeLogReader(LogFault fault) {
-  return std::make_unique<LogReader>(fault);
+  return std::make_unique<LogReader>(Plan{.name = "noise", .address = in(8), .pause = 170ms, .play = leave},
+                                     fault);
 }
 
 AttackPtr makePasswordCrowd() {
-  return std::make_unique<PasswordCrowd>();
+  return std::make_unique<Crowd>(Plan{.name = "guesser",
+                                      .password = "a wrong one",
+                                      .guests = 80,
+                                      .address = in(7),
+                                      .pause = 500ms,
+                                      .pause_if_busy = 300ms,
+                                      .setup = {.arguments = {}, .password = "the right one"},
+                                      .figures = {{"guesses", &Counts::refused}, {"busy", &Counts::busy}}});
+}
+
+// The honest players have the other three places.
+AttackPtr makeIdleCrowd() {
+  return std::make_unique<Crowd>(Plan{.name = "idler",
+                                      .guests = 61,
+                                      .address = [](int) { return addressIn(11, 0); },
+                                      .pause = 1s,
+                                      .lead = 75s,
+                                      .figures = {{"crowd", &Counts::most}, {"removed", &Counts::lost}},
+                                      .must_be_complete = true});
+}
+
+AttackPtr makeKnockingNetworks() {
+  return std::make_unique<Crowd>(
+      Plan{.name = "guesser",
+           .password = "a wrong one",
+           .guests = 2000,
+           .address = addressOfNetwork,
+           .pause = 60s,
+           .stagger = 30ms,
+           .setup = {.arguments = {}, .password = "the right one"},
+           .figures = {{"knocks", &Counts::invited}, {"guesses", &Counts::refused}}});
 }
 
 }  // namespace bench::attack

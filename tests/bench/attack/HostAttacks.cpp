@@ -1,4 +1,4 @@
-// Attacks on what a host leaves open by default: rounds on disk, the ssh door, all places, the bus.
+// Attacks on what a host leaves open by default: rounds on disk, the ssh door, the bus.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -7,16 +7,15 @@
 #include <asio/write.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <thread>
 
-#include "../fleet/Process.h"
 #include "Attack.h"
 #include "Guest.h"
-#include "Programs.h"
 #include "shared/net/stream/Fingerprint.h"
+#include "tests/bench/Process.h"
+#include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/TempFolder.h"
 #include "tests/terminal/PtyTerminal.h"
 
@@ -26,15 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+using naiad::test::contentOf;
 using naiad::test::PtyTerminal;
 using naiad::test::TempFolder;
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// ---- rounds on disk ---------------------------------------------------------------------------------------
 
 /// Plays a round with `players` guests on a server with this folder, and kills it.
 void playAndKill(const std::string& folder, int players) {
@@ -42,8 +35,8 @@ void playAndKill(const std::string& folder, int players) {
   asio::io_context context{1};
   std::vector<std::unique_ptr<Guest>> guests;
   for (int i = 0; i < players; ++i) {
-    guests.push_back(std::make_unique<Guest>(context, server.port(), addressIn(10, i),
-                                             guestOptions("before", server.password())));
+    guests.push_back(
+        std::make_unique<Guest>(context, server.port(), addressIn(10, i), "before", server.password()));
   }
   for (const auto end = Clock::now() + 5s; Clock::now() < end;) {
     context.restart();
@@ -79,7 +72,7 @@ class HostileRounds : public Attack {
       const auto sibling = [&round](const char* ending) {
         return round.parent_path() / (round.stem().string() + ending + ".dfr");
       };
-      const std::string text = textOf(round);
+      const std::string text = contentOf(round);
       std::ofstream(sibling("a")) << text.substr(0, text.size() / 2);
       std::ofstream(sibling("b")) << std::string(64, '\xff')
                                   << text.substr(std::min<std::size_t>(64, text.size()));
@@ -99,8 +92,6 @@ class HostileRounds : public Attack {
  private:
   long long m_planted = 0;
 };
-
-// ---- the ssh door -----------------------------------------------------------------------------------------
 
 /// Visitors of a door whose terminals have the largest sizes that ssh can request, and change them.
 class LargeTerminals : public Attack {
@@ -151,10 +142,10 @@ class LargeTerminals : public Attack {
   /// Returns the resident memory of the door's client; 0 if it has none.
   static long long clientMegabytes(pid_t door) {
     const std::string of_door = std::to_string(door);
-    std::istringstream children(textOf("/proc/" + of_door + "/task/" + of_door + "/children"));
+    std::istringstream children(contentOf("/proc/" + of_door + "/task/" + of_door + "/children"));
     std::string client;
     if (!(children >> client)) return 0;
-    std::istringstream lines(textOf("/proc/" + client + "/status"));
+    std::istringstream lines(contentOf("/proc/" + client + "/status"));
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with("VmRSS:")) return std::stoll(line.substr(6)) / 1024;
     return 0;
@@ -168,128 +159,27 @@ class LargeTerminals : public Attack {
   long long m_ended = 0;
 };
 
-// ---- all places -------------------------------------------------------------------------------------------
-
-/// Clients of one address that take all places, press no key, and join again when they are removed.
-class IdleCrowd : public Attack {
- public:
-  std::chrono::seconds leadTime() const override { return 75s; }
-  void begin(const Target& target) override {
-    m_p_context = &target.context;
-    m_port = target.server.port();
-  }
-  void update(Time now) override {
-    std::size_t playing = 0;
-    for (auto& [guest, next] : m_crowd) {
-      if (!guest && now >= next) {
-        guest = std::make_unique<Guest>(*m_p_context, m_port, addressIn(11, 0), guestOptions("idler", ""));
-      }
-      if (!guest) continue;
-      guest->update(now);
-      playing += guest->state() == Guest::State::kPlaying ? 1 : 0;
-      if (!guest->isOver()) continue;
-      m_removed += guest->state() == Guest::State::kLost ? 1 : 0;
-      guest.reset();
-      next = now + 1s;
-    }
-    m_most = std::max(m_most, playing);
-  }
-  void end() override {
-    for (auto& member : m_crowd) member.guest.reset();
-  }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("crowd", m_most);
-    findings.figures.emplace_back("removed", m_removed);
-    if (m_most < m_crowd.size()) findings.faults.emplace_back("crowd");
-  }
-
- private:
-  struct Member {
-    std::unique_ptr<Guest> guest;
-    Time next{};
-  };
-  std::vector<Member> m_crowd = std::vector<Member>(61);  // the honest players have the other three places
-  asio::io_context* m_p_context = nullptr;
-  std::uint16_t m_port = 0;
-  std::size_t m_most = 0;
-  long long m_removed = 0;
-};
-
-/// Clients of 2,000 networks, each of which guesses a password once a minute.
-class KnockingNetworks : public Attack {
- public:
-  ServerSetup setup() const override { return {.arguments = {}, .password = "the right one"}; }
-  void begin(const Target& target) override {
-    m_p_context = &target.context;
-    m_port = target.server.port();
-    m_next = Clock::now();
-  }
-  void update(Time now) override {
-    for (; now >= m_next; m_next += 60'000ms / kNetworks) {
-      const int n = m_knocks++ % kNetworks;
-      const std::string address =
-          "127." + std::to_string(100 + n / 250) + "." + std::to_string(n % 250) + ".1";
-      m_guests.push_back(
-          std::make_unique<Guest>(*m_p_context, m_port, address, guestOptions("guesser", "a wrong one")));
-    }
-    std::erase_if(m_guests, [this, now](const std::unique_ptr<Guest>& guest) {
-      guest->update(now);
-      m_wrong += guest->state() == Guest::State::kRefused ? 1 : 0;
-      return guest->isOver();
-    });
-  }
-  void end() override { m_guests.clear(); }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("knocks", m_knocks);
-    findings.figures.emplace_back("guesses", m_wrong);
-  }
-
- private:
-  static constexpr int kNetworks = 2000;
-
-  asio::io_context* m_p_context = nullptr;
-  std::uint16_t m_port = 0;
-  Time m_next{};
-  std::vector<std::unique_ptr<Guest>> m_guests;
-  int m_knocks = 0;
-  long long m_wrong = 0;
-};
-
-// ---- the bus ----------------------------------------------------------------------------------------------
-
 /// A member of the bus that sends 20,000 messages a second. Counts how often the list of servers lacks the
 /// one with the players.
 class BusFlood : public Attack {
  public:
   BusFlood() {
-    fs::create_directories(m_folder / "ports");
-    m_bus.emplace(std::vector<std::string>{"/usr/sbin/nats-server", "-a", "127.0.0.1", "-p", "-1",
-                                           "--ports_file_dir", m_folder / "ports"},
-                  m_folder / "bus.log");
-    for (const auto end = Clock::now() + 30s; m_port == 0 && Clock::now() < end;) {
-      std::this_thread::sleep_for(10ms);
-      for (const auto& entry : fs::directory_iterator(m_folder / "ports")) {
-        const std::string text = textOf(entry.path());
-        const std::size_t at = text.find("127.0.0.1:");
-        if (at != std::string::npos && text.find('"', at) != std::string::npos)
-          m_port = static_cast<std::uint16_t>(std::stoi(text.substr(at + 10)));
-      }
-    }
-    if (m_port == 0) throw std::runtime_error("nats-server does not start");
-    m_directory.emplace(
-        std::vector<std::string>{"dfdir", "--bus", url(), "--list", m_folder / "servers.json", "--listen",
-                                 "127.0.0.1:0", "--identity", m_folder / "identity"},
-        m_folder / "directory.log");
+    if (!m_bus.start()) throw std::runtime_error("nats-server does not start");
+    m_directory.emplace(startLogged({NAIAD_BINARY_DIR "/dfdir", "--bus", m_bus.url(), "--list", list(),
+                                     "--listen", "127.0.0.1:0", "--identity", m_folder / "identity"},
+                                    m_folder / "directory.log"));
   }
 
   ServerSetup setup() const override {
-    return {.arguments = {"--bus", url(), "--bus-id", "honest", "--public-host", "127.0.0.1"},
+    return {.arguments = {"--bus", m_bus.url(), "--bus-id", "honest", "--public-host", "127.0.0.1"},
             .password = {}};
   }
   std::chrono::seconds leadTime() const override { return 5s; }  // the server must be in the list
   void begin(const Target& target) override {
     m_socket.emplace(target.context);
-    m_socket->connect({asio::ip::make_address("127.0.0.1"), m_port});
+    const std::string url = m_bus.url();
+    const int port = std::stoi(url.substr(url.rfind(':') + 1));
+    m_socket->connect({asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
     asio::write(*m_socket, asio::buffer(std::string("CONNECT {\"verbose\":false}\r\n")));
     m_socket->non_blocking(true);
     m_listed_at = Clock::now() + leadTime();
@@ -310,7 +200,7 @@ class BusFlood : public Attack {
     if (now < m_look_at) return;
     m_look_at = now + 250ms;
     if (now >= m_listed_at)
-      ++(textOf(m_folder / "servers.json").find("\"link\"") != std::string::npos ? m_listed : m_unlisted);
+      ++(contentOf(list()).find("\"link\"") != std::string::npos ? m_listed : m_unlisted);
   }
   void end() override { m_socket.reset(); }
   void addFindings(Findings& findings) override {
@@ -324,11 +214,10 @@ class BusFlood : public Attack {
   static constexpr int kBatch = 400;
   static constexpr std::chrono::milliseconds kBetweenBatches{20};
 
-  std::string url() const { return "nats://127.0.0.1:" + std::to_string(m_port); }
+  std::string list() const { return m_folder / "servers.json"; }
 
   TempFolder m_folder;
-  std::uint16_t m_port = 0;
-  std::optional<Process> m_bus;
+  naiad::test::NatsServer m_bus;
   std::optional<Process> m_directory;
   std::optional<asio::ip::tcp::socket> m_socket;
   std::string m_batch;
@@ -353,14 +242,6 @@ AttackPtr makeHostileRounds() {
 
 AttackPtr makeLargeTerminals() {
   return std::make_unique<LargeTerminals>();
-}
-
-AttackPtr makeIdleCrowd() {
-  return std::make_unique<IdleCrowd>();
-}
-
-AttackPtr makeKnockingNetworks() {
-  return std::make_unique<KnockingNetworks>();
 }
 
 AttackPtr makeBusFlood() {

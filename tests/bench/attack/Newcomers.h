@@ -65,8 +65,8 @@ class Newcomers {
     const double waited = std::chrono::duration<double, std::milli>(now - newcomer.since).count();
     if (!newcomer.guest) {
       if (now < newcomer.next_attempt) return true;
-      newcomer.guest = std::make_unique<Guest>(m_context, m_server.port, newcomer.address,
-                                               guestOptions("new", m_server.password));
+      newcomer.guest =
+          std::make_unique<Guest>(m_context, m_server.port, newcomer.address, "new", m_server.password);
     }
     Guest& guest = *newcomer.guest;
     guest.update(now);

@@ -3,43 +3,27 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
-#include "../path/Argv.h"
 #include "Programs.h"
+#include "tests/bench/Worker.h"
 
 extern char** environ;
 
 namespace bench::attack {
-namespace {
 
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMaxLog = std::size_t{1} << 20;  // bytes of the log that are kept
-
-/// Returns this process's environment, without server settings but with this password.
-std::vector<std::string> environmentWith(const std::string& password) {
-  std::vector<std::string> entries;
-  for (char** p = environ; *p != nullptr; ++p) {
-    if (!std::string_view(*p).starts_with("NAIAD_")) entries.emplace_back(*p);
-  }
-  if (!password.empty()) entries.push_back("NAIAD_PASSWORD=" + password);
-  return entries;
-}
-
-}  // namespace
 
 ServerProcess::ServerProcess(const ServerSetup& setup, const std::string& folder)
     : m_password(setup.password), m_truth_file(folder + "/truth") {
@@ -49,41 +33,31 @@ ServerProcess::ServerProcess(const ServerSetup& setup, const std::string& folder
       serverProgram(),   "--port",      "0",       "--identity",   folder + "/identity", "--state",
       folder + "/state", "--join-file", join_file, "--truth-file", m_truth_file};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
+  // The environment is this process's without settings of servers.
+  std::vector<std::string> entries;
+  for (char** p = environ; *p != nullptr; ++p) {
+    if (!std::string_view(*p).starts_with("NAIAD_")) entries.emplace_back(*p);
+  }
+  if (!m_password.empty()) entries.push_back("NAIAD_PASSWORD=" + m_password);
+  std::vector<char*> environment = path::argvOf(entries);
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("a pipe cannot be made");
   m_log_in = ends[0];
   m_log_out = ends[1];
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, m_log_out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, m_log_out, STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  std::vector<std::string> entries = environmentWith(m_password);
-  const int error = posix_spawn(&m_pid, command[0].c_str(), &actions, &attributes,
-                                path::argvOf(command).data(), path::argvOf(entries).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error(command[0] + " cannot be run");
+  m_process.emplace(command, [this, &environment] {
+    dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+    dup2(m_log_out, STDOUT_FILENO);
+    dup2(m_log_out, STDERR_FILENO);
+    ::signal(SIGPIPE, SIG_DFL);
+    environ = environment.data();
+  });
   m_reader = std::thread([this] { readLog(); });
   try {
     waitForJoinFile(join_file);
   } catch (...) {
     stop();
-    close(m_log_out);
     throw;
   }
-}
-
-ServerProcess::~ServerProcess() {
-  if (m_reader.joinable()) stop();
-  close(m_log_out);
 }
 
 void ServerProcess::waitForJoinFile(const std::string& path) {
@@ -98,21 +72,6 @@ void ServerProcess::waitForJoinFile(const std::string& path) {
   }
   throw std::runtime_error("dfserver does not start");
 }
-
-bool ServerProcess::isRunning() {
-  if (m_pid < 0 || m_died) return false;
-  m_died = waitpid(m_pid, nullptr, WNOHANG) == m_pid;
-  return !m_died;
-}
-
-double ServerProcess::cpuSeconds() const {
-  clockid_t clock = 0;
-  timespec time{};
-  if (clock_getcpuclockid(m_pid, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) / 1e9;
-}
-
-// ---- the log ----------------------------------------------------------------------------------------------
 
 void ServerProcess::readLog() {
   for (;;) {
@@ -157,45 +116,17 @@ void ServerProcess::stallLog() {
   close(filler);
 }
 
-void ServerProcess::closeLog() {
-  setMode(LogMode::kClosed);
-}
-
-// ---- shutdown ---------------------------------------------------------------------------------------------
-
-void ServerProcess::killNow() {
-  if (!isRunning()) return;
-  kill(m_pid, SIGKILL);
-  waitpid(m_pid, nullptr, 0);
-  m_died = true;
-}
-
-ServerProcess::Counters ServerProcess::stop() {
+std::map<std::string, double> ServerProcess::stop() {
+  if (!m_reader.joinable()) return {};
   if (m_mode == LogMode::kStalled) setMode(LogMode::kRead);
-  if (isRunning()) {
-    kill(m_pid, SIGTERM);
-    const auto end = Clock::now() + 10s;
-    while (waitpid(m_pid, nullptr, WNOHANG) == 0) {
-      if (Clock::now() > end) {
-        kill(m_pid, SIGKILL);
-        waitpid(m_pid, nullptr, 0);
-        break;
-      }
-      std::this_thread::sleep_for(5ms);
-    }
-  }
-  m_pid = -1;
+  m_process->signal(SIGTERM);
+  m_process->waitForEnd(10s);
   m_mode = LogMode::kFinish;
-  if (m_reader.joinable()) m_reader.join();
-  Counters counters;
+  m_reader.join();
+  close(std::exchange(m_log_out, -1));
   const std::size_t last = m_log.rfind("stopped: ");
-  if (last == std::string::npos) return counters;
-  std::istringstream words(m_log.substr(last, m_log.find('\n', last) - last));
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals != std::string::npos) counters[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
-  }
-  return counters;
+  if (last == std::string::npos) return {};
+  return figuresOf(m_log.substr(last, m_log.find('\n', last) - last));
 }
 
 }  // namespace bench::attack

@@ -1,7 +1,5 @@
 // naiad_attack: attacks the real programs with default settings while honest players play, and prints the
 // results on one line. docs/bench.md explains the keys.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +15,7 @@
 #include "LoopbackNamespace.h"
 #include "Phase.h"
 #include "shared/options/Options.h"
+#include "shared/program/ProcessSetup.h"
 
 namespace {
 
@@ -185,20 +184,14 @@ int run(const std::string& name, const Effort& effort) {
     return 2;
   }
   if (name == "silent6") {
-    if (const auto reason = enterLoopbackNamespace(kNetworks6)) {
-      std::printf("attack name=%s skipped=%s\n", name.c_str(), reason->c_str());
+    const std::string reason = enterLoopbackNamespace(kNetworks6);
+    if (!reason.empty()) {
+      std::printf("attack name=%s skipped=%s\n", name.c_str(), reason.c_str());
       return 0;
     }
   }
   for (const Make& make : found->second) runAttack(name, make, effort);
   return 0;
-}
-
-void allowManyFiles() {
-  rlimit files{};
-  getrlimit(RLIMIT_NOFILE, &files);
-  files.rlim_cur = files.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &files);
 }
 
 }  // namespace
@@ -219,7 +212,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    allowManyFiles();
+    naiad::raiseOpenFileLimit(SIZE_MAX);
     return run(name, effort);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "naiad_attack: %s: %s\n", name.c_str(), error.what());

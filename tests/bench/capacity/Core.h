@@ -16,10 +16,10 @@ inline bool pinTo(int core) {
   return sched_setaffinity(0, sizeof set, &set) == 0;
 }
 
-/// Returns the processor time that a clock has counted, in microseconds.
-inline double cpuMicros(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
+/// Returns the processor time that this process has used, in microseconds.
+inline double cpuMicros() {
   timespec time{};
-  clock_gettime(clock, &time);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) / 1e3;
 }
 

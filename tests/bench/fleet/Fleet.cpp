@@ -5,9 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 #include <variant>
@@ -19,14 +17,9 @@ namespace bench {
 namespace {
 
 namespace fs = std::filesystem;
+using naiad::test::contentOf;
 
-constexpr const char* kNats = "/usr/sbin/nats-server";
 constexpr std::chrono::seconds kPatience{60};
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void await(const std::string& what, const fs::path& folder, const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -38,7 +31,7 @@ void await(const std::string& what, const fs::path& folder, const std::function<
 }
 
 std::uint16_t portIn(const fs::path& path) {
-  return static_cast<std::uint16_t>(std::atoi(textOf(path).c_str()));
+  return static_cast<std::uint16_t>(std::atoi(contentOf(path).c_str()));
 }
 
 /// Returns the counter `name` from the last line that has it; nullopt if none has it, because lines omit
@@ -71,7 +64,7 @@ Fleet::Fleet(const FleetSetup& setup) : m_setup(setup) {
     await("dfserver", server.folder, [&] { return (server.port = portIn(server.folder / "port")) != 0; });
   }
   const auto listed = [this] {
-    const std::string list = textOf(m_folder / "servers.json");
+    const std::string list = contentOf(m_folder / "servers.json");
     std::size_t count = 0;
     for (std::size_t at = 0; (at = list.find("\"link\"", at)) != std::string::npos; ++at) ++count;
     return count == m_servers.size();
@@ -80,37 +73,20 @@ Fleet::Fleet(const FleetSetup& setup) : m_setup(setup) {
 }
 
 void Fleet::startBus() {
-  const fs::path ports = m_folder / "bus";
-  fs::remove_all(ports);
-  fs::create_directories(ports);
-  const std::string port = m_bus_port == 0 ? "-1" : std::to_string(m_bus_port);
-  m_bus.reset();
-  m_bus.emplace(std::vector<std::string>{kNats, "-a", "127.0.0.1", "-p", port, "--ports_file_dir", ports},
-                m_folder / "bus.log");
-  await("nats-server", ports, [&] {
-    for (const auto& entry : fs::directory_iterator(ports)) {
-      const std::string text = textOf(entry.path());
-      const std::size_t at = text.find("127.0.0.1:");
-      if (at == std::string::npos || text.find('"', at) == std::string::npos) continue;
-      m_bus_port = static_cast<std::uint16_t>(std::atoi(text.c_str() + at + 10));
-      return true;
-    }
-    return false;
-  });
+  if (!m_bus.start()) throw std::runtime_error("nats-server does not start");
 }
 
 void Fleet::startDirectory() {
   m_directory.emplace(
-      std::vector<std::string>{"dfdir", "--bus", busUrl(), "--list", m_folder / "servers.json", "--listen",
-                               "127.0.0.1:0", "--identity", m_folder / "directory", "--port-file",
-                               m_folder / "directory.port", "--max-per-address",
-                               std::to_string(m_setup.bots)},
-      m_folder / "directory.log");
+      startLogged({NAIAD_BINARY_DIR "/dfdir", "--bus", m_bus.url(), "--list", m_folder / "servers.json",
+                   "--listen", "127.0.0.1:0", "--identity", m_folder / "directory", "--port-file",
+                   m_folder / "directory.port", "--max-per-address", std::to_string(m_setup.bots)},
+                  m_folder / "directory.log"));
   await("dfdir", m_folder, [this] { return (m_directory_port = portIn(m_folder / "directory.port")) != 0; });
 }
 
 std::string Fleet::link() const {
-  const std::string log = textOf(m_folder / "directory.log");
+  const std::string log = contentOf(m_folder / "directory.log");
   const std::size_t begin = log.find("naiad://");
   return log.substr(begin, log.find('\'', begin) - begin);
 }
@@ -121,8 +97,8 @@ void Fleet::startServer(std::size_t number) {
   const std::string places = std::to_string(m_setup.max_players);
   const std::string folder = server.folder.string();
   server.process.reset();
-  server.log_begin = textOf(server.folder / "log").size();
-  const std::vector<std::string> words{"dfserver",
+  server.log_begin = contentOf(server.folder / "log").size();
+  const std::vector<std::string> words{NAIAD_BINARY_DIR "/dfserver",
                                        "--address=127.0.0.1",
                                        "--public-host=127.0.0.1",
                                        "--lan=off",
@@ -131,7 +107,7 @@ void Fleet::startServer(std::size_t number) {
                                        "--frame-time=" + std::to_string(1'000'000 / m_setup.hz),
                                        "--max-players=" + places,
                                        "--max-per-address=" + places,
-                                       "--bus=" + busUrl(),
+                                       "--bus=" + m_bus.url(),
                                        "--bus-id=" + name,
                                        "--server-name=" + name,
                                        "--state=" + folder,
@@ -139,7 +115,7 @@ void Fleet::startServer(std::size_t number) {
                                        "--journal=" + folder + "/rounds",
                                        "--control=" + folder + "/control.sock",
                                        "--port-file=" + folder + "/port"};
-  server.process.emplace(words, server.folder / "log");
+  server.process.emplace(startLogged(words, server.folder / "log"));
 }
 
 // Reads the counters before the kill, because a killed process loses them. A hanging server does not answer.
@@ -162,7 +138,7 @@ void Fleet::end() {
   for (Server& server : m_servers) {
     if (!server.process->waitForEnd(kPatience))
       throw std::runtime_error("a server does not end: " + server.folder.string());
-    const std::string log = textOf(server.folder / "log").substr(server.log_begin);
+    const std::string log = contentOf(server.folder / "log").substr(server.log_begin);
     const auto all = counter(log, "ticks");
     if (!all) throw std::runtime_error("a server has not counted its ticks: " + server.folder.string());
     m_ticks.all += *all;

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "Process.h"
+#include "tests/bench/Process.h"
+#include "tests/server/host/fleet/NatsServer.h"
 #include "tests/support/TempFolder.h"
 
 namespace bench {
@@ -31,7 +32,7 @@ class Fleet {
   /// Kills a server with SIGKILL after reading its tick counters. startServer() may start it again.
   void killServer(std::size_t server);
   void startServer(std::size_t server);
-  void killBus() { m_bus->kill(); }
+  void killBus() { m_bus.kill(); }
   void startBus();
   /// Ends all programs. Throws std::runtime_error if one does not end properly.
   void end();
@@ -51,14 +52,12 @@ class Fleet {
     std::optional<Process> process;
     std::size_t log_begin = 0;  ///< where the log of the present process begins in the file
   };
-  std::string busUrl() const { return "nats://127.0.0.1:" + std::to_string(m_bus_port); }
   void startDirectory();
 
   FleetSetup m_setup;
   naiad::test::TempFolder m_folder;
-  std::uint16_t m_bus_port = 0;
   std::uint16_t m_directory_port = 0;
-  std::optional<Process> m_bus;
+  naiad::test::NatsServer m_bus;
   std::optional<Process> m_directory;
   std::vector<Server> m_servers;
   Ticks m_ticks;  ///< ticks of servers that have ended

@@ -9,7 +9,6 @@
 //   sink      receive datagrams without answering; write   sunk
 //             their sizes to FOLDER/sizes and the bots' addresses to FOLDER/endpoints
 #include <sys/epoll.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,6 +25,7 @@
 #include "Checker.h"
 #include "LightBot.h"
 #include "shared/net/stream/TlsContext.h"
+#include "shared/program/ProcessSetup.h"
 #include "tests/bench/Worker.h"
 
 namespace {
@@ -224,10 +224,7 @@ class Crowd {
 int main(int argc, char** argv) {
   if (argc != 6) return 2;
   if (!pinTo(std::stoi(argv[1]))) return 3;
-  rlimit files{};
-  getrlimit(RLIMIT_NOFILE, &files);
-  files.rlim_cur = files.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &files);
+  naiad::raiseOpenFileLimit(SIZE_MAX);
   try {
     Crowd(argv[2], static_cast<std::uint16_t>(std::stoi(argv[3])), *naiad::Fingerprint::parse(argv[4]),
           argv[5])
