@@ -1,10 +1,10 @@
-// A field of obstacles and casts through it, for all engines, and the exact results of the casts.
+// A field of obstacles and casts through it, for all engines.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "Bins.h"
+#include "SortedBoxes.h"
 #include "shared/values/Fixed.h"
 
 namespace bench {
@@ -15,7 +15,7 @@ struct Field {
 
   double side;  ///< width and height of the field, in cells
   std::vector<df::FixedBox> obstacles;
-  Bins bins;
+  SortedBoxes sorted;
 };
 
 /// A move of a 1×1 box from one position to another.
@@ -33,16 +33,5 @@ struct Answer {
   double time = 1;
   df::FixedVector position;  ///< centre just before the contact
 };
-
-/// Returns this many casts of `length` cells from random places in random directions. None touches an
-/// obstacle at its start. If the field is wider than twice the length, none leaves it.
-std::vector<Cast> drawCasts(const Field& field, int count, double length);
-
-/// Returns the exact answer from all obstacles near the path.
-Answer solve(const Field& field, const Cast& cast);
-
-/// True if the obstacles and final positions are equal, and the times differ by at most 1e-9 of the whole
-/// way.
-bool areEqual(const Answer& a, const Answer& b);
 
 }  // namespace bench

@@ -1,5 +1,3 @@
-#include "HardPile.h"
-
 #include <signal.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "Attack.h"
 #include "Programs.h"
 #include "host/auth/ServerIdentity.h"
 #include "naiad.pb.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "Guest.h"
-#include "HardPile.h"
 #include "LoopbackNamespace.h"
 #include "Phase.h"
 #include "shared/options/Options.h"

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "Engine.h"
 #include "Scene.h"
-#include "Tally.h"
 
 namespace bench {
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "../Punctual.h"
 #include "../SharedFile.h"
 #include "../link/Direction.h"
 #include "../scene/Truth.h"

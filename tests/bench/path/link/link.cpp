@@ -24,7 +24,6 @@
 #include <string>
 #include <vector>
 
-#include "../Punctual.h"
 #include "../SharedFile.h"
 #include "Namespace.h"
 
