@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -21,13 +22,24 @@
 #include <utility>
 #include <vector>
 
-#include "Programs.h"
 #include "tests/bench/Process.h"
 #include "tests/bench/Worker.h"
 
 extern char** environ;
 
 namespace bench::attack {
+
+/// Returns a program's path; NAIAD_ATTACK_DFSERVER and NAIAD_ATTACK_DFCLIENT select another version.
+inline std::string programAt(const char* variable, const char* name) {
+  const char* other = std::getenv(variable);
+  return other != nullptr ? other : std::string(NAIAD_BINARY_DIR) + "/" + name;
+}
+inline std::string serverProgram() {
+  return programAt("NAIAD_ATTACK_DFSERVER", "dfserver");
+}
+inline std::string clientProgram() {
+  return programAt("NAIAD_ATTACK_DFCLIENT", "dfclient");
+}
 
 /// Settings of a server, in addition to the defaults.
 struct ServerSetup {

@@ -1,25 +1,137 @@
 // naiad_attack: attacks the real programs with default settings while honest players play, and prints the
 // results on one line. docs/bench.md explains the keys.
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "Attack.h"
+#include "ChatResume.h"
+#include "Company.h"
+#include "ForkingWorld.h"
 #include "Guest.h"
-#include "LoopbackNamespace.h"
-#include "Phase.h"
+#include "GuestAttacks.h"
+#include "HardPile.h"
+#include "HostAttacks.h"
+#include "SilentCrowd.h"
 #include "shared/options/Options.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/support/TempFolder.h"
 
 namespace {
 
 using namespace bench::attack;
 using namespace std::chrono_literals;
+
+struct PhaseResult {
+  Fate fate;
+  double seconds = 0;
+  double ticks = -1;       ///< number of the server's ticks; -1: it ended without its last log line
+  double late_ticks = -1;  ///< ticks that began more than 5 ms late
+  double cpu_percent = 0;  ///< the server's share of one core in the second half
+  bool died = false;       ///< the server ended by itself
+};
+
+/// Runs the attack in its own thread.
+class Assault {
+ public:
+  Assault(Attack& attack, ServerProcess& server, std::chrono::seconds duration)
+      : m_thread([this, &attack, &server, duration] {
+          try {
+            attack.begin({m_context, server, duration});
+            while (!m_over) serve(attack);
+          } catch (...) {
+            m_failure = std::current_exception();
+          }
+          attack.end();
+          m_context.restart();
+          m_context.poll();
+        }) {}
+  ~Assault() {
+    m_over = true;
+    if (m_thread.joinable()) m_thread.join();
+  }
+
+  /// Waits for the end of the thread, and throws the thread's exception if it had one.
+  void finish() {
+    m_over = true;
+    m_thread.join();
+    if (m_failure) std::rethrow_exception(m_failure);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void serve(Attack& attack) {
+    constexpr std::chrono::milliseconds kTurn{10};
+    m_context.restart();
+    m_context.run_one_for(kTurn);
+    for (const auto enough = Clock::now() + kTurn; Clock::now() < enough && m_context.poll_one() > 0;) {
+    }
+    attack.update(Clock::now());
+  }
+
+  asio::io_context m_context{1};
+  std::atomic<bool> m_over{false};
+  std::exception_ptr m_failure;
+  std::thread m_thread;  // last member, because it uses the others
+};
+
+/// Runs a phase with the server that `attack` needs. Attacks only if `hostile`. Throws std::runtime_error if
+/// nothing could be measured.
+PhaseResult runPhase(Attack& attack, bool hostile, std::chrono::seconds duration) {
+  using Clock = std::chrono::steady_clock;
+  const naiad::test::TempFolder folder;
+  PhaseResult result;
+  if (hostile) attack.prepare(folder.string());
+  ServerProcess server(attack.setup(), folder.string());
+  Company company({.port = server.port(),
+                   .fingerprint = server.fingerprint(),
+                   .password = server.password(),
+                   .known_servers = folder / "known_servers"},
+                  kHeldName);
+  company.join();
+  const Clock::time_point begin = Clock::now();
+  const std::chrono::seconds lead = hostile ? attack.leadTime() : std::chrono::seconds(0);
+  // The time in the second half is measured, when an attack has used up its initial burst.
+  auto half =
+      std::async(std::launch::async, [&server, time = std::chrono::milliseconds(lead + duration) / 2] {
+        std::this_thread::sleep_for(time);
+        return std::pair(Clock::now(), server.cpuMicros());
+      });
+  const auto play = [&] {
+    company.play(lead, duration);
+    const Clock::time_point end = Clock::now();
+    result.seconds = std::chrono::duration<double>(end - begin).count();
+    const auto [since, used] = half.get();
+    const std::chrono::duration<double, std::micro> elapsed = end - since;
+    result.cpu_percent = 100 * std::max(0.0, server.cpuMicros() - used) / elapsed.count();
+  };
+  if (hostile) {
+    Assault assault(attack, server, duration);
+    play();
+    assault.finish();
+  } else {
+    play();
+  }
+  result.died = !server.isRunning();
+  result.fate = company.leave();
+  auto counters = server.stop();
+  if (counters.contains("ticks")) {
+    result.ticks = counters["ticks"];
+    result.late_ticks = counters["late_ticks"];
+  }
+  company.compare(server.truthFile(), result.fate);
+  return result;
+}
 
 /// Limit of a newcomer's wait, and of the world's pauses, in ms.
 constexpr double kMaxWaitMillis = 1000;
@@ -49,26 +161,31 @@ const std::vector<std::string> kNetworks6 = {"2001:db8:7:1::1", "2001:db8:7:2::1
 
 using Make = std::function<AttackPtr()>;
 
+template <class Kind>
+AttackPtr make() {
+  return std::make_unique<Kind>();
+}
+
 /// All attacks except hard_pile, which attacks a client. chat_detached runs twice.
 const std::map<std::string, std::vector<Make>>& attacks() {
   static const std::vector<std::string> s_networks4 = {addressIn(3, 0), addressIn(3, 1), addressIn(3, 2),
                                                        addressIn(3, 3)};
   static const std::map<std::string, std::vector<Make>> s_attacks = {
-      {"silent4", {[] { return makeSilentCrowd(s_networks4, "127.0.0.1"); }}},
-      {"silent6", {[] { return makeSilentCrowd(kNetworks6, "::1"); }}},
-      {"chat_resume", {makeChatResume}},
+      {"silent4", {[] { return std::make_unique<SilentCrowd>(s_networks4, "127.0.0.1"); }}},
+      {"silent6", {[] { return std::make_unique<SilentCrowd>(kNetworks6, "::1"); }}},
+      {"chat_resume", {make<ChatResume>}},
       {"chat_detached", {[] { return makeChatters(1); }, [] { return makeChatters(8); }}},
       {"held_places", {makeHeldPlaces}},
-      {"log_stall", {[] { return makeLogReader(LogFault::kStalls); }}},
-      {"log_gone", {[] { return makeLogReader(LogFault::kEnds); }}},
+      {"log_stall", {[] { return makeLogReader(true); }}},
+      {"log_gone", {[] { return makeLogReader(false); }}},
       {"password80", {makePasswordCrowd}},
-      {"fork300", {makeForkingWorld}},
-      {"restart8", {makeLateRestart}},
-      {"rounds5", {makeHostileRounds}},
-      {"door3000", {makeLargeTerminals}},
+      {"fork300", {make<ForkingWorld>}},
+      {"restart8", {make<LateRestart>}},
+      {"rounds5", {make<HostileRounds>}},
+      {"door3000", {make<LargeTerminals>}},
       {"idle64", {makeIdleCrowd}},
       {"password2000", {makeKnockingNetworks}},
-      {"bus20k", {makeBusFlood}}};
+      {"bus20k", {make<BusFlood>}}};
   return s_attacks;
 }
 

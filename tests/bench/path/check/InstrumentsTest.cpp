@@ -9,7 +9,7 @@
 
 #include "tests/bench/path/judge/EchoJudge.h"
 #include "tests/bench/path/judge/FrameJudge.h"
-#include "tests/bench/path/link/Direction.h"
+#include "tests/bench/path/link/Link.h"
 #include "tests/bench/path/scene/Crowd.h"
 #include "tests/bench/path/scene/Status.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "../SharedFile.h"
-#include "../link/Direction.h"
+#include "../link/Link.h"
 #include "../scene/Truth.h"
 #include "Quantile.h"
 #include "Watch.h"

@@ -1,18 +1,53 @@
 // silent4, silent6: connections that never send anything.
+#pragma once
+
+#include <arpa/inet.h>
+#include <linux/ipv6.h>
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <array>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
+#include <cstring>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "Attack.h"
+#include "tests/bench/UserMap.h"
 
 namespace bench::attack {
-namespace {
+
+/// Enters a new network namespace (and user namespace, so that no privilege is needed), with these IPv6
+/// addresses on its loopback device. Call before starting threads. Returns "" on success, otherwise the
+/// reason without blanks.
+inline std::string enterLoopbackNamespace(const std::vector<std::string>& addresses) {
+  const uid_t user = geteuid();
+  const gid_t group = getegid();
+  if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return "network-namespaces-not-allowed";
+  if (!mapUser(user, group)) return "user-namespace-cannot-be-mapped";
+  const int device = socket(AF_INET6, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (device < 0) return "no-IPv6";
+  ifreq loopback{};
+  std::strcpy(loopback.ifr_name, "lo");
+  loopback.ifr_flags = IFF_UP | IFF_RUNNING;
+  bool done = ioctl(device, SIOCSIFFLAGS, &loopback) == 0;
+  for (const std::string& address : addresses) {
+    in6_ifreq request{};
+    request.ifr6_prefixlen = 128;
+    request.ifr6_ifindex = static_cast<int>(if_nametoindex("lo"));
+    done = done && inet_pton(AF_INET6, address.c_str(), &request.ifr6_addr) == 1 &&
+           ioctl(device, SIOCSIFADDR, &request) == 0;
+  }
+  close(device);
+  return done ? "" : "IPv6-addresses-cannot-be-added";
+}
 
 using asio::ip::tcp;
-
-constexpr int kPerSource = 64;
-constexpr std::chrono::milliseconds kAgain{500};
 
 /// A connection that never sends anything and is made again whenever it ends.
 class Mute : public std::enable_shared_from_this<Mute> {
@@ -55,7 +90,7 @@ class Mute : public std::enable_shared_from_this<Mute> {
     if (m_over) return;
     asio::error_code ignored;
     m_socket.close(ignored);
-    m_timer.expires_after(kAgain);
+    m_timer.expires_after(std::chrono::milliseconds(500));
     m_timer.async_wait([self = shared_from_this()](const asio::error_code& stopped) {
       if (!stopped) self->connect();
     });
@@ -77,7 +112,7 @@ class SilentCrowd : public Attack {
 
   void begin(const Target& target) override {
     const tcp::endpoint server(asio::ip::make_address(m_server), target.server.port());
-    for (int i = 0; i < kPerSource; ++i) {
+    for (int i = 0; i < 64; ++i) {
       for (const std::string& source : m_sources) {
         m_mutes.push_back(
             std::make_shared<Mute>(target.context, asio::ip::make_address(source), server, m_connects));
@@ -97,11 +132,5 @@ class SilentCrowd : public Attack {
   std::vector<std::shared_ptr<Mute>> m_mutes;
   long long m_connects = 0;
 };
-
-}  // namespace
-
-AttackPtr makeSilentCrowd(const std::vector<std::string>& sources, const std::string& server) {
-  return std::make_unique<SilentCrowd>(sources, server);
-}
 
 }  // namespace bench::attack

@@ -1,4 +1,6 @@
 // fork300: counts the children of a game, and those that outlive it.
+#pragma once
+
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -11,16 +13,14 @@
 #include "tests/support/Processes.h"
 
 namespace bench::attack {
-namespace {
-
 using namespace std::chrono_literals;
 
-constexpr const char* kChild = "attack-fork";  // name that the game gives to its children
-constexpr int kNetwork = 9;
-constexpr std::chrono::milliseconds kEndTime = 3s;  // time that the children have to end after their world
+inline constexpr const char* kChild = "attack-fork";  // name that the game gives to its children
+inline constexpr std::chrono::milliseconds kEndTime =
+    3s;  // time that the children have to end after their world
 
 /// Returns the children of the game that have not ended.
-std::vector<pid_t> children() {
+inline std::vector<pid_t> forkedChildren() {
   std::vector<pid_t> found = naiad::test::processesBelow(getpid(), kChild);
   std::erase_if(found, [](pid_t process) {
     const char state = naiad::test::stateOf(process);
@@ -41,8 +41,7 @@ class ForkingWorld : public Attack {
   void begin(const Target& target) override {
     m_leave_at = std::chrono::steady_clock::now() + target.duration / 2;
     m_patience = std::min<std::chrono::milliseconds>(kEndTime, target.duration / 4);
-    m_guest =
-        std::make_unique<Guest>(target.context, target.server.port(), addressIn(kNetwork, 0), "forker", "");
+    m_guest = std::make_unique<Guest>(target.context, target.server.port(), addressIn(9, 0), "forker", "");
   }
   void update(Time now) override {
     if (m_guest) m_guest->update(now);
@@ -51,7 +50,7 @@ class ForkingWorld : public Attack {
     }
     if (!m_left && now >= m_look_at) {
       m_look_at = now + 100ms;
-      m_forked = std::max(m_forked, children().size());
+      m_forked = std::max(m_forked, forkedChildren().size());
     }
     if (!m_left && now >= m_leave_at) {
       m_left = true;
@@ -60,13 +59,13 @@ class ForkingWorld : public Attack {
     }
     if (m_left && !m_counted && now >= m_count_at) {
       m_counted = true;
-      m_after_world = children().size();
+      m_after_world = forkedChildren().size();
     }
   }
   void end() override { m_guest.reset(); }
   void addFindings(Findings& findings) override {
     std::this_thread::sleep_for(1s);
-    const std::vector<pid_t> left = children();
+    const std::vector<pid_t> left = forkedChildren();
     for (const pid_t process : left) kill(process, SIGKILL);
     findings.figures.emplace_back("forked", m_forked);
     findings.figures.emplace_back("processes_left", m_after_world);
@@ -87,11 +86,5 @@ class ForkingWorld : public Attack {
   std::size_t m_forked = 0;
   std::size_t m_after_world = 0;
 };
-
-}  // namespace
-
-AttackPtr makeForkingWorld() {
-  return std::make_unique<ForkingWorld>();
-}
 
 }  // namespace bench::attack

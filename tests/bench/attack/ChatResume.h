@@ -1,4 +1,6 @@
 // chat_resume: a player resumes on another stream repeatedly and sends as much chat as allowed on each.
+#pragma once
+
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -11,8 +13,6 @@
 #include "shared/net/base/Limits.h"
 
 namespace bench::attack {
-namespace {
-
 using namespace std::chrono_literals;
 
 constexpr std::size_t kReady = 8;  // streams kept ready for the next resumes
@@ -137,11 +137,5 @@ class ChatResume : public Attack {
   long long m_said = 0;
   long long m_streams = 0;  ///< streams with a complete handshake
 };
-
-}  // namespace
-
-AttackPtr makeChatResume() {
-  return std::make_unique<ChatResume>();
-}
 
 }  // namespace bench::attack

@@ -1,5 +1,7 @@
 // Attacks by guests that do what clients may do, but too often: chatters, held slots, noise for the log,
 // password guesses, and players that do nothing.
+#pragma once
+
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -11,8 +13,6 @@
 #include "Guest.h"
 
 namespace bench::attack {
-namespace {
-
 using namespace std::chrono_literals;
 using Millis = std::chrono::milliseconds;
 
@@ -104,44 +104,42 @@ class Crowd : public Attack {
 /// A crowd, while the reader of the log stalls or exits.
 class LogReader : public Crowd {
  public:
-  LogReader(const Plan& plan, LogFault fault) : Crowd(plan), m_fault(fault) {}
+  LogReader(const Plan& plan, bool stalls) : Crowd(plan), m_stalls(stalls) {}
   void begin(const Target& target) override {
     Crowd::begin(target);
-    m_fault == LogFault::kStalls ? target.server.stallLog() : target.server.closeLog();
+    m_stalls ? target.server.stallLog() : target.server.closeLog();
   }
 
  private:
-  LogFault m_fault;
+  bool m_stalls;
 };
 
-auto in(int network) {
+inline auto in(int network) {
   return [network](int n) { return addressIn(network, n); };
 }
 
-std::string addressOfNetwork(int n) {
+inline std::string addressOfNetwork(int n) {
   return "127." + std::to_string(100 + n / 250) + "." + std::to_string(n % 250) + ".1";
 }
 
 /// Sends a line every 125 ms: more than twice the allowed rate.
-bool chat(Guest& guest, Time now, Time& next) {
+inline bool chat(Guest& guest, Time now, Time& next) {
   if (now < next) return false;
   next = now + 125ms;
   guest.session()->sendChat(longLine());
   return false;
 }
 
-bool killAtOnce(Guest& /*guest*/, Time /*now*/, Time& /*next*/) {
+inline bool killAtOnce(Guest& /*guest*/, Time /*now*/, Time& /*next*/) {
   return true;
 }
 
-bool leave(Guest& guest, Time /*now*/, Time& /*next*/) {
+inline bool leave(Guest& guest, Time /*now*/, Time& /*next*/) {
   guest.session()->leave();
   return false;
 }
 
-}  // namespace
-
-AttackPtr makeChatters(std::size_t count) {
+inline AttackPtr makeChatters(std::size_t count) {
   return std::make_unique<Crowd>(
       Plan{.name = "talker",
            .guests = count,
@@ -151,7 +149,7 @@ AttackPtr makeChatters(std::size_t count) {
            .figures = {{"chatters", &Counts::most}, {"chatters_ended", &Counts::ended}}});
 }
 
-AttackPtr makeHeldPlaces() {
+inline AttackPtr makeHeldPlaces() {
   return std::make_unique<Crowd>(
       Plan{.name = kHeldName,
            .address = in(6),
@@ -163,12 +161,12 @@ AttackPtr makeHeldPlaces() {
 }
 
 // The server logs a line each time the guest joins or leaves.
-AttackPtr makeLogReader(LogFault fault) {
+inline AttackPtr makeLogReader(bool stalls) {
   return std::make_unique<LogReader>(Plan{.name = "noise", .address = in(8), .pause = 170ms, .play = leave},
                                      fault);
 }
 
-AttackPtr makePasswordCrowd() {
+inline AttackPtr makePasswordCrowd() {
   return std::make_unique<Crowd>(Plan{.name = "guesser",
                                       .password = "a wrong one",
                                       .guests = 80,
@@ -180,7 +178,7 @@ AttackPtr makePasswordCrowd() {
 }
 
 // The honest players have the other three places.
-AttackPtr makeIdleCrowd() {
+inline AttackPtr makeIdleCrowd() {
   return std::make_unique<Crowd>(Plan{.name = "idler",
                                       .guests = 61,
                                       .address = [](int) { return addressIn(11, 0); },
@@ -190,7 +188,7 @@ AttackPtr makeIdleCrowd() {
                                       .must_be_complete = true});
 }
 
-AttackPtr makeKnockingNetworks() {
+inline AttackPtr makeKnockingNetworks() {
   return std::make_unique<Crowd>(
       Plan{.name = "guesser",
            .password = "a wrong one",

@@ -1,4 +1,6 @@
 // Attacks on what a host leaves open by default: rounds on disk, the ssh door, the bus.
+#pragma once
+
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -20,8 +22,6 @@
 #include "tests/terminal/PtyTerminal.h"
 
 namespace bench::attack {
-namespace {
-
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
@@ -30,7 +30,7 @@ using naiad::test::PtyTerminal;
 using naiad::test::TempFolder;
 
 /// Plays a round with `players` guests on a server with this folder, and kills it.
-void playAndKill(const std::string& folder, int players) {
+inline void playAndKill(const std::string& folder, int players) {
   ServerProcess server({}, folder);
   asio::io_context context{1};
   std::vector<std::unique_ptr<Guest>> guests;
@@ -229,23 +229,5 @@ class BusFlood : public Attack {
   long long m_listed = 0;    // looks at the list that found the server
   long long m_unlisted = 0;  // and that did not
 };
-
-}  // namespace
-
-AttackPtr makeLateRestart() {
-  return std::make_unique<LateRestart>();
-}
-
-AttackPtr makeHostileRounds() {
-  return std::make_unique<HostileRounds>();
-}
-
-AttackPtr makeLargeTerminals() {
-  return std::make_unique<LargeTerminals>();
-}
-
-AttackPtr makeBusFlood() {
-  return std::make_unique<BusFlood>();
-}
 
 }  // namespace bench::attack

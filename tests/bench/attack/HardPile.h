@@ -1,3 +1,7 @@
+// hard_pile: a hostile server shows dfclient 48,000 moving HARD Objects in one place. Measures the time until
+// dfclient handles SIGTERM and Ctrl-C.
+#pragma once
+
 #include <signal.h>
 
 #include <algorithm>
@@ -15,7 +19,6 @@
 #include <utility>
 
 #include "Attack.h"
-#include "Programs.h"
 #include "host/auth/ServerIdentity.h"
 #include "naiad.pb.h"
 #include "shared/net/base/Channel.h"
@@ -28,12 +31,19 @@
 #include "tests/terminal/PtyTerminal.h"
 
 namespace bench::attack {
-namespace {
-
 using namespace naiad;
 using Clock = std::chrono::steady_clock;
 using naiad::test::PtyTerminal;
 using namespace std::chrono_literals;
+
+struct PileResult {
+  double sigterm_ms = 0;  ///< time from the signal until dfclient ended; kPilePatience if it did not
+  double ctrl_c_ms = 0;
+  long long objects = 0;  ///< objects sent to dfclient
+  bool ended = false;     ///< dfclient ended before the signal
+};
+
+inline constexpr std::chrono::milliseconds kPilePatience{10000};
 
 constexpr std::uint32_t kFirstTick = 100;
 constexpr std::chrono::microseconds kTick{33'333};
@@ -46,7 +56,7 @@ constexpr std::uint32_t kRow = 220;
 constexpr df::Fixed kSpacing = df::kFixedOne >> 11;
 constexpr df::Fixed kBox = df::kFixedOne >> 14;
 
-ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
+inline ObjectState objectOf(std::uint32_t n, std::uint32_t tick) {
   ObjectState object;
   object.order = n;
   object.motion.tick = tick;
@@ -175,8 +185,8 @@ constexpr auto kSendTime = 60s;  // timeout for sending all objects
 
 /// Lets dfclient show the pile for this time, then calls `interrupt`. Returns the milliseconds until dfclient
 /// ends.
-double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
-                const std::function<void(PtyTerminal&)>& interrupt) {
+inline double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
+                       const std::function<void(PtyTerminal&)>& interrupt) {
   PileServer server(folder + "/identity");
   PtyTerminal terminal({.command = {clientProgram(), "127.0.0.1:" + std::to_string(server.port()),
                                     "--fingerprint", server.fingerprint(), "--known-servers",
@@ -199,9 +209,9 @@ double endAfter(const std::string& folder, std::chrono::milliseconds shown, Pile
   return std::chrono::duration<double, std::milli>(Clock::now() - asked).count();
 }
 
-}  // namespace
-
-PileResult runHardPile(std::chrono::seconds duration) {
+/// Tests SIGTERM and Ctrl-C, each after half of this time, at least 2 s. Throws std::runtime_error on
+/// failure.
+inline PileResult runHardPile(std::chrono::seconds duration) {
   const naiad::test::TempFolder temporary;
   const std::string folder = temporary.string();
   PileResult result;
