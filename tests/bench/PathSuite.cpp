@@ -12,16 +12,17 @@
 #include "ResultLine.h"
 #include "Suite.h"
 #include "Worker.h"
+#include "path/Peers.h"
 #include "path/judge/Quantile.h"
-#include "path/suite/Peers.h"
 #include "tests/support/TempFolder.h"
 
 namespace bench {
 namespace {
 
+using path::append;
 using path::Peer;
 using path::Place;
-using Words = std::vector<std::string>;
+using path::Words;
 
 /// Conditions of the link.
 struct Condition {
@@ -68,10 +69,6 @@ std::string congestionControl() {
   std::string name;
   file >> name;
   return name.empty() ? "unknown" : name;
-}
-
-void append(Words& words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
 }
 
 /// Returns the client's address: 10.77.0.2 for 10.77.0.1.
@@ -211,7 +208,7 @@ void run(const Options& options) {
     return;
   }
   Run run(options);
-  const std::vector<std::string> programs = namesFrom("NAIAD_PATH_PROGRAMS", path::peerNames());
+  const std::vector<std::string> programs = namesFrom("NAIAD_PATH_PROGRAMS", path::kPeerNames);
   for (const Condition& condition : options.quick ? std::vector<Condition>{kUsual} : kConditions) {
     for (const std::string& program : programs) run.measure(program, condition);
   }

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/bench/physics/Overlap.h"
+#include "tests/bench/physics/Run.h"
+#include "tests/bench/physics/Scenes.h"
 
 namespace bench::physics {
 namespace {
@@ -113,6 +117,92 @@ TEST(WidestHinge, IsTheLargestDistanceBetweenAnchors) {
   // The poses are those of two hanging bodies, the second one upside down below the first.
   EXPECT_NEAR(widestHinge(scene, {{-0.5, 0.5, 0, 1}, {-1, 1.25, -1, 0}}), 0.25, kEps);
   EXPECT_NEAR(widestHinge(scene, {{0, 0.7}, {1, 0.7}}), 0.7, kEps);
+}
+
+std::vector<Pose> startOf(const Scene& scene) {
+  std::vector<Pose> poses;
+  for (const Body& body : scene.bodies) poses.push_back({body.x, body.y});
+  return poses;
+}
+
+TEST(Scenes, StartWithoutOverlap) {
+  const struct {
+    const char* name;
+    Scene scene;
+    int dynamic;
+    std::size_t hinges;
+  } rows[] = {{"pyramid60", makePyramid60(), 1830, 0},   {"pyramids100", makePyramids100(), 5500, 0},
+              {"tumbler500", makeTumbler500(), 500, 0},  {"heap2000", makeHeap2000(), 2000, 0},
+              {"heap20000", makeHeap20000(), 20'000, 0}, {"smash", makeSmash(), 2401, 0},
+              {"chain100", makeChain100(), 21, 21},      {"grid100", makeGrid100(), 9993, 19'800}};
+  for (const auto& [name, scene, dynamic, hinges] : rows) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(scene.countDynamic(), dynamic);
+    EXPECT_EQ(scene.hinges.size(), hinges);
+    EXPECT_EQ(widestHinge(scene, startOf(scene)), 0);
+    if (scene.collide) {
+      EXPECT_LT(deepestOverlap(scene.bodies, startOf(scene)), 1e-9);
+    }
+  }
+  const std::vector<Body>& chain = rows[6].scene.bodies;
+  EXPECT_DOUBLE_EQ(chain.back().mass(), 100 * chain.front().mass());
+}
+
+// Moves one body as the test specifies.
+class Scripted : public Simulation {
+ public:
+  explicit Scripted(const Scene& scene) : poses(startOf(scene)) {}
+  void tick() override { poses.back().y += fall; }
+  Pose pose(std::size_t body) const override { return poses[body]; }
+  bool isFrozen(std::size_t body) const override { return static_cast<int>(body) == frozen; }
+
+  std::vector<Pose> poses;
+  double fall = 0;
+  int frozen = -1;
+};
+
+Scene boxOverFloor() {
+  Scene scene = makePyramid60();
+  scene.bodies.resize(2);
+  scene.bodies.back().y = -0.5;
+  scene.ticks = 25;
+  return scene;
+}
+
+TEST(Run, SamplesOverlapEveryTenTicks) {
+  const Scene scene = boxOverFloor();
+  Scripted simulation(scene);
+  simulation.fall = 0.01;
+  const auto result = run(scene, simulation, 1000);
+  EXPECT_EQ(result.tick_ms.size(), 25u);
+  EXPECT_EQ(result.looks, 2);
+  EXPECT_NEAR(result.meanOverlap(), 0.15, 1e-9);
+  EXPECT_EQ(result.failed, 0);
+  EXPECT_FALSE(result.cut);
+  const auto stopped = run(scene, simulation, -1);  // at the time limit
+  EXPECT_EQ(stopped.tick_ms.size(), 1u);
+  EXPECT_TRUE(stopped.cut);
+}
+
+TEST(Run, CountsTunnelledFrozenAndNonFiniteBodies) {
+  const Scene scene = boxOverFloor();
+  Scripted sinking(scene), frozen(scene), lost(scene), dizzy(scene);
+  sinking.fall = 0.021;  // its centre is in the floor only at the end
+  frozen.frozen = 1;
+  lost.fall = dizzy.poses.back().sine = std::numeric_limits<double>::quiet_NaN();
+  for (Scripted* p_simulation : {&sinking, &frozen, &lost, &dizzy})
+    EXPECT_EQ(run(scene, *p_simulation, 1000).failed, 1);
+}
+
+TEST(Run, ChecksTheDrumInItsRotatedFrame) {
+  Scene scene = makeTumbler500();
+  scene.bodies.resize(2);
+  Scripted simulation(scene);
+  const double eighth = std::sqrt(0.5);
+  for (const auto& [pose, failed] : {std::pair{Pose{9, 9}, 1}, {Pose{9, -9}, 1}, {Pose{12, 0}, 0}}) {
+    simulation.poses = {{0, 0, eighth, eighth}, pose};
+    EXPECT_EQ(run(scene, simulation, 1000).failed, failed);
+  }
 }
 
 }  // namespace

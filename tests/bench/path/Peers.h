@@ -1,45 +1,71 @@
-#include "Peers.h"
+// The programs that the suite `path` compares, and how each is started at both ends of the link.
+#pragma once
 
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "Worker.h"
 
 namespace bench::path {
-namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr const char* kSshPort = "2222";
+/// Folders and addresses of one run.
+struct Place {
+  std::string bin;      ///< folder of our programs
+  std::string folder;   ///< this run's own folder for keys, logs and truth
+  std::string address;  ///< the server's address as the client sees it
+  std::uint64_t seed = 1;
+
+  std::string file(const std::string& name) const { return folder + "/" + name; }
+  std::string truth() const { return file("truth"); }
+};
+
+/// Commands for both ends of the link, and how to use the client.
+struct Peer {
+  std::vector<std::string> server;  ///< runs the server, or starts one in the background
+  std::string ready_file;           ///< file that exists when clients may connect
+  std::vector<std::string> client;  ///< shows the scene in its terminal
+  std::string type_ahead;           ///< bytes typed at the start
+  std::string first_keys;           ///< bytes typed when the scene is first shown
+  bool arrows = false;              ///< the scene accepts arrow keys, whose effect the client may predict
+  bool udp = true;                  ///< false: the link drops UDP
+};
+
+inline constexpr const char* kSshPort = "2222";
 constexpr const char* kMoshPort = "60001";
 constexpr const char* kGamePort = "9876";
 constexpr const char* kWebPort = "8443";
 
-void writeFile(const std::string& name, const std::string& text) {
+inline void writeFile(const std::string& name, const std::string& text) {
   std::ofstream file(name);
   if (!(file << text << std::flush)) throw std::runtime_error(name + " cannot be written");
 }
 
-std::string readFile(const std::string& name) {
+inline std::string readFile(const std::string& name) {
   std::ifstream file(name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
 
-void append(Words& words, const Words& more) {
+inline void append(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
 /// Returns the words in an environment variable, split at blanks.
-Words fromEnvironment(const char* name) {
+inline Words fromEnvironment(const char* name) {
   const char* value = std::getenv(name);
   std::istringstream text(value != nullptr ? value : "");
   Words words;
@@ -47,18 +73,18 @@ Words fromEnvironment(const char* name) {
   return words;
 }
 
-Words sceneCommand(const Place& place) {
+inline Words sceneCommand(const Place& place) {
   return {"env", "LC_ALL=C.UTF-8", place.bin + "/naiad_scene_curses", place.truth(),
           std::to_string(place.seed)};
 }
 
-void makeKey(const std::string& file) {
+inline void makeKey(const std::string& file) {
   if (runProgram({"ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", file}).code != 0) {
     throw std::runtime_error("ssh-keygen failed");
   }
 }
 
-void makeSshKeys(const Place& place, const std::string& host_key) {
+inline void makeSshKeys(const Place& place, const std::string& host_key) {
   makeKey(host_key);
   makeKey(place.file("user_key"));
   writeFile(place.file("known_hosts"),
@@ -66,7 +92,7 @@ void makeSshKeys(const Place& place, const std::string& host_key) {
 }
 
 /// Returns the command of this user's own sshd, with keys that exist only during the run.
-Words sshServer(const Place& place) {
+inline Words sshServer(const Place& place) {
   makeSshKeys(place, place.file("host_key"));
   writeFile(place.file("sshd_config"), std::string("Port ") + kSshPort + "\nListenAddress " + place.address +
                                            "\nHostKey " + place.file("host_key") + "\nAuthorizedKeysFile " +
@@ -79,7 +105,7 @@ Words sshServer(const Place& place) {
 }
 
 /// Returns the command for ssh to this user's sshd, without the remote command.
-Words sshClient(const Place& place, bool compressed) {
+inline Words sshClient(const Place& place, bool compressed) {
   const passwd* user = getpwuid(geteuid());
   if (user == nullptr) throw std::runtime_error("this user has no name");
   Words words = {
@@ -91,7 +117,7 @@ Words sshClient(const Place& place, bool compressed) {
   return words;
 }
 
-Peer ssh(const Place& place, bool compressed) {
+inline Peer ssh(const Place& place, bool compressed) {
   Peer peer;
   peer.server = sshServer(place);
   peer.ready_file = place.file("sshd.pid");
@@ -101,7 +127,7 @@ Peer ssh(const Place& place, bool compressed) {
 }
 
 /// mosh-server starts a server in the background and prints the key for mosh-client, so ssh is not needed.
-Peer mosh(const Place& place) {
+inline Peer mosh(const Place& place) {
   Peer peer;
   const std::string answer = place.file("mosh");
   peer.ready_file = answer;
@@ -118,7 +144,7 @@ Peer mosh(const Place& place) {
 }
 
 /// The run has its own HOME, so that its certificates and pins are separate from the user's.
-Peer dfclient(const Place& place, bool udp) {
+inline Peer dfclient(const Place& place, bool udp) {
   Peer peer;
   peer.ready_file = place.file("port");
   peer.server = {"env", "HOME=" + place.folder, "NAIAD_SCENE_TRUTH=" + place.truth(),
@@ -139,13 +165,13 @@ Peer dfclient(const Place& place, bool udp) {
 }
 
 /// Returns the words quoted for sh. They must not contain quotes.
-std::string quoted(const Words& words) {
+inline std::string quoted(const Words& words) {
   std::string text;
   for (const std::string& word : words) text.append("'").append(word).append("' ");
   return text;
 }
 
-void makeCertificate(const Place& place, const std::string& certificate, const std::string& key) {
+inline void makeCertificate(const Place& place, const std::string& certificate, const std::string& key) {
   Words command = {"openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256",
                    "-nodes"};
   append(command, {"-days", "2", "-subj", "/CN=bench", "-addext", "subjectAltName=IP:" + place.address});
@@ -154,14 +180,14 @@ void makeCertificate(const Place& place, const std::string& certificate, const s
 }
 
 /// Creates a folder for a part of this run.
-std::string makeFolder(const Place& place, const std::string& name) {
+inline std::string makeFolder(const Place& place, const std::string& name) {
   std::filesystem::create_directory(place.file(name));
   return place.file(name);
 }
 
 /// Makes a sh script that starts the server with a visitors' socket and then runs `then`, which may use
 /// $link, the link printed by dfserver.
-void leadThrough(const Place& place, Peer& peer, const std::string& then) {
+inline void leadThrough(const Place& place, Peer& peer, const std::string& then) {
   const std::string printed = quoted({place.file("server.out")});
   append(peer.server, {"--proxy-socket", place.file("visitors")});
   writeFile(place.file("script"), quoted(peer.server) + ">" + printed +
@@ -172,7 +198,7 @@ void leadThrough(const Place& place, Peer& peer, const std::string& then) {
 }
 
 /// dfclient through the gateway for browsers: two WebSockets, like a page's. Only the transport differs.
-Peer web(const Place& place) {
+inline Peer web(const Place& place) {
   Peer peer = dfclient(place, false);
   const std::string certificate = place.file("web.pem");
   const std::string key = place.file("web.key");
@@ -193,7 +219,7 @@ Peer web(const Place& place) {
 }
 
 /// ssh to a door (deploy/door) on the server's machine, which runs dfclient there.
-Peer sshDoor(const Place& place) {
+inline Peer sshDoor(const Place& place) {
   Peer peer = dfclient(place, true);
   const std::string script = NAIAD_SOURCE_DIR "/deploy/door";
   const std::string door = makeFolder(place, "door");
@@ -212,30 +238,27 @@ Peer sshDoor(const Place& place) {
   return peer;
 }
 
-}  // namespace
+/// The names of the available programs. ssh is first, because its result validates the runs.
+inline const std::vector<std::string> kPeerNames = {"ssh", "ssh-C",   "mosh", "dfclient", "dfclient-stream",
+                                                    "web", "ssh-door"};
 
-const std::vector<std::string>& peerNames() {
-  static const std::vector<std::string> names = {"ssh", "ssh-C",   "mosh", "dfclient", "dfclient-stream",
-                                                 "web", "ssh-door"};
-  return names;
-}
-
-bool isOurs(const std::string& program) {
+/// True if the program is a client of this project.
+inline bool isOurs(const std::string& program) {
   return program.starts_with("dfclient") || program == "web" || program == "ssh-door";
 }
 
-// If sshd does not run as root, it considers its own user's account locked (OpenSSH 9.2).
-std::optional<std::string> notPossibleBecause(const std::string& program) {
+/// Returns why the program cannot be measured on this machine, without blanks; nullopt if it can. If sshd
+/// does not run as root, it considers its own user's account locked (OpenSSH 9.2).
+inline std::optional<std::string> notPossibleBecause(const std::string& program) {
   if (program.starts_with("ssh") && geteuid() != 0) return "sshd-needs-root";
   return std::nullopt;
 }
 
-Peer preparePeer(const std::string& program, const Place& place) {
-  if (program == "ssh") return ssh(place, false);
-  if (program == "ssh-C") return ssh(place, true);
+/// Writes the program's files into the folder and returns its commands. Throws std::runtime_error.
+inline Peer preparePeer(const std::string& program, const Place& place) {
+  if (program == "ssh" || program == "ssh-C") return ssh(place, program == "ssh-C");
   if (program == "mosh") return mosh(place);
-  if (program == "dfclient") return dfclient(place, true);
-  if (program == "dfclient-stream") return dfclient(place, false);
+  if (program.starts_with("dfclient")) return dfclient(place, program == "dfclient");
   if (program == "web") return web(place);
   if (program == "ssh-door") return sshDoor(place);
   throw std::runtime_error("there is no program " + program);
