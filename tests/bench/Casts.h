@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "SortedBoxes.h"
@@ -32,6 +33,21 @@ struct Answer {
   std::uint32_t who = kNobody;
   double time = 1;
   df::FixedVector position;  ///< centre just before the contact
+};
+
+/// Casts with Box2D 2.4.1. It has no box cast, but its tree's ray cast is equivalent if the obstacles are
+/// enlarged by the mover's half size (their Minkowski sum) and the tree's callback tests the slabs.
+class Box2dCasts {
+ public:
+  explicit Box2dCasts(const Field& field);
+  ~Box2dCasts();
+
+  /// Returns the first obstacle and the time of contact, without a position.
+  Answer cast(const Cast& cast) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> m_p_tree;
 };
 
 }  // namespace bench

@@ -15,9 +15,16 @@
 #include <utility>
 #include <vector>
 
-#include "tests/bench/path/Argv.h"
-
 namespace bench {
+
+/// Returns pointers to the words of a command, followed by a null, as exec() needs them.
+inline std::vector<char*> argvOf(const std::vector<std::string>& command) {
+  std::vector<char*> argv;
+  argv.reserve(command.size() + 1);
+  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  return argv;
+}
 
 class Process {
  public:
@@ -25,7 +32,7 @@ class Process {
   /// The exit code is 127 if the command cannot be run.
   template <class Prepare>
   Process(const std::vector<std::string>& command, Prepare prepare) {
-    const std::vector<char*> argv = path::argvOf(command);
+    const std::vector<char*> argv = argvOf(command);
     m_child = ::fork();
     if (m_child != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);

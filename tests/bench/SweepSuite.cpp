@@ -23,7 +23,6 @@
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
-#include "peers/Box2dCasts.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/engine/oracle/OracleGeometry.h"
 

@@ -22,11 +22,13 @@ struct Target {
   std::chrono::seconds duration;
 };
 
-/// Results that only this attack has, in addition to the common measurements.
-struct Findings {
-  std::vector<std::pair<std::string, long long>> figures;  ///< keys and values, as printed
-  std::vector<std::string> faults;                         ///< keys of the figures whose values are a failure
+/// A figure as printed, and whether its value is a failure.
+struct Figure {
+  std::string key;
+  double value = 0;
+  bool is_fault = false;
 };
+using Figures = std::vector<Figure>;
 
 class Attack {
  public:
@@ -44,8 +46,8 @@ class Attack {
   virtual void update(Time /*now*/) {}
   /// Ends the attack: releases everything that belongs to the event loop.
   virtual void end() {}
-  /// Adds results. Called after the server has been stopped.
-  virtual void addFindings(Findings& /*findings*/) {}
+  /// Adds results that only this attack has. Called after the server has been stopped.
+  virtual void addFigures(Figures& /*figures*/) {}
 };
 
 using AttackPtr = std::unique_ptr<Attack>;

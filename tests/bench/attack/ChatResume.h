@@ -39,11 +39,11 @@ class ChatResume : public Attack {
     m_ready.clear();
     m_used.clear();
   }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("resumes", m_resumes);
-    findings.figures.emplace_back("resumes_refused", m_refusals);
-    findings.figures.emplace_back("lines_sent", m_said);
-    findings.figures.emplace_back("streams", m_streams);
+  void addFigures(Figures& figures) override {
+    figures.push_back({"resumes", static_cast<double>(m_resumes)});
+    figures.push_back({"resumes_refused", static_cast<double>(m_refusals)});
+    figures.push_back({"lines_sent", static_cast<double>(m_said)});
+    figures.push_back({"streams", static_cast<double>(m_streams)});
   }
 
  private:

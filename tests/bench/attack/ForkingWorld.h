@@ -63,15 +63,14 @@ class ForkingWorld : public Attack {
     }
   }
   void end() override { m_guest.reset(); }
-  void addFindings(Findings& findings) override {
+  void addFigures(Figures& figures) override {
     std::this_thread::sleep_for(1s);
     const std::vector<pid_t> left = forkedChildren();
     for (const pid_t process : left) kill(process, SIGKILL);
-    findings.figures.emplace_back("forked", m_forked);
-    findings.figures.emplace_back("processes_left", m_after_world);
-    findings.figures.emplace_back("processes_left_by_server", left.size());
-    if (m_after_world > 0 || !left.empty()) findings.faults.emplace_back("processes_left");
-    if (!m_asked || !m_counted) findings.faults.emplace_back("forked");
+    figures.push_back({"forked", static_cast<double>(m_forked), !m_asked || !m_counted});
+    figures.push_back(
+        {"processes_left", static_cast<double>(m_after_world), m_after_world > 0 || !left.empty()});
+    figures.push_back({"processes_left_by_server", static_cast<double>(left.size())});
   }
 
  private:

@@ -16,15 +16,15 @@ namespace bench::attack {
 using namespace std::chrono_literals;
 using Millis = std::chrono::milliseconds;
 
-/// Numbers of guests, by what happened to them.
+/// Numbers of guests.
 struct Counts {
-  long long invited = 0;
-  long long killed = 0;   ///< by the attack, in the game
-  long long ended = 0;    ///< in any other way
-  long long refused = 0;  ///< of these, refused for good
-  long long busy = 0;     ///< of these, told to retry
-  long long lost = 0;     ///< of these, disconnected
-  long long most = 0;     ///< maximum in the game at once
+  double invited = 0;
+  double killed = 0;   ///< killed by the attack, in the game
+  double ended = 0;    ///< ended in any other way
+  double refused = 0;  ///< refused for good
+  double busy = 0;     ///< told to retry
+  double lost = 0;     ///< disconnected
+  double most = 0;     ///< maximum in the game at once
 };
 
 /// A crowd of guests. Each is invited again some time after its end.
@@ -33,15 +33,15 @@ struct Plan {
   std::string password{};
   std::size_t guests = 1;
   std::function<std::string(int n)> address{};
-  Millis pause{};          ///< from a guest's end to the next invitation
+  Millis pause{};          ///< time from a guest's end to the next invitation
   Millis pause_if_busy{};  ///< after it was told to retry; 0: like `pause`
   Millis stagger{};        ///< between the first invitations of two guests
   ServerSetup setup{};
   std::chrono::seconds lead{};
   /// Called repeatedly while a guest is in the game. True if it is killed now. `next` is the guest's own.
   std::function<bool(Guest& guest, Time now, Time& next)> play{};
-  std::vector<std::pair<const char*, long long Counts::*>> figures{};
-  bool must_be_complete = false;  ///< it is a fault if the guests are never all in the game
+  std::vector<std::pair<const char*, double Counts::*>> figures{};
+  bool must_be_complete = false;  ///< the first figure is a fault if the guests are never all in the game
 };
 
 class Crowd : public Attack {
@@ -57,7 +57,7 @@ class Crowd : public Attack {
     for (Seat& seat : m_seats) seat.next = std::exchange(next, next + m_plan.stagger);
   }
   void update(Time now) override {
-    long long playing = 0;
+    double playing = 0;
     for (std::size_t i = 0; i < m_seats.size(); ++i) {
       Seat& seat = m_seats[i];
       if (!seat.guest) {
@@ -83,10 +83,10 @@ class Crowd : public Attack {
     m_counts.most = std::max(m_counts.most, playing);
   }
   void end() override { m_seats.clear(); }
-  void addFindings(Findings& findings) override {
-    for (const auto& [key, count] : m_plan.figures) findings.figures.emplace_back(key, m_counts.*count);
-    if (m_plan.must_be_complete && m_counts.most < static_cast<long long>(m_plan.guests))
-      findings.faults.emplace_back("crowd");
+  void addFigures(Figures& figures) override {
+    for (const auto& [key, count] : m_plan.figures) figures.push_back({key, m_counts.*count});
+    if (m_plan.must_be_complete && m_counts.most < static_cast<double>(m_plan.guests))
+      figures.front().is_fault = true;
   }
 
  private:

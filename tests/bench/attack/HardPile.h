@@ -36,15 +36,6 @@ using Clock = std::chrono::steady_clock;
 using naiad::test::PtyTerminal;
 using namespace std::chrono_literals;
 
-struct PileResult {
-  double sigterm_ms = 0;  ///< time from the signal until dfclient ended; kPilePatience if it did not
-  double ctrl_c_ms = 0;
-  long long objects = 0;  ///< objects sent to dfclient
-  bool ended = false;     ///< dfclient ended before the signal
-};
-
-inline constexpr std::chrono::milliseconds kPilePatience{10000};
-
 constexpr std::uint32_t kFirstTick = 100;
 constexpr std::chrono::microseconds kTick{33'333};
 constexpr int kSnapshotsPerTick = 8;  // until all objects are sent
@@ -184,8 +175,8 @@ class PileServer {
 constexpr auto kSendTime = 60s;  // timeout for sending all objects
 
 /// Lets dfclient show the pile for this time, then calls `interrupt`. Returns the milliseconds until dfclient
-/// ends.
-inline double endAfter(const std::string& folder, std::chrono::milliseconds shown, PileResult& result,
+/// ends, at most ten seconds. Sets `ended` if it ended before.
+inline double endAfter(const std::string& folder, std::chrono::milliseconds shown, bool& ended,
                        const std::function<void(PtyTerminal&)>& interrupt) {
   PileServer server(folder + "/identity");
   PtyTerminal terminal({.command = {clientProgram(), "127.0.0.1:" + std::to_string(server.port()),
@@ -199,27 +190,28 @@ inline double endAfter(const std::string& folder, std::chrono::milliseconds show
     if (Clock::now() > end) throw std::runtime_error("dfclient does not take in the pile");
     terminal.read(20ms);
   }
-  result.objects = server.sent();
   for (const auto end = Clock::now() + shown; Clock::now() < end && !terminal.hasExited();)
     terminal.read(20ms);
-  result.ended = result.ended || terminal.hasExited();
+  ended = ended || terminal.hasExited();
   const Clock::time_point asked = Clock::now();
   interrupt(terminal);
-  while (!terminal.hasExited() && Clock::now() - asked < kPilePatience) terminal.read(5ms);
+  while (!terminal.hasExited() && Clock::now() - asked < 10s) terminal.read(5ms);
   return std::chrono::duration<double, std::milli>(Clock::now() - asked).count();
 }
 
 /// Tests SIGTERM and Ctrl-C, each after half of this time, at least 2 s. Throws std::runtime_error on
-/// failure.
-inline PileResult runHardPile(std::chrono::seconds duration) {
-  const naiad::test::TempFolder temporary;
-  const std::string folder = temporary.string();
-  PileResult result;
+/// failure. Times above `most_ms` are faults.
+inline Figures runHardPile(std::chrono::seconds duration, double most_ms) {
+  const naiad::test::TempFolder folder;
   const auto shown = std::max<std::chrono::milliseconds>(duration / 2, 2s);
-  result.sigterm_ms =
-      endAfter(folder, shown, result, [](PtyTerminal& terminal) { terminal.signal(SIGTERM); });
-  result.ctrl_c_ms = endAfter(folder, shown, result, [](PtyTerminal& terminal) { terminal.type("\x03"); });
-  return result;
+  bool ended = false;
+  const double sigterm_ms =
+      endAfter(folder.string(), shown, ended, [](auto& client) { client.signal(SIGTERM); });
+  const double ctrl_c_ms = endAfter(folder.string(), shown, ended, [](auto& client) { client.type("\x03"); });
+  return {{"seconds", static_cast<double>(duration.count())},
+          {"sigterm_ms", sigterm_ms, sigterm_ms > most_ms},
+          {"ctrl_c_ms", ctrl_c_ms, ctrl_c_ms > most_ms},
+          {"client_ended", ended ? 1.0 : 0.0}};
 }
 
 }  // namespace bench::attack

@@ -84,9 +84,8 @@ class HostileRounds : public Attack {
     }
   }
   void begin(const Target& /*target*/) override {}
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("planted", m_planted);
-    if (m_planted == 0) findings.faults.emplace_back("planted");
+  void addFigures(Figures& figures) override {
+    figures.push_back({"planted", static_cast<double>(m_planted), m_planted == 0});
   }
 
  private:
@@ -129,15 +128,14 @@ class LargeTerminals : public Attack {
     for (const auto& visitor : m_visitors) m_ended += visitor->hasExited() ? 1 : 0;
     m_visitors.clear();
   }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("client_mb", m_client_mb);
-    findings.figures.emplace_back("clients_ended", m_ended);
-    if (m_client_mb == 0 || m_client_mb > kMaxClientMegabytes) findings.faults.emplace_back("client_mb");
+  void addFigures(Figures& figures) override {
+    const bool is_large = m_client_mb == 0 || m_client_mb > 64;
+    figures.push_back({"client_mb", static_cast<double>(m_client_mb), is_large});
+    figures.push_back({"clients_ended", static_cast<double>(m_ended)});
   }
 
  private:
   static constexpr int kVisitors = 4;
-  static constexpr long long kMaxClientMegabytes = 64;
 
   /// Returns the resident memory of the door's client; 0 if it has none.
   static long long clientMegabytes(pid_t door) {
@@ -203,11 +201,10 @@ class BusFlood : public Attack {
       ++(contentOf(list()).find("\"link\"") != std::string::npos ? m_listed : m_unlisted);
   }
   void end() override { m_socket.reset(); }
-  void addFindings(Findings& findings) override {
-    findings.figures.emplace_back("messages", m_messages);
-    findings.figures.emplace_back("listed", m_listed);
-    findings.figures.emplace_back("unlisted", m_unlisted);
-    if (m_unlisted > 0 || m_listed == 0) findings.faults.emplace_back("unlisted");
+  void addFigures(Figures& figures) override {
+    figures.push_back({"messages", static_cast<double>(m_messages)});
+    figures.push_back({"listed", static_cast<double>(m_listed)});
+    figures.push_back({"unlisted", static_cast<double>(m_unlisted), m_unlisted > 0 || m_listed == 0});
   }
 
  private:

@@ -65,7 +65,7 @@ class ServerProcess {
       if (!std::string_view(*p).starts_with("NAIAD_")) entries.emplace_back(*p);
     }
     if (!m_password.empty()) entries.push_back("NAIAD_PASSWORD=" + m_password);
-    std::vector<char*> environment = path::argvOf(entries);
+    std::vector<char*> environment = argvOf(entries);
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("a pipe cannot be made");
     m_log_in = ends[0];

@@ -124,7 +124,9 @@ class SilentCrowd : public Attack {
     for (const auto& mute : m_mutes) mute->end();
     m_mutes.clear();
   }
-  void addFindings(Findings& findings) override { findings.figures.emplace_back("connects", m_connects); }
+  void addFigures(Figures& figures) override {
+    figures.push_back({"connects", static_cast<double>(m_connects)});
+  }
 
  private:
   std::vector<std::string> m_sources;

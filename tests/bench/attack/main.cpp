@@ -197,42 +197,43 @@ bool isQuietMachine(const PhaseResult& calm) {
   return lateShare(calm) <= kMaxCalmLateShare;
 }
 
-bool isDear(const PhaseResult& calm, const PhaseResult& hot) {
-  const double limit = kMaxCpuPercent * (isQuietMachine(calm) ? 1 : kBusyFactor);
-  return hot.cpu_percent - calm.cpu_percent > limit;
+bool isTooLong(double millis, double calm_millis) {
+  return millis > std::max(kMaxWaitMillis, kBusyFactor * calm_millis);
 }
 
-/// Returns the keys of the results whose values are a failure.
-std::vector<std::string> faultsOf(const PhaseResult& calm, const PhaseResult& hot) {
-  std::vector<std::string> faults;
-  if (hot.fate.wrong_cells > 0) faults.emplace_back("wrong_cells");
-  if (static_cast<double>(hot.fate.compared_ticks) < kMinComparedPerSecond * hot.seconds)
-    faults.emplace_back("compared_ticks");
-  if (hot.fate.thrown_out > 0) faults.emplace_back("thrown_out");
-  const auto isTooLong = [](double millis, double calm_millis) {
-    return millis > std::max(kMaxWaitMillis, kBusyFactor * calm_millis);
-  };
-  if (hot.fate.newcomers_out > 0) faults.emplace_back("newcomers_out");
-  if (isTooLong(hot.fate.newcomer_ms, calm.fate.newcomer_ms)) faults.emplace_back("newcomer_ms");
-  if (isTooLong(hot.fate.pause_ms, calm.fate.pause_ms)) faults.emplace_back("pause_ms");
-  if (isQuietMachine(calm) && lateShare(hot) > lateShare(calm) + kMaxLateShare)
-    faults.emplace_back("late_ticks");
-  if (hot.died) faults.emplace_back("server_died");
-  if (calm.fate.thrown_out > 0 || calm.fate.newcomers_out > 0 || calm.fate.wrong_cells > 0)
-    faults.emplace_back("calm");
-  return faults;
+Figures figuresOf(const PhaseResult& calm, const PhaseResult& hot) {
+  const Fate& fate = hot.fate;
+  const auto compared = static_cast<double>(fate.compared_ticks);
+  const bool is_late = isQuietMachine(calm) && lateShare(hot) > lateShare(calm) + kMaxLateShare;
+  return {{"seconds", hot.seconds},
+          {"wrong_cells", static_cast<double>(fate.wrong_cells), fate.wrong_cells > 0},
+          {"compared_ticks", compared, compared < kMinComparedPerSecond * hot.seconds},
+          {"thrown_out", 1.0 * fate.thrown_out, fate.thrown_out > 0},
+          {"newcomer_ms", fate.newcomer_ms, isTooLong(fate.newcomer_ms, calm.fate.newcomer_ms)},
+          {"late_ticks", hot.late_ticks, is_late},
+          {"ticks", hot.ticks},
+          {"pause_ms", fate.pause_ms, isTooLong(fate.pause_ms, calm.fate.pause_ms)},
+          {"newcomers", 1.0 * fate.newcomers},
+          {"newcomers_out", 1.0 * fate.newcomers_out, fate.newcomers_out > 0},
+          {"chat_lines", static_cast<double>(fate.chat)},
+          {"server_died", hot.died ? 1.0 : 0.0, hot.died},
+          {"cpu_percent", hot.cpu_percent},
+          {"calm_newcomer_ms", calm.fate.newcomer_ms},
+          {"calm_late_ticks", calm.late_ticks},
+          {"calm_ticks", calm.ticks},
+          {"calm_pause_ms", calm.fate.pause_ms},
+          {"calm_cpu_percent", calm.cpu_percent}};
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-  return text;
-}
-
-void printFaults(const std::vector<std::string>& faults) {
-  std::printf(" failed=%d", faults.empty() ? 0 : 1);
-  if (!faults.empty()) std::printf(" because=%s", joined(faults).c_str());
-  std::printf("\n");
+/// Prints a line. `because` are faults without a figure.
+void print(const std::string& name, const Figures& figures, std::string because = "") {
+  std::printf("attack name=%s", name.c_str());
+  for (const Figure& figure : figures) {
+    std::printf(" %s=%.*f", figure.key.c_str(), figure.key.ends_with("percent") ? 1 : 0, figure.value);
+    if (figure.is_fault) because += (because.empty() ? "" : ",") + figure.key;
+  }
+  std::printf(" failed=%d%s\n", because.empty() ? 0 : 1,
+              because.empty() ? "" : (" because=" + because).c_str());
   std::fflush(stdout);
 }
 
@@ -240,45 +241,21 @@ void runAttack(const std::string& name, const Make& make, const Effort& effort) 
   const AttackPtr attack = make();
   const PhaseResult calm = runPhase(*attack, false, effort.calm);
   const PhaseResult hot = runPhase(*attack, true, effort.attack);
-  Findings findings;
-  attack->addFindings(findings);
-  std::vector<std::string> faults = faultsOf(calm, hot);
-  faults.insert(faults.end(), findings.faults.begin(), findings.faults.end());
-  if (name == "chat_resume" && hot.seconds >= kMinCpuSeconds && isDear(calm, hot))
-    faults.emplace_back("cpu_percent");
-  if (name == "held_places") {
-    findings.figures.emplace_back("held", static_cast<long long>(hot.fate.crowd));
-    if (hot.fate.crowd > kHeldAllowed) faults.emplace_back("held");
+  Figures own;
+  attack->addFigures(own);
+  Figures figures = figuresOf(calm, hot);
+  figures.insert(figures.end(), own.begin(), own.end());
+  if (name == "chat_resume" && hot.seconds >= kMinCpuSeconds) {
+    const double limit = kMaxCpuPercent * (isQuietMachine(calm) ? 1 : kBusyFactor);
+    std::ranges::find(figures, std::string("cpu_percent"), &Figure::key)->is_fault =
+        hot.cpu_percent - calm.cpu_percent > limit;
   }
-  std::printf(
-      "attack name=%s seconds=%.0f wrong_cells=%llu compared_ticks=%llu thrown_out=%d newcomer_ms=%.0f "
-      "late_ticks=%.0f",
-      name.c_str(), hot.seconds, static_cast<unsigned long long>(hot.fate.wrong_cells),
-      static_cast<unsigned long long>(hot.fate.compared_ticks), hot.fate.thrown_out, hot.fate.newcomer_ms,
-      hot.late_ticks);
-  std::printf(" ticks=%.0f pause_ms=%.0f newcomers=%d newcomers_out=%d chat_lines=%llu server_died=%d",
-              hot.ticks, hot.fate.pause_ms, hot.fate.newcomers, hot.fate.newcomers_out,
-              static_cast<unsigned long long>(hot.fate.chat), hot.died ? 1 : 0);
-  std::printf(" cpu_percent=%.1f", hot.cpu_percent);
-  std::printf(
-      " calm_newcomer_ms=%.0f calm_late_ticks=%.0f calm_ticks=%.0f calm_pause_ms=%.0f "
-      "calm_cpu_percent=%.1f",
-      calm.fate.newcomer_ms, calm.late_ticks, calm.ticks, calm.fate.pause_ms, calm.cpu_percent);
-  for (const auto& [key, value] : findings.figures) std::printf(" %s=%lld", key.c_str(), value);
-  std::printf(" valid=%d", isQuietMachine(calm) ? 1 : 0);
-  printFaults(faults);
-}
-
-void runPile(const Effort& effort) {
-  const PileResult result = runHardPile(effort.attack);
-  std::vector<std::string> faults;
-  if (result.sigterm_ms > kMaxWaitMillis) faults.emplace_back("sigterm_ms");
-  if (result.ctrl_c_ms > kMaxWaitMillis) faults.emplace_back("ctrl_c_ms");
-  std::printf(
-      "attack name=hard_pile seconds=%lld sigterm_ms=%.0f ctrl_c_ms=%.0f objects=%lld client_ended=%d",
-      static_cast<long long>(effort.attack.count()), result.sigterm_ms, result.ctrl_c_ms, result.objects,
-      result.ended ? 1 : 0);
-  printFaults(faults);
+  if (name == "held_places")
+    figures.push_back({"held", static_cast<double>(hot.fate.crowd), hot.fate.crowd > kHeldAllowed});
+  figures.push_back({"valid", isQuietMachine(calm) ? 1.0 : 0.0});
+  const bool is_calm_bad =
+      calm.fate.thrown_out > 0 || calm.fate.newcomers_out > 0 || calm.fate.wrong_cells > 0;
+  print(name, figures, is_calm_bad ? "calm" : "");
 }
 
 void sayUnknown(const std::string& name) {
@@ -291,7 +268,7 @@ void sayUnknown(const std::string& name) {
 
 int run(const std::string& name, const Effort& effort) {
   if (name == "hard_pile") {
-    runPile(effort);
+    print(name, runHardPile(effort.attack, kMaxWaitMillis));
     return 0;
   }
   const auto found = attacks().find(name);

@@ -21,9 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "../Core.h"
-#include "Checker.h"
-#include "LightBot.h"
+#include "../Common.h"
+#include "Bots.h"
 #include "shared/net/stream/TlsContext.h"
 #include "shared/program/ProcessSetup.h"
 #include "tests/bench/Worker.h"

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "../../net/BusyScene.h"
-#include "../Check.h"
-#include "../Core.h"
+#include "../Common.h"
 #include "engine/events/EventKeyboard.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"

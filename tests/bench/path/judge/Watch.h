@@ -20,13 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "../Argv.h"
 #include "../Monotonic.h"
 #include "../scene/Picture.h"
 #include "../scene/Status.h"
 #include "EchoJudge.h"
 #include "FrameJudge.h"
 #include "Terminal.h"
+#include "tests/bench/Process.h"
 
 namespace bench::path {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "../Argv.h"
+#include "tests/bench/Process.h"
 #include "tests/bench/UserMap.h"
 
 namespace bench::path {
