@@ -25,6 +25,7 @@
 #include "SilentCrowd.h"
 #include "shared/options/Options.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/bench/Guarded.h"
 #include "tests/support/TempFolder.h"
 
 namespace {
@@ -304,11 +305,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: naiad_attack [--quick] NAME\n");
     return 2;
   }
-  try {
-    naiad::raiseOpenFileLimit(SIZE_MAX);
-    return run(name, effort);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_attack: %s: %s\n", name.c_str(), error.what());
-    return 1;
-  }
+  naiad::raiseOpenFileLimit(SIZE_MAX);
+  return bench::guarded("naiad_attack", [&] { return run(name, effort); });
 }

@@ -22,6 +22,7 @@
 #include "RecoveryRun.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Percentile.h"
 #include "tests/server/replay/Recorder.h"
 
@@ -236,10 +237,5 @@ int start(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return start({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
-  }
+  return bench::guarded("naiad_recovery", [&] { return start({argv + 1, argv + argc}); });
 }

@@ -25,6 +25,7 @@
 #include "Bots.h"
 #include "shared/net/stream/TlsContext.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Worker.h"
 
 namespace {
@@ -224,13 +225,10 @@ int main(int argc, char** argv) {
   if (argc != 6) return 2;
   if (!pinTo(std::stoi(argv[1]))) return 3;
   naiad::raiseOpenFileLimit(SIZE_MAX);
-  try {
-    Crowd(argv[2], static_cast<std::uint16_t>(std::stoi(argv[3])), *naiad::Fingerprint::parse(argv[4]),
-          argv[5])
-        .run();
-  } catch (const std::exception& error) {
-    std::cerr << "naiad_capacity_bots: " << error.what() << "\n";
-    return 1;
-  }
-  std::quick_exit(0);  // faster than closing thousands of streams
+  return bench::guarded("naiad_capacity_bots", [&]() -> int {
+    const auto port = static_cast<std::uint16_t>(std::stoi(argv[3]));
+    Crowd crowd(argv[2], port, *naiad::Fingerprint::parse(argv[4]), argv[5]);
+    crowd.run();
+    std::quick_exit(0);  // faster than closing thousands of streams
+  });
 }

@@ -14,6 +14,7 @@
 #include "../scene/Truth.h"
 #include "Quantile.h"
 #include "Watch.h"
+#include "tests/bench/Guarded.h"
 
 namespace {
 
@@ -151,10 +152,5 @@ int start(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return start(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_pty_judge: %s\n", error.what());
-    return 1;
-  }
+  return bench::guarded("naiad_pty_judge", [&] { return start(argc, argv); });
 }
