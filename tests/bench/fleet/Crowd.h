@@ -123,7 +123,7 @@ class Crowd {
     int losses = 0;  ///< total number of times that players have lost their servers
     /// Times from the directory's answer to the first picture, in milliseconds, of each redirected player.
     std::vector<long> redirects;
-    // Since the last noteKill():
+    // Results since the last noteKill():
     int waiting = 0;         ///< players of the killed server that are not back yet
     int returned = 0;        ///< those that play again as the same players
     int disturbed = 0;       ///< how often players of other servers lost their servers

@@ -62,10 +62,9 @@ class LightBot {
   LightBot(const Harbour& harbour, int index)
       : m_harbour(harbour), m_index(index), m_random(static_cast<std::uint64_t>(index)) {}
 
-  LightBot::~LightBot() {
+  ~LightBot() {
     if (m_descriptor >= 0) close(m_descriptor);
   }
-  ~LightBot();
 
   /// Begins to log in.
   void start() {

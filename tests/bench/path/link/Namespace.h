@@ -133,7 +133,7 @@ class NetworkNamespace {
 
   int m_namespace = -1;
   int m_tun = -1;
-  int m_socket = -1;  ///< of this network, for ioctl()
+  int m_socket = -1;  ///< a socket in this network, for ioctl()
 };
 
 }  // namespace bench::path
