@@ -1,4 +1,5 @@
-// Suites that each run one program while servers are killed or rooms fail. docs/bench.md describes them.
+// Suites that each run one program while servers are attacked or killed, or rooms fail. docs/bench.md
+// describes them.
 #include "ResultLine.h"
 #include "Suite.h"
 
@@ -12,6 +13,25 @@ void run(const char* suite, const std::string& game, const std::vector<std::stri
   progress(std::string(suite) + ": " + game);
   if (printLinesOf("naiad_recovery", words) != 0) Line(suite).add("game", game).addZero("failed", 1);
 }
+
+const std::vector<std::string> kAttacks = {"silent4",    "silent6",     "chat_resume",  "chat_detached",
+                                           "hard_pile",  "held_places", "log_stall",    "log_gone",
+                                           "password80", "fork300",     "restart8",     "rounds5",
+                                           "door3000",   "idle64",      "password2000", "bus20k"};
+
+void attack(const std::string& name, bool quick) {
+  progress("attack: " + name);
+  std::vector<std::string> words{name};
+  if (quick) words.emplace_back("--quick");
+  if (printLinesOf("naiad_attack", words) != 0)
+    Line("attack").add("name", name).addZero("failed", 1).add("because", "not_measured");
+}
+
+const Suite s_attack("attack", "strangers attack the real programs while honest players play",
+                     [](const Options& options) {
+                       for (const std::string& name : namesFrom("NAIAD_ATTACK_NAMES", kAttacks))
+                         attack(name, options.quick);
+                     });
 
 const Suite s_fleet("fleet",
                     "ten servers are killed at random while players of a directory play, and their bus",

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "Bins.h"
 #include "Contest.h"
 #include "ElapsedTime.h"
 #include "RandomMask.h"
 #include "ResultLine.h"
+#include "SortedBoxes.h"
 #include "Suite.h"
 #include "engine/events/EventOut.h"
 #include "engine/managers/WorldManager.h"
@@ -29,8 +29,7 @@ namespace bench {
 namespace {
 
 constexpr double kDensity = 0.5;
-constexpr double kBin = 8;
-constexpr double kLargest = 12;
+constexpr int kWidest = 12;
 
 class Sprite : public df::Object {
  public:
@@ -117,9 +116,9 @@ class Crowd {
   Verdict judge() const {
     std::vector<df::FixedBox> boxes;
     for (const Sprite* p_sprite : m_sprites) boxes.push_back(p_sprite->box());
-    const Bins bins(boxes, m_side, kBin, kLargest);
+    const SortedBoxes sorted(boxes, kWidest);
     Verdict verdict;
-    for (std::size_t i = 0; i < m_sprites.size(); ++i) judge(i, boxes, bins, verdict);
+    for (std::size_t i = 0; i < m_sprites.size(); ++i) judge(i, boxes, sorted, verdict);
     return verdict;
   }
 
@@ -132,10 +131,10 @@ class Crowd {
   }
 
   // Counts the pairs of sprite i that are missing in the engine's list or wrongly in it.
-  void judge(std::size_t i, const std::vector<df::FixedBox>& boxes, const Bins& bins,
+  void judge(std::size_t i, const std::vector<df::FixedBox>& boxes, const SortedBoxes& sorted,
              Verdict& verdict) const {
     std::vector<const df::Object*> right;
-    bins.near(boxes[i], [&](std::uint32_t other) {
+    sorted.near(boxes[i], [&](std::uint32_t other) {
       if (other == i || !oracle::boxIntersectsBox(boxes[i], boxes[other])) return;
       ++verdict.pairs;
       if (oracle::shareCell(boxes[i], m_sprites[i]->mask, boxes[other], m_sprites[other]->mask))

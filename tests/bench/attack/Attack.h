@@ -22,11 +22,13 @@ struct Target {
   std::chrono::seconds duration;
 };
 
-/// Results that only this attack has, in addition to the common measurements.
-struct Findings {
-  std::vector<std::pair<std::string, long long>> figures;  ///< keys and values, as printed
-  std::vector<std::string> faults;                         ///< keys of the figures whose values are a failure
+/// A figure as printed, and whether its value is a failure.
+struct Figure {
+  std::string key;
+  double value = 0;
+  bool is_fault = false;
 };
+using Figures = std::vector<Figure>;
 
 class Attack {
  public:
@@ -44,44 +46,13 @@ class Attack {
   virtual void update(Time /*now*/) {}
   /// Ends the attack: releases everything that belongs to the event loop.
   virtual void end() {}
-  /// Adds results. Called after the server has been stopped.
-  virtual void addFindings(Findings& /*findings*/) {}
+  /// Adds results that only this attack has. Called after the server has been stopped.
+  virtual void addFigures(Figures& /*figures*/) {}
 };
 
 using AttackPtr = std::unique_ptr<Attack>;
 
-/// silent4, silent6: 64 connections from each of the addresses `sources` to the address `server`. They never
-/// send anything, and reconnect when they are closed.
-AttackPtr makeSilentCrowd(const std::vector<std::string>& sources, const std::string& server);
-/// chat_resume: a player repeatedly resumes its session on another stream, and sends as much chat as allowed
-/// on each.
-AttackPtr makeChatResume();
-/// chat_detached: `count` players that constantly send as much chat as possible.
-AttackPtr makeChatters(int count);
-/// held_places: clients of one address repeatedly join and are killed, so that their detached sessions hold
-/// slots.
-AttackPtr makeHeldPlaces();
 inline constexpr const char* kHeldName = "held";  ///< name of the players of held_places
 inline constexpr int kHeldAllowed = 2;            ///< slots allowed per address
-/// log_stall, log_gone: the reader of the server's log stalls or exits, while players cause log lines.
-enum class LogFault { kStalls, kEnds };
-AttackPtr makeLogReader(LogFault fault);
-/// password80: clients of 80 addresses guess passwords, so that the queue of password checks is never empty.
-AttackPtr makePasswordCrowd();
-/// fork300: a game in its own process forks 300 children. Counts the children that outlive their world. This
-/// process adopts children whose parents end, so that all are counted.
-AttackPtr makeForkingWorld();
-/// restart8: the server was killed with eight players, and restarted after the time to reconnect.
-AttackPtr makeLateRestart();
-/// rounds5: before the server's start, its folder of rounds gets damaged, foreign and special files.
-AttackPtr makeHostileRounds();
-/// door3000: visitors of an ssh door have terminals of 3000 × 3000 cells and larger.
-AttackPtr makeLargeTerminals();
-/// idle64: one address takes all places and presses no key.
-AttackPtr makeIdleCrowd();
-/// password2000: 2,000 networks guess a password, each once a minute.
-AttackPtr makeKnockingNetworks();
-/// bus20k: a member of the bus sends 20,000 messages a second.
-AttackPtr makeBusFlood();
 
 }  // namespace bench::attack

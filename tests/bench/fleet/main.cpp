@@ -1,7 +1,6 @@
 // A fleet on this machine, whose servers and bus are killed while players play. Run by deploy/bench fleet.
 //
 //   naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]   one line
-//   naiad_fleet --players LINK FILE FIRST COUNT       a process of players (Crowd.h)
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -34,8 +33,8 @@ constexpr double kMaxLatePercent = 5;  ///< if more ticks are late, the run is i
 constexpr long kMaxBackMillis = 3'000;
 constexpr long kMaxRedirectMillis = 2'000;  ///< limit of the 99th percentile
 
-/// Returns the number of processes for these players, because a thread can serve at most 250 in time.
-int processesFor(int players) {
+/// Returns the number of threads for these players. Each can serve at most 250 in time.
+int threadsFor(int players) {
   return std::min(players, std::max(4, (players + 249) / 250));
 }
 
@@ -55,7 +54,7 @@ void kill(bench::Fleet& fleet, bench::Crowd& crowd, std::size_t server, Result& 
   std::this_thread::sleep_for(kRestart);
   fleet.startServer(server);
   crowd.waitUntilBack(kReturnTimeout);
-  const bench::Crowd::Return came = crowd.result();
+  const bench::Crowd::Report came = crowd.report();
   ++result.kills;
   result.players += there;
   result.returned += came.returned;
@@ -64,12 +63,12 @@ void kill(bench::Fleet& fleet, bench::Crowd& crowd, std::size_t server, Result& 
 }
 
 void loseBus(bench::Fleet& fleet, bench::Crowd& crowd, std::chrono::seconds time, Result& result) {
-  const int before = crowd.state().losses;
+  const int before = crowd.report().losses;
   fleet.killBus();
   std::this_thread::sleep_for(time);
   fleet.startBus();
   std::this_thread::sleep_for(5s);
-  result.lost_without_bus = crowd.state().losses - before;
+  result.lost_without_bus = crowd.report().losses - before;
 }
 
 /// True if the directory redirected all players, and all that lost their server play again.
@@ -109,20 +108,20 @@ bool print(const bench::FleetSetup& setup, const Result& result, std::chrono::se
 int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time) {
   bench::Fleet fleet(setup);
   std::fprintf(stderr, "naiad_fleet: %zu servers\n", fleet.size());
-  bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, processesFor(setup.bots));
+  bench::Crowd crowd(fleet.link(), fleet.folder(), setup.bots, threadsFor(setup.bots));
   Result result;
   if (!crowd.joinAll(kJoiningAtOnce, 300s)) {
     std::printf("fleet bots=%d servers=%d joined=%d failed=1\n", setup.bots, setup.servers,
-                crowd.state().playing);
+                crowd.report().playing);
     return 1;
   }
-  result.redirects = crowd.redirects();
+  result.redirects = crowd.report().redirects;
   std::fprintf(stderr, "naiad_fleet: %d players play\n", setup.bots);
   std::mt19937_64 random(1);
   for (int i = 0; i < kills; ++i) {
     std::this_thread::sleep_for(kPlay);
     kill(fleet, crowd, random() % fleet.size(), result);
-    std::fprintf(stderr, "naiad_fleet: kill %d of %d, %d play\n", i + 1, kills, crowd.state().playing);
+    std::fprintf(stderr, "naiad_fleet: kill %d of %d, %d play\n", i + 1, kills, crowd.report().playing);
   }
   if (bus_time.count() > 0) loseBus(fleet, crowd, bus_time, result);
   crowd.leaveAll();
@@ -130,25 +129,10 @@ int run(const bench::FleetSetup& setup, int kills, std::chrono::seconds bus_time
   return print(setup, result, bus_time, fleet.ticks()) ? 0 : 1;
 }
 
-/// Runs a process of players, started by the main process.
-int serve(const std::vector<std::string>& words) {
-  const int count = std::atoi(words[4].c_str());
-  naiad::ignoreBrokenPipes();
-  naiad::raiseOpenFileLimit(static_cast<std::size_t>(4 * count + 256));
-  try {
-    bench::serveCrowd(words[1], words[2], std::atoi(words[3].c_str()), count);
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_fleet: %s\n", error.what());
-    return 1;
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() == 5 && words[0] == "--players") return serve(words);
   if (words.size() != 4 && words.size() != 5) {
     std::fprintf(stderr, "usage: naiad_fleet BOTS KILLS BUS_SECONDS HZ [SERVERS]\n");
     return 2;

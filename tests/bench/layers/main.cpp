@@ -8,10 +8,10 @@
 // border. Prints `allocations_per_tick=… bytes_per_object=…`.
 #include <malloc.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <new>
 #include <string>
 
 #include "engine/managers/WorldManager.h"
@@ -19,50 +19,16 @@
 #include "engine/world/Object.h"
 #include "engine/world/World.h"
 #include "tests/bench/Scene.h"
-
-// Counters of the memory that this process, including the engine's library, gets by operator new.
-namespace {
-
-long s_allocations = 0;
-long s_bytes = 0;  // bytes presently allocated, as rounded up by the allocator
-
-void* take(std::size_t size) {
-  void* p = std::malloc(size > 0 ? size : 1);
-  if (p == nullptr) throw std::bad_alloc();
-  ++s_allocations;
-  s_bytes += static_cast<long>(malloc_usable_size(p));
-  return p;
-}
-
-void give(void* p) {
-  if (p != nullptr) s_bytes -= static_cast<long>(malloc_usable_size(p));
-  std::free(p);
-}
-
-}  // namespace
-
-// The global operators are replaced, because only these see every allocation in the process.
-void* operator new(std::size_t size) {
-  return take(size);
-}
-void* operator new[](std::size_t size) {
-  return take(size);
-}
-void operator delete(void* p) noexcept {
-  give(p);
-}
-void operator delete[](void* p) noexcept {
-  give(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  give(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-  give(p);
-}
+#include "tests/support/AllocationCount.h"
 
 namespace bench {
 namespace {
+
+/// Returns the bytes that this process has allocated, including the engine's library.
+long allocatedBytes() {
+  const auto info = mallinfo2();
+  return static_cast<long>(info.uordblks + info.hblkhd);
+}
 
 constexpr int kScattered = 16;
 constexpr int kWarmUpTicks = 8;
@@ -123,7 +89,7 @@ void scatter(const Scene& scene, Use use) {
 
 void run(const Scene& scene, Use use, const std::string& who, int ticks) {
   const int objects = scene.count();
-  const long bytes = s_bytes;
+  const long bytes = allocatedBytes();
   df::World world;
   const df::World::Scope scope(world);
   WM.setBoundary(df::Box(df::Vector(-1e5, -1e5), 5e5, 5e5));
@@ -141,10 +107,10 @@ void run(const Scene& scene, Use use, const std::string& who, int ticks) {
   }
 
   for (int i = 0; i < kWarmUpTicks; ++i) WM.update();
-  const long bytes_per_object = (s_bytes - bytes) / objects;
-  const long allocations = s_allocations;
+  const long bytes_per_object = (allocatedBytes() - bytes) / objects;
+  const std::uint64_t allocations = naiad::test::allocationsSoFar();
   for (int i = 0; i < ticks; ++i) WM.update();
-  const double per_tick = static_cast<double>(s_allocations - allocations) / ticks;
+  const double per_tick = static_cast<double>(naiad::test::allocationsSoFar() - allocations) / ticks;
   std::printf("allocations_per_tick=%g bytes_per_object=%ld\n", per_tick, bytes_per_object);
   world.shutDown();
 }

@@ -1,9 +1,9 @@
-#include "Box2dCasts.h"
-
 #include <box2d/b2_dynamic_tree.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "Casts.h"
 
 namespace bench {
 namespace {

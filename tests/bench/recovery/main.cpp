@@ -22,6 +22,7 @@
 #include "RecoveryRun.h"
 #include "server/replay/RecordedRound.h"
 #include "server/replay/Verify.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Percentile.h"
 #include "tests/server/replay/Recorder.h"
 
@@ -42,6 +43,7 @@ constexpr milliseconds kMaxPlay{1500};
 /// The number of ticks in ten minutes at 30 Hz. Here a tick takes only 2 ms.
 constexpr std::uint32_t kLongTurns = 18'000;
 constexpr std::chrono::microseconds kShortFrame{2'000};
+constexpr std::chrono::microseconds kFrame{33'333};
 constexpr std::chrono::seconds kReplayTimeout{300};
 /// Time between two kills of a world. Two within a second would end the round.
 constexpr milliseconds kBetweenDeaths{1500};
@@ -73,14 +75,17 @@ void add(const KillResult& result, Total& total) {
   if (!result.problem.empty()) std::fprintf(stderr, "naiad_recovery: %s\n", result.problem.c_str());
 }
 
+/// Ends a round, and counts it if its replay is equal.
+int countVerified(RecoveryRun& run) {
+  std::string said;
+  if (run.verify(said)) return 1;
+  std::fprintf(stderr, "naiad_recovery: %s\n%s\n", said.c_str(), run.log().c_str());
+  return 0;
+}
+
 void verify(RecoveryRun& run, const std::string& game, Total& total) {
   ++total.rounds;
-  std::string said;
-  if (run.verify(said)) {
-    ++total.verified;
-  } else {
-    std::fprintf(stderr, "naiad_recovery: %s\n", said.c_str());
-  }
+  total.verified += countVerified(run);
   if (game != naiad::test::kScoresModule) return;
   const naiad::test::ScoreCheck check = run.checkScores();
   total.scores += check.kept;
@@ -103,7 +108,7 @@ KillResult killSomehow(RecoveryRun& run, std::mt19937_64& random) {
 
 /// Runs a round with kills and verifies it at the end.
 void runRound(const std::string& game, int kills, std::mt19937_64& random, Total& total) {
-  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+  RecoveryRun run(game, kPlayers, random(), kFrame);
   for (int i = 0; i < kills; ++i) {
     run.play(milliseconds(random() % static_cast<std::uint64_t>(kMaxPlay.count())));
     const KillResult result = killSomehow(run, random);
@@ -157,24 +162,26 @@ int scores(int count) {
   return good ? 0 : 1;
 }
 
+/// Returns a time up to that between two copies of a world.
+milliseconds anyMoment(std::mt19937_64& random) {
+  return milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count()));
+}
+
 /// Kills worlds of one round at any time since their newest copy.
 int worlds(const std::string& game, int count) {
   std::mt19937_64 random(kSeed);
   std::vector<long> took;
-  RecoveryRun run(game, kPlayers, random(), std::chrono::microseconds(33'333));
+  RecoveryRun run(game, kPlayers, random(), kFrame);
   for (int i = 0; i < count; ++i) {
-    run.play(kBetweenDeaths + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+    run.play(kBetweenDeaths + anyMoment(random));
     const auto time = run.killWorld();
     if (!time) break;
     took.push_back(time->count());
   }
-  std::string said;
-  const bool verified = run.verify(said);
-  if (!verified) std::fprintf(stderr, "naiad_recovery: %s\n%s\n", said.c_str(), run.log().c_str());
-  const int went_on = static_cast<int>(took.size());
-  std::printf("take_over game=%s kills=%d went_on=%d p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(),
-              count, went_on, percentile(took, 50), percentile(took, 99), verified ? 1 : 0);
-  return went_on == count && verified ? 0 : 1;
+  const int verified = countVerified(run);
+  std::printf("take_over game=%s kills=%d went_on=%zu p50_ms=%ld p99_ms=%ld verified=%d\n", game.c_str(),
+              count, took.size(), percentile(took, 50), percentile(took, 99), verified);
+  return static_cast<int>(took.size()) == count && verified == 1 ? 0 : 1;
 }
 
 /// Tests the first hang of each round, some seconds after the newest copy.
@@ -183,18 +190,16 @@ int hangs(int count) {
   std::vector<long> took;
   int verified = 0;
   for (int i = 0; i < count; ++i) {
-    RecoveryRun run(kHangingModule, kPlayers, random(), std::chrono::microseconds(33'333));
-    run.play(kBetweenCopies + milliseconds(random() % static_cast<std::uint64_t>(kBetweenCopies.count())));
+    RecoveryRun run(kHangingModule, kPlayers, random(), kFrame);
+    run.play(kBetweenCopies + anyMoment(random));
     const auto time = run.hangWorld(df::Keyboard::H);
     if (!time) break;
     took.push_back(time->count());
-    std::string said;
-    verified += run.verify(said) ? 1 : 0;
+    verified += countVerified(run);
   }
-  const int went_on = static_cast<int>(took.size());
-  std::printf("hangs hangs=%d went_on=%d p50_ms=%ld max_ms=%ld verified=%d\n", count, went_on,
+  std::printf("hangs hangs=%d went_on=%zu p50_ms=%ld max_ms=%ld verified=%d\n", count, took.size(),
               percentile(took, 50), percentile(took, 100), verified);
-  return went_on == count && verified == count ? 0 : 1;
+  return static_cast<int>(took.size()) == count && verified == count ? 0 : 1;
 }
 
 int journal(const std::string& game, std::uint32_t ticks) {
@@ -232,10 +237,5 @@ int start(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return start({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_recovery: %s\n", error.what());
-    return 1;
-  }
+  return bench::guarded("naiad_recovery", [&] { return start({argv + 1, argv + argc}); });
 }

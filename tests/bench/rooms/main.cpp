@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "Home.h"
 #include "client/session/Connection.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Percentile.h"
 
 namespace {
@@ -232,12 +234,10 @@ class Run {
 
 int main(int argc, char** argv) {
   const int seconds = argc > 1 ? std::atoi(argv[1]) : 30;
-  try {
+  return bench::guarded("naiad_rooms", [seconds] {
     Run run;
-    if (run.measure(std::chrono::seconds(std::max(seconds, 1)))) return run.report();
-    std::fprintf(stderr, "naiad_rooms: not all players got in\n");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_rooms: %s\n", error.what());
-  }
-  return 1;
+    if (!run.measure(std::chrono::seconds(std::max(seconds, 1))))
+      throw std::runtime_error("not all players got in");
+    return run.report();
+  });
 }

@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-#include "../Core.h"
+#include "../Common.h"
 
 namespace {
 

@@ -9,7 +9,6 @@
 //   sink      receive datagrams without answering; write   sunk
 //             their sizes to FOLDER/sizes and the bots' addresses to FOLDER/endpoints
 #include <sys/epoll.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,10 +21,11 @@
 #include <string>
 #include <vector>
 
-#include "../Core.h"
-#include "Checker.h"
-#include "LightBot.h"
+#include "../Common.h"
+#include "Bots.h"
 #include "shared/net/stream/TlsContext.h"
+#include "shared/program/ProcessSetup.h"
+#include "tests/bench/Guarded.h"
 #include "tests/bench/Worker.h"
 
 namespace {
@@ -224,17 +224,11 @@ class Crowd {
 int main(int argc, char** argv) {
   if (argc != 6) return 2;
   if (!pinTo(std::stoi(argv[1]))) return 3;
-  rlimit files{};
-  getrlimit(RLIMIT_NOFILE, &files);
-  files.rlim_cur = files.rlim_max;
-  setrlimit(RLIMIT_NOFILE, &files);
-  try {
-    Crowd(argv[2], static_cast<std::uint16_t>(std::stoi(argv[3])), *naiad::Fingerprint::parse(argv[4]),
-          argv[5])
-        .run();
-  } catch (const std::exception& error) {
-    std::cerr << "naiad_capacity_bots: " << error.what() << "\n";
-    return 1;
-  }
-  std::quick_exit(0);  // faster than closing thousands of streams
+  naiad::raiseOpenFileLimit(SIZE_MAX);
+  return bench::guarded("naiad_capacity_bots", [&]() -> int {
+    const auto port = static_cast<std::uint16_t>(std::stoi(argv[3]));
+    Crowd crowd(argv[2], port, *naiad::Fingerprint::parse(argv[4]), argv[5]);
+    crowd.run();
+    std::quick_exit(0);  // faster than closing thousands of streams
+  });
 }

@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "../../net/BusyScene.h"
-#include "../Check.h"
-#include "../Core.h"
+#include "../Common.h"
 #include "engine/events/EventKeyboard.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
@@ -28,6 +27,7 @@
 #include "host/loop/Host.h"
 #include "host/loop/HostEndpoint.h"
 #include "shared/program/ProcessSetup.h"
+#include "tests/bench/Guarded.h"
 
 namespace {
 
@@ -179,10 +179,5 @@ int serve(const std::string& identity, int most) {
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
   if (!pinTo(std::stoi(argv[1]))) return 3;
-  try {
-    return serve(argv[2], std::stoi(argv[3]));
-  } catch (const std::exception& error) {
-    std::cerr << "naiad_capacity_server: " << error.what() << "\n";
-    return 1;
-  }
+  return bench::guarded("naiad_capacity_server", [&] { return serve(argv[2], std::stoi(argv[3])); });
 }

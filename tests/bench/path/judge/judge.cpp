@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "../Punctual.h"
 #include "../SharedFile.h"
-#include "../link/Direction.h"
+#include "../link/Link.h"
 #include "../scene/Truth.h"
 #include "Quantile.h"
 #include "Watch.h"
+#include "tests/bench/Guarded.h"
 
 namespace {
 
@@ -152,10 +152,5 @@ int start(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return start(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_pty_judge: %s\n", error.what());
-    return 1;
-  }
+  return bench::guarded("naiad_pty_judge", [&] { return start(argc, argv); });
 }

@@ -24,9 +24,9 @@
 #include <string>
 #include <vector>
 
-#include "../Punctual.h"
 #include "../SharedFile.h"
 #include "Namespace.h"
+#include "tests/bench/Guarded.h"
 
 namespace {
 
@@ -105,31 +105,25 @@ int carry(const Options& options) {
   }
 }
 
-int guarded(const Options& options) {
+/// Returns what `work` returns. If it is not allowed on this machine, prints why and returns kNotAllowed.
+template <class Work>
+int ifAllowed(Work work) {
   try {
-    return carry(options);
+    return work();
   } catch (const NotAllowed& reason) {
     std::printf("%s\n", reason.what());
     return kNotAllowed;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_link: %s\n", error.what());
-    return kFailed;
   }
 }
 
-int run(const Options& options) {
+int runAlone(const Options& options) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // kills this process when its parent ends
-  try {
-    unshareProcesses();
-  } catch (const NotAllowed& reason) {
-    std::printf("%s\n", reason.what());
-    return kNotAllowed;
-  }
+  unshareProcesses();
   const pid_t child = fork();
   if (child < 0) return kFailed;
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int code = guarded(options);
+    const int code = bench::guarded("naiad_link", [&] { return ifAllowed([&] { return carry(options); }); });
     std::fflush(stdout);
     _exit(code);
   }
@@ -189,16 +183,11 @@ int start(int argc, char** argv) {
     options.server = parts[1];
     options.client = parts[2];
   }
-  return run(options);
+  return ifAllowed([&] { return runAlone(options); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return start(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_link: %s\n", error.what());
-    return 1;
-  }
+  return bench::guarded("naiad_link", [&] { return start(argc, argv); });
 }

@@ -13,6 +13,7 @@
 #include <exception>
 #include <string>
 
+#include "../../Guarded.h"
 #include "../Monotonic.h"
 #include "../SharedFile.h"
 #include "Crowd.h"
@@ -124,12 +125,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: naiad_scene_curses TRUTH_FILE SEED\n");
     return 2;
   }
-  try {
+  return bench::guarded("naiad_scene_curses", [argv] {
     const auto truth = SharedFile<Truth>::create(argv[1]);
     run(*truth, std::strtoull(argv[2], nullptr, 10));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "naiad_scene_curses: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }
