@@ -63,34 +63,6 @@ TEST(ClientViewport, ALargeTerminalShowsTheViewAndNoMore) {
   }
 }
 
-TEST(ClientViewport, SmallTerminalShowsTheMiddleOfAFixedView) {
-  Scene scene;
-  ClientViewport window;
-  window.setTerminal(40, 24);
-  const CellRect rect = scene.tick(window);
-  EXPECT_LE(rect.left, 120);
-  EXPECT_GE(rect.right, 160);
-  EXPECT_LT(rect.right - rect.left, 60);
-  EXPECT_EQ(rect.top, 50);
-  EXPECT_EQ(rect.bottom, 74);
-}
-
-TEST(ClientViewport, SmallTerminalShowsTheFollowedObject) {
-  Scene scene;
-  scene.follow();
-  scene.put(150, 60, 0);
-  ClientViewport window;
-  window.setTerminal(20, 10);
-  const CellRect rect = scene.tick(window);
-  EXPECT_LE(rect.left, 140);
-  EXPECT_GT(rect.left, 130);
-  EXPECT_GE(rect.right, 160);
-  EXPECT_LT(rect.right, 170);
-  EXPECT_EQ(rect.top, 50) << "the spare ends at the view's edge";
-  EXPECT_GE(rect.bottom, 65);
-  EXPECT_LT(rect.bottom, 74);
-}
-
 TEST(ClientViewport, TinyTerminalGetsTheMinimumViewport) {
   Scene scene;
   ClientViewport window;

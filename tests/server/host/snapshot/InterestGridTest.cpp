@@ -39,23 +39,6 @@ TEST(InterestGrid, CompactRectanglesIntersectLikeFullOnes) {
   EXPECT_FALSE(rect.meets(CompactRect(CellRect{kFar, -kFar, 2 * kFar, kFar})));
 }
 
-TEST(InterestGrid, FindsAnObjectEnteringAKnownEmptyBlock) {
-  InterestGrid grid;
-  const CellRect rect{0, 0, 1, 1};
-  for (std::uint32_t slot = 0; slot < 40; ++slot)
-    grid.put(100 + slot, {static_cast<std::int32_t>(16 * slot), 800});
-  EXPECT_TRUE(near(grid, rect).empty());
-  grid.put(7, {0, 0});
-  EXPECT_EQ(near(grid, rect), std::multiset<std::uint32_t>{7});
-  grid.put(8, {1, 1});
-  EXPECT_EQ(near(grid, rect).size(), 2u);
-  grid.remove(7);
-  grid.remove(8);
-  EXPECT_TRUE(near(grid, rect).empty());
-  grid.put(9, {2, 2});
-  EXPECT_EQ(near(grid, rect), std::multiset<std::uint32_t>{9});
-}
-
 TEST(InterestGrid, FindsEachObjectOfARectangleOnce) {
   SplitMix64 rng(1);
   for (const std::int64_t world : {200, 20'000, 2'000'000'000}) {
@@ -104,16 +87,6 @@ TEST(InterestGrid, SearchesFewBlocksOnly) {
   }
   EXPECT_LE(near(grid, {0, 0, 80, 24}).size(), 5u * 4u);
   EXPECT_EQ(near(grid, {-5000, -5000, 5000, 5000}).size(), slot);
-}
-
-TEST(InterestGrid, RemovingAnUnfiledSlotChangesNothing) {
-  InterestGrid grid;
-  grid.remove(7);
-  grid.put(3, {1, 1});
-  grid.remove(2);
-  grid.remove(3);
-  grid.remove(3);
-  EXPECT_TRUE(near(grid, {-100, -100, 100, 100}).empty());
 }
 
 }  // namespace

@@ -412,23 +412,6 @@ TEST_F(PublisherTest, ReplicaDrawsTheWorldsPictureEveryTick) {
   }
 }
 
-TEST_F(PublisherTest, StraightFlightNeedsFewUpdates) {
-  test::WorldConfig config;
-  config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
-  config.scribble = config.speech = config.refollow = 0;
-  config.view_width = 100;
-  config.view_height = 40;
-  test::SimulatedWorld world(config, 9);
-  std::size_t changes = 0;
-  for (int i = 0; i < 200; ++i) {
-    world.tick(i > 20);
-    publisher.update(world.view());
-    if (i > 30) changes += publisher.changes().size();
-  }
-  // Only offsets that are not multiples of 1/256 and objects that come into view need an update.
-  EXPECT_LT(changes, 100u);
-}
-
 Sequence wheel() {
   std::vector<Appearance> frames;
   for (const char32_t spoke : {U'-', U'\\', U'|', U'/'})
@@ -491,23 +474,6 @@ TEST_F(PublisherTest, ADrawnLookOverridesTheDeclaredOne) {
   publish();
   EXPECT_EQ(published.sequence, wheel());
   EXPECT_EQ(published.selector, look.selector);
-}
-
-TEST_F(PublisherTest, TurningObjectInFractionalFlightIsPublishedOnce) {
-  const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
-  df::FixedVector position = cellsAt(1.25, 3.5);
-  const df::FixedVector velocity = cellsAt(0.3, 0.07);
-  changed(0, position, velocity);
-  showed(0, position, look);
-  publish();
-  int changes = 0;
-  for (int i = 0; i < 60; ++i) {
-    position = position + velocity;
-    changed(0, position, velocity);
-    showed(0, position, look);
-    changes += publish().empty() ? 0 : 1;
-  }
-  EXPECT_EQ(changes, 0);
 }
 
 }  // namespace

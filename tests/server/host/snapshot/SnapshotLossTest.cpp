@@ -2,71 +2,30 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "SimulatedWorld.h"
-#include "host/snapshot/SnapshotSender.h"
-#include "shared/replica/Replica.h"
-#include "shared/replica/UpdateCodec.h"
+#include "LossyScene.h"
 #include "tests/support/Sanitizers.h"
-#include "tests/support/net/LossyLink.h"
-#include "tests/support/net/VirtualClock.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A server and a client connected by a bad network. Snapshots and acknowledgements travel as schema
-/// messages, in datagrams of at most 1200 bytes.
-class LossyPair {
+/// Checks what the client has and draws.
+class LossyPair : public test::LossyScene {
  public:
-  LossyPair(test::WorldConfig config, const LinkConditions& conditions, std::uint64_t seed,
+  LossyPair(const test::WorldConfig& config, const LinkConditions& conditions, std::uint64_t seed,
             Resend resend = Resend::kOnGap)
-      : sender(resend),
-        m_world(config, seed),
-        m_link(m_clock, conditions, seed),
-        m_server_end(m_link.takeEnd(LinkEnd::kServer)),
-        m_client_end(m_link.takeEnd(LinkEnd::kClient)) {
-    m_server_end->start([this](std::string_view packet) { serverHears(packet); });
-    m_client_end->start([this](std::string_view packet) { clientHears(packet); });
-  }
-
-  void tick(bool quiet = false) {
-    m_world.tick(quiet);
-    m_publisher.update(m_world.view());
-    sender.applyTick(m_publisher, m_world.view().players[0]);
-    for (const SnapshotSender::Packet& packet : sender.build(m_publisher)) {
-      ++snapshots;
-      std::vector<std::uint32_t>& lives = m_births[packet.number];
-      for (std::uint32_t id = 0; id < sender.known().idCount(); ++id) {
-        lives.push_back(sender.known().at(id).birth);
-      }
-      ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
-      // Packets too large for a datagram would use the stream; here they arrive late.
-      if (packet.large) {
-        m_late.push_back(packet.bytes);
-      } else {
-        m_server_end->send(packet.bytes);
-      }
-    }
-    m_clock.advanceBy(33'333us);
-    for (const std::string& bytes : std::exchange(m_late, {})) clientHears(bytes);
-  }
-  void setConditions(const LinkConditions& conditions) {
-    m_link.setConditions(LinkEnd::kServer, conditions);
-    m_link.setConditions(LinkEnd::kClient, conditions);
-  }
+      : LossyScene(config, conditions, seed, resend) {}
 
   /// Checks that the replica holds exactly what was sent and draws what the world draws.
   void expectSame() {
     std::size_t alive = 0;
-    const std::uint32_t tick = m_publisher.tick();
+    const std::uint32_t tick = publisher.tick();
     sender.known().forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
       ++alive;
-      const Publisher::Model& model = *m_publisher.find(known.slot);
+      const Publisher::Model& model = *publisher.find(known.slot);
       const Replica::ReplicaObject* entry = replica.find(id);
       ASSERT_NE(entry, nullptr) << "object " << id << " is missing";
       ASSERT_EQ(known.generation, model.generation) << "object " << id;
@@ -77,56 +36,35 @@ class LossyPair {
     });
     ASSERT_EQ(replica.aliveCount(), alive) << "ghosts";
     EXPECT_EQ(sender.known().checksum(), replica.checksum());
-    EXPECT_NE(sender.matchesChecksum(m_acks, replica.checksum()), std::optional(false));
-    expectSamePicture();
-  }
-  void expectSamePicture() {
-    const df::Canvas wanted = m_world.picture(0);
-    const df::Canvas seen = replica.render(m_publisher.tick());
+    EXPECT_NE(sender.matchesChecksum(acks, replica.checksum()), std::optional(false));
+    const df::Canvas wanted = world.picture(0);
+    const df::Canvas seen = replica.render(tick);
     ASSERT_EQ(countDifferences(wanted, seen), 0) << test::explain(wanted, seen);
   }
 
-  const test::SimulatedWorld& world() const { return m_world; }
-  const LinkCounters& down() const { return m_link.counters(LinkEnd::kServer); }
-
-  SnapshotSender sender;
-  Replica replica;
   std::size_t snapshots = 0;
-  std::size_t births = 0;  ///< objects born in the replica
   std::size_t reuses = 0;  ///< births under an id that was used before
   std::size_t checks = 0;  ///< number of checksums compared
 
  private:
-  void serverHears(std::string_view packet) {
-    const auto update = readUpdate(packet, {sender.newestNumber(), m_publisher.tick(), 0});
-    ASSERT_TRUE(update);
-    sender.acknowledge(update->acks);
-    const auto right = sender.matchesChecksum(update->acks, *update->checksum);
+  void onSent(const SnapshotSender::Packet& packet) override {
+    ++snapshots;
+    std::vector<std::uint32_t>& lives = m_births[packet.number];
+    for (std::uint32_t id = 0; id < sender.known().idCount(); ++id)
+      lives.push_back(sender.known().at(id).birth);
+    ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
+  }
+  void onAcknowledged(const ClientUpdate& update) override {
+    const auto right = sender.matchesChecksum(update.acks, *update.checksum);
     checks += right ? 1 : 0;
-    ASSERT_NE(right, std::optional(false)) << "after snapshot " << update->acks.newest;
+    ASSERT_NE(right, std::optional(false)) << "after snapshot " << update.acks.newest;
   }
-
-  void clientHears(std::string_view packet) {
-    Snapshot snapshot;
-    const ReadResult result = replica.read(packet, snapshot);
-    ASSERT_NE(result, ReadResult::kMalformed);
-    if (result == ReadResult::kStale) return;
-    replica.apply(snapshot);
-    checkLives(snapshot.header.number);
-    m_acks.addReceived(snapshot.header.number);
-    ClientUpdate update;
-    update.acks = m_acks;
-    update.checksum = replica.checksum();
-    m_client_end->send(writeUpdate(update));
-  }
-
   // Checks that no object is born twice: an object that the replica has removed must not come back to life.
-  void checkLives(std::uint32_t number) {
+  void onApplied(std::uint32_t number) override {
     for (const auto& [id, entry] : replica.entries()) {
       const auto was = m_alive.find(id);
       const bool alive = was != m_alive.end() && was->second;
       if (entry.alive && !alive) {
-        ++births;
         const std::uint32_t life = m_births.at(number).at(id);
         const auto before = m_lives.find(id);
         if (before != m_lives.end()) {
@@ -139,14 +77,6 @@ class LossyPair {
     }
   }
 
-  VirtualClock m_clock;
-  test::SimulatedWorld m_world;
-  Publisher m_publisher;
-  LossyDatagramLink m_link;
-  std::unique_ptr<DatagramChannel> m_server_end;
-  std::unique_ptr<DatagramChannel> m_client_end;
-  AckWindow m_acks;
-  std::vector<std::string> m_late;
   std::map<std::uint32_t, bool> m_alive;           ///< keyed by id
   std::map<std::uint32_t, std::uint32_t> m_lives;  ///< number of objects that have used an id
   std::map<std::uint32_t, std::vector<std::uint32_t>>

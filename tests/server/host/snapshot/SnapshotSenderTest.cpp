@@ -33,6 +33,31 @@ TEST(SnapshotSender, Sends700BirthsInDatagramSizedSnapshots) {
   EXPECT_EQ(first.views.size(), 1u);
 }
 
+// A level is loaded, with the limits that a session has for datagrams.
+TEST(SnapshotSender, Sends700MovingBirthsInThreeTicks) {
+  DirectSender direct(0);
+  direct.tick();
+  direct.acknowledge(1);
+  SplitMix64 rng(700);
+  const auto fraction = [&rng] { return static_cast<df::Fixed>(rng.below(df::kFixedOne)); };
+  const auto cells = [&rng](std::uint32_t most) { return static_cast<std::int32_t>(rng.below(most)); };
+  std::vector<df::ObjectFacts> level(700);
+  for (std::uint32_t slot = 0; slot < level.size(); ++slot) {
+    level[slot].key = {slot, 1};
+    level[slot].order = slot + 1;
+    level[slot].position = {df::fromCells(8 + cells(64)) + fraction(),
+                            df::fromCells(4 + cells(16)) + fraction()};
+    if (slot % 5 == 0) continue;
+    level[slot].velocity = {fraction() - df::kFixedOne / 2, fraction() / 2 - df::kFixedOne / 4};
+  }
+  for (int tick = 0; tick < 3; ++tick) {
+    direct.view().changed = level;
+    for (const auto& packet : direct.tick({4, kMaxDatagramSnapshot, true})) EXPECT_FALSE(packet.large);
+    for (df::ObjectFacts& facts : level) facts.position = facts.position + facts.velocity;
+  }
+  EXPECT_EQ(direct.reader().aliveCount(), 700u);
+}
+
 TEST(SnapshotSender, SendsAnEmptySnapshotEveryFifthTick) {
   DirectSender direct(3);
   ASSERT_EQ(direct.tick().size(), 1u);
@@ -43,69 +68,6 @@ TEST(SnapshotSender, SendsAnEmptySnapshotEveryFifthTick) {
     ASSERT_EQ(snapshots.size(), i % 5 == 0 ? 1u : 0u) << "tick " << i;
     EXPECT_TRUE(snapshots.empty() || direct.decoded(snapshots[0]).objects.empty());
   }
-}
-
-TEST(SnapshotSender, RecordsAreBirthsUntilOneIsAcknowledged) {
-  DirectSender direct(1);
-  direct.tick();
-  df::ObjectFacts facts;
-  facts.key = {0, 1};
-  facts.order = 1;
-  facts.position = cellsAt(9, 9);
-  direct.view().changed.push_back(facts);
-  auto snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kAllGroups);
-  direct.acknowledge(2, 0);
-  facts.position = cellsAt(12, 9);
-  direct.view().changed.push_back(facts);
-  snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).objects[0].groups, kMotion);
-}
-
-TEST(SnapshotSender, ObjectThatDiedUnsentIsNeverMentioned) {
-  DirectSender direct(2);
-  direct.skip();
-  direct.view().vanished.push_back({0, 1});
-  const auto snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  const Records records = direct.decoded(snapshots[0]);
-  ASSERT_EQ(records.objects.size(), 1u);
-  EXPECT_EQ(records.objects[0].state.order, 2u);
-}
-
-TEST(SnapshotSender, LostSnapshotIsResentWithTheNewestState) {
-  DirectSender direct(1);
-  direct.tick();
-  direct.acknowledge(1);
-  df::ObjectFacts facts;
-  facts.key = {0, 1};
-  facts.order = 1;
-  facts.position = cellsAt(9, 9);
-  facts.velocity = cellsAt(1, 0);
-  direct.view().changed.push_back(facts);
-  ASSERT_EQ(direct.tick().size(), 1u);  // number 2 is lost
-  std::uint32_t empty = 0;
-  std::vector<SnapshotSender::Packet> again;
-  for (int i = 0; i < 30 && again.empty(); ++i) {
-    facts.position = facts.position + facts.velocity;
-    direct.view().changed.push_back(facts);
-    const auto snapshots = direct.tick();
-    if (snapshots.empty()) continue;
-    if (!direct.decoded(snapshots[0]).objects.empty()) {
-      again = snapshots;
-    } else {  // a keep-alive has arrived: number 3 and later ones are acknowledged, but not 2
-      direct.acknowledge(snapshots[0].number, (std::uint64_t{1} << empty++) - 1);
-    }
-  }
-  ASSERT_FALSE(again.empty());
-  EXPECT_EQ(empty, 1u) << "the first gap means a loss";
-  const ObjectRecord record = direct.decoded(again[0]).objects.at(0);
-  EXPECT_EQ(record.groups, kMotion);
-  // The published model is sent: near the true position, and in the right cell for as long as possible.
-  EXPECT_LE(std::abs(record.state.motion.position.x - facts.position.x), df::kFixedOne / 2);
-  EXPECT_EQ(direct.sender.resentCount(), 1u);
 }
 
 TEST(SnapshotSender, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
