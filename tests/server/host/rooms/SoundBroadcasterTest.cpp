@@ -27,30 +27,24 @@ class SoundBroadcasterTest : public testing::Test {
   /// Runs one tick with the sounds added before.
   void tick() {
     ++view.tick;
-    once.clear();
-    lasting.clear();
-    news.tick(view, [&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
-      for (const wire::Sound& heard : message.sounds().sounds())
-        (lasts ? lasting : once)[player].push_back(heard.label());
-      return take(message);
-    });
+    news.tick(view, receiver(false));
     view.sounds.clear();
   }
   /// Ends the world. Labels start with "-" for a stop and "+" for a sound that plays.
-  void changeWorld() {
+  void changeWorld() { news.changeWorld(receiver(true)); }
+  /// Forgets what was sent, and returns a function that takes what is sent.
+  SoundBroadcaster::Send receiver(bool with_signs) {
     once.clear();
     lasting.clear();
-    news.changeWorld([&](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
-      for (const wire::Sound& heard : message.sounds().sounds())
-        (lasts ? lasting : once)[player].push_back((heard.action() == wire::Sound::STOP ? "-" : "+") +
-                                                   heard.label());
-      return take(message);
-    });
-  }
-  bool take(const wire::ServerMessage& message) {
-    EXPECT_LE(message.sounds().sounds_size(), static_cast<int>(kMaxSounds));
-    last = message;
-    return sends;
+    return [this, with_signs](std::uint32_t player, const wire::ServerMessage& message, bool lasts) {
+      for (const wire::Sound& heard : message.sounds().sounds()) {
+        const std::string sign = heard.action() == wire::Sound::STOP ? "-" : "+";
+        (lasts ? lasting : once)[player].push_back((with_signs ? sign : "") + heard.label());
+      }
+      EXPECT_LE(message.sounds().sounds_size(), static_cast<int>(kMaxSounds));
+      last = message;
+      return sends;
+    };
   }
 
   SoundBroadcaster news;

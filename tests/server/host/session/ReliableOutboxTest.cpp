@@ -113,19 +113,6 @@ TEST_F(ReliableOutboxTest, AnAcknowledgementCountsOnTheNextStreamToo) {
   EXPECT_EQ(outbox.bytes(), 0u);
 }
 
-TEST_F(ReliableOutboxTest, AListReplacesTheOneBefore) {
-  outbox.add(listOf(1, 1));
-  outbox.add(chatOf("line"));
-  deliver();
-  outbox.restartStream();
-  for (std::uint32_t version = 2; version < 10'000; ++version) outbox.add(listOf(1, version));
-  EXPECT_LT(outbox.bytes(), 200u);
-  reader = {};
-  deliver();
-  EXPECT_EQ(reader.lines.size(), 1u);
-  EXPECT_EQ(reader.list, 9'999u);
-}
-
 TEST_F(ReliableOutboxTest, OnlyTheNewestStateOfASoundIsKept) {
   for (int i = 0; i < 10'000; ++i) {
     outbox.add(soundOf("theme", wire::Sound::PLAY));

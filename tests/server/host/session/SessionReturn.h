@@ -56,9 +56,10 @@ class SessionReturn : public testing::Test {
     line.callbacks.on_frame(message.SerializeAsString());
   }
   static void greet(Wire& line, const std::string& token = "", bool new_process = false,
-                    std::uint32_t received = 0) {
+                    std::uint32_t received = 0, bool second_stream = false) {
     wire::ClientMessage message;
     message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_second_stream(second_stream);
     message.mutable_hello()->set_resume_token(token);
     message.mutable_hello()->set_new_process(new_process);
     message.mutable_hello()->set_last_frame(received);
@@ -76,6 +77,11 @@ class SessionReturn : public testing::Test {
     message.set_number(number);
     say(line, message);
   }
+  static void sendUpdate(Wire& line, const ClientUpdate& update) {
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    say(line, message);
+  }
   static void key(Wire& line, std::uint32_t id, int which, df::EventKeyboardAction action) {
     ClientUpdate update;
     Input input;
@@ -83,9 +89,7 @@ class SessionReturn : public testing::Test {
     input.key = static_cast<std::uint8_t>(which);
     input.action = static_cast<std::uint8_t>(action);
     update.inputs = {input};
-    wire::ClientMessage message;
-    message.set_update(writeUpdate(update));
-    say(line, message);
+    sendUpdate(line, update);
   }
   void sendChat(const std::string& text) {
     wire::ServerMessage message;

@@ -399,14 +399,6 @@ TEST_F(SessionTest, LeaveIsAnsweredAndEndsTheSession) {
   EXPECT_EQ(gone, 1);
 }
 
-TEST_F(SessionTest, AResizeIsAccepted) {
-  greet();
-  wire::ClientMessage resize;
-  resize.mutable_resize()->set_columns(0xFFFFFFFF);
-  hear(resize);
-  EXPECT_EQ(session.state(), Session::State::kPlaying);
-}
-
 TEST_F(SessionTest, TerminalResizesAreAppliedFourTimesASecond) {
   greet();
   test::SimulatedWorld world({}, 7);

@@ -17,13 +17,7 @@ using test::SessionReturn;
 
 class SessionWithTwoStreams : public SessionReturn {
  protected:
-  SessionWithTwoStreams() : other(make(second)) {
-    wire::ClientMessage message;
-    message.mutable_hello()->set_magic(kHelloMagic);
-    message.mutable_hello()->set_resume_token("token");
-    message.mutable_hello()->set_second_stream(true);
-    say(second, message);
-  }
+  SessionWithTwoStreams() : other(make(second)) { greet(second, "token", false, 0, true); }
   void tick(bool quiet = false) {
     world.tick(quiet);
     publisher.update(world.view());
@@ -43,12 +37,7 @@ class SessionWithTwoStreams : public SessionReturn {
     for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.addReceived(n);
     ClientUpdate update;
     update.acks = acks;
-    say(line, messageOf(update));
-  }
-  static wire::ClientMessage messageOf(const ClientUpdate& update) {
-    wire::ClientMessage message;
-    message.set_update(writeUpdate(update));
-    return message;
+    sendUpdate(line, update);
   }
   static std::vector<std::string> snapshots(const Wire& line) {
     std::vector<std::string> all;
@@ -187,11 +176,7 @@ TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
 TEST_F(SessionWithTwoStreams, NewSecondStreamReplacesTheOldOne) {
   Wire& third = lines.emplace_back();
   const auto newer = make(third);
-  wire::ClientMessage message;
-  message.mutable_hello()->set_magic(kHelloMagic);
-  message.mutable_hello()->set_resume_token("token");
-  message.mutable_hello()->set_second_stream(true);
-  say(third, message);
+  greet(third, "token", false, 0, true);
   EXPECT_TRUE(second.destroyed);
   settle();
   tick();

@@ -144,12 +144,9 @@ TEST(LookAtProcess, ReturnsNothingForInvalidProcessIds) {
 TEST(SlowTickDetectorTest, OnlyComputingAndWaitingAreTheGamesOwn) {
   constexpr auto kFrame = 33ms;
   const std::string handler = ", while Ship handles EventStep";
-  const pid_t waiting = fork();
-  if (waiting == 0) {
-    pause();
-    _exit(0);
-  }
-  while (readProcessRunState(waiting)->doing != Doing::kWaits) sched_yield();
+  const Child child([] { pause(); });
+  ASSERT_TRUE(child.comesTo(Doing::kWaits));
+  const pid_t waiting = child.process();
   SlowTickDetector detector;
   detector.beginTick(waiting);
   EXPECT_EQ(detector.check(waiting, 7, 32ms, kFrame, handler), "");
@@ -160,8 +157,6 @@ TEST(SlowTickDetectorTest, OnlyComputingAndWaitingAreTheGamesOwn) {
             "smooth "
             "(reported once)");
   EXPECT_EQ(detector.check(waiting, 8, 40ms, kFrame, handler), "") << "once";
-  kill(waiting, SIGKILL);
-  waitpid(waiting, nullptr, 0);
 
   SlowTickDetector computing;
   computing.beginTick(getpid());

@@ -5,11 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstring>
 #include <optional>
 #include <vector>
 
+#include "host/world/DescriptorMessage.h"
 #include "host/world/WorldCheckpoints.h"
 
 namespace naiad {
@@ -39,16 +38,8 @@ class WorldCheckpointsTest : public testing::Test {
   /// Receives the socket that is sent to the world; -1 if none was sent.
   int receiveRequest() {
     char byte = 0;
-    iovec data{&byte, 1};
     int number = -1;
-    alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof number)> room{};
-    msghdr message{};
-    message.msg_iov = &data;
-    message.msg_iovlen = 1;
-    message.msg_control = room.data();
-    message.msg_controllen = room.size();
-    if (recvmsg(world, &message, MSG_DONTWAIT) != 1 || CMSG_FIRSTHDR(&message) == nullptr) return -1;
-    std::memcpy(&number, CMSG_DATA(CMSG_FIRSTHDR(&message)), sizeof number);
+    if (receiveDescriptors(world, &byte, 1, {&number, 1}, MSG_DONTWAIT) != 1) return -1;
     sockets.push_back(number);
     return number;
   }
