@@ -13,12 +13,8 @@ struct Players {
 
   AdminPlayer& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
     const auto number = static_cast<std::uint32_t>(all.size()) + 1;
-    AdminPlayer player;
-    player.session = 100 + number;
-    player.id = number;
-    player.name = name;
-    player.address = address;
-    return all.emplace_back(player);
+    all.push_back({.session = 100 + number, .id = number, .name = name, .address = address, .room = {}});
+    return all.back();
   }
 };
 

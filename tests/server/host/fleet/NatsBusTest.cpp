@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "NatsServer.h"
@@ -152,9 +151,7 @@ class Listener {
     return count;
   }
   bool waitForResults(std::uint64_t count) const {
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (results() < count && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-    return results() == count;
+    return test::waitUntil([&] { return results() >= count; }) && results() == count;
   }
 
  private:

@@ -197,26 +197,6 @@ TEST_F(DatagramServiceTest, DestroyedChannelNeitherReceivesNorSends) {
   EXPECT_EQ(service.counters().unknown_id, 1u);
 }
 
-TEST_F(DatagramServiceTest, NewStreamRenewsKeysWithoutLoss) {
-  const auto channel = open(1, one);
-  Client ann(*this, *channel, 1, "10.0.0.2");
-  ann.send("old");
-  pass(100ms);
-  const Epoch epoch = channel->epoch();
-  EXPECT_FALSE(channel->renew(stream(2), epoch)) << "not newer";
-  ASSERT_TRUE(channel->renew(stream(2), epoch + 1));
-  EXPECT_EQ(channel->epoch(), epoch + 1);
-  ann.send("old, and late");  // before the client knows the new keys
-  pass(100ms);
-  ann.renew(2, epoch + 1);
-  say(*channel, "new");
-  pass(100ms);
-  ann.send("new");
-  pass(100ms);
-  EXPECT_EQ(one, (Heard{"old", "old, and late", "new"}));
-  EXPECT_EQ(ann.heard, Heard{"new"});
-}
-
 TEST_F(DatagramServiceTest, FollowsAddressChangeWithLimitedBudgetUntilValidated) {
   const auto channel = open(1, one);
   Client ann(*this, *channel, 1, "10.0.0.2");

@@ -14,12 +14,8 @@ class PlayerListBroadcasterTest : public testing::Test {
  protected:
   void play(int players) {
     facts.clear();
-    for (int i = 1; i <= players; ++i) {
-      ListedPlayer player;
-      player.id = static_cast<std::uint32_t>(i);
-      player.name = std::to_string(i);
-      facts.push_back(player);
-    }
+    for (int i = 1; i <= players; ++i)
+      facts.push_back({.id = static_cast<std::uint32_t>(i), .name = std::to_string(i)});
   }
   /// Runs the ticks. Returns the last list that each player got, as names.
   std::map<std::uint32_t, std::vector<std::string>> listsSent(std::uint32_t from, std::uint32_t to) {

@@ -56,12 +56,7 @@ class AuditedPair : public test::LossyScene {
 };
 
 LinkConditions bad() {
-  LinkConditions conditions;
-  conditions.loss = 0.1;
-  conditions.duplicate = 0.05;
-  conditions.delay = 40ms;
-  conditions.jitter = 60ms;
-  return conditions;
+  return {.delay = 40ms, .jitter = 60ms, .loss = 0.1, .duplicate = 0.05};
 }
 
 TEST(ReplicaAudit, BadLineCausesNoWrongCells) {

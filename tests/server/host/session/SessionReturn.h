@@ -84,11 +84,8 @@ class SessionReturn : public testing::Test {
   }
   static void key(Wire& line, std::uint32_t id, int which, df::EventKeyboardAction action) {
     ClientUpdate update;
-    Input input;
-    input.id = id;
-    input.key = static_cast<std::uint8_t>(which);
-    input.action = static_cast<std::uint8_t>(action);
-    update.inputs = {input};
+    update.inputs = {
+        {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)}};
     sendUpdate(line, update);
   }
   void sendChat(const std::string& text) {

@@ -72,11 +72,7 @@ class SessionTest : public testing::Test {
     return updateOf(update);
   }
   static Input keyInput(std::uint32_t id, int which = 0, int action = 0) {
-    Input input;
-    input.id = id;
-    input.key = static_cast<std::uint8_t>(which);
-    input.action = static_cast<std::uint8_t>(action);
-    return input;
+    return {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)};
   }
   static Input mouseInput(std::uint32_t id, int action, int button, int x, int y) {
     Input input = keyInput(id, 0, action);

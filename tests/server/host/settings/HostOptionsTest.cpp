@@ -30,17 +30,6 @@ CommandLine parse(const std::vector<const char*>& arguments, HostOptions& option
   return parseHostOptions(static_cast<int>(all.size()), all.data(), options);
 }
 
-TEST(HostOptions, MisspeltConfigFileOptionIsAnError) {
-  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
-  std::ofstream(path) << "ticks = 3\n";
-  HostOptions options;
-  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
-  EXPECT_EQ(options.ticks, 3);
-  std::ofstream(path) << "ticsk = 3\n";
-  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
-  std::remove(path.c_str());
-}
-
 // A duration's help names the unit of a number without one.
 TEST(HostOptions, EveryDurationIsReadWithAndWithoutUnit) {
   const std::regex row(R"(\| `--([a-z-]+)` \| `\w+` \| ([0-9.]+) \| (.*) \|)");

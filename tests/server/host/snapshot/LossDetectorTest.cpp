@@ -6,11 +6,7 @@ namespace naiad {
 namespace {
 
 InFlightSnapshots::Snapshot snapshotOf(std::uint32_t number, bool large = false, bool probe = false) {
-  InFlightSnapshots::Snapshot snapshot;
-  snapshot.number = number;
-  snapshot.large = large;
-  snapshot.probe = probe;
-  return snapshot;
+  return {.number = number, .large = large, .probe = probe, .objects = {}, .names = {}};
 }
 
 TEST(LossDetector, TheFirstGapMeansALoss) {

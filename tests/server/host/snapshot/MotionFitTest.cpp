@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <vector>
 
 #include "host/snapshot/MotionFit.h"
@@ -135,7 +134,6 @@ TEST(MotionFit, SlowPathsTakeFewBits) {
     const Motion fitted = fitMotion(truth, Offsets(1), 64);
     bits += fractionBits(fitted.position) + fractionBits(fitted.velocity);
   }
-  std::printf("mean bits behind the point, position and velocity of an axis: %.2f\n", bits / kRounds);
   EXPECT_LT(bits / kRounds, 14);
 }
 

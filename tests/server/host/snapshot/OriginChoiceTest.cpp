@@ -6,10 +6,7 @@ namespace naiad {
 namespace {
 
 WorldRecord worldOf(std::int32_t width, std::int32_t height) {
-  WorldRecord world;
-  world.view_width = width;
-  world.view_height = height;
-  return world;
+  return {.boundary = {}, .view_width = width, .view_height = height};
 }
 
 TEST(OriginChoice, AWindowServesAViewThatMovesALittle) {

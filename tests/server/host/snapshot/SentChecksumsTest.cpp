@@ -23,10 +23,7 @@ class SentChecksumsTest : public testing::Test {
     return acks;
   }
   static InFlightSnapshots::Snapshot snapshot(std::uint32_t number, bool empty) {
-    InFlightSnapshots::Snapshot lost;
-    lost.number = number;
-    lost.empty = empty;
-    return lost;
+    return {.number = number, .empty = empty, .objects = {}, .names = {}};
   }
   SentChecksums sums;
 };

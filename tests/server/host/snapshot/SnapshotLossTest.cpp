@@ -93,15 +93,10 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
   for (std::uint64_t seed = 0; seed < 240 / test::kShare; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     SplitMix64 rng(seed);
-    LinkConditions bad;
-    bad.loss = rng.unit() * 0.3;
-    bad.duplicate = rng.unit() * 0.2;
+    LinkConditions bad{.loss = rng.unit() * 0.3, .duplicate = rng.unit() * 0.2};
     bad.delay = std::chrono::microseconds(rng.below(150'000));
     bad.jitter = std::chrono::microseconds(rng.below(120'000));
-    test::WorldConfig config;
-    config.objects = 5 + rng.below(60);
-    config.vanish = 0.02;
-    config.turn = 0.05;
+    const test::WorldConfig config{.objects = 5 + rng.below(60), .turn = 0.05, .vanish = 0.02};
     LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
     for (int i = 0; i < 150 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
     pair.setConditions({});
@@ -128,17 +123,9 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
 TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions bad;
-    bad.loss = 0.3;
-    bad.delay = 60ms;
-    test::WorldConfig config;
-    config.objects = 6;
-    config.width = 300;
-    config.height = 120;
-    config.turn = 0.1;
-    config.block = 0.1;
-    config.vanish = 0.002;
-    LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
+    const test::WorldConfig config{
+        .width = 300, .height = 120, .objects = 6, .turn = 0.1, .block = 0.1, .vanish = 0.002};
+    LossyPair pair(config, {.delay = 60ms, .loss = 0.3}, seed, static_cast<Resend>(seed % 3));
     for (int i = 0; i < 100 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
     pair.setConditions({});
     // The replica is correct as soon as everything has arrived, not only after the next correction.
@@ -155,11 +142,7 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
 TEST(SnapshotLoss, FirstArrivalConfirmsARecordSentEveryTick) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions slow;
-    slow.delay = 50ms;
-    test::WorldConfig config;
-    config.objects = 30;
-    LossyPair pair(config, slow, seed, Resend::kEveryTick);
+    LossyPair pair({.objects = 30}, {.delay = 50ms}, seed, Resend::kEveryTick);
     for (int i = 0; i < 60; ++i) pair.tick();
     for (int i = 0; i < 4; ++i) pair.tick(true);
     std::size_t unconfirmed = 0;
@@ -181,14 +164,11 @@ TEST(SnapshotLoss, FirstArrivalConfirmsARecordSentEveryTick) {
 TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions slow;
-    slow.delay = std::chrono::milliseconds(10 * (seed % 16));
-    slow.jitter = 20ms;
-    slow.reorder = false;
-    slow.duplicate = 0.1;
-    test::WorldConfig config;
-    config.objects = 60;
-    LossyPair pair(config, slow, seed);
+    const LinkConditions slow{.delay = std::chrono::milliseconds(10 * (seed % 16)),
+                              .jitter = 20ms,
+                              .reorder = false,
+                              .duplicate = 0.1};
+    LossyPair pair({.objects = 60}, slow, seed);
     for (int i = 0; i < 150; ++i) pair.tick();
     EXPECT_EQ(pair.sender.resentCount(), 0u);
     pair.setConditions({});
@@ -199,14 +179,12 @@ TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
 }
 
 TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
-  LinkConditions slow;
-  slow.delay = 70ms;
   test::WorldConfig config;
   config.objects = 12000;
   config.width = 40;
   config.height = 20;
   config.turn = config.block = config.restyle = config.vanish = config.hide = config.reshape = 0;
-  LossyPair pair(config, slow, 1);
+  LossyPair pair(config, {.delay = 70ms}, 1);
   for (int i = 0; i < 60 && !testing::Test::HasFatalFailure(); ++i) pair.tick(i > 0);
   EXPECT_GT(pair.snapshots, 2 * SnapshotSender::kMaxInFlight);
   EXPECT_EQ(pair.sender.resentCount(), 0u);
@@ -217,11 +195,9 @@ TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
 }
 
 TEST(SnapshotLoss, ALinkThatWasDeadForSecondsRecovers) {
-  LinkConditions dead;
-  dead.loss = 1;
   LossyPair pair({}, {}, 3);
   for (int i = 0; i < 20; ++i) pair.tick();
-  pair.setConditions(dead);
+  pair.setConditions({.loss = 1});
   for (int i = 0; i < 300; ++i) pair.tick();
   pair.setConditions({});
   for (int i = 0; i < 20; ++i) pair.tick(true);
