@@ -42,7 +42,6 @@ class BanListTest : public testing::Test {
     if (count > 0) saved.get_future().wait();
     return count;
   }
-  /// Changes the file, like another program.
   void execute(const char* p_command) const {
     sqlite3* p_database = nullptr;
     ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);

@@ -395,8 +395,6 @@ TEST_F(AdmissionTest, PasswordsBeyondTheQueueAreCountedAsBusy) {
   EXPECT_EQ(admission().passwordCounters().busy, counters.refused_busy);
 }
 
-// ---- repeated joins ---------------------------------------------------------------------------------------
-
 TEST_F(AdmissionTest, ClassOf64AtOneAddressRejoinsImmediately) {
   options.max_players = 64;
   EXPECT_EQ(joinClass(64), 64);

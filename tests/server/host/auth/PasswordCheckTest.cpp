@@ -22,7 +22,6 @@ using namespace std::chrono_literals;
 using Answer = PasswordCheck::Answer;
 using Time = std::chrono::steady_clock::time_point;
 
-/// A low cost, for fast tests.
 constexpr PasswordHash::Cost kCheap{.memory_kib = 64, .passes = 1};
 
 AddressPrefix prefix(int number) {

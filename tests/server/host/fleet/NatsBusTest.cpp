@@ -142,7 +142,6 @@ class Listener {
     config.SubjectsLen = 1;
     return js_AddStream(nullptr, m_p_stream, &config, nullptr, nullptr) == NATS_OK;
   }
-  /// Returns the number of stored messages.
   std::uint64_t results() const {
     jsStreamInfo* p_info = nullptr;
     if (js_GetStreamInfo(&p_info, m_p_stream, "results", nullptr, nullptr) != NATS_OK) return 0;
@@ -167,7 +166,6 @@ class NatsBusTest : public testing::Test {
     ASSERT_TRUE(server.start()) << server.log();
   }
   static std::unique_ptr<Bus> connect(const std::string& url) { return connectBus({url, "", ""}); }
-  /// Connects a bus that receives the presence of servers.
   std::unique_ptr<Bus> listen() const { return connectBus({server.url(), "", "", {"naiad.presence.*"}}); }
 
   test::NatsServer server;

@@ -19,7 +19,6 @@ TEST(LatestValue, IsTheNewestAndStaysUntilThereIsAnother) {
   value.publish(std::make_unique<const int>(3));  // never taken: freed with `value`
 }
 
-/// Two numbers that must always match.
 struct Pair {
   int number = 0;
   int negative = 0;

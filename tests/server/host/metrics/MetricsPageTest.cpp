@@ -67,7 +67,6 @@ TEST(CounterFamilies, LogSummaryContainsEveryCounter) {
   }
 }
 
-/// Returns a page without zeros.
 std::string fullPage() {
   MetricsSnapshot snapshot;
   snapshot.counters.ticks = 3;

@@ -57,10 +57,8 @@ class DatagramServiceTest : public testing::Test {
       service.flush();
     }
   }
-  /// Returns how many datagrams the server has sent.
   int answers() { return packets[1]; }
 
-  /// The client's end of a channel.
   struct Client {
     Client(DatagramServiceTest& of, const DatagramService::Channel& channel, int nth, const char* address)
         : test(of),

@@ -58,7 +58,6 @@ class InheritedSocketsTest : public WithIdentity {
         },
         kFirst);
   }
-  /// Returns the error message of importSockets().
   std::string complaint() {
     try {
       importSockets();

@@ -125,8 +125,6 @@ TEST_F(LanQueryFilterTest, UnsentAnswerIsNotCountedAsAnswered) {
   EXPECT_EQ(judge.counters().unsent, 1u);
 }
 
-// ---- the networks in which a server is found --------------------------------------------------------------
-
 std::vector<std::string> answered(const std::string& address, LanMode mode, bool with_private = true) {
   std::vector<LanNetwork> all{lanAt(1, "127.0.0.1", 8, false), lanAt(1, "::1", 128, false),
                               lanAt(3, "198.51.100.5", 24, false), lanAt(3, "fe80::3", 64, false)};

@@ -56,7 +56,6 @@ class NetworkThreadTest : public WithIdentity {
     home.poll();
     network->serve(Clock::now() + 1s);
   }
-  /// The client's end of a stream.
   struct Far {
     std::unique_ptr<TcpConnector> connector;
     std::unique_ptr<ReliableChannel> channel;

@@ -43,7 +43,6 @@ class AdminConsoleTest : public testing::Test {
   static AdminCaller player(const std::string& name, std::uint64_t session, Level level = Level::kPlayer) {
     return {level, Frontend::kChat, "player " + name, name, session};
   }
-  /// Executes a command and waits for its answer.
   AdminAnswer give(const std::vector<std::string>& words, const AdminCaller& caller = socket()) {
     std::optional<AdminAnswer> answer;
     context.home.restart();
@@ -66,7 +65,6 @@ class AdminConsoleTest : public testing::Test {
     clients.admission().setWorld(world);
     clients.rooms().open(world);
   }
-  /// Joins a player.
   test::Client& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
     open();
     test::Client& client = lines.emplace_back();
@@ -88,7 +86,6 @@ class AdminConsoleTest : public testing::Test {
   static std::string goodbye(const test::Client& client) {
     return client.sent.empty() ? "" : client.sent.back().goodbye().message();
   }
-  /// Returns the log lines of the admin commands.
   std::vector<std::string> adminLog() const {
     std::vector<std::string> lines_of_admins;
     for (const std::string& line : log) {

@@ -18,13 +18,6 @@ TEST(Histogram, ValueFallsIntoTheSmallestFittingBucket) {
   EXPECT_EQ(histogram.count(3), 2u);  // above the last bound
 }
 
-TEST(Histogram, AddsUp) {
-  Histogram histogram(kBounds);
-  histogram.add(0.25);
-  histogram.add(0.5);
-  EXPECT_DOUBLE_EQ(histogram.sum(), 0.75);
-}
-
 TEST(Histogram, BoundsBeyondTheMaximumAreDropped) {
   std::array<double, Histogram::kMaxBounds + 4> many{};
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i);

@@ -26,7 +26,6 @@
 
 namespace naiad::test {
 
-/// Writes nothing.
 struct NoSink : JournalSink {
   void write(std::string_view /*bytes*/) override {}
   void sync() override {}

@@ -24,7 +24,6 @@ class SoundBroadcasterTest : public testing::Test {
   void sound(const std::string& label, std::uint32_t player = 0) {
     view.sounds.push_back({label, df::SoundPlayed::kPlay, false, false, player});
   }
-  /// Runs one tick with the sounds added before.
   void tick() {
     ++view.tick;
     news.tick(view, receiver(false));

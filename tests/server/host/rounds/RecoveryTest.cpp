@@ -121,7 +121,6 @@ class RecoveryTest : public testing::Test {
     ++count;
     if (with_result) writeResult(count);
   }
-  /// Writes EchoWorld's answer to turn number `turn`.
   void writeResult(std::uint32_t turn) { writeCheck(static_cast<std::uint8_t>(turn % 200 + 1)); }
   void writeCheck(std::uint8_t check) {
     TickResult result;

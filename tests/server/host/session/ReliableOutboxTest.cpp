@@ -67,7 +67,6 @@ struct Reader {
 
 class ReliableOutboxTest : public testing::Test {
  protected:
-  /// Sends all frames that may be sent now; all of them arrive.
   void deliver() {
     while (const std::string* p_frame = outbox.next()) {
       reader.read(*p_frame);

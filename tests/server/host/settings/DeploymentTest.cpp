@@ -27,7 +27,6 @@ class DeploymentTest : public testing::Test {
     setenv("NAIAD_GAMES", folder.path().c_str(), 1);
   }
   ~DeploymentTest() override { unsetenv("NAIAD_GAMES"); }
-  /// Returns valid options.
   HostOptions options() const {
     HostOptions options;
     options.game = "hello";

@@ -112,7 +112,6 @@ class Games {
   const test::TempFolder m_folder;
 };
 
-/// Returns dfserver's error message for these --room options.
 std::string complaintOf(const std::vector<const char*>& rooms) {
   std::vector<const char*> words;
   for (const char* p_room : rooms) words.insert(words.end(), {"--room", p_room});

@@ -36,7 +36,6 @@ class DirectSender {
     for (const SnapshotSender::Packet& packet : packets) read(packet);
     return packets;
   }
-  /// Runs a tick without sending.
   void skip() {
     ++m_view.tick;
     m_view.players[0] = player;

@@ -19,7 +19,6 @@ class KnownObjectsTest : public testing::Test {
     confirm(id);
     return id;
   }
-  /// Sends the object and confirms the arrival of the snapshot.
   void confirm(std::uint32_t id) {
     ++number;
     known.confirmArrival(send(id, number), number);

@@ -55,7 +55,6 @@ class LossyScene {
   Replica replica;
 
  protected:
-  /// Publishes the world's tick.
   virtual void publish() {
     publisher.update(world.view());
     sender.applyTick(publisher, world.view().players[0]);

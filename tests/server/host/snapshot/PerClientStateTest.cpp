@@ -244,7 +244,6 @@ class Steering {
     direct.sender.acknowledge(acks);
     return sent;
   }
-  /// Checks that the client computes the server's control state.
   void expectKnown() {
     const std::uint32_t now = direct.publisher.tick();
     const ControlRecord known = deadReckon(replica.control(), replica.controlTable(), now);

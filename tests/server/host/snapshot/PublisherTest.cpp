@@ -202,25 +202,20 @@ TEST_F(PublisherTest, TurnOfAnUndrawnObjectIsCorrectedToo) {
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
 }
 
-TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
-  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
-  publish();
-  changed(0, cellsAt(10, 10));  // blocked: zero velocity
-  drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
-  for (int i = 0; i < 10; ++i) {  // the object is not reported again while it stands still
+TEST_F(PublisherTest, BlockedOrUnreportedObjectIsPublishedAsStandingStill) {
+  for (const bool is_reported : {true, false}) {
+    publisher = Publisher();
+    drawn(0, cellsAt(10, 10), cellsAt(1, 0));
+    publish();
+    if (is_reported) changed(0, cellsAt(10, 10));  // blocked: zero velocity
     drew(0, cellsAt(10, 10));
-    EXPECT_TRUE(publish().empty());
+    EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+    EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
+    for (int i = 0; i < 10; ++i) {  // the object is not reported again while it stands still
+      drew(0, cellsAt(10, 10));
+      EXPECT_TRUE(publish().empty());
+    }
   }
-}
-
-TEST_F(PublisherTest, UnreportedObjectStandsStillEvenIfItMovedBefore) {
-  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
-  publish();
-  drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
 }
 
 TEST_F(PublisherTest, StandingSolidObjectsAreExactOnceAClientPredicts) {

@@ -17,7 +17,6 @@ TEST(SlotMap, AgreesWithTheStandardMap) {
     std::size_t most = 0;
     for (int i = 0; i < 60'000; ++i) {
       const auto slot = static_cast<std::uint32_t>(rng.below(256)) * spread;
-      // Alternates between growing and shrinking.
       const bool adds = rng.below(100) < ((i / 5000) % 2 == 0 ? 70u : 30u);
       if (adds && plain.count(slot) == 0) {
         map.insert(slot, static_cast<std::uint32_t>(i));

@@ -12,7 +12,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Checks what the client has and draws.
 class LossyPair : public test::LossyScene {
  public:
   LossyPair(const test::WorldConfig& config, const LinkConditions& conditions, std::uint64_t seed,

@@ -47,7 +47,6 @@ void place(df::Object& object, df::Sprite& sprite, int x) {
   object.setPosition(df::Vector(x, 10));
 }
 
-/// A world and a client that gets every packet.
 class Show {
  public:
   Show() {
@@ -63,7 +62,6 @@ class Show {
     return bytes;
   }
 
-  /// Returns the character that the client shows in a cell.
   char32_t shown(int x, int y) const {
     return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
   }
@@ -100,7 +98,6 @@ class Show {
   AckWindow m_acks;
 };
 
-/// Returns the bytes that an empty world sends in `count` ticks.
 std::size_t idle(int count) {
   Show show;
   show.ticks(100);

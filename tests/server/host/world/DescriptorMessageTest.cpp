@@ -45,7 +45,6 @@ class DescriptorMessageTest : public testing::Test {
     for (const int one : files) close(one);
     for (const int one : ends) close(one);
   }
-  /// Returns the first `count` of `files`.
   std::span<const int> first(std::size_t count) const { return std::span(files).first(count); }
   bool send(std::size_t count) { return sendDescriptors(ends[0], &kWord, sizeof kWord, first(count)); }
 

@@ -417,7 +417,6 @@ TEST(WorldMessages, WriterClampsOutOfRangeValues) {
   EXPECT_GT(view.players[0].view_corner.x, 0);
 }
 
-/// Returns a count as a varint.
 std::string countOf(std::uint64_t count) {
   std::string bytes;
   ByteWriter(bytes).varint(count);

@@ -16,7 +16,6 @@
 namespace naiad {
 namespace {
 
-/// Escapes a frame for printf.
 std::string escape(const std::string& frame) {
   std::string escaped;
   for (const char byte : frame) {
@@ -27,7 +26,6 @@ std::string escape(const std::string& frame) {
   return escaped;
 }
 
-/// Returns the frame with which a game reports that it is ready.
 std::string readyFrame() {
   std::string frame;
   writeReady({}, frame);
@@ -212,8 +210,6 @@ TEST_F(WorldProcessTest, OutputFloodIsLimitedAndTheExitReported) {
                 printed, [](const std::string& line) { return line.ends_with("(too many at once)"); }),
             printed.end());
 }
-
-// ---- hanging worlds ---------------------------------------------------------------------------------------
 
 class HangingWorldTest : public WorldProcessTest {
  protected:
