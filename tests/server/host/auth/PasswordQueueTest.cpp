@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/auth/LoginRateLimit.h"
+#include "host/auth/PasswordCheck.h"
 #include "host/auth/PasswordQueue.h"
 
 namespace naiad {
@@ -132,6 +137,143 @@ TEST_F(PasswordQueueTest, NetworkThatGuessedLongestAgoIsForgotten) {
   add("10.1.0.1");
   add("192.0.2.1");
   EXPECT_EQ(takeAll(), (Ids{122, 123})) << "both begin to wait";
+}
+
+using namespace std::chrono_literals;
+// Attackers that occupy the queue, and honest players that retry like clients, with a simulated clock.
+
+using Time = PasswordQueue::Time;
+
+constexpr std::chrono::milliseconds kCompareTime{100};  ///< time to compare a guess
+constexpr std::chrono::milliseconds kConnectTime{300};
+constexpr std::chrono::milliseconds kFirstBackoff{250};  ///< Connection::kFirstBackoff
+constexpr std::chrono::milliseconds kMaxBackoff{2000};
+constexpr std::chrono::seconds kTypingTime{12};  ///< longer than PasswordQueue::kMaxPause
+constexpr int kPlayers = 40;
+
+struct Attack {
+  std::string name;
+  int clients;
+  Time::duration interval;       ///< interval of the guesses of one client
+  std::chrono::minutes warm_up;  ///< time until the players come
+  bool is_one_network = false;   ///< all clients in one IPv6 /48, each with its own /64
+};
+
+class Siege {
+ public:
+  explicit Siege(const Attack& attack) : m_attack(attack) {
+    for (int i = 0; i < attack.clients; ++i) schedule(i, i * attack.interval / attack.clients);
+    for (int i = 0; i < kPlayers; ++i) schedule(attack.clients + i, attack.warm_up + i * 50ms);
+  }
+  /// Runs until 3 minutes after the players came.
+  void run() {
+    while (m_now < Time{} + m_attack.warm_up + 3min) {
+      const auto [at, client] = *m_events.begin();
+      m_events.erase(m_events.begin());
+      m_now = at;
+      client == kWorker ? finishComparison() : guess(client);
+    }
+  }
+  /// Number of players that entered within a minute after their first right guess.
+  int entered() const {
+    return static_cast<int>(
+        std::ranges::count_if(m_players, [](const Player& one) { return one.wait <= 60s; }));
+  }
+
+ private:
+  static constexpr int kWorker = -1;
+
+  struct Player {
+    std::chrono::milliseconds backoff = kFirstBackoff;
+    bool mistypes = false;     ///< the next guess is wrong
+    Time since = Time::max();  ///< the first right guess
+    Time::duration wait = Time::duration::max();
+  };
+  struct Guess {
+    int client;
+    Time at;
+  };
+
+  void schedule(int client, Time::duration delay) { m_events.emplace(m_now + delay, client); }
+  bool isPlayer(int client) const { return client >= m_attack.clients; }
+  AddressPrefix prefixOf(int client) const {
+    const auto number = static_cast<unsigned>(client);
+    if (isPlayer(client) || !m_attack.is_one_network)
+      return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + number * 256));
+    return AddressPrefix(AddressPrefix::Bytes{0x20, 0x01, 0x0d, 0xb8, 0, 0,
+                                              static_cast<std::uint8_t>(number >> 8),
+                                              static_cast<std::uint8_t>(number)});
+  }
+
+  void guess(int client) {
+    const AddressPrefix from = prefixOf(client);
+    if (!isPlayer(client)) schedule(client, m_attack.interval);
+    if (isPlayer(client) && !player(client).mistypes)
+      player(client).since = std::min(player(client).since, m_now);
+    if (m_limit.beginTry(from, m_now) != LoginRateLimit::Answer::kAllowed) return refuse(client);
+    m_guesses[++m_newest] = {client, m_now};
+    const auto dropped = m_queue.add({m_newest, from, false, m_limit.wrong(from, m_now)}, m_now);
+    if (!m_comparing) compareNext();
+    if (!dropped) return;
+    const Guess lost = m_guesses.extract(*dropped).mapped();
+    m_limit.finishTry(prefixOf(lost.client), true, lost.at);
+    refuse(lost.client);
+  }
+  void compareNext() {
+    m_comparing = m_queue.popNext();
+    if (m_comparing) schedule(kWorker, kCompareTime);
+  }
+  void finishComparison() {
+    const Guess done = m_guesses.extract(*m_comparing).mapped();
+    const bool right = isPlayer(done.client) && !player(done.client).mistypes;
+    m_limit.finishTry(prefixOf(done.client), right, done.at);
+    compareNext();
+    if (!isPlayer(done.client)) return;
+    EXPECT_LT(m_now - done.at, 4s) << "the server refuses hellos that wait for longer";
+    Player& one = player(done.client);
+    if (right) {
+      one.wait = m_now - one.since;
+    } else {
+      one.mistypes = false;
+      one.backoff = kFirstBackoff;
+      schedule(done.client, kTypingTime);
+    }
+  }
+  void refuse(int client) {
+    if (!isPlayer(client)) return;
+    Player& one = player(client);
+    schedule(client, one.backoff + kConnectTime);
+    one.backoff = std::min(2 * one.backoff, kMaxBackoff);
+  }
+  Player& player(int client) { return m_players[static_cast<std::size_t>(client - m_attack.clients)]; }
+  static std::vector<Player> players() {
+    std::vector<Player> all(kPlayers);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].mistypes = i % 4 == 0;
+    return all;
+  }
+
+  const Attack m_attack;
+  const PasswordCheck::Limits m_limits;
+  LoginRateLimit m_limit{m_limits.wrong_per_window, m_limits.window, m_limits.prefixes};
+  PasswordQueue m_queue{m_limits.queue - 1, m_limits.prefixes};
+  Time m_now{};
+  std::multimap<Time, int> m_events;  ///< guesses of clients, and the end of a comparison
+  std::map<PasswordQueue::Id, Guess> m_guesses;
+  PasswordQueue::Id m_newest = 0;
+  std::optional<PasswordQueue::Id> m_comparing;
+  std::vector<Player> m_players = players();
+};
+
+TEST(PasswordSiege, RetryingPlayersEnterWithinAMinute) {
+  for (const Attack& attack : {Attack{"networks that knock once a minute", 2000, 60s, 4min},
+                               Attack{"networks that knock every 11 s", 2000, 11s, 4min},
+                               Attack{"networks that knock every 2 minutes", 20'000, 120s, 4min},
+                               Attack{"networks that never pause", 2000, 9s, 20min},
+                               Attack{"one network of 4,000 clients", 4000, 9s, 4min, true}}) {
+    Siege siege(attack);
+    siege.run();
+    EXPECT_EQ(siege.entered(), kPlayers) << attack.name;
+  }
 }
 
 }  // namespace

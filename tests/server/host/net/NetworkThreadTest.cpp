@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <asio/io_context.hpp>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "WithIdentity.h"
 #include "host/auth/ResumeTokens.h"
+#include "host/net/Mailbox.h"
 #include "host/net/NetworkThread.h"
 #include "host/net/RelayedStream.h"
+#include "host/net/TickTimes.h"
 #include "shared/net/datagram/SealedLink.h"
 #include "shared/net/datagram/UdpSocket.h"
 #include "shared/net/stream/TcpConnector.h"
@@ -294,6 +297,86 @@ TEST_F(NetworkThreadTest, FullMailboxDropsAndCountsDatagrams) {
         return network->counters().datagrams_in_dropped >= 35;
       },
       true));
+}
+
+TEST(MailboxTest, KeepsOrderAndBytes) {
+  Mailbox<int> box;
+  Batch<int> in;
+  Batch<int> out;
+  int header = 0;
+  std::string_view bytes;
+  EXPECT_FALSE(out.read(header, bytes));
+  in.add(1, "one");
+  in.add(2);
+  box.push(in);
+  EXPECT_TRUE(in.empty());
+  in.add(3, std::string(1000, 'x'));
+  EXPECT_GT(in.size(), 1000u);
+  box.push(in);
+  EXPECT_GT(box.size(), 1000u);
+  box.popAll(out);
+  EXPECT_EQ(box.size(), 0u);
+  ASSERT_TRUE(out.read(header, bytes));
+  EXPECT_EQ(header, 1);
+  EXPECT_EQ(bytes, "one");
+  ASSERT_TRUE(out.read(header, bytes));
+  EXPECT_EQ(header, 2);
+  EXPECT_EQ(bytes, "");
+  ASSERT_TRUE(out.read(header, bytes));
+  EXPECT_EQ(header, 3);
+  EXPECT_EQ(bytes, std::string(1000, 'x'));
+  EXPECT_FALSE(out.read(header, bytes));
+  EXPECT_TRUE(out.empty());
+}
+
+TEST(MailboxTest, NothingIsLostBetweenTwoThreads) {
+  constexpr int kCount = 200'000;
+  Mailbox<int> box;
+  std::thread writer([&] {
+    Batch<int> batch;
+    for (int i = 0; i < kCount; ++i) {
+      batch.add(i, std::to_string(i));
+      if (i % 7 == 0) box.push(batch);
+    }
+    box.push(batch);
+  });
+  Batch<int> batch;
+  int next = 0;
+  while (next < kCount) {
+    int header = 0;
+    std::string_view bytes;
+    while (batch.read(header, bytes)) {
+      ASSERT_EQ(header, next);
+      ASSERT_EQ(bytes, std::to_string(next));
+      ++next;
+    }
+    box.popAll(batch);
+  }
+  writer.join();
+  EXPECT_EQ(box.size(), 0u);
+}
+
+TEST(TickTimesTest, QuantilesAreRoundedUpByASixteenthAtMost) {
+  TickTimes times;
+  EXPECT_EQ(times.quantile(0.99), 0us);
+  for (int i = 1; i <= 1000; ++i) times.add(std::chrono::microseconds(37 * i));
+  EXPECT_EQ(times.count(), 1000u);
+  for (const double share : {0.1, 0.5, 0.9, 0.99}) {
+    const double exact = 37 * 1000 * share;
+    EXPECT_GE(static_cast<double>(times.quantile(share).count()), exact) << share;
+    EXPECT_LE(static_cast<double>(times.quantile(share).count()), exact * 17 / 16 + 38) << share;
+  }
+  times.reset();
+  EXPECT_EQ(times.count(), 0u);
+}
+
+TEST(TickTimesTest, ExtremeDurationsHaveABucket) {
+  TickTimes times;
+  times.add(-5ns);
+  times.add(0ns);
+  EXPECT_EQ(times.quantile(1), 1us);
+  times.add(48h);
+  EXPECT_GT(times.quantile(1), 1h);
 }
 
 }  // namespace

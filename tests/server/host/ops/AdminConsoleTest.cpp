@@ -217,15 +217,6 @@ TEST_F(AdminConsoleTest, KickTellsThePlayerTheReason) {
   EXPECT_FALSE(give({"kick", "Ann"}).ok);
 }
 
-TEST_F(AdminConsoleTest, AmbiguousNameKicksNoPlayer) {
-  add("Anna");
-  add("Annika");
-  const AdminAnswer answer = give({"kick", "Ann"});
-  EXPECT_FALSE(answer.ok);
-  EXPECT_EQ(answer.candidates.size(), 2u);
-  EXPECT_TRUE(has("Anna") && has("Annika"));
-}
-
 TEST_F(AdminConsoleTest, PlayerBanCoversNameAndAddress) {
   const test::Client& ann = add("Ann", "192.0.2.7:1");
   add("Bob", "192.0.2.8:1");

@@ -378,17 +378,6 @@ TEST(HostOptions, OnlyDfserverHasAControlSocketByDefault) {
   EXPECT_EQ(program.state, "");
 }
 
-TEST(HostOptions, OptionIsSetByNameWithinItsRange) {
-  HostOptions options;
-  setHostOption(options, "max-players", "7");
-  EXPECT_EQ(options.max_players, 7);
-  EXPECT_EQ(hostOptionValue(options, "max-players"), "7");
-  EXPECT_THROW(setHostOption(options, "max-players", "0"), OptionError);
-  EXPECT_THROW(setHostOption(options, "max-players", "many"), OptionError);
-  EXPECT_THROW(setHostOption(options, "banana", "7"), OptionError);
-  EXPECT_EQ(options.max_players, 7);
-}
-
 /// Returns the output of an option that prints a page or the configuration.
 std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
   HostOptions options;

@@ -137,29 +137,6 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
   }
 }
 
-// A confirmed record is not sent again, although newer snapshots that carried it are still in flight.
-TEST(SnapshotLoss, FirstArrivalConfirmsARecordSentEveryTick) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    LossyPair pair({.objects = 30}, {.delay = 50ms}, seed, Resend::kEveryTick);
-    for (int i = 0; i < 60; ++i) pair.tick();
-    for (int i = 0; i < 4; ++i) pair.tick(true);
-    std::size_t unconfirmed = 0;
-    for (int i = 0; i < 40; ++i) {
-      pair.tick(true);
-      pair.sender.known().forEachAlive([&](std::uint32_t, const KnownObjects::Known& known) {
-        unconfirmed += known.unconfirmed != 0 ? 1 : 0;
-      });
-    }
-    EXPECT_LT(unconfirmed, 40u * 3);
-    // Even a quiet world has births and turns, the last of which are still in flight.
-    pair.setConditions({});
-    for (int i = 0; i < 5; ++i) pair.tick(true);
-    pair.expectSame();
-    if (testing::Test::HasFailure()) return;
-  }
-}
-
 TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
