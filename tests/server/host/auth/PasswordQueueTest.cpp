@@ -139,7 +139,6 @@ TEST_F(PasswordQueueTest, NetworkThatGuessedLongestAgoIsForgotten) {
   EXPECT_EQ(takeAll(), (Ids{122, 123})) << "both begin to wait";
 }
 
-using namespace std::chrono_literals;
 // Attackers that occupy the queue, and honest players that retry like clients, with a simulated clock.
 
 using Time = PasswordQueue::Time;

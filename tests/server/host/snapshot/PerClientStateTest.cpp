@@ -188,26 +188,6 @@ TEST(PerClientState, ViewFollowsNewObjectBeforeOldDeathIsConfirmed) {
   scene.expectSameView();
 }
 
-TEST(PerClientState, TextsAreSentWhenTheyChange) {
-  DirectSender direct(0);
-  direct.tick();
-  direct.acknowledge(1);
-  direct.player.texts.push_back({2, 5, 0, df::GREEN, "Score 3"});
-  auto snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).texts, (std::vector<TextRecord>{{2, 5, 0, df::GREEN, "Score 3"}}));
-  EXPECT_FALSE(direct.sender.isSettled()) << "not acknowledged yet";
-  direct.acknowledge(2);
-  EXPECT_TRUE(direct.tick().empty());
-  direct.player.texts.clear();
-  snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).texts.at(0).text, "");
-  direct.acknowledge(3);
-  EXPECT_TRUE(direct.sender.isSettled());
-  EXPECT_TRUE(direct.tick().empty());
-}
-
 /// A player who steers the only object by declared controls, and the client's replica.
 class Steering {
  public:

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
 #include "shared/values/SplitMix64.h"
+#include "tests/support/RunProgram.h"
 
 namespace naiad {
 namespace {
@@ -461,6 +463,23 @@ TEST(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
   ViewWriter writer;
   std::string frame;
   EXPECT_FALSE(writeAnswer({false, {}, true, {}}, &sent, writer, frame));
+}
+
+TEST(BuildId, MatchesTheLibraryFile) {
+  const std::string& id = ownBuildId();
+  ASSERT_GE(id.size(), 2 * kShownBuildId);
+  ASSERT_LE(id.size(), kMaxBuildId);
+  EXPECT_TRUE(std::ranges::all_of(id, [](unsigned char c) { return std::isxdigit(c) != 0; })) << id;
+  const auto [code, notes] =
+      test::runProgram("readelf -n '" NAIAD_BINARY_DIR "/../lib/libdragonfly.so' 2>/dev/null");
+  if (code != 0) GTEST_SKIP() << "there is no readelf";
+  EXPECT_NE(notes.find("Build ID: " + id), std::string::npos) << notes;
+}
+
+TEST(BuildId, IsFoundByTheFilesName) {
+  EXPECT_EQ(buildIdOf("libdragonfly.so"), ownBuildId());
+  EXPECT_NE(buildIdOf("libc.so"), ownBuildId());
+  EXPECT_EQ(buildIdOf("libnothing.so"), "");
 }
 
 }  // namespace
