@@ -243,19 +243,6 @@ TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
   context.run();
 }
 
-TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
-  LoginRateLimit limit(1, 60s, 100);
-  Time now{};
-  for (int i = 0; i < 1000; ++i) {
-    now += 1ms;
-    EXPECT_EQ(limit.beginTry(prefix(i), now), LoginRateLimit::Answer::kAllowed);
-    limit.finishTry(prefix(i), false, now);
-    EXPECT_LE(limit.size(), 100u);
-  }
-  EXPECT_EQ(limit.beginTry(prefix(999), now), LoginRateLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.beginTry(prefix(0), now), LoginRateLimit::Answer::kAllowed);
-}
-
 TEST(LoginRateLimit, AbandonedTriesAreNotCountedAsWrong) {
   LoginRateLimit limit(2, 60s, 100);
   for (int i = 1; i <= 1000; ++i) {

@@ -17,6 +17,7 @@
 
 #include "host/settings/HostOptions.h"
 #include "host/settings/RoomOptions.h"
+#include "host/settings/SshDoor.h"
 #include "shared/options/Options.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
@@ -495,6 +496,15 @@ TEST(HostOptions, SocketsFromTheServiceManagerDecideAddressAndPort) {
   useSockets({3, 4, "127.0.0.1", 4000}, other);
   EXPECT_EQ(other.warnings, std::vector<std::string>{
                                 "using port 4000 of the sockets from the service manager instead of 5000"});
+}
+
+const std::string kSsh = "ssh -o IgnoreUnknown=ObscureKeystrokeTiming -o ObscureKeystrokeTiming=no ";
+
+TEST(SshDoor, ReturnsTheSshCommand) {
+  EXPECT_EQ(SshDoor::parse("play@game.example")->command(), kSsh + "play@game.example");
+  EXPECT_EQ(SshDoor::parse("play@game.example:22")->command(), kSsh + "play@game.example");
+  EXPECT_EQ(SshDoor::parse("play@game.example:2222")->command(), kSsh + "-p 2222 play@game.example");
+  EXPECT_EQ(SshDoor::parse("p_l-1@[::1]:9876")->command(), kSsh + "-p 9876 p_l-1@::1");
 }
 
 }  // namespace
