@@ -13,7 +13,6 @@
 #include "host/world/TurnRecord.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
-#include "shared/values/SplitMix64.h"
 #include "tests/support/RunProgram.h"
 
 namespace naiad {
@@ -372,18 +371,6 @@ TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
     publisher.update(view);
   }
   EXPECT_GT(refused, 100);
-}
-
-TEST(WorldMessages, RandomBytesAreRefusedOrLegal) {
-  SplitMix64 rng(3);
-  for (int i = 0; i < 20'000; ++i) {
-    std::string bytes(rng.next() % 200, '\0');
-    for (char& byte : bytes) byte = static_cast<char>(rng.next() % 3 == 0 ? rng.next() : 0);
-    ViewReader reader;
-    df::WorldView view;
-    if (readAnswer(bytes, reader, view)) Publisher().update(view);
-    if (const auto turn = readTurn(bytes)) messageOf(*turn);
-  }
 }
 
 TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
