@@ -112,23 +112,6 @@ TEST(AgonesPlatform, WatchReportsShutdownAfterReconnectAndInPieces) {
   EXPECT_FALSE(platform.popShutdownRequest()) << "once";
 }
 
-TEST(AgonesPlatform, OversizedAnswerIsRequestedAgain) {
-  FakeSidecar sidecar;
-  std::atomic<int> asked = 0;
-  sidecar.start([&](const std::string& request) {
-    if (request == "GET /gameserver" && asked++ == 0)
-      return std::pair<int, std::string>{200, "{" + std::string(GameServerInfo::kMaxBytes, ' ') + "}"};
-    return well(request);
-  });
-  AgonesPlatform platform(sidecar.port());
-  platform.notifyReady();
-  ASSERT_TRUE(sidecar.waitFor("GET /gameserver", 2));
-  while (!platform.address()) {
-  }
-  EXPECT_EQ(platform.address()->port, 7012);
-  EXPECT_GE(platform.counters().failures, 1u);
-}
-
 TEST(AgonesPlatform, WatchWithOversizedLineIsReconnected) {
   FakeSidecar sidecar;
   sidecar.start(well);
