@@ -20,32 +20,6 @@ TEST(LookCapture, KeepsCharactersColoursAndOffsets) {
   EXPECT_EQ(appearance, (Appearance{{0, 0, U'a', df::RED}, {-384, 256, U'é', df::BLUE}}));
 }
 
-TEST(LookCapture, HalfCellOffsetsStayRightWhereverTheObjectGoes) {
-  SplitMix64 rng(1);
-  const Look look{
-      {captureAppearance(cellsAt(0, 0), std::vector<df::DrawCommand>{{cellsAt(-0.5, 0), U'<', df::RED},
-                                                                     {cellsAt(0.5, 0), U'>', df::RED}})},
-      2};
-  for (int i = 0; i < 2000; ++i) {
-    const df::FixedVector where = cellsAt((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
-    const std::vector<df::DrawCommand> commands = {{where + cellsAt(-0.5, 0), U'<', df::RED},
-                                                   {where + cellsAt(0.5, 0), U'>', df::RED}};
-    ASSERT_TRUE(drawsTheSame(look, 0, where, commands));
-  }
-}
-
-TEST(LookCapture, CapturedCellsAreCorrectForAnyOffset) {
-  SplitMix64 rng(2);
-  for (int i = 0; i < 2000; ++i) {
-    const df::FixedVector where = cellsAt((rng.unit() - 0.5) * 500, (rng.unit() - 0.5) * 500);
-    std::vector<df::DrawCommand> commands;
-    for (int k = 0; k < 5; ++k) {
-      commands.push_back({where + cellsAt((rng.unit() - 0.5) * 9, (rng.unit() - 0.5) * 9), U'x', df::RED});
-    }
-    ASSERT_TRUE(drawsTheSame(Look{{captureCells(where, commands)}, 2}, 0, where, commands));
-  }
-}
-
 TEST(LookCapture, NoticesEveryKindOfDifference) {
   const std::vector<df::DrawCommand> commands = {{cellsAt(1, 1), U'a', df::RED},
                                                  {cellsAt(2, 1), U'b', df::RED}};

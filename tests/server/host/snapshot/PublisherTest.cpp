@@ -277,17 +277,6 @@ TEST_F(PublisherTest, HalfCellSpriteInFlightNeedsFewCorrections) {
   EXPECT_LE(corrections, 2u);
 }
 
-TEST_F(PublisherTest, HiddenObjectLosesItsLookUntilShown) {
-  drawn(0, cellsAt(10, 10));
-  publish();
-  changed(0, cellsAt(10, 10)).shown = false;
-  EXPECT_EQ(groupsOf(publish(), 0), kLook);
-  EXPECT_EQ(publisher.find(0)->state.look.select(0), nullptr);
-  EXPECT_TRUE(publish().empty());
-  drawn(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kLook);
-}
-
 TEST_F(PublisherTest, SolidObjectStoppingAndHidingIsHiddenAtOnce) {
   view().players[0].steering.p_table = std::make_shared<df::ControlTable>();
   drawn(0, cellsAt(10.3, 10), cellsAt(0.2, 0));
