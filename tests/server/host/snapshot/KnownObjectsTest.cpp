@@ -205,17 +205,6 @@ TEST_F(KnownObjectsTest, TheLowestFreeIdIsGiven) {
   EXPECT_EQ(known.idCount(), 6u);
 }
 
-TEST_F(KnownObjectsTest, VisitsTheBornAndTheAlive) {
-  alive(10);
-  const std::uint32_t dying = alive(11);
-  known.addObject(12, 1, 0);
-  known.removeObject(dying, 1);
-  Ids ids;
-  known.forEachAlive([&](std::uint32_t id, const KnownObjects::Known&) { ids.push_back(id); });
-  EXPECT_EQ(ids, (Ids{0, 2}));
-  EXPECT_EQ(known.aliveCount(), 2u);
-}
-
 TEST(SlotMap, AgreesWithTheStandardMap) {
   for (const std::uint32_t spread : {1u, 128u, 4096u}) {  // the hash ignores low bits
     SplitMix64 rng(spread);
