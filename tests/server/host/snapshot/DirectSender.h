@@ -8,7 +8,6 @@
 
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
-#include "shared/values/Vector.h"
 #include "tests/support/CellsAt.h"
 
 namespace naiad::test {
