@@ -1,10 +1,7 @@
 // The rooms of a host without a network, and worlds for them.
 #pragma once
 
-#include <algorithm>
 #include <asio/io_context.hpp>
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
