@@ -88,30 +88,6 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
   return 0xFF;
 }
 
-// Repeated calls return equal motions, and it is so in every tick.
-TEST_F(PublisherTest, SharedMotionEqualsTheModelAtTheTick) {
-  const auto expectShared = [&](std::uint32_t slot) {
-    const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
-    for (int asked = 0; asked < 2; ++asked) {
-      EXPECT_EQ(publisher.sharedMotion(slot).motion, now) << "slot " << slot;
-    }
-    BitWriter one, other;
-    writeMotion(one, publisher.sharedMotion(slot), Origin{});
-    writeMotion(other, now, Origin{});
-    EXPECT_EQ(one.bytes(), other.bytes());
-  };
-  changed(1, cellsAt(10, 10), cellsAt(0.25, 0));
-  changed(2, cellsAt(20, 5));
-  for (int tick = 0; tick < 20; ++tick) {
-    if (tick == 7) changed(2, cellsAt(20, 5), cellsAt(0, 0.5));
-    if (tick == 12) changed(40, cellsAt(1, 1), cellsAt(0.125, 0.5));
-    publish();
-    expectShared(1);
-    expectShared(2);
-    if (tick >= 12) expectShared(40);
-  }
-}
-
 TEST_F(PublisherTest, FlightIsPublishedOnce) {
   for (const df::FixedVector acceleration : {cellsAt(0, 0), cellsAt(0.01, 0.003)}) {
     publisher = Publisher();
