@@ -27,18 +27,9 @@ class BanListTest : public testing::Test {
     return [this] { return now; };
   }
   Ban ofRange(const std::string& text) const {
-    Ban ban;
-    ban.kind = Ban::Kind::kRange;
-    ban.range = AddressRange::parse(text);
-    ban.made = now;
-    return ban;
+    return {.kind = Ban::Kind::kRange, .range = AddressRange::parse(text), .made = now};
   }
-  Ban ofName(const std::string& name) const {
-    Ban ban;
-    ban.name = name;
-    ban.made = now;
-    return ban;
-  }
+  Ban ofName(const std::string& name) const { return {.name = name, .made = now}; }
   /// Adds a ban and waits for the disk. Returns the problem, "" if none.
   static std::string add(BanList& list, const Ban& ban) {
     std::promise<std::string> saved;
@@ -51,7 +42,6 @@ class BanListTest : public testing::Test {
     if (count > 0) saved.get_future().wait();
     return count;
   }
-  /// Changes the file, like another program.
   void execute(const char* p_command) const {
     sqlite3* p_database = nullptr;
     ASSERT_EQ(sqlite3_open(file().c_str(), &p_database), SQLITE_OK);

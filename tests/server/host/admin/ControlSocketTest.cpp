@@ -62,6 +62,15 @@ class ControlSocketTest : public testing::Test {
       if (!waiting.empty()) return;
     }
   }
+  /// Leaves a socket like that of a killed server.
+  void leaveSocket(const std::string& name) const {
+    const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, (folder / name).c_str());
+    ASSERT_EQ(::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(dead);
+  }
   bool exists() const { return fs::exists(fs::symlink_status(options.path)); }
 
   const test::TempFolder folder;
@@ -104,14 +113,7 @@ TEST_F(ControlSocketTest, OnlyAStaleSocketIsReplaced) {
   EXPECT_THROW(open(), ListenError);
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})") << "the first one lives";
   control.reset();
-  {  // a socket left by a killed server
-    const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, options.path.c_str());
-    ASSERT_EQ(::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    ::close(dead);
-  }
+  leaveSocket("control.sock");
   ASSERT_TRUE(exists());
   control = open();
   EXPECT_EQ(Talk(options.path).ask(kPing), R"({"ok":true,"text":"ping"})");
@@ -132,14 +134,7 @@ TEST_F(ControlSocketTest, OnlyStaleServerSocketsAreRemoved) {
   options.path = folder / "control-1.sock";
   const auto control = open();
   std::ofstream(folder / "control-2.sock") << "no socket";
-  for (const char* name : {"control-3.sock", "other.sock"}) {
-    const int dead = ::socket(AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, (folder / name).c_str());
-    ASSERT_EQ(::bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    ::close(dead);
-  }
+  for (const char* name : {"control-3.sock", "other.sock"}) leaveSocket(name);
   removeStaleControls(folder);
   EXPECT_TRUE(exists());
   EXPECT_TRUE(fs::exists(folder / "control-2.sock"));

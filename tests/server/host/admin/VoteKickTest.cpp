@@ -1,10 +1,66 @@
+// Looking up players by name, and votes on them, without a server.
 #include <gtest/gtest.h>
 
-#include "Players.h"
+#include <string>
+#include <vector>
+
 #include "host/admin/VoteKick.h"
+#include "host/ops/AdminConsole.h"
 
 namespace naiad {
 namespace {
+
+struct Players {
+  std::vector<AdminPlayer> all;
+
+  AdminPlayer& add(const std::string& name, const std::string& address = "192.0.2.1:50000") {
+    const auto number = static_cast<std::uint32_t>(all.size()) + 1;
+    all.push_back({.session = 100 + number, .id = number, .name = name, .address = address, .room = {}});
+    return all.back();
+  }
+};
+
+std::uint32_t chosen(const Players& target, const std::string& typed) {
+  const PlayerLookup choice = resolvePlayer(target.all, typed);
+  return choice.player ? choice.player->id : 0;
+}
+
+TEST(PlayerLookup, ExactNameWinsOverPrefix) {
+  Players target;
+  target.add("Anna");
+  target.add("Ann");
+  EXPECT_EQ(chosen(target, "Ann"), 2u);
+  EXPECT_EQ(chosen(target, "ann"), 2u);
+  EXPECT_EQ(chosen(target, "anna"), 1u);
+}
+
+TEST(PlayerLookup, AmbiguousPrefixIsAnErrorListingCandidates) {
+  Players target;
+  target.add("Anna");
+  target.add("Annika");
+  target.add("Bob");
+  const PlayerLookup choice = resolvePlayer(target.all, "an");
+  EXPECT_FALSE(choice.player);
+  EXPECT_FALSE(choice.problem.ok);
+  EXPECT_EQ(choice.problem.candidates, (std::vector<std::string>{"#1 Anna", "#2 Annika"}));
+  EXPECT_EQ(chosen(target, "b"), 3u);
+}
+
+TEST(PlayerLookup, HashNumberMatchesIdsNotNames) {
+  Players target;
+  target.add("#2");
+  target.add("Bob");
+  EXPECT_EQ(chosen(target, "#2"), 2u);
+  EXPECT_EQ(chosen(target, "#1"), 1u);
+  EXPECT_EQ(chosen(target, "#3"), 0u);
+}
+
+TEST(PlayerLookup, UnknownNameMatchesNoPlayer) {
+  Players target;
+  const PlayerLookup choice = resolvePlayer(target.all, "Ann");
+  EXPECT_FALSE(choice.player);
+  EXPECT_EQ(choice.problem.text, "There is no player \"Ann\".");
+}
 
 using Outcome = VoteKick::Outcome;
 
@@ -19,7 +75,7 @@ class VoteKickTest : public testing::Test {
     return votes.vote(target.all, target.all[voter].session, target.all[on].session, now);
   }
 
-  test::Players target;
+  Players target;
   VoteKick votes;
   VoteKick::Time now = VoteKick::Time() + std::chrono::hours(1);
 };

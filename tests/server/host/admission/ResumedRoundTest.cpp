@@ -28,7 +28,6 @@ using namespace std::chrono_literals;
 using test::Client;
 using test::helloOf;
 
-/// Draws a character for each new player.
 struct Pawn : df::Object {
   explicit Pawn(int column = 0) {
     setPosition(df::Vector(column, 5));
@@ -109,7 +108,6 @@ class ResumingServer : public test::HostRooms {
   void play(int ticks) {
     while (ticks-- > 0) tick();
   }
-  /// Returns what the file of the round has.
   std::string records() const {
     std::string all = m_records;
     m_journal->ring().peek(all, 1 << 20);

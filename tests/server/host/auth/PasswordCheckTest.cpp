@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <asio/io_context.hpp>
+#include <chrono>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "host/auth/LoginRateLimit.h"
 #include "host/auth/PasswordCheck.h"
+#include "host/auth/PasswordQueue.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {
@@ -22,7 +26,6 @@ using namespace std::chrono_literals;
 using Answer = PasswordCheck::Answer;
 using Time = std::chrono::steady_clock::time_point;
 
-/// A low cost, for fast tests.
 constexpr PasswordHash::Cost kCheap{.memory_kib = 64, .passes = 1};
 
 AddressPrefix prefix(int number) {
@@ -244,19 +247,6 @@ TEST_F(PasswordCheckTest, CallbacksDieOnTheOwnersThread) {
   context.run();
 }
 
-TEST(LoginRateLimit, ForgetsTheOldestWhenItIsFull) {
-  LoginRateLimit limit(1, 60s, 100);
-  Time now{};
-  for (int i = 0; i < 1000; ++i) {
-    now += 1ms;
-    EXPECT_EQ(limit.beginTry(prefix(i), now), LoginRateLimit::Answer::kAllowed);
-    limit.finishTry(prefix(i), false, now);
-    EXPECT_LE(limit.size(), 100u);
-  }
-  EXPECT_EQ(limit.beginTry(prefix(999), now), LoginRateLimit::Answer::kTooMany);
-  EXPECT_EQ(limit.beginTry(prefix(0), now), LoginRateLimit::Answer::kAllowed);
-}
-
 TEST(LoginRateLimit, AbandonedTriesAreNotCountedAsWrong) {
   LoginRateLimit limit(2, 60s, 100);
   for (int i = 1; i <= 1000; ++i) {
@@ -295,6 +285,263 @@ TEST(LoginRateLimit, WindowBeginsWithTheFirstTry) {
   }
   EXPECT_EQ(limit.beginTry(prefix(1), now - 1ms), LoginRateLimit::Answer::kTooMany);
   EXPECT_EQ(limit.beginTry(prefix(1), now), LoginRateLimit::Answer::kAllowed);
+}
+
+AddressPrefix of(const std::string& text) {
+  return AddressPrefix::of(asio::ip::make_address(text));
+}
+
+class PasswordQueueTest : public testing::Test {
+ protected:
+  /// Adds an entry. Returns the id of the entry that was dropped; 0: none.
+  PasswordQueue::Id add(const std::string& from, bool known = false, int wrong = 0) {
+    return queue.add({++newest, of(from), known, wrong}, now).value_or(0);
+  }
+  std::vector<PasswordQueue::Id> takeAll() {
+    std::vector<PasswordQueue::Id> all;
+    while (const auto next = queue.popNext()) all.push_back(*next);
+    return all;
+  }
+  using Ids = std::vector<PasswordQueue::Id>;
+
+  PasswordQueue queue{4, 100};
+  PasswordQueue::Id newest = 0;
+  PasswordQueue::Time now{};
+};
+
+TEST_F(PasswordQueueTest, EqualEntriesAreServedInArrivalOrder) {
+  for (int i = 1; i <= 4; ++i) EXPECT_EQ(add("198.51." + std::to_string(i) + ".1"), 0u);
+  EXPECT_EQ(add("198.51.5.1"), 5u) << "there is no place";
+  EXPECT_EQ(takeAll(), (Ids{1, 2, 3, 4}));
+  EXPECT_FALSE(queue.popNext());
+  EXPECT_EQ(queue.size(), 0u);
+}
+
+TEST_F(PasswordQueueTest, MostCrowdedAddressLosesItsNewestEntry) {
+  add("198.51.1.1");
+  add("198.51.2.1");
+  add("198.51.2.1");
+  add("198.51.3.1");
+  EXPECT_EQ(add("198.51.4.1"), 3u);
+  EXPECT_EQ(add("198.51.1.1"), 6u) << "its second";
+  EXPECT_EQ(takeAll(), (Ids{1, 2, 4, 5}));
+}
+
+TEST_F(PasswordQueueTest, AddressesOfOneNetworkCountTogether) {
+  for (int i = 1; i <= 4; ++i) add("198.51.100." + std::to_string(i));
+  EXPECT_EQ(add("192.0.2.1"), 4u);
+  EXPECT_EQ(queue.popNext(), 5u) << "it shares with no other one";
+}
+
+TEST_F(PasswordQueueTest, NetworksOfOneCustomerCountTogether) {
+  for (const char* from : {"2001:db8:1:101::1", "2001:db8:1:102::1", "2001:db8:1:200::1", "2001:db8:2::1"}) {
+    add(from);
+  }
+  EXPECT_EQ(add("2001:db8:3::1"), 2u) << "the newest of the /56, in the /48";
+  EXPECT_EQ(add("2001:db8:4::1"), 3u) << "the newest of the /48";
+  EXPECT_EQ(takeAll(), (Ids{1, 4, 5, 6}));
+}
+
+TEST_F(PasswordQueueTest, PrefixesWithPlayersAreServedFirst) {
+  for (int i = 1; i <= 3; ++i) add("198.51." + std::to_string(i) + ".1");
+  add("192.0.2.1", true, 3);
+  EXPECT_EQ(add("192.0.2.1", true), 3u) << "however crowded they are";
+  EXPECT_EQ(takeAll(), (Ids{5, 4, 1, 2}));
+}
+
+TEST_F(PasswordQueueTest, LongestWaitWithoutAPauseIsServedFirst) {
+  for (const auto pause : {2'000ms, 10'000ms, 10'001ms}) {
+    now += 1h;
+    for (int i = 1; i <= 4; ++i) add("198.51." + std::to_string(i) + ".1");
+    add("192.0.2.1");  // is dropped
+    now += pause;
+    queue.popNext();
+    queue.popNext();
+    add("198.51.5.1");
+    const PasswordQueue::Id latest = newest;
+    add("198.51.6.1");
+    EXPECT_EQ(add("192.0.2.99"), latest + (pause <= 10s ? 1 : 2)) << pause.count() << " ms";
+    takeAll();
+  }
+}
+
+TEST_F(PasswordQueueTest, NetworkWaitsAgainAfterItsTurn) {
+  for (const char* from : {"192.0.2.1", "192.0.2.2", "198.51.1.1"}) add(from);
+  now += 5s;
+  EXPECT_EQ(takeAll(), (Ids{3, 1, 2})) << "the crowded network is last";
+  add("198.51.2.1");
+  add("192.0.2.1");
+  EXPECT_EQ(takeAll(), (Ids{4, 5})) << "in order of arrival";
+  for (const char* from : {"192.0.2.1", "192.0.2.2"}) add(from);
+  now += 1s;
+  EXPECT_EQ(queue.popNext(), 6u);
+  add("198.51.3.1");
+  EXPECT_EQ(takeAll(), (Ids{8, 7})) << "a guess waits for the next turn of its network";
+}
+
+TEST_F(PasswordQueueTest, PauseBeginsWhenAGuessIsDropped) {
+  for (int i = 1; i <= 4; ++i) add("198.51." + std::to_string(i) + ".1", i > 1);
+  now += 9s;
+  EXPECT_EQ(add("192.0.2.1", true), 1u) << "it has waited in the queue";
+  takeAll();
+  now += 9s;
+  add("192.0.2.9");
+  add("198.51.1.1");
+  EXPECT_EQ(takeAll(), (Ids{7, 6}));
+}
+
+TEST_F(PasswordQueueTest, WrongGuessesCostWaitingTime) {
+  add("198.51.1.1", false, 2);
+  add("198.51.2.1", false, 1);
+  now += 10s;
+  add("198.51.3.1");
+  add("198.51.4.1", false, 1'000'000);
+  EXPECT_EQ(add("192.0.2.1"), 4u);
+  EXPECT_EQ(takeAll(), (Ids{2, 3, 5, 1}));
+}
+
+TEST_F(PasswordQueueTest, NetworkThatGuessedLongestAgoIsForgotten) {
+  add("192.0.2.1");
+  for (int i = 0; i < 120; ++i) add("10.0." + std::to_string(i) + ".1", true);
+  now += 1s;
+  takeAll();
+  add("10.1.0.1");
+  add("192.0.2.1");
+  EXPECT_EQ(takeAll(), (Ids{122, 123})) << "both begin to wait";
+}
+
+// Attackers that occupy the queue, and honest players that retry like clients, with a simulated clock.
+
+constexpr std::chrono::milliseconds kCompareTime{100};  ///< time to compare a guess
+constexpr std::chrono::milliseconds kConnectTime{300};
+constexpr std::chrono::milliseconds kFirstBackoff{250};  ///< Connection::kFirstBackoff
+constexpr std::chrono::milliseconds kMaxBackoff{2000};
+constexpr std::chrono::seconds kTypingTime{12};  ///< longer than PasswordQueue::kMaxPause
+constexpr int kPlayers = 40;
+
+struct Attack {
+  std::string name;
+  int clients;
+  Time::duration interval;       ///< interval of the guesses of one client
+  std::chrono::minutes warm_up;  ///< time until the players come
+  bool is_one_network = false;   ///< all clients in one IPv6 /48, each with its own /64
+};
+
+class Siege {
+ public:
+  explicit Siege(const Attack& attack) : m_attack(attack) {
+    for (int i = 0; i < attack.clients; ++i) schedule(i, i * attack.interval / attack.clients);
+    for (int i = 0; i < kPlayers; ++i) schedule(attack.clients + i, attack.warm_up + i * 50ms);
+  }
+  /// Runs until 3 minutes after the players came.
+  void run() {
+    while (m_now < Time{} + m_attack.warm_up + 3min) {
+      const auto [at, client] = *m_events.begin();
+      m_events.erase(m_events.begin());
+      m_now = at;
+      client == kWorker ? finishComparison() : guess(client);
+    }
+  }
+  /// Number of players that entered within a minute after their first right guess.
+  int entered() const {
+    return static_cast<int>(
+        std::ranges::count_if(m_players, [](const Player& one) { return one.wait <= 60s; }));
+  }
+
+ private:
+  static constexpr int kWorker = -1;
+
+  struct Player {
+    std::chrono::milliseconds backoff = kFirstBackoff;
+    bool mistypes = false;     ///< the next guess is wrong
+    Time since = Time::max();  ///< the first right guess
+    Time::duration wait = Time::duration::max();
+  };
+  struct Guess {
+    int client;
+    Time at;
+  };
+
+  void schedule(int client, Time::duration delay) { m_events.emplace(m_now + delay, client); }
+  bool isPlayer(int client) const { return client >= m_attack.clients; }
+  AddressPrefix prefixOf(int client) const {
+    const auto number = static_cast<unsigned>(client);
+    if (isPlayer(client) || !m_attack.is_one_network)
+      return AddressPrefix::of(asio::ip::address_v4(0x0A000001u + number * 256));
+    return AddressPrefix(AddressPrefix::Bytes{0x20, 0x01, 0x0d, 0xb8, 0, 0,
+                                              static_cast<std::uint8_t>(number >> 8),
+                                              static_cast<std::uint8_t>(number)});
+  }
+
+  void guess(int client) {
+    const AddressPrefix from = prefixOf(client);
+    if (!isPlayer(client)) schedule(client, m_attack.interval);
+    if (isPlayer(client) && !player(client).mistypes)
+      player(client).since = std::min(player(client).since, m_now);
+    if (m_limit.beginTry(from, m_now) != LoginRateLimit::Answer::kAllowed) return refuse(client);
+    m_guesses[++m_newest] = {client, m_now};
+    const auto dropped = m_queue.add({m_newest, from, false, m_limit.wrong(from, m_now)}, m_now);
+    if (!m_comparing) compareNext();
+    if (!dropped) return;
+    const Guess lost = m_guesses.extract(*dropped).mapped();
+    m_limit.finishTry(prefixOf(lost.client), true, lost.at);
+    refuse(lost.client);
+  }
+  void compareNext() {
+    m_comparing = m_queue.popNext();
+    if (m_comparing) schedule(kWorker, kCompareTime);
+  }
+  void finishComparison() {
+    const Guess done = m_guesses.extract(*m_comparing).mapped();
+    const bool right = isPlayer(done.client) && !player(done.client).mistypes;
+    m_limit.finishTry(prefixOf(done.client), right, done.at);
+    compareNext();
+    if (!isPlayer(done.client)) return;
+    EXPECT_LT(m_now - done.at, 4s) << "the server refuses hellos that wait for longer";
+    Player& one = player(done.client);
+    if (right) {
+      one.wait = m_now - one.since;
+    } else {
+      one.mistypes = false;
+      one.backoff = kFirstBackoff;
+      schedule(done.client, kTypingTime);
+    }
+  }
+  void refuse(int client) {
+    if (!isPlayer(client)) return;
+    Player& one = player(client);
+    schedule(client, one.backoff + kConnectTime);
+    one.backoff = std::min(2 * one.backoff, kMaxBackoff);
+  }
+  Player& player(int client) { return m_players[static_cast<std::size_t>(client - m_attack.clients)]; }
+  static std::vector<Player> players() {
+    std::vector<Player> all(kPlayers);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].mistypes = i % 4 == 0;
+    return all;
+  }
+
+  const Attack m_attack;
+  const PasswordCheck::Limits m_limits;
+  LoginRateLimit m_limit{m_limits.wrong_per_window, m_limits.window, m_limits.prefixes};
+  PasswordQueue m_queue{m_limits.queue - 1, m_limits.prefixes};
+  Time m_now{};
+  std::multimap<Time, int> m_events;  ///< guesses of clients, and the end of a comparison
+  std::map<PasswordQueue::Id, Guess> m_guesses;
+  PasswordQueue::Id m_newest = 0;
+  std::optional<PasswordQueue::Id> m_comparing;
+  std::vector<Player> m_players = players();
+};
+
+TEST(PasswordSiege, RetryingPlayersEnterWithinAMinute) {
+  for (const Attack& attack : {Attack{"networks that knock once a minute", 2000, 60s, 4min},
+                               Attack{"networks that knock every 11 s", 2000, 11s, 4min},
+                               Attack{"networks that knock every 2 minutes", 20'000, 120s, 4min},
+                               Attack{"networks that never pause", 2000, 9s, 20min},
+                               Attack{"one network of 4,000 clients", 4000, 9s, 4min, true}}) {
+    Siege siege(attack);
+    siege.run();
+    EXPECT_EQ(siege.entered(), kPlayers) << attack.name;
+  }
 }
 
 }  // namespace

@@ -58,13 +58,6 @@ TEST_F(ServerIdentityTest, WorldWritableFolderIsRefused) {
   EXPECT_EQ(loadOrMake().warning(), "");
 }
 
-TEST_F(ServerIdentityTest, PipeInsteadOfAFileIsRefusedWithoutWaiting) {
-  fs::create_directories(base);
-  const fs::path pipe = base / "pipe";
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_TRUE(test::has(complaint([&] { ServerIdentity::load(pipe, pipe); }), "is not a regular file"));
-}
-
 TEST_F(ServerIdentityTest, IsMadeOnceAndUsedAgain) {
   const Fingerprint first = loadOrMake().fingerprint();
   const std::string key = contentOf(directory / "key.pem");

@@ -83,7 +83,6 @@ class FakeSidecar {
       }
     }
   }
-  /// Disconnects all watchers.
   void endWatches() {
     const std::lock_guard lock(m_mutex);
     m_watchers.clear();

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "NatsServer.h"
@@ -143,7 +142,6 @@ class Listener {
     config.SubjectsLen = 1;
     return js_AddStream(nullptr, m_p_stream, &config, nullptr, nullptr) == NATS_OK;
   }
-  /// Returns the number of stored messages.
   std::uint64_t results() const {
     jsStreamInfo* p_info = nullptr;
     if (js_GetStreamInfo(&p_info, m_p_stream, "results", nullptr, nullptr) != NATS_OK) return 0;
@@ -152,9 +150,7 @@ class Listener {
     return count;
   }
   bool waitForResults(std::uint64_t count) const {
-    const auto end = std::chrono::steady_clock::now() + 60s;
-    while (results() < count && std::chrono::steady_clock::now() < end) std::this_thread::yield();
-    return results() == count;
+    return test::waitUntil([&] { return results() >= count; }) && results() == count;
   }
 
  private:
@@ -167,13 +163,15 @@ class NatsBusTest : public testing::Test {
  protected:
   void SetUp() override {
     if (!test::NatsServer::isInstalled()) GTEST_SKIP() << "nats-server is not installed";
+    ASSERT_TRUE(server.start()) << server.log();
   }
   static std::unique_ptr<Bus> connect(const std::string& url) { return connectBus({url, "", ""}); }
+  std::unique_ptr<Bus> listen() const { return connectBus({server.url(), "", "", {"naiad.presence.*"}}); }
+
+  test::NatsServer server;
 };
 
 TEST_F(NatsBusTest, PresenceArrives) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
   const Listener listener(server.url());
   ASSERT_TRUE(listener.isConnected());
   const auto bus = connect(server.url());
@@ -185,8 +183,6 @@ TEST_F(NatsBusTest, PresenceArrives) {
 }
 
 TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
   const Listener listener(server.url());
   ASSERT_TRUE(listener.makeResults());
   for (int times = 0; times < 2; ++times) {
@@ -200,8 +196,6 @@ TEST_F(NatsBusTest, DuplicateResultsAreStoredOnce) {
 }
 
 TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
   const auto bus = connect(server.url());
   ASSERT_TRUE(test::waitUntil([&] { return bus->isConnected(); }));
   bus->publish(kept(0));
@@ -227,9 +221,7 @@ TEST_F(NatsBusTest, BusOutageQueuesMessagesUpToALimit) {
 }
 
 TEST_F(NatsBusTest, SubscriptionFiltersMessagesAndSurvivesABusRestart) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
-  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const auto ear = listen();
   const auto mouth = connect(server.url());
   for (const std::string text : {"here", "back"}) {
     ASSERT_TRUE(test::waitUntil([&] { return ear->isConnected() && mouth->isConnected(); }));
@@ -276,9 +268,7 @@ TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
     std::size_t bytes;
     bool is_too_long;
   };
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
-  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const auto ear = listen();
   const Listener members(server.url(), "none");
   floodUntilReceived(members, *ear);
   members.flood("naiad.presence.begin", 1, 1);
@@ -298,9 +288,7 @@ TEST_F(NatsBusTest, FloodCostsOnlyItsSendersMessages) {
 }
 
 TEST_F(NatsBusTest, SilentBusIsDisconnectedBeforeServersExpire) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
-  const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}});
+  const auto ear = listen();
   const Listener members(server.url(), "none");
   floodUntilReceived(members, *ear);
   for (int times = 0; times < 2; ++times) {
@@ -318,8 +306,6 @@ TEST_F(NatsBusTest, SilentBusIsDisconnectedBeforeServersExpire) {
 }
 
 TEST_F(NatsBusTest, LostMessagesAreCounted) {
-  test::NatsServer server;
-  ASSERT_TRUE(server.start()) << server.log();
   const auto ear = connectBus({server.url(), "", "", {"naiad.presence.*"}}, 1);
   const Listener members(server.url(), "none");
   std::uint64_t sent = floodUntilReceived(members, *ear);
@@ -341,19 +327,19 @@ TEST_F(NatsBusTest, LostMessagesAreCounted) {
 }
 
 TEST_F(NatsBusTest, ServerMayPublishOnlyItsOwnPresence) {
-  test::NatsServer server(
+  test::NatsServer guarded(
       "authorization { users = [\n"
       "  {user: a, password: x, permissions: {publish: [\"naiad.presence.a\"]}}\n"
       "  {user: all, password: y}\n"
       "] }");
-  ASSERT_TRUE(server.start()) << server.log();
-  const Listener listener(server.url("all:y"));
+  ASSERT_TRUE(guarded.start()) << guarded.log();
+  const Listener listener(guarded.url("all:y"));
   ASSERT_TRUE(listener.isConnected());
-  const auto bus = connect(server.url("a:x"));
+  const auto bus = connect(guarded.url("a:x"));
   bus->publish({"naiad.presence.b", "a lie"});
   bus->publish({"naiad.presence.a", "here"});
   EXPECT_EQ(listener.next(), "naiad.presence.a here") << "nats-server refused the other";
-  const auto stranger = connect(server.url("a:wrong"));
+  const auto stranger = connect(guarded.url("a:wrong"));
   EXPECT_TRUE(test::waitUntil([&] { return stranger->counters().failures > 0; }));
   const std::string news = stranger->popLogMessage();
   EXPECT_NE(news.find("cannot be reached"), std::string::npos) << news;

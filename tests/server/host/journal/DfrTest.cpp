@@ -41,12 +41,8 @@ struct SmallFile {
   std::size_t done_at = 0;
 
   explicit SmallFile(int chunks = 6) {
-    DfrHeader header;
-    header.uuid = {1, 2, 3};
-    header.seed = 42;
-    header.frame_nanos = 33'333'333;
-    header.start_nanos = 1'700'000'000'000'000'000;
-    bytes = encodeDfrHeader(header);
+    bytes = encodeDfrHeader(
+        {.uuid = {1, 2, 3}, .frame_nanos = 33'333'333, .seed = 42, .start_nanos = 1'700'000'000'000'000'000});
     bytes += encodeDfrMeta({{"game", "hello"}, {"players", "together"}});
     SplitMix64 random(5);
     DfrTurnPacker packer;

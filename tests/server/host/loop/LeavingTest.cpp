@@ -210,51 +210,39 @@ const Way kWays[] = {
      ""},
 };
 
-class Leaving : public testing::TestWithParam<Way> {
- protected:
-  void leave() {
-    EXPECT_EQ(house.restored("hall"), (std::set<std::string>{"Ann", "Eve"}));
-    GetParam().leave(house, eve);
-    house.update();  // the connection may still be open
+class Leaving : public testing::TestWithParam<Way> {};
+
+TEST_P(Leaving, FormerPlayersAreLoggedAndNotRestored) {
+  const Way& way = GetParam();
+  Building house{way.options};
+  house.join("Ann");
+  Client& eve = house.join("Eve");
+  EXPECT_EQ(house.restored("hall"), (std::set<std::string>{"Ann", "Eve"}));
+  way.leave(house, eve);
+  house.update();  // the connection may still be open
+  EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
+
+  std::vector<LogEvent> found;
+  std::ranges::copy_if(house.log, std::back_inserter(found), [&eve](const LogEvent& event) {
+    return event.name == std::string("left") && event.text.starts_with(eve.address + " \"Eve\"");
+  });
+  ASSERT_EQ(found.size(), way.reason.empty() ? 0u : 1u);
+  for (const LogEvent& event : found) {
+    EXPECT_EQ(event.text, eve.address + " \"Eve\" left: " + way.reason);
+    const std::pair<std::string, std::string> reason{"reason", way.reason};
+    EXPECT_EQ(std::count(event.fields.begin(), event.fields.end(), reason), 1);
   }
 
-  Building house{GetParam().options};
-  Client& ann = house.join("Ann");
-  Client& eve = house.join("Eve");
-};
-
-class Recovery : public Leaving {};
-
-TEST_P(Recovery, FormerPlayersAreNotRestored) {
-  leave();
-  EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
   house.clients.rooms().beginTicks();
   house.update();
   EXPECT_EQ(house.restored("hall"), std::set<std::string>{"Ann"});
-  if (GetParam().reason.empty()) {
+  if (way.reason.empty()) {
     EXPECT_EQ(house.restored("attic"), std::set<std::string>{"Eve"});
   }
 }
 
-TEST_P(Leaving, LogLineHasTheReason) {
-  leave();
-  std::vector<LogEvent> found;
-  std::ranges::copy_if(house.log, std::back_inserter(found), [this](const LogEvent& event) {
-    return event.name == std::string("left") && event.text.starts_with(eve.address + " \"Eve\"");
-  });
-  ASSERT_EQ(found.size(), GetParam().reason.empty() ? 0u : 1u);
-  if (found.empty()) return;
-  EXPECT_EQ(found[0].text, eve.address + " \"Eve\" left: " + GetParam().reason);
-  const std::pair<std::string, std::string> reason{"reason", GetParam().reason};
-  EXPECT_EQ(std::count(found[0].fields.begin(), found[0].fields.end(), reason), 1);
-}
-
-std::string nameOf(const testing::TestParamInfo<Way>& way) {
-  return way.param.name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Ways, Recovery, testing::ValuesIn(kWays), nameOf);
-INSTANTIATE_TEST_SUITE_P(Ways, Leaving, testing::ValuesIn(kWays), nameOf);
+INSTANTIATE_TEST_SUITE_P(Ways, Leaving, testing::ValuesIn(kWays),
+                         [](const auto& way) { return way.param.name; });
 
 }  // namespace
 }  // namespace naiad

@@ -3,14 +3,17 @@
 
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
 #include "host/metrics/Exposition.h"
 #include "host/metrics/MetricsPage.h"
+#include "host/ops/HostMetrics.h"
 #include "host/session/CounterTable.h"
 #include "tests/support/net/HttpClient.h"
 
@@ -67,7 +70,6 @@ TEST(CounterFamilies, LogSummaryContainsEveryCounter) {
   }
 }
 
-/// Returns a page without zeros.
 std::string fullPage() {
   MetricsSnapshot snapshot;
   snapshot.counters.ticks = 3;
@@ -143,6 +145,38 @@ TEST(Exposition, NumbersAreWrittenExactly) {
   EXPECT_EQ(
       out.text(),
       "# HELP n Help.\n# TYPE n gauge\nn 0.1\nn{a=\"c\"} 0.000000001\nn{a=\"b\"} 18446744073709551615\n");
+}
+
+TEST(LatestValue, IsTheNewestAndStaysUntilThereIsAnother) {
+  LatestValue<int> value;
+  EXPECT_EQ(value.readLatest(), nullptr);
+  value.publish(std::make_unique<const int>(1));
+  value.publish(std::make_unique<const int>(2));
+  ASSERT_NE(value.readLatest(), nullptr);
+  EXPECT_EQ(*value.readLatest(), 2);
+  EXPECT_EQ(*value.readLatest(), 2);
+  value.publish(std::make_unique<const int>(3));  // never taken: freed with `value`
+}
+
+struct Pair {
+  int number = 0;
+  int negative = 0;
+};
+
+TEST(LatestValue, ConcurrentReaderSeesWholeValuesInOrder) {
+  constexpr int kLast = 20'000;
+  LatestValue<Pair> value;
+  std::thread writer([&value] {
+    for (int i = 1; i <= kLast; ++i) value.publish(std::make_unique<const Pair>(Pair{i, -i}));
+  });
+  for (int newest = 0; newest < kLast;) {
+    const Pair* p_pair = value.readLatest();
+    if (p_pair == nullptr) continue;
+    ASSERT_EQ(p_pair->number, -p_pair->negative);
+    ASSERT_GE(p_pair->number, newest);
+    newest = p_pair->number;
+  }
+  writer.join();
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 #include <asio/ip/udp.hpp>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <string>
 #include <thread>
 
 #include "WithIdentity.h"
 #include "host/net/InheritedSockets.h"
 #include "host/net/ServerPort.h"
+#include "tests/support/WaitUntil.h"
 
 namespace naiad {
 namespace {
@@ -57,7 +59,6 @@ class InheritedSocketsTest : public WithIdentity {
         },
         kFirst);
   }
-  /// Returns the error message of importSockets().
   std::string complaint() {
     try {
       importSockets();
@@ -153,15 +154,11 @@ TEST_F(InheritedSocketsTest, ServerPortListensOnInheritedSockets) {
     tcp::socket stream(context);
     stream.connect({asio::ip::address_v4::loopback(), port});
     stream.write_some(asio::buffer("garbage", 7));
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    const auto is_done = [&] {
-      return opened.datagrams->counters().too_short == 1 && opened.streams->counters().handshakes_failed == 1;
-    };
-    while (!is_done() && std::chrono::steady_clock::now() < end) {
+    EXPECT_TRUE(test::waitUntil([&] {
       context.restart();
-      context.run_one_for(std::chrono::milliseconds(100));
-    }
-    EXPECT_TRUE(is_done()) << address;
+      context.poll();
+      return opened.datagrams->counters().too_short == 1 && opened.streams->counters().handshakes_failed == 1;
+    })) << address;
   }
 }
 
@@ -214,6 +211,79 @@ TEST_F(InheritedSocketsTest, SurviveExecWhileThreadsOpenAndCloseFiles) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_EQ(status, 0) << "attempt " << i;
   }
+}
+
+class ServerPortTest : public WithIdentity {
+ protected:
+  ServerPort open(const std::string& address, std::uint16_t port = 0) {
+    return openServerPort(context, address, port, [](auto) {}, {}, {.context = identity->tls()});
+  }
+  std::error_code failure(const std::string& address, std::uint16_t port) {
+    try {
+      open(address, port);
+    } catch (const ListenError& error) {
+      EXPECT_NE(std::string(error.what()), "");
+      return error.code();
+    }
+    return {};
+  }
+
+  asio::io_context context;
+};
+
+TEST_F(ServerPortTest, StreamsAndDatagramsShareOnePort) {
+  std::set<std::uint16_t> ports;
+  std::vector<ServerPort> opened;
+  for (int i = 0; i < 10; ++i) {
+    opened.push_back(open("127.0.0.1"));
+    ASSERT_TRUE(opened.back().datagrams);
+    EXPECT_EQ(opened.back().datagrams->port(), opened.back().streams->port());
+    ports.insert(opened.back().streams->port());
+  }
+  EXPECT_EQ(ports.size(), 10u);
+}
+
+TEST_F(ServerPortTest, RequestedPortIsUsedOrReportedInUse) {
+  std::uint16_t port = 0;
+  {
+    const ServerPort first = open("127.0.0.1");
+    port = first.streams->port();
+    EXPECT_EQ(failure("127.0.0.1", port), std::errc::address_in_use);
+  }
+  const ServerPort again = open("127.0.0.1", port);
+  EXPECT_EQ(again.streams->port(), port);
+  EXPECT_EQ(again.datagrams->port(), port);
+}
+
+TEST_F(ServerPortTest, PortFreeForStreamsOnlyIsRefused) {
+  using asio::ip::udp;
+  const udp::socket taken(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
+  EXPECT_EQ(failure("127.0.0.1", taken.local_endpoint().port()), std::errc::address_in_use);
+}
+
+TEST_F(ServerPortTest, WithoutEncryptionThereAreNoDatagrams) {
+  const ServerPort plain = openServerPort(context, "127.0.0.1", 0, [](auto) {}, {}, {});
+  EXPECT_NE(plain.streams->port(), 0);
+  EXPECT_EQ(plain.datagrams, nullptr);
+  EXPECT_THROW(openServerPort(context, "0.0.0.0", 0, [](auto) {}, {}, {}), ListenError);
+}
+
+TEST_F(ServerPortTest, WildcardAddressListensOnBothFamilies) {
+  const ServerPort all = open("::");
+  EXPECT_EQ(all.datagrams->port(), all.streams->port());
+  using asio::ip::udp;
+  udp::socket socket(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
+  socket.send_to(asio::buffer("garbage", 7), {asio::ip::address_v4::loopback(), all.datagrams->port()});
+  EXPECT_TRUE(test::waitUntil([&] {
+    context.restart();
+    context.poll();
+    return all.datagrams->counters().too_short == 1;
+  }));
+}
+
+TEST_F(ServerPortTest, InvalidOrForeignAddressIsRefused) {
+  EXPECT_EQ(failure("localhost", 0), std::errc::invalid_argument);
+  EXPECT_TRUE(failure("192.0.2.77", 0)) << "not one of this machine";
 }
 
 }  // namespace

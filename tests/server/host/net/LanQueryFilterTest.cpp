@@ -125,44 +125,35 @@ TEST_F(LanQueryFilterTest, UnsentAnswerIsNotCountedAsAnswered) {
   EXPECT_EQ(judge.counters().unsent, 1u);
 }
 
-// ---- the networks in which a server is found --------------------------------------------------------------
-
-std::vector<std::string> answered(const std::string& address, LanMode mode, bool with_private = true) {
-  std::vector<LanNetwork> all{lanAt(1, "127.0.0.1", 8, false), lanAt(1, "::1", 128, false),
-                              lanAt(3, "198.51.100.5", 24, false), lanAt(3, "fe80::3", 64, false)};
-  if (with_private) {
-    all.push_back(lanAt(2, "192.168.1.5", 24));
-    all.push_back(lanAt(2, "fd00::5", 64));
+TEST(AnsweredNetworks, ModeAndListeningAddressSelectThem) {
+  using Addresses = std::vector<std::string>;
+  struct Row {
+    LanMode mode;
+    std::string address;  ///< address on which the server listens
+    Addresses answered;
+    bool has_private = true;  ///< the machine is in a private network, too
+  };
+  const Row rows[] = {
+      {LanMode::kAuto, "::", {"127.0.0.1", "::1", "192.168.1.5", "fd00::5"}},
+      {LanMode::kAuto, "0.0.0.0", {"127.0.0.1", "192.168.1.5"}},
+      {LanMode::kAuto, "192.168.1.5", {"192.168.1.5"}},
+      {LanMode::kAuto, "198.51.100.5", {}},
+      {LanMode::kAuto, "::", {}, false},
+      {LanMode::kAuto, "127.0.0.1", {}},
+      {LanMode::kAuto, "::1", {}},
+      {LanMode::kOn, "::", {"127.0.0.1", "::1", "198.51.100.5", "fe80::3", "192.168.1.5", "fd00::5"}},
+      {LanMode::kOn, "127.0.0.1", {"127.0.0.1"}},
+      {LanMode::kOn, "198.51.100.5", {"198.51.100.5"}},
+      {LanMode::kOff, "::", {}}};
+  for (const auto& [mode, address, answered, has_private] : rows) {
+    std::vector<LanNetwork> all{lanAt(1, "127.0.0.1", 8, false), lanAt(1, "::1", 128, false),
+                                lanAt(3, "198.51.100.5", 24, false), lanAt(3, "fe80::3", 64, false)};
+    if (has_private) all.insert(all.end(), {lanAt(2, "192.168.1.5", 24), lanAt(2, "fd00::5", 64)});
+    Addresses found;
+    for (const LanNetwork& one : answeredNetworks(all, address, mode))
+      found.push_back(one.address.to_string());
+    EXPECT_EQ(found, answered) << address << ", mode " << static_cast<int>(mode);
   }
-  std::vector<std::string> found;
-  for (const LanNetwork& one : answeredNetworks(all, address, mode)) found.push_back(one.address.to_string());
-  return found;
-}
-
-using Addresses = std::vector<std::string>;
-
-TEST(AnsweredNetworks, AutoModeAnswersOnlyLoopbackAndPrivateNetworks) {
-  EXPECT_EQ(answered("::", LanMode::kAuto), (Addresses{"127.0.0.1", "::1", "192.168.1.5", "fd00::5"}));
-  EXPECT_EQ(answered("0.0.0.0", LanMode::kAuto), (Addresses{"127.0.0.1", "192.168.1.5"}));
-  EXPECT_EQ(answered("192.168.1.5", LanMode::kAuto), Addresses{"192.168.1.5"});
-  EXPECT_EQ(answered("198.51.100.5", LanMode::kAuto), Addresses{});
-}
-
-TEST(AnsweredNetworks, AutoModeIsOffWithoutAReachablePrivateNetwork) {
-  EXPECT_EQ(answered("::", LanMode::kAuto, false), Addresses{});
-  EXPECT_EQ(answered("127.0.0.1", LanMode::kAuto), Addresses{});
-  EXPECT_EQ(answered("::1", LanMode::kAuto), Addresses{});
-}
-
-TEST(AnsweredNetworks, OnModeAnswersWhereverTheServerListens) {
-  EXPECT_EQ(answered("::", LanMode::kOn),
-            (Addresses{"127.0.0.1", "::1", "198.51.100.5", "fe80::3", "192.168.1.5", "fd00::5"}));
-  EXPECT_EQ(answered("127.0.0.1", LanMode::kOn), Addresses{"127.0.0.1"});
-  EXPECT_EQ(answered("198.51.100.5", LanMode::kOn), Addresses{"198.51.100.5"});
-}
-
-TEST(AnsweredNetworks, OffModeAnswersNoNetworks) {
-  EXPECT_EQ(answered("::", LanMode::kOff), Addresses{});
 }
 
 }  // namespace

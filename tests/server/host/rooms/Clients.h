@@ -19,7 +19,6 @@ struct Client : MessageLine<wire::ServerMessage> {
     *message.mutable_hello() = hello;
     receive(message);
   }
-  /// Breaks the stream.
   void drop() const { callbacks.on_closed(CloseReason::kPeer); }
   bool isWelcome() const { return !sent.empty() && sent.front().has_welcome(); }
   const wire::Welcome& welcome() const { return sent.front().welcome(); }

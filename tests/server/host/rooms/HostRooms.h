@@ -1,10 +1,7 @@
 // The rooms of a host without a network, and worlds for them.
 #pragma once
 
-#include <algorithm>
 #include <asio/io_context.hpp>
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -26,7 +23,6 @@
 
 namespace naiad::test {
 
-/// Writes nothing.
 struct NoSink : JournalSink {
   void write(std::string_view /*bytes*/) override {}
   void sync() override {}

@@ -70,8 +70,6 @@ class RoomManagerTest : public testing::Test, protected test::HostRooms {
   std::vector<test::FakeWorld*> ports;
 };
 
-// ---- worlds without players -------------------------------------------------------------------------------
-
 class EmptyWorldTest : public RoomManagerTest {
  protected:
   EmptyWorldTest() : RoomManagerTest("together") {}
@@ -128,8 +126,6 @@ TEST_F(EmptyWorldTest, KeepsRunningForRequestedTicksOrALastRound) {
   rooms.setLastRound(true);
   EXPECT_TRUE(ticks(3602s)) << "the server ends with the round";
 }
-
-// ---- idle players -----------------------------------------------------------------------------------------
 
 class IdleCrowdTest : public RoomManagerTest, public testing::WithParamInterface<const char*> {
  protected:
@@ -200,8 +196,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Part{"together", true, "+-+", "+++", "+--", 2},  // plays again: the minute continues
                     Part{"together", true, "+--", "+++", "---", 3},  // lost without a key
                     Part{"first", false, "+++", "+++", "---", 0}));  // it is another player's turn
-
-// ---- the audit of pictures --------------------------------------------------------------------------------
 
 constexpr std::uint32_t kTicksPerSecond = 2;
 

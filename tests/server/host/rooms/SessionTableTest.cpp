@@ -119,8 +119,6 @@ TEST_F(SessionTableTest, PlayersAreNotReplacedByNewConnections) {
   EXPECT_EQ(counters.connections_rejected, 1u);
 }
 
-// ---- places of idle players -------------------------------------------------------------------------------
-
 AddressPrefix prefixOf(const std::string& address) {
   return AddressPrefix::ofEndpoint(address).value_or(AddressPrefix());
 }

@@ -49,6 +49,14 @@ class RoundTest : public testing::Test {
     EXPECT_TRUE(reader.atEnd());
     return all;
   }
+  template <class Record>
+  std::vector<Record> recordsOf() const {
+    std::vector<Record> found;
+    for (const TurnRecord& record : records()) {
+      if (const auto* p_record = std::get_if<Record>(&record)) found.push_back(*p_record);
+    }
+    return found;
+  }
   static df::InputQueue::Input key(std::uint32_t player) {
     return {.kind = df::InputQueue::kKey,
             .player = player,
@@ -92,9 +100,8 @@ TEST_F(RoundTest, TheWorldGetsTheBytesThatAreStored) {
 TEST_F(RoundTest, EveryThirtiethTickHasAHashOfTheState) {
   for (int i = 0; i < 65; ++i) round->tick(false, false);
   std::vector<std::uint64_t> hashes;
-  for (const TurnRecord& record : records()) {
-    if (const auto* p = std::get_if<TickResult>(&record); p != nullptr && p->state_hash)
-      hashes.push_back(*p->state_hash);
+  for (const TickResult& result : recordsOf<TickResult>()) {
+    if (result.state_hash) hashes.push_back(*result.state_hash);
   }
   EXPECT_EQ(hashes, (std::vector<std::uint64_t>{30, 60}));
 }
@@ -108,10 +115,7 @@ TEST_F(RoundTest, RecordsPicturesOfTheLongestPresentPlayer) {
     EXPECT_EQ(turn.wants_truth, i == Round::kFirstPicture) << i;
     EXPECT_EQ(turn.rendered_player, i == Round::kFirstPicture ? 1u : 0u) << i;
   }
-  std::vector<RecordedPicture> pictures;
-  for (const TurnRecord& record : records()) {
-    if (const auto* p = std::get_if<RecordedPicture>(&record)) pictures.push_back(*p);
-  }
+  const auto pictures = recordsOf<RecordedPicture>();
   ASSERT_EQ(pictures.size(), 1u);
   EXPECT_EQ(pictures[0].player, 1u);
   EXPECT_EQ(pictures[0].canvas.at(0, 0).ch, U'B');

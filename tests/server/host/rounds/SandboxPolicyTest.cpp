@@ -126,20 +126,14 @@ TEST_F(SandboxPolicyTest, GameGetsOnlyAllowedVariablesAndNoPassword) {
 }
 
 TEST(HidePassword, OverwritesThePasswordArgument) {
-  char words[][24] = {"dfserver", "--password", "open-sesame", "--password=open", "--port", "9"};
-  char* arguments[] = {words[0], words[1], words[2], words[3], words[4], words[5], nullptr};
-  hidePassword(6, arguments);
-  EXPECT_STREQ(words[2], "***********");
-  EXPECT_STREQ(words[3], "--password=****");
-  EXPECT_STREQ(words[5], "9");
-}
-
-TEST(HidePassword, OverwritesTheAdminPasswordArgument) {
-  char words[][32] = {"dfserver", "--admin-password", "open-sesame", "--admin-password=open"};
-  char* arguments[] = {words[0], words[1], words[2], words[3], nullptr};
-  hidePassword(4, arguments);
-  EXPECT_STREQ(words[2], "***********");
-  EXPECT_STREQ(words[3], "--admin-password=****");
+  char words[][32] = {"dfserver", "--password",       "open-sesame", "--password=open",
+                      "--port",   "--admin-password", "open-sesame", "--admin-password=open"};
+  char* arguments[] = {words[0], words[1], words[2], words[3], words[4],
+                       words[5], words[6], words[7], nullptr};
+  hidePassword(8, arguments);
+  const char* const hidden[] = {"dfserver", "--password",       "***********", "--password=****",
+                                "--port",   "--admin-password", "***********", "--admin-password=****"};
+  for (std::size_t i = 0; i < std::size(hidden); ++i) EXPECT_STREQ(words[i], hidden[i]);
 }
 
 }  // namespace

@@ -151,7 +151,6 @@ TEST_F(ScoreKeeperTest, ScoresWithoutAFolderStayInMemory) {
   EXPECT_EQ(keeper.popLogMessage(), "");
 }
 
-/// Another program that locks the file.
 class Blocker {
  public:
   explicit Blocker(const fs::path& file) {

@@ -1,19 +1,125 @@
-// A session that resumes on another stream or in another client process, and what is kept in between.
+// Streams of a session: it resumes on another one or in another client process, and may have a second one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "SessionReturn.h"
+#include "host/session/Session.h"
+#include "naiad.pb.h"
+#include "shared/net/base/Limits.h"
 #include "tests/server/host/snapshot/SimulatedWorld.h"
+#include "tests/support/MessageLine.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-using test::SessionReturn;
+/// A session that is welcomed on its first stream, and further sessions for its player.
+class SessionReturn : public testing::Test {
+ protected:
+  using Wire = test::MessageLine<wire::ServerMessage>;
+
+  SessionReturn() : session(make(first)) {
+    session->setGrace(60s);
+    greet(first);
+  }
+
+  std::unique_ptr<Session> make(Wire& line) {
+    auto made = std::make_unique<Session>(std::make_unique<test::FakeChannel>(line), counters, now);
+    made->start({[this](Session& s, const wire::Hello& hello) {
+                   if (!hello.resume_token().empty()) return onReturn(s, hello);
+                   wire::Welcome welcome;
+                   welcome.set_player(7);
+                   welcome.set_name("Ann");
+                   welcome.set_resume_token("secret");
+                   s.welcome(welcome);
+                 },
+                 [this](Session&, const std::string& text) { chat.push_back(text); },
+                 [this](Session&) { ++gone; }, [this] { return now; }});
+    return made;
+  }
+  void onReturn(Session& other, const wire::Hello& hello) {
+    wire::Welcome welcome = session->welcomed();
+    welcome.set_resumed(true);
+    if (hello.second_stream()) {
+      session->attachSecondStream(other);
+    } else if (hello.new_process()) {
+      session->restart(other, welcome, nullptr);
+    } else {
+      session->resumeOn(other, welcome, hello.last_frame());
+    }
+  }
+  static void say(Wire& line, const wire::ClientMessage& message) {
+    line.callbacks.on_frame(message.SerializeAsString());
+  }
+  static void greet(Wire& line, const std::string& token = "", bool new_process = false,
+                    std::uint32_t received = 0, bool second_stream = false) {
+    wire::ClientMessage message;
+    message.mutable_hello()->set_magic(kHelloMagic);
+    message.mutable_hello()->set_second_stream(second_stream);
+    message.mutable_hello()->set_resume_token(token);
+    message.mutable_hello()->set_new_process(new_process);
+    message.mutable_hello()->set_last_frame(received);
+    say(line, message);
+  }
+  static void ping(Wire& line, std::uint32_t received) {
+    wire::ClientMessage message;
+    message.mutable_ping()->set_token(1);
+    message.mutable_ping()->set_last_frame(received);
+    say(line, message);
+  }
+  static void chatLine(Wire& line, const std::string& text, std::uint32_t number) {
+    wire::ClientMessage message;
+    message.mutable_chat()->set_text(text);
+    message.set_number(number);
+    say(line, message);
+  }
+  static void sendUpdate(Wire& line, const ClientUpdate& update) {
+    wire::ClientMessage message;
+    message.set_update(writeUpdate(update));
+    say(line, message);
+  }
+  static void key(Wire& line, std::uint32_t id, int which, df::EventKeyboardAction action) {
+    ClientUpdate update;
+    update.inputs = {
+        {.id = id, .action = static_cast<std::uint8_t>(action), .key = static_cast<std::uint8_t>(which)}};
+    sendUpdate(line, update);
+  }
+  void sendChat(const std::string& text) {
+    wire::ServerMessage message;
+    message.mutable_chat()->set_text(text);
+    session->sendReliable(message);
+  }
+  static std::vector<std::string> chatOf(const Wire& line) {
+    std::vector<std::string> texts;
+    for (const wire::ServerMessage& message : line.sent) {
+      if (message.has_chat()) texts.push_back(message.chat().text());
+    }
+    return texts;
+  }
+  /// Takes the inputs that are due and returns them as "key action", in order.
+  std::vector<std::string> taken() {
+    std::vector<std::string> inputs;
+    session->drainInputs(1, [&](const Input& input) {
+      inputs.push_back(std::to_string(input.key) + (input.action == df::KEY_RELEASED ? " up" : " down"));
+    });
+    return inputs;
+  }
+  void breakStream(Wire& line) { line.callbacks.on_closed(CloseReason::kError); }
+
+  Session::Clock::time_point now{1000s};
+  Counters counters;
+  std::vector<std::string> chat;
+  int gone = 0;
+  Wire first;
+  Wire second;
+  std::deque<Wire> lines;  ///< further streams
+  std::unique_ptr<Session> session;
+};
 
 TEST_F(SessionReturn, UnacknowledgedMessagesAreSentAgainOnTheNextStream) {
   for (const char* text : {"a", "b", "c"}) sendChat(text);
@@ -89,21 +195,6 @@ TEST_F(SessionReturn, OnlyTimeRefillsTheChatAllowance) {
   EXPECT_GE(chat.size(), 5u * 3);
   EXPECT_EQ(counters.chat_dropped + chat.size(), 25u * 40);
   EXPECT_EQ(session->state(), Session::State::kPlaying);
-}
-
-TEST_F(SessionReturn, SilentClientMaySend30ChatLinesAfterResuming) {
-  std::uint32_t number = 0;
-  std::vector<std::unique_ptr<Session>> others;
-  Wire* p_line = &first;
-  for (int round = 0; round < 6; ++round) {
-    now += 20s;
-    breakStream(*p_line);
-    others.push_back(make(lines.emplace_back()));
-    p_line = &lines.back();
-    greet(*p_line, "token");
-    for (int k = 0; k < 100; ++k) chatLine(*p_line, "line", ++number);
-  }
-  EXPECT_EQ(chat.size(), 6u * 30);
 }
 
 /// A client that reads nothing keeps its session, however much others chat.
@@ -185,21 +276,19 @@ TEST_F(SessionReturn, DeferredResumeExtendsTheGracePeriod) {
 TEST_F(SessionReturn, ResumeInAnotherProcessCountsAsAReset) {
   ClientUpdate update;
   update.needs_reset = true;
-  wire::ClientMessage wants;
-  wants.set_update(writeUpdate(update));
   now += 10s;
   const auto other = make(second);
   greet(second, "token", true);
-  say(second, wants);
+  sendUpdate(second, update);
   EXPECT_EQ(counters.resets, 0u);
   EXPECT_EQ(counters.resets_dropped, 1u);
   now += 2s;
-  say(second, wants);
+  sendUpdate(second, update);
   EXPECT_EQ(counters.resets, 1u);
   Wire& third = lines.emplace_back();
   const auto again = make(third);
   greet(third, "token");  // the same process on another stream
-  say(third, wants);
+  sendUpdate(third, update);
   EXPECT_EQ(counters.resets, 1u) << "two seconds, whatever becomes of the stream";
 }
 
@@ -319,6 +408,176 @@ TEST_F(SessionReturn, ResumeOnANewStreamKeepsHeldKeys) {
   EXPECT_EQ(taken().size(), 1u);
   for (int i = 0; i < 50; ++i, now += 100ms) session->checkDeadlines(now);
   EXPECT_TRUE(taken().empty());
+}
+
+class SessionWithTwoStreams : public SessionReturn {
+ protected:
+  SessionWithTwoStreams() : other(make(second)) { greet(second, "token", false, 0, true); }
+  void tick(bool quiet = false) {
+    world.tick(quiet);
+    publisher.update(world.view());
+    session->sendTick(publisher, world.view().players[0]);
+  }
+  /// Sends the world, so that only later changes are pending.
+  void settle() {
+    tick();
+    acknowledge(first);
+    forget();
+  }
+  void forget() {
+    first.sent.clear();
+    second.sent.clear();
+  }
+  void acknowledge(Wire& line) {
+    for (std::uint32_t n = acks.newest + 1; n <= session->sender().newestNumber(); ++n) acks.addReceived(n);
+    ClientUpdate update;
+    update.acks = acks;
+    sendUpdate(line, update);
+  }
+  static std::vector<std::string> snapshots(const Wire& line) {
+    std::vector<std::string> all;
+    for (const wire::ServerMessage& message : line.sent) {
+      if (message.has_snapshot()) all.push_back(message.snapshot());
+    }
+    return all;
+  }
+
+  std::unique_ptr<Session> other;
+  AckWindow acks;
+  test::SimulatedWorld world{{.view_width = 100, .view_height = 40, .objects = 600}, 5};
+  Publisher publisher;
+};
+
+TEST_F(SessionWithTwoStreams, SecondStreamIsWelcomedWithoutANewPlayer) {
+  ASSERT_EQ(second.sent.size(), 1u);
+  EXPECT_TRUE(second.sent[0].welcome().second_stream());
+  EXPECT_EQ(second.sent[0].welcome().resume_token(), "") << "the one that was shown stays good";
+  EXPECT_EQ(other->state(), Session::State::kGone);
+  EXPECT_TRUE(session->hasSecondStream());
+  EXPECT_EQ(counters.second_streams, 1u);
+  EXPECT_EQ(counters.resumed, 0u);
+  EXPECT_EQ(gone, 0);
+  other.reset();
+  EXPECT_FALSE(second.destroyed) << "it belongs to the session now";
+}
+
+TEST_F(SessionWithTwoStreams, SmallSnapshotsUseBothStreamsLargeOnesTheFirst) {
+  tick();
+  ASSERT_EQ(snapshots(first).size(), 1u);
+  ASSERT_GT(snapshots(first)[0].size(), SnapshotDelivery::kMaxOnSecond) << "all of a world";
+  EXPECT_TRUE(snapshots(second).empty());
+  acknowledge(first);
+  forget();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_EQ(snapshots(second), snapshots(first));
+}
+
+TEST_F(SessionWithTwoStreams, SecondStreamDoesNotOvertakeALargeSnapshot) {
+  tick();
+  forget();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  first.unsent = 1;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  first.unsent = 0;
+  acknowledge(first);
+  forget();
+  tick();
+  EXPECT_EQ(snapshots(second).size(), 1u);
+}
+
+TEST_F(SessionWithTwoStreams, BlockedStreamDoesNotBlockTheOther) {
+  settle();
+  first.unsent = 100;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_TRUE(snapshots(first).empty());
+  EXPECT_EQ(snapshots(second).size(), 5u);
+  forget();
+  first.unsent = 0;
+  second.unsent = 100;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(first).size(), 5u);
+  EXPECT_TRUE(snapshots(second).empty());
+  forget();
+  first.unsent = 100;
+  const std::uint64_t skipped = session->skippedTicks();
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_TRUE(snapshots(first).empty() && snapshots(second).empty());
+  EXPECT_EQ(session->skippedTicks() - skipped, 5u);
+}
+
+TEST_F(SessionWithTwoStreams, PendingChatDoesNotBlockTheSecondStream) {
+  settle();
+  sendChat(std::string(200, 'x'));
+  first.unsent = 10'000;
+  for (int i = 0; i < 5; ++i) tick();
+  EXPECT_EQ(snapshots(second).size(), 5u);
+}
+
+TEST_F(SessionWithTwoStreams, DeadFirstStreamDetachesTheSession) {
+  for (int i = 0; i < 200; ++i, now += 100ms) {
+    key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+    session->checkDeadlines(now);
+  }
+  EXPECT_TRUE(session->isDetached());
+  EXPECT_EQ(counters.idle_timeouts, 1u);
+}
+
+TEST_F(SessionWithTwoStreams, DuplicateInputsOfBothStreamsAreTakenOnce) {
+  key(second, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  key(first, 1, df::Keyboard::SPACE, df::KEY_PRESSED);
+  key(first, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  key(second, 2, df::Keyboard::SPACE, df::KEY_RELEASED);
+  const std::string space = std::to_string(static_cast<int>(df::Keyboard::SPACE));
+  EXPECT_EQ(taken(), (std::vector<std::string>{space + " down", space + " up"}));
+  EXPECT_EQ(counters.repeated_inputs, 2u);
+}
+
+TEST_F(SessionWithTwoStreams, ChatOnTheSecondStreamEndsTheSession) {
+  chatLine(second, "hello", 1);
+  EXPECT_TRUE(chat.empty());
+  EXPECT_EQ(counters.malformed_messages, 1u);
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+  EXPECT_TRUE(second.destroyed);
+}
+
+TEST_F(SessionWithTwoStreams, MalformedFrameOnTheSecondStreamEndsTheSession) {
+  second.callbacks.on_frame("\xff\xff");
+  EXPECT_EQ(counters.malformed_messages, 1u);
+  EXPECT_EQ(session->state(), Session::State::kEnding);
+}
+
+TEST_F(SessionWithTwoStreams, LossOfTheSecondStreamKeepsTheSession) {
+  settle();
+  second.callbacks.on_closed(CloseReason::kError);
+  EXPECT_FALSE(session->hasSecondStream());
+  EXPECT_EQ(session->state(), Session::State::kPlaying);
+  EXPECT_EQ(counters.detached, 0u);
+  tick();
+  EXPECT_EQ(snapshots(first).size(), 1u);
+}
+
+TEST_F(SessionWithTwoStreams, TheSecondEndsWithTheFirst) {
+  breakStream(first);
+  EXPECT_TRUE(session->isDetached());
+  EXPECT_FALSE(session->hasSecondStream());
+  EXPECT_TRUE(second.destroyed);
+}
+
+TEST_F(SessionWithTwoStreams, NewSecondStreamReplacesTheOldOne) {
+  Wire& third = lines.emplace_back();
+  const auto newer = make(third);
+  greet(third, "token", false, 0, true);
+  EXPECT_TRUE(second.destroyed);
+  settle();
+  tick();
+  EXPECT_EQ(snapshots(third).size(), 1u);
+  session.reset();
+  EXPECT_TRUE(third.destroyed) << "before the line that it writes to";
 }
 
 }  // namespace

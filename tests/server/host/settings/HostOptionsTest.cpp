@@ -12,10 +12,13 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/settings/HostOptions.h"
+#include "host/settings/MetricsAddress.h"
 #include "host/settings/RoomOptions.h"
+#include "host/settings/SshDoor.h"
 #include "shared/options/Options.h"
 #include "tests/support/TempFolder.h"
 #include "tests/support/Text.h"
@@ -27,17 +30,6 @@ CommandLine parse(const std::vector<const char*>& arguments, HostOptions& option
   std::vector<const char*> all = {"dfserver"};
   all.insert(all.end(), arguments.begin(), arguments.end());
   return parseHostOptions(static_cast<int>(all.size()), all.data(), options);
-}
-
-TEST(HostOptions, MisspeltConfigFileOptionIsAnError) {
-  const std::string path = testing::TempDir() + "naiad_host_options-" + std::to_string(getpid()) + ".ini";
-  std::ofstream(path) << "ticks = 3\n";
-  HostOptions options;
-  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
-  EXPECT_EQ(options.ticks, 3);
-  std::ofstream(path) << "ticsk = 3\n";
-  EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kUsageError);
-  std::remove(path.c_str());
 }
 
 // A duration's help names the unit of a number without one.
@@ -82,18 +74,6 @@ TEST(HostOptions, RereadingThrowsInsteadOfPrinting) {
   }
 }
 
-TEST(HostOptions, InsecureExcludesOptionsThatRequireEncryption) {
-  for (const std::vector<const char*>& used :
-       {std::vector{"--lan", "on"}, {"--proxy-socket", "visitors"}, {"--certificate", "c", "--key", "k"}}) {
-    HostOptions insecure;
-    HostOptions options;
-    std::vector<const char*> words = {"--insecure"};
-    words.insert(words.end(), used.begin(), used.end());
-    EXPECT_EQ(parse(words, insecure), CommandLine::kUsageError) << used.front();
-    EXPECT_EQ(parse(used, options), CommandLine::kRun) << used.front();
-  }
-}
-
 TEST(HostOptions, ReloadAppliesChangeableOptions) {
   HostOptions now;
   HostOptions next;
@@ -134,7 +114,6 @@ class Games {
   const test::TempFolder m_folder;
 };
 
-/// Returns dfserver's error message for these --room options.
 std::string complaintOf(const std::vector<const char*>& rooms) {
   std::vector<const char*> words;
   for (const char* p_room : rooms) words.insert(words.end(), {"--room", p_room});
@@ -195,16 +174,47 @@ TEST(HostOptions, InvalidRoomIsRejectedWithTheNearestMatch) {
   EXPECT_EQ(complaintOf(all), "dfserver: --room: at most 64 rooms are possible, not 65");
 }
 
-TEST(HostOptions, OptionsIncompatibleWithRoomsAreErrors) {
+TEST(HostOptions, ImpossibleValuesAndCombinationsAreErrors) {
   const Games games;
-  HostOptions options;
-  EXPECT_EQ(parse({"--room", "a=hello", "--input-mode", "private"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--room", "a=hello", "--on-game-over", "exit"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--room", "a=hello", "--input-mode", "together", "--on-game-over", "leave", "--truth-file",
-                   "/tmp/t"},
-                  options),
-            CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--truth-file", "", "--journal", "/tmp"}, options), CommandLine::kRun);
+  const std::string most = std::to_string(kMaxServerPlayers);
+  const std::string more = std::to_string(kMaxServerPlayers + 1);
+  const std::pair<bool, std::vector<const char*>> all[] = {
+      {true, {"--input-mode", "first", "--on-game-over", "exit"}},
+      {false, {"--input-mode", "nobody"}},
+      {false, {"--replica-audit", "perhaps"}},
+      {false, {"--headless"}},  // an option of game programs
+      {true, {"--frame-time", "0"}},
+      {true, {"--frame-time", "1000"}},
+      {false, {"--frame-time", "999"}},
+      {true, {"--max-players", most.c_str(), "--max-per-address", most.c_str()}},
+      {false, {"--max-per-address", more.c_str()}},
+      {false, {"--max-per-address", "0"}},
+      {true, {"--lan", "on"}},
+      {false, {"--lan", "on", "--insecure"}},
+      {true, {"--proxy-socket", "visitors"}},
+      {false, {"--proxy-socket", "visitors", "--insecure"}},
+      {true, {"--certificate", "c", "--key", "k"}},
+      {false, {"--certificate", "c", "--key", "k", "--insecure"}},
+      {false, {"--room", "a=hello", "--input-mode", "private"}},
+      {false, {"--room", "a=hello", "--on-game-over", "exit"}},
+      {false, {"--room", "a=hello", "--truth-file", "/tmp/t"}},
+      {true, {"--truth-file", "", "--journal", "/tmp"}},
+      {true, {"--public-host", "game.example:9877", "--ssh-door", "play@game.example:2222"}},
+      {true, {"--web-address", "https://game.example/play", "--qr"}},
+      {false, {"--qr"}},
+      {false, {"--public-host", "a b"}},
+      {false, {"--public-host", "http://x"}},
+      {false, {"--ssh-door", "game.example"}},
+      {false, {"--ssh-door", "a;b@x"}},
+      {false, {"--ssh-door=-oX@y"}},
+      {false, {"--ssh-door", "@x"}},
+      {false, {"--web-address", "ftp://x"}},
+      {false, {"--web-address", "https://x y"}}};
+  for (const auto& [runs, words] : all) {
+    HostOptions options;
+    EXPECT_EQ(parse(words, options), runs ? CommandLine::kRun : CommandLine::kUsageError)
+        << testing::PrintToString(words);
+  }
 }
 
 TEST(HostOptions, UnknownRoomMessageSuggestsTheNearest) {
@@ -212,32 +222,6 @@ TEST(HostOptions, UnknownRoomMessageSuggestsTheNearest) {
             "There is no room \"tronn\"; did you mean \"tron\"?");
   EXPECT_FALSE(test::has(unknownRoomMessage("x\033[2J", {"lobby", "tron"}), "\033"));
   EXPECT_EQ(unknownRoomMessage("", {"lobby", "tron"}), "There is no room \"\". Rooms: lobby, tron.");
-}
-
-TEST(HostOptions, FrameTimeBelow1000MicrosecondsIsAnError) {
-  HostOptions options;
-  EXPECT_EQ(parse({"--frame-time", "999"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--frame-time", "1000"}, options), CommandLine::kRun);
-  EXPECT_EQ(parse({"--frame-time", "0"}, options), CommandLine::kRun);
-}
-
-TEST(HostOptions, PerAddressLimitMayEqualTheServerLimit) {
-  HostOptions options;
-  const std::string most = std::to_string(kMaxServerPlayers);
-  EXPECT_EQ(parse({"--max-players", most.c_str(), "--max-per-address", most.c_str()}, options),
-            CommandLine::kRun);
-  EXPECT_EQ(options.max_per_address, options.max_players);
-  const std::string more = std::to_string(kMaxServerPlayers + 1);
-  EXPECT_EQ(parse({"--max-per-address", more.c_str()}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--max-per-address", "0"}, options), CommandLine::kUsageError);
-}
-
-TEST(HostOptions, UnknownOptionValueIsAnError) {
-  HostOptions options;
-  EXPECT_EQ(parse({"--input-mode", "nobody"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--input-mode", "first", "--on-game-over", "exit"}, options), CommandLine::kRun);
-  EXPECT_EQ(options.players, "first");
-  EXPECT_EQ(options.on_game_over, "exit");
 }
 
 TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
@@ -256,33 +240,6 @@ TEST(HostOptions, PublicMetricsAddressNeedsAnExplicitOption) {
   EXPECT_EQ(parse({"--metrics", "localhost:9100"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--metrics", "127.0.0.1"}, options), CommandLine::kUsageError);
   EXPECT_EQ(parse({"--metrics-hosts", "a b"}, options), CommandLine::kUsageError);
-  EXPECT_EQ(parse({"--replica-audit", "perhaps"}, options), CommandLine::kUsageError);
-}
-
-TEST(HostOptions, AddressesPrintedForPlayersAreValidated) {
-  HostOptions options;
-  EXPECT_EQ(parse({"--public-host", "game.example:9877", "--ssh-door", "play@game.example:2222",
-                   "--web-address", "https://game.example/play", "--qr"},
-                  options),
-            CommandLine::kRun);
-  const std::vector<std::vector<const char*>> all = {{"--public-host", "a b"},
-                                                     {"--public-host", "http://x"},
-                                                     {"--ssh-door", "game.example"},
-                                                     {"--ssh-door", "a;b@x"},
-                                                     {"--ssh-door=-oX@y"},
-                                                     {"--ssh-door", "@x"},
-                                                     {"--web-address", "ftp://x"},
-                                                     {"--web-address", "https://x y"},
-                                                     {"--qr"}};
-  for (const std::vector<const char*>& bad : all) {
-    HostOptions others;
-    EXPECT_EQ(parse(bad, others), CommandLine::kUsageError) << bad.front();
-  }
-}
-
-TEST(HostOptions, DfserverRejectsGameProgramOptions) {
-  HostOptions options;
-  EXPECT_EQ(parse({"--headless"}, options), CommandLine::kUsageError);
 }
 
 TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
@@ -423,17 +380,6 @@ TEST(HostOptions, OnlyDfserverHasAControlSocketByDefault) {
   EXPECT_EQ(program.state, "");
 }
 
-TEST(HostOptions, OptionIsSetByNameWithinItsRange) {
-  HostOptions options;
-  setHostOption(options, "max-players", "7");
-  EXPECT_EQ(options.max_players, 7);
-  EXPECT_EQ(hostOptionValue(options, "max-players"), "7");
-  EXPECT_THROW(setHostOption(options, "max-players", "0"), OptionError);
-  EXPECT_THROW(setHostOption(options, "max-players", "many"), OptionError);
-  EXPECT_THROW(setHostOption(options, "banana", "7"), OptionError);
-  EXPECT_EQ(options.max_players, 7);
-}
-
 /// Returns the output of an option that prints a page or the configuration.
 std::string printed(const std::vector<const char*>& arguments, CommandLine wanted = CommandLine::kDone) {
   HostOptions options;
@@ -551,6 +497,74 @@ TEST(HostOptions, SocketsFromTheServiceManagerDecideAddressAndPort) {
   useSockets({3, 4, "127.0.0.1", 4000}, other);
   EXPECT_EQ(other.warnings, std::vector<std::string>{
                                 "using port 4000 of the sockets from the service manager instead of 5000"});
+}
+
+const std::string kSsh = "ssh -o IgnoreUnknown=ObscureKeystrokeTiming -o ObscureKeystrokeTiming=no ";
+
+TEST(SshDoor, ReturnsTheSshCommand) {
+  EXPECT_EQ(SshDoor::parse("play@game.example")->command(), kSsh + "play@game.example");
+  EXPECT_EQ(SshDoor::parse("play@game.example:22")->command(), kSsh + "play@game.example");
+  EXPECT_EQ(SshDoor::parse("play@game.example:2222")->command(), kSsh + "-p 2222 play@game.example");
+  EXPECT_EQ(SshDoor::parse("p_l-1@[::1]:9876")->command(), kSsh + "-p 9876 p_l-1@::1");
+}
+
+TEST(MetricsAddress, IsANumericAddressAndAPort) {
+  const auto four = MetricsAddress::parse("127.0.0.1:9100");
+  ASSERT_TRUE(four);
+  EXPECT_EQ(four->address, "127.0.0.1");
+  EXPECT_EQ(four->port, 9100);
+  EXPECT_EQ(four->hostText(), "127.0.0.1");
+  const auto six = MetricsAddress::parse("[::1]:0");
+  ASSERT_TRUE(six);
+  EXPECT_EQ(six->address, "::1");
+  EXPECT_EQ(six->port, 0);
+  EXPECT_EQ(six->hostText(), "[::1]");
+}
+
+TEST(MetricsAddress, RejectsInvalidAddresses) {
+  for (const char* text :
+       {"", "9100", ":9100", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:1x",
+        "::1:9100", "[::1]", "[127.0.0.1]:1", "localhost:9100", "[]:1", "127.0.0.1:9100 ", "[::1]9100"}) {
+    EXPECT_FALSE(MetricsAddress::parse(text)) << text;
+  }
+}
+
+TEST(MetricsAddress, TellsPrivateAddressesFromPublicOnes) {
+  for (const char* text :
+       {"127.0.0.1:1", "127.255.0.9:1", "10.1.2.3:1", "172.16.0.1:1", "172.31.255.255:1", "192.168.7.7:1",
+        "169.254.0.1:1", "[::1]:1", "[fd00::1]:1", "[fe80::1]:1", "[::ffff:10.0.0.1]:1"}) {
+    const auto address = MetricsAddress::parse(text);
+    ASSERT_TRUE(address) << text;
+    EXPECT_TRUE(address->is_private) << text;
+  }
+  for (const char* text :
+       {"0.0.0.0:1", "[::]:1", "8.8.8.8:1", "172.15.255.255:1", "172.32.0.1:1", "192.169.0.1:1", "11.0.0.1:1",
+        "128.0.0.1:1", "[2001:db8::1]:1", "[fec0::1]:1", "[::ffff:8.8.8.8]:1"}) {
+    const auto address = MetricsAddress::parse(text);
+    ASSERT_TRUE(address) << text;
+    EXPECT_FALSE(address->is_private) << text;
+  }
+}
+
+TEST(MetricsHosts, AllowLocalhostNumericAddressesAndConfiguredNames) {
+  const auto hosts = MetricsHosts::parse("game.internal,Node-7");
+  ASSERT_TRUE(hosts);
+  for (const char* host : {"localhost", "LOCALHOST:9100", "127.0.0.1", "127.0.0.1:1", "[::1]", "[::1]:9100",
+                           "10.0.0.9:9100", "game.internal", "Game.Internal:80", "node-7"}) {
+    EXPECT_TRUE(hosts->allows(host)) << host;
+  }
+  for (const char* host :
+       {"", ":", "evil.example", "evil.example:9100", "localhost.evil.example", "localhost:x",
+        "localhost:99999", "game", "127.0.0.1.evil.example", "user@localhost", "localhost "}) {
+    EXPECT_FALSE(hosts->allows(host)) << host;
+  }
+}
+
+TEST(MetricsHosts, RejectInvalidNames) {
+  EXPECT_TRUE(MetricsHosts::parse(""));
+  for (const char* names : {",", "a,,b", "a b", "a:80", "http://a", "-a", "a,-b"}) {
+    EXPECT_FALSE(MetricsHosts::parse(names)) << names;
+  }
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "host/snapshot/SnapshotSender.h"
 #include "shared/replica/Replica.h"
-#include "shared/values/Vector.h"
 #include "tests/support/CellsAt.h"
 
 namespace naiad::test {
@@ -36,7 +35,6 @@ class DirectSender {
     for (const SnapshotSender::Packet& packet : packets) read(packet);
     return packets;
   }
-  /// Runs a tick without sending.
   void skip() {
     ++m_view.tick;
     m_view.players[0] = player;

@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "SimulatedWorld.h"
+#include "host/snapshot/ChangeIndex.h"
 #include "host/snapshot/Interest.h"
+#include "host/snapshot/InterestGrid.h"
+#include "shared/values/SplitMix64.h"
 #include "tests/support/Sanitizers.h"
 
 namespace naiad {
@@ -100,6 +105,146 @@ TEST(Interest, EqualsThePlainRuleWhereNothingEverTurns) {
     if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GT(compared, 10'000u);
+}
+
+std::multiset<std::uint32_t> slotsNear(const InterestGrid& grid, const CellRect& rect) {
+  std::multiset<std::uint32_t> slots;
+  grid.forEachNear(rect, CellRect{}, [&](std::uint32_t slot) { slots.insert(slot); });
+  return slots;
+}
+
+TEST(InterestGrid, RectanglesAreHalfOpen) {
+  const CellRect rect{-2, 3, 5, 4};
+  EXPECT_TRUE(rect.contains({-2, 3}));
+  EXPECT_TRUE(rect.contains({4, 3}));
+  EXPECT_FALSE(rect.contains({5, 3}));
+  EXPECT_FALSE(rect.contains({-3, 3}));
+  EXPECT_FALSE(rect.contains({0, 4}));
+  EXPECT_FALSE(rect.contains({0, 2}));
+  EXPECT_TRUE(rect.grownBy(1).contains({5, 4}));
+  EXPECT_FALSE(rect.grownBy(1).contains({6, 4}));
+}
+
+TEST(InterestGrid, CompactRectanglesIntersectLikeFullOnes) {
+  const CompactRect rect(CellRect{-2, 3, 5, 4});
+  EXPECT_TRUE(rect.meets(CompactRect(CellRect{4, 3, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{5, 3, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{-9, 3, -2, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{4, 4, 9, 9})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{4, -9, 9, 3})));
+  constexpr std::int64_t kFar = std::int64_t{1} << 40;
+  EXPECT_TRUE(rect.meets(CompactRect(CellRect{-kFar, -kFar, kFar, kFar})));
+  EXPECT_FALSE(rect.meets(CompactRect(CellRect{kFar, -kFar, 2 * kFar, kFar})));
+}
+
+TEST(InterestGrid, FindsEachObjectOfARectangleOnce) {
+  SplitMix64 rng(1);
+  for (const std::int64_t world : {200, 20'000, 2'000'000'000}) {
+    InterestGrid grid;
+    std::map<std::uint32_t, CellPosition> plain;
+    const auto coordinate = [&] {
+      return static_cast<std::int32_t>(
+          static_cast<std::int64_t>(rng.below(2 * static_cast<std::uint64_t>(world))) - world);
+    };
+    std::size_t found = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const auto slot = static_cast<std::uint32_t>(rng.below(500));
+      if (rng.below(4) == 0) {
+        grid.remove(slot);
+        plain.erase(slot);
+      } else {
+        CellPosition& cell = plain[slot];
+        cell = rng.below(2) == 0 ? CellPosition{cell.x + 1, cell.y - 1}
+                                 : CellPosition{coordinate(), coordinate()};
+        grid.put(slot, cell);
+      }
+      if (i % 20 != 0) continue;
+      const std::int64_t x = coordinate();
+      const std::int64_t y = coordinate();
+      const auto extent =
+          static_cast<std::int64_t>(rng.below(i % 40 == 0 ? 100 : static_cast<std::uint64_t>(world)));
+      const CellRect rect{x, y, x + extent, y + extent / 2};
+      const auto slots = slotsNear(grid, rect);
+      for (const auto& [s, cell] : plain) {
+        ASSERT_LE(slots.count(s), 1u);
+        if (!rect.contains(cell)) continue;
+        ASSERT_EQ(slots.count(s), 1u) << "slot " << s << ", step " << i;
+        ++found;
+      }
+      for (const std::uint32_t s : slots) ASSERT_EQ(plain.count(s), 1u) << "removed";
+    }
+    EXPECT_GT(found, 100u);
+  }
+}
+
+TEST(InterestGrid, SearchesFewBlocksOnly) {
+  InterestGrid grid;
+  std::uint32_t slot = 0;
+  for (std::int32_t x = -1000; x < 1000; x += 32) {
+    for (std::int32_t y = -1000; y < 1000; y += 16) grid.put(slot++, {x, y});
+  }
+  EXPECT_LE(slotsNear(grid, {0, 0, 80, 24}).size(), 5u * 4u);
+  EXPECT_EQ(slotsNear(grid, {-5000, -5000, 5000, 5000}).size(), slot);
+}
+
+CompactRect randomRect(SplitMix64& rng) {
+  const auto left = static_cast<std::int64_t>(rng.below(60)) - 30;
+  const auto top = static_cast<std::int64_t>(rng.below(60)) - 30;
+  return CompactRect({left, top, left + 1 + static_cast<std::int64_t>(rng.below(9)),
+                      top + 1 + static_cast<std::int64_t>(rng.below(9))});
+}
+
+std::vector<std::size_t> marked(const ChangeIndex::Marks& marks) {
+  std::vector<std::size_t> all;
+  ChangeIndex::forEachMarked(marks, [&all](std::size_t i) { all.push_back(i); });
+  return all;
+}
+
+TEST(ChangeIndex, MarksTheSameChangesAsAFullScan) {
+  SplitMix64 rng(1);
+  ChangeIndex index;
+  ChangeIndex::Marks marks;
+  for (std::size_t count = 0; count < 200; ++count) {
+    index.clear();
+    std::set<std::uint32_t> slots;
+    while (slots.size() < count) slots.insert(static_cast<std::uint32_t>(rng.below(SlotBits::kBits)));
+    const std::vector<std::uint32_t> changed(slots.begin(), slots.end());
+    std::vector<CompactRect> sweeps;
+    for (const std::uint32_t slot : changed) {
+      sweeps.push_back(rng.below(8) == 0 ? CompactRect::nowhere() : randomRect(rng));
+      index.add(slot, sweeps.back());
+    }
+    SlotBits known;
+    for (int i = 0; i < 300; ++i) known.set(static_cast<std::uint32_t>(rng.below(SlotBits::kBits)));
+    const CompactRect view = randomRect(rng);
+
+    std::vector<std::size_t> meeting;
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (sweeps[i].meets(view)) meeting.push_back(i);
+      if (sweeps[i].meets(view) || known.has(changed[i])) all.push_back(i);
+    }
+    index.markMeeting(view, marks);
+    EXPECT_EQ(marked(marks), meeting);
+    index.markShared(known, marks);
+    EXPECT_EQ(marked(marks), all);
+  }
+}
+
+TEST(ChangeIndex, NowhereRectangleMeetsNothing) {
+  EXPECT_FALSE(CompactRect::nowhere().meets(CompactRect::everywhere()));
+  EXPECT_FALSE(CompactRect::nowhere().meets(CompactRect({-5, -5, 5, 5})));
+  EXPECT_TRUE(CompactRect({-5, -5, 5, 5}).meets(CompactRect::everywhere()));
+}
+
+TEST(SlotBits, StoreSlotsModuloTheBitCount) {
+  SlotBits bits;
+  bits.set(70);
+  EXPECT_TRUE(bits.has(70));
+  EXPECT_TRUE(bits.has(70 + SlotBits::kBits));
+  EXPECT_FALSE(bits.has(71));
+  bits.clear(70);
+  EXPECT_FALSE(bits.has(70));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "host/snapshot/KnownObjects.h"
-#include "shared/replica/Checksum.h"
+#include "host/snapshot/SlotMap.h"
+#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {
@@ -19,7 +22,6 @@ class KnownObjectsTest : public testing::Test {
     confirm(id);
     return id;
   }
-  /// Sends the object and confirms the arrival of the snapshot.
   void confirm(std::uint32_t id) {
     ++number;
     known.confirmArrival(send(id, number), number);
@@ -76,16 +78,6 @@ TEST_F(KnownObjectsTest, PendingGroupsAddUp) {
   EXPECT_EQ(known.at(id).pending_since, 5u) << "since the first of them";
 }
 
-TEST_F(KnownObjectsTest, LostGroupsArePendingAgain) {
-  const std::uint32_t id = alive(3);
-  known.addPending(id, kMotion | kLook, 5);
-  const Sent sent = send(id, 10);
-  EXPECT_EQ(known.at(id).unconfirmed, kMotion | kLook);
-  EXPECT_TRUE(known.requeueLost(sent, 10, 20));
-  EXPECT_EQ(known.groupsToSend(id), kMotion | kLook);
-  EXPECT_EQ(known.at(id).pending_since, 20u);
-}
-
 TEST_F(KnownObjectsTest, OlderLossDoesNotRequeueResentGroups) {
   const std::uint32_t id = alive(3);
   known.addPending(id, kMotion | kLook, 5);
@@ -94,6 +86,7 @@ TEST_F(KnownObjectsTest, OlderLossDoesNotRequeueResentGroups) {
   const Sent second = send(id, 11);
   EXPECT_TRUE(known.requeueLost(first, 10, 20));
   EXPECT_EQ(known.groupsToSend(id), kLook) << "the motion is in the later one";
+  EXPECT_EQ(known.at(id).pending_since, 20u);
   send(id, 12);
   EXPECT_FALSE(known.requeueLost(first, 10, 21));
   EXPECT_TRUE(known.requeueLost(second, 11, 22));
@@ -183,21 +176,6 @@ TEST_F(KnownObjectsTest, ADeathIsPendingUntilItArrived) {
   EXPECT_FALSE(known.requeueLost(death, 10, 30)) << "it is over";
 }
 
-TEST_F(KnownObjectsTest, EarlierReportsDoNotAffectADyingObject) {
-  const std::uint32_t id = alive(3);
-  known.addPending(id, kMotion, 4);
-  const Sent moved = send(id, 9);
-  known.removeObject(id, 5);
-  const Sent death = send(id, 10);
-  EXPECT_FALSE(known.requeueLost(moved, 9, 6));
-  known.confirmArrival(moved, 9);
-  EXPECT_EQ(known.at(id).life, Life::kDying);
-  known.requeueUnconfirmed(7);
-  EXPECT_EQ(known.groupsToSend(id), kDeath);
-  known.confirmArrival(death, 10);
-  EXPECT_EQ(known.at(id).life, Life::kFree);
-}
-
 TEST_F(KnownObjectsTest, IdIsReusedOnlyAfterItsDeathArrived) {
   const std::uint32_t first = alive(3);
   known.removeObject(first, 5);
@@ -214,23 +192,6 @@ TEST_F(KnownObjectsTest, IdIsReusedOnlyAfterItsDeathArrived) {
   EXPECT_EQ(KnownObjects::generationOf(known.at(first)), (birth + 1) % 3 + 1) << "never 0";
 }
 
-TEST_F(KnownObjectsTest, OldReportsDoNotAffectAReusedId) {
-  const std::uint32_t id = alive(3);
-  known.addPending(id, kMotion, 4);
-  const Sent moved = send(id, 9);
-  known.removeObject(id, 5);
-  const Sent death = send(id, 10);
-  known.confirmArrival(death, 10);
-  known.addObject(4, 1, 6);
-  ASSERT_EQ(known.find(4), id);
-  send(id, 11);
-  known.confirmArrival(moved, 9);
-  known.confirmArrival(death, 10);
-  EXPECT_FALSE(known.requeueLost(moved, 9, 7));
-  EXPECT_EQ(known.at(id).life, Life::kBorn);
-  EXPECT_EQ(known.at(id).unconfirmed, kAllGroups);
-}
-
 TEST_F(KnownObjectsTest, TheLowestFreeIdIsGiven) {
   for (std::uint32_t slot = 0; slot < 5; ++slot) EXPECT_EQ(alive(100 + slot), slot);
   for (const std::uint32_t id : {3u, 1u, 4u}) {
@@ -244,43 +205,33 @@ TEST_F(KnownObjectsTest, TheLowestFreeIdIsGiven) {
   EXPECT_EQ(known.idCount(), 6u);
 }
 
-TEST_F(KnownObjectsTest, VisitsTheBornAndTheAlive) {
-  alive(10);
-  const std::uint32_t dying = alive(11);
-  known.addObject(12, 1, 0);
-  known.removeObject(dying, 1);
-  Ids ids;
-  known.forEachAlive([&](std::uint32_t id, const KnownObjects::Known&) { ids.push_back(id); });
-  EXPECT_EQ(ids, (Ids{0, 2}));
-  EXPECT_EQ(known.aliveCount(), 2u);
-}
-
-TEST_F(KnownObjectsTest, TheChecksumIsThatOfAllThatWasSent) {
-  EXPECT_EQ(known.checksum(), 0u);
-  state.order = 5;
-  state.motion.position = {7, 8};
-  known.addObject(3, 1, 0);
-  EXPECT_EQ(known.checksum(), 0u) << "nothing was sent yet";
-  const auto sum = [&](std::uint32_t id, const ObjectState& s) {
-    return lifeSum(id, KnownObjects::generationOf(known.at(id)), s.order) + motionSum(id, s.motion) +
-           lookSum(id, s.look) + bodySum(id, s.body);
-  };
-  send(0, 1);
-  EXPECT_EQ(known.checksum(), sum(0, state));
-  const std::uint32_t second = alive(4);
-  EXPECT_EQ(known.checksum(), sum(0, state) + sum(second, state));
-  const ObjectState before = state;
-  state.motion.velocity = {1, 1};
-  state.look.altitude = 3;
-  known.addPending(second, kMotion, 2);
-  send(second, 5);
-  ObjectState moved = before;
-  moved.motion = state.motion;
-  EXPECT_EQ(known.checksum(), sum(0, before) + sum(second, moved)) << "the look was not sent";
-  known.removeObject(0, 3);
-  EXPECT_EQ(known.checksum(), sum(0, before) + sum(second, moved)) << "nor the death";
-  send(0, 6);
-  EXPECT_EQ(known.checksum(), sum(second, moved));
+TEST(SlotMap, AgreesWithTheStandardMap) {
+  for (const std::uint32_t spread : {1u, 128u, 4096u}) {  // the hash ignores low bits
+    SplitMix64 rng(spread);
+    SlotMap map;
+    EXPECT_EQ(map.find(0), SlotMap::kNone);
+    std::map<std::uint32_t, std::uint32_t> plain;
+    std::size_t most = 0;
+    for (int i = 0; i < 60'000; ++i) {
+      const auto slot = static_cast<std::uint32_t>(rng.below(256)) * spread;
+      const bool adds = rng.below(100) < ((i / 5000) % 2 == 0 ? 70u : 30u);
+      if (adds && plain.count(slot) == 0) {
+        map.insert(slot, static_cast<std::uint32_t>(i));
+        plain[slot] = static_cast<std::uint32_t>(i);
+      } else if (!adds && plain.count(slot) == 1) {
+        map.erase(slot);
+        plain.erase(slot);
+      }
+      most = std::max(most, plain.size());
+      if (i % 50 != 0) continue;
+      for (std::uint32_t s = 0; s < 256; ++s) {
+        const auto found = plain.find(s * spread);
+        ASSERT_EQ(map.find(s * spread), found == plain.end() ? SlotMap::kNone : found->second)
+            << "step " << i;
+      }
+    }
+    EXPECT_GT(most, 150u);
+  }
 }
 
 }  // namespace

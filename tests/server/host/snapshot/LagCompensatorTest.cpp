@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <vector>
@@ -177,7 +176,6 @@ TEST_F(LagCompensatorViews, MatchTheViewsThatClientsDrew) {
   }
   EXPECT_GT(compared, 3000);
   EXPECT_GT(scrolled, 300) << "the present corner would have been wrong";
-  std::printf("compared=%d scrolled=%d\n", compared, scrolled);
 }
 
 TEST_F(LagCompensatorViews, RejectUnknownPlayersAndClampOldTicks) {

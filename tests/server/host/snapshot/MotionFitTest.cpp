@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <vector>
 
 #include "host/snapshot/MotionFit.h"
@@ -110,16 +109,6 @@ TEST(MotionFit, StandingObjectIsRoundedToItsCell) {
   EXPECT_EQ(fitted.velocity, df::FixedVector{});
 }
 
-TEST(MotionFit, FractionalGlyphOffsetsAreRespected) {
-  const Motion truth{10, cellsAt(5.25, 3), {}, {}};
-  EXPECT_EQ(fitMotion(truth, Offsets{cellsAt(0, 0)}, 64).position, cellsAt(5, 3));
-  // The offsets are drawn in cells 5 and 6. From (5, 3) all would be in cell 5, from (5.5, 3) all in cell 6.
-  const Offsets offsets{cellsAt(0, 0), cellsAt(0.25, 0), cellsAt(0.125, 0)};
-  const Motion fitted = fitMotion(truth, offsets, 64);
-  EXPECT_TRUE(drawsTheSame(truth, fitted, offsets, 64));
-  EXPECT_NE(fitted.position, cellsAt(5, 3));
-}
-
 TEST(MotionFit, UnfittableMotionIsReturnedUnchanged) {
   const Offsets offsets(1);
   const Motion odd{10, {12345, 67}, {891, 23}, {}};
@@ -145,7 +134,6 @@ TEST(MotionFit, SlowPathsTakeFewBits) {
     const Motion fitted = fitMotion(truth, Offsets(1), 64);
     bits += fractionBits(fitted.position) + fractionBits(fitted.velocity);
   }
-  std::printf("mean bits behind the point, position and velocity of an axis: %.2f\n", bits / kRounds);
   EXPECT_LT(bits / kRounds, 14);
 }
 

@@ -127,8 +127,6 @@ TEST(PerClientState, EverySnapshotNamesTheInputUntilOneHasArrived) {
   EXPECT_FALSE(scene.has_input);
 }
 
-enum class Arrival { kLost, kDownOnly, kBothWays };
-
 /// A player whose view (80 by 24, in a wide world) follows the only object, and the client's replica.
 class Following {
  public:
@@ -143,7 +141,7 @@ class Following {
   }
 
   /// Runs a tick that places the object at `x`, moving with `velocity`.
-  void tick(double x, double velocity, Arrival arrival) {
+  void tick(double x, double velocity, bool acknowledges = true) {
     m_facts.position = cellsAt(x, 5);
     m_facts.velocity = cellsAt(velocity, 0);
     direct.view().changed.push_back(m_facts);
@@ -151,11 +149,11 @@ class Following {
     direct.player.view_corner = followView(frame, m_facts.position);
     for (const SnapshotSender::Packet& packet : direct.tick()) {
       Snapshot snapshot;
-      if (arrival == Arrival::kLost || replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
+      if (replica.read(packet.bytes, snapshot) != ReadResult::kOk) continue;
       replica.apply(snapshot);
       acks.addReceived(packet.number);
     }
-    if (arrival == Arrival::kBothWays) direct.sender.acknowledge(acks);
+    if (acknowledges) direct.sender.acknowledge(acks);
   }
   void becomeAnother() {
     direct.view().vanished.push_back(m_facts.key);
@@ -175,51 +173,19 @@ class Following {
   df::ObjectFacts m_facts;
 };
 
-TEST(PerClientState, ViewIsCorrectAfterLateMotionOfFollowedObject) {
-  Following scene;
-  scene.tick(100, 0, Arrival::kBothWays);
-  scene.expectSameView();
-  scene.tick(80, 1, Arrival::kLost);  // moves the view to the left in a snapshot that is lost
-  double x = 80;
-  for (int i = 0; i < 25; ++i) scene.tick(x += 1, 1, Arrival::kBothWays);  // too slow to move the view again
-  EXPECT_GT(scene.direct.sender.resentCount(), 0u);
-  EXPECT_TRUE(scene.direct.sender.isSettled());
-  scene.expectSameView();
-}
-
 TEST(PerClientState, ViewFollowsNewObjectBeforeOldDeathIsConfirmed) {
   Following scene;
-  scene.tick(100, 0, Arrival::kBothWays);
+  scene.tick(100, 0);
   scene.becomeAnother();
   for (int i = 0; i < 20; ++i) {  // the death is not acknowledged
-    scene.tick(100 + 3 * i, 3, Arrival::kDownOnly);
+    scene.tick(100 + 3 * i, 3, false);
     EXPECT_EQ(scene.replica.aliveCount(), 1u);
     scene.expectSameView();
   }
-  scene.tick(160, 3, Arrival::kBothWays);
-  scene.tick(163, 3, Arrival::kBothWays);
+  scene.tick(160, 3);
+  scene.tick(163, 3);
   EXPECT_EQ(scene.replica.aliveCount(), 1u);
   scene.expectSameView();
-}
-
-TEST(PerClientState, TextsAreSentWhenTheyChange) {
-  DirectSender direct(0);
-  direct.tick();
-  direct.acknowledge(1);
-  direct.player.texts.push_back({2, 5, 0, df::GREEN, "Score 3"});
-  auto snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).texts, (std::vector<TextRecord>{{2, 5, 0, df::GREEN, "Score 3"}}));
-  EXPECT_FALSE(direct.sender.isSettled()) << "not acknowledged yet";
-  direct.acknowledge(2);
-  EXPECT_TRUE(direct.tick().empty());
-  direct.player.texts.clear();
-  snapshots = direct.tick();
-  ASSERT_EQ(snapshots.size(), 1u);
-  EXPECT_EQ(direct.decoded(snapshots[0]).texts.at(0).text, "");
-  direct.acknowledge(3);
-  EXPECT_TRUE(direct.sender.isSettled());
-  EXPECT_TRUE(direct.tick().empty());
 }
 
 /// A player who steers the only object by declared controls, and the client's replica.
@@ -258,7 +224,6 @@ class Steering {
     direct.sender.acknowledge(acks);
     return sent;
   }
-  /// Checks that the client computes the server's control state.
   void expectKnown() {
     const std::uint32_t now = direct.publisher.tick();
     const ControlRecord known = deadReckon(replica.control(), replica.controlTable(), now);
@@ -339,6 +304,60 @@ TEST(PerClientState, ControlRecordOfAMoveFitsIn8Bytes) {
   origin.y_bits = 5;
   writeControlRecord(bits, scene.replica.control(), origin);
   EXPECT_LE(bits.byteCount(), 8u);
+}
+
+WorldRecord worldOf(std::int32_t width, std::int32_t height) {
+  return {.boundary = {}, .view_width = width, .view_height = height};
+}
+
+TEST(OriginChoice, AWindowServesAViewThatMovesALittle) {
+  OriginChoice choice;
+  const WorldRecord world = worldOf(80, 24);
+  EXPECT_EQ(choice.slot(), 0u);
+  const std::uint32_t slot = choice.updateWindow({100, 50}, world, 1);
+  ASSERT_NE(slot, 0u);
+  EXPECT_LE(choice.at(slot).corner.x, 96);
+  EXPECT_GE(choice.at(slot).corner.x + (1 << choice.at(slot).x_bits), 184);
+  for (int d = -4; d <= 4; ++d) EXPECT_EQ(choice.updateWindow({100 + d, 50 + d}, world, 1), 0u) << d;
+}
+
+TEST(OriginChoice, SnapshotsNameAWindowOnceItIsConfirmed) {
+  OriginChoice choice;
+  const WorldRecord world = worldOf(80, 24);
+  const std::uint32_t first = choice.updateWindow({0, 0}, world, 1);
+  EXPECT_EQ(choice.slot(), 0u);
+  choice.confirmArrival(first);
+  EXPECT_EQ(choice.slot(), first);
+  const std::uint32_t second = choice.updateWindow({500, 0}, world, 1);
+  EXPECT_NE(second, 0u);
+  EXPECT_NE(second, first) << "snapshots on their way name that one";
+  EXPECT_EQ(choice.slot(), first);
+  choice.confirmArrival(first);
+  EXPECT_EQ(choice.slot(), first) << "a late acknowledgement of the old one";
+  choice.confirmArrival(second);
+  EXPECT_EQ(choice.slot(), second);
+}
+
+TEST(OriginChoice, AnUnconfirmedWindowIsSetAgain) {
+  OriginChoice choice;
+  const WorldRecord world = worldOf(80, 24);
+  const std::uint32_t slot = choice.updateWindow({0, 0}, world, 1);
+  EXPECT_EQ(choice.updateWindow({500, 0}, world, 1), slot);
+  EXPECT_LE(choice.at(slot).corner.x, 500);
+}
+
+TEST(OriginChoice, ADistantOrderNeedsANewWindow) {
+  OriginChoice choice;
+  const WorldRecord world = worldOf(80, 24);
+  EXPECT_NE(choice.updateWindow({0, 0}, world, 1), 0u);
+  EXPECT_EQ(choice.updateWindow({0, 0}, world, 10'000), 0u);
+  EXPECT_NE(choice.updateWindow({0, 0}, world, 20'000), 0u);
+}
+
+TEST(OriginChoice, ALargerViewNeedsALargerWindow) {
+  OriginChoice choice;
+  EXPECT_NE(choice.updateWindow({0, 0}, worldOf(80, 24), 1), 0u);
+  EXPECT_NE(choice.updateWindow({0, 0}, worldOf(160, 24), 1), 0u);
 }
 
 }  // namespace

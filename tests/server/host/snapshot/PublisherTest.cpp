@@ -3,9 +3,13 @@
 #include <vector>
 
 #include "SimulatedWorld.h"
+#include "host/snapshot/LookCapture.h"
 #include "host/snapshot/Publisher.h"
 #include "host/snapshot/SnapshotSender.h"
+#include "shared/replica/Limits.h"
+#include "shared/replica/LookCodec.h"
 #include "shared/replica/Replica.h"
+#include "shared/values/SplitMix64.h"
 #include "shared/values/Vector.h"
 #include "tests/support/CellsAt.h"
 
@@ -82,30 +86,6 @@ std::uint8_t groupsOf(const std::vector<Publisher::Change>& changes, std::uint32
     if (change.slot == slot) return change.groups;
   }
   return 0xFF;
-}
-
-// Repeated calls return equal motions, and it is so in every tick.
-TEST_F(PublisherTest, SharedMotionEqualsTheModelAtTheTick) {
-  const auto expectShared = [&](std::uint32_t slot) {
-    const Motion now = rebase(publisher.find(slot)->state.motion, publisher.tick());
-    for (int asked = 0; asked < 2; ++asked) {
-      EXPECT_EQ(publisher.sharedMotion(slot).motion, now) << "slot " << slot;
-    }
-    BitWriter one, other;
-    writeMotion(one, publisher.sharedMotion(slot), Origin{});
-    writeMotion(other, now, Origin{});
-    EXPECT_EQ(one.bytes(), other.bytes());
-  };
-  changed(1, cellsAt(10, 10), cellsAt(0.25, 0));
-  changed(2, cellsAt(20, 5));
-  for (int tick = 0; tick < 20; ++tick) {
-    if (tick == 7) changed(2, cellsAt(20, 5), cellsAt(0, 0.5));
-    if (tick == 12) changed(40, cellsAt(1, 1), cellsAt(0.125, 0.5));
-    publish();
-    expectShared(1);
-    expectShared(2);
-    if (tick >= 12) expectShared(40);
-  }
 }
 
 TEST_F(PublisherTest, FlightIsPublishedOnce) {
@@ -202,25 +182,20 @@ TEST_F(PublisherTest, TurnOfAnUndrawnObjectIsCorrectedToo) {
   EXPECT_EQ(groupsOf(publish(), 0), kMotion);
 }
 
-TEST_F(PublisherTest, ABlockedObjectIsPublishedAsStandingStill) {
-  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
-  publish();
-  changed(0, cellsAt(10, 10));  // blocked: zero velocity
-  drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
-  for (int i = 0; i < 10; ++i) {  // the object is not reported again while it stands still
+TEST_F(PublisherTest, BlockedOrUnreportedObjectIsPublishedAsStandingStill) {
+  for (const bool is_reported : {true, false}) {
+    publisher = Publisher();
+    drawn(0, cellsAt(10, 10), cellsAt(1, 0));
+    publish();
+    if (is_reported) changed(0, cellsAt(10, 10));  // blocked: zero velocity
     drew(0, cellsAt(10, 10));
-    EXPECT_TRUE(publish().empty());
+    EXPECT_EQ(groupsOf(publish(), 0), kMotion);
+    EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
+    for (int i = 0; i < 10; ++i) {  // the object is not reported again while it stands still
+      drew(0, cellsAt(10, 10));
+      EXPECT_TRUE(publish().empty());
+    }
   }
-}
-
-TEST_F(PublisherTest, UnreportedObjectStandsStillEvenIfItMovedBefore) {
-  drawn(0, cellsAt(10, 10), cellsAt(1, 0));
-  publish();
-  drew(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kMotion);
-  EXPECT_FALSE(isMoving(publisher.find(0)->state.motion));
 }
 
 TEST_F(PublisherTest, StandingSolidObjectsAreExactOnceAClientPredicts) {
@@ -280,17 +255,6 @@ TEST_F(PublisherTest, HalfCellSpriteInFlightNeedsFewCorrections) {
   }
   // The first rounded numbers fit for kMinHorizon ticks; corrected ones, for eight times the path's age.
   EXPECT_LE(corrections, 2u);
-}
-
-TEST_F(PublisherTest, HiddenObjectLosesItsLookUntilShown) {
-  drawn(0, cellsAt(10, 10));
-  publish();
-  changed(0, cellsAt(10, 10)).shown = false;
-  EXPECT_EQ(groupsOf(publish(), 0), kLook);
-  EXPECT_EQ(publisher.find(0)->state.look.select(0), nullptr);
-  EXPECT_TRUE(publish().empty());
-  drawn(0, cellsAt(10, 10));
-  EXPECT_EQ(groupsOf(publish(), 0), kLook);
 }
 
 TEST_F(PublisherTest, SolidObjectStoppingAndHidingIsHiddenAtOnce) {
@@ -412,23 +376,6 @@ TEST_F(PublisherTest, ReplicaDrawsTheWorldsPictureEveryTick) {
   }
 }
 
-TEST_F(PublisherTest, StraightFlightNeedsFewUpdates) {
-  test::WorldConfig config;
-  config.turn = config.block = config.restyle = config.reshape = config.vanish = config.hide = 0;
-  config.scribble = config.speech = config.refollow = 0;
-  config.view_width = 100;
-  config.view_height = 40;
-  test::SimulatedWorld world(config, 9);
-  std::size_t changes = 0;
-  for (int i = 0; i < 200; ++i) {
-    world.tick(i > 20);
-    publisher.update(world.view());
-    if (i > 30) changes += publisher.changes().size();
-  }
-  // Only offsets that are not multiples of 1/256 and objects that come into view need an update.
-  EXPECT_LT(changes, 100u);
-}
-
 Sequence wheel() {
   std::vector<Appearance> frames;
   for (const char32_t spoke : {U'-', U'\\', U'|', U'/'})
@@ -493,21 +440,61 @@ TEST_F(PublisherTest, ADrawnLookOverridesTheDeclaredOne) {
   EXPECT_EQ(published.selector, look.selector);
 }
 
-TEST_F(PublisherTest, TurningObjectInFractionalFlightIsPublishedOnce) {
-  const Look look{wheel(), 2, Selector::turning(1, 5, 55'555'555)};
-  df::FixedVector position = cellsAt(1.25, 3.5);
-  const df::FixedVector velocity = cellsAt(0.3, 0.07);
-  changed(0, position, velocity);
-  showed(0, position, look);
-  publish();
-  int changes = 0;
-  for (int i = 0; i < 60; ++i) {
-    position = position + velocity;
-    changed(0, position, velocity);
-    showed(0, position, look);
-    changes += publish().empty() ? 0 : 1;
+TEST(LookCapture, KeepsCharactersColoursAndOffsets) {
+  const std::vector<df::DrawCommand> commands = {{cellsAt(10.25, 4), U'a', df::RED},
+                                                 {cellsAt(8.75, 5), U'é', df::BLUE}};
+  const Appearance appearance = captureAppearance(cellsAt(10.25, 4), commands);
+  EXPECT_EQ(appearance, (Appearance{{0, 0, U'a', df::RED}, {-384, 256, U'é', df::BLUE}}));
+}
+
+TEST(LookCapture, NoticesEveryKindOfDifference) {
+  const std::vector<df::DrawCommand> commands = {{cellsAt(1, 1), U'a', df::RED},
+                                                 {cellsAt(2, 1), U'b', df::RED}};
+  const Look look{{captureAppearance(cellsAt(1, 1), commands)}, 2};
+  ASSERT_TRUE(drawsTheSame(look, 0, cellsAt(1, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(2, 1), commands));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), std::span(commands).first(1)));
+  EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), {}));
+  EXPECT_FALSE(drawsTheSame(Look{}, 0, cellsAt(1, 1), commands));
+  EXPECT_TRUE(drawsTheSame(Look{}, 0, cellsAt(1, 1), {}));
+  for (int change = 0; change < 3; ++change) {
+    std::vector<df::DrawCommand> other = commands;
+    if (change == 0) other[1].ch = U'c';
+    if (change == 1) other[1].color = df::BLUE;
+    if (change == 2) other[1].position = cellsAt(2, 2);
+    EXPECT_FALSE(drawsTheSame(look, 0, cellsAt(1, 1), other)) << change;
   }
-  EXPECT_EQ(changes, 0);
+}
+
+TEST(LookCapture, LeavesOutDistantCharacters) {
+  const std::vector<df::DrawCommand> commands = {{cellsAt(8192, 0), U'a', df::RED},
+                                                 {cellsAt(8193, 0), U'b', df::RED}};
+  EXPECT_EQ(captureAppearance(cellsAt(0, 0), commands).size(), 1u);
+  EXPECT_EQ(captureCells(cellsAt(0, 0), commands).size(), 1u);
+  const std::vector<df::DrawCommand> opposite = {{cellsAt(2e9, -2e9), U'a', df::RED}};
+  EXPECT_TRUE(captureAppearance(cellsAt(-2e9, 2e9), opposite).empty());
+  EXPECT_TRUE(captureCells(cellsAt(-2e9, 2e9), opposite).empty());
+}
+
+TEST(LookCapture, CutsAtTheLargestAppearance) {
+  const std::vector<df::DrawCommand> commands(kMaxGlyphs + 5, {cellsAt(0, 0), U'x', df::RED});
+  EXPECT_EQ(captureAppearance(cellsAt(0, 0), commands).size(), kMaxGlyphs);
+}
+
+TEST(LookCapture, TruncatesALookToFitARecord) {
+  Appearance whole(kMaxGlyphs);
+  SplitMix64 rng(3);
+  for (Glyph& glyph : whole) {
+    glyph = {static_cast<std::int32_t>(rng.below(90'000)), static_cast<std::int32_t>(rng.below(90'000)), U'█',
+             static_cast<df::Color>(rng.below(8))};
+  }
+  ASSERT_GT(encodedBits({whole}), 8 * kMaxLookBytes);
+  const Sequence fitted = fitToRecord(whole);
+  EXPECT_LE(encodedBits(fitted), 8 * kMaxLookBytes);
+  EXPECT_GT(encodedBits(fitted), 4 * kMaxLookBytes);
+  ASSERT_EQ(fitted.size(), 1u);
+  EXPECT_TRUE(std::equal(fitted[0].begin(), fitted[0].end(), whole.begin()));
+  EXPECT_EQ(fitToRecord(fitted[0]), fitted);
 }
 
 }  // namespace

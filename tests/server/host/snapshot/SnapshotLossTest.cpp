@@ -2,71 +2,29 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "SimulatedWorld.h"
-#include "host/snapshot/SnapshotSender.h"
-#include "shared/replica/Replica.h"
-#include "shared/replica/UpdateCodec.h"
+#include "LossyScene.h"
 #include "tests/support/Sanitizers.h"
-#include "tests/support/net/LossyLink.h"
-#include "tests/support/net/VirtualClock.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A server and a client connected by a bad network. Snapshots and acknowledgements travel as schema
-/// messages, in datagrams of at most 1200 bytes.
-class LossyPair {
+class LossyPair : public test::LossyScene {
  public:
-  LossyPair(test::WorldConfig config, const LinkConditions& conditions, std::uint64_t seed,
+  LossyPair(const test::WorldConfig& config, const LinkConditions& conditions, std::uint64_t seed,
             Resend resend = Resend::kOnGap)
-      : sender(resend),
-        m_world(config, seed),
-        m_link(m_clock, conditions, seed),
-        m_server_end(m_link.takeEnd(LinkEnd::kServer)),
-        m_client_end(m_link.takeEnd(LinkEnd::kClient)) {
-    m_server_end->start([this](std::string_view packet) { serverHears(packet); });
-    m_client_end->start([this](std::string_view packet) { clientHears(packet); });
-  }
-
-  void tick(bool quiet = false) {
-    m_world.tick(quiet);
-    m_publisher.update(m_world.view());
-    sender.applyTick(m_publisher, m_world.view().players[0]);
-    for (const SnapshotSender::Packet& packet : sender.build(m_publisher)) {
-      ++snapshots;
-      std::vector<std::uint32_t>& lives = m_births[packet.number];
-      for (std::uint32_t id = 0; id < sender.known().idCount(); ++id) {
-        lives.push_back(sender.known().at(id).birth);
-      }
-      ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
-      // Packets too large for a datagram would use the stream; here they arrive late.
-      if (packet.large) {
-        m_late.push_back(packet.bytes);
-      } else {
-        m_server_end->send(packet.bytes);
-      }
-    }
-    m_clock.advanceBy(33'333us);
-    for (const std::string& bytes : std::exchange(m_late, {})) clientHears(bytes);
-  }
-  void setConditions(const LinkConditions& conditions) {
-    m_link.setConditions(LinkEnd::kServer, conditions);
-    m_link.setConditions(LinkEnd::kClient, conditions);
-  }
+      : LossyScene(config, conditions, seed, resend) {}
 
   /// Checks that the replica holds exactly what was sent and draws what the world draws.
   void expectSame() {
     std::size_t alive = 0;
-    const std::uint32_t tick = m_publisher.tick();
+    const std::uint32_t tick = publisher.tick();
     sender.known().forEachAlive([&](std::uint32_t id, const KnownObjects::Known& known) {
       ++alive;
-      const Publisher::Model& model = *m_publisher.find(known.slot);
+      const Publisher::Model& model = *publisher.find(known.slot);
       const Replica::ReplicaObject* entry = replica.find(id);
       ASSERT_NE(entry, nullptr) << "object " << id << " is missing";
       ASSERT_EQ(known.generation, model.generation) << "object " << id;
@@ -77,56 +35,35 @@ class LossyPair {
     });
     ASSERT_EQ(replica.aliveCount(), alive) << "ghosts";
     EXPECT_EQ(sender.known().checksum(), replica.checksum());
-    EXPECT_NE(sender.matchesChecksum(m_acks, replica.checksum()), std::optional(false));
-    expectSamePicture();
-  }
-  void expectSamePicture() {
-    const df::Canvas wanted = m_world.picture(0);
-    const df::Canvas seen = replica.render(m_publisher.tick());
+    EXPECT_NE(sender.matchesChecksum(acks, replica.checksum()), std::optional(false));
+    const df::Canvas wanted = world.picture(0);
+    const df::Canvas seen = replica.render(tick);
     ASSERT_EQ(countDifferences(wanted, seen), 0) << test::explain(wanted, seen);
   }
 
-  const test::SimulatedWorld& world() const { return m_world; }
-  const LinkCounters& down() const { return m_link.counters(LinkEnd::kServer); }
-
-  SnapshotSender sender;
-  Replica replica;
   std::size_t snapshots = 0;
-  std::size_t births = 0;  ///< objects born in the replica
   std::size_t reuses = 0;  ///< births under an id that was used before
   std::size_t checks = 0;  ///< number of checksums compared
 
  private:
-  void serverHears(std::string_view packet) {
-    const auto update = readUpdate(packet, {sender.newestNumber(), m_publisher.tick(), 0});
-    ASSERT_TRUE(update);
-    sender.acknowledge(update->acks);
-    const auto right = sender.matchesChecksum(update->acks, *update->checksum);
+  void onSent(const SnapshotSender::Packet& packet) override {
+    ++snapshots;
+    std::vector<std::uint32_t>& lives = m_births[packet.number];
+    for (std::uint32_t id = 0; id < sender.known().idCount(); ++id)
+      lives.push_back(sender.known().at(id).birth);
+    ASSERT_LE(packet.bytes.size(), packet.large ? kMaxSnapshot : kMaxDatagramSnapshot);
+  }
+  void onAcknowledged(const ClientUpdate& update) override {
+    const auto right = sender.matchesChecksum(update.acks, *update.checksum);
     checks += right ? 1 : 0;
-    ASSERT_NE(right, std::optional(false)) << "after snapshot " << update->acks.newest;
+    ASSERT_NE(right, std::optional(false)) << "after snapshot " << update.acks.newest;
   }
-
-  void clientHears(std::string_view packet) {
-    Snapshot snapshot;
-    const ReadResult result = replica.read(packet, snapshot);
-    ASSERT_NE(result, ReadResult::kMalformed);
-    if (result == ReadResult::kStale) return;
-    replica.apply(snapshot);
-    checkLives(snapshot.header.number);
-    m_acks.addReceived(snapshot.header.number);
-    ClientUpdate update;
-    update.acks = m_acks;
-    update.checksum = replica.checksum();
-    m_client_end->send(writeUpdate(update));
-  }
-
   // Checks that no object is born twice: an object that the replica has removed must not come back to life.
-  void checkLives(std::uint32_t number) {
+  void onApplied(std::uint32_t number) override {
     for (const auto& [id, entry] : replica.entries()) {
       const auto was = m_alive.find(id);
       const bool alive = was != m_alive.end() && was->second;
       if (entry.alive && !alive) {
-        ++births;
         const std::uint32_t life = m_births.at(number).at(id);
         const auto before = m_lives.find(id);
         if (before != m_lives.end()) {
@@ -139,14 +76,6 @@ class LossyPair {
     }
   }
 
-  VirtualClock m_clock;
-  test::SimulatedWorld m_world;
-  Publisher m_publisher;
-  LossyDatagramLink m_link;
-  std::unique_ptr<DatagramChannel> m_server_end;
-  std::unique_ptr<DatagramChannel> m_client_end;
-  AckWindow m_acks;
-  std::vector<std::string> m_late;
   std::map<std::uint32_t, bool> m_alive;           ///< keyed by id
   std::map<std::uint32_t, std::uint32_t> m_lives;  ///< number of objects that have used an id
   std::map<std::uint32_t, std::vector<std::uint32_t>>
@@ -163,15 +92,10 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
   for (std::uint64_t seed = 0; seed < 240 / test::kShare; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     SplitMix64 rng(seed);
-    LinkConditions bad;
-    bad.loss = rng.unit() * 0.3;
-    bad.duplicate = rng.unit() * 0.2;
+    LinkConditions bad{.loss = rng.unit() * 0.3, .duplicate = rng.unit() * 0.2};
     bad.delay = std::chrono::microseconds(rng.below(150'000));
     bad.jitter = std::chrono::microseconds(rng.below(120'000));
-    test::WorldConfig config;
-    config.objects = 5 + rng.below(60);
-    config.vanish = 0.02;
-    config.turn = 0.05;
+    const test::WorldConfig config{.objects = 5 + rng.below(60), .turn = 0.05, .vanish = 0.02};
     LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
     for (int i = 0; i < 150 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
     pair.setConditions({});
@@ -198,17 +122,9 @@ TEST(SnapshotLoss, EveryReplicaIsRightOnceABadLinkHeals) {
 TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions bad;
-    bad.loss = 0.3;
-    bad.delay = 60ms;
-    test::WorldConfig config;
-    config.objects = 6;
-    config.width = 300;
-    config.height = 120;
-    config.turn = 0.1;
-    config.block = 0.1;
-    config.vanish = 0.002;
-    LossyPair pair(config, bad, seed, static_cast<Resend>(seed % 3));
+    const test::WorldConfig config{
+        .width = 300, .height = 120, .objects = 6, .turn = 0.1, .block = 0.1, .vanish = 0.002};
+    LossyPair pair(config, {.delay = 60ms, .loss = 0.3}, seed, static_cast<Resend>(seed % 3));
     for (int i = 0; i < 100 && !testing::Test::HasFatalFailure(); ++i) pair.tick();
     pair.setConditions({});
     // The replica is correct as soon as everything has arrived, not only after the next correction.
@@ -221,44 +137,14 @@ TEST(SnapshotLoss, FollowingViewsAreRightOnceABadLinkHeals) {
   }
 }
 
-// A confirmed record is not sent again, although newer snapshots that carried it are still in flight.
-TEST(SnapshotLoss, FirstArrivalConfirmsARecordSentEveryTick) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions slow;
-    slow.delay = 50ms;
-    test::WorldConfig config;
-    config.objects = 30;
-    LossyPair pair(config, slow, seed, Resend::kEveryTick);
-    for (int i = 0; i < 60; ++i) pair.tick();
-    for (int i = 0; i < 4; ++i) pair.tick(true);
-    std::size_t unconfirmed = 0;
-    for (int i = 0; i < 40; ++i) {
-      pair.tick(true);
-      pair.sender.known().forEachAlive([&](std::uint32_t, const KnownObjects::Known& known) {
-        unconfirmed += known.unconfirmed != 0 ? 1 : 0;
-      });
-    }
-    EXPECT_LT(unconfirmed, 40u * 3);
-    // Even a quiet world has births and turns, the last of which are still in flight.
-    pair.setConditions({});
-    for (int i = 0; i < 5; ++i) pair.tick(true);
-    pair.expectSame();
-    if (testing::Test::HasFailure()) return;
-  }
-}
-
 TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    LinkConditions slow;
-    slow.delay = std::chrono::milliseconds(10 * (seed % 16));
-    slow.jitter = 20ms;
-    slow.reorder = false;
-    slow.duplicate = 0.1;
-    test::WorldConfig config;
-    config.objects = 60;
-    LossyPair pair(config, slow, seed);
+    const LinkConditions slow{.delay = std::chrono::milliseconds(10 * (seed % 16)),
+                              .jitter = 20ms,
+                              .reorder = false,
+                              .duplicate = 0.1};
+    LossyPair pair({.objects = 60}, slow, seed);
     for (int i = 0; i < 150; ++i) pair.tick();
     EXPECT_EQ(pair.sender.resentCount(), 0u);
     pair.setConditions({});
@@ -269,14 +155,12 @@ TEST(SnapshotLoss, NothingIsSentTwiceWhereNothingIsLost) {
 }
 
 TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
-  LinkConditions slow;
-  slow.delay = 70ms;
   test::WorldConfig config;
   config.objects = 12000;
   config.width = 40;
   config.height = 20;
   config.turn = config.block = config.restyle = config.vanish = config.hide = config.reshape = 0;
-  LossyPair pair(config, slow, 1);
+  LossyPair pair(config, {.delay = 70ms}, 1);
   for (int i = 0; i < 60 && !testing::Test::HasFatalFailure(); ++i) pair.tick(i > 0);
   EXPECT_GT(pair.snapshots, 2 * SnapshotSender::kMaxInFlight);
   EXPECT_EQ(pair.sender.resentCount(), 0u);
@@ -287,11 +171,9 @@ TEST(SnapshotLoss, AWorldLargerThanTheWindowArrivesWithoutResending) {
 }
 
 TEST(SnapshotLoss, ALinkThatWasDeadForSecondsRecovers) {
-  LinkConditions dead;
-  dead.loss = 1;
   LossyPair pair({}, {}, 3);
   for (int i = 0; i < 20; ++i) pair.tick();
-  pair.setConditions(dead);
+  pair.setConditions({.loss = 1});
   for (int i = 0; i < 300; ++i) pair.tick();
   pair.setConditions({});
   for (int i = 0; i < 20; ++i) pair.tick(true);

@@ -47,7 +47,6 @@ void place(df::Object& object, df::Sprite& sprite, int x) {
   object.setPosition(df::Vector(x, 10));
 }
 
-/// A world and a client that gets every packet.
 class Show {
  public:
   Show() {
@@ -63,7 +62,6 @@ class Show {
     return bytes;
   }
 
-  /// Returns the character that the client shows in a cell.
   char32_t shown(int x, int y) const {
     return m_replica.render(static_cast<std::uint32_t>(world.getStepCount())).at(x, y).ch;
   }
@@ -100,7 +98,6 @@ class Show {
   AckWindow m_acks;
 };
 
-/// Returns the bytes that an empty world sends in `count` ticks.
 std::size_t idle(int count) {
   Show show;
   show.ticks(100);
@@ -170,23 +167,6 @@ TEST(SpriteLook, ClientShowsTheFramesOfThePublishedEngine) {
   }
 }
 
-TEST(SpriteLook, EachPaceIsDrawnFrameByFrame) {
-  Show show;
-  std::vector<df::Sprite> sprites;
-  for (const int slowdown : {0, 1, 2, 3, 7, 30}) sprites.push_back(saucer(slowdown));
-  sprites.push_back(makeSprite({"ab", "cd"}, 2, 5));
-  sprites.push_back(makeSprite({"abcd  efgh", "hgfe  dcba"}, 5, 2, ' '));
-  std::vector<std::unique_ptr<df::Object>> objects;
-  for (std::size_t i = 0; i < sprites.size(); ++i) {
-    auto& p_o = objects.emplace_back(std::make_unique<df::Object>());
-    p_o->setSolidness(df::SPECTRAL);
-    p_o->setSprite(&sprites[i]);
-    p_o->setPosition(df::Vector(10 + 3.3 * static_cast<double>(i), 3 + 2 * static_cast<double>(i)));
-    p_o->setVelocity(df::Vector(0.13, 0));
-  }
-  show.ticks(200);
-}
-
 TEST(SpriteLook, AnimationChangeShowsInTheSameTick) {
   Show show;
   df::Sprite sprite = saucer(4);
@@ -224,38 +204,23 @@ TEST(SpriteLook, AnimationChangeShowsInTheSameTick) {
   show.ticks(20);
 }
 
-TEST(SpriteLook, AStoppedAnimationAndAStaticLookCostNothing) {
+TEST(SpriteLook, StoppedStaticBlinkingAndEmptySpritesCostNothing) {
   Show show;
   df::Sprite sprite = saucer(3);
-  df::Object stopped;
+  df::Sprite blinking = makeSprite({"abc", "~~~"}, 3, 3, '~');
+  df::Sprite late = makeSprite({"~", "o", "~"}, 1, 2, '~');  // its first frame is empty
+  df::Sprite empty = makeSprite({"~", "~"}, 1, 2, '~');
+  df::Object stopped, fixed, blinks, begins_empty, draws_nothing;
   place(stopped, sprite, 20);
-  df::Object fixed;
   place(fixed, sprite, 40);
+  place(blinks, blinking, 50);
+  place(begins_empty, late, 60);
+  place(draws_nothing, empty, 70);
   fixed.setStaticLook();
   show.ticks(50);
   stopped.setSpriteSlowdownCount(-1);
   show.ticks(20);
   EXPECT_EQ(show.ticks(100), idle(100));
-}
-
-TEST(SpriteLook, ASpriteThatBlinksCostsNothing) {
-  Show show;
-  df::Sprite sprite = makeSprite({"abc", "~~~"}, 3, 3, '~');
-  df::Sprite other = makeSprite({"~", "o", "~"}, 1, 2, '~');  // its first frame is empty
-  df::Object object, late;
-  place(object, sprite, 20);
-  place(late, other, 30);
-  show.ticks(20);
-  EXPECT_EQ(show.ticks(100), idle(100));
-}
-
-TEST(SpriteLook, ASpriteThatDrawsNothingHasNoLook) {
-  Show show;
-  df::Sprite sprite = makeSprite({"~", "~"}, 1, 2, '~');
-  df::Object object;
-  place(object, sprite, 20);
-  show.ticks(10);
-  EXPECT_EQ(show.ticks(50), idle(50));
 }
 
 // A draw() that adds characters around the sprite.

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sched.h>
 #include <signal.h>
 #include <sys/ptrace.h>
 #include <sys/wait.h>
@@ -144,12 +143,9 @@ TEST(LookAtProcess, ReturnsNothingForInvalidProcessIds) {
 TEST(SlowTickDetectorTest, OnlyComputingAndWaitingAreTheGamesOwn) {
   constexpr auto kFrame = 33ms;
   const std::string handler = ", while Ship handles EventStep";
-  const pid_t waiting = fork();
-  if (waiting == 0) {
-    pause();
-    _exit(0);
-  }
-  while (readProcessRunState(waiting)->doing != Doing::kWaits) sched_yield();
+  const Child child([] { pause(); });
+  ASSERT_TRUE(child.comesTo(Doing::kWaits));
+  const pid_t waiting = child.process();
   SlowTickDetector detector;
   detector.beginTick(waiting);
   EXPECT_EQ(detector.check(waiting, 7, 32ms, kFrame, handler), "");
@@ -160,8 +156,6 @@ TEST(SlowTickDetectorTest, OnlyComputingAndWaitingAreTheGamesOwn) {
             "smooth "
             "(reported once)");
   EXPECT_EQ(detector.check(waiting, 8, 40ms, kFrame, handler), "") << "once";
-  kill(waiting, SIGKILL);
-  waitpid(waiting, nullptr, 0);
 
   SlowTickDetector computing;
   computing.beginTick(getpid());

@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -90,21 +89,6 @@ void closeBoth(const StartedWorld& world) {
   close(world.socket);
   close(world.supervisor);
   close(world.output);
-}
-
-TEST(WorldLauncher, ReportsHowAWorldEnded) {
-  const WorldLauncher launcher(shell("read word <&3; test \"$word\" = end && exit 7; kill -SEGV $$"));
-  for (const auto& [word, is_exit] : {std::pair("end\n", true), {"crash\n", false}}) {
-    const StartedWorld world = launcher.start();
-    EXPECT_EQ(send(world.socket, word, strlen(word), MSG_NOSIGNAL), static_cast<ssize_t>(strlen(word)));
-    EXPECT_GT(waitForStart(world), 1);
-    const auto status = waitForEnd(world);
-    ASSERT_TRUE(status);
-    EXPECT_TRUE(is_exit ? WIFEXITED(*status) && WEXITSTATUS(*status) == 7
-                        : WIFSIGNALED(*status) && WTERMSIG(*status) == SIGSEGV)
-        << *status;
-    closeBoth(world);
-  }
 }
 
 TEST(WorldLauncher, LeftoverProcessesEndBeforeTheEndIsReported) {
@@ -253,15 +237,22 @@ TEST(Descendants, IncludeOnlyChildrenAndGrandchildren) {
 }
 
 TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
-  const WorldLauncher launcher(shell(
-      "read pid comm state ppid pgrp session tty rest < /proc/$$/stat; for n in 0 1 2 3 4 5 6 7 8 9 10; do "
-      "test -e /proc/$$/fd/$n && set -- $* $n; done; "
-      "echo $(($$ == pgrp)) $(($$ == session)) $tty, $*, $(readlink /proc/$$/fd/0) >&3"));
-  const StartedWorld world = launcher.start();
-  EXPECT_EQ(readLine(world.socket), "1 1 0, 0 1 2 3 4, /dev/null");
-  EXPECT_GT(waitForStart(world), 1);
-  EXPECT_EQ(waitForEnd(world), 0);
-  closeBoth(world);
+  const WorldLauncher launcher(
+      shell("read pid comm state ppid pgrp session tty rest < /proc/$$/stat; "
+            "for n in 0 1 2 3 4 5 6 7 8 9 10 99 100 101; do test -e /proc/$$/fd/$n && set -- $* $n; done; "
+            "echo $(($$ == pgrp)) $(($$ == session)) $tty, $*, $(readlink /proc/$$/fd/0) >&3"));
+  for (const bool copies : {false, true}) {
+    WorldStartOptions order;
+    order.copies = copies;
+    const StartedWorld world = launcher.start(order);
+    EXPECT_EQ(world.copies >= 0, copies);
+    EXPECT_EQ(readLine(world.socket),
+              std::string("1 1 0, 0 1 2 3 4") + (copies ? " 100" : "") + ", /dev/null");
+    EXPECT_GT(waitForStart(world), 1);
+    EXPECT_EQ(waitForEnd(world), 0);
+    closeBoth(world);
+    if (world.copies >= 0) close(world.copies);
+  }
 }
 
 /// Tests with a world that ends and leaves two processes, which the supervisor takes for its copies.
@@ -325,22 +316,6 @@ TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
 TEST_F(LeftCopies, AllEndWithoutAnOrder) {
   EXPECT_EQ(waitForReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
-}
-
-TEST(WorldLauncher, OnlyCheckpointingWorldHasACheckpointSocket) {
-  const WorldLauncher launcher(shell(
-      "for n in 0 1 2 3 4 5 6 99 100 101; do test -e /proc/$$/fd/$n && set -- $* $n; done; echo $* >&3"));
-  for (const bool copies : {false, true}) {
-    WorldStartOptions order;
-    order.copies = copies;
-    const StartedWorld world = launcher.start(order);
-    EXPECT_EQ(world.copies >= 0, copies);
-    EXPECT_EQ(readLine(world.socket), copies ? "0 1 2 3 4 100" : "0 1 2 3 4");
-    EXPECT_GT(waitForStart(world), 1);
-    EXPECT_EQ(waitForEnd(world), 0);
-    closeBoth(world);
-    if (world.copies >= 0) close(world.copies);
-  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@
 #include "host/world/TurnRecord.h"
 #include "shared/net/base/Limits.h"
 #include "shared/replica/Limits.h"
-#include "shared/values/SplitMix64.h"
+#include "tests/support/RunProgram.h"
 
 namespace naiad {
 namespace {
@@ -91,47 +92,37 @@ bool isSame(const df::SteeringFacts& a, const df::SteeringFacts& b) {
          a.position == b.position && a.velocity == b.velocity && a.acceleration == b.acceleration;
 }
 
+/// Compares two lists of objects that have no operator==.
+template <class T, class Same>
+void expectEach(const std::vector<T>& a, const std::vector<T>& b, Same same) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(same(a[i], b[i])) << i;
+}
+
 void expectSame(const df::WorldView& a, const df::WorldView& b) {
   EXPECT_EQ(a.tick, b.tick);
   EXPECT_EQ(a.boundary, b.boundary);
   EXPECT_EQ(a.view_width, b.view_width);
   EXPECT_EQ(a.view_height, b.view_height);
-  ASSERT_EQ(a.changed.size(), b.changed.size());
-  for (std::size_t i = 0; i < a.changed.size(); ++i) {
-    const df::ObjectFacts& f = a.changed[i];
-    const df::ObjectFacts& g = b.changed[i];
-    EXPECT_TRUE(f.key == g.key && f.order == g.order && f.position == g.position &&
-                f.velocity == g.velocity && f.acceleration == g.acceleration && f.box == g.box &&
-                f.solidness == g.solidness && f.no_soft == g.no_soft && f.shown == g.shown &&
-                f.on_view == g.on_view && f.altitude == g.altitude)
-        << i;
-  }
+  expectEach(a.changed, b.changed, [](const auto& f, const auto& g) {
+    return f.key == g.key && f.order == g.order && f.position == g.position && f.velocity == g.velocity &&
+           f.acceleration == g.acceleration && f.box == g.box && f.solidness == g.solidness &&
+           f.no_soft == g.no_soft && f.shown == g.shown && f.on_view == g.on_view && f.altitude == g.altitude;
+  });
   EXPECT_EQ(a.vanished, b.vanished);
-  ASSERT_EQ(a.commands.size(), b.commands.size());
-  for (std::size_t i = 0; i < a.commands.size(); ++i) {
-    EXPECT_TRUE(a.commands[i].position == b.commands[i].position && a.commands[i].ch == b.commands[i].ch &&
-                a.commands[i].color == b.commands[i].color)
-        << i;
-  }
-  ASSERT_EQ(a.drawn.size(), b.drawn.size());
-  for (std::size_t i = 0; i < a.drawn.size(); ++i) {
-    EXPECT_TRUE(a.drawn[i].key == b.drawn[i].key && a.drawn[i].first == b.drawn[i].first &&
-                a.drawn[i].count == b.drawn[i].count && a.drawn[i].on_view == b.drawn[i].on_view)
-        << i;
-  }
-  ASSERT_EQ(a.looks.size(), b.looks.size());
-  for (std::size_t i = 0; i < a.looks.size(); ++i) {
-    EXPECT_TRUE(a.looks[i].drawn == b.looks[i].drawn && *a.looks[i].p_look == *b.looks[i].p_look) << i;
-  }
-  ASSERT_EQ(a.players.size(), b.players.size());
-  for (std::size_t i = 0; i < a.players.size(); ++i) {
-    const df::PlayerFacts& f = a.players[i];
-    const df::PlayerFacts& g = b.players[i];
-    EXPECT_TRUE(f.id == g.id && f.name == g.name && f.color == g.color && f.score == g.score &&
-                f.followed == g.followed && f.view_corner == g.view_corner && f.texts == g.texts &&
-                isSame(f.steering, g.steering))
-        << i;
-  }
+  expectEach(a.commands, b.commands, [](const auto& f, const auto& g) {
+    return f.position == g.position && f.ch == g.ch && f.color == g.color;
+  });
+  expectEach(a.drawn, b.drawn, [](const auto& f, const auto& g) {
+    return f.key == g.key && f.first == g.first && f.count == g.count && f.on_view == g.on_view;
+  });
+  expectEach(a.looks, b.looks,
+             [](const auto& f, const auto& g) { return f.drawn == g.drawn && *f.p_look == *g.p_look; });
+  expectEach(a.players, b.players, [](const auto& f, const auto& g) {
+    return f.id == g.id && f.name == g.name && f.color == g.color && f.score == g.score &&
+           f.followed == g.followed && f.view_corner == g.view_corner && f.texts == g.texts &&
+           isSame(f.steering, g.steering);
+  });
   EXPECT_EQ(a.corner, b.corner);
   EXPECT_EQ(a.sounds, b.sounds);
   EXPECT_EQ(a.sounds_lost, b.sounds_lost);
@@ -382,18 +373,6 @@ TEST(WorldMessages, EverySingleBitFlipIsRefusedOrLegal) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(WorldMessages, RandomBytesAreRefusedOrLegal) {
-  SplitMix64 rng(3);
-  for (int i = 0; i < 20'000; ++i) {
-    std::string bytes(rng.next() % 200, '\0');
-    for (char& byte : bytes) byte = static_cast<char>(rng.next() % 3 == 0 ? rng.next() : 0);
-    ViewReader reader;
-    df::WorldView view;
-    if (readAnswer(bytes, reader, view)) Publisher().update(view);
-    if (const auto turn = readTurn(bytes)) messageOf(*turn);
-  }
-}
-
 TEST(WorldMessages, MoreScoresThanATickMayHaveAreRefused) {
   const auto isRead = [](std::size_t count) {
     ViewWriter writer;
@@ -427,7 +406,6 @@ TEST(WorldMessages, WriterClampsOutOfRangeValues) {
   EXPECT_GT(view.players[0].view_corner.x, 0);
 }
 
-/// Returns a count as a varint.
 std::string countOf(std::uint64_t count) {
   std::string bytes;
   ByteWriter(bytes).varint(count);
@@ -472,6 +450,23 @@ TEST(WorldMessages, AFrameThatIsTooLongIsNotWritten) {
   ViewWriter writer;
   std::string frame;
   EXPECT_FALSE(writeAnswer({false, {}, true, {}}, &sent, writer, frame));
+}
+
+TEST(BuildId, MatchesTheLibraryFile) {
+  const std::string& id = ownBuildId();
+  ASSERT_GE(id.size(), 2 * kShownBuildId);
+  ASSERT_LE(id.size(), kMaxBuildId);
+  EXPECT_TRUE(std::ranges::all_of(id, [](unsigned char c) { return std::isxdigit(c) != 0; })) << id;
+  const auto [code, notes] =
+      test::runProgram("readelf -n '" NAIAD_BINARY_DIR "/../lib/libdragonfly.so' 2>/dev/null");
+  if (code != 0) GTEST_SKIP() << "there is no readelf";
+  EXPECT_NE(notes.find("Build ID: " + id), std::string::npos) << notes;
+}
+
+TEST(BuildId, IsFoundByTheFilesName) {
+  EXPECT_EQ(buildIdOf("libdragonfly.so"), ownBuildId());
+  EXPECT_NE(buildIdOf("libc.so"), ownBuildId());
+  EXPECT_EQ(buildIdOf("libnothing.so"), "");
 }
 
 }  // namespace

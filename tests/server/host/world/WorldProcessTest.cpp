@@ -1,4 +1,5 @@
 // The host's end of a world's process. /bin/sh plays the world; it uses descriptor 3.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -7,16 +8,19 @@
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/world/ActivityReader.h"
+#include "host/world/OutputRelay.h"
 #include "host/world/WorldLauncher.h"
 #include "host/world/WorldProcess.h"
 
 namespace naiad {
 namespace {
 
-/// Escapes a frame for printf.
 std::string escape(const std::string& frame) {
   std::string escaped;
   for (const char byte : frame) {
@@ -27,7 +31,6 @@ std::string escape(const std::string& frame) {
   return escaped;
 }
 
-/// Returns the frame with which a game reports that it is ready.
 std::string readyFrame() {
   std::string frame;
   writeReady({}, frame);
@@ -213,8 +216,6 @@ TEST_F(WorldProcessTest, OutputFloodIsLimitedAndTheExitReported) {
             printed.end());
 }
 
-// ---- hanging worlds ---------------------------------------------------------------------------------------
-
 class HangingWorldTest : public WorldProcessTest {
  protected:
   static constexpr std::chrono::milliseconds kHangTime{150};
@@ -263,6 +264,137 @@ TEST_F(HangingWorldTest, StoppedGameIsReportedAndGetsMoreTime) {
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings.front(),
             "the game is stopped in tick 2, by a debugger or a signal, and all players wait");
+}
+
+std::string classOfName(const char* p_mangled) {
+  return std::string(classInMangled(p_mangled));
+}
+
+TEST(ActivityReader, ExtractsTheClassFromAMangledName) {
+  EXPECT_EQ(classOfName("9EventStep"), "EventStep");
+  EXPECT_EQ(classOfName("N2df9EventStepE"), "EventStep");
+  EXPECT_EQ(classOfName("N12_GLOBAL__N_14ShipE"), "Ship");
+  EXPECT_EQ(classOfName("*N12_GLOBAL__N_14ShipE"), "Ship");
+  EXPECT_EQ(classOfName("12PlayerObjectIN2df6ObjectEE"), "PlayerObject");
+  EXPECT_EQ(classOfName("Z4mainE4Ship"), "Ship");
+  for (const char* p_strange : {"", "N", "Z", "99x", "4Sh", "St9exception", "99999999999999999999999x"})
+    EXPECT_EQ(classOfName(p_strange), p_strange);
+}
+
+TEST(ActivityReader, DescribesTheRunningHandler) {
+  const auto page = std::make_unique<df::ActivityPage>();
+  EXPECT_TRUE(describeActivity(*page, "handled").empty());
+  page->addName(16, "4Ship");
+  page->addName(24, "N2df9EventStepE");
+  page->now.object_class = 16;
+  page->now.event_class = 24;
+  EXPECT_EQ(describeActivity(*page, "handles").view(), ", while Ship handles EventStep");
+  page->now.event_class = df::Activity::kDraw;
+  EXPECT_EQ(describeActivity(*page, "handled").view(), ", while Ship ran draw()");
+  page->now.object_class = 4711;
+  page->now.event_class = 4712;
+  EXPECT_EQ(describeActivity(*page, "handled").view(), ", while an Object of unknown class handled an event");
+}
+
+TEST(ActivityReader, FullNameTableKeepsItsClasses) {
+  const auto page = std::make_unique<df::ActivityPage>();
+  for (std::uintptr_t id = 1; id <= df::ActivityPage::kNames + 10; ++id)
+    page->addName(8 * id, ("5C" + std::to_string(1000 + id)).c_str());
+  page->now.event_class = df::Activity::kDraw;
+  for (std::uintptr_t id = 1; id <= df::ActivityPage::kNames; ++id) {
+    page->now.object_class = 8 * id;
+    EXPECT_EQ(describeActivity(*page, "").view(), ", while C" + std::to_string(1000 + id) + " ran draw()");
+  }
+}
+
+TEST(ActivityReader, KeepsTheLastLinesEscapedAndCapped) {
+  const auto page = std::make_unique<df::ActivityPage>();
+  EXPECT_TRUE(logLine(*page, 0).empty());
+  for (int i = 0; i < 20; ++i) page->addLine("line " + std::to_string(i));
+  EXPECT_EQ(logLine(*page, 0).view(), "line 19");
+  EXPECT_EQ(logLine(*page, df::ActivityPage::kLines - 1).view(), "line 12");
+  EXPECT_TRUE(logLine(*page, df::ActivityPage::kLines).empty());
+  page->addLine("\033[2J\n\xc3\xa9");
+  EXPECT_EQ(logLine(*page, 0).view(), "\\x1b[2J\\x0a\\xc3\\xa9");
+  page->addLine(std::string(1000, 'x'));
+  EXPECT_EQ(logLine(*page, 0).view(), std::string(160, 'x'));
+  page->addLine(std::string(1000, '\x01'));
+  EXPECT_EQ(logLine(*page, 0).view().size(), 512u);
+}
+
+class OutputRelayTest : public testing::Test {
+ protected:
+  OutputRelayTest() {
+    int ends[2] = {-1, -1};
+    EXPECT_EQ(pipe2(ends, O_CLOEXEC | O_NONBLOCK), 0);
+    m_end = ends[1];
+    relay.emplace(ends[0], [this](const std::string& line) { lines.push_back(line); });
+  }
+  ~OutputRelayTest() override { close(m_end); }
+  /// Writes to the pipe. False once it is full.
+  bool print(const std::string& text) const {
+    return write(m_end, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  }
+
+  std::vector<std::string> lines;
+  std::optional<OutputRelay> relay;
+  OutputRelay::Clock::time_point now = OutputRelay::Clock::now();
+
+ private:
+  int m_end = -1;
+};
+
+TEST_F(OutputRelayTest, RelaysCompleteLinesAndTheRestAtTheEnd) {
+  print("one\ntw");
+  relay->update(now);
+  EXPECT_EQ(lines, std::vector<std::string>{"one"});
+  print("o\n\nthree");
+  relay->update(now);
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two", ""}));
+  relay->finish(now);
+  EXPECT_EQ(lines.back(), "three");
+}
+
+TEST_F(OutputRelayTest, LongLinesAreCut) {
+  for (int i = 0; i < 4; ++i) print(std::string(OutputRelay::kMaxLine, 'x'));
+  print("\nshort\n");
+  relay->update(now);
+  EXPECT_EQ(lines, (std::vector<std::string>{std::string(OutputRelay::kMaxLine, 'x'), "short"}));
+}
+
+TEST_F(OutputRelayTest, AFloodIsReadInPiecesLimitedAndCounted) {
+  constexpr std::size_t kBurst = static_cast<std::size_t>(OutputRelay::kRate.burst);
+  std::size_t printed = 0;
+  for (int tick = 0; tick < 20; ++tick) {
+    while (print("flood!\n")) ++printed;
+    relay->update(now);
+    EXPECT_TRUE(print("flood!\n")) << "the world goes on";
+    ++printed;
+  }
+  relay->update(now);
+  EXPECT_EQ(lines.size(), kBurst);
+  now += std::chrono::seconds(1);
+  print("later\n");
+  relay->update(now);
+  ASSERT_EQ(lines.size(), kBurst + 2);
+  EXPECT_EQ(lines[kBurst], std::to_string(printed - kBurst) + " lines dropped (too many at once)");
+  EXPECT_EQ(lines.back(), "later");
+}
+
+TEST_F(OutputRelayTest, OneUpdateReadsNoMoreThanItsShare) {
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(pipe2(ends, O_CLOEXEC | O_NONBLOCK), 0);
+  if (fcntl(ends[0], F_SETPIPE_SZ, 4 * OutputRelay::kMaxRead) < 0) {
+    close(ends[0]);
+    close(ends[1]);
+    GTEST_SKIP() << "no pipe may be that large";
+  }
+  OutputRelay large(ends[0], {});
+  const std::string all(4 * OutputRelay::kMaxRead, 'x');
+  EXPECT_EQ(write(ends[1], all.data(), all.size()), static_cast<ssize_t>(all.size()));
+  large.update(now);
+  EXPECT_LE(write(ends[1], all.data(), all.size()), static_cast<ssize_t>(OutputRelay::kMaxRead));
+  close(ends[1]);
 }
 
 }  // namespace

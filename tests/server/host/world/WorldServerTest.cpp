@@ -48,12 +48,12 @@ class Flyer : public df::Object {
 
 class WorldServerTest : public testing::Test {
  protected:
-  /// If `scrolls`, the view follows the flyer through a wider world.
-  explicit WorldServerTest(bool scrolls = false) {
+  /// The view follows the flyer through a wider world.
+  WorldServerTest() {
     int sockets[2];
     EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, sockets), 0);
     m_socket = sockets[0];
-    m_thread = std::thread([this, theirs = sockets[1], scrolls] {
+    m_thread = std::thread([this, theirs = sockets[1]] {
       df::World world;
       world.log().setSink([](const std::string&) {});
       const df::World::Scope scope(world);
@@ -61,10 +61,8 @@ class WorldServerTest : public testing::Test {
       world.setHelp({"fly"});
       world.views().setWindow(80, 30);
       auto* p_flyer = new Flyer(hits);
-      if (scrolls) {
-        world.views().setBoundary(df::Box(df::Vector(), 400, 24));
-        world.views().follow(nullptr, p_flyer);
-      }
+      world.views().setBoundary(df::Box(df::Vector(), 400, 24));
+      world.views().follow(nullptr, p_flyer);
       WorldServer(theirs, true).run(world);
       over = world.isGameOver();
       world.shutDown();
@@ -150,19 +148,7 @@ TEST_F(WorldServerTest, TicksOncePerTurnAndSendsWatchedViews) {
   EXPECT_EQ(view.tick, 3u);
 }
 
-TEST_F(WorldServerTest, AClickHitsWhatWasOnThePlayersScreen) {
-  turn({join(7)});
-  while (view.tick < 12) turn();
-  // The player saw tick 10, drawn from the models of tick 8: the flyer was in cell 20. It has moved since.
-  EXPECT_EQ(hitsOfClicks({true, 8, 10}, 20, 21), 1);
-}
-
-class ScrollingWorldServerTest : public WorldServerTest {
- protected:
-  ScrollingWorldServerTest() : WorldServerTest(true) {}
-};
-
-TEST_F(ScrollingWorldServerTest, ClickUsesTheViewOnThePlayersScreen) {
+TEST_F(WorldServerTest, ClickUsesObjectsAndViewOnThePlayersScreen) {
   turn({join(7)});
   while (view.tick < 80) turn();
   // The flyer was in cell 88 in tick 78, at two thirds of the view. Both have moved to the right since.
