@@ -1,6 +1,5 @@
 // Administers a running server through its control socket, dfctl and chat commands.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <asio/local/stream_protocol.hpp>
@@ -139,17 +138,6 @@ TEST_F(AdminTest, BannedPlayerIsToldTheReasonAndEndTime) {
   EXPECT_EQ(server.counters().refused_banned, 1u);
 }
 
-TEST_F(AdminTest, ABanLastsBeyondARestart) {
-  {
-    TestServer server(busyWorld(5), options);
-    ASSERT_TRUE(does("ban", R"("who":"name:eve")"));
-  }
-  TestServer server(busyWorld(5), options);
-  TestClient eve(context, server.port(), home.player("eve"));
-  EXPECT_FALSE(joins(eve));
-  EXPECT_TRUE(has(eve.connection().message(), "banned"));
-}
-
 /// Uses the real dfserver and dfctl. dfctl is not a descendant of the server, because the server obeys no
 /// descendants.
 class CtlTest : public LoopbackFixture {
@@ -182,20 +170,7 @@ TEST_F(CtlTest, CommandsShowStateAndActOnPlayers) {
   })) << server.log();
 }
 
-TEST_F(CtlTest, LinkAndStatusSayHowToJoin) {
-  const std::string begin = "dfclient naiad://127.0.0.1:" + std::to_string(server.port()) + "#";
-  const std::string link = ctl("link").second;
-  EXPECT_TRUE(link.starts_with(begin)) << link;
-  EXPECT_TRUE(has(ctl("status").second, "join: " + begin));
-  EXPECT_TRUE(has(ctl("help drain").second, "drain [SPAN]: "));
-  EXPECT_EQ(ctl("help drian").second,
-            "dfctl: There is no command \"drian\"; did you mean \"drain\"?\nRun dfctl --help for more "
-            "information.\n");
-  EXPECT_TRUE(has(ctl("set max-plyers 5").second, "did you mean \"max-players\"?"));
-  EXPECT_TRUE(has(ctl("drain 600").second, "in 600 s at the latest"));
-}
-
-TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
+TEST_F(CtlTest, ExitCodeAndHelpReportTheCommandsResult) {
   EXPECT_EQ(ctl("kick nobody").first, 1);
   EXPECT_EQ(ctl("kick").first, 2);
   EXPECT_EQ(ctl("kik ann").first, 2);
@@ -206,33 +181,21 @@ TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
   EXPECT_EQ(runCtl("--version").first, 0);
   EXPECT_EQ(runCtl("completion bash").first, 0);
   EXPECT_EQ(runCtl("completion csh").first, 2);
+  EXPECT_TRUE(has(ctl("help drain").second, "drain [SPAN]: "));
+  EXPECT_EQ(ctl("help drian").second,
+            "dfctl: There is no command \"drian\"; did you mean \"drain\"?\nRun dfctl --help for more "
+            "information.\n");
 }
 
-TEST_F(CtlTest, ChangesOptionsWithinTheirRanges) {
+TEST_F(CtlTest, ChangedPlayerLimitTakesEffect) {
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(joins(ann));
   EXPECT_EQ(ctl("set max-players 1").first, 0);
   TestClient bob(context, server.port(), home.player("bob"));
   EXPECT_FALSE(joins(bob));
-  EXPECT_EQ(ctl("set max-players 0").first, 1);
-  EXPECT_EQ(ctl("set max-players 2000000").first, 1);
   EXPECT_EQ(ctl("set max-players 200").first, 0) << "more than it began with";
   TestClient cat(context, server.port(), home.player("cat"));
   EXPECT_TRUE(joins(cat));
-  EXPECT_EQ(ctl("set port 1").first, 1);
-  EXPECT_EQ(ctl("set").first, 0);
-}
-
-TEST_F(CtlTest, StopsAServer) {
-  TestClient ann(context, server.port(), home.player("ann"));
-  ASSERT_TRUE(joins(ann));
-  const auto stop = ctl("stop maintenance until eight");
-  EXPECT_EQ(stop.first, 0) << stop.second;
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
-  EXPECT_EQ(ann.connection().message(), "maintenance until eight");
-  const int status = server.wait();
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
-  EXPECT_EQ(ctl("ping").first, 3);
 }
 
 TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {

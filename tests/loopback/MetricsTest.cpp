@@ -1,10 +1,8 @@
 // The metrics page (--metrics) of a server with players. Real sockets.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <functional>
 #include <list>
 #include <memory>
@@ -12,11 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "BusyWorld.h"
-#include "Home.h"
-#include "LightClient.h"
-#include "TestClient.h"
-#include "TestServer.h"
+#include "LoopbackFixture.h"
 #include "Valve.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
@@ -34,7 +28,7 @@ HostOptions withMetrics() {
   return options;
 }
 
-class Metrics : public testing::Test {
+class Metrics : public LoopbackFixture {
  protected:
   void start(const std::function<void(df::World&)>& populate, const HostOptions& options = withMetrics()) {
     server = std::make_unique<TestServer>(populate, options);
@@ -50,17 +44,11 @@ class Metrics : public testing::Test {
   }
   /// Serves the clients until `done` returns true; false after kPatience.
   bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient& client : clients) client.connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
+    std::vector<TestClient*> all;
+    for (TestClient& client : clients) all.push_back(&client);
+    return serveUntil(context, all, done);
   }
   HttpClient::Reply get(const std::string& path) const {
-    ++pages;
     return HttpClient::get(server->metricsPort(), path);
   }
   double value(const std::string& sample) const { return metricOf(get("/metrics").body, sample); }
@@ -75,11 +63,9 @@ class Metrics : public testing::Test {
     return [least](double value) { return value > least; };
   }
 
-  asio::io_context context;
   std::atomic<bool> blocks = false;
   std::unique_ptr<TestServer> server;
   std::list<TestClient> clients;
-  mutable int pages = 0;  ///< number of requested pages
 };
 
 TEST_F(Metrics, ValuesFollowTheGame) {
@@ -168,40 +154,9 @@ TEST_F(Metrics, HungGameIsUnhealthyUntilItRecovers) {
   EXPECT_TRUE(serve([&] { return get("/healthz").status == 200 && get("/readyz").status == 200; }));
 }
 
-// This proves, with the thread sanitizer, that no value is read while it is written.
-TEST_F(Metrics, PlayersJoinAndLeaveDuringScrapesAt100Hertz) {
-  start(busyWorld(30));
-  std::atomic<bool> stop = false;
-  std::atomic<int> scrapes = 0;
-  std::thread scraper([&] {
-    while (!stop) {
-      for (const char* path : {"/metrics", "/healthz", "/readyz"}) {
-        if (get(path).status == 200) ++scrapes;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  });
-  int rounds = 0;
-  const auto enough = [&] { return rounds >= 5 && scrapes >= 300; };
-  const auto end = Clock::now() + kPatience;
-  while (!enough() && Clock::now() < end) {
-    TestClient& client = join("ann");
-    const std::uint32_t from = client.newestTick();
-    serve([&] { return client.newestTick() > from + 50; });
-    client.connection().leave();
-    serve([&] { return client.connection().isOver(); });
-    clients.clear();
-    ++rounds;
-  }
-  stop = true;
-  scraper.join();
-  EXPECT_TRUE(enough()) << rounds << " rounds, " << scrapes << " scrapes";
-}
-
 // ---- audit of pictures ------------------------------------------------------------------------------------
 
 TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
-  Home home;
   HostOptions options = home.server();
   options.metrics = "127.0.0.1:0";
   start(busyWorld(100), options);
@@ -224,52 +179,6 @@ TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   }));
   EXPECT_EQ(value("naiad_audit_cells_total"), value("naiad_audit_pictures_total") * 80 * 24);
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
-  clients.clear();  // before their home is destroyed
-  server.reset();
-}
-
-// A scraper that requests a page every two seconds then costs at most 0.5 % of a core.
-TEST_F(Metrics, PageFor1000PlayersTakesAtMost10Milliseconds) {
-  constexpr std::size_t kPlayers = kSanitized ? 100 : 1000;
-  const std::string sample = R"(naiad_thread_cpu_seconds_total{thread="metrics"})";
-  const Home home;
-  HostOptions options = home.server();
-  options.metrics = "127.0.0.1:0";
-  options.frame_micros = 0;
-  options.max_players = kPlayers;
-  start(busyWorld(5), options);
-  std::vector<std::unique_ptr<LightClient>> players;
-  for (std::size_t i = 0; i < kPlayers; ++i) {
-    const std::string address = "127.7." + std::to_string(i / 250) + "." + std::to_string(1 + i % 250);
-    players.push_back(std::make_unique<LightClient>(context, server->port(), address));
-    players.back()->join();
-    if (players.size() % 50 != 0) continue;
-    ASSERT_TRUE(serve([&] {
-      return std::ranges::all_of(
-          players, [](const auto& player) { return player->state() == LightClient::State::kWelcome; });
-    }));
-  }
-  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(kPlayers)));
-  const double before = value(sample);
-  const int pages_before = pages;
-  std::vector<double> millis;
-  for (int i = 0; i < 100; ++i) {
-    const auto begin = Clock::now();
-    ASSERT_TRUE(serve([this] { return get("/metrics").status == 200; }));
-    millis.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-  }
-  // Wait for values measured after these pages. Pages requested until the first such value also count.
-  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
-  const int made = pages - pages_before;
-  ASSERT_TRUE(reaches("naiad_ticks_total", isOver(value("naiad_ticks_total"))));
-  const double spent = value(sample) - before;
-  std::ranges::sort(millis);
-  std::printf("metrics players=%zu pages=%d page_p50_ms=%.2f cpu_ms_per_page=%.3f\n", kPlayers, made,
-              millis[millis.size() / 2], 1000 * spent / made);
-  EXPECT_GT(spent, 0);
-  if (!kSanitized) {
-    EXPECT_LE(spent / made, 0.010);
-  }
 }
 
 }  // namespace

@@ -117,36 +117,6 @@ TEST_F(Resume, TheRoundTripIsMeasuredWithoutAStream) {
   EXPECT_TRUE(ann.session().isDetached());
 }
 
-TEST_F(Resume, ResumeContinuesTheWorldWithoutDatagrams) {
-  start();
-  valve->up = valve->down = false;
-  TestClient ann(context, proxy->port(), player("ann"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
-  const std::uint32_t id = ann.player();
-  proxy->cut();
-  ASSERT_TRUE(resumes(ann, 1));
-  EXPECT_EQ(ann.player(), id);
-  EXPECT_TRUE(keyWorks(ann));
-  EXPECT_TRUE(seesTheTruth(ann));
-  EXPECT_EQ(server->counters().divergences, 0u);
-  expectNoJoinOrLeave();
-}
-
-TEST_F(Resume, AStreamThatFallsSilentIsReplaced) {
-  TestClient& ann = startAndSettle();
-  proxy->stall();
-  ASSERT_TRUE(resumes(ann, 1));
-  EXPECT_TRUE(keyWorks(ann));
-  expectNoJoinOrLeave();
-}
-
-TEST_F(Resume, LeavingClientIsRemovedAtOnce) {
-  TestClient& ann = startAndSettle();
-  ann.connection().leave();
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] { return census.leaves == 1; }));
-  EXPECT_EQ(server->counters().detached, 0u);
-}
-
 TEST_F(Resume, ImpostorServerReceivesNoBytesOnReconnect) {
   TestClient& ann = startAndSettle("xyzzy");
   RecordingServer impostor(home.identity("another identity"));

@@ -33,7 +33,7 @@ class RoomRecovery : public LobbyFixture {
           {{"ROOM_REPEATS", "1"},
            {"NAIAD_PORT", std::to_string(port)},
            {"NAIAD_IDENTITY", home.identity("key")},
-           {"NAIAD_JOURNAL", rounds()},
+           {"NAIAD_JOURNAL", ""},  // the default: in the state folder
            {"NAIAD_STATE", home.identity("state")},
            {"DRAGONFLY_CONFIG", home.identity("none")}});
     m_port = game->port();
@@ -69,7 +69,7 @@ class RoomRecovery : public LobbyFixture {
     constexpr const char* kIsBack = "reconnected to the recovered round";
     return static_cast<std::size_t>(countIn(game->log(), kIsBack));
   }
-  fs::path rounds() const { return home.identity("rounds"); }
+  fs::path rounds() const { return home.identity("state") / "rounds"; }
   std::vector<fs::path> roundsOf(const std::string& room) const {
     std::vector<fs::path> found;
     std::error_code error;

@@ -63,16 +63,6 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   EXPECT_EQ(listed(), list) << "none twice, none lost";
 }
 
-TEST_F(Scores, ShutdownLogCountsTheScores) {
-  start();
-  join();
-  press(df::Keyboard::S);
-  ASSERT_TRUE(shows("best=0;")) << game->log();
-  game->signal(SIGTERM);
-  game->wait();
-  EXPECT_TRUE(has(game->log(), "scores=1 scores_written=1"));
-}
-
 class RoomScores : public RoomsFixture {
  protected:
   std::pair<int, std::string> scores(const std::string& words) const {
@@ -141,14 +131,6 @@ TEST_F(RoomScores, SeveralGamesRequireAGameOrRoomOption) {
   EXPECT_EQ(scores("--room two"), scores("--game room_module"));
   EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores.\n")));
   EXPECT_EQ(scores("--rom one").first, 2);
-}
-
-TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
-  start();
-  const std::string ctl = "--control " + game->control().string() + " scores ";
-  EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
-  EXPECT_TRUE(has(runCtl(ctl + "--game tron").second, "Games: rounds_game."));
-  EXPECT_TRUE(has(runCtl(ctl + "--room one").second, "This server has no rooms."));
 }
 
 }  // namespace

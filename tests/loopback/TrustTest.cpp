@@ -48,21 +48,8 @@ TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
   EXPECT_EQ(refusal(port, home.player("ann")), "");
 }
 
-TEST_F(TrustTest, ServerWithoutTheLinksKeyReceivesNoBytes) {
-  RecordingServer impostor(home.identity("another identity"));
-  ClientSetup setup = home.player("ann");
-  setup.options.password = "xyzzy";
-  setup.trust.link_key = ShortKey::of(*Fingerprint::parse(std::string(64, 'a')));
-  TestClient client(context, impostor.port(), setup);
-  const std::string message = refusal(client);
-  EXPECT_TRUE(has(message, "does not have the key in the link"));
-  ASSERT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(1); }));
-  EXPECT_EQ(impostor.heard(), "");
-  EXPECT_EQ(pins(), "");
-}
-
-/// The password is a secret, and the hello contains it. Tested with a pin from an earlier session and with a
-/// key given by the host.
+/// The password is a secret, and the hello contains it. Tested with a pin from an earlier session, with the
+/// key of a link, and with a key given by the host.
 TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
   RecordingServer impostor(home.identity("another identity"));
   ClientSetup setup = home.player("ann");
@@ -80,11 +67,18 @@ TEST_F(TrustTest, ServerWithAnotherKeyReceivesNoBytes) {
     ASSERT_TRUE(serveUntil(context, {&again}, [&] { return impostor.isDecided(1); }));
     EXPECT_EQ(impostor.heard(), "");
   }
-  setup.trust.fingerprint = Fingerprint::parse(std::string(64, 'a'));
-  TestClient informed(context, impostor.port(), setup);
-  EXPECT_TRUE(has(refusal(informed), "does not have the given key"));
-  ASSERT_TRUE(serveUntil(context, {&informed}, [&] { return impostor.isDecided(2); }));
-  EXPECT_EQ(impostor.heard(), "");
+  const auto expectRefusal = [&](const char* sentence, int connections) {
+    TestClient client(context, impostor.port(), setup);
+    EXPECT_TRUE(has(refusal(client), sentence));
+    EXPECT_TRUE(serveUntil(context, {&client}, [&] { return impostor.isDecided(connections); }));
+    EXPECT_EQ(impostor.heard(), "");
+  };
+  const auto other = Fingerprint::parse(std::string(64, 'a'));
+  setup.trust.link_key = ShortKey::of(*other);
+  expectRefusal("does not have the key in the link", 2);
+  setup.trust.link_key.reset();
+  setup.trust.fingerprint = other;
+  expectRefusal("does not have the given key", 3);
 
   // Checks the recorder itself: it records bytes when the client trusts it.
   setup.trust.fingerprint = impostor.fingerprint();

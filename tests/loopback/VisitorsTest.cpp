@@ -1,16 +1,12 @@
 // The visitors' socket of a real server: a client that connects through it counts with its visitor's address.
 #include <gtest/gtest.h>
 
-#include <asio/local/stream_protocol.hpp>
 #include <asio/write.hpp>
 
 #include "VisitedServer.h"
-#include "host/auth/PasswordHash.h"
 
 namespace naiad::test {
 namespace {
-
-using Local = asio::local::stream_protocol;
 
 class VisitorsTest : public VisitedServer {
  protected:
@@ -30,26 +26,6 @@ TEST_F(VisitorsTest, PlayersCountForTheirOwnAddress) {
   EXPECT_TRUE(joins(dan));
   EXPECT_TRUE(joins(eve)) << "this machine itself has nobody in the game";
   EXPECT_EQ(server.counters().joined, 4u);
-}
-
-TEST_F(VisitorsTest, PasswordGuessesLockOutOnlyTheirAddress) {
-  options.password = PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text();
-  TestServer server(busyWorld(5), options);
-  for (int i = 0; i < 5; ++i) {
-    ClientSetup setup = from("192.0.2.7:50312", "eve");
-    setup.options.password = "guess " + std::to_string(i);
-    TestClient eve(context, server.port(), setup);
-    EXPECT_EQ(refusal(eve), "That is not this server's password.");
-  }
-  ClientSetup setup = from("192.0.2.7:50399", "eve");
-  setup.options.password = "xyzzy";
-  TestClient eve(context, server.port(), setup);
-  EXPECT_EQ(refusal(eve), "Too many wrong passwords. Try again in a minute.");
-  for (ClientSetup other : {from("192.0.2.8:50312", "ann"), home.player("bob")}) {
-    other.options.password = "xyzzy";
-    TestClient client(context, server.port(), other);
-    EXPECT_EQ(refusal(client), "");
-  }
 }
 
 TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {

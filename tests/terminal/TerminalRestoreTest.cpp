@@ -41,14 +41,6 @@ TEST_F(TerminalRestoreTest, LeavingRestoresTheTerminal) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, ControlCRestoresTheTerminal) {
-  PtyTerminal terminal(options());
-  join(terminal);
-  terminal.type("\x03");
-  EXPECT_TRUE(exits(terminal, 0));
-  expectRestored(terminal);
-}
-
 TEST_F(TerminalRestoreTest, ControlCAtAPasswordPromptRestoresTheEcho) {
   PtyTerminal::Options options;
   options.command = {programPath("dfctl"), "password"};
