@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "Census.h"
 #include "Compare.h"
 #include "LoopbackFixture.h"
 #include "StreamProxy.h"
@@ -16,17 +15,11 @@ namespace naiad::test {
 class ProxiedServer : public LoopbackFixture {
  protected:
   void start(HostOptions options) {
-    const auto populate = [this](df::World& world) {
-      countedWorld(census, 50)(world);
-      addObjects();
-    };
-    server = std::make_unique<TestServer>(populate, std::move(options));
+    server = std::make_unique<TestServer>(busyWorld(50, &census), std::move(options));
     proxy = std::make_unique<StreamProxy>(context, server->port());
     valve->server_port = server->port();
   }
   void start() { start(home.server()); }
-  /// Adds the objects of a derived fixture to the world.
-  virtual void addObjects() {}
   virtual ClientSetup player(const std::string& name) {
     ClientSetup setup = home.player(name);
     setup.options.open_socket = through(context, valve);

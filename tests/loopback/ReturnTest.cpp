@@ -1,10 +1,7 @@
 // A client is killed and another process resumes its session. The game does not notice.
 #include <gtest/gtest.h>
 
-#include <atomic>
-
 #include "ProxiedServer.h"
-#include "engine/events/EventKeyboard.h"
 #include "engine/world/ObjectRegistry.h"
 #include "engine/world/Player.h"
 
@@ -15,36 +12,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kElsewhere = "This session was resumed in another client.";
 
-/// Numbers of key events that the game received, by action.
-struct Keys {
-  std::atomic<int> pressed = 0;
-  std::atomic<int> released = 0;
-};
-
-class KeyClerk : public df::Object {
- public:
-  explicit KeyClerk(Keys& keys) : m_keys(keys) {
-    setType("KeyClerk");
-    setSolidness(df::SPECTRAL);
-    setVisible(false);
-    registerInterest(df::KEYBOARD_EVENT);
-  }
-  int eventHandler(const df::Event* p_e) override {
-    const auto* p_key = dynamic_cast<const df::EventKeyboard*>(p_e);
-    if (p_key == nullptr) return 0;
-    if (p_key->getKeyboardAction() == df::KEY_PRESSED) ++m_keys.pressed;
-    if (p_key->getKeyboardAction() == df::KEY_RELEASED) ++m_keys.released;
-    return 1;
-  }
-
- private:
-  Keys& m_keys;
-};
-
 class Return : public ProxiedServer {
  protected:
-  ~Return() override { server.reset(); }  // the server counts into `keys`, so it must end first
-  void addObjects() override { new KeyClerk(keys); }
   ClientSetup player(const std::string& name) override {
     ClientSetup setup = ProxiedServer::player(name);
     setup.sessions = home.sessions();
@@ -87,8 +56,6 @@ class Return : public ProxiedServer {
     for (const ChatEntry& entry : client.session().chat()) lines.push_back(entry.text);
     return lines;
   }
-
-  Keys keys;
 };
 
 TEST_F(Return, RestartedClientGetsItsObjectBack) {
@@ -113,7 +80,7 @@ TEST_F(Return, RestartedClientGetsItsObjectBack) {
     EXPECT_EQ(server->counters().restarted, round);
   }
   EXPECT_TRUE(playsOn(*ann));
-  EXPECT_EQ(keys.pressed, 9);
+  EXPECT_EQ(census.pressed, 9);
   EXPECT_EQ(ann->session().counters().resets, 0u);
   EXPECT_EQ(
       server->inWorld([](df::World& world) { return world.objects().objectsOfType("Ship").getCount(); }), 1);
@@ -138,19 +105,20 @@ TEST_F(Return, KeysOfAKilledClientAreReleased) {
     ann->session().sendKey(key, df::KEY_PRESSED, Clock::now());
   }
   ann->session().sendKey(df::Keyboard::SPACE, df::KEY_RELEASED, Clock::now());
-  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.pressed == 3 && keys.released == 1; }));
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.pressed == 3 && census.released == 1; }));
   ann.reset();
-  ASSERT_TRUE(serveUntil(context, {}, [&] { return keys.released == 3; }));
+  ASSERT_TRUE(serveUntil(context, {}, [&] { return census.released == 3; }));
 
   ann = client("ann");
   ASSERT_TRUE(joins(*ann));
   ann->session().sendKey(df::Keyboard::B, df::KEY_PRESSED, Clock::now());
-  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.pressed == 4; }));
+  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.pressed == 4; }));
   EXPECT_TRUE(playsOn(*ann));
-  EXPECT_EQ(keys.released, 3) << "each key is released once, and a client that is back keeps its own pressed";
+  EXPECT_EQ(census.released, 3)
+      << "each key is released once, and a client that is back keeps its own pressed";
   proxy->stall();
   ASSERT_TRUE(comesBack(ann));
-  EXPECT_TRUE(serveUntil(context, {ann.get()}, [&] { return keys.released == 4; }))
+  EXPECT_TRUE(serveUntil(context, {ann.get()}, [&] { return census.released == 4; }))
       << "also where the server did not know";
 }
 
@@ -222,7 +190,7 @@ TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
 TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {
   auto ann = startAndSettle();
   ann.reset();
-  TestServer impostor(countedWorld(census, 1), home.server("another key"));
+  TestServer impostor(busyWorld(1, &census), home.server("another key"));
   proxy->setServer(impostor.port());
   valve->server_port = impostor.port();
   ClientSetup trusting = player("ann");
