@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "GameProgram.h"
-#include "RunCtl.h"
 #include "VisitedServer.h"
 #include "host/auth/PasswordHash.h"
 #include "tests/server/host/admin/Talk.h"
@@ -142,9 +141,7 @@ TEST_F(AdminTest, BannedPlayerIsToldTheReasonAndEndTime) {
 /// descendants.
 class CtlTest : public LoopbackFixture {
  protected:
-  std::pair<int, std::string> ctl(const std::string& arguments) const {
-    return runCtl("--control " + server.control().string() + " " + arguments);
-  }
+  std::pair<int, std::string> ctl(const std::string& arguments) const { return server.ctl(arguments); }
 
   GameProgram server{"dfserver", {{"NAIAD_GAME", "hello"}}};
 };

@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "ProgramFixture.h"
-#include "RunCtl.h"
 #include "host/auth/PasswordHash.h"
 #include "host/auth/ServerIdentity.h"
 #include "shared/net/stream/ProxyHeader.h"
@@ -80,9 +79,7 @@ class HostedServer : public ProgramFixture {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 
-  std::pair<int, std::string> ctl(const std::string& command) const {
-    return runCtl("--control " + game->control().string() + " " + command);
-  }
+  std::pair<int, std::string> ctl(const std::string& command) const { return game->ctl(command); }
 
  private:
   std::vector<std::unique_ptr<TestClient>> m_clients;

@@ -122,26 +122,6 @@ TEST_F(Return, KeysOfAKilledClientAreReleased) {
       << "also where the server did not know";
 }
 
-TEST_F(Return, SecondClientDoesNotTakeARunningSession) {
-  auto ann = startAndSettle();
-  auto other = client("ann");
-  ASSERT_TRUE(serveUntil(context, {ann.get(), other.get()}, [&] { return other->joined(); }));
-  EXPECT_NE(other->player(), ann->player());
-  EXPECT_EQ(other->session().welcome().name, "ann2");
-  expectNoJoinOrLeave(2);
-  // Both are killed. Each returns in one of the two sessions.
-  const std::uint32_t ids = ann->player() + other->player();
-  ann.reset();
-  other.reset();
-  ann = client("ann");
-  other = client("ann");
-  ASSERT_TRUE(
-      serveUntil(context, {ann.get(), other.get()}, [&] { return ann->joined() && other->joined(); }));
-  EXPECT_NE(other->player(), ann->player());
-  EXPECT_EQ(other->player() + ann->player(), ids);
-  expectNoJoinOrLeave(2);
-}
-
 TEST_F(Return, SessionMovesToTheClientWithTheToken) {
   auto ann = startAndSettle();
   ASSERT_TRUE(press(*ann, 2));
@@ -162,29 +142,6 @@ TEST_F(Return, SessionMovesToTheClientWithTheToken) {
   for (const auto& entry : std::filesystem::directory_iterator(home.sessions())) {
     EXPECT_EQ(entry.path().filename(), "lock");
   }
-}
-
-TEST_F(Return, DisconnectedClientIsToldThatItsSessionMoved) {
-  auto ann = startAndSettle();
-  proxy->setOpen(false);
-  proxy->cut();
-  ASSERT_TRUE(serveUntil(context, {ann.get()}, [&] { return ann->session().isDetached(); }));
-  ClientSetup copy = player("copy");
-  copy.sessions.clear();
-  copy.options.open_socket = nullptr;
-  copy.options.resume_token = ann->session().welcome().resume_token;
-  copy.options.new_process = true;
-  TestClient elsewhere(context, server->port(), copy);
-  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return elsewhere.joined(); }));
-  const std::uint32_t heard = elsewhere.newestTick() + 30;
-  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return elsewhere.newestTick() >= heard; }));
-  proxy->setOpen(true);
-  ASSERT_TRUE(serveUntil(context, {ann.get(), &elsewhere}, [&] { return ann->connection().isOver(); }));
-  EXPECT_EQ(ann->connection().state(), Connection::State::kRefused);
-  EXPECT_EQ(ann->connection().message(), kElsewhere);
-  EXPECT_EQ(server->counters().refused_session_moved, 1u);
-  EXPECT_TRUE(playsOn(elsewhere));
-  expectNoJoinOrLeave();
 }
 
 TEST_F(Return, AnotherServerDoesNotGetToSeeTheToken) {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,7 +11,6 @@
 #include "ProgramFixture.h"
 #include "RecoveryRun.h"
 #include "RoomsFixture.h"
-#include "RunCtl.h"
 
 namespace naiad::test {
 namespace {
@@ -30,13 +27,8 @@ class Scores : public ProgramFixture {
   bool shows(const std::string& text) {
     return serve([&] { return client->joined() && has(row(*client), text); });
   }
-  void press(df::Keyboard::Key key) {
-    client->session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
-  }
   /// Returns the scores on disk as listed by dfctl.
-  std::string listed() const {
-    return runCtl("--control " + game->control().string() + " scores --json").second;
-  }
+  std::string listed() const { return game->ctl("scores --json").second; }
 
   std::unique_ptr<TestClient> client;
 };
@@ -45,10 +37,10 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   start();
   join();
   ASSERT_TRUE(shows("best=-1;"));
-  for (int i = 0; i < 3; ++i) press(df::Keyboard::RIGHTARROW);
-  press(df::Keyboard::S);
+  for (int i = 0; i < 3; ++i) press(*client, df::Keyboard::RIGHTARROW);
+  press(*client, df::Keyboard::S);
   ASSERT_TRUE(shows("best=3;")) << game->log();
-  press(df::Keyboard::X);
+  press(*client, df::Keyboard::X);
   EXPECT_TRUE(shows("steps=0 ")) << "another round";
   EXPECT_TRUE(shows("best=3;")) << game->log();
   const std::string list = listed();
@@ -65,9 +57,7 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
 
 class RoomScores : public RoomsFixture {
  protected:
-  std::pair<int, std::string> scores(const std::string& words) const {
-    return runCtl("--control " + game->control().string() + " scores " + words);
-  }
+  std::pair<int, std::string> scores(const std::string& words) const { return game->ctl("scores " + words); }
   std::string replay(const std::string& recording, const std::string& words) const {
     return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
                       recording + " --game " + kScoresModule + " " + words + " 2>&1")

@@ -109,17 +109,6 @@ TEST_F(Trouble, StalledLogReaderDoesNotBlockTheTick) {
   EXPECT_TRUE(has(said, "\"ann\" joined")) << "what waited was lost";
 }
 
-TEST_F(Trouble, RefusalIsLoggedWithItsMessage) {
-  start({{"NAIAD_MAX_PLAYERS", "1"}});
-  auto ann = join("ann");
-  const ClientSetup bob = home.player("bob");
-  TestClient refused(context, game->port(), bob);
-  clients.push_back(&refused);
-  EXPECT_TRUE(serve([&] { return refused.connection().state() == Connection::State::kRefused; }));
-  EXPECT_TRUE(waitForLog(" refused: \"The server is full (1 players). Try again later.\"\n")) << game->log();
-  EXPECT_TRUE(waitForLog(" \"ann\" joined with \"test\"\n")) << game->log();
-}
-
 TEST_F(Trouble, ShutdownLogCountsRefusedPasswords) {
   start({{"NAIAD_PASSWORD", PasswordHash::of("xyzzy", {.memory_kib = 64, .passes = 1}).text()}});
   for (const std::string password : {"plugh", "", "xyzzy"}) {

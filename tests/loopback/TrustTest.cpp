@@ -4,7 +4,6 @@
 #include "LoopbackFixture.h"
 #include "RecordingServer.h"
 #include "StreamProxy.h"
-#include "shared/net/base/SafeFile.h"
 
 namespace naiad::test {
 namespace {
@@ -16,37 +15,7 @@ class TrustTest : public LoopbackFixture {
     EXPECT_TRUE(client.joined() || client.connection().state() == Connection::State::kRefused);
     return message;
   }
-  std::string refusal(std::uint16_t port, const ClientSetup& setup) {
-    TestClient client(context, port, setup);
-    return refusal(client);
-  }
-  std::string pins() const { return readSmallFile(home.knownServers(), 10'000).value_or(""); }
 };
-
-TEST_F(TrustTest, ChangedKeyIsRefusedWithAWarning) {
-  auto server = std::make_unique<TestServer>(busyWorld(5), home.server());
-  const std::uint16_t port = server->port();
-  EXPECT_EQ(refusal(port, home.player("ann")), "");
-  const std::string before = pins();
-  EXPECT_TRUE(has(before, server->fingerprint()->text()));
-  server.reset();
-
-  HostOptions other = home.server("another identity");
-  other.port = port;
-  server = std::make_unique<TestServer>(busyWorld(5), other);
-  const std::string message = refusal(port, home.player("ann"));
-  EXPECT_TRUE(has(message, "HAS CHANGED"));
-  EXPECT_TRUE(has(message, server->fingerprint()->text()));
-  EXPECT_EQ(pins(), before);
-  // The client did not join, because it had not sent a hello.
-  EXPECT_EQ(server->counters().joined, 0u);
-
-  // The host has told ann the new fingerprint, so she trusts it.
-  ClientSetup informed = home.player("ann");
-  informed.trust.fingerprint = server->fingerprint();
-  EXPECT_EQ(refusal(port, informed), "");
-  EXPECT_EQ(refusal(port, home.player("ann")), "");
-}
 
 /// The password is a secret, and the hello contains it. Tested with a pin from an earlier session, with the
 /// key of a link, and with a key given by the host.

@@ -271,15 +271,6 @@ TEST_F(OwnMain, InvalidSettingIsReportedWithExitCode2) {
       << game->output();
 }
 
-TEST_F(OwnMain, ListensOnLoopbackOnlyByDefault) {
-  std::ofstream(m_home / "df-config.txt") << "logfile:" << (m_home / "game.log").string() << ",\n";
-  constexpr const char* kAlone = "Only this machine can join: listening on 127.0.0.1:";
-  EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
-  const std::string open = startServer({{"NAIAD_ADDRESS", ""}, {"NAIAD_PUBLIC", "1"}})->output();
-  EXPECT_FALSE(has(open, kAlone));
-  EXPECT_TRUE(has(open, "Listening on every address of this machine, port "));
-}
-
 TEST_F(OwnMain, HangupOfItsTerminalEndsItCleanly) {
   auto game = startServer();
   auto ann = join("ann");
