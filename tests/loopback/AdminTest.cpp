@@ -1,4 +1,5 @@
-// Administers a running server through its control socket, dfctl and chat commands.
+// Administers a running server through its control socket, dfctl and chat commands. A client that connects
+// through the visitors' socket counts with its visitor's address.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +12,9 @@
 #include <utility>
 
 #include "GameProgram.h"
-#include "VisitedServer.h"
+#include "LoopbackFixture.h"
 #include "host/auth/PasswordHash.h"
+#include "shared/net/stream/ProxyHeader.h"
 #include "tests/server/host/admin/Talk.h"
 #include "tests/support/RunProgram.h"
 
@@ -25,12 +27,19 @@ std::string command(const std::string& name, const std::string& arguments = "") 
   return R"({"command":")" + name + R"(","arguments":{)" + arguments + "}}";
 }
 
-class AdminTest : public VisitedServer {
+class AdminTest : public LoopbackFixture {
  protected:
   AdminTest() {
+    options.visitors = home.identity("visitors");
     options.control = home.identity("control.sock");
     options.state = home.identity("state");
     options.admin_password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  }
+  /// Returns the setup of a client that uses the visitors' socket, for example from "192.0.2.7:50312".
+  ClientSetup from(const std::string& address, const std::string& name) const {
+    ClientSetup setup = home.player(name);
+    setup.options.proxy = ProxyOptions{options.visitors, *proxiedPeerFromText(address)};
+    return setup;
   }
   bool reads(TestClient& client, const std::string& text) {
     return serveUntil(context, {&client}, [&] { return hasRead(client, text); });
@@ -58,6 +67,8 @@ class AdminTest : public VisitedServer {
   testing::AssertionResult does(const std::string& name, const std::string& arguments) const {
     return has(ask(command(name, arguments)), R"("ok":true)");
   }
+
+  HostOptions options = home.server();
 };
 
 TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
@@ -355,6 +366,56 @@ TEST(ServerStart, SecondOneSaysHowToJoinTheFirst) {
   const auto [code, output] = runServer(home, "--port " + port);
   EXPECT_EQ(code, 4);
   EXPECT_TRUE(has(output, "already running there; join it with: dfclient naiad://127.0.0.1:" + port + "#"));
+}
+
+// ---- the visitors' socket ---------------------------------------------------------------------------------
+
+class VisitorsTest : public AdminTest {
+ protected:
+  VisitorsTest() { options.max_per_address = 2; }
+};
+
+TEST_F(VisitorsTest, PlayersCountForTheirOwnAddress) {
+  TestServer server(busyWorld(5), options);
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  TestClient bob(context, server.port(), from("192.0.2.7:50313", "bob"));
+  ASSERT_TRUE(joins(ann));
+  ASSERT_TRUE(joins(bob));
+  TestClient third(context, server.port(), from("192.0.2.7:50314", "cat"));
+  EXPECT_NE(refusal(third), "");
+  TestClient dan(context, server.port(), from("[2001:db8::7]:50315", "dan"));
+  TestClient eve(context, server.port(), home.player("eve"));
+  EXPECT_TRUE(joins(dan));
+  EXPECT_TRUE(joins(eve)) << "this machine itself has nobody in the game";
+  EXPECT_EQ(server.counters().joined, 4u);
+}
+
+TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
+  TestServer server(busyWorld(5), options);
+  asio::ip::tcp::socket socket(context);
+  socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
+  asio::write(socket, asio::buffer(proxyHeader({asio::ip::make_address("192.0.2.9"), 9})));
+  // The server reads the header as a broken TLS hello, so it sends at most a TLS alert and closes the
+  // connection.
+  socket.non_blocking(true);
+  std::string heard;
+  TestClient ann(context, server.port(), home.player("ann"));
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+    char bytes[256];
+    std::error_code error;
+    const std::size_t size = socket.read_some(asio::buffer(bytes), error);
+    heard.append(bytes, size);
+    return error && error != asio::error::would_block;
+  }));
+  EXPECT_LE(heard.size(), 7u) << "a TLS record with an alert";
+  EXPECT_TRUE(joins(ann));
+  EXPECT_EQ(server.counters().connections, 1u);
+}
+
+TEST_F(VisitorsTest, MissingVisitorSocketGivesAMessage) {
+  TestServer server(busyWorld(5), home.server());
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  EXPECT_TRUE(has(refusal(ann), "Could not connect through")) << ann.connection().message();
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
   EXPECT_FALSE(has(game->log(), "$argon2")) << "not even its hash is logged";
 }
 
-TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
+TEST_F(HostedServer, ReloadTakesOverANewCertificateButNotAMissingOne) {
   const auto now = std::chrono::system_clock::now();
   const fs::path files = home.identity("files");
   const ServerIdentity first = ServerIdentity::loadOrMake(home.identity("first"), now);
@@ -162,21 +162,12 @@ TEST_F(HostedServer, ReloadTakesOverANewCertificate) {
   bob.trust.fingerprint = second.fingerprint();
   bob.trust.known_servers = home.identity("bobs_servers");
   join(bob);
-  EXPECT_TRUE(waitForTicks(playing));
-}
-
-TEST_F(HostedServer, AMissingCertificateLeavesTheOldOne) {
-  const fs::path files = home.identity("files");
-  ServerIdentity::loadOrMake(files / "key", std::chrono::system_clock::now());
-  const std::string options = "certificate = " + (files / "key" / "certificate.pem").string() +
-                              "\nkey = " + (files / "key" / "key.pem").string() + "\n";
-  start({}, options);
-  TestClient& ann = join("ann");
-  fs::rename(files / "key", files / "gone");
-  ASSERT_TRUE(reload(options));
+  fs::remove(files / "key.pem");
+  game->signal(SIGHUP);
   EXPECT_TRUE(waitForLog("the options were not changed: ")) << game->log();
-  join("bob");
-  EXPECT_TRUE(waitForTicks(ann));
+  bob.options.name = "cid";
+  join(bob);
+  EXPECT_TRUE(waitForTicks(playing));
 }
 
 // ---- the log ----------------------------------------------------------------------------------------------

@@ -1,23 +1,135 @@
-// A click on what the player sees hits it, however far the server is and however fast the target moves.
+// Play on a server at 30 Hz that is 50 ms away in each direction: a key has a visible effect at once and the
+// prediction comes true; a click hits what the player sees, however fast the target moves.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include "FarServer.h"
+#include "LoopbackFixture.h"
+#include "StreamProxy.h"
+#include "Valve.h"
 #include "engine/events/EventMouse.h"
 #include "engine/events/EventStep.h"
 #include "engine/managers/DisplayManager.h"
 #include "engine/managers/WorldManager.h"
 #include "engine/world/Capture.h"
+#include "engine/world/Controls.h"
+#include "engine/world/EventPlayer.h"
 #include "engine/world/Object.h"
+#include "engine/world/Player.h"
 
 namespace naiad::test {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+
+class FarServer : public LoopbackFixture {
+ protected:
+  void start(std::function<void(df::World&)> populate) {
+    HostOptions options = home.server();
+    options.frame_micros = 0;  // 30 Hz, the default
+    server = std::make_unique<TestServer>(std::move(populate), options);
+    proxy = std::make_unique<StreamProxy>(context, server->port());
+    proxy->setDelay(std::chrono::milliseconds(50));
+    valve->delay = std::chrono::milliseconds(50);
+    valve->server_port = server->port();
+  }
+  ClientSetup player(const std::string& name) {
+    ClientSetup setup = home.player(name);
+    setup.options.open_socket = through(context, valve);
+    return setup;
+  }
+
+  std::shared_ptr<Valve> valve = std::make_shared<Valve>();
+  std::unique_ptr<TestServer> server;
+  std::unique_ptr<StreamProxy> proxy;
+};
+
+// ---- prediction -------------------------------------------------------------------------------------------
+
+/// Gives each player a boat with declared controls.
+class Boatyard : public df::Object {
+ public:
+  Boatyard() {
+    setSolidness(df::SPECTRAL);
+    setVisible(false);
+    registerInterest(df::JOIN_EVENT);
+  }
+  int eventHandler(const df::Event* p_e) override {
+    if (p_e->getType() != df::JOIN_EVENT) return 0;
+    df::Player* p_player = WM.getPlayer(dynamic_cast<const df::EventJoin*>(p_e)->getPlayer());
+    auto* p_boat = new df::Object;
+    p_boat->setType("Boat");
+    p_boat->setPosition(df::Vector(40, 12));
+    p_player->setObject(p_boat);
+    p_player->setControls(
+        df::Controls().onKey(df::Keyboard::RIGHTARROW).step(1, 0).onKey(df::Keyboard::LEFTARROW).step(-1, 0));
+    return 1;
+  }
+};
+
+class PredictionPlay : public FarServer {
+ protected:
+  PredictionPlay() {
+    start([](df::World&) { new Boatyard; });
+  }
+  static df::FixedVector shown(TestClient& client) {
+    return client.session().predict(Clock::now()).position();
+  }
+  df::FixedVector real() {
+    return server->inWorld(
+        [](df::World& world) { return world.picture().view().players.at(0).steering.position; });
+  }
+  bool isPredicting(TestClient& client) {
+    return serveUntil(context, {&client}, [&] {
+      if (!client.joined() || !client.session().hasDatagrams(Clock::now())) return false;
+      client.session().predict(Clock::now());
+      return client.session().isPredicting() && client.session().counters().datagrams_in > 30;
+    });
+  }
+};
+
+TEST_F(PredictionPlay, KeyShowsInTheNextFrameAndIsConfirmed) {
+  TestClient ann(context, proxy->port(), player("ann"));
+  ASSERT_TRUE(isPredicting(ann));
+  const df::FixedVector start = shown(ann);
+  EXPECT_EQ(start, real());
+  int x = 0;
+  for (int i = 0; i < 20; ++i) {
+    const bool right = i % 5 < 3;
+    const auto key = right ? df::Keyboard::RIGHTARROW : df::Keyboard::LEFTARROW;
+    ASSERT_TRUE(ann.session().sendKey(key, df::KEY_PRESSED, Clock::now()));
+    x += right ? 1 : -1;
+    // The server's answer cannot have arrived yet, so the boat's move was predicted.
+    EXPECT_EQ(shown(ann), (start + df::FixedVector{df::fromCells(x), 0})) << i;
+    const std::uint32_t tick = ann.newestTick();
+    ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+      shown(ann);
+      return ann.newestTick() >= tick + 4;
+    }));
+  }
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] {
+    shown(ann);
+    return ann.session().predict(Clock::now()).pendingInputs() == 0;
+  }));
+  EXPECT_EQ(shown(ann), real());
+  EXPECT_EQ(real(), (start + df::FixedVector{df::fromCells(x), 0}));
+  const Prediction::Counters& counters = ann.session().predict(Clock::now()).counters();
+  EXPECT_EQ(counters.unpredicted, 0u);
+  EXPECT_GE(counters.confirmed, 10u);
+  // No obstacle is near, so only a key that arrived too late may have been mispredicted.
+  const bool none_late = ann.session().inputTickEstimator().margin() == InputTickEstimator::kMinMargin;
+  EXPECT_TRUE(counters.mispredicted == 0 || !none_late) << counters.mispredicted;
+  std::printf("confirmed=%d mispredicted=%d margin=%.2f\n", static_cast<int>(counters.confirmed),
+              static_cast<int>(counters.mispredicted), ann.session().inputTickEstimator().margin());
+}
+
+// ---- clicks -----------------------------------------------------------------------------------------------
 
 constexpr int kSlow = 12;  ///< row of the target that moves half a cell a tick
 constexpr int kFast = 14;  ///< row of the target that moves a cell a tick
