@@ -25,7 +25,6 @@
 namespace naiad::test {
 namespace {
 
-using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 class FarServer : public LoopbackFixture {
