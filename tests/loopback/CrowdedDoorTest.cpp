@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "Compare.h"
@@ -199,49 +197,23 @@ TEST_F(CrowdedDoor, TwoHundredPlayersOfOneAddressJoinAtOnce) {
 
 // ---- handshakes -------------------------------------------------------------------------------------------
 
-/// Clients, in a thread of their own, that reconnect as soon as they are answered or disconnected.
-class InsistentCrowd {
- public:
-  InsistentCrowd(std::uint16_t server, const std::vector<std::string>& from,
-                 std::chrono::milliseconds pause) {
-    for (const std::string& address : from) {
-      LightClient& one = *m_all.emplace_back(std::make_unique<LightClient>(m_context, server, address));
-      one.onJudged([this, pause](LightClient& client) {
-        if (client.state() == LightClient::State::kHungUp) ++m_hung_up;
-        client.joinAfter(pause);
-      });
-    }
-    m_thread = std::thread([this] {
-      for (const auto& one : m_all) one->join();
-      m_context.run();
-    });
-  }
-  ~InsistentCrowd() {
-    m_context.stop();
-    m_thread.join();
-  }
-  InsistentCrowd(const InsistentCrowd&) = delete;
-  InsistentCrowd& operator=(const InsistentCrowd&) = delete;
-
-  int hungUp() const { return m_hung_up; }
-
- private:
-  asio::io_context m_context;
-  std::vector<std::unique_ptr<LightClient>> m_all;
-  std::atomic<int> m_hung_up = 0;
-  std::thread m_thread;
-};
-
 TEST_F(CrowdedDoor, HandshakesOfOneAddressAreLimitedWithoutDelayingOthers) {
   TestServer server(busyWorld(20), home.server());
   server.keepTruth(false);
+  const auto crowd = lightClients(server, addresses(16, [](int) { return "127.1.1.1"; }));
   TestClient ann(context, server.port(), home.player("ann"));
   ann.keepPictures(false);
   ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
   const auto began = std::chrono::steady_clock::now();
-  InsistentCrowd crowd(server.port(), addresses(16, [](int) { return "127.1.1.1"; }),
-                       kSanitized ? 20ms : 0ms);
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return crowd.hungUp() > 300; }));
+  int hung_up = 0;
+  for (const auto& one : crowd) {
+    one->onJudged([&hung_up](LightClient& client) {
+      if (client.state() == LightClient::State::kHungUp) ++hung_up;
+      client.joinAfter(20ms);
+    });
+    one->join();
+  }
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return hung_up > 300; }));
 
   const std::uint32_t tick = ann.newestTick();
   for (const std::string address : {"127.1.1.2", "127.9.9.9"}) {

@@ -86,7 +86,7 @@ class PredictionPlay : public FarServer {
   }
   bool isPredicting(TestClient& client) {
     return serveUntil(context, {&client}, [&] {
-      if (!client.joined() || !client.session().hasDatagrams(Clock::now())) return false;
+      if (!isOnDatagrams(client)) return false;
       client.session().predict(Clock::now());
       return client.session().isPredicting() && client.session().counters().datagrams_in > 30;
     });
@@ -188,10 +188,8 @@ class LagCompensatorPlay : public FarServer {
   }
   ~LagCompensatorPlay() override { server.reset(); }  // the server adds to `clicks`, so it must end first
   bool plays(TestClient& ann) {
-    return serveUntil(context, {&ann}, [&ann] {
-      return ann.joined() && ann.session().hasDatagrams(Clock::now()) &&
-             ann.session().counters().datagrams_in > 30;
-    });
+    return serveUntil(context, {&ann},
+                      [&ann] { return isOnDatagrams(ann) && ann.session().counters().datagrams_in > 30; });
   }
   /// Serves ann until `count` clicks have reached the game; false after a timeout.
   bool clicked(TestClient& ann, std::size_t count, std::vector<Click>& now) {

@@ -101,30 +101,19 @@ TEST_F(Metrics, ValuesFollowTheGame) {
   EXPECT_TRUE(reaches("naiad_objects", is(0))) << "nobody watches";
 }
 
-TEST_F(Metrics, NoPlayersNameIsOnThePage) {
-  start(busyWorld(5));
-  join("zebedee");
-  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
-  EXPECT_FALSE(has(get("/metrics").body, "zebedee"));
-}
-
-TEST_F(Metrics, DisconnectIsCountedWithItsReason) {
-  start(busyWorld(5));
-  join("ann");
-  clients.clear();
-  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="disconnected"})", is(1)));
-}
-
-TEST_F(Metrics, AFullServerIsHealthyAndNotReady) {
+TEST_F(Metrics, FullServerIsNotReadyUntilItsPlayerDisconnects) {
   HostOptions options = withMetrics();
   options.max_players = 1;
   start(busyWorld(5), options);
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
-  TestClient& ann = join("ann");
+  join("zebedee");
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 503; }));
   EXPECT_EQ(get("/readyz").body, "full\n");
   EXPECT_EQ(get("/healthz").status, 200);
-  ann.connection().leave();
+  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
+  EXPECT_FALSE(has(get("/metrics").body, "zebedee")) << "no player's name is on the page";
+  clients.clear();
+  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="disconnected"})", is(1)));
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
 }
 
@@ -166,7 +155,7 @@ TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   clients.emplace_back(context, server->port(), setup);
   clients.back().keepPictures(false);
   TestClient& ann = clients.back();
-  ASSERT_TRUE(serve([&] { return ann.joined() && ann.session().hasDatagrams(Clock::now()); }));
+  ASSERT_TRUE(serve([&] { return isOnDatagrams(ann); }));
   // Only one second in ten is audited, so this may take ten seconds.
   SplitMix64 random(5);
   const double pictures = value("naiad_audit_pictures_total");

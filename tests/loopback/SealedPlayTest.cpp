@@ -18,7 +18,6 @@ class SealedPlay : public LoopbackFixture {
     setup.options.open_socket = through(context, valve);
     return setup;
   }
-  static bool onDatagrams(TestClient& client) { return client.session().hasDatagrams(Clock::now()); }
   static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
   /// Returns the number of snapshots received on the stream.
   static std::uint64_t streamed(TestClient& client) {
@@ -48,7 +47,7 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
     return ann.pictures().size() >= 500;
   }));
   expectSame(ann, server, 500);
-  EXPECT_TRUE(onDatagrams(ann));
+  EXPECT_TRUE(isOnDatagrams(ann));
   // The connection seems full on a very busy machine, and then the server skips ticks.
   EXPECT_GT(datagrams(ann) + server.skippedTicks(ann.player()), 400u);
   EXPECT_EQ(server.counters().divergences, 0u);
@@ -73,7 +72,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   EXPECT_EQ(server.counters().resets, 0u);
 
   valve->up = valve->down = true;
-  const auto returns = [&] { return onDatagrams(ann) && !ann.session().hasSecondStream(); };
+  const auto returns = [&] { return isOnDatagrams(ann) && !ann.session().hasSecondStream(); };
   ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << "it is not needed any more";
   EXPECT_TRUE(keyWorks(ann));
 }
@@ -131,7 +130,7 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
     const auto returns = [&] {
       valve->up = valve->down = true;
       return serveUntil(context, {&ann}, [&, before = datagrams(ann)] {
-        return onDatagrams(ann) && !ann.session().hasSecondStream() && datagrams(ann) > before + 100;
+        return isOnDatagrams(ann) && !ann.session().hasSecondStream() && datagrams(ann) > before + 100;
       });
     };
     ASSERT_TRUE(joins(ann)) << up << down;

@@ -138,8 +138,9 @@ TEST_F(OwnMain, CrashRestoresTheTerminal) {
   game->type("c");
   EXPECT_TRUE(diesOf(*game, SIGABRT));
   // The client exits by itself after the game.
-  EXPECT_TRUE(game->waitForLater("\033[?1049l")) << game->output();
-  EXPECT_TRUE(game->waitForOriginalModes());
+  EXPECT_TRUE(game->waitUntil([&] {
+    return has(game->newOutput(), "\033[?1049l") && sameModes(game->originalModes(), game->currentModes());
+  })) << game->output();
 }
 
 TEST_F(OwnMain, ContinuesUntilOtherPlayersHaveLeft) {
