@@ -1,4 +1,4 @@
-// A player who leaves and joins again to send more chat.
+// Chat of a player that leaves and joins again.
 #include <gtest/gtest.h>
 
 #include "RawClient.h"

@@ -141,7 +141,7 @@ TEST_F(HostedServer, ReloadChangesThePasswordForNewPlayers) {
   EXPECT_FALSE(has(game->log(), "$argon2")) << "not even its hash is logged";
 }
 
-TEST_F(HostedServer, ReloadTakesOverANewCertificateButNotAMissingOne) {
+TEST_F(HostedServer, ReloadTakesANewCertificateNotAMissingOne) {
   const auto now = std::chrono::system_clock::now();
   const fs::path files = home.identity("files");
   const ServerIdentity first = ServerIdentity::loadOrMake(home.identity("first"), now);

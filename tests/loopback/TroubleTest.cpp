@@ -66,7 +66,7 @@ class Trouble : public ProgramFixture {
 
 // ---- the log ----------------------------------------------------------------------------------------------
 
-TEST_F(Trouble, StalledOrClosedLogPipeDoesNotStopTheGame) {
+TEST_F(Trouble, StalledOrClosedLogPipeStopsNoGame) {
   Pipe pipe;
   start({{"NAIAD_LOG_FILE", ""}}, pipe.ends[1]);
   auto ann = join("ann");

@@ -86,7 +86,7 @@ TEST_F(HungUp, ClosedNewcomerGivesUpAfterFourSeconds) {
   EXPECT_LE(now - begin, Connection::kHandshakeRetryTimeout + Connection::kMaxBackoff + 1s);
 }
 
-TEST_F(HungUp, FirstAttemptIsRetriedOnlyIfClosedInTheHandshake) {
+TEST_F(HungUp, ClosedHandshakeIsRetriedAtFirst) {
   for (const auto& [failure, state] : {std::pair{Opening::kClosedInHandshake, Connection::State::kJoining},
                                        {Opening::kRefused, Connection::State::kUnreachable}}) {
     opening = failure;
