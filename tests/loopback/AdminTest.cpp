@@ -1,6 +1,6 @@
-// Administers a running server through its control socket, dfctl and chat commands.
+// Administers a running server through its control socket, dfctl and chat commands. A client that connects
+// through the visitors' socket counts with its visitor's address.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <asio/local/stream_protocol.hpp>
@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "GameProgram.h"
-#include "RunCtl.h"
-#include "VisitedServer.h"
+#include "LoopbackFixture.h"
 #include "host/auth/PasswordHash.h"
+#include "shared/net/stream/ProxyHeader.h"
 #include "tests/server/host/admin/Talk.h"
 #include "tests/support/RunProgram.h"
 
@@ -27,12 +27,19 @@ std::string command(const std::string& name, const std::string& arguments = "") 
   return R"({"command":")" + name + R"(","arguments":{)" + arguments + "}}";
 }
 
-class AdminTest : public VisitedServer {
+class AdminTest : public LoopbackFixture {
  protected:
   AdminTest() {
+    options.visitors = home.identity("visitors");
     options.control = home.identity("control.sock");
     options.state = home.identity("state");
     options.admin_password = PasswordHash::of("open sesame", {.memory_kib = 64, .passes = 1}).text();
+  }
+  /// Returns the setup of a client that uses the visitors' socket, for example from "192.0.2.7:50312".
+  ClientSetup from(const std::string& address, const std::string& name) const {
+    ClientSetup setup = home.player(name);
+    setup.options.proxy = ProxyOptions{options.visitors, *proxiedPeerFromText(address)};
+    return setup;
   }
   bool reads(TestClient& client, const std::string& text) {
     return serveUntil(context, {&client}, [&] { return hasRead(client, text); });
@@ -60,6 +67,8 @@ class AdminTest : public VisitedServer {
   testing::AssertionResult does(const std::string& name, const std::string& arguments) const {
     return has(ask(command(name, arguments)), R"("ok":true)");
   }
+
+  HostOptions options = home.server();
 };
 
 TEST_F(AdminTest, KickVoidsTokenAndRemovesPlayerWithinTwoTicks) {
@@ -139,24 +148,11 @@ TEST_F(AdminTest, BannedPlayerIsToldTheReasonAndEndTime) {
   EXPECT_EQ(server.counters().refused_banned, 1u);
 }
 
-TEST_F(AdminTest, ABanLastsBeyondARestart) {
-  {
-    TestServer server(busyWorld(5), options);
-    ASSERT_TRUE(does("ban", R"("who":"name:eve")"));
-  }
-  TestServer server(busyWorld(5), options);
-  TestClient eve(context, server.port(), home.player("eve"));
-  EXPECT_FALSE(joins(eve));
-  EXPECT_TRUE(has(eve.connection().message(), "banned"));
-}
-
 /// Uses the real dfserver and dfctl. dfctl is not a descendant of the server, because the server obeys no
 /// descendants.
 class CtlTest : public LoopbackFixture {
  protected:
-  std::pair<int, std::string> ctl(const std::string& arguments) const {
-    return runCtl("--control " + server.control().string() + " " + arguments);
-  }
+  std::pair<int, std::string> ctl(const std::string& arguments) const { return server.ctl(arguments); }
 
   GameProgram server{"dfserver", {{"NAIAD_GAME", "hello"}}};
 };
@@ -182,20 +178,7 @@ TEST_F(CtlTest, CommandsShowStateAndActOnPlayers) {
   })) << server.log();
 }
 
-TEST_F(CtlTest, LinkAndStatusSayHowToJoin) {
-  const std::string begin = "dfclient naiad://127.0.0.1:" + std::to_string(server.port()) + "#";
-  const std::string link = ctl("link").second;
-  EXPECT_TRUE(link.starts_with(begin)) << link;
-  EXPECT_TRUE(has(ctl("status").second, "join: " + begin));
-  EXPECT_TRUE(has(ctl("help drain").second, "drain [SPAN]: "));
-  EXPECT_EQ(ctl("help drian").second,
-            "dfctl: There is no command \"drian\"; did you mean \"drain\"?\nRun dfctl --help for more "
-            "information.\n");
-  EXPECT_TRUE(has(ctl("set max-plyers 5").second, "did you mean \"max-players\"?"));
-  EXPECT_TRUE(has(ctl("drain 600").second, "in 600 s at the latest"));
-}
-
-TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
+TEST_F(CtlTest, ExitCodeAndHelpReportTheCommandsResult) {
   EXPECT_EQ(ctl("kick nobody").first, 1);
   EXPECT_EQ(ctl("kick").first, 2);
   EXPECT_EQ(ctl("kik ann").first, 2);
@@ -206,33 +189,21 @@ TEST_F(CtlTest, ExitCodeReportsTheCommandsResult) {
   EXPECT_EQ(runCtl("--version").first, 0);
   EXPECT_EQ(runCtl("completion bash").first, 0);
   EXPECT_EQ(runCtl("completion csh").first, 2);
+  EXPECT_TRUE(has(ctl("help drain").second, "drain [SPAN]: "));
+  EXPECT_EQ(ctl("help drian").second,
+            "dfctl: There is no command \"drian\"; did you mean \"drain\"?\nRun dfctl --help for more "
+            "information.\n");
 }
 
-TEST_F(CtlTest, ChangesOptionsWithinTheirRanges) {
+TEST_F(CtlTest, ChangedPlayerLimitTakesEffect) {
   TestClient ann(context, server.port(), home.player("ann"));
   ASSERT_TRUE(joins(ann));
   EXPECT_EQ(ctl("set max-players 1").first, 0);
   TestClient bob(context, server.port(), home.player("bob"));
   EXPECT_FALSE(joins(bob));
-  EXPECT_EQ(ctl("set max-players 0").first, 1);
-  EXPECT_EQ(ctl("set max-players 2000000").first, 1);
   EXPECT_EQ(ctl("set max-players 200").first, 0) << "more than it began with";
   TestClient cat(context, server.port(), home.player("cat"));
   EXPECT_TRUE(joins(cat));
-  EXPECT_EQ(ctl("set port 1").first, 1);
-  EXPECT_EQ(ctl("set").first, 0);
-}
-
-TEST_F(CtlTest, StopsAServer) {
-  TestClient ann(context, server.port(), home.player("ann"));
-  ASSERT_TRUE(joins(ann));
-  const auto stop = ctl("stop maintenance until eight");
-  EXPECT_EQ(stop.first, 0) << stop.second;
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.connection().isOver(); }));
-  EXPECT_EQ(ann.connection().message(), "maintenance until eight");
-  const int status = server.wait();
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
-  EXPECT_EQ(ctl("ping").first, 3);
 }
 
 TEST(CtlOfADamagedServer, InvalidBanFileStopsTheStart) {
@@ -285,6 +256,8 @@ TEST_F(AdminTest, AdminPasswordGrantsRightsUntilTheStreamEnds) {
   setup.sessions = home.sessions();
   TestClient bob(context, server.port(), home.player("bob"));
   ASSERT_TRUE(joins(bob));
+  bob.session().sendChat("/vote kick bob");
+  EXPECT_TRUE(reads(bob, "This server does not allow votes.")) << "the default";
   std::uint32_t player = 0;
   {
     TestClient ann(context, server.port(), setup);
@@ -340,14 +313,6 @@ TEST_F(AdminTest, VoteKicksAndBansThePlayer) {
   EXPECT_FALSE(joins(again));
 }
 
-TEST_F(AdminTest, VotesAreOffByDefault) {
-  TestServer server(busyWorld(5), options);
-  TestClient ann(context, server.port(), from("192.0.2.1:1", "ann"));
-  ASSERT_TRUE(joins(ann));
-  ann.session().sendChat("/vote kick ann");
-  EXPECT_TRUE(reads(ann, "This server does not allow votes."));
-}
-
 TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   options.inactive_kick = 1;
   TestServer server(busyWorld(5), options);
@@ -395,6 +360,56 @@ TEST(ServerStart, SecondOneSaysHowToJoinTheFirst) {
   const auto [code, output] = runServer(home, "--port " + port);
   EXPECT_EQ(code, 4);
   EXPECT_TRUE(has(output, "already running there; join it with: dfclient naiad://127.0.0.1:" + port + "#"));
+}
+
+// ---- the visitors' socket ---------------------------------------------------------------------------------
+
+class VisitorsTest : public AdminTest {
+ protected:
+  VisitorsTest() { options.max_per_address = 2; }
+};
+
+TEST_F(VisitorsTest, PlayersCountForTheirOwnAddress) {
+  TestServer server(busyWorld(5), options);
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  TestClient bob(context, server.port(), from("192.0.2.7:50313", "bob"));
+  ASSERT_TRUE(joins(ann));
+  ASSERT_TRUE(joins(bob));
+  TestClient third(context, server.port(), from("192.0.2.7:50314", "cat"));
+  EXPECT_NE(refusal(third), "");
+  TestClient dan(context, server.port(), from("[2001:db8::7]:50315", "dan"));
+  TestClient eve(context, server.port(), home.player("eve"));
+  EXPECT_TRUE(joins(dan));
+  EXPECT_TRUE(joins(eve)) << "this machine itself has nobody in the game";
+  EXPECT_EQ(server.counters().joined, 4u);
+}
+
+TEST_F(VisitorsTest, NoHeaderIsReadFromTcp) {
+  TestServer server(busyWorld(5), options);
+  asio::ip::tcp::socket socket(context);
+  socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
+  asio::write(socket, asio::buffer(proxyHeader({asio::ip::make_address("192.0.2.9"), 9})));
+  // The server reads the header as a broken TLS hello, so it sends at most a TLS alert and closes the
+  // connection.
+  socket.non_blocking(true);
+  std::string heard;
+  TestClient ann(context, server.port(), home.player("ann"));
+  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
+    char bytes[256];
+    std::error_code error;
+    const std::size_t size = socket.read_some(asio::buffer(bytes), error);
+    heard.append(bytes, size);
+    return error && error != asio::error::would_block;
+  }));
+  EXPECT_LE(heard.size(), 7u) << "a TLS record with an alert";
+  EXPECT_TRUE(joins(ann));
+  EXPECT_EQ(server.counters().connections, 1u);
+}
+
+TEST_F(VisitorsTest, MissingVisitorSocketGivesAMessage) {
+  TestServer server(busyWorld(5), home.server());
+  TestClient ann(context, server.port(), from("192.0.2.7:50312", "ann"));
+  EXPECT_TRUE(has(refusal(ann), "Could not connect through")) << ann.connection().message();
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-// Players of one server affect each other only as intended: killed and stalled clients, chat.
+// Players of one server affect each other only as intended: stalled clients, chat, votes for a pause.
 #include <gtest/gtest.h>
 
 #include "Compare.h"
 #include "LoopbackFixture.h"
 #include "RawClient.h"
-#include "engine/world/ObjectRegistry.h"
-#include "engine/world/Player.h"
+#include "engine/widgets/Pause.h"
 
 namespace naiad::test {
 namespace {
@@ -13,23 +12,7 @@ namespace {
 /// Ticks in five seconds at the default rate.
 constexpr std::uint32_t kFiveSeconds = 150;
 
-int countShips(df::World& world) {
-  return world.objects().objectsOfType("Ship").getCount();
-}
-
 using Company = LoopbackFixture;
-
-TEST_F(Company, KilledClientIsShownAsGone) {
-  TestServer server(busyWorld(10));
-  TestClient ann(context, server.port(), "ann");
-  RawClient bob(server.port());
-  bob.send(RawClient::hello("bob"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return lists(ann, "bob"); }));
-  EXPECT_EQ(server.inWorld(countShips), 2);
-  bob.reset();
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return lists(ann, "ann") && !lists(ann, "bob"); }));
-  EXPECT_EQ(server.inWorld(countShips), 1);
-}
 
 TEST_F(Company, StalledClientDoesNotDisturbOthers) {
   TestServer server(busyWorld(300));
@@ -75,6 +58,21 @@ TEST_F(Company, ChatReachesAllPlayersSanitized) {
                          [&] { return !bob.session().chat().empty() && !ann.session().chat().empty(); }));
   EXPECT_EQ(bob.session().chat().back().name, "ann");
   EXPECT_EQ(bob.session().chat().back().text, "hi ?[2Jthere");
+}
+
+TEST_F(Company, PauseIsAVoteShownToAllPlayers) {
+  TestServer server([](df::World&) { new df::Pause(df::Keyboard::P); });
+  TestClient ann(context, server.port(), "ann");
+  TestClient bob(context, server.port(), "bob");
+  const auto until = [&](const auto& done) { return serveUntil(context, {&ann, &bob}, done); };
+  const auto is_paused = [](df::World& world) { return world.isPaused(); };
+  ASSERT_TRUE(until([&] { return lists(ann, "bob") && lists(bob, "ann"); }));
+  press(ann, df::Keyboard::P);
+  ASSERT_TRUE(until([&] { return hasRead(ann, "pause: 1 of 2") && hasRead(bob, "pause: 1 of 2"); }));
+  EXPECT_FALSE(server.inWorld(is_paused));
+  press(bob, df::Keyboard::P);
+  ASSERT_TRUE(until([&] { return hasRead(ann, "pause: 2 of 2"); }));
+  EXPECT_TRUE(server.inWorld(is_paused));
 }
 
 }  // namespace

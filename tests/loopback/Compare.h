@@ -1,23 +1,10 @@
 // Compares a client's pictures with the server's.
 #pragma once
 
-#include <string>
-
 #include "TestClient.h"
 #include "TestServer.h"
 
 namespace naiad::test {
-
-struct Comparison {
-  int ticks = 0;  ///< number of compared ticks
-  int cells = 0;
-  int wrong = 0;
-  std::uint64_t wrong_ticks = 0;  ///< ticks with a wrong cell
-  std::string first_difference;   ///< text with the tick, its wrong cells and both pictures
-};
-
-/// Compares every picture that `client` kept with the server's truth for its player.
-Comparison compare(TestClient& client, const TestServer& server);
 
 /// True if the newest picture that `client` kept equals the server's.
 bool showsTheTruth(TestClient& client, const TestServer& server);

@@ -7,11 +7,18 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tests/support/RunProgram.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad::test {
+
+/// Runs dfctl with these arguments. Returns its exit code and its output, including standard error.
+inline std::pair<int, std::string> runCtl(const std::string& arguments) {
+  return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfctl " + arguments + " 2>&1 </dev/null");
+}
 
 class GameProgram {
  public:
@@ -36,6 +43,10 @@ class GameProgram {
   std::filesystem::path directory() const { return m_directory.path(); }
   /// Returns the path of the program's control socket.
   std::filesystem::path control() const { return m_directory / "control.sock"; }
+  /// Gives the program a command with the real dfctl. Returns its exit code and output.
+  std::pair<int, std::string> ctl(const std::string& words) const {
+    return runCtl("--control " + control().string() + " " + words);
+  }
   std::filesystem::path playFolder() const { return m_directory / "play"; }
   pid_t process() const { return m_process; }
 

@@ -1,14 +1,17 @@
-// Hostile bytes end the connection that sent them, are counted, and change nothing for other players.
+// Hostile bytes end the connection that sent them, are counted, and change nothing for other players. Hostile
+// datagrams get no answer.
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <asio/ip/udp.hpp>
 #include <cstdio>
-#include <thread>
+#include <memory>
 #include <vector>
 
 #include "Compare.h"
 #include "LoopbackFixture.h"
 #include "RawClient.h"
+#include "Valve.h"
+#include "engine/world/Player.h"
 #include "engine/world/Views.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/UpdateCodec.h"
@@ -16,6 +19,9 @@
 
 namespace naiad::test {
 namespace {
+
+using asio::ip::udp;
+using Clock = std::chrono::steady_clock;
 
 std::string randomBytes(SplitMix64& random, std::size_t count) {
   std::string bytes;
@@ -142,30 +148,57 @@ TEST_F(Hostile, AThousandBadFramesChangeNothingForTheOthers) {
   std::printf("counted: %s\n", counters.summary().c_str());
 }
 
-TEST_F(Hostile, MessageFloodEndsItsSessionWithoutStoppingOthers) {
-  TestServer server(busyWorld(5), home.server());
-  TestClient ann(context, server.port(), home.player("ann"));
-  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.joined(); }));
+TEST_F(Hostile, GarbageAndForgedDatagramsAreNeverAnswered) {
+  const auto valve = std::make_shared<Valve>();
+  ClientSetup setup = home.player("ann");
+  setup.options.open_socket = through(context, valve);
+  TestServer server(busyWorld(20), home.server());
+  TestClient ann(context, server.port(), setup);
+  ASSERT_TRUE(settles(ann));
+  ann.session().sendKey(df::Keyboard::RIGHTARROW, df::KEY_PRESSED, Clock::now());
+  ASSERT_TRUE(serveUntil(context, {&ann}, [&] { return ann.session().score() == 1; }));
 
-  std::atomic<bool> done = false;
-  std::vector<std::thread> floods;
-  for (int i = 0; i < 2; ++i) {
-    floods.emplace_back([&] {
-      wire::ClientMessage nothing;  // valid, small, and in itself no reason to disconnect
-      nothing.set_update(writeUpdate({}));
-      std::string many;
-      for (int k = 0; k < 20'000; ++k) appendFrame(many, nothing.SerializeAsString());
-      RawClient flood(server.port(), kTls);
-      flood.send(RawClient::hello("flood"));
-      while (!done) flood.sendBytes(many);
-    });
+  udp::socket attacker(context, udp::endpoint(asio::ip::address_v4::loopback(), 0));
+  attacker.non_blocking(true);
+  const udp::endpoint target(asio::ip::address_v4::loopback(), server.port());
+  SplitMix64 random(11);
+  const auto strike = [&](std::string bytes) {
+    asio::error_code ignored;
+    attacker.send_to(asio::buffer(bytes), target, 0, ignored);
+  };
+  const std::vector<std::string> genuine = valve->seen;
+  ASSERT_GT(genuine.size(), 5u);
+  for (int i = 0; i < 2000; ++i) {
+    std::string bytes = genuine[random.below(genuine.size())];
+    switch (random.below(5)) {
+      case 0:  // random bytes of any length
+        bytes.resize(1 + random.below(1400));
+        for (char& c : bytes) c = static_cast<char>(random.next());
+        break;
+      case 1:  // a flipped bit
+        bytes[random.below(bytes.size())] ^= static_cast<char>(1 << random.below(8));
+        break;
+      case 2:  // truncated
+        bytes.resize(random.below(bytes.size()));
+        break;
+      case 3:  // the header of an authentic datagram, with another body
+        for (std::size_t k = 11; k < bytes.size(); ++k) bytes[k] = static_cast<char>(random.next());
+        break;
+      default:  // captured and replayed
+        break;
+    }
+    strike(bytes);
+    if (i % 100 == 0) {
+      ASSERT_TRUE(hears(ann, 3));
+    }
   }
-  const std::uint32_t tick = ann.newestTick();
-  EXPECT_TRUE(serveUntil(context, {&ann}, [&] {
-    return ann.newestTick() - tick > 300 && server.counters().message_floods == 2;
-  }));
-  done = true;
-  for (std::thread& flood : floods) flood.join();
+  ASSERT_TRUE(hears(ann, 100));
+  EXPECT_EQ(attacker.available(), 0u) << "not a byte came back";
+  EXPECT_TRUE(ann.session().hasDatagrams(Clock::now()));
+  EXPECT_EQ(server.inWorld([&](df::World& world) { return world.views().player(ann.player())->getScore(); }),
+            1);
+  EXPECT_EQ(server.counters().malformed_messages, 0u);
+  EXPECT_EQ(server.counters().message_floods, 0u);
   EXPECT_EQ(ann.session().state(), ClientSession::State::kPlaying);
 }
 

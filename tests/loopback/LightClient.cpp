@@ -32,11 +32,9 @@ LightClient::~LightClient() {
   drop();
 }
 
-void LightClient::join(const std::string& password) {
+void LightClient::join() {
   drop();
-  ++m_attempts;
   m_state = State::kJoining;
-  m_password = password;
   const auto socket = std::make_shared<tcp::socket>(m_context, m_own);
   m_socket = socket;
   socket->async_connect(m_server, [this, socket](const std::error_code& error) {
@@ -58,7 +56,6 @@ void LightClient::join(const std::string& password) {
       hello.set_magic(kHelloMagic);
       hello.set_protocol(kProtocolVersion);
       hello.set_player_name("light");
-      hello.set_password(m_password);
       hello.set_resume_token(m_welcome.resume_token());
       m_channel->send(message.SerializeAsString());
     });
@@ -68,14 +65,14 @@ void LightClient::join(const std::string& password) {
 void LightClient::joinAfter(std::chrono::milliseconds pause) {
   m_timer.expires_after(pause);
   m_timer.async_wait([this](const std::error_code& error) {
-    if (!error) join(m_password);
+    if (!error) join();
   });
 }
 
 void LightClient::joinUntilWelcome() {
   m_insists = true;
   m_backoff = 250ms;
-  join(m_password);
+  join();
 }
 
 void LightClient::drop() {
@@ -96,7 +93,6 @@ void LightClient::onFrame(std::string_view frame) {
     m_insists = false;
     end(State::kWelcome);
   } else if (message.has_refused()) {
-    m_refused = message.refused();
     end(State::kRefused);
   }
 }

@@ -28,7 +28,7 @@ class LightClient {
   LightClient& operator=(const LightClient&) = delete;
 
   /// Connects with TLS and sends hello, with the token of the last welcome if there was one.
-  void join(const std::string& password = {});
+  void join();
   /// Calls join() after a pause.
   void joinAfter(std::chrono::milliseconds pause);
   /// Joins and, like Connection, retries until it is accepted: after 0.25 s, 0.5 s and so on up to 2 s.
@@ -38,9 +38,6 @@ class LightClient {
 
   State state() const { return m_state; }
   const wire::Welcome& welcome() const { return m_welcome; }
-  const wire::Refused& refusal() const { return m_refused; }
-  /// Returns the number of connections made or refused so far.
-  int attempts() const { return m_attempts; }
   /// Sets a function that is called when a join succeeds or fails.
   void onJudged(std::function<void(LightClient&)> callback) { m_on_judged = std::move(callback); }
 
@@ -56,11 +53,8 @@ class LightClient {
   std::shared_ptr<TlsHandshake> m_handshake;
   std::unique_ptr<ReliableChannel> m_channel;
   State m_state = State::kIdle;
-  std::string m_password;
   wire::Welcome m_welcome;
-  wire::Refused m_refused;
   std::function<void(LightClient&)> m_on_judged;
-  int m_attempts = 0;
   bool m_insists = false;
   std::chrono::milliseconds m_backoff{250};
 };

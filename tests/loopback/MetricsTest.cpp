@@ -8,11 +8,9 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
-#include "BusyWorld.h"
-#include "Home.h"
-#include "TestClient.h"
-#include "TestServer.h"
+#include "LoopbackFixture.h"
 #include "Valve.h"
 #include "engine/events/EventStep.h"
 #include "engine/world/Object.h"
@@ -30,7 +28,7 @@ HostOptions withMetrics() {
   return options;
 }
 
-class Metrics : public testing::Test {
+class Metrics : public LoopbackFixture {
  protected:
   void start(const std::function<void(df::World&)>& populate, const HostOptions& options = withMetrics()) {
     server = std::make_unique<TestServer>(populate, options);
@@ -46,14 +44,9 @@ class Metrics : public testing::Test {
   }
   /// Serves the clients until `done` returns true; false after kPatience.
   bool serve(const std::function<bool()>& done) {
-    const auto end = Clock::now() + kPatience;
-    while (!done()) {
-      if (Clock::now() > end) return false;
-      for (TestClient& client : clients) client.connection().update(Clock::now());
-      context.restart();
-      context.run_one_for(std::chrono::milliseconds(5));
-    }
-    return true;
+    std::vector<TestClient*> all;
+    for (TestClient& client : clients) all.push_back(&client);
+    return serveUntil(context, all, done);
   }
   HttpClient::Reply get(const std::string& path) const {
     return HttpClient::get(server->metricsPort(), path);
@@ -70,7 +63,6 @@ class Metrics : public testing::Test {
     return [least](double value) { return value > least; };
   }
 
-  asio::io_context context;
   std::atomic<bool> blocks = false;
   std::unique_ptr<TestServer> server;
   std::list<TestClient> clients;
@@ -109,30 +101,19 @@ TEST_F(Metrics, ValuesFollowTheGame) {
   EXPECT_TRUE(reaches("naiad_objects", is(0))) << "nobody watches";
 }
 
-TEST_F(Metrics, NoPlayersNameIsOnThePage) {
-  start(busyWorld(5));
-  join("zebedee");
-  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
-  EXPECT_FALSE(has(get("/metrics").body, "zebedee"));
-}
-
-TEST_F(Metrics, DisconnectIsCountedWithItsReason) {
-  start(busyWorld(5));
-  join("ann");
-  clients.clear();
-  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="disconnected"})", is(1)));
-}
-
-TEST_F(Metrics, AFullServerIsHealthyAndNotReady) {
+TEST_F(Metrics, FullServerIsNotReadyUntilItsPlayerDisconnects) {
   HostOptions options = withMetrics();
   options.max_players = 1;
   start(busyWorld(5), options);
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
-  TestClient& ann = join("ann");
+  join("zebedee");
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 503; }));
   EXPECT_EQ(get("/readyz").body, "full\n");
   EXPECT_EQ(get("/healthz").status, 200);
-  ann.connection().leave();
+  ASSERT_TRUE(reaches(R"(naiad_players{state="connected"})", is(1)));
+  EXPECT_FALSE(has(get("/metrics").body, "zebedee")) << "no player's name is on the page";
+  clients.clear();
+  EXPECT_TRUE(reaches(R"(naiad_leaves_total{reason="disconnected"})", is(1)));
   EXPECT_TRUE(serve([&] { return get("/readyz").status == 200; }));
 }
 
@@ -162,40 +143,9 @@ TEST_F(Metrics, HungGameIsUnhealthyUntilItRecovers) {
   EXPECT_TRUE(serve([&] { return get("/healthz").status == 200 && get("/readyz").status == 200; }));
 }
 
-// This proves, with the thread sanitizer, that no value is read while it is written.
-TEST_F(Metrics, PlayersJoinAndLeaveDuringScrapesAt100Hertz) {
-  start(busyWorld(30));
-  std::atomic<bool> stop = false;
-  std::atomic<int> scrapes = 0;
-  std::thread scraper([&] {
-    while (!stop) {
-      for (const char* path : {"/metrics", "/healthz", "/readyz"}) {
-        if (get(path).status == 200) ++scrapes;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-  });
-  int rounds = 0;
-  const auto enough = [&] { return rounds >= 5 && scrapes >= 300; };
-  const auto end = Clock::now() + kPatience;
-  while (!enough() && Clock::now() < end) {
-    TestClient& client = join("ann");
-    const std::uint32_t from = client.newestTick();
-    serve([&] { return client.newestTick() > from + 50; });
-    client.connection().leave();
-    serve([&] { return client.connection().isOver(); });
-    clients.clear();
-    ++rounds;
-  }
-  stop = true;
-  scraper.join();
-  EXPECT_TRUE(enough()) << rounds << " rounds, " << scrapes << " scrapes";
-}
-
 // ---- audit of pictures ------------------------------------------------------------------------------------
 
 TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
-  Home home;
   HostOptions options = home.server();
   options.metrics = "127.0.0.1:0";
   start(busyWorld(100), options);
@@ -205,7 +155,7 @@ TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   clients.emplace_back(context, server->port(), setup);
   clients.back().keepPictures(false);
   TestClient& ann = clients.back();
-  ASSERT_TRUE(serve([&] { return ann.joined() && ann.session().hasDatagrams(Clock::now()); }));
+  ASSERT_TRUE(serve([&] { return isOnDatagrams(ann); }));
   // Only one second in ten is audited, so this may take ten seconds.
   SplitMix64 random(5);
   const double pictures = value("naiad_audit_pictures_total");
@@ -218,8 +168,6 @@ TEST_F(Metrics, AuditFindsNoWrongCellsWithDatagramLoss) {
   }));
   EXPECT_EQ(value("naiad_audit_cells_total"), value("naiad_audit_pictures_total") * 80 * 24);
   EXPECT_EQ(value("naiad_audit_wrong_cells_total"), 0);
-  clients.clear();  // before their home is destroyed
-  server.reset();
 }
 
 }  // namespace

@@ -40,30 +40,6 @@ TEST_F(Loopback, ClientMatchesTheServerForAThousandTicks) {
   EXPECT_GT(shown, 500) << last;
 }
 
-TEST_F(Loopback, EarlyAndLateClientsSeeTheSameWorld) {
-  TestServer server(busyWorld(60));
-  TestClient ann(context, server.port(), "ann");
-  TestClient bob(context, server.port(), "bob");
-  ASSERT_TRUE(serveUntil(context, {&ann, &bob},
-                         [&] { return ann.pictures().size() > 150 && bob.pictures().size() > 150; }));
-  TestClient cal(context, server.port(), "cal");
-  ASSERT_TRUE(serveUntil(context, {&ann, &bob, &cal}, [&] { return cal.pictures().size() > 150; }));
-  expectSame(ann, server, 150);
-  expectSame(bob, server, 150);
-  expectSame(cal, server, 150);
-  // No player has a text of their own yet, so all pictures are equal.
-  int shared = 0;
-  std::uint64_t different = 0;
-  for (const auto& [tick, picture] : cal.pictures()) {
-    const auto found = ann.pictures().find(tick);
-    if (found == ann.pictures().end()) continue;
-    ++shared;
-    different += countDifferences(picture, found->second) > 0 ? 1 : 0;
-  }
-  EXPECT_GT(shared, 50);
-  EXPECT_LE(different, server.skippedTicks(ann.player()) + server.skippedTicks(cal.player()));
-}
-
 /// Shakes the window for ten of every thirty ticks.
 struct Shaker : df::Object {
   Shaker() {

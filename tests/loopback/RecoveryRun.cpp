@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <future>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -22,7 +21,6 @@
 #include "server/replay/Replay.h"
 #include "server/replay/RoundPlayer.h"
 #include "server/replay/Verify.h"
-#include "tests/server/host/admin/Talk.h"
 #include "tests/support/Processes.h"
 
 namespace naiad::test {
@@ -58,16 +56,12 @@ class RecoveryClient {
         m_player(seed, 80, 24) {
     m_connection.onSession([this](ClientSession& session) {
       ++m_sessions;
-      if (std::exchange(m_freezes, false)) freezeLastPicture();
       m_whole = CompletenessTracker();
       session.onBeforeSnapshot([this, &session](std::uint32_t tick) {
         if (tick != m_whole.tick()) keepPicture(session);
       });
       session.onAfterSnapshot([this, &session](const SnapshotHeader& header, const AckWindow& acks) {
         m_whole.addSnapshot(header, acks, session.welcome().resume_state.value_or(ResumeState()).snapshot);
-        const auto now = Clock::now();
-        if (m_pictured_at) m_pause = std::max(m_pause, now - *m_pictured_at);
-        m_pictured_at = now;
       });
     });
     m_connection.start();
@@ -93,14 +87,6 @@ class RecoveryClient {
   /// True if the client plays in a session that began after forgetSession().
   bool isBack() { return isJoined() && m_sessions != m_sessions_before; }
   void forgetSession() { m_sessions_before = m_sessions; }
-  /// Calls forgetSession(), and keeps the last picture when the next session starts.
-  void expectNextSession() {
-    forgetSession();
-    m_freezes = true;
-    m_pause = {};
-  }
-  /// Returns the longest time between two pictures since expectNextSession().
-  Clock::duration pause() const { return m_pause; }
   bool isOver() const { return m_connection.isOver(); }
   const std::string& message() const { return m_connection.message(); }
   const WelcomeMessage& welcome() { return m_connection.session()->welcome(); }
@@ -113,18 +99,12 @@ class RecoveryClient {
   std::uint32_t pictureTick() const { return m_frozen_tick; }
   void freezePicture() {
     if (const ClientSession* p_session = session()) keepPicture(*p_session);
-    freezeLastPicture();
-    m_whole = CompletenessTracker();
-  }
-  /// Returns the client's newest tick when the picture was frozen.
-  std::uint32_t frozenAfter() const { return m_frozen_after; }
-
- private:
-  void freezeLastPicture() {
     m_frozen = std::exchange(m_picture, std::nullopt);
     m_frozen_tick = m_picture_tick;
-    m_frozen_after = m_whole.tick();
+    m_whole = CompletenessTracker();
   }
+
+ private:
   void keepPicture(const ClientSession& session) {
     if (!m_whole.isComplete()) return;
     m_picture = session.replica().render(m_whole.tick());
@@ -139,28 +119,20 @@ class RecoveryClient {
   std::uint32_t m_picture_tick = 0;
   int m_sessions = 0;
   int m_sessions_before = 0;
-  bool m_freezes = false;
-  std::optional<Clock::time_point> m_pictured_at;
-  Clock::duration m_pause{};
   std::optional<df::Canvas> m_frozen;
   std::uint32_t m_frozen_tick = 0;
-  std::uint32_t m_frozen_after = 0;
 };
 
 RecoveryRun::RecoveryRun(const std::string& game, int players, std::uint64_t seed,
                          std::chrono::microseconds frame)
     : m_game(game), m_random(seed), m_frame(frame), m_rounds(m_home.identity("rounds")) {
   startServer();
-  addPlayers(players);
+  for (int i = 1; i <= players; ++i) {
+    m_clients.push_back(std::make_unique<RecoveryClient>(
+        m_context, m_port, m_home.player("player" + std::to_string(i)), m_random()));
+  }
   if (!serveUntilJoined()) throw std::runtime_error("the players cannot join: " + m_server->log());
   waitForFirstTick();
-}
-
-void RecoveryRun::addPlayers(int count) {
-  for (int i = 0; i < count; ++i) {
-    m_clients.push_back(std::make_unique<RecoveryClient>(
-        m_context, m_port, m_home.player("player" + std::to_string(++m_names)), m_random()));
-  }
 }
 
 // Waits until the first tick is in the round's file, that is, written to disk.
@@ -267,21 +239,6 @@ KillResult RecoveryRun::killBoth() {
   return kill();
 }
 
-int RecoveryRun::replacePlayers(std::chrono::seconds away, int newcomers) {
-  killServer();
-  m_clients.clear();
-  const std::filesystem::path file = round();
-  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) - away);
-  startServer();
-  addPlayers(newcomers);
-  serveUntilJoined();
-  const auto has_picture = [](const auto& client) { return client->hasPicture(); };
-  const auto end = Clock::now() + std::chrono::seconds(10);
-  while (!std::ranges::all_of(m_clients, has_picture) && Clock::now() < end)
-    play(std::chrono::milliseconds(5));
-  return static_cast<int>(std::ranges::count_if(m_clients, has_picture));
-}
-
 void RecoveryRun::killServer() {
   m_killed_at = Clock::now();
   m_server->signal(SIGKILL);
@@ -313,34 +270,6 @@ KillResult RecoveryRun::comeBack() {
   startServer();
   const bool back = serveUntilJoined();
   result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - m_killed_at);
-  judge(back, result);
-  return result;
-}
-
-// The command is answered just before the server restarts.
-KillResult RecoveryRun::keepRound() {
-  m_before.clear();
-  for (const auto& client : m_clients) {
-    m_before.push_back(client->welcome());
-    client->expectNextSession();
-  }
-  const auto began = Clock::now();
-  auto answer = std::async(std::launch::async, [path = m_server->control()] {
-    return Talk(path).ask(R"({"command":"restart","arguments":{"when":"keep"}})");
-  });
-  while (answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-    play(std::chrono::milliseconds(5));
-  KillResult result;
-  const std::string said = answer.get();
-  if (said.find("The round resumes") == std::string::npos) result.problem = said + m_server->log();
-  const bool back = result.problem.empty() && serveUntilJoined() && playUntilPictured();
-  result.took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began);
-  m_seen = 0;
-  for (const auto& client : m_clients) {
-    m_seen = std::max(m_seen, client->frozenAfter());
-    result.pause =
-        std::max(result.pause, std::chrono::duration_cast<std::chrono::milliseconds>(client->pause()));
-  }
   judge(back, result);
   return result;
 }
@@ -409,10 +338,6 @@ std::optional<std::chrono::milliseconds> RecoveryRun::timeToNextPicture(const st
     if (m_clients[i]->session() != before[i].first) return std::nullopt;
   }
   return std::chrono::duration_cast<std::chrono::milliseconds>(next_picture.value_or(Clock::now()) - began);
-}
-
-std::vector<pid_t> RecoveryRun::copies() const {
-  return processesBelow(m_server->process(), "df-copy");
 }
 
 // Replays the round's file, from which the world was recovered, and compares it with the last pictures.

@@ -2,8 +2,6 @@
 // the same player to the same world.
 #pragma once
 
-#include <sys/types.h>
-
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstddef>
@@ -29,9 +27,8 @@ struct KillResult {
   std::uint32_t ticks_lost = 0;  ///< ticks that a client had seen and the recovered round does not have
   std::uint64_t cells = 0;       ///< compared cells of each client's last complete picture
   std::uint64_t wrong_cells = 0;
-  std::chrono::milliseconds took{0};   ///< time until the last client is back
-  std::chrono::milliseconds pause{0};  ///< after keepRound(): longest time between two pictures of a client
-  std::string problem;                 ///< text of the first problem
+  std::chrono::milliseconds took{0};  ///< time until the last client is back
+  std::string problem;                ///< text of the first problem
 };
 
 /// Compares the server's score file with the scores that a replay of the round adds.
@@ -68,16 +65,6 @@ class RecoveryRun {
   KillResult killBoth();
   /// Plays until the world has had this many turns in all. False after `patience`.
   bool playUntilTurn(std::uint32_t turn, std::chrono::seconds patience);
-  /// Kills the server, changes the time of the round's file as if `away` had passed, and starts the server
-  /// again. `away` must be longer than the old players' grace time. `newcomers` join. Returns how many of
-  /// these see the game.
-  int replacePlayers(std::chrono::seconds away, int newcomers);
-  /// kill() consists of these two: the first kills the server, the second starts it again and waits for the
-  /// players.
-  void killServer();
-  KillResult comeBack();
-  /// Runs `dfctl restart --keep` while the players play, then waits until all are back.
-  KillResult keepRound();
   /// Kills only the world's process. Returns the time until the last player's next picture; nullopt if a
   /// player gets no further pictures, or only in another session.
   std::optional<std::chrono::milliseconds> killWorld();
@@ -87,8 +74,6 @@ class RecoveryRun {
   /// Like killWorld(), but a player presses a key that makes the world hang until --tick-timeout of the
   /// server.
   std::optional<std::chrono::milliseconds> hangWorld(df::Keyboard::Key key);
-  /// Returns the processes that wait as copies of the world.
-  std::vector<pid_t> copies() const;
   /// Ends the server and replays its round. True if all ticks are equal; `said` is the output of dfreplay
   /// --verify.
   bool verify(std::string& said);
@@ -98,12 +83,14 @@ class RecoveryRun {
   const std::string& log() const { return m_log; }
   /// Returns the log of the server that runs.
   std::string serverLog() const { return m_server->log(); }
-  std::filesystem::path round() const;
 
  private:
+  std::filesystem::path round() const;
   void startServer();
+  void killServer();
+  /// Starts the server again and waits for the players.
+  KillResult comeBack();
   bool serveUntilJoined();
-  void addPlayers(int count);
   /// Calls `harm` and returns the time until the last player's next picture.
   std::optional<std::chrono::milliseconds> timeToNextPicture(const std::function<void()>& harm);
   /// Returns the game argument for dfreplay; empty for a game that it finds by itself.
@@ -125,7 +112,6 @@ class RecoveryRun {
   std::uint16_t m_port = 0;
   std::uint32_t m_first_tick = 0;  ///< number of the world's first tick in the server's count
   std::vector<std::unique_ptr<RecoveryClient>> m_clients;
-  int m_names = 0;                       ///< number of names given to players so far
   std::vector<WelcomeMessage> m_before;  ///< welcomes of the clients before the kill
   std::uint32_t m_seen = 0;              ///< newest tick that any client had before the kill
   std::string m_log;

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
-#include "LobbyFixture.h"
+#include "RoomsFixture.h"
 #include "host/journal/DfrWriter.h"
 #include "host/journal/UnfinishedRound.h"
 #include "host/rounds/RoundJournals.h"
@@ -23,8 +25,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RoomRecovery : public LobbyFixture {
+constexpr int kDoorColumn = 10;  ///< middle column of the first door
+constexpr int kDoorRow = 6;
+constexpr int kFirstRow = 2;  ///< row where players appear
+constexpr int kRows = 24;
+
+/// Players also walk about in the shipped lobby and into its first door.
+class RoomRecovery : public RoomsFixture {
  protected:
+  using Place = std::pair<int, int>;
+
+  /// Returns the position of the first player shown in these rows; nullopt if none is there.
+  static std::optional<Place> walker(TestClient& client, int first, int last) {
+    const df::Canvas picture = client.session().replica().render(client.newestTick());
+    for (int y = first; y <= last; ++y) {
+      const std::size_t x = picture.rowText(y).find('@');
+      if (x != std::string::npos) return Place(static_cast<int>(x), y);
+    }
+    return std::nullopt;
+  }
+  /// Makes one step. Waits four ticks, because the lobby allows a step only every second tick.
+  void step(TestClient& client, df::Keyboard::Key key) {
+    const auto before = walker(client, kFirstRow, kRows - 1);
+    ASSERT_TRUE(before);
+    press(client, key);
+    ASSERT_TRUE(serve([&] { return walker(client, kFirstRow, kRows - 1) != before; }));
+    const std::uint32_t moved = client.newestTick();
+    ASSERT_TRUE(serve([&] { return client.newestTick() >= moved + 4; }));
+  }
+  /// Walks to the cell from which one more step down leads into the door.
+  void walkToDoor(TestClient& client) {
+    while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->first > kDoorColumn)
+      step(client, df::Keyboard::LEFTARROW);
+    while (!HasFatalFailure() && walker(client, kFirstRow, kDoorRow - 1)->second < kDoorRow - 1)
+      step(client, df::Keyboard::DOWNARROW);
+  }
   /// Starts a server, always with equal options.
   void startJournaled() {
     const std::uint16_t port = game ? m_port : 0;
@@ -33,7 +68,7 @@ class RoomRecovery : public LobbyFixture {
           {{"ROOM_REPEATS", "1"},
            {"NAIAD_PORT", std::to_string(port)},
            {"NAIAD_IDENTITY", home.identity("key")},
-           {"NAIAD_JOURNAL", rounds()},
+           {"NAIAD_JOURNAL", ""},  // the default: in the state folder
            {"NAIAD_STATE", home.identity("state")},
            {"DRAGONFLY_CONFIG", home.identity("none")}});
     m_port = game->port();
@@ -69,7 +104,7 @@ class RoomRecovery : public LobbyFixture {
     constexpr const char* kIsBack = "reconnected to the recovered round";
     return static_cast<std::size_t>(countIn(game->log(), kIsBack));
   }
-  fs::path rounds() const { return home.identity("rounds"); }
+  fs::path rounds() const { return home.identity("state") / "rounds"; }
   std::vector<fs::path> roundsOf(const std::string& room) const {
     std::vector<fs::path> found;
     std::error_code error;

@@ -15,7 +15,6 @@
 
 #include "ProgramFixture.h"
 #include "host/world/BuildId.h"
-#include "shared/replica/TruthFile.h"
 #include "tests/server/host/admin/Talk.h"
 
 namespace naiad::test {
@@ -136,36 +135,6 @@ TEST_F(RoundEnd, CrashStartsTheNextRound) {
 
 TEST_F(RoundEnd, HangStartsTheNextRound) {
   expectAnotherRound(df::Keyboard::H, "The game did not answer in time; the next round begins.");
-}
-
-TEST_F(Rounds, PlayersSeeWhatTheWorldsDraw) {
-  const std::string truth = home.knownServers().string() + ".truth";
-  start({{"NAIAD_ON_GAME_OVER", "restart"}, {"NAIAD_TRUTH_FILE", truth}, {"NAIAD_INSECURE", "true"}});
-  TestClient ann(context, game->port(), "ann");
-  clients.push_back(&ann);
-  ASSERT_TRUE(serve([&] { return ann.joined() && shown(ann).steps >= 0; })) << game->log();
-  ann.forgetPictures();
-  const std::uint32_t begin = ann.newestTick();
-  ASSERT_TRUE(serve([&] { return ann.newestTick() > begin + 60; }));
-  press(ann, df::Keyboard::X);
-  ASSERT_TRUE(serve([&] { return ann.session().counters().resets == 1; })) << game->log();
-  const std::uint32_t again = ann.newestTick();
-  ASSERT_TRUE(serve([&] { return ann.newestTick() > again + 60; }));
-  game->signal(SIGTERM);
-  game->wait();
-
-  TruthReader reader(truth);
-  int compared = 0;
-  int wrong = 0;
-  for (auto record = reader.next(); record; record = reader.next()) {
-    const auto found = ann.pictures().find(record->tick);
-    if (found == ann.pictures().end()) continue;
-    ++compared;
-    wrong += countDifferences(found->second, record->canvas) > 0 ? 1 : 0;
-  }
-  EXPECT_GT(compared, 100);
-  EXPECT_LE(wrong, numberAfter(game->log(), "skipped_ticks=").value_or(0))
-      << "more than the server skipped for this client";
 }
 
 TEST_F(Rounds, GameThatCrashesAtStartEndsTheServer) {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,7 +11,6 @@
 #include "ProgramFixture.h"
 #include "RecoveryRun.h"
 #include "RoomsFixture.h"
-#include "RunCtl.h"
 
 namespace naiad::test {
 namespace {
@@ -30,13 +27,8 @@ class Scores : public ProgramFixture {
   bool shows(const std::string& text) {
     return serve([&] { return client->joined() && has(row(*client), text); });
   }
-  void press(df::Keyboard::Key key) {
-    client->session().sendKey(key, df::KEY_PRESSED, std::chrono::steady_clock::now());
-  }
   /// Returns the scores on disk as listed by dfctl.
-  std::string listed() const {
-    return runCtl("--control " + game->control().string() + " scores --json").second;
-  }
+  std::string listed() const { return game->ctl("scores --json").second; }
 
   std::unique_ptr<TestClient> client;
 };
@@ -45,10 +37,10 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   start();
   join();
   ASSERT_TRUE(shows("best=-1;"));
-  for (int i = 0; i < 3; ++i) press(df::Keyboard::RIGHTARROW);
-  press(df::Keyboard::S);
+  for (int i = 0; i < 3; ++i) press(*client, df::Keyboard::RIGHTARROW);
+  press(*client, df::Keyboard::S);
   ASSERT_TRUE(shows("best=3;")) << game->log();
-  press(df::Keyboard::X);
+  press(*client, df::Keyboard::X);
   EXPECT_TRUE(shows("steps=0 ")) << "another round";
   EXPECT_TRUE(shows("best=3;")) << game->log();
   const std::string list = listed();
@@ -63,21 +55,9 @@ TEST_F(Scores, ScoresSurviveRoundsAndServerKills) {
   EXPECT_EQ(listed(), list) << "none twice, none lost";
 }
 
-TEST_F(Scores, ShutdownLogCountsTheScores) {
-  start();
-  join();
-  press(df::Keyboard::S);
-  ASSERT_TRUE(shows("best=0;")) << game->log();
-  game->signal(SIGTERM);
-  game->wait();
-  EXPECT_TRUE(has(game->log(), "scores=1 scores_written=1"));
-}
-
 class RoomScores : public RoomsFixture {
  protected:
-  std::pair<int, std::string> scores(const std::string& words) const {
-    return runCtl("--control " + game->control().string() + " scores " + words);
-  }
+  std::pair<int, std::string> scores(const std::string& words) const { return game->ctl("scores " + words); }
   std::string replay(const std::string& recording, const std::string& words) const {
     return runProgram(std::string(NAIAD_BINARY_DIR) + "/dfreplay " + home.identity("rounds").string() + "/" +
                       recording + " --game " + kScoresModule + " " + words + " 2>&1")
@@ -141,14 +121,6 @@ TEST_F(RoomScores, SeveralGamesRequireAGameOrRoomOption) {
   EXPECT_EQ(scores("--room two"), scores("--game room_module"));
   EXPECT_EQ(scores("keys 3 --game lobby"), std::pair(0, std::string("No scores.\n")));
   EXPECT_EQ(scores("--rom one").first, 2);
-}
-
-TEST_F(Scores, AServerWithoutRoomsHasOneGame) {
-  start();
-  const std::string ctl = "--control " + game->control().string() + " scores ";
-  EXPECT_EQ(runCtl(ctl + "--game rounds_game").first, 0);
-  EXPECT_TRUE(has(runCtl(ctl + "--game tron").second, "Games: rounds_game."));
-  EXPECT_TRUE(has(runCtl(ctl + "--room one").second, "This server has no rooms."));
 }
 
 }  // namespace

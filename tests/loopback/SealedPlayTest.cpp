@@ -18,7 +18,6 @@ class SealedPlay : public LoopbackFixture {
     setup.options.open_socket = through(context, valve);
     return setup;
   }
-  static bool onDatagrams(TestClient& client) { return client.session().hasDatagrams(Clock::now()); }
   static std::uint64_t datagrams(TestClient& client) { return client.session().counters().datagrams_in; }
   /// Returns the number of snapshots received on the stream.
   static std::uint64_t streamed(TestClient& client) {
@@ -48,27 +47,10 @@ TEST_F(SealedPlay, PicturesEqualTheTruthOverDatagrams) {
     return ann.pictures().size() >= 500;
   }));
   expectSame(ann, server, 500);
-  EXPECT_TRUE(onDatagrams(ann));
+  EXPECT_TRUE(isOnDatagrams(ann));
   // The connection seems full on a very busy machine, and then the server skips ticks.
   EXPECT_GT(datagrams(ann) + server.skippedTicks(ann.player()), 400u);
   EXPECT_EQ(server.counters().divergences, 0u);
-}
-
-TEST_F(SealedPlay, BlockedDatagramsFallBackToTheStream) {
-  for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
-    valve = std::make_shared<Valve>();
-    valve->up = up;
-    valve->down = down;
-    TestServer server(busyWorld(50), home.server());
-    TestClient ann(context, server.port(), player("ann"));
-    ASSERT_TRUE(joins(ann)) << up << down;
-    EXPECT_TRUE(keyWorks(ann)) << up << down;
-    EXPECT_TRUE(hears(ann, 400));
-    EXPECT_EQ(datagrams(ann), 0u) << up << down;
-    EXPECT_FALSE(onDatagrams(ann));
-    expectSame(ann, server, 200);
-    EXPECT_EQ(server.counters().divergences, 0u);
-  }
 }
 
 TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
@@ -90,7 +72,7 @@ TEST_F(SealedPlay, WithDatagramsBlockedASecondStreamIsOpened) {
   EXPECT_EQ(server.counters().resets, 0u);
 
   valve->up = valve->down = true;
-  const auto returns = [&] { return onDatagrams(ann) && !ann.session().hasSecondStream(); };
+  const auto returns = [&] { return isOnDatagrams(ann) && !ann.session().hasSecondStream(); };
   ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << "it is not needed any more";
   EXPECT_TRUE(keyWorks(ann));
 }
@@ -141,9 +123,23 @@ TEST_F(SealedPlay, StalledStreamDoesNotBlockTheGame) {
 TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
   for (const auto& [up, down] : {std::pair{false, false}, {false, true}, {true, false}}) {
     valve = std::make_shared<Valve>();
+    valve->up = up;
+    valve->down = down;
     TestServer server(busyWorld(50), home.server());
     TestClient ann(context, server.port(), player("ann"));
-    ASSERT_TRUE(settles(ann));
+    const auto returns = [&] {
+      valve->up = valve->down = true;
+      return serveUntil(context, {&ann}, [&, before = datagrams(ann)] {
+        return isOnDatagrams(ann) && !ann.session().hasSecondStream() && datagrams(ann) > before + 100;
+      });
+    };
+    ASSERT_TRUE(joins(ann)) << up << down;
+    EXPECT_TRUE(keyWorks(ann)) << up << down;
+    EXPECT_TRUE(hears(ann, 400));
+    EXPECT_EQ(datagrams(ann), 0u) << up << down;
+    expectSame(ann, server, 200);
+    ASSERT_TRUE(returns()) << up << down;
+
     const std::uint64_t on_stream = streamed(ann);
     valve->up = up;
     valve->down = down;
@@ -151,11 +147,7 @@ TEST_F(SealedPlay, FallsBackWithinTwoSecondsAndReturns) {
     ASSERT_TRUE(blocked) << up << down;
     EXPECT_LT(*blocked, kSlowness * std::chrono::seconds(2)) << up << down;
     EXPECT_TRUE(keyWorks(ann)) << up << down;
-
-    valve->up = valve->down = true;
-    const std::uint64_t before = datagrams(ann);
-    const auto returns = [&] { return onDatagrams(ann) && datagrams(ann) > before + 100; };
-    ASSERT_TRUE(serveUntil(context, {&ann}, returns)) << up << down;
+    ASSERT_TRUE(returns()) << up << down;
     EXPECT_TRUE(keyWorks(ann));
     EXPECT_EQ(server.counters().divergences, 0u);
     EXPECT_EQ(server.counters().detached, 0u);

@@ -1,12 +1,10 @@
 #include "SilentCrowd.h"
 
-#include <algorithm>
 #include <array>
 #include <asio/ip/tcp.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/write.hpp>
 #include <chrono>
-#include <functional>
 #include <memory>
 
 #include "shared/net/stream/TcpConnector.h"
@@ -54,10 +52,9 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     socket.async_connect(server, [self = shared_from_this()](const std::error_code& error) {
       if (error) return self->comeAgain();
       if (self->tls) return self->shakeHands();
-      self->say(self->words);
-      self->begun = true;
+      std::error_code late;
+      if (!self->words.empty()) asio::write(self->socket, asio::buffer(self->words), late);
       self->wait();
-      if (self->on_begun) self->on_begun();
     });
   }
   void shakeHands() {
@@ -74,10 +71,6 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
     ++hung_up;
     stream.reset();
     comeAgain();
-  }
-  void say(const std::string& bytes) {
-    std::error_code late;
-    if (!bytes.empty()) asio::write(socket, asio::buffer(bytes), late);
   }
   void wait() {
     socket.async_read_some(asio::buffer(in),
@@ -102,8 +95,6 @@ struct SilentCrowd::One : std::enable_shared_from_this<One> {
   std::string words;
   std::shared_ptr<const TlsContext> tls;  // null: no TLS handshake
   std::unique_ptr<TlsStream> stream;      // set after the handshake
-  bool begun = false;                     // true after the first connection
-  std::function<void()> on_begun;
   std::array<char, 4096> in{};
 };
 
@@ -112,35 +103,17 @@ SilentCrowd::SilentCrowd(std::uint16_t server, const std::vector<std::string>& a
   const std::shared_ptr<const TlsContext> tls = kind == Kind::kNoHello ? TlsContext::forClient() : nullptr;
   std::string words = kind == Kind::kSilent || tls ? "" : clientHello();
   if (kind == Kind::kBegunHello) words.resize(words.size() / 2);
-  if (kind == Kind::kFinishedTogether) {
-    m_rest = words.substr(words.size() - 1);
-    words.pop_back();
-  }
   const tcp::endpoint to(asio::ip::address_v4::loopback(), server);
   for (int i = 0; i < each; ++i) {
     for (const std::string& address : addresses) {
       m_all.push_back(std::make_shared<One>(m_context, m_hung_up,
                                             tcp::endpoint(asio::ip::make_address(address), 0), to, words));
       m_all.back()->tls = tls;
-      if (!m_rest.empty()) m_all.back()->on_begun = [this, one = m_all.back().get()] { finishHello(*one); };
     }
   }
   m_thread = std::thread([this] {
     for (const auto& one : m_all) one->come();
     m_context.run();
-  });
-}
-
-// Completes the first connections' ClientHellos half a second after all have begun, so that the server has
-// accepted them. Completes later ones at once.
-void SilentCrowd::finishHello(One& one) {
-  if (m_finished) return one.say(m_rest);
-  if (!std::ranges::all_of(m_all, [](const auto& other) { return other->begun; })) return;
-  m_timer.expires_after(500ms);
-  m_timer.async_wait([this](const std::error_code& error) {
-    if (error || m_finished) return;
-    for (const auto& other : m_all) other->say(m_rest);
-    m_finished = true;
   });
 }
 

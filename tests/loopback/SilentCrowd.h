@@ -3,7 +3,6 @@
 #pragma once
 
 #include <asio/io_context.hpp>
-#include <asio/steady_timer.hpp>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -16,9 +15,8 @@ namespace naiad::test {
 class SilentCrowd {
  public:
   /// What a connection sends. kSilent: nothing. kBegunHello: half a ClientHello. kWholeHello: a ClientHello,
-  /// but no answer to the server's reply. kFinishedTogether: like kWholeHello, but first all connections
-  /// begin, then all complete their ClientHellos. kNoHello: the TLS handshake, but no hello of the protocol.
-  enum class Kind { kSilent, kBegunHello, kWholeHello, kFinishedTogether, kNoHello };
+  /// but no answer to the server's reply. kNoHello: the TLS handshake, but no hello of the protocol.
+  enum class Kind { kSilent, kBegunHello, kWholeHello, kNoHello };
 
   /// Makes `each` connections from each of the addresses, which must be in 127/8.
   SilentCrowd(std::uint16_t server, const std::vector<std::string>& addresses, int each, Kind kind);
@@ -28,19 +26,12 @@ class SilentCrowd {
 
   /// Returns how many connections the server has closed so far.
   std::uint64_t hungUp() const { return m_hung_up; }
-  /// True once all ClientHellos of kFinishedTogether have been completed.
-  bool haveFinished() const { return m_finished; }
 
  private:
   struct One;
 
-  void finishHello(One& one);
-
   asio::io_context m_context;
   std::atomic<std::uint64_t> m_hung_up = 0;
-  asio::steady_timer m_timer{m_context};
-  std::atomic<bool> m_finished = false;
-  std::string m_rest;  ///< rest of a ClientHello that is not completed at once
   std::vector<std::shared_ptr<One>> m_all;
   std::thread m_thread;
 };

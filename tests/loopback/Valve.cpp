@@ -19,14 +19,12 @@ class ValveSocket : public DatagramSocket {
     m_on_packet = std::move(on_packet);
     m_socket.start([this](const Path& path, std::string_view packet) {
       if (!m_valve->down) return;
-      ++m_valve->arrived;
       later([this, path, bytes = std::string(packet)] { m_on_packet(path, bytes); });
     });
   }
   void send(const Path& path, std::string_view packet) override {
     m_valve->seen.emplace_back(packet);
     if (!m_valve->up) return;
-    ++m_valve->sent;
     Path real = path;
     if (m_valve->server_port != 0) real.remote.port = m_valve->server_port;
     later([this, real, bytes = std::string(packet)] {

@@ -19,8 +19,6 @@ struct Valve {
   bool down = true;                    ///< datagrams from the server reach the client
   std::chrono::milliseconds delay{0};  ///< delay added in each direction
   std::uint16_t server_port = 0;  ///< port to which the client's datagrams are sent instead; 0: unchanged
-  std::uint64_t sent = 0;         ///< number of datagrams passed on to the server
-  std::uint64_t arrived = 0;      ///< number of datagrams passed on to the client
   std::vector<std::string> seen;  ///< datagrams that the client sent, whether or not they were passed on
   DatagramSocket* p_socket = nullptr;  ///< the newest socket
 

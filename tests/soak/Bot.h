@@ -8,15 +8,17 @@
 #include <set>
 #include <string>
 
-#include "SoakScene.h"
 #include "Tally.h"
 #include "VirtualHost.h"
 #include "Weather.h"
 #include "client/bot/BotScript.h"
 #include "client/session/ClientSession.h"
+#include "tests/loopback/BusyWorld.h"
 #include "tests/support/net/LossyLink.h"
 
 namespace naiad::soak {
+
+using test::Heard;
 
 class Bot {
  public:

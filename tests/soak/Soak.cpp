@@ -45,7 +45,10 @@ Soak::Soak(const SoakOptions& options)
       m_host(m_world, m_clock, m_network, *makeEndpoint("10.0.0.1", 9876), kSeed + 1),
       m_judge(m_world, m_host, m_tally, options.stride) {
   m_world.log().setSink([](const std::string&) {});
-  populateSoak(m_world, kCreatures, kSeed + 2, [this](const Heard& heard) { hear(heard); });
+  m_census.on_heard = [this](const Heard& heard) { hear(heard); };
+  // A map three screens wide.
+  test::populateBusyWorld(m_world, kCreatures, &m_census,
+                          {.width = 240, .height = 60, .is_rich = true, .seed = kSeed + 2});
   SplitMix64 seeds(kSeed + 3);
   const Bot::Place place{m_clock, m_network, m_host, *makeEndpoint("10.0.0.1", 9876), m_tally};
   for (int i = 0; i < options.bots; ++i) {

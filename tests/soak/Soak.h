@@ -43,6 +43,7 @@ class Soak {
   SoakOptions m_options;
   VirtualClock m_clock;
   VirtualNetwork m_network;
+  test::Census m_census;
   df::World m_world;
   df::World::Scope m_scope;
   VirtualHost m_host;

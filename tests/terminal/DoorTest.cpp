@@ -184,18 +184,6 @@ TEST_F(DoorTest, TwoVisitorsPlayUnderTheirOwnAddresses) {
   expectEnd(*ann, "");
 }
 
-TEST_F(DoorTest, WindowSizeFollowsTheVisitorsTerminal) {
-  open();
-  PtyTerminal* ann = play("ann");
-  NAIAD_SKIP_WITHOUT(ann);
-  ann->forget();
-  ann->resize(19, 9);
-  EXPECT_TRUE(ann->waitFor("too small")) << ann->newOutput();
-  ann->forget();
-  ann->resize(120, 30);
-  EXPECT_TRUE(ann->waitFor(" player")) << ann->newOutput();
-}
-
 TEST_F(DoorTest, BrokenConnectionKeepsTheSession) {
   open();
   PtyTerminal* ann = play("ann");
@@ -279,15 +267,15 @@ TEST_F(DoorTest, ClientGetsDoorEnvironmentAndPlainTerminalType) {
                               variable == "TERM=xterm-256color")
         << variable;
   }
-}
-
-TEST_F(DoorTest, ControlZDoesNotSuspendTheClient) {
-  open();
-  PtyTerminal* ann = play("ann");
-  NAIAD_SKIP_WITHOUT(ann);
+  ann->forget();
+  ann->resize(19, 9);
+  EXPECT_TRUE(ann->waitFor("too small")) << ann->newOutput();
+  ann->forget();
+  ann->resize(120, 30);
+  EXPECT_TRUE(ann->waitFor(" player")) << ann->newOutput() << ": the size follows the visitor's terminal";
   ann->forget();
   ann->type("\032\007h");
-  EXPECT_TRUE(ann->waitFor("Ctrl-G")) << ann->newOutput();
+  EXPECT_TRUE(ann->waitFor("Ctrl-G")) << ann->newOutput() << ": Ctrl-Z suspends nothing";
   EXPECT_NE(clientOf("ann"), 0);
 }
 

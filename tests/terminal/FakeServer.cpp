@@ -103,22 +103,21 @@ bool FakeServer::hasReceived(const std::function<bool(const wire::ClientMessage&
   });
 }
 
-bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
+bool FakeServer::heardUpdate(const std::function<bool(const ClientUpdate&)>& wanted) {
   return hasReceived([&wanted](const wire::ClientMessage& message) {
     const auto update = message.payload_case() == wire::ClientMessage::kUpdate
                             ? readUpdate(message.update(), {})
                             : std::nullopt;
-    return update && std::ranges::any_of(update->inputs, wanted);
+    return update && wanted(*update);
   });
 }
 
+bool FakeServer::heardInput(const std::function<bool(const Input&)>& wanted) {
+  return heardUpdate([&](const ClientUpdate& update) { return std::ranges::any_of(update.inputs, wanted); });
+}
+
 bool FakeServer::heardAcknowledged(std::uint32_t number) {
-  return hasReceived([number](const wire::ClientMessage& message) {
-    const auto update = message.payload_case() == wire::ClientMessage::kUpdate
-                            ? readUpdate(message.update(), {})
-                            : std::nullopt;
-    return update && update->acks.newest == number;
-  });
+  return heardUpdate([number](const ClientUpdate& update) { return update.acks.newest == number; });
 }
 
 bool FakeServer::heardKey(int key, int action) {

@@ -55,6 +55,7 @@ class FakeServer {
  private:
   void accept();
   void onFrame(std::string_view frame);
+  bool heardUpdate(const std::function<bool(const ClientUpdate&)>& wanted);
   void welcome();
 
   asio::io_context m_context;

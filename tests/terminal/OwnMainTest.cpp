@@ -15,7 +15,6 @@ namespace naiad::test {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 constexpr const char* kRight = "\033[C";
 // Only changed cells are written to the screen. So tests wait for the character after WALKED-, which becomes
@@ -93,15 +92,6 @@ TEST_F(OwnMain, InATerminalItIsPlayedThere) {
   EXPECT_TRUE(has(log, "\"ann\" joined"));
 }
 
-TEST_F(OwnMain, TitleWithItsOwnRunLeadsToTheGame) {
-  auto game = start({{"LONE_TITLE", "1"}});
-  ASSERT_TRUE(game->waitFor("TITLE")) << game->output();
-  game->type(kRight);
-  ASSERT_TRUE(game->waitFor("WALKED-0")) << game->output();
-  game->type("q");
-  expectOrderlyEnd(*game);
-}
-
 // The world outlives the first run.
 TEST_F(OwnMain, PlayersLeaveBeforeTheNextRun) {
   auto game = start({{"LONE_TITLE", "1"}, {"LONE_USHER", "1"}});
@@ -148,8 +138,9 @@ TEST_F(OwnMain, CrashRestoresTheTerminal) {
   game->type("c");
   EXPECT_TRUE(diesOf(*game, SIGABRT));
   // The client exits by itself after the game.
-  EXPECT_TRUE(game->waitForLater("\033[?1049l")) << game->output();
-  EXPECT_TRUE(game->waitForOriginalModes());
+  EXPECT_TRUE(game->waitUntil([&] {
+    return has(game->newOutput(), "\033[?1049l") && sameModes(game->originalModes(), game->currentModes());
+  })) << game->output();
 }
 
 TEST_F(OwnMain, ContinuesUntilOtherPlayersHaveLeft) {
@@ -188,54 +179,6 @@ TEST_F(OwnMain, OneKeyEndsTheGameForAllIfConfigured) {
   bob->type("q");
   expectOrderlyEnd(*game);
   EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
-}
-
-/// Types to the right until the walker takes its first step after a restart of the world. Slowly, because
-/// keys in quick succession count as one held key.
-void walkAgain(PtyTerminal& player) {
-  for (int i = 0; i < 20 && player.newOutput().find('$') == std::string::npos; ++i) {
-    player.type(kRight);
-    player.read(800ms);
-  }
-  EXPECT_TRUE(has(player.newOutput(), "$")) << player.output();
-}
-
-TEST_F(OwnMain, NextRoundKeepsItsPlayersInANewProcess) {
-  configure("on_game_over:restart,\n");
-  auto game = startServer();
-  auto ann = join("ann");
-  ann->type(kRight);
-  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
-  ann->forget();
-  game->forget();
-  ann->type("x");
-  ASSERT_TRUE(game->waitFor("after the game, walker 1")) << game->output();
-  ASSERT_TRUE(game->waitFor("before the game")) << game->output();
-  walkAgain(*ann);
-  const std::string log = read("game.log");  // has the lines of the server and of both rounds
-  EXPECT_EQ(log.find("\"ann\" joined"), log.rfind("\"ann\" joined")) << log;
-  EXPECT_TRUE(has(log, "the round is over"));
-  EXPECT_FALSE(has(ann->newOutput(), "Connection lost")) << ann->output();
-  game->signal(SIGTERM);
-  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
-  expectOrderlyEnd(*game);
-}
-
-TEST_F(OwnMain, ModulesHaveRoundsToo) {
-  PtyTerminal server(inHome({programPath("dfserver"), "--game", programPath("../lib/lone_module.so"),
-                             "--address", "127.0.0.1", "--on-game-over", "restart"}));
-  ASSERT_TRUE(server.waitFor("Only this machine can join")) << server.output();
-  auto ann = join("ann");
-  ann->type(kRight);
-  ASSERT_TRUE(ann->waitFor("$")) << ann->output();
-  ann->forget();
-  server.forget();
-  ann->type("x");
-  ASSERT_TRUE(server.waitFor("before the game")) << server.output();
-  walkAgain(*ann);
-  server.signal(SIGTERM);
-  EXPECT_EQ(WEXITSTATUS(ann->waitForExit()), 4);
-  expectOrderlyEnd(server);
 }
 
 TEST_F(OwnMain, FirstPlayerPlaysWhileOthersWaitTheirTurn) {
@@ -329,15 +272,6 @@ TEST_F(OwnMain, InvalidSettingIsReportedWithExitCode2) {
       << game->output();
 }
 
-TEST_F(OwnMain, ListensOnLoopbackOnlyByDefault) {
-  std::ofstream(m_home / "df-config.txt") << "logfile:" << (m_home / "game.log").string() << ",\n";
-  constexpr const char* kAlone = "Only this machine can join: listening on 127.0.0.1:";
-  EXPECT_TRUE(has(startServer({{"NAIAD_ADDRESS", ""}})->output(), kAlone));
-  const std::string open = startServer({{"NAIAD_ADDRESS", ""}, {"NAIAD_PUBLIC", "1"}})->output();
-  EXPECT_FALSE(has(open, kAlone));
-  EXPECT_TRUE(has(open, "Listening on every address of this machine, port "));
-}
-
 TEST_F(OwnMain, HangupOfItsTerminalEndsItCleanly) {
   auto game = startServer();
   auto ann = join("ann");
@@ -353,14 +287,6 @@ TEST_F(OwnMain, WorldReadablePasswordIsReported) {
   startServer();
   EXPECT_TRUE(has(read("game.log"), "df-config.txt has the password, but every user can read it."))
       << read("game.log");
-}
-
-TEST_F(OwnMain, RequestedPortInUseEndsTheProgram) {
-  auto first = startServer();
-  std::string join_line = read("join");
-  const std::string port = join_line.substr(10, join_line.find(' ') - 10);
-  auto second = start({{"NAIAD_PORT", port}});
-  EXPECT_EQ(WEXITSTATUS(second->waitForExit()), 4) << second->output();
 }
 
 TEST_F(OwnMain, IsAModuleOfDfserverToo) {

@@ -151,14 +151,6 @@ bool PtyTerminal::waitFor(const std::string& text) {
   return true;
 }
 
-bool PtyTerminal::waitForLater(const std::string& text) {
-  return waitUntil([&] { return hasWritten(text); });
-}
-
-bool PtyTerminal::waitForOriginalModes() {
-  return waitUntil([this] { return sameModes(m_original, currentModes()); });
-}
-
 bool PtyTerminal::waitUntil(const std::function<bool()>& done) {
   const auto end = Clock::now() + kPatience;
   while (!done() && Clock::now() < end) readOnce(std::chrono::milliseconds(50));

@@ -42,13 +42,9 @@ class PtyTerminal {
 
   /// Reads until the output contains `text`; false after a minute or when the program has ended.
   bool waitFor(const std::string& text);
-  /// Like waitFor(), but continues after the program has ended, for text of another program that it started.
-  bool waitForLater(const std::string& text);
-  /// Reads until the terminal modes are those before the program's start; false after a minute.
-  bool waitForOriginalModes();
   /// Reads until `done` returns true; false after a minute.
   bool waitUntil(const std::function<bool()>& done);
-  /// Makes waitFor() and waitForLater() look only at output after this call.
+  /// Makes waitFor() look only at output after this call.
   void forget() { m_mark = m_output.size(); }
   /// Reads for this time, whatever comes.
   void read(std::chrono::milliseconds time);

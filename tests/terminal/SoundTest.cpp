@@ -9,15 +9,20 @@
 namespace naiad::test {
 namespace {
 
-class TerminalSoundTest : public FakeServerFixture {
- protected:
-  PtyTerminal::Options with(const std::string& mode) const {
-    PtyTerminal::Options options = this->options();
-    if (!mode.empty()) options.command.insert(options.command.end(), {"--sound", mode});
-    return options;
-  }
-  /// Plays many sounds, then waits for a chat line that was sent after them.
-  void play(PtyTerminal& terminal) {
+using TerminalSoundTest = FakeServerFixture;
+
+/// Fifty sounds within a moment, then a chat line that was sent after them.
+TEST_F(TerminalSoundTest, ModesDecideOnTheNoteAndTheBell) {
+  const struct {
+    const char* mode;
+    bool has_note;
+    bool has_bell;
+  } rows[] = {{"note", true, false}, {"bell", true, true}, {"off", false, false}, {nullptr, true, false}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.mode != nullptr ? row.mode : "the default");
+    PtyTerminal::Options with = options();
+    if (row.mode != nullptr) with.command.insert(with.command.end(), {"--sound", row.mode});
+    PtyTerminal terminal(with);
     ASSERT_TRUE(terminal.waitFor("NAIAD-HERE")) << terminal.output();
     terminal.forget();
     for (int i = 0; i < 50; ++i) {
@@ -29,30 +34,11 @@ class TerminalSoundTest : public FakeServerFixture {
     chat.mutable_chat()->set_text("that-was-loud");
     server.send(chat);
     ASSERT_TRUE(terminal.waitFor("that-was-loud")) << terminal.output();
+    if (row.has_note) EXPECT_TRUE(terminal.waitFor("sound: pew"));
+    if (row.has_bell) EXPECT_TRUE(terminal.waitFor("\a"));
+    EXPECT_EQ(has(terminal.output(), "pew"), row.has_note);
+    EXPECT_LE(std::ranges::count(terminal.output(), '\a'), row.has_bell ? 3 : 0);
   }
-  static auto bells(const PtyTerminal& terminal) { return std::ranges::count(terminal.output(), '\a'); }
-};
-
-TEST_F(TerminalSoundTest, ShowsANoteByDefault) {
-  PtyTerminal terminal(with(""));
-  play(terminal);
-  EXPECT_TRUE(terminal.waitFor("sound: pew"));
-  EXPECT_EQ(bells(terminal), 0);
-}
-
-TEST_F(TerminalSoundTest, FiftySoundsRingTheBellAtMostThreeTimes) {
-  PtyTerminal terminal(with("bell"));
-  play(terminal);
-  EXPECT_TRUE(terminal.waitFor("sound: pew"));
-  EXPECT_TRUE(terminal.waitFor("\a"));
-  EXPECT_LE(bells(terminal), 3) << "fifty sounds within a moment";
-}
-
-TEST_F(TerminalSoundTest, IsNothingIfSwitchedOff) {
-  PtyTerminal terminal(with("off"));
-  play(terminal);
-  EXPECT_FALSE(has(terminal.output(), "pew"));
-  EXPECT_EQ(bells(terminal), 0);
 }
 
 }  // namespace

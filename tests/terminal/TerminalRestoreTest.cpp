@@ -41,14 +41,6 @@ TEST_F(TerminalRestoreTest, LeavingRestoresTheTerminal) {
   expectRestored(terminal);
 }
 
-TEST_F(TerminalRestoreTest, ControlCRestoresTheTerminal) {
-  PtyTerminal terminal(options());
-  join(terminal);
-  terminal.type("\x03");
-  EXPECT_TRUE(exits(terminal, 0));
-  expectRestored(terminal);
-}
-
 TEST_F(TerminalRestoreTest, ControlCAtAPasswordPromptRestoresTheEcho) {
   PtyTerminal::Options options;
   options.command = {programPath("dfctl"), "password"};
@@ -60,18 +52,8 @@ TEST_F(TerminalRestoreTest, ControlCAtAPasswordPromptRestoresTheEcho) {
   EXPECT_TRUE(sameModes(terminal.originalModes(), terminal.currentModes()));
 }
 
-TEST_F(TerminalRestoreTest, SignalsRestoreTheTerminal) {
-  for (const int number : {SIGTERM, SIGHUP}) {
-    PtyTerminal terminal(options());
-    join(terminal);
-    terminal.signal(number);
-    EXPECT_TRUE(diesOf(terminal, number)) << "the parent sees the signal";
-    expectRestored(terminal);
-  }
-}
-
-TEST_F(TerminalRestoreTest, CrashRestoresTheTerminal) {
-  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGQUIT}) {
+TEST_F(TerminalRestoreTest, SignalsAndCrashesRestoreTheTerminal) {
+  for (const int number : {SIGTERM, SIGHUP, SIGSEGV, SIGABRT, SIGBUS, SIGQUIT}) {
     PtyTerminal::Options with = options();
     with.answer_kitty = true;
     // Without these options, the sanitizer's own handler would run first.
@@ -81,7 +63,7 @@ TEST_F(TerminalRestoreTest, CrashRestoresTheTerminal) {
     ASSERT_TRUE(terminal.waitUntil([&] { return terminal.output().find("\033[>31u") != std::string::npos; }))
         << "the keyboard mode is set";
     terminal.signal(number);
-    EXPECT_TRUE(diesOf(terminal, number)) << "it still does";
+    EXPECT_TRUE(diesOf(terminal, number)) << "the parent sees the signal";
     expectRestored(terminal);
     const std::string after = terminal.newOutput();
     EXPECT_LT(after.find("\033[<u"), after.find("\033[?1049l"))

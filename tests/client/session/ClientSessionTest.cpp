@@ -342,17 +342,12 @@ TEST_F(ClientSessionTest, WorldAfterSkippedResetsIsAccepted) {
   EXPECT_EQ(session->replica().newest().number, 70u);
 }
 
-TEST_F(ClientSessionTest, ClosedChannelCountsAsLostServer) {
-  join();
-  session->closed(CloseReason::kPeer);
-  EXPECT_EQ(session->state(), State::kLost);
-}
-
 TEST_F(ClientSessionTest, LostServerCancelsTheDueAcknowledgement) {
   join();
   snapshot(1, 100);
   ASSERT_TRUE(session->nextWake());
   session->closed(CloseReason::kPeer);
+  EXPECT_EQ(session->state(), State::kLost);
   EXPECT_EQ(session->nextWake(), std::nullopt) << "who waits for it would never do anything else";
 }
 

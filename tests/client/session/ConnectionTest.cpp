@@ -18,13 +18,15 @@ using namespace std::chrono_literals;
 
 using Line = MessageLine<wire::ClientMessage>;
 
-/// Opens a stream on a new line, except while `is_refusing`.
+/// The result of attempts to open a stream: a stream, or a failure before or in the handshake.
+enum class Opening { kStream, kRefused, kClosedInHandshake };
+
+/// Opens a stream on a new line, or fails.
 class ScriptedOpener : public StreamOpener {
  public:
-  ScriptedOpener(std::deque<Line>& lines, const bool& is_refusing)
-      : m_lines(lines), m_is_refusing(is_refusing) {}
+  ScriptedOpener(std::deque<Line>& lines, const Opening& opening) : m_lines(lines), m_opening(opening) {}
   void open(Done done) override {
-    if (m_is_refusing) return done(nullptr, "connection refused");
+    if (m_opening != Opening::kStream) return done(nullptr, "no connection");
     done(std::make_unique<FakeChannel>(m_lines.emplace_back()), "");
   }
   void openSecond(Done /*done*/) override {}
@@ -32,11 +34,11 @@ class ScriptedOpener : public StreamOpener {
   std::optional<Fingerprint> key() const override { return std::nullopt; }
   std::optional<Fingerprint> keyOfSecond() const override { return std::nullopt; }
   std::string trustError() const override { return {}; }
-  bool closedDuringHandshake() const override { return false; }
+  bool closedDuringHandshake() const override { return m_opening == Opening::kClosedInHandshake; }
 
  private:
   std::deque<Line>& m_lines;
-  const bool& m_is_refusing;
+  const Opening& m_opening;
 };
 
 /// A newcomer whose server closes each stream before it answers.
@@ -57,18 +59,18 @@ class HungUp : public testing::Test {
   }
 
   std::deque<Line> lines;
-  bool is_refusing = false;
+  Opening opening = Opening::kStream;
   Connection::Time now = Connection::Clock::now();
-  Connection connection{std::make_unique<ScriptedOpener>(lines, is_refusing), ServerAddress{"127.0.0.1", 1},
+  Connection connection{std::make_unique<ScriptedOpener>(lines, opening), ServerAddress{"127.0.0.1", 1},
                         SessionOptions(), true};
 };
 
 TEST_F(HungUp, ClosedNewcomerTriesAgain) {
   pass(1s);
   EXPECT_GE(lines.size(), 3u);
-  is_refusing = true;  // as while a restarting server does not listen
+  opening = Opening::kRefused;  // as while a restarting server does not listen
   pass(1s);
-  is_refusing = false;
+  opening = Opening::kStream;
   const std::size_t before = lines.size();
   pass(2s, false);
   EXPECT_EQ(lines.size(), before + 1) << "it waits for the answer on the next stream";
@@ -82,6 +84,17 @@ TEST_F(HungUp, ClosedNewcomerGivesUpAfterFourSeconds) {
   EXPECT_FALSE(connection.message().empty());
   EXPECT_GE(now - begin, Connection::kHandshakeRetryTimeout);
   EXPECT_LE(now - begin, Connection::kHandshakeRetryTimeout + Connection::kMaxBackoff + 1s);
+}
+
+TEST_F(HungUp, ClosedHandshakeIsRetriedAtFirst) {
+  for (const auto& [failure, state] : {std::pair{Opening::kClosedInHandshake, Connection::State::kJoining},
+                                       {Opening::kRefused, Connection::State::kUnreachable}}) {
+    opening = failure;
+    Connection other(std::make_unique<ScriptedOpener>(lines, opening), ServerAddress{"127.0.0.1", 1},
+                     SessionOptions(), true);
+    other.start();
+    EXPECT_EQ(other.state(), state);
+  }
 }
 
 TEST_F(HungUp, LeavingEndsTheWaitForABusyServer) {
