@@ -28,11 +28,4 @@ inline double cross(Vec a, Vec b) {
 inline double length(Vec a) {
   return std::sqrt(dot(a, a));
 }
-/// Returns `a` turned by `angle` radians.
-inline Vec turned(Vec a, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * a.x - s * a.y, s * a.x + c * a.y};
-}
-
 }  // namespace lab

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -38,8 +39,9 @@ class PhysicsWorld : public testing::Test {
 
  public:
   /// Makes a HARD Object without mass.
-  static Object* wall(Vector centre, Vector half) {
-    auto* p_wall = new Object;
+  template <class Its = Object>
+  static Its* wall(Vector centre, Vector half) {
+    auto* p_wall = new Its;
     p_wall->setBox(Box(Vector(-half.x(), -half.y()), 2 * half.x(), 2 * half.y()));
     p_wall->setPosition(centre);
     return p_wall;
@@ -111,9 +113,11 @@ struct OwnWorld {
   World::Scope scope{world};
 };
 
-/// A body that records its contact events.
-class Listener : public Body {
+/// An Object that records its contact events.
+template <class Base>
+class Recording : public Base {
  public:
+  using Base::Base;
   struct Note {
     bool is_begin;
     const Object* p_first;
@@ -130,6 +134,15 @@ class Listener : public Body {
     }
     return 1;
   }
+  int begins() const {
+    return static_cast<int>(std::count_if(notes.begin(), notes.end(), [](auto& n) { return n.is_begin; }));
+  }
+  int ends() const { return static_cast<int>(notes.size()) - begins(); }
+  /// Returns the other Object of the last event, which must exist.
+  const Object* other() const {
+    const Note& last = notes.back();
+    return last.p_first == this ? last.p_second : last.p_first;
+  }
   /// Checks that begin and end events alternate for each pair. Returns which pairs are in contact now.
   std::map<std::pair<const Object*, const Object*>, bool> expectTurns() const {
     std::map<std::pair<const Object*, const Object*>, bool> touches;
@@ -143,5 +156,6 @@ class Listener : public Body {
 
   std::vector<Note> notes;
 };
+using Listener = Recording<Body>;
 
 }  // namespace df::test

@@ -15,8 +15,7 @@ inline Mat22 scaled(const Mat22& m, double s) {
 }
 
 /// Pulls towards the field's origin from beyond `rest_length`, pushes away from within it, and damps motion
-/// along the spring. At the origin, where its direction is undefined, the spring has no force. If the rest
-/// length is zero, SpringFlow is exact and much faster.
+/// along the spring. Undefined at the origin.
 class ElasticField final : public ForceField {
  public:
   /// `push` is an additional constant acceleration, such as gravity.
@@ -25,7 +24,6 @@ class ElasticField final : public ForceField {
 
   Vec2 acceleration(Vec2 position, Vec2 velocity, double /*time*/) const override {
     const double distance = length(position);
-    if (distance == 0) return m_push;
     const Vec2 outward = position / distance;
     const double pull = m_stiffness * (distance - m_rest_length) + m_damping * dot(velocity, outward);
     return m_push - pull * outward;
@@ -44,10 +42,6 @@ class ElasticField final : public ForceField {
 inline bool ElasticField::jacobian(Vec2 position, Vec2 velocity, double /*time*/, Mat22& by_position,
                                    Mat22& by_velocity) const {
   const double distance = length(position);
-  if (distance == 0) {
-    by_position = by_velocity = {};
-    return true;
-  }
   const Vec2 outward = position / distance;
   const Mat22 along = outer(outward, outward);
   const Mat22 across = kIdentity + scaled(along, -1);

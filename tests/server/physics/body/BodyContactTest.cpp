@@ -30,6 +30,7 @@ TEST_F(BodyContacts, RestingBodySendsNoEventsOrUpdates) {
   ticks(60);
   ASSERT_EQ(p_crate->notes.size(), 1u);
   EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-9);
+  EXPECT_EQ(static_cast<Object*>(p_crate)->getAcceleration(), Vector());
   world.store().setWatched(true);
   world.tick();
   for (int i = 0; i < 30; ++i) {

@@ -1,5 +1,4 @@
 // The level ACCURACY_FAST through the public functions: events, free flight, changes of level, sleep.
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -16,11 +15,6 @@ class BodyFast : public BodyScene {
   BodyFast() {
     PM.setGravity(perSecondSquared(Vector(0, 10)));
     EXPECT_EQ(PM.setAccuracy(ACCURACY_FAST), 0);
-  }
-
-  static int begins(const Listener* p_listener) {
-    const auto& notes = p_listener->notes;
-    return static_cast<int>(std::count_if(notes.begin(), notes.end(), [](auto& n) { return n.is_begin; }));
   }
 };
 
@@ -105,7 +99,7 @@ TEST_F(BodyFast, LevelChangeRepeatsNoContactEvents) {
   }
   ticks(60);
   for (Listener* p_crate : pile) {
-    EXPECT_GT(begins(p_crate), 0);
+    EXPECT_GT(p_crate->begins(), 0);
     p_crate->notes.clear();
   }
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST, ACCURACY_DEFAULT}) {
@@ -178,7 +172,7 @@ TEST_F(BodyFast, DeletedFloorLetsBodiesFall) {
   delete p_floor;
   ticks(60);
   EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
-  EXPECT_EQ(begins(p_crate), 2);
+  EXPECT_EQ(p_crate->begins(), 2);
 }
 
 }  // namespace

@@ -37,38 +37,6 @@ TEST_F(BodyRigids, ADiscRollsDownASlope) {
   EXPECT_NEAR(std::hypot(v.x(), v.y()), 30 * p_disc->getSpin() * 0.5, 1e-3);
 }
 
-TEST_F(BodyRigids, ACrateSlidesDownASlope) {
-  const double angle = 40 * std::numbers::pi / 180;
-  slope(angle);
-  Body* p_crate = crate(Vector(0.25 * std::sin(angle), -0.25 * std::cos(angle)), Vector(0.5, 0.25));
-  p_crate->setAngle(angle);
-  p_crate->setTurning();
-  const Vector start = p_crate->getPosition();
-  ticks(60);
-  EXPECT_NEAR(
-      p_crate->getDisplacementFrom(start).getMagnitude() / (20 * (std::sin(angle) - 0.5 * std::cos(angle))),
-      1, 1e-3);
-}
-
-// Problem 12. A crate that has only begun to slide does not sleep.
-TEST_F(BodyRigids, FrictionHoldsUpToItsAngle) {
-  const auto wayAt = [&](double angle) {
-    Body* p_slope = slope(angle);
-    Body* p_crate = crate(Vector(0.25 * std::sin(angle), -0.25 * std::cos(angle)), Vector(0.5, 0.25));
-    p_crate->setAngle(angle);
-    p_crate->setTurning();
-    const Vector start = p_crate->getPosition();
-    ticks(120);
-    const Vector displacement = p_crate->getDisplacementFrom(start);
-    delete p_crate;
-    delete p_slope;
-    return std::hypot(displacement.x(), displacement.y());
-  };
-  const double threshold = std::atan(0.5), hundredth = 0.01 * std::numbers::pi / 180;
-  EXPECT_LT(wayAt(threshold - hundredth), 1e-4);
-  EXPECT_GT(wayAt(threshold + hundredth), 5e-3);
-}
-
 // Problem 10, with a mass ratio that games need.
 TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
   layFloor(100);

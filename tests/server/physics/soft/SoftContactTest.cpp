@@ -84,25 +84,6 @@ TEST(SoftContact, CrateLiesOnARopeBridge) {
   }
 }
 
-TEST(SoftContact, CrateLiesOnACloth) {
-  const ConvexShape cube = test::boxShape(1, 1);
-  SoftBody cloth = makeCloth(placeAt({-4, 0}), {8, 0}, {0, 0.5}, 16, 1, 4, 200, 50, 0.01);
-  for (const int corner : {0, 1, 32, 33}) cloth.nodes[static_cast<std::size_t>(corner)].is_pinned = true;
-  cloth.friction = 0.5;
-  cloth.drag = 0.02;
-  SoftWorld world;
-  world.setGravity({0, kGravity});
-  world.add(cloth);
-  SoftObstacle crate = test::crateAt(3, cube, {0, -1.3}, 10, 1.5);
-  for (int i = 0; i < 1200; ++i) {
-    world.step(1, {&crate, 1});
-    test::advance(crate);
-  }
-  EXPECT_NEAR(-crate.impulse.y / (10 * kGravity), 1, 1e-2);
-  EXPECT_LT(length(crate.velocity), 1e-2);
-  EXPECT_LT((crate.place - Place{}).y, 1);
-}
-
 // The momentum that the blob loses is that which the crate gains.
 TEST(SoftContact, SoftRigidContactConservesMomentum) {
   const ConvexShape cube = test::boxShape(1, 1);

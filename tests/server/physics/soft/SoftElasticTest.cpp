@@ -194,16 +194,5 @@ TEST(SoftBody, StiffRopeKeepsItsLength) {
   }
 }
 
-TEST(SoftBody, FreeBodyKeepsItsMomentum) {
-  SoftBody blob = makeBlob({}, 2, 24, 5, 0.05, 0.2, 0.5, 0.1);
-  for (std::size_t i = 0; i < 24; ++i)
-    blob.nodes[i].velocity = {0.3 + 0.01 * static_cast<double>(i % 5), -0.1};
-  const Vec2 before = test::momentumOf(blob);
-  SoftWorld world;
-  const int id = world.add(blob);
-  for (int i = 0; i < 1000; ++i) world.step();
-  EXPECT_LT(length(test::momentumOf(world.body(id)) - before) / length(before), 1e-11);
-}
-
 }  // namespace
 }  // namespace naiad::physics

@@ -35,28 +35,6 @@ TEST(SubstepWorld, ADroppedBoxRestsAndSleeps) {
   EXPECT_EQ(scene.world.counters().contacts, contacts);  // no contact was solved
 }
 
-TEST(SubstepWorld, APyramidStandsAndSleeps) {
-  SubstepScene scene;
-  scene.addFloor();
-  std::vector<int> ids;
-  std::vector<Vec2> starts;
-  for (int row = 0; row < 10; ++row) {
-    for (int i = 0; i < 10 - row; ++i) {
-      starts.push_back({1.1 * i + 0.55 * row, -0.5 - row});
-      ids.push_back(scene.addCrate(starts.back()));
-    }
-  }
-  double worst = 0;
-  for (int tick = 0; tick < 300; ++tick) {
-    scene.ticks(1);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      worst = std::max(worst, length(scene.at(ids[i]) - starts[i]));
-    }
-  }
-  EXPECT_LT(worst, 0.05);
-  for (const int id : ids) EXPECT_TRUE(scene.world.isAsleep(id)) << id;
-}
-
 // There are more contacts than in one batch, but none is missed.
 TEST(SubstepWorld, SixHundredStacksStandTouchOnceAndSleep) {
   constexpr int kStacks = 600;
@@ -250,20 +228,6 @@ TEST(SubstepWorld, TouchedBodyWakesWithItsGroup) {
   for (const int member : stack) EXPECT_FALSE(scene.world.isAsleep(member)) << member;
   EXPECT_TRUE(scene.world.isAsleep(apart));
   scene.world.remove(id);
-}
-
-TEST(SubstepWorld, RemovedFloorLetsBodiesFall) {
-  SubstepScene scene;
-  const int floor = scene.addFloor();
-  const int lower = scene.addCrate({0, -0.5}), upper = scene.addCrate({0, -1.5});
-  scene.ticks(90);
-  ASSERT_TRUE(scene.world.isAsleep(lower) && scene.world.isAsleep(upper));
-  const double height = scene.at(upper).y;
-  ASSERT_TRUE(scene.world.remove(floor));
-  scene.ticks(10);
-  EXPECT_NEAR(scene.at(upper).y - height, 0.5 * kGravityPerTick * 100, 0.1 * kGravityPerTick * 100);
-  EXPECT_GT(scene.world.body(lower).velocity.y, 9 * kGravityPerTick);
-  EXPECT_TRUE(scene.world.events().empty());
 }
 
 TEST(SubstepWorld, KinematicBodyPushes) {
