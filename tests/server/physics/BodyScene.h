@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -112,6 +115,14 @@ struct OwnWorld {
   World world;
   World::Scope scope{world};
 };
+
+/// Position, velocity, angle and spin.
+using BodyBits = std::array<std::uint64_t, 6>;
+inline BodyBits stateBits(const Body* p_body) {
+  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+  return std::bit_cast<BodyBits>(
+      std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
+}
 
 /// An Object that records its contact events.
 template <class Base>

@@ -7,15 +7,12 @@
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
-#include "tests/support/NotANumber.h"
 #include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
 
 using Bits = std::vector<std::uint64_t>;
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Made = std::vector<Object*>;
 
@@ -151,32 +148,6 @@ const Bits& undisturbed(int ticks) {
     bits = alone.seen;
   }
   return bits;
-}
-
-// Impulses that are NaN or beyond the limit of velocities are refused without any effect.
-TEST(BodyExtremes, ExcessiveImpulsesAreRefusedByEveryKind) {
-  constexpr int kTicks = 20;
-  for (const Kind& kind : kinds()) {
-    SCOPED_TRACE(kind.p_name);
-    Witnesses run, quiet;
-    const World::Scope scope(run.world);
-    std::vector<Object*> hurt;
-    for (int i = 0; i < 12; ++i) hurt.push_back(kind.make(Vector(12.0 * i, -40)).front());
-    const std::uint64_t refusals = run.world.log().refusals();
-    for (std::size_t i = 0; i < hurt.size(); ++i) {
-      const double angle = 0.5 * static_cast<double>(i);
-      EXPECT_EQ(hit(hurt[i], Vector(1e30 * std::cos(angle), 1e30 * std::sin(angle))), -1);
-      EXPECT_EQ(hit(hurt[i], Vector(kNan, 0)), -1);
-      EXPECT_EQ(hit(hurt[i], Vector(0, -kInfinite)), -1);
-    }
-    EXPECT_EQ(run.world.log().refusals() - refusals, 3 * hurt.size());
-    run.ticks(kTicks);
-    for (const Object* p_object : hurt) {
-      EXPECT_FALSE(isFrozen(p_object));
-      EXPECT_NEAR(p_object->getVelocity().x(), 0, 1e-6);
-    }
-    EXPECT_EQ(run.seen, undisturbed(kTicks));
-  }
 }
 
 // The strongest allowed impulse gives a body nearly the maximum speed, away from the others. It flies or is

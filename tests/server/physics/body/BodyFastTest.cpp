@@ -1,8 +1,4 @@
 // The level ACCURACY_FAST through the public functions: events, free flight, changes of level, sleep.
-#include <array>
-#include <bit>
-#include <cstdint>
-
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"
 #include "tests/server/physics/BodyScene.h"
@@ -17,15 +13,6 @@ class BodyFast : public BodyScene {
     EXPECT_EQ(PM.setAccuracy(ACCURACY_FAST), 0);
   }
 };
-
-using FlightBits = std::array<std::uint64_t, 6>;
-
-FlightBits flightOf(const Body* p_body) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
-  return {bits(place.x()),    bits(place.y()),          bits(velocity.x()),
-          bits(velocity.y()), bits(p_body->getAngle()), bits(p_body->getSpin())};
-}
 
 TEST_F(BodyFast, AccuracyLevelIsKeptPerWorld) {
   EXPECT_EQ(PM.getAccuracy(), ACCURACY_FAST);
@@ -78,10 +65,10 @@ TEST_F(BodyFast, FreeFlightIsEqualAtBothLevels) {
     }
     Body* p_resting = crate(Vector(-50, 34.5));  // has a contact, far from the others
     p_resting->setTurning();
-    std::vector<FlightBits> seen;
+    std::vector<BodyBits> seen;
     for (int tick = 0; tick < 60; ++tick) {
       own.world.update();
-      for (const Body* p_body : bodies) seen.push_back(flightOf(p_body));
+      for (const Body* p_body : bodies) seen.push_back(stateBits(p_body));
     }
     return seen;
   };
@@ -149,10 +136,10 @@ TEST_F(BodyFast, ASleepingHeapPublishesNothing) {
   world.store().setWatched(true);
   world.tick();
   for (int tick = 0; tick < 20; ++tick) {
-    std::vector<FlightBits> before, after;
-    for (const Body* p_body : heap) before.push_back(flightOf(p_body));
+    std::vector<BodyBits> before, after;
+    for (const Body* p_body : heap) before.push_back(stateBits(p_body));
     world.tick();
-    for (const Body* p_body : heap) after.push_back(flightOf(p_body));
+    for (const Body* p_body : heap) after.push_back(stateBits(p_body));
     ASSERT_EQ(before, after) << tick;
     ASSERT_TRUE(world.picture().view().changed.empty()) << tick;
   }

@@ -1,7 +1,5 @@
 // Impacts of bodies through WM.update(): problems of the laboratory (docs/physics/lab.md) that depend on how
 // the ImpactWorld gets its bodies. ImpactWorldTest and ImpactPropertyTest test the others.
-#include <bit>
-#include <cstdint>
 #include <numbers>
 
 #include "physics/body/Field.h"
@@ -74,15 +72,10 @@ TEST_F(BodyImpacts, InvalidNumbersAffectNoOtherBody) {
     if (poison == 5) p_bad->setMass(1e30), p_bad->applyForce(Vector(0, 1e30));
     if (poison == 6) p_bad->setSpring(Vector(1e9, 0), 1e30, 1e30);
     if (poison == 7) p_bad->setBox(Box(Vector(), 0, 0)), p_bad->setBoxShape();
-    std::vector<std::uint64_t> bits;
+    std::vector<BodyBits> bits;
     for (int tick = 0; tick < 60; ++tick) {
       there.world.update();
-      for (const Body* p_crate : crates) {
-        for (const double number : {p_crate->getPosition().x(), p_crate->getPosition().y(),
-                                    p_crate->getVelocity().x(), p_crate->getVelocity().y()}) {
-          bits.push_back(std::bit_cast<std::uint64_t>(number));
-        }
-      }
+      for (const Body* p_crate : crates) bits.push_back(stateBits(p_crate));
     }
     return bits;
   };

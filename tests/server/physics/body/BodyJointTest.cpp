@@ -129,20 +129,6 @@ TEST_F(BodyJoints, InactiveBodyHoldsTheBodyJointedToIt) {
   EXPECT_GT(p_hook->getPosition().y(), 4);
 }
 
-TEST_F(BodyJoints, ExcessiveForceFreezesOnlyItsJointGroup) {
-  PM.setGravity(perSecondSquared(Vector(0, 10)));
-  Body* p_good = point(Vector(1, 0));
-  PM.addDistance(nullptr, p_good, Vector(), Vector(1, 0));
-  Body* p_bad = point(Vector(50, 0));
-  PM.addDistance(nullptr, p_bad, Vector(49, 0), Vector(50, 0));
-  p_bad->applyForce(Vector(1e30, 1e30));
-  ticks(5);
-  EXPECT_TRUE(p_bad->isFrozen());
-  EXPECT_FALSE(p_good->isFrozen());
-  EXPECT_NEAR(std::hypot(p_good->getPosition().x(), p_good->getPosition().y()), 1, 1e-10);
-  EXPECT_GT(p_good->getPosition().y(), 0.01);
-}
-
 TEST_F(BodyJoints, TorqueTurnsAFreeBody) {
   Body* p_wheel = point(Vector());
   p_wheel->setCircle(2);

@@ -11,31 +11,7 @@ namespace {
 class BodyRigids : public BodyScene {
  protected:
   BodyRigids() { PM.setGravity(perSecondSquared(Vector(0, 10))); }
-  /// Makes a slope through the origin that descends to the right.
-  static Body* slope(double angle) {
-    auto* p_slope = new Body;
-    p_slope->setKinematic();
-    p_slope->setBoxShape(400, 10);
-    p_slope->setAngle(angle);
-    p_slope->setPosition(Vector(-5 * std::sin(angle), 5 * std::cos(angle)));
-    return p_slope;
-  }
 };
-
-// Problem 13.
-TEST_F(BodyRigids, ADiscRollsDownASlope) {
-  const double angle = std::numbers::pi / 6;
-  slope(angle);
-  Body* p_disc = ball(Vector(0.5 * std::sin(angle), -0.5 * std::cos(angle)), Vector());
-  p_disc->setFriction(0.5);
-  p_disc->setTurning();
-  const Vector start = p_disc->getPosition();
-  ticks(60);
-  const Vector displacement = p_disc->getDisplacementFrom(start), v = speedOf(p_disc);
-  const double right = 10 * std::sin(angle) * 4 / 3;
-  EXPECT_NEAR(std::hypot(displacement.x(), displacement.y()) / right, 1, 1e-3);
-  EXPECT_NEAR(std::hypot(v.x(), v.y()), 30 * p_disc->getSpin() * 0.5, 1e-3);
-}
 
 // Problem 10, with a mass ratio that games need.
 TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {

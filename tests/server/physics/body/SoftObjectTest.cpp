@@ -153,22 +153,6 @@ TEST_F(SoftObjects, ATurningStackLiesOnACloth) {
   EXPECT_NEAR(p_below->getPosition().y(), y_before, 0.01);
 }
 
-TEST_F(SoftObjects, ImpactKeepsTheMomentum) {
-  PM.setGravity(Vector(0, 0));
-  auto* p_blob = new Blob(Vector(10, 10), 2);
-  p_blob->setDrag(0);
-  p_blob->setVelocity(Vector(0.2, 0));
-  auto* p_crate = new Body;
-  p_crate->setBoxShape(3, 2);
-  p_crate->setMass(2);
-  p_crate->setPosition(Vector(20, 10));
-  for (int i = 0; i < 80; ++i) {
-    ticks(1);
-    EXPECT_NEAR(p_blob->getVelocity().x() + 2 * p_crate->getVelocity().x(), 0.2, 1e-7) << i;
-  }
-  EXPECT_GT(p_crate->getVelocity().x(), 0.05);
-}
-
 TEST_F(SoftObjects, ABlobLiesOnACrateOnAFloor) {
   new Floor(Vector(0, 20));
   auto* p_crate = crate(Vector(20, 19), Vector(4, 1));
@@ -258,6 +242,7 @@ TEST_F(SoftObjects, InvalidNumbersAreRefused) {
   EXPECT_NEAR(p_blob->getMass(), 1, 1e-12);
   EXPECT_EQ(p_blob->setPosition(Vector(kNan, 0)), -1);
   EXPECT_EQ(p_blob->applyImpulse(Vector(kNan, 0)), -1);
+  EXPECT_EQ(p_blob->applyImpulse(Vector(0, 1e30)), -1);
   EXPECT_EQ(p_blob->applyForce(Vector(0, 1e30)), -1);
   EXPECT_EQ(p_blob->applyForce(1000, Vector(0, 1)), -1);
   EXPECT_EQ(p_blob->applyForce(0, Vector(0, 1e30)), -1);
@@ -422,6 +407,58 @@ TEST_F(SoftObjects, DeletedBlobLeavesTheSolver) {
   delete p_blob;
   ticks(3);
   EXPECT_EQ(PM.setAspect(1), 0);
+}
+
+TEST_F(SoftObjects, ClothHasTheRequestedThreadsWithinLimits) {
+  const Cloth usual(Vector(0, 0), 1000, 1000);
+  EXPECT_EQ(usual.getColumns(), 25);
+  EXPECT_EQ(usual.getRows(), 25);
+  const Cloth fine(Vector(0, 0), 30, 20, 1, 5, 128, 40);
+  EXPECT_EQ(fine.getColumns(), 128);
+  EXPECT_EQ(fine.getRows(), 40);
+  EXPECT_EQ(fine.getNodeCount(), 128 * 40);
+  EXPECT_NEAR(fine.getNodePosition(fine.getNode(127, 39)).x(), 30, 1e-6);
+  EXPECT_NEAR(fine.getNodePosition(fine.getNode(127, 39)).y(), 20, 1e-6);
+  const auto before = world.log().refusals();
+  const Cloth refused(Vector(0, 0), 30, 20, 1, 5, 129, 1);
+  EXPECT_EQ(world.log().refusals(), before + 2);
+  EXPECT_EQ(refused.getColumns(), 13);
+}
+
+TEST_F(SoftObjects, PinnedClothStretchesByAtMostFivePercent) {
+  constexpr int kThreads = 100;
+  auto* p_cloth = new Cloth(Vector(10, 5), 99, 49.5, 1, 5, kThreads, kThreads);
+  p_cloth->pin(p_cloth->getNode(0, 0));
+  p_cloth->pin(p_cloth->getNode(kThreads - 1, 0));
+  const double mesh = PM.getAspect() * 0.5;
+  for (int i = 0; i < 60; ++i) {
+    world.tick();
+    for (int k = 0; k + 1 < kThreads; ++k) {
+      for (const int other : {p_cloth->getNode(k + 1, 0), p_cloth->getNode(k, 1)}) {
+        const Vector apart =
+            p_cloth->getNodePosition(other) - p_cloth->getNodePosition(p_cloth->getNode(k, 0));
+        ASSERT_LE(std::hypot(apart.x(), PM.getAspect() * apart.y()), 1.05 * std::max(1.0, mesh))
+            << i << " " << k;
+      }
+    }
+  }
+  EXPECT_EQ(p_cloth->getNodePosition(p_cloth->getNode(0, 0)), Vector(10, 5));
+  EXPECT_FALSE(p_cloth->isFrozen());
+}
+
+TEST_F(SoftObjects, NodeForcesMoveTheWholeCloth) {
+  auto* p_cloth = new Cloth(Vector(10, 5), 20, 10, 1, 5, 40, 40);
+  PM.setGravity(Vector(0, 0));
+  for (int i = 0; i < 10; ++i) {
+    for (int node = 0; node < p_cloth->getNodeCount(); ++node) {
+      p_cloth->applyForce(node, Vector(0.01 / p_cloth->getNodeCount(), 0));
+    }
+    world.tick();
+  }
+  EXPECT_NEAR(p_cloth->getVelocity().x(), 0.1, 0.02);
+  world.tick();
+  const double speed = p_cloth->getVelocity().x();
+  EXPECT_LE(speed, 0.1);
 }
 
 }  // namespace
