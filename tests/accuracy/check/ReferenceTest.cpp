@@ -90,7 +90,8 @@ class Replay : public Simulation {
 TEST(Reference, CvodeMatchesTheReferenceOfEveryEquationProblem) {
   int judged = 0;
   for (const Problem& problem : Problem::all()) {
-    if (problem.id.size() > 2) continue;  // skips maps, which repeat problem 4
+    // Skips maps, which repeat problem 4, and the pendulum, whose reference is its own energy.
+    if (problem.id.size() > 2 || problem.id == "5") continue;
     for (const Case& its_case : problem.make()) {
       if (its_case.scene.equations == nullptr) continue;
       // Skips a phase of a million radians, whose formula other stiffnesses test, and a speed that jumps,
@@ -107,7 +108,7 @@ TEST(Reference, CvodeMatchesTheReferenceOfEveryEquationProblem) {
       ++judged;
     }
   }
-  EXPECT_EQ(judged, 1 + 2 + 3 + 8 + 4 + 1 + 2);
+  EXPECT_EQ(judged, 1 + 2 + 3 + 8 + 4 + 2);
 }
 
 // Compares derivatives by dual numbers with finite differences, for the equations with most kinds of

@@ -22,9 +22,6 @@ inline Vec operator*(double s, Vec a) {
 inline double dot(Vec a, Vec b) {
   return a.x * b.x + a.y * b.y;
 }
-inline double cross(Vec a, Vec b) {
-  return a.x * b.y - a.y * b.x;
-}
 inline double length(Vec a) {
   return std::sqrt(dot(a, a));
 }
