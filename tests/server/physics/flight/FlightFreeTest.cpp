@@ -11,23 +11,6 @@
 namespace naiad::physics {
 namespace {
 
-TEST(FlightFree, BallisticFlightMatchesTheFormula) {
-  const Vec2 gravity = {0, -10}, start = {3, 20};
-  for (const int steps : {1, 60, 120, 3840}) {
-    Place place{};
-    Vec2 velocity = start;
-    for (int i = 0; i < steps; ++i) {
-      const Flown flown = flyFree(velocity, gravity, 2.0 / steps);
-      place = place + flown.displacement;
-      velocity = flown.velocity;
-    }
-    const Vec2 displacement = place - Place{};
-    EXPECT_LE(std::fabs(displacement.x - 6), 6e-12);
-    EXPECT_LE(std::fabs(displacement.y - 20), 20e-12);
-    EXPECT_LE(length(velocity - Vec2{3, 0}), 20e-12);
-  }
-}
-
 TEST(Place, FractionStaysWithinHalfACell) {
   SplitMix64 random(1);
   Place place{};

@@ -68,6 +68,8 @@ TEST(ConvexShape, RefusesInvalidShapesAndKeepsTheOldOne) {
   EXPECT_EQ(polygon(std::vector<Vec2>(17, Vec2{})), ShapeStatus::kTooMany);
   EXPECT_EQ(polygon({{0, 0}, {0, 1}, {1, 0}}), ShapeStatus::kClockwise);
   EXPECT_EQ(polygon({{0, 0}, {1, 0}, {2, 0}}), ShapeStatus::kTooSmall);
+  EXPECT_NE(polygon({{0, 0}, {4, 0}, {2, 1e-12}}), ShapeStatus::kOk);
+  EXPECT_NE(polygon({{-1e8, 0}, {1e8, 0}, {0, 1e-9}}), ShapeStatus::kOk);
   EXPECT_EQ(polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), ShapeStatus::kTooSmall);
   EXPECT_EQ(polygon({{0, 0}, {1, 0}, {2, 0}, {1, 1}}), ShapeStatus::kNotConvex);
   EXPECT_EQ(polygon({{0, 0}, {2, 0}, {0.5, 0.5}, {0, 2}}), ShapeStatus::kNotConvex);

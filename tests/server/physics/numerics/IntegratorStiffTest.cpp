@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/flight/FlightDrag.h"
+#include "physics/flight/FlightField.h"
+#include "physics/flight/FlightSpring.h"
 #include "physics/numerics/IntegratorAutomatic.h"
-#include "tests/server/physics/ElasticField.h"
 #include "tests/server/physics/QuadReference.h"
+#include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {
 namespace {
@@ -59,6 +62,53 @@ TEST(Stiff, VanDerPolMatchesThePublishedResult) {
     }
   }
 }
+
+Mat22 outer(Vec2 a, Vec2 b) {
+  return {a.x * b.x, a.x * b.y, a.y * b.x, a.y * b.y};
+}
+
+Mat22 scaled(const Mat22& m, double s) {
+  return {m.xx * s, m.xy * s, m.yx * s, m.yy * s};
+}
+
+/// Pulls towards the field's origin from beyond `rest_length`, pushes away from within it, and damps motion
+/// along the spring. Undefined at the origin.
+class ElasticField final : public ForceField {
+ public:
+  /// `push` is an additional constant acceleration, such as gravity.
+  ElasticField(double stiffness, double damping, double rest_length, Vec2 push)
+      : m_stiffness(stiffness), m_damping(damping), m_rest_length(rest_length), m_push(push) {}
+
+  Vec2 acceleration(Vec2 position, Vec2 velocity, double /*time*/) const override {
+    const double distance = length(position);
+    const Vec2 outward = position / distance;
+    const double pull = m_stiffness * (distance - m_rest_length) + m_damping * dot(velocity, outward);
+    return m_push - pull * outward;
+  }
+
+  bool jacobian(Vec2 position, Vec2 velocity, double /*time*/, Mat22& by_position,
+                Mat22& by_velocity) const override {
+    const double distance = length(position);
+    const Vec2 outward = position / distance;
+    const Mat22 along = outer(outward, outward);
+    const Mat22 across = kIdentity + scaled(along, -1);
+    const double radial = dot(velocity, outward);
+    const double pull = m_stiffness * (distance - m_rest_length) + m_damping * radial;
+    // Along the spring, the pull changes by the stiffness and, because the spring turns, by the velocity
+    // across the spring. The pull's direction turns with the position.
+    const Vec2 turning = (velocity - radial * outward) / distance;
+    by_position = scaled(along, -m_stiffness) + scaled(outer(outward, turning), -m_damping) +
+                  scaled(across, -pull / distance);
+    by_velocity = scaled(along, -m_damping);
+    return true;
+  }
+
+ private:
+  double m_stiffness;    // force over length and mass, per unit of time squared
+  double m_damping;      // force over velocity and mass, per unit of time
+  double m_rest_length;  // metric cells
+  Vec2 m_push;
+};
 
 // Returns the field of a rod with stiffness k. The pendulum starts horizontally. (Games should use a joint.)
 ElasticField rod(double k) {
@@ -268,6 +318,27 @@ TEST(Stiff, KeepsNoStateBetweenCalls) {
   flyField(field, {2, 0}, {-0.5, 0}, 0, 0.1, {}, again, counters);
   EXPECT_EQ(first.displacement, again.displacement);
   EXPECT_EQ(first.velocity, again.velocity);
+}
+
+TEST(Flight, AllocatesNothing) {
+  if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
+  const ElasticField soft(10, 0.1, 1, {0, 1}), stiff(1e10, 1e5, 1, {0, 1});
+  IntegratorCounters counters;
+  Flown flown;
+  bool is_done = true;
+  const auto before = naiad::test::allocationsSoFar();
+  flown = flySpring({1, 2}, {3, 4}, {0, 1}, {1e6, 10}, 1);
+  flown = flySpring({}, flown.velocity, {0, 1}, {0, 0.3}, 1);
+  is_done &= flyQuadraticDrag({1, 2}, {0, 1}, 0.1, 1, flown, counters) == IntegratorStatus::kDone;
+  for (int method = 0; method <= static_cast<int>(IntegratorMethod::kRadau); ++method) {
+    IntegratorOptions options;
+    options.method = static_cast<IntegratorMethod>(method);
+    is_done &= flyField(soft, {1, 0.5}, {}, 0, 1, options, flown, counters) == IntegratorStatus::kDone;
+  }
+  is_done &= flyField(stiff, {1, 0}, {}, 0, 0.1, {}, flown, counters) == IntegratorStatus::kDone;
+  EXPECT_EQ(naiad::test::allocationsSoFar(), before);
+  EXPECT_TRUE(is_done);
+  EXPECT_GT(counters.stiff_calls, 0);
 }
 
 }  // namespace
