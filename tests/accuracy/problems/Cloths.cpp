@@ -37,10 +37,8 @@ Scene clothOf(int side) {
 }
 
 Case cloth(int side) {
-  Case hung;
-  hung.name = std::to_string(side);
-  hung.label = std::to_string(side) + " × " + std::to_string(side) + " nodes";
-  hung.scene = clothOf(side);
+  Case hung(std::to_string(side), std::to_string(side) + " × " + std::to_string(side) + " nodes",
+            clothOf(side));
   hung.is_crowd = true;
   hung.long_run = side > 50;
   hung.most_substeps = side > 50 ? 4 : 16;

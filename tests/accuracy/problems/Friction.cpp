@@ -36,9 +36,7 @@ Case threshold() {
   constexpr int kTicks = 120;
   constexpr double kStill = 1e-3;  // m/s; on a slope 0.0013° too steep, it is exceeded after 4 s
   constexpr double kDegree = M_PI / 180;
-  Case slope;
-  slope.name = "";
-  slope.scene = crateOnSlope(27 * kDegree, kTicks);
+  Case slope("", "", crateOnSlope(27 * kDegree, kTicks));
   slope.metrics = {{"threshold_deg", "error of the angle from which it slides, degrees", 0.01, 1e-3}};
   slope.judge = [](const Trial& trial) {
     double low = 20;
@@ -55,8 +53,7 @@ Case threshold() {
 
 Case sliding() {
   constexpr double kAngle = 40 * M_PI / 180;
-  Case slope;
-  slope.scene = crateOnSlope(kAngle, 60);
+  Case slope("", "", crateOnSlope(kAngle, 60));
   slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-3, 1e-15}};
   slope.judge = [scene = slope.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
@@ -93,8 +90,7 @@ std::vector<Case> makeFriction() {
 std::vector<Case> makeRolling() {
   constexpr double kAngle = M_PI / 6;
   constexpr double kRadius = 0.5;
-  Case slope;
-  slope.scene = onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60);
+  Case slope("", "", onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60));
   slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15}};
   slope.judge = [scene = slope.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);

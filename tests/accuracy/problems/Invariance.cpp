@@ -20,10 +20,7 @@ Scene farScene(double distance) {
 }
 
 Case away(double distance) {
-  Case moved;
-  moved.name = power(distance);
-  moved.label = power(distance) + " m away";
-  moved.scene = farScene(distance);
+  Case moved(power(distance), power(distance) + " m away", farScene(distance));
   moved.metrics = {{"slow_path", "largest distance from the path at the origin, of its length", 0, 1e-16},
                    {"bounce_path", "the same for a bouncing ball, of the height", 0, 1e-16}};
   moved.judge = [distance](const Trial& trial) {

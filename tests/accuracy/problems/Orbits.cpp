@@ -32,9 +32,7 @@ std::vector<double> keplerPlace(Quad orbits) {
 }
 
 Case kepler() {
-  Case orbit;
-  orbit.name = "kepler";
-  orbit.label = "Kepler's ellipse";
+  Case orbit("kepler", "Kepler's ellipse");
   Kepler system;
   system.mu = keplerMu();
   system.eccentricity = kEccentricity;
@@ -69,9 +67,7 @@ Case kepler() {
 }
 
 Case doublePendulum() {
-  Case swing;
-  swing.name = "double_pendulum";
-  swing.label = "double pendulum";
+  Case swing("double_pendulum", "double pendulum");
   swing.scene.bodies = {point({1, 0}), point({2, 0})};
   swing.scene.joints = {rod(-1, {0, 0}, 0, {1, 0}), rod(0, {1, 0}, 1, {2, 0})};
   swing.scene.gravity = {0, -kGravity};

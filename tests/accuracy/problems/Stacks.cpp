@@ -51,9 +51,8 @@ Heap settle(const Trial& trial, const Scene& scene) {
 }
 
 Case stack(int boxes, bool rotates, double target) {
-  Case standing;
-  standing.name = std::to_string(boxes) + (rotates ? "" : "_upright");
-  standing.scene = stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), rotates);
+  Case standing(std::to_string(boxes) + (rotates ? "" : "_upright"), "",
+                stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), rotates));
   standing.long_run = boxes > 30;
   standing.draws_levels = true;
   standing.label = std::to_string(boxes) + (rotates ? " crates" : " crates that do not turn");
@@ -75,8 +74,7 @@ std::vector<Case> makeStack() {
 
 // Measures the deepest overlap of the two contacts in the last second. A crate that fell off is a failure.
 Case press(double ratio) {
-  Case pressed;
-  pressed.name = "ratio" + power(ratio);
+  Case pressed("ratio" + power(ratio));
   pressed.x = ratio;
   pressed.draws_levels = true;
   pressed.label = "1 : " + power(ratio);
@@ -128,10 +126,8 @@ std::vector<Case> makeMap() {
 Case offset(int boxes) {
   constexpr double kShift = 0.025;  // sideways distance of neighbouring crates, m
   constexpr double kMoreFriction = 0.6;
-  Case standing;
-  standing.name = std::to_string(boxes);
-  standing.label = std::to_string(boxes) + " crates";
-  standing.scene = stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), true);
+  Case standing(std::to_string(boxes), std::to_string(boxes) + " crates",
+                stackOf(std::vector<double>(static_cast<std::size_t>(boxes), 1), true));
   for (std::size_t i = 0; i < standing.scene.bodies.size(); ++i) {
     standing.scene.bodies[i].friction = kMoreFriction;
     if (i > 0) standing.scene.bodies[i].position.x = i % 2 == 1 ? kShift : -kShift;

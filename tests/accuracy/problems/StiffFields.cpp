@@ -11,9 +11,7 @@ namespace {
 template <class System>
 Case caseOf(const std::string& name, const System& system, const Scene& scene, int ticks, double tick,
             const Path& path) {
-  Case field;
-  field.name = name;
-  field.scene = scene;
+  Case field(name, "", scene);
   field.scene.tick = tick;
   field.scene.ticks = ticks;
   field.scene.equations = equationsOf(system);
