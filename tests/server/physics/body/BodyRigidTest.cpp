@@ -90,17 +90,6 @@ TEST_F(BodyRigids, JointedBodyCollides) {
   EXPECT_NEAR(std::hypot(p_plank->getPosition().x(), p_plank->getPosition().y()), 0, 1e-3);
 }
 
-TEST_F(BodyRigids, DeletedFloorLetsBodiesFall) {
-  Object* p_floor = layFloor(5, 1);
-  wall(Vector(0, 10), Vector(50, 5));
-  Body* p_crate = turningCrate(Vector(0, -0.5));
-  ticks(60);
-  EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-3);
-  delete p_floor;
-  ticks(60);
-  EXPECT_NEAR(p_crate->getPosition().y(), 4.5, 1e-2);
-}
-
 TEST_F(BodyRigids, StackedBodiesMayBeDeleted) {
   layFloor();
   std::vector<Body*> crates;
