@@ -7,6 +7,7 @@
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/support/NotANumber.h"
 #include "tests/support/Sanitizers.h"
 
 namespace df::test {
@@ -200,6 +201,32 @@ TEST(BodyExtremes, ExcessiveForceAffectsOnlyItsBody) {
     EXPECT_EQ(p_pushed->getVelocity().x() != 0, is_taken && is_free);
     EXPECT_EQ(those.seen, undisturbed(kTicks));
   }
+}
+
+// Problem 18 of the laboratory (docs/physics/lab.md).
+TEST(BodyExtremes, InvalidNumbersAffectNoOtherBody) {
+  const auto run = [&](int poison) {
+    OwnWorld there;
+    BodyScene::layFloor();
+    auto* p_bad = poison > 0 ? BodyScene::crate(Vector(20, -3)) : nullptr;
+    std::vector<Body*> crates;
+    for (int i = 0; i < 5; ++i) crates.push_back(BodyScene::crate(Vector(0.1 * i, -0.6 - 1.2 * i)));
+    if (poison == 1) p_bad->setVelocity(Vector(kNan, 0));
+    if (poison == 2) p_bad->applyForce(Vector(1e30, 1e30));
+    if (poison == 3) p_bad->setVelocity(Vector(1e7, 1e7));
+    if (poison == 4) p_bad->setMass(1e-30), p_bad->applyForce(Vector(1e30, 0));
+    if (poison == 5) p_bad->setMass(1e30), p_bad->applyForce(Vector(0, 1e30));
+    if (poison == 6) p_bad->setSpring(Vector(1e9, 0), 1e30, 1e30);
+    if (poison == 7) p_bad->setBox(Box(Vector(), 0, 0)), p_bad->setBoxShape();
+    std::vector<BodyBits> bits;
+    for (int tick = 0; tick < 60; ++tick) {
+      there.world.update();
+      for (const Body* p_crate : crates) bits.push_back(stateBits(p_crate));
+    }
+    return bits;
+  };
+  const auto right = run(0);
+  for (int poison = 1; poison <= 7; ++poison) EXPECT_EQ(run(poison), right) << poison;
 }
 
 // Hundreds of bodies of one kind in one place. None is thrown away or frozen, and repeated runs are
