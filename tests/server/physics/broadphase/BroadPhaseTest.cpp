@@ -153,18 +153,6 @@ TEST(BroadPhase, AllocatesNothingOnceWarm) {
   EXPECT_EQ(naiad::test::allocationsSoFar(), before);
 }
 
-// Places bodies in a row from left to right, then all in one place.
-TEST(BroadPhase, FindsThePairsOfRowsAndHeaps) {
-  BroadPhase broad;
-  const Bounds unit = {{-0.5, -0.5}, {0.5, 0.5}};
-  for (std::uint32_t i = 0; i < 10000; ++i)
-    broad.add(i, gridBounds({2 * std::int64_t{i}, 0, 0, 0}, unit, 0.1), true);
-  EXPECT_EQ(broad.updatePairs().size(), 0U);
-  BroadPhase heap;
-  for (std::uint32_t i = 0; i < 500; ++i) heap.add(i, gridBounds({}, unit, 0.1), true);
-  EXPECT_EQ(heap.updatePairs().size(), 500U * 499 / 2);
-}
-
 TEST(BroadPhase, GridBoundsEncloseTheShapeTightly) {
   SplitMix64 random(5);
   for (int i = 0; i < 10000; ++i) {

@@ -1,5 +1,3 @@
-#include <cstdlib>
-
 #include "physics/geometry/ShapeDistance.h"
 #include "physics/geometry/TimeOfImpact.h"
 #include "tests/server/physics/RandomShapes.h"
@@ -8,19 +6,11 @@
 namespace naiad::physics {
 namespace {
 
+using naiad::test::kShare;
 using test::anyRotation;
 using test::anyShape;
 using test::anyVec;
 using test::between;
-
-/// A sanitizer needs ten times as long, so that only a part of the cases is tested.
-constexpr int kShare = naiad::test::kSanitized ? 5 : 1;
-
-// Returns the number of sweeps. Set NAIAD_SWEEPS=1000000 for a longer run.
-int sweeps(int usual) {
-  const char* wish = std::getenv("NAIAD_SWEEPS");
-  return wish ? std::atoi(wish) : usual / kShare;
-}
 
 struct Scene {
   ConvexShape a, b;
@@ -97,11 +87,11 @@ void run(const char* name, std::uint64_t seed, int count, double speed, double s
 }
 
 TEST(TimeOfImpact, NeverMissesNorInventsAHit) {
-  run("slow", 1, sweeps(20000), 2, 0.5, 60);
-  run("1000 cells", 2, sweeps(20000), 1e3, 3, 60);
-  run("1e6 cells", 3, sweeps(20000), 1e6, 6, 60);
-  run("straight", 4, sweeps(20000), 10, 0, 60);
-  run("spinning", 5, sweeps(20000), 1, 30, 200);
+  run("slow", 1, 20000 / kShare, 2, 0.5, 60);
+  run("1000 cells", 2, 20000 / kShare, 1e3, 3, 60);
+  run("1e6 cells", 3, 20000 / kShare, 1e6, 6, 60);
+  run("straight", 4, 20000 / kShare, 10, 0, 60);
+  run("spinning", 5, 20000 / kShare, 1, 30, 200);
 }
 
 TEST(TimeOfImpact, MatchesTheClosedFormForCircles) {

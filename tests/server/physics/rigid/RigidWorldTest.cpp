@@ -4,7 +4,6 @@
 
 #include "RigidScene.h"
 #include "tests/server/physics/BitHash.h"
-#include "tests/server/physics/SceneRandom.h"
 #include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {
@@ -83,37 +82,6 @@ TEST(RigidWorld, TumblingElasticBoxKeepsItsEnergy) {
     ASSERT_LT(whereIs(world, id).y, -0.24) << tick;
   }
   EXPECT_GT(world.counters().impacts, 20);
-}
-
-// No body passes through another one, at any speed, if one of them or both move or rotate.
-TEST(RigidWorld, FastBodiesDoNotTunnel) {
-  SceneRandom uniform;
-  for (int kind = 0; kind < 3; ++kind) {
-    for (int shot = 0; shot < 2000; ++shot) {
-      RigidWorld world(sleepless());
-      const double speed = 0.3 * std::ldexp(1, static_cast<int>(17 * uniform()));
-      const ConvexShape wall = boxShape(0.1, 3),
-                        bullet = shot % 2 == 0 ? boxShape(0.3, 0.2) : circleShape(0.25);
-      RigidBody target = immovable({0, 0});
-      if (kind == 1) target.velocity = {-speed / 2, 0};
-      if (kind == 2) target = movable({0, 0}, wall), target.inverse_inertia = 0;
-      RigidBody flying = movable({-0.6 - 2 * speed * uniform(), 2 * uniform() - 1}, bullet);
-      flying.velocity = {speed, 0};
-      flying.spin = 4 * uniform() - 2;
-      flying.acceleration = target.acceleration = {};
-      flying.restitution = 1;
-      world.add(flying, bullet);
-      world.add(target, wall);
-      bool has_met = false;
-      for (int tick = 0; tick < 4; ++tick) {
-        world.step();
-        has_met = has_met || !world.events().empty();
-        if (std::fabs(whereIs(world, 0).y) > 2.5) break;  // the body may move past the end of the wall
-        ASSERT_LT(whereIs(world, 0).x, whereIs(world, 1).x) << kind << ' ' << shot;
-      }
-      ASSERT_TRUE(has_met) << kind << ' ' << shot;
-    }
-  }
 }
 
 TEST(RigidWorld, MomentumIsConserved) {

@@ -1,17 +1,13 @@
-#include <limits>
-
 #include "SoftScene.h"
 #include "tests/server/physics/BitHash.h"
 #include "tests/support/AllocationCount.h"
+#include "tests/support/NotANumber.h"
 
 namespace naiad::physics {
 namespace {
 
 using test::kBody;
 using test::kGravity;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // A scene with all kinds of soft bodies, `east` cells from the origin.
 class Scene {
@@ -116,7 +112,7 @@ TEST(SoftWorld, AllocatesNothingOnceWarm) {
 TEST(SoftWorld, InvalidBodiesAndNumbersAreRefused) {
   SoftWorld world;
   const SoftBody rope = makeRope({}, {4, 0}, 4, 1, 10);
-  for (const double bad : {kNan, kInfinite, -kInfinite, 1e30}) {
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
     SoftBody displaced = rope, weighed = rope, stiffened = rope;
     displaced.nodes[2].offset.x = weighed.nodes[2].mass = stiffened.stretches[1].stiffness = bad;
     for (const SoftBody& body : {displaced, weighed, stiffened}) EXPECT_EQ(world.add(body), -1);
