@@ -216,7 +216,7 @@ TEST(Laboratory, CrashingOrEndlessMethodIsReportedAsFailure) {
   EXPECT_TRUE(std::isnan(crash.cpu.median));
   const Measurement loop = measureApart(cases[0], methodThatIs<Endless>(), 1, 1, 1);
   EXPECT_EQ(loop.reason, "took too long");
-  EXPECT_TRUE(std::isinf(loop.errors[2]));
+  EXPECT_TRUE(std::isinf(loop.errors[1]));
 }
 
 TEST(Laboratory, SeparateProcessMeasuresTheSameErrors) {
