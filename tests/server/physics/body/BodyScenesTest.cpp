@@ -487,21 +487,6 @@ TEST_F(BodyScenes, TurningBoxesInOneCellNeedLinearWork) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-// A moving crowd has too many pairs; this is known before all of them are examined.
-TEST_F(BodyScenes, MovingCirclesInOneCellNeedLinearWork) {
-  constexpr int kCount = 1500;
-  naiad::SplitMix64 random(1);
-  for (int i = 0; i < kCount; ++i) {
-    const double x = random.unit(), y = random.unit();
-    put(ball(Vector(x, y), Vector(random.unit(), 0)))->setRestitution(0);
-  }
-  ticks(3);
-  EXPECT_GE(layer().substepCounters().ticks, 2);
-  EXPECT_LE(layer().impactCounters().forecasts, 3 * (300'000 + 70 * kCount));
-  EXPECT_LE(layer().substepCounters().contacts, 3 * 40 * kCount);
-  EXPECT_EQ(PM.getQuarantineCount(), 0U);
-}
-
 // The crowd moves in sub-steps. Its momentum is constant, its centre of mass moves accordingly, and no body
 // stops where a free one would move on. A body that passes the crowd is not affected.
 TEST_F(BodyScenes, MovingCrowdKeepsMomentumAndNeverStalls) {

@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "physics/flight/FlightDrag.h"
 #include "physics/flight/FlightFree.h"
-#include "physics/flight/FlightSpring.h"
 #include "physics/geometry/Place.h"
 #include "shared/values/SplitMix64.h"
 
@@ -33,32 +31,6 @@ TEST(Place, DifferencesAreExact) {
   EXPECT_EQ((here + by) - here, by);
   EXPECT_EQ(here - (here + by), -by);
   EXPECT_EQ(placeAt({2.25, -1.5}) - Place{}, (Vec2{2.25, -1.5}));
-}
-
-// All kinds of flight have equal bits far away and at the origin.
-TEST(Place, FlightIsTheSameAtABillionCells) {
-  const auto fly = [](std::int64_t far) {
-    const Place anchor = {far, -far, 0.125, 0.25};
-    Place free = {far + 3, -far, 0.1, -0.3}, sprung = free, dragged = free;
-    Vec2 v_free = {1e-7, 0.003}, v_sprung = v_free, v_dragged = {0.7, -0.2};
-    const Vec2 gravity = {0, 0.01};
-    const SpringFlow spring({0.05, 0.01}, 1);
-    const SpringFlow drag({0, 0.02}, 1);
-    for (int i = 0; i < 1000; ++i) {
-      Flown f = flyFree(v_free, gravity, 1);
-      free = free + f.displacement, v_free = f.velocity;
-      f = spring(sprung - anchor, v_sprung, gravity);
-      sprung = sprung + f.displacement, v_sprung = f.velocity;
-      f = drag({}, v_dragged, gravity);
-      dragged = dragged + f.displacement, v_dragged = f.velocity;
-    }
-    const auto relative = [&](Place p) { return Place{p.cell_x - far, p.cell_y + far, p.dx, p.dy}; };
-    return std::array{relative(free), relative(sprung), relative(dragged)};
-  };
-  const auto here = fly(0);
-  EXPECT_EQ(here, fly(1'000'000));
-  EXPECT_EQ(here, fly(1'000'000'000));
-  EXPECT_EQ(here, fly(-4'000'000'000'000));
 }
 
 TEST(Place, SlowMoverStillMovesFarAway) {

@@ -92,23 +92,5 @@ TEST(JointRope, PullsButDoesNotPush) {
   EXPECT_NEAR(scene.at(1).y, 1.9, 1e-9);
 }
 
-TEST(JointRope, BehavesTheSameFarAway) {
-  JointScene here = ropeOf(8, 10), there = ropeOf(8, 10);
-  for (JointBody& body : there.bodies) {
-    body.place.cell_x += 1'000'000'000;
-    body.place.cell_y -= 1'000'000'000;
-  }
-  for (int i = 0; i < 200; ++i) {
-    here.step(kDown);
-    there.step(kDown);
-  }
-  for (std::size_t i = 0; i < here.bodies.size(); ++i) {
-    EXPECT_EQ(here.bodies[i].velocity, there.bodies[i].velocity);
-    EXPECT_EQ(here.bodies[i].place.dx, there.bodies[i].place.dx);
-    EXPECT_EQ(here.bodies[i].place.dy, there.bodies[i].place.dy);
-    EXPECT_EQ(here.bodies[i].place.cell_x + 1'000'000'000, there.bodies[i].place.cell_x);
-  }
-}
-
 }  // namespace
 }  // namespace naiad::physics

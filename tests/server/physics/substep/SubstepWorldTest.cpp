@@ -11,30 +11,6 @@ namespace {
 
 using namespace test;
 
-TEST(SubstepWorld, ADroppedBoxRestsAndSleeps) {
-  SubstepScene scene;
-  scene.addFloor();
-  const int crate = scene.addCrate({0, -1.5});
-  int events = 0;
-  for (int tick = 0; tick < 120; ++tick) {
-    scene.ticks(1);
-    events += static_cast<int>(scene.world.events().size());
-  }
-  EXPECT_EQ(events, 1);
-  ASSERT_TRUE(scene.world.isAsleep(crate));
-  EXPECT_NEAR(scene.at(crate).y, -0.5, 2e-3);
-  const RigidBody before = scene.world.body(crate);
-  EXPECT_EQ(before.velocity, Vec2{});
-  EXPECT_EQ(before.spin, 0);
-  const std::int64_t contacts = scene.world.counters().contacts;
-  for (int tick = 0; tick < 50; ++tick) {
-    scene.ticks(1);
-    EXPECT_TRUE(scene.world.events().empty());
-  }
-  EXPECT_EQ(scene.world.body(crate), before);
-  EXPECT_EQ(scene.world.counters().contacts, contacts);  // no contact was solved
-}
-
 // There are more contacts than in one batch, but none is missed.
 TEST(SubstepWorld, SixHundredStacksStandTouchOnceAndSleep) {
   constexpr int kStacks = 600;
@@ -244,21 +220,6 @@ TEST(SubstepWorld, KinematicBodyPushes) {
   EXPECT_NEAR(scene.at(crate).x - scene.at(mover).x, 1, 0.02);
   EXPECT_NEAR(scene.world.body(crate).velocity.x, 0.1, 0.02);
   EXPECT_FALSE(scene.world.isAsleep(crate));
-}
-
-// The piston is slower than the sleep speed; the crate lies on an immovable floor.
-TEST(SubstepWorld, SlowlyPushedBodyDoesNotSleep) {
-  SubstepScene scene;
-  scene.addFloor();
-  const int crate = scene.addCrate({0, -0.5});
-  RigidBody piston = immovable({-1, -0.6});
-  piston.velocity = {5e-4, 0};
-  scene.add(piston, boxShape(0.5, 0.5));
-  for (int tick = 0; tick < 200; ++tick) {
-    scene.ticks(1);
-    ASSERT_FALSE(scene.world.isAsleep(crate)) << tick;
-  }
-  EXPECT_NEAR(scene.at(crate).x, 0.1, 0.02);
 }
 
 // A platform carries the crate by friction. The crate does not sleep, because the platform moves.
