@@ -1,5 +1,4 @@
 // Problem 12: friction on a slope and on a floor. Problem 13: a disc that rolls down a slope.
-#include <algorithm>
 #include <cmath>
 
 #include "Path.h"

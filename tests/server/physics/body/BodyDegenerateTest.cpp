@@ -1,7 +1,5 @@
 // Thin shapes, joints without length, springs that are too stiff, and incompatible masses.
 
-#include <limits>
-
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
 

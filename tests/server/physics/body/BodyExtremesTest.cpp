@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <functional>
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"

@@ -2,7 +2,6 @@
 // alone and with another pair far away that moves in any way.
 #include <algorithm>
 #include <array>
-#include <ostream>
 #include <tuple>
 
 #include "tests/server/physics/BodyScene.h"

@@ -2,7 +2,6 @@
 // wall, misses it, gains energy or is frozen.
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include "physics/body/BodyLimits.h"
 #include "shared/values/SplitMix64.h"

@@ -2,7 +2,6 @@
 // with others.
 
 #include <algorithm>
-#include <utility>
 
 #include "SubstepScene.h"
 
