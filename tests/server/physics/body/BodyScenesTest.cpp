@@ -473,20 +473,6 @@ TEST_F(BodyScenes, ANetOfManyLoopsIsMovedInSubsteps) {
   EXPECT_EQ(PM.getQuarantineCount(), 0U);
 }
 
-// Each box is pushed only by the nearest others, so the work of a tick is proportional to their number.
-TEST_F(BodyScenes, TurningBoxesInOneCellNeedLinearWork) {
-  constexpr int kCount = 800;
-  naiad::SplitMix64 random(1);
-  for (int i = 0; i < kCount; ++i) {
-    const double x = random.unit(), y = random.unit();
-    put(turningCrate(Vector(x, y)));
-  }
-  ticks(5);
-  EXPECT_EQ(layer().substepCounters().ticks, 5);
-  EXPECT_LE(layer().substepCounters().contacts, 5 * 40 * kCount);
-  EXPECT_EQ(PM.getQuarantineCount(), 0U);
-}
-
 // The crowd moves in sub-steps. Its momentum is constant, its centre of mass moves accordingly, and no body
 // stops where a free one would move on. A body that passes the crowd is not affected.
 TEST_F(BodyScenes, MovingCrowdKeepsMomentumAndNeverStalls) {

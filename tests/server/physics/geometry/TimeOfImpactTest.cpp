@@ -94,37 +94,6 @@ TEST(TimeOfImpact, NeverMissesNorInventsAHit) {
   run("spinning", 5, 20000 / kShare, 1, 30, 200);
 }
 
-TEST(TimeOfImpact, MatchesTheClosedFormForCircles) {
-  SplitMix64 random(6);
-  int hits = 0;
-  for (int i = 0; i < 200000; ++i) {
-    Scene s;
-    s.a = test::circleShape(between(random, 0.01, 1));
-    s.b = test::circleShape(between(random, 0.01, 1));
-    const double speed = std::pow(10, between(random, -2, 6));
-    const Vec2 displacement = anyVec(random, speed);
-    s.motion_b.displacement = displacement;
-    s.offset = anyVec(random, 2) - between(random, 0, 1.2) * displacement;
-    const long double x = s.offset.x, y = s.offset.y, vx = displacement.x, vy = displacement.y,
-                      r = s.a.radius + s.b.radius;
-    const long double passes = (vx * y - vy * x) / std::sqrt(vx * vx + vy * vy);
-    const long double inside = r * r - passes * passes;
-    if (x * x + y * y <= r * r * 1.0001L || std::fabs(inside) < 1e-3L) continue;
-    const TimeOfImpact result = timeOfImpact(s.a, s.motion_a, s.b, s.motion_b, s.offset);
-    const long double vv = vx * vx + vy * vy, t = (-(x * vx + y * vy) - std::sqrt(inside * vv)) / vv;
-    if (inside < 0 || t < 0 || t > 1) {
-      ASSERT_EQ(result.status, TimeOfImpactStatus::kApart) << i;
-    } else {
-      ++hits;
-      ASSERT_EQ(result.status, TimeOfImpactStatus::kHit) << i;
-      // Tests the error of the position, not that of the time.
-      ASSERT_LE(std::fabs(static_cast<double>(result.time - t)) * length(displacement),
-                40 * impactTolerance(s.a, s.b, s.offset, displacement));
-    }
-  }
-  EXPECT_GT(hits, 50000);
-}
-
 TEST(TimeOfImpact, TouchingPairHitsOnlyWhenApproaching) {
   const ConvexShape a = test::boxShape(0.5, 0.5), b = test::boxShape(0.5, 0.5);
   for (const Vec2 displacement : {Vec2{0, -1}, {5, 0}, {-1e6, 0}, {3, -1e-9}, {0, 0}, {1e6, -1e6}}) {

@@ -13,24 +13,6 @@ using namespace test;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-TEST(RigidWorld, StacksStand) {
-  for (const auto& [count, bound] : {std::pair{10, 1e-3}, {30, 1e-2}, {100, 0.1}}) {
-    RigidWorld world = onFloor();
-    const ConvexShape crate = boxShape(0.5, 0.5);
-    for (int i = 0; i < count; ++i) world.add(movable({0, -0.5 - i}, crate), crate);
-    double sag = 0, drift = 0;
-    for (int tick = 0; tick < 300; ++tick) {
-      world.step();
-      for (int i = 0; i < count; ++i) {
-        sag = std::max(sag, std::fabs(whereIs(world, i + 1).y + 0.5 + i));
-        drift = std::max(drift, std::fabs(whereIs(world, i + 1).x));
-      }
-    }
-    EXPECT_LE(sag, bound) << count;
-    EXPECT_LE(drift, 1e-6) << count;
-  }
-}
-
 // Adds a crate that lies on the slope whose upward normal is `up`.
 int addCrateOnSlope(RigidWorld& world, double angle, Vec2 up) {
   const ConvexShape crate = boxShape(0.5, 0.25);
