@@ -13,20 +13,15 @@ class BodyRigids : public BodyScene {
   BodyRigids() { PM.setGravity(perSecondSquared(Vector(0, 10))); }
 };
 
-// Problem 10, with a mass ratio that games need.
-TEST_F(BodyRigids, AHeavyCrateRestsOnALightOne) {
+TEST_F(BodyRigids, SleepingCratesPublishNothing) {
   layFloor(100);
-  Body* p_light = crate(Vector(0, -0.5));
-  Body* p_heavy = crate(Vector(0, -1.5), Vector(0.5, 0.5), 100);
-  p_light->setTurning();
-  p_heavy->setTurning();
+  turningCrate(Vector(0, -0.5));
+  turningCrate(Vector(0, -1.5), Vector(0.5, 0.5), 100);
   ticks(300);
-  EXPECT_LE(p_light->getPosition().y() + 0.5, 0.01);
-  EXPECT_LE(p_heavy->getPosition().y() - p_light->getPosition().y() + 1, 0.01);
   world.store().setWatched(true);
   world.tick();
   world.tick();
-  EXPECT_TRUE(world.picture().view().changed.empty());  // the crates sleep
+  EXPECT_TRUE(world.picture().view().changed.empty());
 }
 
 TEST_F(BodyRigids, LoneBodyFliesExactly) {
