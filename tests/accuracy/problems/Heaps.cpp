@@ -14,11 +14,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
-constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
-
 double meanOf(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / std::ssize(values);
 }

@@ -11,11 +11,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
-constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
-
 Case hanging(const std::string& name, const std::string& label, const heaps::Scene& scene) {
   Case its_case(name, label, sceneOf(scene));
   its_case.is_crowd = true;

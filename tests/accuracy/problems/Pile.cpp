@@ -10,8 +10,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
 constexpr double kFriction = 0.5;
 constexpr int kTicks = 300;  // 10 s
 constexpr int kRows = 30;
