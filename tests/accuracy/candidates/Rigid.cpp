@@ -53,7 +53,6 @@ class Rigid : public Simulation {
             -b.spin / kTick};
   }
   long contacts() const override { return m_begun; }
-  long failures() const override { return static_cast<long>(m_world.counters().direct_failures); }
 
  private:
   // Creates the world. Called in the first step, because the number of sub-steps is unknown before.

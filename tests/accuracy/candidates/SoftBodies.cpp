@@ -102,7 +102,6 @@ class Direct : public Simulation {
     m_world.step(tick * kPerSecond);
   }
   BodyState body(int index) const override { return stateOf(m_world.body(m_id), m_is_beam, index); }
-  long failures() const override { return static_cast<long>(m_world.counters().unconverged); }
 
  private:
   bool m_is_beam;

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Method.h"
@@ -70,6 +71,8 @@ struct Case {
   bool is_crowd = false;  ///< too many bodies for candidates and textbook methods
   TickBound tick_bound;
 
+  explicit Case(std::string its_name = "", std::string its_label = "", Scene its_scene = {})
+      : name(std::move(its_name)), label(std::move(its_label)), scene(std::move(its_scene)) {}
   /// Returns the metric of every case: the product's slowest tick relative to its limit.
   static Metric worstTick();
 };

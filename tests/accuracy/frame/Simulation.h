@@ -32,8 +32,6 @@ class Simulation {
   virtual long frozen() const { return 0; }
   /// Returns the work of all ticks so far; nullopt if not counted.
   virtual std::optional<Work> work() const { return {}; }
-  /// Returns how often an iteration inside the method has not converged so far.
-  virtual long failures() const { return 0; }
 };
 
 using SimulationPtr = std::unique_ptr<Simulation>;

@@ -71,9 +71,7 @@ double energyOf(const Body& body, const BodyState& state) {
 }
 
 Case against(Motion motion, const std::string& name) {
-  Case shots;
-  shots.name = name;
-  shots.label = "a " + name + " wall";
+  Case shots(name, "a " + name + " wall");
   naiad::SplitMix64 first(1);
   shots.scene = shot(motion, 1, first);
   shots.metrics = {

@@ -5,8 +5,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
 Motion motionOf(heaps::Motion motion) {
   if (motion == heaps::Motion::STATIC) return Motion::FIXED;
   return motion == heaps::Motion::KINEMATIC ? Motion::KINEMATIC : Motion::DYNAMIC;

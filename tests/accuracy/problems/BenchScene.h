@@ -10,13 +10,18 @@
 
 namespace lab {
 
-Scene sceneOf(const bench::physics::Scene& scene);
+namespace heaps = bench::physics;
 
-bench::physics::Pose poseOf(const BodyState& state);
+constexpr int kTicksPerLook = 10;
+constexpr int kPeerSteps = 4;  ///< steps of Box2D per tick: 1/120 s each
+
+Scene sceneOf(const heaps::Scene& scene);
+
+heaps::Pose poseOf(const BodyState& state);
 /// Returns the poses of all bodies of the scene.
-std::vector<bench::physics::Pose> posesOf(const bench::physics::Scene& scene, const Simulation& simulation);
+std::vector<heaps::Pose> posesOf(const heaps::Scene& scene, const Simulation& simulation);
 
 /// Returns the number of dynamic bodies outside the scene's Room, plus those that the method no longer moves.
-long countLost(const bench::physics::Scene& scene, const Simulation& simulation);
+long countLost(const heaps::Scene& scene, const Simulation& simulation);
 
 }  // namespace lab

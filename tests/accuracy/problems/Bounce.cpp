@@ -27,10 +27,7 @@ Case dying() {
   constexpr double kHeight = 10;
   constexpr double kRestitution = 0.8;
   constexpr double kSlow = 1e-3;  // m/s; a slower ball is at rest
-  Case bouncing;
-  bouncing.name = "e0.8";
-  bouncing.label = "restitution 0.8";
-  bouncing.scene = ballOverGround(kHeight, kRestitution, 450);
+  Case bouncing("e0.8", "restitution 0.8", ballOverGround(kHeight, kRestitution, 450));
   const double stop = std::sqrt(2 * kHeight / kGravity) * (1 + kRestitution) / (1 - kRestitution);
   bouncing.metrics = {{"first_peak", "relative error of the first peak", 1e-9, 1e-15},
                       {"third_peak", "relative error of the third peak", 1e-9, 1e-15},
@@ -64,10 +61,7 @@ Case dying() {
 
 Case forever() {
   constexpr double kHeight = 5;
-  Case bouncing;
-  bouncing.name = "e1";
-  bouncing.label = "restitution 1";
-  bouncing.scene = ballOverGround(kHeight, 1, 3000);
+  Case bouncing("e1", "restitution 1", ballOverGround(kHeight, 1, 3000));
   bouncing.metrics = {{"peak", "relative error of the height after 100 s", 1e-9, 1e-14}};
   bouncing.judge = [scene = bouncing.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);

@@ -37,10 +37,8 @@ Scene clothOf(int side) {
 }
 
 Case cloth(int side) {
-  Case hung;
-  hung.name = std::to_string(side);
-  hung.label = std::to_string(side) + " × " + std::to_string(side) + " nodes";
-  hung.scene = clothOf(side);
+  Case hung(std::to_string(side), std::to_string(side) + " × " + std::to_string(side) + " nodes",
+            clothOf(side));
   hung.is_crowd = true;
   hung.long_run = side > 50;
   hung.most_substeps = side > 50 ? 4 : 16;
@@ -59,9 +57,10 @@ Case cloth(int side) {
 // Cloths of 25 × 25, 50 × 50 and 100 × 100 nodes with meshes of 1 m, held flat and hung by their two upper
 // corners, fall for 10 s. For peers they are points on rods. Correct: no thread gets longer.
 std::vector<Case> makeCloths() {
-  return {cloth(25), cloth(50), cloth(100)};
   constexpr double kDearestTick = 60'000;  // limit of the slowest tick, µs
-  problem.cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
+  std::vector<Case> cases = {cloth(25), cloth(50), cloth(100)};
+  cases.back().tick_bound = {.base_us = kDearestTick, .each_us = 0};
+  return cases;
 }
 
 const RegisteredProblem problem(

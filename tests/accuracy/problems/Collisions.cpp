@@ -19,9 +19,7 @@ Body elasticBall(Vec position, Vec velocity, double mass = 1) {
 }
 
 Case freeCradle() {
-  Case cradle;
-  cradle.name = "free";
-  cradle.label = "free balls";
+  Case cradle("free", "free balls");
   for (int i = 0; i < kBalls; ++i) {
     const double gap = i == 0 ? 1 : 0;
     cradle.scene.bodies.push_back(elasticBall({i * 2 * kRadius - gap, 0}, {i == 0 ? kSpeed : 0, 0}));
@@ -46,9 +44,7 @@ Case hungCradle() {
   constexpr double kRod = 5;
   constexpr double kGravity = 10;
   constexpr double kAngle = M_PI / 6;
-  Case cradle;
-  cradle.name = "hung";
-  cradle.label = "hung on rods";
+  Case cradle("hung", "hung on rods");
   for (int i = 0; i < kBalls; ++i) {
     const Vec pivot{i * 2 * kRadius, kRod};
     const double angle = i == 0 ? -kAngle : 0;
@@ -74,8 +70,8 @@ Case hungCradle() {
   return cradle;
 }
 
-// Five equal balls touch each other on a line; the first comes with 5 m/s. Then such balls hung on rods of 5 m,
-// the first let go at 30°. Correct: 0, 0, 0, 0, v: impacts one after another, the nearest first.
+// Five equal balls touch each other on a line; the first comes with 5 m/s. Then such balls hung on rods of 5
+// m, the first let go at 30°. Correct: 0, 0, 0, 0, v: impacts one after another, the nearest first.
 std::vector<Case> makeCradle() {
   return {freeCradle(), hungCradle()};
 }
@@ -85,9 +81,7 @@ Case billiard(double speed) {
   constexpr int kPairs = 24;
   constexpr double kApart = 32;
   constexpr double kWay = 1.5;  // m, from the start to about the impact
-  Case shots;
-  shots.name = "v" + std::to_string(std::lround(speed));
-  shots.label = std::to_string(std::lround(speed)) + " m/s";
+  Case shots("v" + std::to_string(std::lround(speed)), std::to_string(std::lround(speed)) + " m/s");
   std::vector<Vec> right;
   for (int i = 0; i < kPairs; ++i) {
     const double offset = (i + 0.5) / kPairs * 2 * kRadius * 0.98;
@@ -134,9 +128,7 @@ std::vector<Case> makeGalperin() {
   int right = 3;
   double mass = 1;
   for (int k = 0; k <= 4; ++k, mass *= 100, right = static_cast<int>(M_PI * std::pow(10, k))) {
-    Case shove;
-    shove.name = "k" + std::to_string(k);
-    shove.label = "mass ratio 100^" + std::to_string(k);
+    Case shove("k" + std::to_string(k), "mass ratio 100^" + std::to_string(k));
     Body stop = wall({-1, 0}, {1, 1});
     Body light = box({1 + kHalf, 0}, {kHalf, kHalf});
     Body heavy = box({2 + 3 * kHalf, 0}, {kHalf, kHalf}, mass);
@@ -147,17 +139,11 @@ std::vector<Case> makeGalperin() {
       body.fast = body.motion == Motion::DYNAMIC;
     }
     shove.scene.ticks = kTicks;
-    shove.metrics = {{"count", "error of the number of collisions, of " + std::to_string(right), 0, 0},
-                     {"speed", "error of the heavy one's speed at the end", -1, 1e-15}};
-    const double theta = std::atan(std::sqrt(1 / mass));
-    // Two reflections in a wedge turn the velocity by twice its angle.
-    const double turned = std::cos(2 * theta * ((right + 1) / 2));
-    const double final_speed = -turned;
-    shove.judge = [scene = shove.scene, right, final_speed](const Trial& trial) {
+    shove.metrics = {{"count", "error of the number of collisions, of " + std::to_string(right), 0, 0}};
+    shove.judge = [scene = shove.scene, right](const Trial& trial) {
       const SimulationPtr end = trial.run(scene);
       if (end->contacts() < 0) throw Inexpressible();
-      return std::vector<double>{std::abs(static_cast<double>(end->contacts()) / right - 1),
-                                 std::abs(end->body(2).velocity.x - final_speed)};
+      return std::vector<double>{std::abs(static_cast<double>(end->contacts()) / right - 1)};
     };
     cases.push_back(shove);
   }

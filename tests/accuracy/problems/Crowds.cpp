@@ -15,9 +15,7 @@ constexpr int kTicks = 60;
 // Measures the difference between the numbers of pairs with an event and of pairs that overlap, relative to
 // the latter.
 Case hearing(const std::string& name, Scene scene, long pairs) {
-  Case heard;
-  heard.name = name;
-  heard.scene = std::move(scene);
+  Case heard(name, "", std::move(scene));
   heard.scene.hearing = true;
   heard.scene.ticks = kTicks;
   heard.most_substeps = 4;

@@ -17,10 +17,7 @@ Vec somewhere(naiad::SplitMix64& random) {
 }
 
 Case crush(const std::string& name, const std::string& label, Scene scene) {
-  Case crushed;
-  crushed.name = name;
-  crushed.label = label;
-  crushed.scene = std::move(scene);
+  Case crushed(name, label, std::move(scene));
   crushed.scene.ticks = kTicks;
   crushed.is_crowd = true;
   crushed.most_substeps = 4;

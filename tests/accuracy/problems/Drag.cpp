@@ -13,9 +13,7 @@ constexpr double kTerminal = 5;  // terminal speed, m/s
 constexpr double kQuadratic = kGravity / (kTerminal * kTerminal);
 
 Case linear() {
-  Case gliding;
-  gliding.name = "linear";
-  gliding.label = "linear drag";
+  Case gliding("linear", "linear drag");
   gliding.scene.bodies = {point({}, {kStart, 0})};
   gliding.scene.bodies[0].linear_drag = kLinear;
   gliding.scene.ticks = kTicks;
@@ -33,9 +31,7 @@ Case linear() {
 }
 
 Case quadratic() {
-  Case falling;
-  falling.name = "quadratic";
-  falling.label = "quadratic drag";
+  Case falling("quadratic", "quadratic drag");
   falling.scene.bodies = {Body()};
   falling.scene.gravity = {0, -kGravity};
   falling.scene.ticks = kTicks;

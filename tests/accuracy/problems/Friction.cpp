@@ -1,5 +1,4 @@
 // Problem 12: friction on a slope and on a floor. Problem 13: a disc that rolls down a slope.
-#include <algorithm>
 #include <cmath>
 
 #include "Path.h"
@@ -36,9 +35,7 @@ Case threshold() {
   constexpr int kTicks = 120;
   constexpr double kStill = 1e-3;  // m/s; on a slope 0.0013° too steep, it is exceeded after 4 s
   constexpr double kDegree = M_PI / 180;
-  Case slope;
-  slope.name = "";
-  slope.scene = crateOnSlope(27 * kDegree, kTicks);
+  Case slope("", "", crateOnSlope(27 * kDegree, kTicks));
   slope.metrics = {{"threshold_deg", "error of the angle from which it slides, degrees", 0.01, 1e-3}};
   slope.judge = [](const Trial& trial) {
     double low = 20;
@@ -55,8 +52,7 @@ Case threshold() {
 
 Case sliding() {
   constexpr double kAngle = 40 * M_PI / 180;
-  Case slope;
-  slope.scene = crateOnSlope(kAngle, 60);
+  Case slope("", "", crateOnSlope(kAngle, 60));
   slope.metrics = {{"sliding", "relative error of the way down a slope of 40° in 2 s", 1e-3, 1e-15}};
   slope.judge = [scene = slope.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
@@ -93,18 +89,14 @@ std::vector<Case> makeFriction() {
 std::vector<Case> makeRolling() {
   constexpr double kAngle = M_PI / 6;
   constexpr double kRadius = 0.5;
-  Case slope;
-  slope.scene = onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60);
-  slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15},
-                   {"slip", "slip after 2 s, of the speed", -1, 1e-15}};
+  Case slope("", "", onSlope(kAngle, ball({}, {}, kRadius), kRadius, 60));
+  slope.metrics = {{"way", "relative error of the way in 2 s", 1e-3, 1e-15}};
   slope.judge = [scene = slope.scene](const Trial& trial) {
     const SimulationPtr end = trial.run(scene);
     const double t = scene.duration();
-    const BodyState state = end->body(0);
     const double right = kGravity * std::sin(kAngle) * t * t / 3;
-    const double speed = length(state.velocity);
-    return std::vector<double>{std::abs(length(state.position - scene.bodies[0].position) / right - 1),
-                               std::abs(speed + state.spin * kRadius) / speed};
+    return std::vector<double>{
+        std::abs(length(end->body(0).position - scene.bodies[0].position) / right - 1)};
   };
   return {slope};
 }

@@ -14,11 +14,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
-constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
-
 double meanOf(const std::vector<double>& values) {
   return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / std::ssize(values);
 }
@@ -47,10 +42,7 @@ struct Asked {
 };
 
 Case heap(const std::string& name, const std::string& label, const heaps::Scene& scene, const Asked& asked) {
-  Case its_case;
-  its_case.name = name;
-  its_case.label = label;
-  its_case.scene = sceneOf(scene);
+  Case its_case(name, label, sceneOf(scene));
   its_case.is_crowd = true;
   its_case.draws_levels = true;
   its_case.most_substeps = 16;
@@ -120,10 +112,7 @@ Case standing(int rows) {
   constexpr int kAsleep = 150;
   constexpr double kSunk = 0.5;
   const heaps::Scene scene = pyramidOf(rows);
-  Case its_case;
-  its_case.name = std::to_string(rows);
-  its_case.label = std::to_string(rows) + " rows";
-  its_case.scene = sceneOf(scene);
+  Case its_case(std::to_string(rows), std::to_string(rows) + " rows", sceneOf(scene));
   its_case.scene.ticks = kTicks;
   its_case.is_crowd = true;
   its_case.draws_levels = true;

@@ -11,16 +11,8 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
-constexpr int kTicksPerLook = 10;
-constexpr int kPeerSteps = 4;  // steps of Box2D per tick: 1/120 s each
-
 Case hanging(const std::string& name, const std::string& label, const heaps::Scene& scene) {
-  Case its_case;
-  its_case.name = name;
-  its_case.label = label;
-  its_case.scene = sceneOf(scene);
+  Case its_case(name, label, sceneOf(scene));
   its_case.is_crowd = true;
   its_case.draws_levels = true;
   its_case.most_substeps = 16;

@@ -58,10 +58,8 @@ bool areEqual(const BodyState& a, const BodyState& b) {
 }
 
 Case heldBy(Held held, const std::string& name) {
-  Case beside;
-  beside.name = name;
-  beside.label = held == Held::NOTHING ? "two boxes" : "two boxes on a " + name;
-  beside.scene = accompanied(held, 30, false);
+  Case beside(name, held == Held::NOTHING ? "two boxes" : "two boxes on a " + name,
+              accompanied(held, 30, false));
   beside.most_substeps = 16;
   beside.metrics = {{"differing", "part of the ticks in which a bit differs", 0, 1e-6, 0}};
   beside.judge = [held](const Trial& trial) {

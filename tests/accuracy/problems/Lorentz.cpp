@@ -25,9 +25,7 @@ Field magnet(double rate) {
 using Formula = Vec (*)(double t, double omega);
 
 Case along(const std::string& name, Scene scene, double rate, Formula path, double far, double drift) {
-  Case moved;
-  moved.name = name;
-  moved.scene = std::move(scene);
+  Case moved(name, "", std::move(scene));
   moved.scene.field = magnet(rate);
   moved.scene.ticks = kTicks;
   moved.metrics = {{"sup_error_m", "largest distance from the path, m", far, 1e-13},

@@ -34,9 +34,7 @@ Whole motionOf(const Scene& scene, const Simulation& simulation) {
 
 // Impacts must not change the momentum or add energy.
 Case meeting(const std::string& name, Scene scene) {
-  Case met;
-  met.name = name;
-  met.scene = std::move(scene);
+  Case met(name, "", std::move(scene));
   met.most_substeps = 16;
   met.metrics = {{"momentum", "largest change of the momentum, relative", 1e-9, 1e-16},
                  {"energy_gain", "largest gain of energy, relative", 1e-9, 1e-16}};

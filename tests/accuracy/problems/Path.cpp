@@ -17,7 +17,6 @@ Path pathOf(int ticks, const std::function<std::vector<Quad>(Quad t)>& place) {
 PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference, double scale,
                    const Read& read) {
   PathErrors errors;
-  double squares = 0;
   trial.run(scene, [&](int tick, const Simulation& simulation) {
     const std::vector<double> values = read(simulation);
     const std::vector<double>& right = reference[static_cast<std::size_t>(tick)];
@@ -25,9 +24,7 @@ PathErrors compare(const Trial& trial, const Scene& scene, const Path& reference
     for (std::size_t i = 0; i < right.size(); ++i) square += (values[i] - right[i]) * (values[i] - right[i]);
     errors.end = std::sqrt(square) / scale;
     errors.sup = std::max(errors.sup, errors.end);
-    squares += square;
   });
-  errors.l2 = std::sqrt(squares / scene.ticks) / scale;
   return errors;
 }
 
@@ -44,12 +41,11 @@ std::vector<double> coordinatesOf(const Simulation& simulation) {
 
 std::vector<Metric> pathMetrics(double target, double floor) {
   return {{"end_error", "relative error at the end", target, floor},
-          {"sup_error", "largest relative error over the run", target, floor},
-          {"l2_error", "root mean square of the relative error", -1, floor}};
+          {"sup_error", "largest relative error over the run", target, floor}};
 }
 
 std::vector<double> inOrder(const PathErrors& errors) {
-  return {errors.end, errors.sup, errors.l2};
+  return {errors.end, errors.sup};
 }
 
 std::function<std::vector<double>(const Trial&)> alongPath(const Scene& scene, const Path& path, double scale,

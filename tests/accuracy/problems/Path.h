@@ -20,7 +20,6 @@ using Read = std::function<std::vector<double>(const Simulation&)>;
 struct PathErrors {
   double end = 0;
   double sup = 0;  ///< maximum over the run
-  double l2 = 0;   ///< root mean square over the run
 };
 
 /// Compares the values that `read` returns with the path: Euclidean distances, divided by `scale`.
@@ -32,7 +31,7 @@ std::vector<double> positionOf(const Simulation& simulation, int index = 0);
 /// Returns the coordinates of the scene's equations. Throws Inexpressible if the method has none.
 std::vector<double> coordinatesOf(const Simulation& simulation);
 
-/// Returns end_error, sup_error and l2_error. The target applies to the first two.
+/// Returns end_error and sup_error.
 std::vector<Metric> pathMetrics(double target, double floor);
 std::vector<double> inOrder(const PathErrors& errors);
 /// Returns a judge (Case::judge) for pathMetrics().

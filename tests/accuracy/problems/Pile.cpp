@@ -10,8 +10,6 @@
 namespace lab {
 namespace {
 
-namespace heaps = bench::physics;
-
 constexpr double kFriction = 0.5;
 constexpr int kTicks = 300;  // 10 s
 constexpr int kRows = 30;
@@ -32,9 +30,7 @@ double deepest(const Simulation& simulation, int count, double half) {
 }
 
 Case pyramid() {
-  Case standing;
-  standing.name = "pyramid";
-  standing.label = "a pyramid of 30 rows";
+  Case standing("pyramid", "a pyramid of 30 rows");
   standing.scene.bodies = {ground(100, kFriction)};
   for (int row = 0; row < kRows; ++row) {
     for (int i = 0; i < kRows - row; ++i) {
@@ -64,9 +60,7 @@ Case pyramid() {
 }
 
 Case tumbler() {
-  Case turning;
-  turning.name = "tumbler";
-  turning.label = "500 boxes in a drum that turns";
+  Case turning("tumbler", "500 boxes in a drum that turns");
   Body drum;
   drum.motion = Motion::KINEMATIC;
   drum.spin = 0.05 * 2 * std::numbers::pi;

@@ -36,9 +36,7 @@ std::vector<BodyState> runPile(const Trial& trial, const Scene& scene) {
 }
 
 Case poisoned(const std::string& name, const Body& poison) {
-  Case bad;
-  bad.name = name;
-  bad.scene = pile();
+  Case bad(name, "", pile());
   bad.scene.bodies.push_back(poison);
   bad.metrics = {{"changed", "crates of a pile 20 m away that are not bit-identical", 0, 0}};
   bad.judge = [scene = bad.scene](const Trial& trial) {
@@ -53,10 +51,7 @@ Case poisoned(const std::string& name, const Body& poison) {
 
 Case spike() {
   constexpr double kLong = 1e4;  // length of a tick, s
-  Case bad;
-  bad.name = "dt_spike";
-  bad.label = "a tick of a thousand";
-  bad.scene = pile();
+  Case bad("dt_spike", "a tick of a thousand", pile());
   bad.metrics = {{"displaced", "crates more than 1 m from their place after a tick of 1e4 s", 0, 0}};
   bad.judge = [scene = bad.scene](const Trial& trial) {
     const SimulationPtr simulation = trial.build(scene);

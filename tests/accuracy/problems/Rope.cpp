@@ -11,9 +11,7 @@ constexpr double kGravity = 10;
 Case rope(double ratio) {
   constexpr int kLinks = 20;
   constexpr double kLink = 0.5;
-  Case swinging;
-  swinging.name = "r" + power(ratio);
-  swinging.label = "end mass " + power(ratio);
+  Case swinging("r" + power(ratio), "end mass " + power(ratio));
   swinging.draws_levels = true;
   Scene& scene = swinging.scene;
   for (int i = 0; i < kLinks; ++i) {

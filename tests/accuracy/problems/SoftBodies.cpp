@@ -26,9 +26,7 @@ Case catenary(int links) {
   constexpr double kSpan = 10;
   constexpr double kLength = 12;
   constexpr double kDrag = 2;  // drag per mass, 1/s
-  Case hanging;
-  hanging.name = "catenary" + std::to_string(links);
-  hanging.label = "catenary of " + std::to_string(links) + " links";
+  Case hanging("catenary" + std::to_string(links), "catenary of " + std::to_string(links) + " links");
   Scene& scene = hanging.scene;
   // The rope starts as a V with straight arms.
   const double depth = std::sqrt(kLength * kLength - kSpan * kSpan) / 2;
@@ -70,9 +68,8 @@ double stiffnessOf(const Beam& beam) {
 }
 
 Case bending(int elements) {
-  Case bent;
-  bent.name = "cantilever" + std::to_string(elements);
-  bent.label = "cantilever of " + std::to_string(elements) + " elements";
+  Case bent("cantilever" + std::to_string(elements),
+            "cantilever of " + std::to_string(elements) + " elements");
   Beam beam = slender(elements);
   const double deflection = beam.length / 100;
   beam.tip_force = deflection * 3 * stiffnessOf(beam) / std::pow(beam.length, 3);
@@ -129,8 +126,7 @@ double strongest(const std::vector<double>& motion, double tick, double guess) {
 
 Case ringing(int elements) {
   constexpr double kPeriods = 8;
-  Case rings;
-  rings.name = "frequency" + std::to_string(elements);
+  Case rings("frequency" + std::to_string(elements));
   Beam beam = slender(elements);
   const double deflection = beam.length / 100;
   beam.tip_force = deflection * 3 * stiffnessOf(beam) / std::pow(beam.length, 3);

@@ -9,9 +9,7 @@ constexpr double kRest = 10;
 constexpr int kPeriods = 10;
 
 Case oscillator(int hertz) {
-  Case spring;
-  spring.name = std::to_string(hertz) + "hz";
-  spring.label = std::to_string(hertz) + " Hz";
+  Case spring(std::to_string(hertz) + "hz", std::to_string(hertz) + " Hz");
   SpringLine system;
   const double omega = 2 * M_PI * hertz;
   system.stiffness = omega * omega;

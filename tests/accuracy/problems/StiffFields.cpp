@@ -7,18 +7,15 @@
 namespace lab {
 namespace {
 
-// Compares the whole path, scaled by each coordinate's maximum, and counts iterations without convergence.
+// Compares the whole path, scaled by each coordinate's maximum.
 template <class System>
 Case caseOf(const std::string& name, const System& system, const Scene& scene, int ticks, double tick,
             const Path& path) {
-  Case field;
-  field.name = name;
-  field.scene = scene;
+  Case field(name, "", scene);
   field.scene.tick = tick;
   field.scene.ticks = ticks;
   field.scene.equations = equationsOf(system);
   field.metrics = pathMetrics(1e-4, 1e-12);
-  field.metrics.push_back({"unconverged", "iterations that did not converge", -1, 0});
   const std::size_t size = System::kSecondOrder ? path[0].size() / 2 : path[0].size();
   std::vector<double> scale(size, 0);
   for (const auto& state : path) {
@@ -31,16 +28,12 @@ Case caseOf(const std::string& name, const System& system, const Scene& scene, i
     scaled.push_back(values);
   }
   field.judge = [scene = field.scene, scaled, scale](const Trial& trial) {
-    long unconverged = 0;
-    std::vector<double> errors = inOrder(compare(trial, scene, scaled, 1, [&](const Simulation& simulation) {
-      unconverged = simulation.failures();
+    return inOrder(compare(trial, scene, scaled, 1, [&](const Simulation& simulation) {
       std::vector<double> values = scene.abstract() ? coordinatesOf(simulation) : positionOf(simulation, 0);
       values.resize(scale.size());
       for (std::size_t i = 0; i < scale.size(); ++i) values[i] /= scale[i];
       return values;
     }));
-    errors.push_back(static_cast<double>(unconverged));
-    return errors;
   };
   return field;
 }

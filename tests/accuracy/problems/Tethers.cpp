@@ -18,8 +18,7 @@ enum class Pull { SPRING, FIELD };
 // Pulls a crate on a floor by a spring or a field. `per_tick` is the stiffness in kg per tick².
 Case pulled(Pull pull, double per_tick, const std::string& name) {
   const double stiffness = per_tick / (kTick * kTick);
-  Case swinging;
-  swinging.name = name + power(per_tick);
+  Case swinging(name + power(per_tick));
   swinging.label =
       std::string(pull == Pull::SPRING ? "spring" : "field") + ", k = " + power(per_tick) + " a tick²";
   Scene& scene = swinging.scene;

@@ -53,9 +53,7 @@ Scene shot(Pair pair, std::mt19937_64& bits) {
 }
 
 Case against(Pair pair, const std::string& name) {
-  Case shots;
-  shots.name = name;
-  shots.label = pair == Pair::FAST_FAST ? "fast against fast" : "against " + name;
+  Case shots(name, pair == Pair::FAST_FAST ? "fast against fast" : "against " + name);
   std::mt19937_64 first(1);
   shots.scene = shot(pair, first);
   shots.metrics = {{"through", "part of the shots that go through", 0, 1e-6},

@@ -40,9 +40,6 @@ class DefaultEquations : public Simulation {
   BodyState body(int index) const override { return m_equations->body(index, m_y.data()); }
   std::span<const double> coordinates() const override { return m_y; }
   std::optional<Work> work() const override { return Work{}; }
-  long failures() const override {
-    return static_cast<long>(m_counters.newton_failures + m_counters.failed_calls);
-  }
 
  private:
   std::shared_ptr<const Equations> m_equations;

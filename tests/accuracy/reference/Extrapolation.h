@@ -41,10 +41,8 @@ class Extrapolation {
         m_y = next;
         m_t = last ? end : m_t + h;
         // The last step was shortened to hit the end, so it may only reduce the step length, not raise it.
-        if (!last || factor < 1)
-          m_h = h * factor * 0.9;
-        else if (h * factor * 0.9 > m_h)
-          m_h = h * factor * 0.9;
+        const Quad longer = h * factor * 0.9;
+        if (!last || factor < 1 || longer > m_h) m_h = longer;
       } else {
         m_h = h * (factor < 1 ? factor : Quad(0.5)) * 0.9;
       }

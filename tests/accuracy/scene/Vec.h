@@ -22,17 +22,7 @@ inline Vec operator*(double s, Vec a) {
 inline double dot(Vec a, Vec b) {
   return a.x * b.x + a.y * b.y;
 }
-inline double cross(Vec a, Vec b) {
-  return a.x * b.y - a.y * b.x;
-}
 inline double length(Vec a) {
   return std::sqrt(dot(a, a));
 }
-/// Returns `a` turned by `angle` radians.
-inline Vec turned(Vec a, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * a.x - s * a.y, s * a.x + c * a.y};
-}
-
 }  // namespace lab

@@ -41,7 +41,6 @@ class Integrator : public Simulation {
 
   BodyState body(int index) const override { return m_system.body(index, m_y.data()); }
   std::span<const double> coordinates() const override { return m_y; }
-  long failures() const override { return m_failures; }
 
  private:
   static constexpr std::size_t kN = System::kDimension;
@@ -164,14 +163,12 @@ class Integrator : public Simulation {
       add(y, 1, correction);
       if (change <= kConverged * size) return;
     }
-    ++m_failures;
   }
 
   System m_system;
   Rule m_rule;
   double m_t = 0;
   State m_y{};
-  long m_failures = 0;
 };
 
 template <class System>

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -38,8 +42,9 @@ class PhysicsWorld : public testing::Test {
 
  public:
   /// Makes a HARD Object without mass.
-  static Object* wall(Vector centre, Vector half) {
-    auto* p_wall = new Object;
+  template <class Its = Object>
+  static Its* wall(Vector centre, Vector half) {
+    auto* p_wall = new Its;
     p_wall->setBox(Box(Vector(-half.x(), -half.y()), 2 * half.x(), 2 * half.y()));
     p_wall->setPosition(centre);
     return p_wall;
@@ -111,9 +116,19 @@ struct OwnWorld {
   World::Scope scope{world};
 };
 
-/// A body that records its contact events.
-class Listener : public Body {
+/// Position, velocity, angle and spin.
+using BodyBits = std::array<std::uint64_t, 6>;
+inline BodyBits stateBits(const Body* p_body) {
+  const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
+  return std::bit_cast<BodyBits>(
+      std::array{place.x(), place.y(), velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin()});
+}
+
+/// An Object that records its contact events.
+template <class Base>
+class Recording : public Base {
  public:
+  using Base::Base;
   struct Note {
     bool is_begin;
     const Object* p_first;
@@ -130,6 +145,15 @@ class Listener : public Body {
     }
     return 1;
   }
+  int begins() const {
+    return static_cast<int>(std::count_if(notes.begin(), notes.end(), [](auto& n) { return n.is_begin; }));
+  }
+  int ends() const { return static_cast<int>(notes.size()) - begins(); }
+  /// Returns the other Object of the last event, which must exist.
+  const Object* other() const {
+    const Note& last = notes.back();
+    return last.p_first == this ? last.p_second : last.p_first;
+  }
   /// Checks that begin and end events alternate for each pair. Returns which pairs are in contact now.
   std::map<std::pair<const Object*, const Object*>, bool> expectTurns() const {
     std::map<std::pair<const Object*, const Object*>, bool> touches;
@@ -143,5 +167,6 @@ class Listener : public Body {
 
   std::vector<Note> notes;
 };
+using Listener = Recording<Body>;
 
 }  // namespace df::test

@@ -1,4 +1,6 @@
 // Contact events of bodies, and the functions that handlers may call.
+#include <numbers>
+
 #include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
 #include "engine/world/WorldStore.h"
@@ -30,6 +32,7 @@ TEST_F(BodyContacts, RestingBodySendsNoEventsOrUpdates) {
   ticks(60);
   ASSERT_EQ(p_crate->notes.size(), 1u);
   EXPECT_NEAR(p_crate->getPosition().y(), -0.5, 1e-9);
+  EXPECT_EQ(static_cast<Object*>(p_crate)->getAcceleration(), Vector());
   world.store().setWatched(true);
   world.tick();
   for (int i = 0; i < 30; ++i) {
@@ -205,6 +208,25 @@ TEST_F(BodyContacts, WorldBoundarySendsAnEventButDoesNotBlock) {
   EXPECT_EQ(p_ball->out, 1);
   EXPECT_TRUE(p_ball->notes.empty());
   EXPECT_NEAR(p_ball->getPosition().x(), 83, 1e-9);
+}
+
+// Problem 8c of the laboratory (docs/physics/lab.md). The ball that is hit flies far within the tick, to
+// walls that were not near before.
+TEST_F(BodyContacts, GalperinsBilliardCountsTheDigitsOfPi) {
+  long right = 3;
+  double mass = 1;
+  for (int k = 0; k <= 3; ++k, mass *= 100, right = static_cast<long>(std::numbers::pi * std::pow(10, k))) {
+    Object* p_wall = wall(Vector(-1, 0), Vector(1, 1));
+    auto* p_light = crate<Listener>(Vector(1.1, 0), Vector(0.1, 0.1));
+    auto* p_heavy = crate(Vector(2.3, 0), Vector(0.1, 0.1), mass);
+    p_light->setRestitution(1);
+    p_heavy->setVelocity(perSecond(Vector(-1, 0)));
+    ticks(300);
+    EXPECT_EQ(p_light->notes.size(), static_cast<std::size_t>(right)) << k;
+    delete p_light;
+    delete p_heavy;
+    delete p_wall;
+  }
 }
 
 }  // namespace

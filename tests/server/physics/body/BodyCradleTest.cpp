@@ -41,14 +41,6 @@ class BodyCradle : public BodyScene {
   std::array<Vector, kBalls> hung = {};
 };
 
-// This is problem 8 of the laboratory (docs/physics/lab.md).
-TEST_F(BodyCradle, OneBallStrikesAndOneLeaves) {
-  hang(1);
-  ticks(45);
-  for (int i = 0; i < kBalls; ++i) EXPECT_NEAR(speedOfEnergy(i), i == kBalls - 1 ? 1 : 0, 1e-3) << i;
-  EXPECT_GT(speedOf(balls[4]).x(), 1);
-}
-
 TEST_F(BodyCradle, SwingsForAMinuteWithoutLoss) {
   hang(1);
   int changes = 0;

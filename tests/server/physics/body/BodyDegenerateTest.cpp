@@ -1,6 +1,4 @@
-// Shapes without area, joints without length, springs that are too stiff, and incompatible masses.
-
-#include <limits>
+// Thin shapes, joints without length, springs that are too stiff, and incompatible masses.
 
 #include "physics/body/SoftObject.h"
 #include "tests/server/physics/BodyScene.h"
@@ -10,44 +8,19 @@ namespace {
 
 using BodyDegenerate = BodyScene;
 
-// Polygons are refused unless they are convex and have an area. A sheet 1/50 high falls on a floor and rests
-// there.
-TEST_F(BodyDegenerate, DegeneratePolygonsAreRefusedAndThinOnesRest) {
+// A sheet 1/50 high falls on a floor and rests there.
+TEST_F(BodyDegenerate, ThinPolygonRestsOnAFloor) {
   PM.setGravity(Vector(0, 0.01));
   wall(Vector(0, 5), Vector(500, 5));
-  const std::vector<std::vector<Vector>> all = {
-      {},
-      {Vector(0, 0)},
-      {Vector(0, 0), Vector(0, 0), Vector(0, 0)},
-      {Vector(0, 0), Vector(1, 1), Vector(2, 2)},
-      {Vector(0, 0), Vector(1e-300, 0), Vector(0, 1e-300)},
-      {Vector(-1e8, 0), Vector(1e8, 0), Vector(0, 1e-9)},
-      {Vector(0, 0), Vector(4, 0), Vector(2, 1e-12)},
-      {Vector(0, 0), Vector(2, 2), Vector(2, 0), Vector(0, 2)},                  // crosses itself
-      {Vector(0, 0), Vector(2, 0), Vector(2, 2), Vector(1, 0.1), Vector(0, 2)},  // not convex
-      {Vector(0, 0), Vector(2, 0), Vector(2, 0), Vector(2, 1), Vector(0, 1), Vector(0, 1)},
-      {Vector(0, 0), Vector(4, 0), Vector(4, 0.02), Vector(0, 0.02)},  // a sheet
-  };
-  std::vector<Body*> taken;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    auto* p_body = new Body;
-    p_body->setTurning();
-    if (p_body->setPolygon(all[i]) != 0) {
-      EXPECT_TRUE(p_body->getShapes().empty()) << i;
-      delete p_body;
-      continue;
-    }
-    EXPECT_GT(p_body->getInertia(), 0) << i;
-    p_body->setPosition(Vector(20.0 * static_cast<double>(i) - 100, -4));
-    taken.push_back(p_body);
-  }
-  ASSERT_EQ(taken.size(), 1u);
+  auto* p_sheet = new Body;
+  p_sheet->setTurning();
+  ASSERT_EQ(p_sheet->setPolygon({Vector(0, 0), Vector(4, 0), Vector(4, 0.02), Vector(0, 0.02)}), 0);
+  EXPECT_GT(p_sheet->getInertia(), 0);
+  p_sheet->setPosition(Vector(100, -4));
   ticks(400);
-  for (const Body* p_body : taken) {
-    EXPECT_LT(p_body->getVelocity().getMagnitude(), 1e-3);
-    EXPECT_NEAR(p_body->getPosition().y(), -0.01, 1e-3);
-    EXPECT_FALSE(p_body->isFrozen());
-  }
+  EXPECT_LT(p_sheet->getVelocity().getMagnitude(), 1e-3);
+  EXPECT_NEAR(p_sheet->getPosition().y(), -0.01, 1e-3);
+  EXPECT_FALSE(p_sheet->isFrozen());
 }
 
 // With two bodies in one place, a rod or rope of length zero is refused, and so is a slider without a

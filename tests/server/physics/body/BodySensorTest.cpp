@@ -114,9 +114,7 @@ TEST_F(BodySensorScene, CrowdedSensorsGetEachBeginAndEndOnce) {
   for (std::size_t i = 0; i < kCount / 2; ++i) bodies[i]->setPosition(Vector(5, 0));
   ticks(3);
   for (const Listener* p_body : bodies) {
-    std::size_t ends = 0;
-    for (const Listener::Note& note : p_body->notes) ends += note.is_begin ? 0 : 1;
-    EXPECT_EQ(ends, kCount / 2);
+    EXPECT_EQ(p_body->ends(), static_cast<int>(kCount / 2));
     EXPECT_EQ(p_body->notes.size(), kCount - 1 + kCount / 2);
   }
 }

@@ -197,13 +197,15 @@ TEST_F(Bodies, ExcessiveForceIsClampedToMaximumSpeed) {
 }
 
 TEST_F(Bodies, ASceneFarAwayMovesAsAtTheOrigin) {
-  const auto fly = [](Vector offset) {
+  const Planet planet(0.1);
+  const auto fly = [&](Vector offset) {
     test::OwnWorld there(2);
     PM.setGravity(Vector(0, 0.0321));
     auto* p_body = new Body;
     static_cast<Object*>(p_body)->setPosition(offset + Vector(0.25, 0.125));
     p_body->setVelocity(Vector(0.1, -0.7));
     p_body->setDrag(0.01);
+    p_body->setField(&planet, offset + Vector(60, 10));
     for (int i = 0; i < 100; ++i) there.world.update();
     return there.world.store().position(p_body->key().slot) - *toFixed(offset);
   };

@@ -134,14 +134,21 @@ TEST(BroadPhaseCrowd, PairLimitMatchesTheReferenceRule) {
     addSome(30, {-100, -100}, 300, 20, 60, false);
     std::vector<std::size_t> sequence(members.size());  // order in which they are added
     for (std::size_t i = 0; i < sequence.size(); ++i) sequence[i] = (i * 7) % sequence.size();
+    const std::size_t last = members.size() - 1;  // ids are in the opposite order
+    for (std::uint32_t i = 0; i < 50; ++i) members[i].proxy = broad.add(1000 + i, members[i].bounds, true);
+    broad.updatePairs();
+    for (std::size_t i = 0; i < 50; ++i) broad.remove(members[i].proxy);  // these proxies are reused
+    broad.updatePairs();
     for (const std::size_t i : sequence) {
-      members[i].proxy = broad.add(static_cast<std::uint32_t>(i), members[i].bounds, members[i].moves, i);
+      const auto id = static_cast<std::uint32_t>(last - i);
+      members[i].proxy = broad.add(id, members[i].bounds, members[i].moves, i);
     }
     Rule rule;
     std::size_t thinned = 0;
     for (int tick = 0; tick < 12; ++tick) {
       OrderPairs found;
-      for (const BroadPhasePair& pair : broad.updatePairs()) found.insert({pair.id_a, pair.id_b});
+      for (const BroadPhasePair& pair : broad.updatePairs())
+        found.insert(std::minmax(last - pair.id_a, last - pair.id_b));
       ASSERT_EQ(found, rule.update(members)) << seed << ' ' << tick;
       for (Member& member : members) {
         thinned += broad.isThinned(member.proxy) ? 1 : 0;

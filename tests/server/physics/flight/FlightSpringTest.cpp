@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "physics/flight/FlightSpring.h"
 #include "shared/values/SplitMix64.h"
@@ -36,62 +35,8 @@ QuadState reference(double k, double c, double a, double x0, double v0, Quad t) 
   return {rest + of_slow * es + of_fast * ef, -slow * of_slow * es - fast * of_fast * ef};
 }
 
-TEST(Spring, UndampedKeepsItsAmplitudeForTenPeriods) {
-  for (const double hertz : {1.0, 5.0, 15.0}) {
-    const double omega = 2 * 3.141592653589793 * hertz, k = omega * omega;
-    const SpringFlow flow({k, 0}, 1.0 / 30);
-    double x = 1, v = 0, worst = 0, amplitude = 0;
-    const int ticks = static_cast<int>(std::lround(10 / hertz * 30));
-    for (int i = 1; i <= ticks; ++i) {
-      const Flown f = flow({x, 0}, {v, 0}, {});
-      x += f.displacement.x;
-      v = f.velocity.x;
-      const QuadState truth = reference(k, 0, 0, 1, 0, i * q(1.0 / 30));
-      worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)));
-      amplitude = std::fmax(amplitude, std::fabs(std::sqrt(x * x + v * v / k) - 1));
-    }
-    EXPECT_LE(worst, 1e-12);
-    EXPECT_LE(amplitude, 1e-12);
-    std::printf("spring %g Hz: error %.2g, amplitude off by %.2g\n", hertz, worst, amplitude);
-  }
-}
-
-TEST(Spring, StiffAndDampedMatchesTheExactSolution) {
-  const double eps = 0x1p-52, duration = 10, gravity = -10;
-  double worst_share = 0;
-  for (const double k : {1e-6, 1.0, 100.0, 1e4, 1e6, 1e8, 1e10}) {
-    const double omega = std::sqrt(k);
-    for (const double zeta :
-         {0.0, 1e-9, 0.05, 0.5, 1 - 1e-6, 1 - 1e-12, 1.0, 1 + 1e-12, 1 + 1e-6, 2.0, 100.0, 1e6}) {
-      for (const int rate : {3, 30, 480}) {
-        const double h = 1.0 / rate, c = 2 * zeta * omega;
-        const SpringFlow flow({k, c}, h);
-        double x = 1, v = 0, worst = 0;
-        const int ticks = static_cast<int>(duration) * rate;
-        for (int i = 1; i <= ticks; ++i) {
-          const Flown f = flow({x, 0}, {v, 0}, {gravity, 0});
-          x += f.displacement.x;
-          v = f.velocity.x;
-          if (rate == 480 && i % 16 != 0) continue;
-          const QuadState truth = reference(k, c, gravity, 1, 0, i * q(h));
-          // The error is relative to the displacement, because on a weak spring the body falls far.
-          const double scale = std::fmax(1, std::fabs(static_cast<double>(truth.x)));
-          worst = std::fmax(worst, std::fabs(static_cast<double>(q(x) - truth.x)) / scale);
-          worst = std::fmax(worst,
-                            std::fabs(static_cast<double>(q(v) - truth.v)) / std::fmax(omega, 100 * scale));
-        }
-        const double bound = 1e-11 + 4 * eps * omega * duration;
-        worst_share = std::fmax(worst_share, worst / bound);
-        EXPECT_LE(worst, bound) << "k " << k << " zeta " << zeta << " h " << h;
-      }
-    }
-  }
-  std::printf("stiff springs: largest error is %.3f of the bound 1e-11 + 4 eps omega T\n", worst_share);
-}
-
 TEST(Spring, OneStepIsExactForAnyParameters) {
   SplitMix64 random(1);
-  double worst = 0;
   for (int i = 0; i < 100000; ++i) {
     const auto any = [&](double low, double high) {
       return std::pow(10, low + (high - low) * random.unit());
@@ -116,11 +61,9 @@ TEST(Spring, OneStepIsExactForAnyParameters) {
           std::fabs(static_cast<double>(q(pulled.velocity.x) - pull.v)) / (k * time),
           std::fabs(static_cast<double>(q(pushed.displacement.x) - push.x)) / (reach * reach),
           std::fabs(static_cast<double>(q(pushed.velocity.x) - push.v)) / time}) {
-      worst = std::fmax(worst, error);
       ASSERT_LE(error, 1e-14) << "k " << k << " c " << c << " t " << t;
     }
   }
-  std::printf("one spring step: largest error %.2g of the amplitude\n", worst);
 }
 
 TEST(Spring, StaysBoundedAtAnyStiffnessAndStep) {

@@ -68,20 +68,6 @@ TEST(ImpactWorld, BouncingBallMatchesTheClosedFormAndStops) {
   EXPECT_NEAR(stopped, 12.727922061357857 * kTicks, 1);  // √2·(1 + 0.8)/(1 − 0.8) seconds
 }
 
-TEST(ImpactWorld, ElasticBallKeepsBouncing) {
-  ImpactWorld world;
-  world.add(fixed(box({0, 1}, {5, 1})));
-  const int id = world.add(falling(moving(ball({0, -5.5}), {0, 0}, 1)));
-  const Quad period = 2 * sqrtq(2 * static_cast<Quad>(5) / static_cast<Quad>(kGravity));
-  for (int tick = 1; tick <= 3000; ++tick) {
-    world.step();
-    Quad t = tick;  // time since the nearest peak
-    while (t > period / 2) t -= period;
-    const Quad height = 5 - static_cast<Quad>(kGravity) * t * t / 2;
-    EXPECT_NEAR(-0.5 - at(world, id).y, static_cast<double>(height), 1e-9) << tick;
-  }
-}
-
 // Problem 8.
 TEST(ImpactWorld, NewtonsCradlePassesTheSpeedThrough) {
   for (const double gap : {0.0, 0.01}) {
@@ -322,18 +308,6 @@ TEST(ImpactWorld, TileSeamsDoNotDisturbSliding) {
       EXPECT_NEAR(at(world, id).y, -0.7, 1e-9) << is_ball << v;
     }
   }
-}
-
-TEST(ImpactWorld, UnsupportedBodiesFall) {
-  ImpactWorld world;
-  const int floor = world.add(fixed(box({0, 1}, {5, 1})));
-  const int lower = world.add(falling(box({0, -0.5}))), upper = world.add(falling(box({0, -1.5})));
-  for (int tick = 0; tick < 10; ++tick) world.step();
-  EXPECT_NEAR(at(world, upper).y, -1.5, 1e-12);
-  EXPECT_TRUE(world.remove(floor));
-  for (int tick = 0; tick < 10; ++tick) world.step();
-  EXPECT_NEAR(at(world, lower).y, -0.5 + 0.5 * kGravity * 100, 1e-12);
-  EXPECT_NEAR(at(world, upper).y, -1.5 + 0.5 * kGravity * 100, 1e-12);
 }
 
 // A box slides over a table's edge and flies from there, on the parabola that starts at the edge.

@@ -1,26 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <string>
 
+#include "physics/flight/FlightDrag.h"
+#include "physics/flight/FlightField.h"
+#include "physics/flight/FlightSpring.h"
 #include "physics/numerics/IntegratorAutomatic.h"
-#include "tests/server/physics/ElasticField.h"
 #include "tests/server/physics/QuadReference.h"
+#include "tests/support/AllocationCount.h"
 
 namespace naiad::physics {
 namespace {
-
-void print(const char* name, double error, const IntegratorCounters& c) {
-  std::printf(
-      "stiff %s: error %.2g, %lld derivatives, %lld steps, %lld rejected, %lld Jacobians, %lld Newton "
-      "failures, "
-      "%lld stiff calls\n",
-      name, error, static_cast<long long>(c.evaluations), static_cast<long long>(c.steps),
-      static_cast<long long>(c.rejected), static_cast<long long>(c.jacobians),
-      static_cast<long long>(c.newton_failures), static_cast<long long>(c.stiff_calls));
-}
 
 // A body that flies in a field, one tick after the other.
 struct Flyer {
@@ -52,14 +42,9 @@ struct VanDerPol : ForceField {
   }
 };
 
-// The start is x = 2, v = 0. The results at T = 2 are the published ones, and those of another solver here.
+// The start is x = 2, v = 0. The published results of stiff problems here and below are those of the "Test
+// Set for Initial Value Problem Solvers".
 TEST(Stiff, VanDerPolMatchesThePublishedResult) {
-  const QuadSystem<2> system = [](Quad, const QuadVector<2>& y) {
-    return QuadVector<2>{y[1], ((1 - y[0] * y[0]) * y[1] - y[0]) / q(1e-6)};
-  };
-  const auto truth = quadSolveStiff<2>(system, 0, 2, {2, 0}, q(1e-11), q(1e-3));
-  EXPECT_NEAR(static_cast<double>(truth[0]), 1.706167732170483, 1e-9);
-  EXPECT_NEAR(static_cast<double>(truth[1]), -0.8928097010247975, 1e-9);
   for (const IntegratorMethod method : {IntegratorMethod::kAutomatic, IntegratorMethod::kRadau}) {
     for (const bool knows : {true, false}) {
       for (const int ticks : {2, 60, 240}) {
@@ -69,17 +54,60 @@ TEST(Stiff, VanDerPolMatchesThePublishedResult) {
         options.method = method;
         Flyer its = {{2, 0}, {}};
         for (int i = 0; i < ticks; ++i) its.fly(field, 2.0 * i / ticks, 2.0 / ticks, options);
-        const double error = std::max(std::fabs(its.p.x - static_cast<double>(truth[0])),
-                                      std::fabs(its.v.x - static_cast<double>(truth[1])));
-        if (ticks == 60)
-          print(knows ? "van der Pol, 60 ticks" : "van der Pol, Jacobian by differences", error,
-                its.counters);
-        EXPECT_LE(error, 1e-4);
+        EXPECT_NEAR(its.p.x, 1.706167732170483, 1e-4);
+        EXPECT_NEAR(its.v.x, -0.8928097010247975, 1e-4);
         EXPECT_EQ(its.counters.failed_calls, 0);
       }
     }
   }
 }
+
+Mat22 outer(Vec2 a, Vec2 b) {
+  return {a.x * b.x, a.x * b.y, a.y * b.x, a.y * b.y};
+}
+
+Mat22 scaled(const Mat22& m, double s) {
+  return {m.xx * s, m.xy * s, m.yx * s, m.yy * s};
+}
+
+/// Pulls towards the field's origin from beyond `rest_length`, pushes away from within it, and damps motion
+/// along the spring. Undefined at the origin.
+class ElasticField final : public ForceField {
+ public:
+  /// `push` is an additional constant acceleration, such as gravity.
+  ElasticField(double stiffness, double damping, double rest_length, Vec2 push)
+      : m_stiffness(stiffness), m_damping(damping), m_rest_length(rest_length), m_push(push) {}
+
+  Vec2 acceleration(Vec2 position, Vec2 velocity, double /*time*/) const override {
+    const double distance = length(position);
+    const Vec2 outward = position / distance;
+    const double pull = m_stiffness * (distance - m_rest_length) + m_damping * dot(velocity, outward);
+    return m_push - pull * outward;
+  }
+
+  bool jacobian(Vec2 position, Vec2 velocity, double /*time*/, Mat22& by_position,
+                Mat22& by_velocity) const override {
+    const double distance = length(position);
+    const Vec2 outward = position / distance;
+    const Mat22 along = outer(outward, outward);
+    const Mat22 across = kIdentity + scaled(along, -1);
+    const double radial = dot(velocity, outward);
+    const double pull = m_stiffness * (distance - m_rest_length) + m_damping * radial;
+    // Along the spring, the pull changes by the stiffness and, because the spring turns, by the velocity
+    // across the spring. The pull's direction turns with the position.
+    const Vec2 turning = (velocity - radial * outward) / distance;
+    by_position = scaled(along, -m_stiffness) + scaled(outer(outward, turning), -m_damping) +
+                  scaled(across, -pull / distance);
+    by_velocity = scaled(along, -m_damping);
+    return true;
+  }
+
+ private:
+  double m_stiffness;    // force over length and mass, per unit of time squared
+  double m_damping;      // force over velocity and mass, per unit of time
+  double m_rest_length;  // metric cells
+  Vec2 m_push;
+};
 
 // Returns the field of a rod with stiffness k. The pendulum starts horizontally. (Games should use a joint.)
 ElasticField rod(double k) {
@@ -95,9 +123,7 @@ void elasticPendulum(double k, int reference_steps, double bound) {
   const auto truth = quadSolve<4>(system, 0, q(duration), {1, 0, 0, 0}, reference_steps, 4);
   Flyer bob = {{1, 0}, {}};
   bob.flyOn(rod(k));
-  const double error = length(bob.p - Vec2{static_cast<double>(truth[0]), static_cast<double>(truth[1])});
-  print(("elastic pendulum k=" + std::to_string(k)).c_str(), error, bob.counters);
-  EXPECT_LE(error, bound);
+  EXPECT_LE(length(bob.p - Vec2{static_cast<double>(truth[0]), static_cast<double>(truth[1])}), bound);
 }
 
 TEST(Stiff, ElasticPendulumIsAccurate) {
@@ -117,7 +143,6 @@ TEST(Stiff, NearlyRigidElasticPendulumSwingsLikeARod) {
   for (const double k : {1e8, 1e10}) {
     Flyer bob = {{1, 0}, {}};
     bob.flyOn(rod(k));
-    print("elastic pendulum, nearly rigid", length(bob.p - end), bob.counters);
     EXPECT_LE(length(bob.p - end), 1e-4) << k;
   }
 }
@@ -141,7 +166,6 @@ TEST(Stiff, ChargedParticleMatchesTheClosedForm) {
     const Quad t = 2, w = q(b), u = 1 - 5 / w;
     const Vec2 end = {static_cast<double>(5 / w * t + u * sinq(w * t) / w),
                       static_cast<double>(-u * (1 - cosq(w * t)) / w)};
-    print(("charged particle B=" + std::to_string(b)).c_str(), length(its.p - end), its.counters);
     EXPECT_LE(length(its.p - end), 1e-8);
     const Vec2 rest = its.v - Vec2{5 / b, 0};
     EXPECT_NEAR(length(rest), std::fabs(1 - 5 / b), 1e-8);
@@ -188,68 +212,51 @@ TEST(Stiff, StrongMagnetTurnsButDoesNotBrake) {
 }
 
 struct Robertson {
-  template <class Real>
-  static std::array<Real, 3> rates(const std::array<Real, 3>& y) {
-    const Real a = static_cast<Real>(0.04) * y[0], b = static_cast<Real>(1e4) * y[1] * y[2],
-               c = static_cast<Real>(3e7) * y[1] * y[1];
-    return {-a + b, a - b - c, c};
+  void derivative(double, const StateVector<3>& y, StateVector<3>& rate) const {
+    const double a = 0.04 * y[0], b = 1e4 * y[1] * y[2], c = 3e7 * y[1] * y[1];
+    rate = {-a + b, a - b - c, c};
   }
-  void derivative(double, const StateVector<3>& y, StateVector<3>& rate) const { rate = rates(y); }
 };
 
+template <int N, class System>
+void expectEnd(const System& system, double end, StateVector<N> y, const IntegratorOptions& options,
+               const StateVector<N>& published, double bound) {
+  IntegratorCounters counters;
+  ASSERT_EQ(integrate<N>(system, 0, end, y, options, counters), IntegratorStatus::kDone);
+  for (int i = 0; i < N; ++i) EXPECT_NEAR(y[i] / published[i], 1, bound) << i;
+}
+
 TEST(Stiff, RobertsonIsAccurateOverElevenDecades) {
-  const QuadSystem<3> system = [](Quad, const QuadVector<3>& y) { return Robertson::rates(y); };
-  for (const double end : {40.0, 1e11}) {
-    const auto truth = quadSolveStiff<3>(system, 0, q(end), {1, 0, 0}, q(1e-10), q(1e-16));
-    if (end == 1e11) {
-      EXPECT_NEAR(static_cast<double>(truth[0]), 0.2083340149701255e-7, 1e-16);
-    }
-    IntegratorOptions options;
-    options.method = IntegratorMethod::kRadau;
-    options.stiff_relative = 1e-9;
-    options.stiff_absolute = 1e-18;
-    IntegratorCounters counters;
-    StateVector<3> y = {1, 0, 0};
-    ASSERT_EQ(integrate<3>(Robertson{}, 0, end, y, options, counters), IntegratorStatus::kDone);
-    double error = 0;
-    for (int i = 0; i < 3; ++i) error = std::max(error, std::fabs(y[i] / static_cast<double>(truth[i]) - 1));
-    print("Robertson", error, counters);
-    EXPECT_LE(error, 1e-6);
-  }
+  IntegratorOptions options;
+  options.method = IntegratorMethod::kRadau;
+  options.stiff_relative = 1e-9;
+  options.stiff_absolute = 1e-18;
+  expectEnd<3>(Robertson{}, 1e11, {1, 0, 0}, options,
+               {0.2083340149701255e-7, 0.8333360770334713e-13, 0.9999999791665050}, 1e-6);
 }
 
 struct Hires {
-  template <class Real>
-  static std::array<Real, 8> rates(const std::array<Real, 8>& y) {
-    const auto c = [](double x) { return static_cast<Real>(x); };
-    const Real meeting = 280 * y[5] * y[7];
-    return {c(-1.71) * y[0] + c(0.43) * y[1] + c(8.32) * y[2] + c(0.0007),
-            c(1.71) * y[0] - c(8.75) * y[1],
-            c(-10.03) * y[2] + c(0.43) * y[3] + c(0.035) * y[4],
-            c(8.32) * y[1] + c(1.71) * y[2] - c(1.12) * y[3],
-            c(-1.745) * y[4] + c(0.43) * y[5] + c(0.43) * y[6],
-            -meeting + c(0.69) * y[3] + c(1.71) * y[4] - c(0.43) * y[5] + c(0.69) * y[6],
-            meeting - c(1.81) * y[6],
-            -meeting + c(1.81) * y[6]};
+  void derivative(double, const StateVector<8>& y, StateVector<8>& rate) const {
+    const double meeting = 280 * y[5] * y[7];
+    rate = {-1.71 * y[0] + 0.43 * y[1] + 8.32 * y[2] + 0.0007,
+            1.71 * y[0] - 8.75 * y[1],
+            -10.03 * y[2] + 0.43 * y[3] + 0.035 * y[4],
+            8.32 * y[1] + 1.71 * y[2] - 1.12 * y[3],
+            -1.745 * y[4] + 0.43 * y[5] + 0.43 * y[6],
+            -meeting + 0.69 * y[3] + 1.71 * y[4] - 0.43 * y[5] + 0.69 * y[6],
+            meeting - 1.81 * y[6],
+            -meeting + 1.81 * y[6]};
   }
-  void derivative(double, const StateVector<8>& y, StateVector<8>& rate) const { rate = rates(y); }
 };
 
 TEST(Stiff, HiresMatchesThePublishedResult) {
-  const double end = 321.8122;
-  const QuadSystem<8> system = [](Quad, const QuadVector<8>& y) { return Hires::rates(y); };
-  const auto truth = quadSolveStiff<8>(system, 0, q(end), {1, 0, 0, 0, 0, 0, 0, q(0.0057)}, q(1e-9), q(1e-6));
-  EXPECT_NEAR(static_cast<double>(truth[0]), 0.7371312573325668e-3, 1e-12);
   for (const IntegratorMethod method : {IntegratorMethod::kRadau, IntegratorMethod::kAutomatic}) {
     IntegratorOptions options;
     options.method = method;
-    IntegratorCounters counters;
-    StateVector<8> y = {1, 0, 0, 0, 0, 0, 0, 0.0057};
-    ASSERT_EQ(integrate<8>(Hires{}, 0, end, y, options, counters), IntegratorStatus::kDone);
-    double error = 0;
-    for (int i = 0; i < 8; ++i) error = std::max(error, std::fabs(y[i] / static_cast<double>(truth[i]) - 1));
-    print("HIRES", error, counters);
-    EXPECT_LE(error, 1e-5);
+    expectEnd<8>(Hires{}, 321.8122, {1, 0, 0, 0, 0, 0, 0, 0.0057}, options,
+                 {0.7371312573325668e-3, 0.1442485726316185e-3, 0.5888729740967575e-4, 0.1175651343283149e-2,
+                  0.2386356198831331e-2, 0.6238968252742796e-2, 0.2849998395185769e-2, 0.2850001604814231e-2},
+                 1e-5);
   }
 }
 
@@ -310,6 +317,27 @@ TEST(Stiff, KeepsNoStateBetweenCalls) {
   flyField(field, {2, 0}, {-0.5, 0}, 0, 0.1, {}, again, counters);
   EXPECT_EQ(first.displacement, again.displacement);
   EXPECT_EQ(first.velocity, again.velocity);
+}
+
+TEST(Flight, AllocatesNothing) {
+  if (!naiad::test::canCountAllocations()) GTEST_SKIP() << "sanitizers have their own allocator";
+  const ElasticField soft(10, 0.1, 1, {0, 1}), stiff(1e10, 1e5, 1, {0, 1});
+  IntegratorCounters counters;
+  Flown flown;
+  bool is_done = true;
+  const auto before = naiad::test::allocationsSoFar();
+  flown = flySpring({1, 2}, {3, 4}, {0, 1}, {1e6, 10}, 1);
+  flown = flySpring({}, flown.velocity, {0, 1}, {0, 0.3}, 1);
+  is_done &= flyQuadraticDrag({1, 2}, {0, 1}, 0.1, 1, flown, counters) == IntegratorStatus::kDone;
+  for (int method = 0; method <= static_cast<int>(IntegratorMethod::kRadau); ++method) {
+    IntegratorOptions options;
+    options.method = static_cast<IntegratorMethod>(method);
+    is_done &= flyField(soft, {1, 0.5}, {}, 0, 1, options, flown, counters) == IntegratorStatus::kDone;
+  }
+  is_done &= flyField(stiff, {1, 0}, {}, 0, 0.1, {}, flown, counters) == IntegratorStatus::kDone;
+  EXPECT_EQ(naiad::test::allocationsSoFar(), before);
+  EXPECT_TRUE(is_done);
+  EXPECT_GT(counters.stiff_calls, 0);
 }
 
 }  // namespace

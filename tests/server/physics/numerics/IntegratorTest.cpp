@@ -6,7 +6,6 @@
 
 #include "physics/flight/FlightField.h"
 #include "physics/numerics/IntegratorAutomatic.h"
-#include "tests/server/physics/QuadReference.h"
 
 namespace naiad::physics {
 namespace {
@@ -73,41 +72,6 @@ TEST(Integrator, KeplerErrorFollowsTheTolerance) {
       EXPECT_LE(r.end_error, 2e5 * tolerance);
     }
   }
-}
-
-// The rates of the angles and angular velocities of two rods of length 1 with masses 1 at their ends, g =
-// 9.81.
-template <class Real, class Sine, class Cosine>
-std::array<Real, 4> doublePendulum(const std::array<Real, 4>& y, Sine sine, Cosine cosine) {
-  const Real g = static_cast<Real>(9.81), d = y[0] - y[1], s = sine(d), c = cosine(d);
-  const Real below = 2 - c * c;
-  const Real a1 = (-s * (c * y[2] * y[2] + y[3] * y[3]) - g * (2 * sine(y[0]) - c * sine(y[1]))) / below;
-  const Real a2 = (s * (2 * y[2] * y[2] + c * y[3] * y[3]) + 2 * g * (c * sine(y[0]) - sine(y[1]))) / below;
-  return {y[2], y[3], a1, a2};
-}
-
-struct DoublePendulum {
-  void derivative(double, const StateVector<4>& y, StateVector<4>& rate) const {
-    rate = doublePendulum(
-        y, [](double x) { return df::math::sin(x); }, [](double x) { return df::math::cos(x); });
-  }
-};
-
-TEST(Integrator, DoublePendulumIsAccurateForFiveSeconds) {
-  const StateVector<4> start = {1.5, 1.0, 0, 0};
-  const QuadSystem<4> system = [](Quad, const QuadVector<4>& y) { return doublePendulum(y, sinq, cosq); };
-  const auto truth = quadSolve<4>(system, 0, 5, {q(start[0]), q(start[1]), 0, 0}, 1500, 5);
-  IntegratorCounters counters;
-  StateVector<4> y = start;
-  for (int i = 0; i < 150; ++i) {
-    ASSERT_EQ(integrate<4>(DoublePendulum{}, i / 30.0, (i + 1) / 30.0, y, {}, counters),
-              IntegratorStatus::kDone);
-  }
-  double error = 0;
-  for (int i = 0; i < 4; ++i) error = std::max(error, std::fabs(y[i] - static_cast<double>(truth[i])));
-  std::printf("double pendulum, 5 s: error %.2g, %.1f derivatives a tick\n", error,
-              static_cast<double>(counters.evaluations) / 150);
-  EXPECT_LE(error, 1e-9);
 }
 
 TEST(Integrator, FieldGetsTheWorldsTime) {

@@ -1,16 +1,13 @@
-#include <limits>
-
 #include "SoftScene.h"
 #include "tests/server/physics/BitHash.h"
 #include "tests/support/AllocationCount.h"
+#include "tests/support/NotANumber.h"
 
 namespace naiad::physics {
 namespace {
 
+using test::kBody;
 using test::kGravity;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // A scene with all kinds of soft bodies, `east` cells from the origin.
 class Scene {
@@ -115,7 +112,7 @@ TEST(SoftWorld, AllocatesNothingOnceWarm) {
 TEST(SoftWorld, InvalidBodiesAndNumbersAreRefused) {
   SoftWorld world;
   const SoftBody rope = makeRope({}, {4, 0}, 4, 1, 10);
-  for (const double bad : {kNan, kInfinite, -kInfinite, 1e30}) {
+  for (const double bad : {kNan, kInfinity, -kInfinity, 1e30}) {
     SoftBody displaced = rope, weighed = rope, stiffened = rope;
     displaced.nodes[2].offset.x = weighed.nodes[2].mass = stiffened.stretches[1].stiffness = bad;
     for (const SoftBody& body : {displaced, weighed, stiffened}) EXPECT_EQ(world.add(body), -1);
@@ -189,15 +186,13 @@ TEST(SoftWorld, BearsMassRatiosToAMillion) {
     SoftObstacle all[] = {test::obstacleAt(0, slab, {0, 1}, 0.5), test::crateAt(1, cube, {0, -6}, mass, 1.5)};
     SoftBody blob = makeBlob(placeAt({0, -2.2}), 2, 16, 1, 0.05, 0.2, 0.5, 0.01);
     blob.drag = 0.02;
-    SoftWorld world;
-    world.setGravity({0, kGravity});
-    const int id = world.add(blob);
+    SoftWorld world = test::worldWith(blob, kGravity);
     for (int i = 0; i < 600; ++i) {
       world.step(1, all);
       test::advance(all[1]);
       // No kinetic energy is larger than that of the crate after its whole fall.
       double kinetic = 0;
-      for (const SoftNode& node : world.body(id).nodes)
+      for (const SoftNode& node : world.body(kBody).nodes)
         kinetic += 0.5 * node.mass * lengthSquared(node.velocity);
       ASSERT_LT(kinetic, kGravity * (10 * mass + 1000)) << mass << ' ' << i;
       ASSERT_LT(length(all[1].velocity), kGravity * 610) << mass << ' ' << i;

@@ -14,6 +14,14 @@ namespace naiad::physics::test {
 constexpr double kTicks = 30;                        // per second
 constexpr double kGravity = 10 / (kTicks * kTicks);  // 10 cells per second²
 
+constexpr int kBody = 0;  ///< id of the body of worldWith()
+inline SoftWorld worldWith(const SoftBody& body, double gravity = 0,
+                           int substeps = SoftWorld::kDefaultSubsteps) {
+  SoftWorld world;
+  EXPECT_TRUE(world.setGravity({0, gravity}) && world.setSubsteps(substeps));
+  EXPECT_EQ(world.add(body), kBody);
+  return world;
+}
 inline Vec2 nodeAt(const SoftWorld& world, int id, int node) {
   const SoftBody& body = world.body(id);
   return (body.place - Place{}) + body.nodes[static_cast<std::size_t>(node)].offset;

@@ -11,6 +11,8 @@
 namespace naiad::physics {
 namespace {
 
+using test::kBody;
+
 constexpr double kPull = 0.04;  // cells per tick²: 0.02 rows
 
 SoftBody makeSheet(int threads, double mesh, double stiffness = 5) {
@@ -84,19 +86,17 @@ TEST(SoftWide, PinnedSheetStretchesByAtMostFivePercent) {
                                                                 // minutes
   SoftBody sheet = makeSheet(kThreads, 0.4);
   pinCorners(sheet, kThreads);
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(sheet);
-  const double start = energyOf(world.body(id), {0, kPull});
+  SoftWorld world = test::worldWith(sheet, kPull);
+  const double start = energyOf(world.body(kBody), {0, kPull});
   for (int i = 0; i < 300; ++i) {
     world.step();
-    const SoftBody& body = world.body(id);
+    const SoftBody& body = world.body(kBody);
     ASSERT_LE(stretchOf(body), 0.05) << i;  // false if it is NaN, too
     ASSERT_LE(energyOf(body, {0, kPull}), start + 1e-6 * std::fabs(start)) << i;
-    ASSERT_EQ(test::nodeAt(world, id, 0), Vec2{}) << i;
+    ASSERT_EQ(test::nodeAt(world, kBody, 0), Vec2{}) << i;
   }
   EXPECT_EQ(world.counters().quarantined, 0);
-  EXPECT_LE(test::fastest(world.body(id)), 0.5);
+  EXPECT_LE(test::fastest(world.body(kBody)), 0.5);
 }
 
 TEST(SoftWide, MomentumIsConservedToRounding) {
@@ -106,22 +106,19 @@ TEST(SoftWide, MomentumIsConservedToRounding) {
   for (std::size_t i = 0; i < sheet.nodes.size(); ++i) {
     sheet.nodes[i].velocity = {0.1 * static_cast<double>(i % 7), 0.02 * static_cast<double>(i % 11)};
   }
-  SoftWorld world;
-  const int id = world.add(sheet);
-  const Vec2 before = test::momentumOf(world.body(id));
-  const double energy = energyOf(world.body(id), {});
+  SoftWorld world = test::worldWith(sheet);
+  const Vec2 before = test::momentumOf(world.body(kBody));
+  const double energy = energyOf(world.body(kBody), {});
   for (int i = 0; i < 100; ++i) {
     world.step();
-    ASSERT_LE(length(test::momentumOf(world.body(id)) - before), 1e-13 * (i + 1)) << i;
-    ASSERT_LE(energyOf(world.body(id), {}), energy * (1 + 1e-6)) << i;
+    ASSERT_LE(length(test::momentumOf(world.body(kBody)) - before), 1e-13 * (i + 1)) << i;
+    ASSERT_LE(energyOf(world.body(kBody), {}), energy * (1 + 1e-6)) << i;
   }
 }
 
 TEST(SoftWide, FallingSheetPutsNoNodeInTheBox) {
   constexpr int kThreads = 60;
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(makeSheet(kThreads, 0.5));
+  SoftWorld world = test::worldWith(makeSheet(kThreads, 0.5), kPull);
   const ConvexShape shape = test::boxShape(5, 3);
   SoftObstacle box[] = {test::obstacleAt(0, shape, {14.75, 34}, 0.5)};
   int begun = 0;
@@ -129,8 +126,8 @@ TEST(SoftWide, FallingSheetPutsNoNodeInTheBox) {
   for (int i = 0; i < kTicks; ++i) {
     world.step(1, box);
     for (const SoftEvent& event : world.events()) begun += event.is_begin ? 1 : 0;
-    for (std::size_t k = 0; k < world.body(id).nodes.size(); ++k) {
-      const Vec2 there = test::nodeAt(world, id, static_cast<int>(k)) - Vec2{14.75, 34};
+    for (std::size_t k = 0; k < world.body(kBody).nodes.size(); ++k) {
+      const Vec2 there = test::nodeAt(world, kBody, static_cast<int>(k)) - Vec2{14.75, 34};
       ASSERT_FALSE(std::fabs(there.x) < 5 - 1e-9 && std::fabs(there.y) < 3 - 1e-9) << i << ": node " << k;
     }
   }
@@ -144,9 +141,7 @@ TEST(SoftWide, SheetCarriesAMovableBox) {
   for (int j = 0; j < kThreads; ++j) {
     sheet.nodes[at(j)].is_pinned = sheet.nodes[at(j + kThreads * (kThreads - 1))].is_pinned = true;
   }
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(sheet);
+  SoftWorld world = test::worldWith(sheet, kPull);
   const ConvexShape shape = test::boxShape(1, 1);
   SoftObstacle crate[] = {test::obstacleAt(3, shape, {9.75, -1.3}, 0.5)};
   crate[0].inverse_mass = 1;
@@ -155,42 +150,38 @@ TEST(SoftWide, SheetCarriesAMovableBox) {
     world.step(1, crate);
     test::advance(crate[0]);
   }
-  EXPECT_TRUE(world.isTouching(id, 3));
+  EXPECT_TRUE(world.isTouching(kBody, 3));
   EXPECT_LT(std::fabs(crate[0].velocity.y), 0.02);
   EXPECT_LT((crate[0].place - Place{}).y, 5);
 }
 
 TEST(SoftWide, AnAttachedNodeFollowsItsObstacle) {
   constexpr int kThreads = 30;
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(makeSheet(kThreads, 0.5));
+  SoftWorld world = test::worldWith(makeSheet(kThreads, 0.5), kPull);
   SoftObstacle hook[] = {{}};
   hook[0].id = 5;
   hook[0].place = placeAt({0, 0});
   hook[0].velocity = {0.05, 0};
-  world.attach({id, 0, 5, {}});
+  world.attach({kBody, 0, 5, {}});
   for (int i = 0; i < 100; ++i) {
     world.step(1, hook);
     test::advance(hook[0]);
-    ASSERT_LE(length(test::nodeAt(world, id, 0) - (hook[0].place - Place{})), 0.05) << i;
+    ASSERT_LE(length(test::nodeAt(world, kBody, 0) - (hook[0].place - Place{})), 0.05) << i;
   }
 }
 
 TEST(SoftWide, PinsHoldUntilReleased) {
   constexpr int kThreads = 30;
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(makeSheet(kThreads, 0.5));
+  SoftWorld world = test::worldWith(makeSheet(kThreads, 0.5), kPull);
   for (int i = 0; i < 20; ++i) world.step();
-  ASSERT_TRUE(world.pin(id, 0, true));
-  const Vec2 held = test::nodeAt(world, id, 0);
+  ASSERT_TRUE(world.pin(kBody, 0, true));
+  const Vec2 held = test::nodeAt(world, kBody, 0);
   for (int i = 0; i < 50; ++i) world.step();
-  EXPECT_EQ(test::nodeAt(world, id, 0), held);
-  ASSERT_TRUE(world.pin(id, 0, false));
+  EXPECT_EQ(test::nodeAt(world, kBody, 0), held);
+  ASSERT_TRUE(world.pin(kBody, 0, false));
   for (int i = 0; i < 20; ++i) world.step();
-  EXPECT_GT(test::nodeAt(world, id, 0).y, held.y + 1);
-  EXPECT_FALSE(world.pin(id, kThreads * kThreads, true));
+  EXPECT_GT(test::nodeAt(world, kBody, 0).y, held.y + 1);
+  EXPECT_FALSE(world.pin(kBody, kThreads * kThreads, true));
 }
 
 TEST(SoftWide, GainsNoEnergyAtAnyStiffnessAndMass) {
@@ -200,12 +191,10 @@ TEST(SoftWide, GainsNoEnergyAtAnyStiffnessAndMass) {
       for (SoftNode& node : sheet.nodes) node.mass *= mass;
       for (SoftStretch& s : sheet.stretches) s.stiffness *= mass;
       pinCorners(sheet, 30);
-      SoftWorld world;
-      world.setGravity({0, kPull});
-      const int id = world.add(sheet);
-      const double start = energyOf(world.body(id), {0, kPull});
+      SoftWorld world = test::worldWith(sheet, kPull);
+      const double start = energyOf(world.body(kBody), {0, kPull});
       for (int i = 0; i < 60; ++i) world.step();
-      const double end = energyOf(world.body(id), {0, kPull});
+      const double end = energyOf(world.body(kBody), {0, kPull});
       EXPECT_LE(end, start + 1e-6 * std::fabs(start)) << stiffness << " " << mass;
       EXPECT_EQ(world.counters().quarantined, 0) << stiffness << " " << mass;
     }
@@ -221,15 +210,13 @@ TEST(SoftWide, DefaultClothReusesItsDecompositionWhileItConverges) {
     sheet.nodes[24 * 25].is_pinned = true;
     sheet.nodes[300].velocity = {0.5, 0.3};
     const double start = energyOf(sheet, {0, kPull});
-    SoftWorld world;
-    world.setGravity({0, kPull});
-    const int id = world.add(sheet);
+    SoftWorld world = test::worldWith(sheet, kPull);
     for (int i = 0; i < 60; ++i) world.step(5);
     const SoftCounters& done = world.counters();
     EXPECT_LE(done.iterations, stiffness > 1e9 ? 4000 : 6100) << stiffness;
     EXPECT_LE(done.decompositions, 2500) << stiffness;
     EXPECT_EQ(done.unconverged, 0) << stiffness;
-    EXPECT_LE(energyOf(world.body(id), {0, kPull}), start + 1e-9 * std::fabs(start)) << stiffness;
+    EXPECT_LE(energyOf(world.body(kBody), {0, kPull}), start + 1e-9 * std::fabs(start)) << stiffness;
   }
 }
 
@@ -240,18 +227,16 @@ std::uint64_t hashOfSheet(int threads, bool& has_touched) {
     for (SoftStretch& s : sheet.stretches) s.limit = 0;
   }
   pinCorners(sheet, threads);
-  SoftWorld world;
-  world.setGravity({0, kPull});
-  const int id = world.add(sheet);
+  SoftWorld world = test::worldWith(sheet, kPull);
   const double width = 0.5 * (threads - 1);
   const ConvexShape shape = test::boxShape(3, 3);
   SoftObstacle box[] = {test::obstacleAt(0, shape, {width / 2, width + 3.3}, 0.5)};
   for (int i = 0; i < 100; ++i) {
     world.step(1, box);
-    has_touched = has_touched || world.isTouching(id, 0);
+    has_touched = has_touched || world.isTouching(kBody, 0);
   }
   test::BitHash hash;
-  for (const SoftNode& node : world.body(id).nodes) hash.add(node.offset), hash.add(node.velocity);
+  for (const SoftNode& node : world.body(kBody).nodes) hash.add(node.offset), hash.add(node.velocity);
   return hash.value();
 }
 

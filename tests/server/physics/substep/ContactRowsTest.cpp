@@ -2,8 +2,6 @@
 // its friction stays within the cone.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <vector>
@@ -129,26 +127,6 @@ std::vector<Outcome> stepOf(const std::vector<Trial>& trials, std::size_t in_blo
     outcomes.push_back(outcome);
   }
   return outcomes;
-}
-
-TEST(Lanes, TransposeTurnsRowsIntoColumns) {
-  Lanes a = {0, 1, 2, 3}, b = {10, 11, 12, 13}, c = {20, 21, 22, 23}, d = {30, 31, 32, 33};
-  transpose(a, b, c, d);
-  const std::array<Lanes, 4> columns = {a, b, c, d};
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      EXPECT_EQ(columns[static_cast<std::size_t>(i)][j], static_cast<float>(10 * j + i)) << i << ' ' << j;
-    }
-  }
-}
-
-TEST(Lanes, ComparisonsWorkPerLane) {
-  const Lanes a = {1, 2, 3, 4}, b = {4, 3, 2, 1};
-  const Lanes high = larger(a, b), low = smaller(a, b);
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(high[i], std::max(a[i], b[i])) << i;
-    EXPECT_EQ(low[i], std::min(a[i], b[i])) << i;
-  }
 }
 
 TEST(ContactRows, BatchedRowsMatchSingleRows) {

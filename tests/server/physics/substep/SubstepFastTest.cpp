@@ -121,17 +121,5 @@ TEST(SubstepFast, RamDoesNotPenetrateThePushedCrates) {
   EXPECT_LT(deepest, 0.2);
 }
 
-TEST(SubstepFast, ExcessiveSpeedFreezesTheBody) {
-  SubstepScene scene;
-  const ConvexShape disc = circleShape(0.3);
-  RigidBody ball = movable({0, 0}, disc);
-  ball.velocity = {1e20, 0};
-  const int id = scene.add(ball, disc);
-  scene.world.step();
-  EXPECT_EQ(scene.world.counters().quarantined, 1);
-  EXPECT_TRUE(scene.world.isFrozen(id));
-  EXPECT_EQ(scene.at(id), Vec2{});
-}
-
 }  // namespace
 }  // namespace naiad::physics

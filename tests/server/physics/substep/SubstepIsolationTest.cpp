@@ -2,7 +2,6 @@
 // with others.
 
 #include <algorithm>
-#include <utility>
 
 #include "SubstepScene.h"
 
@@ -38,7 +37,6 @@ class Neighbours {
   }
   const SubstepWorld& world() const { return m_world; }
   const std::vector<int>& watched() const { return m_watched; }
-  bool hasOtherSlept() const { return m_has_other_slept; }
 
  private:
   void change(int tick) {
@@ -47,7 +45,6 @@ class Neighbours {
     if (tick == 110) addWatched(5);
     if (tick == 150) pushWatched();
     if (!m_has_others) return;
-    for (const int id : m_others) m_has_other_slept = m_has_other_slept || m_world.isAsleep(id);
     if (tick == 3) addOthers(20);
     if (tick == 44) removeOthers(7);
     if (tick == 60) addOthers(15);
@@ -108,7 +105,6 @@ class Neighbours {
 
   GroupKind m_watched_kind, m_others_kind;
   bool m_has_others;
-  bool m_has_other_slept = false;
   SubstepWorld m_world;
   std::vector<int> m_watched, m_others;
   std::uint64_t m_order = 10, m_added = 0;
