@@ -126,63 +126,6 @@ TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
   EXPECT_GT(touched, 10000);
 }
 
-// Tests few boxes among many characters. If no box is near, a step does not search the other levels, but it
-// must not miss a contact.
-TEST(Grid, OneCellObjectsAmongFewBoxesMissNoContact) {
-  Random random(13);
-  constexpr Grid::Slot kCount = 430, kCharacters = 400;
-  const auto number = [&](int cells) {
-    return random.below(cells * 256) * (kFixedOne / 256) + random.below(3) - 1;
-  };
-  const auto boxOf = [&](int most) {
-    return FixedBox{{-number(8), -number(4)}, {number(most), number(most / 4)}};
-  };
-  int met = 0;
-  for (const std::int64_t far : {0, 1000, 1 << 28}) {
-    Filed it(kCount);
-    // Positions around the common corner of four blocks, some of them far away but mapped to equal cells.
-    const auto place = [&] {
-      const Fixed apart = random.below(8) == 0 ? fromCells(static_cast<int>(far)) : 0;
-      return FixedVector{number(60) - fromCells(30) + apart, number(60) - fromCells(30) - apart};
-    };
-    for (Grid::Slot s = 0; s < kCharacters; ++s) it.put(s, place(), kCharacterBox);
-    for (int round = 0; round < 20000; ++round) {
-      if (random.below(4) == 0) {  // adds, moves or removes a box
-        const auto slot = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
-        const int what = random.below(8);
-        if (what == 0) {
-          it.remove(slot);
-        } else if (what == 1 || !it.filed[slot]) {
-          it.put(slot, place(), random.below(200) == 0 ? boxOf(100000) : boxOf(24));
-        } else {
-          const FixedVector by{number(2) - kFixedOne, number(2) - kFixedOne};
-          it.put(slot, it.positions[slot] + by, it.boxes[slot]);
-        }
-        continue;
-      }
-      const auto slot = static_cast<Grid::Slot>(random.below(kCharacters));
-      FixedVector where = it.positions[slot] + FixedVector{number(2) - kFixedOne, number(2) - kFixedOne};
-      const auto other = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
-      if (random.below(8) == 0 && it.filed[other]) {  // at the edge of a box, or one unit away
-        const FixedBox box = translate(it.boxes[other], it.positions[other]);
-        where = {box.corner.x + (random.below(2) == 0 ? box.size.x + kFixedOne / 2 : -kFixedOne / 2) +
-                     random.below(3) - 1,
-                 box.corner.y + number(4)};
-      }
-      const std::vector<Grid::Slot> expected = it.touching(translate(kCharacterBox, where), slot);
-      Grid::Steps steps(it.grid);
-      ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "far " << far << " round " << round;
-      if (!expected.empty()) {
-        ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;
-        met += expected.back() >= kCharacters ? 1 : 0;
-      }
-      it.positions[slot] = where;
-      steps.fileAtTarget(slot);
-    }
-  }
-  EXPECT_GT(met, 3000);
-}
-
 TEST(Grid, FarAwayBoxesAreNotVisited) {
   Filed it(10000);
   for (Grid::Slot s = 0; s < 10000; ++s) it.put(s, {fromCells(static_cast<int>(s) * 10), 0}, kCharacterBox);

@@ -90,5 +90,15 @@ TEST_F(Update, SevenHundredBirthsAndDeathsInOneTick) {
   expectAt(*WM.objectsOfType("new")[699], 200 + 3 * (699 % 80), 3 * (699 / 80) + 50);
 }
 
+TEST_F(Update, AMillionObjectsLoadAndStep) {
+  WM.setBoundary(Box(Vector(0, 0), 4000, 4000));
+  for (int i = 0; i < 1000000; ++i) {
+    auto* p_o = new PlacedObject(Vector(i % 2000 * 2, i / 2000 * 4));
+    p_o->setVelocity(Vector(0.25, i % 2 == 0 ? 0.25 : -0.25));
+  }
+  for (int tick = 0; tick < 3; ++tick) WM.update();
+  EXPECT_EQ(world.store().countInWorld(), 1000000);
+}
+
 }  // namespace
 }  // namespace df::test
