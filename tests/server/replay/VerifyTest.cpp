@@ -161,7 +161,6 @@ TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
   // The facts appear again with another hash; later facts replace earlier ones.
   const fs::path other = recorder.folder() / "other.dfr";
   const std::size_t after_header = kDfrHeaderSize;
-  const std::string chunk = encodeDfrMeta({{kFactModule, std::string(64, '0')}, {kFactGame, "hello"}});
   DfrFacts facts = RecordedRound(file).facts();
   facts[kFactModule] = std::string(64, '0');
   std::ofstream(other, std::ios::binary) << bytes.substr(0, after_header) << encodeDfrMeta(facts);
