@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/collision/Grid.h"
-#include "engine/collision/GridSteps.h"
 #include "engine/world/Random.h"
 
 namespace df::test {
@@ -38,20 +37,6 @@ struct Filed {
   void remove(Grid::Slot s) {
     grid.remove(s);
     filed[s] = false;
-  }
-  /// Steps to `where` if that is free. Returns the slots touched there, after comparing the grid's result
-  /// with a test of all boxes.
-  std::vector<Grid::Slot> step(Grid::Slot s, FixedVector where) {
-    const std::vector<Grid::Slot> expected = touching(translate(boxes[s], where), s);
-    Grid::Steps steps(grid);
-    EXPECT_EQ(steps.isFree(s, where), expected.empty());
-    if (!expected.empty()) {
-      EXPECT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected);
-    } else {
-      positions[s] = where;
-      steps.fileAtTarget(s);
-    }
-    return expected;
   }
   std::vector<Grid::Slot> touching(const FixedBox& box, Grid::Slot self) const {
     std::vector<Grid::Slot> expected;
@@ -95,35 +80,6 @@ TEST(Grid, FindsTouchingBoxesOfAnySizeAnywhere) {
     }
     ASSERT_EQ(it.grid.size(), std::count(it.filed.begin(), it.filed.end(), true));
   }
-}
-
-TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
-  Random random(11);
-  // Positions on the borders between spots, and one unit away from them.
-  const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
-  int touched = 0;
-  for (const int count : {4, 12, 60}) {
-    Filed it(60);
-    for (int round = 0; round < 20000; ++round) {
-      const auto slot = static_cast<Grid::Slot>(random.below(count));
-      // A position in the middle of a block, far from its border.
-      FixedVector where{fromCells(30) + number(), fromCells(30) + number()};
-      if (!it.filed[slot]) {
-        it.put(slot, where, kCharacterBox);
-        continue;
-      }
-      // Half of the coordinates differ from another Object's by a cell, to within a unit.
-      const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
-      if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
-      if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
-      const bool is_free = it.step(slot, where).empty();
-      ASSERT_FALSE(HasFailure()) << "round " << round;
-      if (is_free) continue;
-      ++touched;
-      if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // several may share a cell
-    }
-  }
-  EXPECT_GT(touched, 10000);
 }
 
 TEST(Grid, FarAwayBoxesAreNotVisited) {

@@ -1,5 +1,3 @@
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <stdexcept>
 #include <utility>
@@ -8,17 +6,12 @@
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/WorldExtras.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/Text.h"
 
 namespace df::test {
 namespace {
 
 const std::string kFolder = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/";
-
-std::string textOf(const std::string& name) {
-  std::ifstream file(kFolder + name, std::ios::binary);
-  EXPECT_TRUE(file.good()) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string troubleOf(const std::string& text) {
   std::string error;
@@ -144,7 +137,8 @@ TEST_F(SpriteFile, RowsMayBeBlank) {
 TEST_F(SpriteFile, TruncatedOrCorruptFilesLoadOrReportAnError) {
   int refused = 0;
   for (const char* name : {"header.txt", "simple.txt", "old.txt", "header-crlf.txt"}) {
-    const std::string text = textOf(name);
+    const std::string text = naiad::test::contentOf(kFolder + name);
+    ASSERT_NE(text, "") << name;
     for (std::size_t i = 0; i < text.size(); ++i) {
       for (const char other : {'\n', '9', ' ', '\xff', '\0'}) {
         std::string garbled = text;

@@ -87,14 +87,6 @@ TEST_F(ObjectTest, SettersRefuseNonFiniteAndOutOfRangeValues) {
   EXPECT_EQ(logged("of refuser"), 9) << "each setter once";
 }
 
-TEST_F(ObjectTest, IdsFollowCreationOrder) {
-  Object a;
-  Object b;
-  EXPECT_LT(a.getId(), b.getId());
-  EXPECT_EQ(WM.objectWithId(b.getId()), &b);
-  EXPECT_EQ(WM.objectWithId(99), nullptr);
-}
-
 TEST_F(ObjectTest, StackObjectsAreRemovedButNotDeleted) {
   Probe o("automatic");
   WM.markForDelete(&o);

@@ -44,11 +44,5 @@ TEST_F(TickAlone, StagesRunInOrderAndPausedTickOnlyDraws) {
   EXPECT_EQ(received, Received{"draw"});
 }
 
-TEST_F(TickAlone, NestedTickDoesNothing) {
-  probe.on_event = [this](Probe&, const Event&) { world.tick(); };
-  world.tick();
-  EXPECT_EQ(world.getStepCount(), 2);
-}
-
 }  // namespace
 }  // namespace df::test

@@ -1,4 +1,6 @@
-#include "engine/events/EventStep.h"
+#include <algorithm>
+#include <memory>
+
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -98,6 +100,30 @@ TEST_F(Update, AMillionObjectsLoadAndStep) {
   }
   for (int tick = 0; tick < 3; ++tick) WM.update();
   EXPECT_EQ(world.store().countInWorld(), 1000000);
+}
+
+TEST_F(Update, FreedSlotIsReusedOnlyAfterARest) {
+  auto first = std::make_unique<Object>();
+  const ObjectKey dead = first->key();
+  first.reset();
+  for (std::uint64_t i = 1; i < WorldStore::kSlotReuseDelay; ++i) WM.update();
+  const Object early;
+  EXPECT_NE(early.key().slot, dead.slot);
+  WM.update();
+  const Object late;
+  EXPECT_EQ(late.key().slot, dead.slot);
+  EXPECT_GT(late.key().generation, dead.generation);
+}
+
+TEST_F(Update, ChurnDoesNotGrowTheStore) {
+  std::uint32_t highest = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    auto* p_o = new Object;
+    highest = std::max(highest, p_o->key().slot);
+    WM.markForDelete(p_o);
+    WM.update();
+  }
+  EXPECT_LE(highest, WorldStore::kSlotReuseDelay + 1);
 }
 
 }  // namespace
