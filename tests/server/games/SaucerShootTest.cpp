@@ -118,7 +118,7 @@ TEST(SaucerShoot, AtLeastTwentyObjectsMoveOnTheScreen) {
   });
 }
 
-TEST(SaucerShoot, LeavingPlayersShipIsRemoved) {
+TEST(SaucerShoot, LeavingPlayersShipIsRemovedAndLastEndsTheRound) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
     const std::uint32_t bob = world.input().join("bob", df::GREEN);
@@ -129,6 +129,10 @@ TEST(SaucerShoot, LeavingPlayersShipIsRemoved) {
     tick(world, 100);
     ASSERT_EQ(world.objects().objectsOfType("Hero").getCount(), 1);
     EXPECT_EQ(world.objects().objectsOfType("Hero")[0], world.views().player(bob)->getObject());
+    world.input().leave(bob);
+    tick(world, 3);
+    EXPECT_EQ(world.objects().objectsOfType("GameStart").getCount(), 1);
+    EXPECT_EQ(world.objects().objectsOfType("Points").getCount(), 0);
   });
 }
 
@@ -260,16 +264,6 @@ TEST(SaucerShoot, LostShipIsReplacedTwiceThenTitleReturns) {
       EXPECT_TRUE(shows(world, player, "ships 3"));
     });
   }
-}
-
-TEST(SaucerShoot, RoundEndsWhenTheLastPilotLeaves) {
-  host(1, [](df::World& world) {
-    const std::uint32_t ann = joinAndFly(world);
-    world.input().leave(ann);
-    tick(world, 3);
-    EXPECT_EQ(world.objects().objectsOfType("GameStart").getCount(), 1);
-    EXPECT_EQ(world.objects().objectsOfType("Points").getCount(), 0);
-  });
 }
 
 TEST(SaucerShoot, TeamPointsAreTheScoresPlusSeconds) {
