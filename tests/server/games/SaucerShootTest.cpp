@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <vector>
-
 #include "GameMains.h"
 #include "HighScores.h"
 #include "HostedGame.h"
@@ -118,7 +116,7 @@ TEST(SaucerShoot, AtLeastTwentyObjectsMoveOnTheScreen) {
   });
 }
 
-TEST(SaucerShoot, LeavingPlayersShipIsRemovedAndLastEndsTheRound) {
+TEST(SaucerShoot, LeavingPlayersShipIsRemoved) {
   host(1, [](df::World& world) {
     const std::uint32_t ann = joinAndFly(world);
     const std::uint32_t bob = world.input().join("bob", df::GREEN);

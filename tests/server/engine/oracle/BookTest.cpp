@@ -87,17 +87,6 @@ TEST_F(BookTest, HardBlockerDoesNotSuppressOtherCollisionEvents) {
   EXPECT_EQ(m_events, "2:2>0 0:2>0 2:2>1 1:2>1 ");
 }
 
-TEST_F(BookTest, LowerBoundaryEdgeIsInsideUpperIsOutside) {
-  Object* p_o = make(1, 1);
-  m_world.moveObject(p_o, cells(0, 0));
-  EXPECT_EQ(m_events, "");
-  m_world.moveObject(p_o, cells(0, 0) - FixedVector{1, 0});
-  EXPECT_EQ(m_events, "out:0 ");
-  m_world.moveObject(p_o, cells(0, 0));
-  m_world.moveObject(p_o, cells(0, 24));
-  EXPECT_EQ(m_events, "out:0 out:0 ");
-}
-
 // "Two head-on movers produce four" events per tick, one pair for each of the two moves.
 TEST_F(BookTest, HeadOnMoversCollideTwice) {
   make(10, 10)->velocity = cells(1, 0);

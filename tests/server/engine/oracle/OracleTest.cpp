@@ -55,7 +55,7 @@ struct Sum : Comparison {
   }
 };
 
-/// How often something happened. In enough worlds, it must be `least` percent.
+/// The frequency of an event. In enough worlds, it must be `least` percent.
 struct Share {
   const char* name;
   std::int64_t part;

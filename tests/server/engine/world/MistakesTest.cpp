@@ -140,6 +140,7 @@ TEST_F(Mistakes, NestedRunIsReported) {
   auto* p_saucer = new Probe("Saucer");
   p_saucer->hear(STEP_EVENT, [](Probe&, const Event&) { GM.run(); });
   ticks(2);
+  EXPECT_EQ(GM.getStepCount(), 2);
   expectLine("GM.run() inside a handler does nothing: the game is running");
 }
 
