@@ -160,10 +160,9 @@ TEST_F(RoundTest, AnotherGameOfThatNameIsRefused) {
   const std::string bytes = test::contentOf(file);
   // The facts appear again with another hash; later facts replace earlier ones.
   const fs::path other = recorder.folder() / "other.dfr";
-  const std::size_t after_header = kDfrHeaderSize;
   DfrFacts facts = RecordedRound(file).facts();
   facts[kFactModule] = std::string(64, '0');
-  std::ofstream(other, std::ios::binary) << bytes.substr(0, after_header) << encodeDfrMeta(facts);
+  std::ofstream(other, std::ios::binary) << bytes.substr(0, kDfrHeaderSize) << encodeDfrMeta(facts);
   const RecordedRound round(other);
   try {
     const ReplayEnvironment stage(round, "");
