@@ -3,16 +3,13 @@
 #include <signal.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "BusFixture.h"
-#include "QuickInterval.h"
+#include "SamplePresence.h"
 #include "client/lan/DiscoveredServers.h"
-#include "host/fleet/Bus.h"
-#include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/support/RunningProgram.h"
 
@@ -29,11 +26,6 @@ class DirectoryTest : public BusFixture {
   std::unique_ptr<RunningProgram> startDirectory(const NatsServer& bus) const {
     return std::make_unique<RunningProgram>(std::vector<std::string>{
         "dfdir", "--bus", bus.url(), "--bus-interval", kQuickInterval, "--list", folder / "servers.json"});
-  }
-  static std::map<std::string, std::string> serverOf(const NatsServer& bus, const std::string& id) {
-    return {{"NAIAD_GAME", "hello"},   {"NAIAD_BUS", bus.url()},
-            {"NAIAD_BUS_ID", id},      {"NAIAD_BUS_INTERVAL", kQuickInterval},
-            {"NAIAD_SERVER_NAME", id}, {"NAIAD_PUBLIC_HOST", "127.0.0.1"}};
   }
 };
 
@@ -70,13 +62,7 @@ TEST_F(DirectoryTest, HostilePayloadsAreCountedAndIgnored) {
   const auto directory = startDirectory(bus);
   ASSERT_TRUE(directory->prints("the bus is connected"));
   const auto liar = connectBus({bus.url(), "", ""});
-  Presence presence;
-  presence.id = "honest";
-  presence.host = "127.0.0.1";
-  presence.port = 9876;
-  presence.key = std::string(64, 'a');
-  presence.protocol = 4;
-  presence.max_players = 4;
+  const Presence presence = presenceOf("honest");
   liar->publish({presenceSubject("x1"), std::string(50'000, '[')});
   liar->publish({presenceSubject("x2"), "{\"v\":1}"});
   liar->publish({presenceSubject("x3"), presence.payload()});

@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "BusFixture.h"
-#include "QuickInterval.h"
-#include "host/fleet/Bus.h"
 #include "shared/fleet/BusPayloads.h"
 #include "tests/loopback/GameProgram.h"
 #include "tests/support/RunningProgram.h"
-#include "tests/support/Text.h"
 
 namespace naiad::test {
 namespace {

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "FakeBus.h"
-#include "server/directory/FleetRegistry.h"
-#include "shared/fleet/BusPayloads.h"
+#include "SamplePresence.h"
 
 namespace naiad {
 namespace {
@@ -20,11 +19,7 @@ using namespace std::chrono_literals;
 class FleetMonitorTest : public testing::Test {
  protected:
   void hear(const std::string& id) {
-    Presence presence;
-    presence.id = id;
-    presence.port = 9876;
-    presence.protocol = 4;
-    bus.heard.push_back({presenceSubject(id), presence.payload()});
+    bus.heard.push_back({presenceSubject(id), test::presenceOf(id).payload()});
   }
   void update(FleetMonitor::Time::duration at) { watch.update(FleetMonitor::Time{} + at); }
 

@@ -6,34 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "server/directory/FleetRegistry.h"
-#include "shared/fleet/BusPayloads.h"
+#include "SamplePresence.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {
 
 using namespace std::chrono_literals;
+using test::handleHeartbeat;
+using test::presenceOf;
 
 constexpr FleetRegistry::Time kStart{};
-
-Presence presenceOf(const std::string& id, std::uint32_t players = 0, std::uint32_t places = 16) {
-  Presence presence;
-  presence.id = id;
-  presence.name = "Server " + id;
-  presence.game = "tron";
-  presence.host = id + ".example";
-  presence.port = 9876;
-  presence.key = std::string(64, 'a');
-  presence.protocol = 4;
-  presence.players = players;
-  presence.max_players = places;
-  return presence;
-}
-
-void handleHeartbeat(FleetRegistry& list, const Presence& presence, FleetRegistry::Time now = kStart) {
-  list.handleHeartbeat(presenceSubject(presence.id), presence.payload(), now);
-}
 
 std::string chosen(FleetRegistry& list, const FleetRegistry::PlayerRequest& wish = {"", 4}) {
   const FleetRegistry::Assignment place = list.choose(wish);

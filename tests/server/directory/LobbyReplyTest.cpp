@@ -3,35 +3,20 @@
 
 #include <string>
 
+#include "SamplePresence.h"
 #include "naiad.pb.h"
-#include "server/directory/FleetRegistry.h"
 #include "server/directory/Lobby.h"
-#include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/Limits.h"
 #include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {
 
-constexpr std::uint32_t kVersion4 = 4;
-
 Presence lobbyServer(const std::string& id) {
-  Presence presence;
-  presence.id = id;
-  presence.game = "tron";
-  presence.host = "192.0.2.7";
-  presence.port = 9876;
-  presence.key = std::string(64, 'a');
-  presence.protocol = kVersion4;
-  presence.max_players = 2;
-  return presence;
+  return test::presenceOf(id, 0, 2);
 }
 
-void putServer(FleetRegistry& servers, const Presence& presence) {
-  servers.handleHeartbeat(presenceSubject(presence.id), presence.payload(), {});
-}
-
-wire::ClientMessage hello(const std::string& game = "", std::uint32_t protocol = kVersion4) {
+wire::ClientMessage hello(const std::string& game = "", std::uint32_t protocol = 4) {
   wire::ClientMessage message;
   message.mutable_hello()->set_magic(kHelloMagic);
   message.mutable_hello()->set_protocol(protocol);
@@ -47,22 +32,13 @@ wire::Refused answerTo(const wire::ClientMessage& message, FleetRegistry& server
   return said.refused();
 }
 
-TEST(LobbyReplyTest, RedirectLinkIsAlsoInTheMessage) {
-  FleetRegistry servers;
-  putServer(servers, lobbyServer("a"));
-  const wire::Refused refused = answerTo(hello("tron"), servers);
-  EXPECT_EQ(refused.reason(), wire::Refused::REDIRECT);
-  EXPECT_EQ(refused.redirect(), linkOf(lobbyServer("a")));
-  EXPECT_NE(refused.message().find(refused.redirect()), std::string::npos)
-      << "for clients that know no redirect";
-}
-
 TEST(LobbyReplyTest, RedirectNamesTheRoomSeparatelyAndInTheMessage) {
   FleetRegistry servers;
   Presence server = lobbyServer("a");
   server.rooms = {{"hall", "lobby", 0, 2}, {"duel", "tron", 0, 2}};
-  putServer(servers, server);
+  test::handleHeartbeat(servers, server);
   const wire::Refused refused = answerTo(hello("tron"), servers);
+  EXPECT_EQ(refused.reason(), wire::Refused::REDIRECT);
   EXPECT_EQ(refused.redirect(), linkOf(server)) << "as clients know it that know no rooms";
   EXPECT_EQ(refused.redirect_room(), "duel");
   EXPECT_NE(refused.message().find(linkOf(server, "duel")), std::string::npos) << refused.message();
@@ -76,7 +52,7 @@ TEST(LobbyReplyTest, RedirectNamesTheRoomSeparatelyAndInTheMessage) {
 
 TEST(LobbyReplyTest, PlayersGetABusyReplyWhenServersAreFull) {
   FleetRegistry servers;
-  putServer(servers, lobbyServer("a"));
+  test::handleHeartbeat(servers, lobbyServer("a"));
   answerTo(hello(), servers);
   answerTo(hello(), servers);
   const wire::Refused refused = answerTo(hello(), servers);
@@ -86,21 +62,21 @@ TEST(LobbyReplyTest, PlayersGetABusyReplyWhenServersAreFull) {
 
 TEST(LobbyReplyTest, UnknownGameOrProtocolIsRefusedWithTheReason) {
   FleetRegistry servers;
-  putServer(servers, lobbyServer("a"));
+  test::handleHeartbeat(servers, lobbyServer("a"));
   EXPECT_EQ(answerTo(hello("maze"), servers).reason(), wire::Refused::GAME);
   EXPECT_NE(answerTo(hello("maze"), servers).message().find("maze"), std::string::npos);
   EXPECT_EQ(answerTo(hello("", 5), servers).reason(), wire::Refused::GAME);
   EXPECT_EQ(answerTo(hello("\033[2J"), servers).message().find('\033'), std::string::npos);
   Presence newer = lobbyServer("b");
   newer.protocol = 5;
-  putServer(servers, newer);
+  test::handleHeartbeat(servers, newer);
   EXPECT_EQ(answerTo(hello("", 5), servers).reason(), wire::Refused::REDIRECT)
       << "it knows each version's servers";
 }
 
 TEST(LobbyReplyTest, InvalidHelloGetsNoReplyAndReservesNoSlot) {
   FleetRegistry servers;
-  putServer(servers, lobbyServer("a"));
+  test::handleHeartbeat(servers, lobbyServer("a"));
   wire::ClientMessage other = hello();
   other.mutable_hello()->set_magic(7);
   EXPECT_FALSE(replyToHello(other.SerializeAsString(), servers));

@@ -7,18 +7,15 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "BusFixture.h"
-#include "QuickInterval.h"
+#include "SamplePresence.h"
 #include "host/auth/ServerIdentity.h"
-#include "host/fleet/Bus.h"
 #include "server/directory/Lobby.h"
-#include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/JoinLink.h"
 #include "tests/loopback/BusyWorld.h"
@@ -43,13 +40,9 @@ class LobbyTest : public BusFixture {
   }
   std::unique_ptr<GameProgram> startServer(const std::string& id, int places,
                                            const std::string& game = "hello") {
-    return std::make_unique<GameProgram>(
-        "dfserver", std::map<std::string, std::string>{{"NAIAD_GAME", game},
-                                                       {"NAIAD_BUS", bus.url()},
-                                                       {"NAIAD_BUS_ID", id},
-                                                       {"NAIAD_BUS_INTERVAL", kQuickInterval},
-                                                       {"NAIAD_MAX_PLAYERS", std::to_string(places)},
-                                                       {"NAIAD_PUBLIC_HOST", "127.0.0.1"}});
+    auto environment = serverOf(bus, id, game);
+    environment["NAIAD_MAX_PLAYERS"] = std::to_string(places);
+    return std::make_unique<GameProgram>("dfserver", environment);
   }
   /// Starts dfdir with a lobby and waits until it knows this many servers.
   void startDirectory(int servers) {
@@ -181,13 +174,11 @@ class RunningLobby {
 TEST_F(LobbyTest, LobbyDropsSilentAndInvalidClientsAndKeepsServing) {
   EXPECT_EQ(LobbySettings().hello_timeout, 5s);
   TestServer server(busyWorld(5), home.server());
-  Presence presence;
-  presence.id = "berlin";
+  Presence presence = presenceOf("berlin");
   presence.host = "127.0.0.1";
   presence.port = server.port();
   presence.key = server.fingerprint()->text();
   presence.protocol = kProtocolVersion;
-  presence.max_players = 8;
   RunningLobby running(home.identity("lobby"), {.address = "127.0.0.1", .hello_timeout = 1s}, presence);
   RawClient silent(running.port(), RawClient::Line::kTls);
   EXPECT_TRUE(silent.waitForHangup());

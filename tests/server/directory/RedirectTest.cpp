@@ -63,13 +63,6 @@ TEST_F(RedirectTest, RedirectDelaysTheJoinByUpToASecond) {
   EXPECT_EQ(liar.hellos(), 1u) << "it waits";
 }
 
-TEST_F(RedirectTest, ClientFollowsTheRedirectOfAFullServer) {
-  TestServer roomy(busyWorld(5), home.server("roomy"));
-  liar.answer(wire::Refused::FULL, "The server is full.",
-              LyingServer::linkTo("127.0.0.1", roomy.port(), *roomy.fingerprint()));
-  EXPECT_EQ(refusal(home.player("ann")), "");
-}
-
 TEST_F(RedirectTest, RedirectReplacesTheRequestedRoom) {
   LyingServer second(context, home.identity("second"));
   second.answer(wire::Refused::GAME, "No.", "");

@@ -3,25 +3,19 @@
 
 #include <string>
 
+#include "SamplePresence.h"
 #include "client/lan/DiscoveredServers.h"
 #include "client/lan/ListDownload.h"
-#include "server/directory/FleetRegistry.h"
 #include "tests/support/Text.h"
 
 namespace naiad {
 namespace {
 
-Presence listedServer(const std::string& id, char key = 'a') {
-  Presence presence;
-  presence.id = id;
+Presence listedServer(const std::string& id) {
+  Presence presence = test::presenceOf(id, 3);
   presence.name = "B\xc3\xa9rlin \"1\"";
-  presence.game = "tron";
   presence.host = "2001:db8::7";
   presence.port = 9877;
-  presence.key = std::string(64, key);
-  presence.protocol = 4;
-  presence.players = 3;
-  presence.max_players = 16;
   presence.requires_password = true;
   return presence;
 }
@@ -82,7 +76,6 @@ TEST(ServerListTest, FullListKeepsServersWithFreeSlots) {
   for (int i = 0; i < 4096; ++i) {
     Presence server = listedServer("s" + std::to_string(i));
     server.name = server.game = std::string(Presence::kMaxName, '"');
-    for (int c = 0; c < 63; ++c) server.name.replace(static_cast<std::size_t>(c), 1, "\"");
     server.host = std::string(60, 'h') + "." + std::string(60, 'o') + "." + std::to_string(i) + ".example";
     server.max_players = i % 100 == 0 ? 1000 : 3;
     servers.push_back(server);

@@ -63,11 +63,14 @@ TEST(Maze, ABotWithThePathWinsThreeMazes) {
     const std::uint32_t ann = world.input().join("ann", RED);
     world.input().join("bob", GREEN);
     world.tick();
+    const Vector corner = world.views().player(ann)->getViewCorner();
     for (int maze = 0; maze < 3; ++maze) {
       for (const Keyboard::Key key : solve(world, *world.views().player(ann)->getObject())) {
         tap(world, ann, key);
         tick(world, 3);
       }
+      EXPECT_GT(world.views().player(ann)->getViewCorner().x(), corner.x()) << "it follows the player";
+      EXPECT_TRUE(shows(world, ann, "()"));
       world.tick();
       EXPECT_EQ(world.views().player(ann)->getScore(), maze + 1);
       EXPECT_NE(world.picture().renderPlayer(ann).text().find("ann has found the exit!"), std::string::npos);
@@ -93,19 +96,6 @@ TEST(Maze, PlayersSwapPlacesInAPassage) {
     tick(world, 4);
     EXPECT_EQ(world.views().player(bob)->getObject()->getPosition(), of_ann);
     EXPECT_EQ(world.views().player(ann)->getObject()->getPosition(), of_bob);
-  });
-}
-
-TEST(Maze, ViewFollowsThePlayer) {
-  hostGame(maze_main, 1, [](World& world) {
-    const std::uint32_t ann = joinAnn(world);
-    const Vector corner = world.views().player(ann)->getViewCorner();
-    for (const Keyboard::Key key : solve(world, *world.views().player(ann)->getObject())) {
-      tap(world, ann, key);
-      tick(world, 3);
-    }
-    EXPECT_GT(world.views().player(ann)->getViewCorner().x(), corner.x());
-    EXPECT_NE(world.picture().renderPlayer(ann).text().find("()"), std::string::npos);
   });
 }
 

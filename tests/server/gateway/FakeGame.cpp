@@ -27,7 +27,6 @@ FakeGame::~FakeGame() {
     m_listener.reset();
     m_channels.clear();
     m_timer.cancel();
-    return 0;
   });
   m_work.reset();
   m_context.stop();
@@ -88,7 +87,6 @@ void FakeGame::broadcast(const std::vector<std::string>& frames) {
     for (const auto& [id, channel] : m_channels) {
       for (const std::string& frame : frames) channel->send(frame);
     }
-    return 0;
   });
 }
 
@@ -97,7 +95,6 @@ void FakeGame::endAll(bool in_order) {
     for (const auto& [id, channel] : m_channels) {
       in_order ? channel->close() : static_cast<void>(::shutdown(m_sockets.at(id), SHUT_RDWR));
     }
-    return 0;
   });
 }
 
@@ -106,7 +103,6 @@ void FakeGame::every(std::chrono::milliseconds period, std::function<void(Reliab
     m_job = std::move(job);
     m_timer.expires_after(period);
     tick(period);
-    return 0;
   });
 }
 

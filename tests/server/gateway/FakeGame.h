@@ -39,9 +39,9 @@ class FakeGame {
   /// Runs `job` on the game's thread and returns its result.
   template <class Job>
   auto onThread(Job job) {
-    std::promise<decltype(job())> result;
-    asio::post(m_context, [&] { result.set_value(job()); });
-    return result.get_future().get();
+    std::packaged_task<decltype(job())()> task(std::move(job));
+    asio::post(m_context, [&] { task(); });
+    return task.get_future().get();
   }
 
   ShortKey key() const { return ShortKey::of(m_identity.fingerprint()); }

@@ -34,9 +34,9 @@ std::string wasmBytes();
 class GatewayRun {
   template <class Job>
   auto onThread(Job job) {
-    std::promise<decltype(job())> result;
-    m_gateway.post([&] { result.set_value(job()); });
-    return result.get_future().get();
+    std::packaged_task<decltype(job())()> task(std::move(job));
+    m_gateway.post([&] { task(); });
+    return task.get_future().get();
   }
 
  public:
@@ -53,16 +53,10 @@ class GatewayRun {
     return onThread([this] { return m_gateway.connections(); });
   }
   void stop() {
-    onThread([this] {
-      m_gateway.stop();
-      return 0;
-    });
+    onThread([this] { m_gateway.stop(); });
   }
   void reloadCertificate() {
-    onThread([this] {
-      m_gateway.reloadCertificate();
-      return 0;
-    });
+    onThread([this] { m_gateway.reloadCertificate(); });
   }
   /// Waits until the gateway has ended, without stopping it.
   void join() { m_thread.join(); }

@@ -352,37 +352,6 @@ TEST_F(GatewayPlay, PendingMessagesAreSentInOneWrite) {
   EXPECT_EQ(after.writes_down - before.writes_down, 1u);
 }
 
-// Beast writes the pongs and the gateway writes the messages, to a socket that accepts only a part at a time.
-TEST_F(GatewayPlay, AnswersToPingsAreNeverWithinAMessage) {
-  constexpr int kMessages = 40;
-  constexpr int kPings = 12;
-  start(ignore);
-  WebClient slow(gateway->port(), "127.0.0.1", 2048);
-  ASSERT_TRUE(slow.play());
-  slow.sendFrame(2, "hello");
-  ASSERT_TRUE(waitUntil([&] { return game->frameCount() == 1; }));
-  std::vector<std::string> messages;
-  for (int i = 0; i < kMessages; ++i)
-    messages.push_back(std::string(static_cast<std::size_t>(3000 + i), static_cast<char>('A' + i)));
-  game->broadcast(messages);
-  int pings = 0;
-  int pongs = 0;
-  std::size_t received = 0;
-  while (received < messages.size() || pongs < kPings) {
-    if (pings < kPings && pings <= static_cast<int>(received))
-      slow.sendFrame(9, "ping" + std::to_string(pings++));
-    const auto frame = slow.frame();
-    ASSERT_TRUE(frame) << received << " messages, " << pongs << " pongs";
-    if (frame->opcode == 10) {
-      EXPECT_EQ(frame->payload, "ping" + std::to_string(pongs++));
-    } else {
-      ASSERT_LT(received, messages.size());
-      ASSERT_EQ(frame->opcode, 2);
-      ASSERT_EQ(frame->payload, messages[received++]);
-    }
-  }
-}
-
 // At most 12,800 bytes may be in flight, which take 400 ms at 256 kbit/s, whatever the game sends.
 TEST_F(GatewayPlay, SlowLineGetsFreshPicturesWithoutABacklog) {
   constexpr std::size_t kPicture = 2000;

@@ -67,25 +67,5 @@ TEST_F(GatewayServer, ASecondWebSocketIsASecondStream) {
   EXPECT_EQ(gateway.counters().played, 2u);
 }
 
-TEST_F(GatewayServer, ReloadedPageResumesItsSession) {
-  wire::Welcome welcome;
-  {
-    WebClient page(gateway.port());
-    ASSERT_TRUE(page.play());
-    page.sendMessage(WebClient::hello("ann"));
-    welcome = page.message().value().welcome();
-  }
-  WebClient again(gateway.port());
-  ASSERT_TRUE(again.play());
-  auto hello = WebClient::hello("ann");
-  hello.mutable_hello()->set_resume_token(welcome.resume_token());
-  hello.mutable_hello()->set_new_process(true);
-  again.sendMessage(hello);
-  const auto answer = again.message();
-  ASSERT_TRUE(answer && answer->has_welcome());
-  EXPECT_TRUE(answer->welcome().resumed());
-  EXPECT_EQ(answer->welcome().player(), welcome.player());
-}
-
 }  // namespace
 }  // namespace naiad::test

@@ -32,8 +32,9 @@ std::string restAfter(const std::string& text, const std::string& mark) {
 
 class DebugTest : public FrailRound {
  protected:
-  /// Plays a round in which the key Q crashes the world twice, in two different ticks.
-  void playToTheLastDeath() {
+  /// Plays a round in which the key Q crashes the world twice, in two different ticks, and makes a debugger.
+  void playToTheLastDeath(const std::string& debuggers_last_line = "exit 0") {
+    makeDebugger(debuggers_last_line);
     play(50);
     press(df::Keyboard::Q);
     ASSERT_TRUE(tick()) << log;
@@ -51,7 +52,7 @@ class DebugTest : public FrailRound {
     return std::atoi(text.c_str() + text.rfind("tick=", q) + 5);
   }
   /// Makes a script named gdb that records its arguments and the world's state, and makes the world continue.
-  void makeDebugger(const std::string& last_line = "exit 0") {
+  void makeDebugger(const std::string& last_line) const {
     const fs::path script = recorder.folder() / "bin" / "gdb";
     fs::create_directory(script.parent_path());
     std::ofstream(script) << "#!/bin/sh\n"
@@ -79,7 +80,6 @@ class DebugTest : public FrailRound {
 
 TEST_F(DebugTest, LoggedCommandStopsTheGameBeforeTheCrash) {
   playToTheLastDeath();
-  makeDebugger();
   const std::string line = restAfter(log, "to see where: ");
   ASSERT_EQ(line, command(deathTick(true))) << log;
   const auto [code, said] = runLine(line);
@@ -98,7 +98,6 @@ TEST_F(DebugTest, LoggedCommandStopsTheGameBeforeTheCrash) {
 
 TEST_F(DebugTest, CrashSkippedByRecoveryHappensAgain) {
   playToTheLastDeath();
-  makeDebugger();
   ASSERT_LT(deathTick(false), deathTick(true));
   const auto [code, said] = runLine(command(deathTick(false)));
   EXPECT_EQ(code, 0) << said;
@@ -107,7 +106,6 @@ TEST_F(DebugTest, CrashSkippedByRecoveryHappensAgain) {
 
 TEST_F(DebugTest, GameSurvivingTheTickPlaysToItsCrash) {
   playToTheLastDeath();
-  makeDebugger();
   const auto [code, said] = runLine(command(20));
   EXPECT_EQ(code, 0) << said;
   EXPECT_TRUE(test::has(said, "before tick 20 of the round"));
@@ -115,8 +113,7 @@ TEST_F(DebugTest, GameSurvivingTheTickPlaysToItsCrash) {
 }
 
 TEST_F(DebugTest, ADebuggerThatFailsIsAnError) {
-  playToTheLastDeath();
-  makeDebugger("exit 7");
+  playToTheLastDeath("exit 7");
   const auto [code, said] = runLine(command(20));
   EXPECT_EQ(code, 3) << said;
   EXPECT_TRUE(test::has(said, "gdb exited with code 7"));

@@ -158,23 +158,7 @@ TEST_F(DiskTest, RoundOfAKilledServerSurvivesAStalledDisk) {
   EXPECT_TRUE(isLogged("reconnected to the recovered round")) << log();
 }
 
-TEST_F(DiskTest, FullDiskEndsTheJournalNotTheGame) {
-  start();
-  ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
-  set("full");
-  EXPECT_TRUE(isLogged("no longer recording the round, which continues: ")) << log();
-  EXPECT_TRUE(test::has(log(), "No space left on device"));
-  EXPECT_TRUE(playTicks(100));
-  unset("full");
-  end(server, SIGKILL);
-  const std::string bytes = contentOf(round());
-  EXPECT_EQ(DfrReader(bytes).header().flags & kDfrStopped, kDfrStopped);
-  start();
-  EXPECT_TRUE(isLogged("its journal is incomplete")) << log();
-  EXPECT_TRUE(playTicks(10)) << "in another round";
-}
-
-// The round cannot be handed over, but the server continues.
+// The game continues without a journal, and the round cannot be handed over.
 TEST_F(DiskTest, RoundWithAStoppedJournalIsNotHandedOver) {
   start();
   ASSERT_TRUE(waitUntil([this] { return !syncs().empty() && countTurns(round()) > 0; })) << log();
@@ -187,6 +171,15 @@ TEST_F(DiskTest, RoundWithAStoppedJournalIsNotHandedOver) {
   EXPECT_TRUE(playTicks(100));
   const std::string cancelled = test::Talk(folder / "control.sock").ask(R"({"command":"cancel"})");
   EXPECT_TRUE(test::has(cancelled, "\"ok\":false")) << "nothing was planned: ";
+  EXPECT_TRUE(isLogged("no longer recording the round, which continues: ")) << log();
+  EXPECT_TRUE(test::has(log(), "No space left on device"));
+  unset("full");
+  end(server, SIGKILL);
+  const std::string bytes = contentOf(round());
+  EXPECT_EQ(DfrReader(bytes).header().flags & kDfrStopped, kDfrStopped);
+  start();
+  EXPECT_TRUE(isLogged("its journal is incomplete")) << log();
+  EXPECT_TRUE(playTicks(10)) << "in another round";
 }
 
 TEST_F(DiskTest, ReadOnlyDiskIsLoggedAndTheGameContinues) {

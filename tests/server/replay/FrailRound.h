@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <asio/io_context.hpp>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -41,12 +39,7 @@ class FrailRound : public testing::Test {
   }
   template <class Done>
   void serveUntil(Done done) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!done() && !world->end() && std::chrono::steady_clock::now() < end) {
-      home.restart();
-      home.run_one_for(std::chrono::milliseconds(10));
-      world->checkProcess(1);
-    }
+    serveRound(home, *world, done);
   }
   void press(df::Keyboard::Key key) {
     df::InputQueue::Input input{.kind = df::InputQueue::kKey, .player = 1};

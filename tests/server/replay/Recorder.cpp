@@ -1,6 +1,5 @@
 #include "tests/server/replay/Recorder.h"
 
-#include <asio/io_context.hpp>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -69,15 +68,6 @@ class RandomInputs {
   std::vector<std::uint32_t> m_players;
 };
 
-void waitFor(asio::io_context& home, Round& world, const bool& done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!done && !world.end() && std::chrono::steady_clock::now() < end) {
-    home.restart();
-    home.run_one_for(std::chrono::milliseconds(10));
-    world.checkProcess(1);
-  }
-}
-
 /// Waits for a complete file. On a busy disk that may take longer than a server waits for it when it ends.
 fs::path waitForFile(const fs::path& folder) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -112,16 +102,12 @@ fs::path Recorder::record(const Recording& what) {
     bool done = false;
     world->setOnTick([&done] { done = true; });
     RandomInputs inputs(what.seed, what.players);
-    while (!world->isReady() && !world->end()) {
-      home.restart();
-      home.run_one_for(std::chrono::milliseconds(10));
-      world->checkProcess(1);
-    }
+    serveRound(home, *world, [&world] { return world->isReady(); });
     for (std::uint32_t i = 0; i < what.ticks && world->isReady(); ++i) {
       if (what.players > 0) inputs.play(*world);
       done = false;
       world->tick(!inputs.isEmpty(), false);
-      waitFor(home, *world, done);
+      serveRound(home, *world, [&done] { return done; });
     }
   }
   return waitForFile(rounds);

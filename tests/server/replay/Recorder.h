@@ -2,13 +2,27 @@
 // players that press random keys.
 #pragma once
 
+#include <asio/io_context.hpp>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
+#include "host/rounds/Round.h"
 #include "tests/support/TempFolder.h"
 
 namespace naiad {
+
+/// Serves the round for at most a minute, until `done` or its end.
+template <class Done>
+void serveRound(asio::io_context& home, Round& world, Done done) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!done() && !world.end() && std::chrono::steady_clock::now() < end) {
+    home.restart();
+    home.run_one_for(std::chrono::milliseconds(10));
+    world.checkProcess(1);
+  }
+}
 
 struct Recording {
   std::string game;  ///< name, or path of a module

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/collision/Grid.h"
-#include "engine/collision/GridSteps.h"
 #include "engine/world/Random.h"
 
 namespace df::test {
@@ -38,20 +37,6 @@ struct Filed {
   void remove(Grid::Slot s) {
     grid.remove(s);
     filed[s] = false;
-  }
-  /// Steps to `where` if that is free. Returns the slots touched there, after comparing the grid's result
-  /// with a test of all boxes.
-  std::vector<Grid::Slot> step(Grid::Slot s, FixedVector where) {
-    const std::vector<Grid::Slot> expected = touching(translate(boxes[s], where), s);
-    Grid::Steps steps(grid);
-    EXPECT_EQ(steps.isFree(s, where), expected.empty());
-    if (!expected.empty()) {
-      EXPECT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected);
-    } else {
-      positions[s] = where;
-      steps.fileAtTarget(s);
-    }
-    return expected;
   }
   std::vector<Grid::Slot> touching(const FixedBox& box, Grid::Slot self) const {
     std::vector<Grid::Slot> expected;
@@ -95,92 +80,6 @@ TEST(Grid, FindsTouchingBoxesOfAnySizeAnywhere) {
     }
     ASSERT_EQ(it.grid.size(), std::count(it.filed.begin(), it.filed.end(), true));
   }
-}
-
-TEST(Grid, ContactsAreExactDespiteCoarseStoredPositions) {
-  Random random(11);
-  // Positions on the borders between spots, and one unit away from them.
-  const auto number = [&] { return random.below(8 * 256) * (kFixedOne / 256) + random.below(3) - 1; };
-  int touched = 0;
-  for (const int count : {4, 12, 60}) {
-    Filed it(60);
-    for (int round = 0; round < 20000; ++round) {
-      const auto slot = static_cast<Grid::Slot>(random.below(count));
-      // A position in the middle of a block, far from its border.
-      FixedVector where{fromCells(30) + number(), fromCells(30) + number()};
-      if (!it.filed[slot]) {
-        it.put(slot, where, kCharacterBox);
-        continue;
-      }
-      // Half of the coordinates differ from another Object's by a cell, to within a unit.
-      const FixedVector near = it.positions[static_cast<std::size_t>(random.below(count))];
-      if (random.below(2) == 0) where.x = near.x + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
-      if (random.below(2) == 0) where.y = near.y + (random.below(3) - 1) * kFixedOne + random.below(3) - 1;
-      const bool is_free = it.step(slot, where).empty();
-      ASSERT_FALSE(HasFailure()) << "round " << round;
-      if (is_free) continue;
-      ++touched;
-      if (random.below(4) == 0) it.put(slot, where, kCharacterBox);  // several may share a cell
-    }
-  }
-  EXPECT_GT(touched, 10000);
-}
-
-// Tests few boxes among many characters. If no box is near, a step does not search the other levels, but it
-// must not miss a contact.
-TEST(Grid, OneCellObjectsAmongFewBoxesMissNoContact) {
-  Random random(13);
-  constexpr Grid::Slot kCount = 430, kCharacters = 400;
-  const auto number = [&](int cells) {
-    return random.below(cells * 256) * (kFixedOne / 256) + random.below(3) - 1;
-  };
-  const auto boxOf = [&](int most) {
-    return FixedBox{{-number(8), -number(4)}, {number(most), number(most / 4)}};
-  };
-  int met = 0;
-  for (const std::int64_t far : {0, 1000, 1 << 28}) {
-    Filed it(kCount);
-    // Positions around the common corner of four blocks, some of them far away but mapped to equal cells.
-    const auto place = [&] {
-      const Fixed apart = random.below(8) == 0 ? fromCells(static_cast<int>(far)) : 0;
-      return FixedVector{number(60) - fromCells(30) + apart, number(60) - fromCells(30) - apart};
-    };
-    for (Grid::Slot s = 0; s < kCharacters; ++s) it.put(s, place(), kCharacterBox);
-    for (int round = 0; round < 20000; ++round) {
-      if (random.below(4) == 0) {  // adds, moves or removes a box
-        const auto slot = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
-        const int what = random.below(8);
-        if (what == 0) {
-          it.remove(slot);
-        } else if (what == 1 || !it.filed[slot]) {
-          it.put(slot, place(), random.below(200) == 0 ? boxOf(100000) : boxOf(24));
-        } else {
-          const FixedVector by{number(2) - kFixedOne, number(2) - kFixedOne};
-          it.put(slot, it.positions[slot] + by, it.boxes[slot]);
-        }
-        continue;
-      }
-      const auto slot = static_cast<Grid::Slot>(random.below(kCharacters));
-      FixedVector where = it.positions[slot] + FixedVector{number(2) - kFixedOne, number(2) - kFixedOne};
-      const auto other = static_cast<Grid::Slot>(kCharacters + static_cast<unsigned>(random.below(30)));
-      if (random.below(8) == 0 && it.filed[other]) {  // at the edge of a box, or one unit away
-        const FixedBox box = translate(it.boxes[other], it.positions[other]);
-        where = {box.corner.x + (random.below(2) == 0 ? box.size.x + kFixedOne / 2 : -kFixedOne / 2) +
-                     random.below(3) - 1,
-                 box.corner.y + number(4)};
-      }
-      const std::vector<Grid::Slot> expected = it.touching(translate(kCharacterBox, where), slot);
-      Grid::Steps steps(it.grid);
-      ASSERT_EQ(steps.isFree(slot, where), expected.empty()) << "far " << far << " round " << round;
-      if (!expected.empty()) {
-        ASSERT_EQ(sorted({steps.found().begin(), steps.found().end()}), expected) << "round " << round;
-        met += expected.back() >= kCharacters ? 1 : 0;
-      }
-      it.positions[slot] = where;
-      steps.fileAtTarget(slot);
-    }
-  }
-  EXPECT_GT(met, 3000);
 }
 
 TEST(Grid, FarAwayBoxesAreNotVisited) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/collision/Mask.h"
-#include "shared/values/SplitMix64.h"
 
 namespace df::test {
 namespace {
@@ -103,62 +102,6 @@ TEST(Mask, FullMasksOfHugeBoxesNeedNoRows) {
   EXPECT_TRUE(shareCell(nullptr, huge, &dots, other));
   other.corner.y = fromCells(-2000000001);
   EXPECT_FALSE(shareCell(nullptr, huge, &dots, other));
-}
-
-class MaskPairs : public testing::Test {
- protected:
-  int number(int below) { return static_cast<int>(random.below(static_cast<std::uint64_t>(below))); }
-  int side() { return 1 + number(number(4) == 0 ? 200 : 8); }
-  std::optional<Mask> mask(int width, int height) {
-    const int holes = number(50);  // masks are sparse, because otherwise the first row would usually decide
-    Rows rows(static_cast<std::size_t>(height));
-    for (std::string& row : rows) {
-      for (int x = 0; x < width; ++x) row += number(holes + 1) == 0 ? '#' : ' ';
-    }
-    return number(5) == 0 ? std::nullopt : Mask::fromRows(rows);
-  }
-
-  naiad::SplitMix64 random{11};
-};
-
-TEST_F(MaskPairs, MatchABruteForceComparison) {
-  int shared = 0;
-  const int cases = 6000;
-  for (int i = 0; i < cases; ++i) {
-    struct Drawn {
-      int x, y, width, height;
-      std::optional<Mask> mask;
-      FixedBox box;
-      bool isSet(int cell_x, int cell_y) const {
-        if (mask) return mask->isSet(cell_x - x, cell_y - y);
-        return cell_x >= x && cell_x < x + width && cell_y >= y && cell_y < y + height;
-      }
-    };
-    const auto drawn = [&](int around_x, int around_y) {
-      Drawn d{around_x, around_y, side(), side(), {}, {}};
-      d.mask = mask(d.width, d.height);
-      d.x -= number(d.width + 2);
-      d.y -= number(d.height + 2);
-      const auto part = [&] { return static_cast<Fixed>(random.below(kFixedOne)); };
-      d.box.corner = {fromCells(d.x - 1) + part(), fromCells(d.y - 1) + part()};
-      d.box.size = {fromCells(d.width) - part(), fromCells(d.height) - part()};
-      return d;
-    };
-    const int far = i % 2 == 0 ? 0 : 2000000000;
-    const Drawn a = drawn(-far, far);
-    const Drawn b = drawn(-far, far);
-    bool expected = false;
-    for (int y = a.y; y < a.y + a.height; ++y) {
-      for (int x = a.x; x < a.x + a.width; ++x) expected = expected || (a.isSet(x, y) && b.isSet(x, y));
-    }
-    const Mask* const p_a = a.mask ? &*a.mask : nullptr;
-    const Mask* const p_b = b.mask ? &*b.mask : nullptr;
-    ASSERT_EQ(shareCell(p_a, a.box, p_b, b.box), expected) << i;
-    ASSERT_EQ(shareCell(p_b, b.box, p_a, a.box), expected) << i;
-    shared += expected ? 1 : 0;
-  }
-  EXPECT_GT(shared, cases / 8);
-  EXPECT_LT(shared, cases * 7 / 8);
 }
 
 }  // namespace

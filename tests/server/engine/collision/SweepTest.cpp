@@ -1,10 +1,17 @@
-// Sweeps in hand-made cases; SweepRandomTest.cpp compares the rules with a reference.
+// Sweeps in hand-made cases. The oracle compares the rules with an implementation of its own in random
+// worlds, some of them at the ends of the number range.
 #include <gtest/gtest.h>
 
-#include "PlainSweep.h"
+#include "engine/collision/Mask.h"
+#include "engine/collision/Sweep.h"
+#include "tests/support/CellsAt.h"
 
 namespace df::test {
 namespace {
+
+using naiad::test::cellsAt;
+
+constexpr Fixed kFar = 2000000000 * kFixedOne;
 
 TEST(Moments, AreComparedAsExactFractions) {
   constexpr std::uint64_t kMax = UINT64_MAX;
@@ -48,14 +55,14 @@ TEST_F(MaskedMove, LargestBoxIsHitOnlyBySetCells) {
   // A ship of two rows, the lower one empty, above the wall. Only the empty row is level with the wall.
   const Mask ship = *Mask::fromRows({"####", "    "});
   const FixedBox wall = boxAt(0, 0, 1000000, 1);
-  const Sweep along = sweep(ship, cells(-100, -1), cells(2000000, -1));
+  const Sweep along = sweep(ship, cellsAt(-100, -1), cellsAt(2000000, -1));
   EXPECT_TRUE(along.firstTouch(wall));
   EXPECT_EQ(along.firstShare(&ship, wall, nullptr), std::nullopt);
   // The ship sinks by one cell on the way, so its upper row is level with the wall at the end.
-  const Sweep sinking = sweep(ship, cells(0, -1), cells(900000, 0));
+  const Sweep sinking = sweep(ship, cellsAt(0, -1), cellsAt(900000, 0));
   EXPECT_EQ(sinking.firstShare(&ship, wall, nullptr), (Moment{1, 1}));
   // The wall moves up instead of the ship down.
-  const Sweep rising(boxAt(0, 0, 1000000, 1), cells(-900000, 0), cells(0, -1));
+  const Sweep rising(boxAt(0, 0, 1000000, 1), cellsAt(-900000, 0), cellsAt(0, -1));
   EXPECT_EQ(rising.firstShare(nullptr, boxAt(0, -1, 4, 2), &ship),
             (Moment{1, static_cast<std::uint64_t>(kFixedOne)}));
 }

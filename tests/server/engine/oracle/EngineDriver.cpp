@@ -2,7 +2,6 @@
 
 #include "engine/events/EventOut.h"
 #include "engine/events/EventStep.h"
-#include "engine/managers/WorldManager.h"
 #include "engine/world/EventCollision.h"
 #include "engine/world/WorldLog.h"
 
@@ -58,12 +57,12 @@ EngineDriver::EngineDriver(const RandomWorld& world) : m_scope(m_world), m_scrip
 }
 
 EngineDriver::~EngineDriver() {
-  for (const Numbered* p_o : m_objects) delete p_o;
+  for (const df::Object* p_o : m_objects) delete p_o;
 }
 
 void EngineDriver::create(int id, const Spec& spec) {
   m_objects.push_back(nullptr);
-  Numbered* p_o = spec.temper == Temper::DEAF ? new Numbered(*this, id) : new Scripted(*this, id);
+  df::Object* p_o = spec.temper == Temper::DEAF ? new Numbered(*this, id) : new Scripted(*this, id);
   m_objects.back() = p_o;
   p_o->setPosition(Vector::fromFixed(spec.position));
   p_o->setVelocity(Vector::fromFixed(spec.velocity));
@@ -76,46 +75,13 @@ void EngineDriver::create(int id, const Spec& spec) {
   if (!spec.mask.empty()) setMask(id, spec.mask);
 }
 
-void EngineDriver::markForDelete(int id) {
-  WM.markForDelete(object(id));
-}
-void EngineDriver::deleteByHand(int id) {
-  delete object(id);
-}
-void EngineDriver::remove(int id) {
-  WM.removeObject(object(id));
-}
 void EngineDriver::insert(int id) {
   WM.insertObject(object(id));
   object(id)->registerInterest(df::STEP_EVENT);
 }
-int EngineDriver::moveObject(int id, FixedVector where) {
-  return WM.moveObject(object(id), Vector::fromFixed(where));
-}
-void EngineDriver::setPosition(int id, FixedVector position) {
-  object(id)->setPosition(Vector::fromFixed(position));
-}
-void EngineDriver::setVelocity(int id, FixedVector velocity) {
-  object(id)->setVelocity(Vector::fromFixed(velocity));
-}
-void EngineDriver::setAcceleration(int id, FixedVector acceleration) {
-  object(id)->setAcceleration(Vector::fromFixed(acceleration));
-}
-void EngineDriver::setSolidness(int id, Solidness solidness) {
-  object(id)->setSolidness(solidness);
-}
-void EngineDriver::setBox(int id, FixedBox box) {
-  object(id)->setBox(df::fromFixed(box));
-}
-void EngineDriver::setNoSoft(int id, bool no_soft) {
-  object(id)->setNoSoft(no_soft);
-}
-void EngineDriver::setActive(int id, bool active) {
-  object(id)->setActive(active);
-}
 
 void EngineDriver::setOptions(int id, Options options) {
-  Numbered* p_o = object(id);
+  df::Object* p_o = object(id);
   p_o->setSwept(options.swept);
   p_o->setPrecise(options.precise);
   p_o->setRestContacts(options.rest_contacts);
@@ -129,23 +95,7 @@ void EngineDriver::setMask(int id, const Mask& mask) {
   }
   object(id)->setMask(rows);
 }
-void EngineDriver::setSweptCollisions(bool swept) {
-  WM.setSweptCollisions(swept);
-}
 
-FixedVector EngineDriver::getPosition(int id) const {
-  return fixed(object(id)->getPosition());
-}
-FixedVector EngineDriver::getVelocity(int id) const {
-  return fixed(object(id)->getVelocity());
-}
-Solidness EngineDriver::getSolidness(int id) const {
-  return object(id)->getSolidness();
-}
-
-bool EngineDriver::getSweptCollisions() const {
-  return WM.getSweptCollisions();
-}
 Meeting EngineDriver::firstContact(int id, FixedVector where) {
   const df::Contact contact = WM.firstContact(object(id), Vector::fromFixed(where));
   return {contact.p_object != nullptr ? Numbered::number(contact.p_object) : -1, contact.time,

@@ -5,28 +5,19 @@
 #include "engine/published/EventNetworks.h"
 #include "engine/published/NetworkManager.h"
 #include "engine/published/NetworkNode.h"
-#include "engine/world/Runner.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/server/games/HostedGame.h"
 
 int orchard_main(int argc, char* argv[]);
 
 namespace df::test {
 namespace {
 
-/// Runs the host's part while the game's main() is in GM.run().
-class Script : public Runner {
- public:
-  explicit Script(std::function<void()> script) : m_script(std::move(script)) {}
-  void run(World& /*world*/) override { m_script(); }
-
- private:
-  std::function<void()> m_script;
-};
-
 class NetworkServerTest : public WorldTest {
  protected:
-  int play(const std::string& role, const std::string& host, std::function<void()> script) {
-    Script runner(std::move(script));
+  /// Runs the game; `script` is the host's part while the game's main() is in GM.run().
+  int play(const std::string& role, const std::string& host, const std::function<void()>& script) {
+    naiad::TestRunner runner([&script](World&) { script(); });
     world.setRunner(&runner);
     std::string program = "orchard";
     std::string first = role;

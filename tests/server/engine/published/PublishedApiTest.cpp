@@ -102,10 +102,7 @@ class Hero : public Object {
  private:
   Sound* p_sound;
   int fire_countdown;
-  void fire(Vector target);
   void kbd(const EventKeyboard* p_keyboard_event);
-  void mouse(const EventMouse* p_mouse_event);
-  void hit(const EventCollision* p_collision_event);
 
  public:
   int lives = 3;
@@ -145,19 +142,15 @@ int Hero::eventHandler(const Event* p_e) {
     return 1;
   }
   if (p_e->getType() == MSE_EVENT) {
-    mouse(static_cast<const EventMouse*>(p_e));
-    return 1;
+    const EventMouse* p = static_cast<const EventMouse*>(p_e);
+    return p->getMouseAction() == EventMouseAction::MOVED ||
+           p->getMouseButton() == Mouse::EventMouseButton::RIGHT;
   }
   if (p_e->getType() == STEP_EVENT) {
     const EventStep* p_step = dynamic_cast<const EventStep*>(p_e);
     if (p_step->getStepCount() % 2 == 0 && fire_countdown > 0) fire_countdown--;
     return 1;
   }
-  if (p_e->getType() == COLLISION_EVENT) {
-    hit(dynamic_cast<const EventCollision*>(p_e));
-    return 1;
-  }
-  if (p_e->getType() == OUT_EVENT) return 1;
   return Object::eventHandler(p_e);
 }
 
@@ -180,30 +173,6 @@ void Hero::kbd(const EventKeyboard* p) {
   }
 }
 
-void Hero::mouse(const EventMouse* p) {
-  if (p->getMouseAction() == CLICKED && p->getMouseButton() == Mouse::LEFT) fire(p->getMousePosition());
-  if (p->getMouseAction() == EventMouseAction::MOVED || p->getMouseButton() == Mouse::EventMouseButton::RIGHT)
-    return;
-}
-
-void Hero::fire(Vector target) {
-  if (fire_countdown > 0) return;
-  fire_countdown = 15;
-  Vector v = target - getPosition();
-  v.normalize();
-  v.scale(1);
-  setVelocity(v);
-  if (RM.getMusic("theme")) RM.getMusic("theme")->pause();
-}
-
-void Hero::hit(const EventCollision* p) {
-  Object* p_other = p->getObject1() == this ? p->getObject2() : p->getObject1();
-  if (p_other->getType() == "Saucer" || p_other->getType() == "Hero") {
-    WM.markForDelete(p->getObject1());
-    WM.markForDelete(p->getObject2());
-  }
-}
-
 int Hero::draw() {
   Object::draw();
   DM.drawCh(getPosition(), '0' + lives, df::RED);
@@ -220,15 +189,7 @@ class Points : public ViewObject {
     setColor(df::YELLOW);
     setBorder(false);
     setDrawValue(true);
-    registerInterest(STEP_EVENT);
-  }
-  int eventHandler(const Event* p_e) {
-    if (ViewObject::eventHandler(p_e)) return 1;
-    if (p_e->getType() == STEP_EVENT) {
-      setValue(getValue() + 1);
-      return 1;
-    }
-    return 0;
+    setValue(getValue() + 1);
   }
   int draw() override { return ViewObject::draw(); }
   void setValue(int new_value) override { ViewObject::setValue(new_value); }

@@ -10,7 +10,6 @@ bool isWayFound(const df::Event* p_e);
 float nearTo(const df::Object* p_o);
 int namesOfAGame();
 int stepsOfTheEngineSpelledTwice();
-std::string ping(int count);
 void pastTheEngine();
 int logStrings(const df::Object& o);
 
@@ -31,11 +30,6 @@ TEST_F(PublishedHeader, HeaderIncludesTheNamesGamesUse) {
   EXPECT_GT(namesOfAGame(), 0);
   EXPECT_EQ(stepsOfTheEngineSpelledTwice(), WM.getAllObjects().getCount());
   pastTheEngine();
-}
-
-TEST(PublishedHeaderMicrosoft, LongTextIsTruncated) {
-  EXPECT_EQ(ping(7), "Ping 7!");
-  EXPECT_EQ(ping(1234567), "Ping 12");
 }
 
 TEST_F(PublishedHeader, StringsAreLoggedUnchanged) {

@@ -2,7 +2,6 @@
 
 #include "engine/managers/Clock.h"
 #include "engine/managers/LogManager.h"
-#include "engine/published/NetworkManager.h"
 #include "engine/published/NetworkNode.h"
 #include "engine/published/StateMachine.h"
 #include "engine/published/utility.h"
@@ -198,17 +197,6 @@ TEST_F(UtilityTest, StateMachineEntersExecutesAndLeaves) {
   machine.changeState(nullptr);
   EXPECT_EQ(notes, "+ao-a+b-b+a");
   EXPECT_EQ(machine.getState(), &calm);
-}
-
-TEST_F(UtilityTest, SocketCallsFailAndLogOneHint) {
-  EXPECT_EQ(NM.setServer(false), 0);
-  EXPECT_EQ(NM.connect("localhost"), -1);
-  EXPECT_FALSE(NM.isServer());
-  EXPECT_FALSE(NM.isConnected());
-  EXPECT_EQ(NM.getNumConnections(), 0);
-  NetworkNode node;
-  EXPECT_EQ(node.sendMessage(MessageType::SYNC_OBJECT, &node), -1);
-  EXPECT_EQ(logged("games need no sockets here"), 1);
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 // Finds files by names in wrong case, as on systems that ignore case.
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/world/Resources.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/TempFolder.h"
 
 namespace df::test {
 namespace {
@@ -22,19 +21,13 @@ class CaseInsensitiveFile : public WorldTest {
     write("sprites/ship.txt");
     write("sprites/SHIP.txt");
   }
-  ~CaseInsensitiveFile() override { fs::remove_all(folder); }
 
   void write(const std::string& name) const {
     std::ofstream(folder / name)
         << "<HEADER>\nframes 1\nwidth 1\nheight 1\n</HEADER>\n<BODY>\n*\nend\n</BODY>\n";
   }
 
-  static fs::path makeFolder() {
-    std::string name = ::testing::TempDir() + "naiad-loose-name-XXXXXX";
-    return mkdtemp(name.data());
-  }
-
-  const fs::path folder = makeFolder();
+  naiad::test::TempFolder folder;
 };
 
 TEST_F(CaseInsensitiveFile, BackslashesSeparateFoldersAndCaseIsIgnored) {
@@ -60,7 +53,7 @@ TEST_F(CaseInsensitiveFile, SeveralMatchesReturnTheFirstByName) {
 
 TEST_F(CaseInsensitiveFile, SpriteFilesAreFoundInAnyCase) {
   const fs::path before = fs::current_path();
-  fs::current_path(folder);
+  fs::current_path(folder.path());
   EXPECT_EQ(RM.loadSprite("Sprites\\walls\\brick.txt", "brick"), 0);
   EXPECT_EQ(RM.loadSprite("Sprites\\walls\\none.txt", "none"), -1);
   fs::current_path(before);

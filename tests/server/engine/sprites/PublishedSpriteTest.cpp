@@ -1,14 +1,12 @@
 // Sprite files that the published engine loads although the book's rules reject them. In compat mode they are
 // loaded, with a log line.
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 
 #include "engine/managers/ResourceManager.h"
 #include "engine/sprites/SpriteFile.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/TempFolder.h"
 
 namespace df::test {
 namespace {
@@ -111,17 +109,12 @@ constexpr Form kForms[] = {
 
 class PublishedSprite : public WorldTest {
  protected:
-  PublishedSprite()
-      : m_file(std::filesystem::path(::testing::TempDir()) /
-               ("published-sprite-" + std::to_string(getpid()))) {}
-  ~PublishedSprite() override { std::filesystem::remove(m_file); }
-
   /// Loads a file with this text; returns the result of RM.loadSprite().
   int load(const std::string& text, const std::string& label = "s") {
-    std::ofstream(m_file) << text;
+    std::ofstream(file()) << text;
     return RM.loadSprite(file(), label);
   }
-  std::string file() const { return m_file.string(); }
+  std::string file() const { return (m_folder / "sprite.txt").string(); }
   /// Returns row 10 after each of `ticks` ticks, without blanks, with an Object of this sprite in it.
   std::string shownOf(const std::string& label, int ticks) {
     PlacedObject o(Vector(10, 10));
@@ -130,7 +123,7 @@ class PublishedSprite : public WorldTest {
   }
 
  private:
-  std::filesystem::path m_file;
+  naiad::test::TempFolder m_folder;
 };
 
 TEST_F(PublishedSprite, WithoutCompatInvalidHeadersAreRefused) {
@@ -244,14 +237,6 @@ TEST_F(PublishedSprite, GameMadeSpriteAdvancesAndMinusOneStopsIt) {
   o.setSpriteSlowdownCount(-1);
   world.tick();
   EXPECT_EQ(o.getSpriteIndex(), 1);
-}
-
-TEST_F(PublishedSprite, WithoutCompatSlowdownZeroStopsAndMissingIsOne) {
-  ASSERT_EQ(load(withHeader("slowdown 0\n"), "zero"), 0);
-  ASSERT_EQ(load(withHeader(""), "missing"), 0);
-  EXPECT_EQ(RM.getSprite("missing")->getSlowdown(), 1);
-  EXPECT_EQ(shownOf("zero", 4), "aaaa");
-  EXPECT_EQ(shownOf("missing", 4), "abab");
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <stdexcept>
 #include <utility>
@@ -8,17 +6,12 @@
 #include "engine/sprites/SpriteFile.h"
 #include "engine/world/WorldExtras.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/Text.h"
 
 namespace df::test {
 namespace {
 
 const std::string kFolder = std::string(NAIAD_SOURCE_DIR) + "/tests/server/engine/sprites/";
-
-std::string textOf(const std::string& name) {
-  std::ifstream file(kFolder + name, std::ios::binary);
-  EXPECT_TRUE(file.good()) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string troubleOf(const std::string& text) {
   std::string error;
@@ -39,52 +32,38 @@ class SpriteFile : public WorldTest {
   std::vector<decltype(parseSprite("", "", std::declval<std::string&>()))> sprites;
 };
 
-TEST_F(SpriteFile, HeaderFormatSetsAllProperties) {
-  for (const char* name : {"header.txt", "header-crlf.txt"}) {
-    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
-    const Sprite* p_sprite = RM.getSprite(name);
+TEST_F(SpriteFile, AllFormatsAreReadWithOrWithoutCarriageReturns) {
+  struct Row {
+    const char* name;
+    int frames, width, height, slowdown;
+    Color color;
+    char transparency;
+    const char* first_frame;
+    const char* last_frame;
+  };
+  const Row kRows[] = {
+      {"header.txt", 2, 3, 2, 4, CYAN, '#', "/-\\#o#", "\\-/ o "},
+      {"header-crlf.txt", 2, 3, 2, 4, CYAN, '#', "/-\\#o#", "\\-/ o "},
+      {"header-no-newline.txt", 1, 2, 1, 1, WHITE, '\0', "<>", "<>"},
+      {"simple.txt", 3, 2, 1, 5, RED, '\0', "ab", "ef"},
+      {"simple-crlf-no-newline.txt", 3, 2, 1, 5, RED, '\0', "ab", "ef"},
+      {"old.txt", 2, 3, 1, 1, GREEN, '\0', "===", "=-="},
+      {"old-crlf-no-newline.txt", 2, 3, 1, 1, GREEN, '\0', "===", "=-="},
+  };
+  for (const Row& row : kRows) {
+    SCOPED_TRACE(row.name);
+    ASSERT_EQ(RM.loadSprite(kFolder + row.name, row.name), 0);
+    const Sprite* p_sprite = RM.getSprite(row.name);
     ASSERT_NE(p_sprite, nullptr);
-    EXPECT_EQ(p_sprite->getFrameCount(), 2);
-    EXPECT_EQ(p_sprite->getWidth(), 3);
-    EXPECT_EQ(p_sprite->getHeight(), 2);
-    EXPECT_EQ(p_sprite->getColor(), CYAN);
-    EXPECT_EQ(p_sprite->getSlowdown(), 4);
-    EXPECT_EQ(p_sprite->getTransparency(), '#');
-    EXPECT_EQ(p_sprite->getLabel(), name);
-    EXPECT_EQ(p_sprite->getFrame(0).getString(), "/-\\#o#");
-    EXPECT_EQ(p_sprite->getFrame(1).getString(), "\\-/ o ");
-  }
-}
-
-TEST_F(SpriteFile, HeaderDefaultsApplyAndFinalNewlineIsOptional) {
-  ASSERT_EQ(RM.loadSprite(kFolder + "header-no-newline.txt", "s"), 0);
-  const Sprite* p_sprite = RM.getSprite("s");
-  EXPECT_EQ(p_sprite->getColor(), WHITE);
-  EXPECT_EQ(p_sprite->getSlowdown(), 1);
-  EXPECT_EQ(p_sprite->getTransparency(), 0);
-  EXPECT_EQ(p_sprite->getFrame(0).getString(), "<>");
-}
-
-TEST_F(SpriteFile, SimpleFormatIsRead) {
-  for (const char* name : {"simple.txt", "simple-crlf-no-newline.txt"}) {
-    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
-    const Sprite* p_sprite = RM.getSprite(name);
-    EXPECT_EQ(p_sprite->getFrameCount(), 3);
-    EXPECT_EQ(p_sprite->getWidth(), 2);
-    EXPECT_EQ(p_sprite->getHeight(), 1);
-    EXPECT_EQ(p_sprite->getSlowdown(), 5);
-    EXPECT_EQ(p_sprite->getColor(), RED);
-    EXPECT_EQ(p_sprite->getFrame(2).getString(), "ef");
-  }
-}
-
-TEST_F(SpriteFile, OldFormatIsRead) {
-  for (const char* name : {"old.txt", "old-crlf-no-newline.txt"}) {
-    ASSERT_EQ(RM.loadSprite(kFolder + name, name), 0);
-    const Sprite* p_sprite = RM.getSprite(name);
-    EXPECT_EQ(p_sprite->getFrameCount(), 2);
-    EXPECT_EQ(p_sprite->getColor(), GREEN);
-    EXPECT_EQ(p_sprite->getFrame(1).getString(), "=-=");
+    EXPECT_EQ(p_sprite->getFrameCount(), row.frames);
+    EXPECT_EQ(p_sprite->getWidth(), row.width);
+    EXPECT_EQ(p_sprite->getHeight(), row.height);
+    EXPECT_EQ(p_sprite->getSlowdown(), row.slowdown);
+    EXPECT_EQ(p_sprite->getColor(), row.color);
+    EXPECT_EQ(p_sprite->getTransparency(), row.transparency);
+    EXPECT_EQ(p_sprite->getLabel(), row.name);
+    EXPECT_EQ(p_sprite->getFrame(0).getString(), row.first_frame);
+    EXPECT_EQ(p_sprite->getFrame(row.frames - 1).getString(), row.last_frame);
   }
 }
 
@@ -144,7 +123,8 @@ TEST_F(SpriteFile, RowsMayBeBlank) {
 TEST_F(SpriteFile, TruncatedOrCorruptFilesLoadOrReportAnError) {
   int refused = 0;
   for (const char* name : {"header.txt", "simple.txt", "old.txt", "header-crlf.txt"}) {
-    const std::string text = textOf(name);
+    const std::string text = naiad::test::contentOf(kFolder + name);
+    ASSERT_NE(text, "") << name;
     for (std::size_t i = 0; i < text.size(); ++i) {
       for (const char other : {'\n', '9', ' ', '\xff', '\0'}) {
         std::string garbled = text;

@@ -39,26 +39,19 @@ class Walker : public PlayerObject<> {
   void mouse(const EventMouse& event) override { setPosition(event.getMousePosition()); }
 };
 
-int walkerMain() {
+template <int kRuns>
+int mainWithRuns() {
   GM.startUp();
   new JoinSpawner<Walker>;
-  GM.run();
-  ++g_runs_ended;
+  for (int run = 0; run < kRuns; ++run) {
+    GM.run();
+    ++g_runs_ended;
+  }
   GM.shutDown();
   ++g_mains_ended;
   return 0;
 }
-
-int twoRunsMain() {
-  GM.startUp();
-  new JoinSpawner<Walker>;
-  GM.run();
-  ++g_runs_ended;
-  GM.run();
-  ++g_runs_ended;
-  GM.shutDown();
-  return 0;
-}
+constexpr auto walkerMain = mainWithRuns<1>;
 
 int noRunMain() {
   return GM.startUp();
@@ -137,7 +130,7 @@ TEST(GameTest, NoTickRunsAfterGameOver) {
 
 TEST(GameTest, GameThatRunsTwiceContinues) {
   g_runs_ended = 0;
-  GameTest game(twoRunsMain);
+  GameTest game(mainWithRuns<2>);
   game.join();
   game.press(Keyboard::Q);
   EXPECT_EQ(g_runs_ended, 1);

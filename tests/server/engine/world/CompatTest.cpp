@@ -106,16 +106,10 @@ TEST_F(CompatTest, CompatReversesLogLevels) {
   EXPECT_EQ(logged("one"), 1);
 }
 
-TEST_F(CompatTest, StartUpKeepsTheModeOfHandMadeWorlds) {
+TEST_F(CompatTest, EnvironmentOverridesCompatMode) {
   EXPECT_EQ(world.program(), nullptr);
   GM.startUp();
   EXPECT_FALSE(world.compat());
-  world.setCompat();
-  GM.startUp();
-  EXPECT_TRUE(world.compat());
-}
-
-TEST_F(CompatTest, EnvironmentOverridesCompatMode) {
   setenv("DF_COMPAT", "1", 1);
   GM.startUp();
   EXPECT_TRUE(world.compat());

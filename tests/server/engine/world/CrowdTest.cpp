@@ -134,9 +134,9 @@ TEST(Crowd, SoftCrowdIsNotListedForAHardObject) {
   }
 }
 
-TEST(Crowd, CountsStayCorrectWhenObjectsChangeOrLeave) {
-  World world;
-  const World::Scope scope(world);
+using WorldOfACrowd = WorldTest;
+
+TEST_F(WorldOfACrowd, CountsStayCorrectWhenObjectsChangeOrLeave) {
   std::vector<Object*> soft;
   for (int i = 0; i < 200; ++i) {
     soft.push_back(new Object);
@@ -168,13 +168,10 @@ TEST(Crowd, CountsStayCorrectWhenObjectsChangeOrLeave) {
   for (int i = 1; i < 80; ++i) soft[static_cast<std::size_t>(i)]->setPosition(Vector(10, 12));
   EXPECT_TRUE(moves());
   EXPECT_EQ(world.store().moverStats().met, 0u);
-  world.shutDown();
 }
 
 // An Object with a handler that is far away does not make the crowd slower.
-TEST(Crowd, DistantHandlerDoesNotSlowTheCrowd) {
-  World world;
-  const World::Scope scope(world);
+TEST_F(WorldOfACrowd, DistantHandlerDoesNotSlowTheCrowd) {
   std::ostringstream pages;
   auto* p_far = new Diary(pages);
   p_far->setPosition(Vector(2, 2));
@@ -189,7 +186,6 @@ TEST(Crowd, DistantHandlerDoesNotSlowTheCrowd) {
   EXPECT_EQ(world.store().moverStats().unheard, 500u) << "it is touched, and has to hear of each";
   EXPECT_EQ(world.store().moverStats().met, 500u);
   EXPECT_FALSE(pages.str().empty());
-  world.shutDown();
 }
 
 }  // namespace

@@ -1,29 +1,21 @@
 // In compat mode, the memory of deleted Objects is kept for a while, because games call their getters.
 
+#include <array>
 #include <memory>
 
 #include "engine/events/EventStep.h"
 #include "engine/world/DelayedFree.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/Sanitizers.h"
 
 namespace df::test {
 namespace {
 
-/// True if the build has a sanitizer that stops every access to a deleted Object.
-constexpr bool isWatched() {
-#if defined(__SANITIZE_ADDRESS__)
-  return true;
-#elif defined(__has_feature)
-  return __has_feature(address_sanitizer);
-#else
-  return false;
-#endif
-}
-
 class DelayedFreeTest : public WorldTest {
  protected:
   void SetUp() override {
-    if (isWatched()) GTEST_SKIP() << "a sanitizer stops accesses to a deleted Object, as it should";
+    if (naiad::test::kSanitized)
+      GTEST_SKIP() << "a sanitizer stops accesses to a deleted Object, as it should";
     world.setCompat();
   }
 };
@@ -85,6 +77,25 @@ TEST_F(DelayedFreeTest, SecondDeleteSparesTheSlotsNextObject) {
   EXPECT_EQ(WM.insertObject(p_gone), -1);
   world.update();
   EXPECT_EQ(WM.getAllObjects().getCount(), 200);
+}
+
+TEST(PendingBlocks, BlockIsClaimedOnceByAnyAddressInIt) {
+  std::array<std::byte, 32> memory;
+  PendingBlocks blocks;
+  blocks.push(memory.data(), 16);
+  EXPECT_FALSE(blocks.claim(memory.data() + 16));
+  EXPECT_TRUE(blocks.claim(memory.data() + 15));
+  EXPECT_FALSE(blocks.claim(memory.data() + 15));
+}
+
+TEST(PendingBlocks, CancelledBlockLeavesTheOthers) {
+  std::array<std::byte, 32> memory;
+  PendingBlocks blocks;
+  blocks.push(memory.data(), 16);
+  blocks.push(memory.data() + 16, 16);
+  blocks.cancel(memory.data());
+  EXPECT_FALSE(blocks.claim(memory.data()));
+  EXPECT_TRUE(blocks.claim(memory.data() + 16));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // The oracle compares findFree() with a test of all Objects, in random worlds.
-#include <limits>
 #include <optional>
 
 #include "tests/server/engine/Probe.h"
+#include "tests/support/NotANumber.h"
 
 namespace df::test {
 namespace {
@@ -12,17 +12,6 @@ const Box kCharacter(Vector(-0.5, -0.5), 1, 1);
 class FindFree : public WorldTest {
  protected:
   FindFree() { WM.setBoundary(Box(Vector(-1000, -1000), 2000, 2000)); }
-
-  static Object* make(double x, double y, Solidness solidness = HARD) {
-    auto* p = new PlacedObject(Vector(x, y));
-    p->setSolidness(solidness);
-    return p;
-  }
-  static Object* makeBlock(Box box) {
-    Object* p = make(0, 0);
-    p->setBox(box);
-    return p;
-  }
 };
 
 TEST_F(FindFree, StaysInsideTheBoundaryEdgesIncluded) {
@@ -37,7 +26,7 @@ TEST_F(FindFree, StaysInsideTheBoundaryEdgesIncluded) {
 
 TEST_F(FindFree, GivesUpBeyondAThousandCells) {
   WM.setBoundary(Box(Vector(), 1e6, 100));
-  makeBlock(Box(Vector(-100, -100), 2000, 1000));
+  (new Object)->setBox(Box(Vector(-100, -100), 2000, 1000));
   EXPECT_EQ(WM.findFree(kCharacter, Vector(901.5, 10)), Vector(1901.5, 10));
   EXPECT_EQ(WM.findFree(kCharacter, Vector(900.25, 10)), std::nullopt);
   EXPECT_EQ(WM.findFree(kCharacter, Vector(5000, 1101)), std::nullopt);
@@ -45,8 +34,7 @@ TEST_F(FindFree, GivesUpBeyondAThousandCells) {
 }
 
 TEST_F(FindFree, NumbersOutOfRangeAreRefused) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(WM.findFree(kCharacter, Vector(nan, 0)), std::nullopt);
+  EXPECT_EQ(WM.findFree(kCharacter, Vector(kNan, 0)), std::nullopt);
   EXPECT_EQ(WM.findFree(kCharacter, Vector(0, 3e9)), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), -1, 1), Vector()), std::nullopt);
   EXPECT_EQ(WM.findFree(Box(Vector(), 1, 2e6), Vector()), std::nullopt);
@@ -57,7 +45,7 @@ TEST_F(FindFree, NumbersOutOfRangeAreRefused) {
 
 TEST_F(FindFree, FindsSpaceAroundThousandsOfObjects) {
   for (int y = -150; y <= 150; ++y) {
-    for (int x = -150; x <= 150; ++x) make(x, y);
+    for (int x = -150; x <= 150; ++x) new PlacedObject(Vector(x, y));
   }
   EXPECT_EQ(WM.findFree(kCharacter, Vector(0, 0)), Vector(0, -152));
   EXPECT_EQ(WM.findFree(kCharacter, Vector(3, 100)), Vector(3, 152));

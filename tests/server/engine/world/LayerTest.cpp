@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "engine/events/EventStep.h"
 #include "engine/world/Layer.h"
 #include "tests/server/engine/Probe.h"
 
@@ -108,6 +109,43 @@ TEST_F(Layers, StepMarkedObjectIsDeletedInTheSameUpdate) {
   world.findLayer<Reaper>()->doomed.push_back(key);
   world.update();
   EXPECT_EQ(world.store().find(key), nullptr);
+}
+
+/// Notes its steps.
+class NotingLayer : public Layer {
+ public:
+  explicit NotingLayer(test::Received& words) : m_words(words) {}
+  void step(World& /*world*/) override { m_words.push_back("layer"); }
+
+ private:
+  test::Received& m_words;
+};
+
+class TickAlone : public test::WorldTest {
+ protected:
+  TickAlone() {
+    probe.registerInterest(STEP_EVENT);
+    probe.registerInterest(KEYBOARD_EVENT);
+    probe.on_draw = [this](test::Probe&) { received.push_back("draw"); };
+    world.addLayer(std::make_unique<NotingLayer>(received));
+    ann = world.input().join("ann", RED);
+    world.tick();
+    received.clear();
+  }
+
+  test::Probe probe{"probe", &received};
+  std::uint32_t ann = 0;
+};
+
+TEST_F(TickAlone, StagesRunInOrderAndPausedTickOnlyDraws) {
+  world.input().key(ann, Keyboard::A, KEY_PRESSED);
+  world.tick();
+  EXPECT_EQ(received, (test::Received{"probe:df-step", "probe:df-keyboard", "layer", "draw"}));
+  EXPECT_EQ(world.getStepCount(), 2);
+  world.setPaused(true);
+  received.clear();
+  world.tick();
+  EXPECT_EQ(received, test::Received{"draw"});
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "engine/managers/Config.h"
 #include "engine/managers/LogManager.h"
 #include "engine/managers/ResourceManager.h"
 #include "tests/server/engine/Probe.h"
+#include "tests/support/TempFolder.h"
+#include "tests/support/Text.h"
 
 namespace df::test {
 namespace {
@@ -21,28 +22,20 @@ namespace fs = std::filesystem;
 class LogFileTest : public WorldTest {
  protected:
   LogFileTest() {
-    std::string name = testing::TempDir() + "naiad-logfile-XXXXXX";
-    base = mkdtemp(name.data());
-    file = base / "game.log";
     LM.setSink({});
     LM.setFlush(true);
     Config::getInstance().setLogFile(file.string());
   }
-  ~LogFileTest() override { fs::remove_all(base); }
-  std::string read() const {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
-  fs::path base;
-  fs::path file;
+  naiad::test::TempFolder base;
+  const fs::path file = base / "game.log";
 };
 
 TEST_F(LogFileTest, FileIsTruncatedAtStartAndNotWorldReadable) {
   std::ofstream(file) << "of yesterday\n";
   LM.writeLog("first");
   LM.writeLog("second\n");
-  EXPECT_EQ(read(), "first\nsecond\n");
+  EXPECT_EQ(naiad::test::contentOf(file), "first\nsecond\n");
   const fs::path other = base / "other.log";
   Config::getInstance().setLogFile(other.string());
   LM.writeLog("x");

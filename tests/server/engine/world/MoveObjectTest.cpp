@@ -1,7 +1,5 @@
 // moveObject() beyond the oracle's random worlds, which compare every rule of the book and of
-// docs/collisions.md: refusals, exceptions, long paths and the number limit.
-#include <stdexcept>
-
+// docs/collisions.md: long paths, the number limit and refusals.
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -23,34 +21,6 @@ class MoveObject : public WorldTest {
     return p;
   }
 };
-
-TEST_F(MoveObject, OutEventUsesTheBoundarysCorner) {
-  ASSERT_EQ(WM.setBoundary(Box(Vector(100, 100), 10, 10)), 0);
-  Probe* a = make("a", 100, 100);
-  WM.moveObject(a, Vector(99.9, 100));
-  EXPECT_EQ(received, (Received{"a:df-out"}));
-}
-
-TEST_F(MoveObject, ThrowingHandlerRemovesOnlyItsObject) {
-  Probe* a = make("a", 10, 10, SOFT);
-  Probe* b = make("b", 15, 10);
-  b->on_event = [](Probe&, const Event&) { throw std::runtime_error("oops"); };
-  EXPECT_EQ(WM.moveObject(a, Vector(15, 10)), 0);
-  EXPECT_FALSE(world.events().isRunning());
-  EXPECT_FALSE(b->isActive());
-  EXPECT_EQ(logged("oops"), 1);
-  WM.update();
-  EXPECT_EQ(WM.getAllObjects(true).getCount(), 1);
-}
-
-TEST_F(MoveObject, BigBoxesCollideAtTheirEdges) {
-  Probe* wall = make("wall", 0, 20);
-  ASSERT_EQ(wall->setBox(Box(Vector(0, 0), 200000, 1)), 0);
-  Probe* a = make("a", 150000, 10);
-  EXPECT_EQ(WM.moveObject(a, Vector(150000, 19.5)), -1);
-  EXPECT_EQ(WM.moveObject(a, Vector(150000, 19.25)), 0);
-  EXPECT_EQ(WM.moveObject(wall, Vector(0, 18)), -1);
-}
 
 TEST_F(MoveObject, SweptMoverIsStoppedAtAnySpeed) {
   make("wall", 500000, 10);

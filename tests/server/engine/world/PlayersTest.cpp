@@ -212,15 +212,6 @@ TEST_F(Players, TextsAreCheckedAndShownToOnePlayerOnly) {
   EXPECT_EQ(logged("setText"), 1);
 }
 
-TEST_F(Players, JoinAndInputWorkWithoutListeners) {
-  WM.removeObject(&listener);
-  const std::uint32_t ann = world.input().join("ann", RED);
-  world.input().key(ann, Keyboard::A, KEY_PRESSED);
-  GM.tick();
-  EXPECT_TRUE(received.empty());
-  EXPECT_EQ(WM.getPlayers().size(), 1u);
-}
-
 TEST_F(Players, WindowSizeHasLimits) {
   EXPECT_EQ(DM.getHorizontal(), 80);
   EXPECT_EQ(DM.getVertical(), 24);

@@ -1,4 +1,6 @@
-#include "engine/events/EventStep.h"
+#include <algorithm>
+#include <memory>
+
 #include "tests/server/engine/Probe.h"
 
 namespace df::test {
@@ -88,6 +90,40 @@ TEST_F(Update, SevenHundredBirthsAndDeathsInOneTick) {
   a->on_event = nullptr;
   WM.update();
   expectAt(*WM.objectsOfType("new")[699], 200 + 3 * (699 % 80), 3 * (699 / 80) + 50);
+}
+
+TEST_F(Update, AMillionObjectsLoadAndStep) {
+  WM.setBoundary(Box(Vector(0, 0), 4000, 4000));
+  for (int i = 0; i < 1000000; ++i) {
+    auto* p_o = new PlacedObject(Vector(i % 2000 * 2, i / 2000 * 4));
+    p_o->setVelocity(Vector(0.25, i % 2 == 0 ? 0.25 : -0.25));
+  }
+  for (int tick = 0; tick < 3; ++tick) WM.update();
+  EXPECT_EQ(world.store().countInWorld(), 1000000);
+}
+
+TEST_F(Update, FreedSlotIsReusedOnlyAfterARest) {
+  auto first = std::make_unique<Object>();
+  const ObjectKey dead = first->key();
+  first.reset();
+  for (std::uint64_t i = 1; i < WorldStore::kSlotReuseDelay; ++i) WM.update();
+  const Object early;
+  EXPECT_NE(early.key().slot, dead.slot);
+  WM.update();
+  const Object late;
+  EXPECT_EQ(late.key().slot, dead.slot);
+  EXPECT_GT(late.key().generation, dead.generation);
+}
+
+TEST_F(Update, ChurnDoesNotGrowTheStore) {
+  std::uint32_t highest = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    auto* p_o = new Object;
+    highest = std::max(highest, p_o->key().slot);
+    WM.markForDelete(p_o);
+    WM.update();
+  }
+  EXPECT_LE(highest, WorldStore::kSlotReuseDelay + 1);
 }
 
 }  // namespace

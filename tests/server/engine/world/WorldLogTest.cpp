@@ -18,15 +18,6 @@ class Log : public testing::Test {
   WorldLog log;
 };
 
-TEST_F(Log, RepeatedRefusalIsOnlyCounted) {
-  EXPECT_EQ(log.refuse("Ship", "setAltitude"), -1);
-  log.refuse("Ship", "setAltitude");
-  log.refuse("Saucer", "setAltitude");
-  EXPECT_EQ(log.refusals(), 3u);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0], "Refused: setAltitude of Ship: an altitude is 0 to 4 (further ones are only counted)");
-}
-
 TEST_F(Log, ClearForgetsOnceOnlyLines) {
   log.writeOnce("line");
   log.writeOnce("line");
