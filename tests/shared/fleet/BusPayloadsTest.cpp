@@ -6,7 +6,6 @@
 
 #include "shared/fleet/BusPayloads.h"
 #include "shared/net/base/SafeText.h"
-#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {
@@ -191,36 +190,13 @@ TEST(BusPayloads, MissingRepeatedAndNestedMembersAreRefused) {
   }
 }
 
-TEST(BusPayloads, TruncatedAndFlippedPayloadsAreRefusedOrValid) {
+TEST(BusPayloads, TruncatedPayloadsAreRefused) {
   for (const std::string& good : {fullPresence().payload(), fullResult().payload()}) {
     for (std::size_t size = 0; size < good.size(); ++size) {
       EXPECT_FALSE(Presence::parse(good.substr(0, size)));
       EXPECT_FALSE(GameResult::parse(good.substr(0, size)));
     }
-    for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
-      std::string bad = good;
-      bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
-      if (const auto presence = Presence::parse(bad)) {
-        EXPECT_EQ(Presence::parse(presence->payload()), presence);
-      }
-      if (const auto result = GameResult::parse(bad)) {
-        EXPECT_EQ(GameResult::parse(result->payload()), result);
-      }
-    }
   }
-}
-
-TEST(BusPayloads, RandomBytesAndDeepNestingAreRefused) {
-  SplitMix64 random(7);
-  for (int i = 0; i < 10'000; ++i) {
-    std::string bytes(random.next() % 64, '\0');
-    for (char& c : bytes) c = static_cast<char>(random.next());
-    EXPECT_FALSE(Presence::parse(bytes));
-  }
-  EXPECT_FALSE(Presence::parse(std::string(2000, '[')));
-  std::string deep;
-  for (int i = 0; i < 300; ++i) deep += "{\"a\":";
-  EXPECT_FALSE(Presence::parse(deep));
 }
 
 TEST(ServerId, IsOneTokenOfABusSubject) {

@@ -13,8 +13,6 @@
 #include "client/world/EpochReplicas.h"
 #include "client/world/Prediction.h"
 #include "shared/math/Elementary.h"
-#include "shared/net/stream/Framing.h"
-#include "shared/replica/Checksum.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/PredictedObject.h"
 #include "shared/replica/UpdateCodec.h"
@@ -85,19 +83,6 @@ Hash math() {
           df::math::tanh, df::math::sinh, df::math::cosh, df::math::atan, df::math::asin, df::math::acos})
       hash.add(function(x));
     hash.add(df::math::atan2(y, x));
-  }
-  return hash;
-}
-
-Hash motion() {
-  test::RandomRecords random(1);
-  Hash hash;
-  for (int i = 0; i < 20'000; ++i) {
-    const Motion motion = random.motion(static_cast<std::uint32_t>(random.rng().next()));
-    const auto tick = motion.tick + static_cast<std::uint32_t>(random.within(10'000));
-    hash.add(positionAt(motion, tick));
-    hash.add(rebase(motion, tick).velocity);
-    hash.add(motionSum(7, motion));
   }
   return hash;
 }
@@ -234,30 +219,14 @@ Hash prediction() {
   return hash;
 }
 
-Hash frames() {
-  SplitMix64 random(8);
-  Hash hash;
-  std::string stream;
-  for (int i = 0; i < 300; ++i)
-    appendFrame(stream, std::string(1 + random.below(i % 50 == 0 ? 60'000 : 300), 'x'));
-  FrameReader reader(kMaxFramePayload);
-  for (std::string_view left = stream; !left.empty();) {
-    const auto size = static_cast<std::size_t>(1 + random.below(std::min<std::size_t>(left.size(), 5000)));
-    reader.feed(left.substr(0, size));
-    left.remove_prefix(size);
-    while (const auto frame = reader.next()) hash.add(*frame);
-  }
-  return hash;
-}
-
 }  // namespace
 
 int main() {
   const struct {
     const char* name;
     Hash (*hash)();
-  } parts[] = {{"math", math},       {"motion", motion},     {"snapshots", snapshots},   {"replica", replica},
-               {"updates", updates}, {"controls", controls}, {"prediction", prediction}, {"frames", frames}};
+  } parts[] = {{"math", math},       {"snapshots", snapshots}, {"replica", replica},
+               {"updates", updates}, {"controls", controls},   {"prediction", prediction}};
   for (const auto& [name, hash] : parts) std::printf("%s %016" PRIx64 "\n", name, hash().value());
   return 0;
 }

@@ -139,25 +139,5 @@ TEST(Framing, RandomFramesInRandomPiecesComeBackUnchanged) {
   }
 }
 
-TEST(Framing, RandomBytesNeverYieldAFrameOverTheLimit) {
-  SplitMix64 rng(2);
-  int errors = 0;
-  for (int round = 0; round < 1000; ++round) {
-    FrameReader reader(300);
-    for (int pieces = 0; pieces < 50; ++pieces) {
-      std::string piece(rng.below(100), '\0');
-      for (char& c : piece) c = static_cast<char>(rng.below(3) == 0 ? rng.next() : rng.below(2));
-      reader.feed(piece);
-      while (const auto frame = reader.next()) {
-        ASSERT_GE(frame->size(), 1u);
-        ASSERT_LE(frame->size(), 300u);
-      }
-      ASSERT_LE(reader.buffered(), kFrameHeaderSize + 300);
-    }
-    if (reader.error() != FrameError::kNone) ++errors;
-  }
-  EXPECT_GT(errors, 900);
-}
-
 }  // namespace
 }  // namespace naiad

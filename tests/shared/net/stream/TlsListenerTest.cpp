@@ -61,16 +61,6 @@ TEST_F(TlsListenerTest, UnspecifiedIPv6AddressTakesBothFamilies) {
   expectConversation(*this);
 }
 
-TEST_F(TlsListenerTest, NegotiatesOnlyTls13) {
-  listen();
-  tcp::socket socket = knock();
-  RawTls client;
-  client.shakeHands(context, socket);
-  ASSERT_TRUE(client.done());
-  EXPECT_EQ(SSL_version(client.ssl()), TLS1_3_VERSION);
-  EXPECT_TRUE(runUntil(context, [&] { return accepted.size() == 1; }));
-}
-
 TEST_F(TlsListenerTest, RefusesTls12) {
   listen();
   tcp::socket socket = knock();
