@@ -1,6 +1,7 @@
 // Payloads of servers on the bus: they survive a round trip, and payloads that no server writes are rejected.
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -101,31 +102,14 @@ TEST(BusPayloads, MalformedRoomListsAreRefused) {
   const std::string good = fullPresence().payload();
   EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"\""))) << "none";
   EXPECT_TRUE(Presence::parse(with(good, "rooms", "\"a=b:0/0\"")));
-  for (const char* rooms : {"\" \"",
-                            "\"a\"",
-                            "\"a=b\"",
-                            "\"a=b:1\"",
-                            "\"a=b:/\"",
-                            "\"a=b:1/\"",
-                            "\"a=b:1/2 \"",
-                            "\" a=b:1/2\"",
-                            "\"a=b:1/2  c=d:1/2\"",
-                            "\"a=b:01/2\"",
-                            "\"a=b:+1/2\"",
-                            "\"a=b:-1/2\"",
-                            "\"a=b:1/1000001\"",
-                            "\"a=b:1/99999999999\"",
-                            "\"=b:1/2\"",
-                            "\"a=:1/2\"",
-                            "\"-a=b:1/2\"",
-                            "\"a/x=b:1/2\"",
-                            "\"a=b c:1/2\"",
-                            "\"a=b:1/2 A=c:1/2\"",
-                            "\"a=b:1/2,c=d:1/2\"",
-                            "\"a=\\u001b:1/2\"",
-                            "7",
-                            "true"})
-    EXPECT_FALSE(Presence::parse(with(good, "rooms", rooms))) << rooms;
+  std::istringstream lists(
+      " |a|a=b|a=b:1|a=b:/|a=b:1/|a=b:1/2 | a=b:1/2|a=b:1/2  "
+      "c=d:1/2|a=b:01/2|a=b:+1/2|a=b:-1/2|a=b:1/1000001|"
+      "a=b:1/99999999999|=b:1/2|a=:1/2|-a=b:1/2|a/x=b:1/2|a=b c:1/2|a=b:1/2 A=c:1/2|a=b:1/2,c=d:1/2|"
+      "a=\\u001b:1/2");
+  for (std::string rooms; std::getline(lists, rooms, '|');)
+    EXPECT_FALSE(Presence::parse(with(good, "rooms", "\"" + rooms + "\""))) << rooms;
+  for (const char* const value : {"7", "true"}) EXPECT_FALSE(Presence::parse(with(good, "rooms", value)));
   std::string many;
   for (int i = 0; i < 65; ++i) many += (i > 0 ? " r" : "r") + std::to_string(i) + "=g:0/1";
   EXPECT_FALSE(Presence::parse(with(good, "rooms", "\"" + many + "\""))) << "more than a server has";

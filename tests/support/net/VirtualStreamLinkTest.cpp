@@ -192,19 +192,5 @@ TEST(VirtualStreamLink, EndMayBeDestroyedInItsCallbacks) {
   EXPECT_EQ(calls, 2);
 }
 
-TEST(VirtualStreamLink, SameSeedGivesTheSameDeliveries) {
-  const auto run = [](std::uint64_t seed) {
-    StreamBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1}, seed);
-    for (int i = 0; i < 300; ++i) {
-      bench.client->send(std::to_string(i));
-      bench.clock.advanceBy(2ms);
-    }
-    bench.clock.advanceBy(1min);
-    return bench.times;
-  };
-  EXPECT_EQ(run(7), run(7));
-  EXPECT_NE(run(7), run(8));
-}
-
 }  // namespace
 }  // namespace naiad::test
