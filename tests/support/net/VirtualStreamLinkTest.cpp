@@ -150,16 +150,6 @@ TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
   EXPECT_LE(bench.at_server.frames.size(), 2u);
 }
 
-TEST(VirtualStreamLink, OversizedFrameIsAProtocolError) {
-  StreamBench bench({});
-  bench.server->setReceiveLimit(4);
-  for (const char* frame : {"four", "fives", "six"}) bench.client->send(frame);
-  bench.clock.advanceBy(1s);
-  EXPECT_EQ(bench.at_server.frames, std::vector{"four"s});
-  EXPECT_EQ(bench.at_server.closed, CloseReason::kProtocol);
-  EXPECT_EQ(bench.at_client.closed, CloseReason::kError);
-}
-
 TEST(VirtualStreamLink, BrokenConnectionEndsBothWithAnError) {
   StreamBench bench({.delay = 50ms});
   bench.client->send("never");

@@ -110,21 +110,13 @@ TEST(SealedLink, AuthenticMalformedPacketsAreCountedAndIgnored) {
   seal("\0");  // uses up number 0
   const Path elsewhere = pathFrom("203.0.113.1");
   // A challenge to a server, reserved flags, a truncated answer.
-  for (const std::string& text : {"\x01"
-                                  "12345678"s,
-                                  "\x04"s, "\x80"s,
-                                  "\x03"
-                                  "1234567812345678"s,
-                                  "\x02"
-                                  "1234567"s}) {
+  for (const std::string& text :
+       {'\x01' + "12345678"s, "\x04"s, "\x80"s, '\x03' + "1234567812345678"s, '\x02' + "1234567"s}) {
     EXPECT_EQ(pair.toServer(seal(text), elsewhere), "<refused>");
   }
   EXPECT_EQ(pair.server.counters().malformed, 5u);
   EXPECT_EQ(pair.server.path(), pair.home);
-  EXPECT_EQ(pair.toServer(seal("\x02"
-                               "12345678and so on"s),
-                          elsewhere),
-            "and so on");
+  EXPECT_EQ(pair.toServer(seal('\x02' + "12345678and so on"s), elsewhere), "and so on");
   EXPECT_EQ(pair.server.counters().wrong_answers, 1u);
 }
 
