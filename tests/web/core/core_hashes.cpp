@@ -15,7 +15,6 @@
 #include "shared/math/Elementary.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/PredictedObject.h"
-#include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/shared/replica/RandomControls.h"
 #include "tests/shared/replica/RandomRecords.h"
@@ -87,24 +86,6 @@ Hash math() {
   return hash;
 }
 
-Hash snapshots() {
-  test::RandomRecords random(11);
-  Hash hash;
-  for (int i = 0; i < 3000; ++i) {
-    const SnapshotHeader header = random.header();
-    const std::string bytes = test::writeSnapshot(header, random.records(header.tick));
-    hash.add(std::string_view(bytes));
-    Snapshot read;
-    require(readSnapshot(bytes, test::near(header), SnapshotDictionary(), read) == ReadResult::kOk,
-            "a snapshot comes back");
-    // Both builds must accept, or both must reject, the damaged bytes.
-    std::string changed = bytes;
-    changed[random.rng().below(changed.size())] ^= static_cast<char>(1 << random.rng().below(8));
-    hash.add(static_cast<int>(readSnapshot(changed, test::near(header), SnapshotDictionary(), read)));
-  }
-  return hash;
-}
-
 /// Returns a hash of a client's replica: its state and its picture.
 Hash replica() {
   test::RandomRecords random(21);
@@ -116,35 +97,13 @@ Hash replica() {
     header.tick = 1000 + i;
     SnapshotHeader seen;
     const std::string bytes = test::writeSnapshot(header, random.records(header.tick));
+    hash.add(std::string_view(bytes));
     const auto result = feed.applySnapshot(bytes, EpochReplicas::Time(), seen, [](std::uint32_t) {});
     require(result == EpochReplicas::Result::kApplied || result == EpochReplicas::Result::kShown,
             "a snapshot is applied");
     hash.add(feed.shown().checksum());
     if (i % 30 != 0) continue;
     for (const std::uint32_t ahead : {0u, 7u, 40u}) hash.add(feed.shown().render(header.tick + ahead));
-  }
-  return hash;
-}
-
-Hash updates() {
-  SplitMix64 random(3);
-  Hash hash;
-  for (int i = 0; i < 5000; ++i) {
-    ClientUpdate update;
-    update.acks = {static_cast<std::uint32_t>(random.next()) | 1, random.next()};
-    if (random.below(2) == 0) update.checksum = random.next();
-    auto tick = static_cast<std::uint32_t>(random.next());
-    for (std::uint64_t n = random.below(6); n > 0; --n) {
-      tick += static_cast<std::uint32_t>(random.below(200)) - 100;
-      const auto id = static_cast<std::uint32_t>(1000 + update.inputs.size());
-      const auto key = static_cast<std::uint8_t>(random.below(df::Keyboard::kKeyCount));
-      update.inputs.push_back({id, tick, update.acks.newest, false, 1, key, 0, 0, 0});
-    }
-    const std::string bytes = writeUpdate(update);
-    hash.add(std::string_view(bytes));
-    const auto read = readUpdate(bytes, {update.acks.newest, tick, 1000});
-    require(read && read->acks.mask == update.acks.mask && read->inputs.size() == update.inputs.size(),
-            "an update comes back");
   }
   return hash;
 }
@@ -225,8 +184,7 @@ int main() {
   const struct {
     const char* name;
     Hash (*hash)();
-  } parts[] = {{"math", math},       {"snapshots", snapshots}, {"replica", replica},
-               {"updates", updates}, {"controls", controls},   {"prediction", prediction}};
+  } parts[] = {{"math", math}, {"replica", replica}, {"controls", controls}, {"prediction", prediction}};
   for (const auto& [name, hash] : parts) std::printf("%s %016" PRIx64 "\n", name, hash().value());
   return 0;
 }
