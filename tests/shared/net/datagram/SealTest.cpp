@@ -190,20 +190,6 @@ TEST(Seal, ShortenedAndLengthenedPacketsAreRefused) {
   }
 }
 
-TEST(Seal, SealingStopsAtTheKeyLimit) {
-  const DatagramKeys keys = knownKeys(AeadId::kAes128Gcm);
-  Sealer sealer(keys.client, {.new_epoch_after = 3, .max = 5});
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(sealer.needsNewEpoch(), i >= 3);
-    EXPECT_FALSE(sealer.exhausted());
-    EXPECT_EQ(sealWith(sealer, "x").size(), kHeader + 17);
-  }
-  EXPECT_TRUE(sealer.exhausted());
-  EXPECT_EQ(sealWith(sealer, "x"), "");
-  EXPECT_EQ(sealer.sealed(), 5u);
-  EXPECT_EQ(SealLimits{}.new_epoch_after, 1u << 23);
-}
-
 TEST(Seal, KeyWithTooManyForgeriesOpensNothing) {
   EXPECT_EQ(maxFailedOpens(AeadId::kAes128Gcm), std::uint64_t{1} << 52);
   EXPECT_EQ(maxFailedOpens(AeadId::kChaCha20Poly1305), std::uint64_t{1} << 36);

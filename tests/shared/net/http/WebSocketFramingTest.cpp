@@ -96,14 +96,6 @@ TEST(WebSocketFraming, JoinsFragmentsAndAnswersPingsBetweenThem) {
   EXPECT_EQ(replies(framing), "") << "a ping is answered once";
 }
 
-TEST(WebSocketFraming, AnswersTheLastOfManyPings) {
-  WebSocketFraming framing = makeFraming();
-  framing.feed(frame(0x89, "a") + frame(0x8a, "unasked") + frame(0x89, "b"));
-  EXPECT_FALSE(framing.next());
-  EXPECT_EQ(replies(framing), "\x8a\x81" + kMask + unmasked("b"));
-  EXPECT_FALSE(framing.midFrame());
-}
-
 TEST(WebSocketFraming, RefusesFramesServersMayNotSend) {
   const std::string long_ping(126, 'p');
   for (const std::string& stream :
