@@ -59,6 +59,13 @@ class Adopted:
         return {row["where"]: row["change"] for row in self.rows("treated")}
 
 
+def made(files):
+    """Writes these files into a new folder. Returns its path."""
+    place = tempfile.mkdtemp(dir=WORK)
+    fixtures.write(place, files)
+    return place
+
+
 @contextlib.contextmanager
 def within(test, seconds, what):
     """Fails the test if the body of the `with` statement takes more than `seconds` of this process's CPU time."""

@@ -10,7 +10,7 @@ import fixtures
 from adopt import files as filenames
 from adopt import (blame, bounded, compiler, engine, folder, game, includes, keys, microsoft, naiad, programs, project, report, running, text,
                    treatments, trial, verdicts)
-from support import MODULES, WORK, run_as_user, within
+from support import MODULES, WORK, made, run_as_user, within
 
 # A script that lowers its limits and then calls sandbox.limits(), which must not raise them. It prints the limits.
 LIMITED = """
@@ -29,8 +29,7 @@ class ListsTest(unittest.TestCase):
     """Tests how project files are read."""
 
     def lists(self, files):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, files)
+        place = made(files)
         names = sorted(files)
         return project.read_lists(place, names, [name for name in names if folder.is_source(name)])
 
@@ -85,8 +84,7 @@ class ListsTest(unittest.TestCase):
                 self.lists({name: body, **{f"{'a' * 200}{number}.cc": "" for number in range(20)}})
 
     def test_ManyChangesOfOneFileTakeOneWrite(self):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"Hero.h": "", "a.cpp": '#include "hero.h"\n' * 40_000})
+        place = made({"Hero.h": "", "a.cpp": '#include "hero.h"\n' * 40_000})
         sources = text.Sources(place, ["Hero.h", "a.cpp"])
         with within(self, 3, "includes"):
             self.assertEqual(len(includes.Includes(sources, [""], types.SimpleNamespace(headers=[]), []).treat()), 40_000)
@@ -107,8 +105,7 @@ class EngineTest(unittest.TestCase):
     is not enough."""
 
     def engine_files(self, files):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, files)
+        place = made(files)
         names = naiad._published(os.path.join(MODULES, "adopt", "published-names.txt"))
         return engine.EngineCopies(place, sorted(files), names).files
 
@@ -179,8 +176,7 @@ class TextTest(unittest.TestCase):
             self.assertEqual([len(line) for line in code.split("\n")], [len(line) for line in source.split("\n")])
 
     def test_AByteOrderMarkIsNoPartOfTheFirstLine(self):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"a.cpp": "\ufeffint a;\n", "b.cpp": "\ufeffint b;\n".encode("utf-16-le")})
+        place = made({"a.cpp": "\ufeffint a;\n", "b.cpp": "\ufeffint b;\n".encode("utf-16-le")})
         read = text.Sources(place, ["a.cpp", "b.cpp"])
         self.assertEqual((read.line("a.cpp", 1), read.line("b.cpp", 1), read.recoded), ("int a;", "int b;", ["b.cpp"]))
         with open(os.path.join(place, "a.cpp"), "rb") as file:
@@ -206,8 +202,7 @@ class CompilerTest(unittest.TestCase):
     """Tests what is concluded from the way in which a run of the compiler ends."""
 
     def compiler(self, body, name="g++", seconds=20):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {name: "#!/bin/sh\n" + body + "\n", "include/Object.h": ""})
+        place = made({name: "#!/bin/sh\n" + body + "\n", "include/Object.h": ""})
         os.chmod(os.path.join(place, name), 0o755)
         ours = types.SimpleNamespace(include="/ours")
         return compiler.Compiler(os.path.join(place, name), place, os.path.join(place, "objects"), ours, [], seconds=seconds)
@@ -351,8 +346,7 @@ class MicrosoftTest(unittest.TestCase):
     """Tests how names of Visual Studio's templates and library are replaced."""
 
     def treated(self, *lines):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"a.cpp": "\n".join(lines)})
+        place = made({"a.cpp": "\n".join(lines)})
         sources = text.Sources(place, ["a.cpp"])
         microsoft.treat(sources)
         return tuple(sources.text("a.cpp").split("\n"))
@@ -387,8 +381,7 @@ class TreatmentTest(unittest.TestCase):
     """Tests which lines are changed and which are left as they are."""
 
     def treated(self, line, message, column):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"a.cpp": line})
+        place = made({"a.cpp": line})
         sources, unit = text.Sources(place, ["a.cpp"]), compiler.Unit("a.cpp")
         unit.diagnostics = [compiler.Diagnostic("a.cpp", 1, column, "error", message, "")]
         ours = types.SimpleNamespace(header_of=lambda name: "/ours/" + name + ".h")
@@ -412,8 +405,7 @@ class TreatmentTest(unittest.TestCase):
                 self.assertEqual(self.treated(before, message.format(*types_), before.index("%") + 1), after, message)
 
     def test_EnginesHeadersAreWrittenAsTheyAre(self):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"a.cpp": '#include "../dragonfly/Vector.h"\n#include "OBJECT.H"\n'})
+        place = made({"a.cpp": '#include "../dragonfly/Vector.h"\n#include "OBJECT.H"\n'})
         sources = text.Sources(place, ["a.cpp"])
         includes.Includes(sources, [], types.SimpleNamespace(headers=["Object.h", "Vector.h", "vector.h"]), []).treat()
         self.assertEqual((sources.line("a.cpp", 1), sources.line("a.cpp", 2)), ('#include "Vector.h"', '#include "Object.h"'))
@@ -490,8 +482,7 @@ class FilesTest(unittest.TestCase):
         self.assertEqual(missing, [("game.cpp", 7, "c.txt", ""), ("game.cpp", 9, "d.txt", "")])
 
     def test_AFileThatLiesElsewhereIsNamed(self):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {"game.cpp": 'RM.loadSprite("C:\\\\Users\\\\bob\\\\hero-spr.txt", "hero");'})
+        place = made({"game.cpp": 'RM.loadSprite("C:\\\\Users\\\\bob\\\\hero-spr.txt", "hero");'})
         missing = filenames.missing_files(["run/sprites/Hero-spr.txt"], text.Sources(place, ["game.cpp"]), ["game.cpp"], "run")
         self.assertEqual(missing[0][3], "sprites/Hero-spr.txt")
 
@@ -521,8 +512,7 @@ class BoundedTest(unittest.TestCase):
         self.assertEqual(done.stdout, "(100, 100) 1024 (60, 60)\n", done.stderr)
 
     def test_ACopyHasALimitOfFilesAndBytes(self):
-        place = tempfile.mkdtemp(dir=WORK)
-        fixtures.write(place, {f"{number}.txt": "x" * 600 for number in range(20)})
+        place = made({f"{number}.txt": "x" * 600 for number in range(20)})
         copy = folder.copy_folder(place, place + ".copy", folder.Limits(entries=10, total_bytes=3000))
         self.assertEqual(len(copy.files), 5)
         self.assertEqual([reason for _, reason in copy.left_out][-1], "this and all files after it: more than 10 files")

@@ -37,9 +37,6 @@ class Typist {
   void hold(const std::set<df::Keyboard::Key>& keys);
   /// Simulates a tick: each millisecond at the keyboard, then the world's tick.
   void tick();
-  /// Returns the milliseconds since the beginning.
-  long elapsed() const { return static_cast<long>((m_now - Time{}) / Milliseconds(1)) - kBegin; }
-  bool tapsToGo() const { return m_method.tap_to_go; }
   const std::set<df::Keyboard::Key>& fingers() const { return m_keyboard.down(); }
 
  private:

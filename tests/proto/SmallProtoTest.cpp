@@ -140,17 +140,6 @@ TYPED_TEST(SmallProto, CodecsAgreeOnMutatedBytes) {
   EXPECT_LT(accepted, kMutations * 9 / 10);
 }
 
-TYPED_TEST(SmallProto, CodecsAgreeOnEveryTruncation) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    RandomFields random(seed);
-    const std::string whole = validBytes<TypeParam>(random);
-    for (std::size_t size = 0; size <= std::min<std::size_t>(whole.size(), 1000); ++size) {
-      readByBoth<TypeParam>(whole.substr(0, size));
-      ASSERT_FALSE(testing::Test::HasFailure());
-    }
-  }
-}
-
 TYPED_TEST(SmallProto, CodecsAgreeOnAllTwoByteInputs) {
   const int step = kSanitized ? 7 : 1;
   for (int bytes = 0; bytes < 0x10000; bytes += step) {

@@ -40,49 +40,25 @@ inline const std::vector<HostileText>& hostileTexts() {
       {"delete", "a\177b"},
       {"null", "a\0b"s},
       {"escape, cut off", "\033"},
-      {"C1: CSI as UTF-8",
-       "\xC2\x9B"
-       "2J"},
-      {"C1: OSC as UTF-8",
-       "\xC2\x9D"
-       "0;OWNED\xC2\x9C"},
-      {"C1: CSI as a byte",
-       "\x9B"
-       "2J"},
-      {"C1: NEL",
-       "a\xC2\x85"
-       "b"},
-      {"bidi override",
-       "\xE2\x80\xAE"
-       "live\xE2\x80\xAC"},
+      {"C1: CSI as UTF-8", "\u009b2J"},
+      {"C1: OSC as UTF-8", "\u009d0;OWNED\u009c"},
+      {"C1: CSI as a byte", "\2332J"},
+      {"C1: NEL", "a\u0085b"},
+      {"bidi override", "\u202elive\u202c"},
       {"bidi isolate", "\xE2\x81\xA7x\xE2\x81\xA9"},
       {"right-to-left mark", "\xE2\x80\x8F"},
       {"Arabic letter mark", "\xD8\x9C"},
       {"right-to-left letters", "\xD7\xA9\xD7\x9C"},
-      {"zero-width space",
-       "a\xE2\x80\x8B"
-       "b"},
-      {"zero-width joiner",
-       "a\xE2\x80\x8D"
-       "b"},
-      {"word joiner",
-       "a\xE2\x81\xA0"
-       "b"},
-      {"byte order mark",
-       "\xEF\xBB\xBF"
-       "a"},
-      {"soft hyphen",
-       "a\xC2\xAD"
-       "b"},
+      {"zero-width space", "a\u200bb"},
+      {"zero-width joiner", "a\u200db"},
+      {"word joiner", "a\u2060b"},
+      {"byte order mark", "\ufeffa"},
+      {"soft hyphen", "a\u00adb"},
       {"combining accents", "Z\xCC\xB5\xCC\xB7\xCC\xA1"},
       {"variation selector", "a\xEF\xB8\x8F"},
       {"Hangul filler", "\xE3\x85\xA4"},
-      {"line separator",
-       "a\xE2\x80\xA8"
-       "b"},
-      {"paragraph separator",
-       "a\xE2\x80\xA9"
-       "b"},
+      {"line separator", "a\u2028b"},
+      {"paragraph separator", "a\u2029b"},
       {"wide letters", "\xE4\xB8\x80\xE4\xB8\x81"},
       {"full-width letters", "\xEF\xBC\xA1"},
       {"emoji", "\xF0\x9F\x98\x80"},

@@ -4,15 +4,15 @@
 #include <sys/types.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
+
+#include "tests/support/WaitUntil.h"
 
 namespace naiad::test {
 
@@ -41,12 +41,9 @@ inline char stateOf(pid_t process) {
   return facts ? facts->state : 'X';
 }
 
-/// Waits until a process does not exist, for at most 30 s.
+/// Waits until a process does not exist, for at most a minute.
 inline bool isGone(pid_t process) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (stateOf(process) != 'X' && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // pause before the next check
-  return stateOf(process) == 'X';
+  return waitUntil([process] { return stateOf(process) == 'X'; });
 }
 
 /// Returns the descendants of `top` with this name in ascending order. An empty name matches all.

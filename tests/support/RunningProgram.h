@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/Text.h"
+
 namespace naiad::test {
 
 class RunningProgram {
@@ -47,7 +49,7 @@ class RunningProgram {
   /// Reads until `text` was printed `times` times. False if the program ends first, or after a minute.
   bool prints(const std::string& text, int times = 1) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
-    while (count(text) < times) {
+    while (countIn(m_printed, text) < times) {
       if (std::chrono::steady_clock::now() > end || !read(100)) return false;
     }
     return true;
@@ -67,11 +69,6 @@ class RunningProgram {
   const std::string& printed() const { return m_printed; }
 
  private:
-  int count(const std::string& text) const {
-    int found = 0;
-    for (std::size_t at = 0; (at = m_printed.find(text, at)) != std::string::npos; at += text.size()) ++found;
-    return found;
-  }
   /// Collects output that arrives within this time. Returns false if the program has closed its output.
   bool read(int patience_ms) {
     pollfd waited{m_output, POLLIN, 0};

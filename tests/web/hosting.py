@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -81,14 +82,15 @@ class Hosting:
         self.ctl = os.path.join(bin_, "dfctl")
         self.server = self._start([os.path.join(bin_, "dfserver"), "--address", "127.0.0.1", "--port", "0", "--proxy-socket", self.visitors,
                                    "--control", self.control, *arguments], "server.log", environment)
-        self.link = self._wait_for("server.log", "naiad://")
+        link = re.compile(r"naiad://\S*#\w{26}(?!\S)")
+        self.link = self._wait("server.log", "link", lambda: link.search(self.text("server.log"))).group()
         self.key = self.link.split("#")[1]
         port_file = os.path.join(self.folder, "port")
 
         def start_gateway(port):
             self.gateway = self._start([os.path.join(bin_, "dfweb"), self.link, "--proxy-socket", self.visitors, "--listen", f"127.0.0.1:{port}",
                                         "--port-file", port_file, "--page", page, "--name", "a game", *gateway], "gateway.log", environment)
-            self.port = int(self._wait_for_file(port_file))
+            self.port = int(self._wait("gateway.log", "port", lambda: os.path.exists(port_file) and self.text("port").endswith("\n") and self.text("port")))
 
         self._port_file, self._start_gateway = port_file, start_gateway
         start_gateway(0)
@@ -118,33 +120,17 @@ class Hosting:
         with open(os.path.join(self.folder, log), errors="replace") as file:
             return file.read()
 
+    def _wait(self, log, what, found):
+        """Waits until `found` returns a true value, and returns it."""
+        for _ in range(3000):
+            if value := found():
+                return value
+            self._check()
+            time.sleep(0.02)
+        raise RuntimeError(f"{log} has no {what}:\n" + self.text(log))
+
     def wait_for_line(self, log, text):
-        for _ in range(3000):
-            if text in self.text(log):
-                return
-            self._check()
-            time.sleep(0.02)
-        raise RuntimeError(f"{log} has no {text}:\n" + self.text(log))
-
-    def _wait_for(self, log, begin):
-        for _ in range(3000):
-            for word in self.text(log).split():
-                if word.startswith(begin) and len(word.split("#")[-1]) == 26:
-                    return word
-            self._check()
-            time.sleep(0.02)
-        raise RuntimeError(f"{log} has no {begin}:\n" + self.text(log))
-
-    def _wait_for_file(self, path):
-        for _ in range(3000):
-            if os.path.exists(path):
-                with open(path) as file:
-                    text = file.read()
-                if text.endswith("\n"):
-                    return text
-            self._check()
-            time.sleep(0.02)
-        raise RuntimeError("no " + path + "\n" + self.text("gateway.log"))
+        self._wait(log, text, lambda: text in self.text(log))
 
     def _check(self):
         for program in self.programs:

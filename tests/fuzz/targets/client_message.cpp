@@ -6,11 +6,14 @@
 //           length 0: an event of the channel or host (1): 0 closed, 1 busy, 2 the last frame 100 times,
 //           3 goodbye, 252 a second stream opens, 253 later frames come on the other stream, 254 the second
 //           closes, 255 it is busy, otherwise that many half seconds pass
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
-#include "FakeSealed.h"
 #include "Target.h"
+#include "host/net/SealedChannel.h"
 #include "host/session/Session.h"
 #include "naiad.pb.h"
 #include "proto/ParseErrors.h"
@@ -27,6 +30,31 @@ using test::FakeLine;
 
 constexpr std::uint8_t kSecond = 252, kOther = 253, kClosed = 254, kBusy = 255;
 constexpr auto kSteering = static_cast<df::Keyboard::Key>(5);
+
+/// The source of a FakeSealed's packets. Must outlive it.
+struct FakeAir {
+  std::function<void(std::string_view packet)> on_packet;
+};
+
+/// A datagram channel without a network.
+class FakeSealed : public SealedChannel {
+ public:
+  explicit FakeSealed(FakeAir& air) : m_air(air) {}
+  ~FakeSealed() override { m_air.on_packet = nullptr; }
+  void start(std::function<void(std::string_view packet)> on_packet) override {
+    m_air.on_packet = std::move(on_packet);
+  }
+  void send(std::string_view) override {}
+  std::optional<std::size_t> payloadBudget() const override { return kMaxDatagramSnapshot; }
+  std::string peerAddress() const override { return "fake:1"; }
+  std::uint64_t id() const override { return 1; }
+  AeadId aead() const override { return AeadId::kAes128Gcm; }
+  Epoch epoch() const override { return 1; }
+  bool renew(const ReliableChannel&, Epoch) override { return true; }
+
+ private:
+  FakeAir& m_air;
+};
 
 class Play {
  public:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "shared/math/Elementary.h"
@@ -164,33 +165,15 @@ TEST(ElementaryFunctions, SineAndCosineAreAccurateNearTheirZeros) {
     const auto x = static_cast<double>(half_pi * static_cast<Quad>(n));
     for (const double y : {std::nextafter(x, 0), x, std::nextafter(x, kInfinity)}) check(i % 2 ? y : -y);
   }
-  // Numerators of the convergents of π/2's continued fraction are especially near.
-  for (double x : {3.0,
-                   11.0,
-                   22.0,
-                   355.0,
-                   51819.0,
-                   52174.0,
-                   260515.0,
-                   573204.0,
-                   4846147.0,
-                   5419351.0,
-                   37362253.0,
-                   80143857.0,
-                   657408909.0,
-                   1068966896.0,
-                   2549491779.0,
-                   6167950454.0,
-                   14885392687.0,
-                   21053343141.0,
-                   1783366216531.0,
-                   3587785776203.0,
-                   5371151992734.0,
-                   8958937768937.0,
-                   139755218526789.0,
-                   428224593349304.0,
-                   5706674932067741.0}) {
-    for (int i = 0; i < 900; ++i) check(std::ldexp(x, i));
+  // Numerators of the convergents of the continued fractions of π/2 and π are especially near.
+  for (Quad rest : {half_pi, 2 * half_pi}) {
+    Quad before = 0, numerator = 1;
+    while (numerator < 0x1p53) {
+      const auto whole = static_cast<Quad>(static_cast<std::int64_t>(rest));
+      before = std::exchange(numerator, whole * numerator + before);
+      rest = 1 / (rest - whole);
+      for (int i = 0; i < 900; ++i) check(std::ldexp(static_cast<double>(numerator), i));
+    }
   }
   std::printf("elementary sincos next to zeros max_ulp=%.4f\n", worst);
   EXPECT_LE(worst, 1.0);

@@ -9,6 +9,7 @@
 
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
+#include "shared/net/base/SafeText.h"
 #include "shared/net/datagram/SealedHeader.h"
 #include "shared/net/stream/Framing.h"
 #include "shared/replica/Bits.h"
@@ -23,17 +24,6 @@ namespace naiad {
 namespace {
 
 using test::cellsAt;
-std::string hex(const std::string& bytes) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (!text.empty()) text += ' ';
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
-}
 
 const Origin kConfirmed{{-10, 0}, 7, 5, 4};
 
@@ -122,7 +112,7 @@ Example example(std::size_t nth) {
     }
     if (fences != 2 * nth + 1) continue;
     std::istringstream words(line.substr(0, line.find('#')));
-    for (std::string word; words >> word;) found.bytes += (found.bytes.empty() ? "" : " ") + word;
+    for (std::string word; words >> word;) found.bytes += word;
     if (line.rfind("# ", 0) == 0) found.bits += line.substr(2, line.find_first_not_of("01", 2) - 2);
   }
   return found;
@@ -131,7 +121,7 @@ Example example(std::size_t nth) {
 std::string hexOfBits(const std::string& bits) {
   BitWriter out;
   for (const char bit : bits) out.flag(bit == '1');
-  return hex(out.bytes());
+  return hexText(out.bytes());
 }
 
 TEST(ProtocolBytes, HelloMatchesTheDocument) {
@@ -141,16 +131,16 @@ TEST(ProtocolBytes, HelloMatchesTheDocument) {
   message.mutable_hello()->set_player_name("Ann");
   std::string frame;
   appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), example(0).bytes);
+  EXPECT_EQ(hexText(frame), example(0).bytes);
 }
 
 TEST(ProtocolBytes, SnapshotMatchesTheDocument) {
-  EXPECT_EQ(hex(exampleSnapshot()), example(1).bytes);
+  EXPECT_EQ(hexText(exampleSnapshot()), example(1).bytes);
   EXPECT_EQ(hexOfBits(example(1).bits), example(1).bytes);
 }
 
 TEST(ProtocolBytes, UpdateMatchesTheDocument) {
-  EXPECT_EQ(hex(writeUpdate(exampleUpdate())), example(2).bytes);
+  EXPECT_EQ(hexText(writeUpdate(exampleUpdate())), example(2).bytes);
   EXPECT_EQ(hexOfBits(example(2).bits), example(2).bytes);
 }
 
@@ -162,33 +152,32 @@ TEST(ProtocolBytes, FrameMatchesTheDocument) {
   out.beginSnapshot(header, 0, {});
   wire::ServerMessage message;
   message.set_snapshot(out.finish());
-  EXPECT_EQ(hexOfBits(example(3).bits), hex(message.snapshot()));
+  EXPECT_EQ(hexOfBits(example(3).bits), hexText(message.snapshot()));
   std::string frame;
   appendFrame(frame, message.SerializeAsString());
-  EXPECT_EQ(hex(frame), example(3).bytes);
+  EXPECT_EQ(hexText(frame), example(3).bytes);
 }
 
 TEST(ProtocolBytes, UpdateWithFewLossesMatchesTheDocument) {
   ClientUpdate update;
   update.acks = {70, ~std::uint64_t{1}};
-  EXPECT_EQ(hex(writeUpdate(update)), example(4).bytes);
+  EXPECT_EQ(hexText(writeUpdate(update)), example(4).bytes);
   EXPECT_EQ(hexOfBits(example(4).bits), example(4).bytes);
 }
 
 TEST(ProtocolBytes, SoundsMatchTheDocument) {
-  EXPECT_EQ(hex(exampleSounds()), example(5).bytes);
+  EXPECT_EQ(hexText(exampleSounds()), example(5).bytes);
 }
 
 // A second copy of the page's bytes. It reveals a change of the protocol if page and code change together.
 TEST(ProtocolBytes, Version4BytesNeverChange) {
   EXPECT_EQ(kProtocolVersion, 4u);
-  EXPECT_EQ(hex(exampleSnapshot()),
-            "03 00 64 00 2c 00 10 f4 0a 01 00 00 00 00 0a 00 00 00 00 00 00 00 03 00 "
-            "00 00 0a 06 86 8b 14 ff ff ff b7 ff ff ff 47 3b 00 00 00 00 00 80 42 50 "
-            "01 29 2d c3 ab 01 29 2c 88 ea 04 10 29 02 74 7c 43 80 56 25 22 54 a8 02 "
-            "48 2f 82 13 c0 10 0b 00 00 6a");
-  EXPECT_EQ(hex(writeUpdate(exampleUpdate())),
-            "07 00 0a 00 00 00 00 00 00 00 e0 01 80 32 80 00 48 44 62 50 00");
+  EXPECT_EQ(hexText(exampleSnapshot()),
+            "030064002c0010f40a01000000000a000000000000000300"
+            "00000a06868b14ffffffb7ffffff473b0000000000804250"
+            "01292dc3ab01292c88ea04102902747c438056252254a802"
+            "482f8213c0100b00006a");
+  EXPECT_EQ(hexText(writeUpdate(exampleUpdate())), "07000a00000000000000e001803280004844625000");
 }
 
 // The frozen bytes must also decode to their original values.

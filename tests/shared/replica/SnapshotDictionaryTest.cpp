@@ -16,13 +16,6 @@ Find find(const SnapshotDictionary& dictionary, std::uint32_t number, std::uint3
   return dictionary.find(number, slot, origin);
 }
 
-TEST(SnapshotDictionary, SlotZeroIsTheZeroOrigin) {
-  const SnapshotDictionary dictionary;
-  Origin origin{{5, 6}, 7, 8, 9};
-  EXPECT_EQ(dictionary.find(1, 0, origin), Find::kFound);
-  EXPECT_EQ(origin, Origin{});
-}
-
 TEST(SnapshotDictionary, OriginIsKnownOnlyToLaterSnapshots) {
   SnapshotDictionary dictionary;
   const Origin there{{5, -6}, 7, 8, 9};
@@ -54,15 +47,6 @@ TEST(SnapshotDictionary, NewestDefinitionWinsInAnyOrder) {
     EXPECT_EQ(*sequence, word(2, U'x'));
     EXPECT_EQ(dictionary.find(1, 5, sequence), Find::kStale);
   }
-}
-
-TEST(SnapshotDictionary, AnUndefinedSequenceIsUnknown) {
-  SnapshotDictionary dictionary;
-  const Sequence* sequence = nullptr;
-  EXPECT_EQ(dictionary.find(1, 0, sequence), Find::kUnknown);
-  EXPECT_TRUE(dictionary.define(1, SequenceRecord{7, word(3, U'a')}));
-  EXPECT_EQ(dictionary.find(2, 6, sequence), Find::kUnknown);
-  EXPECT_EQ(dictionary.find(2, 7, sequence), Find::kFound);
 }
 
 TEST(SnapshotDictionary, TotalGlyphsAreBoundedAndReleased) {

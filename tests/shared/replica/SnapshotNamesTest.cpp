@@ -1,7 +1,7 @@
 // Appearances and origins that snapshots name: known, defined in the snapshot, replaced, or unknown.
 #include <gtest/gtest.h>
 
-#include "RandomRecords.h"
+#include "shared/replica/Limits.h"
 #include "shared/replica/SnapshotCodec.h"
 #include "tests/support/WriteSnapshot.h"
 
@@ -150,38 +150,6 @@ TEST_F(SnapshotNames, SelectorMustFitItsNamedSequence) {
   }
   EXPECT_EQ(isRead(Selector::clock(100, 3), 9, false), ReadResult::kMalformed) << "one frame never changes";
   EXPECT_EQ(isRead(Selector::turning(100, 3, 9), 9, false), ReadResult::kMalformed);
-}
-
-TEST_F(SnapshotNames, RandomDefinitionsAndUsesSurviveTheRoundTrip) {
-  test::RandomRecords random(5);
-  for (std::uint32_t round = 0; round < 300; ++round) {
-    start(50 + round);
-    std::vector<ObjectState> states(4);
-    for (ObjectState& state : states) {
-      Appearance glyphs = drawnAs("two").look.sequence[0];
-      for (auto n = random.rng().below(20); n > 0; --n)
-        glyphs.push_back({0, static_cast<std::int32_t>(n), random.character(), random.color()});
-      state.look.sequence = random.chance(0.5) ? Sequence{glyphs} : Sequence{glyphs, glyphs, {}};
-      state.look.selector = random.selector(state.look.sequence.size());
-      state.look = rebase(state.look, 100);
-    }
-    std::vector<std::size_t> used;
-    std::vector<bool> defined(states.size(), false);
-    for (std::uint32_t i = 0; i < 12; ++i) {
-      const std::size_t which = random.rng().below(states.size());
-      BitWriter bits;
-      writer.encode(bits, kLook, 0, states[which], {},
-                    {defined[which] ? kNamed : kDefined, static_cast<std::uint32_t>(which)});
-      defined[which] = true;
-      const std::uint32_t id = 100 - i;  // descending, so that each definition follows its uses
-      writer.object(id, std::move(bits));
-      used.insert(used.begin(), which);
-    }
-    ASSERT_EQ(read(), ReadResult::kOk);
-    for (std::size_t i = 0; i < used.size(); ++i) ASSERT_EQ(lookOf(i), states[used[i]].look);
-    for (const SequenceRecord& record : snapshot.records.sequences)
-      ASSERT_TRUE(dictionary.define(50 + round, record));
-  }
 }
 
 }  // namespace

@@ -221,27 +221,5 @@ TEST(UpdateCodec, TooManyInputsAreRefused) {
   }
 }
 
-TEST(UpdateCodec, RandomBytesAreRefusedOrLegal) {
-  SplitMix64 rng(3);
-  int accepted = 0;
-  for (int i = 0; i < 200'000; ++i) {
-    std::string bytes(rng.below(40), '\0');
-    for (char& byte : bytes) byte = static_cast<char>(rng.next() & (i % 2 == 0 ? 0xFF : 0x5B));
-    const auto read = readUpdate(bytes, {9, 9, 9});
-    if (!read) continue;
-    ++accepted;
-    ASSERT_LE(read->inputs.size(), kMaxUpdateInputs);
-    for (const Input& input : read->inputs) {
-      ASSERT_NE(input.id, 0u);
-      ASSERT_LT(input.key, df::Keyboard::kKeyCount);
-      ASSERT_LT(input.action, 3);
-      ASSERT_LT(input.button, 4);
-      ASSERT_LT(input.x, kMaxViewWidth);
-      ASSERT_LT(input.y, kMaxViewHeight);
-    }
-  }
-  EXPECT_GT(accepted, 100);
-}
-
 }  // namespace
 }  // namespace naiad

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "shared/values/Canvas.h"
-#include "shared/values/SplitMix64.h"
 
 namespace df {
 namespace {
@@ -79,15 +78,6 @@ TEST(Utf8, MalformedBytesBecomeReplacementCharacters) {
   EXPECT_TRUE(all_bad("\xE2\x94"));          // truncated
   EXPECT_TRUE(all_bad("\xFF"));
   EXPECT_EQ(decodeUtf8("a\xE2z"), (std::u32string{U'a', bad, U'z'}));
-}
-
-TEST(Utf8, AnyBytesDecode) {
-  naiad::SplitMix64 rng(7);
-  for (int i = 0; i < 20'000; ++i) {
-    std::string bytes(rng.below(9), '\0');
-    for (char& byte : bytes) byte = static_cast<char>(rng.next());
-    ASSERT_LE(decodeUtf8(bytes).size(), bytes.size());
-  }
 }
 
 TEST(Drawable, AcceptsOrdinaryCharacters) {

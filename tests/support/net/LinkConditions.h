@@ -21,13 +21,13 @@ struct LinkConditions {
   std::size_t window = 65'536;
 };
 
-/// Traffic in one direction so far. Datagrams: sent + duplicated = delivered + dropped + under way.
+/// Packets in one direction so far: sent + duplicated = delivered + dropped + under way.
 struct LinkCounters {
-  std::uint64_t sent = 0;        ///< packets or frames passed to send()
-  std::uint64_t delivered = 0;   ///< packets or frames passed to the receiver, second copies included
-  std::uint64_t dropped = 0;     ///< lost, queue full, or no receiver. Streams: lost and retransmitted
+  std::uint64_t sent = 0;        ///< packets passed to send()
+  std::uint64_t delivered = 0;   ///< packets passed to the receiver, second copies included
+  std::uint64_t dropped = 0;     ///< lost, queue full, or no receiver
   std::uint64_t duplicated = 0;  ///< number of second copies made
-  std::uint64_t reordered = 0;   ///< delivered after a later packet. Streams: arrived before an earlier one
+  std::uint64_t reordered = 0;   ///< delivered after a later packet
 };
 
 }  // namespace naiad

@@ -63,7 +63,6 @@ class VirtualStreamLink {
 
   /// Sets the conditions of frames that leave, and of losses that happen, from now on.
   void setConditions(LinkEnd from, const LinkConditions& conditions);
-  const LinkCounters& counters(LinkEnd from) const;
 
   /// Breaks the connection: both ends are closed with kError at the next advance.
   void breakConnection();

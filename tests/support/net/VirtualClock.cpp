@@ -32,9 +32,4 @@ void VirtualClock::advanceTo(Time time) {
   now_ = time;
 }
 
-std::optional<VirtualClock::Time> VirtualClock::nextDue() const {
-  if (queue_.empty()) return std::nullopt;
-  return queue_.front().when;
-}
-
 }  // namespace naiad

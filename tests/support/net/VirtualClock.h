@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace naiad {
@@ -30,9 +29,6 @@ class VirtualClock {
   /// std::logic_error when called from an action or with a time that is past.
   void advanceTo(Time time);
   void advanceBy(Time duration) { advanceTo(now_ + duration); }
-
-  /// Returns when the next action is due; nullopt if none is scheduled.
-  std::optional<Time> nextDue() const;
 
  private:
   struct Entry {

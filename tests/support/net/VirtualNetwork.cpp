@@ -35,8 +35,7 @@ struct VirtualNetwork::State : std::enable_shared_from_this<State> {
   void move(Number number, Endpoint address);
   void remove(Number number);
   void send(Number from, const Endpoint& to, std::string_view packet);
-  void arrive(const Endpoint& from, const Endpoint& to, std::string_view packet, const Pair* pair,
-              std::uint64_t index);
+  void arrive(const Endpoint& from, const Endpoint& to, std::string_view packet);
   LossyLine& line(const Pair& pair);
   Node* at(const Endpoint& address);
   Endpoint freePort(Endpoint address);
@@ -50,7 +49,6 @@ struct VirtualNetwork::State : std::enable_shared_from_this<State> {
   Tap tap;
   Number opened = 0;
   std::uint16_t next_port = 40'000;
-  std::uint64_t unroutable = 0;
 };
 
 Endpoint VirtualNetwork::State::freePort(Endpoint address) {
@@ -99,35 +97,21 @@ void VirtualNetwork::State::send(Number from, const Endpoint& to, std::string_vi
   const Node& sender = nodes.at(from);
   if (tap) tap(sender.address, to, packet);
   const auto target = addresses.find(to);
-  if (target == addresses.end()) {
-    ++unroutable;
-    return;
-  }
-  const Pair pair{from, target->second};
-  const LossyLine::Fate fate = line(pair).send(clock.now(), packet.size());
+  if (target == addresses.end()) return;
+  const LossyLine::Fate fate = line({from, target->second}).send(clock.now(), packet.size());
+  if (sender.blocked_out) return;
   for (int i = 0; i < fate.copies; ++i) {
-    if (sender.blocked_out) {
-      line(pair).dropped();
-      continue;
-    }
     clock.schedule(fate.arrivals[static_cast<std::size_t>(i)],
-                   [self = shared_from_this(), source = sender.address, to, pair, number = fate.number,
-                    copy = std::string(packet)] { self->arrive(source, to, copy, &pair, number); });
+                   [self = shared_from_this(), source = sender.address, to, copy = std::string(packet)] {
+                     self->arrive(source, to, copy);
+                   });
   }
 }
 
-/// `pair` is the line that carried the packet; null if the sender is forged.
-void VirtualNetwork::State::arrive(const Endpoint& from, const Endpoint& to, std::string_view packet,
-                                   const Pair* pair, std::uint64_t index) {
+void VirtualNetwork::State::arrive(const Endpoint& from, const Endpoint& to, std::string_view packet) {
   const Node* const node = at(to);
-  if (!node) ++unroutable;
   const auto receiver = node && !node->blocked_in ? node->receiver : nullptr;
-  if (!receiver) {
-    if (pair) line(*pair).dropped();
-    return;
-  }
-  if (pair) line(*pair).delivered(index);
-  (*receiver)(Path{.local = to, .remote = from}, packet);
+  if (receiver) (*receiver)(Path{.local = to, .remote = from}, packet);
 }
 
 class VirtualNetwork::Socket : public DatagramSocket {
@@ -201,20 +185,12 @@ void VirtualNetwork::setConditions(const DatagramSocket& from, const DatagramSoc
 
 void VirtualNetwork::spoof(const Endpoint& from, const Endpoint& to, std::string_view packet) {
   state_->clock.schedule(state_->clock.now(), [state = state_, from, to, copy = std::string(packet)] {
-    state->arrive(from, to, copy, nullptr, 0);
+    state->arrive(from, to, copy);
   });
 }
 
 void VirtualNetwork::setTap(Tap tap) {
   state_->tap = std::move(tap);
-}
-
-LinkCounters VirtualNetwork::counters(const DatagramSocket& from, const DatagramSocket& to) const {
-  return state_->line({Socket::numberOf(*state_, from), Socket::numberOf(*state_, to)}).counters();
-}
-
-std::uint64_t VirtualNetwork::unroutable() const {
-  return state_->unroutable;
 }
 
 }  // namespace naiad

@@ -45,11 +45,6 @@ class VirtualNetwork {
   using Tap = std::function<void(const Endpoint& from, const Endpoint& to, std::string_view packet)>;
   void setTap(Tap tap);
 
-  /// Returns the traffic from one socket to another.
-  LinkCounters counters(const DatagramSocket& from, const DatagramSocket& to) const;
-  /// Counts packets to an address that had no socket when they were sent or when they arrived.
-  std::uint64_t unroutable() const;
-
  private:
   class Socket;
   struct State;

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "shared/values/SplitMix64.h"
 #include "tests/support/net/VirtualNetwork.h"
 
 namespace naiad {
@@ -40,8 +39,8 @@ struct Host {
 };
 
 struct NetworkBench {
-  explicit NetworkBench(const LinkConditions& conditions, std::uint64_t seed = 1)
-      : network(clock, conditions, seed),
+  explicit NetworkBench(const LinkConditions& conditions)
+      : network(clock, conditions, 1),
         server(network, clock, at("10.0.0.1")),
         ann(network, clock, at("10.0.0.2", 0)),
         ben(network, clock, at("10.0.0.3", 0)) {}
@@ -76,7 +75,6 @@ TEST(VirtualNetwork, PacketsToAnAbandonedAddressAreLost) {
   EXPECT_TRUE(bench.ann.arrivals.empty());
   ASSERT_EQ(bench.server.arrivals.size(), 1u);
   EXPECT_EQ(bench.server.arrivals[0].path.remote, at("10.9.9.9", 1234));
-  EXPECT_EQ(bench.network.unroutable(), 2u);
   bench.server.send(at("10.9.9.9", 1234), "found");
   bench.clock.advanceBy(1s);
   EXPECT_EQ(bench.ann.arrivals.size(), 1u);
@@ -93,35 +91,10 @@ TEST(VirtualNetwork, PairsHaveSeparateConditions) {
   ASSERT_EQ(bench.server.arrivals.size(), 2u);
   EXPECT_EQ(bench.server.arrivals[0].packet, "fast");
   EXPECT_EQ(bench.server.arrivals[1].when, 50ms);
-  EXPECT_EQ(bench.network.counters(*bench.server.socket, *bench.ann.socket).dropped, 1u);
   bench.network.setConditions({});
   bench.server.send(bench.ann.socket->localEndpoint(), "found");
   bench.clock.advanceBy(1s);
   EXPECT_EQ(bench.ann.arrivals.size(), 1u);
-}
-
-TEST(VirtualNetwork, SameSeedGivesTheSameAccountedDeliveries) {
-  const auto run = [](std::uint64_t seed) {
-    NetworkBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1, .duplicate = 0.1}, seed);
-    for (int i = 0; i < 500; ++i) {
-      bench.ann.send(at("10.0.0.1"), "a" + std::to_string(i));
-      bench.ben.send(at("10.0.0.1"), "b" + std::to_string(i));
-      bench.clock.advanceBy(2ms);
-    }
-    bench.clock.advanceBy(1s);
-    std::uint64_t delivered = 0;
-    for (const Host* host : {&bench.ann, &bench.ben}) {
-      const LinkCounters counted = bench.network.counters(*host->socket, *bench.server.socket);
-      EXPECT_EQ(counted.sent, 500u);
-      EXPECT_EQ(counted.sent + counted.duplicated, counted.delivered + counted.dropped);
-      EXPECT_GT(counted.dropped, 20u);
-      delivered += counted.delivered;
-    }
-    EXPECT_EQ(delivered, bench.server.arrivals.size());
-    return bench.server.arrivals;
-  };
-  EXPECT_EQ(run(7), run(7));
-  EXPECT_NE(run(7), run(8));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -63,7 +62,6 @@ struct VirtualStreamLink::Side {
 
   // State for sending.
   LinkConditions conditions;
-  LinkCounters counters;
   SplitMix64 rng;
   std::deque<Item> queue;  // the first may be on the line
   std::size_t queued = 0;  // bytes in the queue
@@ -121,7 +119,6 @@ void VirtualStreamLink::State::send(Side& side, std::string_view frame) {
   if (side.phase != Phase::kOpen) return;
   if (side.queued + kFrameHeaderSize + frame.size() > TcpOptions{}.send_cap)
     return finish(side, CloseReason::kOverflow);
-  ++side.counters.sent;
   push(side, Kind::kFrame, frame);
 }
 
@@ -167,7 +164,6 @@ void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry
     if (side.rng.unit() < side.conditions.loss) lost = true;
   }
   if (lost) {
-    ++side.counters.dropped;
     after(retry_after, [&side, item, retry_after](State& state) {
       state.transmit(side, item, std::min(2 * retry_after, kMaxRetransmission));
     });
@@ -175,10 +171,8 @@ void VirtualStreamLink::State::transmit(Side& side, const Item& item, Time retry
   }
   const auto jitter = static_cast<std::uint64_t>(std::max<Time::rep>(side.conditions.jitter.count(), 0));
   const Time delay = side.conditions.delay + Time(static_cast<Time::rep>(side.rng.below(jitter + 1)));
-  after(delay, [&side, &receiver, item](State& state) {
-    const auto place = receiver.arrived.emplace(item.number, item).first;
-    const auto before = static_cast<std::uint64_t>(std::distance(receiver.arrived.begin(), place));
-    if (item.kind == Kind::kFrame && receiver.consumed + before + 1 != item.number) ++side.counters.reordered;
+  after(delay, [&receiver, item](State& state) {
+    receiver.arrived.emplace(item.number, item);
     state.consume(receiver);
   });
 }
@@ -218,7 +212,6 @@ void VirtualStreamLink::State::take(Side& side, const Item& item) {
   } else if (!closing && item.frame.size() > side.receive_limit) {
     finish(side, CloseReason::kProtocol);
   } else if (!closing) {
-    ++opposite(side).counters.delivered;
     const auto callbacks = side.callbacks;  // the handler may destroy the channel
     if (callbacks->on_frame) callbacks->on_frame(item.frame);
   }
@@ -303,10 +296,6 @@ std::unique_ptr<ReliableChannel> VirtualStreamLink::takeEnd(LinkEnd end) {
 
 void VirtualStreamLink::setConditions(LinkEnd from, const LinkConditions& conditions) {
   state_->at(from).conditions = conditions;
-}
-
-const LinkCounters& VirtualStreamLink::counters(LinkEnd from) const {
-  return state_->at(from).counters;
 }
 
 void VirtualStreamLink::breakConnection() {

@@ -47,7 +47,6 @@ std::string frameOnLine(std::size_t bytes) {
 
 TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
   SplitMix64 rng(5);
-  std::uint64_t lost = 0, held_back = 0;
   for (int round = 0; round < 100; ++round) {
     StreamBench bench({.delay = Time(rng.below(100'000)),
                        .jitter = Time(rng.below(100'000)),
@@ -64,11 +63,7 @@ TEST(VirtualStreamLink, AnythingSentArrivesOnceAndInOrder) {
     bench.clock.advanceBy(1h);
     ASSERT_EQ(bench.at_server.frames, sent) << "round " << round;
     ASSERT_EQ(bench.client->unsentBytes(), 0u);
-    lost += bench.link.counters(LinkEnd::kClient).dropped;
-    held_back += bench.link.counters(LinkEnd::kClient).reordered;
   }
-  EXPECT_GT(lost, 1000u);
-  EXPECT_GT(held_back, 1000u);
 }
 
 TEST(VirtualStreamLink, RetransmissionWaitsTwoRoundTripsAndBacksOff) {
@@ -150,16 +145,6 @@ TEST(VirtualStreamLink, CloseGivesUpAfterASecond) {
   EXPECT_LE(bench.at_server.frames.size(), 2u);
 }
 
-TEST(VirtualStreamLink, OversizedFrameIsAProtocolError) {
-  StreamBench bench({});
-  bench.server->setReceiveLimit(4);
-  for (const char* frame : {"four", "fives", "six"}) bench.client->send(frame);
-  bench.clock.advanceBy(1s);
-  EXPECT_EQ(bench.at_server.frames, std::vector{"four"s});
-  EXPECT_EQ(bench.at_server.closed, CloseReason::kProtocol);
-  EXPECT_EQ(bench.at_client.closed, CloseReason::kError);
-}
-
 TEST(VirtualStreamLink, BrokenConnectionEndsBothWithAnError) {
   StreamBench bench({.delay = 50ms});
   bench.client->send("never");
@@ -190,20 +175,6 @@ TEST(VirtualStreamLink, EndMayBeDestroyedInItsCallbacks) {
   client->send("two");
   clock.advanceBy(1s);
   EXPECT_EQ(calls, 2);
-}
-
-TEST(VirtualStreamLink, SameSeedGivesTheSameDeliveries) {
-  const auto run = [](std::uint64_t seed) {
-    StreamBench bench({.delay = 30ms, .jitter = 40ms, .loss = 0.1}, seed);
-    for (int i = 0; i < 300; ++i) {
-      bench.client->send(std::to_string(i));
-      bench.clock.advanceBy(2ms);
-    }
-    bench.clock.advanceBy(1min);
-    return bench.times;
-  };
-  EXPECT_EQ(run(7), run(7));
-  EXPECT_NE(run(7), run(8));
 }
 
 }  // namespace

@@ -13,11 +13,8 @@
 #include "client/world/EpochReplicas.h"
 #include "client/world/Prediction.h"
 #include "shared/math/Elementary.h"
-#include "shared/net/stream/Framing.h"
-#include "shared/replica/Checksum.h"
 #include "shared/replica/ControlCodec.h"
 #include "shared/replica/PredictedObject.h"
-#include "shared/replica/UpdateCodec.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/shared/replica/RandomControls.h"
 #include "tests/shared/replica/RandomRecords.h"
@@ -89,37 +86,6 @@ Hash math() {
   return hash;
 }
 
-Hash motion() {
-  test::RandomRecords random(1);
-  Hash hash;
-  for (int i = 0; i < 20'000; ++i) {
-    const Motion motion = random.motion(static_cast<std::uint32_t>(random.rng().next()));
-    const auto tick = motion.tick + static_cast<std::uint32_t>(random.within(10'000));
-    hash.add(positionAt(motion, tick));
-    hash.add(rebase(motion, tick).velocity);
-    hash.add(motionSum(7, motion));
-  }
-  return hash;
-}
-
-Hash snapshots() {
-  test::RandomRecords random(11);
-  Hash hash;
-  for (int i = 0; i < 3000; ++i) {
-    const SnapshotHeader header = random.header();
-    const std::string bytes = test::writeSnapshot(header, random.records(header.tick));
-    hash.add(std::string_view(bytes));
-    Snapshot read;
-    require(readSnapshot(bytes, test::near(header), SnapshotDictionary(), read) == ReadResult::kOk,
-            "a snapshot comes back");
-    // Both builds must accept, or both must reject, the damaged bytes.
-    std::string changed = bytes;
-    changed[random.rng().below(changed.size())] ^= static_cast<char>(1 << random.rng().below(8));
-    hash.add(static_cast<int>(readSnapshot(changed, test::near(header), SnapshotDictionary(), read)));
-  }
-  return hash;
-}
-
 /// Returns a hash of a client's replica: its state and its picture.
 Hash replica() {
   test::RandomRecords random(21);
@@ -131,35 +97,13 @@ Hash replica() {
     header.tick = 1000 + i;
     SnapshotHeader seen;
     const std::string bytes = test::writeSnapshot(header, random.records(header.tick));
+    hash.add(std::string_view(bytes));
     const auto result = feed.applySnapshot(bytes, EpochReplicas::Time(), seen, [](std::uint32_t) {});
     require(result == EpochReplicas::Result::kApplied || result == EpochReplicas::Result::kShown,
             "a snapshot is applied");
     hash.add(feed.shown().checksum());
     if (i % 30 != 0) continue;
     for (const std::uint32_t ahead : {0u, 7u, 40u}) hash.add(feed.shown().render(header.tick + ahead));
-  }
-  return hash;
-}
-
-Hash updates() {
-  SplitMix64 random(3);
-  Hash hash;
-  for (int i = 0; i < 5000; ++i) {
-    ClientUpdate update;
-    update.acks = {static_cast<std::uint32_t>(random.next()) | 1, random.next()};
-    if (random.below(2) == 0) update.checksum = random.next();
-    auto tick = static_cast<std::uint32_t>(random.next());
-    for (std::uint64_t n = random.below(6); n > 0; --n) {
-      tick += static_cast<std::uint32_t>(random.below(200)) - 100;
-      const auto id = static_cast<std::uint32_t>(1000 + update.inputs.size());
-      const auto key = static_cast<std::uint8_t>(random.below(df::Keyboard::kKeyCount));
-      update.inputs.push_back({id, tick, update.acks.newest, false, 1, key, 0, 0, 0});
-    }
-    const std::string bytes = writeUpdate(update);
-    hash.add(std::string_view(bytes));
-    const auto read = readUpdate(bytes, {update.acks.newest, tick, 1000});
-    require(read && read->acks.mask == update.acks.mask && read->inputs.size() == update.inputs.size(),
-            "an update comes back");
   }
   return hash;
 }
@@ -234,30 +178,13 @@ Hash prediction() {
   return hash;
 }
 
-Hash frames() {
-  SplitMix64 random(8);
-  Hash hash;
-  std::string stream;
-  for (int i = 0; i < 300; ++i)
-    appendFrame(stream, std::string(1 + random.below(i % 50 == 0 ? 60'000 : 300), 'x'));
-  FrameReader reader(kMaxFramePayload);
-  for (std::string_view left = stream; !left.empty();) {
-    const auto size = static_cast<std::size_t>(1 + random.below(std::min<std::size_t>(left.size(), 5000)));
-    reader.feed(left.substr(0, size));
-    left.remove_prefix(size);
-    while (const auto frame = reader.next()) hash.add(*frame);
-  }
-  return hash;
-}
-
 }  // namespace
 
 int main() {
   const struct {
     const char* name;
     Hash (*hash)();
-  } parts[] = {{"math", math},       {"motion", motion},     {"snapshots", snapshots},   {"replica", replica},
-               {"updates", updates}, {"controls", controls}, {"prediction", prediction}, {"frames", frames}};
+  } parts[] = {{"math", math}, {"replica", replica}, {"controls", controls}, {"prediction", prediction}};
   for (const auto& [name, hash] : parts) std::printf("%s %016" PRIx64 "\n", name, hash().value());
   return 0;
 }

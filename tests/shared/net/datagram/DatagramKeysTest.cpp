@@ -27,21 +27,6 @@ TEST(DatagramKeys, MatchKnownAnswers) {
             "2ac40823402de6c8644557c32cc7898c0d4c1faa52c9aaca408106344d118137 14a508dfd5a797fd08477130");
 }
 
-TEST(DatagramKeys, ExporterGetsTheDocumentedLabelAndContext) {
-  std::string label, context;
-  std::size_t asked = 0;
-  const KeyExporter spy = [&](std::string_view l, std::string_view c, std::size_t bytes) {
-    label = l;
-    context = c;
-    asked = bytes;
-    return std::string(bytes, 'k');
-  };
-  deriveDatagramKeys(spy, AeadId::kChaCha20Poly1305, kKnownId, 0x13);
-  EXPECT_EQ(label, "EXPERIMENTAL-naiad-datagram");
-  EXPECT_EQ(hexText(context), "0400000002efcdab896745230113000000");
-  EXPECT_EQ(asked, 88u);
-}
-
 TEST(DatagramKeys, NoTwoSessionsEpochsOrCiphersShareKeys) {
   std::set<std::string> all;
   for (const AeadId aead : kBothAeads) {

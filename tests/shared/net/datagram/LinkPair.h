@@ -27,11 +27,11 @@ struct Packet {
 struct LinkPair {
   using Time = SealedLink::Time;
 
-  explicit LinkPair(AeadId cipher = AeadId::kAes128Gcm, SealLimits limits = {})
+  explicit LinkPair(AeadId cipher = AeadId::kAes128Gcm, SealLimits limits = {}, ConnectionId id = kSession)
       : aead(cipher),
-        client({.role = SealedLink::Role::kClient, .id = kSession, .random = {}, .limits = limits}),
+        client({.role = SealedLink::Role::kClient, .id = id, .random = {}, .limits = limits}),
         server({.role = SealedLink::Role::kServer,
-                .id = kSession,
+                .id = id,
                 .random = [this] { return random.next(); },
                 .limits = limits}) {
     client.setServerPath({.local = {}, .remote = *makeEndpoint("192.0.2.1", 9876)});
@@ -41,7 +41,7 @@ struct LinkPair {
     client.startEpoch(epoch, keys(epoch), now);
     server.startEpoch(epoch, keys(epoch), now);
   }
-  DatagramKeys keys(Epoch epoch) const { return knownKeys(aead, kSession, epoch); }
+  DatagramKeys keys(Epoch epoch) const { return knownKeys(aead, client.id(), epoch); }
 
   std::optional<Packet> seal(SealedLink& link, std::string_view payload) {
     const auto outgoing = link.seal(payload, now);

@@ -45,17 +45,5 @@ TEST(Endpoint, EveryPartMattersForEquality) {
   EXPECT_EQ(paths.size(), 4u);
 }
 
-TEST(Endpoint, PrefixIsTheAddressOrIPv6Network) {
-  const auto prefix = [](const char* text, std::uint16_t port = 1) {
-    return makeEndpoint(text, port)->prefix();
-  };
-  EXPECT_EQ(prefix("10.0.0.1", 1), prefix("10.0.0.1", 2));
-  EXPECT_NE(prefix("10.0.0.1"), prefix("10.0.0.2"));
-  EXPECT_NE(prefix("10.0.0.1"), prefix("11.0.0.1"));
-  EXPECT_EQ(prefix("2001:db8:1:2::1"), prefix("2001:db8:1:2:ffff::9"));
-  EXPECT_NE(prefix("2001:db8:1:2::1"), prefix("2001:db8:1:3::1"));
-  EXPECT_NE(prefix("::1"), prefix("0.0.0.1"));
-}
-
 }  // namespace
 }  // namespace naiad

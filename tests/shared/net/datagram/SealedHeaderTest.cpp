@@ -16,14 +16,6 @@ std::string packetOf(SealDirection direction, std::size_t size) {
   return packet;
 }
 
-TEST(SealedHeader, LayoutMatchesTheDocument) {
-  std::string packet(40, '\0');
-  EXPECT_EQ(writeSealedPrefix(SealDirection::kClientToServer, 0x25, {0x0807060504030201}, packet.data()), 9u);
-  EXPECT_EQ(packet.substr(0, 9), "\x15\x01\x02\x03\x04\x05\x06\x07\x08");
-  EXPECT_EQ(writeSealedPrefix(SealDirection::kServerToClient, 0x25, {0x0807060504030201}, packet.data()), 1u);
-  EXPECT_EQ(packet[0], '\x25');
-}
-
 TEST(SealedHeader, LengthsHaveLimits) {
   EXPECT_EQ(smallestSealedPacket(SealDirection::kClientToServer), 28u);
   EXPECT_EQ(smallestSealedPacket(SealDirection::kServerToClient), 20u);

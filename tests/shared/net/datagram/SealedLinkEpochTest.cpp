@@ -91,6 +91,7 @@ TEST(SealedLinkEpoch, EpochsAdvanceOnlyByALimitedStep) {
 }
 
 TEST(SealedLinkEpoch, KeyLimitIsReportedAndEnforced) {
+  EXPECT_EQ(SealLimits{}.new_epoch_after, 1u << 23);
   LinkPair pair(AeadId::kAes128Gcm, {.new_epoch_after = 5, .max = 8});
   for (int i = 0; i < 8; ++i) {
     EXPECT_EQ(pair.client.needsNewEpoch(), i >= 5);

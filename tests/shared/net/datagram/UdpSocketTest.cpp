@@ -50,20 +50,6 @@ struct UdpSocketTest : testing::Test {
 };
 using UdpSocketOnIPv6 = UdpSocketTest;
 
-TEST_F(UdpSocketTest, CarriesPacketsBothWays) {
-  Peer server(context, {.address = "127.0.0.1"}), client(context, {.address = "127.0.0.1"});
-  client.send(server.at("127.0.0.1"), "up");
-  ASSERT_TRUE(arrive(context, server, 1));
-  EXPECT_EQ(server.received[0].packet, "up");
-  EXPECT_EQ(server.received[0].path, (Path{server.at("127.0.0.1"), client.at("127.0.0.1")}));
-  server.reply("down");
-  ASSERT_TRUE(arrive(context, client, 1));
-  EXPECT_EQ(client.received[0].packet, "down");
-  EXPECT_EQ(client.received[0].path.remote, server.at("127.0.0.1"));
-  EXPECT_EQ(server.socket.counters().sent, 1u);
-  EXPECT_EQ(server.socket.counters().received, 1u);
-}
-
 TEST_F(UdpSocketTest, RepliesLeaveFromTheReceivingAddress) {
   for (const bool is_ipv6 : {false, true}) {
     if (is_ipv6 && !haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 here";
@@ -78,8 +64,11 @@ TEST_F(UdpSocketTest, RepliesLeaveFromTheReceivingAddress) {
       EXPECT_EQ(server.received[0].path, (Path{server.at(address), client.at(own)}));
       server.reply("y");
       ASSERT_TRUE(arrive(context, client, 1));
+      EXPECT_EQ(client.received[0].packet, "y");
       EXPECT_EQ(client.received[0].path.remote, server.at(address));
     }
+    EXPECT_EQ(server.socket.counters().received, is_ipv6 ? 1u : 3u);
+    EXPECT_EQ(server.socket.counters().sent, server.socket.counters().received);
   }
 }
 

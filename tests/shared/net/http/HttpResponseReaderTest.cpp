@@ -79,14 +79,6 @@ TEST(HttpResponseReader, ReadsToTheEndOfTheConnection) {
   EXPECT_FALSE(readText(kOk + "\r\nno").done);
 }
 
-TEST(HttpResponseReader, BrokenConnectionTruncatesTheBody) {
-  std::string_view text = "HTTP/1.1 200 OK\r\n\r\nhalf of";
-  HttpResponseReader reader;
-  reader.feed(text);
-  reader.feedEnd(false);
-  EXPECT_EQ(reader.error(), HttpError::kTruncated);
-}
-
 TEST(HttpResponseReader, SkipsInterimAnswers) {
   const Answer answer =
       readText("HTTP/1.1 100 Continue\r\n\r\nHTTP/1.1 103 Early Hints\r\nLink: <a>\r\n\r\n" + kOk +

@@ -1,21 +1,16 @@
 // A ReliableChannel of WebSocket frames. Its peer is a bare stream that the test plays by hand.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <memory>
-#include <string>
-
 #include "shared/net/http/WebSocketFraming.h"
 #include "shared/net/stream/TcpChannel.h"
-#include "tests/shared/net/Loopback.h"
-#include "tests/shared/net/Recorder.h"
+#include "tests/shared/net/stream/TcpFixture.h"
 
 namespace naiad::test {
 namespace {
 
 const std::string kZeroMask(4, '\0');
 
-struct WebSocketChannel : testing::TestWithParam<Kind> {
+struct WebSocketChannel : TcpFixture {
   void open(std::string_view behind = {}) {
     StreamPair streams = connectedStreams(context, GetParam());
     peer = std::move(streams.far);
@@ -23,9 +18,6 @@ struct WebSocketChannel : testing::TestWithParam<Kind> {
     framing->feed(behind);
     channel = makeFramedChannel(std::move(streams.near), std::move(framing));
     channel->start(recorder.callbacks());
-  }
-  void peerSends(std::string_view bytes) {
-    ASSERT_EQ(peer->write(bytes).outcome, ByteStream::Outcome::kDone);
   }
   /// Waits until the peer has received this many bytes.
   std::string peerReads(std::size_t count) {
@@ -39,14 +31,9 @@ struct WebSocketChannel : testing::TestWithParam<Kind> {
     return all;
   }
   CloseReason closed() {
-    EXPECT_TRUE(runUntil(context, [&] { return recorder.closed.has_value(); }));
+    EXPECT_TRUE(runUntilClosed());
     return recorder.closed.value_or(CloseReason::kLocal);
   }
-
-  asio::io_context context;
-  Recorder recorder;
-  std::unique_ptr<ByteStream> peer;
-  std::unique_ptr<ReliableChannel> channel;
 };
 
 TEST_P(WebSocketChannel, MessagesGoBothWays) {

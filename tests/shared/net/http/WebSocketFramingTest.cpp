@@ -78,14 +78,6 @@ std::string unmasked(std::string payload) {
 
 const std::string kMask = "\x01\x02\x04\x08";
 
-TEST(WebSocketFraming, ReadsSingleFrameMessages) {
-  const std::string medium(126, 'm');
-  const Outcome outcome = readStream(frame(0x82, "one") + frame(0x82, "") + frame(0x82, medium) +
-                                     frame(0x82, std::string(kLimit, 'x')));
-  EXPECT_EQ(outcome.messages, (std::vector<std::string>{"one", "", medium, std::string(kLimit, 'x')}));
-  EXPECT_FALSE(outcome.error);
-}
-
 TEST(WebSocketFraming, ReadsLengthsOf64Bits) {
   const std::string payload(0x10000, 'x');
   const std::string header("\x82\x7f\0\0\0\0\0\1\0\0", 10);
@@ -102,14 +94,6 @@ TEST(WebSocketFraming, JoinsFragmentsAndAnswersPingsBetweenThem) {
   EXPECT_TRUE(framing.midFrame());
   EXPECT_EQ(replies(framing), "\x8a\x84" + kMask + unmasked("ping"));
   EXPECT_EQ(replies(framing), "") << "a ping is answered once";
-}
-
-TEST(WebSocketFraming, AnswersTheLastOfManyPings) {
-  WebSocketFraming framing = makeFraming();
-  framing.feed(frame(0x89, "a") + frame(0x8a, "unasked") + frame(0x89, "b"));
-  EXPECT_FALSE(framing.next());
-  EXPECT_EQ(replies(framing), "\x8a\x81" + kMask + unmasked("b"));
-  EXPECT_FALSE(framing.midFrame());
 }
 
 TEST(WebSocketFraming, RefusesFramesServersMayNotSend) {
@@ -167,16 +151,6 @@ TEST(WebSocketFraming, RefusesCloseCodesThatMayNotBeSent) {
   for (const int code : {1000, 1001, 1003, 1007, 1014, 3000, 4999}) {
     const std::string bytes{static_cast<char>(code >> 8), static_cast<char>(code & 0xff)};
     EXPECT_EQ(readStream(frame(0x88, bytes)).close_code, code);
-  }
-}
-
-TEST(WebSocketFraming, OnlyCode1000IsAnOrderlyEnd) {
-  for (const bool is_normal : {true, false}) {
-    WebSocketFraming framing = makeFraming();
-    EXPECT_FALSE(framing.peerClosed());
-    framing.feed(frame(0x88, is_normal ? std::string("\x03\xe8") : std::string("\x03\xe9")));
-    EXPECT_FALSE(framing.next());
-    EXPECT_EQ(framing.peerClosed(), is_normal ? CloseReason::kPeer : CloseReason::kError);
   }
 }
 

@@ -139,23 +139,5 @@ TEST(LanMessage, HostileTextsAreMadeSafe) {
   }
 }
 
-TEST(LanMessage, MutatedAnswersAreRefusedOrValid) {
-  SplitMix64 random(11);
-  const std::string bytes = writeLanAnswer(sample());
-  int read = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    std::string other = bytes;
-    for (std::size_t n = 1 + random.below(4); n > 0; --n)
-      other[random.below(other.size())] = static_cast<char>(random.next());
-    const auto answer = readLanAnswer(other);
-    if (!answer) continue;
-    ++read;
-    ASSERT_NE(answer->port, 0);
-    ASSERT_TRUE(isSafe(answer->name) && isSafe(answer->game));
-    ASSERT_EQ(readLanAnswer(writeLanAnswer(*answer)), answer);
-  }
-  EXPECT_GT(read, 100);
-}
-
 }  // namespace
 }  // namespace naiad

@@ -5,7 +5,6 @@
 
 #include "tests/shared/net/Loopback.h"
 #include "tests/shared/net/Recorder.h"
-#include "tests/support/net/LossyLink.h"
 
 namespace naiad::test {
 namespace {
@@ -32,19 +31,6 @@ TEST(ExportSecret, BothTlsEndsShareAUniqueSecret) {
     const ChannelPair pair(context, Kind::kTls);
     expectSecrets(*pair.near, *pair.far, seen);
   }
-}
-
-TEST(ExportSecret, VirtualLinkEndsShareASecretFromTheSeed) {
-  VirtualClock clock;
-  std::set<std::string> seen;
-  for (const std::uint64_t seed : {1u, 2u}) {
-    VirtualStreamLink link(clock, {}, seed);
-    const auto client = link.takeEnd(LinkEnd::kClient);
-    const auto server = link.takeEnd(LinkEnd::kServer);
-    expectSecrets(*client, *server, seen);
-  }
-  VirtualStreamLink again(clock, {}, 1);
-  EXPECT_TRUE(seen.contains(again.takeEnd(LinkEnd::kClient)->exportSecret(kLabel, "one", 32)));
 }
 
 TEST(ExportSecret, IsEmptyWithoutEncryptionAndAfterTheEnd) {

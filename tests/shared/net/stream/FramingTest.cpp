@@ -1,12 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "shared/net/base/Limits.h"
 #include "shared/net/stream/Framing.h"
-#include "shared/values/SplitMix64.h"
 
 namespace naiad {
 namespace {
@@ -54,17 +52,6 @@ TEST(Framing, TruncatedFrameIsNotYielded) {
   }
 }
 
-TEST(Framing, EmptyFrameIsAPermanentError) {
-  FrameReader reader(kMaxHelloFrame);
-  std::vector<std::string> frames;
-  feed(reader, framed("good") + "\0\0"s + framed("never"), frames);
-  EXPECT_EQ(frames, std::vector{"good"s});
-  EXPECT_EQ(reader.error(), FrameError::kEmpty);
-  feed(reader, framed("never"), frames);
-  EXPECT_EQ(frames.size(), 1u);
-  EXPECT_EQ(reader.error(), FrameError::kEmpty);
-}
-
 TEST(Framing, OversizedFrameFailsBeforeItsPayload) {
   for (const std::size_t first : {1u, 2u, 7u}) {  // number of bytes that arrive before the others
     FrameReader reader(4);
@@ -79,15 +66,6 @@ TEST(Framing, OversizedFrameFailsBeforeItsPayload) {
     feed(reader, framed("x"), frames);
     EXPECT_EQ(frames.size(), 1u);
   }
-}
-
-TEST(Framing, LimitMayChangeBetweenTwoFrames) {
-  FrameReader reader(4);
-  const std::string piece = framed("four") + framed("a longer one");
-  reader.feed(piece);
-  EXPECT_EQ(reader.next(), "four");
-  reader.setLimit(100);
-  EXPECT_EQ(reader.next(), "a longer one");
 }
 
 TEST(Framing, LoweredLimitHoldsForAnIncompleteFrame) {
@@ -113,50 +91,6 @@ TEST(Framing, FeedingBeforeDrainingThrows) {
   const std::string piece = framed("a");
   reader.feed(piece);
   EXPECT_THROW(reader.feed(piece), std::logic_error);
-}
-
-TEST(Framing, RandomFramesInRandomPiecesComeBackUnchanged) {
-  SplitMix64 rng(1);
-  for (int round = 0; round < 300; ++round) {
-    std::vector<std::string> sent;
-    std::string stream;
-    for (std::uint64_t n = rng.below(40); n > 0; --n) {
-      std::string payload(1 + rng.below(rng.below(4) == 0 ? 5000 : 20), '\0');
-      for (char& c : payload) c = static_cast<char>(rng.next());
-      appendFrame(stream, payload);
-      sent.push_back(std::move(payload));
-    }
-    FrameReader reader(5000);
-    std::vector<std::string> received;
-    const std::uint64_t largest = rng.below(2) == 0 ? 10 : 9000;
-    for (std::size_t at = 0; at < stream.size();) {
-      const std::size_t size = std::min<std::size_t>(rng.below(largest), stream.size() - at);
-      feed(reader, std::string_view(stream).substr(at, size), received);
-      at += size;
-    }
-    ASSERT_EQ(received, sent) << "round " << round;
-    ASSERT_FALSE(reader.midFrame());
-  }
-}
-
-TEST(Framing, RandomBytesNeverYieldAFrameOverTheLimit) {
-  SplitMix64 rng(2);
-  int errors = 0;
-  for (int round = 0; round < 1000; ++round) {
-    FrameReader reader(300);
-    for (int pieces = 0; pieces < 50; ++pieces) {
-      std::string piece(rng.below(100), '\0');
-      for (char& c : piece) c = static_cast<char>(rng.below(3) == 0 ? rng.next() : rng.below(2));
-      reader.feed(piece);
-      while (const auto frame = reader.next()) {
-        ASSERT_GE(frame->size(), 1u);
-        ASSERT_LE(frame->size(), 300u);
-      }
-      ASSERT_LE(reader.buffered(), kFrameHeaderSize + 300);
-    }
-    if (reader.error() != FrameError::kNone) ++errors;
-  }
-  EXPECT_GT(errors, 900);
 }
 
 }  // namespace

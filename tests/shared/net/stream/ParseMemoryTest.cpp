@@ -7,12 +7,7 @@
 
 #include "naiad.pb.h"
 #include "shared/net/base/Limits.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define NAIAD_OTHER_HEAP 1
-#else
-#define NAIAD_OTHER_HEAP 0
-#endif
+#include "tests/support/Sanitizers.h"
 
 namespace naiad {
 namespace {
@@ -46,7 +41,7 @@ std::string filled(char outer, const std::string& part, std::size_t limit) {
 class ParseMemory : public testing::Test {
  protected:
   void SetUp() override {
-    if (NAIAD_OTHER_HEAP) GTEST_SKIP() << "a sanitizer's heap does not count this way";
+    if (test::kSanitized) GTEST_SKIP() << "a sanitizer's heap does not count this way";
   }
 };
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <asio/ip/address.hpp>
-#include <random>
 
 #include "shared/net/stream/ProxyHeader.h"
 
@@ -82,23 +81,6 @@ TEST(ProxyHeader, UnusableAddressesAreRefused) {
   for (const char* address : {"0.0.0.0", "255.255.255.255", "224.0.0.1", "::", "ff02::1"})
     EXPECT_FALSE(readProxyHeader(proxyHeader(at(address, 9)))) << address;
   EXPECT_FALSE(readProxyHeader(proxyHeader(at("192.0.2.7", 0))));
-}
-
-TEST(ProxyHeader, MutatedHeadersAreRefusedOrValid) {
-  std::mt19937 random(5);
-  const std::string good = proxyHeader(at("2001:db8::7", 50312));
-  int read = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    std::string header = good;
-    for (std::size_t changes = random() % 5; changes > 0; --changes)
-      header[random() % header.size()] = static_cast<char>(random());
-    const auto visitor = readProxyHeader(header);
-    read += visitor ? 1 : 0;
-    if (visitor) {
-      EXPECT_EQ(readProxyHeader(proxyHeader(*visitor)), visitor);
-    }
-  }
-  EXPECT_GT(read, 4000);
 }
 
 TEST(ProxyHeader, AddressTextIsParsedStrictly) {

@@ -44,14 +44,6 @@ TEST_F(TcpListenerTest, GivesAChannelForEachConnection) {
   EXPECT_EQ(listener.failedAccepts(), 0u);
 }
 
-TEST_F(TcpListenerTest, ListensOnIPv6) {
-  if (!haveIPv6Loopback()) GTEST_SKIP() << "no IPv6 loopback on this machine";
-  TcpListener listener(context, "::1", 0, keep());
-  EXPECT_EQ(listener.address(), "[::1]:" + std::to_string(listener.port()));
-  const tcp::socket client = connectTo(listener, "::1");
-  EXPECT_TRUE(runUntil(context, [&] { return channels.size() == 1; }));
-}
-
 TEST_F(TcpListenerTest, PortInUseGivesAClearMessage) {
   TcpListener first(context, "127.0.0.1", 0, keep());
   try {

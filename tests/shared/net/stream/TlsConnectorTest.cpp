@@ -78,19 +78,6 @@ TEST_F(TlsConnectorTest, SniHasHostNamesButNoAddresses) {
   EXPECT_EQ(heard, "nothing");
 }
 
-TEST_F(TlsConnectorTest, PlaintextServerGivesAClearError) {
-  TcpListener plain(context, "127.0.0.1", 0, [&](auto made) {
-    made->send("hello, this is plain");
-    accepted.push_back(std::move(made));
-  });
-  connector.connect("127.0.0.1", plain.port(), 10s, done());
-  ASSERT_TRUE(runUntilDone());
-  EXPECT_FALSE(channel);
-  EXPECT_EQ(error, "127.0.0.1:" + std::to_string(plain.port()) +
-                       " does not answer as a Naiad server (it does not speak TLS).");
-  EXPECT_FALSE(connector.peerIdentity());
-}
-
 // A table of what players read if a server closes the connection, or sends something, before TLS.
 TEST_F(TlsConnectorTest, ErrorTellsWhatCameInsteadOfTls) {
   const std::string closed =

@@ -10,12 +10,7 @@
 #include <vector>
 
 #include "TlsFixture.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define NAIAD_OTHER_HEAP 1
-#else
-#define NAIAD_OTHER_HEAP 0
-#endif
+#include "tests/support/Sanitizers.h"
 
 namespace naiad::test {
 namespace {
@@ -73,7 +68,7 @@ struct TlsMemoryTest : TlsFixture {
     std::printf("%s: %ld bytes of OpenSSL's, %ld in all\n", what, openssl, all);
     EXPECT_GT(openssl, 1000);
     EXPECT_LE(openssl, 128 * 1024);
-    if (NAIAD_OTHER_HEAP) return;  // a sanitizer's heap is not visible in mallinfo2()
+    if (kSanitized) return;  // a sanitizer's heap is not visible in mallinfo2()
     EXPECT_LE(all, 192 * 1024);
     EXPECT_LE(all - openssl, 64 * 1024);
   }
