@@ -1,4 +1,4 @@
-// Sessions of players who listen while others chat at their limit for a minute.
+// The sessions of listeners while others chat at their limit for a minute.
 #include <gtest/gtest.h>
 
 #include <deque>
