@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
 /// Values that the game draws, such as its global variables.
-struct Shown {
+struct RoundShown {
   int mains = 0;
   int steps = -1;
   int process = 0;
@@ -36,7 +36,7 @@ class Rounds : public ProgramFixture {
     launch("rounds_game", std::move(environment));
   }
   bool isPlaying(TestClient& client) const override { return shown(client).steps >= 0; }
-  static Shown shown(TestClient& client) {
+  static RoundShown shown(TestClient& client) {
     const std::string row = ProgramFixture::row(client);
     const auto mains = numberAfter(row, "mains=");
     const auto steps = numberAfter(row, "steps=");
@@ -93,7 +93,7 @@ class RoundEnd : public Rounds {
     const std::uint32_t player = ann->player();
     press(*ann, df::Keyboard::RIGHTARROW);
     ASSERT_TRUE(serve([&] { return shown(*ann).steps == 1 && shown(*bob).steps == 1; })) << game->log();
-    const Shown before = shown(*ann);
+    const RoundShown before = shown(*ann);
     EXPECT_EQ(before.mains, 1);
     std::string theme_of_ann = theme(*ann);
     std::string theme_of_bob = theme(*bob);
@@ -101,7 +101,7 @@ class RoundEnd : public Rounds {
     const auto began = Clock::now();
     press(*ann, key);
     const auto is_next_round = [&](TestClient& client) {
-      const Shown now = shown(client);
+      const RoundShown now = shown(client);
       return now.steps == 0 && now.process != before.process;
     };
     ASSERT_TRUE(serve([&] { return is_next_round(*ann) && is_next_round(*bob); })) << game->log();
