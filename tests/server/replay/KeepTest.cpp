@@ -369,8 +369,20 @@ TEST_F(KeepTest, ProgramRejectingTheOptionsIsRefused) {
       said, "the installed dfserver rejects this server's options: dfserver: there is no option --journal"));
   EXPECT_TRUE(test::has(said, "Cannot keep the round: "));
   EXPECT_NE(control("cancel").first, 0) << "nor is it begun later";
-  EXPECT_TRUE(playTicks(10));
+  EXPECT_TRUE(playTicks(10)) << log();
   EXPECT_TRUE(lives());
+}
+
+TEST_F(KeepTest, WorldsStartAfterTheirProgramWasReplaced) {
+  installPrograms("exit 0");
+  start("rounds");
+  startBots();
+  ASSERT_TRUE(waitUntil([this] { return countTurns(round()) > 0; })) << log();
+  installScript("dfserver", "exit 2");
+  for (const pid_t supervisor : test::processesBelow(server, "df-supervisor"))
+    for (const pid_t world : test::processesBelow(supervisor)) kill(world, SIGKILL);
+  EXPECT_TRUE(isLogged("game recovered: a new world replayed ")) << log();
+  EXPECT_TRUE(playTicks(10)) << log();
 }
 
 ChildExit ended(int code, const std::string& output_text) {
