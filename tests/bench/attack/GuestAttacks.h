@@ -163,7 +163,7 @@ inline AttackPtr makeHeldPlaces() {
 // The server logs a line each time the guest joins or leaves.
 inline AttackPtr makeLogReader(bool stalls) {
   return std::make_unique<LogReader>(Plan{.name = "noise", .address = in(8), .pause = 170ms, .play = leave},
-                                     fault);
+                                     stalls);
 }
 
 inline AttackPtr makePasswordCrowd() {

@@ -1,5 +1,5 @@
-// The filter alone, in child processes of the tests; without Landlock it has more to do. Also the detection of
-// features that the kernel lacks or the host forbids.
+// The filter alone, in child processes of the tests; without Landlock it has more to do. Also the detection
+// of features that the kernel lacks or the host forbids.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/audit.h>
