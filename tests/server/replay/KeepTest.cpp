@@ -379,8 +379,9 @@ TEST_F(KeepTest, WorldsStartAfterTheirProgramWasReplaced) {
   startBots();
   ASSERT_TRUE(waitUntil([this] { return countTurns(round()) > 0; })) << log();
   installScript("dfserver", "exit 2");
-  for (const pid_t supervisor : test::processesBelow(server, "df-supervisor"))
-    for (const pid_t world : test::processesBelow(supervisor)) kill(world, SIGKILL);
+  const auto children = test::processesBelow(server);
+  for (const int signal : {SIGSTOP, SIGKILL})  // stopped first, so that no copy of the world replaces it
+    for (const pid_t process : children) kill(process, signal);
   EXPECT_TRUE(isLogged("game recovered: a new world replayed ")) << log();
   EXPECT_TRUE(playTicks(10)) << log();
 }
