@@ -80,13 +80,13 @@ class Shooter : public df::Object {
 /// A shooting range: a world of two Objects that fly for a tick, with an exact account of the expected
 /// events.
 ///
-/// Objects move one after another, the older one first. A swept Object is tested against the other one where
-/// that is during this turn. So it must not pass through anything on its own path, which is checked exactly
-/// for every turn of every swept Object. The two never move at once: the first may pass before the second
-/// starts, so they may miss each other where simultaneous movers would have hit (`simultaneous` counts these
-/// cases). But they cannot change sides within a corridor: if their extents on one axis overlap at the start,
-/// after the first turn and after the second, they also do in between, and then their order on the other axis
-/// must not change without a collision. This is checked, too, without computing times.
+/// Objects move one after another, the older one first, while the other one stands still. A swept Object
+/// must not pass through anything on its own path. This is checked exactly for each move of each swept
+/// Object. Because the two do not move simultaneously, they may miss each other where simultaneous movers
+/// would collide (`simultaneous` counts these cases). But they cannot change sides within a corridor: if
+/// their extents on one axis overlap at the start, after the first move and after the second, they also do in
+/// between, and then their order on the other axis must not change without a collision. This is checked, too,
+/// without computing times.
 class Range {
  public:
   /// Makes two Objects. The older one moves first in each tick.

@@ -101,7 +101,7 @@ TEST_F(Metrics, ValuesFollowTheGame) {
   EXPECT_TRUE(reaches("naiad_objects", is(0))) << "nobody watches";
 }
 
-TEST_F(Metrics, FullServerIsNotReadyUntilItsPlayerDisconnects) {
+TEST_F(Metrics, PageOfAFullServerHidesNames) {
   HostOptions options = withMetrics();
   options.max_players = 1;
   start(busyWorld(5), options);

@@ -184,7 +184,7 @@ void dropCapabilities() {
 }
 
 void allowFiles(LandlockRules& rules, const Sandbox& sandbox) {
-  rules.allowReading("/proc/self/exe");  // also if an upgrade has replaced or removed its file
+  rules.allowReading("/proc/self/exe");  // works even if an upgrade has replaced this file
   for (const std::string& path : systemFolders()) rules.allowReading(path);
   for (const char* path : kSystemFiles) rules.allowReading(path);
   for (const char* path : kDevices) rules.allowDevice(path);

@@ -268,9 +268,9 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     return gain;
   };
   meet(restitution);
-  // With friction, the impulses of a bounce may add energy. The impulses that stop the approach, multiplied
-  // by 1 + e, never do. A weighted mean of the two adds at most the weighted mean of their energies, so one
-  // that adds none is used.
+  // With friction, a bounce may add energy. It cannot if the impulses that stop the approach are multiplied
+  // by 1 + e. Kinetic energy is convex, so a weighted mean of the two sets of impulses adds at most the
+  // weighted mean of what each adds. A mean that adds none is used.
   const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;

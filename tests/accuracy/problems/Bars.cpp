@@ -108,11 +108,11 @@ Case against(Motion motion, const std::string& name) {
   return shots;
 }
 
-// A bar of 0.6 × 0.1 m that turns by 0, 1, 100 or 10⁵ rad a tick is shot with 1 to 10⁶ m a tick (log-uniform)
-// at a wall 1 m thick and 10 to 200,000 m long that is static, kinematic and coming with half the speed, or
-// dynamic with 100 times its mass. Restitution 0, 0.3 or 1, friction 0 or 0.6. 1000 shots (the product:
-// 10,000), each until two ticks after it must have arrived. Correct: every shot meets the wall, stays on its
-// side, and gains no energy where the wall has none.
+// A bar of 0.6 × 0.1 m that turns by 0, 1, 100 or 10⁵ rad per tick is shot at 1 to 10⁶ m per tick
+// (log-uniform) at a wall 1 m thick and 10 to 200,000 m long. The wall is static, kinematic and approaching
+// at half the bar's speed, or dynamic with 100 times the bar's mass. Restitution 0, 0.3 or 1, friction 0 or
+// 0.6. 1,000 shots (the product: 10,000), each observed until two ticks after the latest time of arrival.
+// Correct: every bar hits the wall, stays on its side, and gains no energy from a wall that does not move.
 std::vector<Case> make() {
   return {against(Motion::FIXED, "static"), against(Motion::KINEMATIC, "kinematic"),
           against(Motion::DYNAMIC, "dynamic")};

@@ -118,9 +118,9 @@ std::vector<Case> makeBilliard() {
   return {billiard(5), billiard(50)};
 }
 
-// A box of 100^k kg pushes one of 1 kg towards a wall, without any loss. All collisions are counted, those
-// with the wall too: 10 s. Correct: ⌈π / atan √(1/M)⌉ − 1 = 3, 31, 314, 3141, 31415.
-// Two boxes and a wall; the light box moves back and forth between the heavy one and the wall.
+// A box of 100^k kg pushes a box of 1 kg towards a wall without loss of energy, so that the light box moves
+// back and forth between the heavy one and the wall. All collisions in 10 s are counted, including those with
+// the wall. Correct: ⌈π / atan √(1/M)⌉ − 1 = 3, 31, 314, 3141, 31415, where M = 100^k.
 std::vector<Case> makeGalperin() {
   std::vector<Case> cases;
   constexpr int kTicks = 300;

@@ -75,10 +75,10 @@ Case drum() {
 
 // A pyramid of 60 rows (1,830 boxes of 1 m) and a hundred of 10 rows, all touching exactly at the start, 14
 // ticks; 500 boxes of 0.25 m in a drum of 19 m that turns by 25° a second, 5 s; 2,000 and 20,000 circles and
-// boxes that fall between two walls, 100 and 40 ticks; a box of 8 m that comes with 40 m/s into 2,400 boxes
-// of 0.4 m, 100 ticks. Friction 0.6. What rests may sleep, in each engine as it does by default. Every tick
-// counts, from the first. Correct: nothing overlaps: after each tenth tick the deepest overlap of all pairs,
-// and the mean of these looks.
+// boxes that fall between two walls, 100 and 40 ticks; a box of 8 m that flies at 40 m/s into 2,400 boxes of
+// 0.4 m, 100 ticks. Friction 0.6. Bodies at rest may sleep, by each engine's default rules. The time is the
+// mean of all ticks. Correct: nothing overlaps. The error is the deepest overlap of any pair after each tenth
+// tick, as the mean of these samples.
 std::vector<Case> makeHeaps() {
   Case large = heap("heap20000", "20,000 bodies that fall", heaps::makeHeap20000(), {2.5, .1});
   large.most_substeps = 4;

@@ -96,8 +96,8 @@ Case doublePendulum() {
 
 // A planet with e = 0.6, 20 orbits of 500 ticks: 8 sub-steps of a method with 4 force evaluations are 16,000
 // evaluations an orbit. Two points of 1 kg on rods of 1 m, both horizontal at the start, 5 s (after that the
-// motion is chaos). Correct: Kepler's equation in quad precision; extrapolation in quad precision, agreeing
-// with CVODE.
+// motion is chaotic). Correct: Kepler's equation in quad precision; for the double pendulum, extrapolation in
+// quad precision, whose result CVODE confirms.
 std::vector<Case> make() {
   return {kepler(), doublePendulum()};
 }

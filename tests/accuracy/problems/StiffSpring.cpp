@@ -40,9 +40,9 @@ Case caseOf(double stiffness, double zeta) {
   return spring;
 }
 
-// 1 kg hangs on a spring of k N/m with damping ratio ζ, starts 1 m below where it would hang still, 10 s. hω,
-// at one step a tick, is 0.33 for k = 1e2, 33 for 1e6 and 3333 for 1e10. Correct: the 2×2 matrix
-// exponential, in quad precision.
+// A mass of 1 kg hangs on a spring of k N/m with damping ratio ζ and starts 1 m below its equilibrium; 10 s.
+// With one step per tick, hω is 0.33 for k = 1e2, 33 for 1e6 and 3333 for 1e10. Correct: the exponential of
+// the 2×2 matrix of the motion, in quad precision.
 std::vector<Case> makeDiagram() {
   std::vector<Case> cases;
   for (const double stiffness : {1e2, 1e6, 1e10}) {
