@@ -357,10 +357,9 @@ std::chrono::nanoseconds WorldProcess::cpuTime() const {
   return look ? look->cpu : std::chrono::nanoseconds(0);
 }
 
-// The supervisor waits only a second for this command, so the host must not sleep before it.
 std::optional<std::uint32_t> WorldProcess::resumeFromCheckpoint() {
   if (m_state != State::kEnded) return std::nullopt;
-  readSupervisor(0);  // the supervisor may have given up waiting
+  readSupervisor(0);  // the supervisor may have been killed
   while (auto copy =
              m_supervisor_state == SupervisorState::kEnded ? std::nullopt : m_checkpoints.popNewest()) {
     if (!commandResume(*copy)) {

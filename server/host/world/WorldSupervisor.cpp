@@ -50,9 +50,6 @@ bool reapWorld(pid_t world, int& status) {
 /// Then the other descendants of the supervisor end, except for the copies that are kept.
 class FailoverSupervisor {
  public:
-  /// Time limit for the front's command after the end of a world.
-  static constexpr int kCommandTimeoutMillis = 1'000;
-
   /// `world`: a child of this process, which has no threads and is a child subreaper. `front`: the
   /// supervisor's socket. `children`: a descriptor that is readable when a child has ended.
   FailoverSupervisor(pid_t world, int front, int children)
@@ -97,10 +94,10 @@ class FailoverSupervisor {
   bool receiveCommand(SupervisorCommand& order) const {
     return recv(m_front, &order, sizeof order, MSG_DONTWAIT) == sizeof order;
   }
+  // Waits without a limit: a busy front must not lose its round, and the socket tells when the front ends.
   bool waitForCommand(SupervisorCommand& order) const {
     do {
-      pollfd readable{m_front, POLLIN, 0};
-      if (poll(&readable, 1, kCommandTimeoutMillis) <= 0 || !receiveCommand(order)) return false;
+      if (recv(m_front, &order, sizeof order, 0) != sizeof order) return false;
     } while (order.kind ==
              SupervisorCommand::kEndWorld);  // skips commands to end the world, which had already ended
     return true;

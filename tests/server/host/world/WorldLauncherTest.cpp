@@ -313,7 +313,11 @@ TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
-TEST_F(LeftCopies, AllEndWithoutAnOrder) {
+TEST_F(LeftCopies, WaitForALateOrderButNotForAClosedSocket) {
+  pollfd readable{world.supervisor, POLLIN, 0};
+  EXPECT_EQ(poll(&readable, 1, 1'200), 0);
+  for (const pid_t one : left) EXPECT_EQ(kill(one, 0), 0);
+  shutdown(world.supervisor, SHUT_WR);
   EXPECT_EQ(waitForReport(), "exit 7, all have ended");
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
