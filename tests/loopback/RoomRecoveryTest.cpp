@@ -101,8 +101,7 @@ class RoomRecovery : public RoomsFixture {
   }
   /// Returns the number of sessions that the server has resumed.
   std::size_t returned() const {
-    constexpr const char* kIsBack = "reconnected to the recovered round";
-    return static_cast<std::size_t>(countIn(game->log(), kIsBack));
+    return static_cast<std::size_t>(countIn(game->log(), "reconnected to the recovered round"));
   }
   fs::path rounds() const { return home.identity("state") / "rounds"; }
   std::vector<fs::path> roundsOf(const std::string& room) const {
