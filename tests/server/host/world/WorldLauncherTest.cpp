@@ -313,7 +313,7 @@ TEST_F(LeftCopies, OnlyAChildOfTheSupervisorResumes) {
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), -1);
 }
 
-TEST_F(LeftCopies, WaitForALateOrderButNotForAClosedSocket) {
+TEST_F(LeftCopies, CopiesWaitForALateOrder) {
   pollfd readable{world.supervisor, POLLIN, 0};
   EXPECT_EQ(poll(&readable, 1, 1'200), 0);
   for (const pid_t one : left) EXPECT_EQ(kill(one, 0), 0);
