@@ -88,6 +88,9 @@ class ResumingServer : public test::HostRooms {
     admission();
     for (int i = 0; i < 10'000 && rooms.recovering(); ++i) tick();
   }
+  ~ResumingServer() override {
+    world.shutDown();  // deletes the Objects
+  }
 
   Client& greet(const std::string& name, const std::string& token = "") {
     wire::Hello hello = helloOf(name);
