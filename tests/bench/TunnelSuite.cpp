@@ -85,8 +85,8 @@ class Shooter : public df::Object {
 /// Object. Because the two do not move simultaneously, they may miss each other where simultaneous movers
 /// would collide (`simultaneous` counts these cases). But they cannot change sides within a corridor: if
 /// their extents on one axis overlap at the start, after the first move and after the second, they also do in
-/// between, and then their order on the other axis must not change without a collision. This is checked, too,
-/// without computing times.
+/// between, and then their order on the other axis must not change without a collision. This is checked, too;
+/// it requires no times of impact.
 class Range {
  public:
   /// Makes two Objects. The older one moves first in each tick.

@@ -91,8 +91,8 @@ std::string notRecovered(const std::string& why) {
 }
 
 /// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
-/// for each file that cannot be read. Also returns rounds whose port does not appear in the first kBeginning
-/// bytes.
+/// for each file that cannot be read. Looks for the port in the first kBeginning bytes of a file; if none is
+/// there, returns the round, too.
 std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
                                                          std::vector<std::string>& said) {
   constexpr std::size_t kBeginning = 65'536;

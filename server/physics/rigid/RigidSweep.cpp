@@ -268,9 +268,9 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     return gain;
   };
   meet(restitution);
-  // With friction, a bounce may add energy. It cannot if the impulses that stop the approach are multiplied
-  // by 1 + e. Kinetic energy is convex, so a weighted mean of the two sets of impulses adds at most the
-  // weighted mean of what each adds. A mean that adds none is used.
+  // With friction, these impulses may add energy. The impulses that stop the approach, multiplied by 1 + e,
+  // never add any. Kinetic energy is a convex function of the impulses, so a weighted mean of both adds at
+  // most the weighted mean of the two gains. The weight is chosen so that nothing is added.
   const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;

@@ -109,10 +109,11 @@ Case against(Motion motion, const std::string& name) {
 }
 
 // A bar of 0.6 × 0.1 m that turns by 0, 1, 100 or 10⁵ rad per tick is shot at 1 to 10⁶ m per tick
-// (log-uniform) at a wall 1 m thick and 10 to 200,000 m long. The wall is static, kinematic and approaching
-// at half the bar's speed, or dynamic with 100 times the bar's mass. Restitution 0, 0.3 or 1, friction 0 or
-// 0.6. 1,000 shots (the product: 10,000), each observed until two ticks after the latest time of arrival.
-// Correct: every bar hits the wall, stays on its side, and gains no energy from a wall that does not move.
+// (log-uniform) at a wall 1 m thick and 10 to 200,000 m long. The wall is static, or kinematic and
+// approaching at half the bar's speed, or dynamic and 100 times as heavy as the bar. The restitution is 0,
+// 0.3 or 1, and the friction is 0 or 0.6. 1,000 shots (the product: 10,000), each observed until two ticks
+// after the latest time of arrival. Correct: every bar hits the wall, stays on its side, and gains no energy
+// from a wall that does not move.
 std::vector<Case> make() {
   return {against(Motion::FIXED, "static"), against(Motion::KINEMATIC, "kinematic"),
           against(Motion::DYNAMIC, "dynamic")};
