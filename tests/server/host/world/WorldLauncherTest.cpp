@@ -255,7 +255,23 @@ TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
   }
 }
 
-/// Tests with a world that ends and leaves two processes, which the supervisor takes for its copies.
+TEST(KillOthers, PauseOfTheMachineDoesNotEndIt) {
+  const pid_t other = fork();
+  if (other == 0) {
+    pause();
+    _exit(0);
+  }
+  // Pauses this process when the other has ended, for longer than players should wait.
+  const auto before = signal(SIGCHLD, [](int) {
+    const timespec pause{1, 0};
+    nanosleep(&pause, nullptr);
+  });
+  EXPECT_TRUE(killOthers({}));
+  signal(SIGCHLD, before);
+  EXPECT_EQ(kill(other, 0), -1);
+}
+
+/// Tests with a world that ends and leaves three processes, which the supervisor takes for its copies.
 class LeftCopies : public testing::Test {
  protected:
   LeftCopies() {
