@@ -55,7 +55,7 @@ std::string serverListText(std::vector<Presence> servers) {
 
 FleetMonitor::FleetMonitor(std::unique_ptr<Bus> bus, std::function<void(const std::string& line)> log,
                            std::chrono::milliseconds interval)
-    : m_bus(std::move(bus)), m_log(std::move(log)), m_servers(interval) {}
+    : m_bus(std::move(bus)), m_log(std::move(log)), m_interval(interval), m_servers(interval) {}
 
 void FleetMonitor::update(Time now) {
   if (const std::string line = m_bus->popLogMessage(); !line.empty()) m_log(line);
@@ -65,9 +65,10 @@ void FleetMonitor::update(Time now) {
   }
   const std::uint64_t lost = m_bus->counters().lost;
   const bool has_lost = std::exchange(m_lost, lost) != lost;
+  const bool was_paused = now - std::exchange(m_updated, now) > m_interval;
   if (!m_bus->isConnected())
     m_servers.excuseSilence(now, kMaxBusOutage);
-  else if (has_lost)
+  else if (has_lost || was_paused)
     m_servers.excuseSilence(now, kMaxBusLoss);
   for (const std::string& id : m_servers.removeExpired(now)) logLimited(id + " left the fleet", now);
 }

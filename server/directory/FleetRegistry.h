@@ -142,7 +142,8 @@ class FleetMonitor {
   /// Longest outage of the bus during which the list stays unchanged: the servers still run, and players
   /// still find them.
   static constexpr std::chrono::minutes kMaxBusOutage{10};
-  /// Longest silence of a server while the bus loses messages.
+  /// Longest silence of a server while the bus loses messages, or while this process does not run, such as
+  /// when its machine is suspended.
   static constexpr std::chrono::minutes kMaxBusLoss{3};
   /// Rate limit of log lines about servers that join or leave; needed because ids may be faked.
   static constexpr BucketRate kLogRate{5, 100};
@@ -163,8 +164,10 @@ class FleetMonitor {
 
   std::unique_ptr<Bus> m_bus;
   std::function<void(const std::string& line)> m_log;
+  const std::chrono::milliseconds m_interval;
   FleetRegistry m_servers;
   std::uint64_t m_lost = 0;  ///< BusCounters::lost in the last update()
+  Time m_updated{};
   TokenBucket m_log_limit;
   std::uint64_t m_dropped_lines = 0;
 };

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <asio/local/stream_protocol.hpp>
 #include <asio/write.hpp>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <regex>
 #include <sstream>
+#include <thread>
 #include <utility>
 
 #include "GameProgram.h"
@@ -315,13 +317,19 @@ TEST_F(AdminTest, VoteKicksAndBansThePlayer) {
 
 TEST_F(AdminTest, InactivePlayerIsWarnedAndKicked) {
   options.inactive_kick = 1;
-  TestServer server(busyWorld(5), options);
-  TestClient ann(context, server.port(), home.player("ann"));
-  ASSERT_TRUE(joins(ann));
-  ASSERT_TRUE(reads(ann, "Press a key"));
-  ASSERT_TRUE(ends(ann));
-  EXPECT_EQ(ann.connection().message(), "Disconnected: no input for 1s.");
-  EXPECT_EQ(server.counters().idle_kicks, 1u);
+  for (const int pause_millis : {0, 1500}) {
+    TestServer server(busyWorld(5), options);
+    TestClient ann(context, server.port(), home.player("ann"));
+    ASSERT_TRUE(joins(ann));
+    server.inWorld([&](df::World&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(pause_millis));
+      return 0;
+    });
+    ASSERT_TRUE(reads(ann, "Press a key")) << pause_millis;
+    ASSERT_TRUE(ends(ann));
+    EXPECT_EQ(ann.connection().message(), "Disconnected: no input for 1s.");
+    EXPECT_EQ(server.counters().idle_kicks, 1u);
+  }
 }
 
 /// Runs dfserver with the default settings, but on loopback.

@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "host/admission/Admission.h"
@@ -30,6 +30,7 @@ namespace naiad {
 class InactivityCheck {
  public:
   /// Players are warned this long before the limit or, if the limit is less than twice this, at half of it.
+  /// They have that time after the warning, even if the server was paused before it.
   static constexpr std::chrono::seconds kWarning{10};
 
   /// Call once a tick for each playing session. `limit` 0: no limit. Sessions without a connection are
@@ -38,23 +39,24 @@ class InactivityCheck {
              const std::function<void(Session&, const std::string& line)>& tell) {
     if (limit.count() <= 0 || session.state() != Session::State::kPlaying || session.isDetached()) return;
     const auto idle = session.now() - session.status().lastActivity();
-    const std::chrono::duration<double> warned_at =
-        std::max<std::chrono::duration<double>>(limit - kWarning, limit / 2.0);
-    if (idle < warned_at) {
+    const auto warning = std::min<std::chrono::duration<double>>(kWarning, limit / 2.0);
+    if (idle < limit - warning) {
       if (!m_warned.empty()) m_warned.erase(session.id());
-    } else if (idle >= limit) {
-      m_warned.erase(session.id());
-      ++counters.idle_kicks;
-      session.sendGoodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
-    } else if (m_warned.insert(session.id()).second) {
-      tell(session, "Press a key, or you will be disconnected.");
+      return;
     }
+    const auto [warned, is_new] = m_warned.try_emplace(session.id(), session.now());
+    if (is_new) return tell(session, "Press a key, or you will be disconnected.");
+    if (session.now() - warned->second < warning) return;
+    m_warned.erase(warned);
+    ++counters.idle_kicks;
+    session.sendGoodbye("Disconnected: no input for " + timeSpanText(limit) + ".");
   }
   /// Call when the session is over.
   void forget(const Session& session) { m_warned.erase(session.id()); }
 
  private:
-  std::unordered_set<std::uint64_t> m_warned;  ///< session ids
+  std::unordered_map<std::uint64_t, Session::Clock::time_point>
+      m_warned;  ///< times of warnings, by session id
 };
 
 /// Thread: the host's.

@@ -125,6 +125,7 @@ AdminRow HostAdmin::status() const {
       {"password", m_access.clients.admission().needsPassword()},
       {"ticks", number(counters.ticks)},
       {"late_ticks", number(counters.late_ticks)},
+      {"missed_ticks", number(counters.world_missed_ticks)},
       {"tick_p50_ms", millis(times.quantile(0.5))},
       {"tick_p99_ms", millis(times.quantile(0.99))},
       {"joined", number(counters.joined)}};

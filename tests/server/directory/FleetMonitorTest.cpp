@@ -2,6 +2,7 @@
 // down.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -21,8 +22,13 @@ class FleetMonitorTest : public testing::Test {
   void hear(const std::string& id) {
     bus.heard.push_back({presenceSubject(id), test::presenceOf(id).payload()});
   }
-  void update(FleetMonitor::Time::duration at) { watch.update(FleetMonitor::Time{} + at); }
+  /// Updates once a second up to this time.
+  void update(std::chrono::seconds at) {
+    for (now = std::min(now + 1s, at); now < at; now += 1s) watch.update(FleetMonitor::Time{} + now);
+    watch.update(FleetMonitor::Time{} + now);
+  }
 
+  std::chrono::seconds now{0};
   std::vector<std::string> lines;
   test::FakeBus* p_bus = new test::FakeBus();
   test::FakeBus& bus = *p_bus;
@@ -69,6 +75,7 @@ TEST_F(FleetMonitorTest, BusThatLosesMessagesExcusesSilenceForThreeMinutes) {
   for (const auto& [begin, loss_interval] : {std::pair(0s, 1s), std::pair(1000s, 5s)}) {
     hear("silent");
     hear("honest");
+    now = begin;
     update(begin);
     for (auto at = 1s; at < 180s; at += 1s) {
       if (at % loss_interval == 0s) ++bus.lost;
@@ -84,6 +91,20 @@ TEST_F(FleetMonitorTest, BusThatLosesMessagesExcusesSilenceForThreeMinutes) {
     for (auto at = 190s; at < 196s; at += 1s) update(begin + at);
     EXPECT_EQ(watch.servers().size(), 0u) << "nothing is lost any more";
   }
+}
+
+TEST_F(FleetMonitorTest, PauseOfTheMachineRemovesNoServer) {
+  hear("a");
+  hear("b");
+  update(1s);
+  now = 100s;
+  update(101s);
+  EXPECT_EQ(watch.servers().size(), 2u);
+  hear("a");
+  update(106s);
+  EXPECT_EQ(watch.servers().size(), 2u);
+  update(107s);
+  EXPECT_EQ(watch.servers().size(), 1u) << "b was not heard";
 }
 
 TEST_F(FleetMonitorTest, ServerFloodDoesNotFillTheLog) {
