@@ -55,8 +55,7 @@ class InactivityCheck {
   void forget(const Session& session) { m_warned.erase(session.id()); }
 
  private:
-  std::unordered_map<std::uint64_t, Session::Clock::time_point>
-      m_warned;  ///< times of warnings, by session id
+  std::unordered_map<std::uint64_t, Session::Clock::time_point> m_warned;  ///< when, by session id
 };
 
 /// Thread: the host's.
