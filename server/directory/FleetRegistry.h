@@ -164,10 +164,10 @@ class FleetMonitor {
 
   std::unique_ptr<Bus> m_bus;
   std::function<void(const std::string& line)> m_log;
-  const std::chrono::milliseconds m_interval;
+  const std::chrono::milliseconds m_interval;  ///< heartbeat interval of the servers
   FleetRegistry m_servers;
   std::uint64_t m_lost = 0;  ///< BusCounters::lost in the last update()
-  Time m_updated{};
+  Time m_updated{};          ///< time of the last update()
   TokenBucket m_log_limit;
   std::uint64_t m_dropped_lines = 0;
 };

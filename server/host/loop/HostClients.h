@@ -30,7 +30,7 @@ namespace naiad {
 class InactivityCheck {
  public:
   /// Players are warned this long before the limit or, if the limit is less than twice this, at half of it.
-  /// They have that time after the warning, even if the server was paused before it.
+  /// They have that time after the warning, even if the server was paused before they were warned.
   static constexpr std::chrono::seconds kWarning{10};
 
   /// Call once a tick for each playing session. `limit` 0: no limit. Sessions without a connection are
@@ -55,7 +55,7 @@ class InactivityCheck {
   void forget(const Session& session) { m_warned.erase(session.id()); }
 
  private:
-  std::unordered_map<std::uint64_t, Session::Clock::time_point> m_warned;  ///< when, by session id
+  std::unordered_map<std::uint64_t, Session::Clock::time_point> m_warned;  ///< keys: session ids
 };
 
 /// Thread: the host's.

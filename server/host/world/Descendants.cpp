@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kNapMillis = 2;
 /// Time limit of killDescendants(), because a process that waits for a dead disk cannot be killed.
 constexpr std::chrono::seconds kKillTimeout{20};
-/// Limit of killOthers(), because players wait. Not a time: on a machine that pauses, looks take longer, too.
-constexpr int kMaxLooksForOthers = 250;
+/// Limit of killOthers(), because players wait. A limit in time would be used up by a pause of the machine.
+constexpr int kMaxSearches = 250;
 
 /// Returns the parent of a process; 0 if it has none, or does not exist.
 pid_t parentOf(pid_t process) {
@@ -145,7 +145,7 @@ int killDescendants(pid_t leader) {
 }
 
 bool killOthers(const std::set<pid_t>& kept) {
-  for (int look = 0; look < kMaxLooksForOthers; ++look) {
+  for (int search = 0; search < kMaxSearches; ++search) {
     std::set<pid_t> others;
     for (const pid_t child : findChildren()) others.insert(child);
     for (const Descendant& one : findDescendants()) {

@@ -41,7 +41,7 @@ void killChild(pid_t child);
 int killDescendants(pid_t leader);
 
 /// Like killDescendants(), but spares these children and their descendants. Returns false if others are left
-/// after 250 looks, half a second or more; then the caller must end all descendants.
+/// after 250 searches, which take at least half a second; then the caller must end all descendants.
 bool killOthers(const std::set<pid_t>& kept);
 
 }  // namespace naiad

@@ -113,7 +113,7 @@ Case against(Motion motion, const std::string& name) {
 // approaching at half the bar's speed, or dynamic and 100 times as heavy as the bar. The restitution is 0,
 // 0.3 or 1, and the friction is 0 or 0.6. 1,000 shots (the product: 10,000), each observed until two ticks
 // after the latest time of arrival. Correct: every bar hits the wall, stays on its side, and gains no energy
-// from a wall that does not move.
+// if the wall is static.
 std::vector<Case> make() {
   return {against(Motion::FIXED, "static"), against(Motion::KINEMATIC, "kinematic"),
           against(Motion::DYNAMIC, "dynamic")};

@@ -255,13 +255,13 @@ TEST(WorldLauncher, WorldHasItsOwnSessionAndOnlyItsDescriptors) {
   }
 }
 
-TEST(KillOthers, PauseOfTheMachineDoesNotEndIt) {
+TEST(KillOthers, ContinuesAfterAPauseOfTheMachine) {
   const pid_t other = fork();
   if (other == 0) {
     pause();
     _exit(0);
   }
-  // Pauses this process when the other has ended, for longer than players should wait.
+  // When the other process has ended, this one pauses for longer than all searches would take.
   const auto before = signal(SIGCHLD, [](int) {
     const timespec pause{1, 0};
     nanosleep(&pause, nullptr);
