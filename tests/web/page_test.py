@@ -367,7 +367,7 @@ class PageTest(unittest.TestCase):
               }
               for (const one of onSecond.concat(all.filter(([stream]) => stream === first))) received(...one);
             }, 300);
-        """, "return window.overtaken >= 20", "return window.overtaken")
+        """, "return window.overtaken >= 20 && window.naiad.client.exports.recorded() >= 20", "return window.overtaken")
         compared, cells, wrong = compare(seen, truth)
         print(f"page ticks={compared} cells={cells} overtaken={overtaken} wrong_cells={wrong}")
         self.assertGreater(compared, 10)
