@@ -250,6 +250,8 @@ TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
     fs::permissions(path, perms);
     HostOptions options;
     EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+    std::erase_if(options.warnings,
+                  [](const std::string& text) { return text.starts_with("there is no variable NAIAD_"); });
     return options.warnings;
   };
   constexpr fs::perms kOpen = fs::perms::owner_all | fs::perms::others_read;

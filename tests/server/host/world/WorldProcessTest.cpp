@@ -8,6 +8,7 @@
 #include <asio/io_context.hpp>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -225,6 +226,13 @@ class HangingWorldTest : public WorldProcessTest {
     program.hang_time = kHangTime;
     return program;
   }
+  /// The warnings of tick 2. On a loaded machine there may be one of tick 1, too.
+  std::vector<std::string> warningsOfHang() const {
+    std::vector<std::string> of_hang;
+    std::ranges::copy_if(warnings, std::back_inserter(of_hang),
+                         [](const std::string& text) { return text.find("tick 2") != std::string::npos; });
+    return of_hang;
+  }
 };
 
 TEST_F(HangingWorldTest, EndlessLoopIsReportedAndThenEnded) {
@@ -232,20 +240,21 @@ TEST_F(HangingWorldTest, EndlessLoopIsReportedAndThenEnded) {
   const WorldEnd end = play(hangs("while :; do :; done"));
   EXPECT_GE(std::chrono::steady_clock::now() - began, kHangTime * (WorldProcess::kAnswerTimeoutFactor - 1));
   EXPECT_EQ(end.why, WorldEnd::kHung);
-  EXPECT_EQ(warnings, (std::vector<std::string>{
-                          "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));
+  EXPECT_EQ(warningsOfHang(),
+            (std::vector<std::string>{
+                "the game has not finished tick 2 for 0.15 s: it hangs, and all players wait"}));
 }
 
 TEST_F(HangingWorldTest, EndlessWaitIsReportedAndThenEnded) {
   EXPECT_EQ(play(hangs("exec sleep 100")).why, WorldEnd::kHung);
-  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warningsOfHang().size(), 1u);
 }
 
 TEST_F(HangingWorldTest, SlowTickIsReportedAndMayFinish) {
   const WorldEnd end = play(hangs("sleep 0.3; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
-  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warningsOfHang().size(), 1u);
 }
 
 TEST_F(HangingWorldTest, TheFirstTickMayTakeLong) {
@@ -261,8 +270,8 @@ TEST_F(HangingWorldTest, StoppedGameIsReportedAndGetsMoreTime) {
   const WorldEnd end = play(hangs(goes_on + "kill -STOP $$; " + answers() + "exit 0"));
   EXPECT_EQ(end.why, WorldEnd::kGameOver);
   EXPECT_EQ(ticks, 2);
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_EQ(warnings.front(),
+  ASSERT_FALSE(warningsOfHang().empty());
+  EXPECT_EQ(warningsOfHang().front(),
             "the game is stopped in tick 2, by a debugger or a signal, and all players wait");
 }
 
