@@ -91,8 +91,8 @@ std::string notRecovered(const std::string& why) {
 }
 
 /// Returns the start times and files of the rounds of a port's servers, newest first. Adds a line to `said`
-/// for each file that cannot be read. Reads only the first kBeginning bytes of each file; a round without a
-/// port in them is returned as well.
+/// for each file that cannot be read. Searches the first kBeginning bytes of each file for the port, and also
+/// returns the rounds in which it finds none.
 std::vector<std::pair<std::uint64_t, fs::path>> roundsOf(const std::string& folder, const std::string& port,
                                                          std::vector<std::string>& said) {
   constexpr std::size_t kBeginning = 65'536;

@@ -268,9 +268,10 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     return gain;
   };
   meet(restitution);
-  // With friction, these impulses may increase the kinetic energy. Those that stop the approach, scaled by
-  // 1 + e, cannot. The energy is a convex function of the impulses, so a weighted mean of the two sets
-  // increases it by at most the weighted mean of the two increases. The weight is chosen so that this is 0.
+  // With friction, these impulses may increase the kinetic energy. The impulses that stop the approach cannot
+  // increase it, even if they are multiplied by 1 + e. The energy is a convex function of the impulses, so a
+  // weighted mean of the two sets increases it by at most the weighted mean of the two increases. The weight
+  // is chosen so that this is 0.
   const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;

@@ -41,8 +41,8 @@ Case caseOf(double stiffness, double zeta) {
 }
 
 // A mass of 1 kg hangs on a spring of k N/m with damping ratio ζ and starts 1 m below its equilibrium; 10 s.
-// With one step per tick, the product of step size and angular frequency is 0.33 for k = 1e2, 33 for 1e6 and
-// 3333 for 1e10. Correct: the exponential of the 2×2 matrix of the motion, in quad precision.
+// In one tick, the phase of the undamped oscillation advances by 0.33 rad (k = 1e2), 33 rad (1e6) or 3333 rad
+// (1e10). Correct: the exponential of the 2×2 matrix of the motion, in quad precision.
 std::vector<Case> makeDiagram() {
   std::vector<Case> cases;
   for (const double stiffness : {1e2, 1e6, 1e10}) {

@@ -250,6 +250,7 @@ TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
     fs::permissions(path, perms);
     HostOptions options;
     EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
+    // The environment may hold variables of other tests.
     std::erase_if(options.warnings,
                   [](const std::string& text) { return text.starts_with("there is no variable NAIAD_"); });
     return options.warnings;

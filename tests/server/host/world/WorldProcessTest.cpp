@@ -226,7 +226,7 @@ class HangingWorldTest : public WorldProcessTest {
     program.hang_time = kHangTime;
     return program;
   }
-  /// The warnings of tick 2. On a loaded machine there may be one of tick 1, too.
+  /// Returns the warnings about tick 2. On a loaded machine, tick 1 may cause one as well.
   std::vector<std::string> warningsOfHang() const {
     std::vector<std::string> of_hang;
     std::ranges::copy_if(warnings, std::back_inserter(of_hang),
