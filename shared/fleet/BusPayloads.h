@@ -159,10 +159,10 @@ struct Presence : ServerInfo {
   /// Limits how long players may be redirected to a dead server: for up to three intervals.
   static constexpr std::chrono::milliseconds kMaxInterval{60'000};
 
-  std::string id;          ///< the server's id: isServerId() is true for it
-  std::string host;        ///< name or numeric address for players; empty: unknown
+  std::string id = {};     ///< the server's id: isServerId() is true for it
+  std::string host = {};   ///< name or numeric address for players; empty: unknown
   std::uint16_t port = 0;  ///< 1 to 65535
-  std::string key;         ///< Fingerprint::text(); empty: no encryption
+  std::string key = {};    ///< Fingerprint::text(); empty: no encryption
   bool is_open = true;     ///< accepts players: it neither drains nor shuts down
   /// The named rooms in the server's order, as many as fit (kMaxRoomsText). Empty for a server without rooms,
   /// whose payload has no member "rooms".

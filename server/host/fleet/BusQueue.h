@@ -34,7 +34,9 @@ class BusInbox {
       ++m_ignored;
       return;
     }
-    (known != m_newest.end() ? known->second : m_newest[std::string(subject)]) = {std::string(payload)};
+    Newest& newest = known != m_newest.end() ? known->second : m_newest[std::string(subject)];
+    newest.payload = payload;
+    newest.pops = 0;
   }
   /// Removes and returns the messages, sorted by subject.
   std::vector<BusMessage> popAll() {
