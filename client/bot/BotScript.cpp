@@ -40,7 +40,7 @@ using namespace df::Keyboard;
 
 /// Holds or releases the key that is down, if any. Returns `holds`.
 bool holdOrRelease(Key& down, bool holds, std::vector<BotAction>& out) {
-  if (down != UNDEFINED_KEY) out.push_back(KeyAction{down, holds ? df::KEY_DOWN : df::KEY_RELEASED});
+  if (down != UNDEFINED_KEY) out.emplace_back(KeyAction{down, holds ? df::KEY_DOWN : df::KEY_RELEASED});
   if (!holds) down = UNDEFINED_KEY;
   return holds;
 }
@@ -60,19 +60,19 @@ std::vector<BotAction> ScriptPlayer::tick() {
     case BotStep::Kind::kHold:
       m_down = step.key;
       m_remaining = step.kind == BotStep::Kind::kHold ? step.count : 1;
-      out.push_back(KeyAction{step.key, df::KEY_PRESSED});
+      out.emplace_back(KeyAction{step.key, df::KEY_PRESSED});
       break;
     case BotStep::Kind::kWait:
       m_remaining = step.count;
       break;
     case BotStep::Kind::kClick:
-      out.push_back(BotClick{df::CLICKED, step.button, step.x, step.y});
+      out.emplace_back(BotClick{df::CLICKED, step.button, step.x, step.y});
       break;
     case BotStep::Kind::kMove:
-      out.push_back(BotClick{df::MOVED, df::Mouse::UNDEFINED_MOUSE_BUTTON, step.x, step.y});
+      out.emplace_back(BotClick{df::MOVED, df::Mouse::UNDEFINED_MOUSE_BUTTON, step.x, step.y});
       break;
     case BotStep::Kind::kChat:
-      out.push_back(BotChat{step.text});
+      out.emplace_back(BotChat{step.text});
       break;
     default:
       break;
@@ -120,9 +120,9 @@ std::vector<BotAction> RandomPlayer::tick() {
   const int choice = below(10);
   if (choice < 6) {
     m_down = kKeys[static_cast<std::size_t>(below(static_cast<int>(kKeys.size())))];
-    out.push_back(KeyAction{m_down, df::KEY_PRESSED});
+    out.emplace_back(KeyAction{m_down, df::KEY_PRESSED});
   } else if (choice < 9) {
-    out.push_back(BotClick{df::CLICKED, df::Mouse::LEFT, below(m_width), below(m_height)});
+    out.emplace_back(BotClick{df::CLICKED, df::Mouse::LEFT, below(m_width), below(m_height)});
   }
   return out;
 }

@@ -89,7 +89,7 @@ class Sealer {
 
  private:
   detail::CipherContext context_;
-  std::array<unsigned char, kAeadIvSize> iv_;
+  [[maybe_unused]] std::array<unsigned char, kAeadIvSize> iv_;  // unused in the page, which has no ciphers
   SealLimits limits_;
   std::uint64_t next_ = 0;
 };
