@@ -139,7 +139,7 @@ TEST_F(UtilityTest, TimeStringCountsTicksOfAnyLength) {
                     {20, 50, "00:00:01"}};
   for (const auto& row : rows) {
     World one;
-    const World::Scope scope(one);
+    const World::Scope scope_of_one(one);
     one.extras().settings.frame_time = row.frame_time;
     for (int i = 0; i < row.ticks; ++i) one.tick();
     EXPECT_STREQ(getTimeString(), row.text) << row.frame_time;

@@ -165,10 +165,11 @@ TEST_F(PublishedSprite, EachFormIsAcceptedOrRefusedAtAllSizes) {
           const bool accepted = is_old ? form.is_old_accepted : form.is_accepted;
           lines.clear();
           EXPECT_EQ(load(text), accepted ? 0 : -1) << form.name << (is_old ? ", old\n" : "\n") << text;
-          if (const Sprite* p_sprite = RM.getSprite("s"); p_sprite != nullptr && accepted)
+          if (const Sprite* p_sprite = RM.getSprite("s"); p_sprite != nullptr && accepted) {
             EXPECT_EQ(p_sprite->getFrameCount(), n) << form.name << "\n" << text;
+          }
           EXPECT_EQ(logged("Sprite s: " + file() + ":"), static_cast<int>(lines.size()));
-          if (!accepted) EXPECT_EQ(lines.empty(), false) << form.name;
+          EXPECT_TRUE(accepted || !lines.empty()) << form.name;
           RM.unloadSprite("s");
         }
       }

@@ -21,12 +21,7 @@ class Saucer : public Object {};
 class Deaf : public Object {
  public:
   Deaf() { registerInterest(STEP_EVENT); }
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Woverloaded-virtual"
-  virtual int eventHandler(Event* /*p_e*/) {
-    return 1;
-  }
-#pragma GCC diagnostic pop
+  virtual int eventHandler(Event* /*p_e*/) { return 1; }
 };
 
 class Forgetful : public Object {

@@ -98,7 +98,9 @@ TEST_F(PublisherTest, FlightIsPublishedOnce) {
       drew(0, position);
       const auto changes = publish();
       ASSERT_EQ(changes.size(), i == 0 ? 1u : 0u) << "tick " << i;
-      if (i == 0) EXPECT_EQ(groupsOf(changes, 0), kAllGroups);
+      if (i == 0) {
+        EXPECT_EQ(groupsOf(changes, 0), kAllGroups);
+      }
       position = position + velocity;
       velocity = velocity + acceleration;
     }
