@@ -52,7 +52,9 @@ TEST_F(Runs, PlayersStayConnectedFromTheFirstToTheLast) {
       ASSERT_TRUE(serve([&] { return isOver(*ann) || (isIn(*ann, act) && isIn(*bob, act)); }));
       ASSERT_FALSE(isOver(*ann)) << "act " << act << ": " << ann->connection().message() << "\n"
                                  << game->log();
-      if (act > 1) EXPECT_TRUE(serve([&] { return has(Runs::row(*ann), "joins=2;"); })) << Runs::row(*ann);
+      if (act > 1) {
+        EXPECT_TRUE(serve([&] { return has(Runs::row(*ann), "joins=2;"); })) << Runs::row(*ann);
+      }
       EXPECT_EQ(ann->player(), player);
       EXPECT_TRUE(serve([&] { return lists(*ann, "bob"); }));
       if (act > 1 || row.steps[0] != 's') press(*bob, df::Keyboard::SPACE);

@@ -30,10 +30,10 @@ struct WorldReady {
   int window_height = 24;
   int frame_millis = 33;  ///< frame time of df-config.txt in ms, at most kMaxFrameMillis
   bool compat = false;
-  std::vector<std::string> help;  ///< at most kMaxHelpLines of kMaxHelpLength bytes
-  std::vector<ReadFile> files;    ///< files read by the game so far, if it is to be repeatable
-  bool fixed_addresses = false;   ///< the world's process has fixed addresses (FixedAddresses.h)
-  bool runs_empty = false;        ///< true if the world ticks even without players
+  std::vector<std::string> help;     ///< at most kMaxHelpLines of kMaxHelpLength bytes
+  std::vector<ReadFile> files = {};  ///< files read by the game so far, if it is to be repeatable
+  bool fixed_addresses = false;      ///< the world's process has fixed addresses (FixedAddresses.h)
+  bool runs_empty = false;           ///< true if the world ticks even without players
 };
 inline constexpr int kMaxFrameMillis = 1000;
 
@@ -49,7 +49,7 @@ struct WorldAnswer {
   std::vector<std::uint32_t> leavers;
   bool has_view = false;
   std::optional<std::uint64_t> state_hash;  ///< df::hashState(), if the turn requested it
-  std::vector<WorldPicture> pictures;       ///< sorted by player
+  std::vector<WorldPicture> pictures = {};  ///< sorted by player
   std::vector<df::AddedScore> scores = {};  ///< at most HighScoreLimits::kMaxAddedInTick
   std::vector<df::RoomTransfer> sent = {};  ///< at most GameRoomLimits::kMaxSentInTick
   std::uint64_t hash = 0;                   ///< hash of the answer's bytes, set by the reader; 0: none

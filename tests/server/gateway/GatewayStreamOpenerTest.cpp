@@ -27,9 +27,9 @@ class GatewayStreamOpenerTest : public testing::Test {
     return *GatewayAddress::parse("http://127.0.0.1:" + std::to_string(gateway->port()));
   }
   /// Opens a stream. Waits until there is a channel or an error message.
-  void open(StreamOpener& streams) {
+  void open(StreamOpener& opened) {
     error.reset();
-    streams.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
+    opened.open([this](std::unique_ptr<ReliableChannel> made, const std::string& sentence) {
       channel = std::move(made);
       error = sentence;
     });
@@ -137,16 +137,16 @@ TEST_F(GatewayStreamOpenerTest, UnreachableOrRefusingGatewayIsReported) {
 }
 
 TEST_F(GatewayStreamOpenerTest, WithoutEncryptionNoOtherMachineIsConnectedTo) {
-  GatewayStreamOpener streams(context, *GatewayAddress::parse("http://192.0.2.1"));
-  open(streams);
+  GatewayStreamOpener other(context, *GatewayAddress::parse("http://192.0.2.1"));
+  open(other);
   EXPECT_EQ(error, "Without encryption (https) only gateways on this machine are allowed.");
 }
 
 TEST_F(GatewayStreamOpenerTest, NothingIsCalledAfterCancel) {
   start();
-  GatewayStreamOpener streams(context, address());
-  streams.open([this](std::unique_ptr<ReliableChannel>, const std::string& sentence) { error = sentence; });
-  streams.cancel();
+  GatewayStreamOpener other(context, address());
+  other.open([this](std::unique_ptr<ReliableChannel>, const std::string& sentence) { error = sentence; });
+  other.cancel();
   context.run();
   EXPECT_FALSE(error);
 }

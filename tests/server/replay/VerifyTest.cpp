@@ -55,7 +55,7 @@ TEST_P(ShippedGameTest, ThreeRoundsReplayIdentically) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Games, ShippedGameTest, testing::ValuesIn(GameModule::available()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 class UnsteadyGameTest : public testing::TestWithParam<std::string> {};
 
@@ -83,7 +83,7 @@ TEST_P(UnsteadyGameTest, DifferenceIsFoundAtItsTick) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, UnsteadyGameTest,
                          testing::Values("instruction", "entropy", "clock", "thread", "file"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 class CuredGameTest : public testing::TestWithParam<std::string> {};
 
@@ -98,7 +98,7 @@ TEST_P(CuredGameTest, ReplaysIdentically) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, CuredGameTest, testing::Values("time", "device", "pointers"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& test) { return test.param; });
 
 TEST(VerifyTest, RoundsOfOneSeedHaveDifferentClocks) {
   Recorder recorder;

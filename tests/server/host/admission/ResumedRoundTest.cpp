@@ -82,8 +82,8 @@ class ResumingServer : public test::HostRooms {
     options.grace = 1;
     rooms.setWorlds([this, is_late](asio::io_context&) { return makeRound(is_late); });
     rooms.setOnRound([](Room&) {},
-                     [this](Room& room, const std::vector<PersistedSession>& sessions) {
-                       admission().restoreSessions(room, sessions);
+                     [this](Room& room, const std::vector<PersistedSession>& persisted) {
+                       admission().restoreSessions(room, persisted);
                      });
     admission();
     for (int i = 0; i < 10'000 && rooms.recovering(); ++i) tick();

@@ -25,7 +25,7 @@ template <class Struct>
 std::string written(const std::vector<std::uint64_t>& values, Struct& (*part)(MetricsSnapshot&)) {
   static_assert(std::is_trivially_copyable_v<Struct>);
   MetricsSnapshot snapshot;
-  std::memcpy(&part(snapshot), values.data(), sizeof(Struct));
+  std::memcpy(static_cast<void*>(&part(snapshot)), values.data(), sizeof(Struct));
   return renderMetrics(&snapshot, ProcessInfo());
 }
 
@@ -65,7 +65,7 @@ TEST(CounterFamilies, LogSummaryContainsEveryCounter) {
     std::vector<std::uint64_t> values(kCount);
     values[i] = 5;
     Counters counters;
-    std::memcpy(&counters, values.data(), sizeof counters);
+    std::memcpy(static_cast<void*>(&counters), values.data(), sizeof counters);
     EXPECT_TRUE(counters.summary().ends_with("=5")) << "counter " << i << ": " << counters.summary();
   }
 }

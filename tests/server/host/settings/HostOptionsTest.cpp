@@ -251,8 +251,9 @@ TEST(HostOptions, PasswordReadableByAllUsersCausesAWarning) {
     HostOptions options;
     EXPECT_EQ(parse({"--config", path.c_str()}, options), CommandLine::kRun);
     // The environment may hold variables of other tests.
-    std::erase_if(options.warnings,
-                  [](const std::string& text) { return text.starts_with("there is no variable NAIAD_"); });
+    std::erase_if(options.warnings, [](const std::string& warning) {
+      return warning.starts_with("there is no variable NAIAD_");
+    });
     return options.warnings;
   };
   constexpr fs::perms kOpen = fs::perms::owner_all | fs::perms::others_read;

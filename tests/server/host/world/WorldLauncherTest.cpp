@@ -138,7 +138,9 @@ TEST(WorldLauncher, KilledLauncherIsReplacedAndItsWorldsGoOn) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));  // until the next check
   const StartedWorld after = launcher.start();
   for (const StartedWorld& world : {after, before}) {
-    if (world.socket == after.socket) EXPECT_GT(waitForStart(world), 1);
+    if (world.socket == after.socket) {
+      EXPECT_GT(waitForStart(world), 1);
+    }
     EXPECT_EQ(send(world.socket, "end\n", 4, MSG_NOSIGNAL), 4);
     const auto status = waitForEnd(world);
     ASSERT_TRUE(status);
