@@ -25,7 +25,7 @@ constexpr std::size_t kRecordExtra = 64;  // maximum bytes that TLS adds to a re
 /// Allocated separately, because OpenSSL points to it and the socket may be moved.
 struct SecureSocket::Tls {
   struct Free {
-    void operator()(SSL* ssl) const { SSL_free(ssl); }
+    void operator()(SSL* freed) const { SSL_free(freed); }
   };
   SocketBio bio;
   std::unique_ptr<SSL, Free> ssl;

@@ -66,7 +66,6 @@ class Grid::Steps {
   Record* m_p_records;
   Slot* m_p_heads;
   Spot* m_p_spots;
-  std::uint32_t m_word_mask;
   std::uint32_t m_cell_mask;
   std::uint32_t m_others;
   const std::uint64_t* m_p_coverage;  // null if the other levels are empty
@@ -150,7 +149,6 @@ inline Grid::Steps::Steps(Grid& grid, std::size_t most)
       m_p_records(grid.m_records.data()),
       m_p_heads(m_level.heads.get()),
       m_p_spots(m_level.spots.get()),
-      m_word_mask(m_level.word_mask),
       m_cell_mask(m_level.word_mask << 6 | 63),
       m_others(grid.m_occupied & ~1u),
       m_p_coverage(grid.m_p_coverage != nullptr ? grid.m_p_coverage->words() : nullptr) {}
@@ -218,7 +216,7 @@ inline bool Grid::Steps::gather(Slot s, FixedVector where, unsigned near) {
     for (Slot t = m_p_records[first].next; t != kNone; t = m_p_records[t].next) {
       if (count >= kFew - 9) return false;
       m_few[count] = t;
-      count += touches(t, corner) & (t != s) ? 1 : 0;
+      count += (touches(t, corner) & (t != s)) ? 1 : 0;
     }
   }
   m_count = count;

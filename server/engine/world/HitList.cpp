@@ -263,7 +263,7 @@ class HitList::Search {
     for (std::size_t i = 0; i < count; ++i) {
       const SweepBounds::Stay stay = m_bounds->at(boxOf(m_near[i], level));
       candidates[left] = {stay.enter, m_near[i]};
-      left += (stay.enter <= stay.leave) & (stay.enter <= until) & (stay.leave >= 0) ? 1 : 0;
+      left += ((stay.enter <= stay.leave) & (stay.enter <= until) & (stay.leave >= 0)) ? 1 : 0;
     }
     for (; left > 0; --left) {
       Candidate* p_next = candidates.data();

@@ -275,7 +275,7 @@ TEST_F(GatewayPlay, PlacesAreLimitedForOneAddressAndInAll) {
     settings.max_visitors = 2;
     settings.max_per_address = 1;
   });
-  const auto enter = [this](WebClient& browser) {
+  const auto enter = [](WebClient& browser) {
     if (!browser.play()) return -2;
     browser.sendFrame(2, "hello");
     const auto answer = browser.frame();

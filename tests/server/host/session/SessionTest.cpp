@@ -28,7 +28,7 @@ using Wire = test::MessageLine<wire::ServerMessage>;
 class SessionTest : public testing::Test {
  protected:
   SessionTest() : session(std::make_unique<FakeChannel>(line), counters, now) {
-    session.start({[this](Session& s, const wire::Hello& hello) {
+    session.start({[](Session& s, const wire::Hello& hello) {
                      if (hello.protocol() != kProtocolVersion) {
                        s.refuse(wire::Refused::VERSION, "Please update the client.");
                        return;

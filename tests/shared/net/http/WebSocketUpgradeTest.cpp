@@ -18,7 +18,7 @@ HttpHead answer(const Fields& changes = {}) {
                  {"sec-websocket-accept", "s3pPLMBiTxaQ9kYGzzhZRbK+xOo="},
                  {"sec-websocket-protocol", "naiad.1"}}};
   for (const auto& [name, value] : changes) {
-    std::erase_if(head.fields, [&name = name](const auto& field) { return field.first == name; });
+    std::erase_if(head.fields, [&removed = name](const auto& field) { return field.first == removed; });
     if (!value.empty()) head.fields.emplace_back(name, value);
   }
   return head;
