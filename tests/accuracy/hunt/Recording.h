@@ -1,0 +1,84 @@
+// The recorded course of a scene: the input of the judges.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "HuntScene.h"
+
+namespace hunt {
+
+struct BodyState {
+  Vec2 place, velocity;
+  double angle = 0, spin = 0;
+  bool present = false;
+  bool frozen = false;
+
+  friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+/// Number of an obstacle as partner of a contact; bodies have their index.
+constexpr int obstacleNumber(int index) {
+  return -2 - index;
+}
+
+struct ContactEvent {
+  int tick = 0;
+  bool begins = true;
+  int receiver = kNothing;
+  int first = kNothing, second = kNothing;  ///< indices of bodies, or obstacleNumber()
+  double gap = 0;  ///< least gap that the pair can have had in this tick; below 0 if unknown
+
+  int other() const { return first == receiver ? second : first; }
+  friend bool operator==(const ContactEvent&, const ContactEvent&) = default;
+};
+
+/// A contact that has begun and not ended, for a receiver that gets end events.
+struct OpenContact {
+  int receiver = kNothing;
+  int other = kNothing;
+  bool apart = false;  ///< the other is gone, or far away, or one of the two is SPECTRAL
+};
+
+/// Sums over the present bodies of group 0 that are not kinematic.
+struct Sums {
+  double kinetic = 0;
+  double potential = 0;  ///< of gravity, fields, springs and mouse joints
+  double pull = 0;       ///< sum of the amounts of these forces
+  Vec2 momentum;
+  Vec2 force;                 ///< of gravity
+  double momentum_scale = 0;  ///< sum of the amounts of momentum
+  double angular = 0;         ///< about the common centre of mass
+  double angular_scale = 0;
+
+  double energy() const { return kinetic + potential; }
+};
+
+/// State after a tick. All lengths are metric.
+struct Tick {
+  std::vector<BodyState> bodies;
+  Sums sums;
+  bool acted = false;      ///< an action was carried out in this tick
+  bool displaced = false;  ///< an action for which displaces() is true was carried out by now
+  double depth = 0;        ///< deepest overlap as a part of the thinner body's half width
+  double opening = 0;      ///< widest opening of a joint as a part of its lever
+  double shift = 0;        ///< sum of all overlaps and openings, in cells
+  std::vector<OpenContact> open;
+};
+
+struct Recording {
+  std::vector<Tick> ticks;  ///< the first is the start
+  std::vector<ContactEvent> events;
+  std::uint64_t frozen = 0;   ///< how often a body was frozen
+  std::uint64_t limited = 0;  ///< how often a number was reduced to its limit
+  SceneData end;              ///< the scene as the actions have changed it
+};
+
+/// What a run records. STATES leaves out sums, overlaps and openings.
+enum class Detail { STATES, ALL };
+
+/// Runs the scene. With `p_start`, the bodies get these states before the first tick, and the joints keep
+/// what they have from the scene's own start.
+Recording run(const SceneData& scene, Detail detail, const std::vector<BodyState>* p_start = nullptr);
+
+}  // namespace hunt
