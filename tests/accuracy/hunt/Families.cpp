@@ -220,7 +220,8 @@ void SceneDraw::drawZone() {
   const int movers = 1 + below(4);
   for (int i = 0; i < movers; ++i) {
     const bool starts_inside = chance(.15);
-    const int mover = addBody({starts_inside ? 0.0 : -4.0, 1.2 * i - 1.5}, chance(.5) ? box(.5, .5) : circle(.3));
+    const int mover =
+        addBody({starts_inside ? 0.0 : -4.0, 1.2 * i - 1.5}, chance(.5) ? box(.5, .5) : circle(.3));
     BodyData& its = body(mover);
     its.velocity = {oneOf({0, .1, .2, .5, 3}), 0};
     its.turning = chance(.3);
@@ -263,7 +264,7 @@ void SceneDraw::drawHeap() {
   }
 }
 
-// Planks in a tray, until they should rest.
+// Planks and other polygons in a tray, until they should rest.
 void SceneDraw::drawPlanks() {
   m_scene.gravity = {0, .0111};
   m_scene.aspect = 1;
@@ -278,10 +279,11 @@ void SceneDraw::drawPlanks() {
   const int count = 5 + below(6);
   for (int i = 0; i < count; ++i) {
     const Vec2 place = {(i % 5 - 2) * 1.15 * length + between(-.5, .5), -length - 1.2 * length * (i / 5)};
-    const int index = addBody(place, box(length, height));
+    const int index = addBody(place, chance(.8) ? box(length, height) : anyPolygon(.4 * length));
     BodyData& its = body(index);
     its.turning = true;
     its.restitution = .2;
+    its.friction = oneOf({.5, .5, .5, .2, .8});
     its.angle = between(0, 6);
     its.spin = oneOf({0, .1, -.1, .05, .15});
   }
@@ -373,7 +375,7 @@ void SceneDraw::drawFields() {
 void SceneDraw::drawMix() {
   const int columns = 2 + below(4), count = 2 + below(10);
   const bool turns = chance(.7);
-  const double fastest = speed();
+  const double fastest = std::min(speed(), 3.0);
   int previous = kNothing;
   for (int i = 0; i < count; ++i) {
     const Vec2 place = {2.2 * (i % columns), -2.2 * (i / columns)};

@@ -44,14 +44,16 @@ struct OpenContact {
 struct Sums {
   double kinetic = 0;
   double potential = 0;  ///< of gravity, fields, springs and mouse joints
+  double stiff = 0;      ///< that of springs and fields that oscillate faster than a sub-step can follow
   double pull = 0;       ///< sum of the amounts of these forces
+  double rest = 0;       ///< kinetic energy of bodies with the speed that gravity adds in a quarter of a tick
   Vec2 momentum;
   Vec2 force;                 ///< of gravity
   double momentum_scale = 0;  ///< sum of the amounts of momentum
   double angular = 0;         ///< about the common centre of mass
   double angular_scale = 0;
 
-  double energy() const { return kinetic + potential; }
+  double energy() const { return kinetic + potential + stiff; }
 };
 
 /// State after a tick. All lengths are metric.
@@ -59,7 +61,8 @@ struct Tick {
   std::vector<BodyState> bodies;
   Sums sums;
   bool acted = false;      ///< an action was carried out in this tick
-  bool displaced = false;  ///< an action for which displaces() is true was carried out by now
+  bool displaced = false;  ///< by now, an action for which displaces() is true was carried out, or bodies
+                           ///< overlapped at the start
   double depth = 0;        ///< deepest overlap as a part of the thinner body's half width
   double opening = 0;      ///< widest opening of a joint as a part of its lever
   double shift = 0;        ///< sum of all overlaps and openings, in cells

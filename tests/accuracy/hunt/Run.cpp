@@ -24,6 +24,9 @@ using df::Vector;
 using naiad::physics::inverse;
 using naiad::physics::rotationBy;
 
+// Above this square of an oscillation's rate, per tick², the energy of a spring is not followed.
+constexpr double kStiff = .5;
+
 // Calls a function and writes the call. `target` is an expression that ends with . or ->, `before` its text.
 #define CALL(before, target, function, ...) \
   (m_script.call(before, #function, __VA_ARGS__), target function(__VA_ARGS__))
@@ -131,8 +134,12 @@ class LiveScene {
   void recordContacts(Tick& tick);
   Solid solidOf(std::size_t body) const;
   Solid solidOf(const ObstacleData& obstacle) const;
+  void recordPair(Tick& tick, int a, int b);
+  double turnOf(const JointData& joint, double lever) const;
   bool areJoined(int a, int b) const;
+  double travelOf(int number) const { return number < 0 ? 0 : m_travels[static_cast<std::size_t>(number)]; }
   const Solid* solidAt(int number) const;
+  double gapOf(int a, int b) const;
   df::Solidness solidnessOf(int number) const;
   Vec2 anchorOf(const JointData& joint, bool second) const;
 
@@ -151,6 +158,7 @@ class LiveScene {
   bool m_acted = false;                           // in this tick
   bool m_displaces = false, m_displaced = false;  // in this tick; ever
   std::vector<int> m_event_counts;                // by receiver
+  std::vector<double> m_travels;                  // bounds of the bodies' motion in this tick
   std::vector<Solid> m_body_solids, m_obstacle_solids;
   std::vector<std::pair<int, int>> m_excluded;  // pairs that overlapped after an action or at the start
   std::vector<OpenContact> m_open;
@@ -184,6 +192,7 @@ LiveScene::LiveScene(const SceneData& scene, Detail detail, const std::vector<Bo
       m_obstacles(scene.obstacles.size()),
       m_joints(scene.joints.size()),
       m_event_counts(scene.bodies.size()),
+      m_travels(scene.bodies.size()),
       m_body_solids(scene.bodies.size()),
       m_obstacle_solids(scene.obstacles.size()) {
   m_world.log().setSink([](const std::string&) {});
@@ -550,20 +559,22 @@ void LiveScene::addPotential(std::size_t index, Sums& sums) const {
   const Vec2 weight = data.mass * data.gravity_scale * m_now.gravity;
   sums.potential -= dot(weight, place);
   sums.pull += length(weight);
+  sums.rest += .5 * dot(weight, weight) / (16 * data.mass);
   if (data.stiffness > 0) {
     const Vec2 d = place - data.anchor;
-    sums.potential += .5 * data.mass * data.stiffness * dot(d, d);
+    (data.stiffness > kStiff ? sums.stiff : sums.potential) += .5 * data.mass * data.stiffness * dot(d, d);
     sums.pull += data.mass * data.stiffness * length(d);
   }
   if (data.field == kNothing) return;
   const FieldData& field = m_now.fields[static_cast<std::size_t>(data.field)];
   const Vec2 d = place - data.field_origin;
   if (field.kind == FieldData::Kind::LINEAR) {
-    sums.potential += .5 * data.mass * field.strength * dot(d, d);
+    (field.strength > kStiff ? sums.stiff : sums.potential) += .5 * data.mass * field.strength * dot(d, d);
     sums.pull += data.mass * field.strength * length(d);
   } else if (field.kind == FieldData::Kind::TANH) {
-    sums.potential += data.mass * field.strength *
-                      (tanhPotential(field.steepness, d.x) + tanhPotential(field.steepness, d.y));
+    (field.strength * field.steepness > kStiff ? sums.stiff : sums.potential) +=
+        data.mass * field.strength *
+        (tanhPotential(field.steepness, d.x) + tanhPotential(field.steepness, d.y));
     sums.pull += 2 * data.mass * field.strength;
   }
 }
@@ -574,7 +585,11 @@ void LiveScene::addJointPotential(std::size_t index, Sums& sums) const {
   if (data.kind == JointData::Kind::SPRING) {
     const double rest = data.length > 0 ? data.length : length(data.point_b - data.point_a);
     const double stretch = length(anchorOf(data, true) - anchorOf(data, false)) - rest;
-    sums.potential += .5 * data.first * stretch * stretch;
+    double lightest = std::numeric_limits<double>::infinity();
+    for (const int end : {data.a, data.b}) {
+      if (end != kNothing) lightest = std::min(lightest, m_now.bodies[static_cast<std::size_t>(end)].mass);
+    }
+    (data.first > kStiff * lightest ? sums.stiff : sums.potential) += .5 * data.first * stretch * stretch;
     sums.pull += data.first * std::abs(stretch);
   } else if (data.kind == JointData::Kind::MOUSE) {
     const Vec2 d = anchorOf(data, true) - (data.has_target ? data.target : data.point_b);
@@ -635,46 +650,47 @@ bool LiveScene::areJoined(int a, int b) const {
 }
 
 void LiveScene::recordSolids(Tick& tick) {
-  for (std::size_t i = 0; i < m_bodies.size(); ++i) m_body_solids[i] = m_bodies[i] ? solidOf(i) : Solid{};
-  for (std::size_t i = 0; i < m_obstacles.size(); ++i) {
-    if (m_acted || m_recording.ticks.size() == 1)
-      m_obstacle_solids[i] = m_obstacles[i] ? solidOf(m_now.obstacles[i]) : Solid{};
-  }
-  const bool excludes = m_displaces || m_recording.ticks.size() == 1;
-  const auto judge = [&](int a, int b, double depth, double thickness) {
-    const auto found = std::find(m_excluded.begin(), m_excluded.end(), std::pair(a, b));
-    if (depth <= 0) {
-      if (found != m_excluded.end()) m_excluded.erase(found);
-      return;
-    }
-    if (found != m_excluded.end()) return;
-    if (excludes && depth > 1e-9) return m_excluded.emplace_back(a, b), void();
-    if (m_joints.empty() || !areJoined(a, b)) {
-      tick.depth = std::max(tick.depth, depth / thickness);
-      tick.shift += depth;
-    }
-  };
+  const std::vector<Tick>& ticks = m_recording.ticks;
+  const std::vector<BodyState>& before = ticks.size() > 1 ? ticks[ticks.size() - 2].bodies : tick.bodies;
   for (std::size_t i = 0; i < m_bodies.size(); ++i) {
-    if (!m_bodies[i] || m_now.bodies[i].solidness != df::HARD) continue;
-    const Solid& own = m_body_solids[i];
-    const bool is_dynamic = m_now.bodies[i].isDynamic();
-    for (std::size_t j = i + 1; j < m_bodies.size(); ++j) {
-      if (!m_bodies[j] || m_now.bodies[j].solidness != df::HARD) continue;
-      const bool is_other = m_now.bodies[j].isDynamic();
-      if (!is_dynamic && !is_other) continue;
-      const Solid& other = m_body_solids[j];
-      const double thickness = !is_dynamic ? other.thickness
-                               : !is_other ? own.thickness
-                                           : std::min(own.thickness, other.thickness);
-      judge(static_cast<int>(i), static_cast<int>(j), depthOf(own, other), thickness);
-    }
-    if (!is_dynamic) continue;
-    for (std::size_t j = 0; j < m_obstacles.size(); ++j) {
-      if (!m_obstacles[j] || m_now.obstacles[j].solidness != df::HARD) continue;
-      judge(static_cast<int>(i), obstacleNumber(static_cast<int>(j)), depthOf(own, m_obstacle_solids[j]),
-            own.thickness);
-    }
+    m_body_solids[i] = m_bodies[i] != nullptr ? solidOf(i) : Solid{};
+    const BodyState &from = before[i], &to = tick.bodies[i];
+    m_travels[i] = length(to.place - from.place) + length(from.velocity) + length(to.velocity) +
+                   m_body_solids[i].reach * std::max(std::abs(from.spin), std::abs(to.spin));
   }
+  for (std::size_t i = 0; i < m_obstacles.size(); ++i) {
+    if (m_acted || ticks.size() == 1)
+      m_obstacle_solids[i] = m_obstacles[i] != nullptr ? solidOf(m_now.obstacles[i]) : Solid{};
+  }
+  for (int i = 0; i < static_cast<int>(m_bodies.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(m_bodies.size()); ++j) recordPair(tick, i, j);
+    for (int j = 0; j < static_cast<int>(m_obstacles.size()); ++j) recordPair(tick, i, obstacleNumber(j));
+  }
+}
+
+void LiveScene::recordPair(Tick& tick, int a, int b) {
+  const Solid *p_a = solidAt(a), *p_b = solidAt(b);
+  if (p_a == nullptr || p_b == nullptr || solidnessOf(a) != df::HARD || solidnessOf(b) != df::HARD) return;
+  const bool is_dynamic = m_now.bodies[static_cast<std::size_t>(a)].isDynamic();
+  const bool is_other = b >= 0 && m_now.bodies[static_cast<std::size_t>(b)].isDynamic();
+  if (!is_dynamic && !is_other) return;
+  const double depth = depthOf(*p_a, *p_b);
+  const auto found = std::find(m_excluded.begin(), m_excluded.end(), std::pair(a, b));
+  if (depth <= 0 && found != m_excluded.end()) m_excluded.erase(found);
+  if (depth <= 0 || found != m_excluded.end()) return;
+  if ((m_displaces || m_recording.ticks.size() == 1) && depth > 1e-9) {
+    m_excluded.emplace_back(a, b);
+    if (!areJoined(a, b)) tick.displaced = m_displaced = true;
+    return;
+  }
+  if (areJoined(a, b)) return;
+  // Bodies that move fast overlap between a step's search and the next.
+  const double travel = travelOf(a) + travelOf(b);
+  const double unavoidable = (m_now.level == df::ACCURACY_FAST ? .25 : .05) * travel;
+  const double thickness =
+      std::min(is_dynamic ? p_a->thickness : p_b->thickness, is_other ? p_b->thickness : p_a->thickness);
+  tick.depth = std::max(tick.depth, (depth - unavoidable) / thickness);
+  tick.shift += depth;
 }
 
 void LiveScene::recordOpenings(Tick& tick) const {
@@ -706,9 +722,28 @@ void LiveScene::recordOpenings(Tick& tick) const {
       const Vec2 point = index == data.a ? data.point_a : data.point_b;
       lever = std::max({lever, m_body_solids[at].reach, length(point - m_now.bodies[at].place)});
     }
-    tick.opening = std::max(tick.opening, opening / lever);
+    // A sub-step of the fast level moves straight on, though the joint turns.
+    const double turn = m_now.level == df::ACCURACY_FAST ? .25 * turnOf(data, lever) : 0;
+    tick.opening = std::max(tick.opening, opening / lever - turn * turn);
     tick.shift += std::max(opening, 0.0);
   }
+}
+
+// Returns a bound of the angle by which the joint turns in this tick.
+double LiveScene::turnOf(const JointData& joint, double lever) const {
+  double turn = 0;
+  const std::vector<Tick>& ticks = m_recording.ticks;
+  for (std::size_t i = ticks.size() - std::min<std::size_t>(ticks.size(), 2); i < ticks.size(); ++i) {
+    Vec2 velocity;
+    for (const int index : {joint.a, joint.b}) {
+      if (index == kNothing) continue;
+      const BodyState& state = ticks[i].bodies[static_cast<std::size_t>(index)];
+      turn = std::max(turn, std::abs(state.spin));
+      velocity = state.velocity - velocity;
+    }
+    turn = std::max(turn, length(velocity) / lever);
+  }
+  return turn;
 }
 
 const Solid* LiveScene::solidAt(int number) const {
@@ -723,24 +758,26 @@ df::Solidness LiveScene::solidnessOf(int number) const {
                      : m_now.obstacles[static_cast<std::size_t>(obstacleNumber(number))].solidness;
 }
 
+// Returns a lower bound of the distance. To sensors, shapes may be boxes.
+double LiveScene::gapOf(int a, int b) const {
+  const Solid &one = *solidAt(a), &other = *solidAt(b);
+  if (solidnessOf(a) == df::HARD && solidnessOf(b) == df::HARD) return -depthOf(one, other);
+  const auto reachOf = [this](int number, const Solid& solid) {
+    if (number >= 0) return Vec2{solid.reach, solid.reach};
+    return m_now.obstacles[static_cast<std::size_t>(obstacleNumber(number))].half;
+  };
+  const Vec2 reach = reachOf(a, one) + reachOf(b, other), apart = one.centre - other.centre;
+  return std::max(std::abs(apart.x) - reach.x, std::abs(apart.y) - reach.y);
+}
+
 // Completes the events of the tick with the least gap of the pair, and records which contacts are open.
 void LiveScene::recordContacts(Tick& tick) {
   constexpr double kApart = .1;
-  const std::vector<Tick>& ticks = m_recording.ticks;
-  const std::vector<BodyState>& before = ticks.size() > 1 ? ticks[ticks.size() - 2].bodies : tick.bodies;
-  const auto travelOf = [&](int number) {
-    if (number < 0) return 0.0;
-    const auto index = static_cast<std::size_t>(number);
-    const BodyState &from = before[index], &to = tick.bodies[index];
-    const double reach = m_body_solids[index].reach;
-    return length(to.place - from.place) + length(from.velocity) + length(to.velocity) +
-           reach * std::max(std::abs(from.spin), std::abs(to.spin));
-  };
   for (ContactEvent& event : m_recording.events) {
     if (event.tick != m_tick || m_acted) continue;
     const Solid *p_first = solidAt(event.first), *p_second = solidAt(event.second);
     if (p_first != nullptr && p_second != nullptr)
-      event.gap = -depthOf(*p_first, *p_second) - travelOf(event.first) - travelOf(event.second);
+      event.gap = gapOf(event.first, event.second) - travelOf(event.first) - travelOf(event.second);
   }
   for (const ContactEvent& event : m_recording.events) {
     if (event.tick != m_tick) continue;
@@ -752,9 +789,8 @@ void LiveScene::recordContacts(Tick& tick) {
   }
   std::erase_if(m_open, [this](const OpenContact& open) { return bodyAt(open.receiver) == nullptr; });
   for (OpenContact& open : m_open) {
-    const Solid *p_own = solidAt(open.receiver), *p_other = solidAt(open.other);
-    open.apart = p_other == nullptr || solidnessOf(open.receiver) == df::SPECTRAL ||
-                 solidnessOf(open.other) == df::SPECTRAL || depthOf(*p_own, *p_other) < -kApart;
+    open.apart = solidAt(open.other) == nullptr || solidnessOf(open.receiver) == df::SPECTRAL ||
+                 solidnessOf(open.other) == df::SPECTRAL || gapOf(open.receiver, open.other) > kApart;
   }
   tick.open = m_open;
 }

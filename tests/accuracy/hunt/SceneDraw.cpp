@@ -81,7 +81,7 @@ void SceneDraw::drawWorld() {
   m_scene.aspect = oneOf({1, 1, 1, 1, 2, 2, 2, 2, .5, 1.5});
   m_scene.level = chance(.5) ? df::ACCURACY_DEFAULT : df::ACCURACY_FAST;
   m_scene.sleeping = chance(.8);
-  m_scene.gravity = {0, oneOf({0, .01, .01, .0111, .02, .05, .1})};
+  m_scene.gravity = {0, oneOf({0, .01, .01, .0111, .02, .05})};
   m_scene.obstacle_friction = oneOf({.5, .5, .5, 0, .1, 1});
   m_scene.obstacle_restitution = oneOf({0, 0, 0, 0, .3, 1});
   m_scene.ticks = 40 + below(61);

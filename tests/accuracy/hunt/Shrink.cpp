@@ -10,7 +10,11 @@ namespace {
 class Shrinker {
  public:
   Shrinker(const SceneData& scene, const Judge& judge, int tries)
-      : m_scene(scene), m_judge(judge), m_tries(tries) {}
+      : m_scene(scene),
+        m_judge(judge),
+        m_tries(tries),
+        m_keeps_walls(judge.name == std::string("through")),
+        m_starts_apart(startsApart(scene)) {}
 
   SceneData result() {
     while (m_tries > 0 && shrinkOnce()) {
@@ -23,17 +27,26 @@ class Shrinker {
     bool has_shrunk = shorten();
     has_shrunk |= removeFrom(&SceneData::actions) | removeFrom(&SceneData::joints);
     for (std::size_t i = m_scene.bodies.size(); i-- > 0;) {
-      if (m_scene.bodies[i].present) has_shrunk |= attempt([i](SceneData& scene) { removeBody(scene, i); });
+      if (m_scene.bodies[i].present && !isWall(m_scene.bodies[i]))
+        has_shrunk |= attempt([i](SceneData& scene) { removeBody(scene, i); });
     }
-    has_shrunk |= removeFrom(&SceneData::obstacles);
+    if (!m_keeps_walls) has_shrunk |= removeFrom(&SceneData::obstacles);
     return has_shrunk | simplify();
   }
+
+  static bool startsApart(SceneData scene) {
+    scene.ticks = 0;
+    return !run(scene, Detail::ALL).ticks.front().displaced;
+  }
+
+  bool isWall(const BodyData& body) const { return m_keeps_walls && body.kinematic; }
 
   // Keeps a change if the judge still finds a violation.
   bool attempt(const std::function<void(SceneData&)>& change) {
     if (m_tries-- <= 0) return false;
     SceneData changed = m_scene;
     change(changed);
+    if (m_starts_apart && !startsApart(changed)) return false;
     const std::vector<Verdict> verdicts = judgeScene(changed, &m_judge);
     if (!verdicts.front().finding) return false;
     m_scene = changed;
@@ -86,7 +99,7 @@ class Shrinker {
     done |= simplifyNumber([](SceneData& its) -> double& { return its.gravity.x; }, {0});
     done |= simplifyNumber([](SceneData& its) -> double& { return its.gravity.y; }, {0, .01});
     for (std::size_t i = 0; i < m_scene.bodies.size(); ++i) {
-      if (m_scene.bodies[i].present) done |= simplifyBody(i);
+      if (m_scene.bodies[i].present && !isWall(m_scene.bodies[i])) done |= simplifyBody(i);
     }
     return done;
   }
@@ -127,6 +140,8 @@ class Shrinker {
   SceneData m_scene;
   const Judge& m_judge;
   int m_tries;
+  const bool m_keeps_walls;  // the judge assumes that no boundary is missing
+  const bool m_starts_apart;
   int m_tick = -1;  // of the violation
 };
 

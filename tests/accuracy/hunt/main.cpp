@@ -247,6 +247,7 @@ int main(int argc, char** argv) {
                                judgesHelp()};
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, options, argc, argv))) return *code;
   if (settings.seconds <= 0) settings.seconds = kDefaultSeconds;
+  secondsSinceStart();
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGALRM}) ::signal(signal, onCrash);
   return settings.scene ? showScene(settings) : Hunt(settings).run();
 }
