@@ -241,7 +241,7 @@ std::optional<Finding> findOverlap(const Trial& trial) {
   return std::nullopt;
 }
 
-// Where a centre is, seen from a wall: before it, beyond it, inside it, or not level with it.
+// Position of a centre relative to a wall: on either side, inside, or not level with it.
 enum class Side { LOW, HIGH, INSIDE, AWAY };
 
 Side sideOf(const Boundary& boundary, double time, Vec2 place, double margin) {

@@ -43,12 +43,12 @@ struct OpenContact {
 /// Sums over the present bodies of group 0 that are not kinematic.
 struct Sums {
   double kinetic = 0;
-  double potential = 0;  ///< of gravity, fields, springs and mouse joints
-  double stiff = 0;      ///< that of springs and fields that oscillate faster than a sub-step can follow
+  double potential = 0;  ///< energy in gravity, fields, springs and mouse joints
+  double stiff = 0;      ///< energy in springs and fields that oscillate faster than a sub-step follows
   double pull = 0;       ///< sum of the amounts of these forces
   double rest = 0;       ///< kinetic energy of bodies with the speed that gravity adds in a quarter of a tick
   Vec2 momentum;
-  Vec2 force;                 ///< of gravity
+  Vec2 force;                 ///< gravity's
   double momentum_scale = 0;  ///< sum of the amounts of momentum
   double angular = 0;         ///< about the common centre of mass
   double angular_scale = 0;
@@ -60,12 +60,12 @@ struct Sums {
 struct Tick {
   std::vector<BodyState> bodies;
   Sums sums;
-  bool acted = false;      ///< an action was carried out in this tick
-  bool displaced = false;  ///< by now, an action for which displaces() is true was carried out, or bodies
-                           ///< overlapped at the start
-  double depth = 0;        ///< deepest overlap as a part of the thinner body's half width
-  double opening = 0;      ///< widest opening of a joint as a part of its lever
-  double shift = 0;        ///< sum of all overlaps and openings, in cells
+  bool acted = false;  ///< an action was carried out in this tick
+  /// An action for which displaces() is true was carried out, or bodies overlapped at the start.
+  bool displaced = false;
+  double depth = 0;    ///< deepest overlap as a part of the thinner body's half width
+  double opening = 0;  ///< widest opening of a joint as a part of its lever
+  double shift = 0;    ///< sum of all overlaps and openings, in cells
   std::vector<OpenContact> open;
 };
 
@@ -77,7 +77,7 @@ struct Recording {
   SceneData end;              ///< the scene as the actions have changed it
 };
 
-/// What a run records. STATES leaves out sums, overlaps and openings.
+/// Amount of what is recorded. STATES leaves out sums, overlaps and openings.
 enum class Detail { STATES, ALL };
 
 /// Runs the scene. With `p_start`, the bodies get these states before the first tick, and the joints keep
