@@ -202,7 +202,7 @@ void SceneDraw::drawContact() {
   m_scene.ticks = std::max(m_scene.ticks, 75);
 }
 
-// Sensors that count who is in them, bodies that pass through, and some that are deleted inside.
+// Sensors that count the bodies in them, bodies that pass through, and some that are deleted inside.
 void SceneDraw::drawZone() {
   if (chance(.5)) m_scene.gravity = {};
   const int zones = 1 + below(2);

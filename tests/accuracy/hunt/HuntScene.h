@@ -27,7 +27,7 @@ struct Part {
   Kind kind = Kind::BOX;
   Vec2 size = {1, 1};  ///< full sides of a box; x is the radius of a circle
   Vec2 centre = {};    ///< relative to the body's position; only of the second part on
-  double angle = 0;    ///< of a box; only of the second part on
+  double angle = 0;    ///< box's angle; only of the second part on
   std::vector<Vec2> corners = {};
 };
 
@@ -36,7 +36,7 @@ struct FieldData {
   enum class Kind { LINEAR, TANH, MAGNET };
   Kind kind = Kind::LINEAR;
   double strength = 0;   ///< acceleration per cell; most acceleration on each axis; radians per tick
-  double steepness = 1;  ///< of TANH, per cell
+  double steepness = 1;  ///< TANH only, per cell
 };
 
 struct BodyData {
@@ -56,7 +56,7 @@ struct BodyData {
   double spin = 0;
   double gravity_scale = 1;
   double linear_drag = 0, quadratic_drag = 0;
-  Vec2 anchor;  ///< of its spring
+  Vec2 anchor;  ///< end of its spring
   double stiffness = 0, damping = 0;
   int field = kNothing;
   Vec2 field_origin;
@@ -78,14 +78,14 @@ struct JointData {
   bool present = true;
   Kind kind = Kind::DISTANCE;
   int a = kNothing, b = kNothing;
-  Vec2 point_a, point_b;   ///< in the world, at the start. Joints with one point have it twice
-  Vec2 axis = {1, 0};      ///< of a slider
+  Vec2 point_a, point_b;   ///< places at the start. Joints with one point have it twice
+  Vec2 axis = {1, 0};      ///< slider's direction
   double first = 0;        ///< stiffness, speed, lower limit; strength of a mouse joint
   double second = 0;       ///< damping, strength, upper limit; stiffness of a mouse joint, 0: the mass
   double length = 0;       ///< 0: the distance of the points at the start
   double break_force = 0;  ///< 0: never
   bool has_target = false;
-  Vec2 target;  ///< of a mouse joint
+  Vec2 target;  ///< mouse joint's target
 };
 
 /// One call of a setter, or a deletion, during the scene.
@@ -172,13 +172,13 @@ struct SceneData {
   }
 };
 
-/// What an action's `target` is an index of.
+/// List that an action's `target` is an index of.
 enum class TargetKind { BODY, OBSTACLE, JOINT, WORLD };
 TargetKind targetOf(Action::Kind kind);
 /// True if the action changes places or shapes, so that bodies may overlap and joints may be open after it.
 bool displaces(Action::Kind kind);
 
-/// Draws the scene of this seed: the same on every machine.
+/// Draws the scene of this seed. A seed gives equal scenes on every machine.
 SceneData drawScene(std::uint64_t seed);
 /// Adds a group 4,000 cells away, with the number 1, from the scene's seed.
 void addDistantGroup(SceneData& scene);
