@@ -1,4 +1,4 @@
-// A scene of the hunt as plain data, from which Run.h builds a world and Print.h writes a program.
+// A scene of the hunt as plain data, from which LiveScene.h builds a world.
 //
 // Lengths are in metric cells (cell widths along both axes), times in ticks, y points down. Nothing is erased
 // from the lists, so that indices stay valid: elements that were removed are marked as absent.

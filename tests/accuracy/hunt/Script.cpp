@@ -26,8 +26,12 @@ using df::Vector;
 int tick = 0;
 std::map<std::pair<int, int>, std::function<void()>> handlers;  // by body and number of its event
 
+struct TracedBody;
+std::map<int, TracedBody*> traced;
+
 struct TracedBody : df::Body {
-  explicit TracedBody(int its_index) : index(its_index) {}
+  explicit TracedBody(int its_index) : index(its_index) { traced[index] = this; }
+  ~TracedBody() override { traced.erase(index); }
   int eventHandler(const df::Event* p_event) override {
     const bool begins = p_event->getType() == df::COLLISION_EVENT;
     if (!begins && p_event->getType() != df::CONTACT_END_EVENT) return 0;
@@ -42,11 +46,9 @@ void update(int ticks) {
   while (ticks-- > 0) {
     WM.update();
     ++tick;
-    for (df::Object* p_object : WM.getAllObjects()) {
-      const auto* p_body = dynamic_cast<TracedBody*>(p_object);
-      if (p_body == nullptr) continue;
+    for (const auto& [index, p_body] : traced) {
       const Vector place = p_body->getPosition(), velocity = p_body->getVelocity();
-      std::printf("%d %d: %.9g %.9g  %.9g %.9g  %.9g %.9g\n", tick, p_body->index, place.x(), place.y(),
+      std::printf("%d %d: %.9g %.9g  %.9g %.9g  %.9g %.9g\n", tick, index, place.x(), place.y(),
                   velocity.x(), velocity.y(), p_body->getAngle(), p_body->getSpin());
     }
   }
