@@ -99,7 +99,7 @@ void SceneDraw::drawChain() {
     addJoint(kind == Kind::ROPE ? Kind::ROPE : Kind::DISTANCE, kNothing, previous, body(previous).place)
         .point_a = body(previous).place + Vec2{1, -1};
   if (chance(.2)) addFloor();
-  if (chance(.2)) m_scene.obstacles.empty() ? void(addObstacle({-3, 3}, {1, 1})) : void();
+  if (chance(.2) && m_scene.obstacles.empty()) addObstacle({-3, 3}, {1, 1});
   for (ObstacleData& floor : m_scene.obstacles) floor.centre.y += (count + 2) * spacing;
   for (Boundary& floor : m_scene.boundaries) {
     floor.lower.y += (count + 2) * spacing;
@@ -253,7 +253,9 @@ void SceneDraw::drawHeap() {
     addObstacle({-half_width - .5, -10}, {.5, 10});
     addObstacle({half_width + .5, -10}, {.5, 10});
   }
-  m_scene.boundaries.push_back({Boundary::Kind::ROOM, {-half_width - 1, -100}, {half_width + 1, 1}, {}});
+  m_scene.boundaries = {{Boundary::Kind::WALL_Y, {-half_width - 1, 0}, {half_width + 1, 1}, {}},
+                        {Boundary::Kind::WALL_X, {-half_width - 1, -20}, {-half_width, 1}, {}},
+                        {Boundary::Kind::WALL_X, {half_width, -20}, {half_width + 1, 1}, {}}};
   const int count = 3 + below(12);
   const bool turns = chance(.8);
   for (int i = 0; i < count; ++i) {

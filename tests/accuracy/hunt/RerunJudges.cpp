@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace hunt {
@@ -207,13 +208,30 @@ std::optional<Finding> findRebuild(const Trial& trial) {
                    limit, "moves otherwise than in a world that is built this way");
 }
 
+// True if the tiles of each row follow each other with gaps of at most 1/64 cell.
+bool areRowsWhole(const SceneData& scene) {
+  constexpr double kGap = 1.0 / 64 + 1e-9;
+  std::map<int, Vec2> ends;  // of the last tile, by row
+  const auto follows = [&](int row, Vec2 centre, Vec2 half) {
+    const Vec2 lower = centre - half, upper = centre + half;
+    const auto found = ends.find(row);
+    const bool is_near = found == ends.end() || std::abs(lower.x - found->second.x) <= kGap ||
+                         std::abs(lower.y - found->second.y) <= kGap;
+    ends[row] = upper;
+    return is_near;
+  };
+  for (const ObstacleData& its : scene.obstacles) {
+    if (its.present && its.row != kNothing && !follows(its.row, its.centre, its.half)) return false;
+  }
+  for (const BodyData& its : scene.bodies) {
+    if (its.present && its.row != kNothing && !follows(its.row, its.place, .5 * its.parts[0].size))
+      return false;
+  }
+  return !ends.empty();
+}
+
 bool appliesTiles(const Trial& trial) {
-  const SceneData& scene = trial.scene;
-  const bool has_rows =
-      std::any_of(scene.obstacles.begin(), scene.obstacles.end(),
-                  [](auto& its) { return its.row != kNothing; }) ||
-      std::any_of(scene.bodies.begin(), scene.bodies.end(), [](auto& its) { return its.row != kNothing; });
-  return has_rows && !hasAnyAction(scene) && countDynamic(scene) <= 2;
+  return areRowsWhole(trial.scene) && !hasAnyAction(trial.scene) && countDynamic(trial.scene) <= 2;
 }
 
 std::optional<Finding> findTiles(const Trial& trial) {
