@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -48,15 +49,19 @@ double secondsSinceStart() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Names the scene in which the program crashes or hangs.
-volatile std::uint64_t s_running_seed = 0;
+// Message that names the scene in which the program crashes or hangs.
+std::array<char, 80> s_last_words;
+volatile sig_atomic_t s_last_size = 0;
 
-void onCrash(int signal) {
-  char text[120];
-  const int size = std::snprintf(text, sizeof text, "\nnaiad_hunt: %s in scene %llu\n",
-                                 signal == SIGALRM ? "a hang" : "a crash",
-                                 static_cast<unsigned long long>(s_running_seed));
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, text, static_cast<std::size_t>(size));
+void prepareLastWords(std::uint64_t seed) {
+  s_last_size =
+      std::snprintf(s_last_words.data(), s_last_words.size(), "\nnaiad_hunt: crash or hang in scene %llu\n",
+                    static_cast<unsigned long long>(seed));
+}
+
+extern "C" void onCrash(int /*signal*/) {
+  [[maybe_unused]] const auto written =
+      write(STDERR_FILENO, s_last_words.data(), static_cast<std::size_t>(s_last_size));
   _exit(1);
 }
 
@@ -92,7 +97,7 @@ class Hunt {
   }
 
   void examine(std::uint64_t seed) {
-    s_running_seed = seed;
+    prepareLastWords(seed);
     alarm(kMaxSceneSeconds);
     const SceneData scene = hunt::drawScene(seed);
     if (const char* p_region = excludedRegionOf(scene); p_region != nullptr) {
@@ -107,19 +112,24 @@ class Hunt {
       if (!verdict.finding) continue;
       if (tally.violations++ == 0) tally.first_seed = seed;
       ++m_violations;
-      show(scene, verdict);
+      show(scene, verdict, tally.violations > ceilingOf(*verdict.p_judge));
     }
     alarm(0);
   }
 
-  void show(const SceneData& scene, const Verdict& verdict) {
+  long ceilingOf(const Judge& judge) const {
+    const auto found = m_settings.ceilings.find(judge.name);
+    return found == m_settings.ceilings.end() ? 0 : found->second;
+  }
+
+  void show(const SceneData& scene, const Verdict& verdict, bool is_unknown) {
     if (m_shows_progress) std::fputs("\r\033[K", stderr);
-    std::printf("hunt violation judge=%s seed=%llu family=%s level=%s tick=%d value=%.4g limit=%.4g\n",
+    std::printf("hunt judge=%s seed=%llu family=%s level=%s tick=%d value=%.4g limit=%.4g\n",
                 verdict.p_judge->name, static_cast<unsigned long long>(scene.seed), scene.family.c_str(),
                 scene.level == df::ACCURACY_FAST ? "fast" : "default", verdict.finding->tick,
                 verdict.finding->value, verdict.finding->limit);
     std::fflush(stdout);
-    if (m_shrunk >= m_settings.shrink) return;
+    if (!is_unknown || m_shrunk >= m_settings.shrink) return;
     ++m_shrunk;
     alarm(0);
     const int tries = scene.ticks >= 1000 ? kShrinkTriesOfLongScenes : kShrinkTries;
@@ -148,8 +158,7 @@ class Hunt {
       if (m_settings.p_only != nullptr && m_settings.p_only != &judge) continue;
       const auto found = m_tallies.find(judge.name);
       const Tally tally = found == m_tallies.end() ? Tally{} : found->second;
-      const auto ceiling = m_settings.ceilings.find(judge.name);
-      const long allowed = ceiling == m_settings.ceilings.end() ? 0 : ceiling->second;
+      const long allowed = ceilingOf(judge);
       std::printf("hunt judge=%s applied=%ld violations=%ld allowed=%ld", judge.name, tally.applied,
                   tally.violations, allowed);
       if (tally.violations > 0)
@@ -230,19 +239,24 @@ std::string judgesHelp() {
 int main(int argc, char** argv) {
   Settings settings;
   const std::vector<naiad::Option> options = {
-      {"--seed", naiad::StoreText([&](const std::string& text) {
-         settings.seed = std::strtoull(text.c_str(), nullptr, 10);
-         return std::string();
-       }),
-       "Seed of the first scene; the next scenes have the next seeds (default: 1)"},
+      naiad::typedOption("--seed", "N", naiad::StoreText([&](const std::string& text) {
+                           settings.seed = std::strtoull(text.c_str(), nullptr, 10);
+                           return std::string();
+                         }),
+                         "Seed of the first scene; the next scenes have the next seeds (default: 1)"),
       {"--scenes", &settings.scenes, "Number of scenes"},
       {"--seconds", &settings.seconds, "Time limit, if --scenes is not given (default: 10)"},
-      {"--shrink", &settings.shrink, "Number of failing scenes to shrink and print (default: 3)"},
-      {"--only", naiad::StoreText([&](const std::string& text) { return storeJudge(text, settings); }),
-       "Ask only this judge"},
+      {"--shrink", &settings.shrink,
+       "Number of failing scenes, above --limits, to shrink and print (default: 3)"},
+      naiad::typedOption("--only", "JUDGE", naiad::StoreText([&](const std::string& text) {
+                           return storeJudge(text, settings);
+                         }),
+                         "Ask only this judge"),
       {"--scene", &settings.scene, "Print this scene as a program, with --only shrunk, and its judgements"},
-      {"--limits", naiad::StoreText([&](const std::string& text) { return storeLimits(text, settings); }),
-       "Allowed violations per judge, such as \"gain=2 overlap=1\" (default: none)"}};
+      naiad::typedOption("--limits", "LIMITS", naiad::StoreText([&](const std::string& text) {
+                           return storeLimits(text, settings);
+                         }),
+                         "Allowed violations per judge, such as \"gain=2 overlap=1\" (default: none)")};
   const naiad::Program program{"naiad_hunt", "Hunts for scenes of bodies in which an invariant fails",
                                judgesHelp()};
   if (const auto code = naiad::exitCodeOf(naiad::parseOptions(program, options, argc, argv))) return *code;
