@@ -67,6 +67,7 @@ struct alignas(64) ContactConstraint {
   ContactKind kind = ContactKind::kPoints;
   bool may_fly = false;  ///< no body is in a large group or one with joints, so both may be swept
   bool is_deep = false;  ///< true if there is overlap to undo
+  bool is_kept = false;  ///< true if the bodies touched in the last step
   Vec2 normal;           ///< normal at the present positions
   double friction = 0;
   double coupling = 0;             ///< coupling of the two points' normals

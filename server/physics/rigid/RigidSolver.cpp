@@ -95,7 +95,12 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double impact = std::sqrt(square);  // the speed of approach when they touch
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
-  if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
+  // Bodies that lie on one another fall with equal accelerations, but rest by those that others hold up.
+  const auto fall = [&](const RigidState& s) {
+    return 2 / h * (c.is_kept ? length(s.kick) : std::fabs(dot(c.normal, s.kick)));
+  };
+  const double pull = std::max({std::fabs(gain), fall(a), fall(b)});
+  if (!(time < h) || !(leaving > kRestSteps * h * pull)) return;
   // Speed by rotation, which is present or which the bounce causes.
   const double turning =
       std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
