@@ -22,6 +22,8 @@ struct alignas(64) RigidState {
   double spin_kick = 0;  ///< change of the spin by half a sub-step of torque
   Vec2 kick_growth;      ///< change of `kick` from one sub-step to the next
   bool is_pushed = false;
+  Vec2 velocity_before;    ///< velocity before the impulses of this half of the sub-step
+  double spin_before = 0;  ///< spin before the impulses of this half of the sub-step
 };
 
 /// A contact of two shapes whose bodies' bounds overlap. It is kept from step to step.

@@ -329,6 +329,53 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
   }
 }
 
+ContactImpulses impulsesOf(const ContactConstraint& c) {
+  return {c.points[0].normal_impulse, c.points[1].normal_impulse, c.points[0].friction_impulse,
+          c.points[1].friction_impulse};
+}
+
+void dropGuess(ContactConstraint& c) {
+  for (ContactPoint& p : c.points) {
+    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+  }
+}
+
+void restart(ContactConstraint& c, std::span<RigidState> bodies, const ContactImpulses& before, double part) {
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    ContactPoint& p = c.points[i];
+    const double normal = part * p.normal_warm, friction = part * p.friction_warm;
+    p.normal_impulse = before[i] + normal;
+    p.friction_impulse = before[i + 2] + friction;
+    pushPoint(c, p, bodies[at(c.a)], bodies[at(c.b)], normal, friction);
+  }
+}
+
+void scale(ContactConstraint& c, const ContactImpulses& before, double part) {
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    ContactPoint& p = c.points[i];
+    p.normal_impulse = before[i] + part * (p.normal_impulse - before[i]);
+    p.friction_impulse = before[i + 2] + part * (p.friction_impulse - before[i + 2]);
+  }
+}
+
+double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies,
+               const ContactImpulses& before) {
+  const auto driven = [](const RigidState& s) {
+    Pushed part(s);
+    if (s.inverse_mass > 0) part.velocity = {};
+    if (s.inverse_inertia > 0) part.spin = 0;
+    return part;
+  };
+  const Pushed a = driven(bodies[at(c.a)]), b = driven(bodies[at(c.b)]);
+  double input = 0;
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    const ContactPoint& p = c.points[i];
+    input -= (p.normal_impulse - before[i]) * normalSpeed(p, c.normal, a, b) +
+             (p.friction_impulse - before[i + 2]) * slipSpeed(p, perpendicular(c.normal), a, b);
+  }
+  return input;
+}
+
 double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {
   RigidState &state_a = bodies[at(c.a)], &state_b = bodies[at(c.b)];
   Pushed a(state_a), b(state_b);

@@ -110,6 +110,8 @@ void RigidWorld::kick(bool is_second) {
     RigidState& s = m_states[at(id)];
     s.velocity += s.kick;
     s.spin += s.spin_kick;
+    s.velocity_before = s.velocity;
+    s.spin_before = s.spin;
     if (is_second) s.kick += s.kick_growth;
   }
 }
@@ -163,7 +165,10 @@ void RigidWorld::pushOut(double h) {
 }
 
 void RigidWorld::solve(bool is_second) {
-  for (Island& island : m_islands) solveIsland(island, is_second);
+  for (Island& island : m_islands) {
+    solveIsland(island, is_second);
+    guardEnergy(island, is_second);
+  }
   for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) {
     solveContact(m_constraints[i], m_states, is_second);
   }
@@ -257,6 +262,7 @@ void RigidWorld::substep(double h) {
   for (ContactConstraint& c : m_constraints) {
     if (physics::beginSubstep(c, m_states, h)) is_deep = true;
   }
+  for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) dropGuess(m_constraints[i]);
   kick(false);
   m_joints.beginFirstHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);
@@ -268,7 +274,11 @@ void RigidWorld::substep(double h) {
   if (m_has_flown) dropParted();
   kick(true);
   m_joints.beginSecondHalf(m_states, h);
-  for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
+  m_first_half.clear();
+  for (ContactConstraint& c : m_constraints) {
+    m_first_half.push_back(impulsesOf(c));
+    beginSecondHalf(c, m_states, h);
+  }
   solve(true);
   turnByMagnets(h);
   m_joints.endSubstep();

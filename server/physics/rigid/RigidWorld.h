@@ -19,6 +19,7 @@
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
 #include "physics/rigid/RigidJoint.h"
+#include "physics/rigid/RigidSolver.h"
 #include "physics/rigid/RigidStepper.h"
 
 namespace naiad::physics {
@@ -35,6 +36,8 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< approximate number of factorisations in all direct solutions
   std::int64_t direct_failures = 0;  ///< direct solutions that failed
   std::int64_t direct_refusals = 0;  ///< groups not solved directly because it might cost too much
+  std::int64_t restarts = 0;         ///< halves of a sub-step of a group solved again, as it gained energy
+  std::int64_t scalings = 0;         ///< of these, the ones whose impulses were then reduced
   std::int64_t quarantined = 0;      ///< number of times that a body was frozen
   std::int64_t broken = 0;           ///< joints that broke
 };
@@ -146,11 +149,18 @@ class RigidWorld final : public RigidStepper {
     int hard_links = 0;  // number of links other than springs and mice
     double kick = 0;     // maximum speed of RigidState::kick of its bodies
     double budget = 0;   // multiplications that a direct solution may need in this step
+    double spare = 0;    // energy that the first half of the sub-step removed and the second may return
     bool has_fast = false;
     bool rests_anew = false;  // true if it is at rest in this sub-step, but has no known impulses
   };
   struct Gain {  // maximum speeds in a group: when it became still, and now
     double before = 0, now = 0;
+  };
+  struct Work {         // effect of the impulses of this half on the bodies of a group
+    double along = 0;   // Σ mass · velocity before · change
+    double square = 0;  // Σ mass · change²; the kinetic energy grows by along + square / 2
+    double energy = 0;  // twice the sum of the kinetic energies before and after
+    double pull = 0;    // Σ mass · kick · change
   };
   struct Impact {
     double time = 2;
@@ -237,6 +247,23 @@ class RigidWorld final : public RigidStepper {
   // Defined in RigidIslands.cpp:
   void solveIsland(Island& island, bool is_second);
   bool solveAtOnce(Island& island, bool is_second);
+  void sweepIsland(const Island& island, bool is_second, int sweeps);
+  void guardEnergy(Island& island, bool is_second);
+  Work workOf(const Island& island) const;
+  double inputOf(const Island& island, bool is_second);
+  void restart(const Island& island, bool is_second, double part);
+  double partOfGuess(const Island& island, bool is_second);
+  void scaleImpulses(const Island& island, bool is_second, double part);
+  std::span<const int> bodiesOf(const Island& island) const {
+    return std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
+  }
+  std::span<const int> constraintsOf(const Island& island) const {
+    return std::span(m_island_constraints).subspan(at(island.first_constraint), at(island.constraints));
+  }
+  std::span<const int> linksOf(const Island& island) const {
+    return std::span(m_island_links).subspan(at(island.first_link), at(island.links));
+  }
+  const ContactImpulses& firstHalfOf(int constraint, bool is_second) const;
   void giveUp(Island& island);
   void sleep(double dt);
 
@@ -250,7 +277,8 @@ class RigidWorld final : public RigidStepper {
   std::vector<RigidContact> m_contacts;
   std::int32_t m_free_contact = -1;
   std::vector<ContactConstraint> m_constraints;
-  std::vector<int> m_active;                          // ids of bodies that move in this step
+  std::vector<ContactImpulses> m_first_half;  // of m_constraints: impulses of the sub-step's first half
+  std::vector<int> m_active;                  // ids of bodies that move in this step
   std::vector<std::pair<int, MagnetTurn>> m_magnets;  // bodies turned by a magnet in this sub-step
   std::vector<int> m_dirty;                           // ids of immovable bodies that were set
   RigidJoints m_joints;
