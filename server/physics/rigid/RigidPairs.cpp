@@ -95,13 +95,23 @@ void RigidWorld::addEvent(RigidEvent event) {
 }
 
 void RigidWorld::updatePairs() {
-  const std::span<const BroadPhasePair> found = m_broad.updatePairs();
+  m_found_pairs.clear();
+  for (const BroadPhasePair& pair : m_broad.updatePairs()) {
+    const auto a = static_cast<std::int32_t>(pair.id_a), b = static_cast<std::int32_t>(pair.id_b);
+    m_found_pairs.push_back(isBefore(a, b) ? std::pair(a, b) : std::pair(b, a));
+  }
+  const auto areBefore = [this](const auto& x, const auto& y) {
+    return x.first != y.first ? isBefore(x.first, y.first) : isBefore(x.second, y.second);
+  };
+  if (!std::is_sorted(m_found_pairs.begin(), m_found_pairs.end(), areBefore))
+    std::sort(m_found_pairs.begin(), m_found_pairs.end(), areBefore);
   m_pairs.swap(m_pairs_before);
   m_pairs.clear();
   std::size_t next = 0;
-  for (const BroadPhasePair& pair : found) {
-    const std::int32_t a = idOf(pair.id_a), b = idOf(pair.id_b);
-    const auto isGone = [&](const Pair& old) { return old.a != a ? isBefore(old.a, a) : isBefore(old.b, b); };
+  for (const auto& [a, b] : m_found_pairs) {
+    const auto isGone = [&, a = a, b = b](const Pair& old) {
+      return old.a != a ? isBefore(old.a, a) : isBefore(old.b, b);
+    };
     while (next < m_pairs_before.size() && isGone(m_pairs_before[next])) dropPair(m_pairs_before[next++]);
     const bool is_old =
         next < m_pairs_before.size() && m_pairs_before[next].a == a && m_pairs_before[next].b == b;

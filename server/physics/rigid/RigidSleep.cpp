@@ -100,6 +100,7 @@ void RigidWorld::sleep(double dt) {
     m_island_still[at(id)] = 1e300;
     m_island_gain[at(id)] = {};
     m_island_flags[at(id)] = 0;
+    m_island_of[at(id)] = -1;
     m_extras[at(id)].ring = id;
   }
   for (const int id : m_active) {
@@ -145,7 +146,9 @@ void RigidWorld::sleep(double dt) {
     }
     if ((flags & kIsHeld) == 0 && (flags & kIsAdrift) != 0) continue;
     extra.is_asleep = true;
-    if (root != id) std::swap(extra.ring, m_extras[at(root)].ring);
+    int& first = m_island_of[at(root)];
+    if (first < 0) first = id;
+    if (first != id) std::swap(extra.ring, m_extras[at(first)].ring);
     m_bodies[at(id)].velocity = {};
     m_bodies[at(id)].spin = 0;
     m_states[at(id)] = {};

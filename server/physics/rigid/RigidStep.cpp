@@ -65,6 +65,11 @@ void RigidWorld::beginBody(int id, double dt) {
                gridBounds(body.place, bounds, extra.margin + kBoundsSlack * extra.thickness));
 }
 
+void RigidWorld::sortByOrder(std::vector<int>& ids) const {
+  const auto isLess = [this](int a, int b) { return isBefore(a, b); };
+  if (!std::is_sorted(ids.begin(), ids.end(), isLess)) std::sort(ids.begin(), ids.end(), isLess);
+}
+
 void RigidWorld::beginStep(double dt) {
   m_events.clear();
   m_constraints.clear();
@@ -86,6 +91,7 @@ void RigidWorld::beginStep(double dt) {
         m_states[at(id)] = {};
       }
     }
+    sortByOrder(m_active);
   }
   for (const int id : m_dirty) {
     Extra& extra = m_extras[at(id)];

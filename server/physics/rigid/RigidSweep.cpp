@@ -149,8 +149,8 @@ void RigidWorld::forecast(int id, double h) {
   const GridBounds bounds = gridBounds(place, swept, 0);
   m_broad.move(extra.proxy, bounds, bounds);
   m_near.clear();
-  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(idOf(other)); });
-  std::sort(m_near.begin(), m_near.end(), [this](int x, int y) { return isBefore(x, y); });
+  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(static_cast<int>(other)); });
+  sortByOrder(m_near);
   for (const int other : m_near) {
     if (other == id || !(isMovable(id) || isMovable(other)) || m_joints.keepsApart(id, other)) continue;
     forecastPair(id, other, h);

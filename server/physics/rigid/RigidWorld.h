@@ -56,12 +56,11 @@ class RigidWorld final : public RigidStepper {
 
   /// Adds a body. Shapes are relative to the centre of mass; a body without shapes touches nothing and is
   /// only for joints. Returns the lowest free id, or −1 if the body is invalid.
-  int add(const RigidBody& body, std::span<const ConvexShape> shapes);
-  void expect(std::size_t bodies) override;
-  int addInOrder(std::uint64_t /*order*/, const RigidBody& body,
-                 std::span<const ConvexShape> shapes) override {
-    return add(body, shapes);
+  int add(const RigidBody& body, std::span<const ConvexShape> shapes) {
+    return addInOrder(m_next_order, body, shapes);
   }
+  void expect(std::size_t bodies) override;
+  int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
@@ -97,6 +96,7 @@ class RigidWorld final : public RigidStepper {
   static constexpr int kPushSweeps = 8;  // sweeps that undo overlap in a group with joints; others need one
 
   struct Extra {
+    std::uint64_t order = 0;  // decides the order of bodies, because ids depend on which are free
     std::vector<ConvexShape> shapes;
     std::vector<RotatedShape> turned;
     double reach = 0;         // maximum distance of a point of its shapes from the centre
@@ -170,14 +170,14 @@ class RigidWorld final : public RigidStepper {
   };
 
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
-  // Order of the bodies in a pair and of pairs: movable bodies by id, then immovable ones. The ids of
-  // obstacles depend on which body was near them first, so they must not decide the order.
-  static constexpr std::uint32_t kImmovable = std::uint32_t{1} << 31;
-  std::uint32_t rankOf(int id) const {
-    return static_cast<std::uint32_t>(id) | (isMovable(id) ? 0 : kImmovable);
+  // Order of the bodies in a pair, of pairs and of bodies in a group: movable bodies in the order of
+  // addition, then immovable ones. Ids must not decide it, because they depend on other groups.
+  bool isBefore(int a, int b) const {
+    if (isMovable(a) != isMovable(b)) return isMovable(a);
+    const std::uint64_t first = m_extras[at(a)].order, second = m_extras[at(b)].order;
+    return first != second ? first < second : a < b;
   }
-  static int idOf(std::uint32_t rank) { return static_cast<int>(rank & ~kImmovable); }
-  bool isBefore(int a, int b) const { return rankOf(a) < rankOf(b); }
+  void sortByOrder(std::vector<int>& ids) const;
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 
   // Defined in RigidWorld.cpp:
@@ -272,8 +272,11 @@ class RigidWorld final : public RigidStepper {
   std::vector<Extra> m_extras;
   std::vector<RigidState> m_states;
   int m_first_free = 0;  // all lower ids are in use
+  std::uint64_t m_next_order = 0;
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
+  std::vector<std::pair<std::int32_t, std::int32_t>>
+      m_found_pairs;  // bodies with overlapping bounds, in order
   std::vector<RigidContact> m_contacts;
   std::int32_t m_free_contact = -1;
   std::vector<ContactConstraint> m_constraints;
@@ -287,7 +290,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
   UnionFind m_sets;              // sets of bodies
-  std::vector<int> m_island_of;  // index of the island, by root of m_sets
+  std::vector<int> m_island_of;  // by root of m_sets: index of the island; in sleep(), the first body
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
   std::size_t m_first_late = 0;  // index in m_constraints of the first one found within the step
