@@ -14,16 +14,25 @@ struct alignas(64) RigidState {
   double spin = 0;
   double inverse_mass = 0;  ///< 0 for immovable bodies, as is inverse_inertia
   double inverse_inertia = 0;
-  Vec2 push;             ///< velocity that undoes overlap, only for one sub-step
-  double push_spin = 0;  ///< spin that undoes overlap, for one sub-step
-  Vec2 displacement;     ///< movement since the beginning of the step
-  Rotation turn;         ///< rotation since the beginning of the step
-  Vec2 kick;             ///< change of the velocity by half a sub-step of acceleration
-  double spin_kick = 0;  ///< change of the spin by half a sub-step of torque
-  Vec2 kick_growth;      ///< change of `kick` from one sub-step to the next
-  bool is_pushed = false;
+  Vec2 push;               ///< velocity that undoes overlap, only for one sub-step
+  double push_spin = 0;    ///< spin that undoes overlap, for one sub-step
+  Vec2 kick;               ///< change of the velocity by half a sub-step of acceleration
+  double spin_kick = 0;    ///< change of the spin by half a sub-step of torque
   Vec2 velocity_before;    ///< velocity before the impulses of this half of the sub-step
   double spin_before = 0;  ///< spin before the impulses of this half of the sub-step
+  double mass = 0;         ///< 0 for immovable bodies, as is `inertia`
+  double inertia = 0;
+  Vec2 displacement;  ///< movement since the beginning of the step
+  Rotation turn;      ///< rotation since the beginning of the step
+  Vec2 kick_growth;   ///< change of `kick` from one sub-step to the next
+  bool is_pushed = false;
+
+  void setMass(double inverse, double inverse_of_inertia) {
+    inverse_mass = inverse;
+    inverse_inertia = inverse_of_inertia;
+    mass = inverse > 0 ? 1 / inverse : 0;
+    inertia = inverse_inertia > 0 ? 1 / inverse_inertia : 0;
+  }
 };
 
 /// A contact of two shapes whose bodies' bounds overlap. It is kept from step to step.

@@ -29,6 +29,7 @@ constexpr double kDirectTolerance = 1e-6;  // remaining error of a direct soluti
 constexpr int kSingleSweeps = 16;  // maximum for a single contact
 constexpr int kJointSweeps = 8;    // for groups with joints
 
+constexpr double kEnergyRounding = 1e-12;  // rounding error of a group's energy
 constexpr double kUnequalMassRatio = 1.3;  // if the mass ratio is larger, sweeps crush or throw light bodies
 
 bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states) {
@@ -76,26 +77,18 @@ void RigidWorld::sweepIsland(const Island& island, bool is_second, int sweeps) {
   }
 }
 
+void RigidWorld::addWork(const RigidState& s, Work& work) {
+  const Vec2 change = s.velocity - s.velocity_before;
+  const double turn = s.spin - s.spin_before;
+  work.along += s.mass * dot(s.velocity_before, change) + s.inertia * s.spin_before * turn;
+  work.square += s.mass * lengthSquared(change) + s.inertia * turn * turn;
+  work.before += s.mass * lengthSquared(s.velocity_before) + s.inertia * s.spin_before * s.spin_before;
+  work.pull += s.mass * dot(s.kick, change) + s.inertia * s.spin_kick * turn;
+}
+
 RigidWorld::Work RigidWorld::workOf(const Island& island) const {
   Work work;
-  for (const int id : bodiesOf(island)) {
-    const RigidState& s = m_states[at(id)];
-    if (s.inverse_mass > 0) {
-      const double mass = 1 / s.inverse_mass;
-      const Vec2 change = s.velocity - s.velocity_before;
-      work.along += mass * dot(s.velocity_before, change);
-      work.square += mass * lengthSquared(change);
-      work.energy += mass * (lengthSquared(s.velocity) + lengthSquared(s.velocity_before));
-      work.pull += mass * dot(s.kick, change);
-    }
-    if (s.inverse_inertia > 0) {
-      const double inertia = 1 / s.inverse_inertia, change = s.spin - s.spin_before;
-      work.along += inertia * s.spin_before * change;
-      work.square += inertia * change * change;
-      work.energy += inertia * (s.spin * s.spin + s.spin_before * s.spin_before);
-      work.pull += inertia * s.spin_kick * change;
-    }
-  }
+  for (const int id : bodiesOf(island)) addWork(m_states[at(id)], work);
   return work;
 }
 
@@ -153,13 +146,12 @@ void RigidWorld::scaleImpulses(const Island& island, bool is_second, double part
 // of the known impulses as is right; if that is not enough, all impulses are reduced. The second half may
 // return what the first removed: a bounce, or friction of a contact that ended.
 void RigidWorld::guardEnergy(Island& island, bool is_second) {
-  constexpr double kRounding = 1e-12;
   constexpr int kRepeatedSweeps = 4;
   Work work = workOf(island);
   double input = 0;
   const auto isGained = [&] {
     const double gain = work.along + 0.5 * work.square;
-    const double most = kRounding * work.energy + (is_second ? island.spare : 0);
+    const double most = kEnergyRounding * (work.before + work.square) + (is_second ? island.spare : 0);
     if (gain <= most) return false;
     input = inputOf(island, is_second);
     return gain > most + input;
@@ -180,6 +172,31 @@ void RigidWorld::guardEnergy(Island& island, bool is_second) {
     }
   }
   if (!is_second) island.spare = std::max(0.0, input + work.pull - work.along - 0.5 * work.square);
+}
+
+// Solves a contact that was found within the step, after the groups that it connects. Its impulses are
+// reduced if they add energy to its two bodies.
+void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
+  const ContactImpulses before = impulsesOf(c);
+  RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  for (RigidState* p_state : {&a, &b}) {
+    p_state->velocity_before = p_state->velocity;
+    p_state->spin_before = p_state->spin;
+  }
+  solveContact(c, m_states, is_second);
+  Work work;
+  addWork(a, work);
+  addWork(b, work);
+  if (work.along + 0.5 * work.square <= kEnergyRounding * (work.before + work.square)) return;
+  const double input = physics::inputOf(c, m_states, before);
+  if (work.along + 0.5 * work.square <= input + kEnergyRounding * (work.before + work.square)) return;
+  ++m_counters.scalings;
+  const double part = std::clamp((input - work.along) / work.square, 0.0, 1.0);
+  for (RigidState* p_state : {&a, &b}) {
+    p_state->velocity = p_state->velocity_before + part * (p_state->velocity - p_state->velocity_before);
+    p_state->spin = p_state->spin_before + part * (p_state->spin - p_state->spin_before);
+  }
+  scale(c, before, part);
 }
 
 void RigidWorld::giveUp(Island& island) {

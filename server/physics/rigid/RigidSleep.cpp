@@ -10,8 +10,9 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-constexpr int kCrowd = 32;         // minimum number of bodies in a large group
-constexpr double kCreep = 1e-6;    // cells per tick: a still group that gains more speed does not sleep
+constexpr int kFew = 3;          // maximum number of bodies whose impacts within a sub-step are all resolved
+constexpr int kCrowd = 32;       // minimum number of bodies in a large group
+constexpr double kCreep = 1e-6;  // cells per tick: a still group that gains more speed does not sleep
 constexpr double kMinKick = 1e-5;  // cells per tick: minimum of Island::kick, which is the unit of tolerances
 
 }  // namespace
@@ -66,6 +67,7 @@ void RigidWorld::gatherIslands() {
   }
   for (const int id : m_active) {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
+    m_extras[at(id)].is_in_group = island.bodies > kFew;
     m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }

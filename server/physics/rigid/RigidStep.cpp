@@ -48,8 +48,7 @@ void RigidWorld::beginBody(int id, double dt) {
   state.velocity = body.velocity;
   state.spin = body.spin;
   if (is_movable) {
-    state.inverse_mass = body.inverse_mass;
-    state.inverse_inertia = body.inverse_inertia;
+    state.setMass(body.inverse_mass, body.inverse_inertia);
     state.kick = (0.5 * m_h) * acceleration;
     if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
@@ -176,7 +175,7 @@ void RigidWorld::solve(bool is_second) {
     guardEnergy(island, is_second);
   }
   for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) {
-    solveContact(m_constraints[i], m_states, is_second);
+    solveLate(m_constraints[i], is_second);
   }
 }
 
@@ -280,10 +279,10 @@ void RigidWorld::substep(double h) {
   if (m_has_flown) dropParted();
   kick(true);
   m_joints.beginSecondHalf(m_states, h);
-  m_first_half.clear();
-  for (ContactConstraint& c : m_constraints) {
-    m_first_half.push_back(impulsesOf(c));
-    beginSecondHalf(c, m_states, h);
+  m_first_half.resize(m_constraints.size());
+  for (std::size_t i = 0; i < m_constraints.size(); ++i) {
+    m_first_half[i] = impulsesOf(m_constraints[i]);
+    beginSecondHalf(m_constraints[i], m_states, h);
   }
   solve(true);
   turnByMagnets(h);

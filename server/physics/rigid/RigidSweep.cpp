@@ -14,6 +14,7 @@ namespace {
 // more, after kMaxImpacts it waits for the next sub-step.
 constexpr int kMaxImpacts = 64;
 constexpr int kMaxBounces = 32;
+constexpr int kFreeImpacts = 4;  // after more impacts in a sub-step, a body of a group lands
 // Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
 // the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
@@ -167,8 +168,7 @@ void RigidWorld::wakeInFlight(int id) {
   extra.push_sweeps = 1;
   extra.margin = extra.moved = extra.rolled = 0;  // no contacts were searched around this body
   m_states[at(id)] = {};
-  m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
-  m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
+  m_states[at(id)].setMass(m_bodies[at(id)].inverse_mass, m_bodies[at(id)].inverse_inertia);
 }
 
 void RigidWorld::handleImpact(const Impact& impact, double h) {
@@ -219,12 +219,16 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
-    if (isMovable(id) && m_extras[at(id)].is_in_crowd) land(id, h);
+    const Extra& extra = m_extras[at(id)];
+    if (!isMovable(id)) continue;
+    const bool is_spent = extra.is_in_group && m_flights[at(extra.flight)].impacts > kFreeImpacts;
+    if (extra.is_in_crowd || is_spent) land(id, h);
   }
 }
 
 // Ends the sweep of a body of a large group, or of a group with joints, after an impact, because otherwise
-// all bodies of the group would be swept. In the rest of this sub-step the body moves at most by kLanded.
+// all bodies of the group would be swept; also after many impacts in a smaller group. In the rest of this
+// sub-step the body moves at most by kLanded.
 void RigidWorld::land(int id, double h) {
   const Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];

@@ -114,6 +114,7 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
+    bool is_in_group = false;  // true if its group, when last listed, had more than three bodies
     bool is_in_crowd = false;  // true if its group, when last listed, was large or had rigid joints
     bool is_given_up = false;  // true if the last step abandoned its group
     int push_sweeps = 1;       // number of sweeps that undo overlap in its group
@@ -159,7 +160,7 @@ class RigidWorld final : public RigidStepper {
   struct Work {         // effect of the impulses of this half on the bodies of a group
     double along = 0;   // Σ mass · velocity before · change
     double square = 0;  // Σ mass · change²; the kinetic energy grows by along + square / 2
-    double energy = 0;  // twice the sum of the kinetic energies before and after
+    double before = 0;  // twice the kinetic energy before
     double pull = 0;    // Σ mass · kick · change
   };
   struct Impact {
@@ -250,6 +251,8 @@ class RigidWorld final : public RigidStepper {
   void sweepIsland(const Island& island, bool is_second, int sweeps);
   void guardEnergy(Island& island, bool is_second);
   Work workOf(const Island& island) const;
+  static void addWork(const RigidState& state, Work& work);
+  void solveLate(ContactConstraint& constraint, bool is_second);
   double inputOf(const Island& island, bool is_second);
   void restart(const Island& island, bool is_second, double part);
   double partOfGuess(const Island& island, bool is_second);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tests/server/physics/BodyScene.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace df::test {
 namespace {
@@ -64,6 +65,34 @@ TEST_F(BodyHeap, PyramidOfTouchingBoxesComesToRest) {
   }
   expectTurns();
   EXPECT_NEAR(bodies.back()->getPosition().y(), 0.5 - kRows, 0.2);
+}
+
+// Planks that lie on one another have no acceleration relative to each other. Still they do not bounce for
+// ever.
+TEST_F(BodyHeap, FewPlanksInATrayComeToRest) {
+  naiad::physics::test::SceneRandom random;
+  for (const double length : {2.0, 6.0, 12.0}) {
+    for (const double height : {0.1, 0.4}) {
+      OwnWorld own;
+      PM.setGravity(Vector(0, 0.0111));
+      wall(Vector(0, 0.5), Vector(3.5 * length + 1, 0.5));
+      for (const double side : {-1.0, 1.0})
+        wall(Vector(side * (3.5 * length + 0.5), -10 * length), Vector(0.5, 10 * length));
+      std::vector<Body*> planks;
+      for (int i = 0; i < 10; ++i) {
+        const Vector place((i % 5 - 2) * 1.15 * length + random() - 0.5, -length - 1.2 * length * (i / 5));
+        Body* p_plank = turningCrate(place, Vector(0.5 * length, 0.5 * height));
+        p_plank->setRestitution(0.2);
+        p_plank->setAngle(random.between(0, 6));
+        planks.push_back(p_plank);
+      }
+      const auto& its_layer = *own.world.findLayer<naiad::physics::BodyLayer>();
+      for (int tick = 0; tick < 300; ++tick) own.world.update();
+      for (const Body* p_plank : planks)
+        EXPECT_EQ(p_plank->getVelocity(), Vector()) << length << ' ' << height;
+      EXPECT_LT(its_layer.rigidCounters().sweeps, 100'000) << length << ' ' << height;
+    }
+  }
 }
 
 // A few bodies, even fast ones, are solved exactly.
