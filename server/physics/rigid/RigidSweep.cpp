@@ -14,7 +14,9 @@ namespace {
 // more, after kMaxImpacts it waits for the next sub-step.
 constexpr int kMaxImpacts = 64;
 constexpr int kMaxBounces = 32;
-constexpr int kFreeImpacts = 4;  // after more impacts in a sub-step, a body of a group lands
+// After more impacts in a sub-step, a body lands: of a group of more than three bodies, and others.
+constexpr int kGroupImpacts = 4;
+constexpr int kFreeImpacts = 16;
 // Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
 // the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
@@ -221,8 +223,8 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   for (const int id : {a, b}) {
     const Extra& extra = m_extras[at(id)];
     if (!isMovable(id)) continue;
-    const bool is_spent = extra.is_in_group && m_flights[at(extra.flight)].impacts > kFreeImpacts;
-    if (extra.is_in_crowd || is_spent) land(id, h);
+    const int free_impacts = extra.is_in_group ? kGroupImpacts : kFreeImpacts;
+    if (extra.is_in_crowd || m_flights[at(extra.flight)].impacts > free_impacts) land(id, h);
   }
 }
 
