@@ -27,7 +27,8 @@ constexpr double kRest = 4;                // with a larger speed error, a conta
 constexpr double kDirectTolerance = 1e-6;  // remaining error of a direct solution; lets a stack sag
 // Numbers of Gauss–Seidel sweeps for groups that are not solved directly:
 constexpr int kSingleSweeps = 16;  // maximum for a single contact
-constexpr int kJointSweeps = 8;    // for groups with joints
+constexpr int kSweeps = 8;         // for groups with joints or few bodies
+constexpr int kMany = 32;          // minimum number of bodies of a group without joints that is swept once
 
 constexpr double kEnergyRounding = 1e-12;  // rounding error of a group's energy
 constexpr double kUnequalMassRatio = 1.3;  // if the mass ratio is larger, sweeps crush or throw light bodies
@@ -58,7 +59,7 @@ void RigidWorld::solveIsland(Island& island, bool is_second) {
     const double part = partOfGuess(island, is_second);
     if (part < 1) restart(island, is_second, part);
   }
-  sweepIsland(island, is_second, island.links > 0 ? kJointSweeps : 1);
+  sweepIsland(island, is_second, island.links > 0 || island.bodies < kMany ? kSweeps : 1);
 }
 
 void RigidWorld::sweepIsland(const Island& island, bool is_second, int sweeps) {
@@ -190,7 +191,7 @@ void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
   if (work.along + 0.5 * work.square <= kEnergyRounding * (work.before + work.square)) return;
   const double input = physics::inputOf(c, m_states, before);
   if (work.along + 0.5 * work.square <= input + kEnergyRounding * (work.before + work.square)) return;
-  ++m_counters.scalings;
+  ++m_counters.late_scalings;
   const double part = std::clamp((input - work.along) / work.square, 0.0, 1.0);
   for (RigidState* p_state : {&a, &b}) {
     p_state->velocity = p_state->velocity_before + part * (p_state->velocity - p_state->velocity_before);
