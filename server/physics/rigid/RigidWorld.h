@@ -37,7 +37,7 @@ struct RigidCounters {
   std::int64_t direct_failures = 0;  ///< direct solutions that failed
   std::int64_t direct_refusals = 0;  ///< groups not solved directly because it might cost too much
   std::int64_t restarts = 0;         ///< halves of a sub-step of a group solved again, as it gained energy
-  std::int64_t scalings = 0;         ///< of these, the ones whose impulses were then reduced
+  std::int64_t scalings = 0;         ///< restarts after which the impulses were reduced
   std::int64_t late_scalings = 0;    ///< contacts found within the step whose impulses were reduced
   std::int64_t quarantined = 0;      ///< number of times that a body was frozen
   std::int64_t broken = 0;           ///< joints that broke

@@ -253,8 +253,8 @@ TEST(RigidWorld, ABridgeBearsItsLoad) {
   EXPECT_LT(whereIs(world, load).y, 4);  // the load lies on the bridge
 }
 
-// Without gravity and drivers no impulse may add kinetic energy, whatever the masses, friction and
-// restitution.
+// Impulses may not add kinetic energy if there are neither gravity nor drivers, whatever the masses, friction
+// and restitution.
 TEST(RigidWorld, KineticEnergyNeverGrowsWithoutDrivers) {
   SceneRandom random;
   std::int64_t restarts = 0;
