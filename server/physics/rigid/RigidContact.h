@@ -71,6 +71,9 @@ struct alignas(64) ContactPoint {
   bool is_bending = false;  ///< it would bounce, but the path to the impact is not a parabola
 };
 
+/// Impulses of a contact: of its two points along the normal, then along the tangent.
+using ContactImpulses = std::array<double, 4>;
+
 /// A contact within a step. Fields are ordered as in ContactPoint.
 struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
@@ -88,11 +91,12 @@ struct alignas(64) ContactConstraint {
   Vec2 offset;        ///< displacement from A to B at the start of the step
   double radius_a = 0, radius_b = 0;
   double restitution = 0;
-  double slop = 0;            ///< depth of overlap that is not undone
-  double max_push_speed = 0;  ///< maximum speed at which overlap is undone
-  double first_time = -1;     ///< time of the first impulse within the step; −1: none
-  std::int32_t pair = -1;     ///< index of the pair; −1: found within the step
-  std::int32_t contact = -1;  ///< index of the kept contact; −1: found within the step
+  double slop = 0;              ///< depth of overlap that is not undone
+  double max_push_speed = 0;    ///< maximum speed at which overlap is undone
+  double first_time = -1;       ///< time of the first impulse within the step; −1: none
+  ContactImpulses before = {};  ///< impulses of this sub-step before its present half
+  std::int32_t pair = -1;       ///< index of the pair; −1: found within the step
+  std::int32_t contact = -1;    ///< index of the kept contact; −1: found within the step
 };
 
 }  // namespace naiad::physics

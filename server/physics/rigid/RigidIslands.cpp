@@ -93,17 +93,12 @@ RigidWorld::Work RigidWorld::workOf(const Island& island) const {
   return work;
 }
 
-const ContactImpulses& RigidWorld::firstHalfOf(int constraint, bool is_second) const {
-  static constexpr ContactImpulses kNone = {};
-  return is_second ? m_first_half[at(constraint)] : kNone;
-}
-
 // Returns the energy that drivers may add to the group by the impulses of this half: moving surfaces, motors,
 // springs and corrections of joints.
 double RigidWorld::inputOf(const Island& island, bool is_second) {
   double input = 0;
   for (const int i : constraintsOf(island)) {
-    input += physics::inputOf(m_constraints[at(i)], m_states, firstHalfOf(i, is_second));
+    input += physics::inputOf(m_constraints[at(i)], m_states);
   }
   for (const int link : linksOf(island)) input += m_joints.inputOf(link, m_states, is_second);
   return input;
@@ -117,7 +112,7 @@ void RigidWorld::restart(const Island& island, bool is_second, double part) {
     s.spin = s.spin_before;
   }
   for (const int i : constraintsOf(island)) {
-    physics::restart(m_constraints[at(i)], m_states, firstHalfOf(i, is_second), part);
+    physics::restart(m_constraints[at(i)], m_states, part);
   }
   for (const int link : linksOf(island)) m_joints.restart(link, m_states, is_second, part);
 }
@@ -131,14 +126,14 @@ double RigidWorld::partOfGuess(const Island& island, bool is_second) {
   return std::clamp((inputOf(island, is_second) - work.along) / work.square, 0.0, 1.0);
 }
 
-void RigidWorld::scaleImpulses(const Island& island, bool is_second, double part) {
+void RigidWorld::scaleImpulses(const Island& island, double part) {
   for (const int id : bodiesOf(island)) {
     RigidState& s = m_states[at(id)];
     s.velocity = s.velocity_before + part * (s.velocity - s.velocity_before);
     s.spin = s.spin_before + part * (s.spin - s.spin_before);
   }
   for (const int i : constraintsOf(island)) {
-    scale(m_constraints[at(i)], firstHalfOf(i, is_second), part);
+    scale(m_constraints[at(i)], part);
   }
   for (const int link : linksOf(island)) m_joints.scale(link, part);
 }
@@ -168,7 +163,7 @@ void RigidWorld::guardEnergy(Island& island, bool is_second) {
     if (isGained()) {
       ++m_counters.scalings;
       const double most = input + (is_second ? island.spare : 0) - work.along;
-      scaleImpulses(island, is_second, std::clamp(most / work.square, 0.0, 1.0));
+      scaleImpulses(island, std::clamp(most / work.square, 0.0, 1.0));
       work = workOf(island);
     }
   }
@@ -178,7 +173,6 @@ void RigidWorld::guardEnergy(Island& island, bool is_second) {
 // Solves a contact that was found within the step, after the groups that it connects. Its impulses are
 // reduced if they add energy to its two bodies.
 void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
-  const ContactImpulses before = impulsesOf(c);
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   for (RigidState* p_state : {&a, &b}) {
     p_state->velocity_before = p_state->velocity;
@@ -189,7 +183,7 @@ void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
   addWork(a, work);
   addWork(b, work);
   if (work.along + 0.5 * work.square <= kEnergyRounding * (work.before + work.square)) return;
-  const double input = physics::inputOf(c, m_states, before);
+  const double input = physics::inputOf(c, m_states);
   if (work.along + 0.5 * work.square <= input + kEnergyRounding * (work.before + work.square)) return;
   ++m_counters.late_scalings;
   const double part = std::clamp((input - work.along) / work.square, 0.0, 1.0);
@@ -197,7 +191,7 @@ void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
     p_state->velocity = p_state->velocity_before + part * (p_state->velocity - p_state->velocity_before);
     p_state->spin = p_state->spin_before + part * (p_state->spin - p_state->spin_before);
   }
-  scale(c, before, part);
+  scale(c, part);
 }
 
 void RigidWorld::giveUp(Island& island) {

@@ -302,6 +302,7 @@ void pushApart(ContactConstraint& c, std::span<RigidState> bodies) {
 }
 
 void beginFirstHalf(ContactConstraint& c, std::span<RigidState> bodies) {
+  c.before = {};
   RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   for (std::int32_t i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[at(i)];
@@ -311,6 +312,8 @@ void beginFirstHalf(ContactConstraint& c, std::span<RigidState> bodies) {
 
 void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double h) {
   RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  const ContactPoint &one = c.points[0], &two = c.points[1];
+  c.before = {one.normal_impulse, two.normal_impulse, one.friction_impulse, two.friction_impulse};
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     if (!p.is_bouncing) {
@@ -329,37 +332,31 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
   }
 }
 
-ContactImpulses impulsesOf(const ContactConstraint& c) {
-  return {c.points[0].normal_impulse, c.points[1].normal_impulse, c.points[0].friction_impulse,
-          c.points[1].friction_impulse};
-}
-
 void dropGuess(ContactConstraint& c) {
   for (ContactPoint& p : c.points) {
     p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
   }
 }
 
-void restart(ContactConstraint& c, std::span<RigidState> bodies, const ContactImpulses& before, double part) {
+void restart(ContactConstraint& c, std::span<RigidState> bodies, double part) {
   for (std::size_t i = 0; i < at(c.count); ++i) {
     ContactPoint& p = c.points[i];
     const double normal = part * p.normal_warm, friction = part * p.friction_warm;
-    p.normal_impulse = before[i] + normal;
-    p.friction_impulse = before[i + 2] + friction;
+    p.normal_impulse = c.before[i] + normal;
+    p.friction_impulse = c.before[i + 2] + friction;
     pushPoint(c, p, bodies[at(c.a)], bodies[at(c.b)], normal, friction);
   }
 }
 
-void scale(ContactConstraint& c, const ContactImpulses& before, double part) {
+void scale(ContactConstraint& c, double part) {
   for (std::size_t i = 0; i < at(c.count); ++i) {
     ContactPoint& p = c.points[i];
-    p.normal_impulse = before[i] + part * (p.normal_impulse - before[i]);
-    p.friction_impulse = before[i + 2] + part * (p.friction_impulse - before[i + 2]);
+    p.normal_impulse = c.before[i] + part * (p.normal_impulse - c.before[i]);
+    p.friction_impulse = c.before[i + 2] + part * (p.friction_impulse - c.before[i + 2]);
   }
 }
 
-double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies,
-               const ContactImpulses& before) {
+double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies) {
   const auto driven = [](const RigidState& s) {
     Pushed part(s);
     if (s.inverse_mass > 0) part.velocity = {};
@@ -370,8 +367,8 @@ double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies,
   double input = 0;
   for (std::size_t i = 0; i < at(c.count); ++i) {
     const ContactPoint& p = c.points[i];
-    input -= (p.normal_impulse - before[i]) * normalSpeed(p, c.normal, a, b) +
-             (p.friction_impulse - before[i + 2]) * slipSpeed(p, perpendicular(c.normal), a, b);
+    input -= (p.normal_impulse - c.before[i]) * normalSpeed(p, c.normal, a, b) +
+             (p.friction_impulse - c.before[i + 2]) * slipSpeed(p, perpendicular(c.normal), a, b);
   }
   return input;
 }

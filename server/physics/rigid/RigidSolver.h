@@ -4,7 +4,6 @@
 // those of the last sub-step; the two normal impulses of a manifold are solved together.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "physics/geometry/ConvexShape.h"
@@ -36,20 +35,14 @@ void pushApart(ContactConstraint& constraint, std::span<RigidState> bodies);
 /// Like beginFirstHalf(), for the second half; call after the bodies moved.
 void beginSecondHalf(ContactConstraint& constraint, std::span<RigidState> bodies, double h);
 
-/// Impulses of a contact: of its two points along the normal, then along the tangent.
-using ContactImpulses = std::array<double, 4>;
-ContactImpulses impulsesOf(const ContactConstraint& constraint);
 /// Sets the impulses of this half to zero, and to zero their first guess for both halves.
 void dropGuess(ContactConstraint& constraint);
 /// Applies the first guess of this half again, multiplied by `part`, to the velocities before the half.
-/// `before` are the impulses before it.
-void restart(ContactConstraint& constraint, std::span<RigidState> bodies, const ContactImpulses& before,
-             double part);
+void restart(ContactConstraint& constraint, std::span<RigidState> bodies, double part);
 /// Multiplies the impulses of this half by `part`, but not the velocities that they caused.
-void scale(ContactConstraint& constraint, const ContactImpulses& before, double part);
+void scale(ContactConstraint& constraint, double part);
 /// Returns the energy that moving surfaces add by the impulses of this half.
-double inputOf(const ContactConstraint& constraint, std::span<const RigidState> bodies,
-               const ContactImpulses& before);
+double inputOf(const ContactConstraint& constraint, std::span<const RigidState> bodies);
 
 /// Solves the contact once, in the second half if `is_second`. Returns the largest change of a normal speed.
 double solveContact(ContactConstraint& constraint, std::span<RigidState> bodies, bool is_second);

@@ -279,11 +279,7 @@ void RigidWorld::substep(double h) {
   if (m_has_flown) dropParted();
   kick(true);
   m_joints.beginSecondHalf(m_states, h);
-  m_first_half.resize(m_constraints.size());
-  for (std::size_t i = 0; i < m_constraints.size(); ++i) {
-    m_first_half[i] = impulsesOf(m_constraints[i]);
-    beginSecondHalf(m_constraints[i], m_states, h);
-  }
+  for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
   solve(true);
   turnByMagnets(h);
   m_joints.endSubstep();

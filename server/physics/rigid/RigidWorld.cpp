@@ -15,7 +15,6 @@ void RigidWorld::expect(std::size_t bodies) {
 
 int RigidWorld::addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) {
   if (!isValid(body)) return -1;
-  m_next_order = std::max(m_next_order, order + 1);
   int id = m_first_free;
   while (id < idLimit() && m_extras[at(id)].exists) ++id;
   m_first_free = id + 1;

@@ -19,7 +19,6 @@
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
 #include "physics/rigid/RigidJoint.h"
-#include "physics/rigid/RigidSolver.h"
 #include "physics/rigid/RigidStepper.h"
 
 namespace naiad::physics {
@@ -57,9 +56,7 @@ class RigidWorld final : public RigidStepper {
 
   /// Adds a body. Shapes are relative to the centre of mass; a body without shapes touches nothing and is
   /// only for joints. Returns the lowest free id, or −1 if the body is invalid.
-  int add(const RigidBody& body, std::span<const ConvexShape> shapes) {
-    return addInOrder(m_next_order, body, shapes);
-  }
+  int add(const RigidBody& body, std::span<const ConvexShape> shapes) { return addInOrder(0, body, shapes); }
   void expect(std::size_t bodies) override;
   int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
@@ -257,7 +254,7 @@ class RigidWorld final : public RigidStepper {
   double inputOf(const Island& island, bool is_second);
   void restart(const Island& island, bool is_second, double part);
   double partOfGuess(const Island& island, bool is_second);
-  void scaleImpulses(const Island& island, bool is_second, double part);
+  void scaleImpulses(const Island& island, double part);
   std::span<const int> bodiesOf(const Island& island) const {
     return std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
   }
@@ -267,7 +264,6 @@ class RigidWorld final : public RigidStepper {
   std::span<const int> linksOf(const Island& island) const {
     return std::span(m_island_links).subspan(at(island.first_link), at(island.links));
   }
-  const ContactImpulses& firstHalfOf(int constraint, bool is_second) const;
   void giveUp(Island& island);
   void sleep(double dt);
 
@@ -276,16 +272,12 @@ class RigidWorld final : public RigidStepper {
   std::vector<Extra> m_extras;
   std::vector<RigidState> m_states;
   int m_first_free = 0;  // all lower ids are in use
-  std::uint64_t m_next_order = 0;
   BroadPhase m_broad{true};
   std::vector<Pair> m_pairs, m_pairs_before;
-  std::vector<std::pair<std::int32_t, std::int32_t>>
-      m_found_pairs;  // bodies with overlapping bounds, in order
   std::vector<RigidContact> m_contacts;
   std::int32_t m_free_contact = -1;
   std::vector<ContactConstraint> m_constraints;
-  std::vector<ContactImpulses> m_first_half;  // of m_constraints: impulses of the sub-step's first half
-  std::vector<int> m_active;                  // ids of bodies that move in this step
+  std::vector<int> m_active;                          // ids of bodies that move in this step
   std::vector<std::pair<int, MagnetTurn>> m_magnets;  // bodies turned by a magnet in this sub-step
   std::vector<int> m_dirty;                           // ids of immovable bodies that were set
   RigidJoints m_joints;
