@@ -69,6 +69,7 @@ void BodyLayer::step(World& world) {
   if (m_islands.hasHeaps() || !m_heaps.isEmpty())
     m_heaps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
   logCrowd(world);
+  logScaling(world);
   for (State& state : m_states) settle(world, state);
   placeMoved(world, m_moved);
   std::vector<BodyContact>& news = m_contacts.finishTick();
@@ -375,6 +376,15 @@ void BodyLayer::logCrowd(World& world) {
   if (m_has_logged_crowd || !is_crowded) return;
   m_has_logged_crowd = true;
   world.log().write("physics: too many bodies in one place: some pass through others until there is room");
+}
+
+// Logs the first time that impulses had to be reduced because they would have added energy.
+void BodyLayer::logScaling(World& world) {
+  if (m_has_logged_scaling || m_has_logged_crowd || m_rigid_world.counters().scalings == 0) return;
+  m_has_logged_scaling = true;
+  world.log().write(
+      "physics: a group of bodies could not be solved well and lost energy; further cases are only "
+      "counted");
 }
 
 // Freezes the body at its place, so that its invalid numbers do not spread to other bodies.

@@ -97,8 +97,10 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
     if (state.solver == m_solver) {
       state.is_touched = contacts.isTouching(state.key);
       m_has_pulls = m_has_pulls || state.isPulled();
-      m_fastest = {std::max(m_fastest.x, std::fabs(state.start_velocity.x)),
-                   std::max(m_fastest.y, std::fabs(state.start_velocity.y))};
+      const double tip =
+          std::fabs(state.spin) * state.size.x;  // a rotating bar throws what it hits, or itself
+      m_fastest = {std::max(m_fastest.x, std::fabs(state.start_velocity.x) + tip),
+                   std::max(m_fastest.y, std::fabs(state.start_velocity.y) + tip)};
     }
     const BodyRow& row = table.row(state.index);
     const BodyGeometry& form = table.form(state.index);

@@ -82,7 +82,7 @@ class BodyRigids {
   BodySurroundings m_surroundings;
   int m_count = 0;
   bool m_has_pulls = false;  // true if a pull acts on one of its bodies in this tick
-  Vec2 m_fastest;            // maximum speeds of its bodies along each axis at the start of the tick
+  Vec2 m_fastest;            // maximum speeds of its bodies' points along each axis at the start of the tick
   bool m_may_sleep = true;
 };
 

@@ -14,14 +14,25 @@ struct alignas(64) RigidState {
   double spin = 0;
   double inverse_mass = 0;  ///< 0 for immovable bodies, as is inverse_inertia
   double inverse_inertia = 0;
-  Vec2 push;             ///< velocity that undoes overlap, only for one sub-step
-  double push_spin = 0;  ///< spin that undoes overlap, for one sub-step
-  Vec2 displacement;     ///< movement since the beginning of the step
-  Rotation turn;         ///< rotation since the beginning of the step
-  Vec2 kick;             ///< change of the velocity by half a sub-step of acceleration
-  double spin_kick = 0;  ///< change of the spin by half a sub-step of torque
-  Vec2 kick_growth;      ///< change of `kick` from one sub-step to the next
+  Vec2 push;               ///< velocity that undoes overlap, only for one sub-step
+  double push_spin = 0;    ///< spin that undoes overlap, for one sub-step
+  Vec2 kick;               ///< change of the velocity by half a sub-step of acceleration
+  double spin_kick = 0;    ///< change of the spin by half a sub-step of torque
+  Vec2 velocity_before;    ///< velocity before the impulses of this half of the sub-step
+  double spin_before = 0;  ///< spin before the impulses of this half of the sub-step
+  double mass = 0;         ///< 0 for immovable bodies, as is `inertia`
+  double inertia = 0;
+  Vec2 displacement;  ///< movement since the beginning of the step
+  Rotation turn;      ///< rotation since the beginning of the step
+  Vec2 kick_growth;   ///< change of `kick` from one sub-step to the next
   bool is_pushed = false;
+
+  void setMass(double inverse, double inverse_of_inertia) {
+    inverse_mass = inverse;
+    inverse_inertia = inverse_of_inertia;
+    mass = inverse > 0 ? 1 / inverse : 0;
+    inertia = inverse_inertia > 0 ? 1 / inverse_inertia : 0;
+  }
 };
 
 /// A contact of two shapes whose bodies' bounds overlap. It is kept from step to step.
@@ -60,6 +71,9 @@ struct alignas(64) ContactPoint {
   bool is_bending = false;  ///< it would bounce, but the path to the impact is not a parabola
 };
 
+/// Impulses of a contact: of its two points along the normal, then along the tangent.
+using ContactImpulses = std::array<double, 4>;
+
 /// A contact within a step. Fields are ordered as in ContactPoint.
 struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
@@ -67,6 +81,7 @@ struct alignas(64) ContactConstraint {
   ContactKind kind = ContactKind::kPoints;
   bool may_fly = false;  ///< no body is in a large group or one with joints, so both may be swept
   bool is_deep = false;  ///< true if there is overlap to undo
+  bool is_kept = false;  ///< true if the bodies touched in the last step
   Vec2 normal;           ///< normal at the present positions
   double friction = 0;
   double coupling = 0;             ///< coupling of the two points' normals
@@ -76,11 +91,12 @@ struct alignas(64) ContactConstraint {
   Vec2 offset;        ///< displacement from A to B at the start of the step
   double radius_a = 0, radius_b = 0;
   double restitution = 0;
-  double slop = 0;            ///< depth of overlap that is not undone
-  double max_push_speed = 0;  ///< maximum speed at which overlap is undone
-  double first_time = -1;     ///< time of the first impulse within the step; −1: none
-  std::int32_t pair = -1;     ///< index of the pair; −1: found within the step
-  std::int32_t contact = -1;  ///< index of the kept contact; −1: found within the step
+  double slop = 0;              ///< depth of overlap that is not undone
+  double max_push_speed = 0;    ///< maximum speed at which overlap is undone
+  double first_time = -1;       ///< time of the first impulse within the step; −1: none
+  ContactImpulses before = {};  ///< impulses of this sub-step before its present half
+  std::int32_t pair = -1;       ///< index of the pair; −1: found within the step
+  std::int32_t contact = -1;    ///< index of the kept contact; −1: found within the step
 };
 
 }  // namespace naiad::physics

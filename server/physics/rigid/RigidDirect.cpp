@@ -441,14 +441,15 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
     return true;
   };
   int spare_rounds = kSpareRounds;
-  bool is_found = false;
+  bool is_found = false, is_left = false;  // is_left: a further round has left the solution that was found
   m_changed = 0;
   setForces(true);
   bool is_factored = false;
   for (rounds = 1; rounds <= most_rounds; ++rounds) {
+    is_left = true;
     if (!is_factored) {
       assemble();
-      if (!factor()) return false;
+      if (!factor()) break;
       is_factored = true;
     }
     computeResidual();
@@ -467,11 +468,21 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
       if (m_side[i] == Side::kFree && m_rows[i].softness == 0)
         worst = std::max(worst, std::fabs(speedOf(m_rows[i])));
     }
-    is_found = worst <= tolerance;
-    if (is_found && (areBalanced() || rounds == most_rounds || spare_rounds-- == 0)) break;
+    if (worst <= tolerance) {
+      is_found = true;
+      is_left = false;
+      if (areBalanced() || rounds == most_rounds || spare_rounds-- == 0) break;
+      m_found_velocity = m_velocity;
+      m_found_force = m_force;
+    }
     is_factored = setForces(false);
   }
   if (!is_found) return false;
+  if (is_left) {
+    m_velocity.swap(m_found_velocity);
+    m_force.swap(m_found_force);
+    areBalanced();
+  }
   // Applies the impulses to the bodies, which conserves the momentum to the last digit. Bodies that are not
   // balanced get the velocities of the solution instead.
   for (std::size_t i = 0; i < count; ++i) {

@@ -89,6 +89,8 @@ class RigidDirect {
   std::int32_t m_changed = 0;  // rank of the first body whose rows must be factored again
   std::vector<Block> m_block;  // by column, the three rows being factored
   std::vector<double> m_force, m_guess;
+  std::vector<Velocity> m_found_velocity;  // the last solution within the tolerance, whose bodies are not
+  std::vector<double> m_found_force;       // balanced
   std::vector<Side> m_side;
   double m_largest_mass = 0;
   std::vector<double> m_held_mass;  // by body: effective mass including the springs of its rows

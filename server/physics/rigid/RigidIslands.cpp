@@ -27,8 +27,10 @@ constexpr double kRest = 4;                // with a larger speed error, a conta
 constexpr double kDirectTolerance = 1e-6;  // remaining error of a direct solution; lets a stack sag
 // Numbers of Gauss–Seidel sweeps for groups that are not solved directly:
 constexpr int kSingleSweeps = 16;  // maximum for a single contact
-constexpr int kJointSweeps = 8;    // for groups with joints
+constexpr int kSweeps = 8;         // for groups with joints or few bodies
+constexpr int kMany = 32;          // minimum number of bodies of a group without joints that is swept once
 
+constexpr double kEnergyRounding = 1e-12;  // rounding error of a group's energy
 constexpr double kUnequalMassRatio = 1.3;  // if the mass ratio is larger, sweeps crush or throw light bodies
 
 bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states) {
@@ -42,86 +44,154 @@ bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states)
   return most > kUnequalMassRatio * least;
 }
 
-// Removes the warm start of a group if it adds energy, or makes a body more than twice as fast as any body
-// was. A direct solution corrects the impulses of the last sub-step, but sweeps do not: after a blow they may
-// throw light bodies. The sweeps then start without impulses and add no energy.
-void dropHarmfulWarmStart(std::span<const int> bodies, std::span<const int> constraints,
-                          std::span<ContactConstraint> all, std::span<RigidState> states) {
-  const auto give = [&](RigidState& s, Vec2 impulse, double turning) {
-    s.push += s.inverse_mass * impulse;
-    s.push_spin += s.inverse_inertia * turning;
-  };
-  for (const int i : constraints) {
-    const ContactConstraint& c = all[at(i)];
-    for (std::int32_t k = 0; k < c.count; ++k) {
-      const ContactPoint& p = c.points[at(k)];
-      const Vec2 impulse = p.normal_warm * c.normal + p.friction_warm * perpendicular(c.normal);
-      give(states[at(c.a)], -impulse, -(p.normal_a * p.normal_warm + p.tangent_a * p.friction_warm));
-      give(states[at(c.b)], impulse, p.normal_b * p.normal_warm + p.tangent_b * p.friction_warm);
-    }
-  }
-  constexpr double kFaster = 4;  // square of the ratio of speeds, two
-  double gain = 0, before = 0, after = 0;
-  for (const int id : bodies) {
-    const RigidState& s = states[at(id)];
-    const Vec2 velocity = s.velocity - s.push;
-    const double spin = s.spin - s.push_spin;
-    if (!(s.inverse_mass > 0)) continue;
-    const double inertia = s.inverse_inertia > 0 ? s.inverse_mass / s.inverse_inertia : 0;
-    const double old_square = lengthSquared(velocity) + inertia * spin * spin;
-    const double square = lengthSquared(s.velocity) + inertia * s.spin * s.spin;
-    gain += (square - old_square) / s.inverse_mass;
-    before = std::max(before, old_square);
-    after = std::max(after, square);
-  }
-  const bool is_harmful = gain > 0 || after > kFaster * before;
-  for (const int id : bodies) {
-    RigidState& s = states[at(id)];
-    if (is_harmful) s.velocity -= s.push, s.spin -= s.push_spin;
-    s.push = {};
-    s.push_spin = 0;
-  }
-  if (!is_harmful) return;
-  for (const int i : constraints) {
-    for (ContactPoint& p : all[at(i)].points) {
-      p.total += p.normal_impulse - p.normal_warm;
-      p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
-    }
-  }
-}
-
 }  // namespace
 
 void RigidWorld::solveIsland(Island& island, bool is_second) {
   if (island.budget > 0 && island.constraints + island.links > 1 && solveAtOnce(island, is_second)) return;
   if (island.constraints == 1 && island.links == 0) {  // sweeps of a single contact converge quickly
-    ContactConstraint& c = m_constraints[at(m_island_constraints[at(island.first_constraint)])];
+    ContactConstraint& c = m_constraints[at(constraintsOf(island)[0])];
     for (int i = 0; i < kSingleSweeps && solveContact(c, m_states, is_second) > kSpeedError * island.kick;
          ++i) {
     }
     return;
   }
-  const std::span<const int> bodies =
-      std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
-  const std::span<const int> constraints =
-      std::span(m_island_constraints).subspan(at(island.first_constraint), at(island.constraints));
-  const bool is_unequal = areUnequal(bodies, m_states);
-  if (is_unequal) dropHarmfulWarmStart(bodies, constraints, m_constraints, m_states);
-  for (int sweep = 0; sweep < (island.links > 0 ? kJointSweeps : 1); ++sweep) {
-    for (int i = 0; i < island.links; ++i) {
-      m_joints.solve(m_island_links[at(island.first_link + i)], m_states, is_second);
-    }
-    for (int i = 0; i < island.constraints; ++i) {
-      const int k = is_second ? island.constraints - 1 - i : i;
-      solveContact(m_constraints[at(m_island_constraints[at(island.first_constraint + k)])], m_states,
-                   is_second);
+  if (areUnequal(bodiesOf(island), m_states)) {
+    const double part = partOfGuess(island, is_second);
+    if (part < 1) restart(island, is_second, part);
+  }
+  sweepIsland(island, is_second, island.links > 0 || island.bodies < kMany ? kSweeps : 1);
+}
+
+void RigidWorld::sweepIsland(const Island& island, bool is_second, int sweeps) {
+  const std::span<const int> constraints = constraintsOf(island);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (const int link : linksOf(island)) m_joints.solve(link, m_states, is_second);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+      const std::size_t k = is_second ? constraints.size() - 1 - i : i;
+      solveContact(m_constraints[at(constraints[k])], m_states, is_second);
     }
   }
-  if (!is_unequal) return;
+  if (!areUnequal(bodiesOf(island), m_states)) return;
   for (const int i : constraints) {  // contacts with immovable bodies are solved last
     ContactConstraint& c = m_constraints[at(i)];
     if (!isMovable(c.a) || !isMovable(c.b)) solveContact(c, m_states, is_second);
   }
+}
+
+void RigidWorld::addWork(const RigidState& s, Work& work) {
+  const Vec2 change = s.velocity - s.velocity_before;
+  const double turn = s.spin - s.spin_before;
+  work.along += s.mass * dot(s.velocity_before, change) + s.inertia * s.spin_before * turn;
+  work.square += s.mass * lengthSquared(change) + s.inertia * turn * turn;
+  work.before += s.mass * lengthSquared(s.velocity_before) + s.inertia * s.spin_before * s.spin_before;
+  work.pull += s.mass * dot(s.kick, change) + s.inertia * s.spin_kick * turn;
+}
+
+RigidWorld::Work RigidWorld::workOf(const Island& island) const {
+  Work work;
+  for (const int id : bodiesOf(island)) addWork(m_states[at(id)], work);
+  return work;
+}
+
+// Returns the energy that drivers may add to the group by the impulses of this half: moving surfaces, motors,
+// springs and corrections of joints.
+double RigidWorld::inputOf(const Island& island, bool is_second) {
+  double input = 0;
+  for (const int i : constraintsOf(island)) {
+    input += physics::inputOf(m_constraints[at(i)], m_states);
+  }
+  for (const int link : linksOf(island)) input += m_joints.inputOf(link, m_states, is_second);
+  return input;
+}
+
+// Applies the impulses known from the last sub-step, multiplied by `part`, and no others.
+void RigidWorld::restart(const Island& island, bool is_second, double part) {
+  for (const int id : bodiesOf(island)) {
+    RigidState& s = m_states[at(id)];
+    s.velocity = s.velocity_before;
+    s.spin = s.spin_before;
+  }
+  for (const int i : constraintsOf(island)) {
+    physics::restart(m_constraints[at(i)], m_states, part);
+  }
+  for (const int link : linksOf(island)) m_joints.restart(link, m_states, is_second, part);
+}
+
+// Returns the part of the known impulses that leaves the least energy: 1 for those that are still right.
+// After a blow they may throw light bodies, and sweeps do not correct that. Call while only these impulses
+// are applied.
+double RigidWorld::partOfGuess(const Island& island, bool is_second) {
+  const Work work = workOf(island);
+  if (!(work.square > 0)) return 1;
+  return std::clamp((inputOf(island, is_second) - work.along) / work.square, 0.0, 1.0);
+}
+
+void RigidWorld::scaleImpulses(const Island& island, double part) {
+  for (const int id : bodiesOf(island)) {
+    RigidState& s = m_states[at(id)];
+    s.velocity = s.velocity_before + part * (s.velocity - s.velocity_before);
+    s.spin = s.spin_before + part * (s.spin - s.spin_before);
+  }
+  for (const int i : constraintsOf(island)) {
+    scale(m_constraints[at(i)], part);
+  }
+  for (const int link : linksOf(island)) m_joints.scale(link, part);
+}
+
+// Impulses must not add energy, apart from that of drivers. If they do, the half is swept again with as much
+// of the known impulses as is right; if that is not enough, all impulses are reduced. The second half may
+// return what the first removed: a bounce, or friction of a contact that ended.
+void RigidWorld::guardEnergy(Island& island, bool is_second) {
+  constexpr int kRepeatedSweeps = 4;
+  Work work = workOf(island);
+  double input = 0;
+  const auto isGained = [&] {
+    const double gain = work.along + 0.5 * work.square;
+    const double most = kEnergyRounding * (work.before + work.square) + (is_second ? island.spare : 0);
+    if (gain <= most) return false;
+    input = inputOf(island, is_second);
+    return gain > most + input;
+  };
+  if (isGained()) {
+    ++m_counters.restarts;
+    restart(island, is_second, 1);
+    const double part = partOfGuess(island, is_second);
+    if (part < 1) restart(island, is_second, part);
+    sweepIsland(island, is_second, kRepeatedSweeps);
+    work = workOf(island);
+    input = 0;
+    if (isGained()) {
+      ++m_counters.scalings;
+      const double most = input + (is_second ? island.spare : 0) - work.along;
+      scaleImpulses(island, std::clamp(most / work.square, 0.0, 1.0));
+      work = workOf(island);
+    }
+  }
+  if (!is_second) island.spare = std::max(0.0, input + work.pull - work.along - 0.5 * work.square);
+}
+
+// Solves a contact that was found within the step, after the groups that it connects. Its impulses are
+// reduced if they add energy to its two bodies.
+void RigidWorld::solveLate(ContactConstraint& c, bool is_second) {
+  RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  for (RigidState* p_state : {&a, &b}) {
+    p_state->velocity_before = p_state->velocity;
+    p_state->spin_before = p_state->spin;
+  }
+  solveContact(c, m_states, is_second);
+  Work work;
+  addWork(a, work);
+  addWork(b, work);
+  if (work.along + 0.5 * work.square <= kEnergyRounding * (work.before + work.square)) return;
+  const double input = physics::inputOf(c, m_states);
+  if (work.along + 0.5 * work.square <= input + kEnergyRounding * (work.before + work.square)) return;
+  ++m_counters.late_scalings;
+  const double part = std::clamp((input - work.along) / work.square, 0.0, 1.0);
+  for (RigidState* p_state : {&a, &b}) {
+    p_state->velocity = p_state->velocity_before + part * (p_state->velocity - p_state->velocity_before);
+    p_state->spin = p_state->spin_before + part * (p_state->spin - p_state->spin_before);
+  }
+  scale(c, part);
 }
 
 void RigidWorld::giveUp(Island& island) {
@@ -131,7 +201,7 @@ void RigidWorld::giveUp(Island& island) {
 }
 
 bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
-  m_direct.begin(std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies)), m_states);
+  m_direct.begin(bodiesOf(island), m_states);
   std::vector<DirectRow>& rows = m_direct.rows();
   const auto speedOfImmovable = [&](const DirectRow& row, int a, int b) {
     double speed = 0;
@@ -139,8 +209,8 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
     if (row.b < 0) speed += row.jb * m_states[at(b)].spin + dot(row.n, m_states[at(b)].velocity);
     return speed;
   };
-  for (int i = 0; i < island.links; ++i) {
-    for (const RigidRow& row : m_joints.rowsOfLink(m_island_links[at(island.first_link + i)])) {
+  for (const int link : linksOf(island)) {
+    for (const RigidRow& row : m_joints.rowsOfLink(link)) {
       const RigidRowHalf& half = row.half[is_second];
       if (half.mass == 0) continue;
       DirectRow direct;
@@ -217,8 +287,8 @@ bool RigidWorld::solveAtOnce(Island& island, bool is_second) {
     return false;
   }
   std::size_t next = 0;
-  for (int i = 0; i < island.links; ++i) {
-    for (RigidRow& row : m_joints.rowsOfLink(m_island_links[at(island.first_link + i)])) {
+  for (const int link : linksOf(island)) {
+    for (RigidRow& row : m_joints.rowsOfLink(link)) {
       if (row.half[is_second].mass != 0) row.impulse = rows[next++].impulse;
     }
   }

@@ -190,6 +190,39 @@ double RigidJoints::solve(int link, std::span<RigidState> states, bool is_second
   return change;
 }
 
+void RigidJoints::restart(int link, std::span<RigidState> states, bool is_second, double part) {
+  for (RigidRow& row : rowsOfLink(link)) {
+    const RigidRowHalf& half = row.half[is_second];
+    const double guess = row.is_soft ? half.given : part * row.warm;
+    row.impulse = std::clamp(row.before + guess, half.low, half.high);
+    push(row, states, row.impulse - row.before);
+  }
+}
+
+void RigidJoints::scale(int link, double part) {
+  for (RigidRow& row : rowsOfLink(link)) row.impulse = row.before + part * (row.impulse - row.before);
+}
+
+double RigidJoints::inputOf(int link, std::span<const RigidState> states, bool is_second) {
+  double input = 0;
+  for (const RigidRow& row : rowsOfLink(link)) {
+    const double impulse = row.impulse - row.before;
+    if (impulse == 0) continue;
+    double driven = 0,
+           moved = 0;  // speeds along the row: of what no impulse changes, and the mean of the rest
+    const auto add = [&](const RigidState& s, double sign, double lever) {
+      const double along = sign * dot(row.n, s.velocity + s.velocity_before),
+                   turn = lever * (s.spin + s.spin_before);
+      (s.inverse_mass > 0 ? moved : driven) += 0.5 * along;
+      (s.inverse_inertia > 0 ? moved : driven) += 0.5 * turn;
+    };
+    if (row.a >= 0) add(states[at(row.a)], -1, row.ja);
+    add(states[at(row.b)], 1, row.jb);
+    input += impulse * (row.is_soft ? moved : row.half[is_second].target - driven);
+  }
+  return input;
+}
+
 void RigidJoints::hold(std::span<RigidState> states) const {
   for (const RigidRow& row : m_rows) {
     if (row.is_soft || row.side != 0 || row.inverse_effective_mass == 0) continue;

@@ -60,6 +60,13 @@ class RigidJoints : public JointStore {
     return m_rows[static_cast<std::size_t>(m_links[static_cast<std::size_t>(link)].row)].is_soft;
   }
   double solve(int link, std::span<RigidState> states, bool is_second);
+  /// Applies the first guesses of this half again, multiplied by `part`, to the velocities before the half.
+  void restart(int link, std::span<RigidState> states, bool is_second, double part);
+  /// Multiplies the impulses of this half by `part`, but not the velocities that they caused.
+  void scale(int link, double part);
+  /// Returns the energy that motors, springs and corrections of positions may add by the impulses of this
+  /// half.
+  double inputOf(int link, std::span<const RigidState> states, bool is_second);
   /// Projects the velocities that undo overlap onto those that the joints allow.
   void hold(std::span<RigidState> states) const;
   void endSubstep();

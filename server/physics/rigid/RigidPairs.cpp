@@ -95,25 +95,27 @@ void RigidWorld::addEvent(RigidEvent event) {
 }
 
 void RigidWorld::updatePairs() {
-  const std::span<const BroadPhasePair> found = m_broad.updatePairs();
   m_pairs.swap(m_pairs_before);
   m_pairs.clear();
+  for (const BroadPhasePair& found : m_broad.updatePairs()) {
+    const auto a = static_cast<std::int32_t>(found.id_a), b = static_cast<std::int32_t>(found.id_b);
+    m_pairs.push_back(isBefore(a, b) ? Pair{a, b} : Pair{b, a});
+  }
+  const auto areBefore = [this](const Pair& x, const Pair& y) {
+    return x.a != y.a ? isBefore(x.a, y.a) : isBefore(x.b, y.b);
+  };
+  if (!std::is_sorted(m_pairs.begin(), m_pairs.end(), areBefore))
+    std::sort(m_pairs.begin(), m_pairs.end(), areBefore);
   std::size_t next = 0;
-  for (const BroadPhasePair& pair : found) {
-    const std::int32_t a = idOf(pair.id_a), b = idOf(pair.id_b);
-    const auto isGone = [&](const Pair& old) { return old.a != a ? isBefore(old.a, a) : isBefore(old.b, b); };
-    while (next < m_pairs_before.size() && isGone(m_pairs_before[next])) dropPair(m_pairs_before[next++]);
+  for (Pair& pair : m_pairs) {
+    while (next < m_pairs_before.size() && areBefore(m_pairs_before[next], pair))
+      dropPair(m_pairs_before[next++]);
     const bool is_old =
-        next < m_pairs_before.size() && m_pairs_before[next].a == a && m_pairs_before[next].b == b;
-    if (is_old) {
-      m_pairs.push_back(m_pairs_before[next++]);
-    } else {
-      m_pairs.push_back({a, b});
-      m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
-    }
-    m_pairs.back().is_seen = m_pairs.back().is_pushing = m_pairs.back().is_near = false;
-    m_pairs.back().event = -1;
-    if (m_joints_changed) m_pairs.back().is_jointed = m_joints.keepsApart(a, b);
+        next < m_pairs_before.size() && m_pairs_before[next].a == pair.a && m_pairs_before[next].b == pair.b;
+    if (is_old) pair = m_pairs_before[next++];
+    if (!is_old || m_joints_changed) pair.is_jointed = m_joints.keepsApart(pair.a, pair.b);
+    pair.is_seen = pair.is_pushing = pair.is_near = false;
+    pair.event = -1;
   }
   while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
   m_joints_changed = false;
@@ -214,6 +216,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
       append(contact);
       ContactConstraint& c = addConstraint(pair.a, pair.b);
       c.pair = index, c.contact = contact;
+      c.is_kept = pair.is_touching;
       beginConstraint(a.turned[at(i)], b.turned[at(j)], offset, manifold, c);
       for (std::int32_t k = 0; k < c.count; ++k) {
         ContactPoint& p = c.points[at(k)];

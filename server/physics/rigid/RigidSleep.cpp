@@ -10,8 +10,9 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-constexpr int kCrowd = 32;         // minimum number of bodies in a large group
-constexpr double kCreep = 1e-6;    // cells per tick: a still group that gains more speed does not sleep
+constexpr int kFew = 3;          // maximum number of bodies whose impacts within a sub-step are all resolved
+constexpr int kCrowd = 32;       // minimum number of bodies in a large group
+constexpr double kCreep = 1e-6;  // cells per tick: a still group that gains more speed does not sleep
 constexpr double kMinKick = 1e-5;  // cells per tick: minimum of Island::kick, which is the unit of tolerances
 
 }  // namespace
@@ -66,6 +67,7 @@ void RigidWorld::gatherIslands() {
   }
   for (const int id : m_active) {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
+    m_extras[at(id)].is_in_group = island.bodies > kFew;
     m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }
@@ -100,6 +102,7 @@ void RigidWorld::sleep(double dt) {
     m_island_still[at(id)] = 1e300;
     m_island_gain[at(id)] = {};
     m_island_flags[at(id)] = 0;
+    m_island_of[at(id)] = -1;
     m_extras[at(id)].ring = id;
   }
   for (const int id : m_active) {
@@ -145,7 +148,9 @@ void RigidWorld::sleep(double dt) {
     }
     if ((flags & kIsHeld) == 0 && (flags & kIsAdrift) != 0) continue;
     extra.is_asleep = true;
-    if (root != id) std::swap(extra.ring, m_extras[at(root)].ring);
+    int& first = m_island_of[at(root)];
+    if (first < 0) first = id;
+    if (first != id) std::swap(extra.ring, m_extras[at(first)].ring);
     m_bodies[at(id)].velocity = {};
     m_bodies[at(id)].spin = 0;
     m_states[at(id)] = {};

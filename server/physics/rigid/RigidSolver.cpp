@@ -95,7 +95,12 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double impact = std::sqrt(square);  // the speed of approach when they touch
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
-  if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
+  // Bodies that lie on one another fall with equal accelerations, but rest by those that others hold up.
+  const auto fall = [&](const RigidState& s) {
+    return 2 / h * (c.is_kept ? length(s.kick) : std::fabs(dot(c.normal, s.kick)));
+  };
+  const double pull = std::max({std::fabs(gain), fall(a), fall(b)});
+  if (!(time < h) || !(leaving > kRestSteps * h * pull)) return;
   // Speed by rotation, which is present or which the bounce causes.
   const double turning =
       std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
@@ -297,6 +302,7 @@ void pushApart(ContactConstraint& c, std::span<RigidState> bodies) {
 }
 
 void beginFirstHalf(ContactConstraint& c, std::span<RigidState> bodies) {
+  c.before = {};
   RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   for (std::int32_t i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[at(i)];
@@ -306,6 +312,8 @@ void beginFirstHalf(ContactConstraint& c, std::span<RigidState> bodies) {
 
 void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double h) {
   RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  const ContactPoint &one = c.points[0], &two = c.points[1];
+  c.before = {one.normal_impulse, two.normal_impulse, one.friction_impulse, two.friction_impulse};
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     if (!p.is_bouncing) {
@@ -322,6 +330,47 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
     p.friction_impulse += p.friction_warm;
     pushPoint(c, p, a, b, p.normal_warm, p.friction_warm);
   }
+}
+
+void dropGuess(ContactConstraint& c) {
+  for (ContactPoint& p : c.points) {
+    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+  }
+}
+
+void restart(ContactConstraint& c, std::span<RigidState> bodies, double part) {
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    ContactPoint& p = c.points[i];
+    const double normal = part * p.normal_warm, friction = part * p.friction_warm;
+    p.normal_impulse = c.before[i] + normal;
+    p.friction_impulse = c.before[i + 2] + friction;
+    pushPoint(c, p, bodies[at(c.a)], bodies[at(c.b)], normal, friction);
+  }
+}
+
+void scale(ContactConstraint& c, double part) {
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    ContactPoint& p = c.points[i];
+    p.normal_impulse = c.before[i] + part * (p.normal_impulse - c.before[i]);
+    p.friction_impulse = c.before[i + 2] + part * (p.friction_impulse - c.before[i + 2]);
+  }
+}
+
+double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies) {
+  const auto driven = [](const RigidState& s) {
+    Pushed part(s);
+    if (s.inverse_mass > 0) part.velocity = {};
+    if (s.inverse_inertia > 0) part.spin = 0;
+    return part;
+  };
+  const Pushed a = driven(bodies[at(c.a)]), b = driven(bodies[at(c.b)]);
+  double input = 0;
+  for (std::size_t i = 0; i < at(c.count); ++i) {
+    const ContactPoint& p = c.points[i];
+    input -= (p.normal_impulse - c.before[i]) * normalSpeed(p, c.normal, a, b) +
+             (p.friction_impulse - c.before[i + 2]) * slipSpeed(p, perpendicular(c.normal), a, b);
+  }
+  return input;
 }
 
 double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {

@@ -35,6 +35,15 @@ void pushApart(ContactConstraint& constraint, std::span<RigidState> bodies);
 /// Like beginFirstHalf(), for the second half; call after the bodies moved.
 void beginSecondHalf(ContactConstraint& constraint, std::span<RigidState> bodies, double h);
 
+/// Sets the impulses of this half to zero, and to zero their first guess for both halves.
+void dropGuess(ContactConstraint& constraint);
+/// Applies the first guess of this half again, multiplied by `part`, to the velocities before the half.
+void restart(ContactConstraint& constraint, std::span<RigidState> bodies, double part);
+/// Multiplies the impulses of this half by `part`, but not the velocities that they caused.
+void scale(ContactConstraint& constraint, double part);
+/// Returns the energy that moving surfaces add by the impulses of this half.
+double inputOf(const ContactConstraint& constraint, std::span<const RigidState> bodies);
+
 /// Solves the contact once, in the second half if `is_second`. Returns the largest change of a normal speed.
 double solveContact(ContactConstraint& constraint, std::span<RigidState> bodies, bool is_second);
 

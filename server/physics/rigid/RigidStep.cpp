@@ -48,8 +48,7 @@ void RigidWorld::beginBody(int id, double dt) {
   state.velocity = body.velocity;
   state.spin = body.spin;
   if (is_movable) {
-    state.inverse_mass = body.inverse_mass;
-    state.inverse_inertia = body.inverse_inertia;
+    state.setMass(body.inverse_mass, body.inverse_inertia);
     state.kick = (0.5 * m_h) * acceleration;
     if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
@@ -63,6 +62,11 @@ void RigidWorld::beginBody(int id, double dt) {
   const Bounds bounds = turnShapes(id, body.rotation);
   m_broad.move(extra.proxy, gridBounds(body.place, bounds, extra.margin),
                gridBounds(body.place, bounds, extra.margin + kBoundsSlack * extra.thickness));
+}
+
+void RigidWorld::sortByOrder(std::vector<int>& ids) const {
+  const auto isLess = [this](int a, int b) { return isBefore(a, b); };
+  if (!std::is_sorted(ids.begin(), ids.end(), isLess)) std::sort(ids.begin(), ids.end(), isLess);
 }
 
 void RigidWorld::beginStep(double dt) {
@@ -86,6 +90,7 @@ void RigidWorld::beginStep(double dt) {
         m_states[at(id)] = {};
       }
     }
+    sortByOrder(m_active);
   }
   for (const int id : m_dirty) {
     Extra& extra = m_extras[at(id)];
@@ -110,6 +115,8 @@ void RigidWorld::kick(bool is_second) {
     RigidState& s = m_states[at(id)];
     s.velocity += s.kick;
     s.spin += s.spin_kick;
+    s.velocity_before = s.velocity;
+    s.spin_before = s.spin;
     if (is_second) s.kick += s.kick_growth;
   }
 }
@@ -163,9 +170,12 @@ void RigidWorld::pushOut(double h) {
 }
 
 void RigidWorld::solve(bool is_second) {
-  for (Island& island : m_islands) solveIsland(island, is_second);
+  for (Island& island : m_islands) {
+    solveIsland(island, is_second);
+    guardEnergy(island, is_second);
+  }
   for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) {
-    solveContact(m_constraints[i], m_states, is_second);
+    solveLate(m_constraints[i], is_second);
   }
 }
 
@@ -257,6 +267,7 @@ void RigidWorld::substep(double h) {
   for (ContactConstraint& c : m_constraints) {
     if (physics::beginSubstep(c, m_states, h)) is_deep = true;
   }
+  for (std::size_t i = m_first_late; i < m_constraints.size(); ++i) dropGuess(m_constraints[i]);
   kick(false);
   m_joints.beginFirstHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);

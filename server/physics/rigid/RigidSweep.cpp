@@ -14,6 +14,9 @@ namespace {
 // more, after kMaxImpacts it waits for the next sub-step.
 constexpr int kMaxImpacts = 64;
 constexpr int kMaxBounces = 32;
+// After more impacts in a sub-step, a body lands: of a group of more than three bodies, and others.
+constexpr int kGroupImpacts = 4;
+constexpr int kFreeImpacts = 16;
 // Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
 // the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
@@ -149,8 +152,8 @@ void RigidWorld::forecast(int id, double h) {
   const GridBounds bounds = gridBounds(place, swept, 0);
   m_broad.move(extra.proxy, bounds, bounds);
   m_near.clear();
-  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(idOf(other)); });
-  std::sort(m_near.begin(), m_near.end(), [this](int x, int y) { return isBefore(x, y); });
+  m_broad.query(bounds, [&](std::uint32_t other) { m_near.push_back(static_cast<int>(other)); });
+  sortByOrder(m_near);
   for (const int other : m_near) {
     if (other == id || !(isMovable(id) || isMovable(other)) || m_joints.keepsApart(id, other)) continue;
     forecastPair(id, other, h);
@@ -167,8 +170,7 @@ void RigidWorld::wakeInFlight(int id) {
   extra.push_sweeps = 1;
   extra.margin = extra.moved = extra.rolled = 0;  // no contacts were searched around this body
   m_states[at(id)] = {};
-  m_states[at(id)].inverse_mass = m_bodies[at(id)].inverse_mass;
-  m_states[at(id)].inverse_inertia = m_bodies[at(id)].inverse_inertia;
+  m_states[at(id)].setMass(m_bodies[at(id)].inverse_mass, m_bodies[at(id)].inverse_inertia);
 }
 
 void RigidWorld::handleImpact(const Impact& impact, double h) {
@@ -219,12 +221,16 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
-    if (isMovable(id) && m_extras[at(id)].is_in_crowd) land(id, h);
+    const Extra& extra = m_extras[at(id)];
+    if (!isMovable(id)) continue;
+    const int free_impacts = extra.is_in_group ? kGroupImpacts : kFreeImpacts;
+    if (extra.is_in_crowd || m_flights[at(extra.flight)].impacts > free_impacts) land(id, h);
   }
 }
 
 // Ends the sweep of a body of a large group, or of a group with joints, after an impact, because otherwise
-// all bodies of the group would be swept. In the rest of this sub-step the body moves at most by kLanded.
+// all bodies of the group would be swept; also after many impacts in a smaller group. In the rest of this
+// sub-step the body moves at most by kLanded.
 void RigidWorld::land(int id, double h) {
   const Extra& extra = m_extras[at(id)];
   Flight& flight = m_flights[at(extra.flight)];

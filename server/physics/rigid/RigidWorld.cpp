@@ -13,7 +13,7 @@ void RigidWorld::expect(std::size_t bodies) {
   reserveFor(m_states, bodies);
 }
 
-int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) {
+int RigidWorld::addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) {
   if (!isValid(body)) return -1;
   int id = m_first_free;
   while (id < idLimit() && m_extras[at(id)].exists) ++id;
@@ -30,6 +30,7 @@ int RigidWorld::add(const RigidBody& body, std::span<const ConvexShape> shapes) 
   Extra& extra = m_extras[at(id)];
   extra = {};
   extra.exists = true;
+  extra.order = order;
   extra.ring = id;
   extra.shapes.assign(shapes.begin(), shapes.end());
   m_bodies[at(id)] = body;
@@ -122,7 +123,8 @@ void RigidWorld::enter(int id) {
   if (extra.shapes.empty()) return;
   const RigidBody& body = m_bodies[at(id)];
   const Bounds bounds = turnShapes(id, body.rotation);
-  extra.proxy = m_broad.add(rankOf(id), gridBounds(body.place, bounds, 0), isMovable(id), rankOf(id));
+  extra.proxy = m_broad.add(static_cast<std::uint32_t>(id), gridBounds(body.place, bounds, 0), isMovable(id),
+                            extra.order);
 }
 
 // Removes the body from the broad phase and drops its contacts.

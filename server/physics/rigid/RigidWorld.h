@@ -35,6 +35,9 @@ struct RigidCounters {
   std::int64_t direct_rounds = 0;    ///< approximate number of factorisations in all direct solutions
   std::int64_t direct_failures = 0;  ///< direct solutions that failed
   std::int64_t direct_refusals = 0;  ///< groups not solved directly because it might cost too much
+  std::int64_t restarts = 0;         ///< halves of a sub-step of a group solved again, as it gained energy
+  std::int64_t scalings = 0;         ///< restarts after which the impulses were reduced
+  std::int64_t late_scalings = 0;    ///< contacts found within the step whose impulses were reduced
   std::int64_t quarantined = 0;      ///< number of times that a body was frozen
   std::int64_t broken = 0;           ///< joints that broke
 };
@@ -53,12 +56,9 @@ class RigidWorld final : public RigidStepper {
 
   /// Adds a body. Shapes are relative to the centre of mass; a body without shapes touches nothing and is
   /// only for joints. Returns the lowest free id, or −1 if the body is invalid.
-  int add(const RigidBody& body, std::span<const ConvexShape> shapes);
+  int add(const RigidBody& body, std::span<const ConvexShape> shapes) { return addInOrder(0, body, shapes); }
   void expect(std::size_t bodies) override;
-  int addInOrder(std::uint64_t /*order*/, const RigidBody& body,
-                 std::span<const ConvexShape> shapes) override {
-    return add(body, shapes);
-  }
+  int addInOrder(std::uint64_t order, const RigidBody& body, std::span<const ConvexShape> shapes) override;
   int add(const RigidBody& body, const ConvexShape& shape) { return add(body, std::span(&shape, 1)); }
   bool set(int id, const RigidBody& body) override;
   bool setShapes(int id, std::span<const ConvexShape> shapes) override;
@@ -94,6 +94,7 @@ class RigidWorld final : public RigidStepper {
   static constexpr int kPushSweeps = 8;  // sweeps that undo overlap in a group with joints; others need one
 
   struct Extra {
+    std::uint64_t order = 0;  // decides the order of bodies, because ids depend on which are free
     std::vector<ConvexShape> shapes;
     std::vector<RotatedShape> turned;
     double reach = 0;         // maximum distance of a point of its shapes from the centre
@@ -111,6 +112,7 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
+    bool is_in_group = false;  // true if its group, when last listed, had more than three bodies
     bool is_in_crowd = false;  // true if its group, when last listed, was large or had rigid joints
     bool is_given_up = false;  // true if the last step abandoned its group
     int push_sweeps = 1;       // number of sweeps that undo overlap in its group
@@ -146,11 +148,18 @@ class RigidWorld final : public RigidStepper {
     int hard_links = 0;  // number of links other than springs and mice
     double kick = 0;     // maximum speed of RigidState::kick of its bodies
     double budget = 0;   // multiplications that a direct solution may need in this step
+    double spare = 0;    // energy that the first half of the sub-step removed and the second may return
     bool has_fast = false;
     bool rests_anew = false;  // true if it is at rest in this sub-step, but has no known impulses
   };
   struct Gain {  // maximum speeds in a group: when it became still, and now
     double before = 0, now = 0;
+  };
+  struct Work {         // effect of the impulses of this half on the bodies of a group
+    double along = 0;   // Σ mass · velocity before · change
+    double square = 0;  // Σ mass · change²; the kinetic energy grows by along + square / 2
+    double before = 0;  // twice the kinetic energy before
+    double pull = 0;    // Σ mass · kick · change
   };
   struct Impact {
     double time = 2;
@@ -160,14 +169,14 @@ class RigidWorld final : public RigidStepper {
   };
 
   bool isMovable(int id) const { return physics::isMovable(m_bodies[at(id)]); }
-  // Order of the bodies in a pair and of pairs: movable bodies by id, then immovable ones. The ids of
-  // obstacles depend on which body was near them first, so they must not decide the order.
-  static constexpr std::uint32_t kImmovable = std::uint32_t{1} << 31;
-  std::uint32_t rankOf(int id) const {
-    return static_cast<std::uint32_t>(id) | (isMovable(id) ? 0 : kImmovable);
+  // Order of the bodies in a pair, of pairs and of bodies in a group: movable bodies in the order of
+  // addition, then immovable ones. Ids must not decide it, because they depend on other groups.
+  bool isBefore(int a, int b) const {
+    if (isMovable(a) != isMovable(b)) return isMovable(a);
+    const std::uint64_t first = m_extras[at(a)].order, second = m_extras[at(b)].order;
+    return first != second ? first < second : a < b;
   }
-  static int idOf(std::uint32_t rank) { return static_cast<int>(rank & ~kImmovable); }
-  bool isBefore(int a, int b) const { return rankOf(a) < rankOf(b); }
+  void sortByOrder(std::vector<int>& ids) const;
   bool isMoving(int id) const { return m_bodies[at(id)].velocity != Vec2{} || m_bodies[at(id)].spin != 0; }
 
   // Defined in RigidWorld.cpp:
@@ -237,6 +246,24 @@ class RigidWorld final : public RigidStepper {
   // Defined in RigidIslands.cpp:
   void solveIsland(Island& island, bool is_second);
   bool solveAtOnce(Island& island, bool is_second);
+  void sweepIsland(const Island& island, bool is_second, int sweeps);
+  void guardEnergy(Island& island, bool is_second);
+  Work workOf(const Island& island) const;
+  static void addWork(const RigidState& state, Work& work);
+  void solveLate(ContactConstraint& constraint, bool is_second);
+  double inputOf(const Island& island, bool is_second);
+  void restart(const Island& island, bool is_second, double part);
+  double partOfGuess(const Island& island, bool is_second);
+  void scaleImpulses(const Island& island, double part);
+  std::span<const int> bodiesOf(const Island& island) const {
+    return std::span(m_island_bodies).subspan(at(island.first_body), at(island.bodies));
+  }
+  std::span<const int> constraintsOf(const Island& island) const {
+    return std::span(m_island_constraints).subspan(at(island.first_constraint), at(island.constraints));
+  }
+  std::span<const int> linksOf(const Island& island) const {
+    return std::span(m_island_links).subspan(at(island.first_link), at(island.links));
+  }
   void giveUp(Island& island);
   void sleep(double dt);
 
@@ -259,7 +286,7 @@ class RigidWorld final : public RigidStepper {
   std::vector<Impact> m_impacts;
   std::vector<int> m_near;
   UnionFind m_sets;              // sets of bodies
-  std::vector<int> m_island_of;  // index of the island, by root of m_sets
+  std::vector<int> m_island_of;  // by root of m_sets: index of the island; in sleep(), the first body
   std::vector<Island> m_islands;
   std::vector<int> m_island_bodies, m_island_constraints, m_island_links;
   std::size_t m_first_late = 0;  // index in m_constraints of the first one found within the step

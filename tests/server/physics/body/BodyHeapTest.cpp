@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tests/server/physics/BodyScene.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace df::test {
 namespace {
@@ -64,6 +65,77 @@ TEST_F(BodyHeap, PyramidOfTouchingBoxesComesToRest) {
   }
   expectTurns();
   EXPECT_NEAR(bodies.back()->getPosition().y(), 0.5 - kRows, 0.2);
+}
+
+// Planks that lie on one another have no acceleration relative to each other, but do not bounce.
+TEST_F(BodyHeap, FewPlanksInATrayComeToRest) {
+  naiad::physics::test::SceneRandom random;
+  for (const double length : {2.0, 6.0, 12.0}) {
+    for (const double height : {0.1, 0.4}) {
+      OwnWorld own;
+      PM.setGravity(Vector(0, 0.0111));
+      wall(Vector(0, 0.5), Vector(3.5 * length + 1, 0.5));
+      for (const double side : {-1.0, 1.0})
+        wall(Vector(side * (3.5 * length + 0.5), -10 * length), Vector(0.5, 10 * length));
+      std::vector<Body*> planks;
+      for (int i = 0; i < 10; ++i) {
+        const Vector place((i % 5 - 2) * 1.15 * length + random() - 0.5, -length - 1.2 * length * (i / 5));
+        Body* p_plank = turningCrate(place, Vector(0.5 * length, 0.5 * height));
+        p_plank->setRestitution(0.2);
+        p_plank->setAngle(random.between(0, 6));
+        planks.push_back(p_plank);
+      }
+      const auto& its_layer = *own.world.findLayer<naiad::physics::BodyLayer>();
+      for (int tick = 0; tick < 300; ++tick) own.world.update();
+      for (const Body* p_plank : planks)
+        EXPECT_EQ(p_plank->getVelocity(), Vector()) << length << ' ' << height;
+      EXPECT_LT(its_layer.rigidCounters().sweeps, 100'000) << length << ' ' << height;
+    }
+  }
+}
+
+// Makes a card house on the floor, of pairs of leaning cards whose tops carry flat ones.
+std::vector<Body*> cardHouse(int storeys) {
+  constexpr double kLean = 0.35, kThickness = 0.05;
+  std::vector<Body*> cards;
+  const auto put = [&](Vector place, Vector half, double angle) {
+    cards.push_back(BodyScene::turningCrate(place, half));
+    cards.back()->setAngle(angle);
+    cards.back()->setFriction(0.8);
+  };
+  const double rise = 0.5 * std::cos(kLean) + 0.5 * kThickness * std::sin(kLean);
+  const double reach = 0.5 * std::sin(kLean) + 0.5 * kThickness * std::cos(kLean);
+  double base = 0;
+  for (int pairs = storeys; pairs > 0; --pairs) {
+    for (int i = 0; i < pairs; ++i) {
+      const double x = i - 0.5 * (pairs - 1);
+      for (const double side : {-1.0, 1.0})
+        put(Vector(x + side * reach, base - rise), Vector(0.5 * kThickness, 0.5), -side * kLean);
+      if (i > 0) put(Vector(x - 0.5, base - 2 * rise - 0.5 * kThickness), Vector(0.5, 0.5 * kThickness), 0);
+    }
+    base -= 2 * rise + kThickness;
+  }
+  return cards;
+}
+
+TEST_F(BodyHeap, CardHousesStandAtBothLevels) {
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    for (int storeys = 2; storeys <= 6; ++storeys) {
+      OwnWorld own;
+      PM.setAccuracy(accuracy);
+      PM.setObstacleFriction(0.8);
+      layFloor(100, 0.5);
+      const std::vector<Body*> cards = cardHouse(storeys);
+      std::vector<Vector> places;
+      for (const Body* p_card : cards) places.push_back(p_card->getPosition());
+      for (int tick = 0; tick < 300; ++tick) own.world.update();
+      for (std::size_t i = 0; i < cards.size(); ++i) {
+        const Vector now = cards[i]->getPosition();
+        EXPECT_LT(std::hypot(now.x() - places[i].x(), now.y() - places[i].y()), 0.1) << storeys << " storeys";
+        EXPECT_EQ(cards[i]->getVelocity(), Vector()) << storeys << " storeys, level " << accuracy;
+      }
+    }
+  }
 }
 
 // A few bodies, even fast ones, are solved exactly.

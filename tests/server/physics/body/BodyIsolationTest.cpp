@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "tests/server/physics/BodyScene.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace df::test {
 namespace {
@@ -118,6 +119,47 @@ TEST_P(BodyIsolation, AirbornePairMovesTheSameWhenAnotherTakesOff) {
   const auto [link, other_link] = GetParam();
   const Others others = {other_link, kOnTheFloor, Added::kBefore, false, true};
   EXPECT_EQ(bitsOf(link, {}, true), bitsOf(link, others, true));
+}
+
+// Bounces twelve crates, whose solver changes while they are in the air. Far away others bounce, or fly past.
+std::vector<BodyBits> crateBits(int others, Added added, double speed) {
+  OwnWorld own;
+  PM.setGravity(Vector(0, 0.01));
+  naiad::physics::test::SceneRandom random;
+  const auto addCrates = [](double x, int count, double step, double drop, auto& random_number) {
+    BodyScene::wall(Vector(x, 0.5), Vector(50, 0.5));
+    std::vector<Body*> crates;
+    for (int i = 0; i < count; ++i) {
+      const Vector place(x + step * (i % 4) + random_number(), -0.8 - 2 * (i / 4) - drop * random_number());
+      crates.push_back(BodyScene::turningCrate(place));
+      crates.back()->setRestitution(0.5);
+      crates.back()->setAngle(0.3 * random_number());
+    }
+    return crates;
+  };
+  const auto addFar = [&] {
+    naiad::physics::test::SceneRandom far_random{7};
+    for (Body* p_body : addCrates(2000, others, 1.4, 3, far_random)) p_body->setVelocity(Vector(speed, 0));
+  };
+  if (added == Added::kBefore) addFar();
+  const std::vector<Body*> crates = addCrates(0, 12, 2.5, 2, random);
+  if (added == Added::kAfter) addFar();
+  std::vector<BodyBits> bits;
+  for (int tick = 0; tick < 80; ++tick) {
+    own.world.update();
+    for (const Body* p_body : crates) bits.push_back(stateBits(p_body));
+  }
+  return bits;
+}
+
+TEST(BodyIsolationOfCrates, CratesDoNotDependOnWhichGroupCameFirst) {
+  const std::vector<BodyBits> alone = crateBits(0, Added::kAfter, 0);
+  for (const int others : {1, 5, 12}) {
+    for (const double speed : {0.0, 1000.0}) {
+      EXPECT_EQ(crateBits(others, Added::kBefore, speed), alone) << others << " at " << speed;
+      EXPECT_EQ(crateBits(others, Added::kAfter, speed), alone) << others << " at " << speed;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,

@@ -102,6 +102,41 @@ TEST_F(BodyRigids, StackedBodiesMayBeDeleted) {
   EXPECT_NEAR(p_new->getPosition().y(), -0.5, 1e-2);
 }
 
+// A body of 10^4 crate masses rolls into a row of crates. They move on before it and are not thrown.
+TEST_F(BodyRigids, HeavyBodyPushesARowOfCrates) {
+  constexpr double kSpeed = 0.2;
+  for (const double mass : {2e3, 1e4, 3e4, 1e5}) {
+    for (const int count : {3, 5}) {
+      for (const bool is_box : {false, true}) {
+        for (const double restitution : {0.0, 0.3}) {
+          OwnWorld own;
+          PM.setGravity(Vector(0, 0.01));
+          wall(Vector(0, 0.5), Vector(500, 0.5));
+          std::vector<Body*> crates;
+          for (int i = 0; i < count; ++i) crates.push_back(turningCrate(Vector(1.1 * i, -0.5)));
+          Body* p_heavy = turningCrate(Vector(-3, -2), Vector(2, 2), mass);
+          if (!is_box) p_heavy->setCircle(2);
+          p_heavy->setVelocity(Vector(kSpeed, 0));
+          crates.push_back(p_heavy);
+          for (Body* p_body : crates) p_body->setRestitution(restitution);
+          double most = kineticOf(p_heavy), fastest = 0;
+          for (int tick = 0; tick < 80; ++tick) {
+            own.world.update();
+            double energy = 0;
+            for (const Body* p_body : crates) {
+              energy += kineticOf(p_body);
+              fastest = std::max(fastest, std::hypot(p_body->getVelocity().x(), p_body->getVelocity().y()));
+            }
+            EXPECT_LE(energy, most + 1e-4 * mass * kSpeed * kSpeed) << mass << ' ' << count << ' ' << tick;
+            most = std::min(most, energy);
+          }
+          EXPECT_LE(fastest, 4 * kSpeed) << mass << ' ' << count << ' ' << is_box << ' ' << restitution;
+        }
+      }
+    }
+  }
+}
+
 // The nail that holds the lamp does not have to be HARD.
 TEST_F(BodyRigids, LampHangsFromASpectralNail) {
   for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {

@@ -6,6 +6,7 @@
 #include "physics/body/BodyLimits.h"
 #include "shared/values/SplitMix64.h"
 #include "tests/server/physics/BodyScene.h"
+#include "tests/server/physics/SceneRandom.h"
 
 namespace df::test {
 namespace {
@@ -138,6 +139,37 @@ TEST(BodyShot, ShotsDoNotPassThroughWalls) {
     if (found.empty()) continue;
     ++failures;
     ADD_FAILURE() << "shot " << i << ": " << shot << found;
+  }
+}
+
+// A rotating rod that hits something is thrown by its own spin, farther than its speed would take it.
+TEST(BodyShot, SpinningRodsStayInTheirRoom) {
+  constexpr double kHalf = 30;
+  naiad::physics::test::SceneRandom random;
+  for (const double thickness : {0.2, 1.0}) {
+    for (int scene = 0; scene < 16; ++scene) {
+      OwnWorld own;
+      for (const double side : {-1.0, 1.0}) {
+        const double far = side * (kHalf + 0.5 * thickness);
+        BodyScene::wall(Vector(0, far), Vector(kHalf + thickness, 0.5 * thickness));
+        BodyScene::wall(Vector(far, 0), Vector(0.5 * thickness, kHalf + thickness));
+      }
+      std::vector<Body*> rods;
+      for (int i = 0; i < 40; ++i) {
+        Body* p_rod =
+            BodyScene::turningCrate(Vector(-23.5 + 6.7 * (i % 8), -21 + 10.5 * (i / 8)), Vector(3, 0.05));
+        p_rod->setRestitution(scene % 2);
+        p_rod->setAngle(random.between(0, 6));
+        p_rod->setSpin((i % 2 == 0 ? 1 : -1) * random.between(5, 15));
+        p_rod->setVelocity(Vector(random.between(-1, 1), random.between(-1, 1)));
+        rods.push_back(p_rod);
+      }
+      for (int tick = 0; tick < 10; ++tick) own.world.update();
+      for (const Body* p_rod : rods) {
+        EXPECT_LT(std::abs(p_rod->getPosition().x()), kHalf) << thickness << ' ' << scene;
+        EXPECT_LT(std::abs(p_rod->getPosition().y()), kHalf) << thickness << ' ' << scene;
+      }
+    }
   }
 }
 
