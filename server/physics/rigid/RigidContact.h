@@ -21,6 +21,7 @@ struct alignas(64) RigidState {
   Vec2 kick;             ///< change of the velocity by half a sub-step of acceleration
   double spin_kick = 0;  ///< change of the spin by half a sub-step of torque
   Vec2 kick_growth;      ///< change of `kick` from one sub-step to the next
+  Vec2 free_velocity;    ///< velocity in the middle of the sub-step if nothing pushes the body
   bool is_pushed = false;
 };
 
@@ -30,7 +31,8 @@ struct RigidContact {
   std::int32_t shape_a = 0;
   std::int32_t shape_b = 0;
   ReferenceFace reference;
-  std::int32_t count = 0;  ///< number of points whose impulses are known
+  bool is_ballistic = false;  ///< as in ContactConstraint, in this sub-step
+  std::int32_t count = 0;     ///< number of points whose impulses are known
   std::array<std::uint32_t, 2> id = {};
   std::array<double, 2> normal_impulse = {};  ///< impulse of a sub-step divided by its length
   std::array<double, 2> friction_impulse = {};
@@ -65,9 +67,13 @@ struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
   std::int32_t count = 0;
   ContactKind kind = ContactKind::kPoints;
-  bool may_fly = false;  ///< no body is in a large group or one with joints, so both may be swept
+  bool may_fly = false;  ///< both bodies may be swept
   bool is_deep = false;  ///< true if there is overlap to undo
-  Vec2 normal;           ///< normal at the present positions
+  /// True in sub-steps in which the shapes fly freely between impacts: the sweep finds and resolves them at
+  /// their times (RigidSweep.cpp), and the solver ignores the contact.
+  bool is_ballistic = false;
+  bool overlaps = false;  ///< true if the shapes overlapped when the contact was found in this step
+  Vec2 normal;            ///< normal at the present positions
   double friction = 0;
   double coupling = 0;             ///< coupling of the two points' normals
   double inverse_determinant = 0;  ///< of the two normals' matrix; 0: they are solved one after the other

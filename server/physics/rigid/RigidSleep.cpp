@@ -50,7 +50,11 @@ void RigidWorld::gatherIslands() {
     ++island.bodies;
     island.has_fast = island.has_fast || m_extras[at(id)].is_fast;
   }
-  for (const ContactConstraint& c : m_constraints) ++m_islands[at(ofConstraint(c))].constraints;
+  for (const ContactConstraint& c : m_constraints) {
+    Island& island = m_islands[at(ofConstraint(c))];
+    ++island.constraints;
+    island.is_elastic = island.is_elastic && c.restitution == 1;
+  }
   int counted = 0;
   m_joints.visitLinks([&](int a, int b) {
     Island& island = m_islands[at(islandOf(a, b))];
@@ -67,6 +71,7 @@ void RigidWorld::gatherIslands() {
   for (const int id : m_active) {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
+    m_extras[at(id)].is_on_joints = island.hard_links > 0;
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }
   for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
@@ -88,7 +93,8 @@ void RigidWorld::gatherIslands() {
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
   for (Island& island : m_islands) {
-    if (island.has_fast && island.bodies >= kCrowd && island.hard_links == 0) giveUp(island);
+    const bool may_give_up = island.hard_links == 0 && !island.is_elastic;
+    if (island.has_fast && island.bodies >= kCrowd && may_give_up) giveUp(island);
   }
 }
 

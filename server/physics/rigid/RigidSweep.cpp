@@ -17,25 +17,26 @@ constexpr int kMaxBounces = 32;
 // Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
 // the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
-constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact
+constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact with friction
 // Lengths in units of the thinner body's thickness:
 constexpr double kTouch = 1e-6;  // the gap at which an impact is found
 constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
 
 // Returns what remains of a motion after this part of it.
 RigidMotion after(const RigidMotion& motion, double part) {
-  return {(1 - part) * motion.displacement, turned(motion.start, part * motion.turn),
-          (1 - part) * motion.turn};
+  const double left = 1 - part;
+  return {left * (motion.displacement + part * motion.acceleration), turned(motion.start, part * motion.turn),
+          left * motion.turn, left * left * motion.acceleration};
 }
 
 // Like timeOfImpact(), but if the iterations ended too early, calls it again from there.
 TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
                                  const RigidMotion& motion_b, Vec2 offset) {
   TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset);
-  const Vec2 displacement = motion_b.displacement - motion_a.displacement;
   for (int i = 1; i < kMaxAsked && impact.status == TimeOfImpactStatus::kUnresolved; ++i) {
     const double from = impact.time;
-    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), offset + from * displacement);
+    const Vec2 apart = offset + (motion_b.at(from) - motion_a.at(from));
+    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), apart);
     impact.time = from + (1 - from) * impact.time;
   }
   return impact;
@@ -46,20 +47,33 @@ TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion
 void RigidWorld::addFlight(int id, double time) {
   Extra& extra = m_extras[at(id)];
   if (extra.flight >= 0) return;
+  const Vec2 bend = bendOf(id);
   extra.flight = static_cast<int>(m_flights.size());
-  m_flights.push_back({.id = id, .time = time});
+  m_flights.push_back({.id = id, .time = time, .bend = bend});
+}
+
+// Returns half of the change of the body's velocity by acceleration in the sub-step, if nothing pushes it:
+// its path is a parabola. `velocity` is that of the middle of the sub-step. The path of a body that is pushed
+// is a straight line.
+Vec2 RigidWorld::bendOf(int id) const {
+  const Extra& extra = m_extras[at(id)];
+  const RigidState& s = m_states[at(id)];
+  if (extra.flight >= 0) return m_flights[at(extra.flight)].bend;
+  return s.velocity == s.free_velocity ? s.kick : Vec2{};
 }
 
 RigidWorld::Pose RigidWorld::poseAt(int id, double time, double h) const {
   const RigidState& s = m_states[at(id)];
   const int flight = m_extras[at(id)].flight;
-  double left = h * time;
+  double from = 0, left = h * time;
   if (flight >= 0) {
     const Flight& f = m_flights[at(flight)];
+    from = f.time;
     left = f.is_held ? 0 : f.part * h * (time - f.time);
   }
   if (left == 0) return {s.displacement, s.turn};
-  return {s.displacement + left * s.velocity, turned(s.turn, left * s.spin)};
+  const Vec2 velocity = s.velocity + (time + from - 1) * bendOf(id);
+  return {s.displacement + left * velocity, turned(s.turn, left * s.spin)};
 }
 
 void RigidWorld::advance(int id, double time, double h) {
@@ -78,14 +92,13 @@ void RigidWorld::hold(int id) {
   flight.is_held = true;
 }
 
-// True if these two shapes have a contact by which the solver keeps them apart.
-bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
-  const std::int32_t index = findPair(a, b);
-  if (index < 0 || !m_pairs[at(index)].is_seen) return false;
-  for (std::int32_t i = m_pairs[at(index)].first; i >= 0; i = m_contacts[at(i)].next) {
-    if (m_contacts[at(i)].shape_a == shape_a && m_contacts[at(i)].shape_b == shape_b) return true;
+// Returns the contact of two shapes in this step; null: none.
+const RigidContact* RigidWorld::contactOf(const Pair& pair, int shape_a, int shape_b) const {
+  for (std::int32_t i = pair.first; i >= 0; i = m_contacts[at(i)].next) {
+    if (m_contacts[at(i)].shape_a == shape_a && m_contacts[at(i)].shape_b == shape_b)
+      return &m_contacts[at(i)];
   }
-  return false;
+  return nullptr;
 }
 
 void RigidWorld::forecastPair(int one, int other, double h) {
@@ -100,23 +113,28 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   const auto motionOf = [&](int id, const Flight* flight) -> RigidMotion {
     const RigidState& s = m_states[at(id)];
     const Rotation rotation = poseAt(id, start, h).turn * m_bodies[at(id)].rotation;
-    if (flight != nullptr && flight->is_held) return {{}, rotation, 0};
+    if (flight != nullptr && flight->is_held) return {{}, rotation, 0, {}};
     const double time = flight != nullptr ? left * flight->part : left;
-    return {time * s.velocity, rotation, time * s.spin};
+    const Vec2 bend = bendOf(id);
+    return {time * (s.velocity + (2 * start - 1) * bend), rotation, time * s.spin,
+            (2 * (1 - start) * time) * bend};
   };
   // Once a body has turned far since the step began, other corners may touch than those found at its start.
-  const bool is_bending =
-      (flight_a != nullptr && flight_a->is_bending) || (flight_b != nullptr && flight_b->is_bending);
-  const bool has_turned =
-      is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
+  const bool has_turned = of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
+  const bool is_known = !has_met && !has_turned;
+  const std::int32_t index = is_known ? findPair(a, b) : -1;
+  const Pair* p_pair = index >= 0 && m_pairs[at(index)].is_seen ? &m_pairs[at(index)] : nullptr;
   // At the start of the step, shapes without a contact were farther apart than the distance to which contacts
   // were searched. They cannot touch unless they approach by more than that distance.
-  if (!has_met && !has_turned) {
-    const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
+  bool is_near = false;
+  if (is_known) {
+    const double bulge = 0.25 * h * length(bendOf(b) - bendOf(a));
+    const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled - bulge;
     const auto isNear = [&](double time) {
       return lengthSquared(poseAt(b, time, h).displacement - poseAt(a, time, h).displacement) < most * most;
     };
-    if (most > 0 && isNear(1) && isNear(start)) return;
+    is_near = most > 0 && isNear(1) && isNear(start);
+    if (is_near && (p_pair == nullptr || p_pair->first < 0)) return;
   }
   const RigidMotion motion_a = motionOf(a, flight_a), motion_b = motionOf(b, flight_b);
   const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
@@ -124,7 +142,10 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   Impact first;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(of_a.shapes.size()); ++i) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
-      if (!has_met && !has_turned && isSolved(a, b, i, j)) continue;
+      if (is_known) {
+        const RigidContact* p_contact = p_pair != nullptr ? contactOf(*p_pair, i, j) : nullptr;
+        if (p_contact != nullptr ? !p_contact->is_ballistic : is_near) continue;
+      }
       ++m_counters.sweeps;
       const TimeOfImpact impact =
           patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
@@ -143,7 +164,7 @@ void RigidWorld::forecast(int id, double h) {
   if (extra.proxy < 0 || flight.is_held || flight.has_landed) return;
   const Place& place = m_bodies[at(id)].place;
   const Vec2 from = m_states[at(id)].displacement, to = poseAt(id, 1, h).displacement;
-  const double reach = extra.reach + kTouch * extra.thickness;
+  const double reach = extra.reach + kTouch * extra.thickness + 0.25 * h * length(flight.bend);
   const Bounds swept = {{std::min(from.x, to.x) - reach, std::min(from.y, to.y) - reach},
                         {std::max(from.x, to.x) + reach, std::max(from.y, to.y) + reach}};
   const GridBounds bounds = gridBounds(place, swept, 0);
@@ -216,10 +237,10 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   c.first_time = m_time + impact.time * h;
   measureFromStart(c, start, one, other);
   refresh(c, m_states);
-  applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
+  applyImpact(c, most > kMaxBounces && c.restitution < 1 ? 0 : c.restitution, impact.time);
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
-    if (isMovable(id) && m_extras[at(id)].is_in_crowd) land(id, h);
+    if (isMovable(id) && m_extras[at(id)].is_in_crowd && !c.may_fly) land(id, h);
   }
 }
 
@@ -235,20 +256,42 @@ void RigidWorld::land(int id, double h) {
   flight.has_landed = true;
 }
 
-// Applies the impulses of an impact. The velocities are those of the middle of the sub-step, so they are
-// corrected by the acceleration between the middle and the impact.
+// Applies the impulses of an impact, at the velocities of that time. Those of the states are the velocities
+// of the middle of the sub-step.
 void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  const Vec2 bend_a = bendOf(c.a), bend_b = bendOf(c.b);
+  const auto shift = [&](double part) {
+    a.velocity += part * bend_a, a.spin += part * a.spin_kick;
+    b.velocity += part * bend_b, b.spin += part * b.spin_kick;
+  };
+  shift(2 * time - 1);
+  const double rest_speed = 2 * std::fabs(dot(c.normal, 2 * (b.kick - a.kick)));
+  if (c.friction > 0) {
+    rub(c, restitution, rest_speed);
+  } else {
+    bounce(c, m_states, restitution, rest_speed);
+  }
+  shift(1 - 2 * time);
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    p.total += p.normal_impulse;
+    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+    p.is_bouncing = false;
+  }
+}
+
+// Resolves an impact with friction.
+void RigidWorld::rub(ContactConstraint& c, double restitution, double rest_speed) {
+  RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const RigidState a_before = a, b_before = b;
-  const Vec2 added = 2 * (b.kick - a.kick), since = (time - 0.5) * added;
-  const double gained = dot(c.normal, added), normal_since = (time - 0.5) * gained;
   const auto meet = [&](double bounce) {
     for (std::int32_t i = 0; i < c.count; ++i) {
       ContactPoint& p = c.points[at(i)];
       const double speed =
           dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
-      const double leaving = bounce * -std::min(speed + normal_since, 0.0);
-      p.after = leaving > 2 * std::fabs(gained) ? leaving - normal_since : 0;
+      const double leaving = bounce * -std::min(speed, 0.0);
+      p.after = leaving > rest_speed ? leaving : 0;
       p.normal_impulse = p.friction_impulse = 0;
     }
     for (int i = 0; i < kImpactSweeps; ++i) solveContact(c, m_states, true);
@@ -258,7 +301,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     for (std::int32_t i = 0; i < c.count; ++i) {
       const ContactPoint& p = c.points[at(i)];
       const auto work = [&](const RigidState& of_a, const RigidState& of_b) {
-        const Vec2 speed = of_b.velocity - of_a.velocity + since;
+        const Vec2 speed = of_b.velocity - of_a.velocity;
         return p.normal_impulse * (dot(c.normal, speed) + p.normal_b * of_b.spin - p.normal_a * of_a.spin) +
                p.friction_impulse *
                    (dot(perpendicular(c.normal), speed) + p.tangent_b * of_b.spin - p.tangent_a * of_a.spin);
@@ -272,7 +315,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
   // increase it, even if they are multiplied by 1 + e. The energy is a convex function of the impulses, so a
   // weighted mean of the two sets increases it by at most the weighted mean of the two increases. The weight
   // is chosen so that this is 0.
-  const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
+  const double gain = restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;
     std::array<Vec2, 2> wanted;
@@ -297,12 +340,6 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     mix(a, a_wanted, part, a);
     mix(b, b_wanted, part, b);
     for (std::size_t i = 0; i < at(c.count); ++i) move(i, impulses(i) + part * (wanted[i] - impulses(i)));
-  }
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    ContactPoint& p = c.points[at(i)];
-    p.total += p.normal_impulse;
-    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
-    p.is_bouncing = false;
   }
 }
 
