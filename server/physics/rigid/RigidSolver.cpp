@@ -348,11 +348,13 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
   }
 }
 
-void bounce(ContactConstraint& c, std::span<RigidState> bodies, double restitution, double rest_speed) {
+bool bounce(ContactConstraint& c, std::span<RigidState> bodies, double restitution, double rest_speed,
+            double rest_after) {
   RigidState &state_a = bodies[at(c.a)], &state_b = bodies[at(c.b)];
   Pushed a(state_a), b(state_b);
   const std::size_t count = at(c.count);
   std::array<double, 2> sum = {};
+  bool rests = false;
   for (int round = 0; round <= kMaxBounces; ++round) {
     const double e = round < kMaxBounces || restitution == 1 ? restitution : 0;
     std::array<double, 2> approach = {};
@@ -362,7 +364,9 @@ void bounce(ContactConstraint& c, std::span<RigidState> bodies, double restituti
       const double all = length(a.velocity) + length(b.velocity) + std::fabs(p.normal_a * a.spin) +
                          std::fabs(p.normal_b * b.spin);
       approach[i] = speed > kSpeedRounding * all ? speed : 0;
-      p.after = e * speed > rest_speed ? e * speed : 0;
+      const bool leaves = e * speed > rest_speed;
+      p.after = leaves ? e * speed : rest_after;
+      rests = rests || (approach[i] > 0 && !leaves);
       p.normal_impulse = 0;
     }
     if (approach[0] == 0 && approach[1] == 0) break;
@@ -373,10 +377,12 @@ void bounce(ContactConstraint& c, std::span<RigidState> bodies, double restituti
       solveOne(c, p, p.after, a, b);
     }
     for (std::size_t i = 0; i < count; ++i) sum[i] += c.points[i].normal_impulse;
+    if (c.points[0].normal_impulse == 0 && c.points[1].normal_impulse == 0) break;
   }
   for (std::size_t i = 0; i < count; ++i) c.points[i].normal_impulse = sum[i];
   a.store(state_a);
   b.store(state_b);
+  return rests;
 }
 
 double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {

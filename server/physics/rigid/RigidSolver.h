@@ -31,9 +31,10 @@ bool beginSubstep(ContactConstraint& constraint, std::span<const RigidState> bod
 /// Resolves an impact at the present positions and velocities, without friction. The points that approach
 /// are solved together: each leaves with restitution × its speed of approach, or is pushed by the others.
 /// This is repeated for points that approach then, so with a restitution of 1 the energy is kept to rounding.
-/// A point that would leave at most at `rest_speed` does not leave.
-void bounce(ContactConstraint& constraint, std::span<RigidState> bodies, double restitution,
-            double rest_speed);
+/// A point that would leave at most at `rest_speed` gets the speed `rest_after` instead. Returns true if one
+/// did.
+bool bounce(ContactConstraint& constraint, std::span<RigidState> bodies, double restitution,
+            double rest_speed, double rest_after);
 /// Call after half a kick: applies half of the last impulses.
 void beginFirstHalf(ContactConstraint& constraint, std::span<RigidState> bodies);
 /// Undoes a part of the overlap by a velocity that is dropped after the sub-step.

@@ -257,22 +257,25 @@ void RigidWorld::land(int id, double h) {
 }
 
 // Applies the impulses of an impact, at the velocities of that time. Those of the states are the velocities
-// of the middle of the sub-step.
+// of the middle of the sub-step. Bodies that come to rest on each other do not fall in the rest of it.
 void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  const double since = 2 * time - 1;
   const Vec2 bend_a = bendOf(c.a), bend_b = bendOf(c.b);
   const auto shift = [&](double part) {
     a.velocity += part * bend_a, a.spin += part * a.spin_kick;
     b.velocity += part * bend_b, b.spin += part * b.spin_kick;
   };
-  shift(2 * time - 1);
-  const double rest_speed = 2 * std::fabs(dot(c.normal, 2 * (b.kick - a.kick)));
-  if (c.friction > 0) {
-    rub(c, restitution, rest_speed);
-  } else {
-    bounce(c, m_states, restitution, rest_speed);
+  shift(since);
+  const double rest_speed = 4 * std::fabs(dot(c.normal, b.kick - a.kick));
+  const double rest_after = since * dot(c.normal, bend_b - bend_a);
+  const bool rests = c.friction > 0 ? rub(c, restitution, rest_speed, rest_after)
+                                    : bounce(c, m_states, restitution, rest_speed, rest_after);
+  shift(-since);
+  c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
+  for (const int id : {c.a, c.b}) {
+    if (rests) m_flights[at(m_extras[at(id)].flight)].bend = {};
   }
-  shift(1 - 2 * time);
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.total += p.normal_impulse;
@@ -281,17 +284,20 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
   }
 }
 
-// Resolves an impact with friction.
-void RigidWorld::rub(ContactConstraint& c, double restitution, double rest_speed) {
+// As bounce(), with friction.
+bool RigidWorld::rub(ContactConstraint& c, double restitution, double rest_speed, double rest_after) {
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const RigidState a_before = a, b_before = b;
-  const auto meet = [&](double bounce) {
+  bool rests = false;
+  const auto meet = [&](double part) {
+    rests = false;
     for (std::int32_t i = 0; i < c.count; ++i) {
       ContactPoint& p = c.points[at(i)];
-      const double speed =
-          dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
-      const double leaving = bounce * -std::min(speed, 0.0);
-      p.after = leaving > rest_speed ? leaving : 0;
+      const double approach =
+          -(dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin));
+      const bool leaves = part * approach > rest_speed;
+      p.after = leaves ? part * approach : rest_after;
+      rests = rests || (approach > 0 && !leaves);
       p.normal_impulse = p.friction_impulse = 0;
     }
     for (int i = 0; i < kImpactSweeps; ++i) solveContact(c, m_states, true);
@@ -340,7 +346,9 @@ void RigidWorld::rub(ContactConstraint& c, double restitution, double rest_speed
     mix(a, a_wanted, part, a);
     mix(b, b_wanted, part, b);
     for (std::size_t i = 0; i < at(c.count); ++i) move(i, impulses(i) + part * (wanted[i] - impulses(i)));
+    rests = false;
   }
+  return rests;
 }
 
 void RigidWorld::sweep(double h) {

@@ -231,7 +231,7 @@ class RigidWorld final : public RigidStepper {
   void handleImpact(const Impact& impact, double h);
   void land(int id, double h);
   void applyImpact(ContactConstraint& constraint, double restitution, double time);
-  void rub(ContactConstraint& constraint, double restitution, double rest_speed);
+  bool rub(ContactConstraint& constraint, double restitution, double rest_speed, double rest_after);
   void wakeInFlight(int id);
   void hold(int id);
 
