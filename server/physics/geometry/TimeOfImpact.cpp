@@ -130,7 +130,7 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 }
 
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                          const RigidMotion& motion_b, Vec2 offset, double target) {
+                          const RigidMotion& motion_b, Vec2 offset, double target, double give) {
   const Vec2 start_velocity = motion_b.displacement - motion_a.displacement;
   const Vec2 acceleration = motion_b.acceleration - motion_a.acceleration;
   const bool is_straight = acceleration == Vec2{};
@@ -162,7 +162,7 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     const double gap = s.distance - radii;
     if (first && time == 0 && gap <= target + tolerance) {
       result.touched_before = true;
-      level = gap - 4 * tolerance;
+      level = gap - (4 * tolerance + give);
     } else if (!is_straight && gap > target + 2 * tolerance) {
       level = target;  // they have parted, and may meet again
     }

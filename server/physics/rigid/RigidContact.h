@@ -31,7 +31,8 @@ struct RigidContact {
   std::int32_t shape_a = 0;
   std::int32_t shape_b = 0;
   ReferenceFace reference;
-  bool is_ballistic = false;  ///< as in ContactConstraint, in this sub-step
+  bool is_ballistic = false;  ///< the sweep must find its impacts in this sub-step
+  bool rests = false;         ///< a point presses or rests in this sub-step
   std::int32_t count = 0;     ///< number of points whose impulses are known
   std::array<std::uint32_t, 2> id = {};
   std::array<double, 2> normal_impulse = {};  ///< impulse of a sub-step divided by its length

@@ -13,9 +13,9 @@ constexpr double kPushRate = 0.3;  // fraction of an overlap undone in a sub-ste
 // A bounce slower than the speed gained in this many sub-steps ends at rest: its flight is too short.
 constexpr double kRestSteps = 2;
 constexpr double kBend = 1e-6;            // part of the impact speed: more rotation spoils the parabola
-constexpr double kTouch = 100;            // times the slop: with a smaller gap, a point touches
+constexpr double kTouching = 100;         // times the slop: with a smaller gap, a point touches
 constexpr double kSpeedRounding = 1e-15;  // part of the speeds
-constexpr int kMaxBounces = 16;      // bounces of the points of an impact in turn, before they end at rest
+constexpr int kImpactRounds = 16;    // bounces of the points of an impact in turn, before they end at rest
 constexpr double kAnySpeed = -1e12;  // a target speed that every contact exceeds, so it does not push
 
 /// The part of a body's state that a contact changes, in registers while the contact is solved.
@@ -121,8 +121,8 @@ bool isBallistic(const ContactConstraint& c, const RigidState& a, const RigidSta
   bool is_fast = false;
   for (std::int32_t i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[at(i)];
-    const bool rests =
-        p.separation <= kTouch * c.slop && c.restitution * std::fabs(normalSpeed(p, c.normal, a, b)) <= rest;
+    const bool rests = p.separation <= kTouching * c.slop &&
+                       c.restitution * std::fabs(normalSpeed(p, c.normal, a, b)) <= rest;
     if (p.normal_impulse > 0 || rests) return false;
     const double most = straight + std::fabs(a.spin) * length(Vec2{p.normal_a, p.tangent_a}) +
                         std::fabs(b.spin) * length(Vec2{p.normal_b, p.tangent_b});
@@ -355,8 +355,8 @@ bool bounce(ContactConstraint& c, std::span<RigidState> bodies, double restituti
   const std::size_t count = at(c.count);
   std::array<double, 2> sum = {};
   bool rests = false;
-  for (int round = 0; round <= kMaxBounces; ++round) {
-    const double e = round < kMaxBounces || restitution == 1 ? restitution : 0;
+  for (int round = 0; round <= kImpactRounds; ++round) {
+    const double e = round < kImpactRounds || restitution == 1 ? restitution : 0;
     std::array<double, 2> approach = {};
     for (std::size_t i = 0; i < count; ++i) {
       ContactPoint& p = c.points[i];

@@ -203,7 +203,10 @@ void RigidWorld::drift(double h) {
   }
   for (const ContactConstraint& c : m_constraints) {
     const bool is_ballistic = c.is_ballistic || c.points[0].is_bending || c.points[1].is_bending;
-    if (c.contact >= 0) m_contacts[at(c.contact)].is_ballistic = is_ballistic;
+    if (c.contact >= 0) {
+      m_contacts[at(c.contact)].is_ballistic = is_ballistic;
+      m_contacts[at(c.contact)].rests = !c.is_ballistic;
+    }
     if (!is_ballistic || !mayMeet(c, h)) continue;
     for (const int id : {c.a, c.b}) {
       if (isMovable(id)) addFlight(id, 0);

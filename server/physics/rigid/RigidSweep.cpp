@@ -20,6 +20,8 @@ constexpr int kMaxAsked = 16;
 constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact with friction
 // Lengths in units of the thinner body's thickness:
 constexpr double kTouch = 1e-6;  // the gap at which an impact is found
+constexpr double kGive =
+    1e-3;  // maximum overlap in a sub-step of bodies at rest on each other, of which one was hit
 constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
 
 // Returns what remains of a motion after this part of it.
@@ -31,12 +33,12 @@ RigidMotion after(const RigidMotion& motion, double part) {
 
 // Like timeOfImpact(), but if the iterations ended too early, calls it again from there.
 TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                                 const RigidMotion& motion_b, Vec2 offset) {
-  TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset);
+                                 const RigidMotion& motion_b, Vec2 offset, double give) {
+  TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset, 0, give);
   for (int i = 1; i < kMaxAsked && impact.status == TimeOfImpactStatus::kUnresolved; ++i) {
     const double from = impact.time;
     const Vec2 apart = offset + (motion_b.at(from) - motion_a.at(from));
-    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), apart);
+    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), apart, 0, give);
     impact.time = from + (1 - from) * impact.time;
   }
   return impact;
@@ -88,8 +90,11 @@ void RigidWorld::advance(int id, double time, double h) {
 void RigidWorld::hold(int id) {
   if (!isMovable(id)) return;
   Flight& flight = m_flights[at(m_extras[at(id)].flight)];
-  if (!flight.is_held) ++m_counters.held;
+  if (flight.is_held) return;
+  ++m_counters.held;
   flight.is_held = true;
+  // While it waits, nothing accelerates it, so that it gains no energy.
+  m_states[at(id)].velocity -= (2 * (1 - flight.time)) * flight.bend;
 }
 
 // Returns the contact of two shapes in this step; null: none.
@@ -99,6 +104,15 @@ const RigidContact* RigidWorld::contactOf(const Pair& pair, int shape_a, int sha
       return &m_contacts[at(i)];
   }
   return nullptr;
+}
+
+// True if an impact within this step has left the two bodies at rest on each other.
+bool RigidWorld::haveLanded(int a, int b) const {
+  for (std::size_t i = m_constraints.size(); i > m_first_late; --i) {
+    const ContactConstraint& c = m_constraints[i - 1];
+    if (c.a == a && c.b == b) return c.count > 0 && !c.is_ballistic;
+  }
+  return false;
 }
 
 void RigidWorld::forecastPair(int one, int other, double h) {
@@ -122,7 +136,7 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   // Once a body has turned far since the step began, other corners may touch than those found at its start.
   const bool has_turned = of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
   const bool is_known = !has_met && !has_turned;
-  const std::int32_t index = is_known ? findPair(a, b) : -1;
+  const std::int32_t index = has_turned ? -1 : findPair(a, b);
   const Pair* p_pair = index >= 0 && m_pairs[at(index)].is_seen ? &m_pairs[at(index)] : nullptr;
   // At the start of the step, shapes without a contact were farther apart than the distance to which contacts
   // were searched. They cannot touch unless they approach by more than that distance.
@@ -139,16 +153,17 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   const RigidMotion motion_a = motionOf(a, flight_a), motion_b = motionOf(b, flight_b);
   const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
                       (poseAt(b, start, h).displacement - poseAt(a, start, h).displacement);
+  const bool has_landed = has_met && haveLanded(a, b);
   Impact first;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(of_a.shapes.size()); ++i) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
-      if (is_known) {
-        const RigidContact* p_contact = p_pair != nullptr ? contactOf(*p_pair, i, j) : nullptr;
-        if (p_contact != nullptr ? !p_contact->is_ballistic : is_near) continue;
-      }
+      const RigidContact* p_contact = p_pair != nullptr ? contactOf(*p_pair, i, j) : nullptr;
+      if (is_known && (p_contact != nullptr ? !p_contact->is_ballistic : is_near)) continue;
+      const bool rests = has_landed || (p_contact != nullptr && p_contact->rests);
       ++m_counters.sweeps;
       const TimeOfImpact impact =
-          patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
+          patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset,
+                              rests ? kGive * std::min(of_a.thickness, of_b.thickness) : 0);
       if (impact.status == TimeOfImpactStatus::kApart) continue;
       if (impact.status == TimeOfImpactStatus::kUnresolved) ++m_counters.unresolved;
       const double time = start + (1 - start) * impact.time;

@@ -227,6 +227,7 @@ class RigidWorld final : public RigidStepper {
   void forecast(int id, double h);
   void forecastPair(int a, int b, double h);
   Vec2 bendOf(int id) const;
+  bool haveLanded(int a, int b) const;
   const RigidContact* contactOf(const Pair& pair, int shape_a, int shape_b) const;
   void handleImpact(const Impact& impact, double h);
   void land(int id, double h);
