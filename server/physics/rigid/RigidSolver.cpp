@@ -89,7 +89,7 @@ void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
 // Predicts the bounce of a point that is about to touch. It moves along the normal with constant
 // acceleration, so its position and speed at the end of the sub-step are known.
 void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState& a, const RigidState& b,
-                   double h) {
+                   double h, double rest) {
   const double speed = normalSpeed(p, c.normal, a, b), gap = std::max(p.separation, 0.0);
   const double gain =
       2 / h * (dot(c.normal, b.kick - a.kick) + p.normal_b * b.spin_kick - p.normal_a * a.spin_kick);
@@ -98,7 +98,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double impact = std::sqrt(square);  // the speed of approach when they touch
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
-  if (!(time < h) || !(leaving > kRestSteps * h * std::fabs(gain))) return;
+  if (!(time < h) || !(leaving > rest)) return;
   // Speed by rotation, which is present or which the bounce causes.
   const double turning =
       std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
@@ -115,9 +115,8 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
 }
 
 // True if the contact neither presses nor rests, and its points may approach too fast to come to rest.
-bool isBallistic(const ContactConstraint& c, const RigidState& a, const RigidState& b) {
+bool isBallistic(const ContactConstraint& c, const RigidState& a, const RigidState& b, double rest) {
   const double straight = length(b.velocity - a.velocity);
-  const double rest = 2 * kRestSteps * std::fabs(dot(c.normal, b.kick - a.kick));
   bool is_fast = false;
   for (std::int32_t i = 0; i < c.count; ++i) {
     const ContactPoint& p = c.points[at(i)];
@@ -279,11 +278,12 @@ void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
 bool beginSubstep(ContactConstraint& c, std::span<const RigidState> bodies, double h) {
   const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   bool is_deep = false;
-  c.is_ballistic = c.restitution > 0 && c.may_fly && isBallistic(c, a, b);
+  const double rest = c.restitution > 0 ? restSpeed(c, bodies) : 0;
+  c.is_ballistic = c.restitution > 0 && c.may_fly && isBallistic(c, a, b, rest);
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.is_bouncing = p.is_bending = false;
-    if (c.restitution > 0 && !c.is_ballistic) foreseeBounce(c, p, a, b, h);
+    if (c.restitution > 0 && !c.is_ballistic) foreseeBounce(c, p, a, b, h, rest);
     if (!p.is_bouncing) {
       p.target = c.is_ballistic || p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
     }
@@ -346,6 +346,14 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
     p.friction_impulse += p.friction_warm;
     pushPoint(c, p, a, b, p.normal_warm, p.friction_warm);
   }
+}
+
+// Bodies that fall together do not accelerate each other, but will when one of them lies on something.
+double restSpeed(const ContactConstraint& c, std::span<const RigidState> bodies) {
+  const double of_a = dot(c.normal, bodies[at(c.a)].kick), of_b = dot(c.normal, bodies[at(c.b)].kick);
+  const double apart = std::fabs(of_b - of_a);
+  const double most = c.restitution < 1 ? std::max({apart, std::fabs(of_a), std::fabs(of_b)}) : apart;
+  return 2 * kRestSteps * most;
 }
 
 bool bounce(ContactConstraint& c, std::span<RigidState> bodies, double restitution, double rest_speed,

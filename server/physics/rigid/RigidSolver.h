@@ -28,6 +28,8 @@ void refresh(ContactConstraint& constraint, std::span<const RigidState> bodies);
 /// cannot be swept, because of joints or a large group, a quadratic formula predicts the bounce, as if the
 /// bodies did not turn.
 bool beginSubstep(ContactConstraint& constraint, std::span<const RigidState> bodies, double h);
+/// Returns the speed at or below which a bounce ends at rest, because its flight would be too short.
+double restSpeed(const ContactConstraint& constraint, std::span<const RigidState> bodies);
 /// Resolves an impact at the present positions and velocities, without friction. The points that approach
 /// are solved together: each leaves with restitution × its speed of approach, or is pushed by the others.
 /// This is repeated for points that approach then, so with a restitution of 1 the energy is kept to rounding.

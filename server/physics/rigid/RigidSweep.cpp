@@ -20,6 +20,9 @@ constexpr int kMaxAsked = 16;
 constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact with friction
 // Lengths in units of the thinner body's thickness:
 constexpr double kTouch = 1e-6;  // the gap at which an impact is found
+// Both corners of an edge take part in an impact if the gap of the second is at most this. Otherwise a box
+// that falls almost flat would be thrown by one corner, and a column of boxes would fall over.
+constexpr double kTogether = 1e-3;
 constexpr double kGive =
     1e-3;  // maximum overlap in a sub-step of bodies at rest on each other, of which one was hit
 constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
@@ -246,7 +249,10 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
     own.spin = its.spin;
     m_flights[at(m_extras[at(id)].flight)].is_held = false;
   };
-  if (!collide(turned_a, turned_b, offset, touch, {}, manifold)) return giveUp();
+  const double together = touch + kTogether * std::min(of_a.thickness, of_b.thickness);
+  if (!collide(turned_a, turned_b, offset, together, {}, manifold)) return giveUp();
+  if (std::min(manifold.points[0].separation, manifold.points[at(manifold.count - 1)].separation) > touch)
+    return giveUp();
   ContactConstraint& c = addConstraint(a, b);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
@@ -282,7 +288,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     b.velocity += part * bend_b, b.spin += part * b.spin_kick;
   };
   shift(since);
-  const double rest_speed = 4 * std::fabs(dot(c.normal, b.kick - a.kick));
+  const double rest_speed = restSpeed(c, m_states);
   const double rest_after = since * dot(c.normal, bend_b - bend_a);
   const bool rests = c.friction > 0 ? rub(c, restitution, rest_speed, rest_after)
                                     : bounce(c, m_states, restitution, rest_speed, rest_after);
