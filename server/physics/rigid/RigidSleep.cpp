@@ -11,6 +11,7 @@ namespace {
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
 constexpr int kCrowd = 32;         // minimum number of bodies in a large group
+constexpr int kMaxElastic = 256;   // maximum number in a large group that moves from impact to impact
 constexpr double kCreep = 1e-6;    // cells per tick: a still group that gains more speed does not sleep
 constexpr double kMinKick = 1e-5;  // cells per tick: minimum of Island::kick, which is the unit of tolerances
 
@@ -93,8 +94,8 @@ void RigidWorld::gatherIslands() {
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
   for (Island& island : m_islands) {
-    const bool may_give_up = island.hard_links == 0 && !island.is_elastic;
-    if (island.has_fast && island.bodies >= kCrowd && may_give_up) giveUp(island);
+    const int most = island.is_elastic ? kMaxElastic : kCrowd - 1;
+    if (island.has_fast && island.bodies > most && island.hard_links == 0) giveUp(island);
   }
 }
 
