@@ -162,7 +162,8 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     const double gap = s.distance - radii;
     if (first && time == 0 && gap <= target + tolerance) {
       result.touched_before = true;
-      level = gap - (4 * tolerance + give);
+      level = gap - 4 * tolerance;
+      if (give > 0) level = std::min(level, target - give);
     } else if (!is_straight && gap > target + 2 * tolerance) {
       level = target;  // they have parted, and may meet again
     }

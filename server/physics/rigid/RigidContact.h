@@ -79,8 +79,9 @@ struct alignas(64) ContactConstraint {
   double coupling = 0;             ///< coupling of the two points' normals
   double inverse_determinant = 0;  ///< of the two normals' matrix; 0: they are solved one after the other
   std::array<ContactPoint, 2> points;
-  Vec2 first_normal;  ///< normal at the start of the step
-  Vec2 offset;        ///< displacement from A to B at the start of the step
+  Vec2 first_normal;     ///< normal at the start of the step
+  double first_gap = 0;  ///< smallest separation at the start of the step
+  Vec2 offset;           ///< displacement from A to B at the start of the step
   double radius_a = 0, radius_b = 0;
   double restitution = 0;
   double slop = 0;            ///< depth of overlap that is not undone

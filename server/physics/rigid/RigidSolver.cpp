@@ -203,6 +203,7 @@ void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, 
   c.radius_a = a.radius, c.radius_b = b.radius;
   c.first_time = -1;
   c.overlaps = false;
+  c.first_gap = manifold.points[0].separation;
   const std::uint32_t id = manifold.points[0].id;
   using Owner = ReferenceFace::Owner;
   c.kind = manifold.reference.owner == Owner::kA                    ? ContactKind::kFaceA
@@ -217,6 +218,7 @@ void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, 
     p.id = from.id;
     p.separation = from.separation;
     c.overlaps = c.overlaps || p.separation < -c.slop;
+    c.first_gap = std::min(c.first_gap, p.separation);
     p.core_a = from.anchor_a - (a.radius + 0.5 * from.separation) * c.normal;
     p.core_b = from.anchor_b + (b.radius + 0.5 * from.separation) * c.normal;
     switch (c.kind) {

@@ -179,14 +179,14 @@ void RigidWorld::move(int id, double h) {
   s.turn = turned(s.turn, h * s.spin);
 }
 
-// True if the shapes of a ballistic contact may touch in this sub-step.
+// True if the shapes of a ballistic contact may touch in this sub-step. The distance of two shapes changes at
+// most by their relative movement and by what rotation moves their points.
 bool RigidWorld::mayMeet(const ContactConstraint& c, double h) const {
-  if (c.count == 0) return false;
-  const double gap =
-      c.count > 1 ? std::min(c.points[0].separation, c.points[1].separation) : c.points[0].separation;
+  if (c.count == 0 || c.pair < 0) return c.count > 0;
   const RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
-  const double way = length(b.velocity - a.velocity) + length(b.kick - a.kick);
-  return gap <= h * way + 2 * (m_extras[at(c.a)].rolled + m_extras[at(c.b)].rolled);
+  const double way = length(b.displacement - a.displacement) + h * length(b.velocity - a.velocity) +
+                     0.25 * h * length(b.kick - a.kick);
+  return c.first_gap <= way + m_extras[at(c.a)].rolled + m_extras[at(c.b)].rolled;
 }
 
 // Moves the bodies. Those that move farther than contacts were searched for move from impact to impact.
