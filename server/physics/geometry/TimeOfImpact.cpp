@@ -163,7 +163,7 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     if (first && time == 0 && gap <= target + tolerance) {
       result.touched_before = true;
       level = gap - 4 * tolerance;
-      if (give > 0) level = std::min(level, target - give);
+      if (give > 0 && gap > target - 3 * give) level -= give;
     } else if (!is_straight && gap > target + 2 * tolerance) {
       level = target;  // they have parted, and may meet again
     }

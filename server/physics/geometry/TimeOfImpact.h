@@ -52,8 +52,9 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 
 /// Finds the first time in [0, 1] at which the gap is at most `target` (>= 0), within the tolerance. A pair
 /// that is this near at time 0 hits when it is nearer by three to four more tolerances; it does not hit if it
-/// slides, rests or separates. It may also overlap by `give` without a hit. `offset` is from A's origin
-/// to B's at time 0. All numbers must be finite and displacements at most 1e9 cells.
+/// slides, rests or separates. It may also come nearer by `give`, until it overlaps by four times that.
+/// `offset` is from A's origin to B's at time 0. All numbers must be finite and displacements at most 1e9
+/// cells.
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
                           const RigidMotion& motion_b, Vec2 offset, double target = 0, double give = 0);
 
