@@ -189,6 +189,7 @@ void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links,
     group.min_inverse_mass =
         group.min_inverse_mass > 0 ? std::min(group.min_inverse_mass, inverse_mass) : inverse_mass;
     const bool is_joined = links.isJoined(state.index);
+    group.may_rest = group.may_rest || is_joined || table.row(state.index).restitution < 1;
     group.is_rigid = group.is_rigid || !state.is_simple || stays || is_joined;
     group.is_elastic = group.is_elastic && state.radius > 0 && !stays && (is_joined || !state.is_bent);
     group.fastest = std::max(group.fastest, length(state.start_velocity) + length(state.push));
@@ -282,8 +283,8 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
     const Group& group = m_groups[at(m_sets.rootOf(static_cast<int>(i)))];
     if (state.p_failure != nullptr || state.is_kinematic) continue;
     const double max_ratio = group.fastest > kBlow ? kMaxMassRatio : kMaxRestingRatio;
-    const bool needs_substeps =
-        group.bodies > kMaxBodies || group.max_inverse_mass > max_ratio * group.min_inverse_mass;
+    const bool is_unequal = group.max_inverse_mass > max_ratio * group.min_inverse_mass;
+    const bool needs_substeps = group.bodies > kMaxBodies || (is_unequal && group.may_rest);
     const bool is_general = group.is_general || (group.is_rigid && group.may_touch && needs_substeps);
     if (is_general || group.is_heap) {
       if (!state.is_hard && !state.is_joined && !state.must_be_held) continue;

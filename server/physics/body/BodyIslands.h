@@ -50,6 +50,7 @@ class BodyIslands {
     bool may_touch = false;
     bool has_obstacle = false;
     bool is_elastic = true;  // true if the group has only bouncing circles
+    bool may_rest = false;   // true unless every impact keeps the energy, so that no blow presses a heap
     double fastest = 0;
     double max_inverse_mass = 0;  // maximum among HARD bodies; 0: none is free to move
     double min_inverse_mass = 0;

@@ -87,7 +87,7 @@ constexpr double kFastTurn = 6.3;
 struct View {
   const RigidMotion &motion_a, &motion_b;
   const RotatedShape &a, &b;
-  Vec2 apart, displacement;
+  Vec2 apart, velocity, acceleration;
   double radii, level, farthest, speed, left;
 
   // Returns how long the pair is safe along an axis that turns by `axis_turn`. Discs ignore their rotation.
@@ -97,11 +97,16 @@ struct View {
     const Corners of_a = a_is_disc ? Corners(a.reach) : Corners(a, normal, turn_a);
     const Corners of_b = b_is_disc ? Corners(b.reach) : Corners(b, -normal, turn_b);
     // Maximum curvature of paths along the axis: corners turn about their origins, and these about the axis.
-    const double bend = (a_is_disc ? 0 : a.reach * turn_a * turn_a) +
-                        (b_is_disc ? 0 : b.reach * turn_b * turn_b) +
-                        std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
+    double bend = (a_is_disc ? 0 : a.reach * turn_a * turn_a) + (b_is_disc ? 0 : b.reach * turn_b * turn_b) +
+                  std::fabs(axis_turn) * (farthest * std::fabs(axis_turn) + 2 * speed);
+    if (acceleration != Vec2{}) {
+      // A turning axis changes the part of the acceleration along it. If the shapes are driven apart, the
+      // tangent is the bound, and the steps are those of Newton's method.
+      const double change = std::min(std::fabs(axis_turn) * left, 2.0) * length(acceleration);
+      bend = std::max(bend - dot(normal, acceleration) + change, 0.0);
+    }
     const double place = dot(normal, apart) - radii - level;
-    const double rate = dot(normal, displacement) + axis_turn * dot(perpendicular(normal), apart);
+    const double rate = dot(normal, velocity) + axis_turn * dot(perpendicular(normal), apart);
     return safeTime(of_a, of_b, place, rate, bend, left);
   }
 };
@@ -125,13 +130,19 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 }
 
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                          const RigidMotion& motion_b, Vec2 offset, double target) {
-  const Vec2 displacement = motion_b.displacement - motion_a.displacement;
+                          const RigidMotion& motion_b, Vec2 offset, double target, double give) {
+  const Vec2 start_velocity = motion_b.displacement - motion_a.displacement;
+  const Vec2 acceleration = motion_b.acceleration - motion_a.acceleration;
+  const bool is_straight = acceleration == Vec2{};
+  // The straight line from start to end, from which the path departs at most by `bulge`.
+  const Vec2 displacement = is_straight ? start_velocity : start_velocity + 0.5 * acceleration;
+  const double bulge = is_straight ? 0 : 0.125 * length(acceleration);
   const double tolerance = impactTolerance(a, b, offset, displacement), radii = a.radius + b.radius;
-  const double speed = length(displacement);
+  const double speed = is_straight ? length(displacement)
+                                   : std::max(length(start_velocity), length(start_velocity + acceleration));
   TimeOfImpact result;
   const double around = a.reach + b.reach + radii + target;
-  const Span span = nearTimes(offset, displacement, around * (1 + 1e-6) + 16 * tolerance);
+  const Span span = nearTimes(offset, displacement, around * (1 + 1e-6) + 16 * tolerance + bulge);
   if (span.from > span.to) return result;
 
   const double size_a = a.reach + a.radius, size_b = b.reach + b.radius;
@@ -144,12 +155,17 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     const bool first = result.iterations == 1;
     if (first || motion_a.turn != 0) turn(a, turned(motion_a.start, motion_a.turn * time), turned_a);
     if (first || motion_b.turn != 0) turn(b, turned(motion_b.start, motion_b.turn * time), turned_b);
-    const Vec2 apart = offset + time * displacement;
+    const Vec2 velocity = is_straight ? start_velocity : start_velocity + time * acceleration;
+    const Vec2 apart =
+        is_straight ? offset + time * displacement : offset + (0.5 * time) * (start_velocity + velocity);
     const Separation s = separation(turned_a, turned_b, apart);
     const double gap = s.distance - radii;
     if (first && time == 0 && gap <= target + tolerance) {
       result.touched_before = true;
       level = gap - 4 * tolerance;
+      if (give > 0 && gap > target - 3 * give) level -= give;
+    } else if (!is_straight && gap > target + 2 * tolerance) {
+      level = target;  // they have parted, and may meet again
     }
     const auto hit = [&] {
       result.status = TimeOfImpactStatus::kHit;
@@ -158,9 +174,9 @@ TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, con
     };
     if (gap - level <= tolerance) return hit();
     const double left = span.to - time;
-    const double farthest = std::max(length(apart), length(offset + span.to * displacement));
-    const View view = {motion_a, motion_b, turned_a, turned_b, apart, displacement,
-                       radii,    level,    farthest, speed,    left};
+    const double farthest = std::max(length(apart), length(offset + span.to * displacement)) + bulge;
+    const View view = {motion_a,     motion_b, turned_a, turned_b, apart, velocity,
+                       acceleration, radii,    level,    farthest, speed, left};
     // A shape that turns fast is a disc while the other shape is farther away than it moves in about a turn.
     // After that its corners are used, which touch the other shape within a turn if it comes closer.
     if (turn_most * left > kFastTurn) {

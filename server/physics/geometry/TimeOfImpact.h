@@ -1,7 +1,7 @@
 // Finds when two moving and rotating convex shapes first touch.
 //
-// This is the time of impact for rotating bodies: any convex shapes that move straight and rotate evenly over
-// a sub-step, for which no formula exists. ImpactTime.h has a formula for boxes and circles that do not
+// This is the time of impact for rotating bodies: any convex shapes that move on parabolas and rotate evenly
+// over a sub-step, for which no formula exists. ImpactTime.h has a formula for boxes and circles that do not
 // rotate; ShapeQuery.h is for points, as of soft bodies; JointImpacts.h is for paths bent by joints.
 //
 // The method is conservative advancement. At each stop the separating axis is known. The gap along this axis
@@ -17,11 +17,15 @@
 
 namespace naiad::physics {
 
-/// Motion from time 0 to time 1: the origin moves straight, the body rotates evenly about it.
+/// Motion from time 0 to time 1: the origin moves by displacement · t + acceleration · t²/2, and the body
+/// rotates evenly about it.
 struct RigidMotion {
   Vec2 displacement;
   Rotation start;
   double turn = 0;  ///< radians
+  Vec2 acceleration = {};
+
+  Vec2 at(double time) const { return time * (displacement + (0.5 * time) * acceleration); }
 };
 
 enum class TimeOfImpactStatus : std::uint8_t {
@@ -48,9 +52,10 @@ double impactTolerance(const ConvexShape& a, const ConvexShape& b, Vec2 offset, 
 
 /// Finds the first time in [0, 1] at which the gap is at most `target` (>= 0), within the tolerance. A pair
 /// that is this near at time 0 hits when it is nearer by three to four more tolerances; it does not hit if it
-/// slides, rests or separates. `offset` is from A's origin to B's at time 0. All numbers must be finite and
-/// displacements at most 1e9 cells.
+/// slides, rests or separates. It may also come nearer by `give`, until it overlaps by four times that.
+/// `offset` is from A's origin to B's at time 0. All numbers must be finite and displacements at most 1e9
+/// cells.
 TimeOfImpact timeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                          const RigidMotion& motion_b, Vec2 offset, double target = 0);
+                          const RigidMotion& motion_b, Vec2 offset, double target = 0, double give = 0);
 
 }  // namespace naiad::physics

@@ -22,9 +22,10 @@ struct alignas(64) RigidState {
   double spin_before = 0;  ///< spin before the impulses of this half of the sub-step
   double mass = 0;         ///< 0 for immovable bodies, as is `inertia`
   double inertia = 0;
-  Vec2 displacement;  ///< movement since the beginning of the step
-  Rotation turn;      ///< rotation since the beginning of the step
-  Vec2 kick_growth;   ///< change of `kick` from one sub-step to the next
+  Vec2 displacement;   ///< movement since the beginning of the step
+  Rotation turn;       ///< rotation since the beginning of the step
+  Vec2 kick_growth;    ///< change of `kick` from one sub-step to the next
+  Vec2 free_velocity;  ///< velocity in the middle of the sub-step if nothing pushes the body
   bool is_pushed = false;
 
   void setMass(double inverse, double inverse_of_inertia) {
@@ -41,7 +42,9 @@ struct RigidContact {
   std::int32_t shape_a = 0;
   std::int32_t shape_b = 0;
   ReferenceFace reference;
-  std::int32_t count = 0;  ///< number of points whose impulses are known
+  bool is_ballistic = false;  ///< the sweep must find its impacts in this sub-step
+  bool rests = false;         ///< a point presses or rests in this sub-step
+  std::int32_t count = 0;     ///< number of points whose impulses are known
   std::array<std::uint32_t, 2> id = {};
   std::array<double, 2> normal_impulse = {};  ///< impulse of a sub-step divided by its length
   std::array<double, 2> friction_impulse = {};
@@ -79,16 +82,21 @@ struct alignas(64) ContactConstraint {
   std::int32_t a = 0, b = 0;
   std::int32_t count = 0;
   ContactKind kind = ContactKind::kPoints;
-  bool may_fly = false;  ///< no body is in a large group or one with joints, so both may be swept
+  bool may_fly = false;  ///< both bodies may be swept
   bool is_deep = false;  ///< true if there is overlap to undo
   bool is_kept = false;  ///< true if the bodies touched in the last step
-  Vec2 normal;           ///< normal at the present positions
+  /// True in sub-steps in which the shapes fly freely between impacts: the sweep finds and resolves them at
+  /// their times (RigidSweep.cpp), and the solver ignores the contact.
+  bool is_ballistic = false;
+  bool overlaps = false;  ///< true if the shapes overlapped when the contact was found in this step
+  Vec2 normal;            ///< normal at the present positions
   double friction = 0;
   double coupling = 0;             ///< coupling of the two points' normals
   double inverse_determinant = 0;  ///< of the two normals' matrix; 0: they are solved one after the other
   std::array<ContactPoint, 2> points;
-  Vec2 first_normal;  ///< normal at the start of the step
-  Vec2 offset;        ///< displacement from A to B at the start of the step
+  Vec2 first_normal;     ///< normal at the start of the step
+  double first_gap = 0;  ///< smallest separation at the start of the step
+  Vec2 offset;           ///< displacement from A to B at the start of the step
   double radius_a = 0, radius_b = 0;
   double restitution = 0;
   double slop = 0;              ///< depth of overlap that is not undone

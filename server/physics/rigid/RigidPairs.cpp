@@ -150,7 +150,9 @@ ContactConstraint& RigidWorld::addConstraint(int a, int b) {
   const double thickness = std::min(m_extras[at(a)].thickness, m_extras[at(b)].thickness);
   c.max_push_speed = kMaxPush * thickness;
   c.slop = kSlop * thickness;
-  c.may_fly = !m_extras[at(a)].is_in_crowd && !m_extras[at(b)].is_in_crowd;
+  const Extra &of_a = m_extras[at(a)], &of_b = m_extras[at(b)];
+  c.may_fly =
+      c.restitution == 1 ? !of_a.is_on_joints && !of_b.is_on_joints : !of_a.is_in_crowd && !of_b.is_in_crowd;
   return c;
 }
 

@@ -10,9 +10,10 @@ namespace {
 
 enum : std::uint8_t { kIsHeld = 1, kIsDriven = 2, kIsAdrift = 4 };
 
-constexpr int kFew = 3;          // maximum number of bodies whose impacts within a sub-step are all resolved
-constexpr int kCrowd = 32;       // minimum number of bodies in a large group
-constexpr double kCreep = 1e-6;  // cells per tick: a still group that gains more speed does not sleep
+constexpr int kFew = 3;            // maximum number of bodies whose impacts within a sub-step may be many
+constexpr int kCrowd = 32;         // minimum number of bodies in a large group
+constexpr int kMaxElastic = 256;   // maximum number in a large group that moves from impact to impact
+constexpr double kCreep = 1e-6;    // cells per tick: a still group that gains more speed does not sleep
 constexpr double kMinKick = 1e-5;  // cells per tick: minimum of Island::kick, which is the unit of tolerances
 
 }  // namespace
@@ -51,7 +52,11 @@ void RigidWorld::gatherIslands() {
     ++island.bodies;
     island.has_fast = island.has_fast || m_extras[at(id)].is_fast;
   }
-  for (const ContactConstraint& c : m_constraints) ++m_islands[at(ofConstraint(c))].constraints;
+  for (const ContactConstraint& c : m_constraints) {
+    Island& island = m_islands[at(ofConstraint(c))];
+    ++island.constraints;
+    island.is_elastic = island.is_elastic && c.restitution == 1;
+  }
   int counted = 0;
   m_joints.visitLinks([&](int a, int b) {
     Island& island = m_islands[at(islandOf(a, b))];
@@ -69,6 +74,7 @@ void RigidWorld::gatherIslands() {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_extras[at(id)].is_in_group = island.bodies > kFew;
     m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
+    m_extras[at(id)].is_on_joints = island.hard_links > 0;
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }
   for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
@@ -90,7 +96,8 @@ void RigidWorld::gatherIslands() {
     m_island_links[at(island.first_link + island.links++)] = link++;
   });
   for (Island& island : m_islands) {
-    if (island.has_fast && island.bodies >= kCrowd && island.hard_links == 0) giveUp(island);
+    const int most = island.is_elastic ? kMaxElastic : kCrowd - 1;
+    if (island.has_fast && island.bodies > most && island.hard_links == 0) giveUp(island);
   }
 }
 

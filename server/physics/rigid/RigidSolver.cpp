@@ -12,7 +12,10 @@ namespace {
 constexpr double kPushRate = 0.3;  // fraction of an overlap undone in a sub-step
 // A bounce slower than the speed gained in this many sub-steps ends at rest: its flight is too short.
 constexpr double kRestSteps = 2;
-constexpr double kBend = 1e-6;       // part of the impact speed: more rotation spoils the parabola
+constexpr double kBend = 1e-6;            // part of the impact speed: more rotation spoils the parabola
+constexpr double kTouching = 100;         // times the slop: with a smaller gap, a point touches
+constexpr double kSpeedRounding = 1e-15;  // part of the speeds
+constexpr int kImpactRounds = 16;    // bounces of the points of an impact in turn, before they end at rest
 constexpr double kAnySpeed = -1e12;  // a target speed that every contact exceeds, so it does not push
 
 /// The part of a body's state that a contact changes, in registers while the contact is solved.
@@ -86,7 +89,7 @@ void setPair(ContactConstraint& c, const RigidState& a, const RigidState& b) {
 // Predicts the bounce of a point that is about to touch. It moves along the normal with constant
 // acceleration, so its position and speed at the end of the sub-step are known.
 void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState& a, const RigidState& b,
-                   double h) {
+                   double h, double rest) {
   const double speed = normalSpeed(p, c.normal, a, b), gap = std::max(p.separation, 0.0);
   const double gain =
       2 / h * (dot(c.normal, b.kick - a.kick) + p.normal_b * b.spin_kick - p.normal_a * a.spin_kick);
@@ -95,12 +98,7 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   const double impact = std::sqrt(square);  // the speed of approach when they touch
   const double time = speed < 0 ? 2 * gap / (impact - speed) : gain < 0 ? -(speed + impact) / gain : h;
   const double leaving = c.restitution * impact;
-  // Bodies that lie on one another fall with equal accelerations, but rest by those that others hold up.
-  const auto fall = [&](const RigidState& s) {
-    return 2 / h * (c.is_kept ? length(s.kick) : std::fabs(dot(c.normal, s.kick)));
-  };
-  const double pull = std::max({std::fabs(gain), fall(a), fall(b)});
-  if (!(time < h) || !(leaving > kRestSteps * h * pull)) return;
+  if (!(time < h) || !(leaving > rest)) return;
   // Speed by rotation, which is present or which the bounce causes.
   const double turning =
       std::fabs(p.normal_a * a.spin) + std::fabs(p.normal_b * b.spin) +
@@ -114,6 +112,22 @@ void foreseeBounce(const ContactConstraint& c, ContactPoint& p, const RigidState
   p.is_bouncing = true;
   p.after = leaving + gain * left;
   p.target = ((leaving + 0.5 * gain * left) * left - p.separation) / h;
+}
+
+// True if the contact neither presses nor rests, and its points may approach too fast to come to rest.
+bool isBallistic(const ContactConstraint& c, const RigidState& a, const RigidState& b, double rest) {
+  const double straight = length(b.velocity - a.velocity);
+  bool is_fast = false;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    const ContactPoint& p = c.points[at(i)];
+    const bool rests = p.separation <= kTouching * c.slop &&
+                       c.restitution * std::fabs(normalSpeed(p, c.normal, a, b)) <= rest;
+    if (p.normal_impulse > 0 || rests) return false;
+    const double most = straight + std::fabs(a.spin) * length(Vec2{p.normal_a, p.tangent_a}) +
+                        std::fabs(b.spin) * length(Vec2{p.normal_b, p.tangent_b});
+    is_fast = is_fast || c.restitution * most > rest;
+  }
+  return is_fast;
 }
 
 [[gnu::always_inline]] inline void solveFriction(ContactConstraint& c, Pushed& a, Pushed& b) {
@@ -188,6 +202,8 @@ void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, 
   c.offset = offset;
   c.radius_a = a.radius, c.radius_b = b.radius;
   c.first_time = -1;
+  c.overlaps = false;
+  c.first_gap = manifold.points[0].separation;
   const std::uint32_t id = manifold.points[0].id;
   using Owner = ReferenceFace::Owner;
   c.kind = manifold.reference.owner == Owner::kA                    ? ContactKind::kFaceA
@@ -201,6 +217,8 @@ void beginConstraint(const RotatedShape& a, const RotatedShape& b, Vec2 offset, 
     p = {};
     p.id = from.id;
     p.separation = from.separation;
+    c.overlaps = c.overlaps || p.separation < -c.slop;
+    c.first_gap = std::min(c.first_gap, p.separation);
     p.core_a = from.anchor_a - (a.radius + 0.5 * from.separation) * c.normal;
     p.core_b = from.anchor_b + (b.radius + 0.5 * from.separation) * c.normal;
     switch (c.kind) {
@@ -262,16 +280,19 @@ void refresh(ContactConstraint& c, std::span<const RigidState> bodies) {
 bool beginSubstep(ContactConstraint& c, std::span<const RigidState> bodies, double h) {
   const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
   bool is_deep = false;
+  const double rest = c.restitution > 0 ? restSpeed(c, bodies) : 0;
+  c.is_ballistic = c.restitution > 0 && c.may_fly && isBallistic(c, a, b, rest);
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     p.is_bouncing = p.is_bending = false;
-    if (c.restitution > 0) foreseeBounce(c, p, a, b, h);
+    if (c.restitution > 0 && !c.is_ballistic) foreseeBounce(c, p, a, b, h, rest);
     if (!p.is_bouncing) {
-      p.target = p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
+      p.target = c.is_ballistic || p.is_bending ? kAnySpeed : p.separation > 0 ? -p.separation / h : 0;
     }
     // A point without overlap has a limit, too, so that the push of other points does not make it overlap.
     p.push = p.separation < -c.slop ? std::min(-kPushRate * (p.separation + c.slop) / h, c.max_push_speed)
                                     : -(p.separation + c.slop) / h;
+    if (c.is_ballistic && !c.overlaps) p.push = kAnySpeed;
     p.push_impulse = 0;
     is_deep = is_deep || p.push > 0;
     p.normal_warm = p.normal_impulse = 0.5 * p.normal_impulse;
@@ -317,8 +338,8 @@ void beginSecondHalf(ContactConstraint& c, std::span<RigidState> bodies, double 
   for (std::int32_t i = 0; i < c.count; ++i) {
     ContactPoint& p = c.points[at(i)];
     if (!p.is_bouncing) {
-      p.after = 0;
-      if (p.separation > 0) {
+      p.after = c.is_ballistic ? kAnySpeed : 0;
+      if (p.separation > 0 && !c.is_ballistic) {
         p.after = -p.separation / h;
         if (c.restitution > 0 && p.normal_impulse == 0) {  // it will bounce in the next sub-step
           p.after = kAnySpeed;
@@ -371,6 +392,58 @@ double inputOf(const ContactConstraint& c, std::span<const RigidState> bodies) {
              (p.friction_impulse - c.before[i + 2]) * slipSpeed(p, perpendicular(c.normal), a, b);
   }
   return input;
+}
+
+// Bodies that fall together do not accelerate each other, but rest on those that others hold up: the pull of
+// either body counts, in any direction once they touch. Elastic bodies never come to rest on each other.
+double restSpeed(const ContactConstraint& c, std::span<const RigidState> bodies) {
+  const RigidState &a = bodies[at(c.a)], &b = bodies[at(c.b)];
+  const auto pull = [&](const RigidState& s) {
+    return c.is_kept ? length(s.kick) : std::fabs(dot(c.normal, s.kick));
+  };
+  const double apart = dot(c.normal, b.kick - a.kick);
+  double most = c.restitution < 1 ? std::max(pull(a), pull(b)) : 0;
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    const ContactPoint& p = c.points[at(i)];
+    most = std::max(most, std::fabs(apart + p.normal_b * b.spin_kick - p.normal_a * a.spin_kick));
+  }
+  return 2 * kRestSteps * most;
+}
+
+bool bounce(ContactConstraint& c, std::span<RigidState> bodies, double rest_speed, double rest_after) {
+  RigidState &state_a = bodies[at(c.a)], &state_b = bodies[at(c.b)];
+  Pushed a(state_a), b(state_b);
+  const std::size_t count = at(c.count);
+  std::array<double, 2> sum = {};
+  bool rests = false;
+  for (int round = 0; round <= kImpactRounds; ++round) {
+    const double e = round < kImpactRounds || c.restitution == 1 ? c.restitution : 0;
+    std::array<double, 2> approach = {};
+    for (std::size_t i = 0; i < count; ++i) {
+      ContactPoint& p = c.points[i];
+      const double speed = -normalSpeed(p, c.normal, a, b);
+      const double all = length(a.velocity) + length(b.velocity) + std::fabs(p.normal_a * a.spin) +
+                         std::fabs(p.normal_b * b.spin);
+      approach[i] = speed > kSpeedRounding * all ? speed : 0;
+      const bool leaves = e * speed > rest_speed;
+      p.after = leaves ? e * speed : rest_after;
+      rests = rests || (approach[i] > 0 && !leaves);
+      p.normal_impulse = 0;
+    }
+    if (approach[0] == 0 && approach[1] == 0) break;
+    if (approach[0] > 0 && approach[1] > 0 && c.inverse_determinant > 0) {
+      solveTwo(c, c.points[0].after, c.points[1].after, a, b);
+    } else {
+      ContactPoint& p = c.points[approach[1] > approach[0]];
+      solveOne(c, p, p.after, a, b);
+    }
+    for (std::size_t i = 0; i < count; ++i) sum[i] += c.points[i].normal_impulse;
+    if (c.points[0].normal_impulse == 0 && c.points[1].normal_impulse == 0) break;
+  }
+  for (std::size_t i = 0; i < count; ++i) c.points[i].normal_impulse = sum[i];
+  a.store(state_a);
+  b.store(state_b);
+  return rests;
 }
 
 double solveContact(ContactConstraint& c, std::span<RigidState> bodies, bool is_second) {

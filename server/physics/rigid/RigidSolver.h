@@ -24,10 +24,19 @@ void measureFromStart(ContactConstraint& constraint, Vec2 start, const RigidStat
 void refresh(ContactConstraint& constraint, std::span<const RigidState> bodies);
 
 /// Call before a sub-step over `h`: sets the normal speeds to reach, without applying impulses. Returns true
-/// if there is overlap to undo. For a point that will bounce within the sub-step, a quadratic formula gives
-/// the time of impact: it falls with a constant acceleration along a known normal, so that no search
-/// (TimeOfImpact.h) is needed.
+/// if there is overlap to undo. A contact with restitution that does not press is ballistic. If its bodies
+/// cannot be swept, because of joints or a large group, a quadratic formula predicts the bounce, as if the
+/// bodies did not turn.
 bool beginSubstep(ContactConstraint& constraint, std::span<const RigidState> bodies, double h);
+/// Returns the speed at or below which a bounce ends at rest, because its flight would be too short.
+double restSpeed(const ContactConstraint& constraint, std::span<const RigidState> bodies);
+/// Resolves an impact at the present positions and velocities, without friction. The points that approach
+/// are solved together: each leaves with restitution × its speed of approach, or is pushed by the others.
+/// This is repeated for points that approach then, so with a restitution of 1 the energy is kept to rounding.
+/// A point that would leave at most at `rest_speed` gets the speed `rest_after` instead. Returns true if one
+/// did.
+bool bounce(ContactConstraint& constraint, std::span<RigidState> bodies, double rest_speed,
+            double rest_after);
 /// Call after half a kick: applies half of the last impulses.
 void beginFirstHalf(ContactConstraint& constraint, std::span<RigidState> bodies);
 /// Undoes a part of the overlap by a velocity that is dropped after the sub-step.

@@ -115,6 +115,7 @@ void RigidWorld::kick(bool is_second) {
     RigidState& s = m_states[at(id)];
     s.velocity += s.kick;
     s.spin += s.spin_kick;
+    if (!is_second) s.free_velocity = s.velocity;
     s.velocity_before = s.velocity;
     s.spin_before = s.spin;
     if (is_second) s.kick += s.kick_growth;
@@ -185,6 +186,16 @@ void RigidWorld::move(int id, double h) {
   s.turn = turned(s.turn, h * s.spin);
 }
 
+// True if the shapes of a ballistic contact may touch in this sub-step. The distance of two shapes changes at
+// most by their relative movement and by what rotation moves their points.
+bool RigidWorld::mayMeet(const ContactConstraint& c, double h) const {
+  if (c.count == 0 || c.pair < 0) return c.count > 0;
+  const RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  const double way = length(b.displacement - a.displacement) + h * length(b.velocity - a.velocity) +
+                     0.25 * h * length(b.kick - a.kick);
+  return c.first_gap <= way + m_extras[at(c.a)].rolled + m_extras[at(c.b)].rolled;
+}
+
 // Moves the bodies. Those that move farther than contacts were searched for move from impact to impact.
 void RigidWorld::drift(double h) {
   m_flights.clear();
@@ -198,11 +209,14 @@ void RigidWorld::drift(double h) {
     if (extra.moved > extra.margin) addFlight(id, 0);
   }
   for (const ContactConstraint& c : m_constraints) {
-    if (!c.points[0].is_bending && !c.points[1].is_bending) continue;
+    const bool is_ballistic = c.is_ballistic || c.points[0].is_bending || c.points[1].is_bending;
+    if (c.contact >= 0) {
+      m_contacts[at(c.contact)].is_ballistic = is_ballistic;
+      m_contacts[at(c.contact)].rests = !c.is_ballistic;
+    }
+    if (!is_ballistic || !mayMeet(c, h)) continue;
     for (const int id : {c.a, c.b}) {
-      if (!isMovable(id)) continue;
-      addFlight(id, 0);
-      m_flights[at(m_extras[at(id)].flight)].is_bending = true;
+      if (isMovable(id)) addFlight(id, 0);
     }
   }
   m_has_flown = m_has_flown || !m_flights.empty();
@@ -251,6 +265,7 @@ void RigidWorld::dropParted() {
       if (lengthSquared(between) <= near * near) continue;
     }
     c.count = 0;
+    c.is_ballistic = false;
     c.inverse_determinant = 0;
     for (ContactPoint& p : c.points) {
       p.total += p.normal_impulse;

@@ -10,35 +10,40 @@ namespace naiad::physics {
 
 namespace {
 
-// Limits per body and sub-step, for bodies in a corner: after kMaxBounces impacts a body does not bounce any
-// more, after kMaxImpacts it waits for the next sub-step.
+// After more impacts in a sub-step, a body waits for the next one.
 constexpr int kMaxImpacts = 64;
-constexpr int kMaxBounces = 32;
-// After more impacts in a sub-step, a body lands: of a group of more than three bodies, and others.
+// After more impacts in a sub-step, a body lands unless it is elastic: of a group of more than three bodies,
+// and others.
 constexpr int kGroupImpacts = 4;
 constexpr int kFreeImpacts = 16;
 // Maximum calls of timeOfImpact() for a pair; each starts where the iterations of the last call ended. Limits
 // the cost of two bodies that rotate fast around each other.
 constexpr int kMaxAsked = 16;
-constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact
+constexpr int kImpactSweeps = 8;  // sweeps over the points of an impact with friction
 // Lengths in units of the thinner body's thickness:
 constexpr double kTouch = 1e-6;  // the gap at which an impact is found
+// Both corners of an edge take part in an impact if the gap of the second is at most this. Otherwise a box
+// that falls almost flat would be thrown by one corner, and a column of boxes would fall over.
+constexpr double kTogether = 1e-3;
+constexpr double kGive =
+    1e-3;  // maximum overlap in a sub-step of bodies at rest on each other, of which one was hit
 constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
 
 // Returns what remains of a motion after this part of it.
 RigidMotion after(const RigidMotion& motion, double part) {
-  return {(1 - part) * motion.displacement, turned(motion.start, part * motion.turn),
-          (1 - part) * motion.turn};
+  const double left = 1 - part;
+  return {left * (motion.displacement + part * motion.acceleration), turned(motion.start, part * motion.turn),
+          left * motion.turn, left * left * motion.acceleration};
 }
 
 // Like timeOfImpact(), but if the iterations ended too early, calls it again from there.
 TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion_a, const ConvexShape& b,
-                                 const RigidMotion& motion_b, Vec2 offset) {
-  TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset);
-  const Vec2 displacement = motion_b.displacement - motion_a.displacement;
+                                 const RigidMotion& motion_b, Vec2 offset, double give) {
+  TimeOfImpact impact = timeOfImpact(a, motion_a, b, motion_b, offset, 0, give);
   for (int i = 1; i < kMaxAsked && impact.status == TimeOfImpactStatus::kUnresolved; ++i) {
     const double from = impact.time;
-    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), offset + from * displacement);
+    const Vec2 apart = offset + (motion_b.at(from) - motion_a.at(from));
+    impact = timeOfImpact(a, after(motion_a, from), b, after(motion_b, from), apart, 0, give);
     impact.time = from + (1 - from) * impact.time;
   }
   return impact;
@@ -49,20 +54,33 @@ TimeOfImpact patientTimeOfImpact(const ConvexShape& a, const RigidMotion& motion
 void RigidWorld::addFlight(int id, double time) {
   Extra& extra = m_extras[at(id)];
   if (extra.flight >= 0) return;
+  const Vec2 bend = bendOf(id);
   extra.flight = static_cast<int>(m_flights.size());
-  m_flights.push_back({.id = id, .time = time});
+  m_flights.push_back({.id = id, .time = time, .bend = bend});
+}
+
+// Returns half of the change of the body's velocity by acceleration in the sub-step, if nothing pushes it:
+// its path is a parabola. `velocity` is that of the middle of the sub-step. The path of a body that is pushed
+// is a straight line.
+Vec2 RigidWorld::bendOf(int id) const {
+  const Extra& extra = m_extras[at(id)];
+  const RigidState& s = m_states[at(id)];
+  if (extra.flight >= 0) return m_flights[at(extra.flight)].bend;
+  return s.velocity == s.free_velocity ? s.kick : Vec2{};
 }
 
 RigidWorld::Pose RigidWorld::poseAt(int id, double time, double h) const {
   const RigidState& s = m_states[at(id)];
   const int flight = m_extras[at(id)].flight;
-  double left = h * time;
+  double from = 0, left = h * time;
   if (flight >= 0) {
     const Flight& f = m_flights[at(flight)];
+    from = f.time;
     left = f.is_held ? 0 : f.part * h * (time - f.time);
   }
   if (left == 0) return {s.displacement, s.turn};
-  return {s.displacement + left * s.velocity, turned(s.turn, left * s.spin)};
+  const Vec2 velocity = s.velocity + (time + from - 1) * bendOf(id);
+  return {s.displacement + left * velocity, turned(s.turn, left * s.spin)};
 }
 
 void RigidWorld::advance(int id, double time, double h) {
@@ -77,16 +95,27 @@ void RigidWorld::advance(int id, double time, double h) {
 void RigidWorld::hold(int id) {
   if (!isMovable(id)) return;
   Flight& flight = m_flights[at(m_extras[at(id)].flight)];
-  if (!flight.is_held) ++m_counters.held;
+  if (flight.is_held) return;
+  ++m_counters.held;
   flight.is_held = true;
+  // While it waits, nothing accelerates it, so that it gains no energy.
+  m_states[at(id)].velocity -= (2 * (1 - flight.time)) * flight.bend;
 }
 
-// True if these two shapes have a contact by which the solver keeps them apart.
-bool RigidWorld::isSolved(int a, int b, int shape_a, int shape_b) const {
-  const std::int32_t index = findPair(a, b);
-  if (index < 0 || !m_pairs[at(index)].is_seen) return false;
-  for (std::int32_t i = m_pairs[at(index)].first; i >= 0; i = m_contacts[at(i)].next) {
-    if (m_contacts[at(i)].shape_a == shape_a && m_contacts[at(i)].shape_b == shape_b) return true;
+// Returns the contact of two shapes in this step; null: none.
+const RigidContact* RigidWorld::contactOf(const Pair& pair, int shape_a, int shape_b) const {
+  for (std::int32_t i = pair.first; i >= 0; i = m_contacts[at(i)].next) {
+    if (m_contacts[at(i)].shape_a == shape_a && m_contacts[at(i)].shape_b == shape_b)
+      return &m_contacts[at(i)];
+  }
+  return nullptr;
+}
+
+// True if an impact within this step has left the two bodies at rest on each other.
+bool RigidWorld::haveLanded(int a, int b) const {
+  for (std::size_t i = m_constraints.size(); i > m_first_late; --i) {
+    const ContactConstraint& c = m_constraints[i - 1];
+    if (c.a == a && c.b == b) return c.count > 0 && !c.is_ballistic;
   }
   return false;
 }
@@ -103,34 +132,43 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   const auto motionOf = [&](int id, const Flight* flight) -> RigidMotion {
     const RigidState& s = m_states[at(id)];
     const Rotation rotation = poseAt(id, start, h).turn * m_bodies[at(id)].rotation;
-    if (flight != nullptr && flight->is_held) return {{}, rotation, 0};
+    if (flight != nullptr && flight->is_held) return {{}, rotation, 0, {}};
     const double time = flight != nullptr ? left * flight->part : left;
-    return {time * s.velocity, rotation, time * s.spin};
+    const Vec2 bend = bendOf(id);
+    return {time * (s.velocity + (2 * start - 1) * bend), rotation, time * s.spin,
+            (2 * (1 - start) * time) * bend};
   };
   // Once a body has turned far since the step began, other corners may touch than those found at its start.
-  const bool is_bending =
-      (flight_a != nullptr && flight_a->is_bending) || (flight_b != nullptr && flight_b->is_bending);
-  const bool has_turned =
-      is_bending || of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
+  const bool has_turned = of_a.rolled + of_b.rolled > kMaxRoll * std::min(of_a.thickness, of_b.thickness);
+  const bool is_known = !has_met && !has_turned;
+  const std::int32_t index = has_turned ? -1 : findPair(a, b);
+  const Pair* p_pair = index >= 0 && m_pairs[at(index)].is_seen ? &m_pairs[at(index)] : nullptr;
   // At the start of the step, shapes without a contact were farther apart than the distance to which contacts
   // were searched. They cannot touch unless they approach by more than that distance.
-  if (!has_met && !has_turned) {
-    const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled;
+  bool is_near = false;
+  if (is_known) {
+    const double bulge = 0.25 * h * length(bendOf(b) - bendOf(a));
+    const double most = of_a.margin + of_b.margin - of_a.rolled - of_b.rolled - bulge;
     const auto isNear = [&](double time) {
       return lengthSquared(poseAt(b, time, h).displacement - poseAt(a, time, h).displacement) < most * most;
     };
-    if (most > 0 && isNear(1) && isNear(start)) return;
+    is_near = most > 0 && isNear(1) && isNear(start);
+    if (is_near && (p_pair == nullptr || p_pair->first < 0)) return;
   }
   const RigidMotion motion_a = motionOf(a, flight_a), motion_b = motionOf(b, flight_b);
   const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
                       (poseAt(b, start, h).displacement - poseAt(a, start, h).displacement);
+  const bool has_landed = has_met && haveLanded(a, b);
   Impact first;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(of_a.shapes.size()); ++i) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
-      if (!has_met && !has_turned && isSolved(a, b, i, j)) continue;
+      const RigidContact* p_contact = p_pair != nullptr ? contactOf(*p_pair, i, j) : nullptr;
+      if (is_known && (p_contact != nullptr ? !p_contact->is_ballistic : is_near)) continue;
+      const bool rests = has_landed || (p_contact != nullptr && p_contact->rests);
       ++m_counters.sweeps;
       const TimeOfImpact impact =
-          patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset);
+          patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset,
+                              rests ? kGive * std::min(of_a.thickness, of_b.thickness) : 0);
       if (impact.status == TimeOfImpactStatus::kApart) continue;
       if (impact.status == TimeOfImpactStatus::kUnresolved) ++m_counters.unresolved;
       const double time = start + (1 - start) * impact.time;
@@ -146,7 +184,7 @@ void RigidWorld::forecast(int id, double h) {
   if (extra.proxy < 0 || flight.is_held || flight.has_landed) return;
   const Place& place = m_bodies[at(id)].place;
   const Vec2 from = m_states[at(id)].displacement, to = poseAt(id, 1, h).displacement;
-  const double reach = extra.reach + kTouch * extra.thickness;
+  const double reach = extra.reach + kTouch * extra.thickness + 0.25 * h * length(flight.bend);
   const Bounds swept = {{std::min(from.x, to.x) - reach, std::min(from.y, to.y) - reach},
                         {std::max(from.x, to.x) + reach, std::max(from.y, to.y) + reach}};
   const GridBounds bounds = gridBounds(place, swept, 0);
@@ -212,24 +250,30 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
     own.spin = its.spin;
     m_flights[at(m_extras[at(id)].flight)].is_held = false;
   };
-  if (!collide(turned_a, turned_b, offset, touch, {}, manifold)) return giveUp();
+  const double together = touch + kTogether * std::min(of_a.thickness, of_b.thickness);
+  if (!collide(turned_a, turned_b, offset, together, {}, manifold)) return giveUp();
+  if (std::min(manifold.points[0].separation, manifold.points[at(manifold.count - 1)].separation) > touch)
+    return giveUp();
   ContactConstraint& c = addConstraint(a, b);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
   measureFromStart(c, start, one, other);
   refresh(c, m_states);
-  applyImpact(c, most > kMaxBounces ? 0 : c.restitution, impact.time);
+  const std::int32_t index = findPair(a, b);
+  c.is_kept = index >= 0 && m_pairs[at(index)].is_touching;
+  applyImpact(c, impact.time);
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
     const Extra& extra = m_extras[at(id)];
     if (!isMovable(id)) continue;
     const int free_impacts = extra.is_in_group ? kGroupImpacts : kFreeImpacts;
-    if (extra.is_in_crowd || m_flights[at(extra.flight)].impacts > free_impacts) land(id, h);
+    const bool is_spent = c.restitution < 1 && m_flights[at(extra.flight)].impacts > free_impacts;
+    if (is_spent || (extra.is_in_crowd && !c.may_fly)) land(id, h);
   }
 }
 
 // Ends the sweep of a body of a large group, or of a group with joints, after an impact, because otherwise
-// all bodies of the group would be swept; also after many impacts in a smaller group. In the rest of this
+// all bodies of the group would be swept; also after many impacts that lose energy. In the rest of this
 // sub-step the body moves at most by kLanded.
 void RigidWorld::land(int id, double h) {
   const Extra& extra = m_extras[at(id)];
@@ -241,20 +285,49 @@ void RigidWorld::land(int id, double h) {
   flight.has_landed = true;
 }
 
-// Applies the impulses of an impact. The velocities are those of the middle of the sub-step, so they are
-// corrected by the acceleration between the middle and the impact.
-void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double time) {
+// Applies the impulses of an impact, at the velocities of that time. Those of the states are the velocities
+// of the middle of the sub-step. Bodies that come to rest on each other do not fall in the rest of it.
+void RigidWorld::applyImpact(ContactConstraint& c, double time) {
+  RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
+  const double since = 2 * time - 1;
+  const Vec2 bend_a = bendOf(c.a), bend_b = bendOf(c.b);
+  const auto shift = [&](double part) {
+    a.velocity += part * bend_a, a.spin += part * a.spin_kick;
+    b.velocity += part * bend_b, b.spin += part * b.spin_kick;
+  };
+  shift(since);
+  const double rest_speed = restSpeed(c, m_states);
+  const double rest_after = since * dot(c.normal, bend_b - bend_a);
+  const bool rests =
+      c.friction > 0 ? rub(c, rest_speed, rest_after) : bounce(c, m_states, rest_speed, rest_after);
+  shift(-since);
+  c.is_ballistic = c.restitution > 0 && c.may_fly && !rests;
+  for (const int id : {c.a, c.b}) {
+    if (rests) m_flights[at(m_extras[at(id)].flight)].bend = {};
+  }
+  for (std::int32_t i = 0; i < c.count; ++i) {
+    ContactPoint& p = c.points[at(i)];
+    p.total += p.normal_impulse;
+    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
+    p.is_bouncing = false;
+  }
+}
+
+// As bounce(), with friction.
+bool RigidWorld::rub(ContactConstraint& c, double rest_speed, double rest_after) {
+  const double restitution = c.restitution;
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const RigidState a_before = a, b_before = b;
-  const Vec2 added = 2 * (b.kick - a.kick), since = (time - 0.5) * added;
-  const double gained = dot(c.normal, added), normal_since = (time - 0.5) * gained;
-  const auto meet = [&](double bounce) {
+  bool rests = false;
+  const auto meet = [&](double part) {
+    rests = false;
     for (std::int32_t i = 0; i < c.count; ++i) {
       ContactPoint& p = c.points[at(i)];
-      const double speed =
-          dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin);
-      const double leaving = bounce * -std::min(speed + normal_since, 0.0);
-      p.after = leaving > 2 * std::fabs(gained) ? leaving - normal_since : 0;
+      const double approach =
+          -(dot(c.normal, b.velocity - a.velocity) + (p.normal_b * b.spin - p.normal_a * a.spin));
+      const bool leaves = part * approach > rest_speed;
+      p.after = leaves ? part * approach : rest_after;
+      rests = rests || (approach > 0 && !leaves);
       p.normal_impulse = p.friction_impulse = 0;
     }
     for (int i = 0; i < kImpactSweeps; ++i) solveContact(c, m_states, true);
@@ -264,7 +337,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     for (std::int32_t i = 0; i < c.count; ++i) {
       const ContactPoint& p = c.points[at(i)];
       const auto work = [&](const RigidState& of_a, const RigidState& of_b) {
-        const Vec2 speed = of_b.velocity - of_a.velocity + since;
+        const Vec2 speed = of_b.velocity - of_a.velocity;
         return p.normal_impulse * (dot(c.normal, speed) + p.normal_b * of_b.spin - p.normal_a * of_a.spin) +
                p.friction_impulse *
                    (dot(perpendicular(c.normal), speed) + p.tangent_b * of_b.spin - p.tangent_a * of_a.spin);
@@ -278,7 +351,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
   // increase it, even if they are multiplied by 1 + e. The energy is a convex function of the impulses, so a
   // weighted mean of the two sets increases it by at most the weighted mean of the two increases. The weight
   // is chosen so that this is 0.
-  const double gain = c.friction > 0 && restitution > 0 ? energyGained() : 0;
+  const double gain = restitution > 0 ? energyGained() : 0;
   if (gain > 0) {
     const RigidState a_wanted = a, b_wanted = b;
     std::array<Vec2, 2> wanted;
@@ -303,13 +376,9 @@ void RigidWorld::applyImpact(ContactConstraint& c, double restitution, double ti
     mix(a, a_wanted, part, a);
     mix(b, b_wanted, part, b);
     for (std::size_t i = 0; i < at(c.count); ++i) move(i, impulses(i) + part * (wanted[i] - impulses(i)));
+    rests = false;
   }
-  for (std::int32_t i = 0; i < c.count; ++i) {
-    ContactPoint& p = c.points[at(i)];
-    p.total += p.normal_impulse;
-    p.normal_impulse = p.friction_impulse = p.normal_warm = p.friction_warm = 0;
-    p.is_bouncing = false;
-  }
+  return rests;
 }
 
 void RigidWorld::sweep(double h) {

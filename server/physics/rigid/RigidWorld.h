@@ -112,11 +112,12 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
-    bool is_in_group = false;  // true if its group, when last listed, had more than three bodies
-    bool is_in_crowd = false;  // true if its group, when last listed, was large or had rigid joints
-    bool is_given_up = false;  // true if the last step abandoned its group
-    int push_sweeps = 1;       // number of sweeps that undo overlap in its group
-    int flight = -1;           // index in m_flights if it moves from impact to impact in this sub-step
+    bool is_in_group = false;   // true if its group, when last listed, had more than three bodies
+    bool is_in_crowd = false;   // true if its group, when last listed, was large or had rigid joints
+    bool is_on_joints = false;  // true if its group, when last listed, had rigid joints
+    bool is_given_up = false;   // true if the last step abandoned its group
+    int push_sweeps = 1;        // number of sweeps that undo overlap in its group
+    int flight = -1;            // index in m_flights if it moves from impact to impact in this sub-step
   };
   struct Pair {
     std::int32_t a, b;
@@ -137,8 +138,8 @@ class RigidWorld final : public RigidStepper {
     int impacts = 0;
     double time = 0;
     double part = 1;          // part of the remaining sub-step by which it moves
+    Vec2 bend;                // as in bendOf()
     bool has_landed = false;  // true if it moves on without being swept
-    bool is_bending = false;  // true if it must bounce, but contacts cannot predict the impact
     bool is_held = false;
   };
   struct Island {
@@ -151,6 +152,8 @@ class RigidWorld final : public RigidStepper {
     double spare = 0;    // energy that the first half of the sub-step removed and the second may return
     bool has_fast = false;
     bool rests_anew = false;  // true if it is at rest in this sub-step, but has no known impulses
+    bool is_elastic =
+        true;  // true if no contact loses energy, so that it must be moved from impact to impact
   };
   struct Gain {  // maximum speeds in a group: when it became still, and now
     double before = 0, now = 0;
@@ -201,6 +204,7 @@ class RigidWorld final : public RigidStepper {
   void turnByMagnets(double h);
   void drift(double h);
   void move(int id, double h);
+  bool mayMeet(const ContactConstraint& constraint, double h) const;
   void finishStep(double dt);
   bool isFlying(int id) const;
   void dropParted();
@@ -231,10 +235,13 @@ class RigidWorld final : public RigidStepper {
   void advance(int id, double time, double h);
   void forecast(int id, double h);
   void forecastPair(int a, int b, double h);
-  bool isSolved(int a, int b, int shape_a, int shape_b) const;
+  Vec2 bendOf(int id) const;
+  bool haveLanded(int a, int b) const;
+  const RigidContact* contactOf(const Pair& pair, int shape_a, int shape_b) const;
   void handleImpact(const Impact& impact, double h);
   void land(int id, double h);
-  void applyImpact(ContactConstraint& constraint, double restitution, double time);
+  void applyImpact(ContactConstraint& constraint, double time);
+  bool rub(ContactConstraint& constraint, double rest_speed, double rest_after);
   void wakeInFlight(int id);
   void hold(int id);
 

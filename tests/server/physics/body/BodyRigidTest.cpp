@@ -35,6 +35,24 @@ TEST_F(BodyRigids, LoneBodyFliesExactly) {
   EXPECT_EQ(layer().rigidCounters().ticks, 0);
 }
 
+TEST_F(BodyRigids, ElasticImpactKeepsItsEnergyAtAnyMassRatio) {
+  for (const double mass : {1.0, 1e4, 1e9}) {
+    OwnWorld own;
+    Body* p_heavy = turningCrate(Vector(0, 0), Vector(1, 1), mass);
+    Body* p_light = turningCrate(Vector(6, 0.4));
+    for (Body* p_body : {p_heavy, p_light}) {
+      p_body->setRestitution(1);
+      p_body->setFriction(0);
+    }
+    p_light->setVelocity(Vector(-0.6, 0));
+    p_light->setSpin(0.2);
+    const double before = kineticOf(p_heavy) + kineticOf(p_light);
+    for (int tick = 0; tick < 30; ++tick) own.world.update();
+    EXPECT_GT(p_light->getVelocity().x(), -0.5) << mass;
+    EXPECT_NEAR((kineticOf(p_heavy) + kineticOf(p_light)) / before, 1, 1e-9) << mass;
+  }
+}
+
 TEST_F(BodyRigids, NonTurningBodiesKeepTheExactSolver) {
   layFloor(100);
   turningCrate(Vector(-20, -2));

@@ -4,6 +4,7 @@
 
 #include "RigidScene.h"
 #include "tests/server/physics/BitHash.h"
+#include "tests/server/physics/RandomShapes.h"
 #include "tests/server/physics/SceneRandom.h"
 #include "tests/support/AllocationCount.h"
 
@@ -65,6 +66,111 @@ TEST(RigidWorld, TumblingElasticBoxKeepsItsEnergy) {
     ASSERT_LT(whereIs(world, id).y, -0.24) << tick;
   }
   EXPECT_GT(world.counters().impacts, 20);
+}
+
+// Sums over some bodies. Each scale is the sum of the parts' absolute values.
+struct Motion {
+  double energy = 0;
+  Vec2 momentum;
+  double momentum_scale = 0, angular = 0, angular_scale = 0;
+};
+
+Motion motionOf(const RigidWorld& world, int first, int last) {
+  Motion sum;
+  for (int id = first; id <= last; ++id) {
+    const RigidBody& body = world.body(id);
+    const double mass = 1 / body.inverse_mass, inertia = 1 / body.inverse_inertia;
+    const double turning = inertia * body.spin, around = mass * cross(whereIs(world, id), body.velocity);
+    sum.energy += 0.5 * (mass * lengthSquared(body.velocity) + turning * body.spin);
+    sum.momentum += mass * body.velocity;
+    sum.momentum_scale += mass * length(body.velocity);
+    sum.angular += around + turning;
+    sum.angular_scale += mass * length(whereIs(world, id)) * length(body.velocity) + std::fabs(turning);
+  }
+  return sum;
+}
+
+ConvexShape anyConvexShape(SplitMix64& random, int kind) {
+  ConvexShape shape;
+  const double first = between(random, 0.3, 1), second = between(random, 0.3, 1);
+  if (kind == 0) return circleShape(first);
+  if (kind == 1) return boxShape(first, second);
+  do {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 8; ++i) points.push_back(anyVec(random, 1));
+    EXPECT_EQ(makePolygon(hullOf(points), 0, shape), ShapeStatus::kOk);
+  } while (shape.count == 0);
+  // The centre of mass is the origin.
+  const Vec2 centre = massOf(shape, 1).centre;
+  return moved(shape, {}, -centre);
+}
+
+RigidBody elastic(SplitMix64& random, Vec2 where, const ConvexShape& shape, Vec2 velocity, double mass) {
+  RigidBody body = floating(where, shape, velocity, mass);
+  body.friction = 0;
+  body.restitution = 1;
+  body.rotation = anyRotation(random);
+  return body;
+}
+
+TEST(RigidWorld, ElasticImpactsKeepEnergyAndMomentum) {
+  SplitMix64 random(3);
+  int met = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    RigidWorld world(sleepless());
+    const double speed = 0.03 * std::pow(1000.0, random.unit());
+    const double heavy = trial % 4 == 0 ? std::pow(10.0, 9 * random.unit()) : between(random, 0.5, 2);
+    const Vec2 start = {4 + between(random, 0, 2 * speed), between(random, -0.7, 0.7)};
+    const int kind_a = static_cast<int>(3 * random.unit()), kind_b = static_cast<int>(3 * random.unit());
+    const ConvexShape shape_a = anyConvexShape(random, kind_a), shape_b = anyConvexShape(random, kind_b);
+    RigidBody a = elastic(random, {}, shape_a, 0.1 * anyVec(random, speed), heavy);
+    RigidBody b = elastic(random, start, shape_b, {-speed, 0}, 1);
+    if (trial % 3 > 0) a.spin = between(random, -0.5, 0.5), b.spin = between(random, -0.5, 0.5);
+    world.add(a, shape_a);
+    world.add(b, shape_b);
+    const Motion before = motionOf(world, 0, 1);
+    const double most = kind_a + kind_b == 0 ? 1e-9 : 1e-6;
+    const int ticks = std::min(400, static_cast<int>(10 / speed) + 4);
+    for (int tick = 0; tick < ticks; ++tick) {
+      world.step();
+      const Motion now = motionOf(world, 0, 1);
+      ASSERT_NEAR(now.energy / before.energy, 1, most) << trial << " tick " << tick;
+      ASSERT_LE(length(now.momentum - before.momentum), 1e-9 * before.momentum_scale) << trial;
+      ASSERT_LE(std::fabs(now.angular - before.angular), 1e-9 * now.angular_scale) << trial;
+    }
+    met += world.counters().impacts > 0 ? 1 : 0;
+  }
+  EXPECT_GT(met, 300);
+}
+
+// An hour (108,000 ticks) keeps the energy to 1e-9 as well.
+TEST(RigidWorld, ElasticBodiesInARoomKeepTheirEnergy) {
+  for (const int count : {2, 10, 25}) {
+    SplitMix64 random(static_cast<std::uint64_t>(count));
+    RigidWorld world;
+    const double half = 2 + 1.5 * std::sqrt(static_cast<double>(count));
+    for (const Vec2 side : {Vec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      RigidBody wall = immovable((half + 1) * side);
+      wall.friction = 0;
+      world.add(wall, side.x != 0 ? boxShape(1, half + 2) : boxShape(half + 2, 1));
+    }
+    const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+    for (int i = 0; i < count; ++i) {
+      const Vec2 where = Vec2{3.0 * (i % columns), 3.0 * (i / columns)} - 1.5 * (columns - 1) * Vec2{1, 1};
+      const ConvexShape shape = anyConvexShape(random, i % 3);
+      RigidBody body = elastic(random, where, shape, anyVec(random, i % 5 == 0 ? 3 : 0.3), 1 + i % 4);
+      body.spin = between(random, -0.3, 0.3);
+      world.add(body, shape);
+    }
+    const Motion before = motionOf(world, 4, 3 + count);
+    for (int tick = 0; tick < 3000; ++tick) world.step();
+    const Motion after = motionOf(world, 4, 3 + count);
+    EXPECT_NEAR(after.energy / before.energy, 1, 1e-9) << count;
+    EXPECT_GT(world.counters().impacts, 100 * count);
+    for (int id = 4; id < 4 + count; ++id) {
+      EXPECT_LT(std::max(std::fabs(whereIs(world, id).x), std::fabs(whereIs(world, id).y)), half) << count;
+    }
+  }
 }
 
 TEST(RigidWorld, MomentumIsConserved) {
