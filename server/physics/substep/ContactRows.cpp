@@ -72,6 +72,8 @@ void ContactRows::clear(std::size_t blocks, float h) {
   m_softness = both(kFastestTurns, kContactDamping);
   m_lasting_softness = both(kLastingTurns, kLastingDamping);
   m_blocks.clear();
+  m_driven.clear();
+  m_may_bounce = false;
   reserveFor(m_blocks, blocks);
 }
 
@@ -95,6 +97,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.rest[lane] = row.rest;
   block.fast[lane] = row.fast;
   block.bounces = block.bounces || row.restitution > 0;
+  m_may_bounce = m_may_bounce || block.bounces;
   const Softness& softness = (row.is_lasting ? m_lasting_softness : m_softness).at(row.is_held ? 1 : 0);
   block.follows[lane] = row.is_lasting ? 1 : 0;
   block.rate[lane] = softness.rate;
@@ -111,7 +114,43 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
     to.normal.set(lane, known.normal[at(i)]);
     to.friction.set(lane, known.friction[at(i)]);
   }
-  return static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
+  const auto number = static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
+  if (row.is_driven) {
+    const bool is_a = row.inverse_mass_a + row.inverse_inertia_a == 0;
+    m_driven.push_back({number, is_a ? row.b : row.a, row.driver, is_a ? row.spin_a : row.spin_b, is_a});
+  }
+  return number;
+}
+
+double ContactRows::workOf(const Driven& driven) const {
+  const Block& k = m_blocks[at(driven.row) / kLanes];
+  const int lane = static_cast<int>(at(driven.row) % kLanes);
+  const Vec2 n = {k.nx[lane], k.ny[lane]};
+  double work = 0;
+  for (const Point& p : k.point) {
+    const Vec2 push = double{p.normal.now[lane]} * n + double{p.friction.now[lane]} * perpendicular(n);
+    const Vec2 arm = driven.is_a ? Vec2{p.ax[lane], p.ay[lane]} : Vec2{p.bx[lane], p.by[lane]};
+    const double along = dot(push, driven.velocity + cross(driven.spin, arm));
+    work += driven.is_a ? along : -along;
+  }
+  return work;
+}
+
+void ContactRows::scale(std::span<const float> factors) {
+  for (Block& k : m_blocks) {
+    for (int lane = 0; lane < k.count; ++lane) {
+      const bool moves_a = k.inverse_mass_a[lane] + k.inverse_inertia_a[lane] > 0;
+      const float by = factors[at(moves_a ? k.a[at(lane)] : k.b[at(lane)])];
+      if (by == 1) continue;
+      for (Point& p : k.point) {
+        p.total[lane] -= (1 - by) * p.normal.now[lane];
+        for (Impulse* const p_impulse : {&p.normal, &p.friction}) {
+          p_impulse->now[lane] *= by;
+          p_impulse->trend[lane] *= by;
+        }
+      }
+    }
+  }
 }
 
 void ContactRows::finishBlock() {

@@ -157,6 +157,9 @@ void SubstepWorld::undoMagnetWork() {
     const Vec2 velocity = b.body.velocity + Vec2{s.vx, s.vy};
     const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
+    const SubstepEnergy::Member& member = m_energy.member(b.state);
+    const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - member.velocity);
+    m_energy.giveFromSprings(b.state, member.mass * dot(right - velocity, middle));
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
   }
@@ -178,14 +181,54 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
   }
 }
 
+// Sets the masses and groups of the bodies. chooseColours() has found the groups.
+void SubstepWorld::beginEnergy() {
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    SubstepEnergy::Member& member = m_energy.member(b.state);
+    member.velocity = b.body.velocity;
+    member.group = m_sets.rootOf(b.state);
+    member.mass = b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0;
+    member.inertia = b.inverse_inertia > 0 ? 1 / double{b.inverse_inertia} : 0;
+  }
+  const auto hold = [this](const SubstepBody& b, bool by_immovable) {
+    if (by_immovable && b.state > 0) m_energy.hold(b.state);
+  };
+  m_joints.visitLinks([&](int a, int b) {
+    if (a >= 0) hold(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
+    hold(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
+  });
+  m_energy.chooseFrames();
+}
+
+// Keeps the impulses of this sub-step from adding energy.
+void SubstepWorld::balance(std::span<const std::int32_t> states) {
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+  m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
+  if (!m_energy.balance(states, m_states, false)) return;
+  m_rows.scale(m_energy.factors());
+  m_joints.scale(m_energy.factors());
+}
+
+void SubstepWorld::bounce(std::span<const std::int32_t> states) {
+  if (!m_rows.mayBounce()) return;
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, -work); });
+  for (const std::int32_t state : states) m_energy.note(state, m_states[at(state)]);
+  m_rows.bounce(m_states);
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+  m_energy.balance(states, m_states, true);
+}
+
 void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
   float time = 0;
+  m_energy.beginBatch(states);
   for (int i = 0; i < m_options.substeps; ++i) {
     pushByMagnets();
     for (const std::int32_t state : states) {
       SubstepState& s = m_states[at(state)];
       const SubstepKick& kick = m_kicks[at(state)];
       s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
+      m_energy.note(state, s);
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
@@ -196,8 +239,9 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
     time += m_h;
     m_joints.relax(m_states, time);
     m_rows.solve(m_states, m_h, time, false);
+    balance(states);
   }
-  m_rows.bounce(m_states);
+  bounce(states);
 }
 
 void SubstepWorld::step() {
@@ -225,6 +269,7 @@ void SubstepWorld::stepOnce() {
   m_joints.begin(m_bodies, m_h);
   chooseColours();
   chooseBatches();
+  beginEnergy();
   m_turns.assign(m_states.size(), 0);
   std::span<const std::int32_t> states = m_by_batch, contacts = m_by_colour;
   for (const Batch& batch : m_batches) {
@@ -236,6 +281,7 @@ void SubstepWorld::stepOnce() {
     contacts = contacts.subspan(batch.contacts);
     states = states.subspan(batch.states);
   }
+  m_counters.scaled = m_energy.scaled();
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
 }

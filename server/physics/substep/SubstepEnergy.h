@@ -1,0 +1,82 @@
+// Watches that impulses add no kinetic energy to a group of bodies, except what drivers and springs give.
+//
+// Impulses known from the last sub-step, the push that undoes overlap, and restitution may all leave a group
+// with more energy than it had. If so, all impulses of the stage are multiplied by one factor from 0 to 1.
+// Each group is checked alone, in its own frame, so that groups do not influence each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/geometry/Index.h"
+#include "physics/substep/Lanes.h"
+#include "physics/substep/SubstepBody.h"
+
+namespace naiad::physics {
+
+class SubstepEnergy {
+ public:
+  struct Member {
+    Vec2 velocity;  ///< velocity at the start of the step, in the group's frame
+    double mass = 0, inertia = 0;
+    std::int32_t group = 0;  ///< the group's lowest state
+  };
+
+  /// Starts a step with this many states; all members are without mass.
+  void begin(std::size_t states);
+  Member& member(std::int32_t state) { return m_members[at(state)]; }
+  /// Marks a body that touches or is joined to an immovable one. The group's frame is then the world's.
+  void hold(std::int32_t state) { m_is_held[at(state)] = 1; }
+  /// Call when all members have their groups and velocities: makes velocities relative to the group's frame.
+  void chooseFrames();
+  /// Starts the sub-steps of these states, of whole groups.
+  void beginBatch(std::span<const std::int32_t> states);
+
+  /// Starts a stage of impulses on this body.
+  void note(std::int32_t state, const SubstepState& s) {
+    __builtin_memcpy(&m_speeds[at(state)].before, &s.vx, sizeof(Lanes));
+  }
+  /// Adds energy given to the group of this body in this stage, by impulses or from springs.
+  void giveByImpulses(std::int32_t state, double work) { m_groups[at(groupOf(state))].gain -= work; }
+  void giveFromSprings(std::int32_t state, double work) {
+    m_groups[at(groupOf(state))].gain -= work;
+    m_groups[at(groupOf(state))].given += work;
+  }
+  /// Ends a stage: scales the velocity changes of groups that gained energy. Returns true if factors() are
+  /// not all 1. In a bounce, the group may gain what its earlier impulses in this step took away.
+  bool balance(std::span<const std::int32_t> ids, std::span<SubstepState> states, bool is_bounce);
+  /// Returns the factors of the last balance(), by state.
+  std::span<const float> factors() const { return m_factors; }
+  /// Returns how many groups gained considerable energy, since construction.
+  std::int64_t scaled() const { return m_scaled; }
+
+ private:
+  struct Group {
+    double gain = 0;    // energy gained in this stage beyond what was given
+    double given = 0;   // energy given by springs in this stage
+    double lost = 0;    // energy taken by impulses in this step
+    double square = 0;  // twice the energy of the velocity changes
+    float factor = 1;
+    bool is_over = false;
+  };
+  struct Speeds {
+    Lanes before;  // gained velocity and spin before the impulses of this stage
+    Lanes twice;   // twice the velocity at the start of the step, in the group's frame
+  };
+  std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
+  void sum(std::span<const std::int32_t> ids, std::span<const SubstepState> states);
+  bool judge(bool is_bounce);
+  void scale(std::span<const std::int32_t> ids, std::span<SubstepState> states, bool is_bounce);
+
+  std::vector<Member> m_members;      // by state
+  std::vector<Speeds> m_speeds;       // by state
+  std::vector<std::int32_t> m_roots;  // groups of this batch
+  std::vector<Group> m_groups;        // by lowest state
+  std::vector<std::uint8_t> m_is_held;
+  std::vector<float> m_factors;
+  bool m_has_factors = false;
+  std::int64_t m_scaled = 0;
+};
+
+}  // namespace naiad::physics
