@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kRounding = 1e-4f;       // factors nearer to 1 do not change the impulses kept
 constexpr float kConsiderable = 0.999f;  // smaller factors are counted
+constexpr double kUlps = 6e-8;           // rounding of a float, as a part of its size
 
 }  // namespace
 
@@ -66,7 +67,7 @@ bool SubstepEnergy::judge(bool is_bounce) {
   bool is_any = false;
   for (const std::int32_t root : m_roots) {
     Group& group = m_groups[at(root)];
-    group.is_over = group.gain > (is_bounce ? group.lost : 0);
+    group.is_over = !group.is_ignored && group.gain > (is_bounce ? group.lost : 0);
     is_any = is_any || group.is_over;
     if (group.gain < 0) group.lost -= group.gain;
   }
@@ -79,12 +80,17 @@ void SubstepEnergy::scale(std::span<const std::int32_t> ids, std::span<SubstepSt
     __builtin_memcpy(&now, &states[at(id)].vx, sizeof now);
     return now - m_speeds[at(id)].before;
   };
-  for (const std::int32_t root : m_roots) m_groups[at(root)].square = 0;
+  for (const std::int32_t root : m_roots) m_groups[at(root)].square = m_groups[at(root)].rounding = 0;
   for (const std::int32_t id : ids) {
     const Member& m = m_members[at(id)];
+    Group& group = m_groups[at(m.group)];
     const Lanes change = changeOf(id);
     const double x = change[0], y = change[1], spin = change[2];
-    m_groups[at(m.group)].square += m.mass * (x * x + y * y) + m.inertia * spin * spin;
+    group.square += m.mass * (x * x + y * y) + m.inertia * spin * spin;
+    const Lanes before = m_speeds[at(id)].before, twice = m_speeds[at(id)].twice;
+    const double gained =
+        std::fabs(before[0]) + std::fabs(before[1]) + std::fabs(change[0]) + std::fabs(change[1]);
+    group.rounding += kUlps * m.mass * gained * (gained + std::fabs(twice[0]) + std::fabs(twice[1]));
   }
   for (const std::int32_t root : m_roots) {
     Group& group = m_groups[at(root)];
@@ -94,7 +100,11 @@ void SubstepEnergy::scale(std::span<const std::int32_t> ids, std::span<SubstepSt
     const double b = group.gain - (is_bounce ? 0 : c) - 0.5 * a;
     const double factor = a > 0 ? (std::sqrt(std::max(b * b - 2 * a * c, 0.0)) - b) / a : 0;
     group.factor = factor > 0 ? static_cast<float>(std::min(factor, 1.0)) : 0;
-    if (group.factor < kConsiderable) ++m_scaled;
+    // A light body takes energy from a much heavier one, whose velocity is too coarse to show it.
+    const bool is_rounding = group.gain - (is_bounce ? group.lost : 0) <= group.rounding;
+    if (group.factor >= kConsiderable) continue;
+    if (is_rounding) group.factor = 1;
+    if (!is_rounding) ++m_scaled;
   }
   for (const std::int32_t id : ids) {
     const Group& group = m_groups[at(groupOf(id))];

@@ -28,6 +28,8 @@ class SubstepEnergy {
   Member& member(std::int32_t state) { return m_members[at(state)]; }
   /// Marks a body that touches or is joined to an immovable one. The group's frame is then the world's.
   void hold(std::int32_t state) { m_is_held[at(state)] = 1; }
+  /// Excludes the body's group, because it is in a crowd, from which only speed frees the bodies.
+  void ignore(std::int32_t state) { m_groups[at(groupOf(state))].is_ignored = true; }
   /// Call when all members have their groups and velocities: makes velocities relative to the group's frame.
   void chooseFrames();
   /// Starts the sub-steps of these states, of whole groups.
@@ -53,12 +55,13 @@ class SubstepEnergy {
 
  private:
   struct Group {
-    double gain = 0;    // energy gained in this stage beyond what was given
-    double given = 0;   // energy given by springs in this stage
-    double lost = 0;    // energy taken by impulses in this step
-    double square = 0;  // twice the energy of the velocity changes
+    double gain = 0;      // energy gained in this stage beyond what was given
+    double given = 0;     // energy given by springs in this stage
+    double lost = 0;      // energy taken by impulses in this step
+    double square = 0;    // twice the energy of the velocity changes
+    double rounding = 0;  // largest rounding error of the gain
     float factor = 1;
-    bool is_over = false;
+    bool is_over = false, is_ignored = false;
   };
   struct Speeds {
     Lanes before;  // gained velocity and spin before the impulses of this stage

@@ -23,9 +23,9 @@ constexpr float kResolved = 0.25f;  // maximum (h·ω)² of an oscillation that 
 constexpr int kMaxLoops = 8;        // a system with more loops would cost too much
 // Springs in a net, where each is solved alone. The sweeps' delay would let stiff ones oscillate without end,
 // so they are at most as stiff as hard joints, and damped like those.
-constexpr double kNetTurns = 2.4674;    // maximum (h·ω)²
-constexpr double kNetDamping = 2.5465;  // minimum damping of a stiff spring, as a multiple of h·stiffness
-constexpr double kNetSoft = 0.5;        // springs with a smaller (h·ω)² are damped less
+constexpr double kNetTurns = 1;    // maximum (h·ω)²
+constexpr double kNetDamping = 4;  // minimum damping of a stiff spring, as a multiple of h·stiffness
+constexpr double kNetSoft = 0.2;   // springs with a smaller (h·ω)² are damped less
 
 void take(const SubstepBody& of, float& inverse_mass, float& inverse_inertia) {
   if (of.state == 0) return;
@@ -148,7 +148,7 @@ void SubstepJoints::addSystem(std::span<const std::pair<int, int>> links, std::m
     m_masses.resize(bodies.size());
     if (shape.a >= 0) m_masses[at(a)] = {shape.moves_a ? 1.0 : 0.0, 0};
     m_masses[at(b)] = {shape.moves_b ? 1.0 : 0.0, 0};
-    const int count = m_links[at(link)].count;
+    const int count = m_links[at(link)].count + (m_links[at(link)].is_line ? 1 : 0);
     rows.insert(rows.end(), at(count), {{}, 0, 0, a, b});
     key.insert(key.end(), {shape.id, shape.a, shape.b, count, shape.moves_a ? 1 : 0, shape.moves_b ? 1 : 0});
   }
@@ -201,6 +201,8 @@ void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
   link.state_b = b.state;
   link.count = rowsOf(j);
   link.is_hinge = j.kind == JointKind::kHinge;
+  link.is_line = link.count == 1 && (j.kind == JointKind::kDistance || j.kind == JointKind::kRope ||
+                                     j.kind == JointKind::kSpring);
   link.is_point = link.is_hinge || j.kind == JointKind::kWeld;
   link.frame.arm_b = b.body.rotation * j.anchor_b;
   link.velocity = b.body.velocity;
@@ -278,6 +280,7 @@ void SubstepJoints::place(Link& link, const SubstepState& a, const SubstepState&
     setRow(row, law);
     if (link.is_in_net && law.is_spring) soften(row, j);
   }
+  if (link.is_line && link.p_system != nullptr) placeAcross(link, frame, placed[0].n);
   if (!link.is_point || link.p_system != nullptr) return;
   const Row &x = m_rows[at(link.row)], &y = m_rows[at(link.row + 1)];
   const float between = link.inverse_inertia_a * x.ja * y.ja + link.inverse_inertia_b * x.jb * y.jb;
@@ -285,6 +288,24 @@ void SubstepJoints::place(Link& link, const SubstepState& a, const SubstepState&
   const float determinant = xx * yy - between * between;
   const float by = determinant > 0 ? 1 / determinant : 0;
   link.inverse_xx = yy * by, link.inverse_yy = xx * by, link.inverse_xy = -between * by;
+}
+
+// A taut line turns as if a spring held its ends in place across it. If the ends are so light that they
+// oscillate faster than sub-steps can resolve, that spring is a row, too.
+void SubstepJoints::placeAcross(const Link& link, const JointFrame& frame, Vec2 along) const {
+  SubstepSystem& system = *link.p_system;
+  const double h = m_h, force = -system.row(link.row).impulse / h;
+  const double stiffness = force / length(frame.offset);
+  const double inverse_mass = double{link.inverse_mass_a} + link.inverse_mass_b;
+  const bool is_needed = h * h * stiffness * inverse_mass > kResolved;
+  SubstepSystem::Row& row = system.row(link.row + link.count);
+  const Vec2 n = perpendicular(along);
+  row.speed = dot(n, link.velocity);
+  row.softness = is_needed ? 1 / (h * h * stiffness) : 0;
+  row.high = is_needed ? kNoLimit : 0;
+  row.low = -row.high;
+  row.is_spring = true;
+  system.place(link.row + link.count, n, -cross(frame.arm_a, n), cross(frame.arm_b, n));
 }
 
 SubstepJoints::Law SubstepJoints::lawOf(const Joint& joint, const SpeedRow& row) const {
@@ -494,12 +515,17 @@ void SubstepJoints::addStored(Link& link, const std::array<double, 3>& before) c
   for (int k = 0; k < link.count; ++k) link.work += stored(before[at(k)]) - stored(link.value[at(k)]);
 }
 
-void SubstepJoints::scale(std::span<const float> factors) {
+void SubstepJoints::scale(std::span<const float> factors, std::span<SubstepState> states) {
   for (const Link& link : m_links) {
     if (link.p_system != nullptr) continue;
     const bool moves_b = link.inverse_mass_b + link.inverse_inertia_b > 0;
     const float by = factors[at(moves_b ? link.state_b : link.state_a)];
+    if (by == 1) continue;
     for (int k = 0; k < link.count; ++k) m_rows[at(link.row + k)].impulse *= by;
+    solve(link, states[at(link.state_a)], states[at(link.state_b)], false);
+  }
+  for (auto& [first, system] : m_systems) {
+    if (system.rows.isScaled(factors)) system.rows.solve(states, false);
   }
 }
 

@@ -43,8 +43,9 @@ class SubstepJoints : public JointStore {
         visit(link.inverse_mass_b + link.inverse_inertia_b > 0 ? link.state_b : link.state_a, link.work);
     }
   }
-  /// Multiplies the impulses kept for the next sub-step by the factor of a movable body's state.
-  void scale(std::span<const float> factors);
+  /// Call when velocity changes were multiplied by these factors, by state. Multiplies the impulses kept for
+  /// the next sub-step, too, and stops the speeds along the joints again.
+  void scale(std::span<const float> factors, std::span<SubstepState> states);
   /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {
@@ -87,6 +88,7 @@ class SubstepJoints : public JointStore {
     Vec2 velocity;                     // velocity of b's centre relative to a's, at the start of the step
     bool is_point;                     // the first two rows hold a point together
     bool is_hinge;                     // the joint has only these two rows
+    bool is_line;                      // a rope, rod or spring between two points, with one row
     bool is_in_net;                    // solved alone, but other joints act on its bodies
     bool has_work;                     // a motor, a spring, or is_driven
     bool is_driven;                    // one of the bodies is immovable and moves
@@ -119,6 +121,7 @@ class SubstepJoints : public JointStore {
   bool isDirect(std::span<const std::pair<int, int>> links) const;
   void addSystem(std::span<const std::pair<int, int>> links, std::map<int, System>& old);
   void place(Link& link, const SubstepState& a, const SubstepState& b, float time);
+  void placeAcross(const Link& link, const JointFrame& frame, Vec2 along) const;
   Law lawOf(const Joint& joint, const SpeedRow& row) const;
   static void setSystemRow(const Link& link, int k, const SpeedRow& from, const Law& law);
   void setRow(Row& row, const Law& law) const;

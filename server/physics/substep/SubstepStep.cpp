@@ -198,6 +198,10 @@ void SubstepWorld::beginEnergy() {
     if (a >= 0) hold(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
     hold(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
   });
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    if (b.proxy >= 0 && m_broad.isThinned(b.proxy)) m_energy.ignore(b.state);
+  }
   m_energy.chooseFrames();
 }
 
@@ -207,7 +211,7 @@ void SubstepWorld::balance(std::span<const std::int32_t> states) {
   m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
   if (!m_energy.balance(states, m_states, false)) return;
   m_rows.scale(m_energy.factors());
-  m_joints.scale(m_energy.factors());
+  m_joints.scale(m_energy.factors(), m_states);
 }
 
 void SubstepWorld::bounce(std::span<const std::int32_t> states) {
@@ -490,10 +494,12 @@ void SubstepWorld::stop(Fast& fast) {
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
     // Rows keep only the known points apart, and other corners may touch in this step. So a body that is
-    // pushed may rotate into the other body, but its core must not pass the other one.
+    // pushed may rotate into the other body, but its core must not pass the other one. A body that is already
+    // inside an immovable one would leave it on the far side, without touching more of it.
     ConvexShape core;
-    if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
-    for (const ConvexShape& own : is_pushing ? std::span<const ConvexShape>(&core, 1) : own_shapes) {
+    const bool has_core =
+        (is_pushing || !isMovable(other)) && makeCircle(kCore * b.thickness, {}, core) == ShapeStatus::kOk;
+    const auto sweep = [&](const ConvexShape& own) {
       for (const ConvexShape& that : m_forms[other.form].shapes) {
         const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
         if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
@@ -502,7 +508,10 @@ void SubstepWorld::stop(Fast& fast) {
         first = impact.time;
         met = near;
       }
-    }
+    };
+    if (has_core) sweep(core);
+    if (is_pushing) continue;
+    for (const ConvexShape& own : own_shapes) sweep(own);
   }
   if (first >= b.part) return;
   ++m_counters.stopped;
@@ -547,7 +556,8 @@ bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
 }
 
 // Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both
-// bodies of a contact. finish() adds it to the groups that nothing holds.
+// bodies of a contact, and how far sub-steps deviate from a fall without contacts. finish() corrects both for
+// groups that nothing holds.
 void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
@@ -560,11 +570,15 @@ void SubstepWorld::keepMomentum() {
     if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
+    const SubstepState& s = m_states[at(b.state)];
+    group.missing_path += mass * ((0.5 * m_dt * m_dt) * b.body.acceleration - Vec2{s.x, s.y});
     group.mass += mass;
+    group.is_pushed = group.is_pushed || b.part < 1 || b.is_diverted;
   }
   for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
     Group& group = groupOf(b);
+    group.is_pushed = true;
     if (!group.is_held) group.missing += magnet.given / b.body.inverse_mass;
   }
 }
@@ -578,7 +592,9 @@ void SubstepWorld::finish() {
     b.is_shaken = false;
     b.is_stopped = b.is_stopped || b.part < 1 || b.is_diverted;
     const SubstepState& s = m_states[at(b.state)];
-    const Vec2 moved = b.part * movedBy(b);
+    const Group& group = groupOf(b);
+    const bool falls = group.mass > 0 && !group.is_pushed && isMovable(b);
+    const Vec2 moved = b.part * movedBy(b) + (falls ? group.missing_path / group.mass : Vec2{});
     const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&
                           std::fabs(moved.x) + std::fabs(moved.y) < 1e12;
     if (!is_sound) {
@@ -590,7 +606,6 @@ void SubstepWorld::finish() {
     if (!isMovable(b)) continue;
     b.push = pushOn(b, s, m_dt);
     b.body.velocity += Vec2{s.vx, s.vy};
-    const Group& group = groupOf(b);
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }

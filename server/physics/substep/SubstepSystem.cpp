@@ -161,6 +161,13 @@ void SubstepSystem::factor(bool is_soft) {
   m_factored_out = m_is_out;
 }
 
+bool SubstepSystem::isScaled(std::span<const float> factors) const {
+  for (std::size_t i = 0; i < m_states.size(); ++i) {
+    if (m_masses[i].inverse_mass + m_masses[i].inverse_inertia > 0) return factors[at(m_states[i])] != 1;
+  }
+  return false;
+}
+
 void SubstepSystem::beginSubstep(std::span<SubstepState> states) {
   load(states);
   for (std::size_t i = 0; i < m_rows.size(); ++i) {
@@ -176,6 +183,7 @@ void SubstepSystem::beginSubstep(std::span<SubstepState> states) {
 void SubstepSystem::solve(std::span<SubstepState> states, bool is_soft) {
   load(states);
   const auto size = static_cast<int>(m_rows.size());
+  m_has_springs = std::any_of(m_rows.begin(), m_rows.end(), [](const Row& row) { return row.softness > 0; });
   const auto takesPart = [&](const Row& row) { return is_soft || !row.is_spring; };
   for (int i = 0; i < size; ++i)
     m_is_out[at(i)] = !takesPart(m_rows[at(i)]) || staysAtBound(i, is_soft) ? 1 : 0;

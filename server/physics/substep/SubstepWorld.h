@@ -149,8 +149,10 @@ class SubstepWorld final : public RigidStepper {
     double speed_before = 0, speed = 0;
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
-    Vec2 missing;     // momentum lost by rounding in this step
-    double mass = 0;  // total mass of the bodies that lost it
+    bool is_pushed = false;  // a contact or a magnet pushes it
+    Vec2 missing;            // momentum lost by rounding in this step
+    Vec2 missing_path;       // mass times the path by which it deviates from a parabola
+    double mass = 0;         // total mass of the bodies that lost it
   };
 
   // Contacts whose relative movement is slower may be lasting; in thicknesses of a body per tick.
