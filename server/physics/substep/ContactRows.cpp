@@ -98,7 +98,6 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.rest[lane] = row.rest;
   block.fast[lane] = row.fast;
   block.bounces = block.bounces || row.restitution > 0;
-  m_may_bounce = m_may_bounce || block.bounces;
   const Softness& softness = (row.is_lasting ? m_lasting_softness : m_softness).at(row.is_held ? 1 : 0);
   block.follows[lane] = row.is_lasting ? 1 : 0;
   block.rate[lane] = softness.rate;
@@ -157,6 +156,7 @@ void ContactRows::scale(std::span<const float> factors) {
 void ContactRows::finishBlock() {
   const Lanes zero = {}, one = lanesOf(1);
   Block& k = m_blocks.back();
+  m_may_bounce = m_may_bounce || k.bounces;
   const Lanes masses = k.inverse_mass_a + k.inverse_mass_b;
   for (std::int32_t i = 0; i < k.points; ++i) {
     Point& p = k.point[at(i)];

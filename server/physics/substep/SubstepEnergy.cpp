@@ -14,31 +14,41 @@ constexpr double kUlps = 6e-8;           // rounding of a float, as a part of it
 }  // namespace
 
 void SubstepEnergy::begin(std::size_t states) {
-  m_members.assign(states, {});
-  m_speeds.resize(states);
-  m_groups.assign(states, {});
-  m_is_held.assign(states, 0);
-  m_factors.assign(states, 1);
+  m_members.resize(states);
+  m_members[0] = {};
+  m_velocities.resize(states);
+  m_groups.resize(states);
+  m_marks.assign(states, 0);
+  if (m_has_factors) m_factors.clear();
+  m_factors.resize(states, 1);
   m_has_factors = false;
 }
 
+void SubstepEnergy::set(std::int32_t state, Vec2 velocity, double mass, double inertia, std::int32_t group) {
+  Member& m = m_members[at(state)];
+  m.mass = mass, m.inertia = inertia;
+  m.group = group;
+  m_velocities[at(state)] = velocity;
+  m_marks[at(group)] |= m_marks[at(state)];
+}
+
 void SubstepEnergy::chooseFrames() {
-  for (std::size_t i = 1; i < m_members.size(); ++i) {
-    if (m_is_held[i] != 0) m_is_held[at(m_members[i].group)] = 1;
-  }
-  for (std::size_t i = m_members.size();
-       i-- > 1;) {  // the lowest member, whose velocity is the frame's, last
-    Member& m = m_members[i];
-    if (m.mass + m.inertia > 0 && m_is_held[at(m.group)] == 0) m.velocity -= m_members[at(m.group)].velocity;
-    m_speeds[i].twice =
-        Lanes{static_cast<float>(2 * m.velocity.x), static_cast<float>(2 * m.velocity.y), 0, 0};
+  // Backwards, because the lowest member's velocity is that of the frame.
+  for (std::size_t i = m_members.size(); i-- > 1;) {
+    const std::size_t group = at(m_members[i].group);
+    Vec2& velocity = m_velocities[i];
+    if ((m_marks[group] & kHeld) == 0) velocity -= m_velocities[group];
+    m_members[i].twice = Lanes{static_cast<float>(2 * velocity.x), static_cast<float>(2 * velocity.y), 0, 0};
   }
 }
 
 void SubstepEnergy::beginBatch(std::span<const std::int32_t> states) {
   m_roots.clear();
+  m_groups[0] = {};
   for (const std::int32_t state : states) {
-    if (groupOf(state) == state) m_roots.push_back(state);
+    if (groupOf(state) != state) continue;
+    m_groups[at(state)] = {};
+    m_roots.push_back(state);
   }
 }
 
@@ -48,10 +58,9 @@ void SubstepEnergy::sum(std::span<const std::int32_t> ids, std::span<const Subst
   double twice = 0;
   for (const std::int32_t id : ids) {
     const Member& m = m_members[at(id)];
-    const Speeds& speeds = m_speeds[at(id)];
     Lanes now;
     __builtin_memcpy(&now, &states[at(id)].vx, sizeof now);
-    const Lanes changes = (now - speeds.before) * (speeds.twice + (now + speeds.before));
+    const Lanes changes = (now - m.before) * (m.twice + (now + m.before));
     if (m.group != group) {
       m_groups[at(group)].gain += 0.5 * twice;
       group = m.group;
@@ -67,7 +76,7 @@ bool SubstepEnergy::judge(bool is_bounce) {
   bool is_any = false;
   for (const std::int32_t root : m_roots) {
     Group& group = m_groups[at(root)];
-    group.is_over = !group.is_ignored && group.gain > (is_bounce ? group.lost : 0);
+    group.is_over = (m_marks[at(root)] & kIgnored) == 0 && group.gain > (is_bounce ? group.lost : 0);
     is_any = is_any || group.is_over;
     if (group.gain < 0) group.lost -= group.gain;
   }
@@ -78,7 +87,7 @@ void SubstepEnergy::scale(std::span<const std::int32_t> ids, std::span<SubstepSt
   const auto changeOf = [&](std::int32_t id) {
     Lanes now;
     __builtin_memcpy(&now, &states[at(id)].vx, sizeof now);
-    return now - m_speeds[at(id)].before;
+    return now - m_members[at(id)].before;
   };
   for (const std::int32_t root : m_roots) m_groups[at(root)].square = m_groups[at(root)].rounding = 0;
   for (const std::int32_t id : ids) {
@@ -87,7 +96,7 @@ void SubstepEnergy::scale(std::span<const std::int32_t> ids, std::span<SubstepSt
     const Lanes change = changeOf(id);
     const double x = change[0], y = change[1], spin = change[2];
     group.square += m.mass * (x * x + y * y) + m.inertia * spin * spin;
-    const Lanes before = m_speeds[at(id)].before, twice = m_speeds[at(id)].twice;
+    const Lanes before = m_members[at(id)].before, twice = m_members[at(id)].twice;
     const double gained =
         std::fabs(before[0]) + std::fabs(before[1]) + std::fabs(change[0]) + std::fabs(change[1]);
     group.rounding += kUlps * m.mass * gained * (gained + std::fabs(twice[0]) + std::fabs(twice[1]));
@@ -109,7 +118,7 @@ void SubstepEnergy::scale(std::span<const std::int32_t> ids, std::span<SubstepSt
   for (const std::int32_t id : ids) {
     const Group& group = m_groups[at(groupOf(id))];
     if (!group.is_over) continue;
-    const Lanes now = m_speeds[at(id)].before + lanesOf(group.factor) * changeOf(id);
+    const Lanes now = m_members[at(id)].before + lanesOf(group.factor) * changeOf(id);
     __builtin_memcpy(&states[at(id)].vx, &now, sizeof now);
     if (group.factor > 1 - kRounding) continue;
     m_factors[at(id)] = group.factor;

@@ -17,28 +17,24 @@ namespace naiad::physics {
 
 class SubstepEnergy {
  public:
-  struct Member {
-    Vec2 velocity;  ///< velocity at the start of the step, in the group's frame
-    double mass = 0, inertia = 0;
-    std::int32_t group = 0;  ///< the group's lowest state
-  };
-
-  /// Starts a step with this many states; all members are without mass.
+  /// Starts a step with this many states; set() must follow for each but the first.
   void begin(std::size_t states);
-  Member& member(std::int32_t state) { return m_members[at(state)]; }
   /// Marks a body that touches or is joined to an immovable one. The group's frame is then the world's.
-  void hold(std::int32_t state) { m_is_held[at(state)] = 1; }
+  void hold(std::int32_t state) { m_marks[at(state)] |= kHeld; }
   /// Excludes the body's group, because it is in a crowd, from which only speed frees the bodies.
-  void ignore(std::int32_t state) { m_groups[at(groupOf(state))].is_ignored = true; }
-  /// Call when all members have their groups and velocities: makes velocities relative to the group's frame.
+  void ignore(std::int32_t state) { m_marks[at(state)] |= kIgnored; }
+  /// Sets a body's velocity, mass, inertia and group, which is the lowest state of its members.
+  void set(std::int32_t state, Vec2 velocity, double mass, double inertia, std::int32_t group);
+  /// Call after the last set(): makes velocities relative to the groups' frames.
   void chooseFrames();
   /// Starts the sub-steps of these states, of whole groups.
   void beginBatch(std::span<const std::int32_t> states);
+  /// Returns the body's velocity at the start of the step, in the group's frame.
+  Vec2 velocity(std::int32_t state) const { return m_velocities[at(state)]; }
+  double mass(std::int32_t state) const { return m_members[at(state)].mass; }
 
-  /// Starts a stage of impulses on this body.
-  void note(std::int32_t state, const SubstepState& s) {
-    __builtin_memcpy(&m_speeds[at(state)].before, &s.vx, sizeof(Lanes));
-  }
+  /// Starts a stage of impulses on this body, which has this gained velocity and spin.
+  void note(std::int32_t state, Lanes speeds) { m_members[at(state)].before = speeds; }
   /// Adds energy given to the group of this body in this stage, by impulses or from springs.
   void giveByImpulses(std::int32_t state, double work) { m_groups[at(groupOf(state))].gain -= work; }
   void giveFromSprings(std::int32_t state, double work) {
@@ -61,11 +57,14 @@ class SubstepEnergy {
     double square = 0;    // twice the energy of the velocity changes
     double rounding = 0;  // largest rounding error of the gain
     float factor = 1;
-    bool is_over = false, is_ignored = false;
+    bool is_over = false;
   };
-  struct Speeds {
-    Lanes before;  // gained velocity and spin before the impulses of this stage
-    Lanes twice;   // twice the velocity at the start of the step, in the group's frame
+  static constexpr std::uint8_t kHeld = 1, kIgnored = 2;
+  struct alignas(64) Member {
+    Lanes before = {};  // gained velocity and spin before the impulses of this stage
+    Lanes twice = {};   // twice the velocity at the start of the step, in the group's frame
+    double mass = 0, inertia = 0;
+    std::int32_t group = 0;
   };
   std::int32_t groupOf(std::int32_t state) const { return m_members[at(state)].group; }
   void sum(std::span<const std::int32_t> ids, std::span<const SubstepState> states);
@@ -73,11 +72,11 @@ class SubstepEnergy {
   void scale(std::span<const std::int32_t> ids, std::span<SubstepState> states, bool is_bounce);
 
   std::vector<Member> m_members;      // by state
-  std::vector<Speeds> m_speeds;       // by state
-  std::vector<std::int32_t> m_roots;  // groups of this batch
+  std::vector<Vec2> m_velocities;     // by state
+  std::vector<std::uint8_t> m_marks;  // by state
   std::vector<Group> m_groups;        // by lowest state
-  std::vector<std::uint8_t> m_is_held;
-  std::vector<float> m_factors;
+  std::vector<std::int32_t> m_roots;  // groups of this batch
+  std::vector<float> m_factors;       // by state
   bool m_has_factors = false;
   std::int64_t m_scaled = 0;
 };

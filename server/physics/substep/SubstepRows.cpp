@@ -58,7 +58,7 @@ void SubstepWorld::chooseColours() {
         contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
     if (!is_coloured) contact.colour = kUncoloured;
     contact.state = std::max(a.state, b.state);
-    unite(a, b);
+    if (moves_a && moves_b && a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);
   }
   m_joints.visitLinks([this](int a, int b) {
     if (a >= 0) unite(m_bodies[at(a)], m_bodies[at(b)]);

@@ -40,9 +40,6 @@ void SubstepWorld::findGroups() {
   };
   forEachHold([&](const SubstepBody& a, const SubstepBody& b) { unite(a, b); });
   m_groups.assign(m_states.size(), {});
-  for (const Contact& c : m_contacts) {
-    if (m_pairs[at(c.pair)].is_pushing) m_groups[at(m_sets.rootOf(c.state))].is_pushed = true;
-  }
   const auto lean = [&](const SubstepBody& on, const SubstepBody& member) {
     if (isMovable(on) || member.state == 0 || !isMovable(member)) return;
     Group& group = groupOf(member);

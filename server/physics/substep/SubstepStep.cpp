@@ -157,9 +157,8 @@ void SubstepWorld::undoMagnetWork() {
     const Vec2 velocity = b.body.velocity + Vec2{s.vx, s.vy};
     const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
-    const SubstepEnergy::Member& member = m_energy.member(b.state);
-    const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - member.velocity);
-    m_energy.giveFromSprings(b.state, member.mass * dot(right - velocity, middle));
+    const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - m_energy.velocity(b.state));
+    m_energy.giveFromSprings(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
   }
@@ -183,14 +182,6 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
 
 // Sets the masses and groups of the bodies. chooseColours() has found the groups.
 void SubstepWorld::beginEnergy() {
-  for (const std::int32_t id : m_active) {
-    const SubstepBody& b = m_bodies[at(id)];
-    SubstepEnergy::Member& member = m_energy.member(b.state);
-    member.velocity = b.body.velocity;
-    member.group = m_sets.rootOf(b.state);
-    member.mass = b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0;
-    member.inertia = b.inverse_inertia > 0 ? 1 / double{b.inverse_inertia} : 0;
-  }
   const auto hold = [this](const SubstepBody& b, bool by_immovable) {
     if (by_immovable && b.state > 0) m_energy.hold(b.state);
   };
@@ -201,6 +192,8 @@ void SubstepWorld::beginEnergy() {
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
     if (b.proxy >= 0 && m_broad.isThinned(b.proxy)) m_energy.ignore(b.state);
+    m_energy.set(b.state, b.body.velocity, b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0,
+                 b.inverse_inertia > 0 ? 1 / double{b.inverse_inertia} : 0, m_sets.rootOf(b.state));
   }
   m_energy.chooseFrames();
 }
@@ -217,7 +210,11 @@ void SubstepWorld::balance(std::span<const std::int32_t> states) {
 void SubstepWorld::bounce(std::span<const std::int32_t> states) {
   if (!m_rows.mayBounce()) return;
   m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, -work); });
-  for (const std::int32_t state : states) m_energy.note(state, m_states[at(state)]);
+  for (const std::int32_t state : states) {
+    Lanes speeds;
+    __builtin_memcpy(&speeds, &m_states[at(state)].vx, sizeof speeds);
+    m_energy.note(state, speeds);
+  }
   m_rows.bounce(m_states);
   m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
   m_energy.balance(states, m_states, true);
@@ -230,9 +227,12 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
     pushByMagnets();
     for (const std::int32_t state : states) {
       SubstepState& s = m_states[at(state)];
-      const SubstepKick& kick = m_kicks[at(state)];
-      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
-      m_energy.note(state, s);
+      Lanes speeds, kick;
+      __builtin_memcpy(&speeds, &s.vx, sizeof speeds);
+      __builtin_memcpy(&kick, &m_kicks[at(state)], sizeof kick);
+      speeds += kick;
+      __builtin_memcpy(&s.vx, &speeds, sizeof speeds);
+      m_energy.note(state, speeds);
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
@@ -573,7 +573,7 @@ void SubstepWorld::keepMomentum() {
     const SubstepState& s = m_states[at(b.state)];
     group.missing_path += mass * ((0.5 * m_dt * m_dt) * b.body.acceleration - Vec2{s.x, s.y});
     group.mass += mass;
-    group.is_pushed = group.is_pushed || b.part < 1 || b.is_diverted;
+    group.is_pushed = group.is_pushed || b.pushed_at == m_steps || b.part < 1 || b.is_diverted;
   }
   for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
