@@ -300,10 +300,12 @@ void ContactRows::bounce(std::span<SubstepState> states) {
   const Lanes zero = {}, one = lanesOf(1);
   for (Block& k : m_blocks) {
     if (!k.bounces) continue;
-    Body a = gather(states, k.a), b = gather(states, k.b);
     const auto isHit = [&](const Point& p) {
       return (k.restitution > zero) & (p.total > zero) & (p.approach < -k.rest);
     };
+    const LaneMask is_any = isHit(k.point[0]) | isHit(k.point[1]);
+    if ((is_any[0] | is_any[1] | is_any[2] | is_any[3]) == 0) continue;
+    Body a = gather(states, k.a), b = gather(states, k.b);
     const auto missing = [&](const Point& p) {
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
