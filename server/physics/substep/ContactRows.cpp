@@ -23,6 +23,7 @@ constexpr float kLastingDamping = 4;
 constexpr float kTrendKept = 0.7f;  // part that remains after a sub-step
 constexpr float kGiven = 0.35f;     // added to the impulse, so that a pile is supported after fewer sub-steps
 constexpr float kLent = 0.5f;       // added for one sub-step only, against oscillation
+constexpr float kRegular = 1e-3f;   // two points bounce together if their levers differ at least by this
 constexpr float kExists = 1;        // value of normal_mass for an existing point, until the block is finished
 
 struct Body {
@@ -72,6 +73,8 @@ void ContactRows::clear(std::size_t blocks, float h) {
   m_softness = both(kFastestTurns, kContactDamping);
   m_lasting_softness = both(kLastingTurns, kLastingDamping);
   m_blocks.clear();
+  m_driven.clear();
+  m_may_bounce = false;
   reserveFor(m_blocks, blocks);
 }
 
@@ -111,12 +114,49 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
     to.normal.set(lane, known.normal[at(i)]);
     to.friction.set(lane, known.friction[at(i)]);
   }
-  return static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
+  const auto number = static_cast<std::int32_t>((m_blocks.size() - 1) * kLanes) + lane;
+  if (row.is_driven) {
+    const bool is_a = row.inverse_mass_a + row.inverse_inertia_a == 0;
+    m_driven.push_back({number, is_a ? row.b : row.a, row.driver, is_a ? row.spin_a : row.spin_b, is_a});
+  }
+  return number;
+}
+
+double ContactRows::workOf(const Driven& driven) const {
+  const Block& k = m_blocks[at(driven.row) / kLanes];
+  const int lane = static_cast<int>(at(driven.row) % kLanes);
+  const Vec2 n = {k.nx[lane], k.ny[lane]};
+  double work = 0;
+  for (const Point& p : k.point) {
+    const Vec2 push = double{p.normal.now[lane]} * n + double{p.friction.now[lane]} * perpendicular(n);
+    const Vec2 arm = driven.is_a ? Vec2{p.ax[lane], p.ay[lane]} : Vec2{p.bx[lane], p.by[lane]};
+    const double along = dot(push, driven.velocity + cross(driven.spin, arm));
+    work += driven.is_a ? along : -along;
+  }
+  return work;
+}
+
+void ContactRows::scale(std::span<const float> factors) {
+  for (Block& k : m_blocks) {
+    for (int lane = 0; lane < k.count; ++lane) {
+      const bool moves_a = k.inverse_mass_a[lane] + k.inverse_inertia_a[lane] > 0;
+      const float by = factors[at(moves_a ? k.a[at(lane)] : k.b[at(lane)])];
+      if (by == 1) continue;
+      for (Point& p : k.point) {
+        p.total[lane] -= (1 - by) * p.normal.now[lane];
+        for (Impulse* const p_impulse : {&p.normal, &p.friction}) {
+          p_impulse->now[lane] *= by;
+          p_impulse->trend[lane] *= by;
+        }
+      }
+    }
+  }
 }
 
 void ContactRows::finishBlock() {
   const Lanes zero = {}, one = lanesOf(1);
   Block& k = m_blocks.back();
+  m_may_bounce = m_may_bounce || k.bounces;
   const Lanes masses = k.inverse_mass_a + k.inverse_mass_b;
   for (std::int32_t i = 0; i < k.points; ++i) {
     Point& p = k.point[at(i)];
@@ -257,18 +297,21 @@ template void ContactRows::solveRows<true>(std::span<SubstepState>, float, float
 template void ContactRows::solveRows<false>(std::span<SubstepState>, float, float);
 
 void ContactRows::bounce(std::span<SubstepState> states) {
-  const Lanes zero = {};
+  const Lanes zero = {}, one = lanesOf(1);
   for (Block& k : m_blocks) {
     if (!k.bounces) continue;
+    const auto isHit = [&](const Point& p) {
+      return (k.restitution > zero) & (p.total > zero) & (p.approach < -k.rest);
+    };
+    const LaneMask is_any = isHit(k.point[0]) | isHit(k.point[1]);
+    if ((is_any[0] | is_any[1] | is_any[2] | is_any[3]) == 0) continue;
     Body a = gather(states, k.a), b = gather(states, k.b);
-    for (std::int32_t i = 0; i < k.points; ++i) {
-      Point& p = k.point[at(i)];
-      const LaneMask is_hit = (k.restitution > zero) & (p.total > zero) & (p.approach < -k.rest);
+    const auto missing = [&](const Point& p) {
       const Lanes vx = k.vx + (b.vx - b.spin * p.by) - (a.vx - a.spin * p.ay);
       const Lanes vy = k.vy + (b.vy + b.spin * p.bx) - (a.vy + a.spin * p.ax);
-      const Lanes speed = vx * k.nx + vy * k.ny;
-      const Lanes more = larger(-p.normal_mass * (speed + k.restitution * p.approach), -p.normal.now);
-      const Lanes change = select(is_hit, more, zero);
+      return -(vx * k.nx + vy * k.ny + k.restitution * p.approach);
+    };
+    const auto add = [&](Point& p, Lanes change) {
       p.normal.now += change;
       p.total += change;
       const Lanes px = change * k.nx, py = change * k.ny;
@@ -276,6 +319,28 @@ void ContactRows::bounce(std::span<SubstepState> states) {
       a.spin -= k.inverse_inertia_a * (p.ax * py - p.ay * px);
       b.vx += k.inverse_mass_b * px, b.vy += k.inverse_mass_b * py;
       b.spin += k.inverse_inertia_b * (p.bx * py - p.by * px);
+    };
+    LaneMask is_done = zero > zero;
+    if (k.points == 2) {  // solved together, because one after the other would leave a spin
+      Point &p = k.point[0], &q = k.point[1];
+      const Lanes own_p = one / p.normal_mass, own_q = one / q.normal_mass;
+      const Lanes both = k.inverse_mass_a + k.inverse_mass_b +
+                         k.inverse_inertia_a * (p.ax * k.ny - p.ay * k.nx) * (q.ax * k.ny - q.ay * k.nx) +
+                         k.inverse_inertia_b * (p.bx * k.ny - p.by * k.nx) * (q.bx * k.ny - q.by * k.nx);
+      const Lanes determinant = own_p * own_q - both * both;
+      const Lanes by_p = missing(p), by_q = missing(q);
+      const Lanes at_p = (own_q * by_p - both * by_q) / determinant;
+      const Lanes at_q = (own_p * by_q - both * by_p) / determinant;
+      is_done = isHit(p) & isHit(q) & (determinant > lanesOf(kRegular) * own_p * own_q) &
+                (p.normal_mass > zero) & (q.normal_mass > zero) & (p.normal.now + at_p >= zero) &
+                (q.normal.now + at_q >= zero);
+      add(p, select(is_done, at_p, zero));
+      add(q, select(is_done, at_q, zero));
+    }
+    for (std::int32_t i = 0; i < k.points; ++i) {
+      Point& p = k.point[at(i)];
+      const Lanes change = larger(p.normal_mass * missing(p), -p.normal.now);
+      add(p, select(isHit(p) & ~is_done, change, zero));
     }
     scatter(states, k.a, a);
     scatter(states, k.b, b);

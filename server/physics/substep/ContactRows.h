@@ -28,7 +28,9 @@ struct ContactRow {
   float max_push = 0;            ///< maximum speed at which overlap is undone
   float rest = 0;                ///< impacts slower than this do not bounce
   float spin_a = 0, spin_b = 0;  ///< spins at the start of the step
+  Vec2 driver;                   ///< velocity of the immovable body, if is_driven
   bool is_held = false;          ///< one of the bodies is immovable, so that the row is stiffer
+  bool is_driven = false;        ///< the immovable body moves
   bool is_lasting = false;       ///< carries a resting load: own softness, and its impulses have a trend
   float fast = 1e9f;             ///< approaches faster than this are stopped at once
 };
@@ -68,6 +70,15 @@ class ContactRows {
   }
   /// Call after the last sub-step: applies restitution to contacts that approached fast enough.
   void bounce(std::span<SubstepState> states);
+  bool mayBounce() const { return m_may_bounce; }
+  /// Calls visit(state, work) for the contacts with moving immovable bodies: the work of their impulses in
+  /// this sub-step on the other body.
+  template <class Visit>
+  void visitWork(Visit visit) const {
+    for (const Driven& driven : m_driven) visit(driven.state, workOf(driven));
+  }
+  /// Multiplies the impulses of each contact by the factor of its movable body's state.
+  void scale(std::span<const float> factors);
   /// Call after the last sub-step: returns the result, and sets `known` for the next step.
   ContactPush read(std::int32_t row, KnownImpulses& known) const;
   std::size_t blocks() const { return m_blocks.size(); }
@@ -108,8 +119,17 @@ class ContactRows {
     bool bounces = false;            // true if any row bounces
     std::array<Point, 2> point;
   };
+  struct Driven {             // a contact with a moving immovable body
+    std::int32_t row, state;  // the state is that of the other body
+    Vec2 velocity;
+    double spin;
+    bool is_a;  // the immovable body is a
+  };
+  double workOf(const Driven& driven) const;
   static void updateGaps(Block& block, std::span<const SubstepState> states, float time);
   std::vector<Block> m_blocks;
+  std::vector<Driven> m_driven;
+  bool m_may_bounce = false;
   std::array<Softness, 2> m_softness, m_lasting_softness;  // index 1: for contacts with an immovable body
 };
 

@@ -1,14 +1,22 @@
 // Joints as rows of a step of soft sub-steps; they are solved alternately with the contacts (ContactRows.h).
+//
+// Several joints that form a tree, or one with few loops, are one linear system (SubstepSystem.h). Other
+// joints are solved one after the other.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "physics/geometry/UnionFind.h"
 #include "physics/joint/JointRows.h"
 #include "physics/joint/JointStore.h"
 #include "physics/substep/Softness.h"
 #include "physics/substep/SubstepBody.h"
+#include "physics/substep/SubstepSystem.h"
 
 namespace naiad::physics {
 
@@ -17,6 +25,8 @@ class SubstepJoints : public JointStore {
   /// Makes rows for joints with a moving body, at the positions of the step's start; `h` is the length of a
   /// sub-step.
   void begin(std::span<SubstepBody> bodies, float h);
+  /// Returns the number of joint systems, which are solved directly.
+  std::size_t systems() const { return m_systems.size(); }
   bool isEmpty() const { return m_links.empty(); }
   void warmStart(std::span<SubstepState> states);
   void solveSoftly(std::span<SubstepState> states);
@@ -24,6 +34,18 @@ class SubstepJoints : public JointStore {
   void relax(std::span<SubstepState> states, float time);
   /// Call after a step of length `dt`: writes the joints' forces. Returns the number of joints that broke.
   int end(double dt);
+  /// Calls visit(state, work) for joints that may have added energy in this sub-step: the work of motors and
+  /// of moving immovable bodies, and the energy released by springs. `state` is that of a movable body.
+  template <class Visit>
+  void visitWork(Visit visit) const {
+    for (const Link& link : m_links) {
+      if (link.work != 0)
+        visit(link.inverse_mass_b + link.inverse_inertia_b > 0 ? link.state_b : link.state_a, link.work);
+    }
+  }
+  /// Call when velocity changes were multiplied by these factors, by state. Multiplies the impulses kept for
+  /// the next sub-step, too, and stops the speeds along the joints again.
+  void scale(std::span<const float> factors, std::span<SubstepState> states);
   /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {
@@ -41,34 +63,85 @@ class SubstepJoints : public JointStore {
     float impulse = 0;
     float target = 0;
     bool is_spring = false;  // a spring or motor: solved only before the bodies move
+    bool is_limit = false;   // the bias is a gap that may close
     bool is_angle = false;
     std::int8_t side = 0;
+  };
+  struct JointImpulse {
+    double size;
+    Vec2 n;
+    double ja, jb;
+  };
+  struct Law {  // dependence of a row's impulse on its speed, as in SubstepSystem::Row
+    double bias = 0, softness = 0, target = 0;
+    double low = -kNoLimit, high = kNoLimit;
+    bool is_spring = false, is_limit = false;
   };
   struct Link {
     int id;
     std::int32_t a, b;              // ids of bodies
     std::int32_t state_a, state_b;  // indices of states
     float inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
-    int row, count;
-    JointFrame frame;  // frame at the start of the step; its offset is from centre to centre
-    Vec2 velocity;     // velocity of b's centre relative to a's, at the start of the step
-    bool is_point;     // the first two rows hold a point together
-    bool is_hinge;     // the joint has only these two rows
+    int row, count;                    // first row in m_rows, or in its system
+    SubstepSystem* p_system;           // null: the joint is solved alone
+    JointFrame frame;                  // frame at the start of the step; its offset is from centre to centre
+    Vec2 velocity;                     // velocity of b's centre relative to a's, at the start of the step
+    bool is_point;                     // the first two rows hold a point together
+    bool is_hinge;                     // the joint has only these two rows
+    bool is_line;                      // a rope, rod or spring between two points, with one row
+    bool is_in_net;                    // solved alone, but other joints act on its bodies
+    bool has_work;                     // a motor, a spring, or is_driven
+    bool is_driven;                    // one of the bodies is immovable and moves
+    Vec2 driver;                       // velocity of that body
+    std::array<double, 3> value = {};  // position errors of the rows
     float inverse_xx = 0, inverse_xy = 0, inverse_yy = 0;  // inverse of the matrix of these two rows
     Vec2 force;
     double torque = 0;
+    double work = 0;  // energy that it may have added in this sub-step
+  };
+  struct Shape {  // what the pattern of a system depends on, for each link
+    int id, a, b;
+    bool moves_a, moves_b;
+    bool operator==(const Shape&) const = default;
+  };
+  struct Slot {  // place of a link in its system
+    SubstepSystem* p_system = nullptr;
+    int row = 0;
+    bool is_in_net = false;
+  };
+  struct System {
+    SubstepSystem rows;
+    std::vector<int> bodies;  // ids
   };
 
   void stiffen(std::span<SubstepBody> bodies);
   void load(int id, std::span<const SubstepBody> bodies);
+  void makeRows(Link& link);
+  void findSystems(std::span<const SubstepBody> bodies);
+  bool isDirect(std::span<const std::pair<int, int>> links) const;
+  void addSystem(std::span<const std::pair<int, int>> links, std::map<int, System>& old);
   void place(Link& link, const SubstepState& a, const SubstepState& b, float time);
-  void prepare(Row& row, const Joint& joint) const;
+  void placeAcross(const Link& link, const JointFrame& frame, Vec2 along) const;
+  Law lawOf(const Joint& joint, const SpeedRow& row) const;
+  static void setSystemRow(const Link& link, int k, const SpeedRow& from, const Law& law);
+  void setRow(Row& row, const Law& law) const;
+  void soften(Row& row, const Joint& joint) const;
   void solve(const Link& link, SubstepState& a, SubstepState& b, bool is_soft);
   void solvePoint(const Link& link, SubstepState& a, SubstepState& b, bool is_soft);
   static void solveRow(const Link& link, Row& row, SubstepState& a, SubstepState& b, bool is_soft);
+  JointImpulse impulseOf(const Link& link, int k) const;
+  void addWork(Link& link, std::span<const SubstepState> states, double sign) const;
+  void addStored(Link& link, const std::array<double, 3>& before) const;
 
   std::vector<Link> m_links;
   std::vector<Row> m_rows;
+  std::vector<Shape> m_shapes, m_shapes_before;  // by link
+  std::vector<Slot> m_slots;                     // by link
+  std::map<int, System> m_systems;               // by the id of the first joint
+  UnionFind m_sets;                              // of states
+  std::vector<int> m_local_of;                   // scratch, by body: index in its system
+  std::vector<std::int32_t> m_states;            // scratch
+  std::vector<JointMass> m_masses;               // scratch
   Softness m_softness;
   float m_h = 1;
 };

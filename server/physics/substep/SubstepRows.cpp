@@ -35,6 +35,8 @@ bool isLasting(const KnownImpulses& known, const SubstepBody& a, const SubstepBo
 
 void SubstepWorld::chooseColours() {
   m_sets.reset(m_states.size());
+  m_energy.begin(m_states.size());
+  m_driven.clear();
   for (const Turn& turn : m_sequence) {
     Contact& contact = m_contacts[at(turn.contact)];
     SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
@@ -49,26 +51,35 @@ void SubstepWorld::chooseColours() {
       contact.colour = std::countr_one(mover.held_colours);
       mover.held_colours |= contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
       contact.colour += contact.colour < kColours ? kColours : 0;
+      if (mover.state > 0) m_energy.hold(mover.state);
+      if (a.state > 0 && b.state > 0) m_driven.emplace_back(a.state, b.state);
     }
     const bool is_coloured =
         contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
     if (!is_coloured) contact.colour = kUncoloured;
     contact.state = std::max(a.state, b.state);
-    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);  // a kinematic body, too, joins groups
+    if (moves_a && moves_b && a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);
   }
+  m_joints.visitLinks([this](int a, int b) {
+    if (a >= 0) unite(m_bodies[at(a)], m_bodies[at(b)]);
+  });
 }
 
-// Divides contacts into batches; only one if there are joints or magnets, which are not listed by group.
+// Divides contacts into batches, each with all bodies that touch one of its kinematic ones; only one if there
+// are joints or magnets, which are not listed by group.
 void SubstepWorld::chooseBatches() {
   m_batches.assign(1, {});
   m_batch_of.assign(m_states.size(), 0);
   m_by_batch.resize(m_states.size() - 1);
   if (m_contacts.size() > kBatch && m_joints.isEmpty() && m_magnets.empty()) {
+    if (!m_driven.empty()) m_batch_sets = m_sets;
+    for (const auto& [a, b] : m_driven) m_batch_sets.unite(a, b);
+    UnionFind& sets = m_driven.empty() ? m_sets : m_batch_sets;
     m_turn_counts.assign(m_states.size(), 0);  // number of contacts, by root
-    for (const Contact& contact : m_contacts) ++m_turn_counts[at(m_sets.rootOf(contact.state))];
+    for (const Contact& contact : m_contacts) ++m_turn_counts[at(sets.rootOf(contact.state))];
     std::size_t rows = 0;
     for (std::size_t state = 1; state < m_states.size(); ++state) {
-      const std::size_t root = at(m_sets.rootOf(static_cast<int>(state)));
+      const std::size_t root = at(sets.rootOf(static_cast<int>(state)));
       if (root == state && rows > 0 && rows + m_turn_counts[root] > kBatch) {
         m_batches.emplace_back();
         rows = 0;
@@ -129,6 +140,11 @@ void SubstepWorld::addRow(Contact& contact) {
   row.restitution = static_cast<float>(std::max(a.body.restitution, b.body.restitution));
   row.max_push = static_cast<float>(kMaxPush * std::min(a.thickness, b.thickness));
   row.is_held = !isMovable(a) || !isMovable(b);
+  if (row.is_held) {
+    const SubstepBody& driver = isMovable(a) ? b : a;
+    row.is_driven = driver.state > 0;
+    row.driver = driver.body.velocity;
+  }
   const Memory& memory = m_memory[at(contact.memory)];
   row.is_lasting = isLasting(memory.known, a, b);
   row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));

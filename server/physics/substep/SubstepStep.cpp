@@ -157,6 +157,8 @@ void SubstepWorld::undoMagnetWork() {
     const Vec2 velocity = b.body.velocity + Vec2{s.vx, s.vy};
     const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
+    const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - m_energy.velocity(b.state));
+    m_energy.giveFromSprings(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
   }
@@ -178,14 +180,59 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
   }
 }
 
+// Sets the masses and groups of the bodies. chooseColours() has found the groups.
+void SubstepWorld::beginEnergy() {
+  const auto hold = [this](const SubstepBody& b, bool by_immovable) {
+    if (by_immovable && b.state > 0) m_energy.hold(b.state);
+  };
+  m_joints.visitLinks([&](int a, int b) {
+    if (a >= 0) hold(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
+    hold(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
+  });
+  for (const std::int32_t id : m_active) {
+    const SubstepBody& b = m_bodies[at(id)];
+    if (b.proxy >= 0 && m_broad.isThinned(b.proxy)) m_energy.ignore(b.state);
+    m_energy.set(b.state, b.body.velocity, b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0,
+                 b.inverse_inertia > 0 ? 1 / double{b.inverse_inertia} : 0, m_sets.rootOf(b.state));
+  }
+  m_energy.chooseFrames();
+}
+
+// Keeps the impulses of this sub-step from adding energy.
+void SubstepWorld::balance(std::span<const std::int32_t> states) {
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+  m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
+  if (!m_energy.balance(states, m_states, false)) return;
+  m_rows.scale(m_energy.factors());
+  m_joints.scale(m_energy.factors(), m_states);
+}
+
+void SubstepWorld::bounce(std::span<const std::int32_t> states) {
+  if (!m_rows.mayBounce()) return;
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, -work); });
+  for (const std::int32_t state : states) {
+    Lanes speeds;
+    __builtin_memcpy(&speeds, &m_states[at(state)].vx, sizeof speeds);
+    m_energy.note(state, speeds);
+  }
+  m_rows.bounce(m_states);
+  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
+  m_energy.balance(states, m_states, true);
+}
+
 void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
   float time = 0;
+  m_energy.beginBatch(states);
   for (int i = 0; i < m_options.substeps; ++i) {
     pushByMagnets();
     for (const std::int32_t state : states) {
       SubstepState& s = m_states[at(state)];
-      const SubstepKick& kick = m_kicks[at(state)];
-      s.vx += kick.x, s.vy += kick.y, s.spin += kick.spin;
+      Lanes speeds, kick;
+      __builtin_memcpy(&speeds, &s.vx, sizeof speeds);
+      __builtin_memcpy(&kick, &m_kicks[at(state)], sizeof kick);
+      speeds += kick;
+      __builtin_memcpy(&s.vx, &speeds, sizeof speeds);
+      m_energy.note(state, speeds);
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
@@ -196,8 +243,9 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
     time += m_h;
     m_joints.relax(m_states, time);
     m_rows.solve(m_states, m_h, time, false);
+    balance(states);
   }
-  m_rows.bounce(m_states);
+  bounce(states);
 }
 
 void SubstepWorld::step() {
@@ -225,6 +273,7 @@ void SubstepWorld::stepOnce() {
   m_joints.begin(m_bodies, m_h);
   chooseColours();
   chooseBatches();
+  beginEnergy();
   m_turns.assign(m_states.size(), 0);
   std::span<const std::int32_t> states = m_by_batch, contacts = m_by_colour;
   for (const Batch& batch : m_batches) {
@@ -236,6 +285,7 @@ void SubstepWorld::stepOnce() {
     contacts = contacts.subspan(batch.contacts);
     states = states.subspan(batch.states);
   }
+  m_counters.scaled = m_energy.scaled();
   for (const std::int32_t id : m_active) m_bodies[at(id)].turn = m_turns[at(m_bodies[at(id)].state)];
   finish();
 }
@@ -444,10 +494,12 @@ void SubstepWorld::stop(Fast& fast) {
     const Vec2 offset = other.body.place - b.body.place +
                         (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
     // Rows keep only the known points apart, and other corners may touch in this step. So a body that is
-    // pushed may rotate into the other body, but its core must not pass the other one.
+    // pushed may rotate into the other body, but its core must not pass the other one. A body that is already
+    // inside an immovable one would leave it on the far side, without touching more of it.
     ConvexShape core;
-    if (is_pushing && makeCircle(kCore * b.thickness, {}, core) != ShapeStatus::kOk) continue;
-    for (const ConvexShape& own : is_pushing ? std::span<const ConvexShape>(&core, 1) : own_shapes) {
+    const bool has_core =
+        (is_pushing || !isMovable(other)) && makeCircle(kCore * b.thickness, {}, core) == ShapeStatus::kOk;
+    const auto sweep = [&](const ConvexShape& own) {
       for (const ConvexShape& that : m_forms[other.form].shapes) {
         const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
         if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
@@ -456,7 +508,10 @@ void SubstepWorld::stop(Fast& fast) {
         first = impact.time;
         met = near;
       }
-    }
+    };
+    if (has_core) sweep(core);
+    if (is_pushing) continue;
+    for (const ConvexShape& own : own_shapes) sweep(own);
   }
   if (first >= b.part) return;
   ++m_counters.stopped;
@@ -501,7 +556,8 @@ bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
 }
 
 // Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both
-// bodies of a contact. finish() adds it to the groups that nothing holds.
+// bodies of a contact, and how far sub-steps deviate from a fall without contacts. finish() corrects both for
+// groups that nothing holds.
 void SubstepWorld::keepMomentum() {
   findGroups();
   const auto changeOf = [&](const SubstepBody& b) {
@@ -514,11 +570,15 @@ void SubstepWorld::keepMomentum() {
     if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
     const double mass = 1 / b.body.inverse_mass;
     group.missing += mass * changeOf(b);
+    const SubstepState& s = m_states[at(b.state)];
+    group.missing_path += mass * ((0.5 * m_dt * m_dt) * b.body.acceleration - Vec2{s.x, s.y});
     group.mass += mass;
+    group.is_pushed = group.is_pushed || b.pushed_at == m_steps || b.part < 1 || b.is_diverted;
   }
   for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
     const SubstepBody& b = m_bodies[at(magnet.id)];
     Group& group = groupOf(b);
+    group.is_pushed = true;
     if (!group.is_held) group.missing += magnet.given / b.body.inverse_mass;
   }
 }
@@ -532,7 +592,9 @@ void SubstepWorld::finish() {
     b.is_shaken = false;
     b.is_stopped = b.is_stopped || b.part < 1 || b.is_diverted;
     const SubstepState& s = m_states[at(b.state)];
-    const Vec2 moved = b.part * movedBy(b);
+    const Group& group = groupOf(b);
+    const bool falls = group.mass > 0 && !group.is_pushed && isMovable(b);
+    const Vec2 moved = b.part * movedBy(b) + (falls ? group.missing_path / group.mass : Vec2{});
     const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&
                           std::fabs(moved.x) + std::fabs(moved.y) < 1e12;
     if (!is_sound) {
@@ -544,7 +606,6 @@ void SubstepWorld::finish() {
     if (!isMovable(b)) continue;
     b.push = pushOn(b, s, m_dt);
     b.body.velocity += Vec2{s.vx, s.vy};
-    const Group& group = groupOf(b);
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }

@@ -20,6 +20,7 @@
 #include "physics/rigid/RigidStepper.h"
 #include "physics/substep/ContactRows.h"
 #include "physics/substep/SubstepBody.h"
+#include "physics/substep/SubstepEnergy.h"
 #include "physics/substep/SubstepForms.h"
 #include "physics/substep/SubstepJoints.h"
 
@@ -43,6 +44,7 @@ struct SubstepCounters {
   std::int64_t stopped = 0;      ///< fast bodies stopped or diverted at their first contact
   std::int64_t quarantined = 0;  ///< number of times that a body was frozen
   std::int64_t broken = 0;       ///< joints that broke
+  std::int64_t scaled = 0;       ///< groups whose impulses were scaled because they added energy
 };
 
 class SubstepWorld final : public RigidStepper {
@@ -147,8 +149,10 @@ class SubstepWorld final : public RigidStepper {
     double speed_before = 0, speed = 0;
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
-    Vec2 missing;     // momentum lost by rounding in this step
-    double mass = 0;  // total mass of the bodies that lost it
+    bool is_pushed = false;  // a contact or a magnet pushes it
+    Vec2 missing;            // momentum lost by rounding in this step
+    Vec2 missing_path;       // mass times the path by which it deviates from a parabola
+    double mass = 0;         // total mass of the bodies that lost it
   };
 
   // Contacts whose relative movement is slower may be lasting; in thicknesses of a body per tick.
@@ -174,7 +178,10 @@ class SubstepWorld final : public RigidStepper {
   void begin(int id);
   void pushByMagnets();
   void undoMagnetWork();
+  void beginEnergy();
   void stepBatch(std::span<const std::int32_t> states);
+  void balance(std::span<const std::int32_t> states);
+  void bounce(std::span<const std::int32_t> states);
   void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
   void finish();
@@ -287,8 +294,11 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::size_t> m_turn_counts;  // by batch and colour: numbers of contacts
   ContactRows m_rows;                      // rows of the present batch
   SubstepJoints m_joints;
-  UnionFind m_sets;             // sets of states
-  std::vector<Group> m_groups;  // by root of m_sets
+  SubstepEnergy m_energy;
+  UnionFind m_sets;        // sets of states
+  UnionFind m_batch_sets;  // sets of states that are in one batch, if there are m_driven
+  std::vector<std::pair<std::int32_t, std::int32_t>> m_driven;  // states that touch, one of them kinematic
+  std::vector<Group> m_groups;                                  // by root of m_sets
   SubstepCounters m_counters;
   double m_deepest = 0;
   double m_dt;        // length of a step in ticks

@@ -1,5 +1,7 @@
 // Bodies that move far in a tick stop where they first touch something.
 
+#include <array>
+
 #include "SubstepScene.h"
 #include "tests/server/physics/SceneRandom.h"
 
@@ -45,6 +47,34 @@ TEST(SubstepFast, DiscsAndSticksDoNotTunnel) {
         EXPECT_EQ(through(kind, speed, restitution, 300), 0)
             << (kind == BulletKind::kDisc ? "disc " : "stick ") << speed << ' ' << restitution;
       }
+    }
+  }
+}
+
+TEST(SubstepFast, RotatingBarsDoNotPassThinWalls) {
+  SceneRandom uniform{5};
+  const auto oneOf = [&](auto... values) {
+    const std::array all = {static_cast<double>(values)...};
+    return all.at(static_cast<std::size_t>(uniform() * static_cast<double>(all.size())));
+  };
+  for (int shot = 0; shot < 1500; ++shot) {
+    SubstepScene scene(awake());
+    const double half_wall = oneOf(0.005, 0.025, 0.1, 0.25, 0.5), length = oneOf(0.3, 1, 3);
+    const ConvexShape wall = boxShape(half_wall, 1e6), bar = boxShape(length, oneOf(0.02, 0.05, 0.2));
+    RigidBody obstacle = immovable({0, 0});
+    const double speed = std::pow(10, 4 * uniform() - 1);
+    RigidBody flying = movable({-length - 0.3 - half_wall - uniform() * (1 + speed), 0}, bar);
+    flying.velocity = {speed, speed * (uniform() - 0.5)};
+    flying.rotation = rotationBy(6.28 * uniform());
+    flying.spin = oneOf(0, 0.3, 3.3, 10, 15);
+    flying.acceleration = {oneOf(0, 0.01), 0};
+    obstacle.restitution = oneOf(0, 0, 0.3, 1);
+    obstacle.friction = flying.friction = oneOf(0, 0.5, 1);
+    scene.add(obstacle, wall);
+    const int id = scene.add(flying, bar);
+    for (int tick = 0; tick < 30; ++tick) {
+      scene.ticks(1);
+      ASSERT_LE(scene.at(id).x, 0) << "shot " << shot << " at " << speed << ", tick " << tick;
     }
   }
 }

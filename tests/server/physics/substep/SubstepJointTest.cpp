@@ -1,6 +1,7 @@
 // Tests the joints of a SubstepWorld.
 
 #include <algorithm>
+#include <vector>
 
 #include "SubstepScene.h"
 
@@ -127,6 +128,149 @@ TEST(SubstepJoints, ASpringStaysBounded) {
     EXPECT_EQ(scene.world.counters().quarantined, 0) << exponent;
     if (exponent < 4) continue;
     EXPECT_NEAR(length(scene.at(scene.crate)), 2, 1e-2) << exponent;
+  }
+}
+
+// Bodies of mass 1 hang from the world, one below the other.
+TEST(SubstepJoints, ChainOfSpringsStaysBounded) {
+  for (const int count : {2, 3, 5, 10, 30}) {
+    for (const double length : {0.0, 1.0}) {
+      for (const double ratio : {0.0, 0.1, 1.0}) {  // of the critical damping
+        for (int exponent = 0; exponent <= 12; exponent += 2) {
+          SCOPED_TRACE(testing::Message() << count << ' ' << length << ' ' << ratio << " 1e" << exponent);
+          SubstepScene scene(awake());
+          int last = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+          const double k = std::pow(10.0, exponent);
+          std::vector<int> bodies;
+          double deepest = 0;  // of the last body at rest
+          for (int i = 0; i < count; ++i) {
+            RigidBody body = floating({0, 1.0 + i}, boxShape(0.1, 0.1));
+            body.inverse_inertia = 0;
+            body.acceleration = {0, kGravityPerTick};
+            const int next = scene.world.addInOrder(++scene.order, body, {});
+            const JointSettings spring = {
+                .length = length, .stiffness = k, .damping = ratio * 2 * std::sqrt(k)};
+            ASSERT_GE(scene.join(spring, JointKind::kSpring, last, next), 0);
+            bodies.push_back(last = next);
+            deepest += length + (count - i) * kGravityPerTick / k;
+          }
+          double fastest = 0;
+          const double farthest = 2 * deepest + count;
+          for (int tick = 0; tick < 100; ++tick) {
+            scene.ticks(1);
+            for (const int id : bodies) {
+              ASSERT_LT(length == 0 ? std::fabs(scene.at(id).x) : 0, 1e-6);
+              ASSERT_LT(std::fabs(scene.at(id).y), farthest);
+              fastest = std::max(fastest, scene.speed(id));
+            }
+          }
+          EXPECT_LT(fastest, count * 3.0);
+          if (exponent >= 4 && ratio > 0 && count <= 5) {
+            EXPECT_NEAR(scene.at(last).y, deepest, 1e-3);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Each spring is solved alone, because there are too many loops.
+TEST(SubstepJoints, NetOfStiffSpringsStaysCalm) {
+  constexpr int kSide = 8;
+  for (const double stiffness : {10.0, 1e3, 1e12}) {
+    SubstepScene scene(awake());
+    std::vector<int> ids;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const Vec2 where = {1.0 * (i % kSide), 1.0 * (i / kSide)};
+      RigidBody body = i == 0 || i == kSide - 1 ? immovable(where) : movable(where, boxShape(0.1, 0.1));
+      body.inverse_inertia = 0;
+      ids.push_back(scene.world.addInOrder(++scene.order, body, {}));
+      const JointSettings spring = {.length = 1, .stiffness = stiffness};
+      if (i % kSide > 0) scene.join(spring, JointKind::kSpring, ids[at(i - 1)], ids[at(i)]);
+      if (i >= kSide) scene.join(spring, JointKind::kSpring, ids[at(i - kSide)], ids[at(i)]);
+    }
+    double fastest = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+      scene.ticks(1);
+      for (const int id : ids) fastest = std::max(fastest, scene.speed(id));
+    }
+    EXPECT_LT(fastest, 0.5) << stiffness;
+  }
+}
+
+TEST(SubstepJoints, MotorDoesNotOpenItsHinge) {
+  const ConvexShape box = boxShape(1, 1);
+  for (const double arm : {0.0, 2.0, 5.0, 20.0}) {
+    for (const double speed : {0.0, 0.01, 0.1}) {
+      for (const double strength : {1.0, 100.0, kNoLimit}) {
+        SCOPED_TRACE(testing::Message() << arm << ' ' << speed << ' ' << strength);
+        SubstepScene scene(awake());
+        const int nail = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+        const int crate = scene.add(movable({arm, 0}, box), box);
+        const int hinge = scene.join({}, JointKind::kHinge, nail, crate, {}, {-arm, 0});
+        scene.join({.speed = speed, .max_force = strength}, JointKind::kMotor, nail, crate);
+        for (int tick = 0; tick < 300; ++tick) {
+          scene.ticks(1);
+          ASSERT_LE(scene.gap(hinge), 0.01 * std::max(arm, 0.1)) << tick;
+        }
+        EXPECT_NEAR(scene.world.body(crate).spin, speed, 1e-3);
+      }
+    }
+  }
+}
+
+// A chain of hinged links, the last one with a large mass; the first link hangs on the world if `hangs`.
+struct HeavyChain : SubstepScene {
+  HeavyChain(int count, double mass, bool hangs) : SubstepScene(awake()) {
+    const ConvexShape link = boxShape(0.4, 0.1);
+    int last = hangs ? world.addInOrder(++order, immovable({-0.4, 0}), {}) : -1;
+    for (int i = 0; i < count; ++i) {
+      masses.push_back(i + 1 == count ? mass : 1);
+      links.push_back(add(movable({0.8 * i, 0}, link, masses.back()), link));
+      const Vec2 on_last = {i == 0 ? 0.0 : 0.4, 0};
+      if (last >= 0) hinges.push_back(join({}, JointKind::kHinge, last, links.back(), on_last, {-0.4, 0}));
+      last = links.back();
+    }
+  }
+  double widest() const {
+    double gap = 0;
+    for (const int hinge : hinges) gap = std::max(gap, SubstepScene::gap(hinge));
+    return gap;
+  }
+  std::vector<int> links, hinges;
+  std::vector<double> masses;
+};
+
+TEST(SubstepJoints, HeavyEndDoesNotOpenAChain) {
+  for (const double mass : {1e3, 1e6}) {
+    HeavyChain chain(20, mass, true);
+    double widest = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+      chain.ticks(1);
+      widest = std::max(widest, chain.widest());
+    }
+    EXPECT_LT(widest, 0.05) << mass;
+  }
+}
+
+TEST(SubstepJoints, FreeChainFallsAsFastAsABody) {
+  for (const double mass : {1.0, 1e6}) {
+    HeavyChain chain(50, mass, false);
+    RigidBody first = chain.world.body(chain.links[0]);
+    first.velocity = {0, -0.3};  // it also turns
+    ASSERT_TRUE(chain.world.set(chain.links[0], first));
+    const auto centre = [&] {
+      double sum = 0, moment = 0;
+      for (std::size_t i = 0; i < chain.links.size(); ++i) {
+        sum += chain.masses[i];
+        moment += chain.masses[i] * chain.at(chain.links[i]).y;
+      }
+      return moment / sum;
+    };
+    chain.ticks(60);
+    const double speed = -0.3 / (mass + 49);
+    EXPECT_NEAR(centre(), 60 * speed + 0.5 * kGravityPerTick * 60 * 60, 1e-6) << mass;
+    EXPECT_LT(chain.widest(), 0.02) << mass;
   }
 }
 
