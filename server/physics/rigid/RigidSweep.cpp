@@ -212,6 +212,7 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   };
   if (!collide(turned_a, turned_b, offset, touch, {}, manifold)) return giveUp();
   ContactConstraint& c = addConstraint(a, b);
+  if (hasFrictionParts()) c.friction = frictionOf(a, b, manifold);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
   measureFromStart(c, start, one, other);
