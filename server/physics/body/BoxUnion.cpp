@@ -170,13 +170,16 @@ bool BoxUnion::isHidden(const BoxArea& area, int side) const {
 // Withdraws the faces that are only parts of other blocks' faces into the union. Otherwise a body that slides
 // over the other face would hit this block's corner. Upright faces stay half as deep in the union as they
 // can, so that a body that goes down stairs is far from the corner; others are withdrawn to the inner corner.
-void BoxUnion::trim(Block& block, int own) {
+void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut) {
   const BoxArea& whole = block.whole;
   look(whole);
   std::array<std::array<bool, 2>, kBoxSides> goes_on = {};  // by side, at its lower and upper end
   for (int side = 0; side < kBoxSides; ++side) {
     const auto at = static_cast<std::size_t>(side);
     if (side != own) goes_on[at] = {continues(whole, side, false), continues(whole, side, true)};
+    if (side / 2 == own / 2) {  // a face that is cut goes on, but its end is far from all bodies
+      for (const std::size_t end : {0u, 1u}) goes_on[at][end] = goes_on[at][end] && !is_cut[end];
+    }
     block.is_complete[at] = !goes_on[at][0] && !goes_on[at][1];
   }
   block.area = whole;
@@ -220,7 +223,7 @@ BoxUnion::Block BoxUnion::blockAt(const BoxArea& area, int side, Fixed from, Fix
   }
   const Fixed far = inward(side, line, depth);
   block.whole.low[axis] = std::min(line, far), block.whole.high[axis] = std::max(line, far);
-  trim(block, side);
+  trim(block, side, {is_cut_low, is_cut_high});
   return block;
 }
 

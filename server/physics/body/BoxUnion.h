@@ -78,7 +78,7 @@ class BoxUnion {
   Fixed depthOf(int side, Fixed line, Fixed from, Fixed to);
   bool continues(const BoxArea& whole, int side, bool is_up) const;
   Fixed coveredFrom(const BoxArea& area, int side, bool is_upper_end) const;
-  void trim(Block& block, int side);
+  void trim(Block& block, int side, std::array<bool, 2> is_cut);
 
   const WorldStore* m_p_store = nullptr;
   std::span<const BoxArea> m_list;
