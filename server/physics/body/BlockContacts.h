@@ -61,7 +61,7 @@ class BlockContacts {
     bool is_body;
   };
   struct Stretch {  // part of a face, in metric cells along it from the body's place at the end of the tick
-    double low, high;
+    double low = 0, high = 0;
   };
   struct Found {
     Part part;
