@@ -168,16 +168,6 @@ int BodyObstacles::blockOf(const Tile& tile, int side) {
     if (block.is_stale || whole.line(side) != tile.area.line(side) ||
         whole.low[along] > tile.area.low[along] || whole.high[along] < tile.area.high[along])
       continue;
-    for (const int beside : {2 * static_cast<int>(along), 2 * static_cast<int>(along) + 1}) {
-      const Fixed line = tile.area.line(beside);
-      const bool is_open = tile.blocks[at(beside)] != kHidden;
-      if (is_open && line > whole.low[along] + BoxUnion::kGap && line < whole.high[along] - BoxUnion::kGap) {
-        const BoxArea& its = tile.area;  // the row has a hole beside this tile
-        const std::size_t axis = BoxArea::axisOf(side);
-        if (its.low[axis] >= whole.low[axis] && its.high[axis] <= whole.high[axis]) markStale(block);
-      }
-    }
-    if (block.is_stale) continue;
     if (found == kUnknown) {
       share(block, tile);
       found = face->second;
@@ -235,11 +225,30 @@ int BodyObstacles::addBlock(const Tile& tile, int side, const BoxUnion::Block& s
   return number;
 }
 
+// Marks blocks stale in which there is a hole beside this tile now.
+void BodyObstacles::dropHollow(const Tile& tile) {
+  for (Block& block : m_blocks) {
+    if (block.is_fresh || block.is_stale || !BoxUnion::areTouching(block.shape.whole, tile.area)) continue;
+    for (int side = 0; side < kBoxSides; ++side) {
+      if (tile.blocks[at(side)] == kHidden) continue;
+      for (const bool is_upper_end : {false, true}) {
+        const auto point = m_union.openPoint(tile.area, side, is_upper_end);
+        const BoxArea& whole = block.shape.whole;
+        const bool is_inside = point[0] > whole.low[0] && point[0] < whole.high[0] &&
+                               point[1] > whole.low[1] && point[1] < whole.high[1];
+        if (is_inside) markStale(block);
+      }
+    }
+  }
+}
+
 // Finds the block of each side of a tile that is not hidden by others.
 void BodyObstacles::findBlocks(Tile& tile) {
   tile.is_known = true;
   tile.neighbours.clear();
   if (isInCrowd(tile) || m_union.look(tile.area) == 1) {
+    tile.blocks.fill(kUnknown);
+    if (!isInCrowd(tile)) dropHollow(tile);
     tile.blocks.fill(addBlock(tile, kLeftSide, {tile.area, tile.area, {true, true, true, true}}));
     return;
   }
@@ -248,6 +257,7 @@ void BodyObstacles::findBlocks(Tile& tile) {
     tile.blocks[at(side)] = is_hidden ? kHidden : kUnknown;
     if (is_hidden) m_union.listBeside(tile.area, side, tile.neighbours);
   }
+  dropHollow(tile);
   for (int side = 0; side < kBoxSides; ++side) {
     int& block = tile.blocks[at(side)];
     if (block == kHidden) continue;
@@ -304,6 +314,7 @@ void BodyObstacles::update(const WorldStore& store) {
   if (!m_has_news) return;
   m_union.setStore(store);
   dropStale();
+  for (Block& block : m_blocks) block.is_fresh = false;
   findCrowds();
   for (int round = 0; round < kMaxRounds; ++round) {
     for (Tile& tile : m_tiles) {

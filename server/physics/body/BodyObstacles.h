@@ -25,6 +25,7 @@ class BodyObstacles {
     int side = 0;                  ///< and the side of it; no other block has both
     bool is_whole_object = false;  ///< true if the block is this Object's box
     bool is_near = false;
+    bool is_fresh = true;   ///< found in the last update
     bool is_stale = false;  ///< true if boxes have changed since the block was found
     int id = -1;            ///< id in the solver; −1: not added yet
     FixedVector size;       ///< size in the solver
@@ -64,6 +65,7 @@ class BodyObstacles {
   void findChanges(const WorldStore& store);
   void findCrowds();
   bool isInCrowd(const Tile& tile) const;
+  void dropHollow(const Tile& tile);
   void findBlocks(Tile& tile);
   static void share(Block& block, const Tile& tile);
   int blockOf(const Tile& tile, int side);

@@ -167,10 +167,20 @@ bool BoxUnion::isHidden(const BoxArea& area, int side) const {
   return coveredFrom(area, side, false) >= area.high[along] - area.low[along] - kSame;
 }
 
+// Returns a point just outside of the part of a side that is not hidden, by one of the part's ends.
+std::array<Fixed, 2> BoxUnion::openPoint(const BoxArea& area, int side, bool is_upper_end) const {
+  const std::size_t axis = BoxArea::axisOf(side), along = BoxArea::alongOf(side);
+  const Fixed covered = coveredFrom(area, side, is_upper_end) + kGap / 2;
+  std::array<Fixed, 2> point;
+  point[along] = is_upper_end ? area.high[along] - covered : area.low[along] + covered;
+  point[axis] = inward(side, area.line(side), -kGap / 2);
+  return point;
+}
+
 // Withdraws the faces that are only parts of other blocks' faces into the union. Otherwise a body that slides
 // over the other face would hit this block's corner. Upright faces stay half as deep in the union as they
 // can, so that a body that goes down stairs is far from the corner; others are withdrawn to the inner corner.
-void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut) {
+void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut, bool may_overlap) {
   const BoxArea& whole = block.whole;
   look(whole);
   std::array<std::array<bool, 2>, kBoxSides> goes_on = {};  // by side, at its lower and upper end
@@ -183,6 +193,10 @@ void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut) {
     block.is_complete[at] = !goes_on[at][0] && !goes_on[at][1];
   }
   block.area = whole;
+  std::array<Fixed, kBoxSides> outer = {};
+  const auto withdraw = [&](int side, Fixed by) {
+    (side % 2 == 0 ? block.area.low : block.area.high)[BoxArea::axisOf(side)] += side % 2 == 0 ? by : -by;
+  };
   for (int side = 0; side < kBoxSides; ++side) {
     const auto at = static_cast<std::size_t>(side);
     if (block.is_complete[at]) continue;
@@ -199,11 +213,29 @@ void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut) {
       is_free = false;
     }
     if (is_free) most = size / 2;
-    // At the outer corner of an L one of two faces must keep an edge; floors and ceilings get none.
-    const bool is_outer = most <= kSame;
-    if (is_outer) most = axis == 1 ? least : 0;
-    const Fixed by = axis == 0 || is_outer ? most / 2 : most;
-    (side % 2 == 0 ? block.area.low : block.area.high)[axis] += side % 2 == 0 ? by : -by;
+    if (most > kSame) {
+      withdraw(side, axis == 0 ? most / 2 : most);
+    } else if (axis == 1) {
+      outer[at] = least;
+    }
+  }
+  // At the outer corner of an L one of two faces must keep an edge; floors and ceilings get none. This block
+  // still reaches into the one that has the whole floor.
+  for (const int side : {kTopSide, kBottomSide}) {
+    const Fixed covered = outer[static_cast<std::size_t>(side)], line = whole.line(side);
+    if (covered == 0 || !may_overlap) continue;
+    bool is_long = false;
+    Block floor;
+    floor.whole.low[0] = endOfFace(side, line, whole.low[0], whole.low[0] - kMaxReach, is_long);
+    floor.whole.high[0] = endOfFace(side, line, whole.high[0], whole.high[0] + kMaxReach, is_long);
+    const Fixed far = inward(side, line, depthOf(side, line, floor.whole.low[0], floor.whole.high[0]));
+    floor.whole.low[1] = std::min(line, far), floor.whole.high[1] = std::max(line, far);
+    trim(floor, side, {}, false);
+    withdraw(side, std::min(covered, floor.area.high[1] - floor.area.low[1]) / 4);
+  }
+  for (const std::size_t axis : {0u, 1u}) {  // in a tangle of overlapping boxes, two faces may cross
+    if (block.area.low[axis] < block.area.high[axis]) continue;
+    block.area.low[axis] = whole.low[axis], block.area.high[axis] = whole.high[axis];
   }
 }
 
@@ -223,7 +255,7 @@ BoxUnion::Block BoxUnion::blockAt(const BoxArea& area, int side, Fixed from, Fix
   }
   const Fixed far = inward(side, line, depth);
   block.whole.low[axis] = std::min(line, far), block.whole.high[axis] = std::max(line, far);
-  trim(block, side, {is_cut_low, is_cut_high});
+  trim(block, side, {is_cut_low, is_cut_high}, true);
   return block;
 }
 

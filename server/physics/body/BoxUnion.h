@@ -62,6 +62,8 @@ class BoxUnion {
   void listBeside(const BoxArea& area, int side, std::vector<Neighbour>& all) const;
   /// True if this side of an area, for which look() was called, is covered by other boxes from outside.
   bool isHidden(const BoxArea& area, int side) const;
+  /// Returns a point just outside of a side that is not hidden, where no box is.
+  std::array<Fixed, 2> openPoint(const BoxArea& area, int side, bool is_upper_end) const;
   /// Returns the block that has the complete face of which this side of a box is a part. The search along the
   /// face ends kMaxReach beyond `from` … `to`, which contains the box.
   Block blockAt(const BoxArea& area, int side, Fixed from, Fixed to);
@@ -78,7 +80,7 @@ class BoxUnion {
   Fixed depthOf(int side, Fixed line, Fixed from, Fixed to);
   bool continues(const BoxArea& whole, int side, bool is_up) const;
   Fixed coveredFrom(const BoxArea& area, int side, bool is_upper_end) const;
-  void trim(Block& block, int side, std::array<bool, 2> is_cut);
+  void trim(Block& block, int side, std::array<bool, 2> is_cut, bool may_overlap);
 
   const WorldStore* m_p_store = nullptr;
   std::span<const BoxArea> m_list;
