@@ -104,9 +104,9 @@ void BodyImpacts::updateBodies() {
   }
 }
 
-void BodyImpacts::identify(int id, ObjectKey key, std::uint64_t order, int state) {
+void BodyImpacts::identify(int id, const Identity& identity) {
   if (id >= static_cast<int>(m_identities.size())) m_identities.resize(static_cast<std::size_t>(id) + 1);
-  m_identities[static_cast<std::size_t>(id)] = {key, order, state};
+  m_identities[static_cast<std::size_t>(id)] = identity;
 }
 
 // Adds the region that the body may reach in the remaining time, at `room` times its present speed.
@@ -126,28 +126,28 @@ void BodyImpacts::searchAround(const BodyTable& table, ActiveBody& active, doubl
 
 void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyContacts& contacts) {
   const WorldStore& store = world.store();
-  for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
-    if (!obstacle.is_near) {
-      if (obstacle.id >= 0) m_world.remove(obstacle.id);
-      contacts.expire(obstacle.key, BodySolver::kImpact);
-      continue;
-    }
-    const FixedBox box = store.box(obstacle.key.slot);
+  m_obstacles.update(store);
+  for (const ObjectKey key : m_obstacles.farObjects()) contacts.expire(key, BodySolver::kImpact);
+  for (const int id : m_obstacles.removedIds()) m_world.remove(id);
+  std::vector<BodyObstacles::Block>& blocks = m_obstacles.blocks();
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    BodyObstacles::Block& block = blocks[i];
+    const FixedBox box = block.shape.area.box();
     ImpactBody body;
     body.half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
-    body.place = table.metric.placeOf(store.position(obstacle.key.slot) + box.corner) + body.half;
+    body.place = table.metric.placeOf(box.corner) + body.half;
     body.inverse_mass = 0;
     body.friction = table.settings.obstacle_friction;
     body.restitution = table.settings.obstacle_restitution;
-    if (obstacle.id < 0) {
-      obstacle.id = m_world.add(body);
-    } else if (!m_world.set(obstacle.id, body)) {  // its box is not valid any more
-      m_world.remove(obstacle.id);
-      obstacle.id = -1;
+    const bool is_known = block.id >= 0 && block.size == box.size;
+    if (!is_known || !m_world.set(block.id, body)) {
+      if (block.id >= 0) m_world.remove(block.id);
+      block.id = m_world.add(body);
+      block.size = box.size;
     }
-    if (obstacle.id >= 0) identify(obstacle.id, obstacle.key, store.order(obstacle.key.slot), -1);
+    const int number = block.is_whole_object ? -1 : static_cast<int>(i);
+    if (block.id >= 0) identify(block.id, {block.key, store.order(block.key.slot), -1, number});
   }
-  m_obstacles.removeFar();
 }
 
 void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodyState>& states,
@@ -157,7 +157,7 @@ void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodySta
   m_state_of.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].solver == BodySolver::kImpact) {
-      identify(m_proxies[states[i].index].id, states[i].key, states[i].order, static_cast<int>(i));
+      identify(m_proxies[states[i].index].id, {states[i].key, states[i].order, static_cast<int>(i)});
       states[i].is_touched = m_world.isTouching(m_proxies[states[i].index].id);
       m_state_of.push_back(static_cast<int>(i));
     }
@@ -202,12 +202,17 @@ void BodyImpacts::collect(double since) {
     if (is_swapped) std::swap(p_first, p_second);
     m_found_contacts.push_back({{since + event.time, p_first->key, p_second->key, p_first->order,
                                  p_second->order, event.impulse, event.is_begin, BodySolver::kImpact},
-                                {p_first->state, p_second->state}});
+                                {p_first->state, p_second->state},
+                                is_swapped ? event.second : event.first,
+                                p_second->block < 0 ? -1
+                                : is_swapped        ? event.first
+                                                    : event.second});
   }
 }
 
 // Sets the results in the states, except those of bodies for which passOn() was called.
-void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts) {
+void BodyImpacts::finish(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
+                         BodyContacts& contacts) {
   const auto isPassedOn = [&](int state) {
     return state >= 0 && states[static_cast<std::size_t>(state)].solver != BodySolver::kImpact;
   };
@@ -218,8 +223,13 @@ void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts)
       BodyState& state = states[static_cast<std::size_t>(at)];
       state.is_touched = state.contacts_changed = true;
     }
-    contacts.add(found.contact);
+    if (found.block < 0) {
+      contacts.add(found.contact);
+    } else {
+      m_block_contacts.add(found.contact, found.body, found.block);
+    }
   }
+  if (!m_block_contacts.isEmpty()) settleBlocks(store, table.metric, states, contacts);
   for (const int at : m_state_of) {
     BodyState& state = states[static_cast<std::size_t>(at)];
     if (state.solver != BodySolver::kImpact) continue;
@@ -238,6 +248,34 @@ void BodyImpacts::finish(std::vector<BodyState>& states, BodyContacts& contacts)
     proxy.row_place = state.place;
     proxy.world_place = state.is_touched ? body.place : state.place + proxy.offset;
   }
+}
+
+void BodyImpacts::settleBlocks(const WorldStore& store, const Metric& metric,
+                               const std::vector<BodyState>& states, BodyContacts& contacts) {
+  ConvexShape made;
+  const auto moverOf = [&](int id) {
+    BlockContacts::Mover mover;
+    const int index = m_world.exists(id) ? m_identities[static_cast<std::size_t>(id)].state : -1;
+    if (index < 0 || states[static_cast<std::size_t>(index)].solver != BodySolver::kImpact) return mover;
+    const BodyState& state = states[static_cast<std::size_t>(index)];
+    const ImpactBody& body = m_world.body(id);
+    const ShapeStatus status = body.shape == ImpactShape::kCircle
+                                   ? makeCircle(body.half.x, {}, made)
+                                   : makeBox(body.half.x, body.half.y, {}, {}, 0, made);
+    mover.key = state.key;
+    if (status == ShapeStatus::kOk) mover.shapes = {&made, 1};
+    mover.start.place = state.start + m_proxies[state.index].offset;
+    mover.end.place = body.place;
+    mover.velocity = state.start_velocity;
+    return mover;
+  };
+  const auto viewOf = [&](int id) {
+    const int index = m_world.exists(id) ? m_identities[static_cast<std::size_t>(id)].block : -1;
+    BlockContacts::View view;
+    if (index >= 0) view.p_shape = &m_obstacles.blocks()[static_cast<std::size_t>(index)].shape;
+    return view;
+  };
+  m_block_contacts.settle(store, metric, contacts, moverOf, viewOf);
 }
 
 }  // namespace naiad::physics

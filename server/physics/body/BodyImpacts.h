@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/world/World.h"
+#include "physics/body/BlockContacts.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyObstacles.h"
 #include "physics/body/BodyState.h"
@@ -38,7 +39,8 @@ class BodyImpacts {
   /// Call if another solver moves the body in this tick: discards this step's results for the body.
   void passOn(const BodyState& state);
   /// Appends the contacts of the bodies without passOn(), and sets the places and velocities in their states.
-  void finish(std::vector<BodyState>& states, BodyContacts& contacts);
+  void finish(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
+              BodyContacts& contacts);
 
   const ImpactCounters& counters() const { return m_world.counters(); }
 
@@ -61,18 +63,22 @@ class BodyImpacts {
     ObjectKey key;
     std::uint64_t order = 0;
     int state = -1;  // index of the state; −1: an obstacle
+    int block = -1;  // index of the block, if it is not just one Object; else −1
   };
   struct FoundContact {
     BodyContact contact;
     std::array<int, 2> states;  // indices of the states; −1: an obstacle
+    int body, block;            // ids of a body and of the block that it touches; block −1: none
   };
 
   void adapt(const BodyState& state, const BodyRow& row, ImpactBody& body);
   void updateBodies();
   void searchAround(const BodyTable& table, ActiveBody& active, double left, double room);
   void updateObstacles(World& world, const BodyTable& table, BodyContacts& contacts);
-  void identify(int id, ObjectKey key, std::uint64_t order, int state);
+  void identify(int id, const Identity& identity);
   void collect(double since);
+  void settleBlocks(const WorldStore& store, const Metric& metric, const std::vector<BodyState>& states,
+                    BodyContacts& contacts);
 
   ImpactWorld m_world;
   std::vector<Proxy> m_proxies;
@@ -81,6 +87,7 @@ class BodyImpacts {
   std::vector<Identity> m_identities;
   std::vector<FoundContact> m_found_contacts;  // contacts found in this tick
   BodyObstacles m_obstacles;
+  BlockContacts m_block_contacts;
   BodySurroundings m_surroundings;
   bool m_was_active = false;
 };

@@ -46,6 +46,7 @@ void BodyLayer::step(World& world) {
   m_unit_inertias.clear();
   m_contacts.beginTick();
   m_is_mixed = m_has_pulls = false;
+  m_kinematic = 0;
   m_links.prepare(*m_table);
   m_impacts.beginTick();
   reserveFor(m_states, m_table->inOrder().size());
@@ -59,15 +60,16 @@ void BodyLayer::step(World& world) {
   if (!m_impacts.isEmpty()) {
     m_impacts.step(world, *m_table, m_states, m_contacts);
     if (m_impacts.hasGivenUp()) passOnGivenUp();
-    m_impacts.finish(m_states, m_contacts);
+    m_impacts.finish(world.store(), *m_table, m_states, m_contacts);
   }
+  if (m_kinematic > 1 || !m_platforms.isEmpty()) m_platforms.find(world.store(), *m_table, m_states);
   if (m_is_mixed || !m_rigids.isEmpty()) {
-    m_rigids.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
+    m_rigids.step(world.store(), *m_table, m_platforms, m_states, m_unit_inertias, m_contacts);
   }
   if (m_has_substeps || !m_substeps.isEmpty())
-    m_substeps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
+    m_substeps.step(world.store(), *m_table, m_platforms, m_states, m_unit_inertias, m_contacts);
   if (m_islands.hasHeaps() || !m_heaps.isEmpty())
-    m_heaps.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
+    m_heaps.step(world.store(), *m_table, m_platforms, m_states, m_unit_inertias, m_contacts);
   logCrowd(world);
   logScaling(world);
   for (State& state : m_states) settle(world, state);
@@ -92,7 +94,9 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.is_hard = store.solidness(row.key.slot) == HARD;
   state.is_soft = store.solidness(row.key.slot) == SOFT;
   state.is_kinematic = row.is_kinematic;
-  state.is_joined = m_links.isJoined(index) && !row.is_kinematic;
+  state.has_joints = m_links.isJoined(index);
+  state.is_joined = state.has_joints && !row.is_kinematic;
+  if (state.is_kinematic && state.is_hard) ++m_kinematic;
   state.start = row.place;
   state.start_velocity = row.velocity;
   state.rotation = form.rotation;

@@ -14,6 +14,7 @@
 #include "physics/body/BodyImpacts.h"
 #include "physics/body/BodyIslands.h"
 #include "physics/body/BodyLinks.h"
+#include "physics/body/BodyPlatforms.h"
 #include "physics/body/BodyRigids.h"
 #include "physics/body/BodySensors.h"
 #include "physics/body/BodyState.h"
@@ -87,8 +88,10 @@ class BodyLayer : public df::Layer {
   BodyRigids m_rigids{BodySolver::kRigid, m_rigid_world};
   BodyRigids m_substeps{BodySolver::kSubstep, m_substep_world};
   BodyRigids m_heaps{BodySolver::kHeap, m_heap_world};
+  BodyPlatforms m_platforms;
   BodyContacts m_contacts;
   BodySensors m_sensors;
+  int m_kinematic = 0;  // number of HARD kinematic bodies in this tick
   // Scratch memory of a step.
   std::vector<State> m_states;
   std::vector<double> m_unit_inertias;  // by state; 0: the body does not turn

@@ -21,6 +21,20 @@ Vec2 jerkOf(const Flown& flown, Vec2 velocity) {
   return length(missing) > kRounding * speed && length(missing) < kSteady * speed ? 12 * missing : Vec2{};
 }
 
+// An Object's order in the solver is a multiple of its order in the world. The numbers between are those of
+// the blocks found from its sides.
+constexpr std::uint64_t kOrders = 8;
+std::uint64_t orderOf(std::uint64_t order, int side) {
+  return kOrders * order + 1 + at(side);
+}
+
+// Makes the shape of a body that has its Object's box. Returns false if the box is too small or too large.
+bool boxShapeOf(const Metric& metric, const FixedBox& box, ConvexShape& made) {
+  const Vec2 half = 0.5 * metric.fromCells(Vector::fromFixed(box.size));
+  const Vec2 centre = metric.fromCells(Vector::fromFixed(box.corner)) + half;
+  return makeBox(half.x, half.y, centre, {}, 0, made) == ShapeStatus::kOk;
+}
+
 }  // namespace
 
 bool BodyRigids::isStepped(const BodyState& state) const {
@@ -38,9 +52,9 @@ bool BodyRigids::isGivenUp(const BodyTable& table, BodyTable::Index row) const {
   return id >= 0 && m_proxies[row].order == table.row(row).order && m_world.isGivenUp(id);
 }
 
-void BodyRigids::identify(int id, ObjectKey key, std::uint64_t order, int state) {
+void BodyRigids::identify(int id, const Identity& identity) {
   if (id >= static_cast<int>(m_identities.size())) m_identities.resize(at(id) + 1);
-  m_identities[at(id)] = {key, order, state};
+  m_identities[at(id)] = identity;
 }
 
 // Adds the body to the solver, or updates its shapes there. Only HARD bodies have shapes there.
@@ -48,20 +62,17 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
                        const RigidBody& body) {
   const BodyGeometry& form = table.form(state.index);
   const bool is_box = form.shapes.empty();
-  const std::uint32_t version = state.is_hard ? form.version + 1 : 0;
+  const bool has_shape = state.is_hard && !state.is_merged;
+  const std::uint32_t version = has_shape ? form.version + 1 : 0;
   if (proxy.id >= 0 && proxy.version == version && (!is_box || proxy.box == box)) return;
   std::span<const ConvexShape> shapes;
   ConvexShape made;
-  if (state.is_hard && !is_box) shapes = form.shapes;
-  if (state.is_hard && is_box) {
-    const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
-    const Vec2 centre = table.metric.fromCells(Vector::fromFixed(box.corner)) + half;
-    if (makeBox(half.x, half.y, centre, {}, 0, made) == ShapeStatus::kOk) shapes = {&made, 1};
-  }
+  if (has_shape && !is_box) shapes = form.shapes;
+  if (has_shape && is_box && boxShapeOf(table.metric, box, made)) shapes = {&made, 1};
   proxy.version = version;
   proxy.box = box;
   if (proxy.id < 0) {
-    proxy.id = m_world.addInOrder(state.order, body, shapes);
+    proxy.id = m_world.addInOrder(kOrders * state.order, body, shapes);
   } else {
     m_world.setShapes(proxy.id, shapes);
   }
@@ -124,7 +135,7 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
     shape(proxy, table, state, store.box(state.key.slot), body);
     if (proxy.id < 0) continue;
     m_world.set(proxy.id, body);
-    identify(proxy.id, state.key, state.order, static_cast<int>(i));
+    identify(proxy.id, {state.key, state.order, static_cast<int>(i)});
     ++m_count;
   }
 }
@@ -141,36 +152,97 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
     if (BodyObstacles::isObstacle(store, key)) m_obstacles.markNear(key);
   });
-  for (BodyObstacles::Obstacle& obstacle : m_obstacles.all()) {
-    if (!obstacle.is_near) {
-      if (obstacle.id >= 0) m_world.remove(obstacle.id);
-      contacts.expire(obstacle.key, m_solver);
-      continue;
-    }
-    const std::uint32_t slot = obstacle.key.slot;
-    const FixedBox box = store.box(slot);
+  m_obstacles.update(store);
+  for (const ObjectKey key : m_obstacles.farObjects()) contacts.expire(key, m_solver);
+  for (const int id : m_obstacles.removedIds()) m_world.remove(id);
+  std::vector<BodyObstacles::Block>& blocks = m_obstacles.blocks();
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    BodyObstacles::Block& block = blocks[i];
+    const FixedBox box = block.shape.area.box();
     const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
     RigidBody body;
-    body.place = table.metric.placeOf(store.position(slot) + box.corner) + half;
+    body.place = table.metric.placeOf(box.corner) + half;
     body.inverse_mass = 0;
     body.friction = table.settings.obstacle_friction;
     body.restitution = table.settings.obstacle_restitution;
-    const bool is_known = obstacle.id >= 0;
-    if (is_known && m_obstacle_boxes[at(obstacle.id)].size == box.size) {
-      m_world.set(obstacle.id, body);
+    const std::uint64_t order = store.order(block.key.slot);
+    if (block.id >= 0 && block.size == box.size) {
+      m_world.set(block.id, body);
     } else {
-      if (is_known) m_world.remove(obstacle.id);
-      obstacle.id = -1;
+      if (block.id >= 0) m_world.remove(block.id);
+      block.id = -1;
       ConvexShape made;
       if (makeBox(half.x, half.y, {}, {}, 0, made) != ShapeStatus::kOk) continue;
-      obstacle.id = m_world.addInOrder(store.order(slot), body, std::span(&made, 1));
-      if (obstacle.id < 0) continue;
-      if (at(obstacle.id) >= m_obstacle_boxes.size()) m_obstacle_boxes.resize(at(obstacle.id) + 1);
-      m_obstacle_boxes[at(obstacle.id)] = box;
+      block.id = m_world.addInOrder(orderOf(order, block.side), body, std::span(&made, 1));
+      block.size = box.size;
+      if (block.id < 0) continue;
     }
-    identify(obstacle.id, obstacle.key, store.order(slot), -1);
+    identify(block.id, {block.key, order, -1, static_cast<int>(i)});
   }
-  m_obstacles.removeFar();
+}
+
+// Gives a platform the frictions of its bodies, if they differ.
+void BodyRigids::setFrictions(const Metric& metric, const BodyPlatforms::Platform& platform,
+                              std::span<const BlockContacts::Member> members, int id) {
+  m_friction_parts.clear();
+  bool is_mixed = false;
+  const FixedBox box = platform.shape.area.box();
+  const Vec2 middle =
+      metric.fromCells(Vector::fromFixed(box.corner)) + 0.5 * metric.fromCells(Vector::fromFixed(box.size));
+  for (const BlockContacts::Member& member : members) {
+    if (!BodyPlatforms::hasPart(platform, member)) continue;
+    const FixedBox own = member.area.box();
+    const Vec2 low = metric.fromCells(Vector::fromFixed(own.corner)) - middle;
+    m_friction_parts.push_back({{low, low + metric.fromCells(Vector::fromFixed(own.size))}, member.friction});
+    is_mixed = is_mixed || member.friction != m_friction_parts[0].friction;
+  }
+  if (!is_mixed) m_friction_parts.clear();
+  m_world.setFrictionParts(id, m_friction_parts);
+}
+
+// Updates the platforms of which a body is near.
+void BodyRigids::updatePlatforms(const BodyTable& table, const BodyPlatforms& platforms,
+                                 const std::vector<BodyState>& states) {
+  for (PlatformProxy& proxy : m_platform_proxies) proxy.is_used = false;
+  const std::vector<BodyPlatforms::Platform>& all = platforms.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BodyPlatforms::Platform& platform = all[i];
+    const auto members = platforms.members(platform);
+    bool is_near = false;
+    for (std::size_t k = 0; k < members.size() && !is_near; ++k) {
+      is_near = isStepped(states[at(platforms.stateOf(platform, static_cast<int>(k)))]) &&
+                BodyPlatforms::hasPart(platform, members[k]);
+    }
+    if (!is_near) continue;
+    const BodyRow& row = table.row(states[at(platforms.stateOf(platform, 0))].index);
+    const FixedBox box = platform.shape.area.box();
+    const Vec2 half = 0.5 * table.metric.fromCells(Vector::fromFixed(box.size));
+    RigidBody body;
+    body.place = row.place + (table.metric.fromCells(Vector::fromFixed(box.corner)) + half);
+    body.velocity = row.velocity;
+    body.inverse_mass = 0;
+    body.friction = row.friction;
+    body.restitution = row.restitution;
+    auto proxy = std::find_if(m_platform_proxies.begin(), m_platform_proxies.end(),
+                              [&](const PlatformProxy& p) { return p.serial == platform.serial; });
+    if (proxy == m_platform_proxies.end()) {
+      ConvexShape made;
+      if (makeBox(half.x, half.y, {}, {}, 0, made) != ShapeStatus::kOk) continue;
+      const int id = m_world.addInOrder(orderOf(platform.order, platform.side), body, std::span(&made, 1));
+      if (id < 0) continue;
+      proxy = m_platform_proxies.insert(proxy, {platform.serial, id});
+      setFrictions(table.metric, platform, members, id);
+    }
+    proxy->is_used = true;
+    m_world.set(proxy->id, body);
+    identify(proxy->id, {members[0].key, members[0].order, -1, static_cast<int>(i), true});
+  }
+  for (const PlatformProxy& proxy : m_platform_proxies) {
+    if (proxy.is_used) continue;
+    m_world.setFrictionParts(proxy.id, {});
+    m_world.remove(proxy.id);
+  }
+  std::erase_if(m_platform_proxies, [](const PlatformProxy& proxy) { return !proxy.is_used; });
 }
 
 // True if this solver moves all bodies of the joint.
@@ -258,22 +330,25 @@ void BodyRigids::updatePulls(const BodyTable& table, const std::vector<BodyState
   }
 }
 
-void BodyRigids::step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
-                      const std::vector<double>& unit_inertias, BodyContacts& contacts) {
+void BodyRigids::step(const WorldStore& store, BodyTable& table, const BodyPlatforms& platforms,
+                      std::vector<BodyState>& states, const std::vector<double>& unit_inertias,
+                      BodyContacts& contacts) {
   if (std::exchange(m_may_sleep, table.settings.may_sleep) != table.settings.may_sleep)
     m_world.setSleeping(table.settings.may_sleep);
   updateBodies(store, table, states, unit_inertias, contacts);
   updateObstacles(store, table, states, contacts);
+  if (!platforms.isEmpty() || !m_platform_proxies.empty()) updatePlatforms(table, platforms, states);
   removeJoints(table, states);
   updateJoints(table);
   if (m_has_pulls) updatePulls(table, states);
   if (m_count == 0) return;
   m_world.step();
-  collect(states, contacts);
+  collect(store, table, platforms, states, contacts);
   finish(table, states, contacts);
 }
 
-void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts) const {
+void BodyRigids::collect(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
+                         std::vector<BodyState>& states, BodyContacts& contacts) {
   contacts.expect(m_world.events().size());
   for (const RigidEvent& event : m_world.events()) {
     const Identity* p_first = &m_identities[at(event.first)];
@@ -284,9 +359,56 @@ void BodyRigids::collect(std::vector<BodyState>& states, BodyContacts& contacts)
     }
     const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
     if (is_swapped) std::swap(p_first, p_second);
-    contacts.add({event.time, p_first->key, p_second->key, p_first->order, p_second->order, event.impulse,
-                  event.is_begin, m_solver});
+    const BodyContact contact = {event.time,      p_first->key,  p_second->key,  p_first->order,
+                                 p_second->order, event.impulse, event.is_begin, m_solver};
+    const bool is_one = p_second->block < 0 ||
+                        (!p_second->is_platform && m_obstacles.blocks()[at(p_second->block)].is_whole_object);
+    if (is_one) {
+      contacts.add(contact);
+    } else {
+      m_block_contacts.add(contact, is_swapped ? event.second : event.first,
+                           is_swapped ? event.first : event.second);
+    }
   }
+  if (!m_block_contacts.isEmpty()) settleBlocks(store, table, platforms, states, contacts);
+}
+
+void BodyRigids::settleBlocks(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
+                              const std::vector<BodyState>& states, BodyContacts& contacts) {
+  ConvexShape made;
+  const auto moverOf = [&](int id) {
+    BlockContacts::Mover mover;
+    const int index = m_world.exists(id) ? m_identities[at(id)].state : -1;
+    if (index < 0 || states[at(index)].solver != m_solver) return mover;
+    const BodyState& state = states[at(index)];
+    const BodyGeometry& form = table.form(state.index);
+    mover.key = state.key;
+    mover.shapes = form.shapes;
+    if (form.shapes.empty() && boxShapeOf(table.metric, store.box(state.key.slot), made))
+      mover.shapes = {&made, 1};
+    const RigidBody& body = m_world.body(id);
+    mover.start = {state.start, form.rotation};
+    mover.end = {body.place, body.rotation};
+    mover.velocity = state.start_velocity;
+    return mover;
+  };
+  const auto viewOf = [&](int id) {
+    BlockContacts::View view;
+    const Identity its = m_world.exists(id) ? m_identities[at(id)] : Identity{};
+    if (its.block < 0) return view;
+    if (!its.is_platform) {
+      view.p_shape = &m_obstacles.blocks()[at(its.block)].shape;
+      return view;
+    }
+    const BodyPlatforms::Platform& platform = platforms.all()[at(its.block)];
+    const BodyState& front = states[at(platforms.stateOf(platform, 0))];
+    view.p_shape = &platform.shape;
+    view.members = platforms.members(platform);
+    view.base = front.place;
+    view.velocity = front.velocity;
+    return view;
+  };
+  m_block_contacts.settle(store, table.metric, contacts, moverOf, viewOf);
 }
 
 void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts) {

@@ -3,8 +3,10 @@
 
 #include <vector>
 
+#include "physics/body/BlockContacts.h"
 #include "physics/body/BodyContacts.h"
 #include "physics/body/BodyObstacles.h"
+#include "physics/body/BodyPlatforms.h"
 #include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
 #include "physics/rigid/RigidStepper.h"
@@ -24,8 +26,8 @@ class BodyRigids {
   bool isGivenUp(const BodyTable& table, BodyTable::Index row) const;
   /// Steps the bodies with this solver, and kinematic ones near them. `unit_inertias` has one number for each
   /// state; 0: the body does not turn.
-  void step(const WorldStore& store, BodyTable& table, std::vector<BodyState>& states,
-            const std::vector<double>& unit_inertias, BodyContacts& contacts);
+  void step(const WorldStore& store, BodyTable& table, const BodyPlatforms& platforms,
+            std::vector<BodyState>& states, const std::vector<double>& unit_inertias, BodyContacts& contacts);
 
  private:
   struct Proxy {  // by row of the table
@@ -48,10 +50,17 @@ class BodyRigids {
     double mass = 0;
     bool is_used = false;
   };
+  struct PlatformProxy {
+    int serial = 0;  // of the platform
+    int id = -1;
+    bool is_used = false;
+  };
   struct Identity {  // entry of m_identities, which is indexed by id in the solver
     ObjectKey key;
     std::uint64_t order = 0;
     int state = -1;  // index of the state; −1: an obstacle
+    int block = -1;  // index of the block or platform; −1: a body
+    bool is_platform = false;
   };
 
   bool isStepped(const BodyState& state) const;
@@ -61,13 +70,20 @@ class BodyRigids {
              const RigidBody& body);
   void updateObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
                        BodyContacts& contacts);
+  void setFrictions(const Metric& metric, const BodyPlatforms::Platform& platform,
+                    std::span<const BlockContacts::Member> members, int id);
+  void updatePlatforms(const BodyTable& table, const BodyPlatforms& platforms,
+                       const std::vector<BodyState>& states);
   bool isHere(const JointEntry& entry) const;
   bool isPulledHere(const BodyState& state) const;
   void removeJoints(const BodyTable& table, const std::vector<BodyState>& states);
   void updateJoints(const BodyTable& table);
   void updatePulls(const BodyTable& table, const std::vector<BodyState>& states);
-  void identify(int id, ObjectKey key, std::uint64_t order, int state);
-  void collect(std::vector<BodyState>& states, BodyContacts& contacts) const;
+  void identify(int id, const Identity& identity);
+  void collect(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
+               std::vector<BodyState>& states, BodyContacts& contacts);
+  void settleBlocks(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
+                    const std::vector<BodyState>& states, BodyContacts& contacts);
   void finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts);
   int rigidOf(int row) const;
 
@@ -76,9 +92,11 @@ class BodyRigids {
   std::vector<Proxy> m_proxies;
   std::vector<JointProxy> m_joint_proxies;
   std::vector<PullProxy> m_pull_proxies;
+  std::vector<PlatformProxy> m_platform_proxies;
+  std::vector<FrictionPart> m_friction_parts;
   std::vector<Identity> m_identities;
   BodyObstacles m_obstacles;
-  std::vector<FixedBox> m_obstacle_boxes;  // by id in the solver
+  BlockContacts m_block_contacts;
   BodySurroundings m_surroundings;
   int m_count = 0;
   bool m_has_pulls = false;  // true if a pull acts on one of its bodies in this tick

@@ -35,6 +35,8 @@ struct BodyState {
   bool is_in_heap = false;  ///< a RigidWorld abandoned its group in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
+  bool has_joints = false;        ///< like is_joined, but also true for a kinematic body
+  bool is_merged = false;         ///< kinematic and a part of a platform, which has its shape in solvers
   bool is_simple = false;         ///< an ImpactWorld can move it
   bool is_sprung = false;         ///< a spring or stiff field pulls it: solvers must use `pull`
   bool must_be_held = false;      ///< a solver for contacts must apply its pull or magnet, because it touches

@@ -219,6 +219,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
       ContactConstraint& c = addConstraint(pair.a, pair.b);
       c.pair = index, c.contact = contact;
       c.is_kept = pair.is_touching;
+      if (hasFrictionParts()) c.friction = frictionOf(pair.a, pair.b, manifold);
       beginConstraint(a.turned[at(i)], b.turned[at(j)], offset, manifold, c);
       for (std::int32_t k = 0; k < c.count; ++k) {
         ContactPoint& p = c.points[at(k)];

@@ -1,7 +1,10 @@
 #include "physics/rigid/RigidStepper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
+
+#include "physics/geometry/Index.h"
 
 namespace naiad::physics {
 
@@ -37,6 +40,34 @@ void RigidStepper::removeJointsOf(int body) {
   for (const int id : ids) {
     if (joint(id).b == body || JointStore::firstOf(joint(id)) == body) removeJoint(id);
   }
+}
+
+void RigidStepper::setFrictionParts(int id, std::span<const FrictionPart> parts) {
+  std::erase_if(m_friction_parts, [id](const PartOfBody& old) { return old.id == id; });
+  for (const FrictionPart& part : parts) m_friction_parts.push_back({id, part});
+}
+
+// Returns the friction of the part that is nearest to a point of a body.
+double RigidStepper::frictionAt(int id, Vec2 point) const {
+  double friction = body(id).friction, nearest = 1e300;
+  if (isMovable(body(id))) return friction;
+  for (const PartOfBody& its : m_friction_parts) {
+    if (its.id != id) continue;
+    const Bounds& box = its.part.bounds;
+    const double x = std::max({box.lower.x - point.x, point.x - box.upper.x, 0.0});
+    const double y = std::max({box.lower.y - point.y, point.y - box.upper.y, 0.0});
+    if (x + y < nearest) nearest = x + y, friction = its.part.friction;
+  }
+  return friction;
+}
+
+double RigidStepper::frictionOf(int a, int b, const Manifold& manifold) const {
+  double sum = 0;
+  for (std::int32_t i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[at(i)];
+    sum += std::sqrt(frictionAt(a, point.anchor_a) * frictionAt(b, point.anchor_b));
+  }
+  return sum / manifold.count;
 }
 
 void RigidStepper::sortEvents() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/geometry/ConvexShape.h"
+#include "physics/geometry/Manifold.h"
 #include "physics/joint/JointStore.h"
 #include "physics/rigid/RigidBody.h"
 
@@ -20,6 +21,12 @@ struct RigidEvent {
   bool is_begin = false;
   double impulse = 0;  ///< impulse on `second` along the normal in the whole step; 0 for an end
   Vec2 normal;         ///< direction from `first` to `second`; zero for an end
+};
+
+/// A part of a body that does not turn, with its own friction.
+struct FrictionPart {
+  Bounds bounds;  ///< relative to the body's place
+  double friction = 0;
 };
 
 /// Not thread-safe.
@@ -37,6 +44,9 @@ class RigidStepper {
   /// nothing if the id or `body` is invalid.
   virtual bool set(int id, const RigidBody& body) = 0;
   virtual bool setShapes(int id, std::span<const ConvexShape> shapes) = 0;
+  /// Sets parts of a body with their own friction, until the body is removed. A contact that touches several
+  /// of them has their mean.
+  void setFrictionParts(int id, std::span<const FrictionPart> parts);
   /// Removes a body and its joints; its contacts end without events. Wakes the bodies that lay on it.
   virtual bool remove(int id) = 0;
   virtual const RigidBody& body(int id) const = 0;
@@ -75,12 +85,21 @@ class RigidStepper {
 
  protected:
   void removeJointsOf(int body);
+  bool hasFrictionParts() const { return !m_friction_parts.empty(); }
+  /// Returns the friction of a contact of two bodies.
+  double frictionOf(int a, int b, const Manifold& manifold) const;
   void sortEvents();
 
   std::vector<RigidEvent> m_events;
   bool m_joints_changed = false;
 
  private:
+  struct PartOfBody {
+    int id;
+    FrictionPart part;
+  };
+  double frictionAt(int id, Vec2 point) const;
+  std::vector<PartOfBody> m_friction_parts;
   virtual const JointStore& joints() const = 0;
   virtual JointStore& joints() = 0;
   /// Wakes the body and the bodies that fell asleep with it.

@@ -255,6 +255,7 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   if (std::min(manifold.points[0].separation, manifold.points[at(manifold.count - 1)].separation) > touch)
     return giveUp();
   ContactConstraint& c = addConstraint(a, b);
+  if (hasFrictionParts()) c.friction = frictionOf(a, b, manifold);
   beginConstraint(turned_a, turned_b, offset, manifold, c);
   c.first_time = m_time + impact.time * h;
   measureFromStart(c, start, one, other);

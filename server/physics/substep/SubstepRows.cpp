@@ -152,6 +152,8 @@ void SubstepWorld::addRow(Contact& contact) {
     return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
   };
   row.rest = kRest / m_h * std::max(gain(a), gain(b));
+  if (hasFrictionParts())
+    row.friction = static_cast<float>(frictionOf(contact.a, contact.b, memory.manifold));
   contact.place = m_rows.add(row, memory.manifold, memory.known);
 }
 
