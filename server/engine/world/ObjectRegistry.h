@@ -53,6 +53,8 @@ class ObjectRegistry {
     return collect([&](auto s) { return wanted(*m_store.object(s)); });
   }
 
+  /// Returns the Objects marked for deletion, in order of their marks.
+  const std::vector<ObjectKey>& marked() const { return m_deletions; }
   /// Deletes the marked Objects in order of their marks, and those that destructors mark.
   void deleteMarked();
   /// Deletes the Objects made with `new`, removes all others, and clears marks and records of logged types.

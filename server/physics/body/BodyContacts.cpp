@@ -2,35 +2,61 @@
 
 #include <algorithm>
 
+#include "engine/world/WorldStore.h"
+
 namespace naiad::physics {
 
 void BodyContacts::beginTick() {
   m_changes.clear();
 }
 
+// Returns the contact of these two Objects, not of earlier ones in their slots; else end().
+BodyContacts::Touches::iterator BodyContacts::find(ObjectKey first, ObjectKey second) {
+  const auto at = m_touching.find(keyOf(first, second));
+  if (at == m_touching.end()) return at;
+  const BodyContact& its = at->second.contact;
+  return its.first == first && its.second == second ? at : m_touching.end();
+}
+
+// Ends a contact. Returns the next one in the map.
+BodyContacts::Touches::iterator BodyContacts::end(Touches::iterator at, double time) {
+  BodyContact& contact = m_changes.emplace_back(at->second.contact);
+  contact.time = time;
+  contact.is_begin = false;
+  contact.impulse = 0;
+  count(contact, -1);
+  return m_touching.erase(at);
+}
+
+void BodyContacts::end(ObjectKey first, ObjectKey second, double time) {
+  const auto at = find(first, second);
+  if (at != m_touching.end()) end(at, time);
+}
+
 void BodyContacts::add(const BodyContact& contact) {
-  applyHandOvers();
-  const auto at = m_touching.find(keyOf(contact));
-  const bool is_in_slots = at != m_touching.end();
-  const bool is_known =
-      is_in_slots && at->second.contact.first == contact.first && at->second.contact.second == contact.second;
-  if (is_known == contact.is_begin) {
-    if (!is_known) return;
-    at->second.ticks_left = 0;
-    at->second.contact.by = contact.by;
-    return;
-  }
-  m_changes.push_back(contact);
-  if (is_in_slots) count(at->second.contact, -1);  // the contact ends, or its Objects were deleted
+  applyLapses();
+  const auto known = find(contact.first, contact.second);
   if (!contact.is_begin) {
-    m_touching.erase(at);
+    if (known != m_touching.end()) end(known, contact.time);
     return;
   }
-  m_touching.insert_or_assign(keyOf(contact), Touch{contact});
+  if (known != m_touching.end()) {
+    Touch& touch = known->second;
+    touch.ticks_left = 0;
+    count(touch.contact, -1);
+    touch.contact.by = contact.by;
+    count(touch.contact, 1);
+    return;
+  }
+  const auto other = m_touching.find(keyOf(contact.first, contact.second));
+  if (other != m_touching.end()) end(other, contact.time);  // of earlier Objects in these slots
+  m_changes.push_back(contact);
+  m_touching.emplace(keyOf(contact.first, contact.second), Touch{contact});
   count(contact, 1);
 }
 
 void BodyContacts::count(const BodyContact& contact, int by) {
+  if (contact.by == BodySolver::kSensor) return;
   for (const ObjectKey key : {contact.first, contact.second}) {
     if (key.slot >= m_counts.size()) m_counts.resize(key.slot + 1);
     TouchCount& its = m_counts[key.slot];
@@ -44,31 +70,33 @@ void BodyContacts::count(const BodyContact& contact, int by) {
   }
 }
 
-void BodyContacts::expireIn(ObjectKey key, int ticks, const BodySolver* p_by) {
-  applyHandOvers();
+void BodyContacts::handOver(ObjectKey first, ObjectKey second) {
+  const auto at = find(first, second);
+  if (at == m_touching.end() || at->second.contact.by != BodySolver::kSensor) return;
+  at->second.ticks_left = kHandOverTicks;
   m_has_expiring = true;
-  for (auto& [slots, touch] : m_touching) {
-    const bool is_its = touch.contact.first == key || touch.contact.second == key;
-    if (!is_its || (p_by != nullptr && (touch.contact.by != *p_by || touch.ticks_left > 0))) continue;
-    touch.ticks_left = ticks;
-  }
 }
 
-// Lets the contacts of all handed-over bodies expire, in one pass: a whole pile may be handed over.
-void BodyContacts::applyHandOvers() {
-  if (m_handed_over.empty()) return;
+// Applies all lapses in one pass, because a whole pile may be handed over or deleted.
+void BodyContacts::applyLapses() {
+  if (m_lapses.empty()) return;
   m_has_expiring = true;
-  const auto isBefore = [](ObjectKey a, ObjectKey b) { return a.slot < b.slot; };
-  std::sort(m_handed_over.begin(), m_handed_over.end(), isBefore);
-  const auto isHandedOver = [&](ObjectKey key) {
-    const auto at = std::lower_bound(m_handed_over.begin(), m_handed_over.end(), key, isBefore);
-    return at != m_handed_over.end() && *at == key;
+  const auto isBefore = [](const Lapse& a, const Lapse& b) { return a.key.slot < b.key.slot; };
+  std::stable_sort(m_lapses.begin(), m_lapses.end(), isBefore);
+  const auto apply = [&](ObjectKey key, Touch& touch) {
+    const auto [begin, end] = std::equal_range(m_lapses.begin(), m_lapses.end(), Lapse{key, 0, {}}, isBefore);
+    for (auto lapse = begin; lapse != end; ++lapse) {
+      const bool is_its = lapse->key == key && (!lapse->by || *lapse->by == touch.contact.by);
+      if (!is_its || (lapse->by && touch.ticks_left > 0)) continue;
+      touch.ticks_left = lapse->ticks;
+    }
   };
   for (auto& [slots, touch] : m_touching) {
-    if (isHandedOver(touch.contact.first) || isHandedOver(touch.contact.second))
-      touch.ticks_left = kHandOverTicks;
+    if (touch.contact.by == BodySolver::kSensor) continue;
+    apply(touch.contact.first, touch);
+    apply(touch.contact.second, touch);
   }
-  m_handed_over.clear();
+  m_lapses.clear();
 }
 
 bool BodyContacts::isTouching(ObjectKey key) const {
@@ -78,21 +106,37 @@ bool BodyContacts::isTouching(ObjectKey key) const {
 }
 
 std::vector<BodyContact>& BodyContacts::finishTick() {
-  applyHandOvers();
+  applyLapses();
   if (!m_has_expiring) return m_changes;
   m_has_expiring = false;
   for (auto at = m_touching.begin(); at != m_touching.end();) {
     Touch& touch = at->second;
-    if (touch.ticks_left == 0 || --touch.ticks_left > 0) {
-      m_has_expiring = m_has_expiring || touch.ticks_left > 0;
-      ++at;
+    if (touch.ticks_left > 0 && --touch.ticks_left == 0) {
+      at = end(at, 0);
       continue;
     }
-    count(touch.contact, -1);
-    m_changes.push_back(touch.contact);
-    m_changes.back().time = 0;
-    m_changes.back().is_begin = false;
-    at = m_touching.erase(at);
+    m_has_expiring = m_has_expiring || touch.ticks_left > 0;
+    ++at;
+  }
+  return m_changes;
+}
+
+void BodyContacts::noteMissed(const std::vector<BodyContact>& contacts) {
+  for (const BodyContact& contact : contacts) {
+    if (!contact.is_begin) continue;
+    const auto at = find(contact.first, contact.second);
+    if (at != m_touching.end()) at->second.contact.missed = contact.missed;
+  }
+}
+
+std::vector<BodyContact>& BodyContacts::endMarked(const WorldStore& store) {
+  m_changes.clear();
+  const auto isMarked = [&](ObjectKey key) {
+    return store.isCurrent(key) && store.has(key.slot, WorldStore::kMarked);
+  };
+  for (auto at = m_touching.begin(); at != m_touching.end();) {
+    const BodyContact& contact = at->second.contact;
+    isMarked(contact.first) || isMarked(contact.second) ? void(at = end(at, 1)) : void(++at);
   }
   return m_changes;
 }

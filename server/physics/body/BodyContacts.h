@@ -1,8 +1,10 @@
-// The contacts of HARD bodies and Objects, independent of the solver that found them. A body that changes its
-// solver neither gets a second EventCollision for a lasting contact, nor misses the EventContactEnd.
+// The contacts of bodies and Objects, independent of who found them: a solver, or BodySensors. A pair whose
+// solver or solidness changes neither gets a second EventCollision for a lasting contact, nor misses the
+// EventContactEnd.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -22,40 +24,61 @@ class BodyContacts {
   }
   /// Adds the start or end of a contact. Each solver adds its own in order of time. Ignores known ones.
   void add(const BodyContact& contact);
-  /// Call when the body or obstacle is gone: its contacts end with this tick.
-  void expire(ObjectKey key) { expireIn(key, 1, nullptr); }
+  /// Ends the contact of a pair at this time, if there is one.
+  void end(ObjectKey first, ObjectKey second, double time);
+
+  // The following functions do not change the contacts of sensors, which BodySensors examines in each tick.
+
+  /// Call when the body or obstacle takes no part any more, or is not HARD: its contacts end with this tick,
+  /// unless they are found again in it.
+  void expire(ObjectKey key) { m_lapses.push_back({key, 1, std::nullopt}); }
   /// Like expire(key), but only for contacts found by this solver.
-  void expire(ObjectKey key, BodySolver by) { expireIn(key, 1, &by); }
+  void expire(ObjectKey key, BodySolver by) { m_lapses.push_back({key, 1, by}); }
   /// Call when the body changed its solver: its contacts end soon, unless the new solver finds them.
-  void handOver(ObjectKey key) { m_handed_over.push_back(key); }
+  void handOver(ObjectKey key) { m_lapses.push_back({key, kHandOverTicks, std::nullopt}); }
+  /// Like handOver(key), for the contact of a sensor that is none any more.
+  void handOver(ObjectKey first, ObjectKey second);
+
   /// Ends the tick. Returns the contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
+  /// Call when the events of `contacts` were sent: remembers who missed them.
+  void noteMissed(const std::vector<BodyContact>& contacts);
+  /// Ends all contacts of the Objects that are marked for deletion, of sensors too. Returns them.
+  std::vector<BodyContact>& endMarked(const WorldStore& store);
 
+  /// True if the body or Object has a contact with something that it pushes.
   bool isTouching(ObjectKey key) const;
   bool isEmpty() const { return m_touching.empty(); }
 
  private:
   struct Touch {
     BodyContact contact;
-    int ticks_left = 0;  // ticks until the contact ends, unless a solver finds it again; 0: it lasts
+    int ticks_left = 0;  // ticks until the contact ends, unless it is found again; 0: it lasts
   };
   struct TouchCount {  // indexed by slot
     std::uint32_t generation = 0;
     int count = 0;  // number of contacts
   };
+  struct Lapse {  // a body or obstacle whose contacts get `ticks_left`
+    ObjectKey key;
+    int ticks;
+    std::optional<BodySolver> by;  // only contacts that this solver found
+  };
+  using Touches = std::unordered_map<std::uint64_t, Touch>;
   static constexpr int kHandOverTicks = 3;  // ticks to wait: bodies may press a tick after contact
-  void expireIn(ObjectKey key, int ticks, const BodySolver* p_by);
-  static std::uint64_t keyOf(const BodyContact& contact) {
-    return std::uint64_t{contact.first.slot} << 32 | contact.second.slot;
+  static std::uint64_t keyOf(ObjectKey first, ObjectKey second) {
+    return std::uint64_t{first.slot} << 32 | second.slot;
   }
   static std::uint64_t nameOf(ObjectKey key) { return std::uint64_t{key.slot} << 32 | key.generation; }
-  void applyHandOvers();
+  Touches::iterator find(ObjectKey first, ObjectKey second);
+  Touches::iterator end(Touches::iterator at, double time);
+  void applyLapses();
   void count(const BodyContact& contact, int by);
 
-  std::unordered_map<std::uint64_t, Touch> m_touching;  // unordered; sendContactEvents() sorts the changes
+  Touches m_touching;  // unordered; sendContactEvents() sorts the changes
   std::vector<TouchCount> m_counts;
   std::unordered_map<std::uint64_t, int> m_other_counts;  // by nameOf(), if the slot in m_counts is taken
-  std::vector<ObjectKey> m_handed_over;  // bodies handed over in this tick, not yet applied to m_touching
+  std::vector<Lapse> m_lapses;                            // not yet applied to m_touching
   bool m_has_expiring = false;
   std::vector<BodyContact> m_changes;
 };

@@ -14,28 +14,62 @@ namespace naiad::physics {
 
 namespace {
 
+constexpr std::uint8_t kFirst = 1, kSecond = 2;  // bits of BodyContact::missed
+
 bool hearsEnds(const WorldStore& store, ObjectKey key) {
-  if (!store.handlesEvents(key.slot) || !store.has(key.slot, WorldStore::kBody)) return false;
+  if (!store.isCurrent(key) || !store.handlesEvents(key.slot) || !store.has(key.slot, WorldStore::kBody))
+    return false;
   const Object* p_object = store.object(key.slot);
   if (const auto* p_body = dynamic_cast<const df::Body*>(p_object)) return p_body->hasContactEnds();
   const auto* p_soft = dynamic_cast<const df::SoftBody*>(p_object);
   return p_soft != nullptr && p_soft->hasContactEnds();
 }
 
-void sendContactEnd(World& world, const BodyContact& contact) {
+void sendContactEnd(World& world, const BodyContact& contact, std::uint8_t missed) {
   const WorldStore& store = world.store();
-  const df::EventContactEnd event(store.object(contact.first.slot), store.object(contact.second.slot));
-  world.events().nameClassOf(event);
-  if (hearsEnds(store, contact.first)) {
+  const auto sendTo = [&](ObjectKey key) {
+    if (!hearsEnds(store, key)) return;
+    const df::EventContactEnd event(store.find(contact.first), store.find(contact.second));
+    world.events().nameClassOf(event);
+    world.events().runHandler(key, *store.object(key.slot), event);
+  };
+  if ((missed & kFirst) == 0) sendTo(contact.first);
+  if ((missed & kSecond) == 0) sendTo(contact.second);
+}
+
+// Returns who missed the event.
+std::uint8_t sendCollision(World& world, const BodyContact& contact) {
+  const WorldStore& store = world.store();
+  const std::uint32_t slot = contact.first.slot;
+  if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) return kFirst | kSecond;
+  df::EventCollision event(store.object(slot), store.object(contact.second.slot),
+                           Vector::fromFixed(store.position(slot)));
+  event.setImpulse(contact.impulse);
+  std::uint8_t missed = store.has(slot, WorldStore::kActive) ? 0 : kFirst;
+  if (store.handlesEvents(slot)) {
     world.events().runHandler(contact.first, *event.getObject1(), event);
-    if (!store.isCurrentUnchecked(contact.first) || !store.isCurrentUnchecked(contact.second)) return;
+    if (!store.isCurrentUnchecked(contact.first) || !store.isCurrentUnchecked(contact.second))
+      return missed | kSecond;
   }
-  if (hearsEnds(store, contact.second)) world.events().runHandler(contact.second, *event.getObject2(), event);
+  if (!store.has(contact.second.slot, WorldStore::kActive)) missed |= kSecond;
+  if (store.handlesEvents(contact.second.slot))
+    world.events().runHandler(contact.second, *event.getObject2(), event);
+  return missed;
+}
+
+// Returns who missed the begin of the contact that ends with the entry `end`.
+std::uint8_t missedBefore(const std::vector<BodyContact>& contacts, std::size_t end) {
+  for (std::size_t i = end; i-- > 0;) {
+    const BodyContact& contact = contacts[i];
+    if (contact.is_begin && contact.first == contacts[end].first && contact.second == contacts[end].second)
+      return contact.missed;
+  }
+  return contacts[end].missed;
 }
 
 }  // namespace
 
-void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
+bool sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
   const auto isEarlier = [](const BodyContact& a, const BodyContact& b) {
     if (a.time != b.time) return a.time < b.time;
     if (a.first_order != b.first_order) return a.first_order < b.first_order;
@@ -43,19 +77,17 @@ void sendContactEvents(World& world, std::vector<BodyContact>& contacts) {
   };
   if (!std::is_sorted(contacts.begin(), contacts.end(), isEarlier))
     std::stable_sort(contacts.begin(), contacts.end(), isEarlier);
-  const WorldStore& store = world.store();
-  for (const BodyContact& contact : contacts) {
-    if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;
-    if (!contact.is_begin) {
-      sendContactEnd(world, contact);
-      continue;
+  bool has_missed = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    BodyContact& contact = contacts[i];
+    if (contact.is_begin) {
+      contact.missed = sendCollision(world, contact);
+      has_missed = has_missed || contact.missed != 0;
+    } else {
+      sendContactEnd(world, contact, has_missed ? missedBefore(contacts, i) : contact.missed);
     }
-    const std::uint32_t slot = contact.first.slot;
-    df::EventCollision event(store.object(slot), store.object(contact.second.slot),
-                             Vector::fromFixed(store.position(slot)));
-    event.setImpulse(contact.impulse);
-    world.events().sendToBoth(contact.first, contact.second, event);
   }
+  return has_missed;
 }
 
 }  // namespace naiad::physics

@@ -65,10 +65,12 @@ void BodyImpacts::adapt(const BodyState& state, const BodyRow& row, ImpactBody& 
   body.acceleration = 2 * (state.flown.velocity - state.flown.displacement);
 }
 
-bool BodyImpacts::add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset) {
+bool BodyImpacts::add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset,
+                      BodyContacts& contacts) {
   if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
   Proxy& proxy = m_proxies[state.index];
   if (proxy.id >= 0 && proxy.order != row.order) {  // the entry belongs to a deleted body of this row
+    contacts.expire(m_identities[static_cast<std::size_t>(proxy.id)].key, BodySolver::kImpact);
     m_world.remove(proxy.id);
     proxy = {};
   }
@@ -88,9 +90,10 @@ bool BodyImpacts::add(const BodyState& state, const BodyRow& row, ImpactBody bod
 }
 
 // Adds new bodies and removes those that left. Ids are given in the order of construction.
-void BodyImpacts::updateBodies() {
+void BodyImpacts::updateBodies(BodyContacts& contacts) {
   for (Proxy& proxy : m_proxies) {
     if (proxy.is_used || proxy.id < 0) continue;
+    contacts.expire(m_identities[static_cast<std::size_t>(proxy.id)].key, BodySolver::kImpact);
     m_world.remove(proxy.id);
     proxy.id = -1;
   }
@@ -99,6 +102,9 @@ void BodyImpacts::updateBodies() {
     if (proxy.id < 0) {
       proxy.id = m_world.add(active.body);
     } else {
+      const bool was_pushed = m_world.body(proxy.id).inverse_mass > 0;
+      if (was_pushed != (active.body.inverse_mass > 0))  // then the ImpactWorld drops its contacts
+        contacts.handOver(m_identities[static_cast<std::size_t>(proxy.id)].key);
       m_world.set(proxy.id, active.body);
     }
   }
@@ -153,7 +159,7 @@ void BodyImpacts::updateObstacles(World& world, const BodyTable& table, BodyCont
 void BodyImpacts::step(World& world, const BodyTable& table, std::vector<BodyState>& states,
                        BodyContacts& contacts) {
   m_was_active = !m_active.empty();
-  updateBodies();
+  updateBodies(contacts);
   m_state_of.clear();
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].solver == BodySolver::kImpact) {

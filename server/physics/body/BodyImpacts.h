@@ -28,7 +28,7 @@ class BodyImpacts {
   void beginTick();
   /// Adds a body to this tick. `body` has the shape; this function sets its other fields. Returns false if
   /// numbers are too large to calculate with.
-  bool add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset);
+  bool add(const BodyState& state, const BodyRow& row, ImpactBody body, Vec2 offset, BodyContacts& contacts);
   /// True if no body is moved in this tick, and none was in the last one.
   bool isEmpty() const { return m_active.empty() && !m_was_active; }
   /// Steps the added bodies by a tick. Sets `is_costly` in the states of bodies that the ImpactWorld
@@ -72,7 +72,7 @@ class BodyImpacts {
   };
 
   void adapt(const BodyState& state, const BodyRow& row, ImpactBody& body);
-  void updateBodies();
+  void updateBodies(BodyContacts& contacts);
   void searchAround(const BodyTable& table, ActiveBody& active, double left, double room);
   void updateObstacles(World& world, const BodyTable& table, BodyContacts& contacts);
   void identify(int id, const Identity& identity);

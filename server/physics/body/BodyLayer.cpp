@@ -7,6 +7,7 @@
 
 #include "engine/world/Mover.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/World.h"
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr double kFarthestFlight =
     1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
 constexpr double kFollowed =
-    16;  // per tick²: maximum stiffness of a spring on a jointed body that the JointSolver can step
+    16;  // per tick²: maximum stiffness of a spring that the JointSolver can step; others swing in a tick
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace
@@ -74,15 +75,31 @@ void BodyLayer::step(World& world) {
   logScaling(world);
   for (State& state : m_states) settle(world, state);
   placeMoved(world, m_moved);
-  std::vector<BodyContact>& news = m_contacts.finishTick();
-  m_sensors.step(world.store(), *m_table, m_states, news);
-  if (!news.empty()) sendContactEvents(world, news);
+  m_sensors.step(world.store(), *m_table, m_states, m_contacts);
+  send(world, m_contacts.finishTick());
+  endMarked(world);
+}
+
+void BodyLayer::send(World& world, std::vector<BodyContact>& contacts) {
+  if (!contacts.empty() && sendContactEvents(world, contacts)) m_contacts.noteMissed(contacts);
+}
+
+// The handlers may mark more Objects.
+void BodyLayer::endMarked(World& world) {
+  const std::vector<ObjectKey>& marked = world.objects().marked();
+  for (std::size_t known = 0; known < marked.size() && !m_contacts.isEmpty();) {
+    known = marked.size();
+    send(world, m_contacts.endMarked(world.store()));
+  }
 }
 
 void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   BodyRow& row = m_table->row(index);
   const WorldStore& store = world.store();
-  if (!store.isCurrent(row.key)) row.key = row.p_object->key();  // removed, and perhaps inserted again
+  if (!store.isCurrent(row.key)) {  // removed, and perhaps inserted again
+    m_contacts.expire(row.key);
+    row.key = row.p_object->key();
+  }
   if (!takesPart(store, row.key)) return;
   m_table->syncFromStore(index, store.position(row.key.slot), store.velocity(row.key.slot));
   if (row.frozen) return;
@@ -176,10 +193,9 @@ void BodyLayer::fly(State& state) {
     state.pull.spring.damping = medium.linear_drag;
   }
   const Vec2 held_push = pushBesideMagnet(state);
-  const bool is_touching = m_contacts.isTouching(state.key);
-  state.must_be_held =
-      (state.turn_rate != 0 && (state.is_joined || is_touching)) ||
-      (state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed : is_touching));
+  const bool is_stiff = state.is_sprung && state.pull.spring.stiffness > kFollowed;
+  state.must_be_held = (state.turn_rate != 0 && (state.is_joined || m_contacts.isTouching(state.key))) ||
+                       (state.is_joined && is_stiff);
   if (!state.is_bent || state.must_be_held) {
     state.flown = flyFree(row.velocity, held_push, 1);
   } else if (p_spring != nullptr) {
@@ -235,7 +251,8 @@ void BodyLayer::measure(const WorldStore& store, State& state) {
   }
   Vec2 path = {std::abs(state.start_velocity.x) + std::abs(state.flown.displacement.x),
                std::abs(state.start_velocity.y) + std::abs(state.flown.displacement.y)};
-  if (state.must_be_held) path += swingOf(state);
+  if (state.must_be_held || (state.is_sprung && state.pull.spring.stiffness > kFollowed))
+    path += swingOf(state);
   state.size = {reach + kRoom, reach + kRoom};
   state.reach = state.size + path;
 }
@@ -285,7 +302,8 @@ void BodyLayer::passOnGivenUp() {
   }
 }
 
-// Adds the body to its solver. If the solver has changed, the body's contacts must be found again.
+// Adds the body to its solver. If the solver has changed, the body's contacts must be found again: by it, or
+// in this tick by the sensors if the body is not HARD any more.
 void BodyLayer::assignSolver(const WorldStore& store, State& state) {
   BodyRow& row = m_table->row(state.index);
   const bool is_for_impacts = !m_table->settings.is_fast && state.is_simple && state.p_failure == nullptr &&
@@ -295,10 +313,13 @@ void BodyLayer::assignSolver(const WorldStore& store, State& state) {
     Vec2 offset;
     BodyImpacts::canHave(std::as_const(*m_table).form(state.index), m_table->metric,
                          store.box(state.key.slot), body, offset);
-    state.solver = m_impacts.add(state, row, body, offset) ? BodySolver::kImpact : BodySolver::kFlight;
+    state.solver =
+        m_impacts.add(state, row, body, offset, m_contacts) ? BodySolver::kImpact : BodySolver::kFlight;
   }
   const auto solver = static_cast<std::uint8_t>(state.solver);
-  if (row.last_solver != solver && !m_contacts.isEmpty()) m_contacts.handOver(state.key);
+  if (row.last_solver != solver && !m_contacts.isEmpty())
+    state.is_hard || state.p_failure != nullptr ? m_contacts.handOver(state.key)
+                                                : m_contacts.expire(state.key);
   row.last_solver = solver;
 }
 

@@ -43,6 +43,8 @@ class BodyLayer : public df::Layer {
   const std::shared_ptr<BodyTable>& table() { return m_table; }
   /// Returns the states of this tick, for the layers that run after this one.
   const std::vector<BodyState>& states() const { return m_states; }
+  /// Ends the contacts of the Objects that are marked for deletion, while handlers can still use them.
+  void endMarked(World& world);
   bool isTouching(ObjectKey key) const { return m_contacts.isTouching(key); }
   const ImpactCounters& impactCounters() const { return m_impacts.counters(); }
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
@@ -54,6 +56,7 @@ class BodyLayer : public df::Layer {
   using State = BodyState;
 
   void beginBody(World& world, BodyTable::Index index);
+  void send(World& world, std::vector<BodyContact>& contacts);
   Vec2 pushBesideMagnet(State& state);
   IntegratorStatus flyFreely(const State& state, Flown& flown);
   void fly(State& state);

@@ -78,25 +78,27 @@ void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& st
   }
 }
 
+// Removes a body from the solver. Its contacts end, unless they were handed over to another solver.
+void BodyRigids::remove(Proxy& proxy, BodyContacts& contacts) {
+  contacts.expire(m_identities[at(proxy.id)].key, m_solver);
+  m_world.remove(proxy.id);
+  proxy.id = -1;
+}
+
 void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
-                              const std::vector<double>& unit_inertias, const BodyContacts& contacts) {
+                              const std::vector<double>& unit_inertias, BodyContacts& contacts) {
   for (Proxy& proxy : m_proxies) proxy.is_used = false;
   for (const BodyState& state : states) {
     if (!isStepped(state)) continue;
     if (state.index >= m_proxies.size()) m_proxies.resize(state.index + 1);
     Proxy& proxy = m_proxies[state.index];
     const std::uint64_t order = table.row(state.index).order;
-    if (proxy.id >= 0 && proxy.order != order) {  // the entry belongs to a deleted body of this row
-      m_world.remove(proxy.id);
-      proxy.id = -1;
-    }
+    if (proxy.id >= 0 && proxy.order != order) remove(proxy, contacts);  // it is that of a deleted body
     proxy.order = order;
     proxy.is_used = true;
   }
   for (Proxy& proxy : m_proxies) {
-    if (proxy.is_used || proxy.id < 0) continue;
-    m_world.remove(proxy.id);
-    proxy.id = -1;
+    if (!proxy.is_used && proxy.id >= 0) remove(proxy, contacts);
   }
   m_count = 0;
   m_has_pulls = false;
@@ -106,7 +108,6 @@ void BodyRigids::updateBodies(const WorldStore& store, const BodyTable& table, s
     BodyState& state = states[i];
     if (!isStepped(state)) continue;
     if (state.solver == m_solver) {
-      state.is_touched = contacts.isTouching(state.key);
       m_has_pulls = m_has_pulls || state.isPulled();
       const double tip =
           std::fabs(state.spin) * state.size.x;  // a rotating bar throws what it hits, or itself
@@ -166,17 +167,20 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
     body.friction = table.settings.obstacle_friction;
     body.restitution = table.settings.obstacle_restitution;
     const std::uint64_t order = store.order(block.key.slot);
-    if (block.id >= 0 && block.size == box.size) {
-      m_world.set(block.id, body);
-    } else {
-      if (block.id >= 0) m_world.remove(block.id);
-      block.id = -1;
+    const bool is_known = block.id >= 0;
+    if (!is_known || block.size != box.size) {
       ConvexShape made;
-      if (makeBox(half.x, half.y, {}, {}, 0, made) != ShapeStatus::kOk) continue;
-      block.id = m_world.addInOrder(orderOf(order, block.side), body, std::span(&made, 1));
-      block.size = box.size;
+      const bool is_sound = makeBox(half.x, half.y, {}, {}, 0, made) == ShapeStatus::kOk;
+      const std::span<const ConvexShape> shapes(&made, is_sound ? 1 : 0);
+      if (is_known) {
+        m_world.setShapes(block.id, shapes);
+      } else {
+        block.id = m_world.addInOrder(orderOf(order, block.side), body, shapes);
+      }
       if (block.id < 0) continue;
+      block.size = box.size;
     }
+    if (is_known) m_world.set(block.id, body);
     identify(block.id, {block.key, order, -1, static_cast<int>(i)});
   }
 }
@@ -344,7 +348,7 @@ void BodyRigids::step(const WorldStore& store, BodyTable& table, const BodyPlatf
   if (m_count == 0) return;
   m_world.step();
   collect(store, table, platforms, states, contacts);
-  finish(table, states, contacts);
+  finish(table, states);
 }
 
 void BodyRigids::collect(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
@@ -354,8 +358,7 @@ void BodyRigids::collect(const WorldStore& store, const BodyTable& table, const 
     const Identity* p_first = &m_identities[at(event.first)];
     const Identity* p_second = &m_identities[at(event.second)];
     for (const Identity* p_identity : {p_first, p_second}) {
-      if (p_identity->state >= 0)
-        states[at(p_identity->state)].is_touched = states[at(p_identity->state)].contacts_changed = true;
+      if (p_identity->state >= 0) states[at(p_identity->state)].contacts_changed = true;
     }
     const bool is_swapped = p_first->state < 0 || (p_second->state >= 0 && p_second->order < p_first->order);
     if (is_swapped) std::swap(p_first, p_second);
@@ -411,7 +414,7 @@ void BodyRigids::settleBlocks(const WorldStore& store, const BodyTable& table, c
   m_block_contacts.settle(store, table.metric, contacts, moverOf, viewOf);
 }
 
-void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts) {
+void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states) {
   for (BodyState& state : states) {
     if (state.solver != m_solver) continue;
     const Proxy& proxy = m_proxies[state.index];
@@ -423,8 +426,7 @@ void BodyRigids::finish(BodyTable& table, std::vector<BodyState>& states, const 
     const RigidBody& body = m_world.body(proxy.id);
     const Vec2 pushed = body.velocity - (state.start_velocity + body.acceleration);
     const double rounding = 1e-9 * (length(state.start_velocity) + length(body.acceleration));
-    const bool is_touched =
-        state.is_touched || state.is_joined || state.must_be_held || contacts.isTouching(state.key);
+    const bool is_touched = m_world.isPushed(proxy.id) || state.is_joined || state.must_be_held;
     const bool is_alone =
         isSoft(m_solver) ? !m_world.isStopped(proxy.id) : state.turn_rate != 0 || length(pushed) <= rounding;
     if (!is_touched && is_alone) {  // then the flight alone gives the exact result

@@ -64,8 +64,9 @@ class BodyRigids {
   };
 
   bool isStepped(const BodyState& state) const;
+  void remove(Proxy& proxy, BodyContacts& contacts);
   void updateBodies(const WorldStore& store, const BodyTable& table, std::vector<BodyState>& states,
-                    const std::vector<double>& unit_inertias, const BodyContacts& contacts);
+                    const std::vector<double>& unit_inertias, BodyContacts& contacts);
   void shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
              const RigidBody& body);
   void updateObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
@@ -84,7 +85,7 @@ class BodyRigids {
                std::vector<BodyState>& states, BodyContacts& contacts);
   void settleBlocks(const WorldStore& store, const BodyTable& table, const BodyPlatforms& platforms,
                     const std::vector<BodyState>& states, BodyContacts& contacts);
-  void finish(BodyTable& table, std::vector<BodyState>& states, const BodyContacts& contacts);
+  void finish(BodyTable& table, std::vector<BodyState>& states);
   int rigidOf(int row) const;
 
   BodySolver m_solver;

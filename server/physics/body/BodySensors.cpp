@@ -130,8 +130,9 @@ void BodySensors::findObjectPairs(const WorldStore& store, const Metric& metric)
   });
 }
 
-// Adds the pairs that touched at the end of the last tick but are not near each other in this one.
-void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric) {
+// Adds the pairs that touched at the end of the last tick but are not near each other in this one. The
+// contact of a pair without a SOFT member may last, but not as a sensor's.
+void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric, BodyContacts& contacts) {
   if (m_touching.empty()) return;
   m_by_slot.clear();
   for (std::size_t i = 0; i < m_bodies; ++i) m_by_slot.push_back(static_cast<std::uint32_t>(i));
@@ -149,12 +150,21 @@ void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric)
     while (next < listed && isBefore(m_pairs[next].touch, touch)) ++next;
     if (next < listed && m_pairs[next].touch == touch) continue;
     const std::size_t first = bodyOf(touch.first);
-    if (first >= m_bodies) continue;
     std::size_t second = bodyOf(touch.second);
-    if (second >= m_bodies) {
-      if (!store.isCurrent(touch.second) || !store.collides(touch.second.slot)) continue;
+    const bool is_object = second >= m_bodies && store.isCurrent(touch.second) &&
+                           store.collides(touch.second.slot) &&
+                           !store.has(touch.second.slot, WorldStore::kBody);
+    if (first >= m_bodies || (second >= m_bodies && !is_object)) {
+      contacts.end(touch.first, touch.second, 0);
+      continue;
+    }
+    if (is_object) {
       second = m_movers.size();
       m_movers.push_back(moverOf(store, metric, touch.second));
+    }
+    if (!m_movers[first].is_soft && !m_movers[second].is_soft) {
+      contacts.handOver(touch.first, touch.second);
+      continue;
     }
     m_pairs.push_back({touch, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second)});
   }
@@ -162,7 +172,7 @@ void BodySensors::findPartedPairs(const WorldStore& store, const Metric& metric)
 }
 
 // Tests whether the pair touches now and since when, and adds the start or end of its contact.
-void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts) {
+void BodySensors::examine(const Pair& pair, bool were_touching, BodyContacts& contacts) {
   const Mover &first = m_movers[pair.a], &second = m_movers[pair.b];
   const Vec2 offset = second.shape.place - first.shape.place;
   const Vec2 displacement = second.displacement - first.displacement;
@@ -170,7 +180,7 @@ void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<Body
   const bool is_touching = touch(offset + displacement);
   if (is_touching) m_now.push_back(pair.touch);
   if (is_touching && were_touching) return;
-  BodyContact contact{0, first.key, second.key, first.order, second.order, 0, true};
+  BodyContact contact{0, first.key, second.key, first.order, second.order, 0, true, BodySolver::kSensor};
   if (!were_touching) {
     const double time =
         touch(offset) ? 0
@@ -179,16 +189,14 @@ void BodySensors::examine(const Pair& pair, bool were_touching, std::vector<Body
                             .time;
     if (time < 0 && !is_touching) return;
     contact.time = time < 0 ? 1 : time;
-    contacts.push_back(contact);
+    contacts.add(contact);
   }
   if (is_touching) return;
-  contact.time = 1;
-  contact.is_begin = false;
-  contacts.push_back(contact);
+  contacts.end(first.key, second.key, 1);
 }
 
 void BodySensors::step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
-                       std::vector<BodyContact>& contacts) {
+                       BodyContacts& contacts) {
   if (!store.hasHadSoft() && m_touching.empty()) return;
   m_movers.clear();
   m_pairs.clear();
@@ -200,7 +208,7 @@ void BodySensors::step(const WorldStore& store, const BodyTable& table, const st
   findBodyPairs();
   findObjectPairs(store, table.metric);
   sortPairs();
-  findPartedPairs(store, table.metric);
+  findPartedPairs(store, table.metric, contacts);
   m_now.clear();
   m_examined += static_cast<std::int64_t>(m_pairs.size());
   std::size_t next = 0;

@@ -5,6 +5,7 @@
 
 #include "engine/world/World.h"
 #include "engine/world/WorldStore.h"
+#include "physics/body/BodyContacts.h"
 #include "physics/body/BodyState.h"
 #include "physics/body/BodySurroundings.h"
 #include "physics/broadphase/ImpactTree.h"
@@ -15,10 +16,10 @@ namespace naiad::physics {
 /// Keeps the contacts of sensors from tick to tick. Shapes that an ImpactWorld cannot have count as boxes.
 class BodySensors {
  public:
-  /// Call after all bodies have moved. Appends the contacts of sensors that began on the bodies' paths, or
+  /// Call after all bodies have moved. Adds the contacts of sensors that began on the bodies' paths, or
   /// ended. Pairs without a SOFT member are handled by the solvers.
   void step(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states,
-            std::vector<BodyContact>& contacts);
+            BodyContacts& contacts);
 
   /// Returns the number of pairs examined since the world was made.
   std::int64_t pairs() const { return m_examined; }
@@ -49,10 +50,10 @@ class BodySensors {
   static Mover moverOf(const WorldStore& store, const Metric& metric, ObjectKey key);
   void findBodyPairs();
   void findObjectPairs(const WorldStore& store, const Metric& metric);
-  void findPartedPairs(const WorldStore& store, const Metric& metric);
+  void findPartedPairs(const WorldStore& store, const Metric& metric, BodyContacts& contacts);
   void add(std::size_t a, std::size_t b);
   void sortPairs();
-  void examine(const Pair& pair, bool were_touching, std::vector<BodyContact>& contacts);
+  void examine(const Pair& pair, bool were_touching, BodyContacts& contacts);
 
   std::vector<Mover> m_movers;    // bodies in creation order, then the Objects of m_pairs
   std::size_t m_bodies = 0;       // number of movers that are bodies

@@ -17,6 +17,7 @@ enum class BodySolver : std::uint8_t {
   kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts), if only circles may hit
   kSubstep,       ///< SubstepWorld, at ACCURACY_FAST or if the other solvers would be too expensive
   kHeap,          ///< a SubstepWorld with finer steps, for groups that a RigidWorld abandoned
+  kSensor,        ///< none: one of the contact's Objects is SOFT (BodySensors)
 };
 
 /// True for the solvers that use a SubstepWorld.
@@ -40,12 +41,12 @@ struct BodyState {
   bool is_simple = false;         ///< an ImpactWorld can move it
   bool is_sprung = false;         ///< a spring or stiff field pulls it: solvers must use `pull`
   bool must_be_held = false;      ///< a solver for contacts must apply its pull or magnet, because it touches
-                                  ///< something, the JointSolver cannot, or its flight is unknown
+                                  ///< something in a magnet, the JointSolver cannot, or its flight is unknown
   double turn_rate = 0;           ///< rad per tick by which a magnet turns its path; 0: nothing can hold it
   bool is_bent = false;           ///< its free path is not that of a constant acceleration
   bool is_near_rigid = false;     ///< kinematic and on the path of a body in the RigidWorld
   bool is_near_substep = false;   ///< kinematic and on the path of a body in a SubstepWorld
-  bool is_touched = false;        ///< touched by anything in this or the last tick
+  bool is_touched = false;        ///< kImpact only: touched by anything in this or the last tick
   bool contacts_changed = false;  ///< a contact began or ended in this tick
   bool turns_alone = true;        ///< true if only the torque applied by the game turns it
   int group = -1;                 ///< kJointImpacts only: bodies that may hit each other have one number
@@ -92,6 +93,7 @@ struct BodyContact {
   double impulse = 0;
   bool is_begin = true;
   BodySolver by = BodySolver::kFlight;  ///< solver that found it
+  std::uint8_t missed = 0;  ///< bit 0: `first` did not get the event of its begin; bit 1: nor did `second`
 };
 
 }  // namespace naiad::physics

@@ -1,7 +1,10 @@
 // Event sent to a Body or SoftBody when a contact ends, if setContactEnds() was called for it.
 //
 // Like EventCollisions, these events are sent after all bodies have moved, ordered by time, then by ids. A
-// bounce within a tick both begins and ends a contact.
+// bounce within a tick both begins and ends a contact. Each contact whose begin an Object was told ends once,
+// also if the other Object is deleted, frozen, made inactive or SPECTRAL, or moved away: an Object marked for
+// deletion ends its contacts in the same tick, while it still exists; after `delete`, the event comes in the
+// next tick.
 #pragma once
 
 #include "Event.h"
@@ -19,7 +22,8 @@ class EventContactEnd : public Event {
   /// Creates the event for the contact of `p_o1`, a Body or SoftBody, with `p_o2`.
   EventContactEnd(Object* p_o1, Object* p_o2) : Event(&CONTACT_END_EVENT), m_p_obj1(p_o1), m_p_obj2(p_o2) {}
 
-  /// The first and second Object, as in the collision event that began the contact.
+  /// The first and second Object, as in the collision event that began the contact. Null for one that is
+  /// deleted or removed from the world.
   void setObject1(Object* p_new_o1) { m_p_obj1 = p_new_o1; }
   Object* getObject1() const { return m_p_obj1; }
   void setObject2(Object* p_new_o2) { m_p_obj2 = p_new_o2; }

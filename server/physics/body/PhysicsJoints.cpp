@@ -48,7 +48,8 @@ Joint PhysicsManager::add(const char* what, RawJoint joint, Body* p_a, Body* p_b
   const Place at_a = table->metric.placeAtCells(point_a), at_b = table->metric.placeAtCells(point_b);
   Rotation rotation[2];
   Place world;
-  const auto attach = [&](const Body* p_body, Place at, int& row, Vec2& anchor, Rotation& turned) {
+  const auto attach = [&](const Body* p_body, Vector point, Place at, int& row, Vec2& anchor,
+                          Rotation& turned) {
     row = BodyJoints::kWorld;
     anchor = {};
     if (p_body == nullptr) {
@@ -58,10 +59,11 @@ Joint PhysicsManager::add(const char* what, RawJoint joint, Body* p_a, Body* p_b
     p_body->syncFromStore();
     row = static_cast<int>(p_body->m_index);
     turned = std::as_const(*table).form(p_body->m_index).rotation;
-    anchor = inverse(turned) * (at - p_body->row().place);
+    const bool is_centre = point == p_body->getPosition();  // which is rounded, and must not be a lever
+    anchor = is_centre ? Vec2{} : inverse(turned) * (at - p_body->row().place);
   };
-  attach(p_a, at_a, joint.a, joint.anchor_a, rotation[0]);
-  attach(p_b, at_b, joint.b, joint.anchor_b, rotation[1]);
+  attach(p_a, point_a, at_a, joint.a, joint.anchor_a, rotation[0]);
+  attach(p_b, point_b, at_b, joint.b, joint.anchor_b, rotation[1]);
   joint.reference = inverse(rotation[0]) * rotation[1];
   if (joint.kind == JointKind::kSlider) joint.axis = inverse(rotation[0]) * joint.axis;
   const bool has_length = joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope ||

@@ -6,6 +6,7 @@
 
 #include "engine/world/EventDispatch.h"
 #include "engine/world/Object.h"
+#include "engine/world/ObjectRegistry.h"
 #include "engine/world/WorldLog.h"
 #include "engine/world/WorldStore.h"
 #include "physics/body/BodyEvents.h"
@@ -94,35 +95,72 @@ void SoftLayer::step(World& world) {
   }
   m_sleep.update(table);
   placeMoved(world, m_moved);
-  if (!m_contact_changes.empty()) sendContactEvents(world, m_contact_changes);
+  send(world);
+  endMarked(world);
+}
+
+void SoftLayer::send(World& world) {
+  if (m_contact_changes.empty() || !sendContactEvents(world, m_contact_changes)) return;
+  for (const BodyContact& contact : m_contact_changes) {
+    for (Touch& touch : m_touching) {
+      const bool is_its = touch.contact.first == contact.first && touch.contact.second == contact.second;
+      if (is_its && contact.is_begin) touch.contact.missed = contact.missed;
+    }
+  }
+}
+
+// Ends the contacts of the Objects for which `isOver` is true.
+template <class IsOver>
+void SoftLayer::endContacts(IsOver isOver) {
+  std::erase_if(m_touching, [&](const Touch& touch) {
+    if (!isOver(touch.contact.first) && !isOver(touch.contact.second)) return false;
+    m_contact_changes.push_back(touch.contact);
+    m_contact_changes.back().is_begin = false;
+    m_contact_changes.back().impulse = 0;
+    return true;
+  });
+}
+
+// Ends the contacts of the Objects that are marked for deletion, also those of the layer of bodies.
+void SoftLayer::endMarked(World& world) {
+  const WorldStore& store = world.store();
+  const std::vector<ObjectKey>& marked = world.objects().marked();
+  for (std::size_t known = 0; known < marked.size();) {
+    known = marked.size();
+    m_contact_changes.clear();
+    endContacts(
+        [&](ObjectKey key) { return store.isCurrent(key) && store.has(key.slot, WorldStore::kMarked); });
+    send(world);
+    m_bodies.endMarked(world);
+  }
 }
 
 // Converts the solver's events to contacts of Objects. An end has the Objects of its begin, even if the
-// obstacle is no longer near. Contacts of deleted Objects get no end.
+// obstacle is no longer near.
 void SoftLayer::collectContacts(const WorldStore& store) {
-  std::erase_if(m_touching, [&](const Touch& touch) {
-    return !store.isCurrent(touch.first) || !store.isCurrent(touch.second);
-  });
+  endContacts([&](ObjectKey key) { return !store.isCurrent(key); });
   for (const SoftEvent& event : m_table->world().events()) {
     const auto touch = std::find_if(m_touching.begin(), m_touching.end(), [&](const Touch& t) {
       return t.body == event.body && t.other == event.other && t.is_other_soft == event.is_other_soft;
     });
     const bool is_known = touch != m_touching.end();
     if (!event.is_begin && !is_known) continue;
-    Touch current;
+    BodyContact contact;
     if (event.is_begin) {
-      current = {m_table->entry(event.body).key,
-                 event.is_other_soft ? m_table->entry(event.other).key : m_obstacles.keyOf(event.other),
-                 event.body, event.other, event.is_other_soft};
-      if (!store.isCurrent(current.first) || !store.isCurrent(current.second)) continue;
-      m_touching.push_back(current);
+      contact.first = m_table->entry(event.body).key;
+      contact.second = event.is_other_soft ? m_table->entry(event.other).key : m_obstacles.keyOf(event.other);
+      if (!store.isCurrent(contact.first) || !store.isCurrent(contact.second)) continue;
+      contact.time = 1;
+      contact.first_order = store.order(contact.first.slot);
+      contact.second_order = store.order(contact.second.slot);
+      m_touching.push_back({contact, event.body, event.other, event.is_other_soft});
     } else {
-      current = *touch;
+      contact = touch->contact;
       m_touching.erase(touch);
     }
-    m_contact_changes.push_back({1, current.first, current.second, store.order(current.first.slot),
-                                 store.order(current.second.slot), event.impulse, event.is_begin,
-                                 BodySolver::kFlight});
+    contact.impulse = event.impulse;
+    contact.is_begin = event.is_begin;
+    m_contact_changes.push_back(contact);
   }
 }
 

@@ -34,7 +34,7 @@ class SoftLayer : public df::Layer {
 
  private:
   struct Touch {
-    ObjectKey first, second;
+    BodyContact contact;
     // Ids in the SoftWorld:
     int body;
     int other;
@@ -44,6 +44,10 @@ class SoftLayer : public df::Layer {
   void prepare(const World& world, int id);
   void setForces(int id);
   void collectContacts(const WorldStore& store);
+  template <class IsOver>
+  void endContacts(IsOver isOver);
+  void send(World& world);
+  void endMarked(World& world);
   void settle(World& world, int id);
   void freeze(World& world, int id);
   void publish(World& world, int id);

@@ -155,9 +155,10 @@ class Cloth : public SoftBody {
  public:
   /// `width` and `height` are in cells, 0.5 … 1000. `stiffness`, 1e-6 … 1e6: a hanging cloth stretches by
   /// about gravity / (2 · stiffness) of its height. `columns` and `rows` of threads are 2 … 128; 0 chooses
-  /// the number by the size, at most 25. Above about 25 × 25 another method moves the body, whose cost grows
-  /// with the number of nodes (docs/physics/soft.md). If either is given, threads become taut when stretched
-  /// by 3 % (or 0.15 / stiffness, if that is more), so that the corners by which a cloth hangs can bear it.
+  /// the number by the size, at most 25. From about 20 × 20 on, another method moves the body, whose cost
+  /// grows with the number of nodes (docs/physics/soft.md). If either is given, threads become taut when
+  /// stretched by 3 % (or 0.15 / stiffness, if that is more), so that the corners by which a cloth hangs can
+  /// bear it.
   Cloth(Vector corner, double width, double height, double mass = 1, double stiffness = 5, int columns = 0,
         int rows = 0);
   /// Return the numbers of columns and rows of threads: one more than those of the meshes between them.

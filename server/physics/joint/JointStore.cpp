@@ -24,6 +24,7 @@ bool JointStore::set(int id, const Joint& joint) {
   Joint& own = m_entries[at(id)].joint;
   if (joint.kind != own.kind || joint.b != own.b || firstOf(joint) != firstOf(own)) return false;
   const bool is_broken = own.is_broken;
+  if (rowsOf(joint) != rowsOf(own)) m_entries[at(id)].memory = {};
   own = joint;
   own.is_broken = is_broken;
   return true;

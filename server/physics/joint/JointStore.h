@@ -20,6 +20,12 @@ class JointStore {
   /// Replaces a joint. Returns false if its kind or bodies differ. A broken joint stays broken.
   bool set(int id, const Joint& joint);
   void remove(int id);
+  /// Sets the multipliers of a body's joints to 0.
+  void forget(int body) {
+    for (const int id : m_order) {
+      if (joint(id).b == body || firstOf(joint(id)) == body) m_entries[at(id)].memory = {};
+    }
+  }
   bool exists(int id) const { return id >= 0 && id < limit() && m_entries[at(id)].exists; }
   /// Returns the joint with the results of the last step.
   const Joint& joint(int id) const { return m_entries[at(id)].joint; }

@@ -30,6 +30,11 @@ inline constexpr double kGamma = 0.27488882959532694;
 inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
                                                         -1.0 / 3};
 inline constexpr int kMaxNewton = 10;  ///< limit of iterations; beyond it, the step is shortened
+// For takeCoarsely():
+inline constexpr int kMaxTests = 64;          ///< limit of the tests of a change
+inline constexpr double kPartCut = 0.25;      ///< factor of the part of a change that is tested next
+inline constexpr double kPartGrowth = 16;     ///< factor of the part at the next change
+inline constexpr double kSmallChange = 1e-6;  ///< of the state: the iteration ends
 
 template <int N>
 using Stages = std::array<StateVector<N>, 3>;
@@ -84,28 +89,42 @@ class Step {
     return has_converged;
   }
 
-  /// The last resort, without error control: y += (I − hJ)⁻¹·h·y′. The state is not changed if this increment
-  /// points away from the derivative or is over √1.5 times as long as h·y′, because then the solution runs
-  /// away faster than a step can resolve. Returns false if the matrix is singular.
+  /// The last resort, without error control: a step of backward Euler, by Newton's method. It is damped, so
+  /// that it also finds the balance of a force that hardly changes except there. The state is not changed if
+  /// the first increment points away from the derivative or is over √1.5 times as long as h·y′, because then
+  /// the solution runs away faster than a step can resolve. Returns false if the matrix is singular.
   bool takeCoarsely(double t, StateVector<N>& y, double length) {
+    const StateVector<N> start = y;
     evaluate(t, y, m_rate);
-    findJacobian(t, y);
-    auto& matrix = m_filter.matrix();
-    StateVector<N> change;
-    for (int m = 0; m < N; ++m) {
-      change[m] = length * m_rate[m];
-      for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * m_jacobian[m][n];
+    double part = 1;
+    int tests = 0;
+    for (bool is_first = true; tests < kMaxTests; is_first = false) {
+      findJacobian(t, y);
+      auto& matrix = m_filter.matrix();
+      for (int m = 0; m < N; ++m) {
+        for (int n = 0; n < N; ++n) matrix[m][n] = (m == n) - length * m_jacobian[m][n];
+      }
+      if (!m_filter.decompose()) return !is_first;
+      StateVector<N> change = missing(start, y, length);
+      const double size = norm(change);
+      if (is_first) {
+        double along = 0;
+        for (int m = 0; m < N; ++m) along += change[m] * m_rate[m];
+        if (along < 0 || size * size > 1.5 * length * length * squareOf(m_rate)) return true;
+      }
+      // The part of the change that brings the solution nearer (Deuflhard's natural test of monotonicity).
+      StateVector<N> next = y;
+      double left = 0;
+      for (part = std::min(1.0, kPartGrowth * part); tests++ < kMaxTests; part *= kPartCut) {
+        for (int m = 0; m < N; ++m) next[m] = y[m] + part * change[m];
+        evaluate(t, next, m_rate);
+        left = norm(missing(start, next, length));
+        if (left <= (1 - 0.5 * part) * size) break;
+      }
+      if (!(left <= (1 - 0.5 * part) * size)) return true;
+      y = next;
+      if (left <= kSmallChange * norm(y)) return true;
     }
-    if (!m_filter.decompose()) return false;
-    m_filter.solve(change);
-    double along = 0, square = 0, free_square = 0;
-    for (int m = 0; m < N; ++m) {
-      along += change[m] * m_rate[m];
-      square += change[m] * change[m];
-      free_square += length * length * m_rate[m] * m_rate[m];
-    }
-    if (along < 0 || square > 1.5 * free_square) return true;
-    for (int m = 0; m < N; ++m) y[m] += change[m];
     return true;
   }
 
@@ -142,6 +161,22 @@ class Step {
   }
 
  private:
+  static double squareOf(const StateVector<N>& v) {
+    double square = 0;
+    for (const double x : v) square += x * x;
+    return square;
+  }
+  static double norm(const StateVector<N>& v) { return std::sqrt(squareOf(v)); }
+
+  // Returns the change of `y` by Newton's method for a step of backward Euler from `start`, with the
+  // derivative m_rate at `y` and the decomposed matrix.
+  StateVector<N> missing(const StateVector<N>& start, const StateVector<N>& y, double length) const {
+    StateVector<N> change;
+    for (int m = 0; m < N; ++m) change[m] = start[m] + length * m_rate[m] - y[m];
+    m_filter.solve(change);
+    return change;
+  }
+
   void evaluate(double t, const StateVector<N>& y, StateVector<N>& rate) {
     m_system.derivative(t, y, rate);
     ++m_counters.evaluations;
@@ -316,8 +351,8 @@ IntegratorStatus integrateByRadau(const System& system, double& t, double end, S
   return IntegratorStatus::kDone;
 }
 
-/// Integrates in this many equal, linearly implicit steps (Rosenbrock's method of order 1). The result is
-/// bounded for any stiffness, but there is no error control.
+/// Integrates in this many equal steps of backward Euler, which damp. The result is bounded for any
+/// stiffness, but there is no error control.
 template <int N, class System>
 IntegratorStatus integrateCoarsely(const System& system, double t, double end, StateVector<N>& y, int steps,
                                    const IntegratorOptions& options, IntegratorCounters& counters) {

@@ -14,6 +14,9 @@ namespace {
 constexpr double kStiffness = 1e4;
 constexpr double kRounding = 1e-14;  // precision of a sum of impulses, relative to the largest one
 constexpr int kSpareRounds = 2;      // limit of further rounds that make velocities and impulses agree
+constexpr int kFrictionRounds = 8;   // limit of further rounds that make friction agree with normal impulses
+constexpr std::size_t kFewBodies =
+    4;  // only for groups of at most this many bodies; others converge too slowly
 
 }  // namespace
 
@@ -192,6 +195,23 @@ bool RigidDirect::setForces(bool is_first) {
     is_same = is_same && side == before;
   }
   return is_same;
+}
+
+// True if the frictions agree with the limits by the present normal impulses, those of m_guess. The limits by
+// the impulses that were known before may be wrong: 0 for a new contact, too large for one that opens.
+bool RigidDirect::areFrictionsInBounds(double tolerance) const {
+  for (std::size_t i = 0; i < m_rows.size(); ++i) {
+    const DirectRow& row = m_rows[i];
+    if (row.normal < 0) continue;
+    const double most = row.friction * std::max(m_guess[at(row.normal)], 0.0), own = std::fabs(m_force[i]);
+    double mass = m_largest_mass;
+    for (const std::int32_t body : {row.a, row.b}) {
+      if (body >= 0 && m_mass[at(body)].x[0] > 0) mass = std::min(mass, m_mass[at(body)].x[0]);
+    }
+    if (own > most + tolerance * mass) return false;
+    if (m_side[i] != Side::kFree && own < most - tolerance * mass) return false;
+  }
+  return true;
 }
 
 // Returns the lowest rank of the row's bodies.
@@ -400,6 +420,10 @@ double RigidDirect::worstError() const {
       low = -high;
     }
     const double speed = speedOf(row) + row.softness * (row.impulse - row.before);
+    const bool is_outside =
+        row.impulse < low - kRounding * std::fabs(low) || row.impulse > high + kRounding * std::fabs(high);
+    if (is_outside && m_bodies.size() <= kFewBodies)  // because the limits have changed
+      return std::numeric_limits<double>::infinity();
     if (row.impulse <= low && row.impulse >= high) continue;
     if (row.impulse <= low) {
       worst = std::max(worst, -speed);
@@ -440,7 +464,7 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
     }
     return true;
   };
-  int spare_rounds = kSpareRounds;
+  int spare_rounds = kSpareRounds, friction_rounds = kFrictionRounds;
   bool is_found = false, is_left = false;  // is_left: a further round has left the solution that was found
   m_changed = 0;
   setForces(true);
@@ -471,7 +495,10 @@ bool RigidDirect::solve(std::span<RigidState> states, double tolerance, int most
     if (worst <= tolerance) {
       is_found = true;
       is_left = false;
-      if (areBalanced() || rounds == most_rounds || spare_rounds-- == 0) break;
+      const bool are_balanced = areBalanced();
+      const bool are_in_bounds = m_bodies.size() > kFewBodies || areFrictionsInBounds(tolerance);
+      if ((are_balanced && are_in_bounds) || rounds == most_rounds) break;
+      if (are_in_bounds ? spare_rounds-- == 0 : friction_rounds-- == 0) break;
       m_found_velocity = m_velocity;
       m_found_force = m_force;
     }

@@ -61,6 +61,7 @@ class RigidDirect {
   void setStiffnesses();
   std::int32_t firstOf(const DirectRow& row) const;
   bool setForces(bool is_first);
+  bool areFrictionsInBounds(double tolerance) const;
   void computeResidual();
   void assemble();
   struct Lever;

@@ -85,6 +85,15 @@ void RigidWorld::forgetPairs(int id) {
   std::erase_if(m_pairs, [id](const Pair& pair) { return pair.a == id || pair.b == id; });
 }
 
+// Lists the body's touching pairs, so that the next step knows that they touched.
+void RigidWorld::keepTouching(int id) {
+  for (const Pair& pair : m_pairs) {
+    if (!pair.is_touching || (pair.a != id && pair.b != id)) continue;
+    const bool in_order = isBefore(pair.a, pair.b);
+    m_late.push_back({in_order ? pair.a : pair.b, in_order ? pair.b : pair.a});
+  }
+}
+
 // Adds an event, with the lower id first.
 void RigidWorld::addEvent(RigidEvent event) {
   if (event.first > event.second) {
@@ -119,6 +128,9 @@ void RigidWorld::updatePairs() {
   }
   while (next < m_pairs_before.size()) dropPair(m_pairs_before[next++]);
   m_joints_changed = false;
+  if (!m_forgotten.empty())
+    applyForget(
+        m_pairs, [this](int id) { return isMovable(id); }, [this](Pair& pair) { dropContacts(pair); });
   for (const Late& late : m_late_before) {
     const std::int32_t pair = findPair(late.a, late.b);
     if (pair >= 0) {
@@ -227,7 +239,8 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         for (std::int32_t l = 0; l < memory.count; ++l) {
           if (memory.id[at(l)] != p.id) continue;
           p.normal_impulse = m_h * memory.normal_impulse[at(l)];
-          p.friction_impulse = m_h * memory.friction_impulse[at(l)];
+          // Without friction there is no row that would change it.
+          if (c.friction > 0) p.friction_impulse = m_h * memory.friction_impulse[at(l)];
         }
       }
     }
@@ -270,6 +283,7 @@ void RigidWorld::publishBegin(const ContactConstraint& c, double dt) {
       c.count > 1 ? std::min(c.points[0].separation, c.points[1].separation) : c.points[0].separation;
   if (index >= 0 && least <= linger) m_pairs[at(index)].is_near = true;
   if (!(impulse > 0)) return;
+  m_extras[at(c.a)].is_pushed = m_extras[at(c.b)].is_pushed = true;
   const bool is_late = index < 0;
   if (!is_late) {
     Pair& pair = m_pairs[at(index)];

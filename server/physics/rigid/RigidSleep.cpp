@@ -172,7 +172,9 @@ void RigidWorld::setSleeping(bool may_sleep) {
 }
 
 void RigidWorld::wake(int id) {
-  if (exists(id)) wakeRing(id);
+  if (!exists(id)) return;
+  wakeRing(id);
+  forget(id);
 }
 
 void RigidWorld::wakeRing(int id) {
@@ -192,11 +194,11 @@ void RigidWorld::wakeRing(int id) {
 void RigidWorld::wakeNeighbours(int id) {
   for (const Pair& pair : m_pairs) {
     if (pair.first < 0 || (pair.a != id && pair.b != id)) continue;
-    wakeRing(pair.a == id ? pair.b : pair.a);
+    wake(pair.a == id ? pair.b : pair.a);
   }
   m_joints.visitWorking([&](int a, int b) {
-    if (a == id) wakeRing(b);
-    if (a >= 0 && b == id) wakeRing(a);
+    if (a == id) wake(b);
+    if (a >= 0 && b == id) wake(a);
   });
 }
 

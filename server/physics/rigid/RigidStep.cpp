@@ -54,7 +54,7 @@ void RigidWorld::beginBody(int id, double dt) {
     state.spin_kick = 0.5 * m_h * spin_gain;
   }
   extra.moved = extra.rolled = 0;
-  extra.is_given_up = false;
+  extra.is_given_up = extra.is_pushed = false;
   if (extra.proxy < 0) return;
   const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
   extra.margin = std::min(movement, extra.thickness) + kSlack * extra.thickness;
@@ -162,6 +162,7 @@ void RigidWorld::pushOut(double h) {
   for (const int id : m_active) {
     RigidState& s = m_states[at(id)];
     if (!s.is_pushed) continue;
+    m_extras[at(id)].is_pushed = true;
     s.displacement += h * s.push;
     s.turn = turned(s.turn, h * s.push_spin);
     s.push = {};
@@ -230,6 +231,7 @@ void RigidWorld::drift(double h) {
   for (const Flight& flight : m_flights) {
     Extra& extra = m_extras[at(flight.id)];
     extra.flight = -1;
+    extra.is_pushed = extra.is_pushed || flight.is_held;
     if (flight.impacts == 0) continue;
     // Impacts may have made the body faster.
     const RigidState& s = m_states[at(flight.id)];

@@ -9,8 +9,11 @@
 namespace naiad::physics {
 
 void RigidStepper::wakeEnds(const Joint& joint) {
-  wakeRing(joint.b);
-  if (JointStore::firstOf(joint) >= 0) wakeRing(joint.a);
+  for (const int id : {joint.b, JointStore::firstOf(joint)}) {
+    if (id < 0) continue;
+    wakeRing(id);
+    forget(id);
+  }
 }
 
 int RigidStepper::addJoint(const Joint& joint, bool may_touch) {

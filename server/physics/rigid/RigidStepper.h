@@ -55,6 +55,8 @@ class RigidStepper {
   virtual int idLimit() const = 0;
   /// True if the body is in quarantine: it does not move and collides with nothing until set().
   virtual bool isFrozen(int id) const = 0;
+  /// True if a contact pushed the body in the last step, or it sleeps. (The forces of joints do not count.)
+  virtual bool isPushed(int id) const = 0;
   /// True if the body was stopped or diverted on its path in the last step, although nothing pushed it;
   /// always false in a RigidWorld.
   virtual bool isStopped(int id) const = 0;
@@ -88,10 +90,19 @@ class RigidStepper {
   bool hasFrictionParts() const { return !m_friction_parts.empty(); }
   /// Returns the friction of a contact of two bodies.
   double frictionOf(int a, int b, const Manifold& manifold) const;
+  /// Call when the body was changed from outside: the next step finds its contacts and those of its group
+  /// without memory, as in a new world. Larger groups keep it, because their sweeps need it.
+  void forget(int body) { m_forgotten.push_back(body); }
+  /// Finds the small groups of the bodies for which forget() was called, and calls drop(pair) for each pair
+  /// of `pairs` with one of their bodies.
+  template <class Pairs, class IsMovable, class Drop>
+  void applyForget(Pairs& pairs, IsMovable isMovable, Drop drop);
   void sortEvents();
 
   std::vector<RigidEvent> m_events;
   bool m_joints_changed = false;
+  std::vector<int> m_forgotten;         // bodies for which forget() was called
+  std::vector<std::uint8_t> m_forgets;  // by id, only valid within applyForget()
 
  private:
   struct PartOfBody {
@@ -106,5 +117,43 @@ class RigidStepper {
   virtual void wakeRing(int id) = 0;
   void wakeEnds(const Joint& joint);
 };
+
+template <class Pairs, class IsMovable, class Drop>
+void RigidStepper::applyForget(Pairs& pairs, IsMovable isMovable, Drop drop) {
+  constexpr std::size_t kSmall = 4;  // bodies of a group that is solved without memory
+  m_forgets.assign(static_cast<std::size_t>(idLimit()), 0);
+  std::vector<int> group;
+  const auto isIn = [&](int id) { return m_forgets[static_cast<std::size_t>(id)] == 1; };
+  for (const int first : m_forgotten) {
+    if (!exists(first) || m_forgets[static_cast<std::size_t>(first)] != 0) continue;
+    group.assign(1, first);
+    m_forgets[static_cast<std::size_t>(first)] = 1;
+    const auto add = [&](int from, int to) {
+      if (!isIn(from) || !(isMovable(from) || from == first)) return;
+      if (m_forgets[static_cast<std::size_t>(to)] != 0 || !isMovable(to)) return;
+      m_forgets[static_cast<std::size_t>(to)] = 1;
+      group.push_back(to);
+    };
+    for (std::size_t before = 0; before < group.size() && group.size() <= kSmall;) {
+      before = group.size();
+      for (const auto& pair : pairs) {
+        if (pair.first >= 0) add(pair.a, pair.b), add(pair.b, pair.a);
+      }
+      joints().visitWorking([&](int a, int b) {
+        if (a >= 0) add(a, b), add(b, a);
+      });
+    }
+    const bool is_small = group.size() <= kSmall;
+    for (auto& pair : pairs) {
+      if (is_small && ((isIn(pair.a) && isMovable(pair.a)) || (isIn(pair.b) && isMovable(pair.b))))
+        drop(pair);
+    }
+    for (const int id : group) {
+      if (is_small && isMovable(id)) joints().forget(id);
+      m_forgets[static_cast<std::size_t>(id)] = 2;
+    }
+  }
+  m_forgotten.clear();
+}
 
 }  // namespace naiad::physics

@@ -46,6 +46,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   RigidBody& own = m_bodies[at(id)];
   if (own == body && !extra.is_frozen) return true;
   const bool was_movable = isMovable(id);
+  if (own.turn_rate == 0 || body.turn_rate == 0) forget(id);  // a magnet changes it in each tick
   wakeRing(id);
   if (!was_movable) wakeNeighbours(id);
   own = body;
@@ -53,6 +54,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   extra.still = 0;
   if (extra.is_frozen || was_movable != isMovable(id)) {
     leave(id);
+    keepTouching(id);
     forgetPairs(id);  // its pairs must be found again, because their order has changed
     enter(id);
   } else if (!was_movable) {
@@ -71,6 +73,7 @@ bool RigidWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
   m_extras[at(id)].shapes.assign(shapes.begin(), shapes.end());
   measure(id);
   enter(id);
+  forget(id);
   return true;
 }
 
@@ -81,6 +84,7 @@ bool RigidWorld::remove(int id) {
   removeJointsOf(id);
   leave(id);
   forgetPairs(id);
+  std::erase_if(m_late, [id](const Late& late) { return late.a == id || late.b == id; });
   m_extras[at(id)].exists = false;
   m_first_free = std::min(m_first_free, id);
   return true;
@@ -135,7 +139,6 @@ void RigidWorld::leave(int id) {
   for (Pair& pair : m_pairs) {
     if (pair.a != id && pair.b != id) continue;
     dropContacts(pair);
-    pair.is_touching = false;
   }
   m_active_changed = true;
 }

@@ -68,11 +68,12 @@ class RigidWorld final : public RigidStepper {
   std::span<const ConvexShape> shapes(int id) const { return m_extras[at(id)].shapes; }
   bool exists(int id) const override { return id >= 0 && id < idLimit() && m_extras[at(id)].exists; }
   bool isFrozen(int id) const override { return m_extras[at(id)].is_frozen; }
+  bool isPushed(int id) const override { return m_extras[at(id)].is_pushed || m_extras[at(id)].is_asleep; }
   bool isStopped(int /*id*/) const override { return false; }
   bool isGivenUp(int id) const override { return m_extras[at(id)].is_given_up; }
   bool hasThinned() const override { return m_broad.hasThinned(); }
   bool isAsleep(int id) const { return m_extras[at(id)].is_asleep; }
-  /// Wakes the body and the bodies that fell asleep with it.
+  /// Wakes the body and the bodies that fell asleep with it. Its group starts without memory (forget()).
   void wake(int id);
   int idLimit() const override { return static_cast<int>(m_bodies.size()); }
 
@@ -109,6 +110,7 @@ class RigidWorld final : public RigidStepper {
     bool exists = false;
     bool is_frozen = false;
     bool is_asleep = false;
+    bool is_pushed = false;  // a contact pushed or stopped it in the last step
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
@@ -212,6 +214,7 @@ class RigidWorld final : public RigidStepper {
   // Defined in RigidPairs.cpp:
   void updatePairs();
   void dropPair(Pair& pair);
+  void keepTouching(int id);
   void forgetPairs(int id);
   void addEvent(RigidEvent event);
   void updateContacts(double dt);

@@ -25,8 +25,9 @@ namespace naiad::physics {
 /// The step of a body stored elsewhere, whose topology must stay constant. Only prepare() allocates.
 class SoftElastic {
  public:
-  /// Limit of nodes · band² for bodies that are not wide: just above that of 25 × 25 nodes.
-  static constexpr double kMaxDirectPrice = 2e6;
+  /// Limit of nodes · band² for bodies that are not wide: just below that of 20 × 20 nodes, where a wide body
+  /// costs half as much.
+  static constexpr double kMaxDirectPrice = 7e5;
   /// Nodes · band² above which decompositions are used again: just below that of 12 × 12 nodes.
   static constexpr double kKeptPrice = 1e5;
   /// Limit of diagonals of a wide body's matrix. A cloth has four: along, across, and two oblique.

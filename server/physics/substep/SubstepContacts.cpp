@@ -90,7 +90,7 @@ void SubstepWorld::wakeChanged() {
   if (m_changed.empty()) return;
   const auto wakeBoth = [&](std::int32_t a, std::int32_t b) {
     if (!m_bodies[at(a)].is_changed && !m_bodies[at(b)].is_changed) return;
-    for (const std::int32_t id : {a, b}) wakeRing(id);
+    for (const std::int32_t id : {a, b}) wakeRing(id), forget(id);
   };
   for (const Pair& pair : m_pairs) {
     if (pair.first >= 0) wakeBoth(pair.a, pair.b);
@@ -127,6 +127,13 @@ void SubstepWorld::updatePairs() {
   }
   while (old != m_pairs_before.end()) drop();
   m_joints_changed = false;
+  if (m_forgotten.empty()) return;
+  const auto forgetPair = [this](Pair& pair) {
+    dropMemory(pair);
+    for (const std::int32_t id : {pair.a, pair.b}) m_bodies[at(id)].pushed_at = -1, m_bodies[at(id)].push = 0;
+  };
+  applyForget(
+      m_pairs, [this](int id) { return isMovable(m_bodies[at(id)]); }, forgetPair);
 }
 
 // Updates the manifold's gaps. True if the bodies hardly moved relative to each other since it was found.

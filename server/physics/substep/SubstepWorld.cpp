@@ -139,6 +139,7 @@ bool SubstepWorld::set(int id, const RigidBody& body) {
   if (b.body == body && !b.is_frozen) return true;
   if (!isValid(body)) return false;
   const bool was_movable = isMovable(b);
+  if (b.body.turn_rate == 0 || body.turn_rate == 0) forget(id);  // a magnet changes it in each tick
   wakeRing(id);
   b.still = 0;
   b.body = body;
@@ -168,6 +169,7 @@ bool SubstepWorld::setShapes(int id, std::span<const ConvexShape> shapes) {
   m_forms.giveBack(std::exchange(b.form, m_forms.take(shapes)));
   measure(b);
   enter(id);
+  forget(id);
   return true;
 }
 

@@ -61,6 +61,10 @@ class SubstepWorld final : public RigidStepper {
   const RigidBody& body(int id) const override { return m_bodies[at(id)].body; }
   bool exists(int id) const override { return id >= 0 && id < idLimit() && m_bodies[at(id)].exists; }
   bool isFrozen(int id) const override { return m_bodies[at(id)].is_frozen; }
+  bool isPushed(int id) const override {
+    const SubstepBody& b = m_bodies[at(id)];
+    return b.is_asleep || (b.pushed_at >= 0 && b.pushed_at > m_steps - m_options.searches);
+  }
   bool isStopped(int id) const override { return m_bodies[at(id)].state > 0 && m_bodies[at(id)].is_stopped; }
   bool isGivenUp(int /*id*/) const override { return false; }
   bool hasThinned() const override { return m_broad.hasThinned(); }

@@ -1,5 +1,6 @@
 // Contact events of bodies, and the functions that handlers may call.
 #include <numbers>
+#include <set>
 
 #include "engine/events/EventOut.h"
 #include "engine/world/Capture.h"
@@ -226,6 +227,186 @@ TEST_F(BodyContacts, GalperinsBilliardCountsTheDigitsOfPi) {
     delete p_light;
     delete p_heavy;
     delete p_wall;
+  }
+}
+
+TEST_F(BodyContacts, ZoneHearsTheEndOfDeletedBodies) {
+  for (const Solidness solidness : {SOFT, HARD}) {
+    auto* p_zone = crate<Listener>(Vector(0, 0), Vector(3, 3));
+    p_zone->setSolidness(SOFT);
+    p_zone->setKinematic();
+    p_zone->setContactEnds();
+    Body* const bodies[] = {crate(Vector(-2, 0)), crate(Vector(0, 0)), crate(Vector(2, 0))};
+    for (Body* p_body : bodies) p_body->setSolidness(solidness);
+    ticks(2);
+    EXPECT_EQ(p_zone->begins(), 3);
+    WM.markForDelete(bodies[0]);
+    ticks(1);
+    ASSERT_EQ(p_zone->ends(), 1);
+    EXPECT_EQ(p_zone->notes.back().p_second, bodies[0]);  // it existed during the event
+    delete bodies[1];
+    ticks(1);
+    ASSERT_EQ(p_zone->ends(), 2);
+    EXPECT_EQ(p_zone->notes.back().p_second, nullptr);
+    bodies[2]->setSolidness(SPECTRAL);
+    ticks(3);
+    EXPECT_EQ(p_zone->ends(), 3);
+    EXPECT_EQ(p_zone->begins(), 3);
+    delete p_zone;
+    delete bodies[2];
+  }
+}
+
+// The Objects of a random scene by number. A number is never used again.
+struct Crowd {
+  static constexpr int kFloor = -1;
+  std::map<const Object*, int> numbers;
+  std::map<int, Object*> living;
+  std::map<int, Object*> inactive;
+  std::uint32_t seed = 1;
+  int next = 0, ends = 0;
+
+  double part() { return ((seed = seed * 1664525 + 1013904223) >> 8) / 16777216.0; }
+  int below(int n) { return static_cast<int>(n * part()); }
+  void enter(Object* p_object) { living[numbers[p_object] = next++] = p_object; }
+  int numberOf(const Object* p_object) const {
+    const auto at = numbers.find(p_object);
+    return at != numbers.end() ? at->second : kFloor;
+  }
+  void leave(Object* p_object) {
+    inactive.erase(numbers[p_object]);
+    living.erase(numbers[p_object]);
+    numbers.erase(p_object);
+  }
+  Object* any() {
+    auto at = living.begin();
+    std::advance(at, below(static_cast<int>(living.size())));
+    return at->second;
+  }
+  void change(Object* p_object);
+};
+
+template <class Base>
+class InCrowd : public Base {
+ public:
+  explicit InCrowd(Crowd& its) : crowd(its) { crowd.enter(this); }
+  ~InCrowd() override { crowd.leave(this); }
+
+  Crowd& crowd;
+};
+
+// Checks that each contact has one begin and one end.
+class Guest : public InCrowd<Body> {
+ public:
+  using InCrowd<Body>::InCrowd;
+  int eventHandler(const Event* p_e) override {
+    if (p_e->getType() == COLLISION_EVENT) {
+      const auto* p_c = static_cast<const EventCollision*>(p_e);
+      Object* p_other = p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1();
+      EXPECT_TRUE(open.insert(crowd.numberOf(p_other)).second) << "a second begin";
+      const bool is_floor = crowd.numberOf(p_other) == Crowd::kFloor;
+      if (crowd.below(8) == 0) crowd.change(crowd.below(2) == 0 && !is_floor ? p_other : this);
+    } else if (p_e->getType() == CONTACT_END_EVENT) {
+      const auto* p_c = static_cast<const EventContactEnd*>(p_e);
+      Object* p_other = p_c->getObject1() == this ? p_c->getObject2() : p_c->getObject1();
+      const auto gone = std::find_if(open.begin(), open.end(), [&](int number) {
+        return number != Crowd::kFloor && crowd.living.count(number) == 0;
+      });
+      if (p_other == nullptr) {
+        EXPECT_NE(gone, open.end()) << "an end without a begin";
+        if (gone != open.end()) open.erase(gone);
+      } else {
+        EXPECT_EQ(open.erase(crowd.numberOf(p_other)), 1u) << "an end without a begin";
+      }
+      ++crowd.ends;
+      if (crowd.below(8) == 0) crowd.change(this);
+    }
+    return 1;
+  }
+
+  std::set<int> open;
+};
+
+void Crowd::change(Object* p_object) {
+  auto* p_body = dynamic_cast<Body*>(p_object);
+  constexpr Solidness kAll[] = {HARD, SOFT, SPECTRAL};
+  switch (below(p_body != nullptr ? 9 : 5)) {
+    case 0:
+      delete p_object;
+      break;
+    case 1:
+      WM.markForDelete(p_object);
+      break;
+    case 2:
+      p_object->setPosition(Vector(10 * part() - 5, -6 * part()));
+      break;
+    case 3:
+    case 4:
+      p_object->setSolidness(kAll[below(3)]);
+      break;
+    case 5:
+      p_body->setKinematic(!p_body->isKinematic());
+      break;
+    case 6:
+      p_body->setTurning(!p_body->isTurning());
+      break;
+    case 7:
+      p_body->setCircle(0.3 + 0.5 * part());
+      break;
+    default:
+      p_body->setBoxShape(0.5 + part(), 0.5 + part());
+  }
+}
+
+// Bodies and Objects are deleted and changed at random, by the game and by handlers.
+TEST_F(BodyContacts, EveryBeginHasOneEnd) {
+  for (int round = 0; round < 16; ++round) {
+    OwnWorld own;
+    Crowd crowd;
+    crowd.seed = static_cast<std::uint32_t>(round + 1);
+    if (round % 2 == 1) PM.setAccuracy(ACCURACY_FAST);
+    PM.setGravity(Vector(0, 0.01));
+    wall(Vector(0, 5), Vector(50, 5));
+    for (int tick = 0; tick < 200; ++tick) {
+      while (crowd.living.size() < 14) {
+        Object* p_new = nullptr;
+        if (crowd.below(4) == 0) {
+          p_new = new InCrowd<Object>(crowd);
+        } else {
+          auto* p_guest = new Guest(crowd);
+          p_new = p_guest;
+          p_guest->setContactEnds();
+          if (crowd.below(2) == 0) p_guest->setTurning();
+          if (crowd.below(3) == 0) p_guest->setCircle(0.5);
+          if (crowd.below(4) == 0) p_guest->setRestitution(0.8);
+          p_guest->setVelocity(Vector(crowd.part() - 0.5, crowd.part() - 0.5));
+        }
+        p_new->setPosition(Vector(10 * crowd.part() - 5, -6 * crowd.part()));
+        if (crowd.below(4) == 0) p_new->setSolidness(SOFT);
+      }
+      for (int i = crowd.below(3); i > 0; --i) crowd.change(crowd.any());
+      if (tick % 10 == 0) {  // an inactive Object gets no events
+        for (const auto& [number, p_object] : crowd.inactive) p_object->setActive();
+        crowd.inactive.clear();
+        Object* p_object = crowd.any();
+        crowd.inactive[crowd.numbers[p_object]] = p_object;
+        p_object->setActive(false);
+        if (auto* p_guest = dynamic_cast<Guest*>(p_object)) p_guest->open.clear();
+      }
+      if (tick % 50 == 49)
+        PM.setAccuracy(PM.getAccuracy() == ACCURACY_FAST ? ACCURACY_DEFAULT : ACCURACY_FAST);
+      own.world.update();
+      ASSERT_FALSE(HasFailure()) << "round " << round << " tick " << tick;
+    }
+    for (const auto& [number, p_object] : crowd.living) p_object->setPosition(Vector(30 * number, -1000));
+    PM.setGravity(Vector());
+    for (int i = 0; i < 5; ++i) own.world.update();
+    for (const auto& [number, p_object] : crowd.living) {
+      const auto* p_guest = dynamic_cast<const Guest*>(p_object);
+      EXPECT_TRUE(p_guest == nullptr || p_guest->open.empty()) << "round " << round << ' ' << number;
+    }
+    EXPECT_GT(crowd.ends, 50);
+    while (!crowd.living.empty()) delete crowd.living.begin()->second;
   }
 }
 

@@ -1,4 +1,5 @@
 // Force fields of any stiffness: their cost, and how well the energy is conserved.
+#include <cmath>
 #include <cstdint>
 
 #include "physics/body/Field.h"
@@ -74,6 +75,46 @@ TEST_F(BodyFields, StiffFieldKeepsEnergyInFlight) {
       ASSERT_NEAR(p_ball->getPosition().y(), fallen, 1e-8 * fallen) << k << ' ' << i;
     }
     delete p_ball;
+  }
+}
+
+// A force that is constant on both sides of x = 0 and changes its sign within a fiftieth of a cell.
+class Switch : public Field {
+ public:
+  explicit Switch(double strength) : m_strength(strength) {}
+  Vector accelerationAt(Vector d, Vector /*v*/, double /*time*/) const override {
+    ++calls;
+    return Vector(-m_strength * std::tanh(50 * d.x()), 0);
+  }
+  mutable std::int64_t calls = 0;
+
+ private:
+  double m_strength;
+};
+
+// No body freezes, in the air and on a floor. In the air, none swings farther than from where it started.
+TEST_F(BodyFields, SwitchedForceHoldsABodyAtAnyStrength) {
+  for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
+    for (double strength = 1; strength <= 1e12; strength *= 10) {
+      OwnWorld own;
+      PM.setAccuracy(accuracy);
+      layFloor();
+      const Switch field(strength);
+      Body* const bodies[] = {ball(Vector(1, -20), Vector()), crate(Vector(1, -0.5)),
+                              turningCrate(Vector(1, -0.5))};
+      bodies[0]->setGravityScale(0);
+      bodies[2]->setPosition(Vector(1, -4));
+      for (Body* p_body : bodies) p_body->setField(&field);
+      for (int i = 0; i < 20; ++i) {
+        field.calls = 0;
+        own.world.update();
+        ASSERT_LE(field.calls, 30'000) << strength << ' ' << i;
+      }
+      for (const Body* p_body : bodies) {
+        EXPECT_FALSE(p_body->isFrozen()) << accuracy << ' ' << strength;
+      }
+      EXPECT_LE(std::fabs(bodies[0]->getPosition().x()), 1.001) << accuracy << ' ' << strength;
+    }
   }
 }
 
