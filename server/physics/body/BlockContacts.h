@@ -30,7 +30,7 @@ class BlockContacts {
   struct View {
     const BoxUnion::Block* p_shape = nullptr;  ///< null: there is no such block any more
     std::span<const Member> members;           ///< none: Objects of the store
-    Place base;                                ///< of a platform at the end of the tick
+    Place base;                                ///< a platform's place at the end of the tick
     Vec2 velocity;
   };
   /// A body and its motion in this tick.
@@ -38,7 +38,7 @@ class BlockContacts {
     ObjectKey key;  ///< generation 0: the solver does not move it any more
     std::span<const ConvexShape> shapes;
     Pose start, end;
-    Vec2 velocity;  ///< at the start
+    Vec2 velocity;  ///< velocity at the start
   };
 
   bool isEmpty() const { return m_touches.empty(); }

@@ -1,4 +1,4 @@
-// The contacts of bodies and Objects, independent of who found them: a solver, or BodySensors. A pair whose
+// The contacts of bodies and Objects, whether a solver or BodySensors found them. A pair whose
 // solver or solidness changes neither gets a second EventCollision for a lasting contact, nor misses the
 // EventContactEnd.
 #pragma once
@@ -36,12 +36,12 @@ class BodyContacts {
   void expire(ObjectKey key, BodySolver by) { m_lapses.push_back({key, 1, by}); }
   /// Call when the body changed its solver: its contacts end soon, unless the new solver finds them.
   void handOver(ObjectKey key) { m_lapses.push_back({key, kHandOverTicks, std::nullopt}); }
-  /// Like handOver(key), for the contact of a sensor that is none any more.
+  /// Like handOver(key), for the contact of a body that has stopped being a sensor.
   void handOver(ObjectKey first, ObjectKey second);
 
   /// Ends the tick. Returns the contacts that began or ended in it.
   std::vector<BodyContact>& finishTick();
-  /// Call when the events of `contacts` were sent: remembers who missed them.
+  /// Call when the events of `contacts` were sent: remembers which receivers missed them.
   void noteMissed(const std::vector<BodyContact>& contacts);
   /// Ends all contacts of the Objects that are marked for deletion, of sensors too. Returns them.
   std::vector<BodyContact>& endMarked(const WorldStore& store);

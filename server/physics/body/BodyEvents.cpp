@@ -37,7 +37,7 @@ void sendContactEnd(World& world, const BodyContact& contact, std::uint8_t misse
   if ((missed & kSecond) == 0) sendTo(contact.second);
 }
 
-// Returns who missed the event.
+// Returns the receivers that missed the event.
 std::uint8_t sendCollision(World& world, const BodyContact& contact) {
   const WorldStore& store = world.store();
   const std::uint32_t slot = contact.first.slot;
@@ -57,7 +57,7 @@ std::uint8_t sendCollision(World& world, const BodyContact& contact) {
   return missed;
 }
 
-// Returns who missed the begin of the contact that ends with the entry `end`.
+// Returns the receivers that missed the begin of the contact that ends with the entry `end`.
 std::uint8_t missedBefore(const std::vector<BodyContact>& contacts, std::size_t end) {
   for (std::size_t i = end; i-- > 0;) {
     const BodyContact& contact = contacts[i];

@@ -50,7 +50,7 @@ void BodyObstacles::markNear(ObjectKey key) {
   at->is_near = true;
 }
 
-// True if a box beside a hidden side has changed or gone; then adds it to m_changed.
+// True if a box at a hidden side has changed or gone; then adds it to m_changed.
 bool BodyObstacles::hasLostNeighbour(const WorldStore& store, const Tile& tile) {
   for (const auto& [key, area] : tile.neighbours) {
     if (isObstacle(store, key) && BoxArea::of(store.worldBox(key.slot, store.position(key.slot))) == area)
@@ -97,7 +97,7 @@ void BodyObstacles::findChanges(const WorldStore& store) {
   }
 }
 
-// Finds the cells in which so many tiles are that they are not merged, because each would examine all others.
+// Finds the crowded cells, whose tiles are not merged, because each would examine all others.
 void BodyObstacles::findCrowds() {
   constexpr std::size_t kMany = 16;  // tiles whose middle is in one cell
   m_crowds.clear();
@@ -178,7 +178,7 @@ int BodyObstacles::blockOf(const Tile& tile, int side) {
   return found;
 }
 
-// Returns a new block. It reaches over all near tiles that lie on the same line with not too long gaps.
+// Returns a new block. It reaches over all near tiles that lie on one line, unless a gap is too long.
 BoxUnion::Block BodyObstacles::shapeAt(const Tile& tile, int side) {
   const std::size_t along = BoxArea::alongOf(side);
   const Fixed line = tile.area.line(side), most = 2 * BoxUnion::kMaxReach;
@@ -198,7 +198,7 @@ BoxUnion::Block BodyObstacles::shapeAt(const Tile& tile, int side) {
 }
 
 int BodyObstacles::addBlock(const Tile& tile, int side, const BoxUnion::Block& shape) {
-  for (int i = 0; i < kBoxSides; ++i) {  // shorter faces on the same lines are not complete any more
+  for (int i = 0; i < kBoxSides; ++i) {  // shorter faces on these lines are no longer complete
     if (!shape.is_complete[at(i)]) continue;
     const std::size_t along = BoxArea::alongOf(i);
     const auto [first, last] = m_faces.equal_range(faceKey(i, shape.whole.line(i)));
@@ -225,7 +225,7 @@ int BodyObstacles::addBlock(const Tile& tile, int side, const BoxUnion::Block& s
   return number;
 }
 
-// Marks blocks stale in which there is a hole beside this tile now.
+// Marks blocks stale in which there is now a hole next to this tile.
 void BodyObstacles::dropHollow(const Tile& tile) {
   for (Block& block : m_blocks) {
     if (block.is_fresh || block.is_stale || !BoxUnion::areTouching(block.shape.whole, tile.area)) continue;

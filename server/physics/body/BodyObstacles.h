@@ -58,7 +58,7 @@ class BodyObstacles {
     bool is_known = false;  // true if `blocks` is valid
     BoxArea area = {};
     std::array<int, kBoxSides> blocks = {};       // by side: index in m_blocks, kHidden or kUnknown
-    std::vector<BoxUnion::Neighbour> neighbours;  // boxes beside hidden sides
+    std::vector<BoxUnion::Neighbour> neighbours;  // boxes at hidden sides
   };
 
   bool hasLostNeighbour(const WorldStore& store, const Tile& tile);

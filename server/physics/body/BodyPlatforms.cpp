@@ -99,7 +99,7 @@ void BodyPlatforms::addGroup(std::vector<BodyState>& states, Group group) {
   }
 }
 
-// Copies the platforms of the last tick if the group's bodies have the same relative positions.
+// Copies the platforms of the last tick if the group's bodies have their relative positions of then.
 bool BodyPlatforms::findAgain(Group& group) {
   std::size_t first = 0;
   for (const Group& old : m_groups_before) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Fixed kMinDepth = df::kFixedOne >> 20;  // a box must reach so far behind a face to be a part of it
 constexpr Fixed kReachAtOnce = 16 * df::kFixedOne;  // part of a face that is searched by one query
-constexpr std::size_t kMaxBoxes = 1024;             // after so many boxes, a block does not get deeper
+constexpr std::size_t kMaxBoxes = 1024;             // a block of more boxes does not get deeper
 
 Fixed inward(int side, Fixed line, Fixed depth) {
   return side % 2 == 0 ? line + depth : line - depth;
@@ -131,7 +131,7 @@ Fixed BoxUnion::depthOf(int side, Fixed line, Fixed from, Fixed to) {
   return depth;
 }
 
-// True if a face of a block goes on, at one of its ends, in boxes outside of the block.
+// True if boxes outside a block continue one of its faces.
 bool BoxUnion::continues(const BoxArea& whole, int side, bool is_up) const {
   const std::size_t along = BoxArea::alongOf(side);
   return std::any_of(m_found.begin(), m_found.end(), [&](const BoxArea& box) {
@@ -149,7 +149,7 @@ Fixed BoxUnion::coveredFrom(const BoxArea& area, int side, bool is_upper_end) co
   m_covers.clear();
   for (const BoxArea& box : m_found) {
     if (!isBeside(box, side, line)) continue;
-    // From the end on.
+    // The search begins at the end.
     const Fixed begin = is_upper_end ? area.high[along] - box.high[along] : box.low[along] - area.low[along];
     m_covers.emplace_back(begin, begin + (box.high[along] - box.low[along]));
   }
@@ -187,7 +187,7 @@ void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut, bool may_
   for (int side = 0; side < kBoxSides; ++side) {
     const auto at = static_cast<std::size_t>(side);
     if (side != own) goes_on[at] = {continues(whole, side, false), continues(whole, side, true)};
-    if (side / 2 == own / 2) {  // a face that is cut goes on, but its end is far from all bodies
+    if (side / 2 == own / 2) {  // a face that is cut continues, but its end is far from all bodies
       for (const std::size_t end : {0u, 1u}) goes_on[at][end] = goes_on[at][end] && !is_cut[end];
     }
     block.is_complete[at] = !goes_on[at][0] && !goes_on[at][1];
@@ -204,7 +204,7 @@ void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut, bool may_
     const Fixed size = whole.high[axis] - whole.low[axis];
     Fixed most = size, least = size;
     bool is_free = true;
-    for (const bool is_up : {false, true}) {  // the two faces beside this one
+    for (const bool is_up : {false, true}) {  // the two faces adjacent to this one
       const int beside = static_cast<int>(2 * BoxArea::alongOf(side)) + (is_up ? 1 : 0);
       const Fixed covered = coveredFrom(whole, beside, side % 2 == 1);
       if (goes_on[at][is_up ? 1 : 0]) least = std::min(least, covered);
@@ -219,7 +219,7 @@ void BoxUnion::trim(Block& block, int own, std::array<bool, 2> is_cut, bool may_
       outer[at] = least;
     }
   }
-  // At the outer corner of an L one of two faces must keep an edge; floors and ceilings get none. This block
+  // One of two faces at the outer corner of an L must keep an edge; floors and ceilings get none. This block
   // still reaches into the one that has the whole floor.
   for (const int side : {kTopSide, kBottomSide}) {
     const Fixed covered = outer[static_cast<std::size_t>(side)], line = whole.line(side);

@@ -1,9 +1,9 @@
 // Event sent to a Body or SoftBody when a contact ends, if setContactEnds() was called for it.
 //
 // Like EventCollisions, these events are sent after all bodies have moved, ordered by time, then by ids. A
-// bounce within a tick both begins and ends a contact. Each contact whose begin an Object was told ends once,
-// also if the other Object is deleted, frozen, made inactive or SPECTRAL, or moved away: an Object marked for
-// deletion ends its contacts in the same tick, while it still exists; after `delete`, the event comes in the
+// bounce within a tick both begins and ends a contact. For each begin of a contact, an Object gets one end,
+// also if the other Object is deleted, frozen, made inactive or SPECTRAL, or moved away. The contacts of an
+// Object marked for deletion end in that tick, while it still exists; after `delete`, the event comes in the
 // next tick.
 #pragma once
 

@@ -30,11 +30,11 @@ inline constexpr double kGamma = 0.27488882959532694;
 inline constexpr std::array<double, 3> kErrorWeights = {-(13 + 7 * kRoot6) / 3, (-13 + 7 * kRoot6) / 3,
                                                         -1.0 / 3};
 inline constexpr int kMaxNewton = 10;  ///< limit of iterations; beyond it, the step is shortened
-// For takeCoarsely():
+// Constants of takeCoarsely():
 inline constexpr int kMaxTests = 64;          ///< limit of the tests of a change
 inline constexpr double kPartCut = 0.25;      ///< factor of the part of a change that is tested next
 inline constexpr double kPartGrowth = 16;     ///< factor of the part at the next change
-inline constexpr double kSmallChange = 1e-6;  ///< of the state: the iteration ends
+inline constexpr double kSmallChange = 1e-6;  ///< relative change of the state at which the iteration ends
 
 template <int N>
 using Stages = std::array<StateVector<N>, 3>;

@@ -239,7 +239,7 @@ void RigidWorld::updatePair(std::int32_t index, double dt) {
         for (std::int32_t l = 0; l < memory.count; ++l) {
           if (memory.id[at(l)] != p.id) continue;
           p.normal_impulse = m_h * memory.normal_impulse[at(l)];
-          // Without friction there is no row that would change it.
+          // No row would change it, because there is no friction.
           if (c.friction > 0) p.friction_impulse = m_h * memory.friction_impulse[at(l)];
         }
       }

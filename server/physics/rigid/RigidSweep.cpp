@@ -314,7 +314,7 @@ void RigidWorld::applyImpact(ContactConstraint& c, double time) {
   }
 }
 
-// As bounce(), with friction.
+// bounce() with friction.
 bool RigidWorld::rub(ContactConstraint& c, double rest_speed, double rest_after) {
   const double restitution = c.restitution;
   RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];

@@ -1,6 +1,7 @@
 #include "physics/substep/SubstepSystem.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "physics/geometry/Index.h"
 
@@ -18,7 +19,9 @@ std::vector<int> treeOrder(std::span<const JointRow> rows, std::span<const Joint
   };
   struct Side {
     int body, other, row;
-    auto operator<=>(const Side&) const = default;
+    bool operator<(const Side& s) const {
+      return std::tie(body, other, row) < std::tie(s.body, s.other, s.row);
+    }
   };
   std::vector<int> order;
   std::vector<Side> sides;  // each row between two movable bodies, twice

@@ -17,7 +17,7 @@ struct Push {
 };
 constexpr std::array<Push, 6> kPushes = {{{.05, 0}, {.1, 0}, {.3, 0}, {.9, 0}, {1.9, 0}, {0, .02}}};
 
-struct Case {
+struct TileCase {
   double width = 1;
   Push push = {};
   double friction = 0;
@@ -49,7 +49,7 @@ void tiles(double left, double top, int columns, int rows) {
 using Build = std::function<void()>;
 using Path = std::vector<BodyBits>;
 
-struct Scene {
+struct TileScene {
   Build build;
   Vector start, gravity = Vector(0, .01), along = Vector(1, 0);
   double height = 1;
@@ -57,7 +57,7 @@ struct Scene {
 };
 
 // Moves a box over obstacles, to which gravity presses it.
-Path pathOver(const Scene& scene, const Case& its) {
+Path pathOver(const TileScene& scene, const TileCase& its) {
   OwnWorld own(its.aspect);
   PM.setAccuracy(its.accuracy);
   PM.setGravity(scene.gravity);
@@ -79,14 +79,14 @@ Path pathOver(const Scene& scene, const Case& its) {
   }
   return path;
 }
-bool areSame(Scene scene, const Case& its, const Build& tiles) {
+bool areSame(TileScene scene, const TileCase& its, const Build& tiles) {
   const Path one = pathOver(scene, its);
   scene.build = tiles;
   return pathOver(scene, its) == one;
 }
 
 // Calls visit() for each combination; returns in how many of them it returned false.
-int forAll(const std::function<bool(const Case&)>& visit) {
+int forAll(const std::function<bool(const TileCase&)>& visit) {
   int failures = 0;
   for (const double aspect : {1., 2.}) {
     for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
@@ -95,7 +95,7 @@ int forAll(const std::function<bool(const Case&)>& visit) {
           for (const double width : {.9, 1., 1.5, 2., 3., 4.}) {
             if (aspect > 1 && width != 1 && width != 3) continue;
             for (const Push push : kPushes) {
-              const Case its = {width, push, friction, turns, accuracy, aspect};
+              const TileCase its = {width, push, friction, turns, accuracy, aspect};
               if (visit(its)) continue;
               if (++failures <= 5) ADD_FAILURE() << its.name();
             }
@@ -112,8 +112,8 @@ double xOf(const BodyBits& bits) {
 }
 
 TEST_F(BodyTiles, AFloorOfTilesIsLikeOneObject) {
-  const int failures = forAll([](const Case& its) {
-    const Scene scene = {[] { block(0, 0, 100, 1); }, Vector(5.3, -.5)};
+  const int failures = forAll([](const TileCase& its) {
+    const TileScene scene = {[] { block(0, 0, 100, 1); }, Vector(5.3, -.5)};
     const double end = xOf(pathOver(scene, its).back());
     if (its.push.speed > 0 && its.friction == 0) {
       EXPECT_NEAR(end, 5.3 + 40 * its.push.speed, .01);
@@ -124,23 +124,25 @@ TEST_F(BodyTiles, AFloorOfTilesIsLikeOneObject) {
 }
 
 TEST_F(BodyTiles, ACeilingOfTilesIsLikeOneObject) {
-  const int failures = forAll([](const Case& its) {
-    const Scene scene = {[] { block(0, -1, 100, 1); }, Vector(5.3, .5), Vector(0, -.01), Vector(1, 0), 1, 20};
+  const int failures = forAll([](const TileCase& its) {
+    const TileScene scene = {
+        [] { block(0, -1, 100, 1); }, Vector(5.3, .5), Vector(0, -.01), Vector(1, 0), 1, 20};
     return areSame(scene, its, [] { tiles(0, -1, 100, 1); });
   });
   EXPECT_EQ(failures, 0);
 }
 
 TEST_F(BodyTiles, AWallOfTilesIsLikeOneObject) {
-  const int failures = forAll([](const Case& its) {
-    const Scene scene = {[] { block(0, 0, 2, 100); }, Vector(-.5, 5.3), Vector(.01, 0), Vector(0, 1), 1, 20};
+  const int failures = forAll([](const TileCase& its) {
+    const TileScene scene = {
+        [] { block(0, 0, 2, 100); }, Vector(-.5, 5.3), Vector(.01, 0), Vector(0, 1), 1, 20};
     return areSame(scene, its, [] { tiles(0, 0, 2, 100); });
   });
   EXPECT_EQ(failures, 0);
 }
 
 // A box slides over the floor into a wall, or falls along the wall into the corner.
-TEST_F(BodyTiles, AnInnerCornerOfTilesIsLikeOneOfTwoObjects) {
+TEST_F(BodyTiles, InnerCornerOfTilesIsLikeTwoObjects) {
   const auto single = [] {
     block(0, 0, 40, 1);
     block(12, -9, 1, 9);
@@ -149,7 +151,7 @@ TEST_F(BodyTiles, AnInnerCornerOfTilesIsLikeOneOfTwoObjects) {
     tiles(0, 0, 40, 1);
     tiles(12, -9, 1, 9);
   };
-  const int failures = forAll([&](const Case& its) {
+  const int failures = forAll([&](const TileCase& its) {
     const double left = 12 - .5 * its.width;
     return areSame({single, Vector(left - 3, -.5), Vector(0, .01), Vector(1, 0), 1, 20}, its, tiled) &&
            areSame({single, Vector(left, -2), Vector(0, .01), Vector(1, 0), 1, 25}, its, tiled);
@@ -167,8 +169,8 @@ TEST_F(BodyTiles, StepsOfTilesAreLikeStepsOfSingleObjects) {
     tiles(0, 0, 40, 1);
     for (int i = 0; i < 20; ++i) block(12 + i, -.5, 1, .5);
   };
-  const int failures = forAll([&](const Case& its) {
-    Case back = its;
+  const int failures = forAll([&](const TileCase& its) {
+    TileCase back = its;
     back.push.speed = -its.push.speed, back.push.force = 0;
     return areSame({single, Vector(11 - .5 * its.width, -.5), Vector(0, .01), Vector(1, 0), 1, 20}, its,
                    tiled) &&
@@ -189,9 +191,9 @@ TEST_F(BodyTiles, NothingCatchesOnTheWayDownStairs) {
       for (int row = 0; row <= i; ++row) block(30 - i, 10 - kStep * row, 1, kStep);
     }
   };
-  const int failures = forAll([&](const Case& its) {
+  const int failures = forAll([&](const TileCase& its) {
     if (its.friction > 0 || its.push.speed == 0 || its.aspect > 1) return true;
-    const Scene scene = {single, Vector(2, 10 - 29 * kStep - .5), Vector(0, .01), Vector(1, 0), 1, 20};
+    const TileScene scene = {single, Vector(2, 10 - 29 * kStep - .5), Vector(0, .01), Vector(1, 0), 1, 20};
     if (its.accuracy == ACCURACY_DEFAULT && !its.turns) {
       EXPECT_NEAR(xOf(pathOver(scene, its).back()), 2 + 20 * its.push.speed, 1e-9) << its.name();
     }
@@ -209,9 +211,9 @@ TEST_F(BodyTiles, KinematicTilesAreLikeOneKinematicBody) {
     p_lift->setKinematic();
     p_lift->setVelocity(Vector(.125, -.03125));
   };
-  const int failures = forAll([&](const Case& its) {
+  const int failures = forAll([&](const TileCase& its) {
     if (its.accuracy == ACCURACY_DEFAULT && !its.turns) return true;  // for an ImpactWorld
-    const Scene scene = {[&] { lift(0, 60); }, Vector(5.25, -.5), Vector(0, .01), Vector(1, 0), 1, 20};
+    const TileScene scene = {[&] { lift(0, 60); }, Vector(5.25, -.5), Vector(0, .01), Vector(1, 0), 1, 20};
     return areSame(scene, its, [&] {
       for (int i = 0; i < 60; ++i) lift(i, 1);
     });
@@ -219,7 +221,7 @@ TEST_F(BodyTiles, KinematicTilesAreLikeOneKinematicBody) {
   EXPECT_EQ(failures, 0);
 }
 
-// What stands below or beside a floor at its level does not disturb what slides over it.
+// Objects below a floor, or next to it at its level, do not disturb bodies that slide over it.
 TEST_F(BodyTiles, OnlyTheSurfaceMatters) {
   const auto tiled = [] {
     for (int i = 0; i < 100; ++i) {
@@ -227,8 +229,9 @@ TEST_F(BodyTiles, OnlyTheSurfaceMatters) {
       if (i % 5 == 1) tiles(i, 1, 1, 4);   // pillars below
     }
   };
-  const int failures = forAll([&](const Case& its) {
-    const Scene scene = {[] { block(0, 0, 100, 1); }, Vector(5.3, -.5), Vector(0, .01), Vector(1, 0), 1, 25};
+  const int failures = forAll([&](const TileCase& its) {
+    const TileScene scene = {
+        [] { block(0, 0, 100, 1); }, Vector(5.3, -.5), Vector(0, .01), Vector(1, 0), 1, 25};
     return areSame(scene, its, tiled);
   });
   EXPECT_EQ(failures, 0);
@@ -267,7 +270,7 @@ TEST_F(BodyTiles, KinematicTilesKeepTheirFriction) {
 TEST_F(BodyTiles, EachTileHasItsOwnContact) {
   int failures = 0;
   for (const bool is_kinematic : {false, true}) {
-    failures += forAll([is_kinematic](const Case& its) {
+    failures += forAll([is_kinematic](const TileCase& its) {
       if (its.push.speed == 0 || its.friction > 0) return true;
       if (is_kinematic && its.accuracy == ACCURACY_DEFAULT && !its.turns) return true;  // for an ImpactWorld
       OwnWorld own(its.aspect);
@@ -299,7 +302,7 @@ TEST_F(BodyTiles, EachTileHasItsOwnContact) {
   EXPECT_EQ(failures, 0);
 }
 
-// A body that rests or sleeps falls when a tile below it goes, and lies on when one beside it goes.
+// A body that rests or sleeps falls when a tile below it goes, and stays when the next one goes.
 TEST_F(BodyTiles, ABodyFallsWhenItsTileGoes) {
   for (const bool turns : {false, true}) {
     for (const Accuracy accuracy : {ACCURACY_DEFAULT, ACCURACY_FAST}) {
