@@ -21,8 +21,6 @@ namespace {
 
 constexpr double kFarthestFlight =
     1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
-constexpr double kFollowed =
-    16;  // per tick²: maximum stiffness of a spring on a jointed body that the JointSolver can step
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace
@@ -45,7 +43,7 @@ void BodyLayer::step(World& world) {
   m_states.clear();
   m_unit_inertias.clear();
   m_contacts.beginTick();
-  m_is_mixed = m_has_pulls = false;
+  m_is_mixed = m_has_joined = false;
   m_links.prepare(*m_table);
   m_impacts.beginTick();
   reserveFor(m_states, m_table->inOrder().size());
@@ -53,15 +51,12 @@ void BodyLayer::step(World& world) {
   for (const BodyTable::Index index : m_table->inOrder()) beginBody(world, index);
   ++m_table->ticks;
   chooseSolvers(world.store());
-  if (!m_links.isEmpty()) {
-    m_links.step(*m_table, m_states, m_unit_inertias, m_islands.candidates(), m_contacts);
-  }
   if (!m_impacts.isEmpty()) {
     m_impacts.step(world, *m_table, m_states, m_contacts);
     if (m_impacts.hasGivenUp()) passOnGivenUp();
     m_impacts.finish(m_states, m_contacts);
   }
-  if (m_is_mixed || !m_rigids.isEmpty()) {
+  if (m_is_mixed || m_has_joined || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_states, m_unit_inertias, m_contacts);
   }
   if (m_has_substeps || !m_substeps.isEmpty())
@@ -92,6 +87,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.is_soft = store.solidness(row.key.slot) == SOFT;
   state.is_kinematic = row.is_kinematic;
   state.is_joined = m_links.isJoined(index) && !row.is_kinematic;
+  state.is_near_rigid = row.is_kinematic && !m_table->settings.is_fast && m_links.isJoined(index);
   state.start = row.place;
   state.start_velocity = row.velocity;
   state.rotation = form.rotation;
@@ -115,12 +111,12 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.is_in_heap = m_rigids.isGivenUp(*m_table, index);
   state.is_costly = state.is_joined && m_links.isCostly(index);
   m_is_mixed = m_is_mixed || state.is_in_heap || state.is_costly;
-  if (state.is_joined) {
-    state.solver = BodySolver::kJoints;
+  if (state.is_joined && state.p_failure == nullptr) {
+    state.solver = BodySolver::kRigid;
+    m_has_joined = true;
     // A force that is not constant is replaced by its mean over the tick.
     if (state.is_bent && !state.is_sprung && state.turn_rate == 0)
       state.push = state.flown.velocity - row.velocity;
-    m_has_pulls = m_has_pulls || state.isPulled();
   }
   if (state.is_hard && state.p_failure == nullptr) measure(store, state);
 }
@@ -172,9 +168,7 @@ void BodyLayer::fly(State& state) {
   }
   const Vec2 held_push = pushBesideMagnet(state);
   const bool is_touching = m_contacts.isTouching(state.key);
-  state.must_be_held =
-      (state.turn_rate != 0 && (state.is_joined || is_touching)) ||
-      (state.is_sprung && (state.is_joined ? state.pull.spring.stiffness > kFollowed : is_touching));
+  state.must_be_held = (state.turn_rate != 0 || state.is_sprung) && (state.is_joined || is_touching);
   if (!state.is_bent || state.must_be_held) {
     state.flown = flyFree(row.velocity, held_push, 1);
   } else if (p_spring != nullptr) {
@@ -254,7 +248,6 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
   if (std::exchange(m_was_fast, m_table->settings.is_fast)) m_islands.leaveSubsteps();
   if (m_table->settings.is_fast) {
     chooseFast();
-    m_links.leaveOut(*m_table, m_states);
     for (State& state : m_states) assignSolver(store, state);
     return;
   }
@@ -262,7 +255,6 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
     m_islands.chooseSolvers(store, *m_table, m_links, m_contacts, m_states);
     m_has_substeps = m_islands.hasGeneral();
   }
-  if (m_is_mixed || m_has_pulls || m_links.hasLeftOut()) m_links.leaveOut(*m_table, m_states);
   for (State& state : m_states) assignSolver(store, state);
 }
 
@@ -332,9 +324,7 @@ void BodyLayer::countLimited(World& world, const State& state) {
 }
 
 void BodyLayer::settle(World& world, State& state) {
-  const bool is_on_joints =
-      state.solver == BodySolver::kJoints || (state.solver == BodySolver::kJointImpacts && state.is_joined);
-  if (!is_on_joints && state.turns_alone) turnByTorque(state);
+  if (state.turns_alone) turnByTorque(state);
   if (state.p_failure != nullptr) return quarantine(world, state, state.p_failure);
   const bool is_finite = isFinite(state.velocity) && isFinite(Vec2{state.place.dx, state.place.dy}) &&
                          state.spin - state.spin == 0;

@@ -45,6 +45,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   RigidBody& own = m_bodies[at(id)];
   if (own == body && !extra.is_frozen) return true;
   const bool was_movable = isMovable(id);
+  if ((own.turn_rate != 0) != (body.turn_rate != 0)) m_linkages_changed = true;
   wakeRing(id);
   if (!was_movable) wakeNeighbours(id);
   own = body;
@@ -114,7 +115,7 @@ void RigidWorld::enter(int id) {
   extra.is_frozen = extra.is_asleep = false;
   extra.margin = extra.moved = extra.rolled = 0;
   m_states[at(id)] = {};
-  m_active_changed = true;
+  m_active_changed = m_linkages_changed = true;
   if (!isMovable(id)) {
     if (!extra.is_dirty) m_dirty.push_back(id);
     extra.is_dirty = true;
@@ -135,7 +136,7 @@ void RigidWorld::leave(int id) {
     dropContacts(pair);
     pair.is_touching = false;
   }
-  m_active_changed = true;
+  m_active_changed = m_linkages_changed = true;
 }
 
 void RigidWorld::freeze(int id) {
