@@ -48,7 +48,7 @@ class Noisy : public Body {
   Hashed& m_hash;
 };
 
-constexpr std::uint64_t kHash = 696758176253072935u;
+constexpr std::uint64_t kHash = 15911758704769492747u;
 constexpr std::uint64_t kFastHash = 10466656127780809921u;
 
 std::uint64_t run(bool may_turn, int count, Accuracy accuracy = ACCURACY_DEFAULT) {
