@@ -53,18 +53,16 @@ bool BodyIslands::passesBy(const BodyState& flyer, const BodyState& other) const
 }
 
 // Adds a pair and unites its bodies. A kinematic body belongs to no group, so that all of its pairs are
-// found. A group is settled when two of its bodies may touch and are not bouncing circles, because further
-// pairs would not change the result of classifyGroups().
+// found. A group is settled when two of its bodies may touch, because further pairs would not change the
+// result of classifyGroups().
 void BodyIslands::addPair(const BodyTable& table, const std::vector<BodyState>& states, int i, int j) {
   m_pairs.emplace_back(i, j);
   const BodyState &a = states[at(i)], &b = states[at(j)];
   if (a.is_kinematic || b.is_kinematic) return;
   bool is_settled = m_is_settled[at(m_sets.rootOf(i))] != 0 || m_is_settled[at(m_sets.rootOf(j))] != 0;
   if (!is_settled) {
-    const bool bounces = table.row(a.index).restitution > 0 || table.row(b.index).restitution > 0;
-    const bool is_elastic = bounces && a.radius > 0 && b.radius > 0;
-    is_settled = !is_elastic && (table.joints.count() == 0 ||
-                                 !areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index)));
+    is_settled =
+        table.joints.count() == 0 || !areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index));
   }
   m_sets.unite(i, j);
   m_is_settled[at(m_sets.rootOf(i))] = is_settled ? 1 : 0;
@@ -144,14 +142,11 @@ void BodyIslands::findObstacles(const WorldStore& store, const BodyTable& table,
   for (const int i : m_ids) {
     Group& group = m_groups[at(m_sets.rootOf(i))];
     const BodyState& state = states[at(i)];
-    if (!group.is_rigid || group.has_obstacle || state.is_kinematic) continue;
-    if (group.may_touch && !group.is_elastic) continue;
+    if (!group.is_rigid || group.may_touch || state.is_kinematic) continue;
     m_found.clear();
     store.touching(regionOf(table.metric, state.start, state.reach), state.key.slot, m_found);
-    group.has_obstacle = std::any_of(m_found.begin(), m_found.end(), [&store](ObjectKey key) {
-      return BodyObstacles::isObstacle(store, key);
-    });
-    group.may_touch = group.may_touch || group.has_obstacle;
+    group.may_touch = std::any_of(m_found.begin(), m_found.end(),
+                                  [&store](ObjectKey key) { return BodyObstacles::isObstacle(store, key); });
   }
 }
 
@@ -171,7 +166,6 @@ void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links,
     group.is_general = group.is_general || states[i].is_costly;
     group.is_heap = group.is_heap || is_heap;
     group.is_rigid = group.may_touch = true;
-    group.is_elastic = false;
   }
   for (const int i : m_ids) {
     const BodyState& state = states[at(i)];
@@ -191,50 +185,18 @@ void BodyIslands::classifyGroups(const BodyTable& table, const BodyLinks& links,
     const bool is_joined = links.isJoined(state.index);
     group.may_rest = group.may_rest || is_joined || table.row(state.index).restitution < 1;
     group.is_rigid = group.is_rigid || !state.is_simple || stays || is_joined;
-    group.is_elastic = group.is_elastic && state.radius > 0 && !stays && (is_joined || !state.is_bent);
     group.fastest = std::max(group.fastest, length(state.start_velocity) + length(state.push));
   }
-  m_touchable.clear();
   const bool has_joints = table.joints.count() > 0;
   for (const auto& [i, j] : m_pairs) {
     const BodyState &a = states[at(i)], &b = states[at(j)];
     if (a.is_kinematic && b.is_kinematic) continue;
     if (has_joints && areJoined(table, static_cast<int>(a.index), static_cast<int>(b.index))) continue;
-    m_touchable.emplace_back(i, j);
     Group& group = m_groups[at(m_sets.rootOf(a.is_kinematic ? j : i))];
     group.may_touch = true;
     const BodyState& other = a.is_kinematic ? a : b;
     if (other.is_kinematic && !other.is_simple) group.is_rigid = true;
-    const double bounce = std::max(table.row(a.index).restitution, table.row(b.index).restitution);
-    if (other.is_kinematic || bounce == 0) group.is_elastic = false;
   }
-}
-
-// Widens the reaches of bouncing circles. A circle that is hit may get as far as the fastest one, and farther
-// if it is light. Returns true if any reach was widened.
-bool BodyIslands::widenReaches(std::vector<BodyState>& states) {
-  constexpr double kRoom = 0.2;  // metric cells per tick: the reach's margin covers slower impacts
-  constexpr double kLight = 2;   // a light body leaves an elastic impact at up to twice the other's speed
-  bool is_wider = false;
-  for (const int i : m_ids) {
-    const Group& group = m_groups[at(m_sets.rootOf(i))];
-    if (!group.is_rigid || !group.may_touch || !group.is_elastic || group.fastest <= kRoom) continue;
-    const double more = kLight * group.fastest;
-    states[at(i)].reach += Vec2{more, more};
-    is_wider = true;
-  }
-  return is_wider;
-}
-
-void BodyIslands::collectCandidates(std::vector<BodyState>& states) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].solver == BodySolver::kJointImpacts) states[i].group = m_sets.rootOf(static_cast<int>(i));
-  }
-  for (const auto& [i, j] : m_touchable) {
-    if (states[at(i)].solver == BodySolver::kJointImpacts)
-      m_candidates.push_back({states[at(i)].group, i, j});
-  }
-  std::sort(m_candidates.begin(), m_candidates.end());
 }
 
 // Marks the kinematic bodies on the paths of bodies that a RigidWorld or SubstepWorld moves.
@@ -267,16 +229,10 @@ void BodyIslands::passToSubsteps(const BodyTable& table, std::vector<BodyState>&
 
 void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table, const BodyLinks& links,
                                 const BodyContacts& contacts, std::vector<BodyState>& states) {
-  m_candidates.clear();
   connect(table, states);
   classifyGroups(table, links, contacts, states);
-  if (widenReaches(states)) {
-    connect(table, states);
-    classifyGroups(table, links, contacts, states);
-  }
   m_leaves_substeps = false;
   findObstacles(store, table, states);
-  bool has_joint_impacts = false;
   m_has_general = m_has_heaps = false;
   for (std::size_t i = 0; i < states.size(); ++i) {
     BodyState& state = states[i];
@@ -291,14 +247,13 @@ void BodyIslands::chooseSolvers(const WorldStore& store, const BodyTable& table,
       state.solver = is_general ? BodySolver::kSubstep : BodySolver::kHeap;
       (is_general ? m_has_general : m_has_heaps) = true;
     } else if (group.is_rigid && group.may_touch) {
-      const bool is_elastic = group.is_elastic && !group.has_obstacle;
-      state.solver = is_elastic ? BodySolver::kJointImpacts : BodySolver::kRigid;
-      has_joint_impacts = has_joint_impacts || is_elastic;
-    } else if (!links.isJoined(state.index)) {
+      state.solver = BodySolver::kRigid;
+    } else if (links.isJoined(state.index)) {
+      state.is_alone = true;
+    } else {
       state.solver = state.is_hard && state.is_simple ? BodySolver::kImpact : BodySolver::kFlight;
     }
   }
-  if (has_joint_impacts) collectCandidates(states);
   markKinematic(states);
   for (BodyState& state : states) {
     if (!state.is_kinematic || !links.isJoined(state.index)) continue;

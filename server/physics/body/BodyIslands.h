@@ -1,11 +1,10 @@
 // Chooses the solver that moves each body in this tick, by what the body may touch directly and indirectly.
 //
 // Bodies that are joined, or whose paths in this tick may cross, are one island. An island without turning
-// bodies, own shapes and joints goes to the event-exact ImpactWorld. If no body of an island can touch
-// anything, the JointSolver or each body's own flight moves it. If an island consists of bouncing circles,
-// some of them joined, the JointSolver moves it from impact to impact. All other islands go to the
-// RigidWorld. An island too expensive for these goes to the SubstepWorld as a whole, and stays there until it
-// touches nothing. An island that a RigidWorld abandons goes to a SubstepWorld with finer steps.
+// bodies, own shapes and joints goes to the event-exact ImpactWorld. If a body without joints cannot touch
+// anything, its own flight moves it. All other islands go to the RigidWorld. An island too expensive for
+// these goes to the SubstepWorld as a whole, and stays there until it touches nothing. An island that a
+// RigidWorld abandons goes to a SubstepWorld with finer steps.
 #pragma once
 
 #include <vector>
@@ -28,18 +27,13 @@ class BodyIslands {
   /// Moves all bodies that may touch abandoned ones (`is_costly`) of the ImpactWorld to the SubstepWorld.
   void passToSubsteps(const BodyTable& table, std::vector<BodyState>& states);
   /// Call instead of chooseSolvers() in a tick without islands.
-  void skip() {
-    m_candidates.clear();
-    m_has_general = m_has_heaps = false;
-  }
+  void skip() { m_has_general = m_has_heaps = false; }
   /// Makes the next chooseSolvers() ignore which bodies the SubstepWorld moved before.
   void leaveSubsteps() { m_leaves_substeps = true; }
   /// True if the SubstepWorld moves any body.
   bool hasGeneral() const { return m_has_general; }
   /// True if any group is a heap.
   bool hasHeaps() const { return m_has_heaps; }
-  /// Pairs of bodies with the solver kJointImpacts, sorted by group.
-  const std::vector<BodyCandidatePair>& candidates() const { return m_candidates; }
 
  private:
   struct Group {
@@ -48,9 +42,7 @@ class BodyIslands {
     bool is_heap = false;     // the SubstepWorld of heaps moves the group, unless is_general
     int bodies = 0;           // number of HARD bodies free to move
     bool may_touch = false;
-    bool has_obstacle = false;
-    bool is_elastic = true;  // true if the group has only bouncing circles
-    bool may_rest = false;   // true unless every impact keeps the energy, so that no blow presses a heap
+    bool may_rest = false;    // true unless every impact keeps the energy, so that no blow presses a heap
     double fastest = 0;
     double max_inverse_mass = 0;  // maximum among HARD bodies; 0: none is free to move
     double min_inverse_mass = 0;
@@ -64,9 +56,7 @@ class BodyIslands {
   void connect(const BodyTable& table, const std::vector<BodyState>& states);
   void classifyGroups(const BodyTable& table, const BodyLinks& links, const BodyContacts& contacts,
                       const std::vector<BodyState>& states);
-  bool widenReaches(std::vector<BodyState>& states);
   void markKinematic(std::vector<BodyState>& states) const;
-  void collectCandidates(std::vector<BodyState>& states);
   bool areJoined(const BodyTable& table, int row_a, int row_b);
   void findObstacles(const WorldStore& store, const BodyTable& table, const std::vector<BodyState>& states);
 
@@ -83,9 +73,6 @@ class BodyIslands {
   const BodyState* m_p_states = nullptr;  // the states; only valid during findPairs()
   std::vector<std::pair<int, int>>
       m_pairs;  // pairs with overlapping reaches, without some pairs within settled groups
-  std::vector<std::pair<int, int>>
-      m_touchable;  // the pairs of m_pairs with a movable body and without a joint between the two
-  std::vector<BodyCandidatePair> m_candidates;
   std::vector<ObjectKey> m_found;
   std::vector<std::pair<int, int>> m_joined;  // sorted pairs of rows that a joint connects
   std::uint64_t m_joint_changes = 0;          // value of joints.changes() for which m_joined is valid

@@ -23,7 +23,7 @@ namespace {
 constexpr double kFarthestFlight =
     1e12;  // metric cells in a tick; less than 2^51, the limit for moving a Place
 constexpr double kFollowed =
-    16;  // per tick²: maximum stiffness of a spring that the JointSolver can step; others swing in a tick
+    16;  // per tick²: maximum stiffness of a spring that swings little in a tick
 constexpr const char* kBeyond = "its position or velocity is out of range";
 
 }  // namespace
@@ -46,7 +46,7 @@ void BodyLayer::step(World& world) {
   m_states.clear();
   m_unit_inertias.clear();
   m_contacts.beginTick();
-  m_is_mixed = m_has_pulls = false;
+  m_is_mixed = m_has_joined = false;
   m_kinematic = 0;
   m_links.prepare(*m_table);
   m_impacts.beginTick();
@@ -55,16 +55,13 @@ void BodyLayer::step(World& world) {
   for (const BodyTable::Index index : m_table->inOrder()) beginBody(world, index);
   ++m_table->ticks;
   chooseSolvers(world.store());
-  if (!m_links.isEmpty()) {
-    m_links.step(*m_table, m_states, m_unit_inertias, m_islands.candidates(), m_contacts);
-  }
   if (!m_impacts.isEmpty()) {
     m_impacts.step(world, *m_table, m_states, m_contacts);
     if (m_impacts.hasGivenUp()) passOnGivenUp();
     m_impacts.finish(world.store(), *m_table, m_states, m_contacts);
   }
   if (m_kinematic > 1 || !m_platforms.isEmpty()) m_platforms.find(world.store(), *m_table, m_states);
-  if (m_is_mixed || !m_rigids.isEmpty()) {
+  if (m_is_mixed || m_has_joined || !m_rigids.isEmpty()) {
     m_rigids.step(world.store(), *m_table, m_platforms, m_states, m_unit_inertias, m_contacts);
   }
   if (m_has_substeps || !m_substeps.isEmpty())
@@ -113,6 +110,7 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.is_kinematic = row.is_kinematic;
   state.has_joints = m_links.isJoined(index);
   state.is_joined = state.has_joints && !row.is_kinematic;
+  state.is_near_rigid = row.is_kinematic && !m_table->settings.is_fast && state.has_joints;
   if (state.is_kinematic && state.is_hard) ++m_kinematic;
   state.start = row.place;
   state.start_velocity = row.velocity;
@@ -137,12 +135,12 @@ void BodyLayer::beginBody(World& world, BodyTable::Index index) {
   state.is_in_heap = m_rigids.isGivenUp(*m_table, index);
   state.is_costly = state.is_joined && m_links.isCostly(index);
   m_is_mixed = m_is_mixed || state.is_in_heap || state.is_costly;
-  if (state.is_joined) {
-    state.solver = BodySolver::kJoints;
+  if (state.is_joined && state.p_failure == nullptr) {
+    state.solver = BodySolver::kRigid;
+    m_has_joined = true;
     // A force that is not constant is replaced by its mean over the tick.
     if (state.is_bent && !state.is_sprung && state.turn_rate == 0)
       state.push = state.flown.velocity - row.velocity;
-    m_has_pulls = m_has_pulls || state.isPulled();
   }
   if (state.is_hard && state.p_failure == nullptr) measure(store, state);
 }
@@ -193,9 +191,8 @@ void BodyLayer::fly(State& state) {
     state.pull.spring.damping = medium.linear_drag;
   }
   const Vec2 held_push = pushBesideMagnet(state);
-  const bool is_stiff = state.is_sprung && state.pull.spring.stiffness > kFollowed;
   state.must_be_held = (state.turn_rate != 0 && (state.is_joined || m_contacts.isTouching(state.key))) ||
-                       (state.is_joined && is_stiff);
+                       (state.is_sprung && state.is_joined);
   if (!state.is_bent || state.must_be_held) {
     state.flown = flyFree(row.velocity, held_push, 1);
   } else if (p_spring != nullptr) {
@@ -276,7 +273,6 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
   if (std::exchange(m_was_fast, m_table->settings.is_fast)) m_islands.leaveSubsteps();
   if (m_table->settings.is_fast) {
     chooseFast();
-    m_links.leaveOut(*m_table, m_states);
     for (State& state : m_states) assignSolver(store, state);
     return;
   }
@@ -284,7 +280,6 @@ void BodyLayer::chooseSolvers(const WorldStore& store) {
     m_islands.chooseSolvers(store, *m_table, m_links, m_contacts, m_states);
     m_has_substeps = m_islands.hasGeneral();
   }
-  if (m_is_mixed || m_has_pulls || m_links.hasLeftOut()) m_links.leaveOut(*m_table, m_states);
   for (State& state : m_states) assignSolver(store, state);
 }
 
@@ -358,9 +353,7 @@ void BodyLayer::countLimited(World& world, const State& state) {
 }
 
 void BodyLayer::settle(World& world, State& state) {
-  const bool is_on_joints =
-      state.solver == BodySolver::kJoints || (state.solver == BodySolver::kJointImpacts && state.is_joined);
-  if (!is_on_joints && state.turns_alone) turnByTorque(state);
+  if (state.turns_alone) turnByTorque(state);
   if (state.p_failure != nullptr) return quarantine(world, state, state.p_failure);
   const bool is_finite = isFinite(state.velocity) && isFinite(Vec2{state.place.dx, state.place.dy}) &&
                          state.spin - state.spin == 0;

@@ -2,7 +2,7 @@
 //
 // A world gets this layer with its first Body or its first PM.set… call; before that, it costs nothing. In
 // each tick BodyIslands chooses the solver of each body: its own flight if nothing can touch it, an
-// ImpactWorld, a JointSolver, a RigidWorld or a SubstepWorld.
+// ImpactWorld, a RigidWorld or a SubstepWorld.
 #pragma once
 
 #include <memory>
@@ -49,6 +49,7 @@ class BodyLayer : public df::Layer {
   const ImpactCounters& impactCounters() const { return m_impacts.counters(); }
   std::int64_t sensorPairs() const { return m_sensors.pairs(); }
   const RigidCounters& rigidCounters() const { return m_rigid_world.counters(); }
+  const LinkageCounters& linkageCounters() const { return m_rigid_world.linkageCounters(); }
   const SubstepCounters& substepCounters() const { return m_substep_world.counters(); }
   const SubstepCounters& heapCounters() const { return m_heap_world.counters(); }
 
@@ -101,7 +102,7 @@ class BodyLayer : public df::Layer {
   // True if m_islands must choose the solvers: a HARD body is joined, cannot be moved by an ImpactWorld or
   // was moved by a SubstepWorld, or any body must be held, is costly or is in a heap.
   bool m_is_mixed = false;
-  bool m_has_pulls = false;               // true if a Pull acts on any joined body
+  bool m_has_joined = false;              // true if any body is joined
   std::int64_t m_evaluations_before = 0;  // evaluations of fields before this tick
   bool m_was_fast = false;
   bool m_has_substeps = false;  // true if the SubstepWorld moves any body

@@ -57,12 +57,13 @@ void BodyRigids::identify(int id, const Identity& identity) {
   m_identities[at(id)] = identity;
 }
 
-// Adds the body to the solver, or updates its shapes there. Only HARD bodies have shapes there.
+// Adds the body to the solver, or updates its shapes there. Only HARD bodies that may be touched have shapes
+// there.
 void BodyRigids::shape(Proxy& proxy, const BodyTable& table, const BodyState& state, const FixedBox& box,
                        const RigidBody& body) {
   const BodyGeometry& form = table.form(state.index);
   const bool is_box = form.shapes.empty();
-  const bool has_shape = state.is_hard && !state.is_merged;
+  const bool has_shape = state.is_hard && !state.is_merged && !state.is_alone;
   const std::uint32_t version = has_shape ? form.version + 1 : 0;
   if (proxy.id >= 0 && proxy.version == version && (!is_box || proxy.box == box)) return;
   std::span<const ConvexShape> shapes;
@@ -147,7 +148,7 @@ void BodyRigids::updateObstacles(const WorldStore& store, const BodyTable& table
   m_obstacles.beginTick();
   m_surroundings.clear();
   for (const BodyState& state : states) {
-    if (state.solver != m_solver || !state.is_hard) continue;
+    if (state.solver != m_solver || !state.is_hard || state.is_alone) continue;
     m_surroundings.addRegion(regionOf(table.metric, state.start, state.reach + m_fastest));
   }
   m_surroundings.query(store, [&](std::size_t /*number*/, ObjectKey key) {
@@ -249,10 +250,40 @@ void BodyRigids::updatePlatforms(const BodyTable& table, const BodyPlatforms& pl
   std::erase_if(m_platform_proxies, [](const PlatformProxy& proxy) { return !proxy.is_used; });
 }
 
-// True if this solver moves all bodies of the joint.
+// True if this solver moves a body of the joint. A joint's other body may be inactive, and then does not
+// move.
 bool BodyRigids::isHere(const JointEntry& entry) const {
-  const auto isEndHere = [&](int row) { return row == BodyJoints::kWorld || rigidOf(row) >= 0; };
-  return entry.used && isEndHere(entry.joint.a) && isEndHere(entry.joint.b);
+  return entry.used && (rigidOf(entry.joint.a) >= 0 || rigidOf(entry.joint.b) >= 0);
+}
+
+// True if the joint in the solver has the bodies that the entry's joint has now.
+bool BodyRigids::isKnown(const JointProxy& proxy, const JointEntry& entry) const {
+  const auto isEnd = [&](int row, int id) {
+    const int here = rigidOf(row);
+    return here >= 0 ? here == id : proxy.anchor == id && proxy.anchored == row;
+  };
+  return proxy.generation == entry.generation && m_world.jointExists(proxy.id) &&
+         isEnd(entry.joint.a, proxy.a) && isEnd(entry.joint.b, proxy.b);
+}
+
+// Returns the solver's body for an end of a joint. Adds one for the world or an inactive body.
+int BodyRigids::anchorOf(JointProxy& proxy, const BodyTable& table, const JointEntry& entry, int row) {
+  const int here = rigidOf(row);
+  if (here >= 0) return here;
+  RigidBody anchor;
+  anchor.inverse_mass = 0;
+  anchor.place = entry.anchor;
+  if (row != BodyJoints::kWorld) {
+    anchor.place = table.row(static_cast<BodyTable::Index>(row)).place;
+    anchor.rotation = table.form(static_cast<BodyTable::Index>(row)).rotation;
+  }
+  proxy.anchored = row;
+  if (proxy.anchor < 0) {
+    proxy.anchor = m_world.addInOrder(0, anchor, {});
+  } else {
+    m_world.set(proxy.anchor, anchor);
+  }
+  return proxy.anchor;
 }
 
 // Removes joints that are gone or have no body any more. Call before joints are added, as ids are reused.
@@ -261,8 +292,7 @@ void BodyRigids::removeJoints(const BodyTable& table, const std::vector<BodyStat
   for (std::size_t i = 0; i < m_joint_proxies.size(); ++i) {
     JointProxy& proxy = m_joint_proxies[i];
     if (proxy.id < 0) continue;
-    if (isHere(entries[i]) && proxy.generation == entries[i].generation && m_world.jointExists(proxy.id))
-      continue;
+    if (isHere(entries[i]) && isKnown(proxy, entries[i])) continue;
     m_world.removeJoint(proxy.id);
     if (proxy.anchor >= 0) m_world.remove(proxy.anchor);
     proxy = {};
@@ -288,17 +318,14 @@ void BodyRigids::updateJoints(const BodyTable& table) {
     const JointEntry& entry = entries[i];
     if (!isHere(entry)) continue;
     JointProxy& proxy = m_joint_proxies[i];
-    const bool is_world_a = entry.joint.a == BodyJoints::kWorld;
-    const bool is_world_b = entry.joint.b == BodyJoints::kWorld;
     Joint joint = entry.joint;
-    if (proxy.id < 0 && (is_world_a || is_world_b)) {
-      RigidBody anchor;
-      anchor.place = entry.anchor;
-      anchor.inverse_mass = 0;
-      proxy.anchor = m_world.addInOrder(0, anchor, {});
+    const bool is_inactive = proxy.anchor >= 0 && proxy.anchored != BodyJoints::kWorld;
+    if (proxy.id < 0 || is_inactive) {
+      proxy.a = anchorOf(proxy, table, entry, joint.a);
+      proxy.b = anchorOf(proxy, table, entry, joint.b);
     }
-    joint.a = is_world_a ? proxy.anchor : rigidOf(entry.joint.a);
-    joint.b = is_world_b ? proxy.anchor : rigidOf(entry.joint.b);
+    joint.a = proxy.a;
+    joint.b = proxy.b;
     if (proxy.id < 0) {
       proxy.id = m_world.addJoint(joint, false);
     } else if (proxy.tunings != entry.tunings) {

@@ -41,7 +41,9 @@ class BodyRigids {
     std::uint32_t generation = 0;
     std::uint32_t tunings = 0;
     int id = -1;
-    int anchor = -1;  // the body that represents the world
+    int a = -1, b = -1;  // bodies in the solver
+    int anchor = -1;     // the body that represents the world, or a body of the table that does not move
+    int anchored = -1;   // row that `anchor` represents; BodyJoints::kWorld: the world
   };
   struct PullProxy {  // by row of the table: the joint for the pull on the row's body
     std::uint64_t order = 0;
@@ -76,6 +78,8 @@ class BodyRigids {
   void updatePlatforms(const BodyTable& table, const BodyPlatforms& platforms,
                        const std::vector<BodyState>& states);
   bool isHere(const JointEntry& entry) const;
+  bool isKnown(const JointProxy& proxy, const JointEntry& entry) const;
+  int anchorOf(JointProxy& proxy, const BodyTable& table, const JointEntry& entry, int row);
   bool isPulledHere(const BodyState& state) const;
   void removeJoints(const BodyTable& table, const std::vector<BodyState>& states);
   void updateJoints(const BodyTable& table);

@@ -10,14 +10,12 @@ namespace naiad::physics {
 
 /// The solver that moves a body.
 enum class BodySolver : std::uint8_t {
-  kFlight,        ///< the body's own flight, because nothing can touch it
-  kImpact,        ///< ImpactWorld, only for boxes along the axes and circles that do not turn
-  kJoints,        ///< JointSolver
-  kRigid,         ///< RigidWorld
-  kJointImpacts,  ///< JointSolver, from impact to impact (JointImpacts), if only circles may hit
-  kSubstep,       ///< SubstepWorld, at ACCURACY_FAST or if the other solvers would be too expensive
-  kHeap,          ///< a SubstepWorld with finer steps, for groups that a RigidWorld abandoned
-  kSensor,        ///< none: one of the contact's Objects is SOFT (BodySensors)
+  kFlight,   ///< the body's own flight, because nothing can touch it
+  kImpact,   ///< ImpactWorld, only for boxes along the axes and circles that do not turn
+  kRigid,    ///< RigidWorld
+  kSubstep,  ///< SubstepWorld, at ACCURACY_FAST or if the other solvers would be too expensive
+  kHeap,     ///< a SubstepWorld with finer steps, for groups that a RigidWorld abandoned
+  kSensor,   ///< none: one of the contact's Objects is SOFT (BodySensors)
 };
 
 /// True for the solvers that use a SubstepWorld.
@@ -36,20 +34,20 @@ struct BodyState {
   bool is_in_heap = false;  ///< a RigidWorld abandoned its group in the last tick
   bool is_kinematic = false;
   bool is_joined = false;
-  bool has_joints = false;        ///< like is_joined, but also true for a kinematic body
-  bool is_merged = false;         ///< kinematic and a part of a platform, which has its shape in solvers
-  bool is_simple = false;         ///< an ImpactWorld can move it
-  bool is_sprung = false;         ///< a spring or stiff field pulls it: solvers must use `pull`
-  bool must_be_held = false;      ///< a solver for contacts must apply its pull or magnet, because it touches
-                                  ///< something in a magnet, the JointSolver cannot, or its flight is unknown
-  double turn_rate = 0;           ///< rad per tick by which a magnet turns its path; 0: nothing can hold it
-  bool is_bent = false;           ///< its free path is not that of a constant acceleration
-  bool is_near_rigid = false;     ///< kinematic and on the path of a body in the RigidWorld
-  bool is_near_substep = false;   ///< kinematic and on the path of a body in a SubstepWorld
-  bool is_touched = false;        ///< kImpact only: touched by anything in this or the last tick
-  bool contacts_changed = false;  ///< a contact began or ended in this tick
-  bool turns_alone = true;        ///< true if only the torque applied by the game turns it
-  int group = -1;                 ///< kJointImpacts only: bodies that may hit each other have one number
+  bool has_joints = false;       ///< like is_joined, but also true for a kinematic body
+  bool is_merged = false;        ///< kinematic and a part of a platform, which has its shape in solvers
+  bool is_simple = false;        ///< an ImpactWorld can move it
+  bool is_sprung = false;        ///< a spring or stiff field pulls it: solvers must use `pull`
+  bool is_alone = false;         ///< joined, and nothing may touch its group in this tick
+  bool must_be_held = false;     ///< a solver must apply its pull or magnet, because it touches something, is
+                                 ///< joined, or its flight is unknown
+  double turn_rate = 0;          ///< rad per tick by which a magnet turns its path; 0: nothing can hold it
+  bool is_bent = false;          ///< its free path is not that of a constant acceleration
+  bool is_near_rigid = false;    ///< kinematic and on the path of a body in the RigidWorld
+  bool is_near_substep = false;  ///< kinematic and on the path of a body in a SubstepWorld
+  bool is_touched = false;       ///< kImpact only: touched by anything in this or the last tick
+  bool contacts_changed = false;    ///< a contact began or ended in this tick
+  bool turns_alone = true;          ///< true if only the torque applied by the game turns it
   const char* p_failure = nullptr;  ///< reason to freeze the body, or null
   double radius = 0;  ///< radius if it is a circle that an ImpactWorld can move (is_simple); else 0
   Place start;        ///< place at the beginning of the tick
@@ -67,16 +65,6 @@ struct BodyState {
 
   /// True if `pull` acts on the body while a solver other than its own flight moves it.
   bool isPulled() const { return is_sprung && (pull.spring.stiffness > 0 || pull.spring.damping > 0); }
-};
-
-/// Two bodies of a group with solver kJointImpacts whose paths may cross in this tick, as indices of states.
-struct BodyCandidatePair {
-  int group = -1;
-  int a = -1, b = -1;  ///< a < b
-  friend constexpr bool operator<(const BodyCandidatePair& x, const BodyCandidatePair& y) {
-    if (x.group != y.group) return x.group < y.group;
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  }
 };
 
 /// An Object that gets a new position after all bodies have moved.

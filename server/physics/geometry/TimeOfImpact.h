@@ -2,7 +2,7 @@
 //
 // This is the time of impact for rotating bodies: any convex shapes that move on parabolas and rotate evenly
 // over a sub-step, for which no formula exists. ImpactTime.h has a formula for boxes and circles that do not
-// rotate; ShapeQuery.h is for points, as of soft bodies; JointImpacts.h is for paths bent by joints.
+// rotate; ShapeQuery.h is for points, as of soft bodies.
 //
 // The method is conservative advancement. At each stop the separating axis is known. The gap along this axis
 // at any later time is at least the minimum over all pairs of corners if all of them moved straight, less the

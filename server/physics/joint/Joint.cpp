@@ -51,12 +51,6 @@ bool isValid(const Joint& joint, int body_count) {
   }
 }
 
-bool isValid(const JointBody& body) {
-  return isUsable(Vec2{body.place.dx, body.place.dy}) && isUsable(body.velocity) && isUsable(body.spin) &&
-         isUsable(body.force) && isUsable(body.torque) && isUnit(body.rotation) && body.inverse_mass >= 0 &&
-         isUsable(body.inverse_mass) && body.inverse_inertia >= 0 && isUsable(body.inverse_inertia);
-}
-
 int rowsOf(const Joint& joint) {
   switch (joint.kind) {
     case JointKind::kHinge:

@@ -4,7 +4,6 @@
 // Each joint is one constraint; a hinge with limits and a motor is three joints on two bodies.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -12,22 +11,6 @@
 #include "physics/geometry/Rotation.h"
 
 namespace naiad::physics {
-
-/// A body with the properties that joints need. A step reads and writes place, velocity, rotation and spin.
-struct JointBody {
-  Place place;  ///< place of the centre of mass
-  Vec2 velocity;
-  Rotation rotation;
-  double spin = 0;             ///< rad per unit of time, from x to y
-  double inverse_mass = 1;     ///< 0: no force changes its velocity
-  double inverse_inertia = 0;  ///< 0: no torque changes its spin
-  Vec2 force;                  ///< added to gravity, constant within the step
-  double torque = 0;
-};
-
-inline bool isMovable(const JointBody& body) {
-  return body.inverse_mass > 0 || body.inverse_inertia > 0;
-}
 
 enum class JointKind : std::uint8_t {
   kDistance,    ///< a rod: keeps the anchors `length` > 0 apart
@@ -66,14 +49,10 @@ struct Joint {
   Vec2 force;         ///< mean force on b over the step
   double torque = 0;  ///< mean torque of the rows that hold the angle, without that of `force` at its lever
   bool is_broken = false;
-  std::array<double, 3> memory =
-      {};  ///< multipliers of the last sub-step divided by its length: the first guess of the next step
 };
 
 /// True if `joint` is valid for `body_count` bodies: indices and numbers in range, a != b.
 bool isValid(const Joint& joint, int body_count);
-/// True if inverse masses are in [0, 1e30], other numbers at most 1e30, and the rotation has length one.
-bool isValid(const JointBody& body);
 
 /// Returns the number of scalar constraints of the joint.
 int rowsOf(const Joint& joint);

@@ -17,6 +17,7 @@ int JointStore::add(const Joint& joint, bool may_touch) {
   m_entries[at(id)].joint.is_broken = false;
   m_order.push_back(id);
   m_is_apart_sorted = false;
+  ++m_changes;
   return id;
 }
 
@@ -35,6 +36,7 @@ void JointStore::remove(int id) {
   m_order.erase(std::find(m_order.begin(), m_order.end(), id));
   m_free.push_back(id);
   m_is_apart_sorted = false;
+  ++m_changes;
 }
 
 void JointStore::sortApart() {
@@ -60,6 +62,7 @@ bool JointStore::finish(int id, Vec2 force, double torque) {
   if (!(length(force) > own.break_force) && !(std::fabs(torque) > own.break_torque)) return false;
   own.is_broken = true;
   m_is_apart_sorted = false;
+  ++m_changes;
   return true;
 }
 

@@ -33,6 +33,8 @@ class JointStore {
   const std::vector<int>& ids() const { return m_order; }
   /// True if a joint between the two bodies disables their contacts.
   bool keepsApart(int a, int b);
+  /// Counts the joints that were added, removed or broken.
+  std::uint64_t changes() const { return m_changes; }
   /// Calls visit(a, b) for every joint that is not broken; a is −1 for a mouse joint.
   template <class Visit>
   void visitWorking(Visit visit) const {
@@ -43,11 +45,12 @@ class JointStore {
   /// Returns the joint's first body; −1 for a mouse joint, which has only one.
   static int firstOf(const Joint& joint) { return joint.kind == JointKind::kMouse ? -1 : joint.a; }
 
- protected:
   using Memory = std::array<double, 3>;
-
   /// Multipliers of the last sub-step divided by its length, by row: the first guess of the next sub-step.
   Memory& memoryOf(int id) { return m_entries[at(id)].memory; }
+  const Memory& memoryOf(int id) const { return m_entries[at(id)].memory; }
+
+ protected:
   /// Stores the force and torque of a step. Returns true if they break the joint.
   bool finish(int id, Vec2 force, double torque);
 
@@ -67,6 +70,7 @@ class JointStore {
   std::vector<int> m_order;
   std::vector<std::pair<int, int>> m_apart;  // sorted pairs of bodies that do not collide because of a joint
   bool m_is_apart_sorted = true;
+  std::uint64_t m_changes = 0;
 };
 
 }  // namespace naiad::physics

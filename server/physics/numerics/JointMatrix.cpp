@@ -11,6 +11,8 @@ namespace naiad::physics {
 
 namespace {
 
+constexpr double kDependent = 1e-11;  // a pivot below this part of the diagonal is only rounding
+
 using Neighbours = std::vector<std::vector<int>>;
 
 bool isMovable(std::span<const JointMass> masses, int body) {
@@ -56,6 +58,14 @@ int fillOf(const Neighbours& neighbours, int i) {
     }
   }
   return fill;
+}
+
+double diagonalOf(const JointRow& row, const JointMass* masses, double regularisation) {
+  const double square = dot(row.n, row.n);
+  double sum = masses[row.b].inverse_mass * square + masses[row.b].inverse_inertia * row.jb * row.jb;
+  if (row.a >= 0)
+    sum += masses[row.a].inverse_mass * square + masses[row.a].inverse_inertia * row.ja * row.ja;
+  return sum * (1 + regularisation);
 }
 
 }  // namespace
@@ -151,35 +161,41 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
   m_pivot.assign(rows.size(), 0);
 }
 
-int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
-                        const double* softness, double regularisation) {
-  constexpr double kDependent = 1e-11;  // a pivot below this part of the diagonal is only rounding
+// Computes the entries below the diagonal, before factoring.
+void JointMatrix::setLower(const JointRow* rows, const JointMass* masses) {
   std::fill(m_lower.begin(), m_lower.end(), 0.0);
   for (const Term& term : m_terms) {
-    if ((is_out[term.i] | is_out[term.k]) != 0) continue;
     const JointRow& i = rows[term.i];
     const JointRow& k = rows[term.k];
     const JointMass& mass = masses[term.body];
     m_lower[at(term.at)] += term.sign * mass.inverse_mass * dot(i.n, k.n) +
                             mass.inverse_inertia * (term.i_is_b ? i.jb : i.ja) * (term.k_is_b ? k.jb : k.ja);
   }
-  double* diagonal = m_inverse.data();
-  for (int i = 0; i < m_size; ++i) {
-    const JointRow& row = rows[i];
-    double sum = 1;
-    if (is_out[i] == 0) {
-      const JointMass b = masses[row.b];
-      sum = b.inverse_mass * dot(row.n, row.n) + b.inverse_inertia * row.jb * row.jb;
-      if (row.a >= 0) {
-        const JointMass a = masses[row.a];
-        sum += a.inverse_mass * dot(row.n, row.n) + a.inverse_inertia * row.ja * row.ja;
-      }
-      if (softness != nullptr) sum += softness[i];
-      sum *= 1 + regularisation;
-    }
-    diagonal[i] = sum;
-    m_pivot[at(i)] = sum;
+}
+
+// Factors the matrix of a chain, whose rows have a single entry below the diagonal.
+int JointMatrix::factorChain(const JointRow* rows, const JointMass* masses, double regularisation) {
+  int dependent = 0;
+  double taken = 0;  // from the row's pivot by the row before it
+  for (int j = 0; j < m_size; ++j) {
+    const double diagonal = diagonalOf(rows[j], masses, regularisation), pivot = diagonal - taken;
+    const bool is_good = pivot > kDependent * diagonal;
+    const double inverse = is_good ? 1 / pivot : 0;
+    dependent += is_good ? 0 : 1;
+    m_inverse[at(j)] = inverse;
+    if (j + 1 == m_size) break;
+    const double scaled = m_lower[at(j)] * inverse;
+    taken = scaled * m_lower[at(j)];
+    m_lower[at(j)] = scaled;
   }
+  return dependent;
+}
+
+int JointMatrix::factor(const JointRow* rows, const JointMass* masses, double regularisation) {
+  setLower(rows, masses);
+  if (m_is_chain) return factorChain(rows, masses, regularisation);
+  double* diagonal = m_inverse.data();
+  for (int i = 0; i < m_size; ++i) m_pivot[at(i)] = diagonal[i] = diagonalOf(rows[i], masses, regularisation);
   int dependent = 0;
   const int* target = m_targets.data();
   for (int j = 0; j < m_size; ++j) {

@@ -37,11 +37,9 @@ class JointMatrix {
   /// Sets the pattern. `rows` must be in elimination order, which is also the order of all arrays below.
   void analyse(std::span<const JointRow> rows, std::span<const JointMass> masses);
 
-  /// Factors the matrix. Rows with `is_out` are excluded; callers set their right-hand side to 0. Adds
-  /// `softness` to the diagonal; null means zero. Multiplies the diagonal by 1 + `regularisation`. Returns
-  /// the number of rows that depend on other rows; their multipliers will be 0.
-  int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
-             const double* softness, double regularisation = 0);
+  /// Factors the matrix, with the diagonal multiplied by 1 + `regularisation`. Returns the number of rows
+  /// that depend on other rows; their multipliers will be 0.
+  int factor(const JointRow* rows, const JointMass* masses, double regularisation = 0);
 
   /// Replaces the right-hand side by the solution.
   void solve(double* x) const;
@@ -57,6 +55,8 @@ class JointMatrix {
  private:
   static constexpr int kBand = 3;
 
+  int factorChain(const JointRow* rows, const JointMass* masses, double regularisation);
+  void setLower(const JointRow* rows, const JointMass* masses);
   void solveBand(double* x) const;
 
   struct Term {  // part of an entry: rows i and k share a body

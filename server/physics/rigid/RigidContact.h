@@ -36,6 +36,17 @@ struct alignas(64) RigidState {
   }
 };
 
+/// Sets the kicks of a body for sub-steps of length h. They grow steadily with `jerk`, from below their mean
+/// to above it. The factor square / (square − 1) corrects the error of half kicks, so that the path ends
+/// where it does with a steadily growing acceleration.
+inline void setKick(RigidState& state, Vec2 acceleration, Vec2 jerk, double h, double substeps) {
+  state.kick = (0.5 * h) * acceleration;
+  if (jerk == Vec2{} || substeps < 2) return;
+  const double square = substeps * substeps;
+  state.kick_growth = (0.5 * h * h * square / (square - 1)) * jerk;
+  state.kick -= (0.5 * (substeps - 1)) * state.kick_growth;
+}
+
 /// A contact of two shapes whose bodies' bounds overlap. It is kept from step to step.
 struct RigidContact {
   std::int32_t next = -1;  ///< index of the next contact of these bodies, or of the next free entry

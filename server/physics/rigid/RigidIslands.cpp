@@ -47,7 +47,9 @@ bool areUnequal(std::span<const int> bodies, std::span<const RigidState> states)
 }  // namespace
 
 void RigidWorld::solveIsland(Island& island, bool is_second) {
-  if (island.budget > 0 && island.constraints + island.links > 1 && solveAtOnce(island, is_second)) return;
+  if (island.constraints + island.links == 0) return;
+  const bool is_single = island.constraints == 1 && island.links == 0;
+  if (island.budget > 0 && !is_single && solveAtOnce(island, is_second)) return;
   if (island.constraints == 1 && island.links == 0) {  // sweeps of a single contact converge quickly
     ContactConstraint& c = m_constraints[at(constraintsOf(island)[0])];
     for (int i = 0; i < kSingleSweeps && solveContact(c, m_states, is_second) > kSpeedError * island.kick;

@@ -9,8 +9,10 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kPullRate = 0.3;      // fraction of a joint's error undone in a sub-step; like kPushRate
-constexpr double kResolved = 1;        // maximum (h·ω)² of springs that may oscillate; others are damped
+constexpr double kPullRate = 0.3;  // fraction of a joint's error undone in a sub-step; like kPushRate
+constexpr double kResolved = 1;    // maximum (h·ω)² of springs that may oscillate; others are damped
+// Like kResolved, for springs on bodies whose rigid joints bend their path: otherwise the energy might grow.
+constexpr double kResolvedHeld = 0.02;
 constexpr double kLeastPush = 1e-280;  // smaller stiffness counts as 0, because its inverse is not finite
 
 const RigidState kGround = {};
@@ -52,7 +54,7 @@ void prepareMotor(RigidRow& row, const Joint& joint, double h) {
 // Prepares a spring. If the sub-step resolves its oscillation, half of its impulse acts before the bodies
 // move and half after, like gravity: the implicit midpoint rule, which conserves the energy of an undamped
 // spring. A stiffer spring has all of its impulse before, by backward Euler.
-void prepareSoft(RigidRow& row, const Joint& joint, double h) {
+void prepareSoft(RigidRow& row, const Joint& joint, double h, double resolved) {
   const double k = joint.stiffness, c = joint.damping;
   const double most = joint.kind == JointKind::kMouse ? joint.max_force * h : kNoLimit;
   for (int half = 0; half < 2; ++half) {
@@ -65,7 +67,7 @@ void prepareSoft(RigidRow& row, const Joint& joint, double h) {
       part.softness = softness;
       part.mass = row.inverse_effective_mass + softness > 0 ? 1 / (row.inverse_effective_mass + softness) : 0;
     };
-    if (h * h * k * row.inverse_effective_mass > kResolved ||
+    if (h * h * k * row.inverse_effective_mass > resolved ||
         2 * h * c * row.inverse_effective_mass > kResolved) {
       part.low = -most, part.high = most;
       if (half == 0) soften(-k * row.value / (c + h * k), 1 / (h * (c + h * k)));
@@ -99,6 +101,8 @@ void RigidJoints::load(int id, std::span<const RigidBody> bodies) {
   } else {
     link.offset = b.place - j.target;
   }
+  if (at(id) >= m_link_of.size()) m_link_of.resize(at(id) + 1, -1);
+  m_link_of[at(id)] = static_cast<int>(m_links.size());
   m_links.push_back(link);
   for (int k = 0; k < link.count; ++k) {
     RigidRow row;
@@ -141,7 +145,7 @@ void RigidJoints::prepare(double h) {
       if (link.kind == JointKind::kMotor) {
         prepareMotor(row, j, h);
       } else if (row.is_soft) {
-        prepareSoft(row, j, h);
+        prepareSoft(row, j, h, wayOf(link.id) == Way::kHeld ? kResolvedHeld : kResolved);
       } else {
         prepareHard(row, h);
       }
@@ -258,6 +262,7 @@ void RigidJoints::endSubstep() {
 int RigidJoints::end(double dt, double h) {
   int broken = 0;
   for (const Link& link : m_links) {
+    if (link.is_done) continue;
     for (int k = 0; k < link.count; ++k) memoryOf(link.id)[at(k)] = m_rows[at(link.row + k)].impulse / h;
     broken += finish(link.id, link.force / dt, link.torque / dt) ? 1 : 0;
   }

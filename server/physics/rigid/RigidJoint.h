@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "physics/joint/JointRows.h"
@@ -40,9 +41,11 @@ class RigidJoints : public JointStore {
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states, double h,
              IsActive isActive) {
     m_rows.clear();
+    for (const Link& link : m_links) m_link_of[static_cast<std::size_t>(link.id)] = -1;
     m_links.clear();
     for (const int id : ids()) {
       const Joint& j = joint(id);
+      if (wayOf(id) == Way::kLinkage) continue;
       if (!j.is_broken && (isActive(j.b) || (firstOf(j) >= 0 && isActive(j.a)))) load(id, bodies);
     }
     for (RigidRow& row : m_rows) row.impulse *= h;
@@ -67,6 +70,30 @@ class RigidJoints : public JointStore {
   /// Returns the energy that motors, springs and corrections of positions may add by the impulses of this
   /// half.
   double inputOf(int link, std::span<const RigidState> states, bool is_second);
+  /// Returns the rows of a joint in this step; none if no active body has it.
+  std::span<RigidRow> rowsOfJoint(int id) {
+    const auto i = static_cast<std::size_t>(id);
+    if (i >= m_link_of.size() || m_link_of[i] < 0) return {};
+    return rowsOfLink(m_link_of[i]);
+  }
+  /// The solver of a joint.
+  enum class Way : std::uint8_t {
+    kHere,     ///< RigidJoints
+    kLinkage,  ///< a RigidLinkage alone, so that begin() leaves it out
+    kHeld      ///< RigidJoints, together with rigid joints of its group
+  };
+  void setWays(std::vector<Way> ways) { m_ways = std::move(ways); }
+  Way wayOf(int id) const {
+    const auto i = static_cast<std::size_t>(id);
+    return i < m_ways.size() ? m_ways[i] : Way::kHere;
+  }
+  using JointStore::finish;
+  /// Makes end() leave out a joint of this step, because a RigidLinkage has solved it.
+  void skip(int id) {
+    const auto i = static_cast<std::size_t>(id);
+    if (i < m_link_of.size() && m_link_of[i] >= 0)
+      m_links[static_cast<std::size_t>(m_link_of[i])].is_done = true;
+  }
   /// Projects the velocities that undo overlap onto those that the joints allow.
   void hold(std::span<RigidState> states) const;
   void endSubstep();
@@ -92,6 +119,7 @@ class RigidJoints : public JointStore {
     Rotation between;   // rotation of b relative to a, measured from the reference, at the start of the step
     Vec2 force;
     double torque = 0;
+    bool is_done = false;  // end() leaves it out
   };
 
   void load(int id, std::span<const RigidBody> bodies);
@@ -99,6 +127,8 @@ class RigidJoints : public JointStore {
   void prepareWarm(std::span<RigidState> states, double h, bool is_second);
   void place(const Link& link, const RigidState& a, const RigidState& b);
 
+  std::vector<Way> m_ways;     // by id
+  std::vector<int> m_link_of;  // index in m_links, by id; −1: none
   std::vector<Link> m_links;
   std::vector<RigidRow> m_rows;
 };

@@ -1,6 +1,9 @@
-// Finds the groups of connected bodies in a RigidWorld, and puts groups at rest to sleep.
+// Finds the groups of connected bodies in a RigidWorld and their linkages, and puts groups at rest to sleep.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "physics/rigid/RigidWorld.h"
 
@@ -26,6 +29,9 @@ void RigidWorld::findIslands() {
   }
   m_joints.visitLinks([&](int a, int b) {
     if (a >= 0 && isMember(a) && isMember(b)) m_sets.unite(a, b);
+  });
+  visitLinkages([&](int a, int b) {
+    if (isMember(a) && isMember(b)) m_sets.unite(a, b);
   });
 }
 
@@ -101,6 +107,124 @@ void RigidWorld::gatherIslands() {
   }
 }
 
+// The rigid joints of each group of joined bodies are a linkage. It is alone if the group has no other
+// joints, and no shapes and magnets. An existing linkage is kept if it has these joints, because to find
+// the order of elimination takes long.
+void RigidWorld::findLinkages() {
+  if (m_joint_changes == m_joints.changes() && !m_linkages_changed) return;
+  m_joint_changes = m_joints.changes();
+  m_linkages_changed = false;
+  std::vector<RigidJoints::Way> ways;
+  std::vector<RigidLinkage> found;
+  if (!m_joints.ids().empty()) {
+    m_sets.reset(m_bodies.size());
+    const auto isMember = [&](int id) { return id >= 0 && isMovable(id); };
+    m_joints.visitWorking([&](int a, int b) {
+      if (isMember(a) && isMember(b)) m_sets.unite(a, b);
+    });
+    std::vector<std::uint8_t> is_pure(m_bodies.size(), 1), is_alone(m_bodies.size(), 1);  // by root
+    for (int id = 0; id < idLimit(); ++id) {
+      const Extra& extra = m_extras[at(id)];
+      if (!extra.exists || !isMovable(id)) continue;
+      const int root = m_sets.rootOf(id);
+      if (extra.is_frozen || m_bodies[at(id)].turn_rate != 0) is_pure[at(root)] = 0;
+      if (extra.proxy >= 0) is_alone[at(root)] = 0;
+    }
+    const auto rootOf = [&](int joint) {
+      const Joint& its = m_joints.joint(joint);
+      const int member = isMember(its.b) ? its.b : isMember(JointStore::firstOf(its)) ? its.a : -1;
+      return its.is_broken || member < 0 ? -1 : m_sets.rootOf(member);
+    };
+    for (const int id : m_joints.ids()) {
+      const int root = rootOf(id);
+      if (root >= 0 && !RigidLinkage::canBeAlone(m_joints.joint(id))) is_pure[at(root)] = 0;
+    }
+    std::vector<std::vector<int>> groups;
+    std::vector<int> group_of(m_bodies.size(), -1);
+    std::vector<std::uint8_t> has_rigid(m_bodies.size(), 0);  // by root
+    for (const int id : m_joints.ids()) {
+      const int root = rootOf(id);
+      if (root < 0) continue;
+      if (group_of[at(root)] < 0) {
+        group_of[at(root)] = static_cast<int>(groups.size());
+        groups.emplace_back();
+      }
+      groups[at(group_of[at(root)])].push_back(id);
+      if (RigidLinkage::canHave(m_joints.joint(id))) has_rigid[at(root)] = 1;
+    }
+    for (const std::vector<int>& group : groups) {
+      const auto same = std::find_if(m_linkages.begin(), m_linkages.end(), [&](const RigidLinkage& linkage) {
+        return linkage.isSame(group, m_joints, m_bodies);
+      });
+      if (same != m_linkages.end()) {
+        found.push_back(std::move(*same));
+      } else {
+        found.emplace_back(group, m_joints, m_bodies);
+      }
+      const int root = rootOf(group[0]);
+      found.back().setKind(is_pure[at(root)] != 0, is_alone[at(root)] != 0);
+      if (!found.back().isAlone() && has_rigid[at(root)] == 0) continue;
+      for (const int id : group) {
+        if (at(id) >= ways.size()) ways.resize(at(id) + 1, RigidJoints::Way::kHere);
+        ways[at(id)] = found.back().isAlone() ? RigidJoints::Way::kLinkage : RigidJoints::Way::kHeld;
+      }
+    }
+  }
+  m_linkages = std::move(found);
+  m_joints.setWays(std::move(ways));
+}
+
+void RigidWorld::beginLinkages() {
+  for (RigidLinkage& linkage : m_linkages) {
+    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active)
+      linkage.begin(m_bodies, m_states, m_joints);
+  }
+}
+
+// Changes the velocities of groups that are not alone so that their joints fit where the bodies arrive, not
+// only where they are. The joints then neither open nor cost energy.
+void RigidWorld::aimLinkages(double h) {
+  for (RigidLinkage& linkage : m_linkages) {
+    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active)
+      linkage.aim(m_states, m_joints, h, m_linkage_counters);
+  }
+}
+
+// Undoes the errors of joints that are left after the bodies moved, without changing velocities.
+void RigidWorld::fitLinkages() {
+  for (RigidLinkage& linkage : m_linkages) {
+    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active) linkage.fit(m_states);
+  }
+}
+
+void RigidWorld::dampLinkages() {
+  for (RigidLinkage& linkage : m_linkages) {
+    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active) linkage.damp(m_states);
+  }
+}
+
+// Moves the linkages that nothing has touched in this step.
+void RigidWorld::moveLinkages() {
+  for (const ContactConstraint& c : m_constraints) {
+    if (c.points[0].total + c.points[1].total == 0 && !c.is_deep) continue;
+    m_extras[at(c.a)].is_touched = m_extras[at(c.b)].is_touched = true;
+  }
+  for (RigidLinkage& linkage : m_linkages) {
+    if (!m_extras[at(linkage.someBody())].is_active) continue;
+    bool is_touched = false;
+    linkage.visitLinks([&](int a, int b) {
+      is_touched = is_touched || (a >= 0 && isMovable(a) && m_extras[at(a)].is_touched) ||
+                   (isMovable(b) && m_extras[at(b)].is_touched);
+    });
+    if (is_touched) continue;
+    if (linkage.isPure()) {
+      m_counters.broken += linkage.step(m_bodies, m_states, m_joints, m_linkage_counters);
+    } else {
+      linkage.limitEnergy(m_bodies, m_states);
+    }
+  }
+}
+
 // Puts groups to sleep. All bodies of the group must have been still for sleep_delay without becoming faster.
 // No kinematic body may drive the group. An immovable body must hold it, or all its speeds must be 0.
 void RigidWorld::sleep(double dt) {
@@ -142,6 +266,10 @@ void RigidWorld::sleep(double dt) {
       lean(a, b);
       lean(b, a);
     }
+  });
+  visitLinkages([&](int a, int b) {
+    lean(a, b);
+    lean(b, a);
   });
   for (const int id : m_active) {
     Extra& extra = m_extras[at(id)];

@@ -16,15 +16,6 @@ constexpr double kSlack = 0.02;       // minimum margin of the search for contac
 constexpr double kBoundsSlack = 0.1;  // margin of bounds in the broad phase; smaller moves do not change them
 constexpr double kFast = 0.25;        // a large group is abandoned if a body moves farther in a step
 
-// Makes the kicks grow steadily, from below their mean to above it. The factor square / (square − 1) corrects
-// the error of half kicks, so that the path has the same end as with a steadily growing acceleration.
-void bendKicks(RigidState& state, Vec2 jerk, double h, double substeps) {
-  if (substeps < 2) return;
-  const double square = substeps * substeps;
-  state.kick_growth = (0.5 * h * h * square / (square - 1)) * jerk;
-  state.kick -= (0.5 * (substeps - 1)) * state.kick_growth;
-}
-
 }  // namespace
 
 void RigidWorld::beginBody(int id, double dt) {
@@ -49,12 +40,11 @@ void RigidWorld::beginBody(int id, double dt) {
   state.spin = body.spin;
   if (is_movable) {
     state.setMass(body.inverse_mass, body.inverse_inertia);
-    state.kick = (0.5 * m_h) * acceleration;
-    if (body.jerk != Vec2{}) bendKicks(state, body.jerk, m_h, m_options.substeps);
+    setKick(state, acceleration, body.jerk, m_h, m_options.substeps);
     state.spin_kick = 0.5 * m_h * spin_gain;
   }
   extra.moved = extra.rolled = 0;
-  extra.is_given_up = extra.is_pushed = false;
+  extra.is_given_up = extra.is_pushed = extra.is_touched = false;
   if (extra.proxy < 0) return;
   const double movement = length(displacement) + std::min(angle, 2.0) * extra.reach;
   extra.margin = std::min(movement, extra.thickness) + kSlack * extra.thickness;
@@ -289,8 +279,10 @@ void RigidWorld::substep(double h) {
   m_joints.beginFirstHalf(m_states, h);
   for (ContactConstraint& c : m_constraints) beginFirstHalf(c, m_states);
   solve(false);
+  aimLinkages(h);
   if (is_deep) pushOut(h);
   drift(h);
+  fitLinkages();
   m_joints.refresh(m_states);
   for (ContactConstraint& c : m_constraints) physics::refresh(c, m_states);
   if (m_has_flown) dropParted();
@@ -299,6 +291,7 @@ void RigidWorld::substep(double h) {
   for (ContactConstraint& c : m_constraints) beginSecondHalf(c, m_states, h);
   solve(true);
   turnByMagnets(h);
+  dampLinkages();
   m_joints.endSubstep();
   for (ContactConstraint& c : m_constraints) {
     const double before = c.points[0].total + c.points[1].total;
@@ -340,11 +333,14 @@ void RigidWorld::stepOnce(double dt) {
   beginStep(dt);
   updatePairs();
   updateContacts(dt);
+  findLinkages();
   m_joints.begin(m_bodies, m_states, m_h,
                  [&](int id) { return m_extras[at(id)].is_active && isMovable(id); });
+  beginLinkages();
   findIslands();
   gatherIslands();
   for (int i = 0; i < m_options.substeps; ++i) substep(m_h);
+  moveLinkages();
   finishStep(dt);
 }
 

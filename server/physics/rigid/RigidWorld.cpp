@@ -47,6 +47,7 @@ bool RigidWorld::set(int id, const RigidBody& body) {
   if (own == body && !extra.is_frozen) return true;
   const bool was_movable = isMovable(id);
   if (own.turn_rate == 0 || body.turn_rate == 0) forget(id);  // a magnet changes it in each tick
+  if ((own.turn_rate != 0) != (body.turn_rate != 0)) m_linkages_changed = true;
   wakeRing(id);
   if (!was_movable) wakeNeighbours(id);
   own = body;
@@ -119,7 +120,7 @@ void RigidWorld::enter(int id) {
   extra.is_frozen = extra.is_asleep = false;
   extra.margin = extra.moved = extra.rolled = 0;
   m_states[at(id)] = {};
-  m_active_changed = true;
+  m_active_changed = m_linkages_changed = true;
   if (!isMovable(id)) {
     if (!extra.is_dirty) m_dirty.push_back(id);
     extra.is_dirty = true;
@@ -140,7 +141,7 @@ void RigidWorld::leave(int id) {
     if (pair.a != id && pair.b != id) continue;
     dropContacts(pair);
   }
-  m_active_changed = true;
+  m_active_changed = m_linkages_changed = true;
 }
 
 void RigidWorld::freeze(int id) {

@@ -19,6 +19,7 @@
 #include "physics/rigid/RigidContact.h"
 #include "physics/rigid/RigidDirect.h"
 #include "physics/rigid/RigidJoint.h"
+#include "physics/rigid/RigidLinkage.h"
 #include "physics/rigid/RigidStepper.h"
 
 namespace naiad::physics {
@@ -81,6 +82,7 @@ class RigidWorld final : public RigidStepper {
   void step() override;
 
   const RigidCounters& counters() const { return m_counters; }
+  const LinkageCounters& linkageCounters() const { return m_linkage_counters; }
   const RigidOptions& options() const { return m_options; }
 
   /// Returns the depth of the deepest overlap at the start of the last step.
@@ -114,6 +116,7 @@ class RigidWorld final : public RigidStepper {
     bool is_dirty = false;   // set() was called since the last step
     bool is_active = false;  // listed in m_active
     bool is_fast = false;
+    bool is_touched = false;    // a contact has pushed it in this step
     bool is_in_group = false;   // true if its group, when last listed, had more than three bodies
     bool is_in_crowd = false;   // true if its group, when last listed, was large or had rigid joints
     bool is_on_joints = false;  // true if its group, when last listed, had rigid joints
@@ -252,6 +255,18 @@ class RigidWorld final : public RigidStepper {
   void findIslands();
   void gatherIslands();
   int islandOf(int a, int b);
+  void findLinkages();
+  void beginLinkages();
+  void aimLinkages(double h);
+  void fitLinkages();
+  void dampLinkages();
+  void moveLinkages();
+  template <class Visit>
+  void visitLinkages(Visit visit) const {
+    for (const RigidLinkage& linkage : m_linkages) {
+      if (linkage.isAlone() && m_extras[at(linkage.someBody())].is_active) linkage.visitLinks(visit);
+    }
+  }
 
   // Defined in RigidIslands.cpp:
   void solveIsland(Island& island, bool is_second);
@@ -291,6 +306,10 @@ class RigidWorld final : public RigidStepper {
   std::vector<std::pair<int, MagnetTurn>> m_magnets;  // bodies turned by a magnet in this sub-step
   std::vector<int> m_dirty;                           // ids of immovable bodies that were set
   RigidJoints m_joints;
+  std::vector<RigidLinkage> m_linkages;
+  std::uint64_t m_joint_changes = 0;  // m_joints.changes() when m_linkages was made
+  bool m_linkages_changed = false;    // true if bodies have changed so that m_linkages may be others
+  LinkageCounters m_linkage_counters;
   std::vector<Late> m_late, m_late_before;
   std::vector<Flight> m_flights;
   std::vector<Impact> m_impacts;

@@ -113,6 +113,28 @@ TEST_F(BodyCradle, BehavesTheSameFarAway) {
     EXPECT_EQ(balls.at(i)->getDisplacementFrom(hung.at(i)), near.at(i)) << i;
 }
 
+// Two boxes that collide far away change no bit.
+TEST_F(BodyCradle, MovesTheSameBesideFlyingBoxes) {
+  std::array<std::array<Vector, kBalls>, 2> places;
+  for (std::size_t run = 0; run < 2; ++run) {
+    Body* boxes[] = {run == 0 ? nullptr : ball<Listener>(Vector(2000, 0), Vector(40, -3)),
+                     run == 0 ? nullptr : ball<Listener>(Vector(2030, 0), Vector(-40, -2))};
+    for (Body* p_box : boxes) {
+      if (p_box == nullptr) continue;
+      p_box->setBoxShape(1, 2);
+      p_box->setTurning();
+    }
+    hang(1);
+    ticks(150);
+    for (std::size_t i = 0; i < kBalls; ++i) {
+      places.at(run).at(i) = balls.at(i)->getDisplacementFrom(hung.at(i));
+      delete balls.at(i);
+    }
+    for (Body* p_box : boxes) delete p_box;
+  }
+  EXPECT_EQ(places[0], places[1]);
+}
+
 // With restitution 0.5, each impact transfers 3/4 of the speed.
 TEST_F(BodyCradle, EnergyLossMatchesEachImpact) {
   hang(1, 1, 0.5);
