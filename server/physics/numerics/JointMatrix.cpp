@@ -60,12 +60,12 @@ int fillOf(const Neighbours& neighbours, int i) {
   return fill;
 }
 
-double diagonalOf(const JointRow& row, const JointMass* masses, double regularisation) {
+double diagonalOf(const JointRow& row, const JointMass* masses, double softness, double regularisation) {
   const double square = dot(row.n, row.n);
   double sum = masses[row.b].inverse_mass * square + masses[row.b].inverse_inertia * row.jb * row.jb;
   if (row.a >= 0)
     sum += masses[row.a].inverse_mass * square + masses[row.a].inverse_inertia * row.ja * row.ja;
-  return sum * (1 + regularisation);
+  return (sum + softness) * (1 + regularisation);
 }
 
 }  // namespace
@@ -162,9 +162,10 @@ void JointMatrix::analyse(std::span<const JointRow> rows, std::span<const JointM
 }
 
 // Computes the entries below the diagonal, before factoring.
-void JointMatrix::setLower(const JointRow* rows, const JointMass* masses) {
+void JointMatrix::setLower(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out) {
   std::fill(m_lower.begin(), m_lower.end(), 0.0);
   for (const Term& term : m_terms) {
+    if (is_out != nullptr && (is_out[term.i] | is_out[term.k]) != 0) continue;
     const JointRow& i = rows[term.i];
     const JointRow& k = rows[term.k];
     const JointMass& mass = masses[term.body];
@@ -178,7 +179,7 @@ int JointMatrix::factorChain(const JointRow* rows, const JointMass* masses, doub
   int dependent = 0;
   double taken = 0;  // from the row's pivot by the row before it
   for (int j = 0; j < m_size; ++j) {
-    const double diagonal = diagonalOf(rows[j], masses, regularisation), pivot = diagonal - taken;
+    const double diagonal = diagonalOf(rows[j], masses, 0, regularisation), pivot = diagonal - taken;
     const bool is_good = pivot > kDependent * diagonal;
     const double inverse = is_good ? 1 / pivot : 0;
     dependent += is_good ? 0 : 1;
@@ -192,10 +193,26 @@ int JointMatrix::factorChain(const JointRow* rows, const JointMass* masses, doub
 }
 
 int JointMatrix::factor(const JointRow* rows, const JointMass* masses, double regularisation) {
-  setLower(rows, masses);
+  setLower(rows, masses, nullptr);
   if (m_is_chain) return factorChain(rows, masses, regularisation);
-  double* diagonal = m_inverse.data();
-  for (int i = 0; i < m_size; ++i) m_pivot[at(i)] = diagonal[i] = diagonalOf(rows[i], masses, regularisation);
+  for (int i = 0; i < m_size; ++i)
+    m_pivot[at(i)] = m_inverse[at(i)] = diagonalOf(rows[i], masses, 0, regularisation);
+  return eliminate();
+}
+
+int JointMatrix::factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
+                        const double* softness, double regularisation) {
+  setLower(rows, masses, is_out);
+  for (int i = 0; i < m_size; ++i) {
+    m_pivot[at(i)] = m_inverse[at(i)] =
+        is_out[i] != 0 ? 1 : diagonalOf(rows[i], masses, softness[i], regularisation);
+  }
+  return eliminate();
+}
+
+// Call when m_lower has the matrix, and m_pivot and m_inverse its diagonal.
+int JointMatrix::eliminate() {
+  const double* diagonal = m_inverse.data();
   int dependent = 0;
   const int* target = m_targets.data();
   for (int j = 0; j < m_size; ++j) {

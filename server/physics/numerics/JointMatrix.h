@@ -40,6 +40,10 @@ class JointMatrix {
   /// Factors the matrix, with the diagonal multiplied by 1 + `regularisation`. Returns the number of rows
   /// that depend on other rows; their multipliers will be 0.
   int factor(const JointRow* rows, const JointMass* masses, double regularisation = 0);
+  /// The same without rows with `is_out`, whose right-hand side must be 0, and with `softness` added to the
+  /// diagonal.
+  int factor(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out,
+             const double* softness, double regularisation);
 
   /// Replaces the right-hand side by the solution.
   void solve(double* x) const;
@@ -56,7 +60,8 @@ class JointMatrix {
   static constexpr int kBand = 3;
 
   int factorChain(const JointRow* rows, const JointMass* masses, double regularisation);
-  void setLower(const JointRow* rows, const JointMass* masses);
+  void setLower(const JointRow* rows, const JointMass* masses, const std::uint8_t* is_out);
+  int eliminate();
   void solveBand(double* x) const;
 
   struct Term {  // part of an entry: rows i and k share a body

@@ -95,8 +95,8 @@ RigidWorld::Work RigidWorld::workOf(const Island& island) const {
   return work;
 }
 
-// Returns the energy that drivers may add to the group by the impulses of this half: moving surfaces, motors,
-// springs and corrections of joints.
+// Returns the energy that drivers may add to the group by the impulses of this half: moving surfaces, motors
+// and springs.
 double RigidWorld::inputOf(const Island& island, bool is_second) {
   double input = 0;
   for (const int i : constraintsOf(island)) {

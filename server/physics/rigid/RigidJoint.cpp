@@ -9,8 +9,7 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kPullRate = 0.3;  // fraction of a joint's error undone in a sub-step; like kPushRate
-constexpr double kResolved = 1;    // maximum (h·ω)² of springs that may oscillate; others are damped
+constexpr double kResolved = 1;  // maximum (h·ω)² of springs that may oscillate; others are damped
 // Like kResolved, for springs on bodies whose rigid joints bend their path: otherwise the energy might grow.
 constexpr double kResolvedHeld = 0.02;
 constexpr double kLeastPush = 1e-280;  // smaller stiffness counts as 0, because its inverse is not finite
@@ -32,14 +31,14 @@ void push(const RigidRow& row, std::span<RigidState> states, double impulse) {
   b.spin += b.inverse_inertia * row.jb * impulse;
 }
 
-// Prepares a row of a rigid joint.
+// Prepares a row of a rigid joint. Its RigidLinkage undoes errors of positions.
 void prepareHard(RigidRow& row, double h) {
   const double mass = row.inverse_effective_mass > 0 ? 1 / row.inverse_effective_mass : 0;
   // A one-sided row whose value is on the free side may reach the value 0, but not pass it. If it did not
   // reach 0 in the first half, it does nothing in the second one.
   const bool is_free = row.side * row.value > 0, is_idle = is_free && row.impulse == 0;
   const double low = row.side > 0 ? 0 : -kNoLimit, high = row.side < 0 ? 0 : kNoLimit;
-  row.half[0] = {is_free ? -row.value / h : -kPullRate * row.value / h, 0, mass, low, high, 0};
+  row.half[0] = {is_free ? -row.value / h : 0, 0, mass, low, high, 0};
   row.half[1] = {is_free ? -row.value / h : 0, 0, is_idle ? 0 : mass, low, high, 0};
   if (is_idle) row.warm = 0;
 }

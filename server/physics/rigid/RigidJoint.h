@@ -67,8 +67,7 @@ class RigidJoints : public JointStore {
   void restart(int link, std::span<RigidState> states, bool is_second, double part);
   /// Multiplies the impulses of this half by `part`, but not the velocities that they caused.
   void scale(int link, double part);
-  /// Returns the energy that motors, springs and corrections of positions may add by the impulses of this
-  /// half.
+  /// Returns the energy that motors and springs may add by the impulses of this half.
   double inputOf(int link, std::span<const RigidState> states, bool is_second);
   /// Returns the rows of a joint in this step; none if no active body has it.
   std::span<RigidRow> rowsOfJoint(int id) {
@@ -93,6 +92,13 @@ class RigidJoints : public JointStore {
     const auto i = static_cast<std::size_t>(id);
     if (i < m_link_of.size() && m_link_of[i] >= 0)
       m_links[static_cast<std::size_t>(m_link_of[i])].is_done = true;
+  }
+  /// Adds the impulse of an impact to the force of a joint of this step.
+  void addImpact(int id, Vec2 force, double torque) {
+    const auto i = static_cast<std::size_t>(id);
+    if (i >= m_link_of.size() || m_link_of[i] < 0) return;
+    m_links[static_cast<std::size_t>(m_link_of[i])].force += force;
+    m_links[static_cast<std::size_t>(m_link_of[i])].torque += torque;
   }
   /// Projects the velocities that undo overlap onto those that the joints allow.
   void hold(std::span<RigidState> states) const;

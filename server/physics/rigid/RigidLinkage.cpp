@@ -178,6 +178,7 @@ void RigidLinkage::loadLinks(std::span<const RigidBody> bodies, const RigidJoint
 
 void RigidLinkage::begin(std::span<const RigidBody> bodies, std::span<const RigidState> states,
                          const RigidJoints& joints) {
+  m_is_begun = true;
   loadLinks(bodies, joints);
   m_tolerance = kTolerance;
   takeStates(states);

@@ -35,6 +35,13 @@ inline bool isMovable(const JointMass& mass) {
   return mass.inverse_mass > 0 || mass.inverse_inertia > 0;
 }
 
+/// The change of a body's motion by a unit impulse somewhere.
+struct BodyChange {
+  int body = -1;
+  Vec2 velocity;
+  double spin = 0;
+};
+
 class RigidLinkage {
  public:
   /// True if a linkage can have this joint.
@@ -58,6 +65,11 @@ class RigidLinkage {
   }
   bool isPure() const { return m_is_pure; }
   bool isAlone() const { return m_is_alone; }
+  /// True if its bodies may be swept from impact to impact, because it is small and has only rigid joints.
+  bool mayFly() const { return m_is_pure && !m_is_alone && m_nodes.size() <= kMostFlying; }
+  /// True if the step began with a linkage that is not alone, or it was hit since.
+  bool isBegun() const { return m_is_begun; }
+  void setUnbegun() { m_is_begun = false; }
 
   /// Call at the start of a step of a linkage that is not alone.
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states,
@@ -72,6 +84,17 @@ class RigidLinkage {
   /// energy that the sub-step has added.
   void damp(std::span<RigidState> states);
 
+  /// Call at an impact, with the states of its time and before respond().
+  void meet(std::span<const RigidState> states);
+  /// Pushes a body; respond() finds the effect.
+  void push(int body, Vec2 impulse, double turning);
+  /// Appends how the movable bodies respond to the pushes since the last call.
+  void respond(std::vector<BodyChange>& changes);
+  /// Adds the impulses of the joints, found by the last respond(), to their forces.
+  void addImpact(RigidJoints& joints) const;
+  /// Call after meet(). Changes the velocities so that the joints fit where the bodies arrive after h.
+  void lead(std::span<RigidState> states, double h, LinkageCounters& counters);
+
   /// Call at the end of a step in which nothing touched the linkage. Unless something drives it, changes its
   /// speeds so that it gains no energy, and loses none if no joint takes any.
   void limitEnergy(std::span<const RigidBody> bodies, std::span<RigidState> states);
@@ -83,6 +106,11 @@ class RigidLinkage {
 
   /// Returns one of its movable bodies.
   int someBody() const { return m_some_body; }
+  /// Calls visit(body) for every body with a joint.
+  template <class Visit>
+  void visitBodies(Visit visit) const {
+    for (const Node& node : m_nodes) visit(node.body);
+  }
   /// Calls visit(a, b) for every joint.
   template <class Visit>
   void visitLinks(Visit visit) const {
@@ -93,7 +121,8 @@ class RigidLinkage {
 
  private:
   static constexpr double kTolerance =
-      1e-11;                              // metric cells or rad, or the rounding of the largest coordinate
+      1e-11;  // metric cells or rad, or the rounding of the largest coordinate
+  static constexpr std::size_t kMostFlying = 32;
   static constexpr double kAimed = 1e-9;  // error of a sub-step that is not exact, or of a linkage not alone
   // Limit of the part by which a step may change speeds so that the energy is exact. A larger error, as in
   // bodies that almost rest, is left.
@@ -192,6 +221,7 @@ class RigidLinkage {
   double m_start_energy = 0;  // kinetic energy and that of springs at the start of the step
   bool m_has_motor = false;
   bool m_has_missed = false;
+  bool m_is_begun = false;
   bool m_is_new = false;  // no impulses are known
   bool m_is_pure = false, m_is_alone = false;
   bool m_is_free = false;          // no body is immovable

@@ -38,7 +38,9 @@ void RigidLinkage::aim(std::span<RigidState> states, RigidJoints& joints, double
   m_has_missed = false;
   takeStates(states);
   for (Link& link : m_links) {
-    if (isOneSided(link.kind)) link.is_active = joints.rowsOfJoint(link.id)[0].impulse != 0;
+    if (!isOneSided(link.kind)) continue;
+    const std::span<const RigidRow> rows = joints.rowsOfJoint(link.id);
+    link.is_active = !rows.empty() && rows[0].impulse != 0;
   }
   evaluate<true>(*m_p_joints);
   if (errors(h) <= kAimed) return;
@@ -64,7 +66,7 @@ void RigidLinkage::aim(std::span<RigidState> states, RigidJoints& joints, double
   }
   for (const Link& link : m_links) {
     const std::span<RigidRow> rows = joints.rowsOfJoint(link.id);
-    for (int k = 0; k < link.count; ++k) rows[at(k)].impulse += m_first[at(link.row[k])];
+    for (int k = 0; k < link.count && !rows.empty(); ++k) rows[at(k)].impulse += m_first[at(link.row[k])];
   }
 }
 

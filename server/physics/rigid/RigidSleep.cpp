@@ -69,6 +69,10 @@ void RigidWorld::gatherIslands() {
     ++island.links;
     island.hard_links += m_joints.isSoft(counted++) ? 0 : 1;
   });
+  for (const RigidLinkage& linkage : m_linkages) {
+    const int island = islandOf(linkage.someBody(), -1);
+    if (island >= 0 && !linkage.mayFly()) m_islands[at(island)].may_fly = false;
+  }
   int bodies = 0, constraints = 0, links = 0;
   for (Island& island : m_islands) {
     island.first_body = bodies, bodies += island.bodies;
@@ -79,8 +83,8 @@ void RigidWorld::gatherIslands() {
   for (const int id : m_active) {
     const Island& island = m_islands[at(m_island_of[at(m_sets.rootOf(id))])];
     m_extras[at(id)].is_in_group = island.bodies > kFew;
-    m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || island.hard_links > 0;
-    m_extras[at(id)].is_on_joints = island.hard_links > 0;
+    m_extras[at(id)].is_on_joints = island.hard_links > 0 && !island.may_fly;
+    m_extras[at(id)].is_in_crowd = island.bodies >= kCrowd || m_extras[at(id)].is_on_joints;
     m_extras[at(id)].push_sweeps = island.links > 0 ? kPushSweeps : 1;
   }
   for (Island& island : m_islands) island.bodies = island.constraints = island.links = 0;
@@ -171,11 +175,18 @@ void RigidWorld::findLinkages() {
     }
   }
   m_linkages = std::move(found);
+  m_linkage_of.assign(m_linkages.empty() ? 0 : m_bodies.size(), -1);
+  for (std::size_t i = 0; i < m_linkages.size(); ++i) {
+    m_linkages[i].visitBodies([&](int body) {
+      if (isMovable(body)) m_linkage_of[at(body)] = static_cast<int>(i);
+    });
+  }
   m_joints.setWays(std::move(ways));
 }
 
 void RigidWorld::beginLinkages() {
   for (RigidLinkage& linkage : m_linkages) {
+    linkage.setUnbegun();
     if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active)
       linkage.begin(m_bodies, m_states, m_joints);
   }
@@ -185,21 +196,32 @@ void RigidWorld::beginLinkages() {
 // only where they are. The joints then neither open nor cost energy.
 void RigidWorld::aimLinkages(double h) {
   for (RigidLinkage& linkage : m_linkages) {
-    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active)
-      linkage.aim(m_states, m_joints, h, m_linkage_counters);
+    if (linkage.isBegun()) linkage.aim(m_states, m_joints, h, m_linkage_counters);
   }
 }
 
 // Undoes the errors of joints that are left after the bodies moved, without changing velocities.
 void RigidWorld::fitLinkages() {
   for (RigidLinkage& linkage : m_linkages) {
-    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active) linkage.fit(m_states);
+    if (linkage.isBegun()) linkage.fit(m_states);
   }
 }
 
 void RigidWorld::dampLinkages() {
   for (RigidLinkage& linkage : m_linkages) {
-    if (!linkage.isAlone() && m_extras[at(linkage.someBody())].is_active) linkage.damp(m_states);
+    if (linkage.isBegun()) linkage.damp(m_states);
+  }
+}
+
+// Finds which linkages a contact pushes in this half of the sub-step.
+void RigidWorld::findPushedLinkages() {
+  if (m_linkages.empty()) return;
+  m_pushed_linkages.assign(m_linkages.size(), 0);
+  for (const ContactConstraint& c : m_constraints) {
+    if (!(c.points[0].normal_impulse + c.points[1].normal_impulse > 0)) continue;
+    for (const int id : {c.a, c.b}) {
+      if (const int linkage = flyingLinkageOf(id); linkage >= 0) m_pushed_linkages[at(linkage)] = 1;
+    }
   }
 }
 

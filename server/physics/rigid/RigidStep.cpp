@@ -183,13 +183,14 @@ bool RigidWorld::mayMeet(const ContactConstraint& c, double h) const {
   if (c.count == 0 || c.pair < 0) return c.count > 0;
   const RigidState &a = m_states[at(c.a)], &b = m_states[at(c.b)];
   const double way = length(b.displacement - a.displacement) + h * length(b.velocity - a.velocity) +
-                     0.25 * h * length(b.kick - a.kick);
+                     0.25 * h * length(bendOf(c.b) - bendOf(c.a));
   return c.first_gap <= way + m_extras[at(c.a)].rolled + m_extras[at(c.b)].rolled;
 }
 
 // Moves the bodies. Those that move farther than contacts were searched for move from impact to impact.
 void RigidWorld::drift(double h) {
   m_flights.clear();
+  findPushedLinkages();
   for (const int id : m_active) {
     Extra& extra = m_extras[at(id)];
     const RigidState& s = m_states[at(id)];

@@ -55,18 +55,28 @@ void RigidWorld::addFlight(int id, double time) {
   Extra& extra = m_extras[at(id)];
   if (extra.flight >= 0) return;
   const Vec2 bend = bendOf(id);
+  const double spin_bend = spinBendOf(id);
   extra.flight = static_cast<int>(m_flights.size());
-  m_flights.push_back({.id = id, .time = time, .bend = bend});
+  m_flights.push_back({.id = id, .time = time, .bend = bend, .spin_bend = spin_bend});
 }
 
 // Returns half of the change of the body's velocity by acceleration in the sub-step, if nothing pushes it:
-// its path is a parabola. `velocity` is that of the middle of the sub-step. The path of a body that is pushed
-// is a straight line.
+// its path is a parabola. `velocity` is that of the middle of the sub-step. The forces of its linkage bend it
+// too. The path of a body that is pushed is a straight line.
 Vec2 RigidWorld::bendOf(int id) const {
   const Extra& extra = m_extras[at(id)];
   const RigidState& s = m_states[at(id)];
   if (extra.flight >= 0) return m_flights[at(extra.flight)].bend;
+  const int linkage = flyingLinkageOf(id);
+  if (linkage >= 0 && m_pushed_linkages[at(linkage)] == 0) return s.velocity - (s.velocity_before - s.kick);
   return s.velocity == s.free_velocity ? s.kick : Vec2{};
+}
+
+double RigidWorld::spinBendOf(int id) const {
+  const RigidState& s = m_states[at(id)];
+  const int linkage = flyingLinkageOf(id);
+  if (linkage >= 0 && m_pushed_linkages[at(linkage)] == 0) return s.spin - (s.spin_before - s.spin_kick);
+  return s.spin_kick;
 }
 
 RigidWorld::Pose RigidWorld::poseAt(int id, double time, double h) const {
@@ -159,12 +169,13 @@ void RigidWorld::forecastPair(int one, int other, double h) {
   const Vec2 offset = (m_bodies[at(b)].place - m_bodies[at(a)].place) +
                       (poseAt(b, start, h).displacement - poseAt(a, start, h).displacement);
   const bool has_landed = has_met && haveLanded(a, b);
+  const bool is_joined = flyingLinkageOf(a) >= 0 || flyingLinkageOf(b) >= 0;
   Impact first;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(of_a.shapes.size()); ++i) {
     for (std::int32_t j = 0; j < static_cast<std::int32_t>(of_b.shapes.size()); ++j) {
       const RigidContact* p_contact = p_pair != nullptr ? contactOf(*p_pair, i, j) : nullptr;
       if (is_known && (p_contact != nullptr ? !p_contact->is_ballistic : is_near)) continue;
-      const bool rests = has_landed || (p_contact != nullptr && p_contact->rests);
+      const bool rests = has_landed || (!is_joined && p_contact != nullptr && p_contact->rests);
       ++m_counters.sweeps;
       const TimeOfImpact impact =
           patientTimeOfImpact(of_a.shapes[at(i)], motion_a, of_b.shapes[at(j)], motion_b, offset,
@@ -213,6 +224,10 @@ void RigidWorld::wakeInFlight(int id) {
 
 void RigidWorld::handleImpact(const Impact& impact, double h) {
   const int a = impact.a, b = impact.b;
+  m_met.clear();
+  for (const int id : {a, b}) {
+    if (isMovable(id)) m_met.push_back(id);
+  }
   ++m_counters.impacts;
   int most = 0;
   for (const int id : {a, b}) {
@@ -262,7 +277,12 @@ void RigidWorld::handleImpact(const Impact& impact, double h) {
   refresh(c, m_states);
   const std::int32_t index = findPair(a, b);
   c.is_kept = index >= 0 && m_pairs[at(index)].is_touching;
-  applyImpact(c, impact.time);
+  gatherMet(a, b, impact.time, h);
+  if (flyingLinkageOf(a) >= 0 || flyingLinkageOf(b) >= 0) {
+    applyJoinedImpact(c, impact.time, h);
+  } else {
+    applyImpact(c, impact.time);
+  }
   if (most > kMaxImpacts) giveUp();
   for (const int id : {a, b}) {
     const Extra& extra = m_extras[at(id)];
@@ -393,12 +413,9 @@ void RigidWorld::sweep(double h) {
     const Impact next = *std::min_element(m_impacts.begin(), m_impacts.end(), isEarlier);
     handleImpact(next, h);
     std::erase_if(m_impacts, [&](const Impact& i) {
-      const auto isOf = [&](int id) { return isMovable(id) && (i.a == id || i.b == id); };
-      return isOf(next.a) || isOf(next.b);
+      return std::any_of(m_met.begin(), m_met.end(), [&](int id) { return i.a == id || i.b == id; });
     });
-    for (const int id : {next.a, next.b}) {
-      if (isMovable(id)) forecast(id, h);  // nothing changes the paths of the other bodies
-    }
+    for (const int id : m_met) forecast(id, h);  // nothing changes the paths of the other bodies
   }
 }
 

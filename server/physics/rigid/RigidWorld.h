@@ -6,6 +6,7 @@
 // at rest sleep, with velocity zero. Results depend only on ids, relative places and inputs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -41,6 +42,15 @@ struct RigidCounters {
   std::int64_t late_scalings = 0;    ///< contacts found within the step whose impulses were reduced
   std::int64_t quarantined = 0;      ///< number of times that a body was frozen
   std::int64_t broken = 0;           ///< joints that broke
+};
+
+/// A direction along which an impact acts: a normal or a tangent of a contact point.
+struct ImpactRow {
+  Vec2 n;
+  double lever_a = 0, lever_b = 0;
+  double speed = 0, impulse = 0;
+  std::array<double, 4> gain = {};  ///< change of the speed along each row by a unit impulse along this one
+  std::vector<BodyChange> changes;  ///< by a unit impulse
 };
 
 struct RigidOptions {
@@ -144,6 +154,7 @@ class RigidWorld final : public RigidStepper {
     double time = 0;
     double part = 1;          // part of the remaining sub-step by which it moves
     Vec2 bend;                // as in bendOf()
+    double spin_bend = 0;     // like `bend`, of the spin
     bool has_landed = false;  // true if it moves on without being swept
     bool is_held = false;
   };
@@ -156,6 +167,7 @@ class RigidWorld final : public RigidStepper {
     double budget = 0;   // multiplications that a direct solution may need in this step
     double spare = 0;    // energy that the first half of the sub-step removed and the second may return
     bool has_fast = false;
+    bool may_fly = true;      // true if its linkages may be swept
     bool rests_anew = false;  // true if it is at rest in this sub-step, but has no known impulses
     bool is_elastic =
         true;  // true if no contact loses energy, so that it must be moved from impact to impact
@@ -247,9 +259,20 @@ class RigidWorld final : public RigidStepper {
   void handleImpact(const Impact& impact, double h);
   void land(int id, double h);
   void applyImpact(ContactConstraint& constraint, double time);
+  double spinBendOf(int id) const;
   bool rub(ContactConstraint& constraint, double rest_speed, double rest_after);
   void wakeInFlight(int id);
   void hold(int id);
+
+  // Defined in RigidLinkageImpacts.cpp:
+  void gatherMet(int a, int b, double time, double h);
+  void findResponse(const ContactConstraint& constraint, ImpactRow& row);
+  void applyJoinedImpact(ContactConstraint& constraint, double time, double h);
+  // Returns the index of the linkage of a movable body if it may be swept; −1: none.
+  int flyingLinkageOf(int id) const {
+    const int index = at(id) < m_linkage_of.size() ? m_linkage_of[at(id)] : -1;
+    return index >= 0 && m_linkages[at(index)].mayFly() ? index : -1;
+  }
 
   // Defined in RigidSleep.cpp:
   void findIslands();
@@ -261,6 +284,7 @@ class RigidWorld final : public RigidStepper {
   void fitLinkages();
   void dampLinkages();
   void moveLinkages();
+  void findPushedLinkages();
   template <class Visit>
   void visitLinkages(Visit visit) const {
     for (const RigidLinkage& linkage : m_linkages) {
@@ -307,8 +331,13 @@ class RigidWorld final : public RigidStepper {
   std::vector<int> m_dirty;                           // ids of immovable bodies that were set
   RigidJoints m_joints;
   std::vector<RigidLinkage> m_linkages;
-  std::uint64_t m_joint_changes = 0;  // m_joints.changes() when m_linkages was made
-  bool m_linkages_changed = false;    // true if bodies have changed so that m_linkages may be others
+  std::vector<int> m_linkage_of;                // by id of a movable body: index in m_linkages; −1: none
+  std::vector<std::uint8_t> m_pushed_linkages;  // by index: a contact pushes it in this half of the sub-step
+  std::array<ImpactRow, 4> m_impact_rows;
+  std::vector<int> m_met;              // movable bodies whose paths the last impact has changed
+  std::vector<Vec2> m_met_velocities;  // their velocities after the impact
+  std::uint64_t m_joint_changes = 0;   // m_joints.changes() when m_linkages was made
+  bool m_linkages_changed = false;     // true if bodies have changed so that m_linkages may be others
   LinkageCounters m_linkage_counters;
   std::vector<Late> m_late, m_late_before;
   std::vector<Flight> m_flights;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "engine/world/Random.h"
@@ -130,6 +131,24 @@ TEST(JointMatrix, SolvesMatricesThatAreNoBand) {
   mixed.rows = rows;
   EXPECT_LT(errorOf(mixed, matrix), 1e-9);
   EXPECT_FALSE(matrix.isBand());
+}
+
+TEST(JointMatrix, BandRowsCanBeExcluded) {
+  const System system = inOrder(chainOfHinges(9));
+  JointMatrix matrix;
+  matrix.analyse(system.rows, system.masses);
+  std::vector<std::uint8_t> is_out(system.rows.size());
+  for (std::size_t i = 0; i < is_out.size(); i += 4) is_out[i] = 1;
+  const std::vector<double> softness(is_out.size());
+  matrix.factor(system.rows.data(), system.masses.data(), is_out.data(), softness.data(), 0);
+  std::vector<double> known;
+  for (std::size_t i = 0; i < is_out.size(); ++i) known.push_back(is_out[i] != 0 ? 0 : 1);
+  std::vector<double> found = multiplied(system, known);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (is_out[i] != 0) found[i] = 0;
+  }
+  matrix.solve(found.data());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], known[i], 1e-9) << i;
 }
 
 }  // namespace
