@@ -84,8 +84,8 @@ class RigidLinkage {
   /// energy that the sub-step has added.
   void damp(std::span<RigidState> states);
 
-  /// Call at an impact, with the states of its time and before respond().
-  void meet(std::span<const RigidState> states);
+  /// Call at an impact, with the states of its time and before respond(). Removes the speeds along the joints.
+  void meet(std::span<RigidState> states);
   /// Pushes a body; respond() finds the effect.
   void push(int body, Vec2 impulse, double turning);
   /// Appends how the movable bodies respond to the pushes since the last call.

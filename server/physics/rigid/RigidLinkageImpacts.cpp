@@ -65,11 +65,19 @@ bool findImpulses(std::span<ImpactRow> rows, std::size_t normals, double restitu
 
 }  // namespace
 
-void RigidLinkage::meet(std::span<const RigidState> states) {
+void RigidLinkage::meet(std::span<RigidState> states) {
   takeStates(states);
   evaluate<true>(*m_p_joints);
   factor(0);
-  for (Node& node : m_nodes) {
+  for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] = -speedAlong(m_rows[i]);
+  m_matrix.solve(m_second.data());
+  apply(m_second);
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    Node& node = m_nodes[i];
+    if (isMovable(m_mass[i])) {
+      states[at(node.body)].velocity = node.velocity;
+      states[at(node.body)].spin = node.spin;
+    }
     node.velocity = {};
     node.spin = 0;
   }
@@ -164,14 +172,21 @@ void RigidWorld::findResponse(const ContactConstraint& c, ImpactRow& row) {
   if (linkage_b >= 0 && linkage_b != linkage_a) m_linkages[at(linkage_b)].respond(row.changes);
 }
 
-// Like applyImpact(), for bodies of linkages. Forces of joints turn the bodies' paths, so that these are
-// parabolas too; the impact changes the forces.
+// Like applyImpact(), for bodies of linkages. Their paths between impacts are parabolas, too. The impact
+// divides the sub-step into two of RATTLE: one ends with the places and velocities before it, the other
+// starts after.
 void RigidWorld::applyJoinedImpact(ContactConstraint& c, double time, double h) {
   const double since = 2 * time - 1, left = 1 - time;
   const auto flightOf = [&](int id) -> Flight& { return m_flights[at(m_extras[at(id)].flight)]; };
   for (const int id : m_met) {
-    m_states[at(id)].velocity += since * flightOf(id).bend;
-    m_states[at(id)].spin += since * flightOf(id).spin_bend;
+    RigidState& s = m_states[at(id)];
+    const Flight& flight = flightOf(id);
+    if (flyingLinkageOf(id) >= 0 && flight.bend != Vec2{}) {
+      s.velocity += (time + flight.last - 1) * flight.bend + (time - flight.last) * s.kick;
+    } else {
+      s.velocity += since * flight.bend;
+    }
+    s.spin += since * flight.spin_bend;
   }
   const std::array<int, 2> both = {flyingLinkageOf(c.a), flyingLinkageOf(c.b)};
   const std::span<const int> linkages = std::span(both).first(both[0] == both[1] ? 1 : 2);
@@ -242,7 +257,8 @@ void RigidWorld::applyJoinedImpact(ContactConstraint& c, double time, double h) 
   for (const int id : m_met) {
     RigidState& s = m_states[at(id)];
     m_met_velocities.push_back(s.velocity);
-    s.velocity += left * flightOf(id).bend;
+    s.velocity +=
+        left * (flyingLinkageOf(id) >= 0 && flightOf(id).bend != Vec2{} ? s.kick : flightOf(id).bend);
     s.spin += left * flightOf(id).spin_bend;
   }
   for (const int linkage : linkages) {
@@ -256,6 +272,7 @@ void RigidWorld::applyJoinedImpact(ContactConstraint& c, double time, double h) 
     s.velocity = m_met_velocities[i] - since * flight.bend;
     s.spin -= time * s.spin_kick;
     flight.spin_bend = s.spin_kick;
+    flight.last = time;
   }
 }
 

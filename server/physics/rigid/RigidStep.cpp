@@ -224,6 +224,10 @@ void RigidWorld::drift(double h) {
     extra.flight = -1;
     extra.is_pushed = extra.is_pushed || flight.is_held;
     if (flight.impacts == 0) continue;
+    if (flyingLinkageOf(flight.id) >= 0) {  // what the second half of its RATTLE sub-step needs
+      RigidState& its = m_states[at(flight.id)];
+      its.velocity += flight.last * (flight.bend - its.kick);
+    }
     // Impacts may have made the body faster.
     const RigidState& s = m_states[at(flight.id)];
     const double roll = h * std::fabs(s.spin) * extra.reach;

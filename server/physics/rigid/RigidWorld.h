@@ -152,6 +152,7 @@ class RigidWorld final : public RigidStepper {
     std::int32_t id;
     int impacts = 0;
     double time = 0;
+    double last = 0;          // time of the last impact of its linkage
     double part = 1;          // part of the remaining sub-step by which it moves
     Vec2 bend;                // as in bendOf()
     double spin_bend = 0;     // like `bend`, of the spin
