@@ -93,6 +93,13 @@ class RigidJoints : public JointStore {
     if (i < m_link_of.size() && m_link_of[i] >= 0)
       m_links[static_cast<std::size_t>(m_link_of[i])].is_done = true;
   }
+  /// True if the joint has pushed in this step.
+  bool hasPushed(int id) const {
+    const auto i = static_cast<std::size_t>(id);
+    if (i >= m_link_of.size() || m_link_of[i] < 0) return false;
+    const Link& link = m_links[static_cast<std::size_t>(m_link_of[i])];
+    return link.force != Vec2{} || link.torque != 0;
+  }
   /// Adds the impulse of an impact to the force of a joint of this step.
   void addImpact(int id, Vec2 force, double torque) {
     const auto i = static_cast<std::size_t>(id);

@@ -95,7 +95,11 @@ RigidLinkage::RigidLinkage(std::span<const int> ids, const JointStore& store,
       m_rows.push_back({{}, 0, 0, link.a, link.b});
     }
     is_rods = is_rods && link.is_rod && joint.kind == JointKind::kDistance;
-    m_links.push_back(link);
+    if (link.count == 0) {  // an angle limit of bodies that do not turn
+      m_springs.push_back({id, joint.a, joint.b});
+    } else {
+      m_links.push_back(link);
+    }
   }
   m_is_free = true;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {

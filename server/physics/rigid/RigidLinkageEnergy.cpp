@@ -124,10 +124,6 @@ void RigidLinkage::limitEnergy(std::span<const RigidBody> bodies, std::span<Rigi
       work += dot(body.acceleration, m_nodes[i].displacement) / m_mass[i].inverse_mass;
   }
   if (is_driven) return;
-  const auto pushes = [&](int id) {
-    const JointStore::Memory& memory = m_p_joints->memoryOf(id);
-    return memory[0] != 0 || memory[1] != 0;
-  };
   const auto loses = [&](const Spring& spring) {
     const Joint& joint = m_p_joints->joint(spring.id);
     const double inverse_mass =
@@ -136,7 +132,7 @@ void RigidLinkage::limitEnergy(std::span<const RigidBody> bodies, std::span<Rigi
   };
   const bool is_losing = std::any_of(m_springs.begin(), m_springs.end(), loses) ||
                          std::any_of(m_links.begin(), m_links.end(), [&](const Link& link) {
-                           return isOneSided(link.kind) && pushes(link.id);
+                           return isOneSided(link.kind) && m_p_joints->hasPushed(link.id);
                          });
   const double kinetic = motion().kinetic;
   const double gain = kinetic + springEnergy(bodies, states) - (m_start_energy + work);
