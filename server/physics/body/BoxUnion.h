@@ -44,8 +44,7 @@ class BoxUnion {
 
   struct Block {
     BoxArea whole;  ///< covered by boxes
-    BoxArea
-        area;  ///< area given to solvers: `whole` without ends that would lie flush with another block's face
+    BoxArea area;   ///< given to solvers: `whole` without ends that would lie flush with another block's face
     std::array<bool, kBoxSides> is_complete = {};  ///< true if the face of a side has its full length
     bool is_cut = false;                           ///< true if its own face is longer, but the search ended
   };

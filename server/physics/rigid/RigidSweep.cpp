@@ -25,8 +25,9 @@ constexpr double kTouch = 1e-6;  // the gap at which an impact is found
 // Both corners of an edge take part in an impact if the gap of the second is at most this. Otherwise a box
 // that falls almost flat would be thrown by one corner, and a column of boxes would fall over.
 constexpr double kTogether = 1e-3;
-constexpr double kGive =
-    1e-3;  // maximum overlap in a sub-step of bodies at rest on each other, of which one was hit
+// Bodies at rest on each other may come nearer by this between two impacts. Without it, a box that rocks on
+// its corner would hit the floor many times, because in a sub-step its centre moves straight.
+constexpr double kGive = 1e-3;
 constexpr double kLanded = 0.5;  // maximum further movement of a body of a large group that has landed
 
 // Returns what remains of a motion after this part of it.
