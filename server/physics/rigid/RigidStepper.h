@@ -120,11 +120,14 @@ class RigidStepper {
 
 template <class Pairs, class IsMovable, class Drop>
 void RigidStepper::applyForget(Pairs& pairs, IsMovable isMovable, Drop drop) {
-  constexpr std::size_t kSmall = 4;  // bodies of a group that is solved without memory
+  constexpr std::size_t kSmall = 4;              // bodies of a group that is solved without memory
+  constexpr std::size_t kMaxVisits = 1'000'000;  // of pairs; bodies that come later keep their impulses
+  std::size_t visits = 0;
   m_forgets.assign(static_cast<std::size_t>(idLimit()), 0);
   std::vector<int> group;
   const auto isIn = [&](int id) { return m_forgets[static_cast<std::size_t>(id)] == 1; };
   for (const int first : m_forgotten) {
+    if (visits > kMaxVisits) break;
     if (!exists(first) || m_forgets[static_cast<std::size_t>(first)] != 0) continue;
     group.assign(1, first);
     m_forgets[static_cast<std::size_t>(first)] = 1;
@@ -136,6 +139,7 @@ void RigidStepper::applyForget(Pairs& pairs, IsMovable isMovable, Drop drop) {
     };
     for (std::size_t before = 0; before < group.size() && group.size() <= kSmall;) {
       before = group.size();
+      visits += 2 * pairs.size();
       for (const auto& pair : pairs) {
         if (pair.first >= 0) add(pair.a, pair.b), add(pair.b, pair.a);
       }
