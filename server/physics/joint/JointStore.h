@@ -20,10 +20,12 @@ class JointStore {
   /// Replaces a joint. Returns false if its kind or bodies differ. A broken joint stays broken.
   bool set(int id, const Joint& joint);
   void remove(int id);
-  /// Sets the multipliers of a body's joints to 0.
-  void forget(int body) {
+  /// Sets the multipliers of the joints of the bodies for which forgets(body) is true to 0.
+  template <class Forgets>
+  void forget(Forgets forgets) {
     for (const int id : m_order) {
-      if (joint(id).b == body || firstOf(joint(id)) == body) m_entries[at(id)].memory = {};
+      const int first = firstOf(joint(id));
+      if (forgets(joint(id).b) || (first >= 0 && forgets(first))) m_entries[at(id)].memory = {};
     }
   }
   bool exists(int id) const { return id >= 0 && id < limit() && m_entries[at(id)].exists; }

@@ -324,7 +324,7 @@ void RigidWorld::setSleeping(bool may_sleep) {
 void RigidWorld::wake(int id) {
   if (!exists(id)) return;
   wakeRing(id);
-  forget(id);
+  forgetBeside(id);
 }
 
 void RigidWorld::wakeRing(int id) {

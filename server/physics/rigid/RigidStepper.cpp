@@ -12,7 +12,7 @@ void RigidStepper::wakeEnds(const Joint& joint) {
   for (const int id : {joint.b, JointStore::firstOf(joint)}) {
     if (id < 0) continue;
     wakeRing(id);
-    forget(id);
+    forgetBeside(id);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "physics/geometry/ConvexShape.h"
 #include "physics/geometry/Manifold.h"
+#include "physics/geometry/UnionFind.h"
 #include "physics/joint/JointStore.h"
 #include "physics/rigid/RigidBody.h"
 
@@ -90,19 +91,23 @@ class RigidStepper {
   bool hasFrictionParts() const { return !m_friction_parts.empty(); }
   /// Returns the friction of a contact of two bodies.
   double frictionOf(int a, int b, const Manifold& manifold) const;
-  /// Call when the body was changed from outside: the next step finds its contacts and those of its group
-  /// without memory, as in a new world. Larger groups keep it, because their sweeps need it.
+  /// Call when the body was changed from outside. The next step of its group, if it is small, starts without
+  /// known impulses, like that of a new world. Larger groups keep theirs, because their sweeps need them.
   void forget(int body) { m_forgotten.push_back(body); }
-  /// Finds the small groups of the bodies for which forget() was called, and calls drop(pair) for each pair
-  /// of `pairs` with one of their bodies.
+  /// Like forget(), for a body whose neighbour or joint was changed. This changes nothing on which other
+  /// groups lie, so that an immovable body is left out.
+  void forgetBeside(int id) {
+    if (isMovable(body(id))) forget(id);
+  }
+  /// Finds the small groups of the bodies for which forget() was called, or that touch them. Drops the
+  /// impulses of their joints, and calls drop(pair) for each pair of `pairs` with one of their bodies.
   template <class Pairs, class IsMovable, class Drop>
   void applyForget(Pairs& pairs, IsMovable isMovable, Drop drop);
   void sortEvents();
 
   std::vector<RigidEvent> m_events;
   bool m_joints_changed = false;
-  std::vector<int> m_forgotten;         // bodies for which forget() was called
-  std::vector<std::uint8_t> m_forgets;  // by id, only valid within applyForget()
+  std::vector<int> m_forgotten;  // bodies for which forget() was called
 
  private:
   struct PartOfBody {
@@ -111,6 +116,10 @@ class RigidStepper {
   };
   double frictionAt(int id, Vec2 point) const;
   std::vector<PartOfBody> m_friction_parts;
+  // Only valid within applyForget():
+  UnionFind m_linked;                      // the groups of movable bodies
+  std::vector<std::uint8_t> m_is_changed;  // by root
+  std::vector<int> m_group_bodies;         // by root: number of movable bodies
   virtual const JointStore& joints() const = 0;
   virtual JointStore& joints() = 0;
   /// Wakes the body and the bodies that fell asleep with it.
@@ -120,44 +129,37 @@ class RigidStepper {
 
 template <class Pairs, class IsMovable, class Drop>
 void RigidStepper::applyForget(Pairs& pairs, IsMovable isMovable, Drop drop) {
-  constexpr std::size_t kSmall = 4;              // bodies of a group that is solved without memory
-  constexpr std::size_t kMaxVisits = 1'000'000;  // of pairs; bodies that come later keep their impulses
-  std::size_t visits = 0;
-  m_forgets.assign(static_cast<std::size_t>(idLimit()), 0);
-  std::vector<int> group;
-  const auto isIn = [&](int id) { return m_forgets[static_cast<std::size_t>(id)] == 1; };
-  for (const int first : m_forgotten) {
-    if (visits > kMaxVisits) break;
-    if (!exists(first) || m_forgets[static_cast<std::size_t>(first)] != 0) continue;
-    group.assign(1, first);
-    m_forgets[static_cast<std::size_t>(first)] = 1;
-    const auto add = [&](int from, int to) {
-      if (!isIn(from) || !(isMovable(from) || from == first)) return;
-      if (m_forgets[static_cast<std::size_t>(to)] != 0 || !isMovable(to)) return;
-      m_forgets[static_cast<std::size_t>(to)] = 1;
-      group.push_back(to);
-    };
-    for (std::size_t before = 0; before < group.size() && group.size() <= kSmall;) {
-      before = group.size();
-      visits += 2 * pairs.size();
-      for (const auto& pair : pairs) {
-        if (pair.first >= 0) add(pair.a, pair.b), add(pair.b, pair.a);
-      }
-      joints().visitWorking([&](int a, int b) {
-        if (a >= 0) add(a, b), add(b, a);
-      });
+  constexpr int kSmall = 4;  // maximum number of movable bodies in a group that starts without impulses
+  const auto count = static_cast<std::size_t>(idLimit());
+  const auto rootOf = [&](int id) { return static_cast<std::size_t>(m_linked.rootOf(id)); };
+  const auto visitLinks = [&](auto visit) {
+    for (const auto& pair : pairs) {
+      if (pair.first >= 0) visit(pair.a, pair.b);
     }
-    const bool is_small = group.size() <= kSmall;
-    for (auto& pair : pairs) {
-      if (is_small && ((isIn(pair.a) && isMovable(pair.a)) || (isIn(pair.b) && isMovable(pair.b))))
-        drop(pair);
-    }
-    for (const int id : group) {
-      if (is_small && isMovable(id)) joints().forget(id);
-      m_forgets[static_cast<std::size_t>(id)] = 2;
-    }
-  }
+    joints().visitWorking([&](int a, int b) {
+      if (a >= 0) visit(a, b);
+    });
+  };
+  m_linked.reset(count);
+  visitLinks([&](int a, int b) {
+    if (isMovable(a) && isMovable(b)) m_linked.unite(a, b);
+  });
+  m_is_changed.assign(count, 0);
+  for (const int id : m_forgotten) m_is_changed[rootOf(id)] = exists(id) ? 1 : 0;
   m_forgotten.clear();
+  visitLinks([&](int a, int b) {  // an immovable body is no part of a group
+    if (!isMovable(a) && isMovable(b) && m_is_changed[rootOf(a)] != 0) m_is_changed[rootOf(b)] = 1;
+    if (!isMovable(b) && isMovable(a) && m_is_changed[rootOf(b)] != 0) m_is_changed[rootOf(a)] = 1;
+  });
+  m_group_bodies.assign(count, 0);
+  for (int id = 0; id < idLimit(); ++id) m_group_bodies[rootOf(id)] += isMovable(id) ? 1 : 0;
+  const auto forgets = [&](int id) {
+    return isMovable(id) && m_is_changed[rootOf(id)] != 0 && m_group_bodies[rootOf(id)] <= kSmall;
+  };
+  for (auto& pair : pairs) {
+    if (forgets(pair.a) || forgets(pair.b)) drop(pair);
+  }
+  joints().forget(forgets);
 }
 
 }  // namespace naiad::physics

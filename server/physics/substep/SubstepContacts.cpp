@@ -90,7 +90,7 @@ void SubstepWorld::wakeChanged() {
   if (m_changed.empty()) return;
   const auto wakeBoth = [&](std::int32_t a, std::int32_t b) {
     if (!m_bodies[at(a)].is_changed && !m_bodies[at(b)].is_changed) return;
-    for (const std::int32_t id : {a, b}) wakeRing(id), forget(id);
+    for (const std::int32_t id : {a, b}) wakeRing(id), forgetBeside(id);
   };
   for (const Pair& pair : m_pairs) {
     if (pair.first >= 0) wakeBoth(pair.a, pair.b);

@@ -162,6 +162,60 @@ TEST(BodyIsolationOfCrates, CratesDoNotDependOnWhichGroupCameFirst) {
   }
 }
 
+// The game changes all bodies in one tick. A group starts again without known impulses if it is small,
+// whatever else was changed.
+TEST(BodyIsolationOfChanges, ChangedStackMovesTheSameBesideManyChangedBodies) {
+  const auto bitsBeside = [](int pairs) {
+    OwnWorld own;
+    std::vector<Body*> changed;
+    for (int i = 0; i < pairs; ++i) {
+      for (const double y : {0.0, 1.0}) {
+        changed.push_back(BodyScene::turningCrate(Vector(3000 + 3 * i, y)));
+        changed.back()->setGravityScale(0);
+      }
+    }
+    PM.setGravity(Vector(0, 0.01));
+    BodyScene::wall(Vector(0, 5), Vector(50, 5));
+    const Pair stack = {BodyScene::turningCrate(Vector(0, -0.5)), BodyScene::turningCrate(Vector(0.3, -1.5))};
+    changed.push_back(stack.p_b);
+    std::vector<BodyBits> bits;
+    for (int tick = 0; tick < 30; ++tick) {
+      if (tick == 20) {
+        for (Body* p_body : changed) p_body->setVelocity(Vector(0.01, 0));
+      }
+      own.world.update();
+      for (const Body* p_body : {stack.p_a, stack.p_b}) bits.push_back(stateBits(p_body));
+    }
+    return bits;
+  };
+  EXPECT_EQ(bitsBeside(600), bitsBeside(0));
+}
+
+// A platform is no part of the groups on it. When it moves off, each of them starts again by itself.
+TEST(BodyIsolationOfChanges, StackMovesTheSameBesideOthersOnAPlatformThatMovesOff) {
+  const auto bitsBeside = [](int others) {
+    OwnWorld own;
+    PM.setGravity(Vector(0, 0.01));
+    Body* p_platform = BodyScene::crate(Vector(0, 0.5), Vector(100, 0.5));
+    p_platform->setKinematic();
+    std::vector<Body*> stack;
+    for (int i = 0; i <= others; ++i) {
+      for (const double y : {-0.5, -1.5, -2.5}) {
+        Body* p_crate = BodyScene::turningCrate(Vector(20 * i + 0.2 * y, y));
+        if (i == 0) stack.push_back(p_crate);
+      }
+    }
+    std::vector<BodyBits> bits;
+    for (int tick = 0; tick < 40; ++tick) {
+      if (tick == 20) p_platform->setVelocity(Vector(0.05, -0.02));
+      own.world.update();
+      for (const Body* p_body : stack) bits.push_back(stateBits(p_body));
+    }
+    return bits;
+  };
+  EXPECT_EQ(bitsBeside(3), bitsBeside(0));
+}
+
 INSTANTIATE_TEST_SUITE_P(Joints, BodyIsolation,
                          testing::Combine(testing::Values(Link::kDistance, Link::kRope, Link::kHinge,
                                                           Link::kSpring, Link::kNone),
