@@ -79,6 +79,7 @@ RigidLinkage::RigidLinkage(std::span<const int> ids, const JointStore& store,
     link.a = nodeOf(joint.a);
     link.b = nodeOf(joint.b);
     link.is_active = true;
+    link.side = joint.kind == JointKind::kRope ? -1 : 0;
     link.is_rod = (joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope) &&
                   joint.anchor_a == Vec2{} && joint.anchor_b == Vec2{};
     const bool may_turn = m_mass[at(link.a)].inverse_inertia > 0 || m_mass[at(link.b)].inverse_inertia > 0;
@@ -183,6 +184,7 @@ void RigidLinkage::loadLinks(std::span<const RigidBody> bodies, const RigidJoint
 void RigidLinkage::begin(std::span<const RigidBody> bodies, std::span<const RigidState> states,
                          const RigidJoints& joints) {
   m_is_begun = true;
+  m_is_factored = false;
   loadLinks(bodies, joints);
   m_tolerance = kTolerance;
   takeStates(states);

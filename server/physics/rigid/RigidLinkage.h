@@ -74,6 +74,9 @@ class RigidLinkage {
   /// Call at the start of a step of a linkage that is not alone.
   void begin(std::span<const RigidBody> bodies, std::span<const RigidState> states,
              const RigidJoints& joints);
+  /// Removes the speeds along the joints. For a linkage that is pure and touches nothing, this does the work
+  /// of RigidDirect.
+  void project(std::span<RigidState> states, RigidJoints& joints);
   /// Changes the velocities so that the joints fit where the bodies arrive after h. Does nothing if there are
   /// no such velocities nearby.
   void aim(std::span<RigidState> states, RigidJoints& joints, double h, LinkageCounters& counters);
@@ -84,7 +87,8 @@ class RigidLinkage {
   /// energy that the sub-step has added.
   void damp(std::span<RigidState> states);
 
-  /// Call at an impact, with the states of its time and before respond(). Removes the speeds along the joints.
+  /// Call at an impact, with the states of its time and before respond(). Removes the speeds along the
+  /// joints.
   void meet(std::span<RigidState> states);
   /// Pushes a body; respond() finds the effect.
   void push(int body, Vec2 impulse, double turning);
@@ -142,6 +146,7 @@ class RigidLinkage {
     int id;
     JointKind kind;
     bool is_active;   // false for a slack rope
+    int side;         // as in SpeedRow
     bool is_rod;      // a rod between the bodies' centres
     bool may_rotate;  // no body without rotation prevents the joint from rotating as a whole
     int a, b;         // indices of nodes
@@ -178,9 +183,13 @@ class RigidLinkage {
   bool run(std::span<const double> lengths, LinkageCounters& counters);
   bool substep(double h, LinkageCounters& counters);
   bool solvePlaces(double h, LinkageCounters& counters);
+  void findSpeedImpulses();
   void projectSpeeds();
+  void giveVelocities(std::span<RigidState> states) const;
+  void giveImpulses(const std::vector<double>& impulse, RigidJoints& joints) const;
   void approximate(double h);
   bool findPlaces(double h, double tolerance);
+  void findActive(RigidJoints& joints, double h);
   void slowLightNodes();
   double limitMasses();
   void restoreMomentum(std::span<const RigidBody> bodies);
@@ -217,12 +226,12 @@ class RigidLinkage {
   double m_tolerance = 0;
   double m_last_h = 0;  // length of the sub-step to which m_first belongs
   int m_some_body = -1;
-  double m_kinetic = 0;       // kinetic energy at the last aim()
+  double m_kinetic = -1;      // kinetic energy at the last aim(), if that failed; otherwise −1
   double m_start_energy = 0;  // kinetic energy and that of springs at the start of the step
   bool m_has_motor = false;
-  bool m_has_missed = false;
   bool m_is_begun = false;
-  bool m_is_new = false;  // no impulses are known
+  bool m_is_factored = false;  // the matrix is that of the present places
+  bool m_is_new = false;       // no impulses are known
   bool m_is_pure = false, m_is_alone = false;
   bool m_is_free = false;          // no body is immovable
   bool m_may_rotate = false;       // it is free and may rotate like a rigid body

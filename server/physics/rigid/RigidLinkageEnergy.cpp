@@ -137,15 +137,11 @@ void RigidLinkage::limitEnergy(std::span<const RigidBody> bodies, std::span<Rigi
   const double kinetic = motion().kinetic;
   const double gain = kinetic + springEnergy(bodies, states) - (m_start_energy + work);
   setKinetic(kinetic - gain, 0, is_losing ? 1 : 1 + kEnergyFactor);
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    if (!isMovable(m_mass[i])) continue;
-    states[at(m_nodes[i].body)].velocity = m_nodes[i].velocity;
-    states[at(m_nodes[i].body)].spin = m_nodes[i].spin;
-  }
+  giveVelocities(states);
 }
 
 void RigidLinkage::damp(std::span<RigidState> states) {
-  if (!m_has_missed) return;
+  if (m_kinetic < 0) return;
   takeStates(states);
   double most = m_kinetic;
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
@@ -153,11 +149,7 @@ void RigidLinkage::damp(std::span<RigidState> states) {
     if (state.inverse_mass > 0) most += std::max(0.0, dot(state.kick, state.velocity) / state.inverse_mass);
   }
   setKinetic(most, 0, 1);
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    if (!isMovable(m_mass[i])) continue;
-    states[at(m_nodes[i].body)].velocity = m_nodes[i].velocity;
-    states[at(m_nodes[i].body)].spin = m_nodes[i].spin;
-  }
+  giveVelocities(states);
 }
 
 }  // namespace naiad::physics

@@ -69,18 +69,10 @@ void RigidLinkage::meet(std::span<RigidState> states) {
   takeStates(states);
   evaluate<true>(*m_p_joints);
   factor(0);
-  for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] = -speedAlong(m_rows[i]);
-  m_matrix.solve(m_second.data());
+  findSpeedImpulses();
   apply(m_second);
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    Node& node = m_nodes[i];
-    if (isMovable(m_mass[i])) {
-      states[at(node.body)].velocity = node.velocity;
-      states[at(node.body)].spin = node.spin;
-    }
-    node.velocity = {};
-    node.spin = 0;
-  }
+  giveVelocities(states);
+  for (Node& node : m_nodes) node.velocity = {}, node.spin = 0;
 }
 
 void RigidLinkage::push(int body, Vec2 impulse, double turning) {
@@ -92,8 +84,7 @@ void RigidLinkage::push(int body, Vec2 impulse, double turning) {
 }
 
 void RigidLinkage::respond(std::vector<BodyChange>& changes) {
-  for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] = -speedAlong(m_rows[i]);
-  m_matrix.solve(m_second.data());
+  findSpeedImpulses();
   apply(m_second);
   for (std::size_t i = 0; i < m_nodes.size(); ++i) {
     Node& node = m_nodes[i];
@@ -120,11 +111,7 @@ void RigidLinkage::lead(std::span<RigidState> states, double h, LinkageCounters&
   takeStates(states);
   std::fill(m_first.begin(), m_first.end(), 0.0);
   if (!solvePlaces(h, counters)) return;
-  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
-    if (!isMovable(m_mass[i])) continue;
-    states[at(m_nodes[i].body)].velocity = m_nodes[i].velocity;
-    states[at(m_nodes[i].body)].spin = m_nodes[i].spin;
-  }
+  giveVelocities(states);
 }
 
 // Lists in m_met the movable bodies whose paths an impact of the two bodies changes, and moves them to the

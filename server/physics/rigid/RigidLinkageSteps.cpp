@@ -33,23 +33,34 @@ void store(Two two, Vec2& v) {
 
 }  // namespace
 
+// Finds which ropes and angle limits act: those that pull, and those that the bodies would pass. A taut rope
+// does not pull yet if its end only moves across it, because its row is a straight line.
+void RigidLinkage::findActive(RigidJoints& joints, double h) {
+  const auto mayAct = [](const Link& link) { return isOneSided(link.kind); };
+  if (std::none_of(m_links.begin(), m_links.end(), mayAct)) return;
+  for (Link& link : m_links) link.is_active = true;
+  move(h);
+  evaluate<false>(joints);
+  for (Link& link : m_links) {
+    if (!mayAct(link)) continue;
+    const std::span<const RigidRow> rows = joints.rowsOfJoint(link.id);
+    link.is_active = !rows.empty() && (rows[0].impulse != 0 || link.side * m_rest[at(link.row[0])] < 0);
+  }
+  move(0);
+}
+
 void RigidLinkage::aim(std::span<RigidState> states, RigidJoints& joints, double h,
                        LinkageCounters& counters) {
-  m_has_missed = false;
+  m_kinetic = -1;
   takeStates(states);
-  for (Link& link : m_links) {
-    if (!isOneSided(link.kind)) continue;
-    const std::span<const RigidRow> rows = joints.rowsOfJoint(link.id);
-    link.is_active = !rows.empty() && rows[0].impulse != 0;
-  }
-  evaluate<true>(*m_p_joints);
+  findActive(joints, h);
+  if (!m_is_factored) evaluate<true>(*m_p_joints);
   if (errors(h) <= kAimed) return;
-  factor(0);
+  if (!m_is_factored) factor(0);
   std::fill(m_first.begin(), m_first.end(), 0.0);
   if (!solvePlaces(h, counters)) {
     ++counters.missed;
     takeStates(states);
-    m_has_missed = true;
     m_kinetic = motion().kinetic;
     const auto tryAgain = [&](bool is_slowed) {
       takeStates(states);
@@ -59,18 +70,40 @@ void RigidLinkage::aim(std::span<RigidState> states, RigidJoints& joints, double
     };
     if (!tryAgain(false) && !tryAgain(true)) return;
   }
-  for (const Node& node : m_nodes) {
-    if (!isMovable(m_mass[at(static_cast<int>(&node - m_nodes.data()))])) continue;
-    states[at(node.body)].velocity = node.velocity;
-    states[at(node.body)].spin = node.spin;
+  giveVelocities(states);
+  giveImpulses(m_first, joints);
+}
+
+void RigidLinkage::project(std::span<RigidState> states, RigidJoints& joints) {
+  takeStates(states);
+  if (!m_is_factored) {
+    evaluate<true>(joints);
+    factor(0);
   }
+  m_is_factored = true;
+  findSpeedImpulses();
+  apply(m_second);
+  giveVelocities(states);
+  giveImpulses(m_second, joints);
+}
+
+void RigidLinkage::giveVelocities(std::span<RigidState> states) const {
+  for (std::size_t i = 0; i < m_nodes.size(); ++i) {
+    if (!isMovable(m_mass[i])) continue;
+    states[at(m_nodes[i].body)].velocity = m_nodes[i].velocity;
+    states[at(m_nodes[i].body)].spin = m_nodes[i].spin;
+  }
+}
+
+void RigidLinkage::giveImpulses(const std::vector<double>& impulse, RigidJoints& joints) const {
   for (const Link& link : m_links) {
     const std::span<RigidRow> rows = joints.rowsOfJoint(link.id);
-    for (int k = 0; k < link.count && !rows.empty(); ++k) rows[at(k)].impulse += m_first[at(link.row[k])];
+    for (int k = 0; k < link.count && !rows.empty(); ++k) rows[at(k)].impulse += impulse[at(link.row[k])];
   }
 }
 
 void RigidLinkage::fit(std::span<RigidState> states) {
+  m_is_factored = false;
   takeStates(states);
   if (evaluate<false>(*m_p_joints) <= kAimed) return;
   const auto tryFit = [&] {
@@ -172,7 +205,7 @@ double RigidLinkage::evaluate(const RigidJoints& joints) {
   double worst = 0;
   JointFrame frame;
   SpeedRows placed;
-  for (const Link& link : m_links) {
+  for (Link& link : m_links) {
     const Node &a = m_nodes[at(link.a)], &b = m_nodes[at(link.b)];
     if (!link.is_active) {  // its row has no effect
       m_rest[at(link.row[0])] = 0;
@@ -202,6 +235,7 @@ double RigidLinkage::evaluate(const RigidJoints& joints) {
     frame.axis = a.turn * link.axis;
     frame.between = link.between * (inverse(a.turn) * b.turn);
     placeRows(joints.joint(link.id), frame, placed);
+    link.side = placed[0].side;
     for (int k = 0; k < link.count; ++k) {
       const SpeedRow& its = placed[at(k)];
       m_rest[at(link.row[k])] = its.value;
@@ -259,10 +293,14 @@ bool RigidLinkage::solvePlaces(double h, LinkageCounters& counters) {
   return false;
 }
 
-// Removes the speeds along the joints.
-void RigidLinkage::projectSpeeds() {
+// Finds the impulses that remove the speeds along the joints.
+void RigidLinkage::findSpeedImpulses() {
   for (std::size_t i = 0; i < m_rows.size(); ++i) m_second[i] = -speedAlong(m_rows[i]);
   m_matrix.solve(m_second.data());
+}
+
+void RigidLinkage::projectSpeeds() {
+  findSpeedImpulses();
   apply(m_second);
   addForces(m_second);
 }

@@ -69,9 +69,11 @@ void RigidWorld::gatherIslands() {
     ++island.links;
     island.hard_links += m_joints.isSoft(counted++) ? 0 : 1;
   });
-  for (const RigidLinkage& linkage : m_linkages) {
-    const int island = islandOf(linkage.someBody(), -1);
-    if (island >= 0 && !linkage.mayFly()) m_islands[at(island)].may_fly = false;
+  for (std::size_t i = 0; i < m_linkages.size(); ++i) {
+    const int island = islandOf(m_linkages[i].someBody(), -1);
+    if (island < 0) continue;
+    if (!m_linkages[i].mayFly()) m_islands[at(island)].may_fly = false;
+    if (m_linkages[i].isPure()) m_islands[at(island)].linkage = static_cast<int>(i);
   }
   int bodies = 0, constraints = 0, links = 0;
   for (Island& island : m_islands) {

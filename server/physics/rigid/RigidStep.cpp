@@ -163,6 +163,10 @@ void RigidWorld::pushOut(double h) {
 
 void RigidWorld::solve(bool is_second) {
   for (Island& island : m_islands) {
+    if (island.linkage >= 0 && island.constraints == 0) {
+      if (island.links > 0) m_linkages[at(island.linkage)].project(m_states, m_joints);
+      continue;
+    }
     solveIsland(island, is_second);
     guardEnergy(island, is_second);
   }

@@ -164,6 +164,7 @@ class RigidWorld final : public RigidStepper {
     int first_constraint = 0, constraints = 0;
     int first_link = 0, links = 0;
     int hard_links = 0;  // number of links other than springs and mice
+    int linkage = -1;    // index of its linkage, if that is pure
     double kick = 0;     // maximum speed of RigidState::kick of its bodies
     double budget = 0;   // multiplications that a direct solution may need in this step
     double spare = 0;    // energy that the first half of the sub-step removed and the second may return

@@ -74,6 +74,23 @@ TEST(RigidRope, PullsButDoesNotPush) {
   EXPECT_NEAR(scene.at(1).y, 1.9, 1e-8);
 }
 
+// A rope that is just taut, or slack by rounding, bends the path of its end from the first sub-step on.
+TEST(RigidRope, TautRopeTurnsItsEndWhateverTheRounding) {
+  const auto endAfter = [](double slack, double speed) {
+    JointScene scene = test::nailed();
+    scene.point({1, 0});
+    scene.setVelocity(1, {speed, 3});
+    scene.join(JointKind::kRope, 0, 1, 1 + slack);
+    for (int i = 0; i < 10; ++i) scene.step(kDown);
+    return scene.at(1);
+  };
+  const Vec2 end = endAfter(0, 0);
+  for (const double slack : {-1e-12, 0.0, 1e-12}) {
+    for (const double speed : {-1e-12, 0.0, 1e-12})
+      EXPECT_LE(length(endAfter(slack, speed) - end), 1e-9) << slack << " " << speed;
+  }
+}
+
 // A rope of rods with a single bounded joint is solved by RigidDirect instead, which must agree.
 TEST(RigidRope, BothSolversKeepTheLength) {
   for (const double ratio : {1.0, 100.0}) {
