@@ -140,9 +140,9 @@ void RigidWorld::scaleImpulses(const Island& island, double part) {
   for (const int link : linksOf(island)) m_joints.scale(link, part);
 }
 
-// Impulses must not add energy, apart from that of drivers. If they do, the half is swept again with as much
-// of the known impulses as is right; if that is not enough, all impulses are reduced. The second half may
-// return what the first removed: a bounce, or friction of a contact that ended.
+// Impulses must not add energy, apart from that of drivers. If they do, the half is swept again, from the
+// part of the known impulses that leaves the least energy. If that is not enough, all impulses are reduced.
+// The second half may return what the first removed: a bounce, or friction of a contact that ended.
 void RigidWorld::guardEnergy(Island& island, bool is_second) {
   constexpr int kRepeatedSweeps = 4;
   Work work = workOf(island);
