@@ -70,6 +70,7 @@ void BodyLayer::step(World& world) {
     m_heaps.step(world.store(), *m_table, m_platforms, m_states, m_unit_inertias, m_contacts);
   logCrowd(world);
   logScaling(world);
+  logSunk(world);
   for (State& state : m_states) settle(world, state);
   placeMoved(world, m_moved);
   m_sensors.step(world.store(), *m_table, m_states, m_contacts);
@@ -403,6 +404,14 @@ void BodyLayer::logScaling(World& world) {
   world.log().write(
       "physics: a group of bodies could not be solved well and lost energy; further cases are only "
       "counted");
+}
+
+// Logs the first time that a heavy body sank into a light one which should bear it.
+void BodyLayer::logSunk(World& world) {
+  if (m_has_logged_sunk || m_substep_world.counters().sunk + m_heap_world.counters().sunk == 0) return;
+  m_has_logged_sunk = true;
+  world.log().write(
+      "physics: a load sinks into a body that is too light to bear it; further cases are only counted");
 }
 
 // Freezes the body at its place, so that its invalid numbers do not spread to other bodies.

@@ -75,6 +75,7 @@ class BodyLayer : public df::Layer {
   void quarantine(World& world, State& state, const char* p_why);
   void logCrowd(World& world);
   void logScaling(World& world);
+  void logSunk(World& world);
 
   /// Speed below which bodies may sleep, in cells per tick. It is small, so that bodies that begin to slide
   /// down a slope do not sleep.
@@ -107,7 +108,7 @@ class BodyLayer : public df::Layer {
   bool m_was_fast = false;
   bool m_has_substeps = false;  // true if the SubstepWorld moves any body
   std::vector<MovedObject> m_moved;
-  bool m_has_logged_crowd = false, m_has_logged_scaling = false;
+  bool m_has_logged_crowd = false, m_has_logged_scaling = false, m_has_logged_sunk = false;
 };
 
 }  // namespace naiad::physics

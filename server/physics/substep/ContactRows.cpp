@@ -24,7 +24,8 @@ constexpr float kTrendKept = 0.7f;  // part that remains after a sub-step
 constexpr float kGiven = 0.35f;     // added to the impulse, so that a pile is supported after fewer sub-steps
 constexpr float kLent = 0.5f;       // added for one sub-step only, against oscillation
 constexpr float kRegular = 1e-3f;   // two points bounce together if their levers differ at least by this
-constexpr float kExists = 1;        // value of normal_mass for an existing point, until the block is finished
+// Values of normal_mass for existing points until the block is finished; kIsGiven: the impulse is given.
+constexpr float kExists = 1, kIsGiven = 0.5f;
 
 struct Body {
   Lanes vx, vy, spin, unused;
@@ -102,7 +103,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
   block.follows[lane] = row.is_lasting ? 1 : 0;
   block.rate[lane] = softness.rate;
   block.mass_scale[lane] = softness.mass_scale;
-  block.impulse_scale[lane] = softness.impulse_scale;
+  block.impulse_scale[lane] = row.is_given ? 0 : softness.impulse_scale;
   block.points = std::max(block.points, manifold.count);
   for (std::int32_t i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& from = manifold.points[at(i)];
@@ -110,7 +111,7 @@ std::int32_t ContactRows::add(const ContactRow& row, const Manifold& manifold, c
     to.ax[lane] = static_cast<float>(from.anchor_a.x), to.ay[lane] = static_cast<float>(from.anchor_a.y);
     to.bx[lane] = static_cast<float>(from.anchor_b.x), to.by[lane] = static_cast<float>(from.anchor_b.y);
     to.gap[lane] = static_cast<float>(from.separation);
-    to.normal_mass[lane] = kExists;
+    to.normal_mass[lane] = row.is_given ? kIsGiven : kExists;
     to.normal.set(lane, known.normal[at(i)]);
     to.friction.set(lane, known.friction[at(i)]);
   }
@@ -136,23 +137,6 @@ double ContactRows::workOf(const Driven& driven) const {
   return work;
 }
 
-void ContactRows::scale(std::span<const float> factors) {
-  for (Block& k : m_blocks) {
-    for (int lane = 0; lane < k.count; ++lane) {
-      const bool moves_a = k.inverse_mass_a[lane] + k.inverse_inertia_a[lane] > 0;
-      const float by = factors[at(moves_a ? k.a[at(lane)] : k.b[at(lane)])];
-      if (by == 1) continue;
-      for (Point& p : k.point) {
-        p.total[lane] -= (1 - by) * p.normal.now[lane];
-        for (Impulse* const p_impulse : {&p.normal, &p.friction}) {
-          p_impulse->now[lane] *= by;
-          p_impulse->trend[lane] *= by;
-        }
-      }
-    }
-  }
-}
-
 void ContactRows::finishBlock() {
   const Lanes zero = {}, one = lanesOf(1);
   Block& k = m_blocks.back();
@@ -172,7 +156,7 @@ void ContactRows::finishBlock() {
     const Lanes tangent =
         masses + k.inverse_inertia_a * tangent_a * tangent_a + k.inverse_inertia_b * tangent_b * tangent_b;
     const LaneMask exists = p.normal_mass > zero;
-    p.normal_mass = select(exists & (normal > zero), one / normal, zero);
+    p.normal_mass = select((p.normal_mass == lanesOf(kExists)) & (normal > zero), one / normal, zero);
     p.tangent_mass = select(exists & (tangent > zero), one / tangent, zero);
     p.normal.begin();
     p.friction.begin();
@@ -345,6 +329,23 @@ void ContactRows::bounce(std::span<SubstepState> states) {
     scatter(states, k.a, a);
     scatter(states, k.b, b);
   }
+}
+
+float ContactRows::normalImpulse(std::int32_t row, int point) const {
+  return m_blocks[at(row) / kLanes].point[at(point)].normal.now[at(row) % kLanes];
+}
+
+void ContactRows::setNormalImpulse(std::int32_t row, int point, float impulse) {
+  m_blocks[at(row) / kLanes].point[at(point)].normal.now[at(row) % kLanes] = impulse;
+}
+
+float ContactRows::bounceSpeed(std::int32_t row, int point) const {
+  const Block& k = m_blocks[at(row) / kLanes];
+  const Point& p = k.point[at(point)];
+  const int lane = static_cast<int>(at(row) % kLanes);
+  const bool is_hit =
+      k.bounces && k.restitution[lane] > 0 && p.total[lane] > 0 && p.approach[lane] < -k.rest[lane];
+  return is_hit ? -k.restitution[lane] * p.approach[lane] : 0;
 }
 
 ContactPush ContactRows::read(std::int32_t row, KnownImpulses& known) const {

@@ -31,6 +31,7 @@ struct ContactRow {
   Vec2 driver;                   ///< velocity of the immovable body, if is_driven
   bool is_held = false;          ///< one of the bodies is immovable, so that the row is stiffer
   bool is_driven = false;        ///< the immovable body moves
+  bool is_given = false;         ///< its normal impulses are given (setNormalImpulse()), not solved for
   bool is_lasting = false;       ///< carries a resting load: own softness, and its impulses have a trend
   float fast = 1e9f;             ///< approaches faster than this are stopped at once
 };
@@ -71,14 +72,17 @@ class ContactRows {
   /// Call after the last sub-step: applies restitution to contacts that approached fast enough.
   void bounce(std::span<SubstepState> states);
   bool mayBounce() const { return m_may_bounce; }
+  /// Returns the impulse at a point of a row in this sub-step.
+  float normalImpulse(std::int32_t row, int point) const;
+  void setNormalImpulse(std::int32_t row, int point, float impulse);
+  /// Returns the speed with which a point is to separate by restitution; 0: it does not bounce.
+  float bounceSpeed(std::int32_t row, int point) const;
   /// Calls visit(state, work) for the contacts with moving immovable bodies: the work of their impulses in
   /// this sub-step on the other body.
   template <class Visit>
   void visitWork(Visit visit) const {
     for (const Driven& driven : m_driven) visit(driven.state, workOf(driven));
   }
-  /// Multiplies the impulses of each contact by the factor of its movable body's state.
-  void scale(std::span<const float> factors);
   /// Call after the last sub-step: returns the result, and sets `known` for the next step.
   ContactPush read(std::int32_t row, KnownImpulses& known) const;
   std::size_t blocks() const { return m_blocks.size(); }

@@ -18,9 +18,11 @@ namespace {
 constexpr double kSlowMargin = 0.12;   // bodies with smaller margins do not push others off their paths
 constexpr double kLinger = 0.01;       // a contact ends if its gap is larger
 constexpr double kCalmDepth = 0.1;     // slow bodies with less overlap may be at rest
+constexpr double kSunk = 1;            // a load has sunk if its overlap is larger: half the thinner body
 constexpr double kKept = 0.005;        // after this relative movement, a manifold is computed again
 constexpr double kPushedAgain = 0.5;   // fraction of the last step's push that is expected again
 constexpr double kEverywhere = 1e300;  // metric cells: a deviation by which a body may reach every other
+constexpr double kOverload = 30;       // ratio of masses above which one body is a load for the other
 constexpr double kLarge = 4;           // ratio of reaches above which one body is much larger than the other
 // Limit of the sweeps over separated pairs. If deviations still spread then, they count as unlimited.
 constexpr int kMaxSweeps = 32;
@@ -35,6 +37,11 @@ double speedBetween(const SubstepBody& a, const SubstepBody& b) {
 double gapBetween(const Bounds& a, const Bounds& b, Vec2 offset) {
   return std::max(std::max(offset.x + b.lower.x - a.upper.x, a.lower.x - b.upper.x - offset.x),
                   std::max(offset.y + b.lower.y - a.upper.y, a.lower.y - b.upper.y - offset.y));
+}
+
+bool isOverloaded(const SubstepBody& a, const SubstepBody& b) {
+  const auto [heavy, light] = std::minmax(a.body.inverse_mass, b.body.inverse_mass);
+  return heavy > 0 && kOverload * heavy < light;
 }
 
 // Returns the maximum change of the lighter body's speed, as a multiple of the speed at which they touch.
@@ -372,6 +379,9 @@ void SubstepWorld::updatePair(std::int32_t index) {
       }
     }
   }
+  if (pair.is_pushing && deepest > kSunk * std::min(a.thickness, b.thickness) && isOverloaded(a, b)) {
+    ++m_counters.sunk;
+  }
   if (!is_near && !pair.is_pushing) endPair(pair);
   pair.is_pushing = false;
   m_deepest = std::max(m_deepest, deepest);
@@ -386,19 +396,23 @@ void SubstepWorld::shake(SubstepBody& a, SubstepBody& b, double depth) {
   b.is_shaken = b.is_shaken || isMovable(b);
 }
 
+// Wakes the body and its group, if it sleeps. begin() must follow for what this adds to m_active.
+void SubstepWorld::wakeInStep(std::int32_t id) {
+  if (!m_bodies[at(id)].is_asleep) return;
+  int member = id;
+  do {
+    m_active.push_back(member);
+    member = m_bodies[at(member)].ring;
+  } while (member != id);
+  wakeRing(id);
+}
+
 // Wakes the sleeping bodies of contacts from `first_contact` on, with their groups. True if any woke.
 bool SubstepWorld::wakeTouched(std::size_t first_contact) {
   const std::size_t before = m_active.size();
   for (std::size_t i = first_contact; i < m_contacts.size(); ++i) {
-    for (const std::int32_t id : {m_contacts[i].a, m_contacts[i].b}) {
-      if (!m_bodies[at(id)].is_asleep) continue;
-      int member = id;
-      do {
-        m_active.push_back(member);
-        member = m_bodies[at(member)].ring;
-      } while (member != id);
-      wakeRing(id);
-    }
+    wakeInStep(m_contacts[i].a);
+    wakeInStep(m_contacts[i].b);
   }
   for (std::size_t i = before; i < m_active.size(); ++i) begin(m_active[i]);
   return m_active.size() > before;

@@ -42,8 +42,9 @@ void push(SubstepState& s, float inverse_mass, float inverse_inertia, float nx, 
 
 }  // namespace
 
-void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
+void SubstepJoints::begin(std::span<const SubstepBody> bodies, float h) {
   m_links.clear();
+  m_loads.clear();
   m_rows.clear();
   m_shapes.swap(m_shapes_before);
   m_shapes.clear();
@@ -54,20 +55,29 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
     if (j.is_broken) continue;
     if (bodies[at(j.b)].state > 0 || (firstOf(j) >= 0 && bodies[at(j.a)].state > 0)) load(id, bodies);
   }
-  if (m_shapes != m_shapes_before) findSystems(bodies);
+  if (!m_links.empty()) weigh(bodies);
+}
+
+void SubstepJoints::makeRows(std::span<SubstepBody> bodies) {
+  if (m_shapes != m_shapes_before) findSystems(bodies.size());
   for (std::size_t i = 0; i < m_links.size(); ++i) {
     Link& link = m_links[i];
     const Slot& slot = m_slots[i];
     link.p_system = slot.p_system;
     link.row = slot.row;
     link.is_in_net = slot.is_in_net;
-    if (link.p_system == nullptr) makeRows(link);
+    if (link.p_system == nullptr) makeRowsOf(link);
   }
   stiffen(bodies);
   for (Link& link : m_links) {
     if (link.a >= 0) take(bodies[at(link.a)], link.inverse_mass_a, link.inverse_inertia_a);
     take(bodies[at(link.b)], link.inverse_mass_b, link.inverse_inertia_b);
     place(link, {}, {}, 0);
+  }
+  for (std::size_t i = 0; i < m_loads.size(); ++i) {
+    m_loads[i].p_system = m_slots[m_links.size() + i].p_system;
+    m_loads[i].row = m_slots[m_links.size() + i].row;
+    placeLoad(m_loads[i], {}, {}, 0);
   }
   for (auto& [first, system] : m_systems) {
     m_states.clear();
@@ -81,13 +91,13 @@ void SubstepJoints::begin(std::span<SubstepBody> bodies, float h) {
   }
 }
 
-// Divides the links into systems, and those that are solved alone. Call only if the links have changed.
-void SubstepJoints::findSystems(std::span<const SubstepBody> bodies) {
+// Divides links and loads into systems, and those that are solved alone. Call only if they have changed.
+void SubstepJoints::findSystems(std::size_t bodies) {
   std::map<int, System> old;
   old.swap(m_systems);
-  m_slots.assign(m_links.size(), {});
-  m_local_of.assign(bodies.size(), -1);
-  m_sets.reset(bodies.size());
+  m_slots.assign(m_shapes.size(), {});
+  m_local_of.assign(bodies, -1);
+  m_sets.reset(bodies);
   for (const Shape& shape : m_shapes) {
     if (shape.moves_a && shape.moves_b) m_sets.unite(shape.a, shape.b);
   }
@@ -110,13 +120,14 @@ void SubstepJoints::findSystems(std::span<const SubstepBody> bodies) {
   }
 }
 
-// True if these connected links are several, with at most kMaxLoops loops.
+// True if these connected links are several, with at most kMaxLoops loops, not counting those of loads.
 bool SubstepJoints::isDirect(std::span<const std::pair<int, int>> links) const {
   if (links.size() < 2) return false;
   std::vector<std::pair<int, int>> pairs;
   std::vector<int> bodies;
   for (const auto& [root, link] : links) {
     const Shape& shape = m_shapes[at(link)];
+    if (shape.id < 0) continue;
     if (shape.moves_b) bodies.push_back(shape.b);
     if (shape.moves_a) bodies.push_back(shape.a);
     if (shape.moves_a && shape.moves_b) pairs.emplace_back(std::minmax(shape.a, shape.b));
@@ -148,9 +159,9 @@ void SubstepJoints::addSystem(std::span<const std::pair<int, int>> links, std::m
     m_masses.resize(bodies.size());
     if (shape.a >= 0) m_masses[at(a)] = {shape.moves_a ? 1.0 : 0.0, 0};
     m_masses[at(b)] = {shape.moves_b ? 1.0 : 0.0, 0};
-    const int count = m_links[at(link)].count + (m_links[at(link)].is_line ? 1 : 0);
-    rows.insert(rows.end(), at(count), {{}, 0, 0, a, b});
-    key.insert(key.end(), {shape.id, shape.a, shape.b, count, shape.moves_a ? 1 : 0, shape.moves_b ? 1 : 0});
+    rows.insert(rows.end(), at(shape.rows), {{}, 0, 0, a, b});
+    key.insert(key.end(),
+               {shape.id, shape.a, shape.b, shape.rows, shape.moves_a ? 1 : 0, shape.moves_b ? 1 : 0});
   }
   for (const int id : bodies) m_local_of[at(id)] = -1;
   const auto before = old.find(first);
@@ -230,10 +241,10 @@ void SubstepJoints::load(int id, std::span<const SubstepBody> bodies) {
   const auto moves = [&](int body) {
     return body >= 0 && bodies[at(body)].state > 0 && isMovable(bodies[at(body)]);
   };
-  m_shapes.push_back({id, link.a, link.b, moves(link.a), moves(link.b)});
+  m_shapes.push_back({id, link.a, link.b, moves(link.a), moves(link.b), link.count + (link.is_line ? 1 : 0)});
 }
 
-void SubstepJoints::makeRows(Link& link) {
+void SubstepJoints::makeRowsOf(Link& link) {
   const Joint& j = joint(link.id);
   link.row = static_cast<int>(m_rows.size());
   for (int k = 0; k < link.count; ++k) {
@@ -440,14 +451,16 @@ void SubstepJoints::solve(const Link& link, SubstepState& a, SubstepState& b, bo
   if (link.is_point) solvePoint(link, a, b, is_soft);
 }
 
-void SubstepJoints::solveSoftly(std::span<SubstepState> states) {
+void SubstepJoints::solveSoftly(std::span<SubstepState> states, ContactRows& rows) {
+  takeLoads(rows);
   for (auto& [first, system] : m_systems) system.rows.solve(states, true);
+  giveLoads(rows);
   for (const Link& link : m_links) {
     if (link.p_system == nullptr) solve(link, states[at(link.state_a)], states[at(link.state_b)], true);
   }
 }
 
-void SubstepJoints::relax(std::span<SubstepState> states, float time) {
+void SubstepJoints::relax(std::span<SubstepState> states, ContactRows& rows, float time) {
   for (Link& link : m_links) {
     const SubstepState &a = states[at(link.state_a)], &b = states[at(link.state_b)];
     link.work = 0;
@@ -460,7 +473,9 @@ void SubstepJoints::relax(std::span<SubstepState> states, float time) {
     }
     if (link.p_system == nullptr) solve(link, states[at(link.state_a)], states[at(link.state_b)], false);
   }
+  for (const Load& load : m_loads) placeLoad(load, states[at(load.state_a)], states[at(load.state_b)], time);
   for (auto& [first, system] : m_systems) system.rows.solve(states, false);
+  giveLoads(rows);
   for (Link& link : m_links) {
     if (link.has_work) addWork(link, states, 1);
     const Joint& j = joint(link.id);
@@ -513,20 +528,6 @@ void SubstepJoints::addStored(Link& link, const std::array<double, 3>& before) c
     return force <= most ? 0.5 * force * x : most * (x - 0.5 * most / j.stiffness);
   };
   for (int k = 0; k < link.count; ++k) link.work += stored(before[at(k)]) - stored(link.value[at(k)]);
-}
-
-void SubstepJoints::scale(std::span<const float> factors, std::span<SubstepState> states) {
-  for (const Link& link : m_links) {
-    if (link.p_system != nullptr) continue;
-    const bool moves_b = link.inverse_mass_b + link.inverse_inertia_b > 0;
-    const float by = factors[at(moves_b ? link.state_b : link.state_a)];
-    if (by == 1) continue;
-    for (int k = 0; k < link.count; ++k) m_rows[at(link.row + k)].impulse *= by;
-    solve(link, states[at(link.state_a)], states[at(link.state_b)], false);
-  }
-  for (auto& [first, system] : m_systems) {
-    if (system.rows.isScaled(factors)) system.rows.solve(states, false);
-  }
 }
 
 int SubstepJoints::end(double dt) {

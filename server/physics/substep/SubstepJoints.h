@@ -1,7 +1,8 @@
 // Joints as rows of a step of soft sub-steps; they are solved alternately with the contacts (ContactRows.h).
 //
-// Several joints that form a tree, or one with few loops, are one linear system (SubstepSystem.h). Other
-// joints are solved one after the other.
+// Several joints that form a tree, or one with few loops, are one linear system (SubstepSystem.h). Contacts
+// that press a jointed body with a much larger mass are rows of it, too, because a sweep does not know the
+// mass behind a contact. Other joints are solved one after the other.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "physics/geometry/UnionFind.h"
 #include "physics/joint/JointRows.h"
 #include "physics/joint/JointStore.h"
+#include "physics/substep/ContactRows.h"
 #include "physics/substep/Softness.h"
 #include "physics/substep/SubstepBody.h"
 #include "physics/substep/SubstepSystem.h"
@@ -22,16 +24,28 @@ namespace naiad::physics {
 
 class SubstepJoints : public JointStore {
  public:
-  /// Makes rows for joints with a moving body, at the positions of the step's start; `h` is the length of a
-  /// sub-step.
-  void begin(std::span<SubstepBody> bodies, float h);
+  /// Loads the joints with a moving body, at the positions of the step's start; `h` is the length of a
+  /// sub-step. Call addLoad() and makeRows() next.
+  void begin(std::span<const SubstepBody> bodies, float h);
+  /// Adds a contact if its load is heavy for a jointed body. Overlap is undone at most with the speed
+  /// `max_push`. Returns its number; −1 if it was not added. Call first for contacts of two movable bodies.
+  int addLoad(std::span<const SubstepBody> bodies, int a, int b, const Manifold& manifold, double max_push);
+  /// Makes the rows of joints and loads.
+  void makeRows(std::span<SubstepBody> bodies);
+  /// True if a joint system solves this load.
+  bool solvesLoad(int load) const { return load >= 0 && m_loads[at(load)].p_system != nullptr; }
+  /// Sets the number of the load's row in the ContactRows, which have its impulses between solutions.
+  void setPlace(int load, std::int32_t place) { m_loads[at(load)].place = place; }
   /// Returns the number of joint systems, which are solved directly.
   std::size_t systems() const { return m_systems.size(); }
   bool isEmpty() const { return m_links.empty(); }
   void warmStart(std::span<SubstepState> states);
-  void solveSoftly(std::span<SubstepState> states);
+  /// Call when the contacts have been warm started, too.
+  void solveSoftly(std::span<SubstepState> states, ContactRows& rows);
   /// Solves without softness at the present positions; `time` is since the step began.
-  void relax(std::span<SubstepState> states, float time);
+  void relax(std::span<SubstepState> states, ContactRows& rows, float time);
+  /// Applies restitution to loads; call after ContactRows::bounce().
+  void bounce(std::span<SubstepState> states, ContactRows& rows);
   /// Call after a step of length `dt`: writes the joints' forces. Returns the number of joints that broke.
   int end(double dt);
   /// Calls visit(state, work) for joints that may have added energy in this sub-step: the work of motors and
@@ -43,9 +57,6 @@ class SubstepJoints : public JointStore {
         visit(link.inverse_mass_b + link.inverse_inertia_b > 0 ? link.state_b : link.state_a, link.work);
     }
   }
-  /// Call when velocity changes were multiplied by these factors, by state. Multiplies the impulses kept for
-  /// the next sub-step, too, and stops the speeds along the joints again.
-  void scale(std::span<const float> factors, std::span<SubstepState> states);
   /// Calls visit(a, b) for every joint of this step; a is −1 for a mouse joint.
   template <class Visit>
   void visitLinks(Visit visit) const {
@@ -99,9 +110,20 @@ class SubstepJoints : public JointStore {
     double torque = 0;
     double work = 0;  // energy that it may have added in this sub-step
   };
-  struct Shape {  // what the pattern of a system depends on, for each link
-    int id, a, b;
+  struct Load {                     // a contact that a system may solve
+    std::int32_t a, b;              // ids of bodies
+    std::int32_t state_a, state_b;  // indices of states
+    Manifold manifold;
+    Vec2 velocity;  // velocity of b's centre relative to a's, at the start of the step
+    double max_push;
+    SubstepSystem* p_system = nullptr;
+    int row = 0;
+    std::int32_t place = 0;
+  };
+  struct Shape {   // what the pattern of a system depends on, for each link, then for each load
+    int id, a, b;  // the id of a load is −1
     bool moves_a, moves_b;
+    int rows;
     bool operator==(const Shape&) const = default;
   };
   struct Slot {  // place of a link in its system
@@ -116,8 +138,12 @@ class SubstepJoints : public JointStore {
 
   void stiffen(std::span<SubstepBody> bodies);
   void load(int id, std::span<const SubstepBody> bodies);
-  void makeRows(Link& link);
-  void findSystems(std::span<const SubstepBody> bodies);
+  void makeRowsOf(Link& link);
+  void weigh(std::span<const SubstepBody> bodies);
+  void placeLoad(const Load& load, const SubstepState& a, const SubstepState& b, float time) const;
+  void takeLoads(const ContactRows& rows);
+  void giveLoads(ContactRows& rows) const;
+  void findSystems(std::size_t bodies);
   bool isDirect(std::span<const std::pair<int, int>> links) const;
   void addSystem(std::span<const std::pair<int, int>> links, std::map<int, System>& old);
   void place(Link& link, const SubstepState& a, const SubstepState& b, float time);
@@ -135,10 +161,13 @@ class SubstepJoints : public JointStore {
 
   std::vector<Link> m_links;
   std::vector<Row> m_rows;
-  std::vector<Shape> m_shapes, m_shapes_before;  // by link
-  std::vector<Slot> m_slots;                     // by link
+  std::vector<Load> m_loads;
+  std::vector<Shape> m_shapes, m_shapes_before;  // by link, then by load
+  std::vector<Slot> m_slots;                     // by shape
   std::map<int, System> m_systems;               // by the id of the first joint
-  UnionFind m_sets;                              // of states
+  UnionFind m_sets;                              // of bodies
+  std::vector<float> m_behind;                   // by root in m_sets: least inverse mass; −1: no joints
+  int m_pairs_loaded = 0;                        // loads between movable bodies
   std::vector<int> m_local_of;                   // scratch, by body: index in its system
   std::vector<std::int32_t> m_states;            // scratch
   std::vector<JointMass> m_masses;               // scratch

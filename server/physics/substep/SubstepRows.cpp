@@ -51,14 +51,17 @@ void SubstepWorld::chooseColours() {
       contact.colour = std::countr_one(mover.held_colours);
       mover.held_colours |= contact.colour < kColours ? std::uint64_t{1} << contact.colour : 0;
       contact.colour += contact.colour < kColours ? kColours : 0;
-      if (mover.state > 0) m_energy.hold(mover.state);
+      m_energy.hold(mover.state);
       if (a.state > 0 && b.state > 0) m_driven.emplace_back(a.state, b.state);
     }
     const bool is_coloured =
         contact.colour < kColours || (!(moves_a && moves_b) && contact.colour < kUncoloured);
     if (!is_coloured) contact.colour = kUncoloured;
     contact.state = std::max(a.state, b.state);
-    if (moves_a && moves_b && a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);
+    if (!moves_a || !moves_b) continue;
+    m_energy.watch(a.state);
+    m_energy.watch(b.state);
+    if (a.state > 0 && b.state > 0) m_sets.unite(a.state, b.state);
   }
   m_joints.visitLinks([this](int a, int b) {
     if (a >= 0) unite(m_bodies[at(a)], m_bodies[at(b)]);
@@ -126,6 +129,20 @@ void SubstepWorld::sortByBatch() {
   return ahead < contacts.size() ? &m_contacts[at(contacts[ahead])] : nullptr;
 }
 
+// Gives contacts with heavy loads on jointed bodies to the joints.
+void SubstepWorld::giveLoads() {
+  for (const bool is_held : {false, true}) {
+    for (const Turn& turn : m_sequence) {
+      Contact& contact = m_contacts[at(turn.contact)];
+      const SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
+      if ((isMovable(a) && isMovable(b)) == is_held) continue;
+      const double max_push = kMaxPush * std::min(a.thickness, b.thickness);
+      contact.load =
+          m_joints.addLoad(m_bodies, contact.a, contact.b, m_memory[at(contact.memory)].manifold, max_push);
+    }
+  }
+}
+
 void SubstepWorld::addRow(Contact& contact) {
   const SubstepBody &a = m_bodies[at(contact.a)], &b = m_bodies[at(contact.b)];
   ContactRow row;
@@ -146,7 +163,8 @@ void SubstepWorld::addRow(Contact& contact) {
     row.driver = driver.body.velocity;
   }
   const Memory& memory = m_memory[at(contact.memory)];
-  row.is_lasting = isLasting(memory.known, a, b);
+  row.is_given = m_joints.solvesLoad(contact.load);
+  row.is_lasting = !row.is_given && isLasting(memory.known, a, b);
   row.fast = static_cast<float>((row.is_lasting ? kCalm : kFast) * std::min(a.thickness, b.thickness));
   const auto gain = [&](const SubstepBody& of) {
     return of.state > 0 ? std::fabs(of.kick.x) + std::fabs(of.kick.y) : 0.0f;
@@ -155,6 +173,7 @@ void SubstepWorld::addRow(Contact& contact) {
   if (hasFrictionParts())
     row.friction = static_cast<float>(frictionOf(contact.a, contact.b, memory.manifold));
   contact.place = m_rows.add(row, memory.manifold, memory.known);
+  if (row.is_given) m_joints.setPlace(contact.load, contact.place);
 }
 
 void SubstepWorld::fillRows(std::span<const std::int32_t> contacts) {

@@ -1,4 +1,4 @@
-// A step of a SubstepWorld: its sub-steps, and the handling of bodies that move too fast for them.
+// A step of a SubstepWorld and its sub-steps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,25 +10,15 @@ namespace naiad::physics {
 
 namespace {
 
-constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, the limit of timeOfImpact()
-constexpr double kMaxTurn = 40;    // rad per step: maximum swept rotation; limits timeOfImpact()'s iterations
 // Lengths in units of the body's thickness:
 constexpr double kSlack = 0.02;       // minimum margin of the search for contacts
 constexpr double kSlow = 0.1;         // a body that moves at most this far in a step hardly moves (is_busy)
-constexpr double kMaxPass = 0.5;      // limit of movement beyond the search, so the centre passes nothing
-constexpr double kCore = 0.5;         // radius of the core that is swept if the other body pushes this one
-constexpr std::size_t kFewFast = 4;   // the fast bodies are many if at least one body in this number is fast
 constexpr double kBoundsSlack = 0.2;  // margin of bounds in the broad phase; smaller moves do not change them
 
 constexpr double kHeld = 0.05;     // a body is held if less than this part of a magnet's push remains
 constexpr double kAhead = 1;       // maximum further margin of the bounds, along the velocity
 constexpr double kTicksAhead = 2;  // ticks of movement in the additional margin
 constexpr double kNeverKept = kAhead + 2 * kBoundsSlack;  // per tick: a faster body leaves its bounds anyway
-
-// Returns a bound of how far rotation moves a point of the body in this step.
-double rollOf(const SubstepBody& b) {
-  return b.state == 0 ? 0 : std::min(std::fabs(b.turn), 2.0) * b.reach;
-}
 
 Vec2 accelerationOf(const RigidBody& body) {
   return body.inverse_mass > 0 ? body.acceleration : Vec2{};
@@ -44,18 +34,13 @@ double pushOn(const SubstepBody& b, const SubstepState& s, double dt) {
   return dt * (length(gained) + std::min(std::fabs(spun), 2.0) * b.reach);
 }
 
-SweptBox relativeTo(const Place& origin, const GridBounds& bounds) {
-  const std::int64_t x = origin.cell_x * kGridUnits, y = origin.cell_y * kGridUnits;
-  return {{static_cast<double>(bounds.lower_x - x), static_cast<double>(bounds.lower_y - y)},
-          {static_cast<double>(bounds.upper_x - x), static_cast<double>(bounds.upper_y - y)}};
-}
-
 }  // namespace
 
 void SubstepWorld::listActive() {
   if (!m_active_changed) return;
   m_active_changed = false;
   m_active.clear();
+  m_drivers.clear();
   m_is_shuffled = false;
   std::array<std::uint64_t, 2> last = {};  // `order` of the last movable and the last immovable body
   for (int id = 0; id < idLimit(); ++id) {
@@ -67,13 +52,16 @@ void SubstepWorld::listActive() {
       before = b.order;
     }
     if (!b.exists || b.is_frozen || b.is_asleep) continue;
-    if (isMovable(b) || b.body.velocity != Vec2{} || b.body.spin != 0) m_active.push_back(id);
+    const bool is_driver = !isMovable(b) && (b.body.velocity != Vec2{} || b.body.spin != 0);
+    if (is_driver) m_drivers.push_back(id);
+    if (is_driver || isMovable(b)) m_active.push_back(id);
   }
   if (m_is_shuffled) sortActive();
 }
 
-void SubstepWorld::sortActive() {
-  std::sort(m_active.begin(), m_active.end(),
+// Sorts the active bodies from m_active[first] on by their order.
+void SubstepWorld::sortActive(std::size_t first) {
+  std::sort(m_active.begin() + static_cast<std::ptrdiff_t>(first), m_active.end(),
             [&](int x, int y) { return m_bodies[at(x)].order < m_bodies[at(y)].order; });
 }
 
@@ -158,7 +146,7 @@ void SubstepWorld::undoMagnetWork() {
     const Vec2 right = withoutWork(magnet.turn, velocity, kHeld);
     const Vec2 gained = right - b.body.velocity;
     const Vec2 middle = 0.5 * (right + velocity) - (b.body.velocity - m_energy.velocity(b.state));
-    m_energy.giveFromSprings(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
+    m_energy.give(b.state, m_energy.mass(b.state) * dot(right - velocity, middle));
     s.vx = static_cast<float>(gained.x), s.vy = static_cast<float>(gained.y);
     magnet.given += right - velocity;
   }
@@ -180,44 +168,41 @@ void SubstepWorld::moveStates(std::span<const std::int32_t> states) {
   }
 }
 
-// Sets the masses and groups of the bodies. chooseColours() has found the groups.
+// Sets the masses and groups of the bodies that impulses may push. chooseColours() has found the groups.
 void SubstepWorld::beginEnergy() {
-  const auto hold = [this](const SubstepBody& b, bool by_immovable) {
-    if (by_immovable && b.state > 0) m_energy.hold(b.state);
+  const auto watch = [this](const SubstepBody& b, bool is_held) {
+    is_held ? m_energy.hold(b.state) : m_energy.watch(b.state);
   };
   m_joints.visitLinks([&](int a, int b) {
-    if (a >= 0) hold(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
-    hold(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
+    if (a >= 0) watch(m_bodies[at(a)], !isMovable(m_bodies[at(b)]));
+    watch(m_bodies[at(b)], a < 0 || !isMovable(m_bodies[at(a)]));
   });
+  for (const Magnet& magnet : m_magnets) m_energy.watch(m_bodies[at(magnet.id)].state);
   for (const std::int32_t id : m_active) {
     const SubstepBody& b = m_bodies[at(id)];
+    if (!m_energy.isWatched(b.state)) continue;
     if (b.proxy >= 0 && m_broad.isThinned(b.proxy)) m_energy.ignore(b.state);
-    m_energy.set(b.state, b.body.velocity, b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0,
+    m_energy.set(b.state, b.body, b.inverse_mass > 0 ? 1 / double{b.inverse_mass} : 0,
                  b.inverse_inertia > 0 ? 1 / double{b.inverse_inertia} : 0, m_sets.rootOf(b.state));
   }
-  m_energy.chooseFrames();
 }
 
 // Keeps the impulses of this sub-step from adding energy.
-void SubstepWorld::balance(std::span<const std::int32_t> states) {
-  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
-  m_joints.visitWork([this](int state, double work) { m_energy.giveFromSprings(state, work); });
-  if (!m_energy.balance(states, m_states, false)) return;
-  m_rows.scale(m_energy.factors());
-  m_joints.scale(m_energy.factors(), m_states);
+void SubstepWorld::balance(double time) {
+  const auto give = [this](int state, double work) { m_energy.give(state, work); };
+  m_rows.visitWork(give);
+  m_joints.visitWork(give);
+  m_energy.balance(m_states, time, false);
 }
 
-void SubstepWorld::bounce(std::span<const std::int32_t> states) {
+void SubstepWorld::bounce(double time) {
   if (!m_rows.mayBounce()) return;
-  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, -work); });
-  for (const std::int32_t state : states) {
-    Lanes speeds;
-    __builtin_memcpy(&speeds, &m_states[at(state)].vx, sizeof speeds);
-    m_energy.note(state, speeds);
-  }
+  m_rows.visitWork([this](int state, double work) { m_energy.give(state, -work); });
+  m_energy.note(m_states);
   m_rows.bounce(m_states);
-  m_rows.visitWork([this](int state, double work) { m_energy.giveByImpulses(state, work); });
-  m_energy.balance(states, m_states, true);
+  m_joints.bounce(m_states, m_rows);
+  m_rows.visitWork([this](int state, double work) { m_energy.give(state, work); });
+  m_energy.balance(m_states, time, true);
 }
 
 void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
@@ -236,16 +221,16 @@ void SubstepWorld::stepBatch(std::span<const std::int32_t> states) {
     }
     m_joints.warmStart(m_states);
     m_rows.warmStart(m_states);
-    m_joints.solveSoftly(m_states);
+    m_joints.solveSoftly(m_states, m_rows);
     m_rows.solve(m_states, m_h, time, true);
     undoMagnetWork();
     moveStates(states);
     time += m_h;
-    m_joints.relax(m_states, time);
+    m_joints.relax(m_states, m_rows, time);
     m_rows.solve(m_states, m_h, time, false);
-    balance(states);
+    balance(double{time});
   }
-  bounce(states);
+  bounce(double{time});
 }
 
 void SubstepWorld::step() {
@@ -267,10 +252,13 @@ void SubstepWorld::stepOnce() {
   m_kicks.assign(1, {});
   m_magnets.clear();
   for (const std::int32_t id : m_active) begin(id);
+  if (!m_drivers.empty()) wakeAhead();
   std::erase_if(m_active, [&](int id) { return m_bodies[at(id)].is_frozen; });
   updatePairs();
   updateContacts();
   m_joints.begin(m_bodies, m_h);
+  if (!m_joints.isEmpty()) giveLoads();
+  m_joints.makeRows(m_bodies);
   chooseColours();
   chooseBatches();
   beginEnergy();
@@ -294,265 +282,6 @@ Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
   if (b.state == 0) return {};
   const SubstepState& s = m_states[at(b.state)];
   return m_dt * b.body.velocity + Vec2{s.x, s.y};
-}
-
-bool SubstepWorld::isFast(const SubstepBody& b) const {
-  const double movement = length(movedBy(b)) + rollOf(b);
-  return movement > b.margin + kMaxPass * b.thickness && movement < kFarthest;
-}
-
-void SubstepWorld::stopFast() {
-  m_fast.clear();
-  for (const std::int32_t id : m_active) {
-    const SubstepBody& b = m_bodies[at(id)];
-    if (b.proxy < 0 || !isFast(b)) continue;
-    m_fast.push_back({movedBy(b), rollOf(b), b.thickness, id, sweptBounds(b, movedBy(b))});
-  }
-  if (m_fast.empty()) return;
-  treePaths();
-  m_near.clear();
-  if (m_are_crowded) {
-    for (const Fast& fast : m_fast) {
-      const int own = m_fast_numbers[at(fast.id)];
-      visitPathsBeside(own, [&](int other) {
-        if (other > own) approach(own, other);
-      });
-    }
-  } else {
-    m_path_tree.queryPairs([this](int one, int other) { approach(one, other); });
-  }
-  for (Fast& fast : m_fast) {
-    if (!isMovable(m_bodies[at(fast.id)])) continue;
-    if (!m_are_many) {
-      m_broad.query(fast.way, [&](std::uint32_t other) {
-        if (m_fast_numbers[other] == kSlowNumber) addNear(fast, static_cast<std::int32_t>(other));
-      });
-    }
-    stop(fast);
-  }
-}
-
-// Builds the tree of paths in which fast bodies find each other and, if there are many fast ones, the slow
-// bodies. Paths are relative to a frame that moves with the fast bodies (m_along), in which they are short.
-void SubstepWorld::treePaths() {
-  m_paths.clear();
-  m_path_values.clear();
-  m_path_ids.clear();
-  m_slow.clear();
-  m_fast_numbers.assign(m_bodies.size(), kSlowNumber);
-  m_along = middlePath();
-  for (const Fast& fast : m_fast) {
-    m_fast_numbers[at(fast.id)] = static_cast<std::int32_t>(m_paths.size());
-    m_paths.push_back(seenPath(fast));
-    m_path_values.push_back(crowdValue(m_bodies[at(fast.id)]));
-  }
-  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
-  m_are_crowded = std::find(m_path_values.begin(), m_path_values.end(), kInCrowd) != m_path_values.end();
-  m_are_many = m_are_crowded || m_fast.size() * kFewFast >= m_bodies.size();
-  for (std::int32_t id = 0; m_are_many && id < idLimit(); ++id) {
-    const SubstepBody& b = m_bodies[at(id)];
-    if (b.proxy < 0 || m_fast_numbers[at(id)] != kSlowNumber) continue;
-    m_slow.push_back({m_broad.bounds(b.proxy), id});
-    SweptBox swept = relativeTo(origin, m_broad.bounds(b.proxy));
-    const Vec2 back = double{-kGridUnits} * m_along;
-    swept.low += {std::min(back.x, 0.0), std::min(back.y, 0.0)};
-    swept.high += {std::max(back.x, 0.0), std::max(back.y, 0.0)};
-    m_paths.push_back(swept);
-    m_path_values.push_back(crowdValue(b));
-  }
-  for (std::size_t i = 0; i < m_paths.size(); ++i) m_path_ids.push_back(static_cast<int>(i));
-  m_path_tree.update(m_paths, m_path_ids, static_cast<int>(m_paths.size()), m_path_values);
-}
-
-// Calls visit() for the paths that overlap a path. Skips pairs of bodies in crowds, which pass each other.
-template <typename Visit>
-void SubstepWorld::visitPathsBeside(int own, Visit&& visit) const {
-  const SweptBox& box = m_path_tree.box(own);
-  const bool is_in_crowd = m_path_values[at(own)] == kInCrowd;
-  m_path_tree.walk(
-      [&](const ImpactTree::Below& below) {
-        return overlaps(below.box, box) && !(is_in_crowd && below.least == kInCrowd);
-      },
-      visit);
-}
-
-SweptBox SubstepWorld::seenPath(const Fast& fast) const {
-  const Place& origin = m_bodies[at(m_fast[0].id)].body.place;
-  return relativeTo(origin, sweptBounds(m_bodies[at(fast.id)], fast.path - m_along));
-}
-
-// Returns the median of the fast bodies' paths, which a single very fast body does not change much.
-Vec2 SubstepWorld::middlePath() {
-  m_path_order.resize(m_fast.size());
-  const auto middle = m_path_order.begin() + static_cast<std::ptrdiff_t>(m_fast.size() / 2);
-  const auto middleOf = [&](double Vec2::*axis) {
-    for (std::size_t i = 0; i < m_fast.size(); ++i) m_path_order[i] = m_fast[i].path.*axis;
-    std::nth_element(m_path_order.begin(), middle, m_path_order.end());
-    return *middle;
-  };
-  return {middleOf(&Vec2::x), middleOf(&Vec2::y)};
-}
-
-GridBounds SubstepWorld::sweptBounds(const SubstepBody& b, Vec2 path) {
-  return gridBounds(b.body.place,
-                    {{std::min(path.x, 0.0) - b.reach, std::min(path.y, 0.0) - b.reach},
-                     {std::max(path.x, 0.0) + b.reach, std::max(path.y, 0.0) + b.reach}},
-                    0);
-}
-
-float SubstepWorld::crowdValue(const SubstepBody& b) const {
-  return isMovable(b) && m_broad.isThinned(b.proxy) ? kInCrowd : 0;
-}
-
-// True if the bodies may pass through each other: both are in crowds, or one is and their centres are near.
-bool SubstepWorld::passes(const SubstepBody& a, const SubstepBody& b) const {
-  if (!isMovable(a) || !isMovable(b)) return false;
-  const bool is_thinned = m_broad.isThinned(a.proxy), is_other = m_broad.isThinned(b.proxy);
-  if (!is_thinned && !is_other) return false;
-  const double near = a.thickness + b.thickness;
-  return (is_thinned && is_other) || lengthSquared(b.body.place - a.body.place) < near * near;
-}
-
-void SubstepWorld::addNear(Fast& fast, std::int32_t id) {
-  if (passes(m_bodies[at(fast.id)], m_bodies[at(id)])) return;
-  ++m_counters.near;
-  m_near.push_back({id, std::exchange(fast.near, static_cast<std::int32_t>(m_near.size()))});
-}
-
-// Adds each of two bodies of the path tree, one < other, to the possible obstacles of the other one if that
-// is fast. Skips fast bodies that fly together until one of them is stopped or diverted.
-void SubstepWorld::approach(int one, int other) {
-  const auto fast_ones = static_cast<int>(m_fast.size());
-  if (one >= fast_ones) return;
-  Fast& fast = m_fast[at(one)];
-  if (other >= fast_ones) {
-    const Slow& slow = m_slow[at(other - fast_ones)];
-    if (overlap(slow.bounds, fast.way)) addNear(fast, slow.id);
-    return;
-  }
-  Fast& that = m_fast[at(other)];
-  const double nearer = length(fast.path - that.path) + fast.roll + that.roll;
-  const bool are_together = nearer <= kMaxPass * std::min(fast.thickness, that.thickness);
-  if (are_together && !fast.is_stopped && !that.is_stopped) return;
-  addNear(fast, that.id);
-  addNear(that, fast.id);
-}
-
-// Repeats approach() for a body that was stopped or diverted.
-void SubstepWorld::approachAgain(Fast& fast) {
-  const int own = m_fast_numbers[at(fast.id)];
-  visitPathsBeside(own, [&](int other) {
-    if (other != own) approach(std::min(own, other), std::max(own, other));
-  });
-}
-
-// True if no immovable body touches the body, neither now nor on this path.
-bool SubstepWorld::isClear(const SubstepBody& b, Vec2 path) {
-  bool is_clear = true;
-  const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
-  m_broad.query(sweptBounds(b, path), [&](std::uint32_t id) {
-    const SubstepBody& other = m_bodies[id];
-    if (!is_clear || isMovable(other)) return;
-    const RigidMotion its = motionOf(other);
-    for (const ConvexShape& own : m_forms[b.form].shapes) {
-      for (const ConvexShape& that : m_forms[other.form].shapes) {
-        const TimeOfImpact impact = timeOfImpact(own, motion, that, its, other.body.place - b.body.place);
-        is_clear = is_clear && impact.status == TimeOfImpactStatus::kApart && !impact.touched_before;
-      }
-    }
-  });
-  return is_clear;
-}
-
-// Returns the body's motion in this step. If the body was stopped, returns no motion, at its final rotation.
-RigidMotion SubstepWorld::motionOf(const SubstepBody& b) const {
-  if (b.state == 0) return {{}, b.body.rotation, 0};
-  if (b.part < 1) return {{}, turned(b.body.rotation, b.part * b.turn), 0};
-  return {movedBy(b), b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
-}
-
-// Stops a fast body where it first touches a possible obstacle, or moves both on a common path from there.
-void SubstepWorld::stop(Fast& fast) {
-  const std::int32_t id = fast.id;
-  SubstepBody& b = m_bodies[at(id)];
-  const Vec2 path = fast.path;
-  const RigidMotion motion = {path, b.body.rotation, std::clamp(b.turn, -kMaxTurn, kMaxTurn)};
-  double first = b.part;
-  std::int32_t met = -1;
-  const std::span<const ConvexShape> own_shapes = m_forms[b.form].shapes;
-  for (std::int32_t i = fast.near; i >= 0; i = m_near[at(i)].next) {
-    const std::int32_t near = m_near[at(i)].id;
-    const SubstepBody& other = m_bodies[at(near)];
-    const RigidMotion its = motionOf(other);
-    const double nearer = length(path - its.displacement) + rollOf(b) + rollOf(other);
-    const double pass = kMaxPass * std::min(b.thickness, other.thickness);
-    if (nearer <= marginOf(b, other) + pass) continue;
-    const auto pair = findPair(id, near);
-    if (pair != m_pairs.end() && pair->is_jointed) continue;
-    const bool is_pushing = pair != m_pairs.end() && pair->is_pushing;
-    if (is_pushing && nearer <= b.margin + other.margin + pass) continue;
-    const Vec2 offset = other.body.place - b.body.place +
-                        (other.state > 0 && other.part < 1 ? other.part * movedBy(other) : Vec2{});
-    // Rows keep only the known points apart, and other corners may touch in this step. So a body that is
-    // pushed may rotate into the other body, but its core must not pass the other one. A body that is already
-    // inside an immovable one would leave it on the far side, without touching more of it.
-    ConvexShape core;
-    const bool has_core =
-        (is_pushing || !isMovable(other)) && makeCircle(kCore * b.thickness, {}, core) == ShapeStatus::kOk;
-    const auto sweep = [&](const ConvexShape& own) {
-      for (const ConvexShape& that : m_forms[other.form].shapes) {
-        const TimeOfImpact impact = timeOfImpact(own, motion, that, its, offset);
-        if (impact.status == TimeOfImpactStatus::kApart || impact.time > first) continue;
-        const bool is_later = impact.time == first && (met < 0 || m_bodies[at(met)].order < other.order);
-        if (is_later) continue;
-        first = impact.time;
-        met = near;
-      }
-    };
-    if (has_core) sweep(core);
-    if (is_pushing) continue;
-    for (const ConvexShape& own : own_shapes) sweep(own);
-  }
-  if (first >= b.part) return;
-  ++m_counters.stopped;
-  const std::int32_t number = m_fast_numbers[at(met)];
-  Fast* const p_met = number == kSlowNumber || !isMovable(m_bodies[at(met)]) ? nullptr : &m_fast[at(number)];
-  if (p_met != nullptr && !p_met->is_stopped && advanceTogether(fast, *p_met, first)) return;
-  for (Fast* const p_fast : {&fast, p_met}) {  // the fast body that was hit stops, too
-    if (p_fast == nullptr) continue;
-    double& part = m_bodies[at(p_fast->id)].part;
-    part = std::min(part, first);
-    p_fast->is_stopped = true;
-    approachAgain(*p_fast);
-  }
-}
-
-// Gives two fast bodies that meet at `time` a common path from there on. If they stopped, bodies that fly
-// behind them would run into them. Returns false, without a change, if an immovable body is in the way.
-bool SubstepWorld::advanceTogether(Fast& one, Fast& other, double time) {
-  // Only the ratio of the masses matters, so the inverse masses are exchanged.
-  const double mass_of_other = m_bodies[at(one.id)].body.inverse_mass;
-  const double mass_of_one = m_bodies[at(other.id)].body.inverse_mass;
-  const double sum = mass_of_one + mass_of_other;
-  if (!(sum > 0)) return false;
-  const Vec2 common = (mass_of_one * one.path + mass_of_other * other.path) / sum;
-  const auto pathOf = [&](const Fast& fast) { return time * fast.path + (1 - time) * common; };
-  for (const Fast* const p_fast : {&one, &other}) {
-    if (!isClear(m_bodies[at(p_fast->id)], pathOf(*p_fast))) return false;
-  }
-  for (Fast* const p_fast : {&one, &other}) {
-    SubstepBody& b = m_bodies[at(p_fast->id)];
-    const Vec2 gained = pathOf(*p_fast) - m_dt * b.body.velocity;
-    SubstepState& s = m_states[at(b.state)];
-    s.x = static_cast<float>(gained.x), s.y = static_cast<float>(gained.y);
-    p_fast->path = movedBy(b);
-    p_fast->way = sweptBounds(b, p_fast->path);
-    b.is_diverted = true;
-    m_path_tree.grow(m_fast_numbers[at(p_fast->id)], seenPath(*p_fast));
-  }
-  approachAgain(one);
-  approachAgain(other);
-  return true;
 }
 
 // Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both

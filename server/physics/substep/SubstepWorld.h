@@ -45,6 +45,7 @@ struct SubstepCounters {
   std::int64_t quarantined = 0;  ///< number of times that a body was frozen
   std::int64_t broken = 0;       ///< joints that broke
   std::int64_t scaled = 0;       ///< groups whose impulses were scaled because they added energy
+  std::int64_t sunk = 0;         ///< contacts in which a load sank too deep, counted once per step
 };
 
 class SubstepWorld final : public RigidStepper {
@@ -114,16 +115,15 @@ class SubstepWorld final : public RigidStepper {
     GridBounds way;          // bounds of its path in this step
     std::int32_t near = -1;  // index in m_near of the first of its possible obstacles; −1: none
     bool is_stopped = false;
+    std::int32_t carrier = -1;  // kinematic body that carries it; −1: none
+    double reached = 2;         // time at which a fast kinematic body reaches it; 2: never
   };
   struct Near {
     std::int32_t id, next;
   };
   static constexpr std::int32_t kSlowNumber = -1;
   static constexpr float kInCrowd = 1;  // value in m_path_values for a body in a crowd
-  struct Slow {
-    GridBounds bounds;  // bounds in the broad phase
-    std::int32_t id;
-  };
+
   struct Turn {  // place of a contact in the order of solution
     std::uint64_t order_a, order_b;
     std::int32_t contact;
@@ -133,7 +133,8 @@ class SubstepWorld final : public RigidStepper {
     std::int32_t a, b;
     std::int32_t state;  // state of one of its movable bodies
     std::int32_t colour;
-    std::int32_t place;  // number of its row in m_rows
+    std::int32_t place;      // number of its row in m_rows
+    std::int32_t load = -1;  // number in m_joints, if they may solve it
     ContactPush pushed;
   };
   // Some groups whose rows together fit into a cache during all sub-steps.
@@ -159,6 +160,8 @@ class SubstepWorld final : public RigidStepper {
     double mass = 0;         // total mass of the bodies that lost it
   };
 
+  static constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, limit of timeOfImpact()
+
   // Contacts whose relative movement is slower may be lasting; in thicknesses of a body per tick.
   static constexpr double kCalm = 0.05;
 
@@ -178,23 +181,32 @@ class SubstepWorld final : public RigidStepper {
   // Defined in SubstepStep.cpp:
   void stepOnce();
   void listActive();
-  void sortActive();
+  void sortActive(std::size_t first = 0);
   void begin(int id);
   void pushByMagnets();
   void undoMagnetWork();
   void beginEnergy();
   void stepBatch(std::span<const std::int32_t> states);
-  void balance(std::span<const std::int32_t> states);
-  void bounce(std::span<const std::int32_t> states);
+  void balance(double time);
+  void bounce(double time);
   void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
   void finish();
+  void forecast(SubstepBody& body) const;
+  static double calmMargin(const SubstepBody& a, const SubstepBody& b);
+  GridBounds wideBounds(const SubstepBody& body) const;
+  Vec2 movedBy(const SubstepBody& body) const;
+
+  // Defined in SubstepFast.cpp:
   bool isFast(const SubstepBody& body) const;
+  void addFast(std::int32_t id);
   void stopFast();
+  void wakeAhead();
+  void addDriven();
   void treePaths();
   Vec2 middlePath();
   SweptBox seenPath(const Fast& fast) const;
-  static GridBounds sweptBounds(const SubstepBody& body, Vec2 path);
+  static GridBounds sweptBounds(const Place& from, double reach, Vec2 path);
   float crowdValue(const SubstepBody& body) const;
   template <typename Visit>
   void visitPathsBeside(int own, Visit&& visit) const;
@@ -202,20 +214,22 @@ class SubstepWorld final : public RigidStepper {
   void addNear(Fast& fast, std::int32_t id);
   void approach(int one, int other);
   void approachAgain(Fast& fast);
+  RigidMotion wholeMotion(const SubstepBody& body) const;
   RigidMotion motionOf(const SubstepBody& body) const;
-  bool isClear(const SubstepBody& body, Vec2 path);
+  bool isClear(const SubstepBody& body, std::span<const ConvexShape> shapes, const RigidMotion& motion,
+               double time, Vec2 moved, std::int32_t except);
   void stop(Fast& fast);
+  static bool makeCore(const SubstepBody& body, ConvexShape& core);
+  bool carry(Fast& fast, std::int32_t carrier, double time);
+  void divert(Fast& fast, Vec2 path);
   bool advanceTogether(Fast& one, Fast& other, double time);
-  void forecast(SubstepBody& body) const;
-  static double calmMargin(const SubstepBody& a, const SubstepBody& b);
-  GridBounds wideBounds(const SubstepBody& body) const;
-  Vec2 movedBy(const SubstepBody& body) const;
 
   // Defined in SubstepContacts.cpp:
   void updatePairs();
   void endPair(Pair& pair);
   void wakeChanged();
   void updateContacts();
+  void wakeInStep(std::int32_t id);
   bool wakeTouched(std::size_t first_contact);
   void listPairsOf(std::span<const std::int32_t> bodies);
   bool mayMeet(Pair& pair);
@@ -245,6 +259,7 @@ class SubstepWorld final : public RigidStepper {
   void chooseBatches();
   void sortByBatch();
   const Contact* contactAhead(std::span<const std::int32_t> contacts, std::size_t turn) const;
+  void giveLoads();
   void addRow(Contact& contact);
   void fillRows(std::span<const std::int32_t> contacts);
   void storeImpulses(std::span<const std::int32_t> contacts);
@@ -260,12 +275,13 @@ class SubstepWorld final : public RigidStepper {
   std::vector<SubstepBody> m_bodies;
   SubstepForms m_forms;
   std::vector<std::int32_t> m_free;
-  std::vector<std::int32_t> m_active;  // ids of bodies that move in this step, by order
+  std::vector<std::int32_t> m_active;   // ids of bodies that move in this step, by order
+  std::vector<std::int32_t> m_drivers;  // the kinematic ones of these
   std::vector<std::int32_t> m_changed;
   std::vector<Near> m_near;
   std::vector<Fast> m_fast;
   std::vector<std::int32_t> m_fast_numbers;  // by id: index in m_fast
-  std::vector<Slow> m_slow;                  // the bodies that are not fast, if there are many fast ones
+  std::vector<std::int32_t> m_slow;          // the bodies that are not fast, if there are many fast ones
   // Paths of the fast bodies, then of the slow ones, in grid units relative to the first one, in a frame that
   // moves with m_along.
   std::vector<SweptBox> m_paths;

@@ -79,6 +79,73 @@ TEST(SubstepFast, RotatingBarsDoNotPassThinWalls) {
   }
 }
 
+enum class WallMotion { kApproaches, kHits, kTurns, kTurnsAndMoves };
+
+// Returns how many bars have their centre behind a kinematic wall at any time.
+int throughMoving(WallMotion motion, int shots) {
+  SceneRandom uniform{11};
+  const auto oneOf = [&](auto... values) {
+    const std::array all = {static_cast<double>(values)...};
+    return all.at(static_cast<std::size_t>(uniform() * static_cast<double>(all.size())));
+  };
+  const bool turns = motion == WallMotion::kTurns || motion == WallMotion::kTurnsAndMoves;
+  const double half_length = turns ? 30 : 1e5;
+  int passed = 0;
+  for (int shot = 0; shot < shots; ++shot) {
+    SubstepScene scene(awake());
+    const double half_wall = oneOf(0.005, 0.05, 0.5);
+    const double speed = std::pow(10, turns ? 2 * uniform() - 1 : 6 * uniform());
+    const ConvexShape bar = boxShape(oneOf(0.3, 1), oneOf(0.02, 0.05, 0.2));
+    const double away = 2 + half_wall + 3 * uniform() * (motion == WallMotion::kTurns ? 4 : speed);
+    RigidBody wall = immovable({0, 0});
+    RigidBody flying = floating({-away, (turns ? 15 : 100) * (uniform() - 0.5)}, bar);
+    flying.rotation = rotationBy(6.28 * uniform());
+    flying.spin = oneOf(0, 0.3, 3, 100);
+    wall.restitution = oneOf(0, 0.3, 1);
+    wall.friction = flying.friction = oneOf(0, 0.6);
+    if (motion == WallMotion::kApproaches) flying.velocity = {speed, 0}, wall.velocity = {-0.5 * speed, 0};
+    if (motion == WallMotion::kHits) wall.velocity = {-speed, 0.3 * speed * (uniform() - 0.5)};
+    if (turns) wall.spin = oneOf(-1, 1) * std::pow(10, 1.5 * uniform() - 1.5);
+    if (motion == WallMotion::kTurnsAndMoves) wall.velocity = {-speed, 0};
+    const int wall_id = scene.add(wall, boxShape(half_wall, half_length)), id = scene.add(flying, bar);
+    for (int tick = 0; tick < 10; ++tick) {
+      scene.ticks(1);
+      const RigidBody& now = scene.world.body(wall_id);
+      const Vec2 at = inverse(now.rotation) * (scene.world.body(id).place - now.place);
+      if (std::fabs(at.y) > half_length - 2) break;  // it flies past the wall's end
+      if (at.x <= 0) continue;
+      ++passed;
+      break;
+    }
+  }
+  return passed;
+}
+
+TEST(SubstepFast, BarsDoNotPassMovingWalls) {
+  EXPECT_EQ(throughMoving(WallMotion::kApproaches, 400), 0);
+  EXPECT_EQ(throughMoving(WallMotion::kHits, 400), 0);
+  EXPECT_EQ(throughMoving(WallMotion::kTurns, 400), 0);
+  EXPECT_EQ(throughMoving(WallMotion::kTurnsAndMoves, 400), 0);
+}
+
+// A plough moves over several crates a tick. They sleep on the floor, so nothing else would push them.
+TEST(SubstepFast, KinematicPloughPushesASleepingRow) {
+  SubstepScene scene;
+  scene.addFloor();
+  std::vector<int> crates;
+  for (int i = 0; i < 4; ++i) crates.push_back(scene.addCrate({1.1 * i, -0.5}));
+  scene.ticks(60);
+  ASSERT_TRUE(scene.world.isAsleep(crates[0]));
+  RigidBody plough = immovable({-20, -2});
+  plough.velocity = {3, 0};
+  const int id = scene.add(plough, boxShape(0.5, 1.9));
+  for (int tick = 0; tick < 20; ++tick) {
+    scene.ticks(1);
+    for (const int crate : crates) ASSERT_GT(scene.at(crate).x, scene.at(id).x) << tick;
+  }
+  EXPECT_NEAR(scene.world.body(crates[0]).velocity.x, 3, 0.5);
+}
+
 TEST(SubstepFast, FastBodyStopsAtContactAndContinuesNextTick) {
   SubstepScene scene;
   scene.add(immovable({10, 0}), boxShape(0.5, 50));

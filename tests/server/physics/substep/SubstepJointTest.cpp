@@ -385,5 +385,78 @@ TEST(SubstepJoints, AChainSleepsAndWakes) {
   EXPECT_GT(std::fabs(scene.at(links[1]).x), 1e-4);
 }
 
+// A disc on a bridge of hinged planks, both ends of which are fixed; it lies there, or falls.
+TEST(SubstepJoints, BridgesBearHeavyLoads) {
+  constexpr int kPlanks = 30;
+  const ConvexShape plank = boxShape(0.5, 0.1), disc = circleShape(1);
+  for (const double mass : {1e2, 1e3, 1e4}) {
+    for (const double drop : {0.0, 1.0}) {
+      SCOPED_TRACE(testing::Message() << mass << ' ' << drop);
+      SubstepScene scene(awake());
+      const double run = 0.95, rise = std::sqrt(1 - run * run);
+      int last = scene.world.addInOrder(++scene.order, immovable({0, 0}), {});
+      Vec2 end = {};
+      std::vector<int> hinges;
+      for (int i = 0; i < kPlanks; ++i) {
+        const Vec2 along = {run, i < kPlanks / 2 ? rise : -rise};
+        RigidBody body = movable(end + 0.5 * along, plank);
+        body.rotation = {along.x, along.y};
+        end += along;
+        const int next = scene.add(body, plank);
+        hinges.push_back(scene.join({}, JointKind::kHinge, last, next, {i == 0 ? 0 : 0.5, 0}, {-0.5, 0}));
+        last = next;
+      }
+      const int nail = scene.world.addInOrder(++scene.order, immovable(end), {});
+      hinges.push_back(scene.join({}, JointKind::kHinge, last, nail, {0.5, 0}));
+      const int load =
+          scene.add(movable({0.5 * end.x + 0.3, 0.5 * kPlanks * rise - 1.3 - drop}, disc, mass), disc);
+      double widest = 0, deepest = 0;
+      for (int tick = 0; tick < 300; ++tick) {
+        scene.ticks(1);
+        for (const int hinge : hinges) widest = std::max(widest, scene.gap(hinge));
+        deepest = std::max(deepest, scene.world.deepest());
+      }
+      EXPECT_LT(widest, 0.1);
+      EXPECT_LT(deepest, 0.1);
+      EXPECT_LT(scene.at(load).y, 0.5 * kPlanks * rise);
+    }
+  }
+}
+
+// A rope of discs on rods over a static wheel, with equal loads at its ends.
+TEST(SubstepJoints, PulleysBearHeavyLoads) {
+  constexpr int kDiscs = 62;
+  const ConvexShape wheel = circleShape(5), disc = circleShape(0.25);
+  for (const double mass : {1e2, 1e3, 1e4}) {
+    SubstepScene scene(awake());
+    RigidBody axle = immovable({0, 0});
+    axle.friction = 0;
+    scene.add(axle, wheel);
+    const double radius = 5.25, turn = std::numbers::pi * radius, down = 0.5 * (0.5 * (kDiscs - 1) - turn);
+    std::vector<int> rods;
+    int last = -1;
+    for (int i = 0; i < kDiscs; ++i) {
+      const double along = std::clamp(0.5 * i - down, 0.0, turn) / radius;
+      const double below = std::max({down - 0.5 * i, 0.5 * i - down - turn, 0.0});
+      const Vec2 where = {-radius * std::cos(along), below - radius * std::sin(along)};
+      const int next = scene.add(movable(where, disc, i == 0 || i + 1 == kDiscs ? mass : 1), disc);
+      if (last >= 0) {
+        const double length = naiad::physics::length(scene.at(next) - scene.at(last));
+        rods.push_back(scene.join({.length = length}, JointKind::kDistance, last, next));
+      }
+      last = next;
+    }
+    double widest = 0, deepest = 0;
+    for (int tick = 0; tick < 300; ++tick) {
+      scene.ticks(1);
+      for (const int rod : rods)
+        widest = std::max(widest, std::fabs(scene.gap(rod) - scene.world.joint(rod).length));
+      deepest = std::max(deepest, scene.world.deepest());
+    }
+    EXPECT_LT(widest, 0.1) << mass;
+    EXPECT_LT(deepest, 0.1) << mass;
+  }
+}
+
 }  // namespace
 }  // namespace naiad::physics
