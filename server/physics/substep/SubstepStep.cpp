@@ -284,34 +284,6 @@ Vec2 SubstepWorld::movedBy(const SubstepBody& b) const {
   return m_dt * b.body.velocity + Vec2{s.x, s.y};
 }
 
-// Computes the momentum that groups lost by rounding, because float impulses are not exactly equal on both
-// bodies of a contact, and how far sub-steps deviate from a fall without contacts. finish() corrects both for
-// groups that nothing holds.
-void SubstepWorld::keepMomentum() {
-  findGroups();
-  const auto changeOf = [&](const SubstepBody& b) {
-    const SubstepState& s = m_states[at(b.state)];
-    return m_dt * b.body.acceleration - Vec2{s.vx, s.vy};
-  };
-  for (const std::int32_t id : m_active) {
-    const SubstepBody& b = m_bodies[at(id)];
-    Group& group = groupOf(b);
-    if (group.is_held || !isMovable(b) || b.body.inverse_mass == 0) continue;
-    const double mass = 1 / b.body.inverse_mass;
-    group.missing += mass * changeOf(b);
-    const SubstepState& s = m_states[at(b.state)];
-    group.missing_path += mass * ((0.5 * m_dt * m_dt) * b.body.acceleration - Vec2{s.x, s.y});
-    group.mass += mass;
-    group.is_pushed = group.is_pushed || b.pushed_at == m_steps || b.part < 1 || b.is_diverted;
-  }
-  for (const Magnet& magnet : m_magnets) {  // the momentum that a magnet added was not lost
-    const SubstepBody& b = m_bodies[at(magnet.id)];
-    Group& group = groupOf(b);
-    group.is_pushed = true;
-    if (!group.is_held) group.missing += magnet.given / b.body.inverse_mass;
-  }
-}
-
 void SubstepWorld::finish() {
   reportContacts();
   stopFast();
@@ -322,7 +294,7 @@ void SubstepWorld::finish() {
     b.is_stopped = b.is_stopped || b.part < 1 || b.is_diverted;
     const SubstepState& s = m_states[at(b.state)];
     const Group& group = groupOf(b);
-    const bool falls = group.mass > 0 && !group.is_pushed && isMovable(b);
+    const bool falls = group.mass > 0 && !group.is_diverted && isMovable(b);
     const Vec2 moved = b.part * movedBy(b) + (falls ? group.missing_path / group.mass : Vec2{});
     const bool is_sound = isFinite(moved) && isFinite(Vec2{s.vx, s.vy}) && isFinite(Vec2{s.spin, b.turn}) &&
                           std::fabs(moved.x) + std::fabs(moved.y) < 1e12;
@@ -338,6 +310,7 @@ void SubstepWorld::finish() {
     if (group.mass > 0 && isFinite(group.missing)) b.body.velocity += group.missing / group.mass;
     b.body.spin += double{s.spin} - double{static_cast<float>(b.body.spin)};
   }
+  keepAngularMomentum();
   if (const int broken = m_joints.end(m_dt); broken > 0) {
     m_counters.broken += broken;
     m_joints_changed = true;

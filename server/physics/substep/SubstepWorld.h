@@ -154,10 +154,28 @@ class SubstepWorld final : public RigidStepper {
     double speed_before = 0, speed = 0;
     std::int32_t first = -1;
     bool is_held = false, is_driven = false, is_adrift = false;
-    bool is_pushed = false;  // a contact or a magnet pushes it
-    Vec2 missing;            // momentum lost by rounding in this step
-    Vec2 missing_path;       // mass times the path by which it deviates from a parabola
-    double mass = 0;         // total mass of the bodies that lost it
+    bool is_diverted = false;  // it does not fall as a group without contacts
+    Vec2 missing;              // momentum lost by rounding in this step
+    Vec2 missing_path;         // mass times the path by which it deviates from a parabola
+    double mass = 0;           // total mass of the bodies that lost it
+    std::int32_t members = 0;
+    std::int32_t free = -1;  // index in m_free_groups
+  };
+  struct Free;
+  struct Sums {  // over the bodies of a group, relative to its origin and velocity
+    double mass = 0, angular = 0, inertia = 0, twice_energy = 0;
+    Vec2 path, momentum;
+    void add(const RigidBody& body, const Free& group);
+    double angularAboutMiddle() const { return angular - cross(path, momentum) / mass; }
+    double inertiaAboutMiddle() const { return inertia - lengthSquared(path) / mass; }
+    double twiceEnergyAboutMiddle() const { return twice_energy - lengthSquared(momentum) / mass; }
+  };
+  struct Free {    // a group that nothing holds
+    Place origin;  // of its first body, before the step
+    Vec2 velocity, acceleration, jerk;
+    bool is_kept = true;  // only its bodies' torques change its angular momentum
+    double torque = 0;
+    Sums before = {}, after = {};
   };
 
   static constexpr double kFarthest = 1e9;  // metric cells: maximum path in a step, limit of timeOfImpact()
@@ -191,6 +209,8 @@ class SubstepWorld final : public RigidStepper {
   void bounce(double time);
   void moveStates(std::span<const std::int32_t> states);
   void keepMomentum();
+  void listFree();
+  void keepAngularMomentum();
   void finish();
   void forecast(SubstepBody& body) const;
   static double calmMargin(const SubstepBody& a, const SubstepBody& b);
@@ -278,6 +298,8 @@ class SubstepWorld final : public RigidStepper {
   std::vector<std::int32_t> m_active;   // ids of bodies that move in this step, by order
   std::vector<std::int32_t> m_drivers;  // the kinematic ones of these
   std::vector<std::int32_t> m_changed;
+  std::vector<Free> m_free_groups;
+  std::vector<std::pair<std::int32_t, std::int32_t>> m_free_members;  // id and index in m_free_groups
   std::vector<Near> m_near;
   std::vector<Fast> m_fast;
   std::vector<std::int32_t> m_fast_numbers;  // by id: index in m_fast
